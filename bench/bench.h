@@ -1,0 +1,23 @@
+/* jolon-bench: one function a benchmark. Each reads its own arguments (argv[0] is its name) and
+ * prints a line a result; --json prints objects. */
+#ifndef JOLON_BENCH_BENCH_H
+#define JOLON_BENCH_BENCH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct bench_options {
+    uint32_t vehicles, threads, frames;
+    bool json;
+};
+
+/* --vehicles N, --threads T, --frames F, --json; wrong usage ends the process (exit 2). */
+struct bench_options bench_options(int argc, char **argv, struct bench_options defaults);
+
+int bench_handover(int argc, char **argv); /* handover.c */
+int bench_frame(int argc, char **argv);    /* frame.c */
+
+/* The fraction (0..1) of the values that lie at or below the result; sorts them. */
+double bench_quantile(double *values, uint32_t count, double fraction);
+
+#endif

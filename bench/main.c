@@ -1,0 +1,91 @@
+/* jolon-bench: measures the parts of Jolon, each beside what bounds it. */
+#include "bench/bench.h"
+
+#include "ipc/log.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static uint32_t whole(const char *option, const char *text, uint32_t low, uint32_t high)
+{
+    char *end;
+    errno = 0;
+    unsigned long value = strtoul(text, &end, 10);
+    if (errno != 0 || end == text || *end != '\0' || value < low || value > high)
+        die_usage("--%s %s: must be a whole number from %u to %u", option, text, low, high);
+    return (uint32_t)value;
+}
+
+struct bench_options bench_options(int argc, char **argv, struct bench_options chosen)
+{
+    static const struct option options[] = {{"vehicles", required_argument, NULL, 'v'},
+                                            {"threads", required_argument, NULL, 't'},
+                                            {"frames", required_argument, NULL, 'f'},
+                                            {"json", no_argument, NULL, 'j'},
+                                            {NULL, 0, NULL, 0}};
+    int option;
+    while ((option = getopt_long(argc, argv, "", options, NULL)) != -1) {
+        switch (option) {
+        case 'v':
+            chosen.vehicles = whole("vehicles", optarg, 1, 1000000);
+            break;
+        case 't':
+            chosen.threads = whole("threads", optarg, 1, 16);
+            break;
+        case 'f':
+            chosen.frames = whole("frames", optarg, 1, 10000000);
+            break;
+        case 'j':
+            chosen.json = true;
+            break;
+        default:
+            die_usage("try jolon-bench help");
+        }
+    }
+    if (optind < argc)
+        die_usage("%s: one argument too many; try jolon-bench help", argv[optind]);
+    return chosen;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return p < q ? -1 : p > q;
+}
+
+double bench_quantile(double *values, uint32_t count, double fraction)
+{
+    qsort(values, count, sizeof *values, ascending);
+    return count ? values[(uint32_t)(fraction * (double)(count - 1) + 0.5)] : 0.0;
+}
+
+static const struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *usage;
+} benches[] = {
+    {"handover", bench_handover,
+     "[--frames F] [--json]     a frame without work, beside a bare futex ping-pong"},
+    {"frame", bench_frame,
+     "[--vehicles N] [--threads T] [--frames F] [--json]     the steps of a frame"},
+};
+
+#define BENCHES (sizeof benches / sizeof benches[0])
+
+int main(int argc, char **argv)
+{
+    log_open("bench");
+    for (size_t i = 0; argc > 1 && i < BENCHES; i++) {
+        if (strcmp(argv[1], benches[i].name) == 0)
+            return benches[i].run(argc - 1, argv + 1);
+    }
+    bool asked = argc > 1 && strcmp(argv[1], "help") == 0;
+    FILE *to = asked ? stdout : stderr;
+    fprintf(to, "usage: jolon-bench BENCHMARK ...\n");
+    for (size_t i = 0; i < BENCHES; i++)
+        fprintf(to, "  %-8s %s\n", benches[i].name, benches[i].usage);
+    return asked ? EXIT_OK : EXIT_USAGE;
+}

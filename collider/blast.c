@@ -1,0 +1,211 @@
+/* Detonations: blast over what is near, craters in the ground, chains of what explodes in turn. */
+#include "collider/respond.h"
+
+#include "world/square.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TNT_J_PER_KG    4.184e6
+#define BLAST_RADIUS_M  8.0  /* of one kilogram; grows with the cube root (Hopkinson scaling) */
+#define BLAST_COUPLING  0.02 /* share of a near charge's energy that a body takes */
+#define CRATER_RADIUS_M 1.1  /* of one kilogram on soil; grows with the cube root */
+#define CRATER_DEPTH    0.4  /* over the radius */
+
+int blast_charge(struct respond *respond, const struct charge *charge)
+{
+    if (respond->charges == respond->charge_capacity) {
+        uint32_t capacity = respond->charge_capacity * 2 + 64;
+        struct charge *more = realloc(respond->charge, capacity * sizeof *more);
+        if (!more)
+            return -1;
+        respond->charge = more;
+        respond->charge_capacity = capacity;
+    }
+    respond->charge[respond->charges++] = *charge;
+    return 0;
+}
+
+/* Energy that a body takes whose surface is at this distance: falls to nothing at the blast's
+ * radius; touching, all of it. */
+static double blast_energy(double explosive_kg, double radius_m, double distance_m)
+{
+    double left = 1.0 - distance_m / radius_m;
+    if (left <= 0.0)
+        return 0.0;
+    double share = distance_m <= 0.0 ? 1.0 : BLAST_COUPLING * left * left;
+    return TNT_J_PER_KG * explosive_kg * share;
+}
+
+static double distance_to(struct vec3 from, struct vec3 centre, double radius_m)
+{
+    return maths_max(0.0, vec3_length(vec3_sub(centre, from)) - radius_m);
+}
+
+static int blast_row(struct respond *respond, const struct charge *charge, double radius,
+                     uint32_t row)
+{
+    struct entities *e = &respond->next->entities;
+    const struct path *path = &respond->path[row];
+    if (e->state[row] != ENTITY_ACTIVE || e->behaviour[row] == BEHAVIOUR_FLIGHT)
+        return 0;
+    struct vec3 at = path_at(path, maths_max(charge->time, path->since));
+    double distance = distance_to(charge->point, at, respond->world->kinds[e->kind[row]].radius_m);
+    /* A direct hit was answered where it struck; to the blast it is merely near. */
+    double joules = blast_energy(charge->explosive_kg, radius, maths_max(distance, 1e-3));
+    if (joules > 0.0 && charge->owner_id != 0 && charge->owner_id != e->id[row]) {
+        e->threat_slot[row] = charge->owner_slot;
+        e->threat_id[row] = charge->owner_id;
+    }
+    return harm_row(respond, row, joules, charge->time);
+}
+
+static int blast_square(struct respond *respond, const struct charge *charge, double radius,
+                        int32_t column, int32_t line)
+{
+    const struct world *world = respond->world;
+    uint32_t square = square_index(column, line);
+    double west = charge->point.x - radius, north = charge->point.z - radius;
+    const struct bin_entry *entry;
+    uint32_t count = broad_square(respond->broad, square, &entry);
+    for (uint32_t i = 0; i < count; i++) {
+        /* A body that lies in several squares is harmed in the first it shares with the blast. */
+        const struct sweep_box *box = &respond->broad->box[entry[i].row];
+        if (square_of(maths_max((double)box->min_x, west), maths_max((double)box->min_z, north)) !=
+            square)
+            continue;
+        if (blast_row(respond, charge, radius, entry[i].row) != 0)
+            return -1;
+    }
+    const uint32_t *objects;
+    count = world_reach(world, square, &objects);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct fixed_object *object = &world->fixed[objects[i]];
+        struct vec3 at = {object->x, (double)object->y, object->z};
+        double distance = distance_to(charge->point, at, (double)object->radius_m);
+        harm_fixed(respond, objects[i], blast_energy(charge->explosive_kg, radius, distance));
+    }
+    return 0;
+}
+
+static int blast_one(struct respond *respond, const struct charge *charge)
+{
+    double radius = BLAST_RADIUS_M * maths_cbrt(charge->explosive_kg);
+    struct square_box box = square_box_of(charge->point.x - radius, charge->point.z - radius,
+                                          charge->point.x + radius, charge->point.z + radius);
+    for (int32_t row = box.z0; row <= box.z1; row++) {
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            if (blast_square(respond, charge, radius, column, row) != 0)
+                return -1;
+        }
+    }
+    return 0;
+}
+
+int blast_all(struct respond *respond)
+{
+    /* Blasts may add charges: each body explodes once, so this ends. */
+    for (uint32_t i = 0; i < respond->charges; i++) {
+        struct charge charge = respond->charge[i];
+        if (blast_one(respond, &charge) != 0)
+            return -1;
+    }
+    respond->charges = 0;
+    return 0;
+}
+
+static void dig(struct respond *respond, struct vec3 point, double explosive_kg)
+{
+    struct state_head *head = respond->next->head;
+    double radius = CRATER_RADIUS_M * maths_cbrt(explosive_kg);
+    if (head->crater_count >= respond->world->params->crater_slots) {
+        head->tally.craters_refused++;
+        return;
+    }
+    struct crater *crater = &respond->next->craters[head->crater_count++];
+    *crater = (struct crater){point.x, point.z, (float)radius, (float)(radius * CRATER_DEPTH),
+                              head->frame};
+    struct event *event = sink_event(&respond->sink, EVENT_CRATER);
+    if (event) {
+        event->crater.point[0] = point.x;
+        event->crater.point[1] = point.y;
+        event->crater.point[2] = point.z;
+        event->crater.radius_m = crater->radius_m;
+        event->crater.depth_m = crater->depth_m;
+    }
+}
+
+static enum struck struck_of(const struct respond *respond, uint32_t struck, struct vec3 point)
+{
+    if (struck == CONTACT_AIR)
+        return STRUCK_AIR;
+    if (struck == CONTACT_GROUND)
+        return cover_is_water(terrain_cover(&respond->world->terrain, point.x, point.z))
+                   ? STRUCK_WATER
+                   : STRUCK_GROUND;
+    return struck & PAIR_FIXED ? STRUCK_FIXED : STRUCK_VEHICLE;
+}
+
+/* A direct hit: the charge's whole energy and the round's own. */
+static int hit(struct respond *respond, uint32_t round, uint32_t struck, enum struck what,
+               double time)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct kind *kind = &respond->world->kinds[e->kind[round]];
+    struct vec3 velocity = entities_velocity(e, round);
+    if (what == STRUCK_VEHICLE)
+        velocity = vec3_sub(velocity, entities_velocity(e, struck));
+    double joules =
+        TNT_J_PER_KG * kind->explosive_kg + 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
+    if (what == STRUCK_VEHICLE)
+        return harm_row(respond, struck, joules, time);
+    if (what == STRUCK_FIXED)
+        harm_fixed(respond, struck & ~PAIR_FIXED, joules);
+    return 0;
+}
+
+static struct event_party party_struck(const struct respond *respond, uint32_t struck,
+                                       enum struck what)
+{
+    const struct entities *e = &respond->next->entities;
+    if (what == STRUCK_VEHICLE)
+        return (struct event_party){e->id[struck], e->kind[struck], 0, e->damage[struck]};
+    if (what == STRUCK_FIXED) {
+        uint32_t object = struck & ~PAIR_FIXED;
+        return (struct event_party){object + 1, respond->world->fixed[object].kind, 1,
+                                    respond->next->fixed_damage[object]};
+    }
+    return (struct event_party){0, KIND_NONE, 0, DAMAGE_NONE};
+}
+
+int blast_munition(struct respond *respond, uint32_t row, uint32_t struck, double time)
+{
+    struct entities *e = &respond->next->entities;
+    struct state_head *head = respond->next->head;
+    const struct kind *kind = &respond->world->kinds[e->kind[row]];
+    struct vec3 point = path_at(&respond->path[row], time);
+    enum struck what = struck_of(respond, struck, point);
+    struct charge charge = {point, time, kind->explosive_kg, e->owner_slot[row], e->owner_id[row]};
+    struct event *event = sink_event(&respond->sink, EVENT_DETONATION);
+    struct event_party munition = {e->id[row], e->kind[row], 0, DAMAGE_DESTROYED};
+
+    head->tally.detonations++;
+    if (hit(respond, row, struck, what, time) != 0)
+        return -1;
+    if (event) {
+        event->detonation.munition = munition;
+        event->detonation.struck_party = party_struck(respond, struck, what);
+        event->detonation.point[0] = point.x;
+        event->detonation.point[1] = point.y;
+        event->detonation.point[2] = point.z;
+        event->detonation.explosive_kg = (float)kind->explosive_kg;
+        event->detonation.struck = what;
+    }
+    if (what == STRUCK_GROUND && kind->craters)
+        dig(respond, point, kind->explosive_kg);
+    entities_clear(e, row);
+    head->munitions--;
+    contacts_drop(respond->contacts, row);
+    return charge.explosive_kg > 0.0 ? blast_charge(respond, &charge) : 0;
+}

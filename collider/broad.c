@@ -1,0 +1,372 @@
+/* The broad phase over gridsquares. */
+#include "collider/broad.h"
+
+#include "world/square.h"
+
+#include <errno.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ROWS_A_PIECE  2048
+#define RUNS_A_PIECE  1024
+#define INSERTION_MAX 32
+
+int broad_init(struct broad *broad, const struct world *world, struct workers *workers)
+{
+    *broad = (struct broad){.world = world, .workers = workers};
+    broad->box = malloc(world->params->capacity * sizeof *broad->box);
+    if (!broad->box)
+        return -1;
+    return 0;
+}
+
+void broad_free(struct broad *broad)
+{
+    free(broad->box);
+    free(broad->entry);
+    free(broad->other);
+    for (int i = 0; i < WORKERS_MAX; i++)
+        free(broad->list[i].pair);
+    *broad = (struct broad){0};
+}
+
+static int list_add(struct pair_list *list, uint32_t a, uint32_t b)
+{
+    if (list->count == list->capacity) {
+        uint32_t capacity = list->capacity * 2 + 1024;
+        struct pair *pair = realloc(list->pair, capacity * sizeof *pair);
+        if (!pair)
+            return -1;
+        list->pair = pair;
+        list->capacity = capacity;
+    }
+    list->pair[list->count++] = (struct pair){a, b};
+    return 0;
+}
+
+/* float just below and above a double: a box must not lose what it holds. */
+static float outward(double value, double by)
+{
+    return (float)(value + by);
+}
+
+/* Half a float's step at 50 km is 2 mm; 1 cm keeps every box outside. */
+#define BOX_SLACK_M 0.01
+
+static struct sweep_box box_of(const struct path *path, double radius)
+{
+    struct vec3 p = path_at(path, path->since), q = path_at(path, 1.0);
+    double grow = radius + BOX_SLACK_M;
+    return (struct sweep_box){
+        outward(maths_min(p.x, q.x), -grow), outward(maths_min(p.y, q.y), -grow),
+        outward(maths_min(p.z, q.z), -grow), outward(maths_max(p.x, q.x), grow),
+        outward(maths_max(p.y, q.y), grow),  outward(maths_max(p.z, q.z), grow),
+    };
+}
+
+static struct square_box squares_of(const struct sweep_box *box)
+{
+    return square_box_of((double)box->min_x, (double)box->min_z, (double)box->max_x,
+                         (double)box->max_z);
+}
+
+static bool boxes_meet(const struct sweep_box *a, const struct sweep_box *b)
+{
+    return a->min_x <= b->max_x && b->min_x <= a->max_x && a->min_z <= b->max_z &&
+           b->min_z <= a->max_z && a->min_y <= b->max_y && b->min_y <= a->max_y;
+}
+
+struct job {
+    struct broad *broad;
+    const struct broad_input *input;
+    _Atomic int failed;
+};
+
+/* --- against fixed objects ---------------------------------------------------------------------*/
+
+/* Above the threshold height at both ends nothing fixed is tested (thesis row 17). */
+static bool above_threshold(const struct job *job, const struct path *path)
+{
+    const struct world *world = job->broad->world;
+    double threshold = world->params->collision.threshold_height_m;
+    struct vec3 p = path->at, q = path_at(path, 1.0);
+    return p.y - terrain_height(&world->terrain, job->input->craters, p.x, p.z) > threshold &&
+           q.y - terrain_height(&world->terrain, job->input->craters, q.x, q.z) > threshold;
+}
+
+static bool fixed_meets(const struct sweep_box *box, const struct fixed_object *object)
+{
+    double r = (double)object->radius_m;
+    return (double)box->min_x <= object->x + r && object->x - r <= (double)box->max_x &&
+           (double)box->min_z <= object->z + r && object->z - r <= (double)box->max_z &&
+           (double)box->min_y <= (double)object->y + r &&
+           (double)object->y - r <= (double)box->max_y;
+}
+
+/* An object that reaches several of the row's squares is taken in the first that both touch. */
+static bool first_common(const struct square_box *squares, const struct fixed_object *object,
+                         int32_t column, int32_t row)
+{
+    double r = (double)object->radius_m;
+    int32_t x0 = square_axis(object->x - r), z0 = square_axis(object->z - r);
+    return column == (x0 > squares->x0 ? x0 : squares->x0) &&
+           row == (z0 > squares->z0 ? z0 : squares->z0);
+}
+
+static int fixed_pairs(struct job *job, uint32_t i, struct pair_list *list)
+{
+    const struct world *world = job->broad->world;
+    const struct sweep_box *box = &job->broad->box[i];
+    struct square_box squares = squares_of(box);
+    for (int32_t row = squares.z0; row <= squares.z1; row++) {
+        for (int32_t column = squares.x0; column <= squares.x1; column++) {
+            const uint32_t *objects;
+            uint32_t count = world_reach(world, square_index(column, row), &objects);
+            for (uint32_t n = 0; n < count; n++) {
+                const struct fixed_object *object = &world->fixed[objects[n]];
+                if (job->input->fixed_damage[objects[n]] >= DAMAGE_HIGH ||
+                    !fixed_meets(box, object) || !first_common(&squares, object, column, row))
+                    continue;
+                if (list_add(list, i, objects[n] | PAIR_FIXED) != 0)
+                    return -1;
+            }
+        }
+    }
+    return 0;
+}
+
+static bool rests(const struct path *path)
+{
+    return path->along.x == 0.0 && path->along.y == 0.0 && path->along.z == 0.0;
+}
+
+static void sweep_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    struct job *job = context;
+    const struct broad_input *input = job->input;
+    const struct world *world = job->broad->world;
+    for (uint32_t i = first; i < end; i++) {
+        if (input->entities->state[i] == ENTITY_FREE)
+            continue;
+        const struct kind *kind = &world->kinds[input->entities->kind[i]];
+        const struct path *path = &input->path[i];
+        job->broad->box[i] = box_of(path, kind->radius_m);
+        if (world->counts.fixed == 0 || rests(path) ||
+            (kind->domain == DOMAIN_AIR && above_threshold(job, path)))
+            continue;
+        if (fixed_pairs(job, i, &job->broad->list[worker]) != 0)
+            atomic_store(&job->failed, 1);
+    }
+}
+
+/* --- against moving bodies ---------------------------------------------------------------------*/
+
+static int reserve_entries(struct broad *broad, uint32_t count)
+{
+    if (count <= broad->entry_capacity)
+        return 0;
+    uint32_t capacity = count + count / 2 + 1024;
+    struct bin_entry *entry = realloc(broad->entry, capacity * sizeof *entry);
+    if (!entry)
+        return -1;
+    broad->entry = entry;
+    struct bin_entry *other = realloc(broad->other, capacity * sizeof *other);
+    if (!other)
+        return -1;
+    broad->other = other;
+    broad->entry_capacity = capacity;
+    return 0;
+}
+
+static int bin_rows(struct broad *broad, const struct broad_input *input)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < input->rows; i++) {
+        if (input->entities->state[i] == ENTITY_FREE)
+            continue;
+        struct square_box squares = squares_of(&broad->box[i]);
+        uint32_t more = (uint32_t)((squares.x1 - squares.x0 + 1) * (squares.z1 - squares.z0 + 1));
+        if (reserve_entries(broad, count + more) != 0)
+            return -1;
+        for (int32_t row = squares.z0; row <= squares.z1; row++) {
+            for (int32_t column = squares.x0; column <= squares.x1; column++)
+                broad->entry[count++] = (struct bin_entry){square_index(column, row), i};
+        }
+    }
+    broad->entry_count = count;
+    return 0;
+}
+
+/* Stable radix sort by square: 18 bits in two passes of 9. */
+static void sort_entries(struct broad *broad)
+{
+    for (int pass = 0; pass < 2; pass++) {
+        uint32_t start[513] = {0};
+        int shift = pass * 9;
+        for (uint32_t i = 0; i < broad->entry_count; i++)
+            start[(broad->entry[i].square >> shift & 511u) + 1]++;
+        for (int digit = 0; digit < 512; digit++)
+            start[digit + 1] += start[digit];
+        for (uint32_t i = 0; i < broad->entry_count; i++)
+            broad->other[start[broad->entry[i].square >> shift & 511u]++] = broad->entry[i];
+        struct bin_entry *swap = broad->entry;
+        broad->entry = broad->other;
+        broad->other = swap;
+    }
+}
+
+/* Two boxes that share several squares meet in the first they share. */
+static bool first_shared(const struct sweep_box *a, const struct sweep_box *b, uint32_t square)
+{
+    float min_x = a->min_x > b->min_x ? a->min_x : b->min_x;
+    float min_z = a->min_z > b->min_z ? a->min_z : b->min_z;
+    return square_of((double)min_x, (double)min_z) == square;
+}
+
+/* Can these two never collide? Not a round and who fired it, nor two rounds of one shooter. */
+static bool apart(const struct entities *e, const struct path *path, uint32_t a, uint32_t b)
+{
+    bool round_a = e->behaviour[a] == BEHAVIOUR_FLIGHT,
+         round_b = e->behaviour[b] == BEHAVIOUR_FLIGHT;
+    if (round_a && e->owner_slot[a] == b && e->owner_id[a] == e->id[b])
+        return true;
+    if (round_b && e->owner_slot[b] == a && e->owner_id[b] == e->id[a])
+        return true;
+    if (round_a && round_b && e->owner_id[a] != 0 && e->owner_id[a] == e->owner_id[b])
+        return true;
+    return rests(&path[a]) && rests(&path[b]);
+}
+
+static int pair_up(struct job *job, const struct bin_entry *p, const struct bin_entry *q,
+                   struct pair_list *list)
+{
+    const struct sweep_box *box = job->broad->box;
+    uint32_t a = p->row < q->row ? p->row : q->row;
+    uint32_t b = p->row < q->row ? q->row : p->row;
+    if (!boxes_meet(&box[a], &box[b]) || !first_shared(&box[a], &box[b], p->square) ||
+        apart(job->input->entities, job->input->path, a, b))
+        return 0;
+    return list_add(list, a, b);
+}
+
+/* Heap sort by west edge, for squares too crowded for insertion. Rows are told apart by number, so
+ * the order is one. */
+static bool west_of(const struct sweep_box *box, struct bin_entry p, struct bin_entry q)
+{
+    float px = box[p.row].min_x, qx = box[q.row].min_x;
+    return px < qx || (!(qx < px) && p.row < q.row);
+}
+
+static void sift(const struct sweep_box *box, struct bin_entry *run, uint32_t root, uint32_t count)
+{
+    for (uint32_t child = 2 * root + 1; child < count; child = 2 * root + 1) {
+        if (child + 1 < count && west_of(box, run[child], run[child + 1]))
+            child++;
+        if (!west_of(box, run[root], run[child]))
+            return;
+        struct bin_entry swap = run[root];
+        run[root] = run[child];
+        run[child] = swap;
+        root = child;
+    }
+}
+
+static void sort_run(const struct sweep_box *box, struct bin_entry *run, uint32_t count)
+{
+    if (count <= INSERTION_MAX) {
+        for (uint32_t i = 1; i < count; i++) {
+            struct bin_entry entry = run[i];
+            uint32_t j = i;
+            for (; j > 0 && west_of(box, entry, run[j - 1]); j--)
+                run[j] = run[j - 1];
+            run[j] = entry;
+        }
+        return;
+    }
+    for (uint32_t i = count / 2; i-- > 0;)
+        sift(box, run, i, count);
+    for (uint32_t end = count - 1; end > 0; end--) {
+        struct bin_entry swap = run[0];
+        run[0] = run[end];
+        run[end] = swap;
+        sift(box, run, 0, end);
+    }
+}
+
+/* Sort and sweep along x within one square. */
+static int square_pairs(struct job *job, struct bin_entry *run, uint32_t count,
+                        struct pair_list *list)
+{
+    const struct sweep_box *box = job->broad->box;
+    sort_run(box, run, count);
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        for (uint32_t j = i + 1; j < count && box[run[j].row].min_x <= box[run[i].row].max_x; j++) {
+            if (pair_up(job, &run[i], &run[j], list) != 0)
+                return -1;
+        }
+    }
+    return 0;
+}
+
+/* Squares that hold more than one row, as (first entry, entries), into the sort's second buffer. */
+static uint32_t list_runs(struct broad *broad)
+{
+    const struct bin_entry *entry = broad->entry;
+    struct bin_entry *runs = broad->other;
+    uint32_t count = 0;
+    for (uint32_t i = 0, end; i < broad->entry_count; i = end) {
+        for (end = i + 1; end < broad->entry_count && entry[end].square == entry[i].square;)
+            end++;
+        if (end - i > 1)
+            runs[count++] = (struct bin_entry){i, end - i};
+    }
+    return count;
+}
+
+static void meet_squares(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    struct job *job = context;
+    struct broad *broad = job->broad;
+    for (uint32_t i = first; i < end; i++) {
+        struct bin_entry run = broad->other[i];
+        if (square_pairs(job, &broad->entry[run.square], run.row, &broad->list[worker]) != 0)
+            atomic_store(&job->failed, 1);
+    }
+}
+
+int broad_pairs(struct broad *broad, const struct broad_input *input)
+{
+    struct job job = {.broad = broad, .input = input};
+    for (int i = 0; i < WORKERS_MAX; i++)
+        broad->list[i].count = 0;
+    workers_run(broad->workers, sweep_rows, &job, input->rows, ROWS_A_PIECE);
+    if (bin_rows(broad, input) != 0) {
+        errno = ENOMEM;
+        return -1;
+    }
+    sort_entries(broad);
+    workers_run(broad->workers, meet_squares, &job, list_runs(broad), RUNS_A_PIECE);
+    if (atomic_load(&job.failed)) {
+        errno = ENOMEM;
+        return -1;
+    }
+    return 0;
+}
+
+uint32_t broad_square(const struct broad *broad, uint32_t square, const struct bin_entry **first)
+{
+    uint32_t low = 0, high = broad->entry_count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (broad->entry[middle].square < square)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    uint32_t end = low;
+    while (end < broad->entry_count && broad->entry[end].square == square)
+        end++;
+    *first = broad->entry + low;
+    return end - low;
+}

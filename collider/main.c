@@ -1,0 +1,42 @@
+/* jolon-collider: finds and answers every collision of a frame and commits it. Writes both world
+ * buffers, the craters and the event ring. */
+#include "collider/step.h"
+#include "ipc/frame.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+
+#include <errno.h>
+#include <string.h>
+
+int main(int argc, char **argv)
+{
+    struct stage_options options = process_stage_options(argc, argv, "jolon-collider");
+    struct view view;
+    struct reason reason;
+    struct collider collider;
+    struct frame frame;
+
+    log_open("collider");
+    process_signals();
+    process_die_with_parent(options.parent);
+    if (segment_attach(&view, options.world, ROLE_COLLIDER, &reason) != 0)
+        die_refused("%s", reason.text);
+    struct workers *workers = workers_create(options.threads);
+    if (!workers || collider_init(&collider, &view.world, view.w[0].craters, workers) != 0)
+        die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
+    const struct event_ring ring = {view.events, view.header->event_slots};
+    segment_ready(&view);
+    log_info("collides world \"%s\" on %u thread(s)", view.name, options.threads);
+
+    while (frame_collider_begin(&frame, &view) == 0) {
+        if (collider_step(&collider, &view.w[(frame.number - 1) & 1], &view.m,
+                          &view.w[frame.number & 1], &ring) != 0)
+            die_refused("out of memory for the frame's contacts");
+        frame_collider_end(&frame, &view);
+    }
+
+    collider_free(&collider);
+    workers_destroy(workers);
+    segment_detach(&view);
+    return EXIT_OK;
+}

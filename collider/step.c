@@ -1,0 +1,162 @@
+/* The collider's step, from top to bottom. */
+#include "collider/step.h"
+
+#include "collider/respond.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define ROWS_A_PIECE 4096
+
+int collider_init(struct collider *collider, const struct world *world,
+                  const struct crater *craters, struct workers *workers)
+{
+    *collider = (struct collider){.world = world, .workers = workers};
+    collider->path = malloc(world->params->capacity * sizeof *collider->path);
+    if (!collider->path || crater_index_init(&collider->craters, craters) != 0 ||
+        broad_init(&collider->broad, world, workers) != 0 ||
+        contacts_init(&collider->contacts, world->params->capacity) != 0) {
+        collider_free(collider);
+        return -1;
+    }
+    return 0;
+}
+
+void collider_free(struct collider *collider)
+{
+    free(collider->path);
+    crater_index_free(&collider->craters);
+    broad_free(&collider->broad);
+    contacts_free(&collider->contacts);
+    *collider = (struct collider){0};
+}
+
+struct stage {
+    struct collider *collider;
+    const struct state *committed;
+    const struct moved *moved;
+    struct state *next;
+};
+
+/* Copies the moved rows and draws each body's way: from where the committed world has it to where
+ * the mover put it. One that is new this frame has not moved yet. */
+static void take_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct stage *stage = context;
+    const struct entities *w = &stage->committed->entities, *m = &stage->moved->entities;
+    (void)worker;
+    entities_copy(&stage->next->entities, m, first, end - first);
+    for (uint32_t i = first; i < end; i++) {
+        struct vec3 to = entities_position(m, i);
+        bool old = i < stage->committed->head->used && w->id[i] == m->id[i];
+        struct vec3 from = old ? entities_position(w, i) : to;
+        stage->collider->path[i] = (struct path){.at = from, .along = vec3_sub(to, from)};
+    }
+}
+
+static void put_intents(struct sink *sink, const struct moved *moved)
+{
+    for (uint32_t i = 0; i < moved->head->intent_count; i++) {
+        const struct event *intent = &moved->intents[i];
+        struct event *event = sink_event(sink, (enum event_type)intent->type);
+        if (event)
+            memcpy(event->bytes, intent->bytes, sizeof event->bytes);
+    }
+}
+
+/* Rounds that reach the ground or the end of their life, and aircraft that reach the ground. */
+static int find_ends(struct collider *collider, const struct respond *respond)
+{
+    const struct world *world = collider->world;
+    const struct state *next = respond->next;
+    const struct entities *e = &next->entities;
+    for (uint32_t i = 0; i < next->head->used; i++) {
+        bool round = e->behaviour[i] == BEHAVIOUR_FLIGHT;
+        double toi = 0.0;
+        if (e->state[i] != ENTITY_ACTIVE ||
+            !(round || world->kinds[e->kind[i]].domain == DOMAIN_AIR))
+            continue;
+        if (sweep_ground(&world->terrain, &collider->craters, &collider->path[i], &toi)) {
+            if (contacts_add_end(&collider->contacts, i, CONTACT_GROUND, toi) != 0)
+                return -1;
+        } else if (round && next->head->tick >= e->until_tick[i]) {
+            if (contacts_add_end(&collider->contacts, i, CONTACT_AIR, 1.0) != 0)
+                return -1;
+        }
+    }
+    return 0;
+}
+
+static int collide_all(struct collider *collider, struct respond *respond)
+{
+    const struct state *next = respond->next;
+    struct contact contact;
+    const struct broad_input input = {
+        .entities = &next->entities,
+        .path = collider->path,
+        .fixed_damage = next->fixed_damage,
+        .craters = &collider->craters,
+        .rows = next->head->used,
+    };
+    if (broad_pairs(&collider->broad, &input) != 0 ||
+        contacts_begin(&collider->contacts, &collider->broad) != 0 ||
+        contacts_find(&collider->contacts, &respond->input) != 0 ||
+        find_ends(collider, respond) != 0)
+        return -1;
+    while (contacts_next(&collider->contacts, &contact)) {
+        if (respond_contact(respond, &contact) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static void begin_head(struct state_head *head, const struct state_head *moved)
+{
+    *head = *moved;
+    head->intent_count = 0;
+    head->mover_ns = 0;
+    head->checksum = 0;
+}
+
+int collider_step(struct collider *collider, const struct state *committed,
+                  const struct moved *moved, struct state *next, const struct event_ring *ring)
+{
+    const struct world *world = collider->world;
+    struct stage stage = {collider, committed, moved, next};
+    int result = 0;
+    if (crater_index_update(&collider->craters, committed->head->crater_count) != 0)
+        return -1;
+    begin_head(next->head, moved->head);
+    memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
+    workers_run(collider->workers, take_rows, &stage, moved->head->used, ROWS_A_PIECE);
+
+    struct respond respond = {
+        .world = world,
+        .broad = &collider->broad,
+        .contacts = &collider->contacts,
+        .input = {.world = world,
+                  .craters = &collider->craters,
+                  .entities = &next->entities,
+                  .path = collider->path,
+                  .through_fixed = world->params->collision.response != MODEL_IMPULSE},
+        .next = next,
+        .path = collider->path,
+        .sink = {.slot = ring->slot,
+                 .slots = ring->slots,
+                 .first = committed->head->event_end,
+                 .frame = next->head->frame,
+                 .tick = next->head->tick,
+                 .most = world->params->events_per_frame,
+                 .tally = &next->head->tally},
+    };
+    put_intents(&respond.sink, moved);
+    if (next->head->advanced) {
+        result = collide_all(collider, &respond);
+        contacts_end(&collider->contacts);
+        free(respond.charge);
+    }
+    next->head->event_end = respond.sink.first + respond.sink.count;
+    next->head->event_digest = sink_digest(&respond.sink, committed->head->event_digest);
+    next->head->checksum = state_checksum(next->head, &next->entities);
+    return result;
+}

@@ -1,0 +1,40 @@
+/* The collider's step: from committed world k and the moved table to world k + 1 and its events.
+ * Pure: no IPC, no clock, no I/O; the same bytes on any number of threads.
+ *
+ * Every contact of the frame is found with its time of impact and answered in the order of time;
+ * what an answer changes of a body's way is swept again from that time on. */
+#ifndef JOLON_COLLIDER_STEP_H
+#define JOLON_COLLIDER_STEP_H
+
+#include "collider/broad.h"
+#include "collider/contact.h"
+#include "world/workers.h"
+#include "world/world.h"
+
+struct collider {
+    const struct world *world;
+    struct crater_index craters; /* cache of the committed craters */
+    struct workers *workers;     /* NULL: alone */
+    struct broad broad;
+    struct contacts contacts;
+    struct path *path; /* [capacity] each body's way through the frame */
+};
+
+/* Where the frame's events go: the ring from the committed end on. */
+struct event_ring {
+    struct event *slot;
+    uint64_t slots; /* power of two */
+};
+
+/* craters: the world's list. 0, or -1 with errno ENOMEM. workers may be NULL and stays the
+ * caller's. */
+int collider_init(struct collider *collider, const struct world *world,
+                  const struct crater *craters, struct workers *workers);
+void collider_free(struct collider *collider);
+
+/* Fills next and the ring; reads committed and moved, writes neither. 0, or -1 with errno ENOMEM
+ * (next is then not to be committed). */
+int collider_step(struct collider *collider, const struct state *committed,
+                  const struct moved *moved, struct state *next, const struct event_ring *ring);
+
+#endif

@@ -1,0 +1,262 @@
+/* Kinds: one file each, checked alone and then against each other. */
+#include "config/kinds.h"
+
+#include "config/models.h"
+#include "config/schema.h"
+#include "config/source.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SUFFIX ".cfg"
+
+/* A kind's file while it is being read; its munition waits until all kinds are known. */
+struct reading {
+    char path[PATH_MAX];
+    char munition[KIND_NAME_MAX];
+    int munition_line;
+};
+
+struct names {
+    char name[KIND_COUNT_MAX][KIND_NAME_MAX];
+    int count;
+};
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(a, b);
+}
+
+static int add_name(struct names *names, const char *file, struct key_place place,
+                    struct loader_message *message)
+{
+    size_t length = strlen(file);
+
+    if (file[0] == '.' || length <= strlen(SUFFIX) ||
+        strcmp(file + length - strlen(SUFFIX), SUFFIX) != 0)
+        return 0;
+    length -= strlen(SUFFIX);
+    if (names->count == KIND_COUNT_MAX)
+        return keys_refuse(message, place, NULL, NULL, "has too many kinds; allowed: up to %d",
+                           KIND_COUNT_MAX);
+    if (length >= KIND_NAME_MAX)
+        return keys_refuse(message, place, NULL, NULL,
+                           "%s is too long a kind's name; allowed: up to %d characters", file,
+                           KIND_NAME_MAX - 1);
+    memset(names->name[names->count], 0, KIND_NAME_MAX);
+    memcpy(names->name[names->count++], file, length);
+    return 0;
+}
+
+static int list_names(struct names *names, const char *data_dir, struct loader_message *message)
+{
+    char path[PATH_MAX];
+    const struct key_place place = {path, 0};
+    const struct dirent *entry;
+    int result = 0;
+
+    snprintf(path, sizeof(path), "%s/kinds", data_dir);
+    DIR *dir = opendir(path);
+    if (dir == NULL)
+        return keys_refuse(message, place, NULL, NULL, "cannot be opened: %s", strerror(errno));
+    names->count = 0;
+    while (result == 0 && (entry = readdir(dir)) != NULL)
+        result = add_name(names, entry->d_name, place, message);
+    closedir(dir);
+    if (result != 0)
+        return result;
+    if (names->count == 0)
+        return keys_refuse(message, place, NULL, NULL, "has no kinds; right would be: NAME.cfg");
+    /* The directory's own order is the file system's; kinds' numbers must not depend on it. */
+    qsort(names->name, (size_t)names->count, KIND_NAME_MAX, compare_names);
+    return 0;
+}
+
+/* A value that is allowed by itself but not beside the others. */
+static int refuse_pair(const struct key_reading *keys, const char *name, double value,
+                       const char *why, struct loader_message *message)
+{
+    int index = keys_find(keys->table, name);
+    struct key_place place = {keys->file, index >= 0 ? keys->line[index] : 0};
+    char text[32];
+
+    snprintf(text, sizeof(text), "%.15g", value);
+    return keys_refuse(message, place, name, text, "%s", why);
+}
+
+static int check_domain(const struct kind *kind, const struct key_reading *keys, bool has_class,
+                        struct loader_message *message)
+{
+    const struct key_place place = {keys->file, 1};
+
+    switch ((enum domain)kind->domain) {
+    case DOMAIN_LAND:
+    case DOMAIN_SEA:
+    case DOMAIN_AIR:
+        if (kind->max_speed_mps <= 0)
+            return refuse_pair(keys, "max_speed_mps", kind->max_speed_mps,
+                               "is needed by a vehicle; allowed: above 0", message);
+        if (kind->acceleration_mps2 <= 0)
+            return refuse_pair(keys, "acceleration_mps2", kind->acceleration_mps2,
+                               "is needed by a vehicle; allowed: above 0", message);
+        if (kind->turn_rate_rps <= 0)
+            return refuse_pair(keys, "turn_rate_dps", kind->turn_rate_rps * DEG_PER_RAD,
+                               "is needed by a vehicle; allowed: above 0", message);
+        if (kind->domain == DOMAIN_AIR && kind->climb_rate_mps <= 0)
+            return refuse_pair(keys, "climb_rate_mps", kind->climb_rate_mps,
+                               "is needed by an aircraft; allowed: above 0", message);
+        break;
+    case DOMAIN_MUNITION:
+        if (kind->max_speed_mps <= 0)
+            return refuse_pair(keys, "max_speed_mps", kind->max_speed_mps,
+                               "is needed by a munition; allowed: above 0", message);
+        if (kind->life_s <= 0)
+            return refuse_pair(keys, "life_s", kind->life_s,
+                               "is needed by a munition; allowed: above 0", message);
+        break;
+    case DOMAIN_FIXED:
+        if (!has_class)
+            return keys_refuse(message, place, "class", NULL,
+                               "is missing; a fixed object needs it: tree, bush, pole, "
+                               "building, watertower, other_manmade, other_natural");
+        break;
+    case DOMAIN_COUNT:
+        break;
+    }
+    return 0;
+}
+
+static int check_kind(const struct kind *kind, const struct key_reading *keys, const char *name,
+                      struct loader_message *message)
+{
+    bool has_class = (keys->given >> keys_find(keys->table, "class") & 1u) != 0;
+    bool has_munition = (keys->given >> keys_find(keys->table, "munition") & 1u) != 0;
+    struct key_place place = {keys->file, keys->line[keys_find(keys->table, "name")]};
+
+    if (strcmp(kind->name, name) != 0)
+        return keys_refuse(message, place, "name", kind->name, "is not the file's own; allowed: %s",
+                           name);
+    if (kind->min_speed_mps > kind->max_speed_mps)
+        return refuse_pair(keys, "min_speed_mps", kind->min_speed_mps,
+                           "is above max_speed_mps; allowed: up to it", message);
+    if (has_munition && (kind->range_m <= 0 || kind->reload_s <= 0))
+        return refuse_pair(keys, kind->range_m <= 0 ? "range_m" : "reload_s", 0.0,
+                           "is needed by what fires a munition; allowed: above 0", message);
+    if (has_class && kind->domain != DOMAIN_FIXED)
+        return refuse_pair(keys, "class", kind->object_class,
+                           "is for fixed objects; allowed: with domain = \"fixed\"", message);
+    return check_domain(kind, keys, has_class, message);
+}
+
+/* Says of a bad model also which kind wants it. */
+static int find_model(struct models *models, const struct key_reading *keys, const char *name,
+                      struct loader_message *message)
+{
+    const struct key_place place = {keys->file, keys->line[keys_find(keys->table, "model")]};
+    struct loader_message why;
+    int model;
+
+    if (name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_")] != '\0')
+        return keys_refuse(message, place, "model", name,
+                           "is not a model's name; allowed: a-z 0-9 - _");
+    model = models_find(models, name, &why);
+    if (model < 0)
+        return keys_refuse(message, place, "model", name, "%s", why.text);
+    return model;
+}
+
+static int read_kind(struct reading *reading, struct kind *kind, const char *name,
+                     struct models *models, struct loader_message *message)
+{
+    struct kind_entry entry;
+    struct source source;
+    config_t config;
+    struct key_reading keys = {.table = &schema_kind, .destination = &entry, .file = reading->path};
+    int result = -1, model;
+
+    memset(&entry, 0, sizeof(entry));
+    if (source_read(&source, reading->path, message) != 0)
+        return -1;
+    XXH3_64bits_update(models->hash, name, strlen(name) + 1);
+    XXH3_64bits_update(models->hash, source.text, source.bytes);
+    config_init(&config);
+    if (source_parse(&source, &config, message) != 0 ||
+        keys_defaults(&schema_kind, &entry, message) != 0 ||
+        keys_read(&keys, config_root_setting(&config), "", "", message) != 0 ||
+        check_kind(&entry.kind, &keys, name, message) != 0)
+        goto err_config;
+    model = find_model(models, &keys, entry.model, message);
+    if (model < 0)
+        goto err_config;
+    *kind = entry.kind;
+    kind->model = (uint16_t)model;
+    kind->munition = KIND_NONE;
+    memcpy(reading->munition, entry.munition, sizeof(entry.munition));
+    reading->munition_line = keys.line[keys_find(&schema_kind, "munition")];
+    result = 0;
+err_config:
+    config_destroy(&config);
+    source_free(&source);
+    return result;
+}
+
+/* A vehicle's munition is another kind, which may come later in the alphabet. */
+static int resolve_munition(struct scenario *scenario, uint32_t index,
+                            const struct reading *reading, struct loader_message *message)
+{
+    const struct key_place place = {reading->path, reading->munition_line};
+    struct kind *kind = &scenario->kinds[index];
+
+    if (reading->munition[0] == '\0')
+        return 0;
+    kind->munition = kind_find(scenario->kinds, scenario->kind_count, reading->munition);
+    if (kind->munition == KIND_NONE)
+        return keys_refuse(message, place, "munition", reading->munition,
+                           "unknown kind; allowed: one with domain = \"munition\"");
+    if (scenario->kinds[kind->munition].domain != DOMAIN_MUNITION)
+        return keys_refuse(message, place, "munition", reading->munition,
+                           "is no munition; allowed: a kind with domain = \"munition\"");
+    return 0;
+}
+
+int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *hash,
+               struct loader_message *message)
+{
+    const struct key_place place = {data_dir, 0};
+    struct names names = {0};
+    struct models *models = malloc(sizeof(*models));
+    struct reading *readings = calloc(KIND_COUNT_MAX, sizeof(*readings));
+    int result = -1;
+
+    if (models == NULL || readings == NULL) {
+        keys_refuse(message, place, NULL, NULL, "no memory for the kinds");
+        goto err_memory;
+    }
+    models_open(models, scenario, data_dir, hash);
+    if (list_names(&names, data_dir, message) != 0)
+        goto err_models;
+    scenario->kinds = calloc(KIND_COUNT_MAX, sizeof(*scenario->kinds));
+    if (scenario->kinds == NULL) {
+        keys_refuse(message, place, NULL, NULL, "no memory for the kinds");
+        goto err_models;
+    }
+    for (int i = 0; i < names.count; i++) {
+        snprintf(readings[i].path, sizeof(readings[i].path), "%s/kinds/%s" SUFFIX, data_dir,
+                 names.name[i]);
+        if (read_kind(&readings[i], &scenario->kinds[i], names.name[i], models, message) != 0)
+            goto err_models;
+        scenario->kind_count++;
+    }
+    result = 0;
+    for (uint32_t i = 0; result == 0 && i < scenario->kind_count; i++)
+        result = resolve_munition(scenario, i, &readings[i], message);
+err_models:
+    models_close(models);
+err_memory:
+    free(readings);
+    free(models);
+    return result;
+}

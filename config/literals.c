@@ -1,0 +1,114 @@
+/* Literals: one pass over the text, token by token. */
+#include "config/literals.h"
+
+#include <ctype.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Shorter ones fit 32 bits, longer ones may not. */
+#define DECIMAL_DIGITS_SAFE 9
+#define HEX_DIGITS_SAFE     7
+
+#define DECIMAL_DIGITS "0123456789"
+#define HEX_DIGITS     "0123456789abcdefABCDEF"
+
+struct copying {
+    const char *from;
+    char *to;
+    bool array; /* inside an array that became a list */
+};
+
+static void copy(struct copying *copying, size_t count)
+{
+    memcpy(copying->to, copying->from, count);
+    copying->from += count;
+    copying->to += count;
+}
+
+static size_t string_length(const char *text)
+{
+    size_t length = 1;
+
+    while (text[length] != '\0' && text[length] != '"')
+        length += text[length] == '\\' && text[length + 1] != '\0' ? 2 : 1;
+    return length + (text[length] == '"');
+}
+
+/* Length of the comment that text begins with, 0 when it does not. */
+static size_t comment_length(const char *text)
+{
+    if (text[0] == '#' || (text[0] == '/' && text[1] == '/'))
+        return strcspn(text, "\n");
+    if (text[0] == '/' && text[1] == '*') {
+        const char *end = strstr(text + 2, "*/");
+
+        return end != NULL ? (size_t)(end - text) + 2 : strlen(text);
+    }
+    return 0;
+}
+
+static void copy_number(struct copying *copying)
+{
+    const char *text = copying->from + (copying->from[0] == '+' || copying->from[0] == '-');
+    bool hex = text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
+    size_t digits = hex ? strspn(text + 2, HEX_DIGITS) : strspn(text, DECIMAL_DIGITS);
+    const char *end = text + digits + (hex ? 2 : 0);
+    bool whole = !isalnum((unsigned char)*end) && *end != '.';
+
+    if (!whole) { /* a fraction, an exponent or a suffix: right as it is */
+        while (isalnum((unsigned char)*end) || *end == '.' ||
+               ((*end == '+' || *end == '-') && (end[-1] == 'e' || end[-1] == 'E')))
+            end++;
+    }
+    copy(copying, end > copying->from ? (size_t)(end - copying->from) : 1);
+    if (whole && digits > (hex ? HEX_DIGITS_SAFE : DECIMAL_DIGITS_SAFE))
+        *copying->to++ = 'L';
+}
+
+/* Does text, at "[", hold nothing but numbers up to its "]"? */
+static bool is_number_array(const char *text)
+{
+    size_t length = 1 + strspn(text + 1, HEX_DIGITS "xXL+-.,; \t\r\n");
+
+    return text[length] == ']' && length > 1;
+}
+
+char *literals_widen(const char *text)
+{
+    /* Every character added follows eight of a number or more. */
+    size_t bytes = strlen(text);
+    char *widened = malloc(bytes + bytes / 8 + 2);
+    struct copying copying = {text, widened, false};
+
+    if (widened == NULL)
+        return NULL;
+    while (*copying.from != '\0') {
+        unsigned char c = (unsigned char)*copying.from;
+        size_t comment = comment_length(copying.from);
+
+        if (comment > 0) {
+            copy(&copying, comment);
+        } else if (c == '"') {
+            copy(&copying, string_length(copying.from));
+        } else if (isalpha(c) || c == '*' || c == '_') {
+            do
+                copy(&copying, 1);
+            while (isalnum((unsigned char)*copying.from) ||
+                   (*copying.from != '\0' && strchr("-_*", *copying.from) != NULL));
+        } else if (isdigit(c) || c == '+' || c == '-') {
+            copy_number(&copying);
+        } else {
+            bool opens = c == '[' && is_number_array(copying.from);
+            bool closes = c == ']' && copying.array;
+
+            copy(&copying, 1);
+            if (opens || closes) {
+                copying.to[-1] = opens ? '(' : ')';
+                copying.array = opens;
+            }
+        }
+    }
+    *copying.to = '\0';
+    return widened;
+}

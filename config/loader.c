@@ -1,0 +1,250 @@
+/* The loader: defaults, kinds, scenario file, overrides, lists, then what follows from them. */
+#include "config/loader.h"
+
+#include "config/kinds.h"
+#include "config/lists.h"
+#include "config/schema.h"
+#include "config/source.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define DEFAULT_SCENARIO "hunter-liggett"
+#define OVERRIDE_PLACE   "--set"
+
+/* Sizes of the shared tables. A frame can at most fill an eighth of the event ring, so that
+ * readers have seven frames' worth of time at worst; 16 events an entity keep a busy second. */
+#define EVENT_SLOTS_MIN    65536u
+#define EVENT_SLOTS_MAX    1048576u
+#define EVENTS_PER_ENTITY  16u
+#define EVENT_FRAME_SHARE  8u
+#define INTENTS_PER_ENTITY 2u    /* a shot and a change of behaviour */
+#define INTENTS_EXTRA      1024u /* commands' answers, ordered shots */
+#define COMMAND_SLOTS      1024u
+#define CRATER_SLOTS       65536u
+
+/* A load under way. */
+struct load {
+    struct scenario *scenario;
+    const char *data_dir;
+    struct source source;
+    config_t config;
+    XXH3_state_t *hash;
+    struct key_place origin[64]; /* where each key of schema_scenario was last set */
+    bool objects_chosen;
+    struct loader_message *message;
+};
+
+/* Finds the scenario's file: path itself, else NAME or NAME.cfg among the shipped ones. */
+static int find_scenario(const char *data_dir, const char *path, char *found, size_t bytes,
+                         struct loader_message *message)
+{
+    const char *name = path != NULL ? path : DEFAULT_SCENARIO;
+    const struct key_place place = {name, 0};
+    static const char *const suffixes[] = {"", ".cfg"};
+    struct stat status;
+
+    if (path != NULL && (strchr(path, '/') != NULL || stat(path, &status) == 0)) {
+        if ((size_t)snprintf(found, bytes, "%s", path) >= bytes)
+            return keys_refuse(message, place, NULL, NULL, "is too long for a path");
+        return 0;
+    }
+    for (size_t i = 0; i < sizeof(suffixes) / sizeof(suffixes[0]); i++) {
+        if ((size_t)snprintf(found, bytes, "%s/scenarios/%s%s", data_dir, name, suffixes[i]) >=
+            bytes)
+            return keys_refuse(message, place, NULL, NULL, "is too long for a path");
+        if (stat(found, &status) == 0)
+            return 0;
+    }
+    return keys_refuse(message, place, NULL, NULL,
+                       "no such scenario; right would be: a file, or a name from %s/scenarios",
+                       data_dir);
+}
+
+/* Lists are read elsewhere, by kind of entry. */
+static bool is_list(const config_setting_t *setting)
+{
+    const char *name = config_setting_name(setting);
+
+    return strcmp(name, "vehicles") == 0 || strcmp(name, "fires") == 0 ||
+           (strcmp(name, "objects") == 0 && setting->type == CONFIG_TYPE_LIST);
+}
+
+static int read_file(struct load *load)
+{
+    struct key_reading keys = {.table = &schema_scenario,
+                               .destination = load->scenario,
+                               .file = load->source.path,
+                               .skip = is_list};
+    const config_setting_t *root = config_root_setting(&load->config);
+    const config_setting_t *objects = config_setting_get_member(root, "objects");
+
+    if (keys_read(&keys, root, "", "", load->message) != 0)
+        return -1;
+    for (uint32_t i = 0; i < schema_scenario.count; i++) {
+        if ((keys.given >> i & 1u) != 0)
+            load->origin[i] = (struct key_place){load->source.path, keys.line[i]};
+        else
+            load->origin[i] = (struct key_place){"default", 0};
+    }
+    if (objects != NULL && objects->type == CONFIG_TYPE_LIST) {
+        load->scenario->objects = OBJECTS_LIST;
+        load->objects_chosen = true;
+    }
+    if ((keys.given >> keys_find(&schema_scenario, "objects.source") & 1u) != 0)
+        load->objects_chosen = true;
+    return 0;
+}
+
+static int apply_override(struct load *load, const char *text)
+{
+    const struct key_place place = {OVERRIDE_PLACE, 0};
+    const char *equals = strchr(text, '=');
+    char name[KEY_PATH_MAX];
+
+    if (equals == NULL || equals == text)
+        return keys_refuse(load->message, place, text, NULL,
+                           "is not an override; right would be: group.key=value");
+    snprintf(name, sizeof(name), "%.*s", (int)(equals - text), text);
+    int index = keys_find(&schema_scenario, name);
+    if (index < 0 || (size_t)(equals - text) >= sizeof(name))
+        return keys_refuse(load->message, place, name, equals + 1,
+                           "unknown key; allowed: a scenario key of one value, such as world.seed "
+                           "or collision.response");
+    if (strcmp(name, "objects.source") == 0)
+        load->objects_chosen = true;
+    load->origin[index] = place;
+    XXH3_64bits_update(load->hash, text, strlen(text) + 1);
+    return keys_set_text(&schema_scenario.keys[index], load->scenario, equals + 1, place,
+                         load->message);
+}
+
+/* Values that are allowed alone but not together. */
+static int check_together(const struct load *load)
+{
+    const struct collision_params *collision = &load->scenario->params.collision;
+    const char *name = NULL;
+    double value = 0, below = 0;
+    char text[32];
+
+    if (!(collision->damage_high > collision->damage_med)) {
+        name = "collision.figure8.damage_med";
+        value = collision->damage_med;
+        below = collision->damage_high;
+    } else if (!(collision->damage_med > collision->damage_low)) {
+        name = "collision.figure8.damage_low";
+        value = collision->damage_low;
+        below = collision->damage_med;
+    }
+    if (name == NULL)
+        return 0;
+    snprintf(text, sizeof(text), "%.15g", value);
+    return keys_refuse(load->message, load->origin[keys_find(&schema_scenario, name)], name, text,
+                       "is not below the next level of damage; allowed: below %.15g", below);
+}
+
+static int read_lists(struct load *load)
+{
+    struct scenario *scenario = load->scenario;
+    const config_setting_t *root = config_root_setting(&load->config);
+    const config_setting_t *vehicles = config_setting_get_member(root, "vehicles");
+    const config_setting_t *objects = config_setting_get_member(root, "objects");
+    const config_setting_t *fires = config_setting_get_member(root, "fires");
+    const char *file = load->source.path;
+
+    if (!load->objects_chosen)
+        scenario->objects = scenario->terrain == TERRAIN_GENERATED ? OBJECTS_TABLE1 : OBJECTS_NONE;
+    if (objects != NULL && objects->type != CONFIG_TYPE_LIST)
+        objects = NULL;
+    if (lists_vehicles(scenario, vehicles, file, load->message) != 0 ||
+        lists_objects(scenario, objects, file, load->message) != 0 ||
+        lists_fires(scenario, fires, vehicles, file, load->message) != 0)
+        return -1;
+    /* A list that an override has replaced was still checked. */
+    if (scenario->objects != OBJECTS_LIST)
+        scenario->object_count = 0;
+    return 0;
+}
+
+static uint32_t event_slots_for(uint32_t capacity)
+{
+    uint32_t slots = EVENT_SLOTS_MIN;
+
+    while (slots < EVENT_SLOTS_MAX && slots < (uint64_t)EVENTS_PER_ENTITY * capacity)
+        slots *= 2;
+    return slots;
+}
+
+static void derive(struct load *load)
+{
+    struct params *params = &load->scenario->params;
+    const char *path = load->source.path;
+    size_t length = strlen(path);
+    uint64_t intents = (uint64_t)INTENTS_PER_ENTITY * params->capacity + INTENTS_EXTRA;
+
+    params->dt_s = 1.0 / params->hz;
+    params->event_slots = event_slots_for(params->capacity);
+    params->events_per_frame = params->event_slots / EVENT_FRAME_SHARE;
+    /* At most half of a frame's events, so that collisions always have room beside them. */
+    params->intents_per_frame =
+        intents < params->events_per_frame / 2 ? (uint32_t)intents : params->events_per_frame / 2;
+    params->command_slots = COMMAND_SLOTS;
+    params->crater_slots = CRATER_SLOTS;
+    params->scenario_hash = XXH3_64bits_digest(load->hash);
+    /* For people: of a path that is too long the end says more than the beginning. */
+    if (length < PATH_TEXT_MAX)
+        memcpy(params->scenario, path, length + 1);
+    else
+        snprintf(params->scenario, PATH_TEXT_MAX, "...%s", path + length - (PATH_TEXT_MAX - 4));
+}
+
+static int read_scenario(struct load *load, const char *const *overrides, int override_count)
+{
+    if (source_parse(&load->source, &load->config, load->message) != 0)
+        return -1;
+    XXH3_64bits_update(load->hash, load->source.text, load->source.bytes);
+    if (keys_defaults(&schema_scenario, load->scenario, load->message) != 0 || read_file(load) != 0)
+        return -1;
+    for (int i = 0; i < override_count; i++) {
+        if (apply_override(load, overrides[i]) != 0)
+            return -1;
+    }
+    if (check_together(load) != 0 ||
+        kinds_read(load->scenario, load->data_dir, load->hash, load->message) != 0 ||
+        read_lists(load) != 0)
+        return -1;
+    derive(load);
+    return 0;
+}
+
+int loader_scenario(struct scenario *scenario, const char *data_dir, const char *path,
+                    const char *const *overrides, int override_count,
+                    struct loader_message *message)
+{
+    struct load load = {.scenario = scenario, .data_dir = data_dir, .message = message};
+    char found[PATH_MAX];
+    int result = -1;
+
+    memset(scenario, 0, sizeof(*scenario));
+    message->text[0] = '\0';
+    if (find_scenario(data_dir, path, found, sizeof(found), message) != 0 ||
+        source_read(&load.source, found, message) != 0)
+        return -1;
+    load.hash = XXH3_createState();
+    if (load.hash == NULL || XXH3_64bits_reset(load.hash) != XXH_OK) {
+        keys_refuse(message, (struct key_place){found, 0}, NULL, NULL, "no memory to read it");
+        goto err_source;
+    }
+    config_init(&load.config);
+    result = read_scenario(&load, overrides, override_count);
+    config_destroy(&load.config);
+    if (result != 0)
+        scenario_free(scenario);
+err_source:
+    XXH3_freeState(load.hash);
+    source_free(&load.source);
+    return result;
+}

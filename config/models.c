@@ -1,0 +1,416 @@
+/* Polygon models by assimp. It opens files through our own calls, so that what it reads is what
+ * was hashed and nothing outside the models' folder. */
+#include "config/models.h"
+
+#include "config/keys.h"
+
+#include <assimp/cfileio.h>
+#include <assimp/cimport.h>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NODE_DEPTH_MAX 8
+
+/* An open file, as assimp sees it. */
+struct reader {
+    struct aiFile file;
+    const struct source *source;
+    size_t at;
+};
+
+static const char *const part_names[PART_COUNT] = {
+    [PART_BODY] = "body",
+    [PART_TURRET] = "turret",
+    [PART_ROTOR] = "rotor",
+    [PART_TAIL_ROTOR] = "tail_rotor",
+};
+
+void models_open(struct models *models, struct scenario *scenario, const char *data_dir,
+                 XXH3_state_t *hash)
+{
+    memset(models, 0, sizeof(*models));
+    models->scenario = scenario;
+    models->data_dir = data_dir;
+    models->hash = hash;
+}
+
+void models_close(struct models *models)
+{
+    for (int i = 0; i < models->file_count; i++)
+        source_free(&models->file[i]);
+    models->file_count = 0;
+}
+
+/* The file of this name in the models' folder, read at most once. NULL with the message. */
+static const struct source *find_file(struct models *models, const char *name,
+                                      struct loader_message *message)
+{
+    char path[PATH_MAX];
+    struct source *source = &models->file[models->file_count];
+    const struct key_place place = {path, 0};
+    int length = snprintf(path, sizeof(path), "%s/models/%s", models->data_dir, name);
+
+    if (length < 0 || (size_t)length >= sizeof(path)) {
+        keys_refuse(message, place, NULL, NULL, "is too long for a path");
+        return NULL;
+    }
+    for (int i = 0; i < models->file_count; i++) {
+        if (strcmp(models->file[i].path, path) == 0)
+            return &models->file[i];
+    }
+    if (models->file_count == MODELS_FILE_MAX) {
+        keys_refuse(message, place, NULL, NULL, "is one model file too many; allowed: up to %d",
+                    MODELS_FILE_MAX);
+        return NULL;
+    }
+    if (source_read(source, path, message) != 0)
+        return NULL;
+    models->file_count++;
+    XXH3_64bits_update(models->hash, name, strlen(name) + 1);
+    XXH3_64bits_update(models->hash, source->text, source->bytes);
+    return source;
+}
+
+static size_t reader_read(struct aiFile *file, char *to, size_t size, size_t count)
+{
+    struct reader *reader = (struct reader *)(void *)file->UserData;
+    size_t left = reader->source->bytes - reader->at;
+
+    if (size == 0 || count == 0)
+        return 0;
+    if (count > left / size)
+        count = left / size;
+    memcpy(to, reader->source->text + reader->at, size * count);
+    reader->at += size * count;
+    return count;
+}
+
+static size_t reader_write(struct aiFile *file, const char *from, size_t size, size_t count)
+{
+    (void)file, (void)from, (void)size, (void)count;
+    return 0;
+}
+
+static size_t reader_tell(struct aiFile *file)
+{
+    return ((struct reader *)(void *)file->UserData)->at;
+}
+
+static size_t reader_size(struct aiFile *file)
+{
+    return ((struct reader *)(void *)file->UserData)->source->bytes;
+}
+
+static enum aiReturn reader_seek(struct aiFile *file, size_t offset, enum aiOrigin origin)
+{
+    struct reader *reader = (struct reader *)(void *)file->UserData;
+    size_t size = reader->source->bytes;
+    size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? reader->at : size;
+
+    /* From the end and from here assimp may count back: unsigned wrap-around is the subtraction. */
+    if (base + offset > size)
+        return aiReturn_FAILURE;
+    reader->at = base + offset;
+    return aiReturn_SUCCESS;
+}
+
+static void reader_flush(struct aiFile *file)
+{
+    (void)file;
+}
+
+static const char *base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+
+    return slash != NULL ? slash + 1 : path;
+}
+
+/* assimp asks for paths; only the last part counts, so "mtllib ../../etc/x" leads nowhere else. */
+static struct aiFile *open_reader(struct aiFileIO *io, const char *path, const char *mode)
+{
+    struct models *models = (struct models *)(void *)io->UserData;
+    struct loader_message ignored; /* check_materials() was there first and would have refused */
+    struct reader *reader;
+    const struct source *source;
+
+    if (mode[0] != 'r')
+        return NULL;
+    source = find_file(models, base_name(path), &ignored);
+    if (source == NULL || (reader = calloc(1, sizeof(*reader))) == NULL)
+        return NULL;
+    reader->source = source;
+    reader->file = (struct aiFile){.ReadProc = reader_read,
+                                   .WriteProc = reader_write,
+                                   .TellProc = reader_tell,
+                                   .FileSizeProc = reader_size,
+                                   .SeekProc = reader_seek,
+                                   .FlushProc = reader_flush,
+                                   .UserData = (aiUserData)(void *)reader};
+    return &reader->file;
+}
+
+static void close_reader(struct aiFileIO *io, struct aiFile *file)
+{
+    (void)io;
+    free(file->UserData);
+}
+
+/* A line of an OBJ or MTL file: its first word and the word after it. */
+struct words {
+    const char *first, *second;
+    int first_length, second_length;
+};
+
+/* Splits the line at text and returns where the next one begins, NULL at the end. */
+static const char *next_line(const char *text, struct words *words)
+{
+    if (*text == '\0')
+        return NULL;
+    words->first = text + strspn(text, " \t");
+    words->first_length = (int)strcspn(words->first, " \t\r\n");
+    words->second = words->first + words->first_length;
+    words->second += strspn(words->second, " \t");
+    words->second_length = (int)strcspn(words->second, " \t\r\n");
+    text += strcspn(text, "\n");
+    return *text == '\n' ? text + 1 : text;
+}
+
+static bool is_word(const char *word, int length, const char *text)
+{
+    return (size_t)length == strlen(text) && memcmp(word, text, (size_t)length) == 0;
+}
+
+/* Does the material file give this material a colour? */
+static bool has_material(const struct source *library, const char *name, int length)
+{
+    struct words words;
+    bool inside = false;
+
+    for (const char *at = library->text; (at = next_line(at, &words)) != NULL;) {
+        if (is_word(words.first, words.first_length, "newmtl"))
+            inside =
+                words.second_length == length && memcmp(words.second, name, (size_t)length) == 0;
+        else if (inside && is_word(words.first, words.first_length, "Kd"))
+            return true;
+    }
+    return false;
+}
+
+/* assimp gives triangles of no material, or of one that it does not find, some other. */
+static int check_materials(struct models *models, const struct source *source,
+                           struct loader_message *message)
+{
+    struct key_place place = {source->path, 0};
+    const struct source *library = NULL;
+    struct words words;
+    bool chosen = false;
+
+    for (const char *at = source->text; (at = next_line(at, &words)) != NULL;) {
+        place.line++;
+        if (is_word(words.first, words.first_length, "mtllib")) {
+            char file[KIND_NAME_MAX + sizeof(".mtl")];
+
+            snprintf(file, sizeof(file), "%.*s", words.second_length, words.second);
+            library = find_file(models, base_name(file), message);
+            if (library == NULL)
+                return -1;
+        } else if (is_word(words.first, words.first_length, "usemtl")) {
+            chosen = library != NULL && has_material(library, words.second, words.second_length);
+            if (!chosen)
+                return keys_refuse(message, place, NULL, NULL,
+                                   "usemtl %.*s: unknown material; right would be: one with a Kd "
+                                   "in the file of mtllib",
+                                   words.second_length, words.second);
+        } else if (is_word(words.first, words.first_length, "f") && !chosen) {
+            return keys_refuse(message, place, NULL, NULL,
+                               "has a face before any usemtl; right would be: usemtl NAME first");
+        }
+    }
+    return 0;
+}
+
+/* A model being taken out of assimp's scene. */
+struct taking {
+    struct models *models;
+    const struct aiScene *scene;
+    struct key_place place;
+    struct model *model;
+    struct loader_message *message;
+};
+
+/* Adds count items of size bytes to a table; NULL when memory is out. */
+static void *extend(void **table, uint32_t *used, uint32_t count, size_t size)
+{
+    void *larger = realloc(*table, ((size_t)*used + count) * size);
+
+    if (larger == NULL)
+        return NULL;
+    *table = larger;
+    *used += count;
+    return (char *)larger + ((size_t)*used - count) * size;
+}
+
+static int take_vertices(struct taking *taking, const struct aiMesh *mesh)
+{
+    struct scenario *scenario = taking->models->scenario;
+    void *table = scenario->vertices;
+
+    if (mesh->mNumVertices > MODELS_VERTEX_MAX - taking->model->vertex_count)
+        return keys_refuse(taking->message, taking->place, NULL, NULL,
+                           "has too many vertices; allowed: up to %u", MODELS_VERTEX_MAX);
+    struct model_vertex *vertex =
+        extend(&table, &scenario->vertex_count, mesh->mNumVertices, sizeof(*vertex));
+    if (vertex == NULL)
+        return keys_refuse(taking->message, taking->place, NULL, NULL, "no memory for it");
+    scenario->vertices = table;
+    taking->model->vertex_count += mesh->mNumVertices;
+    for (uint32_t i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiVector3D *from = &mesh->mVertices[i];
+
+        vertex[i] = (struct model_vertex){from->x, from->y, from->z};
+        if (!(fabsf(from->x) <= MODELS_EXTENT_MAX && fabsf(from->y) <= MODELS_EXTENT_MAX &&
+              fabsf(from->z) <= MODELS_EXTENT_MAX))
+            return keys_refuse(taking->message, taking->place, NULL, NULL,
+                               "vertex %u (%g, %g, %g) is out of range; allowed: -%g..%g m", i,
+                               (double)from->x, (double)from->y, (double)from->z,
+                               (double)MODELS_EXTENT_MAX, (double)MODELS_EXTENT_MAX);
+    }
+    return 0;
+}
+
+/* The material's colour and whether it is the force's; -1 with the message. */
+static int take_material(struct taking *taking, const struct aiMesh *mesh,
+                         struct model_triangle *like)
+{
+    const struct aiMaterial *material = taking->scene->mMaterials[mesh->mMaterialIndex];
+    struct aiString name = {0};
+    struct aiColor4D color;
+
+    if (aiGetMaterialString(material, AI_MATKEY_NAME, &name) != aiReturn_SUCCESS ||
+        aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &color) != aiReturn_SUCCESS)
+        return keys_refuse(taking->message, taking->place, NULL, NULL,
+                           "has a material without a colour; right would be: Kd red green blue");
+    if (!(color.r >= 0 && color.r <= 1 && color.g >= 0 && color.g <= 1 && color.b >= 0 &&
+          color.b <= 1))
+        return keys_refuse(taking->message, taking->place, NULL, NULL,
+                           "material %s: Kd is out of range; allowed: 0..1", name.data);
+    like->red = (uint8_t)lrintf(color.r * 255.0f);
+    like->green = (uint8_t)lrintf(color.g * 255.0f);
+    like->blue = (uint8_t)lrintf(color.b * 255.0f);
+    like->force_tint = strcmp(name.data, "force") == 0;
+    return 0;
+}
+
+static int take_mesh(struct taking *taking, const struct aiMesh *mesh, uint32_t part)
+{
+    struct scenario *scenario = taking->models->scenario;
+    struct model_triangle like = {.part = part};
+    uint32_t first = taking->model->vertex_count;
+    void *table = scenario->triangles;
+
+    if (take_material(taking, mesh, &like) != 0 || take_vertices(taking, mesh) != 0)
+        return -1;
+    if (mesh->mNumFaces > MODELS_TRIANGLE_MAX - taking->model->triangle_count)
+        return keys_refuse(taking->message, taking->place, NULL, NULL,
+                           "has too many triangles; allowed: up to %u", MODELS_TRIANGLE_MAX);
+    struct model_triangle *triangle =
+        extend(&table, &scenario->triangle_count, mesh->mNumFaces, sizeof(*triangle));
+    if (triangle == NULL)
+        return keys_refuse(taking->message, taking->place, NULL, NULL, "no memory for it");
+    scenario->triangles = table;
+    taking->model->triangle_count += mesh->mNumFaces;
+    for (uint32_t i = 0; i < mesh->mNumFaces; i++) {
+        const struct aiFace *face = &mesh->mFaces[i];
+
+        triangle[i] = like;
+        if (face->mNumIndices != 3)
+            return keys_refuse(taking->message, taking->place, NULL, NULL,
+                               "has a face of %u corners; allowed: faces of three and more",
+                               face->mNumIndices);
+        for (int corner = 0; corner < 3; corner++) {
+            if (face->mIndices[corner] >= mesh->mNumVertices)
+                return keys_refuse(taking->message, taking->place, NULL, NULL,
+                                   "has a face with vertex %u of %u", face->mIndices[corner],
+                                   mesh->mNumVertices);
+            triangle[i].vertex[corner] = first + face->mIndices[corner];
+        }
+    }
+    return 0;
+}
+
+/* OBJ objects and groups come as nodes of that name under the root. */
+static int take_node(struct taking *taking, const struct aiNode *node, int depth)
+{
+    uint32_t part = 0;
+
+    if (depth > NODE_DEPTH_MAX)
+        return keys_refuse(taking->message, taking->place, NULL, NULL, "is nested too deeply");
+    while (part < PART_COUNT && strcmp(node->mName.data, part_names[part]) != 0)
+        part++;
+    if (node->mNumMeshes > 0 && part == PART_COUNT)
+        return keys_refuse(taking->message, taking->place, NULL, NULL,
+                           "object %s: unknown part; allowed: body, turret, rotor, tail_rotor",
+                           node->mName.data);
+    for (unsigned i = 0; i < node->mNumMeshes; i++) {
+        if (take_mesh(taking, taking->scene->mMeshes[node->mMeshes[i]], part) != 0)
+            return -1;
+    }
+    for (unsigned i = 0; i < node->mNumChildren; i++) {
+        if (take_node(taking, node->mChildren[i], depth + 1) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int take_scene(struct models *models, const struct aiScene *scene, const char *name,
+                      struct key_place place, struct loader_message *message)
+{
+    struct scenario *scenario = models->scenario;
+    void *table = scenario->models;
+    struct model *model = extend(&table, &scenario->model_count, 1, sizeof(*model));
+
+    if (model == NULL)
+        return keys_refuse(message, place, NULL, NULL, "no memory for it");
+    scenario->models = table;
+    memset(model, 0, sizeof(*model));
+    memcpy(model->name, name, strlen(name));
+    model->first_vertex = scenario->vertex_count;
+    model->first_triangle = scenario->triangle_count;
+    struct taking taking = {models, scene, place, model, message};
+    if (take_node(&taking, scene->mRootNode, 0) != 0)
+        return -1;
+    if (model->triangle_count == 0)
+        return keys_refuse(message, place, NULL, NULL, "has no triangles");
+    return (int)scenario->model_count - 1;
+}
+
+int models_find(struct models *models, const char *name, struct loader_message *message)
+{
+    const struct scenario *scenario = models->scenario;
+    struct aiFileIO io = {open_reader, close_reader, (aiUserData)(void *)models};
+    char file[KIND_NAME_MAX + sizeof(".obj")];
+
+    for (uint32_t i = 0; i < scenario->model_count; i++) {
+        if (strcmp(scenario->models[i].name, name) == 0)
+            return (int)i;
+    }
+    snprintf(file, sizeof(file), "%s.obj", name);
+    const struct source *source = find_file(models, file, message);
+    if (source == NULL)
+        return -1;
+    const struct key_place place = {source->path, 0};
+    if (check_materials(models, source, message) != 0)
+        return -1;
+    const struct aiScene *scene =
+        aiImportFileEx(source->path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, &io);
+    if (scene == NULL)
+        return keys_refuse(message, place, NULL, NULL, "is not a model: %s", aiGetErrorString());
+    int index = take_scene(models, scene, name, place, message);
+    aiReleaseImport(scene);
+    return index;
+}

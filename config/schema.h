@@ -1,0 +1,78 @@
+/* The schema: every key of scenario and kind files, what it is allowed to be and where it goes.
+ * Entries of lists and kinds are read into the plain structs here and resolved afterwards. */
+#ifndef JOLON_CONFIG_SCHEMA_H
+#define JOLON_CONFIG_SCHEMA_H
+
+#include "config/keys.h"
+#include "world/scenario.h"
+
+/* Limits of files, checked before anything is allocated. */
+#define SCHEMA_FILE_BYTES_MAX   (16u * 1024u * 1024u)
+#define SCHEMA_GROUPS_MAX       65536
+#define SCHEMA_OBJECTS_MAX      1048576
+#define SCHEMA_FIRES_MAX        65536
+#define SCHEMA_ROUTE_POINTS_MAX 1048576u
+/* Largest whole number that is exact in a double, as JSON and many languages carry numbers. */
+#define SCHEMA_WHOLE_MAX 9007199254740991.0
+
+/* Destination: struct scenario. Also everything an override can set. */
+extern const struct key_table schema_scenario;
+
+/* Rows of schema_vehicle, for key_reading.given and .line. */
+enum vehicle_key {
+    VEHICLE_KIND,
+    VEHICLE_COUNT,
+    VEHICLE_FORCE,
+    VEHICLE_BEHAVIOUR,
+    VEHICLE_AREA,
+    VEHICLE_ROUTE,
+    VEHICLE_NAME,
+    VEHICLE_AT,
+    VEHICLE_ALTITUDE,
+    VEHICLE_HEADING,
+    VEHICLE_SPEED,
+    VEHICLE_FIRE_AT_WILL,
+    VEHICLE_KEY_COUNT
+};
+
+struct vehicle_entry {
+    char kind[KIND_NAME_MAX];
+    char name[ENTITY_NAME_MAX];
+    uint32_t count;
+    uint32_t force, behaviour;
+    uint32_t fire_at_will;
+    double area[4];
+    double at[2];
+    const config_setting_t *route;
+    double altitude_m, heading_rad, speed_mps;
+};
+extern const struct key_table schema_vehicle;
+
+enum object_key { OBJECT_KEY_KIND, OBJECT_KEY_AT, OBJECT_KEY_HEADING, OBJECT_KEY_COUNT };
+
+struct object_entry {
+    char kind[KIND_NAME_MAX];
+    double at[2];
+    double heading_rad;
+};
+extern const struct key_table schema_object;
+
+enum fire_key { FIRE_AT, FIRE_SHOOTER, FIRE_TARGET, FIRE_MUNITION, FIRE_POINT, FIRE_KEY_COUNT };
+
+struct fire_entry {
+    double at_s;
+    char shooter[ENTITY_NAME_MAX];
+    char target[ENTITY_NAME_MAX];
+    char munition[KIND_NAME_MAX];
+    double point[2];
+};
+extern const struct key_table schema_fire;
+
+struct kind_entry {
+    struct kind kind;
+    char model[KIND_NAME_MAX];
+    char munition[KIND_NAME_MAX]; /* "" for none */
+};
+extern const struct key_table schema_kind;
+
+#endif

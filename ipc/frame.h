@@ -1,0 +1,35 @@
+/* The frame protocol (ipc/README.md has its rules). Each role's loop is
+ *
+ *     while (frame_..._begin(&frame, &view) == 0) { step; frame_..._end(&frame, &view); }
+ *
+ * begin blocks, in bounded waits that beat the slot's heart; it returns -1 when the process was
+ * asked to stop or the run's last frame is committed. A corrupt header ends the process with the
+ * names of the fields (exit 1). */
+#ifndef JOLON_IPC_FRAME_H
+#define JOLON_IPC_FRAME_H
+
+#include "ipc/segment.h"
+
+struct frame {
+    uint64_t number;     /* the frame being made */
+    uint64_t begun_ns;   /* CLOCK_MONOTONIC at the start of the stage's work */
+    uint64_t command_head[COMMAND_RING_COUNT]; /* mover: commands there are to take */
+};
+
+int frame_mover_begin(struct frame *frame, struct view *view);
+void frame_mover_end(struct frame *frame, struct view *view);
+
+int frame_collider_begin(struct frame *frame, struct view *view);
+void frame_collider_end(struct frame *frame, struct view *view);
+
+/* Readers: waits for a frame later than seen, at most until until_ns (CLOCK_MONOTONIC), on the
+ * commit word itself (a futex; works on a read-only mapping). Returns the last committed frame. */
+uint64_t frame_wait(const struct view *view, uint64_t seen, uint64_t until_ns);
+
+/* Has the run ended: its last frame committed, or quit by command? */
+bool frame_finished(const struct view *view);
+
+/* The holder of a role says that it lives. */
+void frame_beat(struct view *view);
+
+#endif

@@ -1,0 +1,123 @@
+/* Start and end of a role's process. */
+#include "ipc/process.h"
+
+#include "ipc/log.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static volatile sig_atomic_t stopping;
+
+static void on_stop(int signal_number)
+{
+    (void)signal_number;
+    stopping = 1;
+}
+
+bool process_stopping(void) { return stopping != 0; }
+
+void process_signals(void)
+{
+    struct sigaction stop = {.sa_handler = on_stop}; /* no SA_RESTART: waits end early */
+    struct sigaction ignore = {.sa_handler = SIG_IGN};
+    sigemptyset(&stop.sa_mask);
+    sigemptyset(&ignore.sa_mask);
+    sigaction(SIGTERM, &stop, NULL);
+    sigaction(SIGINT, &stop, NULL);
+    sigaction(SIGHUP, &stop, NULL);
+    sigaction(SIGPIPE, &ignore, NULL);
+}
+
+void process_die_with_parent(int parent_pid)
+{
+    if (parent_pid <= 0)
+        return;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent_pid) /* it died before the kernel was asked */
+        _exit(0);
+}
+
+static long number_option(const char *option, const char *text, long low, long high)
+{
+    char *end;
+    errno = 0;
+    long value = strtol(text, &end, 10);
+    if (errno != 0 || end == text || *end != '\0' || value < low || value > high)
+        die_usage("%s %s: must be a whole number from %ld to %ld", option, text, low, high);
+    return value;
+}
+
+struct stage_options process_stage_options(int argc, char **argv, const char *program)
+{
+    static const struct option options[] = {{"world", required_argument, NULL, 'w'},
+                                            {"threads", required_argument, NULL, 't'},
+                                            {"parent", required_argument, NULL, 'p'},
+                                            {"help", no_argument, NULL, 'h'},
+                                            {NULL, 0, NULL, 0}};
+    struct stage_options chosen = {.world = "default", .threads = 1};
+    int option;
+    while ((option = getopt_long(argc, argv, "w:h", options, NULL)) != -1) {
+        switch (option) {
+        case 'w':
+            chosen.world = optarg;
+            break;
+        case 't':
+            chosen.threads = (uint32_t)number_option("--threads", optarg, 1, 16);
+            break;
+        case 'p':
+            chosen.parent = (int)number_option("--parent", optarg, 1, INT32_MAX);
+            break;
+        case 'h':
+            printf("usage: %s [--world NAME] [--threads 1..16] [--parent PID]\n", program);
+            exit(EXIT_OK);
+        default:
+            die_usage("try %s --help", program);
+        }
+    }
+    if (optind < argc)
+        die_usage("%s: takes no arguments; try %s --help", argv[optind], program);
+    return chosen;
+}
+
+static bool holds_kinds(const char *directory)
+{
+    char path[512];
+    struct stat status;
+    int length = snprintf(path, sizeof path, "%s/kinds", directory);
+    return length > 0 && length < (int)sizeof path && stat(path, &status) == 0 &&
+           S_ISDIR(status.st_mode);
+}
+
+int process_data_dir(char *path, size_t bytes)
+{
+    /* build/bin, build/san-.../bin, PREFIX/bin */
+    static const char *const places[] = {"../../config", "../../../config", "../share/jolon"};
+    char self[400];
+    const char *given = getenv("JOLON_DATA");
+    if (given) {
+        snprintf(path, bytes, "%s", given);
+        return holds_kinds(path) ? 0 : -1;
+    }
+    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    if (length <= 0)
+        return -1;
+    self[length] = '\0';
+    char *slash = strrchr(self, '/');
+    if (!slash)
+        return -1;
+    *slash = '\0';
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        snprintf(path, bytes, "%s/%s", self, places[i]);
+        if (holds_kinds(path))
+            return 0;
+    }
+    errno = ENOENT;
+    return -1;
+}

@@ -1,0 +1,34 @@
+/* What every role does at its start and end: options, signals, dying with its supervisor. */
+#ifndef JOLON_IPC_PROCESS_H
+#define JOLON_IPC_PROCESS_H
+
+#include "ipc/segment.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Set by SIGTERM, SIGINT and SIGHUP; loops end when it is true. */
+bool process_stopping(void);
+
+/* Installs the handlers; SIGPIPE is ignored. */
+void process_signals(void);
+
+/* Asks the kernel for SIGKILL when the parent dies; ends at once when it is dead already. */
+void process_die_with_parent(int parent_pid);
+
+/* Options of the roles of the frame loop. */
+struct stage_options {
+    const char *world;
+    uint32_t threads; /* 1..16 */
+    int parent;       /* pid to die with, 0 for none */
+};
+
+/* Reads --world NAME, --threads N, --parent PID; wrong usage ends the process (exit 2) and --help
+ * prints usage and ends it (exit 0). */
+struct stage_options process_stage_options(int argc, char **argv, const char *program);
+
+/* Finds config/, from the place of the running program: the build tree's or the installed one. */
+int process_data_dir(char *path, size_t bytes);
+
+#endif

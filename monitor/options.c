@@ -1,0 +1,87 @@
+/* jolon-monitor's arguments. */
+#include "monitor/options.h"
+
+#include "ipc/log.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define RATE_MIN_HZ 0.01
+#define RATE_MAX_HZ 20.0
+
+static const char usage[] =
+    "usage: jolon-monitor [options]\n"
+    "  -w, --world NAME   (default \"default\")\n"
+    "  --once             print the status and exit; 1 when none comes within 3 s\n"
+    "  --json             the status as JSON, one object a line\n"
+    "  --events           every event as a JSON line, the latest 4096 of each type first\n"
+    "  --lines            one status line a second, also on a terminal\n"
+    "  --rate HZ          how often the screen (default 5) or the line (default 1) is made anew\n"
+    "  --dds-config FILE, --interface ADDRESS, --domain N  as jolon-reporter\n"
+    "On a terminal it shows a screen; q quits.\n";
+
+static double parse_rate(const char *text)
+{
+    char *end;
+    errno = 0;
+    double rate_hz = strtod(text, &end);
+    if (errno || end == text || *end || !(rate_hz >= RATE_MIN_HZ && rate_hz <= RATE_MAX_HZ))
+        die_usage("--rate %s: not a number from %g to %g", text, RATE_MIN_HZ, RATE_MAX_HZ);
+    return rate_hz;
+}
+
+void options_parse(struct options *options, int argc, char **argv)
+{
+    static const struct option known[] = {{"world", required_argument, NULL, 'w'},
+                                          {"once", no_argument, NULL, 'o'},
+                                          {"json", no_argument, NULL, 'j'},
+                                          {"events", no_argument, NULL, 'e'},
+                                          {"lines", no_argument, NULL, 'l'},
+                                          {"rate", required_argument, NULL, 'r'},
+                                          DDS_LINK_LONG_OPTIONS,
+                                          {"help", no_argument, NULL, 'h'},
+                                          {NULL, 0, NULL, 0}};
+    int option;
+    *options = (struct options){.world = "default"};
+    opterr = 0; /* we say it, in one line */
+    while ((option = getopt_long(argc, argv, "w:h", known, NULL)) != -1) {
+        if (dds_link_option(&options->link, option, optarg))
+            continue;
+        switch (option) {
+        case 'w':
+            options->world = optarg;
+            break;
+        case 'o':
+            options->once = true;
+            break;
+        case 'j':
+            options->json = true;
+            break;
+        case 'e':
+            options->events = true;
+            break;
+        case 'l':
+            options->lines = true;
+            break;
+        case 'r':
+            options->rate_hz = parse_rate(optarg);
+            break;
+        case 'h':
+            (void)fputs(usage, stdout);
+            exit(EXIT_OK);
+        default:
+            die_usage("%s: no such option, or its value is missing; jolon-monitor --help lists "
+                      "them",
+                      argv[optind - 1]);
+        }
+    }
+    if (optind < argc)
+        die_usage("'%s': no such argument; jolon-monitor --help lists the options", argv[optind]);
+    if (!segment_name_ok(options->world))
+        die_usage("--world %s: no name for a world: 1 to %d of a-z A-Z 0-9 _ -", options->world,
+                  SEGMENT_NAME_MAX - 1);
+    if (options->events && (options->once || options->lines))
+        die_usage("--events: not together with --once or --lines");
+}

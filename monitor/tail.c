@@ -1,0 +1,122 @@
+/* Events taken, put in order, repeats dropped. */
+#include "monitor/tail.h"
+
+#include "ipc/clock.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Every event type begins with its header. */
+_Static_assert(offsetof(jolon_CollisionEvent, header) == 0, "header first");
+_Static_assert(offsetof(jolon_FireEvent, header) == 0, "header first");
+_Static_assert(offsetof(jolon_DetonationEvent, header) == 0, "header first");
+_Static_assert(offsetof(jolon_CraterEvent, header) == 0, "header first");
+_Static_assert(offsetof(jolon_AgentEvent, header) == 0, "header first");
+
+int tail_open(struct tail *tail, const struct dds_link *link, tail_format *format,
+              struct reason *reason)
+{
+    *tail = (struct tail){.format = format, .settled_ns = clock_now_ns() + TAIL_FIRST_NS};
+    for (uint32_t i = 0; i < TAIL_TOPICS; i++) {
+        tail->reader[i] = dds_topics_reader(link, (enum dds_topic)(TOPIC_COLLISION + i), reason);
+        if (tail->reader[i] < 0)
+            return -1;
+    }
+    tail->waitset = dds_topics_waitset(link, tail->reader, TAIL_TOPICS, reason);
+    return tail->waitset < 0 ? -1 : 0;
+}
+
+void tail_close(struct tail *tail)
+{
+    for (uint32_t i = 0; i < tail->count; i++)
+        free(tail->entry[i].line);
+    free(tail->entry);
+    tail->entry = NULL;
+    tail->count = tail->room = 0;
+}
+
+/* False for a repeat. */
+static bool is_new(struct tail *tail, uint32_t topic, const jolon_EventHeader *header)
+{
+    bool same_run = tail->last[topic].any && tail->last[topic].run == header->run;
+    if (same_run && header->sequence <= tail->last[topic].sequence)
+        return false;
+    if (same_run && header->previous > tail->last[topic].sequence &&
+        header->previous < header->sequence)
+        tail->missed++; /* at least one; how many the topic does not say */
+    tail->last[topic].any = true;
+    tail->last[topic].run = header->run;
+    tail->last[topic].sequence = header->sequence;
+    return true;
+}
+
+static bool keep(struct tail *tail, uint32_t topic, const void *event, uint64_t now_ns)
+{
+    char line[TAIL_LINE_MAX];
+    const jolon_EventHeader *header = event;
+    if (!is_new(tail, topic, header))
+        return true;
+    if (tail->count == tail->room) {
+        uint32_t room = tail->room ? tail->room * 2 : 256;
+        struct tail_entry *entry = realloc(tail->entry, room * sizeof *entry);
+        if (!entry)
+            return false;
+        tail->entry = entry;
+        tail->room = room;
+    }
+    tail->format(line, (enum dds_topic)(TOPIC_COLLISION + topic), event);
+    char *copy = strdup(line);
+    if (!copy)
+        return false;
+    if (tail->run != header->run) {
+        tail->run = header->run;
+        tail->epoch++;
+    }
+    tail->entry[tail->count++] = (struct tail_entry){
+        .epoch = tail->epoch, .sequence = header->sequence, .came_ns = now_ns, .line = copy};
+    return true;
+}
+
+static bool take(struct tail *tail, uint64_t now_ns)
+{
+    bool kept = true;
+    for (uint32_t i = 0; i < TAIL_TOPICS; i++) {
+        void *sample = NULL;
+        dds_sample_info_t info;
+        while (kept && dds_take(tail->reader[i], &sample, &info, 1, 1) > 0) {
+            if (info.valid_data)
+                kept = keep(tail, i, sample, now_ns);
+            (void)dds_return_loan(tail->reader[i], &sample, 1);
+            sample = NULL;
+        }
+    }
+    return kept;
+}
+
+static int in_order(const void *left, const void *right)
+{
+    const struct tail_entry *a = left;
+    const struct tail_entry *b = right;
+    if (a->epoch != b->epoch)
+        return a->epoch < b->epoch ? -1 : 1;
+    return a->sequence < b->sequence ? -1 : a->sequence > b->sequence;
+}
+
+bool tail_turn(struct tail *tail, tail_print *print, void *context)
+{
+    uint64_t now_ns = clock_now_ns();
+    bool good = take(tail, now_ns);
+    if (tail->count > 1)
+        qsort(tail->entry, tail->count, sizeof *tail->entry, in_order);
+    uint32_t done = 0;
+    while (good && now_ns >= tail->settled_ns && done < tail->count &&
+           now_ns - tail->entry[done].came_ns >= TAIL_HOLD_NS) {
+        good = print(context, tail->entry[done].line);
+        free(tail->entry[done].line);
+        done++;
+    }
+    tail->count -= done;
+    if (done)
+        memmove(tail->entry, tail->entry + done, tail->count * sizeof *tail->entry);
+    return good;
+}

@@ -1,0 +1,213 @@
+/* Players' and programs' commands: applied once, in the order of the rings, each with its answer.
+ */
+#include "mover/serial.h"
+
+#include "world/square.h"
+
+#include <stddef.h>
+
+#define COMMANDS_A_FRAME 256 /* of one ring; the rest waits for the next frame */
+#define TIME_SCALE_MIN   0.01
+#define TIME_SCALE_MAX   100.0
+
+static bool within(double value, double low, double high)
+{
+    return value >= low && value <= high;
+}
+
+static uint32_t vehicle_row(const struct serial *serial, uint32_t id)
+{
+    const struct entities *m = &serial->moved->entities;
+    uint32_t row = entities_find(m, serial->moved->head->used, id);
+    return row != SLOT_NONE && m->behaviour[row] == BEHAVIOUR_FLIGHT ? SLOT_NONE : row;
+}
+
+static enum command_result set_behaviour(struct serial *serial, uint32_t row, uint8_t behaviour)
+{
+    struct entities *m = &serial->moved->entities;
+    uint8_t from = m->behaviour[row];
+    if (from == behaviour)
+        return COMMAND_DONE;
+    struct event *event = serial_intent(serial, EVENT_AGENT);
+    if (event) {
+        event->agent =
+            (struct event_agent){serial_party(serial, row), from, behaviour, REASON_COMMAND};
+        serial->moved->head->tally.agent_changes++;
+    }
+    m->behaviour[row] = behaviour;
+    m->trigger[row] = 0;
+    return COMMAND_DONE;
+}
+
+static enum command_result drive(struct serial *serial, const struct command *command)
+{
+    struct entities *m = &serial->moved->entities;
+    uint32_t row = vehicle_row(serial, command->entity);
+    if (row == SLOT_NONE)
+        return COMMAND_NO_SUCH_ENTITY;
+    if (m->state[row] != ENTITY_ACTIVE)
+        return COMMAND_CANNOT;
+    for (int i = 0; i < 3; i++) {
+        if (!within(command->value[i], -1.0, 1.0))
+            return COMMAND_OUT_OF_RANGE;
+    }
+    m->throttle[row] = (float)command->value[0];
+    m->steer[row] = (float)command->value[1];
+    m->climb[row] = (float)command->value[2];
+    return set_behaviour(serial, row, BEHAVIOUR_DRIVEN);
+}
+
+static enum command_result release(struct serial *serial, const struct command *command)
+{
+    struct entities *m = &serial->moved->entities;
+    uint32_t row = vehicle_row(serial, command->entity);
+    if (row == SLOT_NONE)
+        return COMMAND_NO_SUCH_ENTITY;
+    if (m->behaviour[row] != BEHAVIOUR_DRIVEN)
+        return COMMAND_CANNOT;
+    m->throttle[row] = m->steer[row] = m->climb[row] = 0.0f;
+    return set_behaviour(serial, row, m->order[row]);
+}
+
+static enum command_result fire(struct serial *serial, const struct command *command)
+{
+    const struct world *world = serial->move->world;
+    struct entities *m = &serial->moved->entities;
+    if (command->entity == 0) {
+        if (command->kind >= world->counts.kinds ||
+            world->kinds[command->kind].domain != DOMAIN_MUNITION)
+            return COMMAND_NO_SUCH_KIND;
+        if (!within(command->value[0], 0.0, WORLD_SIDE_M) ||
+            !within(command->value[1], 0.0, WORLD_SIDE_M))
+            return COMMAND_OUT_OF_RANGE;
+        return weapons_drop(serial, command->kind, command->value[0], command->value[1])
+                   ? COMMAND_DONE
+                   : COMMAND_TABLE_FULL;
+    }
+    uint32_t row = vehicle_row(serial, command->entity);
+    uint32_t target = SLOT_NONE;
+    if (row == SLOT_NONE)
+        return COMMAND_NO_SUCH_ENTITY;
+    if (command->target != 0) {
+        target = vehicle_row(serial, command->target);
+        if (target == SLOT_NONE)
+            return COMMAND_NO_SUCH_ENTITY;
+    }
+    if (m->state[row] != ENTITY_ACTIVE || serial->move->tick < m->reload_tick[row])
+        return COMMAND_CANNOT;
+    return weapons_fire(serial, row, target, KIND_NONE) ? COMMAND_DONE : COMMAND_CANNOT;
+}
+
+static enum command_result spawn(struct serial *serial, const struct command *command,
+                                 uint32_t *made)
+{
+    const struct world *world = serial->move->world;
+    struct entities *m = &serial->moved->entities;
+    const double *v = command->value;
+    if (command->kind >= world->counts.kinds || world->kinds[command->kind].domain > DOMAIN_AIR)
+        return COMMAND_NO_SUCH_KIND;
+    const struct kind *kind = &world->kinds[command->kind];
+    if (!within(v[0], 0.0, WORLD_SIDE_M) || !within(v[1], 0.0, WORLD_SIDE_M) ||
+        !within(v[2], 0.0, 20000.0) || !within(v[3], -TWO_PI, TWO_PI) ||
+        !within(v[4], 0.0, 10000.0) || command->force >= FORCE_COUNT ||
+        command->amount > BEHAVIOUR_PATROL)
+        return COMMAND_OUT_OF_RANGE;
+    uint32_t row = spawn_entity(serial, command->kind, (uint8_t)command->force);
+    if (row == SLOT_NONE)
+        return COMMAND_TABLE_FULL;
+    double sine, cosine;
+    maths_sincos(v[3], &sine, &cosine);
+    struct vec3 position = {v[0], pose_ground(serial->move, v[0], v[1]), v[1]};
+    if (kind->domain == DOMAIN_AIR)
+        position.y += v[2] > 0.0 ? v[2] : kind->cruise_altitude_m;
+    entities_set_position(m, row, position);
+    entities_set_velocity(m, row, (struct vec3){v[4] * sine, 0.0, -v[4] * cosine});
+    m->heading[row] = maths_wrap_turn(v[3]);
+    m->behaviour[row] = m->order[row] = (uint8_t)command->amount;
+    m->goal_x[row] = v[0];
+    m->goal_z[row] = v[1];
+    *made = m->id[row];
+    return COMMAND_DONE;
+}
+
+static enum command_result control(struct serial *serial, const struct command *command)
+{
+    struct state_head *head = serial->moved->head;
+    switch ((enum command_type)command->type) {
+    case COMMAND_PAUSE:
+        head->paused = 1;
+        head->steps_left = 0;
+        return COMMAND_DONE;
+    case COMMAND_RESUME:
+        head->paused = 0;
+        head->steps_left = 0;
+        return COMMAND_DONE;
+    case COMMAND_STEP:
+        if (!head->paused)
+            return COMMAND_CANNOT;
+        if (command->amount < 1 || command->amount > 1000000)
+            return COMMAND_OUT_OF_RANGE;
+        head->steps_left += command->amount;
+        return COMMAND_DONE;
+    case COMMAND_SCALE:
+        if (!within(command->value[0], TIME_SCALE_MIN, TIME_SCALE_MAX))
+            return COMMAND_OUT_OF_RANGE;
+        head->time_scale = command->value[0];
+        return COMMAND_DONE;
+    case COMMAND_QUIT:
+        head->quit = 1;
+        return COMMAND_DONE;
+    default:
+        return COMMAND_UNKNOWN;
+    }
+}
+
+static enum command_result apply(struct serial *serial, const struct command *command,
+                                 uint32_t *entity)
+{
+    uint32_t row;
+    *entity = command->entity;
+    switch ((enum command_type)command->type) {
+    case COMMAND_DRIVE:
+        return drive(serial, command);
+    case COMMAND_RELEASE:
+        return release(serial, command);
+    case COMMAND_FIRE:
+        return fire(serial, command);
+    case COMMAND_SPAWN:
+        return spawn(serial, command, entity);
+    case COMMAND_REMOVE:
+        row = vehicle_row(serial, command->entity);
+        if (row == SLOT_NONE)
+            return COMMAND_NO_SUCH_ENTITY;
+        spawn_remove(serial, row);
+        return COMMAND_DONE;
+    default:
+        return control(serial, command);
+    }
+}
+
+static void apply_ring(struct serial *serial, const struct command_source *source, uint32_t ring)
+{
+    struct state_head *head = serial->moved->head;
+    uint64_t *cursor = &head->command_cursor[ring];
+    for (int n = 0; n < COMMANDS_A_FRAME && *cursor < source->end; n++) {
+        const struct command *command = &source->slot[*cursor & (source->slots - 1)];
+        /* An answer must have room, with one more for what the command itself says. */
+        if (head->intent_count + 2 > serial->move->world->params->intents_per_frame)
+            return;
+        uint32_t entity = 0;
+        enum command_result result = apply(serial, command, &entity);
+        struct event *event = serial_intent(serial, EVENT_COMMAND);
+        event->command = (struct event_command){
+            command->source, command->source_sequence, command->type, result, entity, ring};
+        head->tally.commands++;
+        ++*cursor;
+    }
+}
+
+void commands_apply(struct serial *serial, const struct command_source *sources)
+{
+    for (uint32_t ring = 0; ring < COMMAND_RING_COUNT; ring++)
+        apply_ring(serial, &sources[ring], ring);
+}

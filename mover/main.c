@@ -1,0 +1,45 @@
+/* jolon-mover: paces the frames and moves every vehicle and munition. Writes the moved table. */
+#include "ipc/frame.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+#include "mover/step.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/prctl.h>
+
+int main(int argc, char **argv)
+{
+    struct stage_options options = process_stage_options(argc, argv, "jolon-mover");
+    struct command_source sources[COMMAND_RING_COUNT];
+    struct view view;
+    struct reason reason;
+    struct mover mover;
+    struct frame frame;
+
+    log_open("mover");
+    process_signals();
+    process_die_with_parent(options.parent);
+    prctl(PR_SET_TIMERSLACK, 1000); /* [ns] a frame begins when it is due, not 50 us later */
+    if (segment_attach(&view, options.world, ROLE_MOVER, &reason) != 0)
+        die_refused("%s", reason.text);
+    struct workers *workers = workers_create(options.threads);
+    if (!workers || mover_init(&mover, &view.world, view.w[0].craters, workers) != 0)
+        die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
+    segment_ready(&view);
+    log_info("moves world \"%s\" on %u thread(s)", view.name, options.threads);
+
+    while (frame_mover_begin(&frame, &view) == 0) {
+        for (int i = 0; i < COMMAND_RING_COUNT; i++)
+            sources[i] = (struct command_source){view.commands[i]->slot, view.header->command_slots,
+                                                 frame.command_head[i]};
+        if (mover_step(&mover, &view.w[(frame.number - 1) & 1], &view.m, sources) != 0)
+            die_refused("out of memory for the index of craters");
+        frame_mover_end(&frame, &view);
+    }
+
+    mover_free(&mover);
+    workers_destroy(workers);
+    segment_detach(&view);
+    return EXIT_OK;
+}

@@ -1,0 +1,62 @@
+/* What moving one entity needs, and the motions by domain. Each function reads the committed world
+ * and writes row i of the moved table only, so rows may be moved in any order, by any thread. */
+#ifndef JOLON_MOVER_MOVE_H
+#define JOLON_MOVER_MOVE_H
+
+#include "world/world.h"
+
+struct move {
+    const struct world *world;
+    const struct crater_index *craters;
+    const struct state *committed;
+    struct entities *m;
+    uint64_t tick; /* that this frame reaches */
+    double dt_s;
+};
+
+/* What an agent, or a player, wants of a vehicle this frame. */
+struct wish {
+    double heading_rad;
+    double speed_mps;  /* negative: backwards */
+    double altitude_m; /* aircraft: above the ground */
+};
+
+#define GRAVITY_MPS2 9.80665
+
+/* trigger column: what a row asks of the step's second, serial half. */
+#define TRIGGER_FIRE         1u
+#define TRIGGER_REASON_SHIFT 1u /* enum agent_reason + 1 above it: its behaviour changed */
+
+/* land.c, sea.c, air.c: true when the way is blocked (water, land, slope, the world's edge). */
+bool move_land(const struct move *move, uint32_t i, const struct wish *wish);
+bool move_sea(const struct move *move, uint32_t i, const struct wish *wish);
+bool move_air(const struct move *move, uint32_t i, const struct wish *wish);
+
+/* hold.c: keeps velocity whatever comes; wrecks slide and fall to rest. */
+void move_hold(const struct move *move, uint32_t i);
+void move_wreck(const struct move *move, uint32_t i);
+
+/* flight.c: munitions. */
+void move_flight(const struct move *move, uint32_t i);
+
+/* agent.c: thinks for row i; true when the row moves by the wish. */
+bool agent_think(const struct move *move, uint32_t i, struct wish *wish);
+
+/* The agent hears that its way is blocked. */
+void agent_blocked(const struct move *move, uint32_t i);
+
+/* pose.c: shared by the motions. */
+double pose_ground(const struct move *move, double x, double z);
+/* Heading turned towards wanted by at most rate_rps * dt. */
+double pose_turn(double heading, double wanted, double rate_rps, double dt_s);
+/* Pitch and roll [rad] of a body of the kind's length and width on the ground. */
+void pose_on_ground(const struct move *move, uint32_t i);
+/* Speed [m/s] along the heading, and to its right. */
+void pose_speeds(const struct entities *m, uint32_t i, double *forward, double *rightward);
+/* Value moved towards wanted by at most step. */
+double pose_approach(double value, double wanted, double step);
+/* Burns fuel at a share of full throttle; false when the tank is empty. A kind without a tank
+ * (fuel_l 0) never runs dry. */
+bool pose_burn(const struct move *move, uint32_t i, double share);
+
+#endif

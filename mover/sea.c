@@ -1,0 +1,54 @@
+/* Ships: they keep to the water. */
+#include "mover/move.h"
+
+#include "world/square.h"
+
+#define KEEL_DRAG_MPS2 2.0 /* how hard a sideways slide is braked */
+
+static bool navigable(const struct move *move, double x, double z)
+{
+    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M &&
+           cover_is_water(terrain_cover(&move->world->terrain, x, z));
+}
+
+bool move_sea(const struct move *move, uint32_t i, const struct wish *wish)
+{
+    struct entities *m = move->m;
+    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    double forward, rightward, sine, cosine;
+    bool blocked = false;
+    pose_speeds(m, i, &forward, &rightward);
+
+    /* A rudder bites with the way a ship has. */
+    double bite = maths_clamp(fabs(forward) / maths_max(kind->max_speed_mps, 1e-9), 0.15, 1.0);
+    m->heading[i] =
+        pose_turn(m->heading[i], wish->heading_rad, kind->turn_rate_rps * bite, move->dt_s);
+    maths_sincos(m->heading[i], &sine, &cosine);
+
+    double wanted = maths_clamp(wish->speed_mps, -0.5 * kind->max_speed_mps, kind->max_speed_mps);
+    if (!pose_burn(move, i, fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9)))
+        wanted = 0.0;
+    forward = pose_approach(forward, wanted, kind->acceleration_mps2 * move->dt_s);
+    rightward = pose_approach(rightward, 0.0, KEEL_DRAG_MPS2 * move->dt_s);
+
+    double vx = forward * sine + rightward * cosine;
+    double vz = -forward * cosine + rightward * sine;
+    double x = m->x[i] + vx * move->dt_s;
+    double z = m->z[i] + vz * move->dt_s;
+    double bow = (forward < 0.0 ? -0.5 : 0.5) * kind->length_m;
+    if (!navigable(move, x + sine * bow, z - cosine * bow)) {
+        blocked = true;
+        x = m->x[i];
+        z = m->z[i];
+        vx = vz = 0.0;
+    }
+    m->vx[i] = vx;
+    m->vy[i] = 0.0;
+    m->vz[i] = vz;
+    m->x[i] = x;
+    m->z[i] = z;
+    m->y[i] = pose_ground(move, x, z); /* water's posts hold the surface */
+    m->pitch[i] = 0.0;
+    m->roll[i] = 0.0;
+    return blocked;
+}

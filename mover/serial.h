@@ -1,0 +1,32 @@
+/* The step's serial half: what reaches beyond one row (new entities, shots, answers to commands),
+ * done in a fixed order after every row has been moved. */
+#ifndef JOLON_MOVER_SERIAL_H
+#define JOLON_MOVER_SERIAL_H
+
+#include "mover/move.h"
+#include "mover/step.h"
+
+struct serial {
+    const struct move *move;
+    struct moved *moved;
+};
+
+/* spawn.c: a free row made into an active entity of this kind at rest, SLOT_NONE when the table is
+ * full (counted in the tally). Life, ids and counts are set; the caller places it. */
+uint32_t spawn_entity(struct serial *serial, uint16_t kind, uint8_t force);
+void spawn_remove(struct serial *serial, uint32_t row);
+
+/* Appends an intent and returns it zeroed but for its type; NULL when the frame has no room. */
+struct event *serial_intent(struct serial *serial, enum event_type type);
+struct event_party serial_party(const struct serial *serial, uint32_t row);
+
+/* weapons.c: row fires its munition at target's row, or ahead when SLOT_NONE. False when it has no
+ * munition or no room for another entity or event; nothing has changed then. */
+bool weapons_fire(struct serial *serial, uint32_t shooter, uint32_t target, uint16_t munition);
+/* A munition of this kind falls on the ground at (x, z). */
+bool weapons_drop(struct serial *serial, uint16_t munition, double x, double z);
+
+/* commands.c: applies what the rings hold, before anything moves. */
+void commands_apply(struct serial *serial, const struct command_source *sources);
+
+#endif

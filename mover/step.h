@@ -1,0 +1,32 @@
+/* The mover's step: from committed world k to the moved table k + 1. Pure: no IPC, no clock, no
+ * I/O; the same bytes on any number of threads. */
+#ifndef JOLON_MOVER_STEP_H
+#define JOLON_MOVER_STEP_H
+
+#include "world/workers.h"
+#include "world/world.h"
+
+/* One command ring as the step sees it: commands sequence .. end - 1 may be taken. */
+struct command_source {
+    const struct command *slot;
+    uint64_t slots; /* power of two */
+    uint64_t end;
+};
+
+struct mover {
+    const struct world *world;
+    struct crater_index craters; /* cache of the committed craters */
+    struct workers *workers;     /* NULL: alone */
+};
+
+/* craters: the world's list. 0, or -1 with errno ENOMEM. workers may be NULL and stays the
+ * caller's. */
+int mover_init(struct mover *mover, const struct world *world, const struct crater *craters,
+               struct workers *workers);
+void mover_free(struct mover *mover);
+
+/* Fills moved from the committed state and the commands. 0, or -1 with errno ENOMEM. */
+int mover_step(struct mover *mover, const struct state *committed, struct moved *moved,
+               const struct command_source sources[COMMAND_RING_COUNT]);
+
+#endif

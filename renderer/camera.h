@@ -1,0 +1,54 @@
+/* The camera: where the picture is taken from, and what of the world can be in it. Pure.
+ *
+ * Positions stay in double precision; the matrix takes metres relative to the eye, so that 50 km
+ * of world lose nothing in float. */
+#ifndef JOLON_RENDERER_CAMERA_H
+#define JOLON_RENDERER_CAMERA_H
+
+#include "world/terrain.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define CAMERA_FIELD_OF_VIEW_RAD (60.0 * RAD_PER_DEG) /* from left to right at 16:9 */
+#define CAMERA_FAR_M             90000.0
+#define CAMERA_CLEARANCE_M       2.5 /* at least so high above the ground */
+
+struct camera {
+    struct vec3 eye;                /* [m, world] */
+    struct vec3 forward, right, up; /* unit, world */
+    double tan_x, tan_y;            /* of half the fields of view */
+    double near_m, far_m;
+    uint32_t width, height; /* [pixel] */
+    double focal_pixels;    /* a metre at a metre's distance */
+    float matrix[16];       /* eye-relative metres to clip space, column by column */
+};
+
+/* What a chase camera hangs behind. */
+struct camera_subject {
+    struct vec3 position;
+    double heading_rad, pitch_rad, radius_m;
+};
+
+/* Looks from eye to target (never straight up or down), level. */
+void camera_look(struct camera *camera, struct vec3 eye, struct vec3 target, uint32_t width,
+                 uint32_t height);
+
+/* Behind and above the subject, looking slightly beyond it: 25 m back and 9 m up for a tank, more
+ * for larger bodies; above the ground by CAMERA_CLEARANCE_M at least, with a free line of sight to
+ * the subject. */
+void camera_chase(struct camera *camera, const struct camera_subject *subject,
+                  const struct terrain *terrain, const struct crater_index *craters,
+                  uint32_t width, uint32_t height);
+
+/* Can any of this ball be in the picture? Never false for one that is. */
+bool camera_sees(const struct camera *camera, struct vec3 centre, double radius_m);
+
+/* How large a length shows at a distance [pixel]. */
+static inline double camera_pixels(const struct camera *camera, double length_m,
+                                   double distance_m)
+{
+    return length_m * camera->focal_pixels / maths_max(distance_m, camera->near_m);
+}
+
+#endif

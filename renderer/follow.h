@@ -1,0 +1,26 @@
+/* Which vehicle the camera follows. Pure. */
+#ifndef JOLON_RENDERER_FOLLOW_H
+#define JOLON_RENDERER_FOLLOW_H
+
+#include "renderer/effects.h"
+#include "renderer/moment.h"
+
+#include <stdint.h>
+
+#define FOLLOW_KEEP_S  12.0 /* a vehicle that was picked is kept so long ... */
+#define FOLLOW_WRECK_S 5.0  /* ... and as a wreck so long, to see it burn */
+
+struct follow {
+    uint32_t id;    /* 0: none yet */
+    double since_s; /* of simulation */
+    double dead_s;  /* when it was first seen as a wreck; 0: it lives */
+};
+
+/* Slot of the vehicle to follow: that of wanted_id while it exists; else the one being followed,
+ * while it lives and its time is not over; else the liveliest: on land, moving, in company, near
+ * what just happened. The same moment and history give the same choice. SLOT_NONE when there is no
+ * vehicle. */
+uint32_t follow_choose(struct follow *follow, const struct moment *moment,
+                       const struct effects *effects, uint32_t wanted_id);
+
+#endif

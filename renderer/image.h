@@ -1,0 +1,40 @@
+/* Pictures in memory and the few smooth-edged shapes that maps and instruments need. Pure. */
+#ifndef JOLON_RENDERER_IMAGE_H
+#define JOLON_RENDERER_IMAGE_H
+
+#include <stdint.h>
+
+struct image {
+    uint32_t width, height;
+    uint8_t *pixels; /* RGBA, rows from the top; owned */
+};
+
+struct rgba {
+    uint8_t r, g, b, a;
+};
+
+struct point {
+    double x, y; /* [pixel] from the top left corner; pixel centres lie at halves */
+};
+
+/* A black picture. 0, or -1 with errno ENOMEM. */
+int image_init(struct image *image, uint32_t width, uint32_t height);
+void image_free(struct image *image);
+
+/* Everything below clips to the picture and blends by the colour's alpha. */
+void image_blend(struct image *image, int32_t x, int32_t y, struct rgba colour, float coverage);
+void image_rectangle(struct image *image, int32_t x, int32_t y, int32_t width, int32_t height,
+                     struct rgba colour);
+void image_line(struct image *image, struct point from, struct point to, double width,
+                struct rgba colour);
+void image_disc(struct image *image, struct point centre, double radius, struct rgba colour);
+void image_ring(struct image *image, struct point centre, double radius, double width,
+                struct rgba colour);
+/* A convex polygon of 3 to 8 corners, in either sense of turn. */
+void image_polygon(struct image *image, const struct point *corners, uint32_t count,
+                   struct rgba colour);
+
+/* Copies all of from to (x, y) of to. */
+void image_copy(struct image *to, const struct image *from, int32_t x, int32_t y);
+
+#endif

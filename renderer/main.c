@@ -1,0 +1,117 @@
+/* jolon-renderer: draws a running world off-screen. It copies committed frames at its own rate;
+ * the simulation never waits for it, and it leaves the processor to it. */
+#include "ipc/clock.h"
+#include "ipc/frame.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+#include "renderer/options.h"
+#include "renderer/pulse.h"
+#include "renderer/studio.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#define NICENESS         12          /* far behind the frame loop */
+#define LOOK_INTERVAL_NS 500000000u  /* between two looks at the world when no picture is due */
+#define WAIT_NS          100000000u  /* the longest wait without a look at the signals */
+
+/* Statistics of one picture for jolon status; nobody depends on them. */
+static void account(struct view *view, const struct studio *studio, uint64_t begun_ns)
+{
+    struct role_slot *slot = view->slot[view->role];
+    uint64_t took = clock_now_ns() - begun_ns;
+    atomic_store_explicit(&slot->frame, studio->seen, memory_order_relaxed);
+    atomic_store_explicit(&slot->stage_ns, took, memory_order_relaxed);
+    atomic_store_explicit(&slot->gaps, studio->events.gap, memory_order_relaxed);
+    histogram_add(&slot->stage, took);
+}
+
+/* Waits for the next picture's time or the end of the run, looking at the world meanwhile. */
+static int wait_for_next(struct studio *studio, struct view *view, struct reason *reason)
+{
+    uint64_t now, look_ns = clock_now_ns() + LOOK_INTERVAL_NS, due_ns = studio_due_ns(studio);
+    while ((now = clock_now_ns()) < due_ns && !process_stopping() && !frame_finished(view)) {
+        uint64_t until = now + WAIT_NS < due_ns ? now + WAIT_NS : due_ns;
+        clock_sleep_until_ns(until);
+        pulse_stage(studio->pulse);
+        if (now >= look_ns) {
+            look_ns = now + LOOK_INTERVAL_NS;
+            if (studio_look(studio, reason) != 0)
+                return -1;
+        }
+    }
+    return studio_look(studio, reason);
+}
+
+static int run(struct studio *studio, struct view *view, struct reason *reason)
+{
+    bool last = false;
+    while (!last) {
+        last = process_stopping() || frame_finished(view);
+        if (!last) {
+            if (wait_for_next(studio, view, reason) != 0)
+                return -1;
+            last = process_stopping() || frame_finished(view);
+        }
+        /* The look that belongs to the last picture comes after the run's end was seen. */
+        if (last && studio_look(studio, reason) != 0)
+            return -1;
+        uint64_t begun_ns = clock_now_ns();
+        if (studio_draw(studio, reason) != 0)
+            return -1;
+        account(view, studio, begun_ns);
+    }
+    return 0;
+}
+
+/* One picture of the present frame, without a role. */
+static int snap(struct studio *studio, struct reason *reason)
+{
+    return studio_look(studio, reason) == 0 && studio_draw(studio, reason) == 0 ? 0 : -1;
+}
+
+int main(int argc, char **argv)
+{
+    static struct studio studio;
+    struct options options;
+    struct view view;
+    struct pulse pulse;
+    struct reason reason;
+
+    options_read(&options, argc, argv);
+    bool snapping = options.snap != NULL;
+    log_open(snapping ? "renderer" : role_name(options.role));
+    process_signals();
+    if (options.parent_pid != 0)
+        process_die_with_parent(options.parent_pid);
+    if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &reason) != 0)
+        die_refused("%s", reason.text);
+    /* The pulse keeps its priority; drawing, and the threads of the OpenGL driver, get out of the
+     * frame loop's way. */
+    if (!snapping && pulse_start(&pulse, &view) != 0)
+        die_refused("cannot start a thread: %s", strerror(errno));
+    if (setpriority(PRIO_PROCESS, 0, NICENESS) != 0)
+        log_warn("cannot lower its priority: %s", strerror(errno));
+    setenv("LP_NUM_THREADS", "1", 0);
+
+    if (studio_open(&studio, &view, &pulse, &options, &reason) != 0)
+        die_refused("%s", reason.text);
+    int result;
+    if (snapping) {
+        result = snap(&studio, &reason);
+    } else {
+        segment_ready(&view);
+        log_info("draws world \"%s\" into %s: %s, %ux%u, %.3g pictures a second", view.name,
+                 options.out, view_mode_name((enum view_mode)studio.options.view),
+                 studio.options.width, studio.options.height, studio.options.fps);
+        result = run(&studio, &view, &reason);
+        pulse_stop(&pulse);
+    }
+    if (result != 0)
+        die_refused("%s", reason.text);
+    studio_close(&studio);
+    segment_detach(&view);
+    return EXIT_OK;
+}

@@ -1,0 +1,35 @@
+/* Where pictures go: a folder with the latest picture of each view and the last of them by frame
+ * number. */
+#ifndef JOLON_RENDERER_OUTPUT_H
+#define JOLON_RENDERER_OUTPUT_H
+
+#include "ipc/segment.h"
+#include "renderer/image.h"
+
+#include <stdint.h>
+
+#define OUTPUT_KEPT 120u /* numbered pictures of a view; older ones are removed: about 150 MB */
+
+struct output_row {
+    uint64_t frame[OUTPUT_KEPT]; /* of the numbered pictures this process wrote */
+    uint64_t written;
+};
+
+struct output {
+    const char *folder;
+    struct output_row chase, map;
+};
+
+/* Makes the folder if need be, and tries that it can be written to. 0, or -1 with the reason. */
+int output_open(struct output *output, const char *folder, struct reason *reason);
+
+/* Writes "VIEW-FRAME.png" and makes "VIEW.png" the same picture, each in one step: a reader never
+ * finds half a picture. view is "chase" or "map". 0, or -1 with the reason. */
+int output_picture(struct output *output, const char *view, const struct image *image,
+                   uint64_t frame, const char *comment, struct reason *reason);
+
+/* Writes one picture to a path. 0, or -1 with the reason. */
+int output_file(const char *path, const struct image *image, const char *comment,
+                struct reason *reason);
+
+#endif

@@ -1,0 +1,126 @@
+/* The entities of a frame onto their topic. */
+#include "reporter/batch.h"
+
+#include "ipc/clock.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+_Static_assert(BATCH_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/status.idl");
+_Static_assert((int)jolon_ENTITY_FREE == (int)ENTITY_FREE &&
+                   (int)jolon_ENTITY_WRECK == (int)ENTITY_WRECK,
+               "entity states in ipc/status.idl");
+
+int batch_open(struct batch *batch, const struct view *view, const struct dds_link *link,
+               uint64_t run, struct reason *reason)
+{
+    uint32_t capacity = view->header->capacity;
+    *batch = (struct batch){.room = capacity < BATCH_PART ? capacity : BATCH_PART};
+    batch->wire.run = run;
+    batch->writer = dds_topics_writer(link, TOPIC_ENTITIES, reason);
+    if (batch->writer < 0)
+        return -1;
+    batch->entity = calloc(batch->room, sizeof *batch->entity);
+    if (!batch->entity || snapshot_init(&batch->snapshot, view) != 0) {
+        free(batch->entity);
+        batch->entity = NULL;
+        return reason_set(reason, "entities: no memory for %u: %s", capacity, strerror(errno));
+    }
+    return 0;
+}
+
+void batch_close(struct batch *batch)
+{
+    snapshot_free(&batch->snapshot);
+    free(batch->entity);
+    batch->entity = NULL;
+}
+
+static void fill(jolon_Entity *to, const struct entities *from, uint32_t row)
+{
+    *to = (jolon_Entity){
+        .id = from->id[row],
+        .kind = from->kind[row],
+        .state = (jolon_EntityState)from->state[row],
+        .force = (jolon_Force)from->force[row],
+        .behaviour = (jolon_Behaviour)from->behaviour[row],
+        .damage = (jolon_Damage)from->damage[row],
+        .x_m = from->x[row],
+        .y_m = from->y[row],
+        .z_m = from->z[row],
+        .vx_mps = (float)from->vx[row],
+        .vy_mps = (float)from->vy[row],
+        .vz_mps = (float)from->vz[row],
+        .heading_rad = (float)from->heading[row],
+        .pitch_rad = (float)from->pitch[row],
+        .roll_rad = (float)from->roll[row],
+        .target = from->target_id[row],
+        .rounds = from->rounds[row],
+        .fuel_l = (float)from->fuel_l[row],
+    };
+}
+
+static uint32_t count_entities(const struct snapshot *snapshot)
+{
+    uint32_t count = 0;
+    for (uint32_t row = 0; row < snapshot->head.used; row++)
+        count += snapshot->entities.state[row] != ENTITY_FREE;
+    return count;
+}
+
+static bool anybody_reads(const struct batch *batch)
+{
+    dds_publication_matched_status_t matched;
+    return dds_get_publication_matched_status(batch->writer, &matched) >= 0 &&
+           matched.current_count > 0;
+}
+
+/* A new snapshot, to be written from its first row; false when there is none to be had. */
+static bool begin(struct batch *batch, const struct view *view)
+{
+    const struct state_head *head = &batch->snapshot.head;
+    if (snapshot_take(&batch->snapshot, view) != 0)
+        return false;
+    batch->wire.frame = head->frame;
+    batch->wire.sim_time_s = world_time_s(&view->world, head);
+    batch->wire.total = count_entities(&batch->snapshot);
+    batch->wire.part = 0;
+    batch->wire.parts = batch->wire.total ? (batch->wire.total + batch->room - 1) / batch->room : 1;
+    batch->row = 0;
+    return true;
+}
+
+static void write_part(struct batch *batch)
+{
+    const struct snapshot *snapshot = &batch->snapshot;
+    uint32_t count = 0;
+    for (; batch->row < snapshot->head.used && count < batch->room; batch->row++) {
+        if (snapshot->entities.state[batch->row] != ENTITY_FREE)
+            fill(&batch->entity[count++], &snapshot->entities, batch->row);
+    }
+    batch->wire.entities._buffer = batch->entity;
+    batch->wire.entities._length = batch->wire.entities._maximum = count;
+    (void)dds_write(batch->writer, &batch->wire); /* the next batch makes up for a lost one */
+    batch->busy = ++batch->wire.part < batch->wire.parts;
+}
+
+bool batch_publish(struct batch *batch, const struct view *view, uint64_t now_ns)
+{
+    if (!batch->busy) {
+        if (now_ns < batch->due_ns)
+            return false;
+        batch->due_ns += BATCH_PERIOD_NS;
+        if (batch->due_ns <= now_ns)
+            batch->due_ns = now_ns + BATCH_PERIOD_NS;
+        if (!anybody_reads(batch) || !begin(batch, view))
+            return false;
+        batch->begun_ns = now_ns;
+        batch->spent_ns = 0;
+    }
+    write_part(batch);
+    batch->spent_ns += clock_now_ns() - now_ns;
+    if (batch->spent_ns * BATCH_SHARE > BATCH_PERIOD_NS)
+        batch->due_ns = batch->begun_ns + batch->spent_ns * BATCH_SHARE;
+    return batch->busy;
+}

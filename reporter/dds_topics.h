@@ -1,0 +1,39 @@
+/* The topics: one table of their names, types and qualities of service, used by both ends.
+ *
+ * All are RELIABLE, TRANSIENT_LOCAL and KEEP_LAST with a bounded depth: a late reader gets the last
+ * samples, and a stopped or slow one never blocks the writer (KEEP_ALL would). */
+#ifndef JOLON_REPORTER_DDS_TOPICS_H
+#define JOLON_REPORTER_DDS_TOPICS_H
+
+#include "reporter/dds_link.h"
+
+enum dds_topic {
+    TOPIC_WORLD,
+    TOPIC_PROCESS,
+    TOPIC_FRAME,
+    TOPIC_ENTITIES,
+    TOPIC_COLLISION,
+    TOPIC_FIRE,
+    TOPIC_DETONATION,
+    TOPIC_CRATER,
+    TOPIC_AGENT,
+    TOPIC_COMMAND,
+    TOPIC_REPLY,
+    TOPIC_COUNT
+};
+
+/* A reader or writer of the topic in the link's partition; it ends with the link. The entity, or
+ * -1 with the reason. */
+dds_entity_t dds_topics_reader(const struct dds_link *link, enum dds_topic topic,
+                               struct reason *reason);
+dds_entity_t dds_topics_writer(const struct dds_link *link, enum dds_topic topic,
+                               struct reason *reason);
+
+/* A wait set that wakes when one of the readers has new samples. The entity, or -1 with reason. */
+dds_entity_t dds_topics_waitset(const struct dds_link *link, const dds_entity_t *readers,
+                                size_t count, struct reason *reason);
+
+/* Waits for new samples or the timeout. */
+void dds_topics_wait(dds_entity_t waitset, uint64_t timeout_ns);
+
+#endif

@@ -1,0 +1,42 @@
+/* Events: the event ring, in order and with none left out, onto the event topics; answers to
+ * commands among them go to the orders.
+ *
+ * At least once: a new reporter goes back to what its predecessor may not have delivered, and at
+ * least EVENTS_AGAIN events, so that late subscribers of its own find some history. */
+#ifndef JOLON_REPORTER_EVENTS_H
+#define JOLON_REPORTER_EVENTS_H
+
+#include "ipc/snapshot.h"
+#include "reporter/orders.h"
+
+#define EVENTS_AGAIN   4096u
+#define EVENTS_AGAIN_S 1.0 /* [s of simulation] before the predecessor's last frame */
+#define EVENTS_AT_ONCE 128u
+#define EVENTS_TOPICS  5u
+
+struct events {
+    dds_entity_t writer[EVENTS_TOPICS];
+    uint64_t previous[EVENTS_TOPICS]; /* sequence last seen for the topic; UINT64_MAX: none */
+    struct event_cursor cursor;
+    uint64_t publish_from;       /* events before this sequence are read for the book alone */
+    uint64_t publish_from_frame; /* ... unless their frame is at least this */
+    uint64_t run;
+    uint64_t frame; /* the last frame of which every event was published */
+    uint64_t logged_ns;
+    uint64_t gaps; /* events lost to the ring since the world began */
+    struct event event[EVENTS_AT_ONCE];
+};
+
+/* Makes the writers and finds the place to begin; -1 with the reason. */
+int events_open(struct events *events, const struct view *view, const struct dds_link *link,
+                uint64_t run, struct reason *reason);
+
+/* Publishes committed events until there are no more or the clock reaches until_ns. True when none
+ * was left. What DDS does not take stays for the next call. */
+bool events_publish(struct events *events, const struct view *view, struct orders *orders,
+                    uint64_t until_ns);
+
+/* Waits until the subscribers have what was published, or until until_ns. */
+void events_flush(const struct events *events, uint64_t until_ns);
+
+#endif

@@ -1,0 +1,141 @@
+/* jolon-reporter: the only process of a world with DDS. It publishes the status topics and takes
+ * commands into the command ring. The frame loop never waits for it, nor for whoever subscribes. */
+#include "ipc/clock.h"
+#include "ipc/frame.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+#include "reporter/batch.h"
+#include "reporter/events.h"
+#include "reporter/options.h"
+#include "reporter/orders.h"
+#include "reporter/report.h"
+
+#include <errno.h>
+#include <unistd.h>
+
+#define NICENESS 5
+
+/* Longest waits between two looks at the world: alone, and with a command under way. Both leave
+ * the heart beating more often than every 25 ms. */
+#define WAIT_NS         (10 * (uint64_t)NS_PER_MS)
+#define WAIT_COMMAND_NS (2 * (uint64_t)NS_PER_MS)
+
+/* How long one turn may be busy with events. */
+#define EVENTS_LIMIT_NS (10 * (uint64_t)NS_PER_MS)
+
+/* At the end: for the last events, and for subscribers to have them. */
+#define LAST_EVENTS_NS (500 * (uint64_t)NS_PER_MS)
+#define LAST_ACKS_NS   (200 * (uint64_t)NS_PER_MS)
+
+struct reporter {
+    struct view view;
+    struct dds_link link;
+    struct report report;
+    struct events events;
+    struct orders orders;
+    struct batch batch;
+    dds_entity_t waitset;
+    uint64_t frame_due_ns;
+};
+
+static int open_topics(struct reporter *reporter, struct reason *reason)
+{
+    const struct dds_link *link = &reporter->link;
+    struct view *view = &reporter->view;
+    if (report_open(&reporter->report, view, link, reason) != 0 ||
+        report_world(&reporter->report, view, reason) != 0 ||
+        events_open(&reporter->events, view, link, reporter->report.run, reason) != 0 ||
+        batch_open(&reporter->batch, view, link, reporter->report.run, reason) != 0 ||
+        orders_open(&reporter->orders, link, reason) != 0)
+        return -1;
+    reporter->waitset = dds_topics_waitset(link, &reporter->orders.reader, 1, reason);
+    return reporter->waitset < 0 ? -1 : 0;
+}
+
+/* What the processes and the frame say, ten times a second. */
+static void tell_status(struct reporter *reporter, uint64_t now_ns)
+{
+    if (now_ns < reporter->frame_due_ns)
+        return;
+    reporter->frame_due_ns += REPORT_PERIOD_NS;
+    if (reporter->frame_due_ns <= now_ns)
+        reporter->frame_due_ns = now_ns + REPORT_PERIOD_NS;
+    report_processes(&reporter->report, &reporter->view, now_ns);
+    report_frame(&reporter->report, &reporter->view, now_ns);
+}
+
+/* True when there is more to do at once. */
+static bool turn(struct reporter *reporter)
+{
+    struct role_slot *slot = reporter->view.slot[ROLE_REPORTER];
+    uint64_t begun_ns = clock_now_ns();
+    frame_beat(&reporter->view);
+    orders_take(&reporter->orders, &reporter->view);
+    bool more = !events_publish(&reporter->events, &reporter->view, &reporter->orders,
+                                begun_ns + EVENTS_LIMIT_NS);
+    tell_status(reporter, begun_ns);
+    more |= batch_publish(&reporter->batch, &reporter->view, clock_now_ns());
+    uint64_t stage_ns = clock_now_ns() - begun_ns;
+    log_frame(reporter->events.frame);
+    atomic_store_explicit(&slot->frame, reporter->events.frame, memory_order_relaxed);
+    atomic_store_explicit(&slot->gaps, reporter->events.gaps, memory_order_relaxed);
+    atomic_store_explicit(&slot->stage_ns, stage_ns, memory_order_relaxed);
+    histogram_add(&slot->stage, stage_ns);
+    return more;
+}
+
+/* Until the next turn, or until a command comes. */
+static void rest(const struct reporter *reporter)
+{
+    /* Commands that must stay in DDS would end the wait at once. */
+    if (reporter->orders.holding)
+        clock_sleep_until_ns(clock_now_ns() + WAIT_COMMAND_NS);
+    else
+        dds_topics_wait(reporter->waitset,
+                        orders_waiting(&reporter->orders) ? WAIT_COMMAND_NS : WAIT_NS);
+}
+
+/* What is committed goes out before the process ends, within bounds. */
+static void last_words(struct reporter *reporter)
+{
+    uint64_t now_ns = clock_now_ns();
+    atomic_store(&reporter->view.slot[ROLE_REPORTER]->state, ROLE_STOPPING);
+    (void)events_publish(&reporter->events, &reporter->view, &reporter->orders,
+                         now_ns + LAST_EVENTS_NS);
+    report_processes(&reporter->report, &reporter->view, now_ns);
+    report_frame(&reporter->report, &reporter->view, now_ns);
+    events_flush(&reporter->events, clock_now_ns() + LAST_ACKS_NS);
+}
+
+int main(int argc, char **argv)
+{
+    static struct reporter reporter;
+    struct reason reason;
+    log_open("reporter");
+    struct options options;
+    options_parse(&options, argc, argv);
+    process_die_with_parent(options.parent);
+    process_signals();
+    errno = 0;
+    if (nice(NICENESS) == -1 && errno)
+        log_warn("runs at normal priority: nice %d not allowed", NICENESS);
+    if (segment_attach(&reporter.view, options.world, ROLE_REPORTER, &reason) != 0)
+        die_refused("%s", reason.text);
+    if (dds_link_open(&reporter.link, &options.link, options.world, &reason) != 0 ||
+        open_topics(&reporter, &reason) != 0) {
+        segment_detach(&reporter.view);
+        die_refused("%s", reason.text);
+    }
+    segment_ready(&reporter.view);
+
+    while (!process_stopping()) {
+        if (!turn(&reporter))
+            rest(&reporter);
+    }
+
+    last_words(&reporter);
+    batch_close(&reporter.batch);
+    segment_detach(&reporter.view);
+    dds_link_close(&reporter.link, EXIT_OK);
+    return EXIT_OK;
+}

@@ -1,0 +1,45 @@
+/* Reports: what the world, its processes and its frames say of themselves.
+ *
+ * WorldInfo once, ProcessStatus of each role on change and once a second, FrameStatus as often as
+ * the caller asks. Reads the segment; writes nothing but DDS samples. */
+#ifndef JOLON_REPORTER_REPORT_H
+#define JOLON_REPORTER_REPORT_H
+
+#include "reporter/dds_topics.h"
+
+#include "status.h"
+
+#define REPORT_RATE_SAMPLES 11u /* of REPORT_PERIOD_NS: the frame rate over a second */
+#define REPORT_PERIOD_NS    100000000u
+
+struct report {
+    dds_entity_t world, process, frame; /* writers */
+    uint64_t run;                       /* of the world that view shows */
+    struct {
+        jolon_ProcessState state;
+        uint32_t pid;
+        uint64_t restarts;
+        uint64_t sent_ns; /* 0: never */
+    } told[ROLE_COUNT];
+    struct {
+        uint64_t at_ns, commit;
+    } rate[REPORT_RATE_SAMPLES];
+    uint32_t rate_next, rate_count;
+    uint64_t commit, advanced_ns; /* last commit seen, and when it was new */
+};
+
+/* Makes the writers; -1 with the reason. */
+int report_open(struct report *report, const struct view *view, const struct dds_link *link,
+                struct reason *reason);
+
+/* Writes WorldInfo; -1 with the reason when there is no memory for it. */
+int report_world(struct report *report, const struct view *view, struct reason *reason);
+
+/* Writes the ProcessStatus of each role that changed, or was not written for a second. */
+void report_processes(struct report *report, const struct view *view, uint64_t now_ns);
+
+/* Writes FrameStatus of the last committed frame. Every REPORT_PERIOD_NS: the frame rate is
+ * measured over the calls. */
+void report_frame(struct report *report, const struct view *view, uint64_t now_ns);
+
+#endif

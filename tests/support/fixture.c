@@ -1,0 +1,334 @@
+/* The shared fixture: throw-away configuration, a private world, the steps on it. */
+#include "tests/support/fixture.h"
+
+#include "config/loader.h"
+#include "world/random.h"
+
+#include <dirent.h>
+#include <ftw.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define SHAPE "bullet" /* the smallest shipped model */
+
+/* --- the data folder ---------------------------------------------------------------------------*/
+
+static char data_dir[64];
+static pid_t data_dir_owner;
+
+static bool holds_kinds(const char *folder)
+{
+    char kinds[PATH_MAX + 8];
+    struct stat status;
+    snprintf(kinds, sizeof kinds, "%s/kinds", folder);
+    return stat(kinds, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+/* The shipped config/: JOLON_DATA, or in a folder above the test's program. */
+static void find_shipped(char path[PATH_MAX])
+{
+    const char *given = getenv("JOLON_DATA");
+    if (given) {
+        assert_non_null(realpath(given, path));
+        return;
+    }
+    char self[PATH_MAX - 16];
+    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    assert_true(length > 0);
+    self[length] = '\0';
+    for (char *slash = strrchr(self, '/'); slash; slash = strrchr(self, '/')) {
+        *slash = '\0';
+        snprintf(path, PATH_MAX, "%s/config", self);
+        if (holds_kinds(path))
+            return;
+    }
+    fail_msg("no folder above the test's program has config/kinds; set JOLON_DATA to one");
+}
+
+static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *walk)
+{
+    (void)status, (void)type, (void)walk;
+    return remove(path);
+}
+
+/* Children of fork inherit the exit handler, but not the folder. */
+static void remove_data_dir(void)
+{
+    if (getpid() == data_dir_owner)
+        nftw(data_dir, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+}
+
+static void copy_kind(const char *from_path, const char *to_path)
+{
+    char line[256];
+    FILE *from = fopen(from_path, "r"), *to = fopen(to_path, "w");
+    assert_true(from && to);
+    while (fgets(line, sizeof line, from))
+        fputs(strncmp(line, "model ", 6) == 0 ? "model = \"" SHAPE "\";\n" : line, to);
+    fclose(from);
+    assert_int_equal(fclose(to), 0);
+}
+
+static void copy_kinds(const char *shipped)
+{
+    char from[PATH_MAX + 300], to[PATH_MAX];
+    struct dirent **entries;
+    snprintf(from, sizeof from, "%s/kinds", shipped);
+    int count = scandir(from, &entries, NULL, NULL);
+    assert_true(count > 0);
+    for (int i = 0; i < count; i++) {
+        if (strstr(entries[i]->d_name, ".cfg")) {
+            snprintf(from, sizeof from, "%s/kinds/%s", shipped, entries[i]->d_name);
+            snprintf(to, sizeof to, "%s/kinds/%s", data_dir, entries[i]->d_name);
+            copy_kind(from, to);
+        }
+        free(entries[i]);
+    }
+    free(entries);
+}
+
+const char *fixture_data_dir(void)
+{
+    char shipped[PATH_MAX], path[PATH_MAX + 16], link[PATH_MAX];
+    if (data_dir[0] != '\0')
+        return data_dir;
+    find_shipped(shipped);
+    snprintf(data_dir, sizeof data_dir, "/tmp/jolon-test-XXXXXX");
+    assert_non_null(mkdtemp(data_dir));
+    data_dir_owner = getpid();
+    atexit(remove_data_dir);
+    snprintf(path, sizeof path, "%s/kinds", data_dir);
+    assert_int_equal(mkdir(path, 0700), 0);
+    snprintf(path, sizeof path, "%s/models", shipped);
+    snprintf(link, sizeof link, "%s/models", data_dir);
+    assert_int_equal(symlink(path, link), 0);
+    copy_kinds(shipped);
+    return data_dir;
+}
+
+/* --- scenarios and worlds ----------------------------------------------------------------------*/
+
+static const char *unless(const char *text, const char *group, const char *fallback)
+{
+    return strstr(text, group) ? "" : fallback;
+}
+
+void fixture_scenario(struct scenario *scenario, const char *text)
+{
+    struct loader_message message;
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, "%s/scenario-XXXXXX", fixture_data_dir());
+    int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    FILE *file = fdopen(fd, "w");
+    assert_non_null(file);
+    fprintf(file, "%s%s%s\n", unless(text, "world =", "world = { seed = 1; capacity = 64; };\n"),
+            unless(text, "terrain =",
+                   "terrain = { source = \"flat\"; height_m = 100.0; spacing_m = 125.0; };\n"),
+            text);
+    assert_int_equal(fclose(file), 0);
+    int result = loader_scenario(scenario, data_dir, path, NULL, 0, &message);
+    unlink(path);
+    if (result != 0)
+        fail_msg("the test's scenario is refused: %s", message.text);
+}
+
+void fixture_open(struct fixture *fixture, const char *text)
+{
+    struct reason reason;
+    char message[512];
+    memset(fixture, 0, sizeof *fixture);
+    fixture_scenario(&fixture->scenario, text);
+    if (genesis_build(&fixture->genesis, &fixture->scenario, message, sizeof message) != 0)
+        fail_msg("the test's world is refused: %s", message);
+    struct segment_header header =
+        segment_header_for(&fixture->scenario.params, &fixture->genesis.counts);
+    if (segment_private(&fixture->view, &header, &reason) != 0)
+        fail_msg("%s", reason.text);
+    segment_fill(&fixture->view, &fixture->genesis);
+    fixture_threads(fixture, 1);
+}
+
+static void free_steps(struct fixture *fixture)
+{
+    if (!fixture->workers)
+        return;
+    mover_free(&fixture->mover);
+    collider_free(&fixture->collider);
+    workers_destroy(fixture->workers);
+    fixture->workers = NULL;
+}
+
+void fixture_threads(struct fixture *fixture, uint32_t threads)
+{
+    const struct world *world = &fixture->view.world;
+    const struct crater *craters = fixture->view.w[0].craters;
+    free_steps(fixture);
+    fixture->workers = workers_create(threads);
+    assert_non_null(fixture->workers);
+    assert_int_equal(mover_init(&fixture->mover, world, craters, fixture->workers), 0);
+    assert_int_equal(collider_init(&fixture->collider, world, craters, fixture->workers), 0);
+}
+
+void fixture_close(struct fixture *fixture)
+{
+    free_steps(fixture);
+    segment_abandon(&fixture->view);
+    genesis_free(&fixture->genesis);
+    scenario_free(&fixture->scenario);
+}
+
+/* --- entities ----------------------------------------------------------------------------------*/
+
+uint16_t fixture_kind(const struct fixture *fixture, const char *name)
+{
+    const struct world *world = &fixture->view.world;
+    uint16_t kind = kind_find(world->kinds, world->counts.kinds, name);
+    if (kind == KIND_NONE)
+        fail_msg("no kind is called %s", name);
+    return kind;
+}
+
+static uint64_t committed(const struct fixture *fixture)
+{
+    return atomic_load(&fixture->view.commit->commit);
+}
+
+struct state fixture_state(const struct fixture *fixture)
+{
+    return fixture->view.w[committed(fixture) & 1];
+}
+
+uint32_t fixture_put(struct fixture *fixture, struct fixture_entity entity)
+{
+    const struct world *world = &fixture->view.world;
+    struct state state = fixture_state(fixture);
+    struct state_head *head = state.head;
+    const struct entities *e = &state.entities;
+    uint16_t kind_index = fixture_kind(fixture, entity.kind);
+    const struct kind *kind = &world->kinds[kind_index];
+    bool round = kind->domain == DOMAIN_MUNITION;
+    struct vec3 v = entity.velocity;
+    uint32_t row = head->used;
+    assert_true(row < e->capacity);
+    assert_int_equal(head->next_id, row + 1); /* slot i holds id i + 1 until the first is freed */
+    entities_clear(e, row);
+    entities_set_position(e, row, entity.at);
+    entities_set_velocity(e, row, v);
+    e->heading[row] =
+        v.x != 0.0 || v.z != 0.0 ? maths_heading(v.x, v.z) : maths_wrap_turn(entity.heading_rad);
+    e->id[row] = row + 1;
+    e->kind[row] = kind_index;
+    e->state[row] = ENTITY_ACTIVE;
+    e->force[row] = (uint8_t)entity.force;
+    e->behaviour[row] = (uint8_t)(entity.behaviour != BEHAVIOUR_IDLE ? entity.behaviour
+                                  : round                            ? BEHAVIOUR_FLIGHT
+                                                                     : BEHAVIOUR_HOLD);
+    e->order[row] = e->behaviour[row];
+    e->goal_x[row] = entity.at.x;
+    e->goal_z[row] = entity.at.z;
+    e->fuel_l[row] = kind->fuel_l;
+    e->rounds[row] = kind->rounds;
+    e->owner_slot[row] = entity.owner_slot;
+    e->owner_id[row] = entity.owner_id;
+    e->born_tick[row] = (uint32_t)head->tick;
+    if (round)
+        e->until_tick[row] = (uint32_t)(head->tick + (uint64_t)(kind->life_s * world->params->hz));
+    head->used++;
+    head->next_id++;
+    head->alloc_next = head->used;
+    *(round ? &head->munitions : &head->vehicles) += 1;
+    head->checksum = state_checksum(head, e);
+    return row;
+}
+
+/* --- frames ------------------------------------------------------------------------------------*/
+
+void fixture_run(struct fixture *fixture, uint32_t frames)
+{
+    struct view *view = &fixture->view;
+    const struct event_ring ring = {view->events, view->header->event_slots};
+    struct command_source sources[COMMAND_RING_COUNT];
+    for (uint32_t n = 0; n < frames; n++) {
+        uint64_t frame = committed(fixture) + 1;
+        const struct state *now = &view->w[(frame - 1) & 1];
+        for (int i = 0; i < COMMAND_RING_COUNT; i++)
+            sources[i] =
+                (struct command_source){view->commands[i]->slot, view->header->command_slots,
+                                        atomic_load(&view->commands[i]->head)};
+        assert_int_equal(mover_step(&fixture->mover, now, &view->m, sources), 0);
+        atomic_store(&view->moved_word->moved, frame);
+        atomic_store(&view->commit->writing, frame);
+        assert_int_equal(
+            collider_step(&fixture->collider, now, &view->m, &view->w[frame & 1], &ring), 0);
+        atomic_store(&view->commit->commit, frame);
+    }
+}
+
+uint64_t fixture_digest(const struct fixture *fixture)
+{
+    struct state state = fixture_state(fixture);
+    return world_digest(&fixture->view.world, &state);
+}
+
+static uint64_t oldest_event(const struct fixture *fixture, uint64_t end)
+{
+    uint64_t slots = fixture->view.header->event_slots;
+    return end > slots ? end - slots : 0;
+}
+
+static const struct event *event_at(const struct fixture *fixture, uint64_t sequence)
+{
+    return &fixture->view.events[sequence & (fixture->view.header->event_slots - 1)];
+}
+
+uint32_t fixture_event_count(const struct fixture *fixture, enum event_type type)
+{
+    uint64_t end = fixture_state(fixture).head->event_end;
+    uint32_t count = 0;
+    for (uint64_t i = oldest_event(fixture, end); i < end; i++)
+        count += type == EVENT_NONE || event_at(fixture, i)->type == type;
+    return count;
+}
+
+const struct event *fixture_event(const struct fixture *fixture, enum event_type type, uint32_t nth)
+{
+    uint64_t end = fixture_state(fixture).head->event_end;
+    for (uint64_t i = oldest_event(fixture, end); i < end; i++) {
+        const struct event *event = event_at(fixture, i);
+        if ((type == EVENT_NONE || event->type == type) && nth-- == 0)
+            return event;
+    }
+    return NULL;
+}
+
+/* --- random tests ------------------------------------------------------------------------------*/
+
+uint64_t fixture_seed(uint64_t fallback)
+{
+    const char *text = getenv("SEED");
+    uint64_t seed = text ? strtoull(text, NULL, 0) : fallback;
+    print_message("SEED=%" PRIu64 "\n", seed);
+    return seed;
+}
+
+uint64_t fixture_random(uint64_t *state)
+{
+    *state += 0x9e3779b97f4a7c15u;
+    return random_mix(*state);
+}
+
+double fixture_uniform(uint64_t *state, double low, double high)
+{
+    return low + (high - low) * ((double)(fixture_random(state) >> 11) * 0x1.0p-53);
+}

@@ -1,0 +1,223 @@
+/* Tests' hands on the inside of a frame. */
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include <cmocka.h>
+
+/* The fixture's memory is writable; only its types are const. */
+static void *writable(const void *constant) { return (void *)(uintptr_t)constant; }
+
+struct kind *steps_kind(const struct fixture *fixture, const char *name)
+{
+    return writable(&fixture->view.world.kinds[fixture_kind(fixture, name)]);
+}
+
+struct params *steps_params(const struct fixture *fixture)
+{
+    return writable(fixture->view.world.params);
+}
+
+void steps_ground(const struct fixture *fixture, steps_height *height, const void *context)
+{
+    const struct terrain *terrain = &fixture->view.world.terrain;
+    float *posts = writable(terrain->posts);
+    for (uint32_t row = 0; row < terrain->side; row++) {
+        for (uint32_t column = 0; column < terrain->side; column++)
+            posts[(size_t)row * terrain->side + column] =
+                (float)height((double)column * terrain->spacing_m,
+                              (double)row * terrain->spacing_m, context);
+    }
+}
+
+struct plane {
+    double east, south;
+};
+
+static double plane_height(double x, double z, const void *context)
+{
+    const struct plane *plane = context;
+    return FIXTURE_GROUND_M + plane->east * (x - 25000.0) + plane->south * (z - 25000.0);
+}
+
+void steps_plane(const struct fixture *fixture, double east, double south)
+{
+    steps_ground(fixture, plane_height, &(struct plane){east, south});
+}
+
+void steps_cover(const struct fixture *fixture, enum cover cover, double x0, double z0, double x1,
+                 double z1)
+{
+    const struct terrain *terrain = &fixture->view.world.terrain;
+    uint8_t *posts = writable(terrain->cover);
+    for (uint32_t row = 0; row < terrain->side; row++) {
+        for (uint32_t column = 0; column < terrain->side; column++) {
+            double x = (double)column * terrain->spacing_m, z = (double)row * terrain->spacing_m;
+            if (x >= x0 && x <= x1 && z >= z0 && z <= z1)
+                posts[(size_t)row * terrain->side + column] = (uint8_t)cover;
+        }
+    }
+}
+
+double steps_ground_at(const struct fixture *fixture, double x, double z)
+{
+    return terrain_height(&fixture->view.world.terrain, &fixture->mover.craters, x, z);
+}
+
+/* --- rows --------------------------------------------------------------------------------------*/
+
+struct entities steps_rows(const struct fixture *fixture)
+{
+    return fixture_state(fixture).entities;
+}
+
+double steps_speed(const struct fixture *fixture, uint32_t row)
+{
+    struct entities e = steps_rows(fixture);
+    return vec3_length(entities_velocity(&e, row));
+}
+
+uint32_t steps_find(const struct fixture *fixture, uint32_t id)
+{
+    struct state state = fixture_state(fixture);
+    return entities_find(&state.entities, state.head->used, id);
+}
+
+/* --- commands ----------------------------------------------------------------------------------*/
+
+void steps_send(struct fixture *fixture, enum command_ring ring, struct command command)
+{
+    struct command_ring_words *words = fixture->view.commands[ring];
+    uint64_t head = atomic_load(&words->head);
+    command.sequence = head;
+    words->slot[head & (fixture->view.header->command_slots - 1)] = command;
+    atomic_store(&words->head, head + 1);
+}
+
+struct event_command steps_command(struct fixture *fixture, struct command command)
+{
+    uint32_t before = fixture_event_count(fixture, EVENT_COMMAND);
+    steps_send(fixture, RING_CONSOLE, command);
+    fixture_run(fixture, 1);
+    const struct event *event = fixture_event(fixture, EVENT_COMMAND, before);
+    assert_non_null(event);
+    assert_int_equal(event->command.type, command.type);
+    return event->command;
+}
+
+void steps_drive(struct fixture *fixture, uint32_t row, double throttle, double steer, double climb)
+{
+    struct event_command answer = steps_command(
+        fixture, (struct command){.type = COMMAND_DRIVE,
+                                  .entity = steps_rows(fixture).id[row],
+                                  .value = {throttle, steer, climb}});
+    assert_int_equal(answer.result, COMMAND_DONE);
+}
+
+/* --- the middle of a frame ---------------------------------------------------------------------*/
+
+void steps_serial(struct fixture *fixture, struct move *move, struct serial *serial)
+{
+    struct view *view = &fixture->view;
+    const struct state *committed = &view->w[atomic_load(&view->commit->commit) & 1];
+    *move = (struct move){
+        .world = &view->world,
+        .craters = &fixture->mover.craters,
+        .committed = committed,
+        .m = &view->m.entities,
+        .tick = committed->head->tick + 1,
+        .dt_s = view->world.params->dt_s,
+    };
+    *view->m.head = *committed->head;
+    entities_copy(&view->m.entities, &committed->entities, 0, committed->head->used);
+    *serial = (struct serial){.move = move, .moved = &view->m};
+}
+
+void steps_respond(struct fixture *fixture, struct respond *respond)
+{
+    struct view *view = &fixture->view;
+    struct collider *collider = &fixture->collider;
+    uint64_t commit = atomic_load(&view->commit->commit);
+    const struct state *committed = &view->w[commit & 1];
+    struct state *next = &view->w[(commit + 1) & 1];
+    *next->head = *committed->head;
+    next->head->frame++;
+    next->head->tick++;
+    entities_copy(&next->entities, &committed->entities, 0, committed->head->used);
+    memcpy(next->fixed_damage, committed->fixed_damage, view->world.counts.fixed);
+    for (uint32_t i = 0; i < next->head->used; i++)
+        collider->path[i] = (struct path){.at = entities_position(&next->entities, i)};
+    *respond = (struct respond){
+        .world = &view->world,
+        .broad = &collider->broad,
+        .contacts = &collider->contacts,
+        .input = {.world = &view->world,
+                  .craters = &collider->craters,
+                  .entities = &next->entities,
+                  .path = collider->path},
+        .next = next,
+        .path = collider->path,
+        .sink = {.slot = view->events,
+                 .slots = view->header->event_slots,
+                 .first = committed->head->event_end,
+                 .frame = next->head->frame,
+                 .tick = next->head->tick,
+                 .most = view->world.params->events_per_frame,
+                 .tally = &next->head->tally},
+    };
+    const struct broad_input input = {
+        .entities = &next->entities,
+        .path = collider->path,
+        .fixed_damage = next->fixed_damage,
+        .craters = &collider->craters,
+        .rows = next->head->used,
+    };
+    assert_int_equal(broad_pairs(&collider->broad, &input), 0);
+    assert_int_equal(contacts_begin(&collider->contacts, &collider->broad), 0);
+}
+
+void steps_respond_end(struct respond *respond)
+{
+    contacts_end(respond->contacts);
+    free(respond->charge);
+    respond->charge = NULL;
+}
+
+/* --- purity ------------------------------------------------------------------------------------*/
+
+static uint64_t hash_rows(uint64_t hash, const struct entities *e, uint32_t used)
+{
+#define X(type, name) hash = XXH3_64bits_withSeed(e->name, used * sizeof(type), hash);
+    ENTITY_COLUMNS(X)
+#undef X
+    return hash;
+}
+
+uint64_t steps_moved_hash(const struct fixture *fixture)
+{
+    const struct moved *moved = &fixture->view.m;
+    uint64_t hash = XXH3_64bits(moved->head, sizeof *moved->head);
+    hash = XXH3_64bits_withSeed(moved->intents, moved->head->intent_count * sizeof(struct event),
+                                hash);
+    return hash_rows(hash, &moved->entities, moved->head->used);
+}
+
+uint64_t steps_state_hash(const struct fixture *fixture, const struct state *state)
+{
+    const struct view *view = &fixture->view;
+    uint64_t slots = view->header->event_slots, end = state->head->event_end;
+    uint64_t hash = XXH3_64bits(state->head, sizeof *state->head);
+    hash = hash_rows(hash, &state->entities, state->head->used);
+    hash = XXH3_64bits_withSeed(state->fixed_damage, view->world.counts.fixed, hash);
+    hash = XXH3_64bits_withSeed(state->craters, state->head->crater_count * sizeof(struct crater),
+                                hash);
+    for (uint64_t i = end > slots ? end - slots : 0; i < end; i++)
+        hash = XXH3_64bits_withSeed(&view->events[i & (slots - 1)], sizeof(struct event), hash);
+    return hash;
+}

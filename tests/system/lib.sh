@@ -1,0 +1,74 @@
+# Shared by the system tests: a folder and a world name of their own, checks in TAP, and an end that
+# leaves nothing. Source it; then call check NAME CONDITION..., and done_testing at the end.
+set -u
+bin=${JOLON_BIN:-$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)/build/bin}
+jolon=$bin/jolon
+name=t$$
+folder=$(mktemp -d)
+cd "$folder" || exit 1
+number=0
+failures=0
+
+ok() { number=$((number + 1)); echo "ok $number - $1"; }
+not_ok() { number=$((number + 1)); failures=$((failures + 1)); echo "not ok $number - $1"; }
+skip() { number=$((number + 1)); echo "ok $number - $1 # skip $2"; }
+
+# check NAME COMMAND...: passes when the command does.
+check() {
+    local what=$1
+    shift
+    if "$@" >"$folder/check" 2>&1; then ok "$what"; else
+        not_ok "$what"
+        echo "# $*"
+        sed 's/^/# /' "$folder/check" | tail -n 15
+    fi
+}
+
+equal() { [ "$1" = "$2" ] || { echo "\"$1\" is not \"$2\""; return 1; }; }
+
+# refuses NAME STATUS PATTERN COMMAND...: the command ends with STATUS, its last line matches, it
+# says nothing else, and it leaves no shared memory of this world.
+refuses() {
+    local what=$1 status=$2 pattern=$3 got
+    shift 3
+    "$@" >"$folder/stdout" 2>"$folder/stderr" </dev/null
+    got=$?
+    if [ $got = "$status" ] && tail -n 1 "$folder/stderr" | grep -Eq -- "$pattern" &&
+        [ "$(wc -l <"$folder/stderr")" = 1 ] && nothing_left "$name"; then
+        ok "$what"
+    else
+        not_ok "$what"
+        echo "# exit $got, wanted $status and $pattern; $(ls /dev/shm | tr '\n' ' ')"
+        sed 's/^/# /' "$folder/stderr"
+    fi
+}
+
+# A value of a JSON object on one line: json KEY[.KEY] < FILE
+json() { python3 -c '
+import json, sys
+value = json.load(sys.stdin)
+for key in sys.argv[1].split("."):
+    value = value[int(key)] if isinstance(value, list) else value[key]
+print(value)' "$1"; }
+
+nothing_left() { ! ls /dev/shm | grep -q "^jolon\.$UID\.$1"; }
+
+# Waits up to 10 s for a condition.
+eventually() {
+    local tries
+    for tries in $(seq 200); do
+        "$@" >/dev/null 2>&1 && return 0
+        sleep 0.05
+    done
+    return 1
+}
+
+done_testing() { echo "1..$number"; [ $failures = 0 ]; exit; }
+
+at_end() {
+    "$jolon" stop -w "$name" >/dev/null 2>&1
+    "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+    rm -f "/dev/shm/jolon.$UID.$name.lock"
+    cd / && rm -rf "$folder"
+}
+trap at_end EXIT

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Nothing is lost: random SIGKILLs of every role during a run, and it ends with the digests of an
+# undisturbed one. KILLS=n and SEED=n choose others.
+. "$(dirname "$0")/lib.sh"
+kills=${KILLS:-60}
+RANDOM=${SEED:=$((RANDOM))}
+echo "# SEED=$SEED KILLS=$kills"
+frames=$((kills * 12 + 120)) # 60 Hz: about five kills a second
+
+"$jolon" run -w "$name" --frames $frames --pace max --json --without renderer --without reporter \
+    --out "$folder/out" >calm 2>err
+"$jolon" run -w "$name" --frames $frames --json --out "$folder/out" --events "$folder/events" \
+    --set renderer.width=320 --set renderer.height=180 >stormy 2>err &
+run=$!
+# Until the mover moves.
+eventually "$bin/jolon-world" pid --world "$name" mover
+sent=0
+while [ $sent -lt "$kills" ] && kill -0 $run 2>/dev/null; do
+    roles=(mover collider mover collider renderer reporter recorder)
+    role=${roles[RANDOM % ${#roles[@]}]}
+    "$jolon" kill -w "$name" $role >/dev/null 2>&1 && sent=$((sent + 1))
+    sleep "0.$((RANDOM % 20 + 5))"
+done
+wait $run
+status=$?
+check "the run ends with 0 after $sent kills" equal $status 0
+[ $status = 0 ] || sed 's/^/# /' err
+check "all kills were sent" [ $sent -ge $((kills * 9 / 10)) ]
+check "they were seen as restarts" [ "$(json restarts <stormy)" -ge $((sent - 2)) ]
+check "the digest is that of the undisturbed run" equal "$(json digest <stormy)" "$(json digest <calm)"
+check "and so is the events'" equal "$(json event_digest <stormy)" "$(json event_digest <calm)"
+check "the log holds every event once" python3 - "$folder/events" "$(json events <stormy)" <<'P'
+import json, sys
+lines = [json.loads(line) for line in open(sys.argv[1])]
+assert [line["sequence"] for line in lines] == list(range(int(sys.argv[2])))
+P
+check "nothing is left" nothing_left "$name"
+done_testing

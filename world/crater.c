@@ -1,0 +1,100 @@
+/* The private index over the shared list of craters, and the ground they leave. */
+#include "world/crater.h"
+
+#include "world/maths.h"
+#include "world/square.h"
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+int crater_index_init(struct crater_index *index, const struct crater *craters)
+{
+    *index = (struct crater_index){.craters = craters};
+    index->head = calloc(SQUARE_COUNT, sizeof *index->head);
+    return index->head ? 0 : -1;
+}
+
+void crater_index_free(struct crater_index *index)
+{
+    free(index->head);
+    free(index->links);
+    *index = (struct crater_index){0};
+}
+
+static struct square_box reach_of(const struct crater *crater)
+{
+    double reach = (double)crater->radius_m * CRATER_RIM;
+    return square_box_of(crater->x - reach, crater->z - reach, crater->x + reach,
+                         crater->z + reach);
+}
+
+static int reserve_links(struct crater_index *index, uint32_t more)
+{
+    if (index->link_count + more <= index->link_capacity)
+        return 0;
+    uint32_t capacity = (index->link_count + more) * 2 + 64;
+    struct crater_link *links = realloc(index->links, capacity * sizeof *links);
+    if (!links)
+        return -1;
+    index->links = links;
+    index->link_capacity = capacity;
+    return 0;
+}
+
+int crater_index_update(struct crater_index *index, uint32_t count)
+{
+    if (count < index->count) {
+        memset(index->head, 0, SQUARE_COUNT * sizeof *index->head);
+        index->link_count = 0;
+        index->count = 0;
+    }
+    while (index->count < count) {
+        struct square_box box = reach_of(&index->craters[index->count]);
+        uint32_t squares = (uint32_t)((box.x1 - box.x0 + 1) * (box.z1 - box.z0 + 1));
+        if (reserve_links(index, squares) != 0)
+            return -1;
+        for (int32_t row = box.z0; row <= box.z1; row++) {
+            for (int32_t column = box.x0; column <= box.x1; column++) {
+                uint32_t *head = &index->head[square_index(column, row)];
+                index->links[index->link_count] = (struct crater_link){index->count, *head};
+                *head = ++index->link_count;
+            }
+        }
+        index->count++;
+    }
+    return 0;
+}
+
+/* A paraboloid bowl, then a rim that rises and falls off to CRATER_RIM radii. */
+static double profile(const struct crater *crater, double x, double z)
+{
+    double radius = (double)crater->radius_m;
+    double depth = (double)crater->depth_m;
+    double dx = (x - crater->x) / radius;
+    double dz = (z - crater->z) / radius;
+    double square = dx * dx + dz * dz;
+    if (square >= CRATER_RIM * CRATER_RIM)
+        return 0.0;
+    double rim = depth * CRATER_RIM_HEIGHT;
+    if (square < 1.0)
+        return -depth + (depth + rim) * square;
+    double t = (CRATER_RIM - sqrt(square)) / (CRATER_RIM - 1.0);
+    return rim * t * t;
+}
+
+double crater_offset(const struct crater_index *index, double x, double z)
+{
+    double deepest = 0.0;
+    double highest = 0.0;
+    uint32_t link = index->head[square_of(x, z)];
+    while (link != 0) {
+        const struct crater_link *entry = &index->links[link - 1];
+        double offset = profile(&index->craters[entry->crater], x, z);
+        deepest = maths_min(deepest, offset);
+        highest = maths_max(highest, offset);
+        link = entry->next;
+    }
+    return deepest < 0.0 ? deepest : highest;
+}

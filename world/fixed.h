@@ -1,0 +1,25 @@
+/* Fixed objects: trees, bushes, poles, buildings (Table 1), in gridsquare order, and the reach of
+ * each square: every object that overlaps it, also those that stand in a neighbour (thesis row 37:
+ * none near a border is found late). Written once at creation, read-only to all. */
+#ifndef JOLON_WORLD_FIXED_H
+#define JOLON_WORLD_FIXED_H
+
+#include <stdint.h>
+
+struct fixed_object {
+    double x, z;     /* [m] */
+    float y;         /* [m] of the ground it stands on; centre of its bounding sphere */
+    float radius_m;  /* of the bounding sphere */
+    float height_m;  /* for drawing */
+    uint16_t kind;
+    uint16_t turn;   /* heading, 65536 a full turn, for drawing */
+};
+
+_Static_assert(sizeof(struct fixed_object) == 32, "shared layout");
+
+/* Damage of anything, fixed or moving (thesis rows 27, 33). */
+enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED, DAMAGE_COUNT };
+
+const char *damage_name(enum damage damage);
+
+#endif

@@ -1,0 +1,68 @@
+/* Kinds: what every vehicle, munition and fixed object of one sort shares (thesis row 49:
+ * physical attributes in the object file). Written once at creation, read-only to all. */
+#ifndef JOLON_WORLD_KIND_H
+#define JOLON_WORLD_KIND_H
+
+#include <stdint.h>
+
+#define KIND_NAME_MAX  24
+#define KIND_COUNT_MAX 64
+#define KIND_NONE      UINT16_MAX
+
+enum domain { DOMAIN_LAND, DOMAIN_SEA, DOMAIN_AIR, DOMAIN_MUNITION, DOMAIN_FIXED, DOMAIN_COUNT };
+
+/* How a munition flies. */
+enum guidance { GUIDANCE_BALLISTIC, GUIDANCE_HOMING };
+
+/* The rows of Table 1. */
+enum object_class {
+    OBJECT_TREE,
+    OBJECT_BUSH,
+    OBJECT_POLE,
+    OBJECT_BUILDING,
+    OBJECT_WATERTOWER,
+    OBJECT_OTHER_MANMADE,
+    OBJECT_OTHER_NATURAL,
+    OBJECT_CLASS_COUNT
+};
+
+struct kind {
+    char name[KIND_NAME_MAX];
+    uint8_t domain;       /* enum domain */
+    uint8_t guidance;     /* enum guidance; munitions */
+    uint8_t object_class; /* enum object_class; fixed objects */
+    uint8_t craters;      /* munitions: digs a crater where it strikes the ground */
+    uint16_t model;       /* index into the world's models */
+    uint16_t munition;    /* kind it fires, KIND_NONE for none */
+    double mass_kg;
+    double radius_m; /* of the bounding sphere, whose centre is the position */
+    double max_speed_mps;
+    double min_speed_mps;     /* aircraft that cannot hover */
+    double acceleration_mps2; /* braking is twice as hard */
+    double turn_rate_rps;     /* [rad/s] */
+    double max_slope_rad;     /* steepest ground a land vehicle climbs */
+    double length_m, width_m, height_m;
+    double cruise_altitude_m; /* aircraft: above the ground */
+    double climb_rate_mps;    /* aircraft */
+    double rigidity;          /* 0..1: share of an impact that goes into harm at once */
+    double moldability;       /* 0..1: share of a dent that stays */
+    double restitution;       /* 0..1: closing speed that comes back */
+    double resistance_j;      /* energy that destroys it */
+    double explosive_kg;      /* TNT; of a vehicle: what burns when it is destroyed */
+    double range_m;           /* vehicles: how far they shoot */
+    double reload_s;          /* vehicles: between two rounds */
+    double dispersion_rad;    /* munitions: one standard error */
+    double life_s;            /* munitions: end of flight */
+    double courage;           /* 0..1: how often it returns fire rather than flee */
+    double fuel_l, fuel_lps;  /* tank, and burnt at full throttle a second */
+    uint32_t rounds;
+    uint32_t reserved;
+};
+
+const char *domain_name(enum domain domain);
+const char *object_class_name(enum object_class object_class);
+
+/* Index of the kind called name, KIND_NONE when there is none. */
+uint16_t kind_find(const struct kind *kinds, uint32_t count, const char *name);
+
+#endif

@@ -1,0 +1,125 @@
+/* Places for vehicles at genesis. */
+#include "world/place.h"
+
+#include "world/random.h"
+#include "world/square.h"
+
+#include <stdlib.h>
+
+#define TRIES       1000
+#define CLEARANCE_M 1.0
+#define EDGE_M      50.0 /* nobody starts nearer to the world's edge, if the area allows */
+#define SLOPE_SHARE 0.7  /* of the steepest slope that a kind climbs */
+
+int place_init(struct place *place, const struct terrain *terrain, const struct fixed_object *fixed,
+               const uint32_t *reach_start, const uint32_t *reach, uint64_t seed)
+{
+    *place = (struct place){.terrain = *terrain,
+                            .fixed = fixed,
+                            .reach_start = reach_start,
+                            .reach = reach,
+                            .seed = seed};
+    place->head = calloc(SQUARE_COUNT, sizeof *place->head);
+    return place->head ? 0 : -1;
+}
+
+void place_free(struct place *place)
+{
+    free(place->head);
+    free(place->taken);
+    *place = (struct place){0};
+}
+
+static bool ground_suits(const struct place *place, const struct kind *kind, double x, double z)
+{
+    bool water = cover_is_water(terrain_cover(&place->terrain, x, z));
+    switch ((enum domain)kind->domain) {
+    case DOMAIN_LAND: {
+        struct vec3 normal = terrain_normal(&place->terrain, NULL, x, z);
+        return !water && normal.y > maths_cos(kind->max_slope_rad * SLOPE_SHARE);
+    }
+    case DOMAIN_SEA: /* room to turn */
+        for (int i = 0; i < 8; i++) {
+            double sine, cosine;
+            maths_sincos(i * (PI / 4.0), &sine, &cosine);
+            if (!cover_is_water(
+                    terrain_cover(&place->terrain, x + 250.0 * sine, z + 250.0 * cosine)))
+                return false;
+        }
+        return water;
+    default:
+        return true;
+    }
+}
+
+static bool clear_of_vehicles(const struct place *place, double x, double z, double radius_m)
+{
+    double reach = radius_m + place->largest_m + CLEARANCE_M;
+    struct square_box box = square_box_of(x - reach, z - reach, x + reach, z + reach);
+    for (int32_t row = box.z0; row <= box.z1; row++) {
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            uint32_t next = place->head[square_index(column, row)];
+            while (next != 0) {
+                const struct place_taken *other = &place->taken[next - 1];
+                double dx = other->x - x, dz = other->z - z;
+                double gap = radius_m + other->radius_m + CLEARANCE_M;
+                if (dx * dx + dz * dz < gap * gap)
+                    return false;
+                next = other->next;
+            }
+        }
+    }
+    return true;
+}
+
+static bool clear_of_objects(const struct place *place, double x, double z, double radius_m)
+{
+    double reach = radius_m + CLEARANCE_M;
+    struct square_box box = square_box_of(x - reach, z - reach, x + reach, z + reach);
+    for (int32_t row = box.z0; row <= box.z1; row++) {
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            uint32_t square = square_index(column, row);
+            for (uint32_t i = place->reach_start[square]; i < place->reach_start[square + 1]; i++) {
+                const struct fixed_object *object = &place->fixed[place->reach[i]];
+                double dx = object->x - x, dz = object->z - z;
+                double gap = reach + (double)object->radius_m;
+                if (dx * dx + dz * dz < gap * gap)
+                    return false;
+            }
+        }
+    }
+    return true;
+}
+
+int place_find(struct place *place, const struct area *area, const struct kind *kind, uint32_t slot,
+               double *x, double *z)
+{
+    double x0 = maths_max(area->x0, EDGE_M), x1 = maths_min(area->x1, WORLD_SIDE_M - EDGE_M);
+    double z0 = maths_max(area->z0, EDGE_M), z1 = maths_min(area->z1, WORLD_SIDE_M - EDGE_M);
+    for (uint64_t i = 0; i < TRIES; i++) {
+        *x = random_between(place->seed, i, slot, RANDOM_PLACE_X, x0, maths_max(x0, x1));
+        *z = random_between(place->seed, i, slot, RANDOM_PLACE_Z, z0, maths_max(z0, z1));
+        if (ground_suits(place, kind, *x, *z) &&
+            (kind->domain == DOMAIN_AIR || clear_of_objects(place, *x, *z, kind->radius_m)) &&
+            clear_of_vehicles(place, *x, *z, kind->radius_m))
+            return 0;
+    }
+    return -1;
+}
+
+int place_take(struct place *place, double x, double z, double radius_m)
+{
+    if (place->count == place->capacity) {
+        uint32_t capacity = place->capacity * 2 + 256;
+        struct place_taken *taken = realloc(place->taken, capacity * sizeof *taken);
+        if (!taken)
+            return -1;
+        place->taken = taken;
+        place->capacity = capacity;
+    }
+    uint32_t *head = &place->head[square_of(x, z)];
+    place->taken[place->count] = (struct place_taken){x, z, radius_m, *head};
+    *head = ++place->count;
+    place->largest_m = maths_max(place->largest_m, radius_m);
+    return 0;
+}

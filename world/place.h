@@ -1,0 +1,41 @@
+/* Places for vehicles at genesis: random points of an area on ground that suits the kind, clear of
+ * each other and of fixed objects. */
+#ifndef JOLON_WORLD_PLACE_H
+#define JOLON_WORLD_PLACE_H
+
+#include "world/fixed.h"
+#include "world/kind.h"
+#include "world/terrain.h"
+#include "world/world.h"
+
+#include <stdint.h>
+
+struct place_taken {
+    double x, z, radius_m;
+    uint32_t next; /* index + 1 in the same square, 0 ends */
+};
+
+struct place {
+    struct terrain terrain;
+    const struct fixed_object *fixed;
+    const uint32_t *reach_start, *reach;
+    uint64_t seed;
+    uint32_t *head; /* [SQUARE_COUNT] taken + 1 */
+    struct place_taken *taken;
+    uint32_t count, capacity;
+    double largest_m; /* radius taken so far */
+};
+
+/* 0, or -1 with errno ENOMEM. */
+int place_init(struct place *place, const struct terrain *terrain, const struct fixed_object *fixed,
+               const uint32_t *reach_start, const uint32_t *reach, uint64_t seed);
+void place_free(struct place *place);
+
+/* A place for entity number slot; 0, or -1 after 1,000 tries. */
+int place_find(struct place *place, const struct area *area, const struct kind *kind, uint32_t slot,
+               double *x, double *z);
+
+/* Marks a place as taken; 0, or -1 with errno ENOMEM. */
+int place_take(struct place *place, double x, double z, double radius_m);
+
+#endif

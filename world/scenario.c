@@ -1,0 +1,20 @@
+/* A scenario as data: only its end is here, its beginning is config/loader.c. */
+#include "world/scenario.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void scenario_free(struct scenario *scenario)
+{
+    free(scenario->kinds);
+    free(scenario->models);
+    free(scenario->vertices);
+    free(scenario->triangles);
+    free(scenario->groups);
+    free(scenario->object_list);
+    free(scenario->fires);
+    free(scenario->areas);
+    free(scenario->routes);
+    free(scenario->route_points);
+    memset(scenario, 0, sizeof(*scenario));
+}

@@ -1,0 +1,76 @@
+/* A scenario as data: what config/ read from files, before there is a world. Plain memory owned by
+ * struct scenario; strings are bounded; references between parts are indices. */
+#ifndef JOLON_WORLD_SCENARIO_H
+#define JOLON_WORLD_SCENARIO_H
+
+#include "world/world.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum terrain_source { TERRAIN_GENERATED, TERRAIN_FLAT };
+enum object_source { OBJECTS_TABLE1, OBJECTS_NONE, OBJECTS_LIST };
+
+/* One entry of "vehicles": count of them in an area, or one at a place. */
+struct scenario_group {
+    char name[ENTITY_NAME_MAX]; /* "" for none; with count > 1 "-1", "-2", ... is added */
+    uint16_t kind;
+    uint8_t force, behaviour;
+    uint8_t fire_at_will;
+    uint8_t placed;   /* 1: at x, z; 0: anywhere in the area where its kind can be */
+    uint8_t turned;   /* 1: heading_rad was given */
+    uint8_t moving;   /* 1: speed_mps was given */
+    uint8_t floating; /* 1: altitude_m was given */
+    uint32_t count;
+    uint32_t area;    /* index into areas */
+    uint32_t route;   /* index into routes, UINT32_MAX for none */
+    double x, z, altitude_m, heading_rad, speed_mps;
+};
+
+struct scenario_object {
+    uint16_t kind;
+    double x, z, heading_rad;
+};
+
+struct scenario_fire {
+    double at_s;
+    char shooter[ENTITY_NAME_MAX]; /* "" for none: out of the sky */
+    char target[ENTITY_NAME_MAX];  /* "" for the point */
+    uint16_t munition;             /* KIND_NONE: the shooter's own */
+    double x, z;
+    int line; /* of the file, for messages */
+};
+
+struct scenario {
+    struct params params; /* capacity, seed, hz, collision, renderer, ... */
+    enum terrain_source terrain;
+    double flat_height_m;
+    double spacing_m; /* between posts: 125, 62.5 or 31.25 */
+    enum object_source objects;
+
+    struct kind *kinds;
+    uint32_t kind_count;
+    struct model *models;
+    uint32_t model_count;
+    struct model_vertex *vertices;
+    uint32_t vertex_count;
+    struct model_triangle *triangles;
+    uint32_t triangle_count;
+
+    struct scenario_group *groups;
+    uint32_t group_count;
+    struct scenario_object *object_list;
+    uint32_t object_count;
+    struct scenario_fire *fires;
+    uint32_t fire_count;
+    struct area *areas;
+    uint32_t area_count;
+    struct route *routes;
+    uint32_t route_count;
+    struct route_point *route_points;
+    uint32_t route_point_count;
+};
+
+void scenario_free(struct scenario *scenario);
+
+#endif

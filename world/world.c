@@ -1,0 +1,46 @@
+/* Digest, checksum, and small questions about a world. */
+#include "world/world.h"
+
+#include <stddef.h>
+#include <string.h>
+#include <xxhash.h>
+
+double world_time_s(const struct world *world, const struct state_head *head)
+{
+    return (double)head->tick * world->params->dt_s;
+}
+
+const char *world_entity_name(const struct world *world, uint32_t id)
+{
+    return id > 0 && id <= world->counts.names ? world->names[id - 1].text : "";
+}
+
+/* Rows are hashed column by column; a column's hash is chained into the whole. */
+static uint64_t hash_columns(uint64_t hash, const struct entities *e, uint32_t used)
+{
+#define X(type, name) hash = XXH3_64bits_withSeed(e->name, used * sizeof(type), hash);
+    ENTITY_COLUMNS(X)
+#undef X
+    return hash;
+}
+
+uint64_t state_checksum(const struct state_head *head, const struct entities *entities)
+{
+    struct state_head copy = *head;
+    copy.checksum = 0;
+    return hash_columns(XXH3_64bits(&copy, sizeof copy), entities, head->used);
+}
+
+uint64_t world_digest(const struct world *world, const struct state *state)
+{
+    struct state_head head = *state->head;
+    head.checksum = 0;
+    head.mover_ns = 0;
+    head.time_scale = 0.0; /* pacing: not a property of the frame */
+    head.quit = 0;
+    uint64_t hash = XXH3_64bits(&head, sizeof head);
+    hash = XXH3_64bits_withSeed(&world->params->seed, sizeof world->params->seed, hash);
+    hash = hash_columns(hash, &state->entities, head.used);
+    hash = XXH3_64bits_withSeed(state->fixed_damage, world->counts.fixed, hash);
+    return XXH3_64bits_withSeed(state->craters, head.crater_count * sizeof(struct crater), hash);
+}

@@ -1,0 +1,220 @@
+/* The world: what never changes after creation (struct world) and what a frame changes (struct
+ * state). Both are views into memory somebody else owns: the shared segment, or a test's heap. */
+#ifndef JOLON_WORLD_WORLD_H
+#define JOLON_WORLD_WORLD_H
+
+#include "world/command.h"
+#include "world/entity.h"
+#include "world/event.h"
+#include "world/fixed.h"
+#include "world/kind.h"
+#include "world/terrain.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define WORLD_NAME_MAX 48
+#define PATH_TEXT_MAX  256
+
+enum method { METHOD_SWEPT, METHOD_COUNT };
+enum shape { SHAPE_SPHERE, SHAPE_COUNT };
+enum response_model { MODEL_FIGURE8, MODEL_IMPULSE, MODEL_NONE, MODEL_COUNT };
+enum pace { PACE_REAL, PACE_MAX };
+
+/* Constants of the collision response; docs/scenario.md says what each does. */
+struct collision_params {
+    uint32_t method;            /* enum method */
+    uint32_t shape;             /* enum shape */
+    uint32_t response;          /* enum response_model */
+    uint32_t reserved;
+    double threshold_height_m;  /* above it nothing fixed is tested (row 17) */
+    double fast_vehicle_mps;    /* Fig. 8 "speed of colliding vehicle > constant" */
+    double fast_fixed_mps;      /* Fig. 8 "moving quickly", against a large fixed object */
+    double large_fixed_kg;      /* Fig. 8 "large" */
+    double damage_high, damage_med, damage_low; /* Fig. 8 c1 > c2 > c3, impact energy over the
+                                                   fixed object's resistance (row 27) */
+};
+
+/* What the renderer is told; the simulation does not read it. */
+struct renderer_params {
+    uint32_t width, height; /* [pixel] */
+    double fps;             /* pictures a second of the clock, 0..60 */
+    uint32_t view;          /* enum view_mode */
+    uint32_t follow;        /* entity id, 0: picks one */
+    uint32_t fog, haze, texture;
+    uint32_t reserved;
+};
+
+enum view_mode { VIEW_CHASE, VIEW_MAP, VIEW_BOTH, VIEW_COUNT };
+
+struct params {
+    char name[WORLD_NAME_MAX];      /* of the ground: "hunter-liggett" */
+    char scenario[PATH_TEXT_MAX];   /* the file it came from, for people */
+    uint64_t seed;
+    uint64_t scenario_hash;         /* of the text and the overrides */
+    uint64_t frame_limit;           /* the run ends with this frame, 0: never */
+    double hz;
+    double dt_s;                    /* 1 / hz */
+    uint32_t pace;                  /* enum pace */
+    uint32_t capacity;
+    uint32_t event_slots;           /* power of two */
+    uint32_t events_per_frame;      /* at most; event_slots / 8 */
+    uint32_t intents_per_frame;     /* at most */
+    uint32_t command_slots;         /* power of two, of each ring */
+    uint32_t crater_slots;
+    uint32_t initial_entities;
+    struct collision_params collision;
+    struct renderer_params renderer;
+};
+
+/* Polygon models. Body axes: x forward, y up, z right, origin at the entity's position, metres.
+ * Triangles are counter-clockwise from outside. */
+struct model {
+    char name[KIND_NAME_MAX];
+    uint32_t first_triangle, triangle_count;
+    uint32_t first_vertex, vertex_count;
+};
+
+struct model_vertex {
+    float x, y, z;
+};
+
+enum model_part { PART_BODY, PART_TURRET, PART_ROTOR, PART_TAIL_ROTOR, PART_COUNT };
+
+struct model_triangle {
+    uint32_t vertex[3];        /* index within the model */
+    uint8_t red, green, blue;  /* 0..255, sRGB */
+    uint8_t force_tint;        /* 1: takes the force's colour */
+    uint32_t part;             /* enum model_part */
+};
+
+struct area {
+    double x0, z0, x1, z1;
+};
+
+struct route_point {
+    double x, z;
+};
+
+struct route {
+    uint32_t first, count; /* points */
+};
+
+/* A shot the scenario orders. */
+struct fire_order {
+    uint64_t tick;         /* when, in steps of simulated time */
+    uint32_t shooter_slot; /* initial slot, SLOT_NONE: out of the sky */
+    uint32_t target_slot;  /* SLOT_NONE: the point */
+    uint16_t kind;         /* munition, KIND_NONE: the shooter's own */
+    uint16_t reserved;
+    double x, z;
+};
+
+struct road_point {
+    float x, z;
+    uint32_t road; /* points of one road follow each other */
+    uint32_t reserved;
+};
+
+struct entity_name {
+    char text[ENTITY_NAME_MAX];
+};
+
+struct counts {
+    uint32_t kinds, models, model_vertices, model_triangles;
+    uint32_t posts_side, fixed, reach, areas, routes, route_points, fires, road_points, names;
+    uint32_t reserved;
+};
+
+struct world {
+    const struct params *params;
+    struct counts counts;
+    struct terrain terrain;
+    const struct kind *kinds;
+    const struct model *models;
+    const struct model_vertex *model_vertices;
+    const struct model_triangle *model_triangles;
+    const struct fixed_object *fixed;
+    const uint32_t *reach_start; /* [SQUARE_COUNT + 1] into reach */
+    const uint32_t *reach;       /* fixed object indices, ascending within a square */
+    const struct area *areas;
+    const struct route *routes;
+    const struct route_point *route_points;
+    const struct fire_order *fires; /* ascending tick */
+    const struct road_point *road_points;
+    const struct entity_name *names; /* of the initial entities: slot i has id i + 1 */
+};
+
+/* Counters since the world began; part of the digest. */
+struct tally {
+    uint64_t collisions, fires, detonations, destroyed, fixed_damaged, agent_changes, commands;
+    uint64_t events_dropped;  /* more in a frame than events_per_frame: counted, never silent */
+    uint64_t craters_refused; /* no room in the list of craters */
+    uint64_t spawns_refused;  /* no free slot */
+};
+
+/* The head of a world buffer and, as the mover stages it, of the moved table. */
+struct state_head {
+    uint64_t frame;        /* this buffer holds this frame */
+    uint64_t tick;         /* steps of simulated time: frames less those that stood paused */
+    uint64_t event_end;    /* events of the run so far */
+    uint64_t event_digest; /* over all of them, in order */
+    uint64_t command_cursor[COMMAND_RING_COUNT]; /* commands taken from each ring */
+    double time_scale;     /* simulated seconds a second of the clock; pacing only */
+    uint32_t paused;
+    uint32_t steps_left;   /* frames to advance while paused */
+    uint32_t quit;
+    uint32_t used;         /* slots 0 .. used - 1 have ever held an entity */
+    uint32_t alloc_next;   /* where the search for a free slot goes on */
+    uint32_t next_id;
+    uint32_t vehicles, munitions; /* active or wrecks; in flight */
+    uint32_t crater_count;
+    uint32_t fire_cursor;  /* scenario fires done */
+    uint32_t intent_count; /* M only: events the mover hands to the collider */
+    uint32_t advanced;     /* 1: simulated time moved in this frame */
+    uint64_t mover_ns;     /* M only: what moving took; not in the digest */
+    struct tally tally;
+    uint64_t checksum;     /* XXH3 over this head (this word as 0) and the columns' used rows */
+};
+
+/* One buffer of the world. fixed_damage and the crater list belong to W only. */
+struct state {
+    struct state_head *head;
+    struct entities entities;
+    uint8_t *fixed_damage;   /* [counts.fixed] enum damage */
+    struct crater *craters;  /* shared by both buffers, append-only: committed by crater_count */
+};
+
+/* The mover's output. */
+struct moved {
+    struct state_head *head;
+    struct entities entities;
+    struct event *intents; /* [params.intents_per_frame]; sequence, frame, index not yet set */
+};
+
+double world_time_s(const struct world *world, const struct state_head *head);
+
+/* Name of the entity with this id if the scenario gave it one, else "". */
+const char *world_entity_name(const struct world *world, uint32_t id);
+
+/* Indices of the fixed objects that reach into a square. */
+static inline uint32_t world_reach(const struct world *world, uint32_t square,
+                                   const uint32_t **objects)
+{
+    *objects = world->reach + world->reach_start[square];
+    return world->reach_start[square + 1] - world->reach_start[square];
+}
+
+/* Digest of a frame: everything that the next frame depends on, in a fixed order, as XXH3-64.
+ * Not in it: pacing, stage times, slots beyond used. */
+uint64_t world_digest(const struct world *world, const struct state *state);
+
+/* The state's own checksum as the collider stores it; head->checksum is taken as 0. */
+uint64_t state_checksum(const struct state_head *head, const struct entities *entities);
+
+const char *method_name(enum method method);
+const char *shape_name(enum shape shape);
+const char *response_model_name(enum response_model model);
+const char *view_mode_name(enum view_mode view);
+
+#endif
