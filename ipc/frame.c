@@ -77,10 +77,10 @@ static bool commands_wait(const struct frame *frame, const struct state_head *he
     return false;
 }
 
-/* Keeps the mover's time: true when the frame may begin. The frame before is late when it was not
- * committed before the next one was due; more than one frame behind, the clock starts anew from
- * now, so that a slow spell is counted once and never run after. */
-static bool due(struct view *view, const struct state_head *head)
+/* Keeps the mover's time: true when the frame may begin. When it is due already at the first look,
+ * the frame before was late: it was not committed within a frame's time of its due. More than one
+ * frame behind, the clock starts anew from now, so that a slow spell is never run after. */
+static bool due(struct frame *frame, struct view *view, const struct state_head *head)
 {
     struct role_slot *slot = view->slot[ROLE_MOVER];
     uint64_t now = clock_now_ns();
@@ -93,20 +93,21 @@ static bool due(struct view *view, const struct state_head *head)
         return true;
     }
     if (now < due_ns) {
-        door_wait(view->doors, ROLE_MOVER,
-                  due_ns - now < WAIT_MAX_NS ? due_ns : now + WAIT_MAX_NS);
+        frame->in_time = true;
+        door_wait(view->doors, ROLE_MOVER, due_ns - now < WAIT_MAX_NS ? due_ns : now + WAIT_MAX_NS);
         return false;
     }
-    if (now > due_ns + step) {
+    if (!frame->in_time)
         atomic_fetch_add_explicit(&slot->late_frames, 1, memory_order_relaxed);
+    if (now > due_ns + step)
         due_ns = now;
-    }
     atomic_store_explicit(&slot->due_ns, due_ns + step, memory_order_relaxed);
     return true;
 }
 
 int frame_mover_begin(struct frame *frame, struct view *view)
 {
+    frame->in_time = false;
     while (!process_stopping()) {
         uint64_t commit = load(&view->commit->commit);
         uint64_t moved = load(&view->moved_word->moved);
@@ -127,7 +128,7 @@ int frame_mover_begin(struct frame *frame, struct view *view)
             door_wait(view->doors, ROLE_MOVER, clock_now_ns() + WAIT_MAX_NS);
             continue;
         }
-        if (!due(view, head))
+        if (!due(frame, view, head))
             continue;
         frame->number = commit + 1;
         frame->begun_ns = clock_now_ns();

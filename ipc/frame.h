@@ -11,9 +11,10 @@
 #include "ipc/segment.h"
 
 struct frame {
-    uint64_t number;     /* the frame being made */
-    uint64_t begun_ns;   /* CLOCK_MONOTONIC at the start of the stage's work */
+    uint64_t number;   /* the frame being made */
+    uint64_t begun_ns; /* CLOCK_MONOTONIC at the start of the stage's work */
     uint64_t command_head[COMMAND_RING_COUNT]; /* mover: commands there are to take */
+    bool in_time; /* mover: the frame before was committed when this one was still to come */
 };
 
 int frame_mover_begin(struct frame *frame, struct view *view);

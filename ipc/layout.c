@@ -58,15 +58,18 @@ static size_t state_bytes(const struct segment_header *h)
     return LAYOUT_HEAD_BYTES + entities_bytes(h->capacity) + h->counts.fixed;
 }
 
-static bool power_of_two(uint32_t value) { return value != 0 && (value & (value - 1)) == 0; }
+static bool power_of_two(uint32_t value)
+{
+    return value != 0 && (value & (value - 1)) == 0;
+}
 
 static bool plausible(const struct segment_header *h)
 {
     const struct counts *n = &h->counts;
-    const uint32_t parts[] = {n->kinds,        n->models, n->model_vertices, n->model_triangles,
-                              n->fixed,        n->reach,  n->areas,          n->routes,
-                              n->route_points, n->fires,  n->road_points,    n->names,
-                              h->crater_slots, h->event_slots, h->intents_per_frame};
+    const uint32_t parts[] = {
+        n->kinds,       n->models, n->model_vertices, n->model_triangles, n->fixed,
+        n->reach,       n->areas,  n->routes,         n->route_points,    n->fires,
+        n->road_points, n->names,  h->crater_slots,   h->event_slots,     h->intents_per_frame};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         if (parts[i] > PART_MAX)
             return false;

@@ -41,8 +41,8 @@ enum region {
     REGION_COMMIT,  /* struct commit_words: collider */
     REGION_WORLD_A, /* head, columns, fixed damage: collider */
     REGION_WORLD_B,
-    REGION_CRATERS, /* collider */
-    REGION_EVENTS,  /* collider */
+    REGION_CRATERS,    /* collider */
+    REGION_EVENTS,     /* collider */
     REGION_MOVED_WORD, /* struct moved_word: mover */
     REGION_MOVED,      /* head, columns, intents: mover */
     REGION_COMMANDS,   /* a struct command_ring_words and its slots, one for each ring */

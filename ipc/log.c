@@ -14,9 +14,15 @@
 static const char *log_role = "jolon";
 static uint64_t log_frame_number;
 
-void log_open(const char *role) { log_role = role; }
+void log_open(const char *role)
+{
+    log_role = role;
+}
 
-void log_frame(uint64_t frame) { log_frame_number = frame; }
+void log_frame(uint64_t frame)
+{
+    log_frame_number = frame;
+}
 
 /* One write, so that lines of several processes do not mix; control bytes become '?'. */
 static void put_line(char *line, int length)
@@ -35,12 +41,12 @@ static void put_line(char *line, int length)
 }
 
 __attribute__((format(printf, 2, 0))) static void entry(const char *level, const char *format,
-                                                         va_list args)
+                                                        va_list args)
 {
     char line[LINE_MAX_BYTES];
     uint64_t now = clock_now_ns();
-    int length = snprintf(line, sizeof line, "%llu.%06llu %s %s frame %llu: ",
-                          (unsigned long long)(now / NS_PER_S),
+    int length = snprintf(line, sizeof line,
+                          "%llu.%06llu %s %s frame %llu: ", (unsigned long long)(now / NS_PER_S),
                           (unsigned long long)(now % NS_PER_S / 1000), log_role, level,
                           (unsigned long long)log_frame_number);
     if (length > 0 && length < (int)sizeof line)

@@ -21,7 +21,10 @@ static void on_stop(int signal_number)
     stopping = 1;
 }
 
-bool process_stopping(void) { return stopping != 0; }
+bool process_stopping(void)
+{
+    return stopping != 0;
+}
 
 void process_signals(void)
 {

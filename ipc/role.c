@@ -4,13 +4,16 @@
 #include <string.h>
 
 static const char *const role_names[ROLE_COUNT] = {
-    [ROLE_MOVER] = "mover",         [ROLE_COLLIDER] = "collider",
-    [ROLE_REPORTER] = "reporter",   [ROLE_RECORDER] = "recorder",
-    [ROLE_RENDERER] = "renderer",   [ROLE_RENDERER_2] = "renderer-2",
+    [ROLE_MOVER] = "mover",           [ROLE_COLLIDER] = "collider",
+    [ROLE_REPORTER] = "reporter",     [ROLE_RECORDER] = "recorder",
+    [ROLE_RENDERER] = "renderer",     [ROLE_RENDERER_2] = "renderer-2",
     [ROLE_RENDERER_3] = "renderer-3", [ROLE_RENDERER_4] = "renderer-4",
 };
 
-const char *role_name(enum role role) { return role < ROLE_COUNT ? role_names[role] : "?"; }
+const char *role_name(enum role role)
+{
+    return role < ROLE_COUNT ? role_names[role] : "?";
+}
 
 enum role role_find(const char *name)
 {

@@ -50,7 +50,7 @@ uint64_t histogram_quantile(const struct histogram *histogram, double fraction);
 struct role_slot {
     _Alignas(64) _Atomic uint64_t beat_ns; /* CLOCK_MONOTONIC of the last sign of life */
     _Atomic uint32_t pid;
-    _Atomic uint32_t state;       /* enum role_state */
+    _Atomic uint32_t state; /* enum role_state */
     _Atomic uint64_t started_ns;
     _Atomic uint64_t starts;      /* times the role was taken; restarts are one fewer */
     _Atomic uint64_t frame;       /* it last worked on */

@@ -101,8 +101,8 @@ static void bind(struct view *view)
     unsigned char *moved = part(view, REGION_MOVED);
     view->m.head = (struct state_head *)(void *)moved;
     entities_bind(&view->m.entities, header->capacity, moved + LAYOUT_HEAD_BYTES);
-    view->m.intents = (struct event *)(void *)(moved + LAYOUT_HEAD_BYTES +
-                                               entities_bytes(header->capacity));
+    view->m.intents =
+        (struct event *)(void *)(moved + LAYOUT_HEAD_BYTES + entities_bytes(header->capacity));
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         view->commands[i] = part(view, REGION_COMMANDS + i);
     view->doors = part(view, REGION_DOORS);
@@ -150,7 +150,8 @@ static void sweep_temporaries(const char *name)
         if (strncmp(entry->d_name, prefix, (size_t)length) != 0)
             continue;
         long pid = strtol(entry->d_name + length, NULL, 10);
-        if (pid > 0 && (kill((pid_t)pid, 0) == 0 || errno != ESRCH))
+        /* One with our own number is of a process before us. */
+        if (pid > 0 && pid != getpid() && (kill((pid_t)pid, 0) == 0 || errno != ESRCH))
             continue;
         unlinkat(dirfd(directory), entry->d_name, 0);
     }
@@ -196,8 +197,8 @@ int segment_private(struct view *view, const struct segment_header *header, stru
     *view = (struct view){.role = ROLE_NONE, .lock_fd = -1};
     if (layout_compute(&view->layout, header) != 0)
         return reason_set(reason, "the world's counts are out of range");
-    view->base = mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                      -1, 0);
+    view->base =
+        mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (view->base == MAP_FAILED)
         return reason_set(reason, "out of memory: %zu bytes", view->layout.total);
     return prepare(view, header) == 0 ? 0 : reason_set(reason, "doorbells: %s", strerror(errno));
@@ -210,8 +211,8 @@ int segment_begin(struct view *view, const char *name, const struct segment_head
     *view = (struct view){.role = ROLE_NONE, .lock_fd = -1};
     snprintf(view->name, sizeof view->name, "%s", name);
     if (!segment_name_ok(name))
-        return reason_set(reason, "\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -",
-                          name, SEGMENT_NAME_MAX - 1);
+        return reason_set(reason, "\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -", name,
+                          SEGMENT_NAME_MAX - 1);
     if (layout_compute(&view->layout, header) != 0)
         return reason_set(reason, "the world's counts are out of range");
     sweep_temporaries(name);
@@ -223,8 +224,7 @@ int segment_begin(struct view *view, const char *name, const struct segment_head
         close(fd);
         return -1;
     }
-    view->base =
-        mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+    view->base = mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     close(fd);
     if (view->base == MAP_FAILED) {
         view->base = NULL;
@@ -248,7 +248,7 @@ void segment_fill(struct view *view, const struct genesis *genesis)
 
 static int open_lock(const char *path, int flags)
 {
-    return open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC | flags, 0600);
+    return open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | flags, 0600);
 }
 
 int segment_publish(struct view *view, struct reason *reason)
@@ -297,8 +297,8 @@ static int take_lock(struct view *view, const char *path, struct reason *reason)
 {
     for (int tries = 0; tries < 10; tries++) {
         struct stat held, named;
-        struct flock byte = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = view->role,
-                             .l_len = 1};
+        struct flock byte = {
+            .l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = view->role, .l_len = 1};
         int fd = open_lock(path, 0);
         if (fd < 0)
             return reason_set(reason, "%s: cannot open: %s", path, strerror(errno));
@@ -383,7 +383,8 @@ static int map_segment(struct view *view, const char *path, struct reason *reaso
 {
     size_t bytes = 0;
     int result = -1;
-    int fd = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+    /* O_NONBLOCK: a pipe of that name must not make us wait for its other end. */
+    int fd = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
     if (fd < 0) {
         if (errno == ENOENT)
             return reason_set(reason,
@@ -440,8 +441,8 @@ int segment_attach(struct view *view, const char *name, enum role role, struct r
     char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
     *view = (struct view){.role = role, .lock_fd = -1};
     if (!segment_name_ok(name))
-        return reason_set(reason, "\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -",
-                          name, SEGMENT_NAME_MAX - 1);
+        return reason_set(reason, "\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -", name,
+                          SEGMENT_NAME_MAX - 1);
     snprintf(view->name, sizeof view->name, "%s", name);
     segment_paths(name, shm, lock);
     if (access(shm, F_OK) == 0 && role != ROLE_NONE && take_lock(view, lock, reason) != 0)

@@ -19,16 +19,16 @@
 #define SEGMENT_NAME_MAX 32 /* of a world, with the NUL */
 #define SEGMENT_PATH_MAX 96
 
-struct commit_words { /* only writer: collider */
+struct commit_words {                      /* only writer: collider */
     _Alignas(64) _Atomic uint64_t commit;  /* last committed frame */
     _Alignas(64) _Atomic uint64_t writing; /* frame being written into W[writing & 1] */
 };
 
-struct moved_word { /* only writer: mover */
+struct moved_word {                      /* only writer: mover */
     _Alignas(64) _Atomic uint64_t moved; /* frame that M holds */
 };
 
-struct command_ring_words { /* only writer: the ring's process */
+struct command_ring_words {             /* only writer: the ring's process */
     _Alignas(64) _Atomic uint64_t head; /* commands ever written */
     _Alignas(64) struct command slot[]; /* [command_slots] */
 };
@@ -104,8 +104,8 @@ void segment_detach(struct view *view);
 /* Hashes the static regions (about a millisecond) and compares. 0, or -1 with the reason. */
 int segment_verify(const struct view *view, struct reason *reason);
 
-/* Removes the world's object, and its lock file unless a supervisor holds that. Refuses while a role
- * is held, unless force. 0, or -1 with the reason. */
+/* Removes the world's object, and its lock file unless a supervisor holds that. Refuses while a
+ * role is held, unless force. 0, or -1 with the reason. */
 int segment_remove(const char *name, bool force, struct reason *reason);
 
 /* Pid of the live holder of a role, 0 when none. */

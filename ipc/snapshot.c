@@ -136,7 +136,9 @@ int command_put(struct view *view, enum command_ring ring, const struct command 
     struct state_head head;
     uint64_t slots = view->header->command_slots;
     uint64_t end = atomic_load_explicit(&words->head, memory_order_relaxed);
-    for (uint64_t i = end > slots ? end - slots : 0; i < end; i++) {
+    /* The slot to be written is left out: a writer that was killed before it moved the head may have
+     * left this very command there, and it does not count yet. */
+    for (uint64_t i = end >= slots ? end - slots + 1 : 0; i < end; i++) {
         const struct command *old = &words->slot[i & (slots - 1)];
         if (old->source == command->source && old->source_sequence == command->source_sequence) {
             errno = EEXIST;

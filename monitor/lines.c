@@ -18,22 +18,33 @@ static const char *clock_text(char text[CLOCK_MAX], double time_s)
     return text;
 }
 
+/* "59.9 of 60.0 Hz", or without the second number when frames are made as fast as can be */
+static const char *rate_text(char text[CLOCK_MAX], const struct picture *picture)
+{
+    const jolon_FrameStatus *frame = &picture->frame;
+    if (picture->has_world && !picture->world.real_time)
+        (void)snprintf(text, CLOCK_MAX, "%.1f Hz", frame->rate_hz);
+    else
+        (void)snprintf(text, CLOCK_MAX, "%.1f of %.1f Hz", frame->rate_hz,
+                       frame->hz * frame->time_scale);
+    return text;
+}
+
 void lines_status(char line[LINES_MAX], const struct picture *picture, uint64_t now_ns)
 {
-    char time[CLOCK_MAX];
+    char time[CLOCK_MAX], rate[CLOCK_MAX];
     const jolon_FrameStatus *frame = &picture->frame;
     if (!picture_live(picture, now_ns)) {
         lines_notice(line, picture, now_ns);
         return;
     }
     (void)snprintf(line, LINES_MAX,
-                   "%s  frame %llu  %s  %.1f of %.1f Hz  frame %.2f ms  late %llu  vehicles %u  "
+                   "%s  frame %llu  %s  %s  frame %.2f ms  late %llu  vehicles %u  "
                    "munitions %u  collisions %llu  destroyed %llu  events %llu",
                    picture_run_state(picture, now_ns), (unsigned long long)frame->frame,
-                   clock_text(time, frame->sim_time_s), frame->rate_hz,
-                   frame->hz * frame->time_scale, frame->frame_time.p50_ms,
-                   (unsigned long long)frame->late_frames, frame->vehicles, frame->munitions,
-                   (unsigned long long)frame->tally.collisions,
+                   clock_text(time, frame->sim_time_s), rate_text(rate, picture),
+                   frame->frame_time.p50_ms, (unsigned long long)frame->late_frames,
+                   frame->vehicles, frame->munitions, (unsigned long long)frame->tally.collisions,
                    (unsigned long long)frame->tally.destroyed, (unsigned long long)frame->events);
 }
 
@@ -49,12 +60,12 @@ void lines_world(char line[LINES_MAX], const struct picture *picture, uint64_t n
 
 void lines_frame(char line[LINES_MAX], const struct picture *picture)
 {
+    char rate[CLOCK_MAX];
     const jolon_FrameStatus *frame = &picture->frame;
-    (void)snprintf(line, LINES_MAX,
-                   "%.1f of %.1f Hz  late %llu  frame ms p50 %.2f p99 %.2f max %.2f  scale %g",
-                   frame->rate_hz, frame->hz * frame->time_scale,
-                   (unsigned long long)frame->late_frames, frame->frame_time.p50_ms,
-                   frame->frame_time.p99_ms, frame->frame_time.max_ms, frame->time_scale);
+    (void)snprintf(line, LINES_MAX, "%s  late %llu  frame ms p50 %.2f p99 %.2f max %.2f  scale %g",
+                   rate_text(rate, picture), (unsigned long long)frame->late_frames,
+                   frame->frame_time.p50_ms, frame->frame_time.p99_ms, frame->frame_time.max_ms,
+                   frame->time_scale);
 }
 
 void lines_counts(char line[LINES_MAX], const struct picture *picture)

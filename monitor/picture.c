@@ -2,6 +2,7 @@
 #include "monitor/picture.h"
 
 #include "ipc/clock.h"
+#include "ipc/role.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -46,6 +47,7 @@ static void take_world(struct picture *picture, const void *sample)
     picture->has_world = true;
 }
 
+/* Kept in the order of the roles' table, in whatever order they come. */
 static void take_process(struct picture *picture, const void *sample)
 {
     const jolon_ProcessStatus *status = sample;
@@ -54,8 +56,11 @@ static void take_process(struct picture *picture, const void *sample)
         i++;
     if (i == PICTURE_ROLES_MAX)
         return;
-    if (i == picture->role_count)
+    if (i == picture->role_count) {
         picture->role_count++;
+        for (; i > 0 && role_find(picture->role[i - 1].role) > role_find(status->role); i--)
+            picture->role[i] = picture->role[i - 1];
+    }
     picture->role[i] = *status;
 }
 

@@ -9,8 +9,10 @@
 #define CHASE_UP_M        9.0
 #define CHASE_BEYOND_M    23.0 /* it looks at a point so far ahead of the subject */
 #define CHASE_TANK_RADIUS 3.0  /* [m] the body those lengths are for */
-#define CHASE_ASIDE_RAD   0.24 /* a little from the side: a body seen straight from behind is flat */
-#define CHASE_PITCH_SHARE 0.5  /* of the subject's pitch that the camera takes part in */
+#define CHASE_ASIDE_RAD                                                                            \
+    0.24                      /* a little from the side: a body seen straight from behind is flat  \
+                               */
+#define CHASE_PITCH_SHARE 0.5 /* of the subject's pitch that the camera takes part in */
 #define SIGHT_SAMPLES     12
 #define SIGHT_CLEARANCE_M 1.0
 
@@ -19,7 +21,10 @@ static struct vec3 cross(struct vec3 a, struct vec3 b)
     return (struct vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-static struct vec3 unit(struct vec3 v) { return vec3_scale(v, 1.0 / vec3_length(v)); }
+static struct vec3 unit(struct vec3 v)
+{
+    return vec3_scale(v, 1.0 / vec3_length(v));
+}
 
 static void fill_matrix(struct camera *camera)
 {
@@ -55,8 +60,8 @@ void camera_look(struct camera *camera, struct vec3 eye, struct vec3 target, uin
 }
 
 void camera_chase(struct camera *camera, const struct camera_subject *subject,
-                  const struct terrain *terrain, const struct crater_index *craters,
-                  uint32_t width, uint32_t height)
+                  const struct terrain *terrain, const struct crater_index *craters, uint32_t width,
+                  uint32_t height)
 {
     double scale = maths_clamp(subject->radius_m / CHASE_TANK_RADIUS, 0.75, 12.0);
     double away = subject->heading_rad + CHASE_ASIDE_RAD;
@@ -93,4 +98,29 @@ bool camera_sees(const struct camera *camera, struct vec3 centre, double radius_
     double over_x = (x - depth * camera->tan_x) / sqrt(1.0 + camera->tan_x * camera->tan_x);
     double over_y = (y - depth * camera->tan_y) / sqrt(1.0 + camera->tan_y * camera->tan_y);
     return over_x <= radius_m && over_y <= radius_m;
+}
+
+/* Does the box lie wholly on the outer side of a plane through the eye? */
+static bool box_outside(struct vec3 low, struct vec3 high, struct vec3 outward)
+{
+    struct vec3 innermost = {outward.x > 0.0 ? low.x : high.x, outward.y > 0.0 ? low.y : high.y,
+                             outward.z > 0.0 ? low.z : high.z};
+    return vec3_dot(innermost, outward) > 0.0;
+}
+
+bool camera_sees_box(const struct camera *camera, struct vec3 low, struct vec3 high)
+{
+    low = vec3_sub(low, camera->eye);
+    high = vec3_sub(high, camera->eye);
+    struct vec3 across = vec3_scale(camera->forward, -camera->tan_x);
+    struct vec3 upward = vec3_scale(camera->forward, -camera->tan_y);
+    const struct vec3 planes[] = {
+        vec3_scale(camera->forward, -1.0), vec3_add(across, camera->right),
+        vec3_sub(across, camera->right),   vec3_add(upward, camera->up),
+        vec3_sub(upward, camera->up),
+    };
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
+        if (box_outside(low, high, planes[i]))
+            return false;
+    return true;
 }

@@ -38,15 +38,17 @@ void camera_look(struct camera *camera, struct vec3 eye, struct vec3 target, uin
  * for larger bodies; above the ground by CAMERA_CLEARANCE_M at least, with a free line of sight to
  * the subject. */
 void camera_chase(struct camera *camera, const struct camera_subject *subject,
-                  const struct terrain *terrain, const struct crater_index *craters,
-                  uint32_t width, uint32_t height);
+                  const struct terrain *terrain, const struct crater_index *craters, uint32_t width,
+                  uint32_t height);
 
 /* Can any of this ball be in the picture? Never false for one that is. */
 bool camera_sees(const struct camera *camera, struct vec3 centre, double radius_m);
 
+/* The same for a box with edges along the world's axes; sharper for large flat ones. */
+bool camera_sees_box(const struct camera *camera, struct vec3 low, struct vec3 high);
+
 /* How large a length shows at a distance [pixel]. */
-static inline double camera_pixels(const struct camera *camera, double length_m,
-                                   double distance_m)
+static inline double camera_pixels(const struct camera *camera, double length_m, double distance_m)
 {
     return length_m * camera->focal_pixels / maths_max(distance_m, camera->near_m);
 }

@@ -72,8 +72,10 @@ int chart_open(struct chart *chart, const struct world *world, uint32_t width, u
         image_init(&chart->small, small, small) == 0 &&
         (close.width == 0 || image_init(&chart->close_up, close.width, close.height) == 0) &&
         map_ground(&chart->whole, &whole, world, NULL, CONTOUR_WHOLE_M) == 0 &&
-        map_ground(&chart->small, &corner, world, NULL, 4.0 * CONTOUR_WHOLE_M) == 0)
+        map_ground(&chart->small, &corner, world, NULL, 4.0 * CONTOUR_WHOLE_M) == 0) {
+        map_roads(&chart->whole, &whole, world, 1.0);
         return 0;
+    }
     chart_close(chart);
     return reason_set(reason, "no memory for a %ux%u map", width, height);
 }
@@ -249,6 +251,7 @@ static int draw_panel(struct chart *chart, struct image *image, const struct mom
     if (map_ground(&chart->close_up, &view, moment->world, moment->craters, CONTOUR_CLOSE_M) != 0)
         return -1;
     image_copy(image, &chart->close_up, view.left, view.top);
+    map_roads(image, &view, moment->world, 2.0);
     map_grid(image, &view, GRID_CLOSE_M);
     map_craters(image, &view, moment->craters);
     place_names(chart, image, &view);

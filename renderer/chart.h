@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 struct chart {
-    struct text *text;         /* owned */
+    struct text *text; /* owned */
     const struct world *world;
     struct image whole, small; /* ground of the whole square, for the map and the instruments */
     struct image close_up;     /* ground around the followed vehicle, painted anew each time */

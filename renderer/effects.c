@@ -62,8 +62,8 @@ static void add_dent(struct effects *effects, const struct moment *moment,
         return;
     const double *point = event->collision.point;
     double ago = world_time_s(moment->world, moment->head) - event_time(moment, event);
-    struct vec3 then = vec3_sub(entities_position(e, slot),
-                                vec3_scale(entities_velocity(e, slot), ago));
+    struct vec3 then =
+        vec3_sub(entities_position(e, slot), vec3_scale(entities_velocity(e, slot), ago));
     struct pose pose = pose_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
     struct vec3 off = vec3_sub((struct vec3){point[0], point[1], point[2]}, then);
     const struct kind *kind = &moment->world->kinds[party->kind];
@@ -92,8 +92,8 @@ static void take_collision(struct effects *effects, const struct moment *moment,
     }
 }
 
-void effects_take(struct effects *effects, const struct moment *moment,
-                  const struct event *events, uint32_t count)
+void effects_take(struct effects *effects, const struct moment *moment, const struct event *events,
+                  uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         const struct event *event = &events[i];

@@ -7,10 +7,10 @@
 
 #include <stdint.h>
 
-#define EFFECTS_MAX      512u
-#define EFFECT_LIFE_S    14.0 /* the longest that any of them shows */
-#define DENTED_MAX       256u /* bodies whose dents are remembered */
-#define DENTS_PER_BODY   4u
+#define EFFECTS_MAX    512u
+#define EFFECT_LIFE_S  14.0 /* the longest that any of them shows */
+#define DENTED_MAX     256u /* bodies whose dents are remembered */
+#define DENTS_PER_BODY 4u
 
 enum effect_type { EFFECT_FLASH, EFFECT_EXPLOSION, EFFECT_SPLASH, EFFECT_CRASH };
 
@@ -42,8 +42,8 @@ struct effects {
 };
 
 /* Takes committed events in their order. moment is a frame at or after theirs. */
-void effects_take(struct effects *effects, const struct moment *moment,
-                  const struct event *events, uint32_t count);
+void effects_take(struct effects *effects, const struct moment *moment, const struct event *events,
+                  uint32_t count);
 
 /* The effects held, 0 .. count - 1, in no order of importance. */
 uint32_t effects_count(const struct effects *effects);

@@ -41,8 +41,8 @@ static double action_near(const struct effects *effects, struct vec3 position, d
     return maths_min(sum, ACTION_MOST);
 }
 
-static double liveliness(const struct moment *moment, const struct effects *effects,
-                         uint32_t slot, uint32_t company)
+static double liveliness(const struct moment *moment, const struct effects *effects, uint32_t slot,
+                         uint32_t company)
 {
     const struct entities *e = moment->entities;
     const struct kind *kind = &moment->world->kinds[e->kind[slot]];
@@ -91,18 +91,18 @@ static uint32_t liveliest(const struct moment *moment, const struct effects *eff
 }
 
 uint32_t follow_choose(struct follow *follow, const struct moment *moment,
-                       const struct effects *effects, uint32_t wanted_id)
+                       const struct effects *effects, uint32_t first_id, bool only)
 {
     const struct entities *e = moment->entities;
+    uint32_t used = moment->head->used;
     double now = world_time_s(moment->world, moment->head);
-    if (wanted_id != 0) {
-        uint32_t wanted = entities_find(e, moment->head->used, wanted_id);
-        if (wanted != SLOT_NONE)
-            return wanted;
+    uint32_t first = first_id != 0 ? entities_find(e, used, first_id) : SLOT_NONE;
+    bool first_lives = first != SLOT_NONE && e->state[first] == ENTITY_ACTIVE;
+    if (first != SLOT_NONE && (only || first_lives)) {
+        *follow = (struct follow){.id = first_id, .since_s = now};
+        return first;
     }
-    uint32_t slot = SLOT_NONE;
-    if (follow->id != 0)
-        slot = entities_find(e, moment->head->used, follow->id);
+    uint32_t slot = follow->id != 0 ? entities_find(e, used, follow->id) : SLOT_NONE;
     if (slot != SLOT_NONE) {
         bool wreck = e->state[slot] == ENTITY_WRECK;
         if (wreck && follow->dead_s <= 0.0)

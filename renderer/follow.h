@@ -5,6 +5,7 @@
 #include "renderer/effects.h"
 #include "renderer/moment.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #define FOLLOW_KEEP_S  12.0 /* a vehicle that was picked is kept so long ... */
@@ -16,11 +17,11 @@ struct follow {
     double dead_s;  /* when it was first seen as a wreck; 0: it lives */
 };
 
-/* Slot of the vehicle to follow: that of wanted_id while it exists; else the one being followed,
- * while it lives and its time is not over; else the liveliest: on land, moving, in company, near
- * what just happened. The same moment and history give the same choice. SLOT_NONE when there is no
- * vehicle. */
+/* Slot of the vehicle to follow: that of first_id until it is destroyed (0: none), or as long as
+ * it exists if only is set; then the one being followed, while it lives and its time is not over;
+ * else the liveliest: on land, moving, in company, near what just happened. The same moment and
+ * history give the same choice. SLOT_NONE when there is no vehicle. */
 uint32_t follow_choose(struct follow *follow, const struct moment *moment,
-                       const struct effects *effects, uint32_t wanted_id);
+                       const struct effects *effects, uint32_t first_id, bool only);
 
 #endif

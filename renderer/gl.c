@@ -4,6 +4,7 @@
 #include "renderer/draw.h"
 #include "renderer/gl_context.h"
 #include "renderer/light.h"
+#include "renderer/smooth.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -22,10 +23,10 @@ struct gl {
     struct gl_bodies bodies;
     struct gl_billboards boards;
     GLuint sky_program, smooth_program, empty_array, frame_block;
-    GLuint target, colour, depth;    /* where the scene is drawn */
-    GLuint smooth_target, smooth;    /* and where its edges are smoothed to */
+    GLuint target, colour, depth; /* where the scene is drawn */
     uint32_t width, height;
-    uint8_t *rows; /* as OpenGL gives them, from the bottom */
+    struct image drawn;  /* read back, its edges still rough */
+    uint8_t *luma, *row; /* scratch */
 };
 
 static const char sky_vertex_text[] =
@@ -61,85 +62,24 @@ static const char sky_fragment_text[] =
     "    o_colour = vec4(colour, 1.0);\n"
     "}\n";
 
-static const char smooth_vertex_text[] =
-    "void main()\n"
-    "{\n"
-    "    gl_Position = vec4(float(gl_VertexID & 1) * 4.0 - 1.0,\n"
-    "                       float(gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0);\n"
-    "}\n";
-
-/* Smooths stairs along edges (after T. Lottes, FXAA, 2009): several times cheaper than drawing
- * every pixel from several samples. */
-static const char smooth_fragment_text[] =
-    "uniform sampler2D u_picture;\n"
-    "out vec4 o_colour;\n"
-    "float bright(vec3 c) { return dot(c, vec3(0.299, 0.587, 0.114)); }\n"
-    "vec3 at(vec2 p) { return textureLod(u_picture, p, 0.0).rgb; }\n"
-    "void main()\n"
-    "{\n"
-    "    ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(u_picture, 0) - 1;\n"
-    "    vec3 middle = texelFetch(u_picture, pixel, 0).rgb;\n"
-    "    float m = bright(middle);\n"
-    "    ivec2 low = max(pixel - 1, ivec2(0)), high = min(pixel + 1, last);\n"
-    "    float sw = bright(texelFetch(u_picture, low, 0).rgb);\n"
-    "    float ne = bright(texelFetch(u_picture, high, 0).rgb);\n"
-    "    float se = bright(texelFetch(u_picture, ivec2(high.x, low.y), 0).rgb);\n"
-    "    float nw = bright(texelFetch(u_picture, ivec2(low.x, high.y), 0).rgb);\n"
-    "    float least = min(m, min(min(nw, ne), min(sw, se)));\n"
-    "    float most = max(m, max(max(nw, ne), max(sw, se)));\n"
-    "    o_colour = vec4(middle, 1.0);\n"
-    "    if (most - least < max(0.05, 0.14 * most))\n"
-    "        return;\n"
-    "    vec2 way = vec2((sw + se) - (nw + ne), (nw + sw) - (ne + se));\n"
-    "    float ease = max((nw + ne + sw + se) * 0.03125, 0.0078125);\n"
-    "    way /= min(abs(way.x), abs(way.y)) + ease;\n"
-    "    vec2 size = vec2(textureSize(u_picture, 0));\n"
-    "    way = clamp(way, -8.0, 8.0) / size;\n"
-    "    vec2 here = gl_FragCoord.xy / size;\n"
-    "    vec3 close = 0.5 * (at(here - way / 6.0) + at(here + way / 6.0));\n"
-    "    vec3 wide = 0.5 * close + 0.25 * (at(here - way * 0.5) + at(here + way * 0.5));\n"
-    "    float b = bright(wide);\n"
-    "    o_colour.rgb = b < least || b > most ? close : wide;\n"
-    "}\n";
-
-static GLuint make_picture(uint32_t width, uint32_t height)
+static int open_target(struct gl *gl, struct reason *reason)
 {
-    GLuint texture;
-    glGenTextures(1, &texture);
-    glActiveTexture(GL_TEXTURE0 + UNIT_PICTURE);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, (GLsizei)width, (GLsizei)height, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, NULL);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    return texture;
-}
-
-static int open_targets(struct gl *gl, struct reason *reason)
-{
-    glGenFramebuffers(1, &gl->smooth_target);
-    glBindFramebuffer(GL_FRAMEBUFFER, gl->smooth_target);
-    gl->smooth = make_picture(gl->width, gl->height);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, gl->smooth, 0);
-    bool good = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-
+    GLsizei width = (GLsizei)gl->width, height = (GLsizei)gl->height;
     glGenFramebuffers(1, &gl->target);
     glBindFramebuffer(GL_FRAMEBUFFER, gl->target);
-    gl->colour = make_picture(gl->width, gl->height);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, gl->colour, 0);
+    glGenRenderbuffers(1, &gl->colour);
+    glBindRenderbuffer(GL_RENDERBUFFER, gl->colour);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, gl->colour);
     glGenRenderbuffers(1, &gl->depth);
     glBindRenderbuffer(GL_RENDERBUFFER, gl->depth);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, (GLsizei)gl->width,
-                          (GLsizei)gl->height);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                               gl->depth);
-    good = good && glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    if (!good)
-        return reason_set(reason, "the OpenGL driver cannot draw into a %ux%u picture", gl->width,
-                          gl->height);
-    return 0;
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE)
+        return 0;
+    return reason_set(reason, "the OpenGL driver cannot draw into a %ux%u picture", gl->width,
+                      gl->height);
 }
 
 static void send_frame(const struct gl *gl, const struct scene *scene)
@@ -204,15 +144,19 @@ static void draw_scene(struct gl *gl, const struct scene *scene, const struct mo
     glDisable(GL_DEPTH_TEST);
 }
 
-static void read_back(struct gl *gl, struct image *image)
+/* OpenGL gives rows from the bottom. */
+static void read_back(struct gl *gl)
 {
     size_t row_bytes = (size_t)gl->width * 4;
+    uint8_t *top = gl->drawn.pixels, *low = top + (gl->height - 1) * row_bytes;
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, (GLsizei)gl->width, (GLsizei)gl->height, GL_RGBA, GL_UNSIGNED_BYTE,
-                 gl->rows);
-    for (uint32_t row = 0; row < gl->height; row++)
-        memcpy(image->pixels + row * row_bytes, gl->rows + (gl->height - 1 - row) * row_bytes,
-               row_bytes);
+                 gl->drawn.pixels);
+    for (; top < low; top += row_bytes, low -= row_bytes) {
+        memcpy(gl->row, top, row_bytes);
+        memcpy(top, low, row_bytes);
+        memcpy(low, gl->row, row_bytes);
+    }
 }
 
 static int gl_picture(void *self, const struct scene *scene, const struct moment *moment,
@@ -224,18 +168,21 @@ static int gl_picture(void *self, const struct scene *scene, const struct moment
     gl_billboards_send(&gl->boards, scene);
     draw_scene(gl, scene, moment);
 
-    glBindFramebuffer(GL_FRAMEBUFFER, gl->smooth_target);
-    glActiveTexture(GL_TEXTURE0 + UNIT_PICTURE);
-    glBindTexture(GL_TEXTURE_2D, gl->colour);
-    glUseProgram(gl->smooth_program);
-    glBindVertexArray(gl->empty_array);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    read_back(gl, image);
+    read_back(gl);
+    smooth_edges(image, &gl->drawn, gl->luma);
     GLenum error = glGetError();
     if (error == GL_NO_ERROR)
         return 0;
     return reason_set(reason, "OpenGL failed while drawing (%s)",
                       error == GL_OUT_OF_MEMORY ? "out of memory" : "driver error");
+}
+
+static void free_memory(struct gl *gl)
+{
+    image_free(&gl->drawn);
+    free(gl->luma);
+    free(gl->row);
+    free(gl);
 }
 
 static void gl_close(void *self)
@@ -246,17 +193,13 @@ static void gl_close(void *self)
     gl_ground_close(&gl->ground);
     gl_textures_close(&gl->textures);
     gl_context_close(&gl->context);
-    free(gl->rows);
-    free(gl);
+    free_memory(gl);
 }
 
 static int open_programs(struct gl *gl, struct reason *reason)
 {
     gl->sky_program = gl_program("sky", sky_vertex_text, sky_fragment_text, reason);
     if (gl->sky_program == 0)
-        return -1;
-    gl->smooth_program = gl_program("smoothing", smooth_vertex_text, smooth_fragment_text, reason);
-    if (gl->smooth_program == 0)
         return -1;
     glGenVertexArrays(1, &gl->empty_array);
     glGenBuffers(1, &gl->frame_block);
@@ -271,14 +214,15 @@ int gl_open(struct draw *draw, const struct scenery *scenery, uint32_t width, ui
         return reason_set(reason, "no memory for OpenGL");
     gl->width = width;
     gl->height = height;
-    gl->rows = malloc((size_t)width * height * 4);
-    if (gl->rows == NULL) {
+    gl->luma = malloc((size_t)width * height);
+    gl->row = malloc((size_t)width * 4);
+    if (gl->luma == NULL || gl->row == NULL || image_init(&gl->drawn, width, height) != 0) {
         reason_set(reason, "no memory for a %ux%u picture", width, height);
-        goto err_rows;
+        goto err_memory;
     }
     if (gl_context_open(&gl->context, reason) != 0)
-        goto err_rows;
-    if (open_targets(gl, reason) != 0 || open_programs(gl, reason) != 0)
+        goto err_memory;
+    if (open_target(gl, reason) != 0 || open_programs(gl, reason) != 0)
         goto err_context;
     if (gl_textures_open(&gl->textures, reason) != 0)
         goto err_context;
@@ -299,8 +243,7 @@ err_textures:
     gl_textures_close(&gl->textures);
 err_context:
     gl_context_close(&gl->context);
-err_rows:
-    free(gl->rows);
-    free(gl);
+err_memory:
+    free_memory(gl);
     return -1;
 }

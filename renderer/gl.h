@@ -11,7 +11,14 @@
 #include <stdint.h>
 
 /* Texture units, fixed for all programs. */
-enum gl_unit { UNIT_TILE, UNIT_DETAIL, UNIT_PLANT, UNIT_FACING, UNIT_PUFF, UNIT_CLOUD, UNIT_PICTURE };
+enum gl_unit {
+    UNIT_TILE,
+    UNIT_DETAIL,
+    UNIT_PLANT,
+    UNIT_FACING,
+    UNIT_PUFF,
+    UNIT_CLOUD,
+};
 
 /* What all shaders know of a picture; laid out as std140. */
 struct gl_frame {
@@ -50,6 +57,7 @@ struct gl_tile {
     GLuint texture, vertices, array;
     uint64_t used;    /* picture in which it was last drawn; 0: never filled */
     uint32_t craters; /* of the world when it was made */
+    uint32_t cells;   /* a side */
     bool wet;         /* some of it is water */
 };
 
@@ -62,6 +70,7 @@ struct gl_ground {
     const struct scenery *scenery;
     struct gl_ground_shader land, shore;
     GLuint triangles;
+    GLintptr first[GROUND_CELLS_MAX + 1]; /* where the triangles of so many cells begin [byte] */
     struct gl_tile tiles[GL_TILES];
     uint64_t pictures;
     uint8_t *rgba; /* scratch */

@@ -135,7 +135,7 @@ static const char puff_fragment_text[] =
     "    if (much < 0.004)\n"
     "        discard;\n"
     "    vec3 lit = v_colour.rgb * (0.35 + 1.3 * puff.g);\n"
-    "    vec3 hot = v_colour.rgb * (0.6 + 0.8 * puff.g) * 1.15 + 0.16 * puff.r * puff.r;\n"
+    "    vec3 hot = v_colour.rgb * (0.6 + 0.8 * puff.g) * 1.05 + 0.06 * puff.r * puff.r;\n"
     "    vec3 colour = mix(lit, hot, v_glow);\n"
     "    colour = mix(colour, v_air.rgb * (1.0 - v_glow), v_air.a);\n"
     "    o_colour = vec4(colour * much, much * (1.0 - v_glow));\n"

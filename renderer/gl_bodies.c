@@ -101,7 +101,8 @@ static const char fragment_text[] =
     "        colour *= 0.86 + 0.28 * fine.r;\n"
     "        float soot = smoothstep(1.02 - 1.1 * v_burn, 1.30 - v_burn, fine.g + 0.3 * blot.g);\n"
     "        vec3 burnt = mix(vec3(0.055, 0.05, 0.047), vec3(0.20, 0.115, 0.07),\n"
-    "                         smoothstep(0.60, 0.80, fine.g + 0.4 * (blot.g - 0.5)) * 0.8 * step(0.9, v_burn));\n"
+    "                         smoothstep(0.60, 0.80, fine.g + 0.4 * (blot.g - 0.5)) * 0.8 * "
+    "step(0.9, v_burn));\n"
     "        colour = mix(colour, burnt, max(soot, 0.94 * smoothstep(0.8, 1.0, v_burn)));\n"
     "    } else {\n"
     "        colour = mix(colour, vec3(0.07), v_burn * 0.9);\n"
@@ -128,14 +129,13 @@ static const char shadow_vertex_text[] = BODY_INPUTS
     "    v_clear = 1.0 - air(world).a;\n"
     "}\n";
 
-static const char shadow_fragment_text[] =
-    "in float v_clear;\n"
-    "out vec4 o_colour;\n"
-    "void main()\n"
-    "{\n"
-    "    vec4 shade = " SHADE ";\n"
-    "    o_colour = vec4(shade.rgb, shade.a * v_clear);\n"
-    "}\n";
+static const char shadow_fragment_text[] = "in float v_clear;\n"
+                                           "out vec4 o_colour;\n"
+                                           "void main()\n"
+                                           "{\n"
+                                           "    vec4 shade = " SHADE ";\n"
+                                           "    o_colour = vec4(shade.rgb, shade.a * v_clear);\n"
+                                           "}\n";
 
 /* All meshes of all models into one buffer. 0, or -1 with errno. */
 static int send_meshes(struct gl_bodies *bodies)

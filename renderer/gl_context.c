@@ -64,8 +64,8 @@ static bool has_word(const char *list, const char *word)
 static void note(struct reason *reason, const char *name, const char *what)
 {
     size_t used = strlen(reason->text);
-    snprintf(reason->text + used, sizeof reason->text - used, "%s%.40s: %.60s", used > 0 ? "; " : "",
-             name, what);
+    snprintf(reason->text + used, sizeof reason->text - used, "%s%.40s: %.60s",
+             used > 0 ? "; " : "", name, what);
 }
 
 static uint32_t find_devices(struct candidate *candidates, bool software)
@@ -80,9 +80,8 @@ static uint32_t find_devices(struct candidate *candidates, bool software)
         if (has_word(extensions, "EGL_MESA_device_software") != software)
             continue;
         struct candidate *c = &candidates[found++];
-        *c = (struct candidate){.platform = EGL_PLATFORM_DEVICE_EXT,
-                                .device = devices[i],
-                                .software = software};
+        *c = (struct candidate){
+            .platform = EGL_PLATFORM_DEVICE_EXT, .device = devices[i], .software = software};
         snprintf(c->name, sizeof c->name, "%s device %d", software ? "software" : "hardware", i);
     }
     return found;

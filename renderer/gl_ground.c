@@ -14,7 +14,7 @@
 
 static const char vertex_text[] =
     "layout(location = 0) in vec3 a_place;\n"
-    "uniform vec4 u_origin;\n" /* the patch's corner from the eye; its side */
+    "uniform vec4 u_origin;\n"    /* the patch's corner from the eye; its side */
     "uniform vec4 u_detail_at;\n" /* the corner in fine and in broad texture; a metre in each */
     "out vec2 v_tile, v_fine, v_broad;\n"
     "out vec3 v_place;\n"
@@ -43,52 +43,65 @@ static const char vertex_text[] =
     "out vec4 o_colour;\n"                                                                         \
     "vec3 textured(vec4 tile)\n"                                                                   \
     "{\n"                                                                                          \
-    "    vec2 fine = texture(u_detail, v_fine, -0.7).rg;\n"                                        \
-    "    vec2 broad = texture(u_detail, v_broad, -0.5).rg;\n"                                      \
+    "    vec2 fine = texture(u_detail, v_fine).rg;\n"                                              \
+    "    vec2 broad = texture(u_detail, v_broad).rg;\n"                                            \
     "    float scrub = clamp((tile.a - 0.376) / 0.624, 0.0, 1.0);\n"                               \
     "    float shade = mix(fine.r, fine.g, scrub) + 0.5;\n"                                        \
     "    shade *= 0.62 + 0.76 * mix(broad.r, broad.g, 0.4 * scrub);\n"                             \
     "    return tile.rgb * mix(1.0, shade, u_sun.w);\n"                                            \
     "}\n"
 
-static const char land_text[] = LAND
-    "void main()\n"
-    "{\n"
-    "    vec3 colour = textured(texture(u_tile, v_tile));\n"
-    "    o_colour = vec4(mix(colour, v_air.rgb, v_air.a), 1.0);\n"
-    "}\n";
+static const char land_text[] = LAND "void main()\n"
+                                     "{\n"
+                                     "    vec3 colour = textured(texture(u_tile, v_tile));\n"
+                                     "    o_colour = vec4(mix(colour, v_air.rgb, v_air.a), 1.0);\n"
+                                     "}\n";
 
-static const char shore_text[] = LAND
-    "void main()\n"
-    "{\n"
-    "    vec4 tile = texture(u_tile, v_tile);\n"
-    "    vec2 w = texture(u_detail, v_broad * 3.0 + 0.011 * u_forward.w).rg\n"
-    "           + texture(u_detail, v_broad - 0.003 * u_forward.w).rg - 1.0;\n"
-    "    vec3 way = normalize(v_place);\n"
-    "    float calm = 0.22 * u_sun.w / (1.0 + 0.0006 * length(v_place));\n"
-    "    vec3 n = normalize(vec3(w.x * calm, 1.0, w.y * calm));\n"
-    "    vec3 back = reflect(way, n);\n"
-    "    back.y = abs(back.y);\n"
-    "    float grazing = 1.0 - max(dot(-way, n), 0.0);\n"
-    "    float mirror = 0.04 + 0.80 * grazing * grazing * grazing * grazing;\n"
-    "    vec3 water = mix(tile.rgb, sky(back), mirror);\n"
-    "    water += sun_light * pow(max(dot(back, u_sun.xyz), 0.0), 120.0) * 1.6;\n"
-    "    vec3 colour = mix(water, textured(tile), smoothstep(0.10, 0.30, tile.a));\n"
-    "    o_colour = vec4(mix(colour, v_air.rgb, v_air.a), 1.0);\n"
-    "}\n";
+static const char shore_text[] =
+    LAND "void main()\n"
+         "{\n"
+         "    vec4 tile = texture(u_tile, v_tile);\n"
+         "    vec2 w = texture(u_detail, v_broad * 3.0 + 0.011 * u_forward.w).rg\n"
+         "           + texture(u_detail, v_broad - 0.003 * u_forward.w).rg - 1.0;\n"
+         "    vec3 way = normalize(v_place);\n"
+         "    float calm = 0.22 * u_sun.w / (1.0 + 0.0006 * length(v_place));\n"
+         "    vec3 n = normalize(vec3(w.x * calm, 1.0, w.y * calm));\n"
+         "    vec3 back = reflect(way, n);\n"
+         "    back.y = abs(back.y);\n"
+         "    float grazing = 1.0 - max(dot(-way, n), 0.0);\n"
+         "    float mirror = 0.04 + 0.80 * grazing * grazing * grazing * grazing;\n"
+         "    vec3 water = mix(tile.rgb, sky(back), mirror);\n"
+         "    water += sun_light * pow(max(dot(back, u_sun.xyz), 0.0), 120.0) * 1.6;\n"
+         "    vec3 colour = mix(water, textured(tile), smoothstep(0.10, 0.30, tile.a));\n"
+         "    o_colour = vec4(mix(colour, v_air.rgb, v_air.a), 1.0);\n"
+         "}\n";
+
+/* Triangles of all sizes of patches, one after the other in one buffer. */
+static void open_triangles(struct gl_ground *ground)
+{
+    static uint16_t triangles[GROUND_TRIANGLES(GROUND_CELLS_MAX)][3];
+    GLintptr offset = 0;
+    glGenBuffers(1, &ground->triangles);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, ground->triangles);
+    /* The sizes are powers of two: together less than twice the largest. */
+    glBufferData(GL_COPY_WRITE_BUFFER, 2 * (GLsizeiptr)sizeof triangles, NULL, GL_STATIC_DRAW);
+    for (uint32_t cells = 1; cells <= GROUND_CELLS_MAX; cells *= 2) {
+        GLsizeiptr bytes = (GLsizeiptr)(GROUND_TRIANGLES(cells) * sizeof triangles[0]);
+        ground_triangles(cells, triangles);
+        glBufferSubData(GL_COPY_WRITE_BUFFER, offset, bytes, triangles);
+        ground->first[cells] = offset;
+        offset += bytes;
+    }
+}
 
 static int open_tiles(struct gl_ground *ground)
 {
-    uint16_t triangles[GROUND_TRIANGLES][3];
-    ground_triangles(triangles);
-    glGenBuffers(1, &ground->triangles);
+    open_triangles(ground);
     for (uint32_t i = 0; i < GL_TILES; i++) {
         struct gl_tile *tile = &ground->tiles[i];
         glGenVertexArrays(1, &tile->array);
         glBindVertexArray(tile->array);
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, ground->triangles);
-        if (i == 0)
-            glBufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof triangles, triangles, GL_STATIC_DRAW);
         glGenBuffers(1, &tile->vertices);
         glBindBuffer(GL_ARRAY_BUFFER, tile->vertices);
         gl_attribute(0, 3, 3 * sizeof(float), 0, 0);
@@ -167,7 +180,7 @@ static bool has_water(const uint8_t *rgba)
 static void fill(struct gl_ground *ground, struct gl_tile *tile, const struct ground_patch *patch,
                  const struct moment *moment)
 {
-    float vertices[GROUND_VERTICES][3];
+    static float vertices[GROUND_VERTICES(GROUND_CELLS_MAX)][3];
     double side = ground_patch_side(patch->level);
     struct paint_tile painting = {
         .x = patch->column * side,
@@ -182,9 +195,11 @@ static void fill(struct gl_ground *ground, struct gl_tile *tile, const struct gr
     };
     tile->patch = *patch;
     tile->craters = moment->craters->count;
-    ground_vertices(&moment->world->terrain, moment->craters, patch, vertices);
+    tile->cells = ground_cells(&moment->world->terrain, moment->craters, patch);
+    ground_vertices(&moment->world->terrain, moment->craters, patch, tile->cells, vertices);
     glBindBuffer(GL_ARRAY_BUFFER, tile->vertices);
-    glBufferData(GL_ARRAY_BUFFER, sizeof vertices, vertices, GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(GROUND_VERTICES(tile->cells) * sizeof vertices[0]),
+                 vertices, GL_STATIC_DRAW);
     paint_ground(moment->world, moment->craters, &painting);
     tile->wet = has_water(ground->rgba);
     glBindTexture(GL_TEXTURE_2D, tile->texture);
@@ -222,10 +237,13 @@ static struct gl_tile *tile_of(struct gl_ground *ground, const struct ground_pat
     return found;
 }
 
-static float fraction(double v) { return (float)(v - floor(v)); }
+static float fraction(double v)
+{
+    return (float)(v - floor(v));
+}
 
-static void draw_tile(const struct gl_ground_shader *shader, const struct scene *scene,
-                      const struct gl_tile *tile)
+static void draw_tile(const struct gl_ground *ground, const struct gl_ground_shader *shader,
+                      const struct scene *scene, const struct gl_tile *tile)
 {
     double side = ground_patch_side(tile->patch.level);
     double x = tile->patch.column * side, z = tile->patch.row * side;
@@ -236,18 +254,21 @@ static void draw_tile(const struct gl_ground_shader *shader, const struct scene 
                 fraction((x + 0.35 * z) / BROAD_M), fraction((z - 0.35 * x) / BROAD_M));
     glBindTexture(GL_TEXTURE_2D, tile->texture);
     glBindVertexArray(tile->array);
-    glDrawElements(GL_TRIANGLES, 3 * GROUND_TRIANGLES, GL_UNSIGNED_SHORT, NULL);
+    glDrawElements(GL_TRIANGLES, (GLsizei)(3 * GROUND_TRIANGLES(tile->cells)), GL_UNSIGNED_SHORT,
+                   (const void *)ground->first[tile->cells]);
 }
 
 void gl_ground_draw(struct gl_ground *ground, const struct scene *scene,
                     const struct moment *moment)
 {
     ground->pictures++;
+    glEnable(GL_CULL_FACE);
     glActiveTexture(GL_TEXTURE0 + UNIT_TILE);
     for (uint32_t i = 0; i < scene->patch_count; i++) {
         const struct gl_tile *tile = tile_of(ground, &scene->patches[i], moment);
         const struct gl_ground_shader *shader = tile->wet ? &ground->shore : &ground->land;
         glUseProgram(shader->program);
-        draw_tile(shader, scene, tile);
+        draw_tile(ground, shader, scene, tile);
     }
+    glDisable(GL_CULL_FACE);
 }

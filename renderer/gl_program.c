@@ -67,7 +67,6 @@ static void name_units(GLuint program)
     } samplers[] = {
         {"u_tile", UNIT_TILE},     {"u_detail", UNIT_DETAIL}, {"u_plant", UNIT_PLANT},
         {"u_facing", UNIT_FACING}, {"u_puff", UNIT_PUFF},     {"u_cloud", UNIT_CLOUD},
-        {"u_picture", UNIT_PICTURE},
     };
     glUseProgram(program);
     for (size_t i = 0; i < sizeof samplers / sizeof samplers[0]; i++)
@@ -77,8 +76,7 @@ static void name_units(GLuint program)
         glUniformBlockBinding(program, block, 0);
 }
 
-GLuint gl_program(const char *name, const char *vertex, const char *fragment,
-                  struct reason *reason)
+GLuint gl_program(const char *name, const char *vertex, const char *fragment, struct reason *reason)
 {
     char log[LOG_BYTES] = "";
     GLuint program = 0, vs = compile(GL_VERTEX_SHADER, vertex, log), fs = 0;

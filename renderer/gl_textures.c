@@ -14,7 +14,7 @@ static GLuint make(enum gl_unit unit, GLenum target, GLint wrap)
     glBindTexture(target, texture);
     glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
     glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
-    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return texture;
 }
@@ -30,6 +30,8 @@ static int open_flat(struct gl_textures *textures)
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RG8, (GLsizei)TEXTURE_DETAIL_SIDE,
                  (GLsizei)TEXTURE_DETAIL_SIDE, 0, GL_RG, GL_UNSIGNED_BYTE, detail);
     glGenerateMipmap(GL_TEXTURE_2D);
+    /* Seen at a low angle the ground would blur long before the eye expects it. */
+    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, -0.6f);
     free(detail);
 
     uint8_t *clouds = malloc((size_t)TEXTURE_CLOUD_SIDE * TEXTURE_CLOUD_SIDE);

@@ -1,9 +1,10 @@
 /* The ground as patches of falling detail: which to draw for a camera, and their vertices. Pure.
  *
- * Patches form quadtrees over the 50 km square and eight more squares around it, in which the
- * edge's height goes on to the horizon. A patch of any level has GROUND_CELLS cells a side, split
- * along the diagonal of world/terrain.h: from the level at which a cell is a post's cell on, what
- * is drawn is the very ground that vehicles drive on. Skirts hide the seams between levels. */
+ * Patches form quadtrees over squares of 64 km, of which one begins at the world's corner and eight
+ * lie around it; past the world's edges the edge's height goes on to the horizon. 64 km is a power
+ * of two of any spacing that posts may have, so a patch's cells are whole parts or multiples of a
+ * post's cell, split along the same diagonal (world/terrain.h): from that level on what is drawn is
+ * the very ground that vehicles drive on. Skirts hide the seams between levels. */
 #ifndef JOLON_RENDERER_GROUND_H
 #define JOLON_RENDERER_GROUND_H
 
@@ -12,21 +13,23 @@
 
 #include <stdint.h>
 
-#define GROUND_CELLS       25   /* 50 km / 25 / 2^6 is exactly 31.25 m */
-#define GROUND_LEVEL_MAX   10   /* patches of 49 m, cells of 2 m: fine enough for craters */
-#define GROUND_DIG_LEVEL   8    /* from here on cells are small enough to show a crater's bowl */
+#define GROUND_ROOT_M      64000.0
+#define GROUND_CELLS_MAX   32u /* a side of a patch; a power of two */
+#define GROUND_LEVEL_MAX   10  /* patches of 62.5 m */
+#define GROUND_DIG_LEVEL   9   /* from here on 32 cells are small enough to show a crater's bowl */
 #define GROUND_PATCHES_MAX 640
-#define GROUND_SPLIT       2.3  /* a patch nearer than so many of its sides is divided */
-#define GROUND_RANGE_LEVEL 6    /* height ranges are kept down to this level */
+#define GROUND_SPLIT       2.3           /* a patch nearer than so many of its sides is divided */
+#define GROUND_ERROR       (1.0 / 600.0) /* of its side that a patch may be off; a pixel or less */
+#define GROUND_RANGE_LEVEL 6             /* height ranges are kept down to this level */
 
-/* Vertices: (GROUND_CELLS + 1)^2 on the ground, then 4 * (GROUND_CELLS + 1) of the skirt. */
-#define GROUND_SIDE      (GROUND_CELLS + 1)
-#define GROUND_VERTICES  (GROUND_SIDE * GROUND_SIDE + 4 * GROUND_SIDE)
-#define GROUND_TRIANGLES (2 * GROUND_CELLS * GROUND_CELLS + 4 * 2 * GROUND_CELLS)
+/* Of a patch of so many cells a side: (cells + 1)^2 vertices on the ground, then 4 * (cells + 1) of
+ * the skirt. */
+#define GROUND_VERTICES(cells)  (((cells) + 1u) * ((cells) + 1u) + 4u * ((cells) + 1u))
+#define GROUND_TRIANGLES(cells) (2u * (cells) * (cells) + 8u * (cells))
 
 struct ground_patch {
     int32_t column, row; /* of the level's grid; negative or past its end outside the square */
-    int32_t level;       /* 0: 50 km */
+    int32_t level;       /* 0: 64 km */
     double distance_m;   /* from the eye to its nearest point */
 };
 
@@ -46,20 +49,26 @@ void ground_free(struct ground *ground);
 
 static inline double ground_patch_side(int32_t level)
 {
-    return 50000.0 / (double)(1 << level);
+    return GROUND_ROOT_M / (double)(1 << level);
 }
 
 /* The patches that can be seen, each place once, nearest first; how many, at most
- * GROUND_PATCHES_MAX. Nearer ground never has coarser cells than farther ground, seen from the
- * patches' nearest points. */
+ * GROUND_PATCHES_MAX. A patch nearer than GROUND_SPLIT sides is never left whole, but at the
+ * deepest level or when there are too many. */
 uint32_t ground_select(const struct ground *ground, const struct camera *camera,
                        struct ground_patch patches[GROUND_PATCHES_MAX]);
 
-/* x, y, z of every vertex: x and z from the patch's north-west corner, y above sea level. */
-void ground_vertices(const struct terrain *terrain, const struct crater_index *craters,
-                     const struct ground_patch *patch, float vertices[GROUND_VERTICES][3]);
+/* Cells a side that the patch needs: as few as keep within GROUND_ERROR, at most as fine as the
+ * posts; where craters show, GROUND_CELLS_MAX. */
+uint32_t ground_cells(const struct terrain *terrain, const struct crater_index *craters,
+                      const struct ground_patch *patch);
 
-/* Three vertices a triangle; the same for every patch. */
-void ground_triangles(uint16_t triangles[GROUND_TRIANGLES][3]);
+/* x, y, z of its GROUND_VERTICES(cells) vertices: x and z from the patch's north-west corner, y
+ * above sea level. */
+void ground_vertices(const struct terrain *terrain, const struct crater_index *craters,
+                     const struct ground_patch *patch, uint32_t cells, float (*vertices)[3]);
+
+/* Its GROUND_TRIANGLES(cells) triangles, counter-clockwise from above and from outside. */
+void ground_triangles(uint32_t cells, uint16_t (*triangles)[3]);
 
 #endif

@@ -1,4 +1,5 @@
-/* Software shapes: every shape is a distance to its edge, and a pixel's coverage follows from it. */
+/* Software shapes: every shape is a distance to its edge, and a pixel's coverage follows from it.
+ */
 #include "renderer/image.h"
 
 #include <math.h>
@@ -59,8 +60,7 @@ void image_rectangle(struct image *image, int32_t x, int32_t y, int32_t width, i
             image_blend(image, column, row, colour, 1.0f);
 }
 
-static void blend_edge(struct image *image, int32_t x, int32_t y, struct rgba colour,
-                       double inside)
+static void blend_edge(struct image *image, int32_t x, int32_t y, struct rgba colour, double inside)
 {
     if (inside > -0.5)
         image_blend(image, x, y, colour, (float)fmin(1.0, inside + 0.5));
@@ -71,9 +71,9 @@ void image_line(struct image *image, struct point from, struct point to, double 
 {
     double half = 0.5 * width, dx = to.x - from.x, dy = to.y - from.y;
     double squared = dx * dx + dy * dy;
-    struct span span = span_of(image, fmin(from.x, to.x) - half - 1.0,
-                               fmin(from.y, to.y) - half - 1.0, fmax(from.x, to.x) + half + 1.0,
-                               fmax(from.y, to.y) + half + 1.0);
+    struct span span =
+        span_of(image, fmin(from.x, to.x) - half - 1.0, fmin(from.y, to.y) - half - 1.0,
+                fmax(from.x, to.x) + half + 1.0, fmax(from.y, to.y) + half + 1.0);
     for (int32_t y = span.y0; y < span.y1; y++)
         for (int32_t x = span.x0; x < span.x1; x++) {
             double px = x + 0.5 - from.x, py = y + 0.5 - from.y;
@@ -89,16 +89,15 @@ void image_disc(struct image *image, struct point centre, double radius, struct 
                                centre.x + radius + 1.0, centre.y + radius + 1.0);
     for (int32_t y = span.y0; y < span.y1; y++)
         for (int32_t x = span.x0; x < span.x1; x++)
-            blend_edge(image, x, y, colour,
-                       radius - hypot(x + 0.5 - centre.x, y + 0.5 - centre.y));
+            blend_edge(image, x, y, colour, radius - hypot(x + 0.5 - centre.x, y + 0.5 - centre.y));
 }
 
 void image_ring(struct image *image, struct point centre, double radius, double width,
                 struct rgba colour)
 {
     double reach = radius + width + 1.0;
-    struct span span = span_of(image, centre.x - reach, centre.y - reach, centre.x + reach,
-                               centre.y + reach);
+    struct span span =
+        span_of(image, centre.x - reach, centre.y - reach, centre.x + reach, centre.y + reach);
     for (int32_t y = span.y0; y < span.y1; y++)
         for (int32_t x = span.x0; x < span.x1; x++) {
             double off = hypot(x + 0.5 - centre.x, y + 0.5 - centre.y) - radius;
@@ -127,9 +126,8 @@ void image_polygon(struct image *image, const struct point *corners, uint32_t co
                 struct point a = corners[i], b = corners[(i + 1) % count];
                 double ex = b.x - a.x, ey = b.y - a.y, length = hypot(ex, ey);
                 if (length > 0.0)
-                    inside = fmin(inside, sense *
-                                              (ex * (y + 0.5 - a.y) - ey * (x + 0.5 - a.x)) /
-                                              length);
+                    inside = fmin(inside,
+                                  sense * (ex * (y + 0.5 - a.y) - ey * (x + 0.5 - a.x)) / length);
             }
             blend_edge(image, x, y, colour, inside);
         }

@@ -17,6 +17,9 @@
 #define SUN_LIGHT_GREEN 0.70f
 #define SUN_LIGHT_BLUE  0.56f
 
-static inline struct vec3 light_sun(void) { return (struct vec3){SUN_X, SUN_Y, SUN_Z}; }
+static inline struct vec3 light_sun(void)
+{
+    return (struct vec3){SUN_X, SUN_Y, SUN_Z};
+}
 
 #endif

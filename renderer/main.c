@@ -13,9 +13,9 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#define NICENESS         12          /* far behind the frame loop */
-#define LOOK_INTERVAL_NS 500000000u  /* between two looks at the world when no picture is due */
-#define WAIT_NS          100000000u  /* the longest wait without a look at the signals */
+#define NICENESS         12         /* far behind the frame loop */
+#define LOOK_INTERVAL_NS 500000000u /* between two looks at the world when no picture is due */
+#define WAIT_NS          100000000u /* the longest wait without a look at the signals */
 
 /* Statistics of one picture for jolon status; nobody depends on them. */
 static void account(struct view *view, const struct studio *studio, uint64_t begun_ns)
@@ -80,6 +80,7 @@ int main(int argc, char **argv)
     struct pulse pulse;
     struct reason reason;
 
+    log_open("renderer");
     options_read(&options, argc, argv);
     bool snapping = options.snap != NULL;
     log_open(snapping ? "renderer" : role_name(options.role));

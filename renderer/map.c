@@ -23,8 +23,8 @@ struct map_view map_around(double x, double z, double side_m, int32_t left, int3
                            uint32_t width, uint32_t height)
 {
     double metres = side_m / width;
-    return (struct map_view){x - 0.5 * metres * width, z - 0.5 * metres * height, metres, left,
-                             top,                      width,                     height};
+    return (struct map_view){
+        x - 0.5 * metres * width, z - 0.5 * metres * height, metres, left, top, width, height};
 }
 
 struct point map_point(const struct map_view *view, double x, double z)
@@ -100,6 +100,19 @@ int map_ground(struct image *image, const struct map_view *view, const struct wo
     return 0;
 }
 
+void map_roads(struct image *image, const struct map_view *view, const struct world *world,
+               double pixels)
+{
+    const struct rgba line = {112, 58, 34, 190};
+    for (uint32_t i = 0; i + 1 < world->counts.road_points; i++) {
+        const struct road_point *a = &world->road_points[i], *b = a + 1;
+        struct point from = map_point(view, (double)a->x, (double)a->z);
+        struct point to = map_point(view, (double)b->x, (double)b->z);
+        if (a->road == b->road && map_holds(view, from, -pixels) && map_holds(view, to, -pixels))
+            image_line(image, from, to, pixels, line);
+    }
+}
+
 void map_grid(struct image *image, const struct map_view *view, double step_m)
 {
     const struct rgba line = {20, 24, 30, 70};
@@ -108,8 +121,8 @@ void map_grid(struct image *image, const struct map_view *view, double step_m)
         image_rectangle(image, (int32_t)map_point(view, x, 0.0).x, view->top, 1,
                         (int32_t)view->height, line);
     for (double z = ceil(view->z / step_m) * step_m; z < view->z + height; z += step_m)
-        image_rectangle(image, view->left, (int32_t)map_point(view, 0.0, z).y,
-                        (int32_t)view->width, 1, line);
+        image_rectangle(image, view->left, (int32_t)map_point(view, 0.0, z).y, (int32_t)view->width,
+                        1, line);
 }
 
 void map_craters(struct image *image, const struct map_view *view,

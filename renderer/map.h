@@ -11,8 +11,8 @@
 
 /* A piece of the world in a rectangle of a picture. */
 struct map_view {
-    double x, z;      /* [m, world] at the rectangle's top left corner */
-    double metres;    /* a pixel */
+    double x, z;       /* [m, world] at the rectangle's top left corner */
+    double metres;     /* a pixel */
     int32_t left, top; /* [pixel] of the rectangle in the picture */
     uint32_t width, height;
 };
@@ -36,6 +36,9 @@ bool map_holds(const struct map_view *view, struct point point, double margin);
 int map_ground(struct image *image, const struct map_view *view, const struct world *world,
                const struct crater_index *craters, double contour_m);
 
+/* Roads as lines, which the ground's own dust hardly shows from so high. */
+void map_roads(struct image *image, const struct map_view *view, const struct world *world,
+               double pixels);
 void map_grid(struct image *image, const struct map_view *view, double step_m);
 void map_craters(struct image *image, const struct map_view *view,
                  const struct crater_index *craters);

@@ -178,8 +178,7 @@ void mesh_frame(struct mesh_frame *frame, const struct world *world, uint32_t mo
         double sum[3] = {0.0, 0.0, 0.0};
         uint32_t corners = 0;
         for (uint32_t t = 0; t < m->triangle_count; t++) {
-            const struct model_triangle *triangle =
-                &world->model_triangles[m->first_triangle + t];
+            const struct model_triangle *triangle = &world->model_triangles[m->first_triangle + t];
             if (triangle->part != part)
                 continue;
             for (uint32_t i = 0; i < 3; i++) {

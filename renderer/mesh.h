@@ -30,8 +30,8 @@ struct mesh {
 
 /* What all levels of a model share. */
 struct mesh_frame {
-    float low[3], high[3];          /* [m, body axes] box around the vertices */
-    float pivot[PART_COUNT][3];     /* [m] what a part turns about */
+    float low[3], high[3];      /* [m, body axes] box around the vertices */
+    float pivot[PART_COUNT][3]; /* [m] what a part turns about */
 };
 
 /* 0, or -1 with errno ENOMEM. */

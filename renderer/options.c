@@ -26,16 +26,22 @@ static const char usage_text[] =
     "                      scenario's renderer.fps)\n"
     "      --view VIEW     chase, map or both (default: the scenario's renderer.view)\n"
     "      --size WxH      64 to 4096 pixels each (default: the scenario's)\n"
-    "      --follow ID     the vehicle to follow; 0 picks a lively one\n"
+    "      --follow ID     the vehicle to follow; 0 picks a lively one (default: the scenario's,\n"
+    "                      until it is destroyed)\n"
     "      --parent PID    end when this process does\n"
     "      --help          this text\n";
 
 static const struct option long_options[] = {
-    {"world", required_argument, NULL, 'w'}, {"out", required_argument, NULL, 'o'},
-    {"snap", required_argument, NULL, 's'},  {"role", required_argument, NULL, 'r'},
-    {"fps", required_argument, NULL, 'f'},   {"view", required_argument, NULL, 'v'},
-    {"size", required_argument, NULL, 'z'},  {"follow", required_argument, NULL, 'F'},
-    {"parent", required_argument, NULL, 'p'}, {"help", no_argument, NULL, 'h'},
+    {"world", required_argument, NULL, 'w'},
+    {"out", required_argument, NULL, 'o'},
+    {"snap", required_argument, NULL, 's'},
+    {"role", required_argument, NULL, 'r'},
+    {"fps", required_argument, NULL, 'f'},
+    {"view", required_argument, NULL, 'v'},
+    {"size", required_argument, NULL, 'z'},
+    {"follow", required_argument, NULL, 'F'},
+    {"parent", required_argument, NULL, 'p'},
+    {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0},
 };
 
@@ -44,8 +50,7 @@ static uint64_t number(const char *option, const char *text, uint64_t low, uint6
     char *end;
     errno = 0;
     unsigned long long value = strtoull(text, &end, 10);
-    if (text[0] < '0' || text[0] > '9' || *end != '\0' || errno != 0 || value < low ||
-        value > high)
+    if (text[0] < '0' || text[0] > '9' || *end != '\0' || errno != 0 || value < low || value > high)
         die_usage("--%s %s: not a whole number from %llu to %llu", option, text,
                   (unsigned long long)low, (unsigned long long)high);
     return value;
@@ -75,8 +80,8 @@ static void read_size(struct options *options, const char *text)
     if (sscanf(text, "%4ux%4u%n", &width, &height, &used) != 2 || text[used] != '\0' ||
         width < OPTIONS_SIDE_MIN || width > OPTIONS_SIDE_MAX || height < OPTIONS_SIDE_MIN ||
         height > OPTIONS_SIDE_MAX)
-        die_usage("--size %s: not WxH with each from %u to %u, as 1280x720", text,
-                  OPTIONS_SIDE_MIN, OPTIONS_SIDE_MAX);
+        die_usage("--size %s: not WxH with each from %u to %u, as 1280x720", text, OPTIONS_SIDE_MIN,
+                  OPTIONS_SIDE_MAX);
     options->width = width;
     options->height = height;
 }
@@ -132,8 +137,7 @@ static void take(struct options *options, int letter, const char *value)
 
 void options_read(struct options *options, int argc, char **argv)
 {
-    *options = (struct options){
-        .world = "default", .role = ROLE_RENDERER, .fps = -1.0, .view = -1};
+    *options = (struct options){.world = "default", .role = ROLE_RENDERER, .fps = -1.0, .view = -1};
     int letter;
     while ((letter = getopt_long(argc, argv, "w:", long_options, NULL)) != -1)
         take(options, letter, optarg);

@@ -16,9 +16,9 @@ struct options {
     double fps;             /* pictures a second; below 0: the world's */
     uint32_t width, height; /* 0: the world's */
     int view;               /* enum view_mode; below 0: the world's */
-    uint32_t follow;        /* entity id */
-    bool follow_given;
-    int parent_pid; /* 0: none */
+    uint32_t follow;        /* entity id, 0: picks one */
+    bool follow_given;      /* follows it even as a wreck; else the world's choice while it lives */
+    int parent_pid;         /* 0: none */
 };
 
 /* Ends the process on wrong usage (exit 2) and on --help and --version (exit 0). */

@@ -4,6 +4,7 @@
 #include "renderer/png.h"
 
 #include <errno.h>
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,6 +51,36 @@ static int make_folders(const char *folder)
     return -1;
 }
 
+/* Gives the frame's picture a place among those kept; the one that had it is removed. */
+static void keep(const struct output *output, struct output_row *row, const char *view,
+                 uint64_t frame)
+{
+    char old[PATH_BYTES];
+    for (uint32_t i = 0; i < OUTPUT_KEPT; i++)
+        if (row->frame[i] == frame)
+            row->frame[i] = OUTPUT_NONE; /* of an earlier run: the file is the new one's now */
+    uint64_t *place = &row->frame[row->written++ % OUTPUT_KEPT];
+    if (*place != OUTPUT_NONE && path_of(output, old, view, place, "") == 0)
+        unlink(old);
+    *place = frame;
+}
+
+static void keep_found(const struct output *output, struct output_row *row, const char *view)
+{
+    char pattern[PATH_BYTES];
+    glob_t found;
+    for (uint32_t i = 0; i < OUTPUT_KEPT; i++)
+        row->frame[i] = OUTPUT_NONE;
+    int length = snprintf(pattern, sizeof pattern, "%s/%s-[0-9]*.png", output->folder, view);
+    if (length < 0 || (size_t)length >= sizeof pattern || glob(pattern, 0, NULL, &found) != 0)
+        return;
+    for (size_t i = 0; i < found.gl_pathc; i++) {
+        const char *number = strrchr(found.gl_pathv[i], '-') + 1;
+        keep(output, row, view, strtoull(number, NULL, 10));
+    }
+    globfree(&found);
+}
+
 int output_open(struct output *output, const char *folder, struct reason *reason)
 {
     memset(output, 0, sizeof *output);
@@ -58,6 +89,8 @@ int output_open(struct output *output, const char *folder, struct reason *reason
         return reason_set(reason, "--out %s: cannot make the folder: %s", folder, strerror(errno));
     if (access(folder, W_OK | X_OK) != 0)
         return reason_set(reason, "--out %s: cannot write there: %s", folder, strerror(errno));
+    keep_found(output, &output->chase, "chase");
+    keep_found(output, &output->map, "map");
     return 0;
 }
 
@@ -80,7 +113,7 @@ int output_picture(struct output *output, const char *view, const struct image *
                    uint64_t frame, const char *comment, struct reason *reason)
 {
     struct output_row *row = view[0] == 'c' ? &output->chase : &output->map;
-    char numbered[PATH_BYTES], latest[PATH_BYTES], temporary[PATH_BYTES], old[PATH_BYTES];
+    char numbered[PATH_BYTES], latest[PATH_BYTES], temporary[PATH_BYTES];
     if (path_of(output, numbered, view, &frame, "") != 0 ||
         path_of(output, latest, view, NULL, "") != 0 ||
         path_of(output, temporary, view, NULL, ".tmp") != 0)
@@ -91,12 +124,7 @@ int output_picture(struct output *output, const char *view, const struct image *
     if (point_latest(numbered, temporary, latest) != 0 &&
         output_file(latest, image, comment, reason) != 0)
         return -1;
-    uint64_t *place = &row->frame[row->written % OUTPUT_KEPT];
-    if (row->written >= OUTPUT_KEPT && *place != frame &&
-        path_of(output, old, view, place, "") == 0)
-        unlink(old);
-    *place = frame;
-    row->written++;
+    keep(output, row, view, frame);
     return 0;
 }
 

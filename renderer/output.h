@@ -10,8 +10,10 @@
 
 #define OUTPUT_KEPT 120u /* numbered pictures of a view; older ones are removed: about 150 MB */
 
+#define OUTPUT_NONE UINT64_MAX
+
 struct output_row {
-    uint64_t frame[OUTPUT_KEPT]; /* of the numbered pictures this process wrote */
+    uint64_t frame[OUTPUT_KEPT]; /* of the numbered pictures there are; OUTPUT_NONE: none */
     uint64_t written;
 };
 
@@ -20,7 +22,8 @@ struct output {
     struct output_row chase, map;
 };
 
-/* Makes the folder if need be, and tries that it can be written to. 0, or -1 with the reason. */
+/* Makes the folder if need be, and tries that it can be written to. Numbered pictures that an
+ * earlier renderer left there count among those kept. 0, or -1 with the reason. */
 int output_open(struct output *output, const char *folder, struct reason *reason);
 
 /* Writes "VIEW-FRAME.png" and makes "VIEW.png" the same picture, each in one step: a reader never

@@ -5,9 +5,8 @@
 #include "renderer/grain.h"
 
 #include <math.h>
-#include <string.h>
 
-#define ROAD_HALF_M     4.0  /* half a road's width */
+#define ROAD_HALF_M     4.0 /* half a road's width */
 #define ROAD_SHOULDER_M 2.5
 #define ROAD_RUT_M      1.7 /* ruts to each side of the middle */
 #define SCORCH_REACH    2.6 /* of a crater's radius: how far its soot lies */
@@ -26,7 +25,7 @@ struct texel {
 struct site {
     double x, z, step;
     double height;
-    float slope_x, slope_z; /* rise a metre to the east, to the south */
+    float slope_x, slope_z;    /* rise a metre to the east, to the south */
     float broad, middle, fine; /* noise of some 400, 60 and 9 m */
 };
 
@@ -49,7 +48,10 @@ static const struct colour foam = {0.930f, 0.950f, 0.940f};
 static const struct colour dust = {0.760f, 0.670f, 0.510f};
 static const struct colour soot = {0.110f, 0.095f, 0.080f};
 
-static float clamp01(float v) { return v < 0.0f ? 0.0f : v > 1.0f ? 1.0f : v; }
+static float clamp01(float v)
+{
+    return v < 0.0f ? 0.0f : v > 1.0f ? 1.0f : v;
+}
 
 static float ramp(float low, float high, float v)
 {
@@ -90,9 +92,9 @@ static float post(const struct terrain *terrain, int64_t column, int64_t row)
 static void smooth_slope(const struct terrain *terrain, struct site *s)
 {
     double gx = s->x / terrain->spacing_m, gz = s->z / terrain->spacing_m;
-    double fx = floor(gx), fz = floor(gz);
-    int64_t c = (int64_t)fx, r = (int64_t)fz;
-    float u = (float)(gx - fx), v = (float)(gz - fz), sx = 0.0f, sz = 0.0f, height = 0.0f;
+    int64_t c = grain_floor(gx), r = grain_floor(gz);
+    float u = (float)(gx - (double)c), v = (float)(gz - (double)r), sx = 0.0f, sz = 0.0f,
+          height = 0.0f;
     for (int64_t i = 0; i < 4; i++) {
         int64_t pc = c + (i & 1), pr = r + (i >> 1);
         float weight = (i & 1 ? u : 1.0f - u) * (i >> 1 ? v : 1.0f - v);
@@ -108,30 +110,50 @@ static void smooth_slope(const struct terrain *terrain, struct site *s)
 
 /* --- covers ----------------------------------------------------------------------------------- */
 
-/* Shares of the covers around a place, their borders frayed by noise. Roads are painted by their
- * own lines, so a post's COVER_ROAD counts as grass. */
+/* The cover of a post; roads are painted by their own lines, so a post's COVER_ROAD is grass. */
+static uint8_t post_cover(const struct terrain *terrain, int64_t column, int64_t row)
+{
+    int64_t at = post_clamp(row, terrain) * terrain->side + post_clamp(column, terrain);
+    uint8_t cover = terrain->cover[at];
+    return cover == COVER_ROAD || cover >= COVER_COUNT ? (uint8_t)COVER_GRASS : cover;
+}
+
+/* Is it one cover as far around a cell as borders can be shaken? */
+static bool one_cover(const struct terrain *terrain, int64_t column, int64_t row, uint8_t cover)
+{
+    for (int64_t r = row - 1; r <= row + 2; r++)
+        for (int64_t c = column - 1; c <= column + 2; c++)
+            if (post_cover(terrain, c, r) != cover)
+                return false;
+    return true;
+}
+
+/* Shares of the covers around a place. Borders are shaken by noise as long as a cell and shorter,
+ * by less than a cell in all: the grid of the posts must not show. */
 static void cover_shares(const struct terrain *terrain, const struct site *s,
                          float share[COVER_COUNT])
 {
-    /* Shaken by noise as long as a cell and shorter: the grid of the posts must not show. */
-    double cell = terrain->spacing_m;
-    float shake_x = 0.50f * band(s, 1.7 * cell, 31) + 0.24f * band(s, 0.6 * cell, 32);
-    float shake_z = 0.50f * band(s, 1.7 * cell, 33) + 0.24f * band(s, 0.6 * cell, 34);
-    double gx = s->x / cell + (double)(shake_x + 0.10f * s->fine);
-    double gz = s->z / cell + (double)(shake_z - 0.10f * s->fine);
-    double fx = floor(gx), fz = floor(gz);
-    int64_t c = (int64_t)fx, r = (int64_t)fz;
-    /* Steeper than linear: a border is some metres wide, not a whole cell. */
-    float u = ramp(0.25f, 0.75f, (float)(gx - fx)), v = ramp(0.25f, 0.75f, (float)(gz - fz));
+    double cell = terrain->spacing_m, gx = s->x / cell, gz = s->z / cell;
+    int64_t c = grain_floor(gx), r = grain_floor(gz);
+    uint8_t here = post_cover(terrain, c, r);
     for (uint32_t i = 0; i < COVER_COUNT; i++)
         share[i] = 0.0f;
-    for (int64_t i = 0; i < 4; i++) {
-        int64_t pc = post_clamp(c + (i & 1), terrain), pr = post_clamp(r + (i >> 1), terrain);
-        uint8_t cover = terrain->cover[pr * terrain->side + pc];
-        if (cover == COVER_ROAD || cover >= COVER_COUNT)
-            cover = COVER_GRASS;
-        share[cover] += (i & 1 ? u : 1.0f - u) * (i >> 1 ? v : 1.0f - v);
+    if (one_cover(terrain, c, r, here)) {
+        share[here] = 1.0f;
+        return;
     }
+    float shake_x = 0.50f * band(s, 1.7 * cell, 31) + 0.24f * band(s, 0.6 * cell, 32);
+    float shake_z = 0.50f * band(s, 1.7 * cell, 33) + 0.24f * band(s, 0.6 * cell, 34);
+    gx += (double)(shake_x + 0.10f * s->fine);
+    gz += (double)(shake_z - 0.10f * s->fine);
+    c = grain_floor(gx);
+    r = grain_floor(gz);
+    /* Steeper than linear: a border is some metres wide, not a whole cell. */
+    float u = ramp(0.25f, 0.75f, (float)(gx - (double)c));
+    float v = ramp(0.25f, 0.75f, (float)(gz - (double)r));
+    for (int64_t i = 0; i < 4; i++)
+        share[post_cover(terrain, c + (i & 1), r + (i >> 1))] +=
+            (i & 1 ? u : 1.0f - u) * (i >> 1 ? v : 1.0f - v);
 }
 
 static struct colour grass_colour(const struct site *s)
@@ -159,8 +181,8 @@ static struct texel cover_texel(const struct site *s, enum cover cover, float sh
         /* Far away a wood is its crowns; near by they stand there, and the ground shows. */
         float far = clamp01((float)s->step / 10.0f);
         struct colour crowns = mix(canopy, canopy_light, clump);
-        struct colour floor_near = mix(mix(litter, olive, 0.35f + 0.3f * s->middle), shrub,
-                                       0.60f * clump);
+        struct colour floor_near =
+            mix(mix(litter, olive, 0.35f + 0.3f * s->middle), shrub, 0.60f * clump);
         t.colour = mix(floor_near, crowns, 0.42f + 0.45f * far);
         t.scrub = 0.6f;
         break;
@@ -218,10 +240,8 @@ static struct texel blend_covers(const struct terrain *terrain, const struct sit
 static float sun_share(const struct site *s, const struct paint_tile *tile, float water)
 {
     float rough = (1.0f - water) * (float)tile->relief;
-    float sx = s->slope_x * rough + rough * 0.10f * band(s, 23.0, 61) +
-               rough * 0.10f * band(s, 140.0, 63);
-    float sz = s->slope_z * rough + rough * 0.10f * band(s, 23.0, 62) +
-               rough * 0.10f * band(s, 140.0, 64);
+    float sx = rough * (s->slope_x + 0.11f * band(s, 31.0, 61) + 0.07f * s->middle);
+    float sz = rough * (s->slope_z + 0.11f * band(s, 31.0, 62) - 0.07f * s->middle);
     float facing = (float)tile->sun.y - sx * (float)tile->sun.x - sz * (float)tile->sun.z;
     return facing > 0.0f ? facing / sqrtf(1.0f + sx * sx + sz * sz) : 0.0f;
 }
@@ -316,8 +336,7 @@ static void paint_road(const struct paint_tile *tile, const struct road_point *a
                 float rut = 1.0f - ramp(0.2f, 0.9f, fabsf((float)off - (float)ROAD_RUT_M));
                 colour = scale(dust, 1.0f - 0.16f * rut - 0.07f * wander);
             }
-            lay(tile, (size_t)row * tile->columns + (size_t)column, colour,
-                on * (float)strength);
+            lay(tile, (size_t)row * tile->columns + (size_t)column, colour, on * (float)strength);
         }
 }
 
@@ -325,8 +344,8 @@ static void paint_crater(const struct paint_tile *tile, const struct crater *cra
 {
     double radius = crater->radius_m, reach = SCORCH_REACH * radius;
     struct box box;
-    if (!tile_box(tile, crater->x - reach, crater->z - reach, crater->x + reach,
-                  crater->z + reach, &box))
+    if (!tile_box(tile, crater->x - reach, crater->z - reach, crater->x + reach, crater->z + reach,
+                  &box))
         return;
     for (int64_t row = box.z0; row <= box.z1; row++)
         for (int64_t column = box.x0; column <= box.x1; column++) {
@@ -336,8 +355,9 @@ static void paint_crater(const struct paint_tile *tile, const struct crater *cra
             float turn = (float)maths_atan2(dz, dx), out = (float)(hypot(dx, dz) / radius);
             float ray = grain_value((double)turn * 4.0, crater->x, 81);
             float black = 0.9f * (1.0f - ramp(0.75f, (float)SCORCH_REACH * 0.8f, out - 0.4f * ray));
-            struct colour colour = mix(soot, earth, 0.45f * (1.0f - ramp(0.0f, 0.6f, out)) +
-                                                        0.35f * ramp(0.9f, 1.2f, out));
+            struct colour colour =
+                mix(soot, earth,
+                    0.45f * (1.0f - ramp(0.0f, 0.6f, out)) + 0.35f * ramp(0.9f, 1.2f, out));
             lay(tile, (size_t)row * tile->columns + (size_t)column, colour, black);
         }
 }

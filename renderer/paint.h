@@ -13,8 +13,8 @@
 #define PAINT_GROUND_ALPHA 96 /* bare grass; 255 is all scrub */
 
 struct paint_tile {
-    double x, z;    /* [m, world] centre of the first texel */
-    double step_m;  /* between texels */
+    double x, z;   /* [m, world] centre of the first texel */
+    double step_m; /* between texels */
     uint32_t columns, rows;
     struct vec3 sun; /* unit; where the light comes from */
     double relief;   /* slopes are shaded as if so much steeper: 1 is true */

@@ -10,8 +10,10 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-#define PULSE_INTERVAL_NS 20000000u     /* between two beats; far below the supervisor's patience */
-#define PULSE_PATIENCE_NS 20000000000ull /* that one stage may take: shaders on a loaded machine */
+#define PULSE_INTERVAL_NS 20000000u /* between two beats; far below the supervisor's patience */
+#define PULSE_PATIENCE_NS                                                                          \
+    20000000000ull /* that one stage may take: shaders on a loaded machine                         \
+                    */
 
 struct pulse {
     struct view *view;

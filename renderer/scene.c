@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BODY_LEAST_PIXELS   1.3  /* smaller than this nobody sees it */
+#define BODY_LEAST_PIXELS   1.3 /* smaller than this nobody sees it */
 #define SHADOW_LEAST_PIXELS 6.0
 #define SHADOW_RANGE_M      2500.0
 #define SHADOW_LIFT_M       0.06 /* above the ground, so that it does not sink into it */
@@ -147,9 +147,8 @@ static void add_entity(struct scene *scene, const struct moment *moment,
         return;
     struct dent dents[DENTS_PER_BODY];
     enum damage damage = (enum damage)e->damage[slot];
-    uint32_t dent_count = pixels > 48.0
-                              ? effects_dents(effects, kind, e->id[slot], damage, dents)
-                              : 0;
+    uint32_t dent_count =
+        pixels > 48.0 ? effects_dents(effects, kind, e->id[slot], damage, dents) : 0;
     struct scene_body *body = next_body(scene, kind->model, scene_detail(pixels, dent_count > 0));
     if (body == NULL)
         return;
@@ -192,7 +191,7 @@ static void add_fixed(struct scene *scene, const struct scenery *scenery,
     bool slender = (double)object->height_m > 2.5 * kind->width_m;
     bool down = damage == DAMAGE_DESTROYED;
     /* What is slender falls over; what is broad falls in. */
-    double lean = (down && slender ? 80.0 : 5.0 * damage * slender) * RAD_PER_DEG;
+    double lean = slender ? (down ? 80.0 : 5.0 * (double)damage) * RAD_PER_DEG : 0.0;
     struct pose pose = pose_of(object->turn * (TWO_PI / 65536.0), lean, 0.0);
     /* Models may stand on their origin or around it: the lowest corner goes to the ground. */
     float low = scenery->frames[kind->model].low[1];

@@ -22,8 +22,8 @@
 struct scene_plant {
     float at[3]; /* the foot */
     float width, height;
-    float lean; /* to its right, as a share of the height: broken trees */
-    float picture; /* enum foliage */
+    float lean;     /* to its right, as a share of the height: broken trees */
+    float picture;  /* enum foliage */
     float slope[2]; /* of the ground: rise a metre to the east, to the south */
     float tint[3];  /* on the picture's colours */
 };
@@ -35,14 +35,14 @@ struct scene_body {
     float tint[3];                     /* the force's colour */
     float burn;                        /* 0 as built .. 1 burnt out */
     float turret_rad, rotor_rad;
-    float plane[4];                    /* n.xyz, d: its shadow falls where n.p == d; 0: nowhere */
-    float dents[DENTS_PER_BODY][4];    /* x, y, z, depth; body axes */
+    float plane[4];                 /* n.xyz, d: its shadow falls where n.p == d; 0: nowhere */
+    float dents[DENTS_PER_BODY][4]; /* x, y, z, depth; body axes */
 };
 
 /* What a body in the same place of the list is a copy of. */
 struct scene_copy {
     uint16_t model;
-    uint8_t detail;  /* enum mesh_detail */
+    uint8_t detail; /* enum mesh_detail */
     uint8_t shadow;
 };
 
@@ -70,8 +70,8 @@ struct scene_puff {
 
 struct scene {
     struct camera camera;
-    double time_s;            /* of simulation, for what moves in the picture */
-    bool fog, haze, texture;  /* thesis row 5 */
+    double time_s;           /* of simulation, for what moves in the picture */
+    bool fog, haze, texture; /* thesis row 5 */
     struct ground_patch patches[GROUND_PATCHES_MAX];
     uint32_t patch_count;
     struct scene_plant *plants;
@@ -81,7 +81,7 @@ struct scene {
     uint32_t body_count;
     struct scene_puff *puffs;
     uint32_t puff_count;
-    uint32_t omitted; /* things in view for which a list had no room */
+    uint32_t omitted;         /* things in view for which a list had no room */
     struct body_order *order; /* scratch */
 };
 

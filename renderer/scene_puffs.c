@@ -11,7 +11,7 @@
 #define PUFF_LEAST_PIXELS 0.7
 #define FIRE_LIFE_S       150.0 /* a wreck burns */
 #define SMOKE_LIFE_S      420.0 /* and smokes */
-#define SMOKE_PUFFS       44
+#define SMOKE_PUFFS       60
 #define SMOKE_RISE_S      26.0 /* a puff's life in the column */
 #define DUST_LEAST_MPS    3.0
 #define DUST_PUFFS        9
@@ -87,13 +87,13 @@ static void smoke_column(struct scene *scene, struct vec3 foot, double size_m, d
         if (age > burning_s)
             continue; /* it was not yet burning then */
         /* It starts fast and hot, and slows as it cools and the wind takes it. */
-        double rise = (0.6 + 1.5 * size_m) * life * (1.0 - (1.0 - t) * (1.0 - 0.45 * t));
+        double rise = (0.5 + 1.3 * size_m) * life * (1.0 - (1.0 - t) * (1.0 - 0.45 * t));
         double sway = 1.6 * size_m * t;
         struct spot puff = {
             .at = {foot.x + WIND_X * age * (0.4 + t) + sway * ((double)luck(seed, round, 1) - 0.5),
                    foot.y + rise,
                    foot.z + WIND_Z * age * (0.4 + t) + sway * ((double)luck(seed, round, 2) - 0.5)},
-            .size_m = size_m * (0.55 + 3.6 * t) * (0.8 + 0.4 * (double)luck(seed, round, 3)),
+            .size_m = size_m * (0.85 + 3.4 * t) * (0.8 + 0.4 * (double)luck(seed, round, 3)),
             .picture = smoke_picture(seed, round),
             .turn_rad = 6.283f * luck(seed, round, 4) + (float)t,
         };
@@ -266,8 +266,7 @@ static void entity_puffs(struct scene *scene, const struct moment *moment, uint3
     if (e->damage[slot] >= DAMAGE_MED && kind->domain != DOMAIN_MUNITION) {
         float thick = e->damage[slot] >= DAMAGE_HIGH ? 0.40f : 0.16f;
         uint64_t since = moment->head->tick - e->changed_tick[slot];
-        smoke_column(scene, at, 0.3 * kind->radius_m,
-                     (double)since * moment->world->params->dt_s,
+        smoke_column(scene, at, 0.3 * kind->radius_m, (double)since * moment->world->params->dt_s,
                      (struct shade){0.25f, 0.24f, 0.23f, thick}, e->id[slot]);
     }
     switch (kind->domain) {
@@ -323,15 +322,14 @@ static void fireball(struct scene *scene, const struct effect *effect, double ag
         struct vec3 way = scatter(effect->seed, n);
         double out = size * (0.25 + 0.65 * grown) * (0.4 + 0.6 * (double)luck(effect->seed, n, 15));
         struct spot ball = {
-            .at = {effect->point.x + way.x * out,
-                   effect->point.y + way.y * out + 0.8 * size * t,
+            .at = {effect->point.x + way.x * out, effect->point.y + way.y * out + 0.8 * size * t,
                    effect->point.z + way.z * out},
             .size_m = size * (0.45 + 0.35 * grown),
             .picture = n % 3 ? smoke_picture(effect->seed, n) : PUFF_FLAME_A,
             .turn_rad = 6.283f * luck(effect->seed, n, 16),
-            .glow = (float)(0.9 - 0.8 * t),
-            .shade = fade((struct shade){1.0f, 0.86f, 0.50f, 1.0f},
-                          (struct shade){0.75f, 0.22f, 0.05f, 0.25f}, t * 1.1),
+            .glow = (float)(0.45 - 0.4 * t),
+            .shade = fade((struct shade){1.0f, 0.80f, 0.42f, 0.85f},
+                          (struct shade){0.70f, 0.20f, 0.05f, 0.25f}, t * 1.1),
         };
         add(scene, &ball);
     }
@@ -339,7 +337,7 @@ static void fireball(struct scene *scene, const struct effect *effect, double ag
                         .size_m = 2.6 * size,
                         .picture = PUFF_GLOW,
                         .glow = 1.0f,
-                        .shade = {1.0f, 0.62f, 0.25f, (float)(0.8 * (1.0 - t))}};
+                        .shade = {1.0f, 0.62f, 0.25f, (float)(0.4 * (1.0 - t))}};
     add(scene, &glow);
 }
 

@@ -14,9 +14,12 @@ struct choice {
 
 /* By name where the name tells; the last line takes the rest. */
 static const struct choice trees[] = {
-    {"pine", FOLIAGE_PINE_A, 2},        {"fir", FOLIAGE_FIR, 1},
-    {"redwood", FOLIAGE_FIR, 1},        {"cypress", FOLIAGE_FIR, 1},
-    {"valley", FOLIAGE_VALLEY_OAK_A, 2}, {"oak", FOLIAGE_OAK_A, 3},
+    {"pine", FOLIAGE_PINE_A, 2},
+    {"fir", FOLIAGE_FIR, 1},
+    {"redwood", FOLIAGE_FIR, 1},
+    {"cypress", FOLIAGE_FIR, 1},
+    {"valley", FOLIAGE_VALLEY_OAK_A, 2},
+    {"oak", FOLIAGE_OAK_A, 3},
     {"", FOLIAGE_OAK_A, 5},
 };
 

@@ -16,9 +16,9 @@
 struct scenery {
     const struct world *world;
     struct ground ground;
-    uint32_t *square_start;     /* [SQUARE_COUNT + 1] into world->fixed; owned */
-    uint8_t *look;              /* [world->counts.fixed] enum foliage or LOOK_MODEL; owned */
-    struct mesh_frame *frames;  /* [world->counts.models]; owned */
+    uint32_t *square_start;    /* [SQUARE_COUNT + 1] into world->fixed; owned */
+    uint8_t *look;             /* [world->counts.fixed] enum foliage or LOOK_MODEL; owned */
+    struct mesh_frame *frames; /* [world->counts.models]; owned */
 };
 
 /* 0, or -1 with errno ENOMEM. The world must outlive it. */

@@ -21,8 +21,8 @@ void statistics_of(struct statistics *statistics, const struct moment *moment, u
         .pitch_deg = e->pitch[slot] * DEG_PER_RAD,
         .roll_deg = e->roll[slot] * DEG_PER_RAD,
         .altitude_m = e->y[slot],
-        .above_ground_m = e->y[slot] - terrain_height(&world->terrain, moment->craters, e->x[slot],
-                                                      e->z[slot]),
+        .above_ground_m =
+            e->y[slot] - terrain_height(&world->terrain, moment->craters, e->x[slot], e->z[slot]),
         .fuel_share = kind->fuel_l > 0.0 ? e->fuel_l[slot] / kind->fuel_l : 1.0,
         .rounds = e->rounds[slot],
         .frame = moment->head->frame,

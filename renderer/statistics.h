@@ -1,4 +1,5 @@
-/* The followed vehicle in figures (thesis row 13): what the table holds, in people's units. Pure. */
+/* The followed vehicle in figures (thesis row 13): what the table holds, in people's units. Pure.
+ */
 #ifndef JOLON_RENDERER_STATISTICS_H
 #define JOLON_RENDERER_STATISTICS_H
 
@@ -12,9 +13,9 @@ struct statistics {
     const char *kind, *force, *state, *damage, *behaviour;
     uint32_t id;
     double speed_kmh, heading_deg, pitch_deg, roll_deg;
-    double altitude_m;      /* above sea level */
-    double above_ground_m;  /* of the position */
-    double fuel_share;      /* 0..1 of the full tank; 1 for kinds without one */
+    double altitude_m;     /* above sea level */
+    double above_ground_m; /* of the position */
+    double fuel_share;     /* 0..1 of the full tank; 1 for kinds without one */
     uint32_t rounds;
     uint64_t frame;
     double time_s; /* of simulation */

@@ -158,8 +158,8 @@ int studio_look(struct studio *studio, struct reason *reason)
     log_frame(studio->seen);
     take_events(studio, &moment);
     tracks_note(&studio->tracks, &moment);
-    studio->followed =
-        follow_choose(&studio->follow, &moment, &studio->effects, studio->options.follow);
+    studio->followed = follow_choose(&studio->follow, &moment, &studio->effects,
+                                     studio->options.follow, studio->options.follow_given);
     pulse_stage(studio->pulse);
     return 0;
 }
@@ -182,8 +182,8 @@ static struct camera aim(const struct studio *studio, const struct moment *momen
         subject.position = (struct vec3){
             middle, terrain_height(&moment->world->terrain, NULL, middle, middle), middle};
     }
-    camera_chase(&camera, &subject, &moment->world->terrain, moment->craters,
-                 studio->options.width, studio->options.height);
+    camera_chase(&camera, &subject, &moment->world->terrain, moment->craters, studio->options.width,
+                 studio->options.height);
     return camera;
 }
 
@@ -210,8 +210,8 @@ static int put_out(struct studio *studio, const char *name, const char *words,
     /* Both into one name given: the map's has "-map" before its ending. */
     char path[1024];
     const char *dot = strrchr(studio->options.snap, '.');
-    int stem = (int)(dot != NULL ? dot - studio->options.snap
-                                 : (ptrdiff_t)strlen(studio->options.snap));
+    int stem =
+        (int)(dot != NULL ? dot - studio->options.snap : (ptrdiff_t)strlen(studio->options.snap));
     int length = snprintf(path, sizeof path, "%.*s-map%s", stem, studio->options.snap,
                           dot != NULL ? dot : "");
     if (length < 0 || (size_t)length >= sizeof path)
@@ -248,8 +248,8 @@ int studio_draw(struct studio *studio, struct reason *reason)
         return -1;
     pulse_stage(studio->pulse);
     if (wants(studio, VIEW_MAP)) {
-        if (chart_map(&studio->chart, &studio->image, &moment, &studio->tracks,
-                      studio->followed) != 0)
+        if (chart_map(&studio->chart, &studio->image, &moment, &studio->tracks, studio->followed) !=
+            0)
             return reason_set(reason, "no memory for the map");
         if (put_out(studio, "map", words, reason) != 0)
             return -1;

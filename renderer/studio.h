@@ -1,4 +1,5 @@
-/* The studio: everything one renderer keeps from picture to picture, and the steps of making one. */
+/* The studio: everything one renderer keeps from picture to picture, and the steps of making one.
+ */
 #ifndef JOLON_RENDERER_STUDIO_H
 #define JOLON_RENDERER_STUDIO_H
 
@@ -50,7 +51,8 @@ uint64_t studio_due_ns(const struct studio *studio);
  * was seen before, and says so at most every 10 s. */
 int studio_look(struct studio *studio, struct reason *reason);
 
-/* Draws what was seen last and writes it out, unless it was drawn before. 0, or -1 with the reason. */
+/* Draws what was seen last and writes it out, unless it was drawn before. 0, or -1 with the reason.
+ */
 int studio_draw(struct studio *studio, struct reason *reason);
 
 #endif

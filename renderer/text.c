@@ -32,8 +32,10 @@ struct text *text_open(struct reason *reason)
             return text;
     FT_Done_FreeType(text->library);
     free(text);
-    reason_set(reason, "no font for the pictures: %s is not there; on Debian and Ubuntu: apt-get "
-                       "install fonts-dejavu-core", font_paths[0]);
+    reason_set(reason,
+               "no font for the pictures: %s is not there; on Debian and Ubuntu: apt-get "
+               "install fonts-dejavu-core",
+               font_paths[0]);
     return NULL;
 }
 

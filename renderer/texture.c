@@ -45,8 +45,8 @@ void texture_detail(uint8_t (*texels)[2])
             float clumps = wrapped_octaves(x, y, 9, 4, 401);
             float blades = wrapped(x, y, 128, 411) * 0.6f + wrapped(x, y, 256, 412) * 0.4f;
             float bare = fmaxf(0.0f, wrapped_octaves(x, y, 17, 3, 421) - 0.58f) * 2.2f;
-            float grass = 0.5f + 0.85f * (clumps - 0.5f) + 0.50f * (blades - 0.5f) + 0.5f * bare -
-                          0.06f;
+            float grass =
+                0.5f + 0.85f * (clumps - 0.5f) + 0.50f * (blades - 0.5f) + 0.5f * bare - 0.06f;
             /* Scrub: round dark bushes on paler ground. */
             float bush = wrapped_octaves(x, y, 13, 3, 431);
             float crown = fminf(1.0f, fmaxf(0.0f, (bush - 0.42f) * 6.0f));
@@ -74,8 +74,8 @@ static float smoke(float x, float y, uint32_t which, float *shade)
     float body = 1.0f - out + 0.95f * (bulge - 0.5f);
     float thick = fminf(1.0f, fmaxf(0.0f, body * 1.7f));
     /* As if it were a lumpy ball lit from above. */
-    float above = wrapped_octaves(0.5f + 0.45f * x, 0.5f + 0.45f * (y + 0.09f), 4, 4,
-                                  601 + 17 * which);
+    float above =
+        wrapped_octaves(0.5f + 0.45f * x, 0.5f + 0.45f * (y + 0.09f), 4, 4, 601 + 17 * which);
     *shade = 0.50f + 0.17f * y + 1.3f * (bulge - above);
     return thick * thick * (3.0f - 2.0f * thick) * fminf(1.0f, fmaxf(0.0f, (1.0f - out) * 4.0f));
 }

@@ -6,8 +6,8 @@
 
 #include <stdint.h>
 
-#define TRACK_POINTS     48u   /* remembered of each vehicle */
-#define TRACK_INTERVAL_S 2.5   /* of simulation between two */
+#define TRACK_POINTS     48u    /* remembered of each vehicle */
+#define TRACK_INTERVAL_S 2.5    /* of simulation between two */
 #define TRACK_SLOTS_MAX  16384u /* vehicles in higher slots are drawn without a track */
 
 struct track {

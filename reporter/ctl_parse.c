@@ -143,10 +143,11 @@ static void parse_at(jolon_Command *command, const char *text)
 
 static void parse_kind(jolon_Command *command, const char *what, const char *text)
 {
-    if (!*text || strlen(text) >= sizeof command->kind)
+    size_t length = strlen(text);
+    if (length == 0 || length >= sizeof command->kind)
         die_usage("%s '%s': the name of a kind has 1 to %zu letters", what, text,
                   sizeof command->kind - 1);
-    (void)strcpy(command->kind, text);
+    memcpy(command->kind, text, length + 1);
 }
 
 static jolon_Force parse_force(const char *text)

@@ -9,6 +9,10 @@
 /* Subscribers learn within this time that the writer was killed; shorter leases race. */
 #define LIVELINESS_LEASE DDS_SECS(1)
 
+/* A late reader gets the writer's depth in one burst, and what happens meanwhile on top of it: a
+ * reader that keeps no more than the writer loses some of it before it looks. */
+#define READER_ROOM 4
+
 static const struct {
     const char *name;
     const dds_topic_descriptor_t *descriptor;
@@ -35,7 +39,8 @@ static dds_qos_t *make_qos(enum dds_topic topic, bool writer)
     dds_qos_t *qos = dds_create_qos();
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, WRITE_LIMIT);
     dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
-    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, depth);
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST,
+                     writer || depth == 1 ? depth : depth * READER_ROOM);
     if (writer) {
         /* What a late reader gets comes from the durability service's depth, not the history's. */
         dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,

@@ -2,6 +2,7 @@
 #include "reporter/events.h"
 
 #include "ipc/clock.h"
+#include "ipc/frame.h"
 #include "ipc/log.h"
 
 #include "status.h"
@@ -65,9 +66,9 @@ static jolon_Party party_of(const struct world *world, const struct event_party 
 {
     jolon_Party wire = {
         .id = party->id, .fixed = party->fixed != 0, .damage = (jolon_Damage)party->damage};
-    const char *kind = party->fixed ? "ground" : "none";
-    if (party->kind < world->counts.kinds)
-        kind = world->kinds[party->kind].name;
+    const char *kind = party->fixed ? "ground" : "none"; /* nobody: the terrain, or none */
+    if (party->id)
+        kind = party->kind < world->counts.kinds ? world->kinds[party->kind].name : "?";
     (void)stpncpy(wire.kind, kind, sizeof wire.kind - 1);
     return wire;
 }
@@ -227,6 +228,12 @@ bool events_publish(struct events *events, const struct view *view, struct order
         }
     }
     return false;
+}
+
+bool events_over(const struct events *events, const struct view *view)
+{
+    return frame_finished(view) &&
+           events->frame == atomic_load_explicit(&view->commit->commit, memory_order_acquire);
 }
 
 void events_flush(const struct events *events, uint64_t until_ns)

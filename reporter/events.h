@@ -36,6 +36,9 @@ int events_open(struct events *events, const struct view *view, const struct dds
 bool events_publish(struct events *events, const struct view *view, struct orders *orders,
                     uint64_t until_ns);
 
+/* Is the run over, with every event of its last frame published? */
+bool events_over(const struct events *events, const struct view *view);
+
 /* Waits until the subscribers have what was published, or until until_ns. */
 void events_flush(const struct events *events, uint64_t until_ns);
 

@@ -70,7 +70,8 @@ static bool turn(struct reporter *reporter)
     struct role_slot *slot = reporter->view.slot[ROLE_REPORTER];
     uint64_t begun_ns = clock_now_ns();
     frame_beat(&reporter->view);
-    orders_take(&reporter->orders, &reporter->view);
+    orders_take(&reporter->orders, &reporter->view,
+                events_over(&reporter->events, &reporter->view));
     bool more = !events_publish(&reporter->events, &reporter->view, &reporter->orders,
                                 begun_ns + EVENTS_LIMIT_NS);
     tell_status(reporter, begun_ns);

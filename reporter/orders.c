@@ -48,38 +48,45 @@ static bool put(struct orders *orders, struct view *view, const struct command *
     return true;
 }
 
-static void take_one(struct orders *orders, struct view *view, const jolon_Command *wire)
+static void refuse(struct orders *orders, const jolon_Command *wire, enum command_result result,
+                   const struct view *view)
 {
-    const struct book_entry *known = book_find(&orders->book, wire->source, wire->sequence);
-    if (known) {
-        if (known->answered)
-            send_reply(orders, known);
-        return;
-    }
+    struct book_entry refusal = {
+        .source = wire->source,
+        .sequence = wire->sequence,
+        .frame = atomic_load_explicit(&view->commit->commit, memory_order_acquire),
+        .type = (uint32_t)wire->type,
+        .result = (uint32_t)result,
+        .entity = wire->entity};
+    if (log_due(&orders->refused_logged_ns, NS_PER_S))
+        log_warn("command %s refused: %s", command_type_name((enum command_type)wire->type),
+                 command_result_name(result));
+    send_reply(orders, &refusal);
+}
+
+static void take_one(struct orders *orders, struct view *view, const jolon_Command *wire, bool over)
+{
     struct command command;
-    enum command_result result = check_command(&command, wire, &view->world);
-    if (result != COMMAND_DONE) {
-        uint64_t frame = atomic_load_explicit(&view->commit->commit, memory_order_acquire);
-        struct book_entry refusal = {.source = wire->source,
-                                     .sequence = wire->sequence,
-                                     .frame = frame,
-                                     .type = (uint32_t)wire->type,
-                                     .result = (uint32_t)result,
-                                     .entity = wire->entity};
-        if (log_due(&orders->refused_logged_ns, NS_PER_S))
-            log_warn("command %s refused: %s", command_type_name((enum command_type)wire->type),
-                     command_result_name(result));
-        send_reply(orders, &refusal);
+    const struct book_entry *known = book_find(&orders->book, wire->source, wire->sequence);
+    if (known && known->answered) {
+        send_reply(orders, known);
         return;
     }
-    if (!put(orders, view, &command)) {
+    enum command_result result = check_command(&command, wire, &view->world);
+    if (result == COMMAND_DONE && over)
+        result = COMMAND_CANNOT; /* nobody takes it out of the ring any more */
+    if (result != COMMAND_DONE) {
+        refuse(orders, wire, result, view);
+    } else if (!known && !put(orders, view, &command)) {
         orders->held = command;
         orders->holding = true;
     }
 }
 
-void orders_take(struct orders *orders, struct view *view)
+void orders_take(struct orders *orders, struct view *view, bool over)
 {
+    if (over)
+        orders->holding = false; /* its sender repeats it and is told */
     if (orders->holding) {
         if (!put(orders, view, &orders->held))
             return;
@@ -92,7 +99,7 @@ void orders_take(struct orders *orders, struct view *view)
         if (dds_take(orders->reader, &sample, &info, 1, 1) <= 0)
             return;
         if (info.valid_data)
-            take_one(orders, view, sample);
+            take_one(orders, view, sample, over);
         (void)dds_return_loan(orders->reader, &sample, 1);
     }
 }

@@ -20,8 +20,9 @@ struct orders {
 /* Makes the reader and writer; -1 with the reason. */
 int orders_open(struct orders *orders, const struct dds_link *link, struct reason *reason);
 
-/* Takes what has come and puts it into the ring of view. Does not block. */
-void orders_take(struct orders *orders, struct view *view);
+/* Takes what has come and puts it into the ring of view. When the run is over, and the answers of
+ * its last frame were noted, the rest is refused. Does not block. */
+void orders_take(struct orders *orders, struct view *view, bool over);
 
 /* An EVENT_COMMAND was committed: notes the answer, and sends the reply if reply is true. */
 void orders_answer(struct orders *orders, const struct event *event, bool reply);

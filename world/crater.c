@@ -72,6 +72,8 @@ static double profile(const struct crater *crater, double x, double z)
 {
     double radius = (double)crater->radius_m;
     double depth = (double)crater->depth_m;
+    if (!(radius > 0.0))
+        return 0.0;
     double dx = (x - crater->x) / radius;
     double dz = (z - crater->z) / radius;
     double square = dx * dx + dz * dz;

@@ -91,14 +91,25 @@ static bool clear_of_objects(const struct place *place, double x, double z, doub
     return true;
 }
 
+/* Narrows a range to keep off the world's edge, unless nothing would be left of it. */
+static void leave_edge(double *low, double *high)
+{
+    double from = maths_max(*low, EDGE_M), to = maths_min(*high, WORLD_SIDE_M - EDGE_M);
+    if (from < to) {
+        *low = from;
+        *high = to;
+    }
+}
+
 int place_find(struct place *place, const struct area *area, const struct kind *kind, uint32_t slot,
                double *x, double *z)
 {
-    double x0 = maths_max(area->x0, EDGE_M), x1 = maths_min(area->x1, WORLD_SIDE_M - EDGE_M);
-    double z0 = maths_max(area->z0, EDGE_M), z1 = maths_min(area->z1, WORLD_SIDE_M - EDGE_M);
+    double x0 = area->x0, x1 = area->x1, z0 = area->z0, z1 = area->z1;
+    leave_edge(&x0, &x1);
+    leave_edge(&z0, &z1);
     for (uint64_t i = 0; i < TRIES; i++) {
-        *x = random_between(place->seed, i, slot, RANDOM_PLACE_X, x0, maths_max(x0, x1));
-        *z = random_between(place->seed, i, slot, RANDOM_PLACE_Z, z0, maths_max(z0, z1));
+        *x = random_between(place->seed, i, slot, RANDOM_PLACE_X, x0, x1);
+        *z = random_between(place->seed, i, slot, RANDOM_PLACE_Z, z0, z1);
         if (ground_suits(place, kind, *x, *z) &&
             (kind->domain == DOMAIN_AIR || clear_of_objects(place, *x, *z, kind->radius_m)) &&
             clear_of_vehicles(place, *x, *z, kind->radius_m))

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <stdint.h>
-#include <stdlib.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -16,7 +16,17 @@
 
 #define PAIRS 100000
 
-enum sort { GENERIC, OVERLAPPING, TOUCHING, GRAZING, PARALLEL, STILL, HUGE_REACH, TINY_REACH, SORTS };
+enum sort {
+    GENERIC,
+    OVERLAPPING,
+    TOUCHING,
+    GRAZING,
+    PARALLEL,
+    STILL,
+    HUGE_REACH,
+    TINY_REACH,
+    SORTS
+};
 
 struct trial {
     struct path a, b;
@@ -133,7 +143,8 @@ static double oracle(const struct trial *t, double nearest_at)
 
 static bool agrees(const struct trial *t, bool hit, double toi)
 {
-    /* Rounding of coordinates up to 50 km; where a touch is a graze, time is as good as its root. */
+    /* Rounding of coordinates up to 50 km; where a touch is a graze, time is as good as its root.
+     */
     const double slack = 1e-9;
     struct vec3 s = vec3_sub(path_at(&t->b, t->from), path_at(&t->a, t->from));
     struct vec3 w = vec3_sub(t->b.along, t->a.along);
@@ -177,6 +188,7 @@ static void test_spheres_touch_when_bisection_says(void **state)
 #define SPACING 125.0
 #define PATHS   2000
 #define SAMPLES 3000
+#define HANG_S  30
 
 struct ground {
     struct terrain terrain;
@@ -212,7 +224,7 @@ static double clearance(const struct ground *g, const struct path *path, double 
     return p.y - terrain_height(&g->terrain, g->craters.head ? &g->craters : NULL, p.x, p.z);
 }
 
-static struct path draw_path(uint64_t *random)
+static struct path draw_path(bool late, uint64_t *random)
 {
     struct vec3 along = vec3_scale(direction(random), fixture_uniform(random, 1.0, 300.0));
     int sort = (int)(fixture_random(random) % 4);
@@ -221,25 +233,25 @@ static struct path draw_path(uint64_t *random)
                                fixture_uniform(random, 0, reach)},
                         .along = along};
     if (sort == 0) /* low and level at 3,000 m/s and 10 Hz */
-        path.along = vec3_scale(
-            (struct vec3){path.along.x, 0.01 * path.along.y, path.along.z},
-            300.0 / maths_max(1.0, sqrt(along.x * along.x + along.z * along.z)));
+        path.along =
+            vec3_scale((struct vec3){path.along.x, 0.01 * path.along.y, path.along.z},
+                       300.0 / maths_max(1.0, sqrt(along.x * along.x + along.z * along.z)));
     if (sort == 1) /* on the grid's lines */
         path.at.x = floor(path.at.x / SPACING) * SPACING;
     if (sort == 2) /* along them */
         path.along.z = 0.0;
-    if (fixture_random(random) & 1)
+    if (late)
         path.since = fixture_uniform(random, 0.0, 0.9);
     return path;
 }
 
 /* low: how far below the ground a sample may lie unnoticed; near: how exact the time is [m]. */
-static int sweep_paths(const struct ground *g, uint64_t *random, double low, double near)
+static int sweep_paths(const struct ground *g, bool late, uint64_t *random, double low, double near)
 {
     const struct crater_index *craters = g->craters.head ? &g->craters : NULL;
     int hits = 0;
     for (int n = 0; n < PATHS; n++) {
-        struct path path = draw_path(random);
+        struct path path = draw_path(late, random);
         double toi = 2.0;
         bool hit = sweep_ground(&g->terrain, craters, &path, &toi);
         double first = clearance(g, &path, path.since);
@@ -264,7 +276,19 @@ static void test_no_path_tunnels_through_ridges(void **state)
     uint64_t random = fixture_seed(24);
     (void)state;
     raise_ground(&g, &random);
-    assert_in_range(sweep_paths(&g, &random, 1e-6, 1e-6), PATHS / 10, PATHS * 9 / 10);
+    assert_in_range(sweep_paths(&g, false, &random, 1e-6, 1e-6), PATHS / 10, PATHS * 9 / 10);
+}
+
+/* As a path goes on after a collision in mid-frame. A sweep that never ends is ended here. */
+static void test_no_path_that_began_late_tunnels(void **state)
+{
+    static struct ground g;
+    uint64_t random = fixture_seed(26);
+    (void)state;
+    raise_ground(&g, &random);
+    alarm(HANG_S);
+    assert_in_range(sweep_paths(&g, true, &random, 1e-6, 1e-6), PATHS / 10, PATHS * 9 / 10);
+    alarm(0);
 }
 
 static void test_no_path_tunnels_through_cratered_ground(void **state)
@@ -275,7 +299,7 @@ static void test_no_path_tunnels_through_cratered_ground(void **state)
     raise_ground(&g, &random);
     dig_ground(&g, &random);
     /* A rim's crest cut on less than the half metre between two looks is at most this deep. */
-    assert_in_range(sweep_paths(&g, &random, 0.3, 1e-3), PATHS / 10, PATHS * 9 / 10);
+    assert_in_range(sweep_paths(&g, false, &random, 0.3, 1e-3), PATHS / 10, PATHS * 9 / 10);
     crater_index_free(&g.craters);
 }
 
@@ -285,6 +309,7 @@ int main(void)
         cmocka_unit_test(test_spheres_touch_when_bisection_says),
         cmocka_unit_test(test_no_path_tunnels_through_ridges),
         cmocka_unit_test(test_no_path_tunnels_through_cratered_ground),
+        cmocka_unit_test(test_no_path_that_began_late_tunnels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,10 @@
 #include <cmocka.h>
 
 /* The fixture's memory is writable; only its types are const. */
-static void *writable(const void *constant) { return (void *)(uintptr_t)constant; }
+static void *writable(const void *constant)
+{
+    return (void *)(uintptr_t)constant;
+}
 
 struct kind *steps_kind(const struct fixture *fixture, const char *name)
 {
@@ -30,9 +33,8 @@ void steps_ground(const struct fixture *fixture, steps_height *height, const voi
     float *posts = writable(terrain->posts);
     for (uint32_t row = 0; row < terrain->side; row++) {
         for (uint32_t column = 0; column < terrain->side; column++)
-            posts[(size_t)row * terrain->side + column] =
-                (float)height((double)column * terrain->spacing_m,
-                              (double)row * terrain->spacing_m, context);
+            posts[(size_t)row * terrain->side + column] = (float)height(
+                (double)column * terrain->spacing_m, (double)row * terrain->spacing_m, context);
     }
 }
 
@@ -113,10 +115,10 @@ struct event_command steps_command(struct fixture *fixture, struct command comma
 
 void steps_drive(struct fixture *fixture, uint32_t row, double throttle, double steer, double climb)
 {
-    struct event_command answer = steps_command(
-        fixture, (struct command){.type = COMMAND_DRIVE,
-                                  .entity = steps_rows(fixture).id[row],
-                                  .value = {throttle, steer, climb}});
+    struct event_command answer =
+        steps_command(fixture, (struct command){.type = COMMAND_DRIVE,
+                                                .entity = steps_rows(fixture).id[row],
+                                                .value = {throttle, steer, climb}});
     assert_int_equal(answer.result, COMMAND_DONE);
 }
 

@@ -104,7 +104,7 @@ static double ground(const struct fixture *fixture, struct path from)
 {
     double toi = -2.0;
     return sweep_ground(&fixture->view.world.terrain, &fixture->mover.craters, &from, &toi) ? toi
-                                                                                           : -1.0;
+                                                                                            : -1.0;
 }
 
 static void test_straight_down_reaches_level_ground(void **state)

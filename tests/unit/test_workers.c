@@ -20,7 +20,7 @@ struct job {
 
 static struct job job;
 
-static void raise(_Atomic uint32_t *most, uint32_t value)
+static void keep_highest(_Atomic uint32_t *most, uint32_t value)
 {
     uint32_t seen = atomic_load(most);
     while (value > seen && !atomic_compare_exchange_weak(most, &seen, value))
@@ -31,8 +31,8 @@ static void count_rows(void *context, uint32_t first, uint32_t end, uint32_t wor
 {
     struct job *j = context;
     atomic_fetch_add(&j->calls, 1);
-    raise(&j->longest, end - first);
-    raise(&j->highest_worker, worker);
+    keep_highest(&j->longest, end - first);
+    keep_highest(&j->highest_worker, worker);
     for (uint32_t i = first; i < end; i++)
         atomic_fetch_add(&j->done[i], 1);
 }

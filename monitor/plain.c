@@ -1,0 +1,103 @@
+/* The monitor without a screen. */
+#include "monitor/plain.h"
+
+#include "ipc/clock.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+#include "monitor/json.h"
+#include "monitor/lines.h"
+
+#include <cjson/cJSON.h>
+#include <stdio.h>
+
+#define ONCE_LIMIT_NS (3 * (uint64_t)NS_PER_S)
+
+/* How often the line mode says that it still waits. */
+#define NOTICE_NS (10 * (uint64_t)NS_PER_S)
+
+/* What a world that is there takes at most to be heard. */
+#define FIRST_NS (500 * (uint64_t)NS_PER_MS)
+
+bool plain_flush(void)
+{
+    return fflush(stdout) == 0 && !ferror(stdout);
+}
+
+bool plain_line(void *unused, const char *line)
+{
+    (void)unused;
+    return puts(line) >= 0;
+}
+
+static bool print_json(const struct picture *picture, uint64_t now_ns)
+{
+    char *text = json_status(picture, now_ns);
+    bool good = text && puts(text) >= 0;
+    cJSON_free(text);
+    return good && plain_flush();
+}
+
+static void print_text(const struct picture *picture, uint64_t now_ns)
+{
+    char line[LINES_MAX];
+    lines_world(line, picture, now_ns);
+    (void)puts(line);
+    lines_frame(line, picture);
+    (void)puts(line);
+    lines_counts(line, picture);
+    (void)puts(line);
+    lines_process_head(line);
+    (void)puts(line);
+    for (uint32_t i = 0; i < picture->role_count; i++) {
+        lines_process(line, &picture->role[i]);
+        (void)puts(line);
+    }
+}
+
+int plain_once(struct picture *picture, const struct options *options)
+{
+    uint64_t limit_ns = clock_now_ns() + ONCE_LIMIT_NS;
+    uint64_t now_ns = clock_now_ns();
+    for (; !picture_whole(picture) && now_ns < limit_ns; now_ns = clock_now_ns()) {
+        if (process_stopping())
+            return EXIT_REFUSED;
+        picture_wait(picture, limit_ns);
+        picture_take(picture);
+    }
+    if (!picture_whole(picture)) {
+        (void)fprintf(stderr,
+                      "jolon-monitor: world '%s': %s within 3 s; is it running, with its "
+                      "reporter? `jolon worlds` lists those there are\n",
+                      options->world,
+                      picture->frame_ns ? "only part of its status came" : "no status came");
+        return EXIT_REFUSED;
+    }
+    if (options->json)
+        return print_json(picture, now_ns) ? EXIT_OK : EXIT_REFUSED;
+    print_text(picture, now_ns);
+    return plain_flush() ? EXIT_OK : EXIT_REFUSED;
+}
+
+/* A line each time it is due; while there is no world, one when it goes and then seldom. */
+int plain_lines(struct picture *picture, const struct options *options)
+{
+    char line[LINES_MAX];
+    uint64_t due_ns = clock_now_ns() + FIRST_NS;
+    uint64_t notice_ns = 0;
+    while (!process_stopping()) {
+        picture_wait(picture, due_ns);
+        picture_take(picture);
+        uint64_t now_ns = clock_now_ns();
+        if (now_ns < due_ns)
+            continue;
+        due_ns = now_ns + (uint64_t)(NS_PER_S / options->rate_hz);
+        bool live = picture_live(picture, now_ns);
+        if (!live && now_ns < notice_ns)
+            continue;
+        notice_ns = live ? 0 : now_ns + NOTICE_NS;
+        lines_status(line, picture, now_ns);
+        if (options->json ? !print_json(picture, now_ns) : puts(line) < 0 || !plain_flush())
+            return EXIT_REFUSED; /* nobody reads any more */
+    }
+    return EXIT_OK;
+}

@@ -1,0 +1,68 @@
+/* Named worlds of tests. */
+#include "tests/support/named_world.h"
+
+#include "tests/support/fixture.h"
+
+#include <dirent.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+void named_world_name(char name[SEGMENT_NAME_MAX])
+{
+    static unsigned made;
+    snprintf(name, SEGMENT_NAME_MAX, "test-%d-%u", (int)getpid(), ++made);
+}
+
+void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text)
+{
+    struct fixture f;
+    struct view view;
+    struct reason reason;
+    named_world_name(name);
+    fixture_open(&f, scenario_text);
+    struct segment_header header = segment_header_for(&f.scenario.params, &f.genesis.counts);
+    if (segment_begin(&view, name, &header, &reason) != 0)
+        fail_msg("%s", reason.text);
+    segment_fill(&view, &f.genesis);
+    if (segment_publish(&view, &reason) != 0)
+        fail_msg("%s", reason.text);
+    segment_detach(&view);
+    fixture_close(&f);
+}
+
+void named_world_remove(const char *name)
+{
+    struct reason reason;
+    if (segment_remove(name, true, &reason) != 0)
+        fail_msg("%s", reason.text);
+}
+
+int named_world_leftovers(void)
+{
+    char prefix[64];
+    int count = 0;
+    int length =
+        snprintf(prefix, sizeof prefix, "jolon.%u.test-%d-", (unsigned)getuid(), (int)getpid());
+    DIR *directory = opendir("/dev/shm");
+    assert_non_null(directory);
+    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory))
+        count += strncmp(entry->d_name, prefix, (size_t)length) == 0;
+    closedir(directory);
+    return count;
+}
+
+int named_world_check_left(void **state)
+{
+    (void)state;
+    int left = named_world_leftovers();
+    if (left != 0)
+        print_error("%d files are left in /dev/shm\n", left);
+    return left == 0 ? 0 : -1;
+}

@@ -1,0 +1,23 @@
+/* Worlds with a name, in /dev/shm: for tests of creation, attachment and removal. Names hold the
+ * test's pid, so that tests side by side do not meet. */
+#ifndef JOLON_TESTS_SUPPORT_NAMED_WORLD_H
+#define JOLON_TESTS_SUPPORT_NAMED_WORLD_H
+
+#include "ipc/segment.h"
+
+/* A name that no other world has: "test-PID-N". */
+void named_world_name(char name[SEGMENT_NAME_MAX]);
+
+/* Creates and publishes a world of the scenario's text (see fixture.h) under a new name. */
+void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text);
+
+/* Removes it and its lock file, whoever holds a role. */
+void named_world_remove(const char *name);
+
+/* Files in /dev/shm that belong to this test: objects, locks, temporaries. */
+int named_world_leftovers(void);
+
+/* Group tear-down for cmocka: fails when something is left over. */
+int named_world_check_left(void **state);
+
+#endif

@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# Players and watchers: monitors attach and detach at any time, commands are answered with the frame
+# they took effect in, and none of it makes the simulation late or leaves anything.
+. "$(dirname "$0")/lib.sh"
+
+ctl() { "$jolon" ctl -w "$name" "$@"; }
+now() { "$bin/jolon-world" frame --world "$name"; }
+dump() { "$jolon" world dump --json -w "$name"; }
+speed_of() { dump | python3 -c "import json,sys; print([e for e in map(json.loads, sys.stdin) if e['id'] == $1][0]['speed_mps'])"; }
+
+cat >field.cfg <<'C'
+terrain = { source = "flat"; height_m = 5.0; };
+vehicles = ( { kind = "tank"; name = "T1"; force = "blue"; behaviour = "idle"; at = [1000.0, 1000.0]; heading_deg = 90.0; },
+             { kind = "tank"; name = "T2"; force = "red"; behaviour = "idle"; at = [1400.0, 1000.0]; } );
+C
+check "start" "$jolon" start -w "$name" --without renderer --out out field.cfg
+check "a monitor says what it sees, once" "$jolon" monitor -w "$name" --once --json
+cp check once
+check "it names the world" equal "$(json world <once)" "$name"
+check "it runs" equal "$(json state <once)" running
+check "it counts the vehicles" equal "$(json vehicles <once)" 2
+for key in commit moved sim_time_s hz paused events roles.0.role roles.0.pid roles.0.state \
+    roles.0.beat_age_ms roles.0.restarts roles.0.stage_ms; do
+    check "it has $key" json $key <once
+done
+timeout 3 "$jolon" monitor -w "$name" >lines 2>&1
+check "without a terminal it writes lines" [ "$(wc -l <lines)" -ge 2 ]
+for i in 1 2 3 4 5; do "$jolon" monitor -w "$name" >/dev/null 2>&1 & monitors+=($!); done
+sleep 0.5
+kill -KILL "${monitors[@]}"
+{ wait "${monitors[@]}"; } 2>/dev/null
+before=$(now)
+check "the world moves on when five monitors are killed" bash -c "sleep 0.3; [ \$('$bin/jolon-world' frame --world $name) -gt $before ]"
+
+check "pause is answered with its frame" bash -c "'$jolon' ctl -w $name pause | grep -Eq 'frame [0-9]+'"
+at=$(now)
+sleep 0.2
+check "a paused world stands" equal "$(now)" "$at"
+check "step 5" ctl step 5
+sleep 0.3
+check "makes five frames and the command's" [ "$(now)" -ge $((at + 5)) ] && [ "$(now)" -le $((at + 6)) ]
+check "resume" ctl resume
+check "scale" ctl scale 2
+check "drive" ctl drive 1 --throttle 1
+sleep 1
+check "the driven tank moves (row 10)" python3 -c "import sys; sys.exit(not float('$(speed_of 1)') > 1)"
+check "release" ctl release 1
+check "spawn" ctl spawn jeep --at 2000,2000 --force blue
+check "fire" ctl fire 1 --target 2
+sleep 0.3
+check "who is fired upon reacts (row 9)" bash -c "'$jolon' events --json -w $name | grep '\"id\":2,' | grep -q '\"because\":\"fired upon\"'"
+check "remove" ctl remove 3
+ctl remove 4711 >told 2>err
+check "what cannot be is refused with 1" equal $? 1
+check "and says why" grep -q 'no such entity' err
+ctl scale banana >told 2>err
+check "wrong usage is 2" equal $? 2
+check "events tell of the commands" bash -c "'$jolon' events --json -w $name | grep -q '\"command\":\"drive\"'"
+check "no frame was late" bash -c "'$bin/jolon-world' summary --json --world $name | grep -Eq '\"late_frames\":[0-9],'"
+check "quit ends the run" ctl quit
+check "and leaves nothing" eventually nothing_left "$name"
+done_testing

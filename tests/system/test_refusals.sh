@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Bad input: one clear line each, exit code 1 (2 for wrong usage), nothing left behind.
+. "$(dirname "$0")/lib.sh"
+
+run() { "$jolon" run -w "$name" --frames 2 --pace max --without renderer --without reporter --out out --json "$@"; }
+
+cat >good.cfg <<'C'
+terrain = { source = "flat"; };
+vehicles = ( { kind = "tank"; at = [100.0, 100.0]; } );
+C
+check "a good scenario runs" run good.cfg
+scenario() { printf '%s\n' "$1" >bad.cfg; }
+
+scenario 'world = { sped = 3; };'
+refuses "unknown key" 1 'bad\.cfg:1: world\.sped' run bad.cfg
+scenario 'world = { hz = "fast"; };'
+refuses "wrong type" 1 'bad\.cfg:1: world\.hz = "fast"' run bad.cfg
+scenario 'world = { hz = 100000.0; };'
+refuses "value out of range names the range" 1 'world\.hz = 100000.*1\.\.1000' run bad.cfg
+scenario 'vehicles = ( { kind = "tonk"; at = [1.0, 1.0]; } );'
+refuses "unknown kind" 1 'kind = "tonk"' run bad.cfg
+scenario 'world = { '
+refuses "not a scenario at all" 1 'bad\.cfg:[12]:' run bad.cfg
+scenario 'world = { capacity = 16; }; terrain = { source = "flat"; }; vehicles = ( { kind = "tank"; count = 17; } );'
+refuses "capacity too small" 1 'capacity' run bad.cfg
+scenario 'terrain = { source = "flat"; }; vehicles = ( { kind = "ship"; count = 3; } );'
+refuses "no place for a ship on land" 1 'no place for ship' run bad.cfg
+scenario 'terrain = { source = "flat"; }; fires = ( { at_s = 1.0; shooter = "Nobody"; point = [1.0, 1.0]; } );'
+refuses "unknown shooter" 1 'Nobody' run bad.cfg
+refuses "missing file" 1 'no-such-file\.cfg' run ./no-such-file.cfg
+refuses "a folder is no scenario" 1 'out' run ./out
+refuses "unknown override" 1 'world\.sped' run --set world.sped=3 good.cfg
+refuses "method not in this version" 1 'brute' run --set collision.method=brute good.cfg
+refuses "unknown option" 2 '--frobnicate' run --frobnicate
+refuses "two scenarios" 2 'more than one' run good.cfg good.cfg
+refuses "a bad world name" 2 'a-z' "$jolon" run -w 'no/good'
+refuses "leaving out the mover" 2 'nothing moves' run --without mover
+refuses "an output folder that cannot be" 1 '/proc/x' run --out /proc/x good.cfg
+refuses "status of no world" 1 'there is no world' "$jolon" status -w "$name"
+refuses "digest of no world" 1 'there is no world' "$jolon" world digest -w "$name"
+refuses "a role without a world" 1 'there is no world' "$bin/jolon-mover" --world "$name"
+
+# A full /dev/shm: one of 8 MB in a mount namespace of our own.
+if unshare -m true 2>/dev/null; then
+    full() {
+        unshare -m bash -c "mount -t tmpfs -o size=8m tmpfs /dev/shm && cd '$folder' &&
+            '$jolon' run -w $name --frames 2 --without renderer --without reporter --out out good.cfg;
+            status=\$?; [ -z \"\$(ls /dev/shm)\" ] || echo left >&2; exit \$status"
+    }
+    refuses "shared memory full says what is needed and what is free" 1 'needs [0-9.]+ MB .*free' full
+else
+    skip "shared memory full" "needs the right to make a mount namespace"
+fi
+
+# Without GL, without a DDS interface: the simulation goes on and says what is missing.
+env __EGL_VENDOR_LIBRARY_DIRS=/nonexistent LIBGL_DRIVERS_PATH=/nonexistent \
+    "$jolon" run -w "$name" --frames 30 --pace max --without reporter --out out --json good.cfg >told 2>err
+check "without GL the run ends well" equal "$(json frame <told)" 30
+check "and one line says what is missing" grep -q 'goes on without the renderer: .*OpenGL' err
+check "nothing is left" nothing_left "$name"
+"$bin/jolon-world" create --world "$name" good.cfg >/dev/null
+refuses_interface() { "$bin/jolon-reporter" --world "$name" --interface 203.0.113.7; }
+refuses_interface >told 2>err
+check "a missing DDS interface is refused with 1" equal $? 1
+check "and named in one line" grep -q '203.0.113.7' err
+"$bin/jolon-world" remove --world "$name"
+check "nothing is left" nothing_left "$name"
+done_testing

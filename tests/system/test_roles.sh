@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# The set in the background: start, status, kill and restart of each role, stop; one set a world; a
+# supervisor that is killed takes its roles along, and the next start goes on with the world.
+. "$(dirname "$0")/lib.sh"
+
+start() { "$jolon" start -w "$name" --out "$folder/out" --set renderer.width=320 --set renderer.height=180 "$@"; }
+status() { "$jolon" status -w "$name" --json; }
+pid() { "$bin/jolon-world" pid --world "$name" "$1" 2>/dev/null; }
+frame() { "$bin/jolon-world" frame --world "$name"; }
+moves_on() { local at; at=$(frame) && eventually later "$at"; }
+later() { [ "$(frame)" -gt "$1" ]; }
+replaced() { local now; now=$(pid "$1") && [ -n "$now" ] && [ "$now" != "$2" ]; }
+gone() { ! kill -0 "$1" 2>/dev/null; }
+
+check "start ends when the set is up" start --events "$folder/events"
+check "status says running" equal "$(status | json state)" running
+check "the world moves on" moves_on
+for role in mover collider reporter renderer recorder; do
+    before=$(pid $role)
+    check "$role runs" [ -n "$before" ]
+    check "kill $role" "$jolon" kill -w "$name" $role
+    check "$role comes back" eventually replaced $role "$before"
+    check "and the world moves on" moves_on
+done
+for role in mover renderer; do
+    check "restart $role" "$jolon" restart -w "$name" $role
+done
+check "a stopped mover is killed and replaced (hang)" bash -c "
+    before=\$('$bin/jolon-world' pid --world $name mover) && kill -STOP \$before &&
+    for i in \$(seq 100); do sleep 0.1; now=\$('$bin/jolon-world' pid --world $name mover 2>/dev/null)
+        [ -n \"\$now\" ] && [ \"\$now\" != \"\$before\" ] && exit 0; done; exit 1"
+check "the world moves on after a hang" moves_on
+"$jolon" start -w "$name" >second 2>&1
+check "a second set is refused with 1" equal $? 1
+check "and says why" grep -q "is run already by pid" second
+check "worlds lists it" bash -c "'$jolon' worlds | grep -q '\"$name\" is running'"
+
+supervisor=$(cat "/dev/shm/jolon.$UID.$name.lock")
+mover=$(pid mover)
+kill -KILL "$supervisor"
+check "a killed supervisor takes its roles along" eventually gone "$mover"
+at=$(frame)
+check "the next start goes on" start
+check "from the frame that was" later "$((at - 1))"
+check "stop" "$jolon" stop -w "$name"
+check "and nothing is left" nothing_left "$name"
+"$jolon" stop -w "$name" 2>second
+check "stopping nothing is refused" equal $? 1
+
+mkdir elsewhere
+check "it starts from any folder" bash -c "cd elsewhere && '$jolon' run -w $name --frames 5 --pace max --without renderer"
+check "Ctrl-C stops it cleanly" bash -c "
+    env --default-signal=INT '$jolon' run -w $name --without renderer --out out >told 2>&1 & run=\$!
+    for i in \$(seq 100); do sleep 0.05; '$bin/jolon-world' pid --world $name mover >/dev/null 2>&1 && break; done
+    sleep 0.3; kill -INT \$run; wait \$run && grep -q digest told"
+check "and nothing is left" nothing_left "$name"
+done_testing

@@ -1,0 +1,104 @@
+#!/usr/bin/env bash
+# The topics over real processes: status, events, commands, and what happens to them when the
+# reporter is killed, a subscriber stops, or there is no network. SPAWNS=n chooses another storm.
+. "$(dirname "$0")/lib.sh"
+spawns=${SPAWNS:-60}
+monitor="$bin/jolon-monitor -w $name"
+ctl="$bin/jolon-ctl -w $name"
+
+check "a set starts" "$jolon" start -w "$name" --without renderer --out "$folder/out"
+status() { $monitor --once --json; }
+key() { status | json "$1"; }
+
+# --- status -----------------------------------------------------------------------------------------
+check "the status comes over DDS" eval 'status >once'
+check "it names the world" equal "$(json world <once)" "$name"
+check "it has every entity" [ "$(json entities <once)" -ge 500 ]
+check "the mover is ready" equal "$(json roles.0.role <once) $(json roles.0.state <once)" "mover ready"
+check "without a terminal it prints lines" eval 'timeout 2 $monitor | grep -q "^running  frame "'
+refuses_here() { # a world that is not there; lib's refuses wants no world of ours at all
+    "$@" >stdout 2>stderr
+    [ $? = 1 ] && [ "$(wc -l <stderr)" = 1 ] && [ ! -s stdout ]
+}
+check "a world that is not there is refused in a line" \
+    refuses_here "$bin/jolon-monitor" -w "no-$name" --once --json
+check "and so is its command" refuses_here "$bin/jolon-ctl" -w "no-$name" --timeout 1 pause
+check "an interface that is not there is refused" refuses_here $ctl --interface 203.0.113.9 pause
+check "CYCLONEDDS_URI of the environment changes nothing" \
+    env CYCLONEDDS_URI=file:///nonexistent $ctl scale 1
+
+# --- commands ---------------------------------------------------------------------------------------
+check "pause" eval '$ctl pause | grep -Eq "^paused at frame [0-9]+$"'
+check "it stands" eventually eval '[ "$(key state)" = paused ]'
+before=$(key commit)
+check "step" $ctl step 5
+check "it stepped" eventually eval '[ "$(key commit)" -ge $((before + 5)) ]'
+check "spawn says the id" eval '$ctl spawn tank --at 25000,24000 --force blue >spawned'
+check "resume" $ctl resume
+id=$(awk '{ print $3 }' spawned)
+check "the entity can be driven" $ctl drive "$id" --throttle 1
+check "and removed" $ctl remove "$id"
+check "but once" eval '! $ctl remove "$id" 2>stderr && grep -q "no such entity" stderr'
+check "another kind is refused with those there are" \
+    eval '! $ctl spawn tnak --at 1,1 2>stderr && grep -q "no such kind.*tank" stderr'
+"$bin/jolon-ctl" -w "$name" step 0 2>stderr
+check "wrong usage is 2" equal "$? $(wc -l <stderr)" "2 1"
+
+# --- a storm of commands while the reporter dies again and again -------------------------------------
+vehicles=$(key vehicles)
+storm() { seq "$spawns" | xargs -P 8 -I{} $ctl --timeout 30 spawn tank --at 25000,{}0 >replies; }
+storm &
+storm_pid=$!
+kills=0
+while kill -0 $storm_pid 2>/dev/null; do
+    sleep "0.$((RANDOM % 4 + 3))"
+    "$jolon" kill -w "$name" reporter >/dev/null 2>&1 && kills=$((kills + 1))
+done
+wait $storm_pid
+check "every command of $spawns was answered ($kills kills)" equal "$?" 0
+check "each spawned its own" equal "$(awk '{ print $3 }' replies | sort -u | wc -l)" "$spawns"
+$ctl --timeout 30 pause >/dev/null
+check "none was lost or done twice" \
+    eventually eval '[ "$(key vehicles)" = $((vehicles + spawns)) ]'
+
+# --- events -----------------------------------------------------------------------------------------
+timeout 4 $monitor --events >seen
+"$bin/jolon-world" events --world "$name" --json | grep -v '"type":"command"' | tail -n 3000 |
+    sed 's/"sequence":[0-9]*,//' >happened
+sed 's/"sequence":[0-9]*,//' seen | tail -n 3000 >said
+check "events over DDS are those of the ring, each once and in order" cmp happened said
+check "there were some" [ -s happened ]
+$ctl resume >/dev/null
+
+# --- subscribers that stop --------------------------------------------------------------------------
+$monitor --events >/dev/null &
+stopped=$!
+sleep 1
+kill -STOP $stopped
+late=$(key late_frames)
+first=$(key commit)
+sleep 3
+check "a stopped subscriber slows nothing" [ $(($(key commit) - first)) -ge 150 ]
+check "nor makes frames late" [ $(($(key late_frames) - late)) -le 3 ]
+kill -CONT $stopped
+kill $stopped
+
+# --- nothing but lo ---------------------------------------------------------------------------------
+if unshare -n true 2>/dev/null; then
+    check "it works with nothing but lo" unshare -n bash -c "
+        ip link set lo up || exit 1
+        $bin/jolon-world create --world ${name}n >/dev/null || exit 1
+        $bin/jolon-mover --world ${name}n & $bin/jolon-collider --world ${name}n &
+        $bin/jolon-reporter --world ${name}n &
+        $bin/jolon-monitor -w ${name}n --once --json && $bin/jolon-ctl -w ${name}n quit
+        code=\$?
+        kill %3; wait
+        $bin/jolon-world remove --world ${name}n
+        exit \$code"
+else
+    skip "it works with nothing but lo" "no right to make a network namespace"
+fi
+
+check "it stops" "$jolon" stop -w "$name"
+check "nothing is left" nothing_left "$name"
+done_testing

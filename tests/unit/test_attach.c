@@ -1,0 +1,387 @@
+/* Attaching refuses what is not whole, by the name of the field; page tables keep roles apart. */
+#include "ipc/segment.h"
+
+#include "tests/support/child.h"
+#include "tests/support/fixture.h"
+#include "tests/support/named_world.h"
+
+#include <fcntl.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <cmocka.h>
+
+#define SCENARIO                                                                                   \
+    "objects = ( { kind = \"tree\"; at = [1000.0, 1000.0]; } );"                                   \
+    "vehicles = ( { kind = \"tank\"; name = \"T\"; area = [3000.0, 3000.0, 4000.0, 4000.0]; },"    \
+    "{ kind = \"truck\"; route = ( [1000.0, 2000.0], [2000.0, 2000.0] ); } );"                     \
+    "fires = ( { at_s = 1.0; munition = \"artillery\"; point = [5000.0, 5000.0]; } );"
+
+static char name[SEGMENT_NAME_MAX], shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+static struct reason reason;
+static struct segment_header header; /* as published */
+static struct layout layout;
+
+static int make_world(void **state)
+{
+    struct view view;
+    (void)state;
+    named_world_make(name, SCENARIO);
+    segment_paths(name, shm, lock);
+    if (segment_attach(&view, name, ROLE_NONE, &reason) != 0)
+        return -1;
+    header = *view.header;
+    layout = view.layout;
+    segment_detach(&view);
+    return 0;
+}
+
+static int remove_world(void **state)
+{
+    (void)state;
+    named_world_remove(name);
+    return 0;
+}
+
+static void patch(const void *bytes, size_t count, size_t offset)
+{
+    int fd = open(shm, O_RDWR | O_CLOEXEC);
+    assert_true(fd >= 0);
+    assert_int_equal(pwrite(fd, bytes, count, (off_t)offset), count);
+    close(fd);
+}
+
+static void put_header(const struct segment_header *h)
+{
+    patch(h, sizeof *h, 0);
+}
+
+/* A header that is consistent with itself: from another build, or a forger. */
+static void put_hashed(struct segment_header h)
+{
+    struct segment_header copy = h;
+    copy.magic = 0;
+    copy.head_hash = 0;
+    h.head_hash = XXH3_64bits(&copy, sizeof copy);
+    put_header(&h);
+}
+
+static void check_refused(const char *word)
+{
+    for (int i = 0; i < 2; i++) { /* as a reader and in a role */
+        struct view view;
+        if (segment_attach(&view, name, i == 0 ? ROLE_NONE : ROLE_MOVER, &reason) == 0)
+            fail_msg("attached; should be refused for its %s", word);
+        if (!strstr(reason.text, word))
+            fail_msg("\"%s\" is not in: %s", word, reason.text);
+        assert_null(view.base);
+        assert_int_equal(view.lock_fd, -1);
+    }
+}
+
+static void check_attaches(void)
+{
+    struct view view;
+    if (segment_attach(&view, name, ROLE_MOVER, &reason) != 0)
+        fail_msg("%s", reason.text);
+    segment_detach(&view);
+}
+
+/* --- the header --------------------------------------------------------------------------------*/
+
+static void test_wrong_magic(void **state)
+{
+    struct segment_header h = header;
+    (void)state;
+    h.magic = 0; /* never finished */
+    put_header(&h);
+    check_refused("magic");
+}
+
+static void test_wrong_version(void **state)
+{
+    struct segment_header h = header;
+    (void)state;
+    h.version = SEGMENT_VERSION + 1;
+    put_hashed(h);
+    check_refused("version");
+}
+
+static void test_other_layout(void **state)
+{
+    struct segment_header h = header;
+    (void)state;
+    h.layout_hash ^= 1;
+    put_hashed(h);
+    check_refused("layout");
+    h = header;
+    h.header_bytes += 8;
+    put_hashed(h);
+    check_refused("layout");
+}
+
+static void test_counts_out_of_range(void **state)
+{
+    struct segment_header h = header;
+    (void)state;
+    h.capacity = CAPACITY_MAX + 1;
+    put_hashed(h);
+    check_refused("counts");
+    h = header;
+    h.counts.posts_side = 0;
+    put_hashed(h);
+    check_refused("counts");
+    h = header;
+    h.event_slots = 3;
+    put_hashed(h);
+    check_refused("counts");
+}
+
+static void test_counts_that_do_not_fit_the_size(void **state)
+{
+    struct segment_header h = header;
+    (void)state;
+    h.capacity *= 64;
+    put_hashed(h);
+    check_refused("size");
+    h = header;
+    h.total_bytes += 4096;
+    put_hashed(h);
+    check_refused("size");
+}
+
+/* No bit of the header may change unseen. */
+static void test_every_flipped_header_bit_is_refused_by_its_field(void **state)
+{
+    struct field {
+        size_t end;
+        const char *word;
+    };
+    static const struct field fields[] = {
+        {offsetof(struct segment_header, version), "magic"},
+        {offsetof(struct segment_header, header_bytes), "version"},
+        {offsetof(struct segment_header, total_bytes), "layout"},
+        {sizeof(struct segment_header), "head hash"},
+    };
+    const struct field *field = fields;
+    (void)state;
+    for (size_t byte = 0; byte < sizeof header; byte++) {
+        while (byte >= field->end)
+            field++;
+        for (int bit = 0; bit < 8; bit++) {
+            struct segment_header h = header;
+            ((unsigned char *)&h)[byte] ^= (unsigned char)(1u << bit);
+            put_header(&h);
+            check_refused(field->word);
+        }
+    }
+    put_header(&header);
+    check_attaches();
+}
+
+/* --- the object --------------------------------------------------------------------------------*/
+
+static void test_wrong_sizes(void **state)
+{
+    const size_t sizes[] = {0,
+                            1,
+                            sizeof(struct segment_header) - 1,
+                            sizeof(struct segment_header),
+                            4096,
+                            layout.total - 4096,
+                            layout.total - 1,
+                            layout.total + 1,
+                            layout.total + 4096};
+    (void)state;
+    for (size_t i = sizeof sizes / sizeof sizes[0]; i-- > 0;) { /* the header goes last */
+        assert_int_equal(truncate(shm, (off_t)sizes[i]), 0);
+        check_refused("size");
+    }
+}
+
+static void test_wrong_mode(void **state)
+{
+    (void)state;
+    assert_int_equal(chmod(shm, 0644), 0);
+    check_refused("mode 644");
+    assert_int_equal(chmod(shm, 0660), 0);
+    check_refused("mode 660");
+    assert_int_equal(chmod(shm, 0600), 0);
+    check_attaches();
+}
+
+static void test_wrong_owner(void **state)
+{
+    (void)state;
+    if (geteuid() != 0)
+        skip(); /* only root can give a file away */
+    assert_int_equal(chown(shm, 12345, (gid_t)-1), 0);
+    check_refused("belongs to user 12345");
+    assert_int_equal(chown(shm, 0, (gid_t)-1), 0);
+    check_attaches();
+}
+
+static void test_symbolic_link(void **state)
+{
+    char elsewhere[SEGMENT_PATH_MAX + 8];
+    (void)state;
+    snprintf(elsewhere, sizeof elsewhere, "%s.moved", shm);
+    assert_int_equal(rename(shm, elsewhere), 0);
+    assert_int_equal(symlink(elsewhere, shm), 0);
+    check_refused("cannot open");
+    assert_int_equal(unlink(shm), 0);
+    assert_int_equal(rename(elsewhere, shm), 0);
+    check_attaches();
+}
+
+static void test_symbolic_link_for_the_lock(void **state)
+{
+    char elsewhere[SEGMENT_PATH_MAX + 8];
+    struct view view;
+    (void)state;
+    snprintf(elsewhere, sizeof elsewhere, "%s.moved", lock);
+    assert_int_equal(rename(lock, elsewhere), 0);
+    assert_int_equal(symlink(elsewhere, lock), 0);
+    assert_int_equal(segment_attach(&view, name, ROLE_MOVER, &reason), -1);
+    assert_non_null(strstr(reason.text, "cannot open"));
+    assert_int_equal(unlink(lock), 0);
+    assert_int_equal(rename(elsewhere, lock), 0);
+    check_attaches();
+}
+
+static void test_what_is_no_file(void **state)
+{
+    (void)state;
+    assert_int_equal(unlink(shm), 0);
+    assert_int_equal(mkdir(shm, 0700), 0);
+    struct view view;
+    assert_int_equal(segment_attach(&view, name, ROLE_NONE, &reason), -1);
+    assert_non_null(strstr(reason.text, "no shared-memory object"));
+    assert_int_equal(rmdir(shm), 0);
+}
+
+static int attach_reader(void *context)
+{
+    struct view view;
+    (void)context;
+    return segment_attach(&view, name, ROLE_NONE, &reason) == 0;
+}
+
+/* "Does not block": a pipe of that name has no writer, and opening it would wait for one. */
+static void test_pipe_does_not_block(void **state)
+{
+    int status = 0;
+    (void)state;
+    assert_int_equal(unlink(shm), 0);
+    assert_int_equal(mkfifo(shm, 0600), 0);
+    pid_t child = child_start(attach_reader, NULL);
+    usleep(300000);
+    int blocked = waitpid(child, &status, WNOHANG) == 0;
+    if (blocked)
+        child_kill(child);
+    assert_int_equal(unlink(shm), 0);
+    assert_false(blocked);
+    assert_int_equal(status, 0);
+}
+
+static void test_damaged_static_regions_are_found_by_verify(void **state)
+{
+    (void)state;
+    for (int region = REGION_PARAMS; region <= REGION_NAMES; region++) {
+        size_t bytes = layout.bytes[region], at = layout.offset[region] + bytes / 2;
+        unsigned char byte;
+        struct view view;
+        if (bytes == 0)
+            continue;
+        int fd = open(shm, O_RDWR | O_CLOEXEC);
+        assert_int_equal(pread(fd, &byte, 1, (off_t)at), 1);
+        close(fd);
+        byte ^= 4;
+        patch(&byte, 1, at);
+        assert_int_equal(segment_attach(&view, name, ROLE_NONE, &reason), 0);
+        if (segment_verify(&view, &reason) == 0)
+            fail_msg("%s", region_name((enum region)region));
+        assert_non_null(strstr(reason.text, "static hash"));
+        byte ^= 4;
+        patch(&byte, 1, at);
+        assert_int_equal(segment_verify(&view, &reason), 0);
+        segment_detach(&view);
+    }
+}
+
+/* --- page tables -------------------------------------------------------------------------------*/
+
+struct probe {
+    enum role role;
+    size_t offset;
+};
+
+/* Reads a byte and writes it back: changes nothing where it may. */
+static int probe_write(void *context)
+{
+    const struct probe *probe = context;
+    struct view view;
+    if (segment_attach(&view, name, probe->role, &reason) != 0)
+        return 1;
+    volatile unsigned char *at = (volatile unsigned char *)view.base + probe->offset;
+    *at = *at;
+    return 0;
+}
+
+static void check_probe(enum role role, enum region region, size_t offset)
+{
+    struct probe probe = {role, offset};
+    int wanted = layout_writable(role, region) ? 0 : -SIGSEGV;
+    int result = child_run(probe_write, &probe);
+    if (result != wanted)
+        fail_msg("%s at %s: %d, not %d", role_name(role), region_name(region), result, wanted);
+}
+
+static void test_writing_where_a_role_may_not_faults(void **state)
+{
+    (void)state;
+    for (int role = 0; role <= ROLE_NONE; role++) {
+        for (int region = 0; region < REGION_COUNT; region++) {
+            size_t bytes = layout.bytes[region];
+            if (bytes == 0)
+                continue;
+            check_probe((enum role)role, (enum region)region, layout.offset[region]);
+            if (role == ROLE_MOVER || role == ROLE_COLLIDER) /* and at the region's other end */
+                check_probe((enum role)role, (enum region)region,
+                            layout.offset[region] + bytes - 1);
+        }
+    }
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, make_world, remove_world)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_wrong_magic),
+        TEST(test_wrong_version),
+        TEST(test_other_layout),
+        TEST(test_counts_out_of_range),
+        TEST(test_counts_that_do_not_fit_the_size),
+        TEST(test_every_flipped_header_bit_is_refused_by_its_field),
+        TEST(test_wrong_sizes),
+        TEST(test_wrong_mode),
+        TEST(test_wrong_owner),
+        TEST(test_symbolic_link),
+        TEST(test_symbolic_link_for_the_lock),
+        TEST(test_what_is_no_file),
+        TEST(test_pipe_does_not_block),
+        TEST(test_damaged_static_regions_are_found_by_verify),
+        TEST(test_writing_where_a_role_may_not_faults),
+    };
+    return cmocka_run_group_tests(tests, NULL, named_world_check_left);
+}

@@ -1,0 +1,97 @@
+/* The configuration that Cyclone DDS gets: the file that is installed says what is built in, and
+ * what cannot be right is refused with its name. */
+#include "reporter/dds_config.c" /* the unit tests are not linked with the processes */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static char text[DDS_CONFIG_MAX];
+static struct reason reason;
+
+/* Writes a file of its own and gives its name. */
+static const char *file_of(const char *content, size_t bytes)
+{
+    static char path[] = "/tmp/jolon-test-XXXXXX";
+    (void)strcpy(path + sizeof path - 7, "XXXXXX");
+    int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    assert_int_equal(write(fd, content, bytes), bytes);
+    (void)close(fd);
+    return path;
+}
+
+static void test_installed_file_is_the_built_in_text(void **state)
+{
+    static char file[DDS_CONFIG_MAX];
+    (void)state;
+    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, &reason), 0);
+    assert_int_equal(dds_config_file(file, sizeof file, "config/cyclonedds.xml", &reason), 0);
+    assert_string_equal(text, file);
+}
+
+static void test_another_interface(void **state)
+{
+    (void)state;
+    assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", &reason), 0);
+    assert_non_null(strstr(text, "address=\"10.1.2.3\"/>"));
+    /* What is put into XML is an address and nothing else. */
+    assert_int_equal(dds_config_builtin(text, sizeof text, "1.2.3.4\"/><x", &reason), -1);
+    assert_non_null(strstr(reason.text, "not an IPv4 address"));
+    assert_int_equal(dds_config_builtin(text, 10, DDS_LOOPBACK, &reason), -1);
+}
+
+static void test_interfaces(void **state)
+{
+    char address[16];
+    (void)state;
+    assert_int_equal(dds_config_interface(address, sizeof address, "no-such0", &reason), -1);
+    assert_non_null(strstr(reason.text, "no-such0"));
+    if (dds_config_interface(address, sizeof address, "lo", &reason) == 0)
+        assert_string_equal(address, DDS_LOOPBACK);
+}
+
+static void test_files_refused(void **state)
+{
+    static char big[DDS_CONFIG_MAX + 10];
+    (void)state;
+    assert_int_equal(dds_config_file(text, sizeof text, "/nonexistent/x.xml", &reason), -1);
+    assert_non_null(strstr(reason.text, "/nonexistent/x.xml: No such file"));
+    assert_int_equal(dds_config_file(text, sizeof text, "/tmp", &reason), -1);
+
+    const char *path = file_of("file:///etc/x.xml", 17);
+    assert_int_equal(dds_config_file(text, sizeof text, path, &reason), -1);
+    assert_non_null(strstr(reason.text, "not XML"));
+    (void)unlink(path);
+
+    path = file_of("<a>\0</a>", 8);
+    assert_int_equal(dds_config_file(text, sizeof text, path, &reason), -1);
+    (void)unlink(path);
+
+    path = file_of("  \n<CycloneDDS/>", 16);
+    assert_int_equal(dds_config_file(text, sizeof text, path, &reason), 0);
+    assert_string_equal(text, "<CycloneDDS/>");
+    (void)unlink(path);
+
+    memset(big, '<', sizeof big);
+    path = file_of(big, sizeof big);
+    assert_int_equal(dds_config_file(text, sizeof text, path, &reason), -1);
+    assert_non_null(strstr(reason.text, "longer than"));
+    (void)unlink(path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_installed_file_is_the_built_in_text),
+        cmocka_unit_test(test_another_interface),
+        cmocka_unit_test(test_interfaces),
+        cmocka_unit_test(test_files_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

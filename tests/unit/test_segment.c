@@ -1,0 +1,491 @@
+/* Segments: made, attached to in roles, left, removed; one live holder a role. */
+#include "ipc/segment.h"
+
+#include "tests/support/child.h"
+#include "tests/support/fixture.h"
+#include "tests/support/named_world.h"
+
+#include <fcntl.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define SCENARIO "vehicles = ( { kind = \"tank\"; name = \"T\"; count = 3; } );"
+
+static char name[SEGMENT_NAME_MAX], shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+static struct reason reason;
+
+static int make_world(void **state)
+{
+    (void)state;
+    named_world_make(name, SCENARIO);
+    segment_paths(name, shm, lock);
+    return 0;
+}
+
+static int remove_world(void **state)
+{
+    (void)state;
+    named_world_remove(name);
+    return 0;
+}
+
+static bool exists(const char *path)
+{
+    return access(path, F_OK) == 0;
+}
+
+static void attach(struct view *view, enum role role)
+{
+    if (segment_attach(view, name, role, &reason) != 0)
+        fail_msg("%s", reason.text);
+}
+
+static void attach_refused(const char *world, enum role role, const char *word)
+{
+    struct view view;
+    assert_int_equal(segment_attach(&view, world, role, &reason), -1);
+    if (!strstr(reason.text, word))
+        fail_msg("\"%s\" is not in: %s", word, reason.text);
+    assert_null(view.base);
+    assert_int_equal(view.lock_fd, -1);
+}
+
+/* --- creation ----------------------------------------------------------------------------------*/
+
+static void test_world_is_not_there_before_it_is_published(void **state)
+{
+    char unborn[SEGMENT_NAME_MAX], unborn_shm[SEGMENT_PATH_MAX], unborn_lock[SEGMENT_PATH_MAX];
+    struct fixture f;
+    struct view made, seen;
+    (void)state;
+    named_world_name(unborn);
+    segment_paths(unborn, unborn_shm, unborn_lock);
+    fixture_open(&f, SCENARIO);
+    struct segment_header header = segment_header_for(&f.scenario.params, &f.genesis.counts);
+    assert_int_equal(segment_begin(&made, unborn, &header, &reason), 0);
+    segment_fill(&made, &f.genesis);
+    assert_false(exists(unborn_shm));
+    attach_refused(unborn, ROLE_NONE, "there is no world");
+    assert_int_equal(segment_publish(&made, &reason), 0);
+    segment_detach(&made);
+    assert_int_equal(segment_attach(&seen, unborn, ROLE_NONE, &reason), 0);
+    assert_int_equal(world_digest(&seen.world, &seen.w[0]), fixture_digest(&f));
+    segment_detach(&seen);
+    fixture_close(&f);
+    named_world_remove(unborn);
+}
+
+static void test_object_and_lock_are_their_owners_alone(void **state)
+{
+    struct stat status;
+    (void)state;
+    assert_int_equal(stat(shm, &status), 0);
+    assert_int_equal(status.st_mode & 07777, 0600);
+    assert_int_equal(status.st_uid, geteuid());
+    assert_true(status.st_blocks * 512 >= status.st_size); /* reserved: no SIGBUS later */
+    assert_int_equal(stat(lock, &status), 0);
+    assert_int_equal(status.st_mode & 07777, 0600);
+}
+
+static void test_abandoned_world_leaves_nothing(void **state)
+{
+    char unborn[SEGMENT_NAME_MAX];
+    const struct params params = {.capacity = 16,
+                                  .event_slots = 64,
+                                  .intents_per_frame = 8,
+                                  .command_slots = 4,
+                                  .crater_slots = 4};
+    const struct counts counts = {.posts_side = 2};
+    struct segment_header header = segment_header_for(&params, &counts);
+    struct view view;
+    (void)state;
+    int before = named_world_leftovers();
+    named_world_name(unborn);
+    assert_int_equal(segment_begin(&view, unborn, &header, &reason), 0);
+    assert_int_equal(named_world_leftovers(), before + 1);
+    segment_abandon(&view);
+    assert_null(view.base);
+    segment_abandon(&view); /* once more does nothing */
+    assert_int_equal(named_world_leftovers(), before);
+}
+
+static void test_second_world_of_the_name_is_refused(void **state)
+{
+    struct fixture f;
+    struct view second, first;
+    (void)state;
+    fixture_open(&f, "world = { seed = 99; capacity = 16; };");
+    struct segment_header header = segment_header_for(&f.scenario.params, &f.genesis.counts);
+    assert_int_equal(segment_begin(&second, name, &header, &reason), 0);
+    segment_fill(&second, &f.genesis);
+    assert_int_equal(segment_publish(&second, &reason), -1);
+    assert_non_null(strstr(reason.text, "exists already"));
+    assert_non_null(strstr(reason.text, name));
+    segment_abandon(&second);
+    attach(&first, ROLE_NONE); /* and the first is as it was */
+    assert_int_equal(first.world.params->seed, 1);
+    assert_int_equal(first.w[0].head->used, 3);
+    assert_int_equal(segment_verify(&first, &reason), 0);
+    segment_detach(&first);
+    fixture_close(&f);
+}
+
+static void test_names_that_a_world_may_have(void **state)
+{
+    static const char *const bad[] = {"",
+                                      ".",
+                                      "..",
+                                      "a.b",
+                                      "a/b",
+                                      "/",
+                                      "a b",
+                                      "a\n",
+                                      "ä",
+                                      "a:b",
+                                      "abcdefghijklmnopqrstuvwxyz012345"};
+    static const char *const good[] = {"a", "A-b_9", "abcdefghijklmnopqrstuvwxyz01234", "-", "_"};
+    const struct segment_header header = {0};
+    struct view view;
+    (void)state;
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++)
+        assert_true(segment_name_ok(good[i]));
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        assert_false(segment_name_ok(bad[i]));
+        attach_refused(bad[i], ROLE_NONE, "is no name for a world");
+        assert_int_equal(segment_begin(&view, bad[i], &header, &reason), -1);
+        assert_non_null(strstr(reason.text, "is no name for a world"));
+        assert_int_equal(segment_remove(bad[i], true, &reason), -1);
+    }
+}
+
+static void test_counts_out_of_range_make_no_world(void **state)
+{
+    const struct segment_header header = {.capacity = 0};
+    char unborn[SEGMENT_NAME_MAX];
+    struct view view;
+    (void)state;
+    int before = named_world_leftovers();
+    named_world_name(unborn);
+    assert_int_equal(segment_begin(&view, unborn, &header, &reason), -1);
+    assert_non_null(strstr(reason.text, "out of range"));
+    assert_int_equal(segment_private(&view, &header, &reason), -1);
+    assert_int_equal(named_world_leftovers(), before);
+}
+
+/* --- temporaries of dead creators --------------------------------------------------------------*/
+
+static int return_0(void *context)
+{
+    (void)context;
+    return 0;
+}
+
+static int sleep_long(void *context)
+{
+    (void)context;
+    sleep(60);
+    return 0;
+}
+
+static void touch_temporary(char path[SEGMENT_PATH_MAX + 32], pid_t creator)
+{
+    snprintf(path, SEGMENT_PATH_MAX + 32, "%s.new-%d", shm, (int)creator);
+    int fd = open(path, O_CREAT | O_RDWR, 0600);
+    assert_true(fd >= 0);
+    close(fd);
+}
+
+static void test_temporaries_of_dead_creators_are_swept(void **state)
+{
+    char dead_path[SEGMENT_PATH_MAX + 32], live_path[SEGMENT_PATH_MAX + 32];
+    struct fixture f;
+    struct view view;
+    (void)state;
+    pid_t dead = child_start(return_0, NULL), live = child_start(sleep_long, NULL);
+    child_wait(dead);
+    touch_temporary(dead_path, dead);
+    touch_temporary(live_path, live);
+    fixture_open(&f, SCENARIO);
+    struct segment_header header = segment_header_for(&f.scenario.params, &f.genesis.counts);
+    assert_int_equal(segment_begin(&view, name, &header, &reason), 0);
+    segment_abandon(&view);
+    assert_false(exists(dead_path));
+    assert_true(exists(live_path)); /* its creator is still at work */
+    child_kill(live);
+    assert_int_equal(segment_begin(&view, name, &header, &reason), 0);
+    segment_abandon(&view);
+    assert_false(exists(live_path));
+    fixture_close(&f);
+}
+
+/* Pids come again, in containers nearly always: a creator's own leftover is a dead one's. */
+static void test_temporary_of_a_dead_creator_with_our_pid_is_swept(void **state)
+{
+    char path[SEGMENT_PATH_MAX + 32];
+    struct fixture f;
+    struct view view;
+    (void)state;
+    touch_temporary(path, getpid());
+    fixture_open(&f, SCENARIO);
+    struct segment_header header = segment_header_for(&f.scenario.params, &f.genesis.counts);
+    int result = segment_begin(&view, name, &header, &reason);
+    segment_abandon(&view);
+    fixture_close(&f);
+    unlink(path);
+    if (result != 0)
+        fail_msg("%s", reason.text);
+}
+
+/* --- roles -------------------------------------------------------------------------------------*/
+
+static void test_reader_sees_the_world_and_takes_no_slot(void **state)
+{
+    struct view view;
+    (void)state;
+    attach(&view, ROLE_NONE);
+    assert_int_equal(view.lock_fd, -1);
+    assert_string_equal(view.name, name);
+    assert_int_equal(view.world.params->capacity, 64);
+    assert_int_equal(view.w[0].entities.capacity, 64);
+    assert_string_equal(world_entity_name(&view.world, 2), "T-2");
+    assert_int_equal(atomic_load(&view.commit->commit), 0);
+    for (int role = 0; role < ROLE_COUNT; role++)
+        assert_int_equal(atomic_load(&view.slot[role]->state), ROLE_ABSENT);
+    assert_int_equal(segment_verify(&view, &reason), 0);
+    segment_detach(&view);
+    assert_null(view.base);
+    segment_detach(&view); /* once more does nothing */
+}
+
+static void test_slot_says_who_holds_the_role_and_how_far_it_is(void **state)
+{
+    struct view holder, reader;
+    (void)state;
+    attach(&reader, ROLE_NONE);
+    const struct role_slot *slot = reader.slot[ROLE_MOVER];
+    attach(&holder, ROLE_MOVER);
+    assert_int_equal(slot->state, ROLE_STARTING);
+    assert_int_equal(slot->pid, getpid());
+    assert_int_equal(slot->starts, 1);
+    assert_true(slot->started_ns != 0 && slot->beat_ns >= slot->started_ns);
+    segment_ready(&holder);
+    assert_int_equal(slot->state, ROLE_READY);
+    assert_int_equal(segment_holder(name, ROLE_MOVER), getpid());
+    assert_int_equal(segment_holder(name, ROLE_COLLIDER), 0);
+    segment_detach(&holder);
+    assert_int_equal(slot->state, ROLE_ABSENT);
+    assert_int_equal(segment_holder(name, ROLE_MOVER), 0);
+    attach(&holder, ROLE_MOVER);
+    assert_int_equal(slot->starts, 2);
+    segment_detach(&holder);
+    segment_detach(&reader);
+}
+
+static void test_second_holder_of_a_role_is_refused_by_name_and_pid(void **state)
+{
+    struct view first;
+    char pid[32];
+    (void)state;
+    snprintf(pid, sizeof pid, "(pid %d)", (int)getpid());
+    for (int role = 0; role < ROLE_COUNT; role++) {
+        attach(&first, (enum role)role);
+        attach_refused(name, (enum role)role, role_name((enum role)role));
+        assert_non_null(strstr(reason.text, pid));
+        assert_int_equal(atomic_load(&first.slot[role]->starts), 1); /* the refused one wrote not */
+        segment_detach(&first);
+    }
+}
+
+static void test_all_roles_side_by_side(void **state)
+{
+    struct view views[ROLE_COUNT], readers[3];
+    (void)state;
+    for (int role = 0; role < ROLE_COUNT; role++)
+        attach(&views[role], (enum role)role);
+    for (int i = 0; i < 3; i++)
+        attach(&readers[i], ROLE_NONE);
+    for (int role = 0; role < ROLE_COUNT; role++)
+        assert_int_equal(segment_holder(name, (enum role)role), getpid());
+    for (int i = 0; i < 3; i++)
+        segment_detach(&readers[i]);
+    for (int role = 0; role < ROLE_COUNT; role++)
+        segment_detach(&views[role]);
+}
+
+static int hold_for_long(void *context)
+{
+    struct view view;
+    const enum role *role = context;
+    if (segment_attach(&view, name, *role, &reason) != 0)
+        return 1;
+    segment_ready(&view);
+    sleep(60);
+    return 0;
+}
+
+static void wait_until_held(enum role role)
+{
+    struct view reader;
+    attach(&reader, ROLE_NONE);
+    while (atomic_load(&reader.slot[role]->state) != ROLE_READY)
+        usleep(200);
+    segment_detach(&reader);
+}
+
+static void test_kill_of_the_holder_frees_the_role(void **state)
+{
+    enum role role = ROLE_COLLIDER;
+    struct view view;
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        pid_t holder = child_start(hold_for_long, &role);
+        wait_until_held(role);
+        assert_int_equal(segment_holder(name, role), holder);
+        attach_refused(name, role, "is running already");
+        child_kill(holder);
+        assert_int_equal(segment_holder(name, role), 0); /* though its slot still says ready */
+        attach(&view, role);
+        assert_int_equal(atomic_load(&view.slot[role]->pid), getpid());
+        segment_detach(&view);
+    }
+}
+
+/* --- removal -----------------------------------------------------------------------------------*/
+
+static void test_removal_is_refused_while_a_role_is_held(void **state)
+{
+    struct view view;
+    (void)state;
+    attach(&view, ROLE_REPORTER);
+    assert_int_equal(segment_remove(name, false, &reason), -1);
+    assert_non_null(strstr(reason.text, "reporter"));
+    assert_true(exists(shm) && exists(lock));
+    segment_detach(&view);
+    attach(&view, ROLE_NONE); /* a reader hinders nobody */
+    assert_int_equal(segment_remove(name, false, &reason), 0);
+    assert_false(exists(shm) || exists(lock));
+    assert_int_equal(view.w[0].head->used, 3); /* and goes on reading what it has mapped */
+    segment_detach(&view);
+}
+
+static void test_removal_by_force(void **state)
+{
+    struct view view;
+    (void)state;
+    attach(&view, ROLE_MOVER);
+    assert_int_equal(segment_remove(name, true, &reason), 0);
+    assert_false(exists(shm) || exists(lock));
+    segment_detach(&view);
+}
+
+static void test_lock_file_stays_while_a_supervisor_holds_it(void **state)
+{
+    (void)state;
+    int fd = open(lock, O_RDWR | O_CLOEXEC);
+    assert_true(fd >= 0);
+    assert_int_equal(flock(fd, LOCK_EX), 0);
+    assert_int_equal(segment_remove(name, false, &reason), 0);
+    assert_false(exists(shm));
+    assert_true(exists(lock));
+    close(fd);
+    assert_int_equal(segment_remove(name, false, &reason), 0); /* what is gone is no mistake */
+    assert_false(exists(lock));
+}
+
+static void test_removed_name_can_be_made_again(void **state)
+{
+    struct view old, new;
+    struct fixture f;
+    (void)state;
+    attach(&old, ROLE_MOVER);
+    assert_int_equal(segment_remove(name, true, &reason), 0);
+    fixture_open(&f, SCENARIO);
+    struct segment_header header = segment_header_for(&f.scenario.params, &f.genesis.counts);
+    assert_int_equal(segment_begin(&new, name, &header, &reason), 0);
+    segment_fill(&new, &f.genesis);
+    assert_int_equal(segment_publish(&new, &reason), 0);
+    segment_detach(&new);
+    fixture_close(&f);
+    attach(&new, ROLE_MOVER); /* the old world's mover has another lock and another memory */
+    atomic_store(&old.moved_word->moved, 1);
+    assert_int_equal(atomic_load(&new.moved_word->moved), 0);
+    segment_detach(&old);
+    assert_int_equal(segment_holder(name, ROLE_MOVER), getpid());
+    segment_detach(&new);
+}
+
+static void test_list_has_worlds_and_nothing_else(void **state)
+{
+    static char names[512][SEGMENT_NAME_MAX];
+    char temporary[SEGMENT_PATH_MAX + 32];
+    int found = 0;
+    (void)state;
+    touch_temporary(temporary, getpid());
+    int count = segment_list(names, 512);
+    for (int i = 0; i < count; i++) {
+        assert_true(segment_name_ok(names[i]));
+        found += strcmp(names[i], name) == 0;
+    }
+    unlink(temporary);
+    assert_int_equal(found, 1);
+    assert_true(segment_list(names, 0) >= 0); /* writes nothing */
+}
+
+/* --- private worlds ----------------------------------------------------------------------------*/
+
+static int write_commit(void *context)
+{
+    struct view *view = context;
+    atomic_store(&view->commit->commit, 77);
+    return 0;
+}
+
+static void test_private_world_is_shared_with_children_and_has_no_name(void **state)
+{
+    struct fixture f;
+    (void)state;
+    int before = named_world_leftovers();
+    fixture_open(&f, "");
+    assert_int_equal(named_world_leftovers(), before);
+    assert_int_equal(child_run(write_commit, &f.view), 0);
+    assert_int_equal(atomic_load(&f.view.commit->commit), 77);
+    fixture_close(&f);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, make_world, remove_world)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_world_is_not_there_before_it_is_published),
+        TEST(test_object_and_lock_are_their_owners_alone),
+        cmocka_unit_test(test_abandoned_world_leaves_nothing),
+        TEST(test_second_world_of_the_name_is_refused),
+        cmocka_unit_test(test_names_that_a_world_may_have),
+        cmocka_unit_test(test_counts_out_of_range_make_no_world),
+        TEST(test_temporaries_of_dead_creators_are_swept),
+        TEST(test_temporary_of_a_dead_creator_with_our_pid_is_swept),
+        TEST(test_reader_sees_the_world_and_takes_no_slot),
+        TEST(test_slot_says_who_holds_the_role_and_how_far_it_is),
+        TEST(test_second_holder_of_a_role_is_refused_by_name_and_pid),
+        TEST(test_all_roles_side_by_side),
+        TEST(test_kill_of_the_holder_frees_the_role),
+        TEST(test_removal_is_refused_while_a_role_is_held),
+        TEST(test_removal_by_force),
+        TEST(test_lock_file_stays_while_a_supervisor_holds_it),
+        TEST(test_removed_name_can_be_made_again),
+        TEST(test_list_has_worlds_and_nothing_else),
+        cmocka_unit_test(test_private_world_is_shared_with_children_and_has_no_name),
+    };
+    return cmocka_run_group_tests(tests, NULL, named_world_check_left);
+}
