@@ -137,8 +137,10 @@ $(BUILD)/flags: FORCE
 FORCE:
 
 # --- tests --------------------------------------------------------------------------------------
-$(BUILD)/tests/%: $(OBJ)/tests/%.o $(SUPPORT) $(STEPS) $(SCENE) $(CONFIG) $(IPC) $(WORLD)
+$(BUILD)/tests/%: $(OBJ)/tests/%.o $(SUPPORT) $(STEPS) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(TEST_LIBS) $(CONFIG_LIBS) $(BASE_LIBS))
+
+$(BUILD)/tests/unit/test_scene: $(SCENE)
 
 check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 	@tests/run --build $(BUILD) unit property

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define ROWS_A_PIECE  2048
+#define PREFETCH_ROWS 8
 #define RUNS_A_PIECE  1024
 #define INSERTION_MAX 32
 
@@ -147,6 +148,10 @@ static void sweep_rows(void *context, uint32_t first, uint32_t end, uint32_t wor
     const struct broad_input *input = job->input;
     const struct world *world = job->broad->world;
     for (uint32_t i = first; i < end; i++) {
+        if (i + PREFETCH_ROWS < end) {
+            struct vec3 ahead = input->path[i + PREFETCH_ROWS].at;
+            __builtin_prefetch(&world->reach_start[square_of(ahead.x, ahead.z)]);
+        }
         if (input->entities->state[i] == ENTITY_FREE)
             continue;
         const struct kind *kind = &world->kinds[input->entities->kind[i]];

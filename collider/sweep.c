@@ -54,26 +54,52 @@ static bool craters_near(const struct crater_index *craters, struct vec3 p, stru
     return false;
 }
 
-/* Next time after now at which value + rate * t crosses a multiple of spacing. */
-static double next_line(double value, double rate, double spacing, double now)
+/* Lines that a straight way crosses one after the other: value + rate * t = line * spacing. */
+struct lines {
+    double value, rate, spacing;
+    double line, step; /* the next one, and +1 or -1 to the one after */
+};
+
+static struct lines lines_along(double value, double rate, double spacing)
 {
-    if (rate == 0.0)
-        return 2.0;
-    double cells = (value + rate * now) / spacing;
-    double line = rate > 0.0 ? floor(cells) + 1.0 : -(floor(-cells) + 1.0);
-    double time = (line * spacing - value) / rate;
-    return time > now ? time : now + 1e-9;
+    double cells = value / spacing;
+    double line = rate > 0.0 ? floor(cells) + 1.0 : -floor(-cells) - 1.0;
+    return (struct lines){value, rate, spacing, line, rate > 0.0 ? 1.0 : -1.0};
 }
 
-/* Next edge of the terrain's triangles after now: grid lines in x and z, diagonals in x - z. */
-static double next_edge(const struct terrain *terrain, const struct path *path, double now)
+/* Time of the next crossing; never when the way runs along the lines. */
+static double lines_next(const struct lines *lines)
 {
-    double local = now - path->since;
-    double x = next_line(path->at.x, path->along.x, terrain->spacing_m, local);
-    double z = next_line(path->at.z, path->along.z, terrain->spacing_m, local);
-    double d = next_line(path->at.x - path->at.z, path->along.x - path->along.z, terrain->spacing_m,
-                         local);
-    return path->since + maths_min(x, maths_min(z, d));
+    return lines->rate != 0.0 ? (lines->line * lines->spacing - lines->value) / lines->rate
+                              : INFINITY;
+}
+
+/* The edges of the terrain's triangles: grid lines in x and in z, diagonals in x - z. */
+struct edges {
+    struct lines lines[3];
+};
+
+static struct edges edges_along(const struct terrain *terrain, const struct path *path)
+{
+    double spacing = terrain->spacing_m;
+    return (struct edges){{
+        lines_along(path->at.x, path->along.x, spacing),
+        lines_along(path->at.z, path->along.z, spacing),
+        lines_along(path->at.x - path->at.z, path->along.x - path->along.z, spacing),
+    }};
+}
+
+/* Time since the path's start at which it crosses the next edge, which is then behind it. */
+static double edges_cross(struct edges *edges)
+{
+    double time = lines_next(&edges->lines[0]);
+    for (int i = 1; i < 3; i++)
+        time = maths_min(time, lines_next(&edges->lines[i]));
+    for (int i = 0; i < 3; i++) {
+        if (lines_next(&edges->lines[i]) <= time)
+            edges->lines[i].line += edges->lines[i].step;
+    }
+    return time;
 }
 
 static double bisect(const struct terrain *terrain, const struct crater_index *craters,
@@ -96,15 +122,18 @@ bool sweep_ground(const struct terrain *terrain, const struct crater_index *crat
     double here = clearance(terrain, craters, path, now);
     bool cratered = craters_near(craters, path->at, path_at(path, 1.0));
     double crater_step = CRATER_STEP_M / maths_max(vec3_length(path->along), CRATER_STEP_M);
+    struct edges edges = edges_along(terrain, path);
+    double edge = path->since + edges_cross(&edges);
     if (here < 0.0) {
         *toi = now;
         return true;
     }
     while (now < 1.0) {
-        double next = next_edge(terrain, path, now);
+        double next = maths_min(edge, 1.0);
         if (cratered)
             next = maths_min(next, now + crater_step);
-        next = maths_min(next, 1.0);
+        if (next >= edge)
+            edge = path->since + edges_cross(&edges);
         double there = clearance(terrain, craters, path, next);
         if (there < 0.0) {
             /* Between edges the clearance is a straight line; on craters it is not. */

@@ -77,11 +77,22 @@ static void next_goal(const struct move *move, uint32_t i)
         route_goal(move, i);
 }
 
+/* An interrupted route goes on to the point that it was heading for. */
+static void same_leg(const struct move *move, uint32_t i)
+{
+    struct entities *m = move->m;
+    if (m->behaviour[i] == BEHAVIOUR_ROUTE) {
+        uint32_t count = move->world->routes[m->order_arg[i]].count;
+        m->leg[i] = (m->leg[i] + count - 1) % count;
+    }
+}
+
 static void back_to_order(const struct move *move, uint32_t i, enum agent_reason reason)
 {
     struct entities *m = move->m;
     become(move, i, (enum behaviour)m->order[i], reason);
     m->target_slot[i] = m->target_id[i] = 0;
+    same_leg(move, i);
     next_goal(move, i);
 }
 

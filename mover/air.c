@@ -23,6 +23,7 @@ bool move_air(const struct move *move, uint32_t i, const struct wish *wish)
 {
     struct entities *m = move->m;
     const struct kind *kind = &move->world->kinds[m->kind[i]];
+    double full = maths_max(kind->max_speed_mps, 1e-9);
     double forward, rightward, sine, cosine;
     pose_speeds(m, i, &forward, &rightward);
 
@@ -34,7 +35,7 @@ bool move_air(const struct move *move, uint32_t i, const struct wish *wish)
     double climb_limit = kind->climb_rate_mps;
     double height = ground_ahead(move, i) + wish->altitude_m;
     double climb = maths_clamp((height - m->y[i]) * 0.8, -climb_limit, climb_limit);
-    if (!pose_burn(move, i, maths_clamp(wanted / kind->max_speed_mps, 0.2, 1.0))) {
+    if (!pose_burn(move, i, maths_clamp(wanted / full, 0.2, 1.0))) {
         wanted = 0.0; /* it glides down */
         climb = -climb_limit;
     }
@@ -57,10 +58,10 @@ bool move_air(const struct move *move, uint32_t i, const struct wish *wish)
     /* Bank of a coordinated turn; a hovering body leans into its acceleration, a wing climbs. */
     double rate = maths_wrap_half(m->heading[i] - before) / move->dt_s;
     double bank = maths_clamp(maths_atan2(rate * forward, GRAVITY_MPS2), -BANK_LIMIT, BANK_LIMIT);
-    double nose = kind->min_speed_mps > 0.0
-                      ? maths_atan2(m->vy[i], maths_max(forward, 1.0))
-                      : -0.12 * forward / kind->max_speed_mps -
-                            0.1 * (forward - speed_before) / maths_max(gain, 1e-9);
+    double nose =
+        kind->min_speed_mps > 0.0
+            ? maths_atan2(m->vy[i], maths_max(forward, 1.0))
+            : -0.12 * forward / full - 0.1 * (forward - speed_before) / maths_max(gain, 1e-9);
     m->roll[i] = pose_approach(m->roll[i], bank, BANK_RATE_RPS * move->dt_s);
     m->pitch[i] = pose_approach(m->pitch[i], nose, BANK_RATE_RPS * move->dt_s);
     return blocked;

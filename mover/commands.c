@@ -92,10 +92,13 @@ static enum command_result fire(struct serial *serial, const struct command *com
         target = vehicle_row(serial, command->target);
         if (target == SLOT_NONE)
             return COMMAND_NO_SUCH_ENTITY;
+        if (target == row)
+            return COMMAND_OUT_OF_RANGE;
     }
-    if (m->state[row] != ENTITY_ACTIVE || serial->move->tick < m->reload_tick[row])
+    if (m->state[row] != ENTITY_ACTIVE || serial->move->tick < m->reload_tick[row] ||
+        m->rounds[row] == 0 || world->kinds[m->kind[row]].munition == KIND_NONE)
         return COMMAND_CANNOT;
-    return weapons_fire(serial, row, target, KIND_NONE) ? COMMAND_DONE : COMMAND_CANNOT;
+    return weapons_fire(serial, row, target, KIND_NONE) ? COMMAND_DONE : COMMAND_TABLE_FULL;
 }
 
 static enum command_result spawn(struct serial *serial, const struct command *command,
@@ -147,7 +150,9 @@ static enum command_result control(struct serial *serial, const struct command *
             return COMMAND_CANNOT;
         if (command->amount < 1 || command->amount > 1000000)
             return COMMAND_OUT_OF_RANGE;
-        head->steps_left += command->amount;
+        head->steps_left = command->amount < UINT32_MAX - head->steps_left
+                               ? head->steps_left + command->amount
+                               : UINT32_MAX;
         return COMMAND_DONE;
     case COMMAND_SCALE:
         if (!within(command->value[0], TIME_SCALE_MIN, TIME_SCALE_MAX))

@@ -3,7 +3,8 @@
 
 #include "mover/serial.h"
 
-#define ROWS_A_PIECE 2048
+#define ROWS_A_PIECE  2048
+#define PREFETCH_ROWS 8
 
 int mover_init(struct mover *mover, const struct world *world, const struct crater *craters,
                struct workers *workers)
@@ -57,6 +58,9 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
     const struct entities *w = &move->committed->entities;
     (void)worker;
     for (uint32_t i = first; i < end; i++) {
+        if (i + PREFETCH_ROWS < end)
+            terrain_prefetch(&move->world->terrain, w->x[i + PREFETCH_ROWS],
+                             w->z[i + PREFETCH_ROWS]);
         if (w->state[i] != ENTITY_FREE && move->m->id[i] == w->id[i])
             move_row(move, i);
     }

@@ -90,6 +90,8 @@ double crater_offset(const struct crater_index *index, double x, double z)
 {
     double deepest = 0.0;
     double highest = 0.0;
+    if (index->count == 0)
+        return 0.0;
     uint32_t link = index->head[square_of(x, z)];
     while (link != 0) {
         const struct crater_link *entry = &index->links[link - 1];

@@ -35,6 +35,16 @@ double terrain_base_height(const struct terrain *terrain, double x, double z)
     return nw + (se - sw) * u + (sw - nw) * v;
 }
 
+void terrain_prefetch(const struct terrain *terrain, double x, double z)
+{
+    double u, v;
+    size_t post = (size_t)cell_of(terrain, z, &v) * terrain->side + cell_of(terrain, x, &u);
+    __builtin_prefetch(terrain->posts + post);
+    __builtin_prefetch(terrain->posts + post + terrain->side);
+    __builtin_prefetch(terrain->cover + post);
+    __builtin_prefetch(terrain->cover + post + terrain->side);
+}
+
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
                       double z)
 {

@@ -40,6 +40,10 @@ double terrain_base_height(const struct terrain *terrain, double x, double z);
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
                       double z);
 
+/* Asks for the memory that heights and cover at (x, z) will need. A vehicle's ground is rarely in a
+ * cache: asked for some rows ahead, the waits overlap. */
+void terrain_prefetch(const struct terrain *terrain, double x, double z);
+
 /* Unit normal of the ground with its craters, from heights one metre apart. */
 struct vec3 terrain_normal(const struct terrain *terrain, const struct crater_index *craters,
                            double x, double z);

@@ -56,7 +56,8 @@ check "and says why" grep -q 'no such entity' err
 ctl scale banana >told 2>err
 check "wrong usage is 2" equal $? 2
 check "events tell of the commands" bash -c "'$jolon' events --json -w $name | grep -q '\"command\":\"drive\"'"
-check "no frame was late" bash -c "'$bin/jolon-world' summary --json --world $name | grep -Eq '\"late_frames\":[0-9],'"
+"$bin/jolon-world" summary --json --world "$name" >told
+check "it kept its time" [ "$(json late_frames <told)" -le $(($(json frame <told) / 10)) ]
 check "quit ends the run" ctl quit
 check "and leaves nothing" eventually nothing_left "$name"
 done_testing

@@ -185,6 +185,7 @@ static void test_index_grows_with_the_list_and_goes_back_with_it(void **state)
             double z = fixture_uniform(&random, 24800.0, 25200.0);
             assert_true(crater_offset(&index, x, z) == crater_offset(&fresh, x, z));
         }
+        assert_int_equal(index.link_count, fresh.link_count); /* nothing is kept of the past */
         crater_index_free(&fresh);
     }
     crater_index_free(&index);

@@ -273,6 +273,36 @@ static void test_every_frame_that_overruns_is_late(void **state)
         fail_msg("12 frames of 15 ms each at 100 Hz, %llu of them late", (unsigned long long)late);
 }
 
+/* A lost ring would only cost time, so it is looked for here and not in the frames. */
+static bool rings(const struct view *view, int role)
+{
+    int value = -1;
+    assert_int_equal(sem_getvalue(&view->doors->role[role].bell, &value), 0);
+    return value > 0;
+}
+
+static void test_each_stage_rings_who_waits_for_it(void **state)
+{
+    struct view view;
+    struct frame frame;
+    (void)state;
+    make_paced(&view, 1000.0);
+    struct view mover = bare_view_as(&view, ROLE_MOVER);
+    struct view collider = bare_view_as(&view, ROLE_COLLIDER);
+    move_by_hand(&frame, &mover);
+    for (int role = 0; role < ROLE_COUNT; role++)
+        assert_int_equal(rings(&view, role), role == ROLE_COLLIDER);
+    sem_trywait(&view.doors->role[ROLE_COLLIDER].bell);
+    assert_int_equal(frame_collider_begin(&frame, &collider), 0);
+    *view.w[1].head = *view.m.head;
+    frame_collider_end(&frame, &collider);
+    for (int role = 0; role < ROLE_COUNT; role++) {
+        bool renderer = role >= ROLE_RENDERER && role <= ROLE_RENDERER_4;
+        assert_int_equal(rings(&view, role), role == ROLE_MOVER || renderer);
+    }
+    segment_abandon(&view);
+}
+
 /* --- pausing and commands ----------------------------------------------------------------------*/
 
 static void send(const struct view *view, enum command_type type, uint32_t amount)
@@ -517,6 +547,7 @@ int main(void)
         cmocka_unit_test(test_time_scale_changes_the_pace),
         cmocka_unit_test(test_stall_is_counted_once_and_not_run_after),
         cmocka_unit_test(test_every_frame_that_overruns_is_late),
+        cmocka_unit_test(test_each_stage_rings_who_waits_for_it),
         cmocka_unit_test(test_pause_step_resume_and_quit),
         cmocka_unit_test(test_command_is_applied_once_though_the_mover_is_killed),
         cmocka_unit_test(test_sigterm_ends_both_stages_cleanly),

@@ -278,6 +278,22 @@ static void test_no_place_is_refused_with_kind_number_and_area(void **state)
                   crowd, 3);
 }
 
+/* An altitude is for aircraft; a scenario that gives one to a tank leaves it on the ground. */
+static void test_land_vehicles_start_on_the_ground(void **state)
+{
+    struct scenario scenario;
+    struct genesis genesis;
+    char message[512];
+    (void)state;
+    fixture_scenario(&scenario, "vehicles = ( { kind = \"tank\"; at = [1000.0, 1000.0]; } );");
+    scenario.groups[0].floating = 1;
+    scenario.groups[0].altitude_m = 50.0;
+    assert_int_equal(genesis_build(&genesis, &scenario, message, sizeof message), 0);
+    assert_true(genesis.first.y[0] == FIXTURE_GROUND_M);
+    genesis_free(&genesis);
+    scenario_free(&scenario);
+}
+
 /* The loader finds both of these first, in files; a scenario that comes another way must not pass.
  */
 static void test_scenario_that_does_not_fit_is_refused(void **state)
@@ -319,6 +335,7 @@ int main(void)
         cmocka_unit_test(test_static_parts_are_copied_whole),
         cmocka_unit_test(test_full_table_is_no_mistake),
         cmocka_unit_test(test_no_place_is_refused_with_kind_number_and_area),
+        cmocka_unit_test(test_land_vehicles_start_on_the_ground),
         cmocka_unit_test(test_scenario_that_does_not_fit_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -214,13 +214,13 @@ static void test_bits_are_the_same_everywhere(void **state)
         double v[6];
         double angle = i * 0.037;
         maths_sincos(angle, &v[0], &v[1]);
-        v[2] = maths_atan2(v[0] * (i + 0.5), v[1]);
+        v[2] = maths_atan2(v[0], v[1] * 0.7);
         v[3] = maths_cbrt((i + 20001) * 0.731);
         v[4] = maths_wrap_turn(angle);
         v[5] = maths_wrap_half(angle);
         hash = XXH3_64bits_withSeed(v, sizeof v, hash);
     }
-    assert_int_equal(hash, 0x88fc09965c90ee43);
+    assert_int_equal(hash, 0x53c226a114a7d65f);
 }
 
 int main(void)

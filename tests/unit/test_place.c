@@ -29,15 +29,16 @@ static const struct kind tank = {.domain = DOMAIN_LAND, .radius_m = 3.0, .max_sl
 static const struct kind ship = {.domain = DOMAIN_SEA, .radius_m = 60.0};
 static const struct kind jet = {.domain = DOMAIN_AIR, .radius_m = 8.0};
 
-/* West of 20 km it is sea, east of 40 km a wall of 45 degrees; trees stand around (30 km, 30 km).
- */
+/* West of 20 km and south of 5 km it is sea, with an island at (10 km, 10 km); east of 40 km a wall
+ * of 45 degrees; trees stand around (30 km, 30 km). */
 static int make_ground(void **state)
 {
     uint64_t random = 5;
     (void)state;
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
-        uint32_t column = i % SIDE;
-        cover[i] = column < 160 ? COVER_SEA : COVER_GRASS;
+        uint32_t column = i % SIDE, row = i / SIDE;
+        bool island = column == 80 && row == 80;
+        cover[i] = column < 160 && row >= 40 && !island ? COVER_SEA : COVER_GRASS;
         posts[i] = column > 320 ? 125.0f * (float)(column - 320) : 0.0f;
     }
     for (int i = 0; i < TREES; i++)
@@ -72,14 +73,14 @@ static void check_all(const struct kind *kind, const struct area *area, uint32_t
 
 static bool dry_and_level(double x, double z)
 {
-    (void)z;
-    return x > 159.5 * SPACING && x < 320.0 * SPACING + 1.0;
+    bool wet = x < 159.5 * SPACING && z > 39.5 * SPACING &&
+               !(fabs(x - 10000.0) <= SPACING / 2 && fabs(z - 10000.0) <= SPACING / 2);
+    return !wet && x < 320.0 * SPACING + 1.0;
 }
 
 static bool open_water(double x, double z)
 {
-    (void)z;
-    return x + 250.0 < 159.5 * SPACING + 1e-6;
+    return x + 250.0 < 159.5 * SPACING + 1e-6 && z - 250.0 > 39.5 * SPACING - 1e-6;
 }
 
 static bool anywhere(double x, double z)
@@ -98,8 +99,13 @@ static void test_land_vehicles_start_on_dry_ground_that_they_climb(void **state)
 static void test_ships_start_on_water_with_room_to_turn(void **state)
 {
     const struct area coast = {18000.0, 0.0, 22000.0, WORLD_SIDE_M};
+    const struct area north = {1000.0, 3000.0, 9000.0, 6000.0};
+    const struct area island = {9950.0, 9950.0, 10050.0, 10050.0};
+    double x, z;
     (void)state;
     check_all(&ship, &coast, 500, open_water);
+    check_all(&ship, &north, 500, open_water);
+    assert_int_equal(place_find(&place, &island, &ship, 0, &x, &z), -1);
 }
 
 static void test_aircraft_start_anywhere_in_their_area(void **state)
@@ -149,7 +155,7 @@ static void test_land_vehicles_start_clear_of_objects(void **state)
 
 static void test_no_place_is_said(void **state)
 {
-    const struct area sea = {1000.0, 1000.0, 2000.0, 2000.0};
+    const struct area sea = {1000.0, 20000.0, 2000.0, 21000.0};
     const struct area lot = {25000.0, 25000.0, 25020.0, 25020.0};
     double x, z;
     (void)state;

@@ -322,8 +322,25 @@ static void test_repeat_in_a_full_ring_is_eexist(void **state)
     (void)state;
     for (uint64_t i = 1; i <= COMMANDS; i++)
         assert_int_equal(put(RING_REPORTER, 1, i), 0);
-    assert_int_equal(put(RING_REPORTER, 1, 2), -1);
-    assert_int_equal(errno, EEXIST);
+    for (uint64_t i = 1; i <= COMMANDS; i++) { /* the oldest too: it still waits to be taken */
+        assert_int_equal(put(RING_REPORTER, 1, i), -1);
+        assert_int_equal(errno, EEXIST);
+    }
+}
+
+/* A sender that was killed before it moved the head has not sent: what it left does not count. */
+static void test_command_that_was_never_finished_can_be_put_again(void **state)
+{
+    (void)state;
+    for (uint64_t i = 1; i <= COMMANDS; i++)
+        assert_int_equal(put(RING_REPORTER, 1, i), 0);
+    take(RING_REPORTER, COMMANDS);
+    struct command *left = &view.commands[RING_REPORTER]->slot[0];
+    left->source = 1;
+    left->source_sequence = COMMANDS + 1;
+    left->sequence = COMMANDS;
+    assert_int_equal(put(RING_REPORTER, 1, COMMANDS + 1), 0);
+    assert_int_equal(atomic_load(&view.commands[RING_REPORTER]->head), COMMANDS + 1);
 }
 
 static void test_putting_a_command_rings_the_movers_bell(void **state)
@@ -355,6 +372,7 @@ int main(void)
         TEST(test_full_ring_is_enobufs_until_a_commit_takes_some),
         TEST(test_repeat_is_eexist_also_after_it_was_taken),
         TEST(test_repeat_in_a_full_ring_is_eexist),
+        TEST(test_command_that_was_never_finished_can_be_put_again),
         TEST(test_putting_a_command_rings_the_movers_bell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

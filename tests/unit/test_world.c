@@ -16,7 +16,8 @@
     "objects = ( { kind = \"tree\"; at = [1000.0, 1000.0]; },"                                     \
     "            { kind = \"bush\"; at = [2000.0, 1000.0]; } );"                                   \
     "vehicles = ( { kind = \"tank\"; name = \"T\"; count = 3; area = [3000.0, 3000.0, 4000.0, "    \
-    "4000.0]; }, { kind = \"jeep\"; at = [5000.0, 5000.0]; } );"
+    "4000.0]; }, { kind = \"jeep\"; at = [5000.0, 5000.0]; }, "                                    \
+    "{ kind = \"jeep\"; name = \"J\"; at = [6000.0, 5000.0]; } );"
 
 static struct fixture f;
 static struct state now;
@@ -81,7 +82,7 @@ static void test_digest_covers_every_column_of_every_used_row(void **state)
 {
     const struct entities *e = &now.entities;
     (void)state;
-    assert_int_equal(now.head->used, 4);
+    assert_int_equal(now.head->used, 5);
     for (uint32_t row = 0; row < now.head->used; row++) {
 #define X(type, name)                                                                              \
     if (!every_bit_counts(&e->name[row], sizeof(type)))                                            \
@@ -243,7 +244,8 @@ static void test_names_are_found_by_id(void **state)
     assert_string_equal(world_entity_name(&f.view.world, 3), "T-3");
     assert_string_equal(world_entity_name(&f.view.world, 4), ""); /* the scenario gave it none */
     assert_string_equal(world_entity_name(&f.view.world, 0), "");
-    assert_string_equal(world_entity_name(&f.view.world, 5), "");
+    assert_string_equal(world_entity_name(&f.view.world, 5), "J");
+    assert_string_equal(world_entity_name(&f.view.world, 6), "");
     assert_string_equal(world_entity_name(&f.view.world, UINT32_MAX), "");
 }
 

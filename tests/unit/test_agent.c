@@ -1,0 +1,424 @@
+/* Agents: what makes an autonomous vehicle change its mind, and where it goes. */
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define HZ 20.0
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, double x, double z, enum force force,
+                    enum behaviour behaviour)
+{
+    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                           .at = {x, FIXTURE_GROUND_M, z},
+                                                           .force = force,
+                                                           .behaviour = BEHAVIOUR_HOLD});
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
+    return row;
+}
+
+static enum behaviour behaviour_of(uint32_t row)
+{
+    return (enum behaviour)steps_rows(&f).behaviour[row];
+}
+
+/* It hears that another has fired at it. */
+static void threaten(uint32_t row, uint32_t by)
+{
+    struct entities e = steps_rows(&f);
+    e.threat_slot[row] = by;
+    e.threat_id[row] = e.id[by];
+}
+
+static void attack(uint32_t row, uint32_t target, double seconds)
+{
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = BEHAVIOUR_ATTACK;
+    e.target_slot[row] = target;
+    e.target_id[row] = e.id[target];
+    e.until_tick[row] = (uint32_t)(fixture_state(&f).head->tick + (uint64_t)(seconds * HZ));
+    e.reload_tick[row] = UINT32_MAX; /* it holds its fire */
+}
+
+/* The only agent event so far says this. */
+static void told(uint32_t row, enum behaviour from, enum behaviour to, enum agent_reason because)
+{
+    const struct event *event = fixture_event(&f, EVENT_AGENT, 0);
+    assert_non_null(event);
+    assert_int_equal(event->agent.agent.id, row + 1);
+    assert_int_equal(event->agent.from, from);
+    assert_int_equal(event->agent.to, to);
+    assert_int_equal(event->agent.because, because);
+}
+
+/* --- row 9 -------------------------------------------------------------------------------------*/
+
+static void test_row_9_a_shot_at_agent_reacts_within_two_frames(void **state)
+{
+    static const char *const targets[] = {"tank", "jeep", "truck", "carrier", "helicopter"};
+    (void)state;
+    for (size_t n = 0; n < sizeof targets / sizeof targets[0]; n++) {
+        fixture_close(&f);
+        open_world(NULL);
+        uint32_t shooter = put("tank", 25000.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+        uint32_t target = put(targets[n], 25000.0, 26000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
+        uint32_t beside = put(targets[n], 25060.0, 26000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
+        struct event_command answer =
+            steps_command(&f, (struct command){.type = COMMAND_FIRE,
+                                               .entity = steps_rows(&f).id[shooter],
+                                               .target = steps_rows(&f).id[target]});
+        assert_int_equal(answer.result, COMMAND_DONE);
+        fixture_run(&f, 1); /* the second frame */
+        assert_true(behaviour_of(target) == BEHAVIOUR_ATTACK ||
+                    behaviour_of(target) == BEHAVIOUR_FLEE);
+        assert_int_equal(steps_rows(&f).target_id[target], steps_rows(&f).id[shooter]);
+        assert_int_equal(behaviour_of(beside), BEHAVIOUR_PATROL);
+        assert_int_equal(behaviour_of(shooter), BEHAVIOUR_HOLD);
+    }
+}
+
+static void test_row_9_courage_says_whether_it_fights_or_flees(void **state)
+{
+    (void)state;
+    for (int brave = 0; brave < 2; brave++) {
+        fixture_close(&f);
+        open_world(NULL);
+        steps_kind(&f, "tank")->courage = brave ? 1.0 : 0.0;
+        uint32_t enemy = put("jeep", 25500.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+        uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
+        threaten(row, enemy);
+        fixture_run(&f, 1);
+        enum behaviour to = brave ? BEHAVIOUR_ATTACK : BEHAVIOUR_FLEE;
+        assert_int_equal(behaviour_of(row), to);
+        told(row, BEHAVIOUR_PATROL, to, REASON_FIRED_UPON);
+    }
+}
+
+static void test_row_9_some_of_the_half_brave_fight_and_some_flee(void **state)
+{
+    uint32_t enemy = put("tank", 25000.0, 23000.0, FORCE_RED, BEHAVIOUR_HOLD), row[50];
+    int fights = 0;
+    (void)state;
+    steps_kind(&f, "jeep")->courage = 0.5;
+    for (uint32_t n = 0; n < 50; n++) {
+        row[n] = put("jeep", 24000.0 + 40.0 * n, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+        threaten(row[n], enemy);
+    }
+    fixture_run(&f, 1);
+    for (uint32_t n = 0; n < 50; n++) {
+        assert_int_not_equal(behaviour_of(row[n]), BEHAVIOUR_IDLE);
+        fights += behaviour_of(row[n]) == BEHAVIOUR_ATTACK;
+    }
+    assert_in_range(fights, 10, 40);
+}
+
+static void test_row_9_who_cannot_shoot_flees_and_gets_away(void **state)
+{
+    uint32_t enemy = put("tank", 25000.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t unarmed = put("truck", 25300.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t empty = put("tank", 25000.0, 25300.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    (void)state;
+    steps_kind(&f, "tank")->courage = 1.0;
+    steps_rows(&f).rounds[empty] = 0;
+    threaten(unarmed, enemy);
+    threaten(empty, enemy);
+    fixture_run(&f, (uint32_t)(25.0 * HZ));
+    assert_int_equal(behaviour_of(unarmed), BEHAVIOUR_FLEE);
+    assert_int_equal(behaviour_of(empty), BEHAVIOUR_FLEE);
+    assert_true(steps_rows(&f).x[unarmed] > 25500.0 && steps_rows(&f).z[empty] > 25500.0);
+    fixture_run(&f, (uint32_t)(6.0 * HZ)); /* it flees for half a minute */
+    assert_int_equal(behaviour_of(unarmed), BEHAVIOUR_IDLE);
+    assert_int_equal(behaviour_of(empty), BEHAVIOUR_IDLE);
+}
+
+static void test_a_threat_from_the_dead_is_not_heard(void **state)
+{
+    uint32_t enemy = put("tank", 25500.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    (void)state;
+    threaten(row, enemy);
+    steps_rows(&f).state[enemy] = ENTITY_WRECK;
+    fixture_run(&f, 2);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_IDLE);
+    steps_rows(&f).threat_slot[row] = enemy;
+    steps_rows(&f).threat_id[row] = 77; /* the slot's last owner */
+    fixture_run(&f, 2);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_IDLE);
+    assert_int_equal(steps_rows(&f).threat_id[row], 0);
+}
+
+/* --- an attack's ends --------------------------------------------------------------------------*/
+
+static void test_an_attack_ends_when_the_target_is_gone(void **state)
+{
+    uint32_t enemy = put("tank", 25500.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
+    (void)state;
+    attack(row, enemy, 1000.0);
+    fixture_run(&f, 3);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
+    steps_rows(&f).state[enemy] = ENTITY_WRECK;
+    fixture_run(&f, 1);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_PATROL);
+    assert_int_equal(steps_rows(&f).target_id[row], 0);
+    told(row, BEHAVIOUR_ATTACK, BEHAVIOUR_PATROL, REASON_TARGET_GONE);
+}
+
+static void test_an_attack_ends_when_its_time_is_over(void **state)
+{
+    uint32_t enemy = put("tank", 25500.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    (void)state;
+    attack(row, enemy, 2.0);
+    fixture_run(&f, (uint32_t)(2.0 * HZ) - 1);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
+    fixture_run(&f, 1);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_IDLE);
+    told(row, BEHAVIOUR_ATTACK, BEHAVIOUR_IDLE, REASON_TIME_OVER);
+}
+
+static void test_an_attacker_without_rounds_flees(void **state)
+{
+    uint32_t enemy = put("tank", 25500.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    (void)state;
+    attack(row, enemy, 1000.0);
+    steps_rows(&f).rounds[row] = 0;
+    fixture_run(&f, 1);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_FLEE);
+    told(row, BEHAVIOUR_ATTACK, BEHAVIOUR_FLEE, REASON_OUT_OF_ROUNDS);
+    assert_true(steps_rows(&f).goal_x[row] < 24000.0);
+}
+
+static void test_another_shot_makes_the_fight_last_longer(void **state)
+{
+    uint32_t enemy = put("tank", 25500.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    (void)state;
+    attack(row, enemy, 2.0);
+    fixture_run(&f, (uint32_t)HZ);
+    threaten(row, enemy);
+    fixture_run(&f, (uint32_t)(3.0 * HZ));
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
+}
+
+static void test_an_attacker_closes_in_to_its_stand_off_and_fires(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "tank");
+    uint32_t enemy = put("ship", 28000.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("tank", 24500.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    (void)state;
+    steps_kind(&f, "ship")->resistance_j = 1e12;
+    attack(row, enemy, 1000.0);
+    steps_rows(&f).reload_tick[row] = 0;
+    fixture_run(&f, (uint32_t)(20.0 * HZ)); /* 330 m: still out of range */
+    assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 0);
+    fixture_run(&f, (uint32_t)(300.0 * HZ));
+    double distance = 28000.0 - steps_rows(&f).x[row];
+    assert_true(distance < 0.55 * kind->range_m && distance > 0.4 * kind->range_m);
+    assert_int_equal(steps_rows(&f).rounds[row],
+                     kind->rounds - fixture_event_count(&f, EVENT_FIRE));
+    assert_true(fixture_event_count(&f, EVENT_FIRE) > 20);
+}
+
+/* --- other reasons -----------------------------------------------------------------------------*/
+
+static void test_an_empty_tank_leaves_it_idle(void **state)
+{
+    uint32_t row = put("jeep", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
+    (void)state;
+    fixture_run(&f, (uint32_t)(5.0 * HZ));
+    assert_true(steps_speed(&f, row) > 5.0);
+    steps_rows(&f).fuel_l[row] = 0.0;
+    fixture_run(&f, 1);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_IDLE);
+    told(row, BEHAVIOUR_PATROL, BEHAVIOUR_IDLE, REASON_OUT_OF_FUEL);
+    fixture_run(&f, (uint32_t)(10.0 * HZ));
+    assert_true(steps_speed(&f, row) == 0.0);
+    assert_int_equal(fixture_event_count(&f, EVENT_AGENT), 1); /* said once */
+}
+
+static void test_after_a_bump_it_backs_off_and_then_goes_on(void **state)
+{
+    uint32_t row = put("jeep", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
+    struct entities e = steps_rows(&f);
+    (void)state;
+    e.bumped[row] = 1;
+    e.bump_heading[row] = (float)PI; /* away is south */
+    fixture_run(&f, 1);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_BACK_OFF);
+    told(row, BEHAVIOUR_PATROL, BEHAVIOUR_BACK_OFF, REASON_COLLISION);
+    assert_int_equal(steps_rows(&f).bumped[row], 0);
+    fixture_run(&f, (uint32_t)(2.0 * HZ));
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_BACK_OFF);
+    assert_true(steps_rows(&f).z[row] > 25001.0);
+    fixture_run(&f, (uint32_t)HZ);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_PATROL);
+}
+
+/* --- seeing ------------------------------------------------------------------------------------*/
+
+/* Does a tank that fires at will attack another of this force at this distance, within a second? */
+static bool engages(double distance, enum force force, bool at_will)
+{
+    fixture_close(&f);
+    open_world(NULL);
+    uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t other =
+        put("tank", 25000.0 + 0.6 * distance, 25000.0 - 0.8 * distance, force, BEHAVIOUR_HOLD);
+    struct entities e = steps_rows(&f);
+    e.flags[row] = at_will ? ENTITY_FLAG_FIRE_AT_WILL : 0;
+    e.reload_tick[row] = UINT32_MAX;
+    fixture_run(&f, (uint32_t)HZ + 1);
+    if (behaviour_of(row) != BEHAVIOUR_ATTACK)
+        return false;
+    told(row, BEHAVIOUR_IDLE, BEHAVIOUR_ATTACK, REASON_ENEMY_SEEN);
+    assert_int_equal(steps_rows(&f).target_slot[row], other);
+    return true;
+}
+
+static void test_fire_at_will_sees_an_enemy_in_range_and_none_beyond(void **state)
+{
+    double range = steps_kind(&f, "tank")->range_m;
+    (void)state;
+    assert_true(engages(0.99 * range, FORCE_RED, true));
+    assert_true(engages(100.0, FORCE_RED, true));
+    assert_false(engages(1.01 * range, FORCE_RED, true));
+    assert_false(engages(100.0, FORCE_BLUE, true));
+    assert_false(engages(100.0, FORCE_NEUTRAL, true));
+    assert_false(engages(100.0, FORCE_RED, false));
+}
+
+static void test_fire_at_will_takes_the_nearest_living_enemy(void **state)
+{
+    uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t wreck = put("tank", 25100.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    put("tank", 26000.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t nearest = put("tank", 25000.0, 25400.0, FORCE_RED, BEHAVIOUR_HOLD);
+    struct entities e = steps_rows(&f);
+    (void)state;
+    e.flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
+    e.reload_tick[row] = UINT32_MAX;
+    e.state[wreck] = ENTITY_WRECK;
+    fixture_run(&f, (uint32_t)HZ + 1);
+    assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
+    assert_int_equal(steps_rows(&f).target_slot[row], nearest);
+}
+
+/* --- orders ------------------------------------------------------------------------------------*/
+
+static const char patrol_text[] =
+    "world = { seed = 1; capacity = 64; hz = 20.0; };\n"
+    "vehicles = (\n"
+    "  { kind = \"jeep\"; count = 6; area = [24000.0, 24000.0, 24600.0, 24800.0]; },\n"
+    "  { kind = \"tank\"; count = 6; area = [26000.0, 25000.0, 26500.0, 25500.0]; } );\n";
+
+static void test_a_patrol_stays_in_its_area(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, patrol_text);
+    double way = 0.0;
+    for (int frame = 0; frame < (int)(240.0 * HZ); frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        for (uint32_t i = 0; i < 12; i++) {
+            const struct area *area = &f.view.world.areas[e.order_arg[i]];
+            assert_true(e.goal_x[i] >= area->x0 && e.goal_x[i] <= area->x1);
+            assert_true(e.goal_z[i] >= area->z0 && e.goal_z[i] <= area->z1);
+            /* A goal at the border is passed by a turn's width at most. */
+            assert_true(e.x[i] > area->x0 - 60.0 && e.x[i] < area->x1 + 60.0);
+            assert_true(e.z[i] > area->z0 - 60.0 && e.z[i] < area->z1 + 60.0);
+            way += steps_speed(&f, i) / HZ;
+        }
+    }
+    assert_true(way > 12 * 1000.0);
+}
+
+static const char route_text[] = "world = { seed = 1; capacity = 64; hz = 20.0; };\n"
+                                 "vehicles = ( { kind = \"jeep\"; at = [25000.0, 25000.0];\n"
+                                 "  route = ( [25200.0, 25000.0], [25200.0, 25200.0], [25000.0, "
+                                 "25300.0], [24900.0, 25100.0] );\n"
+                                 "} );\n";
+
+static const double route[4][2] = {
+    {25200.0, 25000.0}, {25200.0, 25200.0}, {25000.0, 25300.0}, {24900.0, 25100.0}};
+
+static void test_a_route_is_driven_in_its_order_again_and_again(void **state)
+{
+    int passed = 0;
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, route_text);
+    for (int frame = 0; frame < (int)(200.0 * HZ); frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        const double *next = route[passed % 4];
+        assert_true(e.goal_x[0] == next[0] && e.goal_z[0] == next[1]);
+        if (hypot(e.x[0] - next[0], e.z[0] - next[1]) < 25.0 + 1.6)
+            passed++;
+    }
+    assert_true(passed > 8);
+}
+
+static void test_an_interrupted_route_goes_on_to_the_point_it_was_heading_for(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, route_text);
+    fixture_run(&f, (uint32_t)(3.0 * HZ)); /* on its way to the first */
+    struct entities e = steps_rows(&f);
+    assert_true(e.goal_x[0] == route[0][0] && e.goal_z[0] == route[0][1]);
+    e.bumped[0] = 1;
+    e.bump_heading[0] = (float)(1.5 * PI);
+    fixture_run(&f, (uint32_t)(4.0 * HZ));
+    e = steps_rows(&f);
+    assert_int_equal(e.behaviour[0], BEHAVIOUR_ROUTE);
+    assert_true(e.goal_x[0] == route[0][0] && e.goal_z[0] == route[0][1]);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_row_9_a_shot_at_agent_reacts_within_two_frames),
+        TEST(test_row_9_courage_says_whether_it_fights_or_flees),
+        TEST(test_row_9_some_of_the_half_brave_fight_and_some_flee),
+        TEST(test_row_9_who_cannot_shoot_flees_and_gets_away),
+        TEST(test_a_threat_from_the_dead_is_not_heard),
+        TEST(test_an_attack_ends_when_the_target_is_gone),
+        TEST(test_an_attack_ends_when_its_time_is_over),
+        TEST(test_an_attacker_without_rounds_flees),
+        TEST(test_another_shot_makes_the_fight_last_longer),
+        TEST(test_an_attacker_closes_in_to_its_stand_off_and_fires),
+        TEST(test_an_empty_tank_leaves_it_idle),
+        TEST(test_after_a_bump_it_backs_off_and_then_goes_on),
+        TEST(test_fire_at_will_sees_an_enemy_in_range_and_none_beyond),
+        TEST(test_fire_at_will_takes_the_nearest_living_enemy),
+        TEST(test_a_patrol_stays_in_its_area),
+        TEST(test_a_route_is_driven_in_its_order_again_and_again),
+        TEST(test_an_interrupted_route_goes_on_to_the_point_it_was_heading_for),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,173 @@
+/* Munitions: parabolas to the last digit, and missiles that find what moves. */
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put_round(const char *kind, struct vec3 at, struct vec3 velocity)
+{
+    return fixture_put(&f, (struct fixture_entity){.kind = kind, .at = at, .velocity = velocity});
+}
+
+/* --- ballistic ---------------------------------------------------------------------------------*/
+
+static void follow_parabola(double hz)
+{
+    const struct vec3 at = {20000.0, 3000.0, 25000.0}, v = {400.0, 250.0, -120.0};
+    uint32_t row = put_round("artillery", at, v);
+    for (int frame = 1; frame <= (int)(20.0 * hz); frame++) {
+        double t = frame / hz;
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        assert_true(fabs(e.x[row] - (at.x + v.x * t)) < 1e-7);
+        assert_true(fabs(e.z[row] - (at.z + v.z * t)) < 1e-7);
+        assert_true(fabs(e.y[row] - (at.y + v.y * t - 0.5 * GRAVITY_MPS2 * t * t)) < 1e-7);
+        assert_true(fabs(e.vy[row] - (v.y - GRAVITY_MPS2 * t)) < 1e-9);
+        assert_true(e.vx[row] == v.x && e.vz[row] == v.z);
+        assert_true(fabs(e.pitch[row] - atan2(e.vy[row], hypot(v.x, v.z))) < 1e-12);
+        assert_true(fabs(e.heading[row] - atan2(v.x, -v.z)) < 1e-12);
+    }
+}
+
+static void test_a_ballistic_round_follows_the_parabola(void **state)
+{
+    (void)state;
+    follow_parabola(60.0);
+}
+
+static void test_the_parabola_does_not_depend_on_the_frame_rate(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 10.0; };");
+    follow_parabola(10.0);
+}
+
+static void test_a_round_ends_in_the_air_when_its_life_is_over(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "shell");
+    uint32_t row =
+        put_round("shell", (struct vec3){25000.0, 3000.0, 25000.0}, (struct vec3){0.0, 0.0, 100.0});
+    uint32_t frames = (uint32_t)(kind->life_s * 60.0);
+    (void)state;
+    fixture_run(&f, frames - 1);
+    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
+    fixture_run(&f, 1);
+    assert_int_equal(steps_rows(&f).state[row], ENTITY_FREE);
+    const struct event *event = fixture_event(&f, EVENT_DETONATION, 0);
+    assert_non_null(event);
+    assert_int_equal(event->detonation.struck, STRUCK_AIR);
+    assert_int_equal(event->frame, frames);
+    assert_int_equal(fixture_state(&f).head->munitions, 0);
+}
+
+/* --- homing ------------------------------------------------------------------------------------*/
+
+static uint32_t put_missile(uint32_t target, struct vec3 at, struct vec3 velocity)
+{
+    uint32_t row = put_round("missile", at, velocity);
+    struct entities e = steps_rows(&f);
+    e.target_slot[row] = target;
+    e.target_id[row] = target == SLOT_NONE ? 0 : e.id[target];
+    return row;
+}
+
+static void test_a_missile_reaches_a_crossing_jet(void **state)
+{
+    static const double courses[][2] = {{230.0, 0.0}, {-230.0, 0.0}, {0.0, 150.0}, {160.0, -160.0}};
+    (void)state;
+    for (size_t n = 0; n < sizeof courses / sizeof courses[0]; n++) {
+        uint32_t jet = fixture_put(
+            &f, (struct fixture_entity){.kind = "jet",
+                                        .at = {25000.0, 800.0, 23000.0},
+                                        .velocity = {courses[n][0], 0.0, courses[n][1]}});
+        uint32_t id = steps_rows(&f).id[jet];
+        put_missile(jet, (struct vec3){25000.0, 150.0, 25000.0}, (struct vec3){0.0, 40.0, -100.0});
+        fixture_run(&f, 60 * 15);
+        const struct event *event = fixture_event(&f, EVENT_DETONATION, 0);
+        assert_non_null(event);
+        assert_int_equal(event->detonation.struck, STRUCK_VEHICLE);
+        assert_int_equal(event->detonation.struck_party.id, id);
+        fixture_close(&f);
+        fixture_open(&f, "");
+    }
+}
+
+static void test_a_missile_turns_and_gains_speed_within_its_means(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "missile");
+    uint32_t jet = fixture_put(&f, (struct fixture_entity){.kind = "jet",
+                                                           .at = {25000.0, 900.0, 26500.0},
+                                                           .velocity = {200.0, 0.0, 0.0}});
+    uint32_t row = put_missile(jet, (struct vec3){25000.0, 500.0, 25000.0},
+                               (struct vec3){0.0, 0.0, -114.0}); /* it flies away from the jet */
+    (void)state;
+    for (int frame = 0; frame < 300; frame++) {
+        struct entities e = steps_rows(&f);
+        struct vec3 before = entities_velocity(&e, row);
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        if (e.state[row] == ENTITY_FREE)
+            break;
+        struct vec3 after = entities_velocity(&e, row);
+        double cosine = vec3_dot(before, after) / (vec3_length(before) * vec3_length(after));
+        assert_true(acos(maths_clamp(cosine, -1.0, 1.0)) <= kind->turn_rate_rps / 60.0 + 1e-7);
+        assert_true(vec3_length(after) <= kind->max_speed_mps + 1e-9);
+        assert_true(vec3_length(after) >= vec3_length(before) - 1e-9);
+    }
+}
+
+static void test_a_missile_without_a_target_flies_straight(void **state)
+{
+    uint32_t jet = fixture_put(&f, (struct fixture_entity){.kind = "jet",
+                                                           .at = {25000.0, 900.0, 23000.0},
+                                                           .velocity = {200.0, 0.0, 0.0}});
+    uint32_t lost =
+        put_missile(jet, (struct vec3){20000.0, 800.0, 25000.0}, (struct vec3){0.0, 0.0, -100.0});
+    uint32_t never = put_missile(SLOT_NONE, (struct vec3){22000.0, 800.0, 25000.0},
+                                 (struct vec3){60.0, 80.0, 0.0});
+    (void)state;
+    steps_rows(&f).target_id[lost] = 999; /* somebody who is no more */
+    fixture_run(&f, 120);
+    struct entities e = steps_rows(&f);
+    assert_true(fabs(e.x[lost] - 20000.0) < 1e-9 && fabs(e.y[lost] - 800.0) < 1e-9);
+    assert_true(e.z[lost] < 24600.0);
+    /* On the line through its start, direction (3, 4, 0). */
+    assert_true(fabs((e.x[never] - 22000.0) * 4.0 - (e.y[never] - 800.0) * 3.0) < 1e-6);
+    assert_true(e.y[never] > 1000.0);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_ballistic_round_follows_the_parabola),
+        TEST(test_the_parabola_does_not_depend_on_the_frame_rate),
+        TEST(test_a_round_ends_in_the_air_when_its_life_is_over),
+        TEST(test_a_missile_reaches_a_crossing_jet),
+        TEST(test_a_missile_turns_and_gains_speed_within_its_means),
+        TEST(test_a_missile_without_a_target_flies_straight),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

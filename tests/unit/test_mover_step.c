@@ -1,0 +1,207 @@
+/* The mover's step as a whole: pure, repeatable, and on time with the scenario's shots. */
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const char battle[] =
+    "world = { seed = 9; capacity = 512; };\n"
+    "vehicles = (\n"
+    "  { kind = \"tank\"; count = 60; force = \"blue\"; fire_at_will = true;\n"
+    "    area = [24000.0, 24000.0, 26000.0, 26000.0]; },\n"
+    "  { kind = \"tank\"; count = 60; force = \"red\"; fire_at_will = true;\n"
+    "    area = [24000.0, 24000.0, 26000.0, 26000.0]; },\n"
+    "  { kind = \"jet\"; count = 8; force = \"red\"; fire_at_will = true;\n"
+    "    area = [22000.0, 22000.0, 28000.0, 28000.0]; },\n"
+    "  { kind = \"helicopter\"; count = 8; force = \"blue\"; fire_at_will = true;\n"
+    "    area = [24000.0, 24000.0, 26000.0, 26000.0]; } );\n";
+
+static void move_again(struct fixture *f)
+{
+    struct view *view = &f->view;
+    struct command_source sources[COMMAND_RING_COUNT];
+    for (int i = 0; i < COMMAND_RING_COUNT; i++)
+        sources[i] = (struct command_source){view->commands[i]->slot, view->header->command_slots,
+                                             atomic_load(&view->commands[i]->head)};
+    assert_int_equal(
+        mover_step(&f->mover, &view->w[atomic_load(&view->commit->commit) & 1], &view->m, sources),
+        0);
+}
+
+/* What a process that died left in the table. */
+static void soil(struct fixture *f)
+{
+    struct moved *m = &f->view.m;
+    memset(m->head, 0x5a, sizeof *m->head);
+    memset(m->intents, 0x5a, f->view.world.params->intents_per_frame * sizeof *m->intents);
+#define X(type, name) memset(m->entities.name, 0x5a, m->entities.capacity * sizeof(type));
+    ENTITY_COLUMNS(X)
+#undef X
+}
+
+static void test_moving_again_over_anything_gives_the_same_bytes(void **state)
+{
+    struct fixture f;
+    uint32_t shots = 0;
+    (void)state;
+    fixture_open(&f, battle);
+    for (int frame = 0; frame < 120; frame++) {
+        if (frame % 10 == 0)
+            steps_send(&f, RING_CONSOLE,
+                       (struct command){.type = COMMAND_SPAWN,
+                                        .kind = fixture_kind(&f, "jeep"),
+                                        .value = {24500.0 + frame, 25000.0}});
+        move_again(&f);
+        uint64_t first = steps_moved_hash(&f);
+        shots += (uint32_t)(f.view.m.head->tally.fires != fixture_state(&f).head->tally.fires);
+        soil(&f);
+        move_again(&f);
+        assert_true(steps_moved_hash(&f) == first);
+        fixture_run(&f, 1);
+    }
+    assert_true(shots > 10); /* a quiet world would prove nothing */
+    fixture_close(&f);
+}
+
+static void test_a_new_movers_first_step_is_the_old_ones_next(void **state)
+{
+    struct fixture f;
+    (void)state;
+    fixture_open(&f, battle);
+    struct state now = fixture_state(&f);
+    now.craters[0] = (struct crater){25000.0, 25000.0, 30.0f, 5.0f, 0};
+    now.head->crater_count = 1;
+    fixture_run(&f, 60);
+    move_again(&f);
+    uint64_t first = steps_moved_hash(&f);
+    fixture_threads(&f, 2); /* a restart: its index of craters is empty */
+    move_again(&f);
+    assert_true(steps_moved_hash(&f) == first);
+    fixture_close(&f);
+}
+
+static void test_the_committed_world_is_only_read(void **state)
+{
+    struct fixture f;
+    (void)state;
+    fixture_open(&f, battle);
+    for (int frame = 0; frame < 60; frame++) {
+        struct state now = fixture_state(&f);
+        uint64_t before = steps_state_hash(&f, &now);
+        move_again(&f);
+        assert_true(steps_state_hash(&f, &now) == before);
+        fixture_run(&f, 1);
+    }
+    fixture_close(&f);
+}
+
+static void test_no_trigger_outlives_its_frame(void **state)
+{
+    struct fixture f;
+    (void)state;
+    fixture_open(&f, battle);
+    for (int frame = 0; frame < 60; frame++) {
+        fixture_run(&f, 1);
+        struct state now = fixture_state(&f);
+        for (uint32_t i = 0; i < now.head->used; i++)
+            assert_int_equal(now.entities.trigger[i], 0);
+    }
+    fixture_close(&f);
+}
+
+static void test_a_round_moves_from_the_frame_after_its_shot(void **state)
+{
+    struct fixture f;
+    (void)state;
+    fixture_open(&f, "");
+    fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 100.0, 25000.0}});
+    steps_command(&f, (struct command){.type = COMMAND_FIRE, .entity = 1});
+    struct entities e = steps_rows(&f);
+    struct vec3 muzzle = entities_position(&e, 1), v = entities_velocity(&e, 1);
+    const struct event *event = fixture_event(&f, EVENT_FIRE, 0);
+    assert_true(event->fire.point[0] == muzzle.x && event->fire.point[2] == muzzle.z);
+    fixture_run(&f, 1);
+    e = steps_rows(&f);
+    assert_true(fabs(e.x[1] - (muzzle.x + v.x / 60.0)) < 1e-9);
+    assert_true(fabs(e.z[1] - (muzzle.z + v.z / 60.0)) < 1e-9);
+    fixture_close(&f);
+}
+
+/* --- the scenario's shots ----------------------------------------------------------------------*/
+
+static void test_scenario_fires_come_at_their_tick_in_the_files_order(void **state)
+{
+    static const uint64_t ticks[] = {1, 30, 30, 61};
+    struct fixture f;
+    (void)state;
+    fixture_open(
+        &f,
+        "vehicles = (\n"
+        "  { kind = \"tank\"; name = \"A\"; at = [25000.0, 25000.0]; behaviour = \"hold\"; },\n"
+        "  { kind = \"tank\"; name = \"B\"; at = [25000.0, 26000.0]; behaviour = \"hold\"; } );\n"
+        "fires = ( { at_s = 1.01; munition = \"bomb\"; point = [30000.0, 30000.0]; },\n"
+        "          { at_s = 0.5; shooter = \"A\"; target = \"B\"; },\n"
+        "          { at_s = 0.5; munition = \"artillery\"; point = [31000.0, 30000.0]; },\n"
+        "          { at_s = 0.0; shooter = \"B\"; target = \"A\"; } );\n");
+    fixture_run(&f, 90);
+    assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 4);
+    for (uint32_t n = 0; n < 4; n++)
+        assert_int_equal(fixture_event(&f, EVENT_FIRE, n)->tick, ticks[n]);
+    assert_int_equal(fixture_event(&f, EVENT_FIRE, 0)->fire.shooter.id, 2);
+    assert_int_equal(fixture_event(&f, EVENT_FIRE, 1)->fire.shooter.id, 1);
+    assert_int_equal(fixture_event(&f, EVENT_FIRE, 1)->fire.target.id, 2);
+    assert_int_equal(fixture_event(&f, EVENT_FIRE, 2)->fire.munition.kind,
+                     fixture_kind(&f, "artillery"));
+    assert_true(fixture_event(&f, EVENT_FIRE, 3)->fire.point[0] == 30000.0);
+    fixture_close(&f);
+}
+
+static void test_a_paused_world_holds_its_fires_back(void **state)
+{
+    struct fixture f;
+    (void)state;
+    fixture_open(&f, "fires = ( { at_s = 0.1; munition = \"bomb\"; point = [100.0, 100.0]; } );");
+    fixture_run(&f, 5);
+    steps_command(&f, (struct command){.type = COMMAND_PAUSE});
+    fixture_run(&f, 20);
+    assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 0);
+    steps_command(&f, (struct command){.type = COMMAND_RESUME});
+    assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 1);
+    assert_int_equal(fixture_event(&f, EVENT_FIRE, 0)->tick, 6);
+    fixture_close(&f);
+}
+
+static void test_the_dead_do_not_fire(void **state)
+{
+    struct fixture f;
+    (void)state;
+    fixture_open(&f, "vehicles = ( { kind = \"tank\"; name = \"A\"; at = [25000.0, 25000.0]; },\n"
+                     "             { kind = \"tank\"; name = \"B\"; at = [25000.0, 26000.0]; } );\n"
+                     "fires = ( { at_s = 0.5; shooter = \"A\"; target = \"B\"; } );\n");
+    steps_rows(&f).state[0] = ENTITY_WRECK;
+    fixture_run(&f, 60);
+    assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 0);
+    assert_int_equal(fixture_state(&f).head->fire_cursor, 1);
+    fixture_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_moving_again_over_anything_gives_the_same_bytes),
+        cmocka_unit_test(test_a_new_movers_first_step_is_the_old_ones_next),
+        cmocka_unit_test(test_the_committed_world_is_only_read),
+        cmocka_unit_test(test_no_trigger_outlives_its_frame),
+        cmocka_unit_test(test_a_round_moves_from_the_frame_after_its_shot),
+        cmocka_unit_test(test_scenario_fires_come_at_their_tick_in_the_files_order),
+        cmocka_unit_test(test_a_paused_world_holds_its_fires_back),
+        cmocka_unit_test(test_the_dead_do_not_fire),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
