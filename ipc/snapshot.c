@@ -130,22 +130,33 @@ uint32_t events_read(const struct view *view, struct event_cursor *cursor, struc
     return count;
 }
 
+/* Is the command among slots first .. end - 1? */
+static bool command_known(const struct command_ring_words *words, const struct command *command,
+                          uint64_t slots, uint64_t first, uint64_t end)
+{
+    for (uint64_t i = first; i < end; i++) {
+        const struct command *old = &words->slot[i & (slots - 1)];
+        if (old->source == command->source && old->source_sequence == command->source_sequence)
+            return true;
+    }
+    return false;
+}
+
 int command_put(struct view *view, enum command_ring ring, const struct command *command)
 {
     struct command_ring_words *words = view->commands[ring];
     struct state_head head;
     uint64_t slots = view->header->command_slots;
     uint64_t end = atomic_load_explicit(&words->head, memory_order_relaxed);
-    /* The slot to be written is left out: a writer that was killed before it moved the head may have
-     * left this very command there, and it does not count yet. */
-    for (uint64_t i = end >= slots ? end - slots + 1 : 0; i < end; i++) {
-        const struct command *old = &words->slot[i & (slots - 1)];
-        if (old->source == command->source && old->source_sequence == command->source_sequence) {
-            errno = EEXIST;
-            return -1;
-        }
+    bool full = snapshot_head(&head, view) != 0 || end - head.command_cursor[ring] >= slots;
+    /* While there is room, the slot that comes next is no memory: a writer that was killed before
+     * it moved the head may have left this very command there, and it does not count yet. */
+    uint64_t remembered = full ? slots : slots - 1;
+    if (command_known(words, command, slots, end > remembered ? end - remembered : 0, end)) {
+        errno = EEXIST;
+        return -1;
     }
-    if (snapshot_head(&head, view) != 0 || end - head.command_cursor[ring] >= slots) {
+    if (full) {
         errno = ENOBUFS;
         return -1;
     }
