@@ -54,7 +54,11 @@ static int blast_row(struct respond *respond, const struct charge *charge, doubl
     double distance = distance_to(charge->point, at, respond->world->kinds[e->kind[row]].radius_m);
     /* A direct hit was answered where it struck; to the blast it is merely near. */
     double joules = blast_energy(charge->explosive_kg, radius, maths_max(distance, 1e-3));
-    if (joules > 0.0 && charge->owner_id != 0 && charge->owner_id != e->id[row]) {
+    /* A stray round of one's own side is no attack. */
+    uint32_t owner = charge->owner_slot;
+    bool known = entities_alive(e, owner, charge->owner_id);
+    bool friend = known && e->force[owner] != FORCE_NEUTRAL && e->force[owner] == e->force[row];
+    if (joules > 0.0 && known && owner != row && !friend) {
         e->threat_slot[row] = charge->owner_slot;
         e->threat_id[row] = charge->owner_id;
     }
@@ -186,7 +190,11 @@ int blast_munition(struct respond *respond, uint32_t row, uint32_t struck, doubl
     const struct kind *kind = &respond->world->kinds[e->kind[row]];
     struct vec3 point = path_at(&respond->path[row], time);
     enum struck what = struck_of(respond, struck, point);
-    struct charge charge = {point, time, kind->explosive_kg, e->owner_slot[row], e->owner_id[row]};
+    struct charge charge = {.point = point,
+                            .time = time,
+                            .explosive_kg = kind->explosive_kg,
+                            .owner_slot = e->owner_slot[row],
+                            .owner_id = e->owner_id[row]};
     struct event *event = sink_event(&respond->sink, EVENT_DETONATION);
     struct event_party munition = {e->id[row], e->kind[row], 0, DAMAGE_DESTROYED};
 

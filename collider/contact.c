@@ -199,6 +199,18 @@ int contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, dou
         (struct contact){.toi = toi, .a = row, .b = what, .version_a = contacts->version[row]});
 }
 
+int contacts_ground(struct contacts *contacts, const struct contact_input *input, uint32_t row)
+{
+    const struct entities *e = input->entities;
+    double toi;
+    bool flies = e->behaviour[row] == BEHAVIOUR_FLIGHT ||
+                 input->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+    if (!flies || e->state[row] != ENTITY_ACTIVE ||
+        !sweep_ground(&input->world->terrain, input->craters, &input->path[row], &toi))
+        return 0;
+    return contacts_add_end(contacts, row, CONTACT_GROUND, toi);
+}
+
 bool contacts_next(struct contacts *contacts, struct contact *contact)
 {
     while (contacts->count > 0) {

@@ -63,6 +63,10 @@ struct contact_input {
 /* Finds every contact of the frame's pairs. 0, or -1 with errno ENOMEM. */
 int contacts_find(struct contacts *contacts, const struct contact_input *input);
 
+/* Finds where a round or an aircraft on its present way meets the ground. 0, or -1 with errno
+ * ENOMEM. */
+int contacts_ground(struct contacts *contacts, const struct contact_input *input, uint32_t row);
+
 /* A contact of a row with ground or air. 0, or -1 with errno ENOMEM. */
 int contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, double toi);
 

@@ -2,18 +2,27 @@
  * and what is lost harms the bodies. */
 #include "collider/respond.h"
 
-#define STOP_MPS 0.2 /* leaving slower than this along the normal is a stop, not a bounce */
+#define STOP_MPS                                                                                   \
+    0.2 /* what would leave slower than this along the normal does not bounce at all               \
+         */
 
 static const struct kind *kind_of(const struct respond *respond, uint32_t row)
 {
     return &respond->world->kinds[respond->next->entities.kind[row]];
 }
 
+/* The restitution of this impact: soft ones have none, so that bodies come to rest. */
+static double bounce_of(const struct kind *a, const struct kind *b, double closing_mps)
+{
+    double restitution = maths_min(a->restitution, b->restitution);
+    return restitution * closing_mps > STOP_MPS ? restitution : 0.0;
+}
+
 int impulse_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome)
 {
     const struct entities *e = &respond->next->entities;
     const struct kind *ka = kind_of(respond, impact->a), *kb = kind_of(respond, impact->b);
-    double restitution = maths_min(ka->restitution, kb->restitution);
+    double restitution = bounce_of(ka, kb, impact->closing_mps);
     double reduced = ka->mass_kg * kb->mass_kg / (ka->mass_kg + kb->mass_kg);
     double impulse = (1.0 + restitution) * reduced * impact->closing_mps;
     double lost = 0.5 * reduced * impact->closing_mps * impact->closing_mps *
@@ -24,8 +33,7 @@ int impulse_moving(struct respond *respond, const struct impact *impact, struct 
                               vec3_scale(impact->normal, impulse / kb->mass_kg));
     double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
     outcome->impulse_ns = impulse;
-    outcome->response =
-        restitution * impact->closing_mps > STOP_MPS ? RESPONSE_BOUNCE : RESPONSE_STOP;
+    outcome->response = restitution > 0.0 ? RESPONSE_BOUNCE : RESPONSE_STOP;
     if (respond_stay(respond, impact->a, impact->time, va) != 0 ||
         respond_stay(respond, impact->b, impact->time, vb) != 0 ||
         harm_row(respond, impact->a, lost * share_a, impact->time) != 0)
@@ -58,13 +66,12 @@ int impulse_fixed(struct respond *respond, const struct impact *impact, struct o
             return -1;
         return harm_row(respond, impact->a, yields * fixed->rigidity, impact->time);
     }
-    double restitution = maths_min(kind->restitution, fixed->restitution);
+    double restitution = bounce_of(kind, fixed, impact->closing_mps);
     double impulse = (1.0 + restitution) * kind->mass_kg * impact->closing_mps;
     struct vec3 velocity = vec3_sub(entities_velocity(&respond->next->entities, impact->a),
                                     vec3_scale(impact->normal, impulse / kind->mass_kg));
     outcome->impulse_ns = impulse;
-    outcome->response =
-        restitution * impact->closing_mps > STOP_MPS ? RESPONSE_BOUNCE : RESPONSE_STOP;
+    outcome->response = restitution > 0.0 ? RESPONSE_BOUNCE : RESPONSE_STOP;
     if (respond_stay(respond, impact->a, impact->time, velocity) != 0)
         return -1;
     return harm_row(respond, impact->a,

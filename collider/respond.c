@@ -19,7 +19,9 @@ int respond_slow(struct respond *respond, uint32_t row, double time, double shar
     *path = (struct path){.at = at, .along = vec3_scale(path->along, share), .since = time};
     entities_set_position(e, row, path_at(path, 1.0));
     entities_set_velocity(e, row, vec3_scale(entities_velocity(e, row), share));
-    return contacts_change(respond->contacts, &respond->input, row, time);
+    if (contacts_change(respond->contacts, &respond->input, row, time) != 0)
+        return -1;
+    return contacts_ground(respond->contacts, &respond->input, row);
 }
 
 void respond_bump(struct respond *respond, uint32_t row, double away_x, double away_z)
@@ -98,16 +100,43 @@ static void put_float(float to[3], struct vec3 from)
     to[2] = (float)from.z;
 }
 
-/* Bodies that touched when the frame began and press on each other no harder than an engine's start
- * lean on each other: that is one long contact, told of when it began. */
-#define LEAN_MPS   0.5
-#define LEAN_GAP_M 1e-3
+/* Bodies that touched a moment ago and press on each other no harder than an engine's start: that
+ * is one long contact, told of when it began. */
+#define LEAN_MPS 0.5
+#define LEAN_S   0.25
+
+/* How the other side of a contact is remembered: an entity by its id, which no slot change blurs.
+ */
+static uint32_t body_mark(const struct respond *respond, uint32_t body)
+{
+    return body & PAIR_FIXED ? body : respond->next->entities.id[body];
+}
+
+static bool touched(const struct respond *respond, uint32_t row, uint32_t mark)
+{
+    const struct entities *e = &respond->next->entities;
+    uint64_t age = respond->next->head->tick - e->touch_tick[row];
+    return e->touch_body[row] == mark && (double)age * respond->world->params->dt_s <= LEAN_S;
+}
 
 static bool leans(const struct respond *respond, const struct impact *impact)
 {
-    double step_m = impact->closing_mps * respond->world->params->dt_s;
-    double gap_m = impact->time * step_m;
-    return impact->closing_mps < LEAN_MPS && gap_m <= maths_min(LEAN_GAP_M, 0.25 * step_m);
+    return impact->closing_mps < LEAN_MPS &&
+           (touched(respond, impact->a, body_mark(respond, impact->b)) ||
+            (!(impact->b & PAIR_FIXED) &&
+             touched(respond, impact->b, body_mark(respond, impact->a))));
+}
+
+static void remember(struct respond *respond, const struct impact *impact)
+{
+    struct entities *e = &respond->next->entities;
+    uint32_t tick = (uint32_t)respond->next->head->tick;
+    e->touch_body[impact->a] = body_mark(respond, impact->b);
+    e->touch_tick[impact->a] = tick;
+    if (!(impact->b & PAIR_FIXED)) {
+        e->touch_body[impact->b] = body_mark(respond, impact->a);
+        e->touch_tick[impact->b] = tick;
+    }
 }
 
 /* Leaning bodies only stop pressing: what each brings along the normal is taken out, shared so that
@@ -138,9 +167,11 @@ static int collide(struct respond *respond, const struct contact *contact)
     struct entities *e = &respond->next->entities;
     struct impact impact = impact_of(respond, contact);
     struct outcome outcome = {RESPONSE_NONE, 0.0};
-    if (leans(respond, &impact))
-        return respond->world->params->collision.response == MODEL_IMPULSE ? lean(respond, &impact)
-                                                                           : 0;
+    bool leaning = leans(respond, &impact);
+    remember(respond, &impact);
+    if (leaning)
+        return respond->world->params->collision.response != MODEL_NONE ? lean(respond, &impact)
+                                                                        : 0;
     struct event *event = sink_event(&respond->sink, EVENT_COLLISION);
     struct vec3 direction = entities_velocity(e, contact->a);
     double speed = vec3_length(direction);
@@ -175,8 +206,9 @@ static int crash(struct respond *respond, const struct contact *contact)
     struct entities *e = &respond->next->entities;
     struct vec3 velocity = entities_velocity(e, contact->a);
     struct event *event = sink_event(&respond->sink, EVENT_COLLISION);
-    struct vec3 normal = terrain_normal(&respond->world->terrain, respond->input.craters,
-                                        e->x[contact->a], e->z[contact->a]);
+    struct vec3 at = path_at(&respond->path[contact->a], contact->toi);
+    struct vec3 normal =
+        terrain_normal(&respond->world->terrain, respond->input.craters, at.x, at.z);
     respond->next->head->tally.collisions++;
     struct vec3 slide = vec3_sub(velocity, vec3_scale(normal, vec3_dot(velocity, normal)));
     if (respond_stay(respond, contact->a, contact->toi, vec3_scale(slide, 0.3)) != 0 ||

@@ -64,25 +64,19 @@ static void put_intents(struct sink *sink, const struct moved *moved)
     }
 }
 
-/* Rounds that reach the ground or the end of their life, and aircraft that reach the ground. */
+/* Rounds and aircraft that reach the ground; rounds whose life ends with the frame, unless
+ * something earlier ends it. */
 static int find_ends(struct collider *collider, const struct respond *respond)
 {
-    const struct world *world = collider->world;
     const struct state *next = respond->next;
     const struct entities *e = &next->entities;
     for (uint32_t i = 0; i < next->head->used; i++) {
-        bool round = e->behaviour[i] == BEHAVIOUR_FLIGHT;
-        double toi = 0.0;
-        if (e->state[i] != ENTITY_ACTIVE ||
-            !(round || world->kinds[e->kind[i]].domain == DOMAIN_AIR))
-            continue;
-        if (sweep_ground(&world->terrain, &collider->craters, &collider->path[i], &toi)) {
-            if (contacts_add_end(&collider->contacts, i, CONTACT_GROUND, toi) != 0)
-                return -1;
-        } else if (round && next->head->tick >= e->until_tick[i]) {
-            if (contacts_add_end(&collider->contacts, i, CONTACT_AIR, 1.0) != 0)
-                return -1;
-        }
+        if (contacts_ground(&collider->contacts, &respond->input, i) != 0)
+            return -1;
+        if (e->state[i] == ENTITY_ACTIVE && e->behaviour[i] == BEHAVIOUR_FLIGHT &&
+            next->head->tick >= e->until_tick[i] &&
+            contacts_add_end(&collider->contacts, i, CONTACT_AIR, 1.0) != 0)
+            return -1;
     }
     return 0;
 }
@@ -157,6 +151,6 @@ int collider_step(struct collider *collider, const struct state *committed,
     }
     next->head->event_end = respond.sink.first + respond.sink.count;
     next->head->event_digest = sink_digest(&respond.sink, committed->head->event_digest);
-    next->head->checksum = state_checksum(next->head, &next->entities);
+    next->head->checksum = state_checksum(next, world->counts.fixed);
     return result;
 }

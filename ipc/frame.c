@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #define WAIT_MAX_NS (20 * (uint64_t)NS_PER_MS) /* no wait is longer without a beat */
+#define STEP_MAX_NS ((uint64_t)NS_PER_S) /* so slow a world still hears commands every second */
 
 static uint64_t load(const _Atomic uint64_t *word)
 {
@@ -28,6 +29,7 @@ static uint64_t bell_wait_ns(const struct view *view)
 
 void frame_beat(struct view *view)
 {
+    CHECK(view->role < ROLE_COUNT);
     atomic_store_explicit(&view->slot[view->role]->beat_ns, clock_now_ns(), memory_order_relaxed);
 }
 
@@ -53,9 +55,10 @@ static void check_words(const struct view *view, uint64_t commit, uint64_t moved
                     view->name, (unsigned long long)moved, (unsigned long long)commit);
 }
 
-static void check_buffer(const struct view *view, uint64_t commit)
+static void check_buffer(struct view *view, uint64_t commit)
 {
-    const struct state_head *head = view->w[commit & 1].head;
+    const struct state *state = &view->w[commit & 1];
+    const struct state_head *head = state->head;
     if (head->frame != commit)
         die_refused("world \"%s\" is damaged: buffer %llu holds frame %llu; commit = %llu",
                     view->name, (unsigned long long)(commit & 1), (unsigned long long)head->frame,
@@ -66,6 +69,12 @@ static void check_buffer(const struct view *view, uint64_t commit)
     if (head->crater_count > view->header->crater_slots)
         die_refused("world \"%s\" is damaged: crater_count = %u; crater_slots = %u", view->name,
                     head->crater_count, view->header->crater_slots);
+    if (view->checked)
+        return; /* what is committed since then was computed from what was good */
+    if (state_checksum(state, view->header->counts.fixed) != head->checksum)
+        die_refused("world \"%s\" is damaged: frame %llu fails its checksum", view->name,
+                    (unsigned long long)commit);
+    view->checked = true;
 }
 
 static bool commands_wait(const struct frame *frame, const struct state_head *head)
@@ -86,6 +95,7 @@ static bool due(struct frame *frame, struct view *view, const struct state_head 
     uint64_t now = clock_now_ns();
     uint64_t step = (uint64_t)(view->world.params->dt_s * 1e9 / head->time_scale);
     uint64_t due_ns = atomic_load_explicit(&slot->due_ns, memory_order_relaxed);
+    step = step < STEP_MAX_NS ? step : STEP_MAX_NS;
     if (view->world.params->pace == PACE_MAX)
         return true;
     if (due_ns == 0) {

@@ -151,11 +151,25 @@ uint64_t layout_hash(void)
         entities_bytes(CAPACITY_MAX),
         REGION_COUNT,
         ROLE_COUNT,
+        sizeof(struct model_vertex),
+        sizeof(struct area),
+        sizeof(struct route),
+        sizeof(struct route_point),
+        sizeof(struct road_point),
+        sizeof(struct entity_name),
+        sizeof(struct commit_words),
         BEHAVIOUR_COUNT,
+        FORCE_COUNT,
+        DAMAGE_COUNT,
+        METHOD_COUNT,
+        MODEL_COUNT,
         EVENT_TYPE_COUNT,
         COMMAND_TYPE_COUNT,
     };
-    return XXH3_64bits(compiled, sizeof compiled);
+#define X(type, name) #type " " #name ";"
+    static const char columns[] = ENTITY_COLUMNS(X); /* their order and types */
+#undef X
+    return XXH3_64bits_withSeed(columns, sizeof columns, XXH3_64bits(compiled, sizeof compiled));
 }
 
 bool layout_writable(enum role role, enum region region)

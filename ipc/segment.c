@@ -199,8 +199,10 @@ int segment_private(struct view *view, const struct segment_header *header, stru
         return reason_set(reason, "the world's counts are out of range");
     view->base =
         mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (view->base == MAP_FAILED)
+    if (view->base == MAP_FAILED) {
+        view->base = NULL;
         return reason_set(reason, "out of memory: %zu bytes", view->layout.total);
+    }
     return prepare(view, header) == 0 ? 0 : reason_set(reason, "doorbells: %s", strerror(errno));
 }
 
@@ -365,6 +367,25 @@ static int check_header(const struct segment_header *header, size_t bytes, const
     return 0;
 }
 
+/* The parameters that sizes and waits are computed from. */
+static int check_params(const struct view *view, const char *path, struct reason *reason)
+{
+    const struct segment_header *header = view->base;
+    const struct params *params = part(view, REGION_PARAMS);
+    if (params->capacity != header->capacity || params->event_slots != header->event_slots ||
+        params->intents_per_frame != header->intents_per_frame ||
+        params->command_slots != header->command_slots ||
+        params->crater_slots != header->crater_slots)
+        return reason_set(reason, "%s: params: do not fit the header", path);
+    if (params->events_per_frame == 0 || params->events_per_frame > params->event_slots / 2)
+        return reason_set(reason, "%s: params: events_per_frame = %u of %u slots", path,
+                          params->events_per_frame, params->event_slots);
+    if (!(params->dt_s > 0.0 && params->dt_s <= 1.0))
+        return reason_set(reason, "%s: params: dt_s = %g; must be more than 0, at most 1", path,
+                          params->dt_s);
+    return 0;
+}
+
 /* Maps runs of writable regions over the read-only whole. */
 static int map_writable(struct view *view, int fd)
 {
@@ -379,12 +400,26 @@ static int map_writable(struct view *view, int fd)
     return 0;
 }
 
+/* The same object through a read-only descriptor: such a mapping cannot be made writable later. */
+static void *map_readable(int fd, size_t bytes)
+{
+    char path[64];
+    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+    int readable = open(path, O_RDONLY | O_CLOEXEC);
+    if (readable < 0)
+        return MAP_FAILED;
+    void *base = mmap(NULL, bytes, PROT_READ, MAP_SHARED, readable, 0);
+    close(readable);
+    return base;
+}
+
 static int map_segment(struct view *view, const char *path, struct reason *reason)
 {
     size_t bytes = 0;
     int result = -1;
     /* O_NONBLOCK: a pipe of that name must not make us wait for its other end. */
-    int fd = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    int mode = view->role == ROLE_NONE ? O_RDONLY : O_RDWR;
+    int fd = open(path, mode | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
     if (fd < 0) {
         if (errno == ENOENT)
             return reason_set(reason,
@@ -395,7 +430,7 @@ static int map_segment(struct view *view, const char *path, struct reason *reaso
     }
     if (check_object(fd, path, &bytes, reason) != 0)
         goto err_open;
-    view->base = mmap(NULL, bytes, PROT_READ, MAP_SHARED, fd, 0);
+    view->base = map_readable(fd, bytes);
     if (view->base == MAP_FAILED) {
         reason_set(reason, "%s: cannot map %zu bytes: %s", path, bytes, strerror(errno));
         view->base = NULL;
@@ -404,16 +439,12 @@ static int map_segment(struct view *view, const char *path, struct reason *reaso
     struct segment_header header = *(const struct segment_header *)view->base;
     if (check_header(&header, bytes, path, &view->layout, reason) != 0)
         goto err_map;
-    if (view->role != ROLE_NONE) {
-        int writable = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
-        int mapped = writable < 0 ? -1 : map_writable(view, writable);
-        if (writable >= 0)
-            close(writable);
-        if (mapped != 0) {
-            reason_set(reason, "%s: cannot map for writing: %s", path, strerror(errno));
-            goto err_map;
-        }
+    if (map_writable(view, fd) != 0) {
+        reason_set(reason, "%s: cannot map for writing: %s", path, strerror(errno));
+        goto err_map;
     }
+    if (check_params(view, path, reason) != 0)
+        goto err_map;
     result = 0;
     goto done;
 err_map:
@@ -436,6 +467,14 @@ static void slot_taken(struct view *view)
     atomic_store(&slot->pid, (uint32_t)getpid());
 }
 
+/* The world was made between the look for it and its mapping: the role is not locked. */
+static int unlocked(struct view *view, struct reason *reason)
+{
+    munmap(view->base, view->layout.total);
+    view->base = NULL;
+    return reason_set(reason, "world \"%s\" is just being made; try again", view->name);
+}
+
 int segment_attach(struct view *view, const char *name, enum role role, struct reason *reason)
 {
     char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
@@ -447,7 +486,8 @@ int segment_attach(struct view *view, const char *name, enum role role, struct r
     segment_paths(name, shm, lock);
     if (access(shm, F_OK) == 0 && role != ROLE_NONE && take_lock(view, lock, reason) != 0)
         return -1;
-    if (map_segment(view, shm, reason) != 0) {
+    if (map_segment(view, shm, reason) != 0 ||
+        (role != ROLE_NONE && view->lock_fd < 0 && unlocked(view, reason) != 0)) {
         if (view->lock_fd >= 0)
             close(view->lock_fd);
         view->lock_fd = -1;

@@ -37,7 +37,8 @@ struct command_ring_words {             /* only writer: the ring's process */
 struct view {
     char name[SEGMENT_NAME_MAX];
     enum role role;
-    int lock_fd; /* holds the role's lock; -1 for a reader */
+    int lock_fd;  /* holds the role's lock; -1 for a reader */
+    bool checked; /* a stage has checked the frame that it found against its checksum */
     void *base;
     struct layout layout;
     const struct segment_header *header;

@@ -55,8 +55,9 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view)
         memcpy(snapshot->fixed_damage, from->fixed_damage, view->header->counts.fixed);
         if (!still_whole(view, frame))
             continue;
+        struct state copy = snapshot_state(snapshot, view);
         if (snapshot->head.frame != frame || snapshot->head.used != used ||
-            state_checksum(&snapshot->head, &snapshot->entities) != snapshot->head.checksum) {
+            state_checksum(&copy, view->header->counts.fixed) != snapshot->head.checksum) {
             errno = EBADMSG;
             return -1;
         }

@@ -13,16 +13,16 @@ enum command_type {
     COMMAND_NONE,
     COMMAND_PAUSE,
     COMMAND_RESUME,
-    COMMAND_STEP,   /* amount: frames to advance while paused */
-    COMMAND_SCALE,  /* value[0]: simulated seconds a second of the clock */
-    COMMAND_DRIVE,  /* entity; value: throttle, steer, climb, each -1..1 */
+    COMMAND_STEP,    /* amount: frames to advance while paused */
+    COMMAND_SCALE,   /* value[0]: simulated seconds a second of the clock */
+    COMMAND_DRIVE,   /* entity; value: throttle, steer, climb, each -1..1 */
     COMMAND_RELEASE, /* entity: back to its agent */
-    COMMAND_FIRE,   /* entity shoots: at target if not 0, else ahead; entity 0: kind detonates a
-                       munition falling on value[0], value[1] (x, z) */
-    COMMAND_SPAWN,  /* kind, force, value: x, z, altitude above ground, heading, speed; amount:
-                       enum behaviour */
-    COMMAND_REMOVE, /* entity */
-    COMMAND_QUIT,   /* the run ends with this frame */
+    COMMAND_FIRE,    /* entity shoots: at target if not 0, else ahead; entity 0: kind detonates a
+                        munition falling on value[0], value[1] (x, z) */
+    COMMAND_SPAWN,   /* kind, force, value: x, z, altitude above ground, heading, speed; amount:
+                        enum behaviour */
+    COMMAND_REMOVE,  /* entity */
+    COMMAND_QUIT,    /* the run ends with this frame */
     COMMAND_TYPE_COUNT
 };
 

@@ -9,10 +9,10 @@
 #include <stdint.h>
 
 struct crater {
-    double x, z;     /* [m] centre */
-    float radius_m;  /* of the bowl; the rim reaches CRATER_RIM times as far */
-    float depth_m;   /* below the ground that was there */
-    uint64_t frame;  /* that dug it */
+    double x, z;    /* [m] centre */
+    float radius_m; /* of the bowl; the rim reaches CRATER_RIM times as far */
+    float depth_m;  /* below the ground that was there */
+    uint64_t frame; /* that dug it */
 };
 
 _Static_assert(sizeof(struct crater) == 32, "shared layout");

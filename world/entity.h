@@ -41,24 +41,24 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
 
 /* X(type, name): every column once. Rates of the body, then what an agent remembers.
  * Who writes: M all of it by the mover; W all of it by the collider, which copies M and changes
- * what collisions change: motion, state, damage, harm_j, threat_*, bump_*. */
+ * what collisions change: motion, state, damage, harm_j, threat_*, bump*, touch_*. */
 #define ENTITY_COLUMNS(X)                                                                          \
-    X(double, x)      /* [m] world frame: east; metres to better than 1e-10 */                     \
-    X(double, y)      /* [m] up */                                                                 \
-    X(double, z)      /* [m] south */                                                              \
-    X(double, vx)     /* [m/s] */                                                                  \
-    X(double, vy)     /* [m/s] */                                                                  \
-    X(double, vz)     /* [m/s] */                                                                  \
-    X(double, heading) /* [rad] clockwise from north, 0..2 pi */                                   \
-    X(double, pitch)  /* [rad] nose up */                                                          \
-    X(double, roll)   /* [rad] right side down */                                                  \
-    X(double, harm_j) /* [J] energy taken; at the kind's resistance_j it is destroyed */           \
-    X(double, goal_x) /* [m] where the behaviour is going */                                       \
-    X(double, goal_z) /* [m] */                                                                    \
-    X(double, fuel_l) /* [l] */                                                                    \
-    X(float, throttle) /* -1..1, when driven */                                                    \
-    X(float, steer)    /* -1..1, when driven: right */                                             \
-    X(float, climb)    /* -1..1, when driven: up (aircraft) */                                     \
+    X(double, x)           /* [m] world frame: east; metres to better than 1e-10 */                \
+    X(double, y)           /* [m] up */                                                            \
+    X(double, z)           /* [m] south */                                                         \
+    X(double, vx)          /* [m/s] */                                                             \
+    X(double, vy)          /* [m/s] */                                                             \
+    X(double, vz)          /* [m/s] */                                                             \
+    X(double, heading)     /* [rad] clockwise from north, 0..2 pi */                               \
+    X(double, pitch)       /* [rad] nose up */                                                     \
+    X(double, roll)        /* [rad] right side down */                                             \
+    X(double, harm_j)      /* [J] energy taken; at the kind's resistance_j it is destroyed */      \
+    X(double, goal_x)      /* [m] where the behaviour is going */                                  \
+    X(double, goal_z)      /* [m] */                                                               \
+    X(double, fuel_l)      /* [l] */                                                               \
+    X(float, throttle)     /* -1..1, when driven */                                                \
+    X(float, steer)        /* -1..1, when driven: right */                                         \
+    X(float, climb)        /* -1..1, when driven: up (aircraft) */                                 \
     X(float, bump_heading) /* [rad] away from what it ran into this frame */                       \
     X(uint32_t, id)                                                                                \
     X(uint32_t, target_slot) /* what it attacks, flees, or homes on */                             \
@@ -69,19 +69,21 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
     X(uint32_t, threat_id)                                                                         \
     X(uint32_t, until_tick)  /* when the present behaviour ends, a munition's life likewise */     \
     X(uint32_t, reload_tick) /* when it may fire again */                                          \
+    X(uint32_t, touch_body)  /* what it touched last: an id, or a fixed object with the top bit */ \
+    X(uint32_t, touch_tick)  /* when; a press that goes on is no new collision */                  \
     X(uint32_t, born_tick)                                                                         \
     X(uint32_t, changed_tick) /* when its damage last grew; for fire and smoke */                  \
-    X(uint32_t, order_arg) /* its area (patrol) or route */                                        \
-    X(uint32_t, leg)       /* its next route point */                                              \
+    X(uint32_t, order_arg)    /* its area (patrol) or route */                                     \
+    X(uint32_t, leg)          /* its next route point */                                           \
     X(uint32_t, rounds)                                                                            \
     X(uint16_t, kind)                                                                              \
     X(uint8_t, state)                                                                              \
     X(uint8_t, force)                                                                              \
     X(uint8_t, behaviour)                                                                          \
-    X(uint8_t, order)  /* the behaviour it goes back to */                                         \
-    X(uint8_t, damage) /* enum damage */                                                           \
-    X(uint8_t, bumped) /* ran into something this frame */                                         \
-    X(uint8_t, flags)  /* ENTITY_FLAG_* */                                                         \
+    X(uint8_t, order)   /* the behaviour it goes back to */                                        \
+    X(uint8_t, damage)  /* enum damage */                                                          \
+    X(uint8_t, bumped)  /* ran into something this frame */                                        \
+    X(uint8_t, flags)   /* ENTITY_FLAG_* */                                                        \
     X(uint8_t, trigger) /* mover's own: wants to fire this frame */
 
 #define ENTITY_FLAG_FIRE_AT_WILL 1u /* engages enemies that it sees, not only who fires at it */

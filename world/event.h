@@ -51,14 +51,14 @@ struct event_party {
 
 struct event_collision {
     struct event_party a, b;
-    double point[3];        /* [m, world] where the bodies touch */
-    double toi;             /* 0..1 of the frame */
-    float normal[3];        /* unit, from a towards b */
-    float closing_mps;      /* along the normal, before */
-    float angle_deg;        /* 0..360: the other's bearing off a's heading */
-    float impulse_ns;       /* along the normal */
-    float direction_a[3];   /* unit direction of travel, 0 when at rest (thesis row 34) */
-    uint32_t response;      /* enum response */
+    double point[3];      /* [m, world] where the bodies touch */
+    double toi;           /* 0..1 of the frame */
+    float normal[3];      /* unit, from a towards b */
+    float closing_mps;    /* along the normal, before */
+    float angle_deg;      /* 0..360: the other's bearing off a's heading */
+    float impulse_ns;     /* along the normal */
+    float direction_a[3]; /* unit direction of travel, 0 when at rest (thesis row 34) */
+    uint32_t response;    /* enum response */
 };
 
 struct event_fire {

@@ -7,12 +7,12 @@
 #include <stdint.h>
 
 struct fixed_object {
-    double x, z;     /* [m] */
-    float y;         /* [m] of the ground it stands on; centre of its bounding sphere */
-    float radius_m;  /* of the bounding sphere */
-    float height_m;  /* for drawing */
+    double x, z;    /* [m] */
+    float y;        /* [m] of the ground it stands on; centre of its bounding sphere */
+    float radius_m; /* of the bounding sphere */
+    float height_m; /* for drawing */
     uint16_t kind;
-    uint16_t turn;   /* heading, 65536 a full turn, for drawing */
+    uint16_t turn; /* heading, 65536 a full turn, for drawing */
 };
 
 _Static_assert(sizeof(struct fixed_object) == 32, "shared layout");

@@ -25,10 +25,11 @@ void maths_sincos(double angle_rad, double *sine, double *cosine);
 double maths_sin(double angle_rad);
 double maths_cos(double angle_rad);
 
-/* Angle of the vector (x, y) from the x axis, -pi..pi; 0 for (0, 0). Error below 4e-16. */
+/* Angle of the vector (x, y) from the x axis, -pi..pi; 0 for (0, 0). Error below 5e-16. */
 double maths_atan2(double y, double x);
 
-/* Cube root of a value >= 0 by Newton's method on an exponent guess; relative error below 1e-15. */
+/* Cube root of a normal value > 0 (0 for others) by Newton's method on an exponent guess; relative
+ * error below 1e-15. */
 double maths_cbrt(double value);
 
 /* The same angle within [0, 2 pi) and within [-pi, pi). */
@@ -40,8 +41,14 @@ static inline double maths_clamp(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-static inline double maths_min(double a, double b) { return a < b ? a : b; }
-static inline double maths_max(double a, double b) { return a > b ? a : b; }
+static inline double maths_min(double a, double b)
+{
+    return a < b ? a : b;
+}
+static inline double maths_max(double a, double b)
+{
+    return a > b ? a : b;
+}
 
 static inline struct vec3 vec3_add(struct vec3 a, struct vec3 b)
 {
@@ -63,7 +70,10 @@ static inline double vec3_dot(struct vec3 a, struct vec3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-static inline double vec3_length(struct vec3 a) { return sqrt(vec3_dot(a, a)); }
+static inline double vec3_length(struct vec3 a)
+{
+    return sqrt(vec3_dot(a, a));
+}
 
 /* a + (b - a) * t */
 static inline struct vec3 vec3_lerp(struct vec3 a, struct vec3 b, double t)

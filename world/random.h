@@ -50,7 +50,7 @@ static inline double random_unit(uint64_t seed, uint64_t frame, uint64_t entity,
     return (double)(random_u64(seed, frame, entity, purpose) >> 11) * 0x1.0p-53;
 }
 
-/* Uniform in [low, high). */
+/* Uniform in [low, high); rounding may give high itself. */
 static inline double random_between(uint64_t seed, uint64_t frame, uint64_t entity,
                                     enum random_purpose purpose, double low, double high)
 {

@@ -22,8 +22,8 @@ struct scenario_group {
     uint8_t moving;   /* 1: speed_mps was given */
     uint8_t floating; /* 1: altitude_m was given */
     uint32_t count;
-    uint32_t area;    /* index into areas */
-    uint32_t route;   /* index into routes, UINT32_MAX for none */
+    uint32_t area;  /* index into areas */
+    uint32_t route; /* index into routes, UINT32_MAX for none */
     double x, z, altitude_m, heading_rad, speed_mps;
 };
 

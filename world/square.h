@@ -8,10 +8,10 @@
 
 #include <stdint.h>
 
-#define SQUARE_SIDE_M    125.0
-#define SQUARE_PER_SIDE  400
-#define SQUARE_COUNT     (SQUARE_PER_SIDE * SQUARE_PER_SIDE)
-#define WORLD_SIDE_M     50000.0
+#define SQUARE_SIDE_M   125.0
+#define SQUARE_PER_SIDE 400
+#define SQUARE_COUNT    (SQUARE_PER_SIDE * SQUARE_PER_SIDE)
+#define WORLD_SIDE_M    50000.0
 
 /* The column of x or the row of z [m]: 0..399; NaN gives 0. */
 static inline int32_t square_axis(double metres)

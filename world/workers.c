@@ -106,6 +106,7 @@ uint32_t workers_threads(const struct workers *workers)
 void workers_run(struct workers *workers, workers_function *function, void *context, uint32_t count,
                  uint32_t grain)
 {
+    grain = grain > 0 ? grain : 1;
     if (!workers || workers->threads == 1 || count <= grain) {
         if (count > 0)
             function(context, 0, count, 0);

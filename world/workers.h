@@ -18,7 +18,8 @@ void workers_destroy(struct workers *workers);
 uint32_t workers_threads(const struct workers *workers);
 
 /* Runs function over 0 .. count - 1 in pieces of at most grain rows, on all threads; returns when
- * all is done. Below two pieces, or with workers NULL, the caller does it alone. */
+ * all is done. Below two pieces, on one thread or with workers NULL, the caller does it alone and
+ * in one piece. */
 void workers_run(struct workers *workers, workers_function *function, void *context, uint32_t count,
                  uint32_t grain);
 

@@ -24,11 +24,12 @@ static uint64_t hash_columns(uint64_t hash, const struct entities *e, uint32_t u
     return hash;
 }
 
-uint64_t state_checksum(const struct state_head *head, const struct entities *entities)
+uint64_t state_checksum(const struct state *state, uint32_t fixed_count)
 {
-    struct state_head copy = *head;
+    struct state_head copy = *state->head;
     copy.checksum = 0;
-    return hash_columns(XXH3_64bits(&copy, sizeof copy), entities, head->used);
+    uint64_t hash = hash_columns(XXH3_64bits(&copy, sizeof copy), &state->entities, copy.used);
+    return XXH3_64bits_withSeed(state->fixed_damage, fixed_count, hash);
 }
 
 uint64_t world_digest(const struct world *world, const struct state *state)

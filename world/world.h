@@ -23,14 +23,14 @@ enum pace { PACE_REAL, PACE_MAX };
 
 /* Constants of the collision response; docs/scenario.md says what each does. */
 struct collision_params {
-    uint32_t method;            /* enum method */
-    uint32_t shape;             /* enum shape */
-    uint32_t response;          /* enum response_model */
+    uint32_t method;   /* enum method */
+    uint32_t shape;    /* enum shape */
+    uint32_t response; /* enum response_model */
     uint32_t reserved;
-    double threshold_height_m;  /* above it nothing fixed is tested (row 17) */
-    double fast_vehicle_mps;    /* Fig. 8 "speed of colliding vehicle > constant" */
-    double fast_fixed_mps;      /* Fig. 8 "moving quickly", against a large fixed object */
-    double large_fixed_kg;      /* Fig. 8 "large" */
+    double threshold_height_m; /* above it nothing fixed is tested (row 17) */
+    double fast_vehicle_mps;   /* Fig. 8 "speed of colliding vehicle > constant" */
+    double fast_fixed_mps;     /* Fig. 8 "moving quickly", against a large fixed object */
+    double large_fixed_kg;     /* Fig. 8 "large" */
     double damage_high, damage_med, damage_low; /* Fig. 8 c1 > c2 > c3, impact energy over the
                                                    fixed object's resistance (row 27) */
 };
@@ -48,19 +48,19 @@ struct renderer_params {
 enum view_mode { VIEW_CHASE, VIEW_MAP, VIEW_BOTH, VIEW_COUNT };
 
 struct params {
-    char name[WORLD_NAME_MAX];      /* of the ground: "hunter-liggett" */
-    char scenario[PATH_TEXT_MAX];   /* the file it came from, for people */
+    char name[WORLD_NAME_MAX];    /* of the ground: "hunter-liggett" */
+    char scenario[PATH_TEXT_MAX]; /* the file it came from, for people */
     uint64_t seed;
-    uint64_t scenario_hash;         /* of the text and the overrides */
-    uint64_t frame_limit;           /* the run ends with this frame, 0: never */
+    uint64_t scenario_hash; /* of the text and the overrides */
+    uint64_t frame_limit;   /* the run ends with this frame, 0: never */
     double hz;
-    double dt_s;                    /* 1 / hz */
-    uint32_t pace;                  /* enum pace */
+    double dt_s;   /* 1 / hz */
+    uint32_t pace; /* enum pace */
     uint32_t capacity;
-    uint32_t event_slots;           /* power of two */
-    uint32_t events_per_frame;      /* at most; event_slots / 8 */
-    uint32_t intents_per_frame;     /* at most */
-    uint32_t command_slots;         /* power of two, of each ring */
+    uint32_t event_slots;       /* power of two */
+    uint32_t events_per_frame;  /* at most; event_slots / 8 */
+    uint32_t intents_per_frame; /* at most */
+    uint32_t command_slots;     /* power of two, of each ring */
     uint32_t crater_slots;
     uint32_t initial_entities;
     struct collision_params collision;
@@ -82,10 +82,10 @@ struct model_vertex {
 enum model_part { PART_BODY, PART_TURRET, PART_ROTOR, PART_TAIL_ROTOR, PART_COUNT };
 
 struct model_triangle {
-    uint32_t vertex[3];        /* index within the model */
-    uint8_t red, green, blue;  /* 0..255, sRGB */
-    uint8_t force_tint;        /* 1: takes the force's colour */
-    uint32_t part;             /* enum model_part */
+    uint32_t vertex[3];       /* index within the model */
+    uint8_t red, green, blue; /* 0..255, sRGB */
+    uint8_t force_tint;       /* 1: takes the force's colour */
+    uint32_t part;            /* enum model_part */
 };
 
 struct area {
@@ -160,12 +160,12 @@ struct state_head {
     uint64_t event_end;    /* events of the run so far */
     uint64_t event_digest; /* over all of them, in order */
     uint64_t command_cursor[COMMAND_RING_COUNT]; /* commands taken from each ring */
-    double time_scale;     /* simulated seconds a second of the clock; pacing only */
+    double time_scale; /* simulated seconds a second of the clock; pacing only */
     uint32_t paused;
-    uint32_t steps_left;   /* frames to advance while paused */
+    uint32_t steps_left; /* frames to advance while paused */
     uint32_t quit;
-    uint32_t used;         /* slots 0 .. used - 1 have ever held an entity */
-    uint32_t alloc_next;   /* where the search for a free slot goes on */
+    uint32_t used;       /* slots 0 .. used - 1 have ever held an entity */
+    uint32_t alloc_next; /* where the search for a free slot goes on */
     uint32_t next_id;
     uint32_t vehicles, munitions; /* active or wrecks; in flight */
     uint32_t crater_count;
@@ -174,15 +174,15 @@ struct state_head {
     uint32_t advanced;     /* 1: simulated time moved in this frame */
     uint64_t mover_ns;     /* M only: what moving took; not in the digest */
     struct tally tally;
-    uint64_t checksum;     /* XXH3 over this head (this word as 0) and the columns' used rows */
+    uint64_t checksum; /* state_checksum() */
 };
 
 /* One buffer of the world. fixed_damage and the crater list belong to W only. */
 struct state {
     struct state_head *head;
     struct entities entities;
-    uint8_t *fixed_damage;   /* [counts.fixed] enum damage */
-    struct crater *craters;  /* shared by both buffers, append-only: committed by crater_count */
+    uint8_t *fixed_damage;  /* [counts.fixed] enum damage */
+    struct crater *craters; /* shared by both buffers, append-only: committed by crater_count */
 };
 
 /* The mover's output. */
@@ -209,8 +209,9 @@ static inline uint32_t world_reach(const struct world *world, uint32_t square,
  * Not in it: pacing, stage times, slots beyond used. */
 uint64_t world_digest(const struct world *world, const struct state *state);
 
-/* The state's own checksum as the collider stores it; head->checksum is taken as 0. */
-uint64_t state_checksum(const struct state_head *head, const struct entities *entities);
+/* The state's own checksum as the collider stores it: head (its checksum as 0), rows, damage of the
+ * fixed objects. Craters, which both buffers share, are in the digest alone. */
+uint64_t state_checksum(const struct state *state, uint32_t fixed_count);
 
 const char *method_name(enum method method);
 const char *shape_name(enum shape shape);

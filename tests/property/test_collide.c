@@ -8,7 +8,6 @@
 #include <setjmp.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <string.h>
 
 #include <cmocka.h>
 
@@ -251,11 +250,7 @@ static struct motion motion_of(const struct fixture *f)
 
 static void put_pair(struct fixture *f, const struct impact_pair *pair, bool swapped)
 {
-    memset(f->view.w[0].head, 0, sizeof *f->view.w[0].head);
-    atomic_store(&f->view.commit->commit, 0);
-    atomic_store(&f->view.moved_word->moved, 0);
-    f->view.w[0].head->next_id = 1;
-    f->view.w[0].head->time_scale = 1.0;
+    steps_empty(f);
     fixture_put(f, swapped ? pair->second : pair->first);
     fixture_put(f, swapped ? pair->first : pair->second);
 }

@@ -34,7 +34,7 @@ void bare_view_make(struct view *view, const struct bare_sizes *sizes)
     for (int i = 0; i < 2; i++) {
         struct state_head *head = view->w[i].head;
         head->time_scale = 1.0;
-        head->checksum = state_checksum(head, &view->w[i].entities);
+        head->checksum = state_checksum(&view->w[i], sizes->fixed);
     }
 }
 
@@ -62,6 +62,6 @@ struct state *bare_view_begin(struct view *collider)
 void bare_view_end(struct view *collider)
 {
     struct state *next = &collider->w[frame.number & 1];
-    next->head->checksum = state_checksum(next->head, &next->entities);
+    next->head->checksum = state_checksum(next, collider->header->counts.fixed);
     frame_collider_end(&frame, collider);
 }

@@ -248,7 +248,7 @@ uint32_t fixture_put(struct fixture *fixture, struct fixture_entity entity)
     head->next_id++;
     head->alloc_next = head->used;
     *(round ? &head->munitions : &head->vehicles) += 1;
-    head->checksum = state_checksum(head, e);
+    head->checksum = state_checksum(&state, world->counts.fixed);
     return row;
 }
 

@@ -91,6 +91,16 @@ uint32_t steps_find(const struct fixture *fixture, uint32_t id)
     return entities_find(&state.entities, state.head->used, id);
 }
 
+void steps_empty(struct fixture *fixture)
+{
+    struct view *view = &fixture->view;
+    *view->w[0].head = (struct state_head){.time_scale = 1.0, .next_id = 1};
+    memset(view->w[0].fixed_damage, DAMAGE_NONE, view->world.counts.fixed);
+    atomic_store(&view->commit->commit, 0);
+    atomic_store(&view->commit->writing, 0);
+    atomic_store(&view->moved_word->moved, 0);
+}
+
 /* --- commands ----------------------------------------------------------------------------------*/
 
 void steps_send(struct fixture *fixture, enum command_ring ring, struct command command)

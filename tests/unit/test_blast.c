@@ -1,0 +1,297 @@
+/* Detonations: what a round strikes, blast around it, craters, chains (thesis row 31). */
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define REACH_M 8.0 /* of one kilogram's blast */
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 256; };\n"
+                     "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; },\n"
+                     "            { kind = \"tree\"; at = [30000.0, 30000.0]; } );\n");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, double x, double y, double z, struct vec3 velocity)
+{
+    return fixture_put(
+        &f, (struct fixture_entity){.kind = kind, .at = {x, y, z}, .velocity = velocity});
+}
+
+static const struct event_detonation *detonation(uint32_t n)
+{
+    const struct event *event = fixture_event(&f, EVENT_DETONATION, n);
+    assert_non_null(event);
+    return &event->detonation;
+}
+
+/* --- row 31 ------------------------------------------------------------------------------------*/
+
+static void test_row_31_artillery_on_ground_leaves_a_crater(void **state)
+{
+    uint32_t round = put("artillery", 26000.0, 110.0, 26000.0, (struct vec3){60.0, -300.0, 0.0});
+    double radius = 1.1 * cbrt(steps_kind(&f, "artillery")->explosive_kg);
+    (void)state;
+    fixture_run(&f, 3);
+    assert_int_equal(detonation(0)->struck, STRUCK_GROUND);
+    assert_true(fabs(detonation(0)->point[1] - FIXTURE_GROUND_M) < 1e-6);
+    const struct event *event = fixture_event(&f, EVENT_CRATER, 0);
+    assert_non_null(event);
+    assert_true(event->crater.point[0] == detonation(0)->point[0]);
+    assert_true(fabs((double)event->crater.radius_m - radius) < 1e-5);
+    struct state now = fixture_state(&f);
+    assert_int_equal(now.head->crater_count, 1);
+    assert_true(now.craters[0].x == event->crater.point[0]);
+    assert_int_equal(now.craters[0].frame, event->frame);
+    assert_int_equal(now.entities.state[round], ENTITY_FREE);
+    assert_int_equal(now.head->munitions, 0);
+    /* The next frame drives through it. */
+    fixture_run(&f, 1);
+    assert_true(steps_ground_at(&f, now.craters[0].x, now.craters[0].z) < 99.5);
+}
+
+static void test_row_31_artillery_on_a_tank_destroys_it_and_leaves_no_crater(void **state)
+{
+    uint32_t tank = put("tank", 26000.0, 100.0, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+    (void)state;
+    put("artillery", 26000.0, 120.0, 26000.0, (struct vec3){0.0, -500.0, 0.0});
+    fixture_run(&f, 4);
+    assert_int_equal(detonation(0)->struck, STRUCK_VEHICLE);
+    assert_int_equal(detonation(0)->struck_party.id, tank + 1);
+    assert_int_equal(detonation(0)->struck_party.damage, DAMAGE_DESTROYED);
+    assert_int_equal(steps_rows(&f).state[tank], ENTITY_WRECK);
+    assert_int_equal(fixture_event_count(&f, EVENT_CRATER), 0);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0); /* munitions only explode */
+    assert_int_equal(fixture_state(&f).head->crater_count, 0);
+    assert_int_equal(fixture_state(&f).head->tally.destroyed, 1);
+}
+
+static void test_row_31_water_keeps_no_crater(void **state)
+{
+    (void)state;
+    steps_cover(&f, COVER_LAKE, 25500.0, 25500.0, 26500.0, 26500.0);
+    put("bomb", 26000.0, 120.0, 26000.0, (struct vec3){0.0, -200.0, 0.0});
+    fixture_run(&f, 10);
+    assert_int_equal(detonation(0)->struck, STRUCK_WATER);
+    assert_int_equal(fixture_event_count(&f, EVENT_CRATER), 0);
+}
+
+static void test_row_31_only_rounds_that_dig_leave_craters(void **state)
+{
+    (void)state;
+    put("shell", 26000.0, 120.0, 26000.0, (struct vec3){0.0, -1500.0, 0.0});
+    fixture_run(&f, 2);
+    assert_int_equal(detonation(0)->struck, STRUCK_GROUND);
+    assert_int_equal(fixture_event_count(&f, EVENT_CRATER), 0);
+}
+
+static void test_row_31_rounds_that_meet_explode_both(void **state)
+{
+    (void)state;
+    put("missile", 26000.0, 500.0, 26000.0, (struct vec3){300.0, 0.0, 0.0});
+    put("missile", 26008.0, 500.0, 26000.0, (struct vec3){-300.0, 0.0, 0.0});
+    fixture_run(&f, 2);
+    assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 2);
+    assert_int_equal(detonation(0)->struck, STRUCK_AIR);
+    assert_int_equal(fixture_state(&f).head->munitions, 0);
+}
+
+static void test_a_round_into_a_tree_fells_it_and_then_others_pass(void **state)
+{
+    (void)state;
+    put("shell", 24980.0, 100.5, 25000.0, (struct vec3){1500.0, 0.0, 0.0});
+    fixture_run(&f, 1);
+    assert_int_equal(detonation(0)->struck, STRUCK_FIXED);
+    assert_int_equal(detonation(0)->struck_party.id, 1);
+    assert_int_equal(detonation(0)->struck_party.fixed, 1);
+    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_HIGH);
+    uint32_t jeep = put("jeep", 24990.0, 100.0, 25000.0, (struct vec3){20.0, 0.0, 0.0});
+    fixture_run(&f, 60);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    assert_true(fabs(steps_rows(&f).x[jeep] - 25010.0) < 1e-6);
+}
+
+static void test_a_charge_of_nothing_digs_nothing(void **state)
+{
+    (void)state;
+    steps_kind(&f, "bullet")->craters = 1; /* config/ allows it */
+    put("bullet", 26000.0, 102.0, 26000.0, (struct vec3){0.0, -300.0, 0.0});
+    fixture_run(&f, 2);
+    assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 1);
+    for (int n = 0; n < 9; n++)
+        assert_true(isfinite(steps_ground_at(&f, 26000.0, 25999.0 + 0.25 * n)));
+}
+
+static void test_a_full_list_of_craters_is_counted(void **state)
+{
+    (void)state;
+    steps_params(&f)->crater_slots = 2;
+    for (int n = 0; n < 5; n++)
+        put("artillery", 26000.0 + 300.0 * n, 104.0, 26000.0, (struct vec3){0.0, -300.0, 0.0});
+    fixture_run(&f, 2);
+    struct state now = fixture_state(&f);
+    assert_int_equal(now.head->crater_count, 2);
+    assert_int_equal(now.head->tally.craters_refused, 3);
+    assert_int_equal(fixture_event_count(&f, EVENT_CRATER), 2);
+}
+
+/* --- blast -------------------------------------------------------------------------------------*/
+
+/* A bomb bursts in the air over (26000, 26000); harm of jeeps at these distances from it. */
+static void burst(const double *distance, uint32_t count, uint32_t *first)
+{
+    struct kind *jeep = steps_kind(&f, "jeep");
+    uint32_t bomb;
+    jeep->resistance_j = 1e12;
+    *first = fixture_state(&f).head->used;
+    for (uint32_t n = 0; n < count; n++) { /* all around, so that squares' borders matter */
+        double angle = 2.399963 * n, way = distance[n] + jeep->radius_m;
+        put("jeep", 26000.0 + way * cos(angle), 100.0, 26000.0 + way * sin(angle),
+            (struct vec3){0.0, 0.0, 0.0});
+    }
+    bomb = put("bomb", 26000.0, 100.0 + 1e-9, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+    steps_rows(&f).until_tick[bomb] = 0;                /* now, by its time fuse */
+    steps_kind(&f, "bomb")->guidance = GUIDANCE_HOMING; /* it does not fall */
+    fixture_run(&f, 1);
+    assert_int_equal(detonation(0)->struck, STRUCK_AIR);
+}
+
+static void test_blast_harms_all_within_its_radius_and_nobody_beyond(void **state)
+{
+    double radius = REACH_M * cbrt(steps_kind(&f, "bomb")->explosive_kg), distance[60];
+    uint32_t first;
+    (void)state;
+    for (uint32_t n = 0; n < 60; n++)
+        distance[n] = n % 2 ? radius * (1.0 + 0.002 * (n + 1)) : radius * (1.0 - 0.015 * (n + 1));
+    burst(distance, 60, &first);
+    for (uint32_t n = 0; n < 60; n++)
+        assert_int_equal(steps_rows(&f).harm_j[first + n] > 0.0, n % 2 == 0);
+}
+
+static void test_blast_falls_off_with_distance(void **state)
+{
+    double distance[30], before = 1e300;
+    uint32_t first;
+    (void)state;
+    for (uint32_t n = 0; n < 30; n++)
+        distance[n] = 0.5 + 1.2 * n;
+    burst(distance, 30, &first);
+    for (uint32_t n = 0; n < 30; n++) {
+        assert_true(steps_rows(&f).harm_j[first + n] < before || before == 0.0);
+        before = steps_rows(&f).harm_j[first + n];
+    }
+    assert_true(steps_rows(&f).harm_j[first] > 0.0);
+}
+
+static void test_a_body_in_several_squares_is_harmed_once(void **state)
+{
+    struct kind *ship = steps_kind(&f, "ship");
+    uint32_t on_border, inside;
+    (void)state;
+    ship->resistance_j = 1e12;
+    /* 25 m from the bomb's surface to each; one lies on a corner of four squares. */
+    on_border = put("ship", 26000.0, 100.0, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+    inside = put("ship", 26090.0, 100.0, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+    uint32_t bomb = put("bomb", 26045.0, 100.0 + 1e-9, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+    steps_rows(&f).until_tick[bomb] = 0;
+    steps_kind(&f, "bomb")->guidance = GUIDANCE_HOMING;
+    fixture_run(&f, 1);
+    assert_true(steps_rows(&f).harm_j[on_border] > 0.0);
+    assert_true(fabs(steps_rows(&f).harm_j[on_border] - steps_rows(&f).harm_j[inside]) < 1e-3);
+}
+
+static void test_blast_alarms_the_enemy_and_spares_no_friend(void **state)
+{
+    uint32_t shooter = put("tank", 20000.0, 100.0, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+    uint32_t enemy = put("jeep", 26000.0, 100.0, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+    uint32_t friend = put("jeep", 26020.0, 100.0, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+    (void)state;
+    steps_kind(&f, "jeep")->resistance_j = 1e12;
+    uint32_t bomb = put("bomb", 26010.0, 100.0 + 1e-9, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+    struct entities e = steps_rows(&f);
+    e.force[shooter] = e.force[friend] = FORCE_BLUE;
+    e.force[enemy] = FORCE_RED;
+    e.owner_slot[bomb] = shooter;
+    e.owner_id[bomb] = e.id[shooter];
+    e.until_tick[bomb] = 0;
+    steps_kind(&f, "bomb")->guidance = GUIDANCE_HOMING;
+    fixture_run(&f, 1);
+    e = steps_rows(&f);
+    assert_true(e.harm_j[enemy] > 0.0 && e.harm_j[friend] > 0.0);
+    assert_int_equal(e.threat_id[enemy], e.id[shooter]);
+    assert_int_equal(e.threat_id[friend], 0); /* a stray round of one's own is no attack */
+}
+
+static void test_a_chain_of_what_explodes_goes_on_to_its_end(void **state)
+{
+    uint32_t row[12];
+    (void)state;
+    steps_kind(&f, "tank")->explosive_kg = 200.0;
+    steps_kind(&f, "tank")->resistance_j = 1e5;
+    for (uint32_t n = 0; n < 12; n++) /* each within the next one's blast alone */
+        row[n] = put("tank", 26000.0 + 35.0 * n, 100.0, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+    put("artillery", 26000.0, 110.0, 26000.0, (struct vec3){0.0, -500.0, 0.0});
+    fixture_run(&f, 1);
+    for (uint32_t n = 0; n < 12; n++)
+        assert_int_equal(steps_rows(&f).state[row[n]], ENTITY_WRECK);
+    assert_int_equal(fixture_state(&f).head->tally.destroyed, 12);
+}
+
+static void test_the_shooter_is_not_hit_by_its_own_round_at_the_muzzle(void **state)
+{
+    static const double headings[] = {0.0, 0.7, HALF_PI, 2.5, PI, 4.0, 5.5};
+    (void)state;
+    for (size_t n = 0; n < sizeof headings / sizeof headings[0]; n++) {
+        steps_empty(&f);
+        double sine = maths_sin(headings[n]), cosine = maths_cos(headings[n]);
+        /* A jet faster than the missile that it lets go. */
+        uint32_t jet =
+            put("jet", 25000.0, 900.0, 20000.0, (struct vec3){277.0 * sine, 0.0, -277.0 * cosine});
+        uint32_t tank =
+            put("tank", 26000.0, 100.0, 26000.0, (struct vec3){16.0 * sine, 0.0, -16.0 * cosine});
+        steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_FIRE, .entity = jet + 1});
+        steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_FIRE, .entity = tank + 1});
+        fixture_run(&f, 60);
+        assert_int_equal(fixture_state(&f).head->tally.fires, 2);
+        assert_true(steps_rows(&f).harm_j[jet] == 0.0 && steps_rows(&f).harm_j[tank] == 0.0);
+        assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    }
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_row_31_artillery_on_ground_leaves_a_crater),
+        TEST(test_row_31_artillery_on_a_tank_destroys_it_and_leaves_no_crater),
+        TEST(test_row_31_water_keeps_no_crater),
+        TEST(test_row_31_only_rounds_that_dig_leave_craters),
+        TEST(test_row_31_rounds_that_meet_explode_both),
+        TEST(test_a_round_into_a_tree_fells_it_and_then_others_pass),
+        TEST(test_a_charge_of_nothing_digs_nothing),
+        TEST(test_a_full_list_of_craters_is_counted),
+        TEST(test_blast_harms_all_within_its_radius_and_nobody_beyond),
+        TEST(test_blast_falls_off_with_distance),
+        TEST(test_a_body_in_several_squares_is_harmed_once),
+        TEST(test_blast_alarms_the_enemy_and_spares_no_friend),
+        TEST(test_a_chain_of_what_explodes_goes_on_to_its_end),
+        TEST(test_the_shooter_is_not_hit_by_its_own_round_at_the_muzzle),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,284 @@
+/* Figure 8 of the thesis, branch by branch and at its borders (rows 27 to 30). */
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#define FIGURE8 "collision = { response = \"figure8\"; };\n"
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, FIGURE8 "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; },\n"
+                             "            { kind = \"building\"; at = [26000.0, 25000.0]; } );\n");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, double x, double z, struct vec3 velocity)
+{
+    return fixture_put(
+        &f, (struct fixture_entity){.kind = kind, .at = {x, 100.0, z}, .velocity = velocity});
+}
+
+/* --- two that move: row 29 ---------------------------------------------------------------------*/
+
+/* What two tanks do that meet at this angle, nose to nose along x, at these speeds. */
+static enum response meet(double angle_deg, double speed_a, double speed_b)
+{
+    struct respond respond;
+    struct outcome outcome = {RESPONSE_NONE, 0.0};
+    steps_empty(&f);
+    uint32_t a = put("tank", 20000.0, 20000.0, (struct vec3){speed_a, 0, 0});
+    uint32_t b = put("tank", 20006.0, 20000.0, (struct vec3){-speed_b, 0, 0});
+    steps_kind(&f, "tank")->explosive_kg = 0.0;
+    steps_respond(&f, &respond);
+    const struct impact impact = {.a = a,
+                                  .b = b,
+                                  .time = 0.5,
+                                  .point = {20003.0, 100.0, 20000.0},
+                                  .normal = {1.0, 0.0, 0.0},
+                                  .closing_mps = speed_a + speed_b,
+                                  .angle_rad = angle_deg * RAD_PER_DEG};
+    assert_int_equal(figure8_moving(&respond, &impact, &outcome), 0);
+    const struct entities *e = &respond.next->entities;
+    struct vec3 va = entities_velocity(e, a), vb = entities_velocity(e, b);
+    bool wrecks = e->state[a] == ENTITY_WRECK && e->state[b] == ENTITY_WRECK;
+    switch (outcome.response) {
+    case RESPONSE_DESTROYED:
+        assert_true(wrecks && vec3_length(va) == 0.0 && vec3_length(vb) == 0.0);
+        break;
+    case RESPONSE_STOP:
+        assert_true(!wrecks && vec3_length(va) == 0.0 && vec3_length(vb) == 0.0);
+        break;
+    default: /* off each other, both slower */
+        assert_int_equal(outcome.response, RESPONSE_BOUNCE);
+        assert_true(va.x <= 0.0 && vb.x >= 0.0);
+        assert_true(vec3_length(va) < speed_a && vec3_length(vb) < speed_b);
+    }
+    steps_respond_end(&respond);
+    return outcome.response;
+}
+
+static void test_row_29_within_five_degrees_of_a_quarter_turn_is_severe(void **state)
+{
+    static const double borders[] = {5, 85, 95, 175, 185, 265, 275, 355};
+    (void)state;
+    for (int quarter = 0; quarter < 360; quarter += 90) {
+        assert_int_equal(meet(quarter, 4.0, 4.0), RESPONSE_STOP);
+        assert_int_equal(meet(quarter, 10.0, 10.0), RESPONSE_DESTROYED);
+        assert_int_equal(meet(quarter + 45.0, 10.0, 10.0), RESPONSE_BOUNCE);
+    }
+    for (size_t n = 0; n < sizeof borders / sizeof borders[0]; n++) {
+        /* Even ones lie above their quarter turn, odd ones below. */
+        double outwards = n % 2 == 0 ? 1.0 : -1.0;
+        assert_int_equal(meet(borders[n], 4.0, 4.0), RESPONSE_STOP);
+        assert_int_equal(meet(borders[n] - 0.01 * outwards, 4.0, 4.0), RESPONSE_STOP);
+        assert_int_equal(meet(borders[n] + 0.01 * outwards, 4.0, 4.0), RESPONSE_BOUNCE);
+        assert_int_equal(meet(borders[n], 10.0, 10.0), RESPONSE_DESTROYED);
+        assert_int_equal(meet(borders[n] + 0.01 * outwards, 10.0, 10.0), RESPONSE_BOUNCE);
+    }
+}
+
+static void test_row_29_fast_kills_both_and_slow_stops_both(void **state)
+{
+    double fast = steps_params(&f)->collision.fast_vehicle_mps;
+    (void)state;
+    assert_int_equal(meet(180.0, fast, fast), RESPONSE_STOP);
+    assert_int_equal(meet(180.0, fast + 1e-9, 1.0), RESPONSE_DESTROYED); /* either's speed */
+    assert_int_equal(meet(180.0, 1.0, fast + 1e-9), RESPONSE_DESTROYED);
+}
+
+/* The angle is the difference of headings, in whole frames as well as in the function. */
+static void test_row_29_headings_give_the_angle(void **state)
+{
+    static const struct {
+        double angle_deg;
+        enum response response;
+    } cases[] = {{5.0, RESPONSE_STOP},   {5.1, RESPONSE_BOUNCE},   {84.9, RESPONSE_BOUNCE},
+                 {85.0, RESPONSE_STOP},  {95.0, RESPONSE_STOP},    {95.1, RESPONSE_BOUNCE},
+                 {180.0, RESPONSE_STOP}, {264.9, RESPONSE_BOUNCE}, {265.0, RESPONSE_STOP},
+                 {275.0, RESPONSE_STOP}, {354.9, RESPONSE_BOUNCE}, {355.0, RESPONSE_STOP}};
+    (void)state;
+    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
+        double angle = cases[n].angle_deg * RAD_PER_DEG, sine = maths_sin(angle);
+        steps_empty(&f);
+        /* a drives north; b, in its way, slower, at the angle to the right of it. */
+        put("tank", 20000.0, 20000.0, (struct vec3){0, 0, -7.0});
+        put("tank", 20000.0 - 0.01 * sine, 19993.98,
+            (struct vec3){2.0 * sine, 0, -2.0 * maths_cos(angle)});
+        fixture_run(&f, 1);
+        const struct event *event = fixture_event(&f, EVENT_COLLISION, 0);
+        assert_non_null(event);
+        assert_true(fabs((double)event->collision.angle_deg - cases[n].angle_deg) < 1e-3);
+        assert_int_equal(event->collision.response, cases[n].response);
+    }
+}
+
+static void test_row_30_the_larger_mass_hurts_the_smaller_more(void **state)
+{
+    double before = 0.0;
+    (void)state;
+    for (double mass = 100.0; mass <= 1e6; mass *= 10.0) {
+        struct respond respond;
+        struct outcome outcome;
+        steps_empty(&f);
+        steps_kind(&f, "tank")->mass_kg = mass;
+        steps_kind(&f, "jeep")->mass_kg = 1000.0;
+        steps_kind(&f, "tank")->resistance_j = steps_kind(&f, "jeep")->resistance_j = 1e12;
+        uint32_t tank = put("tank", 20000.0, 20000.0, (struct vec3){5.0, 0, 0});
+        uint32_t jeep = put("jeep", 20004.6, 20000.0, (struct vec3){-5.0, 0, 0});
+        steps_respond(&f, &respond);
+        const struct impact impact = {
+            .a = tank, .b = jeep, .normal = {1, 0, 0}, .closing_mps = 10.0, .angle_rad = PI};
+        assert_int_equal(figure8_moving(&respond, &impact, &outcome), 0);
+        const struct entities *e = &respond.next->entities;
+        if (mass > 1000.0)
+            assert_true(e->harm_j[jeep] > e->harm_j[tank]);
+        if (mass < 1000.0)
+            assert_true(e->harm_j[jeep] < e->harm_j[tank]);
+        assert_true(e->harm_j[jeep] > before);
+        before = e->harm_j[jeep];
+        steps_respond_end(&respond);
+    }
+}
+
+/* --- against fixed objects: rows 27, 28 --------------------------------------------------------*/
+
+struct aftermath {
+    enum response response;
+    enum damage damage;
+    enum entity_state state;
+    double speed_mps, harm_j;
+};
+
+/* A body of this mass runs into the tree (0) or the building (1) at this speed. */
+static struct aftermath strike(uint32_t object, double mass_kg, double speed_mps)
+{
+    struct respond respond;
+    struct outcome outcome = {RESPONSE_NONE, 0.0};
+    const struct fixed_object *fixed = &f.view.world.fixed[object];
+    steps_empty(&f);
+    steps_kind(&f, "tank")->mass_kg = mass_kg;
+    steps_kind(&f, "tank")->resistance_j = 1e12;
+    uint32_t row = put("tank", fixed->x - 3.0 - (double)fixed->radius_m, fixed->z,
+                       (struct vec3){speed_mps, 0, 0});
+    steps_respond(&f, &respond);
+    const struct impact impact = {
+        .a = row, .b = object | PAIR_FIXED, .normal = {1, 0, 0}, .closing_mps = speed_mps};
+    assert_int_equal(figure8_fixed(&respond, &impact, &outcome), 0);
+    const struct entities *e = &respond.next->entities;
+    struct aftermath struck = {outcome.response, (enum damage)respond.next->fixed_damage[object],
+                               (enum entity_state)e->state[row],
+                               vec3_length(entities_velocity(e, row)), e->harm_j[row]};
+    steps_respond_end(&respond);
+    return struck;
+}
+
+static void test_row_27_damage_goes_by_energy_over_resistance(void **state)
+{
+    const double mass = 2000.0;
+    const struct collision_params *limits = &steps_params(&f)->collision;
+    double resistance = steps_kind(&f, "tree")->resistance_j;
+    const struct {
+        double share;
+        enum damage from, below;
+    } borders[] = {{limits->damage_high, DAMAGE_HIGH, DAMAGE_MED},
+                   {limits->damage_med, DAMAGE_MED, DAMAGE_LOW},
+                   {limits->damage_low, DAMAGE_LOW, DAMAGE_NONE}};
+    (void)state;
+    for (int n = 0; n < 3; n++) {
+        double energy = borders[n].share * resistance;
+        double speed = sqrt(2.0 * energy / mass);
+        assert_int_equal(strike(0, mass, speed * (1.0 + 1e-9)).damage, borders[n].from);
+        assert_int_equal(strike(0, mass, speed * (1.0 - 1e-9)).damage, borders[n].below);
+        /* The same energy from another mass is the same damage. */
+        speed = sqrt(2.0 * energy / (8.0 * mass));
+        assert_int_equal(strike(0, 8.0 * mass, speed * (1.0 + 1e-9)).damage, borders[n].from);
+        assert_int_equal(strike(0, 8.0 * mass, speed * (1.0 - 1e-9)).damage, borders[n].below);
+    }
+}
+
+static void test_row_27_damage_is_monotone_in_mass_and_speed(void **state)
+{
+    (void)state;
+    for (double speed = 1.0; speed < 40.0; speed *= 1.7) {
+        enum damage before = DAMAGE_NONE;
+        for (double mass = 100.0; mass < 1e6; mass *= 3.0) {
+            enum damage damage = strike(0, mass, speed).damage;
+            assert_true(damage >= before);
+            assert_true(strike(0, mass, speed * 1.3).damage >= damage);
+            before = damage;
+        }
+    }
+}
+
+static void test_row_28_large_and_fast_kills_else_it_goes_on_slowed(void **state)
+{
+    double fast = steps_params(&f)->collision.fast_fixed_mps;
+    (void)state;
+    struct aftermath struck = strike(1, 57000.0, fast + 1e-9); /* a building is large */
+    assert_int_equal(struck.response, RESPONSE_DESTROYED);
+    assert_int_equal(struck.state, ENTITY_WRECK);
+    assert_true(struck.speed_mps == 0.0);
+    struck = strike(1, 57000.0, fast);
+    assert_int_equal(struck.response, RESPONSE_SLOW);
+    assert_int_equal(struck.state, ENTITY_ACTIVE);
+    assert_true(struck.speed_mps > 0.0 && struck.speed_mps < fast);
+    struck = strike(0, 57000.0, 3.0 * fast); /* a tree is not large */
+    assert_int_equal(struck.response, RESPONSE_SLOW);
+    assert_int_equal(struck.state, ENTITY_ACTIVE);
+    assert_true(struck.speed_mps > 0.0 && struck.speed_mps < 3.0 * fast);
+}
+
+static void test_row_28_the_heavier_the_vehicle_the_less_it_is_slowed(void **state)
+{
+    double kept = 0.0;
+    (void)state;
+    for (double mass = 100.0; mass < 1e6; mass *= 10.0) {
+        double speed = strike(0, mass, 5.0).speed_mps;
+        assert_true(speed > kept && speed < 5.0);
+        kept = speed;
+    }
+}
+
+static void test_row_32_a_vehicle_passes_through_the_tree_that_it_struck(void **state)
+{
+    uint32_t row = put("tank", 24980.0, 25000.0, (struct vec3){6.0, 0, 0});
+    (void)state;
+    fixture_run(&f, 500);
+    assert_true(steps_rows(&f).x[row] > 25010.0);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1); /* told of once */
+    assert_int_equal(fixture_event(&f, EVENT_COLLISION, 0)->collision.response, RESPONSE_SLOW);
+    assert_int_equal(fixture_event(&f, EVENT_COLLISION, 0)->collision.b.fixed, 1);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_row_29_within_five_degrees_of_a_quarter_turn_is_severe),
+        TEST(test_row_29_fast_kills_both_and_slow_stops_both),
+        TEST(test_row_29_headings_give_the_angle),
+        TEST(test_row_30_the_larger_mass_hurts_the_smaller_more),
+        TEST(test_row_27_damage_goes_by_energy_over_resistance),
+        TEST(test_row_27_damage_is_monotone_in_mass_and_speed),
+        TEST(test_row_28_large_and_fast_kills_else_it_goes_on_slowed),
+        TEST(test_row_28_the_heavier_the_vehicle_the_less_it_is_slowed),
+        TEST(test_row_32_a_vehicle_passes_through_the_tree_that_it_struck),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
