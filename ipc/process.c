@@ -47,6 +47,21 @@ void process_die_with_parent(int parent_pid)
         _exit(0);
 }
 
+char process_state(int pid)
+{
+    char path[64], line[512];
+    snprintf(path, sizeof path, "/proc/%d/stat", pid);
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return '\0';
+    size_t length = fread(line, 1, sizeof line - 1, file);
+    fclose(file);
+    line[length] = '\0';
+    /* pid (name) state: the name may hold anything, also parentheses */
+    const char *end = strrchr(line, ')');
+    return end && end[1] == ' ' ? end[2] : '\0';
+}
+
 static long number_option(const char *option, const char *text, long low, long high)
 {
     char *end;

@@ -4,11 +4,11 @@
 #include "ipc/clock.h"
 #include "ipc/frame.h"
 #include "ipc/log.h"
+#include "ipc/process.h"
 #include "worldctl/arguments.h"
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 
 #define READY_TIMEOUT_NS (15 * (uint64_t)NS_PER_S)
 #define POLL_NS          (2 * (uint64_t)NS_PER_MS)
@@ -51,21 +51,6 @@ int verb_frame(int argc, char **argv)
     return EXIT_OK;
 }
 
-/* A child that its parent has not waited for yet keeps its pid as a zombie. */
-static bool process_lives(int pid)
-{
-    char path[64], line[512];
-    snprintf(path, sizeof path, "/proc/%d/stat", pid);
-    FILE *file = fopen(path, "r");
-    if (!file)
-        return false;
-    size_t length = fread(line, 1, sizeof line - 1, file);
-    fclose(file);
-    line[length] = '\0';
-    const char *state = strrchr(line, ')');
-    return state && state[1] != '\0' && state[2] != 'Z' && state[2] != 'X';
-}
-
 /* Waits until the process --pid is the role's ready holder. Exit 1 when it died or took too long.
  */
 int verb_ready(int argc, char **argv)
@@ -80,7 +65,8 @@ int verb_ready(int argc, char **argv)
         if ((int)atomic_load(&slot->pid) == arguments.pid &&
             atomic_load(&slot->state) == ROLE_READY)
             return EXIT_OK;
-        if (!process_lives(arguments.pid))
+        char state = process_state(arguments.pid);
+        if (state == '\0' || state == 'Z' || state == 'X')
             return EXIT_REFUSED;
         clock_sleep_until_ns(clock_now_ns() + POLL_NS);
     }

@@ -11,6 +11,7 @@
 #include <inttypes.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #define TICK_NS        (20 * (uint64_t)NS_PER_MS)
@@ -33,7 +34,40 @@ static uint64_t allowed_ns(const struct view *view, enum role role, uint64_t han
     return allowed > work_ns ? allowed : work_ns;
 }
 
-static void judge(const struct view *view, enum role role, uint64_t since_ns, uint64_t hang_ns)
+/* What the watcher remembers of a role since its last beat. */
+struct watched {
+    uint64_t beat_ns; /* the beat */
+    uint64_t cpu_ns;  /* processor time that it had used then */
+};
+
+/* Processor time [ns] and state letter of a process; false when it is gone. */
+static bool process_time(int pid, uint64_t *cpu_ns, char *state)
+{
+    char path[64], line[512];
+    snprintf(path, sizeof path, "/proc/%d/schedstat", pid);
+    FILE *file = fopen(path, "r");
+    bool read = file && fgets(line, sizeof line, file);
+    if (file)
+        fclose(file);
+    if (!read)
+        return false;
+    *cpu_ns = strtoull(line, NULL, 10);
+    *state = process_state(pid);
+    return *state != '\0';
+}
+
+/* A process that wants to run and is not let is starved by the machine, and no replacement would do
+ * better; one that is stopped or blocked, or runs without beating, hangs. */
+static bool starved(int pid, const struct watched *watched, uint64_t silent_ns)
+{
+    uint64_t cpu_ns;
+    char state;
+    return process_time(pid, &cpu_ns, &state) && state == 'R' &&
+           cpu_ns - watched->cpu_ns < silent_ns / 2;
+}
+
+static void judge(const struct view *view, enum role role, struct watched *watched,
+                  uint64_t since_ns, uint64_t hang_ns)
 {
     const struct role_slot *slot = view->slot[role];
     uint64_t now = clock_now_ns();
@@ -41,8 +75,17 @@ static void judge(const struct view *view, enum role role, uint64_t since_ns, ui
     int pid = (int)atomic_load(&slot->pid);
     uint32_t state = atomic_load(&slot->state);
     uint64_t from = beat > since_ns ? beat : since_ns;
-    if (pid == 0 || (state != ROLE_STARTING && state != ROLE_READY) || now < from ||
-        now - from <= allowed_ns(view, role, hang_ns))
+    char letter;
+    if (pid == 0 || (state != ROLE_STARTING && state != ROLE_READY))
+        return;
+    if (beat != watched->beat_ns) {
+        watched->beat_ns = beat;
+        if (!process_time(pid, &watched->cpu_ns, &letter))
+            watched->cpu_ns = 0;
+        return;
+    }
+    if (now < from || now - from <= allowed_ns(view, role, hang_ns) ||
+        starved(pid, watched, now - from))
         return;
     if (segment_holder(view->name, role) != pid)
         return; /* dead already, or another one took over */
@@ -78,13 +121,14 @@ int verb_watch(int argc, char **argv)
     arguments_attach(&arguments, &view);
     uint64_t since = clock_now_ns();
     uint64_t last = since, shown = 0;
+    struct watched watched[ROLE_COUNT] = {0};
     while (!process_stopping()) {
         uint64_t now = clock_now_ns();
         if (now - last > LATE_TICK_NS)
             since = now;
         last = now;
         for (int role = 0; role < ROLE_COUNT; role++)
-            judge(&view, (enum role)role, since, arguments.hang_ms * NS_PER_MS);
+            judge(&view, (enum role)role, &watched[role], since, arguments.hang_ms * NS_PER_MS);
         if (arguments.progress && log_due(&shown, live ? NS_PER_S / 4 : 5 * (uint64_t)NS_PER_S))
             progress(&view, live);
         clock_sleep_until_ns(now + TICK_NS);

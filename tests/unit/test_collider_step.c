@@ -141,6 +141,29 @@ static void test_nobody_is_pushed_through(void **state)
     }
 }
 
+static void test_what_is_pushed_moves_as_fast_as_it_says(void **state)
+{
+    struct fixture f;
+    double said = 0.0;
+    (void)state;
+    fixture_open(&f, "");
+    steps_kind(&f, "tank")->resistance_j = 1e12;
+    uint32_t wreck =
+        fixture_put(&f, (struct fixture_entity){.kind = "jeep", .at = {25005.0, 100.0, 25000.0}});
+    uint32_t tank = fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                                            .at = {25000.0, 100.0, 25000.0},
+                                                            .heading_rad = HALF_PI});
+    steps_rows(&f).state[wreck] = ENTITY_WRECK;
+    steps_drive(&f, tank, 0.3, 0.0, 0.0);
+    for (int frame = 0; frame < 600; frame++) {
+        fixture_run(&f, 1);
+        said += steps_rows(&f).vx[wreck] / 60.0;
+    }
+    double moved = steps_rows(&f).x[wreck] - 25005.0;
+    assert_true(fabs(moved - said) < 0.2 * said + 0.1);
+    fixture_close(&f);
+}
+
 static void test_a_wreck_is_still_in_the_way(void **state)
 {
     struct fixture f;
@@ -387,6 +410,7 @@ int main(void)
         cmocka_unit_test(test_row_23_a_graze_is_told_of_whenever_in_the_frame_it_falls),
         cmocka_unit_test(test_slow_first_touches_are_told_of),
         cmocka_unit_test(test_nobody_is_pushed_through),
+        cmocka_unit_test(test_what_is_pushed_moves_as_fast_as_it_says),
         cmocka_unit_test(test_a_wreck_is_still_in_the_way),
         cmocka_unit_test(test_an_aircraft_that_flies_into_the_ground_is_destroyed),
         cmocka_unit_test(test_a_crash_has_the_normal_of_the_ground_where_it_is),
