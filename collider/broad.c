@@ -55,10 +55,10 @@ static float outward(double value, double by)
 /* Half a float's step at 50 km is 2 mm; 1 cm keeps every box outside. */
 #define BOX_SLACK_M 0.01
 
-static struct sweep_box box_of(const struct path *path, double radius)
+static struct sweep_box box_of(const struct path *path, double radius, double dt_s)
 {
     struct vec3 p = path_at(path, path->since), q = path_at(path, 1.0);
-    double grow = radius + BOX_SLACK_M;
+    double grow = radius + BOX_SLACK_M + lean_mps(dt_s) * dt_s;
     return (struct sweep_box){
         outward(maths_min(p.x, q.x), -grow), outward(maths_min(p.y, q.y), -grow),
         outward(maths_min(p.z, q.z), -grow), outward(maths_max(p.x, q.x), grow),
@@ -157,7 +157,7 @@ static void sweep_rows(void *context, uint32_t first, uint32_t end, uint32_t wor
             continue;
         const struct kind *kind = &world->kinds[input->entities->kind[i]];
         const struct path *path = &input->path[i];
-        job->broad->box[i] = box_of(path, kind->radius_m);
+        job->broad->box[i] = box_of(path, kind->radius_m, world->params->dt_s);
         if (world->counts.fixed == 0 || rests(path) ||
             (kind->domain == DOMAIN_AIR && above_threshold(job, path)))
             continue;

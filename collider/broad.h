@@ -10,6 +10,13 @@
 
 #include <stdint.h>
 
+/* Bodies that press on each other slower than this lean [m/s]: what an engine adds within a step,
+ * and at least half a metre a second. A body that leans leaves its way by at most as much. */
+static inline double lean_mps(double dt_s)
+{
+    return maths_max(0.5, 10.0 * dt_s);
+}
+
 /* What a pair's second side is. */
 #define PAIR_FIXED 0x80000000u /* flag: the rest is a fixed object's index */
 

@@ -102,8 +102,7 @@ static void put_float(float to[3], struct vec3 from)
 
 /* Bodies that touched a moment ago and press on each other no harder than an engine's start: that
  * is one long contact, told of when it began. */
-#define LEAN_MPS 0.5
-#define LEAN_S   0.25
+#define LEAN_S 0.25
 
 /* How the other side of a contact is remembered: an entity by its id, which no slot change blurs.
  */
@@ -121,7 +120,7 @@ static bool touched(const struct respond *respond, uint32_t row, uint32_t mark)
 
 static bool leans(const struct respond *respond, const struct impact *impact)
 {
-    return impact->closing_mps < LEAN_MPS &&
+    return impact->closing_mps < lean_mps(respond->world->params->dt_s) &&
            (touched(respond, impact->a, body_mark(respond, impact->b)) ||
             (!(impact->b & PAIR_FIXED) &&
              touched(respond, impact->b, body_mark(respond, impact->a))));
@@ -139,6 +138,22 @@ static void remember(struct respond *respond, const struct impact *impact)
     }
 }
 
+/* The row goes on from time with this velocity instead of the one that it came with; the boxes of
+ * the broad phase leave room for a change of up to lean_mps(). */
+static int go_on(struct respond *respond, uint32_t row, double time, struct vec3 velocity)
+{
+    struct entities *e = &respond->next->entities;
+    struct path *path = &respond->path[row];
+    struct vec3 change = vec3_sub(velocity, entities_velocity(e, row));
+    *path = (struct path){
+        .at = path_at(path, time),
+        .along = vec3_add(path->along, vec3_scale(change, respond->world->params->dt_s)),
+        .since = time};
+    entities_set_position(e, row, path_at(path, 1.0));
+    entities_set_velocity(e, row, velocity);
+    return contacts_change(respond->contacts, &respond->input, row, time);
+}
+
 /* Leaning bodies only stop pressing: what each brings along the normal is taken out, shared so that
  * momentum stays. */
 static int lean(struct respond *respond, const struct impact *impact)
@@ -152,13 +167,12 @@ static int lean(struct respond *respond, const struct impact *impact)
         double mb = kinds[e->kind[impact->b]].mass_kg;
         share = mb / (ma + mb);
         struct vec3 push = vec3_scale(impact->normal, (1.0 - share) * impact->closing_mps);
-        if (respond_stay(respond, impact->b, impact->time,
-                         vec3_add(entities_velocity(e, impact->b), push)) != 0)
+        if (go_on(respond, impact->b, impact->time,
+                  vec3_add(entities_velocity(e, impact->b), push)) != 0)
             return -1;
     }
     struct vec3 held = vec3_scale(impact->normal, share * impact->closing_mps);
-    return respond_stay(respond, impact->a, impact->time,
-                        vec3_sub(entities_velocity(e, impact->a), held));
+    return go_on(respond, impact->a, impact->time, vec3_sub(entities_velocity(e, impact->a), held));
 }
 
 /* The event's place is taken before the answer, so that what follows from it comes after it. */

@@ -2,6 +2,7 @@
 #include "collider/sink.h"
 
 #include <stddef.h>
+#include <string.h>
 #include <xxhash.h>
 
 struct event *sink_event(struct sink *sink, enum event_type type)
@@ -12,11 +13,12 @@ struct event *sink_event(struct sink *sink, enum event_type type)
     }
     uint64_t sequence = sink->first + sink->count;
     struct event *event = &sink->slot[sequence & (sink->slots - 1)];
-    *event = (struct event){.sequence = sequence,
-                            .frame = sink->frame,
-                            .tick = sink->tick,
-                            .index = sink->count,
-                            .type = type};
+    memset(event, 0, sizeof *event); /* every byte: the digest sees them all */
+    event->sequence = sequence;
+    event->frame = sink->frame;
+    event->tick = sink->tick;
+    event->index = sink->count;
+    event->type = type;
     sink->count++;
     return event;
 }

@@ -27,7 +27,8 @@ bool sweep_spheres(const struct path *a, const struct path *b, double reach, dou
                    double *toi);
 
 /* First time in [path->since, 1] at which the point goes below the ground; exact on the terrain's
- * triangles, to 1e-6 of the frame on craters. Below at the start: path->since. */
+ * triangles; where craters are near it looks every half metre, and from there to 1e-6 of the frame.
+ * Below at the start: path->since. */
 bool sweep_ground(const struct terrain *terrain, const struct crater_index *craters,
                   const struct path *path, double *toi);
 

@@ -256,8 +256,9 @@ static void react(const struct move *move, uint32_t i)
     const struct kind *kind = &move->world->kinds[m->kind[i]];
     bool bumped = m->bumped[i] != 0;
     m->bumped[i] = 0;
-    if (kind->fuel_l > 0.0 && m->fuel_l[i] <= 0.0 && m->behaviour[i] != BEHAVIOUR_IDLE) {
+    if (kind->fuel_l > 0.0 && m->fuel_l[i] <= 0.0) { /* it can neither fight nor flee */
         m->order[i] = BEHAVIOUR_IDLE;
+        m->threat_slot[i] = m->threat_id[i] = 0;
         become(move, i, BEHAVIOUR_IDLE, REASON_OUT_OF_FUEL);
         return;
     }

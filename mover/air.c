@@ -47,13 +47,11 @@ bool move_air(const struct move *move, uint32_t i, const struct wish *wish)
     m->vx[i] = forward * sine + rightward * cosine;
     m->vz[i] = -forward * cosine + rightward * sine;
     m->vy[i] = pose_approach(m->vy[i], climb, 2.0 * gain);
-    m->x[i] += m->vx[i] * move->dt_s;
+    pose_advance(&m->x[i], &m->vx[i], move->dt_s);
+    pose_advance(&m->z[i], &m->vz[i], move->dt_s);
     m->y[i] += m->vy[i] * move->dt_s;
-    m->z[i] += m->vz[i] * move->dt_s;
     bool blocked = m->x[i] < EDGE_M || m->z[i] < EDGE_M || m->x[i] > WORLD_SIDE_M - EDGE_M ||
                    m->z[i] > WORLD_SIDE_M - EDGE_M;
-    m->x[i] = maths_clamp(m->x[i], 0.0, WORLD_SIDE_M);
-    m->z[i] = maths_clamp(m->z[i], 0.0, WORLD_SIDE_M);
 
     /* Bank of a coordinated turn; a hovering body leans into its acceleration, a wing climbs. */
     double rate = maths_wrap_half(m->heading[i] - before) / move->dt_s;

@@ -115,6 +115,9 @@ static enum command_result spawn(struct serial *serial, const struct command *co
         !within(v[4], 0.0, 10000.0) || command->force >= FORCE_COUNT ||
         command->amount > BEHAVIOUR_PATROL)
         return COMMAND_OUT_OF_RANGE;
+    bool water = cover_is_water(terrain_cover(&world->terrain, v[0], v[1]));
+    if (kind->domain != DOMAIN_AIR && (kind->domain == DOMAIN_SEA) != water)
+        return COMMAND_OUT_OF_RANGE;
     uint32_t row = spawn_entity(serial, command->kind, (uint8_t)command->force);
     if (row == SLOT_NONE)
         return COMMAND_TABLE_FULL;
@@ -197,15 +200,16 @@ static void apply_ring(struct serial *serial, const struct command_source *sourc
     struct state_head *head = serial->moved->head;
     uint64_t *cursor = &head->command_cursor[ring];
     for (int n = 0; n < COMMANDS_A_FRAME && *cursor < source->end; n++) {
-        const struct command *command = &source->slot[*cursor & (source->slots - 1)];
+        /* A copy: the ring's writer must not change it between a check and its use. */
+        const struct command command = source->slot[*cursor & (source->slots - 1)];
         /* An answer must have room, with one more for what the command itself says. */
         if (head->intent_count + 2 > serial->move->world->params->intents_per_frame)
             return;
         uint32_t entity = 0;
-        enum command_result result = apply(serial, command, &entity);
+        enum command_result result = apply(serial, &command, &entity);
         struct event *event = serial_intent(serial, EVENT_COMMAND);
         event->command = (struct event_command){
-            command->source, command->source_sequence, command->type, result, entity, ring};
+            command.source, command.source_sequence, command.type, result, entity, ring};
         head->tally.commands++;
         ++*cursor;
     }

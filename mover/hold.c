@@ -1,8 +1,6 @@
 /* Motions without a will: vehicles told to hold their course, and wrecks. */
 #include "mover/move.h"
 
-#include "world/square.h"
-
 #define WRECK_FRICTION 0.6 /* of the weight */
 
 /* Keeps heading and speed and reacts to nothing; a land vehicle's height is the ground's, a ship's
@@ -11,8 +9,8 @@ void move_hold(const struct move *move, uint32_t i)
 {
     struct entities *m = move->m;
     const struct kind *kind = &move->world->kinds[m->kind[i]];
-    m->x[i] = maths_clamp(m->x[i] + m->vx[i] * move->dt_s, 0.0, WORLD_SIDE_M);
-    m->z[i] = maths_clamp(m->z[i] + m->vz[i] * move->dt_s, 0.0, WORLD_SIDE_M);
+    pose_advance(&m->x[i], &m->vx[i], move->dt_s);
+    pose_advance(&m->z[i], &m->vz[i], move->dt_s);
     if (kind->domain == DOMAIN_AIR) {
         m->y[i] += m->vy[i] * move->dt_s;
         return;
@@ -39,8 +37,8 @@ void move_wreck(const struct move *move, uint32_t i)
         m->vx[i] *= share;
         m->vz[i] *= share;
     }
-    m->x[i] = maths_clamp(m->x[i] + m->vx[i] * move->dt_s, 0.0, WORLD_SIDE_M);
-    m->z[i] = maths_clamp(m->z[i] + m->vz[i] * move->dt_s, 0.0, WORLD_SIDE_M);
+    pose_advance(&m->x[i], &m->vx[i], move->dt_s);
+    pose_advance(&m->z[i], &m->vz[i], move->dt_s);
     ground = pose_ground(move, m->x[i], m->z[i]);
     if (falls) {
         m->vy[i] -= GRAVITY_MPS2 * move->dt_s;

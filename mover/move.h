@@ -55,6 +55,8 @@ void pose_on_ground(const struct move *move, uint32_t i);
 void pose_speeds(const struct entities *m, uint32_t i, double *forward, double *rightward);
 /* Value moved towards wanted by at most step. */
 double pose_approach(double value, double wanted, double step);
+/* Moves a coordinate of the map by its speed; at the world's edge both end. */
+void pose_advance(double *metres, double *speed_mps, double dt_s);
 /* Burns fuel at a share of full throttle; false when the tank is empty. A kind without a tank
  * (fuel_l 0) never runs dry. */
 bool pose_burn(const struct move *move, uint32_t i, double share);

@@ -1,6 +1,8 @@
 /* Parts of motion that the domains share. */
 #include "mover/move.h"
 
+#include "world/square.h"
+
 double pose_ground(const struct move *move, double x, double z)
 {
     return terrain_height(&move->world->terrain, move->craters, x, z);
@@ -40,6 +42,14 @@ void pose_speeds(const struct entities *m, uint32_t i, double *forward, double *
 double pose_approach(double value, double wanted, double step)
 {
     return value + maths_clamp(wanted - value, -step, step);
+}
+
+void pose_advance(double *metres, double *speed_mps, double dt_s)
+{
+    double to = *metres + *speed_mps * dt_s;
+    *metres = maths_clamp(to, 0.0, WORLD_SIDE_M);
+    if (to != *metres)
+        *speed_mps = 0.0;
 }
 
 bool pose_burn(const struct move *move, uint32_t i, double share)

@@ -3,6 +3,8 @@
 
 #include "world/square.h"
 
+#include <string.h>
+
 static uint32_t free_row(struct serial *serial)
 {
     struct state_head *head = serial->moved->head;
@@ -65,10 +67,13 @@ void spawn_remove(struct serial *serial, uint32_t row)
 struct event *serial_intent(struct serial *serial, enum event_type type)
 {
     struct state_head *head = serial->moved->head;
-    if (head->intent_count >= serial->move->world->params->intents_per_frame)
+    if (head->intent_count >= serial->move->world->params->intents_per_frame) {
+        head->tally.events_dropped++;
         return NULL;
+    }
     struct event *intent = &serial->moved->intents[head->intent_count++];
-    *intent = (struct event){.type = type};
+    memset(intent, 0, sizeof *intent); /* every byte: the digest sees them all */
+    intent->type = type;
     return intent;
 }
 

@@ -55,7 +55,7 @@ struct event_collision {
     double toi;           /* 0..1 of the frame */
     float normal[3];      /* unit, from a towards b */
     float closing_mps;    /* along the normal, before */
-    float angle_deg;      /* 0..360: the other's bearing off a's heading */
+    float angle_deg;      /* 0..360: b's heading off a's */
     float impulse_ns;     /* along the normal */
     float direction_a[3]; /* unit direction of travel, 0 when at rest (thesis row 34) */
     uint32_t response;    /* enum response */

@@ -2,7 +2,7 @@
 # Nothing is lost: random SIGKILLs of every role during a run, and it ends with the digests of an
 # undisturbed one. KILLS=n and SEED=n choose others.
 . "$(dirname "$0")/lib.sh"
-kills=${KILLS:-60}
+kills=${KILLS:-$([ -n "${JOLON_SANITIZER-}" ] && echo 10 || echo 60)}
 RANDOM=${SEED:=$((RANDOM))}
 echo "# SEED=$SEED KILLS=$kills"
 frames=$((kills * 20 + 200)) # 60 Hz: three kills a second, or more

@@ -178,7 +178,8 @@ static void test_blast_harms_all_within_its_radius_and_nobody_beyond(void **stat
     uint32_t first;
     (void)state;
     for (uint32_t n = 0; n < 60; n++)
-        distance[n] = n % 2 ? radius * (1.0 + 0.002 * (n + 1)) : radius * (1.0 - 0.015 * (n + 1));
+        distance[n] = n % 2 ? radius * (1.0 + 0.002 * (n + 1))
+                            : radius * (1.0 - 0.003 * (n + 1) * sqrt(n + 1.0));
     burst(distance, 60, &first);
     for (uint32_t n = 0; n < 60; n++)
         assert_int_equal(steps_rows(&f).harm_j[first + n] > 0.0, n % 2 == 0);
@@ -201,19 +202,26 @@ static void test_blast_falls_off_with_distance(void **state)
 
 static void test_a_body_in_several_squares_is_harmed_once(void **state)
 {
-    struct kind *ship = steps_kind(&f, "ship");
-    uint32_t on_border, inside;
+    static const double corners[4][2] = {
+        {26000, 26000}, {26060, 26060}, {26000, 26060}, {26060, 26000}};
+    double first = 0.0;
     (void)state;
-    ship->resistance_j = 1e12;
-    /* 25 m from the bomb's surface to each; one lies on a corner of four squares. */
-    on_border = put("ship", 26000.0, 100.0, 26000.0, (struct vec3){0.0, 0.0, 0.0});
-    inside = put("ship", 26090.0, 100.0, 26000.0, (struct vec3){0.0, 0.0, 0.0});
-    uint32_t bomb = put("bomb", 26045.0, 100.0 + 1e-9, 26000.0, (struct vec3){0.0, 0.0, 0.0});
-    steps_rows(&f).until_tick[bomb] = 0;
-    steps_kind(&f, "bomb")->guidance = GUIDANCE_HOMING;
-    fixture_run(&f, 1);
-    assert_true(steps_rows(&f).harm_j[on_border] > 0.0);
-    assert_true(fabs(steps_rows(&f).harm_j[on_border] - steps_rows(&f).harm_j[inside]) < 1e-3);
+    steps_kind(&f, "ship")->resistance_j = 1e12;
+    steps_kind(&f, "bomb")->guidance = GUIDANCE_HOMING; /* it does not fall */
+    /* 25 m from the ship's side, from every side; the ship lies on a corner of four squares, on
+     * borders, or within one square, and harm is the same. */
+    for (int n = 0; n < 16; n++) {
+        double x = corners[n / 4][0], z = corners[n / 4][1], way = n % 2 ? 45.0 : -45.0;
+        steps_empty(&f);
+        uint32_t ship = put("ship", x, 100.0, z, (struct vec3){0.0, 0.0, 0.0});
+        uint32_t bomb = put("bomb", x + (n % 4 < 2 ? way : 0.0), 100.0 + 1e-9,
+                            z + (n % 4 < 2 ? 0.0 : way), (struct vec3){0.0, 0.0, 0.0});
+        steps_rows(&f).until_tick[bomb] = 0;
+        fixture_run(&f, 1);
+        if (n == 0)
+            first = steps_rows(&f).harm_j[ship];
+        assert_true(first > 0.0 && fabs(steps_rows(&f).harm_j[ship] - first) < 1e-3);
+    }
 }
 
 static void test_blast_alarms_the_enemy_and_spares_no_friend(void **state)
