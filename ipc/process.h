@@ -17,8 +17,8 @@ void process_signals(void);
 /* Asks the kernel for SIGKILL when the parent dies; ends at once when it is dead already. */
 void process_die_with_parent(int parent_pid);
 
-/* State letter of a process as the kernel tells it (R, S, D, T, Z ...); '\0' when it is gone. A child
- * that its parent has not waited for yet is a zombie (Z) and keeps its number. */
+/* State letter of a process as the kernel tells it (R, S, D, T, Z ...); '\0' when it is gone. A
+ * child that its parent has not waited for yet is a zombie (Z) and keeps its number. */
 char process_state(int pid);
 
 /* Options of the roles of the frame loop. */

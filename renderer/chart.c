@@ -95,14 +95,16 @@ static void grid_numbers(struct chart *chart, struct image *image, const struct 
 {
     uint32_t size = letters(chart) * 4 / 5;
     char words[16];
-    for (double x = ceil(view->x / step_m) * step_m;
-         x < view->x + view->width * view->metres - 0.3 * step_m; x += step_m) {
+    double east = view->x + view->width * view->metres - 0.3 * step_m;
+    double south = view->z + view->height * view->metres - 0.3 * step_m;
+    for (int32_t n = (int32_t)ceil(view->x / step_m); n * step_m < east; n++) {
+        double x = n * step_m;
         snprintf(words, sizeof words, "%.0f", x / 1000.0);
         text_draw_rimmed(chart->text, image, (int32_t)map_point(view, x, 0.0).x + 3,
                          view->top + (int32_t)size, size, grey, words);
     }
-    for (double z = ceil(view->z / step_m + 0.2) * step_m;
-         z < view->z + view->height * view->metres - 0.3 * step_m; z += step_m) {
+    for (int32_t n = (int32_t)ceil(view->z / step_m + 0.2); n * step_m < south; n++) {
+        double z = n * step_m;
         snprintf(words, sizeof words, "%.0f", z / 1000.0);
         text_draw_rimmed(chart->text, image, view->left + 3,
                          (int32_t)map_point(view, 0.0, z).y + (int32_t)size, size, grey, words);

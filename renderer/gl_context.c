@@ -19,10 +19,10 @@
 #define CANDIDATES_MAX (DEVICES_MAX + 2)
 
 struct candidate {
-    char name[48];
-    EGLenum platform; /* 0: the default display */
     EGLDeviceEXT device;
+    EGLenum platform; /* 0: the default display */
     bool software;
+    char name[48];
 };
 
 struct version {

@@ -117,12 +117,12 @@ void map_grid(struct image *image, const struct map_view *view, double step_m)
 {
     const struct rgba line = {20, 24, 30, 70};
     double width = view->width * view->metres, height = view->height * view->metres;
-    for (double x = ceil(view->x / step_m) * step_m; x < view->x + width; x += step_m)
-        image_rectangle(image, (int32_t)map_point(view, x, 0.0).x, view->top, 1,
+    for (int32_t n = (int32_t)ceil(view->x / step_m); n * step_m < view->x + width; n++)
+        image_rectangle(image, (int32_t)map_point(view, n * step_m, 0.0).x, view->top, 1,
                         (int32_t)view->height, line);
-    for (double z = ceil(view->z / step_m) * step_m; z < view->z + height; z += step_m)
-        image_rectangle(image, view->left, (int32_t)map_point(view, 0.0, z).y, (int32_t)view->width,
-                        1, line);
+    for (int32_t n = (int32_t)ceil(view->z / step_m); n * step_m < view->z + height; n++)
+        image_rectangle(image, view->left, (int32_t)map_point(view, 0.0, n * step_m).y,
+                        (int32_t)view->width, 1, line);
 }
 
 void map_craters(struct image *image, const struct map_view *view,
