@@ -11,7 +11,8 @@
 int collider_init(struct collider *collider, const struct world *world,
                   const struct crater *craters, struct workers *workers)
 {
-    *collider = (struct collider){.world = world, .workers = workers};
+    *collider =
+        (struct collider){.world = world, .workers = workers, .fixed_hash_frame = UINT64_MAX};
     collider->path = malloc(world->params->capacity * sizeof *collider->path);
     if (!collider->path || crater_index_init(&collider->craters, craters) != 0 ||
         broad_init(&collider->broad, world, workers) != 0 ||
@@ -112,6 +113,17 @@ static void begin_head(struct state_head *head, const struct state_head *moved)
     head->checksum = 0;
 }
 
+/* Fixed objects are rarely damaged: their hash is kept from frame to frame until one is. */
+static uint64_t fixed_hash(struct collider *collider, const struct state *committed,
+                           const struct state *next)
+{
+    if (collider->fixed_hash_frame != committed->head->frame ||
+        next->head->tally.fixed_damaged != committed->head->tally.fixed_damaged)
+        collider->fixed_hash = state_fixed_hash(next, collider->world->counts.fixed);
+    collider->fixed_hash_frame = next->head->frame;
+    return collider->fixed_hash;
+}
+
 int collider_step(struct collider *collider, const struct state *committed,
                   const struct moved *moved, struct state *next, const struct event_ring *ring)
 {
@@ -151,6 +163,6 @@ int collider_step(struct collider *collider, const struct state *committed,
     }
     next->head->event_end = respond.sink.first + respond.sink.count;
     next->head->event_digest = sink_digest(&respond.sink, committed->head->event_digest);
-    next->head->checksum = state_checksum(next, world->counts.fixed);
+    next->head->checksum = state_checksum_over(next, fixed_hash(collider, committed, next));
     return result;
 }

@@ -3,6 +3,13 @@
 
 #define WRECK_FRICTION 0.6 /* of the weight */
 
+static void pose_by_heading(const struct move *move, uint32_t i)
+{
+    double sine, cosine;
+    maths_sincos(move->m->heading[i], &sine, &cosine);
+    pose_on_ground(move, i, sine, cosine);
+}
+
 /* Keeps heading and speed and reacts to nothing; a land vehicle's height is the ground's, a ship's
  * the water's. */
 void move_hold(const struct move *move, uint32_t i)
@@ -19,7 +26,7 @@ void move_hold(const struct move *move, uint32_t i)
     m->vy[i] = (y - m->y[i]) / move->dt_s;
     m->y[i] = y;
     if (kind->domain == DOMAIN_LAND)
-        pose_on_ground(move, i);
+        pose_by_heading(move, i);
 }
 
 void move_wreck(const struct move *move, uint32_t i)
@@ -48,5 +55,5 @@ void move_wreck(const struct move *move, uint32_t i)
     m->y[i] = ground;
     m->vy[i] = 0.0;
     if (kind->domain != DOMAIN_SEA)
-        pose_on_ground(move, i);
+        pose_by_heading(move, i);
 }

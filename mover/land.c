@@ -70,6 +70,6 @@ bool move_land(const struct move *move, uint32_t i, const struct wish *wish)
     m->x[i] = x;
     m->y[i] = y;
     m->z[i] = z;
-    pose_on_ground(move, i);
+    pose_on_ground(move, i, sine, cosine);
     return blocked;
 }

@@ -49,8 +49,9 @@ void agent_blocked(const struct move *move, uint32_t i);
 double pose_ground(const struct move *move, double x, double z);
 /* Heading turned towards wanted by at most rate_rps * dt. */
 double pose_turn(double heading, double wanted, double rate_rps, double dt_s);
-/* Pitch and roll [rad] of a body of the kind's length and width on the ground. */
-void pose_on_ground(const struct move *move, uint32_t i);
+/* Pitch and roll [rad] of a body of the kind's length and width on the ground; sine and cosine of
+ * its heading. */
+void pose_on_ground(const struct move *move, uint32_t i, double sine, double cosine);
 /* Speed [m/s] along the heading, and to its right. */
 void pose_speeds(const struct entities *m, uint32_t i, double *forward, double *rightward);
 /* Value moved towards wanted by at most step. */

@@ -15,14 +15,12 @@ double pose_turn(double heading, double wanted, double rate_rps, double dt_s)
     return maths_wrap_turn(heading + maths_clamp(off, -most, most));
 }
 
-void pose_on_ground(const struct move *move, uint32_t i)
+void pose_on_ground(const struct move *move, uint32_t i, double sine, double cosine)
 {
     struct entities *m = move->m;
     const struct kind *kind = &move->world->kinds[m->kind[i]];
     double half_length = maths_max(kind->length_m * 0.5, 0.5);
     double half_width = maths_max(kind->width_m * 0.5, 0.5);
-    double sine, cosine;
-    maths_sincos(m->heading[i], &sine, &cosine);
     double front = pose_ground(move, m->x[i] + sine * half_length, m->z[i] - cosine * half_length);
     double back = pose_ground(move, m->x[i] - sine * half_length, m->z[i] + cosine * half_length);
     double right = pose_ground(move, m->x[i] + cosine * half_width, m->z[i] + sine * half_width);

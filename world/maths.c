@@ -33,11 +33,13 @@ static double kernel_cos(double x)
 
 void maths_sincos(double angle_rad, double *sine, double *cosine)
 {
-    double n = floor(angle_rad * (2.0 / PI) + 0.5);
+    double turns = angle_rad * (2.0 / PI);
+    int64_t quadrant = (int64_t)(turns + (turns < 0.0 ? -0.5 : 0.5)); /* rounds to the nearest */
+    double n = (double)quadrant;
     double x = (angle_rad - n * PIO2_HIGH) - n * PIO2_LOW;
     double s = kernel_sin(x);
     double c = kernel_cos(x);
-    switch ((int64_t)n & 3) {
+    switch (quadrant & 3) {
     case 0:
         *sine = s;
         *cosine = c;
@@ -132,6 +134,8 @@ double maths_cbrt(double value)
 
 double maths_wrap_turn(double angle_rad)
 {
+    if (angle_rad >= 0.0 && angle_rad < TWO_PI)
+        return angle_rad;
     double wrapped = angle_rad - TWO_PI * floor(angle_rad / TWO_PI);
     return wrapped >= TWO_PI || wrapped < 0.0 ? 0.0 : wrapped;
 }

@@ -24,12 +24,22 @@ static uint64_t hash_columns(uint64_t hash, const struct entities *e, uint32_t u
     return hash;
 }
 
-uint64_t state_checksum(const struct state *state, uint32_t fixed_count)
+uint64_t state_fixed_hash(const struct state *state, uint32_t fixed_count)
+{
+    return XXH3_64bits(state->fixed_damage, fixed_count);
+}
+
+uint64_t state_checksum_over(const struct state *state, uint64_t fixed_hash)
 {
     struct state_head copy = *state->head;
     copy.checksum = 0;
-    uint64_t hash = hash_columns(XXH3_64bits(&copy, sizeof copy), &state->entities, copy.used);
-    return XXH3_64bits_withSeed(state->fixed_damage, fixed_count, hash);
+    uint64_t hash = XXH3_64bits_withSeed(&copy, sizeof copy, fixed_hash);
+    return hash_columns(hash, &state->entities, copy.used);
+}
+
+uint64_t state_checksum(const struct state *state, uint32_t fixed_count)
+{
+    return state_checksum_over(state, state_fixed_hash(state, fixed_count));
 }
 
 uint64_t world_digest(const struct world *world, const struct state *state)
