@@ -2,22 +2,12 @@
 #include "bench/bench.h"
 
 #include "ipc/log.h"
+#include "ipc/process.h"
 
-#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static uint32_t whole(const char *option, const char *text, uint32_t low, uint32_t high)
-{
-    char *end;
-    errno = 0;
-    unsigned long value = strtoul(text, &end, 10);
-    if (errno != 0 || end == text || *end != '\0' || value < low || value > high)
-        die_usage("--%s %s: must be a whole number from %u to %u", option, text, low, high);
-    return (uint32_t)value;
-}
 
 struct bench_options bench_options(int argc, char **argv, struct bench_options chosen)
 {
@@ -30,13 +20,13 @@ struct bench_options bench_options(int argc, char **argv, struct bench_options c
     while ((option = getopt_long(argc, argv, "", options, NULL)) != -1) {
         switch (option) {
         case 'v':
-            chosen.vehicles = whole("vehicles", optarg, 1, 1000000);
+            chosen.vehicles = (uint32_t)process_whole("vehicles", optarg, 1, 1000000);
             break;
         case 't':
-            chosen.threads = whole("threads", optarg, 1, 16);
+            chosen.threads = (uint32_t)process_whole("threads", optarg, 1, 16);
             break;
         case 'f':
-            chosen.frames = whole("frames", optarg, 1, 10000000);
+            chosen.frames = (uint32_t)process_whole("frames", optarg, 1, 10000000);
             break;
         case 'j':
             chosen.json = true;

@@ -2,6 +2,7 @@
 #include "ipc/process.h"
 
 #include "ipc/log.h"
+#include "world/workers.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -62,13 +63,24 @@ char process_state(int pid)
     return end && end[1] == ' ' ? end[2] : '\0';
 }
 
-static long number_option(const char *option, const char *text, long low, long high)
+uint64_t process_whole(const char *option, const char *text, uint64_t low, uint64_t high)
 {
     char *end;
     errno = 0;
-    long value = strtol(text, &end, 10);
-    if (errno != 0 || end == text || *end != '\0' || value < low || value > high)
-        die_usage("%s %s: must be a whole number from %ld to %ld", option, text, low, high);
+    unsigned long long value = strtoull(text, &end, 10);
+    if (text[0] < '0' || text[0] > '9' || *end != '\0' || errno != 0 || value < low || value > high)
+        die_usage("--%s %s: must be a whole number from %llu to %llu", option, text,
+                  (unsigned long long)low, (unsigned long long)high);
+    return value;
+}
+
+double process_number(const char *option, const char *text, double low, double high)
+{
+    char *end;
+    errno = 0;
+    double value = strtod(text, &end);
+    if (errno != 0 || end == text || *end != '\0' || !(value >= low && value <= high))
+        die_usage("--%s %s: must be a number from %g to %g", option, text, low, high);
     return value;
 }
 
@@ -81,22 +93,24 @@ struct stage_options process_stage_options(int argc, char **argv, const char *pr
                                             {NULL, 0, NULL, 0}};
     struct stage_options chosen = {.world = "default", .threads = 1};
     int option;
+    opterr = 0; /* we say it, in one line */
     while ((option = getopt_long(argc, argv, "w:h", options, NULL)) != -1) {
         switch (option) {
         case 'w':
             chosen.world = optarg;
             break;
         case 't':
-            chosen.threads = (uint32_t)number_option("--threads", optarg, 1, 16);
+            chosen.threads = (uint32_t)process_whole("threads", optarg, 1, WORKERS_MAX);
             break;
         case 'p':
-            chosen.parent = (int)number_option("--parent", optarg, 1, INT32_MAX);
+            chosen.parent = (int)process_whole("parent", optarg, 1, INT32_MAX);
             break;
         case 'h':
             printf("usage: %s [--world NAME] [--threads 1..16] [--parent PID]\n", program);
             exit(EXIT_OK);
         default:
-            die_usage("try %s --help", program);
+            die_usage("%s: no such option, or its value is missing; try %s --help",
+                      argv[optind - 1], program);
         }
     }
     if (optind < argc)

@@ -2,8 +2,8 @@
 #include "monitor/options.h"
 
 #include "ipc/log.h"
+#include "ipc/process.h"
 
-#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,16 +21,6 @@ static const char usage[] =
     "  --rate HZ          how often the screen (default 5) or the line (default 1) is made anew\n"
     "  --dds-config FILE, --interface ADDRESS, --domain N  as jolon-reporter\n"
     "On a terminal it shows a screen; q quits.\n";
-
-static double parse_rate(const char *text)
-{
-    char *end;
-    errno = 0;
-    double rate_hz = strtod(text, &end);
-    if (errno || end == text || *end || !(rate_hz >= RATE_MIN_HZ && rate_hz <= RATE_MAX_HZ))
-        die_usage("--rate %s: not a number from %g to %g", text, RATE_MIN_HZ, RATE_MAX_HZ);
-    return rate_hz;
-}
 
 void options_parse(struct options *options, int argc, char **argv)
 {
@@ -66,7 +56,7 @@ void options_parse(struct options *options, int argc, char **argv)
             options->lines = true;
             break;
         case 'r':
-            options->rate_hz = parse_rate(optarg);
+            options->rate_hz = process_number("rate", optarg, RATE_MIN_HZ, RATE_MAX_HZ);
             break;
         case 'h':
             (void)fputs(usage, stdout);

@@ -2,11 +2,10 @@
 #include "renderer/options.h"
 
 #include "ipc/log.h"
+#include "ipc/process.h"
 #include "world/world.h"
 
-#include <errno.h>
 #include <getopt.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,26 +43,6 @@ static const struct option long_options[] = {
     {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0},
 };
-
-static uint64_t number(const char *option, const char *text, uint64_t low, uint64_t high)
-{
-    char *end;
-    errno = 0;
-    unsigned long long value = strtoull(text, &end, 10);
-    if (text[0] < '0' || text[0] > '9' || *end != '\0' || errno != 0 || value < low || value > high)
-        die_usage("--%s %s: not a whole number from %llu to %llu", option, text,
-                  (unsigned long long)low, (unsigned long long)high);
-    return value;
-}
-
-static double rate(const char *text)
-{
-    char *end;
-    double value = strtod(text, &end);
-    if (end == text || *end != '\0' || !isfinite(value) || value < 0.0 || value > FPS_MAX)
-        die_usage("--fps %s: not a number from 0 to %.0f", text, FPS_MAX);
-    return value;
-}
 
 static int view_of(const char *text)
 {
@@ -110,7 +89,7 @@ static void take(struct options *options, int letter, const char *value)
         options->role = role_of(value);
         break;
     case 'f':
-        options->fps = rate(value);
+        options->fps = process_number("fps", value, 0.0, FPS_MAX);
         break;
     case 'v':
         options->view = view_of(value);
@@ -119,11 +98,11 @@ static void take(struct options *options, int letter, const char *value)
         read_size(options, value);
         break;
     case 'F':
-        options->follow = (uint32_t)number("follow", value, 0, UINT32_MAX);
+        options->follow = (uint32_t)process_whole("follow", value, 0, UINT32_MAX);
         options->follow_given = true;
         break;
     case 'p':
-        options->parent_pid = (int)number("parent", value, 1, INT32_MAX);
+        options->parent_pid = (int)process_whole("parent", value, 1, INT32_MAX);
         break;
     case 'h':
         fputs(usage_text, stdout);

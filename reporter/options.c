@@ -2,8 +2,8 @@
 #include "reporter/options.h"
 
 #include "ipc/log.h"
+#include "ipc/process.h"
 
-#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,16 +15,6 @@ static const char usage[] =
     "  --dds-config FILE    a Cyclone DDS configuration instead of the built-in one\n"
     "  --interface ADDRESS  publish on this interface (address or name) instead of loopback\n"
     "  --domain N           DDS domain, 0 to 230 (default 0)\n";
-
-static int parse_pid(const char *text)
-{
-    char *end;
-    errno = 0;
-    long pid = strtol(text, &end, 10);
-    if (errno || end == text || *end || pid < 1 || pid > INT32_MAX)
-        die_usage("--parent %s: not a process id", text);
-    return (int)pid;
-}
 
 void options_parse(struct options *options, int argc, char **argv)
 {
@@ -44,7 +34,7 @@ void options_parse(struct options *options, int argc, char **argv)
             options->world = optarg;
             break;
         case 'p':
-            options->parent = parse_pid(optarg);
+            options->parent = (int)process_whole("parent", optarg, 1, INT32_MAX);
             break;
         case 'h':
             (void)fputs(usage, stdout);

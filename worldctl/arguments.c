@@ -2,21 +2,11 @@
 #include "worldctl/arguments.h"
 
 #include "ipc/log.h"
+#include "ipc/process.h"
 
 #include <errno.h>
 #include <getopt.h>
-#include <stdlib.h>
 #include <string.h>
-
-static double number(const char *option, const char *text, double low, double high)
-{
-    char *end;
-    errno = 0;
-    double value = strtod(text, &end);
-    if (errno != 0 || end == text || *end != '\0' || !(value >= low && value <= high))
-        die_usage("--%s %s: must be a number from %g to %g", option, text, low, high);
-    return value;
-}
 
 static void add_set(struct arguments *arguments, const char *text)
 {
@@ -48,6 +38,7 @@ struct arguments arguments_read(int argc, char **argv)
                                             {NULL, 0, NULL, 0}};
     struct arguments arguments = {.world = "default", .hang_ms = 100};
     int option;
+    opterr = 0; /* we say it, in one line */
     while ((option = getopt_long(argc, argv, "w:", options, NULL)) != -1) {
         switch (option) {
         case 'w':
@@ -60,7 +51,7 @@ struct arguments arguments_read(int argc, char **argv)
             arguments.follow = true;
             break;
         case 'F':
-            arguments.from_frame = (uint64_t)number("from", optarg, 0, 1e15);
+            arguments.from_frame = process_whole("from", optarg, 0, UINT64_MAX);
             break;
         case 'x':
             arguments.fixed = true;
@@ -78,28 +69,29 @@ struct arguments arguments_read(int argc, char **argv)
             arguments.progress = true;
             break;
         case 'H':
-            arguments.hang_ms = (uint64_t)number("hang-ms", optarg, 20, 3.6e6);
+            arguments.hang_ms = process_whole("hang-ms", optarg, 20, 3600000);
             break;
         case 'W':
-            arguments.wall_s = number("wall", optarg, 0, 1e12);
+            arguments.wall_s = process_number("wall", optarg, 0, 1e12);
             break;
         case 'p':
-            arguments.parent = (int)number("parent", optarg, 1, 2147483647.0);
+            arguments.parent = (int)process_whole("parent", optarg, 1, INT32_MAX);
             break;
         case 'i':
-            arguments.pid = (int)number("pid", optarg, 1, 2147483647.0);
+            arguments.pid = (int)process_whole("pid", optarg, 1, INT32_MAX);
             break;
         case 'a':
             arguments.adopt = true;
             break;
         case 'S':
-            arguments.seconds = number("seconds", optarg, 0.001, 1e9);
+            arguments.seconds = process_number("seconds", optarg, 0.001, 1e9);
             break;
         case 's':
             add_set(&arguments, optarg);
             break;
         default:
-            die_usage("try jolon-world help");
+            die_usage("%s: no such option, or its value is missing; try jolon-world help",
+                      argv[optind - 1]);
         }
     }
     if (optind < argc)

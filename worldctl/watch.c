@@ -133,10 +133,9 @@ int verb_watch(int argc, char **argv)
             progress(&view, live);
         clock_sleep_until_ns(now + TICK_NS);
     }
-    if (arguments.progress) {
+    if (arguments.progress && live) { /* the line stays as the run's last word */
         progress(&view, live);
-        if (live)
-            fputc('\n', stderr);
+        fputc('\n', stderr);
     }
     segment_detach(&view);
     return EXIT_OK;
