@@ -17,82 +17,92 @@ static void add_set(struct arguments *arguments, const char *text)
     arguments->set[arguments->sets++] = text;
 }
 
+static const struct option known[] = {{"world", required_argument, NULL, 'w'},
+                                      {"terrain", required_argument, NULL, 't'},
+                                      {"log", required_argument, NULL, 'l'},
+                                      {"set", required_argument, NULL, 's'},
+                                      {"from", required_argument, NULL, 'F'},
+                                      {"hang-ms", required_argument, NULL, 'H'},
+                                      {"wall", required_argument, NULL, 'W'},
+                                      {"parent", required_argument, NULL, 'p'},
+                                      {"pid", required_argument, NULL, 'i'},
+                                      {"seconds", required_argument, NULL, 'S'},
+                                      {"json", no_argument, NULL, 'j'},
+                                      {"follow", no_argument, NULL, 'f'},
+                                      {"fixed", no_argument, NULL, 'x'},
+                                      {"force", no_argument, NULL, '!'},
+                                      {"progress", no_argument, NULL, 'P'},
+                                      {"adopt", no_argument, NULL, 'a'},
+                                      {NULL, 0, NULL, 0}};
+
+/* Options without a value; false for any other. */
+static bool take_flag(struct arguments *arguments, int option)
+{
+    switch (option) {
+    case 'j':
+        return arguments->json = true;
+    case 'f':
+        return arguments->follow = true;
+    case 'x':
+        return arguments->fixed = true;
+    case '!':
+        return arguments->force = true;
+    case 'P':
+        return arguments->progress = true;
+    case 'a':
+        return arguments->adopt = true;
+    default:
+        return false;
+    }
+}
+
+static void take_value(struct arguments *arguments, int option, const char *value)
+{
+    switch (option) {
+    case 'w':
+        arguments->world = value;
+        break;
+    case 't':
+        arguments->terrain = value;
+        break;
+    case 'l':
+        arguments->log = value;
+        break;
+    case 's':
+        add_set(arguments, value);
+        break;
+    case 'F':
+        arguments->from_frame = process_whole("from", value, 0, UINT64_MAX);
+        break;
+    case 'H':
+        arguments->hang_ms = process_whole("hang-ms", value, 20, 3600000);
+        break;
+    case 'W':
+        arguments->wall_s = process_number("wall", value, 0, 1e12);
+        break;
+    case 'p':
+        arguments->parent = (int)process_whole("parent", value, 1, INT32_MAX);
+        break;
+    case 'i':
+        arguments->pid = (int)process_whole("pid", value, 1, INT32_MAX);
+        break;
+    default:
+        arguments->seconds = process_number("seconds", value, 0.001, 1e9);
+        break;
+    }
+}
+
 struct arguments arguments_read(int argc, char **argv)
 {
-    static const struct option options[] = {{"world", required_argument, NULL, 'w'},
-                                            {"json", no_argument, NULL, 'j'},
-                                            {"follow", no_argument, NULL, 'f'},
-                                            {"from", required_argument, NULL, 'F'},
-                                            {"fixed", no_argument, NULL, 'x'},
-                                            {"terrain", required_argument, NULL, 't'},
-                                            {"log", required_argument, NULL, 'l'},
-                                            {"force", no_argument, NULL, '!'},
-                                            {"progress", no_argument, NULL, 'P'},
-                                            {"hang-ms", required_argument, NULL, 'H'},
-                                            {"wall", required_argument, NULL, 'W'},
-                                            {"parent", required_argument, NULL, 'p'},
-                                            {"set", required_argument, NULL, 's'},
-                                            {"seconds", required_argument, NULL, 'S'},
-                                            {"pid", required_argument, NULL, 'i'},
-                                            {"adopt", no_argument, NULL, 'a'},
-                                            {NULL, 0, NULL, 0}};
     struct arguments arguments = {.world = "default", .hang_ms = 100};
     int option;
     opterr = 0; /* we say it, in one line */
-    while ((option = getopt_long(argc, argv, "w:", options, NULL)) != -1) {
-        switch (option) {
-        case 'w':
-            arguments.world = optarg;
-            break;
-        case 'j':
-            arguments.json = true;
-            break;
-        case 'f':
-            arguments.follow = true;
-            break;
-        case 'F':
-            arguments.from_frame = process_whole("from", optarg, 0, UINT64_MAX);
-            break;
-        case 'x':
-            arguments.fixed = true;
-            break;
-        case 't':
-            arguments.terrain = optarg;
-            break;
-        case 'l':
-            arguments.log = optarg;
-            break;
-        case '!':
-            arguments.force = true;
-            break;
-        case 'P':
-            arguments.progress = true;
-            break;
-        case 'H':
-            arguments.hang_ms = process_whole("hang-ms", optarg, 20, 3600000);
-            break;
-        case 'W':
-            arguments.wall_s = process_number("wall", optarg, 0, 1e12);
-            break;
-        case 'p':
-            arguments.parent = (int)process_whole("parent", optarg, 1, INT32_MAX);
-            break;
-        case 'i':
-            arguments.pid = (int)process_whole("pid", optarg, 1, INT32_MAX);
-            break;
-        case 'a':
-            arguments.adopt = true;
-            break;
-        case 'S':
-            arguments.seconds = process_number("seconds", optarg, 0.001, 1e9);
-            break;
-        case 's':
-            add_set(&arguments, optarg);
-            break;
-        default:
+    while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
+        if (option == '?' || option == ':')
             die_usage("%s: no such option, or its value is missing; try jolon-world help",
                       argv[optind - 1]);
-        }
+        if (!take_flag(&arguments, option))
+            take_value(&arguments, option, optarg);
     }
     if (optind < argc)
         arguments.path = argv[optind++];
