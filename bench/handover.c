@@ -6,6 +6,7 @@
 #include "ipc/clock.h"
 #include "ipc/frame.h"
 #include "ipc/log.h"
+#include "ipc/process.h"
 
 #include <errno.h>
 #include <linux/futex.h>
@@ -81,10 +82,12 @@ static void frames_between(uint32_t frames, double *us)
     view.w[0].head->time_scale = 1.0;
     view.w[0].head->checksum = state_checksum(&view.w[0], 0);
     become(&view, ROLE_COLLIDER, frames);
+    int parent = (int)getpid();
     pid_t child = fork();
     if (child < 0)
         die_refused("cannot start a process: %s", strerror(errno));
     if (child == 0) {
+        process_die_with_parent(parent);
         empty_collider(&view);
         _exit(0);
     }
