@@ -235,7 +235,7 @@ int contacts_change(struct contacts *contacts, const struct contact_input *input
         if (sweep_pair(contacts, input, contacts->link[link - 1].pair, time) != 0)
             return -1;
     }
-    return 0;
+    return contacts_ground(contacts, input, row);
 }
 
 void contacts_drop(struct contacts *contacts, uint32_t row)

@@ -74,7 +74,7 @@ int contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, dou
 bool contacts_next(struct contacts *contacts, struct contact *contact);
 
 /* The row's way has changed at this time: its contacts so far are void and it is swept again
- * against everything it could meet. 0, or -1 with errno ENOMEM. */
+ * against everything it could meet, the ground too. 0, or -1 with errno ENOMEM. */
 int contacts_change(struct contacts *contacts, const struct contact_input *input, uint32_t row,
                     double time);
 

@@ -2,9 +2,8 @@
  * and what is lost harms the bodies. */
 #include "collider/respond.h"
 
-#define STOP_MPS                                                                                   \
-    0.2 /* what would leave slower than this along the normal does not bounce at all               \
-         */
+/* What would leave slower than this along the normal does not bounce at all. */
+#define STOP_MPS 0.2
 
 static const struct kind *kind_of(const struct respond *respond, uint32_t row)
 {

@@ -19,9 +19,7 @@ int respond_slow(struct respond *respond, uint32_t row, double time, double shar
     *path = (struct path){.at = at, .along = vec3_scale(path->along, share), .since = time};
     entities_set_position(e, row, path_at(path, 1.0));
     entities_set_velocity(e, row, vec3_scale(entities_velocity(e, row), share));
-    if (contacts_change(respond->contacts, &respond->input, row, time) != 0)
-        return -1;
-    return contacts_ground(respond->contacts, &respond->input, row);
+    return contacts_change(respond->contacts, &respond->input, row, time);
 }
 
 void respond_bump(struct respond *respond, uint32_t row, double away_x, double away_z)
@@ -225,8 +223,9 @@ static int crash(struct respond *respond, const struct contact *contact)
         terrain_normal(&respond->world->terrain, respond->input.craters, at.x, at.z);
     respond->next->head->tally.collisions++;
     struct vec3 slide = vec3_sub(velocity, vec3_scale(normal, vec3_dot(velocity, normal)));
-    if (respond_stay(respond, contact->a, contact->toi, vec3_scale(slide, 0.3)) != 0 ||
-        harm_destroy(respond, contact->a, contact->toi) != 0)
+    /* A wreck first: what still flies would meet the ground again where it stays. */
+    if (harm_destroy(respond, contact->a, contact->toi) != 0 ||
+        respond_stay(respond, contact->a, contact->toi, vec3_scale(slide, 0.3)) != 0)
         return -1;
     if (event) {
         event->collision.a = party_of(respond, contact->a);

@@ -18,9 +18,8 @@ struct collider {
     struct broad broad;
     struct contacts contacts;
     struct path *path; /* [capacity] each body's way through the frame */
-    uint64_t
-        fixed_hash; /* state_fixed_hash() of frame fixed_hash_frame; of none yet when that is */
-    uint64_t fixed_hash_frame; /* UINT64_MAX */
+    /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: of none yet */
+    uint64_t fixed_hash, fixed_hash_frame;
 };
 
 /* Where the frame's events go: the ring from the committed end on. */

@@ -233,3 +233,15 @@ uint64_t steps_state_hash(const struct fixture *fixture, const struct state *sta
         hash = XXH3_64bits_withSeed(&view->events[i & (slots - 1)], sizeof(struct event), hash);
     return hash;
 }
+
+void steps_move(struct fixture *fixture)
+{
+    struct view *view = &fixture->view;
+    struct command_source sources[COMMAND_RING_COUNT];
+    for (int i = 0; i < COMMAND_RING_COUNT; i++)
+        sources[i] = (struct command_source){view->commands[i]->slot, view->header->command_slots,
+                                             atomic_load(&view->commands[i]->head)};
+    assert_int_equal(mover_step(&fixture->mover, &view->w[atomic_load(&view->commit->commit) & 1],
+                                &view->m, sources),
+                     0);
+}

@@ -66,6 +66,9 @@ void steps_respond_end(struct respond *respond);
 
 /* --- purity ------------------------------------------------------------------------------------*/
 
+/* The mover's step alone, from the committed frame into the moved table; may be repeated. */
+void steps_move(struct fixture *fixture);
+
 /* Everything that a step writes for this frame, as one hash: head, used rows of every column, and
  * what lies beside them. */
 uint64_t steps_moved_hash(const struct fixture *fixture);

@@ -291,18 +291,6 @@ static void collide_again(struct fixture *f)
                      0);
 }
 
-static void move(struct fixture *f)
-{
-    struct view *view = &f->view;
-    struct command_source sources[COMMAND_RING_COUNT];
-    for (int i = 0; i < COMMAND_RING_COUNT; i++)
-        sources[i] = (struct command_source){view->commands[i]->slot, view->header->command_slots,
-                                             atomic_load(&view->commands[i]->head)};
-    assert_int_equal(
-        mover_step(&f->mover, &view->w[atomic_load(&view->commit->commit) & 1], &view->m, sources),
-        0);
-}
-
 /* What a collider that died in mid-frame left: half a buffer, half a frame's events and craters. */
 static void soil(struct fixture *f)
 {
@@ -329,7 +317,7 @@ static void run_and_repeat(const char *response)
     fixture_open(&f, text);
     for (int frame = 0; frame < 150; frame++) {
         const struct state *now = &f.view.w[frame & 1], *next = &f.view.w[(frame + 1) & 1];
-        move(&f);
+        steps_move(&f);
         uint64_t before = steps_state_hash(&f, now), moved = steps_moved_hash(&f);
         soil(&f);
         collide_again(&f);

@@ -22,18 +22,6 @@ static const char battle[] =
     "  { kind = \"helicopter\"; count = 8; force = \"blue\"; fire_at_will = true;\n"
     "    area = [24000.0, 24000.0, 26000.0, 26000.0]; } );\n";
 
-static void move_again(struct fixture *f)
-{
-    struct view *view = &f->view;
-    struct command_source sources[COMMAND_RING_COUNT];
-    for (int i = 0; i < COMMAND_RING_COUNT; i++)
-        sources[i] = (struct command_source){view->commands[i]->slot, view->header->command_slots,
-                                             atomic_load(&view->commands[i]->head)};
-    assert_int_equal(
-        mover_step(&f->mover, &view->w[atomic_load(&view->commit->commit) & 1], &view->m, sources),
-        0);
-}
-
 /* What a process that died left in the table. */
 static void soil(struct fixture *f)
 {
@@ -57,11 +45,11 @@ static void test_moving_again_over_anything_gives_the_same_bytes(void **state)
                        (struct command){.type = COMMAND_SPAWN,
                                         .kind = fixture_kind(&f, "jeep"),
                                         .value = {24500.0 + frame, 25000.0}});
-        move_again(&f);
+        steps_move(&f);
         uint64_t first = steps_moved_hash(&f);
         shots += (uint32_t)(f.view.m.head->tally.fires != fixture_state(&f).head->tally.fires);
         soil(&f);
-        move_again(&f);
+        steps_move(&f);
         assert_true(steps_moved_hash(&f) == first);
         fixture_run(&f, 1);
     }
@@ -78,10 +66,10 @@ static void test_a_new_movers_first_step_is_the_old_ones_next(void **state)
     now.craters[0] = (struct crater){25000.0, 25000.0, 30.0f, 5.0f, 0};
     now.head->crater_count = 1;
     fixture_run(&f, 60);
-    move_again(&f);
+    steps_move(&f);
     uint64_t first = steps_moved_hash(&f);
     fixture_threads(&f, 2); /* a restart: its index of craters is empty */
-    move_again(&f);
+    steps_move(&f);
     assert_true(steps_moved_hash(&f) == first);
     fixture_close(&f);
 }
@@ -94,7 +82,7 @@ static void test_the_committed_world_is_only_read(void **state)
     for (int frame = 0; frame < 60; frame++) {
         struct state now = fixture_state(&f);
         uint64_t before = steps_state_hash(&f, &now);
-        move_again(&f);
+        steps_move(&f);
         assert_true(steps_state_hash(&f, &now) == before);
         fixture_run(&f, 1);
     }
