@@ -32,85 +32,25 @@ void broad_free(struct broad *broad)
     *broad = (struct broad){0};
 }
 
-static int list_add(struct pair_list *list, uint32_t a, uint32_t b)
-{
-    if (list->count == list->capacity) {
-        uint32_t capacity = list->capacity * 2 + 1024;
-        struct pair *pair = realloc(list->pair, capacity * sizeof *pair);
-        if (!pair)
-            return -1;
-        list->pair = pair;
-        list->capacity = capacity;
-    }
-    list->pair[list->count++] = (struct pair){a, b};
-    return 0;
-}
-
-/* float just below and above a double: a box must not lose what it holds. */
-static float outward(double value, double by)
-{
-    return (float)(value + by);
-}
-
-/* Half a float's step at 50 km is 2 mm; 1 cm keeps every box outside. */
-#define BOX_SLACK_M 0.01
-
-static struct sweep_box box_of(const struct path *path, double radius, double dt_s)
-{
-    struct vec3 p = path_at(path, path->since), q = path_at(path, 1.0);
-    double grow = radius + BOX_SLACK_M + lean_mps(dt_s) * dt_s;
-    return (struct sweep_box){
-        outward(maths_min(p.x, q.x), -grow), outward(maths_min(p.y, q.y), -grow),
-        outward(maths_min(p.z, q.z), -grow), outward(maths_max(p.x, q.x), grow),
-        outward(maths_max(p.y, q.y), grow),  outward(maths_max(p.z, q.z), grow),
-    };
-}
-
 static struct square_box squares_of(const struct sweep_box *box)
 {
     return square_box_of((double)box->min_x, (double)box->min_z, (double)box->max_x,
                          (double)box->max_z);
 }
 
-static bool boxes_meet(const struct sweep_box *a, const struct sweep_box *b)
-{
-    return a->min_x <= b->max_x && b->min_x <= a->max_x && a->min_z <= b->max_z &&
-           b->min_z <= a->max_z && a->min_y <= b->max_y && b->min_y <= a->max_y;
-}
-
 struct job {
     struct broad *broad;
-    const struct broad_input *input;
+    const struct detect_input *input;
     _Atomic int failed;
 };
 
 /* --- against fixed objects ---------------------------------------------------------------------*/
 
-/* Above the threshold height all the way nothing fixed is tested (thesis row 17): the way, lowered
- * by as much, does not reach the ground. */
-static bool above_threshold(const struct job *job, const struct path *path)
-{
-    const struct world *world = job->broad->world;
-    struct path lowered = *path;
-    double toi;
-    lowered.at.y -= world->params->collision.threshold_height_m;
-    return !sweep_ground(&world->terrain, job->input->craters, &lowered, &toi);
-}
-
-static bool fixed_meets(const struct sweep_box *box, const struct fixed_object *object)
-{
-    double r = (double)object->radius_m;
-    return (double)box->min_x <= object->x + r && object->x - r <= (double)box->max_x &&
-           (double)box->min_z <= object->z + r && object->z - r <= (double)box->max_z &&
-           (double)box->min_y <= (double)object->y + r &&
-           (double)object->y - r <= (double)box->max_y;
-}
-
 /* An object that reaches several of the row's squares is taken in the first that both touch. */
-static bool first_common(const struct square_box *squares, const struct fixed_object *object,
-                         int32_t column, int32_t row)
+static bool first_common(const struct world *world, const struct square_box *squares,
+                         const struct fixed_object *object, int32_t column, int32_t row)
 {
-    double r = (double)object->radius_m;
+    double r = detect_fixed_reach(world, object);
     int32_t x0 = square_axis(object->x - r), z0 = square_axis(object->z - r);
     return column == (x0 > squares->x0 ? x0 : squares->x0) &&
            row == (z0 > squares->z0 ? z0 : squares->z0);
@@ -127,10 +67,11 @@ static int fixed_pairs(struct job *job, uint32_t i, struct pair_list *list)
             uint32_t count = world_reach(world, square_index(column, row), &objects);
             for (uint32_t n = 0; n < count; n++) {
                 const struct fixed_object *object = &world->fixed[objects[n]];
-                if (job->input->fixed_damage[objects[n]] >= DAMAGE_HIGH ||
-                    !fixed_meets(box, object) || !first_common(&squares, object, column, row))
+                if (!detect_stands(job->input, objects[n]) ||
+                    !detect_box_meets_fixed(job->input, box, object) ||
+                    !first_common(world, &squares, object, column, row))
                     continue;
-                if (list_add(list, i, objects[n] | PAIR_FIXED) != 0)
+                if (pair_list_add(list, i, objects[n] | PAIR_FIXED) != 0)
                     return -1;
             }
         }
@@ -138,28 +79,20 @@ static int fixed_pairs(struct job *job, uint32_t i, struct pair_list *list)
     return 0;
 }
 
-static bool rests(const struct path *path)
-{
-    return path->along.x == 0.0 && path->along.y == 0.0 && path->along.z == 0.0;
-}
-
 static void sweep_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
-    const struct broad_input *input = job->input;
+    const struct detect_input *input = job->input;
     const struct world *world = job->broad->world;
     for (uint32_t i = first; i < end; i++) {
         if (i + PREFETCH_ROWS < end) {
             struct vec3 ahead = input->path[i + PREFETCH_ROWS].at;
             __builtin_prefetch(&world->reach_start[square_of(ahead.x, ahead.z)]);
         }
-        if (input->entities->state[i] == ENTITY_FREE)
+        if (!detect_there(input, i))
             continue;
-        const struct kind *kind = &world->kinds[input->entities->kind[i]];
-        const struct path *path = &input->path[i];
-        job->broad->box[i] = box_of(path, kind->radius_m, world->params->dt_s);
-        if (world->counts.fixed == 0 || rests(path) ||
-            (kind->domain == DOMAIN_AIR && above_threshold(job, path)))
+        job->broad->box[i] = detect_box(input, i);
+        if (!detect_tests_fixed(input, i))
             continue;
         if (fixed_pairs(job, i, &job->broad->list[worker]) != 0)
             atomic_store(&job->failed, 1);
@@ -185,11 +118,11 @@ static int reserve_entries(struct broad *broad, uint32_t count)
     return 0;
 }
 
-static int bin_rows(struct broad *broad, const struct broad_input *input)
+static int bin_rows(struct broad *broad, const struct detect_input *input)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < input->rows; i++) {
-        if (input->entities->state[i] == ENTITY_FREE)
+        if (!detect_there(input, i))
             continue;
         struct square_box squares = squares_of(&broad->box[i]);
         uint32_t more = (uint32_t)((squares.x1 - squares.x0 + 1) * (squares.z1 - squares.z0 + 1));
@@ -230,30 +163,16 @@ static bool first_shared(const struct sweep_box *a, const struct sweep_box *b, u
     return square_of((double)min_x, (double)min_z) == square;
 }
 
-/* Can these two never collide? Not a round and who fired it, nor two rounds of one shooter. */
-static bool apart(const struct entities *e, const struct path *path, uint32_t a, uint32_t b)
-{
-    bool round_a = e->behaviour[a] == BEHAVIOUR_FLIGHT,
-         round_b = e->behaviour[b] == BEHAVIOUR_FLIGHT;
-    if (round_a && e->owner_slot[a] == b && e->owner_id[a] == e->id[b])
-        return true;
-    if (round_b && e->owner_slot[b] == a && e->owner_id[b] == e->id[a])
-        return true;
-    if (round_a && round_b && e->owner_id[a] != 0 && e->owner_id[a] == e->owner_id[b])
-        return true;
-    return rests(&path[a]) && rests(&path[b]);
-}
-
 static int pair_up(struct job *job, const struct bin_entry *p, const struct bin_entry *q,
                    struct pair_list *list)
 {
     const struct sweep_box *box = job->broad->box;
     uint32_t a = p->row < q->row ? p->row : q->row;
     uint32_t b = p->row < q->row ? q->row : p->row;
-    if (!boxes_meet(&box[a], &box[b]) || !first_shared(&box[a], &box[b], p->square) ||
-        apart(job->input->entities, job->input->path, a, b))
+    if (!detect_boxes_meet(&box[a], &box[b]) || !first_shared(&box[a], &box[b], p->square) ||
+        detect_apart(job->input, a, b))
         return 0;
-    return list_add(list, a, b);
+    return pair_list_add(list, a, b);
 }
 
 /* Heap sort by west edge, for squares too crowded for insertion. Rows are told apart by number, so
@@ -341,7 +260,7 @@ static void meet_squares(void *context, uint32_t first, uint32_t end, uint32_t w
     }
 }
 
-int broad_pairs(struct broad *broad, const struct broad_input *input)
+int broad_pairs(struct broad *broad, const struct detect_input *input)
 {
     struct job job = {.broad = broad, .input = input};
     for (int i = 0; i < WORKERS_MAX; i++)

@@ -4,36 +4,11 @@
 #ifndef JOLON_COLLIDER_BROAD_H
 #define JOLON_COLLIDER_BROAD_H
 
-#include "collider/sweep.h"
+#include "collider/detect.h"
 #include "world/workers.h"
 #include "world/world.h"
 
 #include <stdint.h>
-
-/* Bodies that press on each other slower than this lean [m/s]: what an engine adds within a step,
- * and at least half a metre a second. A body that leans leaves its way by at most as much. */
-static inline double lean_mps(double dt_s)
-{
-    return maths_max(0.5, 10.0 * dt_s);
-}
-
-/* What a pair's second side is. */
-#define PAIR_FIXED 0x80000000u /* flag: the rest is a fixed object's index */
-
-struct pair {
-    uint32_t a; /* a row, the lower of two */
-    uint32_t b; /* a row, or a fixed object with PAIR_FIXED */
-};
-
-struct pair_list {
-    struct pair *pair;
-    uint32_t count, capacity;
-};
-
-/* Box around the sweep of a row's sphere. */
-struct sweep_box {
-    float min_x, min_y, min_z, max_x, max_y, max_z; /* rounded outwards */
-};
 
 struct bin_entry {
     uint32_t square;
@@ -54,19 +29,10 @@ struct broad {
 int broad_init(struct broad *broad, const struct world *world, struct workers *workers);
 void broad_free(struct broad *broad);
 
-/* What the broad phase looks at. */
-struct broad_input {
-    const struct entities *entities; /* at the end of the frame */
-    const struct path *path;         /* [rows] */
-    const uint8_t *fixed_damage;
-    const struct crater_index *craters;
-    uint32_t rows;
-};
-
 /* Fills the lists with every pair whose swept boxes overlap, each once. Pairs that can never
  * collide are left out: a munition and its shooter, two wrecks at rest, a fixed object that is
  * already down. 0, or -1 with errno ENOMEM. */
-int broad_pairs(struct broad *broad, const struct broad_input *input);
+int broad_pairs(struct broad *broad, const struct detect_input *input);
 
 /* Rows whose boxes touch the square, after broad_pairs: entries first .. first + count - 1. */
 uint32_t broad_square(const struct broad *broad, uint32_t square, const struct bin_entry **first);

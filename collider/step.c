@@ -86,7 +86,8 @@ static int collide_all(struct collider *collider, struct respond *respond)
 {
     const struct state *next = respond->next;
     struct contact contact;
-    const struct broad_input input = {
+    const struct detect_input input = {
+        .world = collider->world,
         .entities = &next->entities,
         .path = collider->path,
         .fixed_damage = next->fixed_damage,

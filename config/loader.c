@@ -25,6 +25,7 @@
 #define INTENTS_EXTRA      1024u /* commands' answers, ordered shots */
 #define COMMAND_SLOTS      1024u
 #define CRATER_SLOTS       65536u
+#define DENT_SLOTS         65536u
 
 /* A load under way. */
 struct load {
@@ -193,6 +194,7 @@ static void derive(struct load *load)
         intents < params->events_per_frame / 2 ? (uint32_t)intents : params->events_per_frame / 2;
     params->command_slots = COMMAND_SLOTS;
     params->crater_slots = CRATER_SLOTS;
+    params->dent_slots = DENT_SLOTS;
     params->scenario_hash = XXH3_64bits_digest(load->hash);
     /* For people: of a path that is too long the end says more than the beginning. */
     if (length < PATH_TEXT_MAX)

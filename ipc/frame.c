@@ -69,6 +69,9 @@ static void check_buffer(struct view *view, uint64_t commit)
     if (head->crater_count > view->header->crater_slots)
         die_refused("world \"%s\" is damaged: crater_count = %u; crater_slots = %u", view->name,
                     head->crater_count, view->header->crater_slots);
+    if (head->dent_count > view->header->dent_slots)
+        die_refused("world \"%s\" is damaged: dent_count = %u; dent_slots = %u", view->name,
+                    head->dent_count, view->header->dent_slots);
     if (view->checked)
         return; /* what is committed since then was computed from what was good */
     if (state_checksum(state, view->header->counts.fixed) != head->checksum)

@@ -22,6 +22,9 @@ static const char *const region_names[REGION_COUNT] = {
     [REGION_MODELS] = "models",
     [REGION_MODEL_VERTICES] = "model vertices",
     [REGION_MODEL_TRIANGLES] = "model triangles",
+    [REGION_HULLS] = "hulls",
+    [REGION_HULL_VERTICES] = "hull vertices",
+    [REGION_HULL_PLANES] = "hull planes",
     [REGION_POSTS] = "posts",
     [REGION_COVER] = "cover",
     [REGION_FIXED] = "fixed objects",
@@ -37,6 +40,7 @@ static const char *const region_names[REGION_COUNT] = {
     [REGION_WORLD_A] = "world A",
     [REGION_WORLD_B] = "world B",
     [REGION_CRATERS] = "craters",
+    [REGION_DENTS] = "dents",
     [REGION_EVENTS] = "events",
     [REGION_MOVED_WORD] = "moved word",
     [REGION_MOVED] = "moved table",
@@ -69,7 +73,8 @@ static bool plausible(const struct segment_header *h)
     const uint32_t parts[] = {
         n->kinds,       n->models, n->model_vertices, n->model_triangles, n->fixed,
         n->reach,       n->areas,  n->routes,         n->route_points,    n->fires,
-        n->road_points, n->names,  h->crater_slots,   h->event_slots,     h->intents_per_frame};
+        n->road_points, n->names,  h->crater_slots,   h->event_slots,     h->intents_per_frame,
+        h->dent_slots,  n->hulls,  n->hull_vertices,  n->hull_planes};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         if (parts[i] > PART_MAX)
             return false;
@@ -94,6 +99,9 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_MODELS] = n->models * sizeof(struct model);
     b[REGION_MODEL_VERTICES] = n->model_vertices * sizeof(struct model_vertex);
     b[REGION_MODEL_TRIANGLES] = n->model_triangles * sizeof(struct model_triangle);
+    b[REGION_HULLS] = n->hulls * sizeof(struct hull);
+    b[REGION_HULL_VERTICES] = n->hull_vertices * sizeof(struct vec3);
+    b[REGION_HULL_PLANES] = n->hull_planes * sizeof(struct hull_plane);
     b[REGION_POSTS] = posts * sizeof(float);
     b[REGION_COVER] = posts;
     b[REGION_FIXED] = n->fixed * sizeof(struct fixed_object);
@@ -108,6 +116,7 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_COMMIT] = sizeof(struct commit_words);
     b[REGION_WORLD_A] = b[REGION_WORLD_B] = state_bytes(h);
     b[REGION_CRATERS] = h->crater_slots * sizeof(struct crater);
+    b[REGION_DENTS] = h->dent_slots * sizeof(struct dent);
     b[REGION_EVENTS] = h->event_slots * sizeof(struct event);
     b[REGION_MOVED_WORD] = sizeof(struct moved_word);
     b[REGION_MOVED] = LAYOUT_HEAD_BYTES + entities_bytes(h->capacity) +
@@ -140,6 +149,9 @@ uint64_t layout_hash(void)
         sizeof(struct fire_order),
         sizeof(struct state_head),
         sizeof(struct crater),
+        sizeof(struct dent),
+        sizeof(struct hull),
+        sizeof(struct hull_plane),
         sizeof(struct event),
         sizeof(struct command),
         sizeof(struct role_slot),
@@ -162,6 +174,9 @@ uint64_t layout_hash(void)
         FORCE_COUNT,
         DAMAGE_COUNT,
         METHOD_COUNT,
+        SHAPE_COUNT,
+        NEARNESS_COUNT,
+        MEASURE_COUNT,
         MODEL_COUNT,
         EVENT_TYPE_COUNT,
         COMMAND_TYPE_COUNT,

@@ -27,6 +27,9 @@ enum region {
     REGION_MODELS,
     REGION_MODEL_VERTICES,
     REGION_MODEL_TRIANGLES,
+    REGION_HULLS,
+    REGION_HULL_VERTICES,
+    REGION_HULL_PLANES,
     REGION_POSTS,
     REGION_COVER,
     REGION_FIXED,
@@ -42,6 +45,7 @@ enum region {
     REGION_WORLD_A, /* head, columns, fixed damage: collider */
     REGION_WORLD_B,
     REGION_CRATERS,    /* collider */
+    REGION_DENTS,      /* collider */
     REGION_EVENTS,     /* collider */
     REGION_MOVED_WORD, /* struct moved_word: mover */
     REGION_MOVED,      /* head, columns, intents: mover */
@@ -62,7 +66,7 @@ struct segment_header {
     uint64_t static_hash; /* XXH3 over every region up to REGION_NAMES but this one */
     struct counts counts;
     uint32_t capacity, event_slots, intents_per_frame, command_slots, crater_slots;
-    uint32_t reserved;
+    uint32_t dent_slots;
     uint64_t head_hash; /* XXH3 over the words above but magic */
 };
 

@@ -69,6 +69,7 @@ static void bind_state(const struct view *view, struct state *state, int region)
     entities_bind(&state->entities, view->header->capacity, base + LAYOUT_HEAD_BYTES);
     state->fixed_damage = base + LAYOUT_HEAD_BYTES + entities_bytes(view->header->capacity);
     state->craters = part(view, REGION_CRATERS);
+    state->dents = part(view, REGION_DENTS);
 }
 
 static void bind(struct view *view)
@@ -84,6 +85,9 @@ static void bind(struct view *view)
     world->models = part(view, REGION_MODELS);
     world->model_vertices = part(view, REGION_MODEL_VERTICES);
     world->model_triangles = part(view, REGION_MODEL_TRIANGLES);
+    world->hulls = part(view, REGION_HULLS);
+    world->hull_vertices = part(view, REGION_HULL_VERTICES);
+    world->hull_planes = part(view, REGION_HULL_PLANES);
     world->fixed = part(view, REGION_FIXED);
     world->reach_start = part(view, REGION_REACH_START);
     world->reach = part(view, REGION_REACH);
@@ -135,7 +139,8 @@ struct segment_header segment_header_for(const struct params *params, const stru
                                    .event_slots = params->event_slots,
                                    .intents_per_frame = params->intents_per_frame,
                                    .command_slots = params->command_slots,
-                                   .crater_slots = params->crater_slots};
+                                   .crater_slots = params->crater_slots,
+                                   .dent_slots = params->dent_slots};
 }
 
 /* Objects that creators of this world left when they were killed before publishing. */
@@ -375,7 +380,7 @@ static int check_params(const struct view *view, const char *path, struct reason
     if (params->capacity != header->capacity || params->event_slots != header->event_slots ||
         params->intents_per_frame != header->intents_per_frame ||
         params->command_slots != header->command_slots ||
-        params->crater_slots != header->crater_slots)
+        params->crater_slots != header->crater_slots || params->dent_slots != header->dent_slots)
         return reason_set(reason, "%s: params: do not fit the header", path);
     if (params->events_per_frame == 0 || params->events_per_frame > params->event_slots / 2)
         return reason_set(reason, "%s: params: events_per_frame = %u of %u slots", path,

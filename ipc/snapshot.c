@@ -88,7 +88,8 @@ struct state snapshot_state(const struct snapshot *snapshot, const struct view *
     return (struct state){.head = (struct state_head *)(uintptr_t)&snapshot->head,
                           .entities = snapshot->entities,
                           .fixed_damage = snapshot->fixed_damage,
-                          .craters = view->w[0].craters};
+                          .craters = view->w[0].craters,
+                          .dents = view->w[0].dents};
 }
 
 /* The oldest event that no writer can be about to overwrite: one frame's most is left free. */

@@ -68,7 +68,7 @@ static void add_dent(struct effects *effects, const struct moment *moment,
     struct vec3 off = vec3_sub((struct vec3){point[0], point[1], point[2]}, then);
     const struct kind *kind = &moment->world->kinds[party->kind];
     struct dented *body = dented_of(effects, party->id);
-    struct dent *dent = &body->dents[body->count++ % DENTS_PER_BODY];
+    struct bruise *dent = &body->dents[body->count++ % DENTS_PER_BODY];
     dent->x = within(vec3_dot(off, pose.forward), 0.5 * kind->length_m);
     dent->y = within(vec3_dot(off, pose.up), 0.5 * kind->height_m);
     dent->z = within(vec3_dot(off, pose.right), 0.5 * kind->width_m);
@@ -123,7 +123,7 @@ uint32_t effects_count(const struct effects *effects)
 }
 
 uint32_t effects_dents(const struct effects *effects, const struct kind *kind, uint32_t id,
-                       enum damage damage, struct dent dents[DENTS_PER_BODY])
+                       enum damage damage, struct bruise dents[DENTS_PER_BODY])
 {
     if (damage == DAMAGE_NONE)
         return 0;
@@ -139,7 +139,7 @@ uint32_t effects_dents(const struct effects *effects, const struct kind *kind, u
     for (uint32_t i = 0; i < (uint32_t)damage && i < DENTS_PER_BODY; i++) {
         float along = grain_unit((int32_t)id, (int32_t)i, 1) - 0.5f;
         float side = grain_unit((int32_t)id, (int32_t)i, 2) < 0.5f ? -0.5f : 0.5f;
-        dents[i] = (struct dent){along * (float)kind->length_m, 0.1f * (float)kind->height_m,
+        dents[i] = (struct bruise){along * (float)kind->length_m, 0.1f * (float)kind->height_m,
                                  side * (float)kind->width_m,
                                  0.05f * (float)kind->radius_m * (float)damage};
     }

@@ -23,7 +23,7 @@ struct effect {
 };
 
 /* A dent: the surface within radius of the point is pushed in towards the body's middle. */
-struct dent {
+struct bruise {
     float x, y, z; /* [m, body axes] */
     float depth_m;
 };
@@ -31,7 +31,7 @@ struct dent {
 struct dented {
     uint32_t id; /* of the entity, 0: free */
     uint32_t count;
-    struct dent dents[DENTS_PER_BODY];
+    struct bruise dents[DENTS_PER_BODY];
 };
 
 struct effects {
@@ -51,6 +51,6 @@ uint32_t effects_count(const struct effects *effects);
 /* Dents of an entity: those of its collisions, or, when it was damaged before this process looked,
  * some that follow from its id. At most DENTS_PER_BODY; how many. */
 uint32_t effects_dents(const struct effects *effects, const struct kind *kind, uint32_t id,
-                       enum damage damage, struct dent dents[DENTS_PER_BODY]);
+                       enum damage damage, struct bruise dents[DENTS_PER_BODY]);
 
 #endif

@@ -145,7 +145,7 @@ static void add_entity(struct scene *scene, const struct moment *moment,
     /* Its shadow may be in the picture when the body is not. */
     if (pixels < BODY_LEAST_PIXELS || !camera_sees(&scene->camera, position, 3.0 * kind->radius_m))
         return;
-    struct dent dents[DENTS_PER_BODY];
+    struct bruise dents[DENTS_PER_BODY];
     enum damage damage = (enum damage)e->damage[slot];
     uint32_t dent_count =
         pixels > 48.0 ? effects_dents(effects, kind, e->id[slot], damage, dents) : 0;

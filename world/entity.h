@@ -52,6 +52,10 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
     X(double, heading)     /* [rad] clockwise from north, 0..2 pi */                               \
     X(double, pitch)       /* [rad] nose up */                                                     \
     X(double, roll)        /* [rad] right side down */                                             \
+    X(double, spin_x)      /* [rad/s, world axes] turning that collisions gave it; what its driver \
+                              steers comes on top */                                               \
+    X(double, spin_y)      /* [rad/s] */                                                           \
+    X(double, spin_z)      /* [rad/s] */                                                           \
     X(double, harm_j)      /* [J] energy taken; at the kind's resistance_j it is destroyed */      \
     X(double, goal_x)      /* [m] where the behaviour is going */                                  \
     X(double, goal_z)      /* [m] */                                                               \

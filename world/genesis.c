@@ -266,6 +266,9 @@ int genesis_build(struct genesis *genesis, const struct scenario *scenario, char
         .models = scenario->model_count,
         .model_vertices = scenario->vertex_count,
         .model_triangles = scenario->triangle_count,
+        .hulls = scenario->hull_count,
+        .hull_vertices = scenario->hull_vertex_count,
+        .hull_planes = scenario->hull_plane_count,
         .areas = scenario->area_count,
         .routes = scenario->route_count,
         .route_points = scenario->route_point_count,
@@ -324,6 +327,9 @@ void genesis_fill(const struct genesis *genesis, struct world *world, struct sta
     fill(world->models, s->models, n->models, sizeof *s->models);
     fill(world->model_vertices, s->vertices, n->model_vertices, sizeof *s->vertices);
     fill(world->model_triangles, s->triangles, n->model_triangles, sizeof *s->triangles);
+    fill(world->hulls, s->hulls, n->hulls, sizeof *s->hulls);
+    fill(world->hull_vertices, s->hull_vertices, n->hull_vertices, sizeof *s->hull_vertices);
+    fill(world->hull_planes, s->hull_planes, n->hull_planes, sizeof *s->hull_planes);
     fill(world->terrain.posts, genesis->posts, posts, sizeof *genesis->posts);
     fill(world->terrain.cover, genesis->cover, posts, 1);
     fill(world->fixed, genesis->fixed, n->fixed, sizeof *genesis->fixed);

@@ -47,7 +47,17 @@ struct kind {
     double rigidity;          /* 0..1: share of an impact that goes into harm at once */
     double moldability;       /* 0..1: share of a dent that stays */
     double restitution;       /* 0..1: closing speed that comes back */
+    double friction;          /* 0..2: Coulomb's coefficient of its skin */
     double resistance_j;      /* energy that destroys it */
+    double stiffness_npm;     /* [N/m] of its skin, for the response "spring" */
+    double severe_rad;        /* Fig. 8: how near a quarter turn an impact counts as square */
+    double bounce_keep;       /* Fig. 8: 0..1 of its speed that a bounce leaves it */
+    double fast_mps;          /* Fig. 8: from here a square impact kills; 0: the scenario's */
+    double damage_high;       /* fixed objects, Fig. 8 c1 > c2 > c3: impact energy over its */
+    double damage_med;        /* resistance_j from which damage is high, medium, low; 0: the */
+    double damage_low;        /* scenario's */
+    double debris_keep;       /* fixed objects: 0..1 of its speed that a vehicle keeps on what is
+                                 left of one */
     double explosive_kg;      /* TNT; of a vehicle: what burns when it is destroyed */
     double range_m;           /* vehicles: how far they shoot */
     double reload_s;          /* vehicles: between two rounds */
@@ -56,7 +66,12 @@ struct kind {
     double courage;           /* 0..1: how often it returns fire rather than flee */
     double fuel_l, fuel_lps;  /* tank, and burnt at full throttle a second */
     uint32_t rounds;
+    /* What follows comes from the model's hulls. */
+    uint32_t first_hull, hull_count; /* index into the world's hulls */
     uint32_t reserved;
+    double bound_m;       /* radius about the position that holds every hull, however turned */
+    double level_m;       /* the same on the map, upright */
+    double low_m, high_m; /* lowest and highest point over the position, upright */
 };
 
 const char *domain_name(enum domain domain);

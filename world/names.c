@@ -38,9 +38,9 @@ WORDS(command_type_name, command_type, "none", "pause", "resume", "step", "scale
       "release", "fire", "spawn", "remove", "quit")
 WORDS(command_result_name, command_result, "done", "no such entity", "no such kind",
       "value out of range", "table full", "cannot do that now", "unknown command")
-WORDS(method_name, method, "swept")
-WORDS(shape_name, shape, "sphere")
-WORDS(response_model_name, response_model, "figure8", "impulse", "none")
+WORDS(method_name, method, "swept", "npsnet2", "mps", "occupancy", "hopcroft", "brute")
+WORDS(shape_name, shape, "sphere", "model")
+WORDS(response_model_name, response_model, "figure8", "impulse", "none", "spring", "mps")
 WORDS(view_mode_name, view_mode, "chase", "map", "both")
 
 uint16_t kind_find(const struct kind *kinds, uint32_t count, const char *name)

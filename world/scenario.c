@@ -10,6 +10,9 @@ void scenario_free(struct scenario *scenario)
     free(scenario->models);
     free(scenario->vertices);
     free(scenario->triangles);
+    free(scenario->hulls);
+    free(scenario->hull_vertices);
+    free(scenario->hull_planes);
     free(scenario->groups);
     free(scenario->object_list);
     free(scenario->fires);

@@ -56,6 +56,12 @@ struct scenario {
     uint32_t vertex_count;
     struct model_triangle *triangles;
     uint32_t triangle_count;
+    struct hull *hulls;
+    uint32_t hull_count;
+    struct vec3 *hull_vertices;
+    uint32_t hull_vertex_count;
+    struct hull_plane *hull_planes;
+    uint32_t hull_plane_count;
 
     struct scenario_group *groups;
     uint32_t group_count;

@@ -53,5 +53,6 @@ uint64_t world_digest(const struct world *world, const struct state *state)
     hash = XXH3_64bits_withSeed(&world->params->seed, sizeof world->params->seed, hash);
     hash = hash_columns(hash, &state->entities, head.used);
     hash = XXH3_64bits_withSeed(state->fixed_damage, world->counts.fixed, hash);
-    return XXH3_64bits_withSeed(state->craters, head.crater_count * sizeof(struct crater), hash);
+    hash = XXH3_64bits_withSeed(state->craters, head.crater_count * sizeof(struct crater), hash);
+    return XXH3_64bits_withSeed(state->dents, head.dent_count * sizeof(struct dent), hash);
 }

@@ -4,9 +4,11 @@
 #define JOLON_WORLD_WORLD_H
 
 #include "world/command.h"
+#include "world/dent.h"
 #include "world/entity.h"
 #include "world/event.h"
 #include "world/fixed.h"
+#include "world/hull.h"
 #include "world/kind.h"
 #include "world/terrain.h"
 
@@ -16,9 +18,30 @@
 #define WORLD_NAME_MAX 48
 #define PATH_TEXT_MAX  256
 
-enum method { METHOD_SWEPT, METHOD_COUNT };
-enum shape { SHAPE_SPHERE, SHAPE_COUNT };
-enum response_model { MODEL_FIGURE8, MODEL_IMPULSE, MODEL_NONE, MODEL_COUNT };
+/* How collisions are found. Swept, occupancy, hopcroft and brute find the same, each in its own
+ * way; npsnet2 and mps look at the frame's end only, as published. */
+enum method {
+    METHOD_SWEPT,
+    METHOD_NPSNET2,
+    METHOD_MPS,
+    METHOD_OCCUPANCY,
+    METHOD_HOPCROFT,
+    METHOD_BRUTE,
+    METHOD_COUNT
+};
+enum shape { SHAPE_SPHERE, SHAPE_MODEL, SHAPE_COUNT };
+enum response_model {
+    MODEL_FIGURE8,
+    MODEL_IMPULSE,
+    MODEL_NONE,
+    MODEL_SPRING,
+    MODEL_MPS,
+    MODEL_COUNT
+};
+/* Figure 8's "colliding mass": the mass alone, as printed, or the impact's energy. */
+enum figure8_measure { MEASURE_ENERGY, MEASURE_MASS, MEASURE_COUNT };
+/* NPSNET-2's 100 m test: X or Z within it, as printed, or both. */
+enum nearness { NEARNESS_AND, NEARNESS_OR, NEARNESS_COUNT };
 enum pace { PACE_REAL, PACE_MAX };
 
 /* Constants of the collision response; docs/scenario.md says what each does. */
@@ -26,11 +49,15 @@ struct collision_params {
     uint32_t method;   /* enum method */
     uint32_t shape;    /* enum shape */
     uint32_t response; /* enum response_model */
+    uint32_t nearness; /* enum nearness; method npsnet2 */
+    uint32_t measure;  /* enum figure8_measure */
     uint32_t reserved;
-    double threshold_height_m; /* above it nothing fixed is tested (row 17) */
-    double fast_vehicle_mps;   /* Fig. 8 "speed of colliding vehicle > constant" */
-    double fast_fixed_mps;     /* Fig. 8 "moving quickly", against a large fixed object */
-    double large_fixed_kg;     /* Fig. 8 "large" */
+    double mps_near_m;                         /* method mps: this near on the map is a collision */
+    double mass_c1_kg, mass_c2_kg, mass_c3_kg; /* Fig. 8 by mass alone: c1 > c2 > c3 */
+    double threshold_height_m;                 /* above it nothing fixed is tested (row 17) */
+    double fast_vehicle_mps;                   /* Fig. 8 "speed of colliding vehicle > constant" */
+    double fast_fixed_mps; /* Fig. 8 "moving quickly", against a large fixed object */
+    double large_fixed_kg; /* Fig. 8 "large" */
     double damage_high, damage_med, damage_low; /* Fig. 8 c1 > c2 > c3, impact energy over the
                                                    fixed object's resistance (row 27) */
 };
@@ -62,6 +89,8 @@ struct params {
     uint32_t intents_per_frame; /* at most */
     uint32_t command_slots;     /* power of two, of each ring */
     uint32_t crater_slots;
+    uint32_t dent_slots;
+    uint32_t reserved;
     uint32_t initial_entities;
     struct collision_params collision;
     struct renderer_params renderer;
@@ -122,8 +151,8 @@ struct entity_name {
 
 struct counts {
     uint32_t kinds, models, model_vertices, model_triangles;
+    uint32_t hulls, hull_vertices, hull_planes;
     uint32_t posts_side, fixed, reach, areas, routes, route_points, fires, road_points, names;
-    uint32_t reserved;
 };
 
 struct world {
@@ -134,6 +163,9 @@ struct world {
     const struct model *models;
     const struct model_vertex *model_vertices;
     const struct model_triangle *model_triangles;
+    const struct hull *hulls;
+    const struct vec3 *hull_vertices;
+    const struct hull_plane *hull_planes;
     const struct fixed_object *fixed;
     const uint32_t *reach_start; /* [SQUARE_COUNT + 1] into reach */
     const uint32_t *reach;       /* fixed object indices, ascending within a square */
@@ -151,6 +183,7 @@ struct tally {
     uint64_t events_dropped;  /* more in a frame than events_per_frame: counted, never silent */
     uint64_t craters_refused; /* no room in the list of craters */
     uint64_t spawns_refused;  /* no free slot */
+    uint64_t dents_refused;   /* no room in the list of dents */
 };
 
 /* The head of a world buffer and, as the mover stages it, of the moved table. */
@@ -169,6 +202,8 @@ struct state_head {
     uint32_t next_id;
     uint32_t vehicles, munitions; /* active or wrecks; in flight */
     uint32_t crater_count;
+    uint32_t dent_count;
+    uint32_t reserved;
     uint32_t fire_cursor;  /* scenario fires done */
     uint32_t intent_count; /* M only: events the mover hands to the collider */
     uint32_t advanced;     /* 1: simulated time moved in this frame */
@@ -183,6 +218,7 @@ struct state {
     struct entities entities;
     uint8_t *fixed_damage;  /* [counts.fixed] enum damage */
     struct crater *craters; /* shared by both buffers, append-only: committed by crater_count */
+    struct dent *dents;     /* likewise, by dent_count */
 };
 
 /* The mover's output. */

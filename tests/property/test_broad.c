@@ -297,8 +297,11 @@ static void test_every_pair_is_found_exactly_once(void **state)
     assert_int_equal(broad_init(&broad, &w.world, NULL), 0);
     for (int world = 0; world < WORLDS; world++) {
         draw_world(&w, &random);
-        const struct broad_input input = {
-            .entities = &w.e, .path = w.path, .fixed_damage = w.damage, .rows = w.rows};
+        const struct detect_input input = {.world = &w.world,
+                                           .entities = &w.e,
+                                           .path = w.path,
+                                           .fixed_damage = w.damage,
+                                           .rows = w.rows};
         assert_int_equal(broad_pairs(&broad, &input), 0);
         compare(&w, &broad, world, pairs);
         free(w.reach_start);
@@ -322,8 +325,11 @@ static void test_a_square_lists_every_row_that_touches_it(void **state)
     assert_int_equal(broad_init(&broad, &w.world, NULL), 0);
     for (int world = 0; world < WORLDS / 10; world++) {
         draw_world(&w, &random);
-        const struct broad_input input = {
-            .entities = &w.e, .path = w.path, .fixed_damage = w.damage, .rows = w.rows};
+        const struct detect_input input = {.world = &w.world,
+                                           .entities = &w.e,
+                                           .path = w.path,
+                                           .fixed_damage = w.damage,
+                                           .rows = w.rows};
         assert_int_equal(broad_pairs(&broad, &input), 0);
         for (uint32_t i = 0; i < w.rows; i++) {
             if (w.e.state[i] == ENTITY_FREE)

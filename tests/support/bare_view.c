@@ -23,6 +23,7 @@ void bare_view_make(struct view *view, const struct bare_sizes *sizes)
         .intents_per_frame = 16,
         .command_slots = sizes->command_slots,
         .crater_slots = 16,
+        .dent_slots = 16,
     };
     const struct counts counts = {.posts_side = 2, .fixed = sizes->fixed};
     struct segment_header header = segment_header_for(&params, &counts);

@@ -183,7 +183,8 @@ void steps_respond(struct fixture *fixture, struct respond *respond)
                  .most = view->world.params->events_per_frame,
                  .tally = &next->head->tally},
     };
-    const struct broad_input input = {
+    const struct detect_input input = {
+        .world = collider->world,
         .entities = &next->entities,
         .path = collider->path,
         .fixed_damage = next->fixed_damage,

@@ -39,11 +39,12 @@ static uint32_t put(const char *kind, struct vec3 at, struct vec3 along)
 static uint32_t found(uint32_t a, uint32_t b, uint32_t *all)
 {
     struct state now = fixture_state(&f);
-    const struct broad_input input = {.entities = &now.entities,
-                                      .path = path,
-                                      .fixed_damage = now.fixed_damage,
-                                      .craters = &f.collider.craters,
-                                      .rows = now.head->used};
+    const struct detect_input input = {.world = &f.view.world,
+                                       .entities = &now.entities,
+                                       .path = path,
+                                       .fixed_damage = now.fixed_damage,
+                                       .craters = &f.collider.craters,
+                                       .rows = now.head->used};
     uint32_t times = 0;
     *all = 0;
     assert_int_equal(broad_pairs(&f.collider.broad, &input), 0);

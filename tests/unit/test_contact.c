@@ -54,11 +54,12 @@ static void find(void)
     steps_respond_end(&respond);
     for (uint32_t i = 0; i < used; i++)
         f.collider.path[i] = kept[i];
-    const struct broad_input input = {.entities = &respond.next->entities,
-                                      .path = f.collider.path,
-                                      .fixed_damage = respond.next->fixed_damage,
-                                      .craters = &f.collider.craters,
-                                      .rows = used};
+    const struct detect_input input = {.world = &f.view.world,
+                                       .entities = &respond.next->entities,
+                                       .path = f.collider.path,
+                                       .fixed_damage = respond.next->fixed_damage,
+                                       .craters = &f.collider.craters,
+                                       .rows = used};
     assert_int_equal(broad_pairs(&f.collider.broad, &input), 0);
     assert_int_equal(contacts_begin(contacts(), &f.collider.broad), 0);
     assert_int_equal(contacts_find(contacts(), &respond.input), 0);

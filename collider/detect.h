@@ -1,0 +1,113 @@
+/* Ways to find who can meet whom in a frame. Each method is one file behind one function:
+ *
+ *     swept (broad.c)   strips of gridsquares, sort and sweep: the default
+ *     occupancy.c       Uchiki, Ohashi and Tokoro 1983: who claims an occupied space is told
+ *     hopcroft.c        Hopcroft, Schwartz and Sharir 1983: sort and sweep over the whole world
+ *     brute.c           every pair: the oracle
+ *     npsnet2.c         Osborne 1991: gridsquare lists, 100 m test, radii, rays; at the frame's end
+ *     mps.c             MPS II: near on the map; at the frame's end
+ *
+ * The first four find candidates whose exact contact is then found in time; what they find in the
+ * end is the same to the bit. The last two decide themselves, by where the bodies are when the
+ * frame ends, and miss what passed through in between. */
+#ifndef JOLON_COLLIDER_DETECT_H
+#define JOLON_COLLIDER_DETECT_H
+
+#include "collider/sweep.h"
+#include "world/world.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What a pair's second side is. */
+#define PAIR_FIXED 0x80000000u /* flag: the rest is a fixed object's index */
+
+struct pair {
+    uint32_t a; /* a row, the lower of two */
+    uint32_t b; /* a row, or a fixed object with PAIR_FIXED */
+};
+
+struct pair_list {
+    struct pair *pair;
+    uint32_t count, capacity;
+};
+
+/* 0, or -1 with errno ENOMEM. */
+int pair_list_add(struct pair_list *list, uint32_t a, uint32_t b);
+
+/* Box around the sweep of a row: of its sphere, or of its hulls, grown by what a lean adds. */
+struct sweep_box {
+    float min_x, min_y, min_z, max_x, max_y, max_z; /* rounded outwards */
+};
+
+/* What detection looks at. */
+struct detect_input {
+    const struct world *world;
+    const struct entities *entities; /* at the end of the frame */
+    const struct path *path;         /* [rows] */
+    const uint8_t *fixed_damage;
+    const struct crater_index *craters;
+    uint32_t rows;
+};
+
+/* Bodies that press on each other slower than this lean [m/s]: what an engine adds within a step,
+ * and at least half a metre a second. A body that leans leaves its way by at most as much. */
+static inline double lean_mps(double dt_s)
+{
+    return maths_max(0.5, 10.0 * dt_s);
+}
+
+/* detect.c: what the methods share. */
+
+/* How far from its position a row, or a fixed object, reaches: its sphere's radius, or its hulls'
+ * bound, by collision.shape [m]. */
+double detect_row_reach(const struct detect_input *input, uint32_t row);
+double detect_fixed_reach(const struct world *world, const struct fixed_object *object);
+
+/* The row's box. */
+struct sweep_box detect_box(const struct detect_input *input, uint32_t row);
+
+/* Does the row meet anything at all? Not a free one. */
+static inline bool detect_there(const struct detect_input *input, uint32_t row)
+{
+    return input->entities->state[row] != ENTITY_FREE;
+}
+
+/* Does the row test fixed objects? Not when it rests, nor as an aircraft above the threshold height
+ * all the way (thesis row 17). */
+bool detect_tests_fixed(const struct detect_input *input, uint32_t row);
+
+/* Can this fixed object still be hit? Not when it is down. */
+static inline bool detect_stands(const struct detect_input *input, uint32_t object)
+{
+    return input->fixed_damage[object] < DAMAGE_HIGH;
+}
+
+/* Can these two rows never collide? A round and who fired it, two rounds of one shooter, two that
+ * rest. */
+bool detect_apart(const struct detect_input *input, uint32_t a, uint32_t b);
+
+/* The methods beside broad.c. Each adds every pair that it finds once, in any order; workspace is
+ * its own memory, kept from frame to frame (NULL at first) and freed with detect_workspace_free. 0,
+ * or -1 with errno ENOMEM. */
+struct detect_workspace;
+typedef int detect_method(const struct detect_input *input, struct detect_workspace **workspace,
+                          struct pair_list *pairs);
+detect_method brute_pairs, hopcroft_pairs, occupancy_pairs, npsnet2_pairs, mps_pairs;
+void detect_workspace_free(struct detect_workspace *workspace);
+
+/* The function of a method; NULL for METHOD_SWEPT. */
+detect_method *detect_method_of(enum method method);
+
+/* Does this method decide by itself at the frame's end (npsnet2, mps)? The others' pairs are
+ * candidates. */
+static inline bool detect_discrete(enum method method)
+{
+    return method == METHOD_NPSNET2 || method == METHOD_MPS;
+}
+
+bool detect_boxes_meet(const struct sweep_box *a, const struct sweep_box *b);
+bool detect_box_meets_fixed(const struct detect_input *input, const struct sweep_box *box,
+                            const struct fixed_object *object);
+
+#endif

@@ -1,0 +1,40 @@
+/* Rays against polygon models, and the thesis's two rays (Osborne 1991, pp. 24-26). Pure; any
+ * thread.
+ */
+#ifndef JOLON_COLLIDER_RAY_H
+#define JOLON_COLLIDER_RAY_H
+
+#include "world/rotation.h"
+#include "world/world.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A model where it stands. */
+struct ray_model {
+    const struct world *world;
+    uint32_t model; /* index into world->models */
+    double scale;
+    struct mat3 turn;
+    struct vec3 at; /* [m, world] */
+};
+
+struct ray_hit {
+    double distance_m;  /* from the ray's start */
+    struct vec3 point;  /* [m, world] */
+    struct vec3 normal; /* unit, world, of the polygon: out of the model */
+    uint32_t triangle;  /* within the model */
+};
+
+/* Nearest polygon that the ray from a point along a unit direction meets within most_m: its plane
+ * from the first three corners, then Haines's test. False when there is none. */
+bool ray_nearest(const struct ray_model *model, struct vec3 from, struct vec3 direction,
+                 double most_m, struct ray_hit *hit);
+
+/* Level 3 of the thesis: ray 1 from the vehicle's centre to the object's gives the point where it
+ * leaves the vehicle's sphere; ray 2 from there back along the way tells by the polygons whether
+ * the objects touch and where. See the .c for how the text is read. */
+bool ray_collision(const struct ray_model *vehicle, double vehicle_radius_m,
+                   const struct ray_model *object, double object_radius_m, struct ray_hit *hit);
+
+#endif
