@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A corner further than this from its hull has been lost by rounding [m]. */
-#define LOST_M 1e-4
+/* A piece that sticks out of another by no more than this is within it [m]. */
+#define NESTED_M 1e-6
 
 /* --- joining -----------------------------------------------------------------------------------*/
 
@@ -40,7 +40,7 @@ static int take_inside(struct joining *joining, uint32_t outer)
 
     for (uint32_t i = 0; pieces->piece[outer].count > 0 && i < pieces->count; i++) {
         if (i == outer || pieces->piece[i].count == 0 ||
-            !wrap_holds(&pieces->piece[outer].wrap, &pieces->piece[i].wrap))
+            !wrap_holds(&pieces->piece[outer].wrap, &pieces->piece[i].wrap, NESTED_M))
             continue;
         if (pieces_join(&pieces->piece[outer], &pieces->piece[i], NULL) != 0)
             return -1;
@@ -258,21 +258,15 @@ static bool is_corner(const struct shell *shell, const struct wrap *wrap, uint32
     return false;
 }
 
-/* Moves the planes out until they hold all points, which rounding may have left outside. */
-static int hold_points(struct shell *shell, const struct piece *piece)
+/* Moves the planes out until they hold all corners, which the lattice may have left outside. */
+static void hold_points(struct shell *shell, const struct piece *piece)
 {
     for (uint32_t i = 0; i < shell->planes; i++) {
         struct hull_plane *plane = &shell->plane[i];
-        double least = plane->offset_m;
 
         for (uint32_t k = 0; k < piece->count; k++)
             plane->offset_m = maths_max(plane->offset_m, vec3_dot(plane->normal, piece->point[k]));
-        if (plane->offset_m > least + LOST_M) {
-            errno = EDOM;
-            return -1;
-        }
     }
-    return 0;
 }
 
 static int shell_make(struct shell *shell, struct piece *piece)
@@ -296,7 +290,8 @@ static int shell_make(struct shell *shell, struct piece *piece)
         errno = ERANGE;
         return -1;
     }
-    return hold_points(shell, piece);
+    hold_points(shell, piece);
+    return 0;
 }
 
 /* --- into the scenario's tables ----------------------------------------------------------------*/
@@ -390,9 +385,7 @@ static int refuse(struct key_place place, struct loader_message *message, int er
                            "has a piece whose hull has too many corners; allowed: up to %d",
                            HULL_VERTICES_MAX);
     case EDOM:
-        return keys_refuse(message, place, NULL, NULL,
-                           "has a piece whose hull is lost in rounding; right would be: fewer "
-                           "corners that are nearly flat with each other");
+        return keys_refuse(message, place, NULL, NULL, "has a piece that takes up no space");
     default:
         return keys_refuse(message, place, NULL, NULL, "no memory for its hulls");
     }

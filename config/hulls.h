@@ -18,8 +18,8 @@
  * faster narrow phase. */
 #define HULLS_FREE_M3 0.02
 
-/* When some must be joined, others that cost as much to within this share are joined too: what is
- * the same on both sides of a model stays so. */
+/* When some must be joined, others that cost as much to within this share are joined too, so that
+ * what is the same on both sides of a model mostly stays so. */
 #define HULLS_TIE_SHARE 0.01
 
 /* Faces whose corners are this near to one plane are one [m]. */

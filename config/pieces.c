@@ -41,48 +41,59 @@ static void join_places(const struct places *places, uint32_t a, uint32_t b)
         places->parent[root_a] = root_b;
 }
 
-static struct vec3 place_of(const struct model_vertex *vertex)
+/* A corner on its way to its place. */
+struct arrival {
+    struct vec3 at;
+    uint32_t vertex;
+};
+
+static int compare_arrivals(const void *left, const void *right)
 {
-    return (struct vec3){(double)vertex->x, (double)vertex->y, (double)vertex->z};
+    const struct arrival *a = left, *b = right;
+    int order = wrap_compare(&a->at, &b->at);
+
+    return order != 0 ? order : (a->vertex > b->vertex) - (a->vertex < b->vertex);
 }
 
-static uint32_t find_place(const struct places *places, struct vec3 at)
+static int find_places(struct places *places, const struct model_vertex *vertex, uint32_t count)
 {
-    const struct vec3 *found =
-        bsearch(&at, places->at, places->count, sizeof(*places->at), wrap_compare);
-
-    return (uint32_t)(found - places->at);
-}
-
-static int find_places(struct places *places, const struct scenario *scenario,
-                       const struct model *model)
-{
-    const struct model_vertex *vertex = &scenario->vertices[model->first_vertex];
-    const struct model_triangle *triangle = &scenario->triangles[model->first_triangle];
-    uint32_t count = model->vertex_count;
+    struct arrival *arrival = malloc(count * sizeof(*arrival));
 
     memset(places, 0, sizeof(*places));
     places->at = malloc(count * sizeof(*places->at));
     places->of = malloc(count * sizeof(*places->of));
     places->parent = malloc(count * sizeof(*places->parent));
-    if (places->at == NULL || places->of == NULL || places->parent == NULL)
+    if (arrival == NULL || places->at == NULL || places->of == NULL || places->parent == NULL) {
+        free(arrival);
         return -1;
+    }
     for (uint32_t i = 0; i < count; i++)
-        places->at[i] = place_of(&vertex[i]);
-    qsort(places->at, count, sizeof(*places->at), wrap_compare);
+        arrival[i] =
+            (struct arrival){{(double)vertex[i].x, (double)vertex[i].y, (double)vertex[i].z}, i};
+    qsort(arrival, count, sizeof(*arrival), compare_arrivals);
     for (uint32_t i = 0; i < count; i++) {
-        if (i == 0 || wrap_compare(&places->at[places->count - 1], &places->at[i]) != 0)
-            places->at[places->count++] = places->at[i];
+        uint32_t last = places->count - 1;
+
+        if (i == 0 || wrap_compare(&places->at[last], &arrival[i].at) != 0) {
+            last = places->count++;
+            places->at[last] = arrival[i].at;
+            places->parent[last] = last;
+        }
+        places->of[arrival[i].vertex] = last;
     }
-    for (uint32_t i = 0; i < places->count; i++)
-        places->parent[i] = i;
-    for (uint32_t i = 0; i < count; i++)
-        places->of[i] = find_place(places, place_of(&vertex[i]));
-    for (uint32_t i = 0; i < model->triangle_count; i++) {
-        join_places(places, places->of[triangle[i].vertex[0]], places->of[triangle[i].vertex[1]]);
-        join_places(places, places->of[triangle[i].vertex[0]], places->of[triangle[i].vertex[2]]);
-    }
+    free(arrival);
     return 0;
+}
+
+static void join_corners(const struct places *places, const struct model_triangle *triangle,
+                         uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t *corner = triangle[i].vertex;
+
+        join_places(places, places->of[corner[0]], places->of[corner[1]]);
+        join_places(places, places->of[corner[0]], places->of[corner[2]]);
+    }
 }
 
 static int add_point(struct piece *piece, struct vec3 at)
@@ -148,9 +159,11 @@ int pieces_find(struct pieces *pieces, const struct scenario *scenario, const st
     int result;
 
     memset(pieces, 0, sizeof(*pieces));
-    result = find_places(&places, scenario, model);
-    if (result == 0)
+    result = find_places(&places, &scenario->vertices[model->first_vertex], model->vertex_count);
+    if (result == 0) {
+        join_corners(&places, &scenario->triangles[model->first_triangle], model->triangle_count);
         result = deal_places(pieces, &places);
+    }
     places_free(&places);
     for (uint32_t i = 0; result == 0 && i < pieces->count; i++) {
         struct piece *piece = &pieces->piece[i];

@@ -6,12 +6,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A triangle is slim when its area is less than this share of what its sides could have: then its
+ * normal is found exactly. The normals of others are good to 4e-14, so that a point's distance from
+ * a plane is good to SURE_M wherever it is. */
+#define SLIM_SHARE 0.01
+#define SURE_M     1e-9
+
+__extension__ typedef __int128 wide;
+
 /* A wrap being made; its triangles are in no order. */
 struct wrapping {
     struct vec3 *point;
     uint32_t count;
     struct wrap_face *face;
-    uint32_t face_count, face_most;
+    uint32_t face_count;
     uint32_t (*edge)[2]; /* around the triangles that go */
     uint32_t edge_count;
 };
@@ -109,18 +117,72 @@ int wrap_missing(const struct vec3 *point, uint32_t count, double least_m, struc
 
 /* --- growing a hull ----------------------------------------------------------------------------*/
 
+static struct vec3 snap(struct vec3 p)
+{
+    return (struct vec3){floor(p.x * WRAP_STEPS + 0.5) / WRAP_STEPS,
+                         floor(p.y * WRAP_STEPS + 0.5) / WRAP_STEPS,
+                         floor(p.z * WRAP_STEPS + 0.5) / WRAP_STEPS};
+}
+
+static int64_t steps(double metres)
+{
+    return (int64_t)(metres * WRAP_STEPS);
+}
+
+/* Exact: differences have 33 bits, and sums of two products of them 67. */
+static void cross_exactly(struct vec3 u, struct vec3 v, wide product[3])
+{
+    int64_t ux = steps(u.x), uy = steps(u.y), uz = steps(u.z);
+    int64_t vx = steps(v.x), vy = steps(v.y), vz = steps(v.z);
+
+    product[0] = (wide)uy * vz - (wide)uz * vy;
+    product[1] = (wide)uz * vx - (wide)ux * vz;
+    product[2] = (wide)ux * vy - (wide)uy * vx;
+}
+
+/* Sum of the sizes of a vector's components. */
+static double extent(struct vec3 v)
+{
+    return fabs(v.x) + fabs(v.y) + fabs(v.z);
+}
+
 static void add_face(struct wrapping *w, uint32_t a, uint32_t b, uint32_t c)
 {
     struct wrap_face *face = &w->face[w->face_count++];
-    struct vec3 at = w->point[a];
-    struct vec3 normal = cross(vec3_sub(w->point[b], at), vec3_sub(w->point[c], at));
+    struct vec3 at = w->point[a], u = vec3_sub(w->point[b], at), v = vec3_sub(w->point[c], at);
+    struct vec3 normal = cross(u, v);
     double length = vec3_length(normal);
 
-    *face = (struct wrap_face){.corner = {a, b, c}, .area_m2 = 0.5 * length};
-    if (length > 0.0) {
-        face->normal = vec3_scale(normal, 1.0 / length);
-        face->offset_m = vec3_dot(face->normal, at);
+    if (length < SLIM_SHARE * extent(u) * extent(v)) {
+        const double square = WRAP_STEPS * WRAP_STEPS;
+        wide product[3];
+
+        cross_exactly(u, v, product);
+        normal = (struct vec3){(double)product[0] / square, (double)product[1] / square,
+                               (double)product[2] / square};
+        length = vec3_length(normal);
     }
+    face->corner[0] = a;
+    face->corner[1] = b;
+    face->corner[2] = c;
+    face->normal = vec3_scale(normal, 1.0 / length);
+    face->offset_m = vec3_dot(face->normal, at);
+    face->area_m2 = 0.5 * length;
+}
+
+/* Is the point on the outer side of the triangle's plane? */
+static bool is_above(const struct wrapping *w, const struct wrap_face *face, struct vec3 p)
+{
+    double above = vec3_dot(face->normal, p) - face->offset_m;
+
+    if (fabs(above) > SURE_M)
+        return above > 0.0;
+    struct vec3 at = w->point[face->corner[0]], to = vec3_sub(p, at);
+    wide product[3];
+
+    cross_exactly(vec3_sub(w->point[face->corner[1]], at), vec3_sub(w->point[face->corner[2]], at),
+                  product);
+    return product[0] * steps(to.x) + product[1] * steps(to.y) + product[2] * steps(to.z) > 0;
 }
 
 static void begin(struct wrapping *w, const struct span *span)
@@ -160,7 +222,7 @@ static void add_point(struct wrapping *w, uint32_t point)
     for (uint32_t i = w->face_count; i > 0; i--) {
         const struct wrap_face *face = &w->face[i - 1];
 
-        if (vec3_dot(face->normal, p) - face->offset_m <= WRAP_SLACK_M)
+        if (!is_above(w, face, p))
             continue;
         for (int k = 0; k < 3; k++)
             add_edge(w, face->corner[k], face->corner[(k + 1) % 3]);
@@ -170,14 +232,13 @@ static void add_point(struct wrapping *w, uint32_t point)
         add_face(w, w->edge[i][0], w->edge[i][1], point);
 }
 
-/* Adds the points from `from` on. 0; -1 when there come to be too many triangles (ERANGE), or more
- * than a closed surface over the points has: it has come apart (EDOM). */
+/* Adds the points from `from` on. 0; -1 with errno ERANGE. */
 static int add_points(struct wrapping *w, uint32_t from)
 {
     for (uint32_t i = from; i < w->count; i++) {
         add_point(w, i);
-        if (w->face_count > w->face_most) {
-            errno = w->face_most == WRAP_FACES_MAX ? ERANGE : EDOM;
+        if (w->face_count > WRAP_FACES_MAX) {
+            errno = ERANGE;
             return -1;
         }
     }
@@ -231,16 +292,17 @@ static int finish(struct wrap *wrap, const struct wrapping *w)
     return 0;
 }
 
-/* Room for count points. A closed surface of triangles over n points has 2 n - 4 of them; each has
- * three edges, and on each edge there can come to be a new one. */
+/* Room for count points. A closed surface of triangles over n points has 2 n - 4 of them, and each
+ * has three edges. */
 static int open_wrapping(struct wrapping *w, uint32_t count)
 {
+    uint32_t faces = count < WRAP_FACES_MAX / 2 ? 2 * count : WRAP_FACES_MAX + 2;
+
     memset(w, 0, sizeof(*w));
     w->count = count;
-    w->face_most = count < WRAP_FACES_MAX / 2 ? 2 * count : WRAP_FACES_MAX;
     w->point = malloc(count * sizeof(*w->point));
-    w->face = malloc((size_t)w->face_most * 3 * sizeof(*w->face));
-    w->edge = malloc((size_t)w->face_most * 3 * sizeof(*w->edge));
+    w->face = malloc(faces * sizeof(*w->face));
+    w->edge = malloc((size_t)faces * 3 * sizeof(*w->edge));
     return w->point != NULL && w->face != NULL && w->edge != NULL ? 0 : -1;
 }
 
@@ -267,7 +329,7 @@ static int compare_ranked(const void *left, const void *right)
     return wrap_compare(&a->point, &b->point);
 }
 
-/* Copies the points, those furthest out first: most of the others are then inside at once. */
+/* Copies the points onto the lattice, those furthest out first: most others are then inside. */
 static int rank_points(struct vec3 *to, const struct vec3 *point, uint32_t count)
 {
     struct ranked *ranked = malloc(count * sizeof(*ranked));
@@ -285,14 +347,14 @@ static int rank_points(struct vec3 *to, const struct vec3 *point, uint32_t count
     }
     qsort(ranked, count, sizeof(*ranked), compare_ranked);
     for (uint32_t i = 0; i < count; i++)
-        to[i] = ranked[i].point;
+        to[i] = snap(ranked[i].point);
     free(ranked);
     return 0;
 }
 
 static int wrap_ranked(struct wrapping *w, struct wrap *wrap)
 {
-    struct span span = span_of(w->point, w->count, WRAP_SLACK_M);
+    struct span span = span_of(w->point, w->count, WRAP_THIN_M);
 
     if (span.axes < 3) {
         errno = EDOM;
@@ -379,13 +441,13 @@ double wrap_growth(const struct wrap *wrap, struct vec3 point)
     return growth / 3.0;
 }
 
-bool wrap_holds(const struct wrap *outer, const struct wrap *inner)
+bool wrap_holds(const struct wrap *outer, const struct wrap *inner, double slack_m)
 {
     for (uint32_t i = 0; i < inner->point_count; i++) {
         for (uint32_t k = 0; k < outer->face_count; k++) {
             const struct wrap_face *face = &outer->face[k];
 
-            if (vec3_dot(face->normal, inner->point[i]) - face->offset_m > WRAP_SLACK_M)
+            if (vec3_dot(face->normal, inner->point[i]) - face->offset_m > slack_m)
                 return false;
         }
     }

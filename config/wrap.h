@@ -1,6 +1,9 @@
-/* Wraps: convex hulls of a few points, quickly. Joining the pieces of a model asks for the volumes
- * of hundreds of hulls, most of which nobody keeps (config/hulls.h). Only + - * / and sqrt: the
- * same bits everywhere. Pure; start-up only. */
+/* Wraps: convex hulls of a few points. Joining the pieces of a model asks for hundreds of hulls,
+ * most of which nobody keeps (config/hulls.h).
+ *
+ * Points are put on a lattice of half a micrometre, on which the side of a plane that a point lies
+ * on is found exactly. So a hull is always closed and convex, however flat points lie with each
+ * other, and the same to the bit everywhere. Pure; start-up only. */
 #ifndef JOLON_CONFIG_WRAP_H
 #define JOLON_CONFIG_WRAP_H
 
@@ -9,8 +12,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Points this near to the hull of the others count as in it [m]: what float rounds off at 16 m. */
-#define WRAP_SLACK_M 1e-6
+/* Steps of the lattice in a metre; coordinates are within WRAP_EXTENT_M of 0. */
+#define WRAP_STEPS    2097152.0
+#define WRAP_EXTENT_M 1024.0
+
+/* Least thickness of what is wrapped [m]. */
+#define WRAP_THIN_M 1e-5
 
 /* A hull that grows past this many triangles on the way is given up: ERANGE. */
 #define WRAP_FACES_MAX 4096
@@ -18,7 +25,7 @@
 /* A triangle of the hull. */
 struct wrap_face {
     uint32_t corner[3]; /* indices of points, counter-clockwise from outside */
-    struct vec3 normal; /* unit, outwards; zero when the triangle has no area */
+    struct vec3 normal; /* unit, outwards */
     double offset_m;    /* inside is normal . p <= offset_m */
     double area_m2;
 };
@@ -40,7 +47,7 @@ int wrap_compare(const void *left, const void *right);
 int wrap_missing(const struct vec3 *point, uint32_t count, double least_m, struct vec3 axis[3]);
 
 /* Wraps points, in any order, some of them given twice. 0; -1 with errno ENOMEM; EDOM when they
- * span fewer than three axes by more than WRAP_SLACK_M, or rounding tears the hull; ERANGE. */
+ * span fewer than three axes by WRAP_THIN_M; ERANGE. */
 int wrap_points(struct wrap *wrap, const struct vec3 *point, uint32_t count);
 void wrap_free(struct wrap *wrap);
 
@@ -51,7 +58,7 @@ int wrap_volume(double *volume_m3, const struct wrap *a, const struct wrap *b);
 /* How much larger the wrap would be with this point added [m3]; 0 inside. Exact. */
 double wrap_growth(const struct wrap *wrap, struct vec3 point);
 
-/* Are all points of inner within outer? */
-bool wrap_holds(const struct wrap *outer, const struct wrap *inner);
+/* Are all points of inner within slack_m of outer? */
+bool wrap_holds(const struct wrap *outer, const struct wrap *inner, double slack_m);
 
 #endif
