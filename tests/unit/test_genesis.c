@@ -113,7 +113,7 @@ static void test_real_shapes_start_clear_of_each_other(void **state)
     (void)state;
     fixture_open(&f, "collision = { shape = \"model\"; };\n"
                      "objects = ( { kind = \"tree\"; at = [1050.0, 2050.0]; } );\n"
-                     "vehicles = ( { kind = \"tank\"; count = 12; area = [1000.0, 2000.0, 1100.0, "
+                     "vehicles = ( { kind = \"tank\"; count = 25; area = [1000.0, 2000.0, 1100.0, "
                      "2100.0]; } );");
     const struct world *world = &f.view.world;
     const struct kind *tank = &world->kinds[fixture_kind(&f, "tank")];
@@ -121,7 +121,7 @@ static void test_real_shapes_start_clear_of_each_other(void **state)
     struct state now = fixture_state(&f);
     const struct entities *e = &now.entities;
     assert_true(tank->level_m > tank->radius_m && tree->level_m > tree->radius_m);
-    for (uint32_t i = 0; i < 12; i++) {
+    for (uint32_t i = 0; i < 25; i++) {
         assert_true(hypot(e->x[i] - 1050.0, e->z[i] - 2050.0) > tank->level_m + tree->level_m);
         for (uint32_t j = 0; j < i; j++)
             assert_true(hypot(e->x[i] - e->x[j], e->z[i] - e->z[j]) > 2.0 * tank->level_m);
