@@ -39,7 +39,7 @@ struct wrap {
     struct vec3 middle; /* of the points */
 };
 
-/* Order of points by x, then y, then z, for qsort() and bsearch(). */
+/* Order of points by x, then y, then z, for qsort(). */
 int wrap_compare(const void *left, const void *right);
 
 /* Directions in which the points (one or more) span no more than least_m: unit, at right angles to
@@ -55,7 +55,7 @@ void wrap_free(struct wrap *wrap);
 int wrap_both(struct wrap *wrap, const struct wrap *a, const struct wrap *b);
 int wrap_volume(double *volume_m3, const struct wrap *a, const struct wrap *b);
 
-/* How much larger the wrap would be with this point added [m3]; 0 inside. Exact. */
+/* How much larger the wrap would be with this point added [m3]; 0 inside. */
 double wrap_growth(const struct wrap *wrap, struct vec3 point);
 
 /* Are all points of inner within slack_m of outer? */
