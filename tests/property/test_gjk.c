@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #define PAIRS       100000
-#define KNOWN_PAIRS 20000
+#define KNOWN_PAIRS 25000
 #define POINTS_MAX  256
 #define SLACK_M     1e-9
 
@@ -292,7 +292,8 @@ static void test_big_small_and_thin_bodies_are_as_far_apart_as_they_were_put(voi
 {
     static struct solid a, b;
     const double gap[] = {1000.0, 1.0, 1e-3, 1e-6, 1e-8, 0.0}, size[] = {100.0, 100.0, 3.0, 1e-3};
-    uint64_t random = fixture_seed(311);
+    uint64_t random =
+        fixture_seed(13); /* has pairs that need ties, and ones that need a second look */
     (void)state;
     for (int n = 0; n < KNOWN_PAIRS; n++) {
         struct vec3 slab = direction(&random), on_a, on_b;
