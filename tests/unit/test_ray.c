@@ -12,13 +12,16 @@
 
 #define RAYS 20000
 
-enum { CUBE, TWO_CUBES };
+enum { CUBE, TWO_CUBES, STONE };
 
-/* A cube of half a side of 1; a second one behind it, 3 m on. */
-static const struct model_vertex vertices[] = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1},
-                                               {-1, -1, 1},  {1, -1, 1},  {-1, 1, 1},  {1, 1, 1},
-                                               {2, -1, -1},  {4, -1, -1}, {2, 1, -1},  {4, 1, -1},
-                                               {2, -1, 1},   {4, -1, 1},  {2, 1, 1},   {4, 1, 1}};
+/* A cube of half a side of 1; a second one behind it, 3 m on; a stone with eight uneven faces. */
+static const struct model_vertex vertices[] = {
+    {-1, -1, -1},        {1, -1, -1},         {-1, 1, -1},        {1, 1, -1},
+    {-1, -1, 1},         {1, -1, 1},          {-1, 1, 1},         {1, 1, 1},
+    {2, -1, -1},         {4, -1, -1},         {2, 1, -1},         {4, 1, -1},
+    {2, -1, 1},          {4, -1, 1},          {2, 1, 1},          {4, 1, 1},
+    {1.3f, 0.1f, -0.2f}, {-0.9f, 0.3f, 0.1f}, {0.2f, 1.7f, 0.3f}, {-0.1f, -0.7f, 0.4f},
+    {0.3f, 0.2f, 1.1f},  {0.1f, -0.3f, -1.9f}};
 
 #define TRIANGLE(a, b, c)                                                                          \
     {                                                                                              \
@@ -33,11 +36,18 @@ static const struct model_vertex vertices[] = {{-1, -1, -1}, {1, -1, -1}, {-1, 1
         TRIANGLE(n + 4, n + 7, n + 6)
 
 /* The far cube comes first, so that the nearest is not simply the first. */
-static const struct model_triangle triangles[] = {CUBE_FROM(8), CUBE_FROM(0)};
+static const struct model_triangle triangles[] = {
+    CUBE_FROM(8),      CUBE_FROM(0),      TRIANGLE(0, 2, 4), TRIANGLE(2, 1, 4), TRIANGLE(1, 3, 4),
+    TRIANGLE(3, 0, 4), TRIANGLE(2, 0, 5), TRIANGLE(1, 2, 5), TRIANGLE(3, 1, 5), TRIANGLE(0, 3, 5)};
 
 static const struct model models[] = {
     [CUBE] = {.name = "cube", .first_triangle = 12, .triangle_count = 12, .vertex_count = 8},
     [TWO_CUBES] = {.name = "two", .triangle_count = 24, .vertex_count = 16},
+    [STONE] = {.name = "stone",
+               .first_triangle = 24,
+               .triangle_count = 8,
+               .first_vertex = 16,
+               .vertex_count = 6},
 };
 
 static const struct world world = {
@@ -108,24 +118,32 @@ static void test_row_21_of_several_it_is_the_nearest(void **state)
     assert_true(near(hit.normal, (struct vec3){1, 0, 0}));
 }
 
-/* The middle of a face is on the edge between its two triangles. */
+/* Straight at points of edges, and of the diagonals in a face's middle: where two polygons meet. */
 static void test_row_21_no_ray_slips_through_an_edge(void **state)
 {
     uint64_t random = fixture_seed(321);
     struct ray_hit hit;
     (void)state;
     for (int n = 0; n < RAYS; n++) {
-        struct ray_model cube = put(CUBE, (struct vec3){25000, 100, 25000},
-                                    n % 2 ? 0.0 : fixture_uniform(&random, 0.0, TWO_PI));
-        double across[] = {0.0, 1.0, -1.0, fixture_uniform(&random, -1.0, 1.0)};
-        struct vec3 in = {n & 4 ? 1.0 : -1.0, across[n / 8 % 4], across[n / 32 % 4]};
-        if (n % 3 == 0) /* on a diagonal, which is where triangles meet */
-            in.y = in.z = across[3];
-        in = vec3_scale(in, 1.0 - 1e-9); /* just inside the cube: all ways out meet a polygon */
-        struct vec3 from = vec3_add(cube.at, rotation_apply(&cube.turn, in));
-        struct vec3 out = n % 5 ? direction(&random) : rotation_apply(&cube.turn, in);
+        struct ray_model model = put(n & 1 ? STONE : CUBE, (struct vec3){25000, 100, 25000},
+                                     n & 2 ? 0.0 : fixture_uniform(&random, 0.0, TWO_PI));
+        const struct model *shape = &models[model.model];
+        const struct model_triangle *triangle =
+            &triangles[shape->first_triangle + fixture_random(&random) % shape->triangle_count];
+        struct vec3 corner[2];
+        for (int i = 0; i < 2; i++) {
+            const struct model_vertex *v = &vertices[shape->first_vertex + triangle->vertex[i]];
+            corner[i] = (struct vec3){(double)v->x, (double)v->y, (double)v->z};
+        }
+        double t = n & 4 ? 0.5 : n & 8 ? 0.0 : fixture_uniform(&random, 0.0, 1.0);
+        struct vec3 in = {0.0, 0.0, 0.0};
+        if (n & 16)
+            in = vec3_scale(direction(&random), 0.3);
+        struct vec3 out =
+            rotation_apply(&model.turn, vec3_sub(vec3_lerp(corner[0], corner[1], t), in));
         out = vec3_scale(out, 1.0 / vec3_length(out));
-        assert_true(ray_nearest(&cube, from, out, 10.0, &hit));
+        in = vec3_add(model.at, rotation_apply(&model.turn, in));
+        assert_true(ray_nearest(&model, in, out, 10.0, &hit));
         assert_true(vec3_dot(hit.normal, out) > 0.0);
     }
 }
