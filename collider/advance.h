@@ -44,17 +44,17 @@ struct touch {
  * either path's since. False when they do not touch.
  *
  * The gap there is TOUCH_M to within 1e-9 m, unless they were nearer at from already. Bodies that
- * are, or overlap, touch at from if they are coming nearer, the deepest of several hulls first; if
- * they are not, only once they have come nearer by half of TOUCH_M, or half of what is left of it,
- * than they have been since: so resting and parting bodies do not touch, and nothing deeper than
- * half a millimetre is missed.
+ * are, or overlap, touch at from if they are coming nearer, of several hulls the deepest that do.
+ * If they are not, they touch once they are well nearer than at from: by half of the gap that they
+ * had, or of TOUCH_M, in an overlap by half of TOUCH_M or by 5 % of it. So resting and parting
+ * bodies do not touch, and what parts and comes back is seen before it is half a millimetre deeper.
  *
  * Overlapping hulls are pushed apart along the shallowest of their faces' normals, or of the line
  * between their centres; axes across two edges are left out. Where two edges overlap, that is
  * deeper than need be, by as much as the edges' length; but a touch comes before an overlap, and
  * knows its normal.
  *
- * Swapping a and b gives the same bits, and the opposite normal. At most 512 distances a pair of
+ * Swapping a and b gives the same bits, and the opposite normal. At most 256 distances a pair of
  * hulls; should they run out (half a turn a frame within 0.1 mm of a touch), they touch there. */
 bool advance_touch(const struct swept_body *a, const struct swept_body *b, double from,
                    struct touch *touch);

@@ -33,8 +33,19 @@ struct gjk {
  * long. */
 struct gjk gjk_distance(const struct convex *a, const struct convex *b);
 
-/* The same, looking first along a guess of the normal: fewer rounds where it is a good one. */
-struct gjk gjk_distance_from(const struct convex *a, const struct convex *b, struct vec3 guess);
+/* Where a search begins, and where it ended: a good beginning for the same bodies a little later.
+ */
+struct gjk_start {
+    struct vec3 guess;          /* of the normal, any length, while count is 0 */
+    uint32_t count, a[3], b[3]; /* of nearest vertices of a and of b */
+};
+
+/* The same from such a beginning. */
+struct gjk gjk_distance_from(const struct convex *a, const struct convex *b,
+                             struct gjk_start *start);
+
+/* Where a vertex is relative to at. */
+struct vec3 gjk_vertex(const struct convex *convex, uint32_t vertex);
 
 /* The vertex farthest in a direction, the first of several, and where it is relative to at. */
 uint32_t gjk_support(const struct convex *convex, struct vec3 direction, struct vec3 *point);

@@ -102,13 +102,19 @@ static void test_scale_and_turn_count(void **state)
     assert_true(fabs(gjk_distance(&a, &b).distance_m - (9.0 - 2.0 * sqrt(2.0))) < 1e-14);
 }
 
-static void test_a_guess_changes_nothing_but_the_way(void **state)
+static void test_where_it_begins_changes_nothing_but_the_way(void **state)
 {
     struct convex a = cube_at(0, 0, 0), b = cube_at(4, 5, -8);
     const struct vec3 guess[] = {{1, 0, 0}, {-1, -1, 1}, {0, 0, 0}, {2.0 / 7, 3.0 / 7, -6.0 / 7}};
     (void)state;
-    for (int i = 0; i < 4; i++)
-        assert_true(fabs(gjk_distance_from(&a, &b, guess[i]).distance_m - 7.0) < 1e-14);
+    for (int i = 0; i < 4; i++) {
+        struct gjk_start start = {.guess = guess[i]};
+        assert_true(fabs(gjk_distance_from(&a, &b, &start).distance_m - 7.0) < 1e-14);
+        assert_int_equal(start.count, 1); /* corner 3 of a, 4 of b */
+        assert_true(start.a[0] == 3 && start.b[0] == 4);
+        start = (struct gjk_start){.count = 3, .a = {0, 1, 0}, .b = {0, 7, 6}};
+        assert_true(fabs(gjk_distance_from(&a, &b, &start).distance_m - 7.0) < 1e-14);
+    }
 }
 
 static void test_support_is_the_first_of_the_farthest(void **state)
@@ -131,7 +137,7 @@ int main(void)
         cmocka_unit_test(test_bodies_that_overlap_share_a_point_and_have_no_normal),
         cmocka_unit_test(test_coincident_bodies_overlap),
         cmocka_unit_test(test_scale_and_turn_count),
-        cmocka_unit_test(test_a_guess_changes_nothing_but_the_way),
+        cmocka_unit_test(test_where_it_begins_changes_nothing_but_the_way),
         cmocka_unit_test(test_support_is_the_first_of_the_farthest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
