@@ -74,6 +74,17 @@ static struct sight look(const struct hull_pair *pair, const struct moment *now,
     return sight;
 }
 
+/* What stands in for a patch when there is none: a point between the nearest points, or in both of
+ * two bodies that overlap, and the foremost vertices. */
+static void scattered(const struct moment *now, const struct sight *sight, struct patch *patch)
+{
+    patch->middle = sight->point;
+    patch->count = 2;
+    gjk_support(&now->a, sight->plane.normal, &patch->corner[0]);
+    gjk_support(&now->b, vec3_scale(sight->plane.normal, -1.0), &patch->corner[1]);
+    patch->corner[1] = vec3_add(patch->corner[1], now->b.at);
+}
+
 /* Do the bodies come nearer where they touch? Then *point is where. */
 static bool nearing(const struct hull_pair *pair, const struct moment *now,
                     const struct sight *sight, struct vec3 *point)
@@ -82,10 +93,8 @@ static bool nearing(const struct hull_pair *pair, const struct moment *now,
     struct vec3 normal = sight->plane.normal;
     double fastest = NEARING_M;
     bool nears = false;
-    if (!patch_between(&now->a, &now->b, normal, &patch)) {
-        patch.middle = sight->point;
-        patch.count = 0;
-    }
+    if (!patch_between(&now->a, &now->b, normal, &patch))
+        scattered(now, sight, &patch);
     *point = patch.middle;
     if (apart_nearing(pair, now, normal, patch.middle) > NEARING_M)
         return true;
@@ -234,18 +243,18 @@ bool advance_touch(const struct swept_body *a, const struct swept_body *b, doubl
     if (turning_a.rate == 0.0 && turning_b.rate == 0.0 &&
         order_of_points(a->path.along, b->path.along) == 0)
         return false; /* at rest with each other */
-    touch->toi = INFINITY;
-    touch->depth_m = 0.0;
+    struct touch first = {.toi = INFINITY};
     for (uint32_t i = 0; i < a->hull_count; i++) {
         for (uint32_t j = 0; j < b->hull_count; j++) {
             struct hull_pair pair = hull_pair_of(&turning_a, &turning_b, &a->hull[i], &b->hull[j]);
-            advance(&pair, from, until, touch);
+            advance(&pair, from, until, &first);
         }
     }
-    if (touch->toi == INFINITY)
+    if (first.toi == INFINITY)
         return false;
     if (swap)
-        touch->normal = vec3_scale(touch->normal, -1.0);
+        first.normal = vec3_scale(first.normal, -1.0);
+    *touch = first;
     return true;
 }
 
