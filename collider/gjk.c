@@ -153,6 +153,7 @@ static bool take(struct simplex *simplex, const struct corner *corner, double li
     struct face trial[2];
     double least = limit;
     int kept = 0, whole = (1 << simplex->face.count) - 1;
+    bool any = false;
     for (int faces = whole; faces >= 0; faces--) {
         struct face *face = &trial[1 - kept];
         face->corner[0] = corner;
@@ -165,13 +166,13 @@ static bool take(struct simplex *simplex, const struct corner *corner, double li
             continue;
         least = face->square;
         kept = 1 - kept;
+        any = true;
         if (faces == whole)
             break;
     }
-    if (!(least < limit))
-        return false;
-    settle(simplex, &trial[kept]);
-    return true;
+    if (any)
+        settle(simplex, &trial[kept]);
+    return any;
 }
 
 static bool holds(const struct simplex *simplex, const struct corner *corner)

@@ -624,6 +624,7 @@ static void test_turning_bodies_in_each_other_come_no_deeper(void **state)
             continue;
         bool hit = advance_touch(&a, &b, 0.0, &touch);
         *(!hit ? &never : touch.toi == 0.0 ? &at_once : &later) += 1;
+        assert_true(touch.depth_m <= maths_max(0.5 * TOUCH_M - first, -1.05 * first) + SLACK_M);
         for (int i = 1; i <= 10 && touch.toi > 0.0; i++) {
             double gap = across_edges(&a, &b, touch.toi * i / 10.0);
             if (gap < first + maths_min(-0.5 * TOUCH_M, 0.05 * first) - SLACK_M)

@@ -251,6 +251,26 @@ static void test_what_parts_and_comes_back_touches_then(void **state)
     assert_true(fabs(advance_gap(&a, &b, touch.toi) - TOUCH_M) < 1e-9);
 }
 
+/* Edges across each other, half a micrometre apart; the upper one comes down ever faster. Across
+ * faces they would overlap by far more than they do. */
+static void test_edges_that_come_to_overlap_keep_their_normal(void **state)
+{
+    struct swept_body a = put(CUBE, 1, (struct vec3){0, 0, 0}, still);
+    struct swept_body b = put(FAR_CUBE, 1, still, still);
+    const double arm = 10.0 * sqrt(0.5);
+    (void)state;
+    a.from = a.to = rotation_of(HALF_PI, 0.0, 0.25 * PI); /* an edge along x on top */
+    b.from = rotation_of(HALF_PI, 0.25 * PI, 0.0);        /* one along z at the bottom */
+    b.to = rotation_of(HALF_PI, 0.25 * PI + 0.3, 0.0);
+    b.path.at = (struct vec3){-arm, 2.0 * sqrt(2.0) + 5e-7 - arm, 0};
+    b.path.along.y = 2e-6 - arm * rotation_speed(b.from, b.to, 0.0).z; /* at first it rises */
+    assert_true(advance_gap(&a, &b, 0.0) > 4e-7 && advance_gap(&a, &b, 0.0) < 6e-7);
+    assert_true(advance_touch(&a, &b, 0.0, &touch));
+    assert_true(touch.toi > 0.01 && touch.toi < 0.1);
+    assert_true(fabs(touch.depth_m - 0.5 * TOUCH_M) < 1e-5);
+    assert_true(near(touch.normal, 0, 1, 0, 1e-3));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -266,6 +286,7 @@ int main(void)
         cmocka_unit_test(test_of_several_overlaps_the_deepest_is_told),
         cmocka_unit_test(test_where_the_middle_parts_the_side_that_digs_in_touches),
         cmocka_unit_test(test_what_parts_and_comes_back_touches_then),
+        cmocka_unit_test(test_edges_that_come_to_overlap_keep_their_normal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
