@@ -7,9 +7,10 @@
 #include "collider/apart.h"
 #include "collider/patch.h"
 
-#define LOOKS      512   /* distances of one pair of hulls */
-#define TOUCHING_M 5e-10 /* a gap this near to the one looked for is it, if it gets no nearer */
-#define EXACT_M    1e-12 /* and this near anyway */
+#define LOOKS      1024  /* distances of one pair of hulls */
+#define TOUCHING_M 5e-10 /* a gap this near to the one looked for is it after a few tries */
+#define TRIES      3
+#define EXACT_M    1e-12 /* and this near at once */
 #define WINDOW_M   1e-6  /* what the spheres' times may be off */
 #define SHALLOW_M  1e-6  /* gaps below this are left for an overlap */
 #define DEEP       0.05  /* of an overlap: coming nearer by it is a touch again */
@@ -146,7 +147,7 @@ static void advance(const struct hull_pair *pair, double from, double until, str
     struct vec3 point, normal = {0.0, 0.0, 0.0};
     double time = from, gap = TOUCH_M, last = maths_min(until, touch->toi), h;
     bool first = true;
-    int near = 0;
+    int tries = 0;
     for (int looks = 0; looks < LOOKS; looks++) {
         struct moment now = moment_at(pair, time);
         if (!apart_by_spheres(pair, &now, last - time, &h)) {
@@ -155,7 +156,7 @@ static void advance(const struct hull_pair *pair, double from, double until, str
             first = false;
             struct sight sight = look(pair, &now, normal, &start);
             double left = sight.gap - gap;
-            bool there = left <= EXACT_M || (left <= TOUCHING_M && ++near > 3);
+            bool there = left <= EXACT_M || (left <= TOUCHING_M && tries++ >= TRIES);
             if ((there || looks == LOOKS - 1) && nearing(pair, &now, &sight, &point)) {
                 found(pair, &now, &sight, point, touch);
                 return;

@@ -54,8 +54,9 @@ struct touch {
  * deeper than need be, by as much as the edges' length; but a touch comes before an overlap, and
  * knows its normal.
  *
- * Swapping a and b gives the same bits, and the opposite normal. At most 256 distances a pair of
- * hulls; should they run out (half a turn a frame within 0.1 mm of a touch), they touch there. */
+ * Swapping a and b gives the same bits, and the opposite normal. At most 1,024 distances a pair of
+ * hulls: 3 to 7 a touch is usual, 340 was the most in 200,000 pairs of up to 90 m that turn by up
+ * to half a turn a frame. Should they run out, hulls that come nearer there touch there, early. */
 bool advance_touch(const struct swept_body *a, const struct swept_body *b, double from,
                    struct touch *touch);
 

@@ -3,9 +3,8 @@
  * at r from an axis is accelerated by more than rate^2 r (world/rotation.h). So along n + h m the
  * two are apart by
  *
- *     n.z + h (n.z' + m.z)     a straight line, of those of all vertices the least is concave
- *     + h^2 m.z'               of which the bodies' part is known and the turning's part has a
- * bound
+ *     n.z + h (n.z' + m.z)     a straight line; of those of all vertices the least is concave
+ *     + h^2 m.z'               the bodies' part is known, the turning's part has a bound
  *     - |n + h m| K h^2 / 2    what acceleration does
  *
  * where a gap counts |n + h m| <= 1 + h^2 m.m / 2 times, as n and m are square to each other. Taken
@@ -15,10 +14,10 @@
  * h m.r = r.(n + h (n x spin + m)). */
 #include "collider/apart.h"
 
-#define NEWTON      16 /* steps to one time */
-#define ROUNDING_M  1e-13
-#define SPHERES_FAR 0.1 /* spheres this much of their radii apart are looked at instead of hulls   \
-                         */
+#define NEWTON     16 /* steps to one time */
+#define ROUNDING_M 1e-13
+/* Spheres this much of their radii apart are looked at instead of hulls. */
+#define SPHERES_FAR 0.1
 
 /* How far apart two points are along a direction, and how that changes. */
 struct line {
