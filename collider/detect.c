@@ -47,11 +47,6 @@ struct sweep_box detect_box(const struct detect_input *input, uint32_t row)
     };
 }
 
-static bool rests(const struct path *path)
-{
-    return path->along.x == 0.0 && path->along.y == 0.0 && path->along.z == 0.0;
-}
-
 /* The way, lowered by the threshold, does not reach the ground. */
 static bool above_threshold(const struct detect_input *input, const struct path *path)
 {
@@ -65,7 +60,7 @@ bool detect_tests_fixed(const struct detect_input *input, uint32_t row)
 {
     const struct path *path = &input->path[row];
     const struct kind *kind = &input->world->kinds[input->entities->kind[row]];
-    return input->world->counts.fixed > 0 && !rests(path) &&
+    return input->world->counts.fixed > 0 && !detect_rests(path) &&
            !(kind->domain == DOMAIN_AIR && above_threshold(input, path));
 }
 
@@ -80,27 +75,120 @@ bool detect_apart(const struct detect_input *input, uint32_t a, uint32_t b)
         return true;
     if (round_a && round_b && e->owner_id[a] != 0 && e->owner_id[a] == e->owner_id[b])
         return true;
-    return rests(&input->path[a]) && rests(&input->path[b]);
+    return detect_rests(&input->path[a]) && detect_rests(&input->path[b]);
 }
 
-bool detect_boxes_meet(const struct sweep_box *a, const struct sweep_box *b)
+/* A fixed object's extent: from its position to each side, and from its foot down and up [m]. */
+struct extent {
+    double reach, low, high;
+};
+
+static struct extent extent_of(const struct world *world, const struct fixed_object *object)
 {
-    return a->min_x <= b->max_x && b->min_x <= a->max_x && a->min_z <= b->max_z &&
-           b->min_z <= a->max_z && a->min_y <= b->max_y && b->min_y <= a->max_y;
+    double reach = detect_fixed_reach(world, object);
+    if (world->params->collision.shape != SHAPE_MODEL)
+        return (struct extent){reach, -reach, reach};
+    const struct kind *kind = &world->kinds[object->kind];
+    double scale = (double)object->radius_m / kind->radius_m;
+    return (struct extent){reach, kind->low_m * scale, kind->high_m * scale};
 }
 
 bool detect_box_meets_fixed(const struct detect_input *input, const struct sweep_box *box,
                             const struct fixed_object *object)
 {
-    const struct kind *kind = &input->world->kinds[object->kind];
-    double r = detect_fixed_reach(input->world, object), y = (double)object->y;
-    double low = -r, high = r;
-    if (input->world->params->collision.shape == SHAPE_MODEL) {
-        double scale = (double)object->radius_m / kind->radius_m;
-        low = kind->low_m * scale;
-        high = kind->high_m * scale;
+    struct extent e = extent_of(input->world, object);
+    double y = (double)object->y;
+    return (double)box->min_x <= object->x + e.reach && object->x - e.reach <= (double)box->max_x &&
+           (double)box->min_z <= object->z + e.reach && object->z - e.reach <= (double)box->max_z &&
+           (double)box->min_y <= y + e.high && y + e.low <= (double)box->max_y;
+}
+
+/* --- the methods -------------------------------------------------------------------------------*/
+
+struct detect_workspace {
+    void *block[DETECT_BLOCKS];
+    size_t bytes[DETECT_BLOCKS];
+};
+
+void *detect_block(struct detect_workspace **workspace, uint32_t block, size_t count, size_t size)
+{
+    if (!*workspace)
+        *workspace = calloc(1, sizeof **workspace);
+    if (!*workspace)
+        return NULL;
+    struct detect_workspace *w = *workspace;
+    size_t bytes = count * size;
+    if (w->block[block] && bytes <= w->bytes[block])
+        return w->block[block];
+    free(w->block[block]);
+    w->bytes[block] = bytes + bytes / 2 + 64;
+    w->block[block] = malloc(w->bytes[block]);
+    return w->block[block];
+}
+
+void detect_workspace_free(struct detect_workspace *workspace)
+{
+    for (int i = 0; workspace && i < DETECT_BLOCKS; i++)
+        free(workspace->block[i]);
+    free(workspace);
+}
+
+/* --- bodies ------------------------------------------------------------------------------------*/
+
+static struct sweep_box box_of_fixed(const struct world *world, const struct fixed_object *object)
+{
+    struct extent e = extent_of(world, object);
+    double reach = e.reach + BOX_SLACK_M, y = (double)object->y;
+    return (struct sweep_box){
+        (float)(object->x - reach), (float)(y + e.low - BOX_SLACK_M),  (float)(object->z - reach),
+        (float)(object->x + reach), (float)(y + e.high + BOX_SLACK_M), (float)(object->z + reach),
+    };
+}
+
+int detect_bodies(const struct detect_input *input, struct detect_workspace **workspace,
+                  struct detect_bodies *bodies)
+{
+    const struct world *world = input->world;
+    size_t most = (size_t)input->rows + world->counts.fixed;
+    uint32_t *what = detect_block(workspace, DETECT_BODIES, most, sizeof *what);
+    struct sweep_box *box = detect_block(workspace, DETECT_BODIES + 1, most, sizeof *box);
+    uint8_t *tests_fixed = detect_block(workspace, DETECT_BODIES + 2, input->rows, 1);
+    uint32_t count = 0, moving;
+    bool any = false;
+    if (!what || !box || !tests_fixed)
+        return -1;
+    for (uint32_t row = 0; row < input->rows; row++) {
+        if (!detect_there(input, row))
+            continue;
+        what[count] = row;
+        box[count] = detect_box(input, row);
+        tests_fixed[count] = detect_tests_fixed(input, row);
+        any = any || tests_fixed[count];
+        count++;
     }
-    return (double)box->min_x <= object->x + r && object->x - r <= (double)box->max_x &&
-           (double)box->min_z <= object->z + r && object->z - r <= (double)box->max_z &&
-           (double)box->min_y <= y + high && y + low <= (double)box->max_y;
+    moving = count;
+    for (uint32_t object = 0; any && object < world->counts.fixed; object++) {
+        if (!detect_stands(input, object))
+            continue;
+        what[count] = object | PAIR_FIXED;
+        box[count++] = box_of_fixed(world, &world->fixed[object]);
+    }
+    *bodies = (struct detect_bodies){count, moving, what, box, tests_fixed};
+    return 0;
+}
+
+int detect_meet(const struct detect_input *input, const struct detect_bodies *bodies, uint32_t i,
+                uint32_t j, struct pair_list *pairs)
+{
+    uint32_t first = i < j ? i : j, second = i < j ? j : i;
+    uint32_t a = bodies->what[first], b = bodies->what[second];
+    bool meet = false;
+    if (second < bodies->moving)
+        meet = detect_boxes_meet(&bodies->box[first], &bodies->box[second]) &&
+               !detect_apart(input, a, b);
+    else if (first < bodies->moving)
+        meet = bodies->tests_fixed[first] &&
+               detect_box_meets_fixed(input, &bodies->box[first],
+                                      &input->world->fixed[b & ~PAIR_FIXED]);
+    return meet ? pair_list_add(pairs, a, b) : 0;
 }

@@ -17,6 +17,7 @@
 #include "world/world.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* What a pair's second side is. */
@@ -67,6 +68,12 @@ double detect_fixed_reach(const struct world *world, const struct fixed_object *
 /* The row's box. */
 struct sweep_box detect_box(const struct detect_input *input, uint32_t row);
 
+/* Does this way end where it begins? */
+static inline bool detect_rests(const struct path *path)
+{
+    return path->along.x == 0.0 && path->along.y == 0.0 && path->along.z == 0.0;
+}
+
 /* Does the row meet anything at all? Not a free one. */
 static inline bool detect_there(const struct detect_input *input, uint32_t row)
 {
@@ -99,6 +106,32 @@ void detect_workspace_free(struct detect_workspace *workspace);
 /* The function of a method; NULL for METHOD_SWEPT. */
 detect_method *detect_method_of(enum method method);
 
+/* For the methods: room for count items of size bytes in the workspace's block with this number, of
+ * DETECT_BLOCKS; DETECT_BODIES and up are detect_bodies'. What a block held is lost when it grows.
+ * NULL with errno ENOMEM. */
+#define DETECT_BLOCKS 12
+#define DETECT_BODIES 9
+void *detect_block(struct detect_workspace **workspace, uint32_t block, size_t count, size_t size);
+
+/* All that can be met in the frame, numbered through: first the rows that are there, then, if any
+ * row tests fixed objects, those that stand. */
+struct detect_bodies {
+    uint32_t count, moving;      /* the first moving are rows */
+    const uint32_t *what;        /* [count] a row, or a fixed object with PAIR_FIXED */
+    const struct sweep_box *box; /* [count] a fixed object's is a little larger than it is */
+    const uint8_t *tests_fixed;  /* [moving] */
+};
+
+/* Lists them in the workspace, for as long as detect_bodies is not called again. 0, or -1 with
+ * errno ENOMEM. */
+int detect_bodies(const struct detect_input *input, struct detect_workspace **workspace,
+                  struct detect_bodies *bodies);
+
+/* Adds the pair of two bodies if they can meet, by the same predicates as brute.c. Two fixed ones
+ * cannot. 0, or -1 with errno ENOMEM. */
+int detect_meet(const struct detect_input *input, const struct detect_bodies *bodies, uint32_t i,
+                uint32_t j, struct pair_list *pairs);
+
 /* Does this method decide by itself at the frame's end (npsnet2, mps)? The others' pairs are
  * candidates. */
 static inline bool detect_discrete(enum method method)
@@ -106,7 +139,12 @@ static inline bool detect_discrete(enum method method)
     return method == METHOD_NPSNET2 || method == METHOD_MPS;
 }
 
-bool detect_boxes_meet(const struct sweep_box *a, const struct sweep_box *b);
+static inline bool detect_boxes_meet(const struct sweep_box *a, const struct sweep_box *b)
+{
+    return a->min_x <= b->max_x && b->min_x <= a->max_x && a->min_z <= b->max_z &&
+           b->min_z <= a->max_z && a->min_y <= b->max_y && b->min_y <= a->max_y;
+}
+
 bool detect_box_meets_fixed(const struct detect_input *input, const struct sweep_box *box,
                             const struct fixed_object *object);
 
