@@ -1,7 +1,10 @@
 /* What the methods of detection share: boxes, and who can never collide. */
 #include "collider/detect.h"
 
+#include "world/square.h"
+
 #include <stdlib.h>
+#include <string.h>
 
 /* Half a float's step at 50 km is 2 mm; 1 cm keeps every box outside. */
 #define BOX_SLACK_M 0.01
@@ -145,6 +148,23 @@ static struct sweep_box box_of_fixed(const struct world *world, const struct fix
     };
 }
 
+/* Does the box touch a marked square? mark: marks them all. */
+static bool squares_marked(uint8_t *marked, const struct sweep_box *box, bool mark)
+{
+    struct square_box squares = square_box_of((double)box->min_x, (double)box->min_z,
+                                              (double)box->max_x, (double)box->max_z);
+    for (int32_t row = squares.z0; row <= squares.z1; row++) {
+        for (int32_t column = squares.x0; column <= squares.x1; column++) {
+            uint32_t square = square_index(column, row);
+            if (mark)
+                marked[square] = 1;
+            else if (marked[square])
+                return true;
+        }
+    }
+    return false;
+}
+
 int detect_bodies(const struct detect_input *input, struct detect_workspace **workspace,
                   struct detect_bodies *bodies)
 {
@@ -153,25 +173,26 @@ int detect_bodies(const struct detect_input *input, struct detect_workspace **wo
     uint32_t *what = detect_block(workspace, DETECT_BODIES, most, sizeof *what);
     struct sweep_box *box = detect_block(workspace, DETECT_BODIES + 1, most, sizeof *box);
     uint8_t *tests_fixed = detect_block(workspace, DETECT_BODIES + 2, input->rows, 1);
+    uint8_t *marked = detect_block(workspace, DETECT_BODIES + 3, SQUARE_COUNT, 1);
     uint32_t count = 0, moving;
-    bool any = false;
-    if (!what || !box || !tests_fixed)
+    if (!what || !box || !tests_fixed || !marked)
         return -1;
+    memset(marked, 0, SQUARE_COUNT);
     for (uint32_t row = 0; row < input->rows; row++) {
         if (!detect_there(input, row))
             continue;
         what[count] = row;
         box[count] = detect_box(input, row);
         tests_fixed[count] = detect_tests_fixed(input, row);
-        any = any || tests_fixed[count];
+        if (tests_fixed[count])
+            squares_marked(marked, &box[count], true);
         count++;
     }
     moving = count;
-    for (uint32_t object = 0; any && object < world->counts.fixed; object++) {
-        if (!detect_stands(input, object))
-            continue;
-        what[count] = object | PAIR_FIXED;
-        box[count++] = box_of_fixed(world, &world->fixed[object]);
+    for (uint32_t object = 0; object < world->counts.fixed; object++) {
+        box[count] = box_of_fixed(world, &world->fixed[object]);
+        if (detect_stands(input, object) && squares_marked(marked, &box[count], false))
+            what[count++] = object | PAIR_FIXED;
     }
     *bodies = (struct detect_bodies){count, moving, what, box, tests_fixed};
     return 0;

@@ -109,12 +109,12 @@ detect_method *detect_method_of(enum method method);
 /* For the methods: room for count items of size bytes in the workspace's block with this number, of
  * DETECT_BLOCKS; DETECT_BODIES and up are detect_bodies'. What a block held is lost when it grows.
  * NULL with errno ENOMEM. */
-#define DETECT_BLOCKS 12
+#define DETECT_BLOCKS 13
 #define DETECT_BODIES 9
 void *detect_block(struct detect_workspace **workspace, uint32_t block, size_t count, size_t size);
 
-/* All that can be met in the frame, numbered through: first the rows that are there, then, if any
- * row tests fixed objects, those that stand. */
+/* All that can be met in the frame, numbered through: first the rows that are there, then the fixed
+ * objects that stand in gridsquares which a row that tests them touches. */
 struct detect_bodies {
     uint32_t count, moving;      /* the first moving are rows */
     const uint32_t *what;        /* [count] a row, or a fixed object with PAIR_FIXED */

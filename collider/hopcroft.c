@@ -17,16 +17,18 @@
 
 enum { BLOCK_STARTS, BLOCK_ENDS, BLOCK_SORT, BLOCK_NODE };
 
-/* A body and where along x the plane meets or leaves it, as bits that ascend with it. */
+/* Where along x the plane meets a body, or leaves a node, as bits that ascend with it. */
 struct mark {
-    uint32_t key, body;
+    uint32_t key, what;
 };
 
-/* A body that the plane cuts, in a treap: ordered by its least z (then by number), a heap by a
- * hash of its number. */
+/* A body in the treap of what the plane cuts: ordered by its least z, a heap by a hash of its
+ * number. Nodes are numbered as the plane meets them, so that those it cuts lie together. */
 struct node {
+    float min_z, max_z;
+    float last_z; /* greatest max_z of it and of all below it */
     uint32_t left, right;
-    float last_z; /* greatest z of it and of all below it */
+    uint32_t body;
 };
 
 struct sweep {
@@ -68,7 +70,7 @@ static void sort_marks(struct mark *mark, struct mark *other, uint32_t count)
 
 static bool before(const struct sweep *sweep, uint32_t i, uint32_t j)
 {
-    float a = sweep->bodies.box[i].min_z, b = sweep->bodies.box[j].min_z;
+    float a = sweep->node[i].min_z, b = sweep->node[j].min_z;
     return a < b || (!(b < a) && i < j);
 }
 
@@ -80,15 +82,14 @@ static bool above(uint32_t i, uint32_t j)
 static void refresh(const struct sweep *sweep, uint32_t i)
 {
     struct node *node = &sweep->node[i];
-    float last_z = sweep->bodies.box[i].max_z;
-    if (node->left != NOBODY && sweep->node[node->left].last_z > last_z)
-        last_z = sweep->node[node->left].last_z;
-    if (node->right != NOBODY && sweep->node[node->right].last_z > last_z)
-        last_z = sweep->node[node->right].last_z;
-    node->last_z = last_z;
+    node->last_z = node->max_z;
+    if (node->left != NOBODY && sweep->node[node->left].last_z > node->last_z)
+        node->last_z = sweep->node[node->left].last_z;
+    if (node->right != NOBODY && sweep->node[node->right].last_z > node->last_z)
+        node->last_z = sweep->node[node->right].last_z;
 }
 
-/* Parts a tree into what comes before body i and what comes after it. */
+/* Parts a tree into what comes before node i and what comes after it. */
 static void part(const struct sweep *sweep, uint32_t root, uint32_t i, uint32_t *low,
                  uint32_t *high)
 {
@@ -150,34 +151,35 @@ static uint32_t extract(const struct sweep *sweep, uint32_t root, uint32_t i)
     return root;
 }
 
-/* Everything in the tree that overlaps body i in z may meet it. */
+/* Everything in the tree that overlaps node i in z may meet it. */
 static int meet(const struct sweep *sweep, uint32_t root, uint32_t i)
 {
-    const struct sweep_box *box = &sweep->bodies.box[i];
-    if (root == NOBODY || sweep->node[root].last_z < box->min_z)
+    if (root == NOBODY || sweep->node[root].last_z < sweep->node[i].min_z)
         return 0;
-    if (meet(sweep, sweep->node[root].left, i) != 0)
+    const struct node *node = &sweep->node[i], *other = &sweep->node[root];
+    if (meet(sweep, other->left, i) != 0)
         return -1;
-    if (sweep->bodies.box[root].min_z > box->max_z)
+    if (other->min_z > node->max_z)
         return 0; /* and so are all to its right */
-    if (detect_meet(sweep->input, &sweep->bodies, root, i, sweep->pairs) != 0)
+    if (other->max_z >= node->min_z &&
+        detect_meet(sweep->input, &sweep->bodies, other->body, node->body, sweep->pairs) != 0)
         return -1;
-    return meet(sweep, sweep->node[root].right, i);
+    return meet(sweep, other->right, i);
 }
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
 
-static uint32_t *root_of(struct sweep *sweep, uint32_t body)
+static uint32_t *root_of(struct sweep *sweep, uint32_t i)
 {
-    return body < sweep->bodies.moving ? &sweep->moving : &sweep->fixed;
+    return sweep->node[i].body < sweep->bodies.moving ? &sweep->moving : &sweep->fixed;
 }
 
-/* The plane reaches body i. */
+/* The plane reaches node i. */
 static int reach(struct sweep *sweep, uint32_t i)
 {
-    bool moving = i < sweep->bodies.moving;
-    if (meet(sweep, sweep->moving, i) != 0 ||
-        (moving && sweep->bodies.tests_fixed[i] && meet(sweep, sweep->fixed, i) != 0))
+    uint32_t body = sweep->node[i].body;
+    bool asks_fixed = body < sweep->bodies.moving && sweep->bodies.tests_fixed[body];
+    if (meet(sweep, sweep->moving, i) != 0 || (asks_fixed && meet(sweep, sweep->fixed, i) != 0))
         return -1;
     uint32_t *root = root_of(sweep, i);
     *root = insert(sweep, *root, i);
@@ -186,16 +188,37 @@ static int reach(struct sweep *sweep, uint32_t i)
 
 static int pass(struct sweep *sweep, const struct mark *starts, const struct mark *ends)
 {
-    for (uint32_t n = 0, left = 0; n < sweep->bodies.count; n++) {
-        while (ends[left].key < starts[n].key) {
-            uint32_t *root = root_of(sweep, ends[left].body);
-            *root = extract(sweep, *root, ends[left].body);
+    for (uint32_t i = 0, left = 0; i < sweep->bodies.count; i++) {
+        while (ends[left].key < starts[i].key) {
+            uint32_t *root = root_of(sweep, ends[left].what);
+            *root = extract(sweep, *root, ends[left].what);
             left++;
         }
-        if (reach(sweep, starts[n].body) != 0)
+        if (reach(sweep, i) != 0)
             return -1;
     }
     return 0;
+}
+
+/* Puts the bodies in the order in which the plane meets them (starts) and leaves them (ends, by
+ * their nodes). */
+static void put_in_order(struct sweep *sweep, struct mark *starts, struct mark *ends,
+                         struct mark *other)
+{
+    uint32_t count = sweep->bodies.count;
+    for (uint32_t i = 0; i < count; i++)
+        starts[i] = (struct mark){ascending_bits(sweep->bodies.box[i].min_x), i};
+    sort_marks(starts, other, count);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct sweep_box *box = &sweep->bodies.box[starts[i].what];
+        sweep->node[i] = (struct node){.min_z = box->min_z,
+                                       .max_z = box->max_z,
+                                       .left = NOBODY,
+                                       .right = NOBODY,
+                                       .body = starts[i].what};
+        ends[i] = (struct mark){ascending_bits(box->max_x), i};
+    }
+    sort_marks(ends, other, count);
 }
 
 int hopcroft_pairs(const struct detect_input *input, struct detect_workspace **workspace,
@@ -211,11 +234,6 @@ int hopcroft_pairs(const struct detect_input *input, struct detect_workspace **w
     sweep.node = detect_block(workspace, BLOCK_NODE, count, sizeof *sweep.node);
     if (!starts || !ends || !other || !sweep.node)
         return -1;
-    for (uint32_t i = 0; i < count; i++) {
-        starts[i] = (struct mark){ascending_bits(sweep.bodies.box[i].min_x), i};
-        ends[i] = (struct mark){ascending_bits(sweep.bodies.box[i].max_x), i};
-    }
-    sort_marks(starts, other, count);
-    sort_marks(ends, other, count);
+    put_in_order(&sweep, starts, ends, other);
     return pass(&sweep, starts, ends);
 }

@@ -48,8 +48,9 @@ static double side_of(uint32_t level)
 /* What lies past the last cell is in it. */
 static int32_t axis_cell(float metres, double side)
 {
-    double cell = floor((double)metres / side);
-    return (int32_t)maths_clamp(cell, -AXIS_HALF, AXIS_HALF - 1);
+    double cell = maths_clamp((double)metres / side, -AXIS_HALF, AXIS_HALF - 1);
+    int32_t whole = (int32_t)cell; /* floor is a call where SSE 4 cannot be relied on */
+    return (double)whole > cell ? whole - 1 : whole;
 }
 
 static uint64_t pack(uint32_t level, int32_t x, int32_t y, int32_t z)
