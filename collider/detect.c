@@ -108,6 +108,16 @@ bool detect_box_meets_fixed(const struct detect_input *input, const struct sweep
 
 /* --- the methods -------------------------------------------------------------------------------*/
 
+detect_method *detect_method_of(enum method method)
+{
+    static detect_method *const methods[METHOD_COUNT] = {
+        [METHOD_NPSNET2] = npsnet2_pairs,     [METHOD_MPS] = mps_pairs,
+        [METHOD_OCCUPANCY] = occupancy_pairs, [METHOD_HOPCROFT] = hopcroft_pairs,
+        [METHOD_BRUTE] = brute_pairs,
+    };
+    return methods[method];
+}
+
 struct detect_workspace {
     void *block[DETECT_BLOCKS];
     size_t bytes[DETECT_BLOCKS];
