@@ -16,6 +16,7 @@ struct bench_options bench_options(int argc, char **argv, struct bench_options d
 
 int bench_handover(int argc, char **argv); /* handover.c */
 int bench_frame(int argc, char **argv);    /* frame.c */
+int bench_methods(int argc, char **argv);  /* methods.c */
 
 /* The fraction (0..1) of the values that lie at or below the result; sorts them. */
 double bench_quantile(double *values, uint32_t count, double fraction);

@@ -61,6 +61,8 @@ static const struct {
      "[--frames F] [--json]     a frame without work, beside a bare futex ping-pong"},
     {"frame", bench_frame,
      "[--vehicles N] [--threads T] [--frames F] [--json]     the steps of a frame"},
+    {"methods", bench_methods,
+     "[--vehicles N] [--json]     the ways to detect, for a thousand bodies up to N"},
 };
 
 #define BENCHES (sizeof benches / sizeof benches[0])
