@@ -394,6 +394,20 @@ static void test_row_21_an_object_is_hit_as_it_is_turned(void **state)
     assert_int_equal(run(npsnet2_pairs), 1);
 }
 
+static void test_row_21_what_touches_beside_the_line_of_centres_is_missed(void **state)
+{
+    (void)state;
+    make_cubes();
+    /* The car's corner is 0.11 m in the house; the line leaves the car 0.46 m before the house. */
+    small_world_tree(&w, (struct vec3){25013.3, 0, 25011.9}, 4.0);
+    small_world_reach(&w);
+    small_world_row(&w, SMALL_CAR, (struct vec3){25009, 0, 25010}, eastward);
+    w.e.heading[0] = 0.25 * PI;
+    assert_int_equal(run(npsnet2_pairs), 0);
+    w.fixed[0].z = 25010.0; /* the corner is on the line now */
+    assert_int_equal(run(npsnet2_pairs), 1);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -413,6 +427,7 @@ int main(void)
         TEST(test_row_21_spheres_that_overlap_without_the_objects_are_no_collision),
         TEST(test_row_21_fixed_objects_have_their_polygons_and_their_size),
         TEST(test_row_21_an_object_is_hit_as_it_is_turned),
+        TEST(test_row_21_what_touches_beside_the_line_of_centres_is_missed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
