@@ -270,15 +270,17 @@ static void take_out(const struct island *island)
     renew(island);
 }
 
-/* Whether the sweeps settled. */
-static bool sweep_all(const struct island *island, uint32_t sweeps)
+/* Whether the sweeps settled within so many, of so many contacts in all. */
+static bool sweep_all(const struct island *island, uint32_t sweeps, uint32_t updates)
 {
     double size_before = 0.0, least = island->runaway_mps, least_before = least;
     for (uint32_t n = 1;; n++) {
         double change = sweep(island);
         if (change <= island->settled_mps || island->count == 1)
             return true;
-        if (n == sweeps || !(change < island->runaway_mps))
+        if (n == sweeps || (uint64_t)n * island->count >= updates)
+            return false;
+        if (!(change < island->runaway_mps))
             return false;
         least = maths_min(least, change);
         if (n % STALL_SWEEPS == 0) {
@@ -290,12 +292,6 @@ static bool sweep_all(const struct island *island, uint32_t sweeps)
         search(island, size < size_before ? size / size_before : 0.0);
         size_before = size;
     }
-}
-
-static uint32_t sweeps_of(const struct island *island, uint32_t sweeps, uint32_t updates)
-{
-    uint32_t most = updates / island->count + 1; /* one at least */
-    return most < sweeps ? most : sweeps;
 }
 
 /* Solves all contacts from no impulses at all, with as much friction as they settle with; whether
@@ -311,13 +307,13 @@ static bool settle(struct island *island, bool bouncing)
     island->friction = 1.0;
     for (int n = 0; n < SLACKENINGS && island->rough; n++) {
         take_out(island);
-        if (sweep_all(island, sweeps_of(island, FRICTION_SWEEPS_MAX, FRICTION_UPDATES_MAX)))
+        if (sweep_all(island, FRICTION_SWEEPS_MAX, FRICTION_UPDATES_MAX))
             return true;
         island->friction *= 0.5;
     }
     island->friction = 0.0;
     take_out(island);
-    return sweep_all(island, sweeps_of(island, SWEEPS_MAX, UPDATES_MAX));
+    return sweep_all(island, SWEEPS_MAX, UPDATES_MAX);
 }
 
 /* --- energy ------------------------------------------------------------------------------------*/
