@@ -31,8 +31,8 @@
 /* So often friction is halved for an island that does not settle; then it is left out. */
 #define SLACKENINGS 3
 
-/* Sweeps that change a velocity by this many times the greatest are running away; further on
- * rounding would eat the velocities. */
+/* Sweeps that change a velocity by this many times the greatest run away for ever; no blow makes
+ * bodies so much faster. */
 #define RUNAWAY 1e3
 
 /* A contact that moves along its normal less than this share of what it moves in all is held there:

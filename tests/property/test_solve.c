@@ -17,6 +17,11 @@
 #define CONTACTS 16
 #define ISLANDS  100000
 
+/* Relative. Of the 1e-9 that is asked for nothing is needed: velocities are made at one go from the
+ * sum of the impulses, and what the sweeps round would show here. */
+#define MOMENTUM_KEPT 2e-15
+#define ANGULAR_KEPT  2e-14
+
 enum sort { PLASTIC, SMOOTH, ROUGH, SINGLE, SORTS };
 
 struct cluster {
@@ -182,9 +187,9 @@ static void check_sums(const struct sums *before, const struct cluster *cluster)
     struct sums after = sum_up(cluster);
     double lost = 0.0;
     assert_true(vec3_length(vec3_sub(after.momentum, before->momentum)) <=
-                1e-9 * before->momentum_scale);
+                MOMENTUM_KEPT * before->momentum_scale);
     assert_true(vec3_length(vec3_sub(after.angular, before->angular)) <=
-                1e-9 * before->angular_scale);
+                ANGULAR_KEPT * before->angular_scale);
     assert_true(after.energy <= before->energy * (1.0 + 1e-12));
     for (uint32_t i = 0; i < cluster->contacts; i++) {
         assert_true(cluster->contact[i].lost_j >= 0.0);
@@ -230,22 +235,38 @@ static bool curbed(const struct cluster *cluster)
     return false;
 }
 
+/* Rough islands that were solved without any friction. */
+static bool bare(const struct cluster *cluster, enum sort sort)
+{
+    double normal = 0.0, across = 0.0;
+    for (uint32_t i = 0; i < cluster->contacts; i++) {
+        const struct solve_contact *c = &cluster->contact[i];
+        double push = vec3_dot(c->impulse, c->normal);
+        normal += push;
+        across += vec3_length(vec3_sub(c->impulse, vec3_scale(c->normal, push)));
+    }
+    return sort == ROUGH && across < 1e-9 * normal;
+}
+
 static void test_rows_39_and_43_momentum_is_kept_and_energy_never_grows(void **state)
 {
     uint64_t random = fixture_seed(3943);
-    uint32_t curbs = 0;
+    uint32_t curbs = 0, bares = 0;
     struct cluster cluster;
     (void)state;
     for (uint32_t n = 0; n < ISLANDS; n++) {
-        draw(&cluster, (enum sort)(n % SORTS), &random);
+        enum sort sort = (enum sort)(n % SORTS);
+        draw(&cluster, sort, &random);
         struct sums before = sum_up(&cluster);
         solve(&cluster);
         check_sums(&before, &cluster);
         check_contacts(&cluster);
         curbs += curbed(&cluster);
+        bares += bare(&cluster, sort);
     }
-    print_message("%d islands, %u of them curbed\n", ISLANDS, curbs);
+    print_message("%d islands, %u curbed, %u without their friction\n", ISLANDS, curbs, bares);
     assert_true(curbs > 0 && curbs < ISLANDS / 100);
+    assert_true(bares < ISLANDS / 1000);
 }
 
 /* --- symmetries --------------------------------------------------------------------------------*/
