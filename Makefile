@@ -69,9 +69,9 @@ SUPPORT  := $(call objects,$(SUPPORT_SRC))
 # The steps without their main, for tests and benchmarks.
 STEPS    := $(call objects,$(filter-out %/main.c,$(MOVER_SRC) $(COLLIDER_SRC)))
 # The scene without the drawing: nothing here knows of graphics.
-SCENE    := $(call objects,$(addprefix renderer/,camera.c effects.c follow.c foliage.c ground.c image.c \
-        map.c mesh.c paint.c scene.c scene_plants.c scene_puffs.c scenery.c smooth.c statistics.c \
-        texture.c track.c))
+SCENE    := $(call objects,$(addprefix renderer/,camera.c dents.c effects.c follow.c foliage.c ground.c \
+        image.c map.c mesh.c paint.c scene.c scene_fixed.c scene_plants.c scene_puffs.c scenery.c \
+        smooth.c statistics.c texture.c track.c))
 STATUS   := $(OBJ)/idl/status.o
 
 pc = $(shell pkg-config --$(1) $(2) 2>/dev/null)
@@ -146,7 +146,7 @@ FORCE:
 $(BUILD)/tests/%: $(OBJ)/tests/%.o $(SUPPORT) $(STEPS) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(TEST_LIBS) $(CONFIG_LIBS) $(BASE_LIBS))
 
-$(BUILD)/tests/unit/test_scene: $(SCENE)
+$(BUILD)/tests/unit/test_scene $(BUILD)/tests/unit/test_dents: $(SCENE)
 
 check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 	@tests/run --build $(BUILD) unit property
