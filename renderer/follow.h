@@ -18,8 +18,9 @@ struct follow {
 
 /* Slot of the vehicle to follow: that of first_id (0: none) until it has been a wreck for
  * FOLLOW_WRECK_S, or as long as it exists if only is set; then the one being followed, while its
- * time is not over and it is no older wreck either; else the liveliest: on land, moving, in company, near what just happened. The same moment and
- * history give the same choice. SLOT_NONE when there is no vehicle. */
+ * time is not over and it is no older wreck either; else the liveliest: on land, moving, in
+ * company, near what just happened. The same moment and history give the same choice. SLOT_NONE
+ * when there is no vehicle. */
 uint32_t follow_choose(struct follow *follow, const struct moment *moment,
                        const struct effects *effects, uint32_t first_id, bool only);
 

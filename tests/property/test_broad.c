@@ -120,7 +120,7 @@ static void draw_fixed(struct small_world *w, const struct place *place, uint64_
         w->damage[i] = (uint8_t)(fixture_random(random) % 8 == 0 ? DAMAGE_HIGH : DAMAGE_MED);
     }
     w->world.counts.fixed = count;
-    assert_int_equal(reach_build(w->fixed, count, &w->reach_start, &w->reach), 0);
+    assert_int_equal(reach_build(w->fixed, count, w->kinds, &w->reach_start, &w->reach), 0);
     w->world.reach_start = w->reach_start;
     w->world.reach = w->reach;
 }

@@ -48,7 +48,7 @@ static void tree_text(char *text, size_t bytes, const struct run *run, const str
 {
     size_t used = (size_t)snprintf(text, bytes,
                                    "world = { seed = 1; capacity = 512; hz = %.1f; };\n"
-                                   "collision = { response = \"none\"; };\n"
+                                   "collision = { shape = \"sphere\"; response = \"none\"; };\n"
                                    "objects = (\n",
                                    run->hz);
     for (uint32_t n = 0; n < PAIRS; n++)
@@ -109,7 +109,7 @@ static void run_lanes(const struct run *run, uint64_t *random)
     else
         snprintf(text, sizeof text,
                  "world = { seed = 1; capacity = 512; hz = %.1f; };\n"
-                 "collision = { response = \"none\"; };\n",
+                 "collision = { shape = \"sphere\"; response = \"none\"; };\n",
                  run->hz);
     fixture_open(&f, text);
     for (uint32_t n = 0; n < PAIRS; n++) {

@@ -20,7 +20,7 @@ static const char battle[] =
     "objects = ( { kind = \"building\"; at = [25000.0, 25000.0]; },\n"
     "            { kind = \"tree\"; at = [24900.0, 25050.0]; },\n"
     "            { kind = \"tree\"; at = [25125.0, 25125.0]; } );\n"
-    "collision = { response = \"%s\"; };\n"
+    "collision = { shape = \"sphere\"; response = \"%s\"; };\n"
     "vehicles = (\n"
     "  { kind = \"tank\"; count = 900; force = \"blue\"; fire_at_will = true;\n"
     "    area = [22500.0, 22500.0, 28000.0, 28000.0]; },\n"

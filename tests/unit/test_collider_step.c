@@ -80,7 +80,7 @@ static bool grazes(const char *response, double speed_mps, double beside, double
     char text[200];
     struct fixture f;
     snprintf(text, sizeof text,
-             "collision = { response = \"%s\"; };\n"
+             "collision = { shape = \"sphere\"; response = \"%s\"; };\n"
              "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; } );\n",
              response);
     fixture_open(&f, text);
@@ -121,7 +121,8 @@ static void test_nobody_is_pushed_through(void **state)
     for (int n = 0; n < 2; n++) {
         char text[100];
         struct fixture f;
-        snprintf(text, sizeof text, "collision = { response = \"%s\"; };\n", responses[n]);
+        snprintf(text, sizeof text, "collision = { shape = \"sphere\"; response = \"%s\"; };\n",
+                 responses[n]);
         fixture_open(&f, text);
         steps_kind(&f, "tank")->resistance_j = 1e12;
         uint32_t wreck = fixture_put(
@@ -247,7 +248,7 @@ static void test_response_none_tells_and_changes_nothing(void **state)
 {
     struct fixture f;
     (void)state;
-    fixture_open(&f, "collision = { response = \"none\"; };\n"
+    fixture_open(&f, "collision = { shape = \"sphere\"; response = \"none\"; };\n"
                      "objects = ( { kind = \"building\"; at = [25030.0, 25000.0]; } );\n");
     fixture_put(&f, (struct fixture_entity){
                         .kind = "tank", .at = {25000, 100, 25000}, .velocity = {16, 0, 0}});
@@ -267,7 +268,7 @@ static void test_response_none_tells_and_changes_nothing(void **state)
 
 static const char battle[] =
     "world = { seed = 9; hz = 20.0; capacity = 1024; };\n"
-    "collision = { response = \"%s\"; };\n"
+    "collision = { shape = \"sphere\"; response = \"%s\"; };\n"
     "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; },\n"
     "            { kind = \"building\"; at = [24900.0, 25000.0]; },\n"
     "            { kind = \"tree\"; at = [25100.0, 25050.0]; } );\n"

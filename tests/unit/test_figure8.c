@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#define FIGURE8 "collision = { response = \"figure8\"; };\n"
+#define FIGURE8 "collision = { shape = \"sphere\"; response = \"figure8\"; };\n"
 
 static struct fixture f;
 
