@@ -59,16 +59,18 @@ static const char fragment_text[] =
     "void main()\n"
     "{\n"
     "    vec3 colour = v_colour.rgb;\n"
-    /* Bent sheet: the paint has gone where it bent most. */
+    /* Bent sheet: the paint has gone where it bent most. (No level of detail is known within a
+       branch that not all pixels take.) */
     "    if (v_bare > 0.0) {\n"
-    "        float scrape = texture(u_detail, v_body.xy * 0.9 + v_body.z).g;\n"
+    "        float scrape = textureLod(u_detail, v_body.xy * 0.9 + v_body.z, 0.0).g;\n"
     "        colour = mix(colour, vec3(0.30, 0.285, 0.27) * (0.5 + scrape),\n"
     "                     0.85 * smoothstep(1.0 - v_bare, 1.25 - v_bare, scrape + 0.15));\n"
     "    }\n"
     /* Rubble: what it was, dust, and dark gaps between. */
     "    if (v_fell > 0.0) {\n"
     "        vec2 at = v_body.xz + 0.7 * v_body.y;\n"
-    "        float lump = texture(u_detail, at * 0.21).g, gap = texture(u_detail, at * 0.43).r;\n"
+    "        float lump = textureLod(u_detail, at * 0.21, 0.0).g;\n"
+    "        float gap = textureLod(u_detail, at * 0.43, 0.0).r;\n"
     "        vec3 dust = vec3(0.60, 0.53, 0.43) * (0.7 + 0.5 * gap);\n"
     "        vec3 rubble = mix(colour, dust, smoothstep(0.36, 0.52, lump));\n"
     "        rubble *= mix(0.35, 1.0, smoothstep(0.34, 0.50, gap));\n"
