@@ -2,7 +2,6 @@
  */
 #include "renderer/dents.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -80,8 +79,8 @@ uint32_t dents_of(const struct dents *dents, uint32_t id, uint64_t tick, double 
         const struct dent *dent = &dents->dent[next - 1];
         struct dented now = {.depth_m = dent->plastic_m};
         if (tick >= dent->tick)
-            now.depth_m +=
-                dent->elastic_m * (float)exp(-(double)(tick - dent->tick) * dt_s / DENT_RETURN_S);
+            now.depth_m += (float)crush_elastic_left((double)dent->elastic_m,
+                                                     (double)(tick - dent->tick) * dt_s);
         if (now.depth_m < LEAST_DEPTH_M)
             continue;
         memcpy(now.point, dent->point, sizeof now.point);
