@@ -18,16 +18,13 @@ static void turn_standing(const struct move *move, uint32_t i, const struct kind
     m->spin_y[i] = pose_approach(m->spin_y[i], 0.0, brake * move->dt_s);
 }
 
-static void turn_flying(const struct move *move, uint32_t i, const struct kind *kind)
+/* About the position: of what flies, that is its centre of mass (world/inertia.h). */
+static void turn_flying(const struct move *move, uint32_t i)
 {
     struct entities *m = move->m;
-    const struct vec3 middle = {0.0, 0.5 * kind->height_m, 0.0}; /* of mass, body axes */
     struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
     struct quat from = rotation_of(m->heading[i], m->pitch[i], m->roll[i]);
     struct quat to = rotation_spun(from, spin, move->dt_s);
-    struct mat3 before = rotation_matrix(from), after = rotation_matrix(to);
-    struct vec3 shift = vec3_sub(rotation_apply(&before, middle), rotation_apply(&after, middle));
-    entities_set_position(m, i, vec3_add(entities_position(m, i), shift));
     rotation_angles(to, &m->heading[i], &m->pitch[i], &m->roll[i]);
     if (m->state[i] != ENTITY_ACTIVE || m->behaviour[i] == BEHAVIOUR_HOLD)
         return; /* nobody flies it: it keeps its spin */
@@ -45,7 +42,7 @@ void spin_turn(const struct move *move, uint32_t i)
     bool flies = kind->domain == DOMAIN_AIR &&
                  (m->state[i] == ENTITY_ACTIVE || m->y[i] > pose_ground(move, m->x[i], m->z[i]));
     if (flies)
-        turn_flying(move, i, kind);
+        turn_flying(move, i);
     else
         turn_standing(move, i, kind);
 }

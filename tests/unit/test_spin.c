@@ -1,6 +1,7 @@
 /* Turning that collisions gave a body (rows 39 and 43 of what the thesis states: new linear and
  * angular velocities): tyres and water brake it, in the air it goes on about the centre of mass. */
 #include "tests/support/steps.h"
+#include "world/inertia.h"
 #include "world/rotation.h"
 
 #include <stdarg.h>
@@ -167,7 +168,7 @@ static struct vec3 centre_of(uint32_t row, const char *kind)
 {
     struct entities e = steps_rows(&f);
     struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
-    struct vec3 middle = {0.0, 0.5 * steps_kind(&f, kind)->height_m, 0.0};
+    struct vec3 middle = {0.0, inertia_of(steps_kind(&f, kind)).centre_m, 0.0};
     return vec3_add(entities_position(&e, row), rotation_apply(&turn, middle));
 }
 
@@ -196,7 +197,7 @@ static void test_spin_in_the_air_turns_by_its_rate(void **state)
     set_spin(row, 0.0, -0.8, 0.0);
     fixture_run(&f, 60);
     assert_true(fabs(steps_rows(&f).heading[row] - 1.8) < 1e-9);
-    assert_true(fabs(steps_rows(&f).x[row] - 25000.0) < 1e-9); /* the centre is right above */
+    assert_true(fabs(steps_rows(&f).x[row] - 25000.0) < 1e-9);
     /* About its own nose: it rolls, right side down. */
     set_spin(row, 0.5 * maths_sin(1.8), 0.0, -0.5 * maths_cos(1.8));
     fixture_run(&f, 60);
