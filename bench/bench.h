@@ -8,14 +8,17 @@
 
 struct bench_options {
     uint32_t vehicles, threads, frames;
-    bool json;
+    bool json, peers;
 };
 
-/* --vehicles N, --threads T, --frames F, --json; wrong usage ends the process (exit 2). */
+/* --vehicles N, --threads T, --frames F, --peers, --json; wrong usage ends the process (exit 2). */
 struct bench_options bench_options(int argc, char **argv, struct bench_options defaults);
 
+int bench_detect(int argc, char **argv);   /* detect.c */
 int bench_handover(int argc, char **argv); /* handover.c */
 int bench_frame(int argc, char **argv);    /* frame.c */
+int bench_methods(int argc, char **argv);  /* methods.c */
+int bench_shapes(int argc, char **argv);   /* shapes.c */
 
 /* The fraction (0..1) of the values that lie at or below the result; sorts them. */
 double bench_quantile(double *values, uint32_t count, double fraction);

@@ -11,11 +11,10 @@
 
 struct bench_options bench_options(int argc, char **argv, struct bench_options chosen)
 {
-    static const struct option options[] = {{"vehicles", required_argument, NULL, 'v'},
-                                            {"threads", required_argument, NULL, 't'},
-                                            {"frames", required_argument, NULL, 'f'},
-                                            {"json", no_argument, NULL, 'j'},
-                                            {NULL, 0, NULL, 0}};
+    static const struct option options[] = {
+        {"vehicles", required_argument, NULL, 'v'}, {"threads", required_argument, NULL, 't'},
+        {"frames", required_argument, NULL, 'f'},   {"peers", no_argument, NULL, 'p'},
+        {"json", no_argument, NULL, 'j'},           {NULL, 0, NULL, 0}};
     int option;
     while ((option = getopt_long(argc, argv, "", options, NULL)) != -1) {
         switch (option) {
@@ -27,6 +26,9 @@ struct bench_options bench_options(int argc, char **argv, struct bench_options c
             break;
         case 'f':
             chosen.frames = (uint32_t)process_whole("frames", optarg, 1, 10000000);
+            break;
+        case 'p':
+            chosen.peers = true;
             break;
         case 'j':
             chosen.json = true;
@@ -59,8 +61,14 @@ static const struct {
 } benches[] = {
     {"handover", bench_handover,
      "[--frames F] [--json]     a frame without work, beside a bare futex ping-pong"},
+    {"detect", bench_detect,
+     "[--vehicles N] [--threads T] [--frames F] [--peers] [--json]     detection beside ODE, "
+     "Bullet"},
     {"frame", bench_frame,
      "[--vehicles N] [--threads T] [--frames F] [--json]     the steps of a frame"},
+    {"methods", bench_methods,
+     "[--vehicles N] [--json]     the ways to detect, for a thousand bodies up to N"},
+    {"shapes", bench_shapes, "[--frames SAMPLES] [--json]     what spheres get wrong"},
 };
 
 #define BENCHES (sizeof benches / sizeof benches[0])
@@ -72,10 +80,11 @@ int main(int argc, char **argv)
         if (strcmp(argv[1], benches[i].name) == 0)
             return benches[i].run(argc - 1, argv + 1);
     }
-    bool asked = argc > 1 && strcmp(argv[1], "help") == 0;
-    FILE *to = asked ? stdout : stderr;
+    if (argc > 1 && strcmp(argv[1], "help") != 0)
+        die_usage("%s: no such benchmark; try jolon-bench help", argv[1]);
+    FILE *to = argc > 1 ? stdout : stderr;
     fprintf(to, "usage: jolon-bench BENCHMARK ...\n");
     for (size_t i = 0; i < BENCHES; i++)
         fprintf(to, "  %-8s %s\n", benches[i].name, benches[i].usage);
-    return asked ? EXIT_OK : EXIT_USAGE;
+    return argc > 1 ? EXIT_OK : EXIT_USAGE;
 }

@@ -1,8 +1,6 @@
 /* Detonations: blast over what is near, craters in the ground, chains of what explodes in turn. */
 #include "collider/respond.h"
 
-#include "world/square.h"
-
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,30 +63,36 @@ static int blast_row(struct respond *respond, const struct charge *charge, doubl
     return harm_row(respond, row, joules, charge->time);
 }
 
-static int blast_square(struct respond *respond, const struct charge *charge, double radius,
-                        int32_t column, int32_t line)
+static void blast_fixed(struct respond *respond, const struct charge *charge, double radius,
+                        uint32_t index)
 {
-    const struct world *world = respond->world;
-    uint32_t square = square_index(column, line);
-    double west = charge->point.x - radius, north = charge->point.z - radius;
-    const struct bin_entry *entry;
-    uint32_t count = broad_square(respond->broad, square, &entry);
-    for (uint32_t i = 0; i < count; i++) {
-        /* A body that lies in several squares is harmed in the first it shares with the blast. */
-        const struct sweep_box *box = &respond->broad->box[entry[i].row];
-        if (square_of(maths_max((double)box->min_x, west), maths_max((double)box->min_z, north)) !=
-            square)
-            continue;
-        if (blast_row(respond, charge, radius, entry[i].row) != 0)
-            return -1;
+    const struct fixed_object *object = &respond->world->fixed[index];
+    struct vec3 at = {object->x, (double)object->y, object->z};
+    double distance = distance_to(charge->point, at, (double)object->radius_m);
+    harm_fixed(respond, index, blast_energy(charge->explosive_kg, radius, distance));
+}
+
+static bool listed(const struct pair_list *list, uint32_t row)
+{
+    for (uint32_t i = 0; i < list->count; i++) {
+        if (list->pair[i].a == row)
+            return true;
     }
-    const uint32_t *objects;
-    count = world_reach(world, square, &objects);
-    for (uint32_t i = 0; i < count; i++) {
-        const struct fixed_object *object = &world->fixed[objects[i]];
-        struct vec3 at = {object->x, (double)object->y, object->z};
-        double distance = distance_to(charge->point, at, (double)object->radius_m);
-        harm_fixed(respond, objects[i], blast_energy(charge->explosive_kg, radius, distance));
+    return false;
+}
+
+/* The rows that may be within the blast: what the broad phase knows there, and those that have left
+ * the boxes that it knows. */
+static int find_rows(struct respond *respond, const struct sweep_box *box)
+{
+    const struct contacts *contacts = respond->contacts;
+    if (broad_query(respond->broad, &respond->input.detect, box, &respond->near) != 0)
+        return -1;
+    for (uint32_t i = 0; i < contacts->stray_count; i++) {
+        uint32_t row = contacts->strayed[i];
+        if (detect_boxes_meet(box, &respond->broad->box[row]) && !listed(&respond->near, row) &&
+            pair_list_add(&respond->near, row, 0) != 0)
+            return -1;
     }
     return 0;
 }
@@ -96,14 +100,21 @@ static int blast_square(struct respond *respond, const struct charge *charge, do
 static int blast_one(struct respond *respond, const struct charge *charge)
 {
     double radius = BLAST_RADIUS_M * maths_cbrt(charge->explosive_kg);
-    struct square_box box = square_box_of(charge->point.x - radius, charge->point.z - radius,
-                                          charge->point.x + radius, charge->point.z + radius);
-    for (int32_t row = box.z0; row <= box.z1; row++) {
-        for (int32_t column = box.x0; column <= box.x1; column++) {
-            if (blast_square(respond, charge, radius, column, row) != 0)
-                return -1;
-        }
+    const struct path still = {.at = charge->point};
+    struct sweep_box box = detect_way_box(&still, radius + BOX_SLACK_M);
+    struct pair_list *near = &respond->near;
+    near->count = 0;
+    if (find_rows(respond, &box) != 0)
+        return -1;
+    for (uint32_t i = 0; i < near->count; i++) {
+        if (blast_row(respond, charge, radius, near->pair[i].a) != 0)
+            return -1;
     }
+    near->count = 0;
+    if (broad_query_fixed(respond->broad, &respond->input.detect, &box, near) != 0)
+        return -1;
+    for (uint32_t i = 0; i < near->count; i++)
+        blast_fixed(respond, charge, radius, near->pair[i].b & ~PAIR_FIXED);
     return 0;
 }
 

@@ -1,261 +1,214 @@
-/* The broad phase over gridsquares. */
+/* The broad phase over strips. */
 #include "collider/broad.h"
 
-#include "world/square.h"
+#include "world/entity.h"
 
 #include <errno.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define ROWS_A_PIECE  2048
-#define PREFETCH_ROWS 8
-#define RUNS_A_PIECE  1024
-#define INSERTION_MAX 32
+#define BLOCK          64
+#define ROWS_A_PIECE   4096
+#define STRIPS_A_PIECE 4
+#define ALONE_MOST     8192 /* rows that one thread has done before others would have woken */
+#define LONG_M         64.0 /* a way's extent in x from which it is clipped to its strips */
 
 int broad_init(struct broad *broad, const struct world *world, struct workers *workers)
 {
-    *broad = (struct broad){.world = world, .workers = workers};
+    *broad = (struct broad){.world = world, .workers = workers, .lanes = workers_threads(workers)};
     broad->box = malloc(world->params->capacity * sizeof *broad->box);
-    if (!broad->box)
+    broad->lane = calloc(broad->lanes, sizeof *broad->lane);
+    if (!broad->box || !broad->lane || standing_init(&broad->standing, world) != 0) {
+        broad_free(broad);
+        errno = ENOMEM;
         return -1;
+    }
     return 0;
 }
 
 void broad_free(struct broad *broad)
 {
-    free(broad->box);
-    free(broad->entry);
-    free(broad->other);
+    for (uint32_t i = 0; broad->lane && i < broad->lanes; i++)
+        strip_lane_free(&broad->lane[i]);
     for (int i = 0; i < WORKERS_MAX; i++)
         free(broad->list[i].pair);
+    standing_free(&broad->standing);
+    free(broad->lane);
+    free(broad->box);
     *broad = (struct broad){0};
-}
-
-static struct square_box squares_of(const struct sweep_box *box)
-{
-    return square_box_of((double)box->min_x, (double)box->min_z, (double)box->max_x,
-                         (double)box->max_z);
 }
 
 struct job {
     struct broad *broad;
     const struct detect_input *input;
+    struct strips strips;
+    double grow[KIND_COUNT_MAX];
+    uint32_t flags[KIND_COUNT_MAX]; /* of the tag */
+    int32_t width[WORKERS_MAX];     /* [steps] of the widest row but for wide ones */
     _Atomic int failed;
 };
 
-/* --- against fixed objects ---------------------------------------------------------------------*/
+/* --- rows into strips --------------------------------------------------------------------------*/
 
-/* An object that reaches several of the row's squares is taken in the first that both touch. */
-static bool first_common(const struct world *world, const struct square_box *squares,
-                         const struct fixed_object *object, int32_t column, int32_t row)
+/* A block of rows on their way into the strips: each property in a row of its own, so that the
+ * compiler makes vectors of the loops. They do what detect_box and bins.h's functions do. */
+struct block {
+    double grow[BLOCK];
+    uint32_t tag[BLOCK];
+    float min_x[BLOCK], max_x[BLOCK], min_z[BLOCK], max_z[BLOCK];
+    float part[BLOCK];
+    int32_t first[BLOCK], last[BLOCK];                                /* strips */
+    int32_t low_x[BLOCK], high_x[BLOCK], low_z[BLOCK], high_z[BLOCK]; /* [steps] */
+    /* Fewer rows than a block are copied here first. */
+    struct path path[BLOCK];
+    struct sweep_box box[BLOCK];
+};
+
+static bool rests(const struct path *path)
 {
-    double r = detect_fixed_reach(world, object);
-    int32_t x0 = square_axis(object->x - r), z0 = square_axis(object->z - r);
-    return column == (x0 > squares->x0 ? x0 : squares->x0) &&
-           row == (z0 > squares->z0 ? z0 : squares->z0);
+    uint64_t bits[3];
+    memcpy(bits, &path->along, sizeof bits);
+    return (bits[0] | bits[1] | bits[2]) << 1 == 0; /* 0.0 or -0.0 */
 }
 
-static int fixed_pairs(struct job *job, uint32_t i, struct pair_list *list)
+static void name_rows(const struct job *job, struct block *block, const struct path *path,
+                      uint32_t first, uint32_t count)
 {
-    const struct world *world = job->broad->world;
-    const struct sweep_box *box = &job->broad->box[i];
-    struct square_box squares = squares_of(box);
-    for (int32_t row = squares.z0; row <= squares.z1; row++) {
-        for (int32_t column = squares.x0; column <= squares.x1; column++) {
-            const uint32_t *objects;
-            uint32_t count = world_reach(world, square_index(column, row), &objects);
-            for (uint32_t n = 0; n < count; n++) {
-                const struct fixed_object *object = &world->fixed[objects[n]];
-                if (!detect_stands(job->input, objects[n]) ||
-                    !detect_box_meets_fixed(job->input, box, object) ||
-                    !first_common(world, &squares, object, column, row))
-                    continue;
-                if (pair_list_add(list, i, objects[n] | PAIR_FIXED) != 0)
-                    return -1;
-            }
+    const struct entities *e = job->input->entities;
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t row = first + k, kind = detect_there(job->input, row) ? e->kind[row] : 0;
+        block->grow[k] = job->grow[kind];
+        block->tag[k] = row | job->flags[kind] | (rests(&path[k]) ? BIN_RESTS : 0) |
+                        (e->behaviour[row] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0);
+    }
+}
+
+static void box_rows(struct block *restrict block, const struct path *restrict path,
+                     struct sweep_box *restrict box)
+{
+    for (uint32_t k = 0; k < BLOCK; k++) {
+        double left = 1.0 - path[k].since, grow = block->grow[k], low[2], high[2];
+        double at[2] = {path[k].at.x, path[k].at.y}, along[2] = {path[k].along.x, path[k].along.y};
+        for (int axis = 0; axis < 2; axis++) {
+            double to = at[axis] + along[axis] * left;
+            low[axis] = maths_min(at[axis], to) - grow;
+            high[axis] = maths_max(at[axis], to) + grow;
         }
+        double z = path[k].at.z, to_z = z + path[k].along.z * left;
+        block->min_x[k] = box[k].min_x = (float)low[0];
+        block->max_x[k] = box[k].max_x = (float)high[0];
+        block->min_z[k] = box[k].min_z = (float)(maths_min(z, to_z) - grow);
+        block->max_z[k] = box[k].max_z = (float)(maths_max(z, to_z) + grow);
+        box[k].min_y = (float)low[1];
+        box[k].max_y = (float)high[1];
+    }
+}
+
+/* In two loops: in one, gcc makes branches of the clamp. */
+static void scale(const float *restrict from, float by, float last, float *restrict part,
+                  int32_t *restrict to)
+{
+    for (uint32_t k = 0; k < BLOCK; k++)
+        part[k] = bin_clamp(from[k] * by, last);
+    for (uint32_t k = 0; k < BLOCK; k++)
+        to[k] = (int32_t)part[k];
+}
+
+static void scale_depth(const float *restrict z, const int32_t *restrict strip,
+                        float *restrict part, int32_t *restrict to)
+{
+    for (uint32_t k = 0; k < BLOCK; k++)
+        part[k] = bin_depth(z[k], strip[k]);
+    for (uint32_t k = 0; k < BLOCK; k++)
+        to[k] = (int32_t)part[k];
+}
+
+static int add_spanning(const struct job *job, struct bins *bins, const struct block *block,
+                        uint32_t k)
+{
+    uint32_t row = block->tag[k] & BIN_ROW;
+    const struct path *path = &job->input->path[row];
+    const struct sweep_box *box = &job->broad->box[row];
+    bool is_long = fabs(path->along.x) > LONG_M;
+    struct bin_record record = {.min_x = block->low_x[k],
+                                .max_x = block->high_x[k],
+                                .tag = block->tag[k] | BIN_SPANS | (is_long ? BIN_LONG : 0)};
+    for (uint32_t strip = (uint32_t)block->first[k]; strip <= (uint32_t)block->last[k]; strip++) {
+        if (is_long) {
+            struct strip_span span = strip_span(path, box, block->grow[k], strip);
+            record.min_x = span.min_x;
+            record.max_x = span.max_x;
+        }
+        record.z = bin_z(box->min_z, box->max_z, strip);
+        if (bins_add(bins, strip, record) != 0)
+            return -1;
     }
     return 0;
 }
 
-static void sweep_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
+static int add_rows(const struct job *job, struct bins *bins, const struct block *block,
+                    uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t z = (uint32_t)block->low_z[k] | (uint32_t)block->high_z[k] << 16;
+        struct bin_record record = {block->low_x[k], block->high_x[k], z, block->tag[k]};
+        if (!detect_there(job->input, record.tag & BIN_ROW))
+            continue;
+        if ((block->first[k] == block->last[k] ? bins_add(bins, (uint32_t)block->first[k], record)
+                                               : add_spanning(job, bins, block, k)) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int bin_block(struct job *job, struct block *block, uint32_t first, uint32_t count,
+                     uint32_t worker)
+{
+    const struct path *path = job->input->path + first;
+    struct sweep_box *box = job->broad->box + first;
+    if (count < BLOCK) {
+        memcpy(block->path, path, count * sizeof *path);
+        path = block->path;
+        box = block->box;
+    }
+    name_rows(job, block, path, first, count);
+    box_rows(block, path, box);
+    if (count < BLOCK)
+        memcpy(job->broad->box + first, box, count * sizeof *box);
+    scale(block->min_z, (float)(1.0 / SQUARE_SIDE_M), STRIP_COUNT - 1, block->part, block->first);
+    scale(block->max_z, (float)(1.0 / SQUARE_SIDE_M), STRIP_COUNT - 1, block->part, block->last);
+    scale(block->min_x, BIN_STEPS_PER_M, BIN_X_LAST, block->part, block->low_x);
+    scale(block->max_x, BIN_STEPS_PER_M, BIN_X_LAST, block->part, block->high_x);
+    scale_depth(block->min_z, block->first, block->part, block->low_z);
+    scale_depth(block->max_z, block->first, block->part, block->high_z);
+    int32_t width = job->width[worker];
+    for (uint32_t k = 0; k < count; k++) {
+        int32_t w = block->high_x[k] - block->low_x[k];
+        width = w > width && w <= STRIP_WIDE ? w : width;
+    }
+    job->width[worker] = width;
+    return add_rows(job, &job->broad->lane[worker].bins, block, count);
+}
+
+static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
-    const struct detect_input *input = job->input;
-    const struct world *world = job->broad->world;
-    for (uint32_t i = first; i < end; i++) {
-        if (i + PREFETCH_ROWS < end) {
-            struct vec3 ahead = input->path[i + PREFETCH_ROWS].at;
-            __builtin_prefetch(&world->reach_start[square_of(ahead.x, ahead.z)]);
-        }
-        if (!detect_there(input, i))
-            continue;
-        job->broad->box[i] = detect_box(input, i);
-        if (!detect_tests_fixed(input, i))
-            continue;
-        if (fixed_pairs(job, i, &job->broad->list[worker]) != 0)
+    struct block block = {0};
+    for (uint32_t row = first; row < end; row += BLOCK) {
+        if (bin_block(job, &block, row, end - row < BLOCK ? end - row : BLOCK, worker) != 0)
             atomic_store(&job->failed, 1);
     }
 }
 
-/* --- against moving bodies ---------------------------------------------------------------------*/
+/* --- strips ------------------------------------------------------------------------------------*/
 
-static int reserve_entries(struct broad *broad, uint32_t count)
-{
-    if (count <= broad->entry_capacity)
-        return 0;
-    uint32_t capacity = count + count / 2 + 1024;
-    struct bin_entry *entry = realloc(broad->entry, capacity * sizeof *entry);
-    if (!entry)
-        return -1;
-    broad->entry = entry;
-    struct bin_entry *other = realloc(broad->other, capacity * sizeof *other);
-    if (!other)
-        return -1;
-    broad->other = other;
-    broad->entry_capacity = capacity;
-    return 0;
-}
-
-static int bin_rows(struct broad *broad, const struct detect_input *input)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < input->rows; i++) {
-        if (!detect_there(input, i))
-            continue;
-        struct square_box squares = squares_of(&broad->box[i]);
-        uint32_t more = (uint32_t)((squares.x1 - squares.x0 + 1) * (squares.z1 - squares.z0 + 1));
-        if (reserve_entries(broad, count + more) != 0)
-            return -1;
-        for (int32_t row = squares.z0; row <= squares.z1; row++) {
-            for (int32_t column = squares.x0; column <= squares.x1; column++)
-                broad->entry[count++] = (struct bin_entry){square_index(column, row), i};
-        }
-    }
-    broad->entry_count = count;
-    return 0;
-}
-
-/* Stable radix sort by square: 18 bits in two passes of 9. */
-static void sort_entries(struct broad *broad)
-{
-    for (int pass = 0; pass < 2; pass++) {
-        uint32_t start[513] = {0};
-        int shift = pass * 9;
-        for (uint32_t i = 0; i < broad->entry_count; i++)
-            start[(broad->entry[i].square >> shift & 511u) + 1]++;
-        for (int digit = 0; digit < 512; digit++)
-            start[digit + 1] += start[digit];
-        for (uint32_t i = 0; i < broad->entry_count; i++)
-            broad->other[start[broad->entry[i].square >> shift & 511u]++] = broad->entry[i];
-        struct bin_entry *swap = broad->entry;
-        broad->entry = broad->other;
-        broad->other = swap;
-    }
-}
-
-/* Two boxes that share several squares meet in the first they share. */
-static bool first_shared(const struct sweep_box *a, const struct sweep_box *b, uint32_t square)
-{
-    float min_x = a->min_x > b->min_x ? a->min_x : b->min_x;
-    float min_z = a->min_z > b->min_z ? a->min_z : b->min_z;
-    return square_of((double)min_x, (double)min_z) == square;
-}
-
-static int pair_up(struct job *job, const struct bin_entry *p, const struct bin_entry *q,
-                   struct pair_list *list)
-{
-    const struct sweep_box *box = job->broad->box;
-    uint32_t a = p->row < q->row ? p->row : q->row;
-    uint32_t b = p->row < q->row ? q->row : p->row;
-    if (!detect_boxes_meet(&box[a], &box[b]) || !first_shared(&box[a], &box[b], p->square) ||
-        detect_apart(job->input, a, b))
-        return 0;
-    return pair_list_add(list, a, b);
-}
-
-/* Heap sort by west edge, for squares too crowded for insertion. Rows are told apart by number, so
- * the order is one. */
-static bool west_of(const struct sweep_box *box, struct bin_entry p, struct bin_entry q)
-{
-    float px = box[p.row].min_x, qx = box[q.row].min_x;
-    return px < qx || (!(qx < px) && p.row < q.row);
-}
-
-static void sift(const struct sweep_box *box, struct bin_entry *run, uint32_t root, uint32_t count)
-{
-    for (uint32_t child = 2 * root + 1; child < count; child = 2 * root + 1) {
-        if (child + 1 < count && west_of(box, run[child], run[child + 1]))
-            child++;
-        if (!west_of(box, run[root], run[child]))
-            return;
-        struct bin_entry swap = run[root];
-        run[root] = run[child];
-        run[child] = swap;
-        root = child;
-    }
-}
-
-static void sort_run(const struct sweep_box *box, struct bin_entry *run, uint32_t count)
-{
-    if (count <= INSERTION_MAX) {
-        for (uint32_t i = 1; i < count; i++) {
-            struct bin_entry entry = run[i];
-            uint32_t j = i;
-            for (; j > 0 && west_of(box, entry, run[j - 1]); j--)
-                run[j] = run[j - 1];
-            run[j] = entry;
-        }
-        return;
-    }
-    for (uint32_t i = count / 2; i-- > 0;)
-        sift(box, run, i, count);
-    for (uint32_t end = count - 1; end > 0; end--) {
-        struct bin_entry swap = run[0];
-        run[0] = run[end];
-        run[end] = swap;
-        sift(box, run, 0, end);
-    }
-}
-
-/* Sort and sweep along x within one square. */
-static int square_pairs(struct job *job, struct bin_entry *run, uint32_t count,
-                        struct pair_list *list)
-{
-    const struct sweep_box *box = job->broad->box;
-    sort_run(box, run, count);
-    for (uint32_t i = 0; i + 1 < count; i++) {
-        for (uint32_t j = i + 1; j < count && box[run[j].row].min_x <= box[run[i].row].max_x; j++) {
-            if (pair_up(job, &run[i], &run[j], list) != 0)
-                return -1;
-        }
-    }
-    return 0;
-}
-
-/* Squares that hold more than one row, as (first entry, entries), into the sort's second buffer. */
-static uint32_t list_runs(struct broad *broad)
-{
-    const struct bin_entry *entry = broad->entry;
-    struct bin_entry *runs = broad->other;
-    uint32_t count = 0;
-    for (uint32_t i = 0, end; i < broad->entry_count; i = end) {
-        for (end = i + 1; end < broad->entry_count && entry[end].square == entry[i].square;)
-            end++;
-        if (end - i > 1)
-            runs[count++] = (struct bin_entry){i, end - i};
-    }
-    return count;
-}
-
-static void meet_squares(void *context, uint32_t first, uint32_t end, uint32_t worker)
+static void meet_strips(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
-    struct broad *broad = job->broad;
-    for (uint32_t i = first; i < end; i++) {
-        struct bin_entry run = broad->other[i];
-        if (square_pairs(job, &broad->entry[run.square], run.row, &broad->list[worker]) != 0)
+    struct strip_lane *lane = &job->broad->lane[worker];
+    for (uint32_t strip = first; strip < end; strip++) {
+        if (strip_pairs(&job->strips, lane, strip) != 0)
             atomic_store(&job->failed, 1);
     }
 }
@@ -263,15 +216,31 @@ static void meet_squares(void *context, uint32_t first, uint32_t end, uint32_t w
 int broad_pairs(struct broad *broad, const struct detect_input *input)
 {
     struct job job = {.broad = broad, .input = input};
-    for (int i = 0; i < WORKERS_MAX; i++)
-        broad->list[i].count = 0;
-    workers_run(broad->workers, sweep_rows, &job, input->rows, ROWS_A_PIECE);
-    if (bin_rows(broad, input) != 0) {
-        errno = ENOMEM;
-        return -1;
+    struct workers *workers = input->rows > ALONE_MOST ? broad->workers : NULL;
+    const struct world *world = input->world;
+    for (uint32_t i = 0; i < world->counts.kinds; i++) {
+        job.grow[i] = detect_grow(world, &world->kinds[i]);
+        job.flags[i] = world->kinds[i].domain == DOMAIN_AIR ? BIN_AIR : 0;
     }
-    sort_entries(broad);
-    workers_run(broad->workers, meet_squares, &job, list_runs(broad), RUNS_A_PIECE);
+    job.strips = (struct strips){.input = input,
+                                 .standing = &broad->standing,
+                                 .box = broad->box,
+                                 .grow = job.grow,
+                                 .lane = broad->lane,
+                                 .lanes = broad->lanes};
+    for (uint32_t i = 0; i < broad->lanes; i++) {
+        bins_clear(&broad->lane[i].bins);
+        broad->lane[i].pairs = broad->list[i];
+        broad->lane[i].pairs.count = 0;
+    }
+    workers_run(workers, bin_rows, &job, input->rows, ROWS_A_PIECE);
+    for (uint32_t i = 0; i < broad->lanes; i++)
+        job.strips.width = job.width[i] > job.strips.width ? job.width[i] : job.strips.width;
+    workers_run(workers, meet_strips, &job, STRIP_COUNT, STRIPS_A_PIECE);
+    for (uint32_t i = 0; i < broad->lanes; i++) {
+        broad->list[i] = broad->lane[i].pairs;
+        broad->lane[i].pairs = (struct pair_list){0};
+    }
     if (atomic_load(&job.failed)) {
         errno = ENOMEM;
         return -1;
@@ -279,19 +248,83 @@ int broad_pairs(struct broad *broad, const struct detect_input *input)
     return 0;
 }
 
-uint32_t broad_square(const struct broad *broad, uint32_t square, const struct bin_entry **first)
+/* --- queries -----------------------------------------------------------------------------------*/
+
+static int by_row(const void *p, const void *q)
 {
-    uint32_t low = 0, high = broad->entry_count;
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        if (broad->entry[middle].square < square)
-            low = middle + 1;
-        else
-            high = middle;
+    const struct pair *a = p, *b = q;
+    return a->a != b->a ? (a->a < b->a ? -1 : 1) : (a->b > b->b) - (a->b < b->b);
+}
+
+/* Puts what was added since in order, each once. */
+static void order_found(struct pair_list *found, uint32_t since)
+{
+    struct pair *pair = found->pair + since;
+    uint32_t count = found->count - since, kept = 0;
+    if (count == 0)
+        return;
+    qsort(pair, count, sizeof *pair, by_row);
+    for (uint32_t i = 0; i < count; i++) {
+        if (kept == 0 || by_row(&pair[kept - 1], &pair[i]) != 0)
+            pair[kept++] = pair[i];
     }
-    uint32_t end = low;
-    while (end < broad->entry_count && broad->entry[end].square == square)
-        end++;
-    *first = broad->entry + low;
-    return end - low;
+    found->count = since + kept;
+}
+
+static struct bin_record record_of(const struct sweep_box *box, uint32_t strip)
+{
+    return (struct bin_record){.min_x = bin_x(box->min_x),
+                               .max_x = bin_x(box->max_x),
+                               .z = bin_z(box->min_z, box->max_z, strip)};
+}
+
+static int query_strip(const struct broad *broad, const struct bins *bins, uint32_t strip,
+                       const struct sweep_box *box, struct pair_list *found)
+{
+    struct bin_record one = record_of(box, strip);
+    uint32_t count;
+    const struct bin_chunk *chunk = bins_last(bins, strip, &count);
+    for (; chunk; chunk = chunk->before, count = BIN_CHUNK_RECORDS) {
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t row = chunk->record[i].tag & BIN_ROW;
+            if (bin_meet(&one, &chunk->record[i]) && detect_boxes_meet(box, &broad->box[row]) &&
+                pair_list_add(found, row, 0) != 0)
+                return -1;
+        }
+    }
+    return 0;
+}
+
+int broad_query(const struct broad *broad, const struct detect_input *input,
+                const struct sweep_box *box, struct pair_list *found)
+{
+    uint32_t since = found->count, last = bin_strip(box->max_z);
+    (void)input;
+    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
+        for (uint32_t i = 0; i < broad->lanes; i++) {
+            if (query_strip(broad, &broad->lane[i].bins, strip, box, found) != 0)
+                return -1;
+        }
+    }
+    order_found(found, since);
+    return 0;
+}
+
+int broad_query_fixed(const struct broad *broad, const struct detect_input *input,
+                      const struct sweep_box *box, struct pair_list *found)
+{
+    uint32_t since = found->count, last = bin_strip(box->max_z);
+    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
+        struct bin_record one = record_of(box, strip);
+        const struct bin_record *object = standing_from(&broad->standing, strip, one.min_x);
+        for (; object->min_x <= one.max_x; object++) {
+            uint32_t index = object->tag & BIN_OBJECT;
+            if (bin_meet(&one, object) &&
+                detect_box_meets_fixed(input, box, &input->world->fixed[index]) &&
+                pair_list_add(found, 0, index | PAIR_FIXED) != 0)
+                return -1;
+        }
+    }
+    order_found(found, since);
+    return 0;
 }

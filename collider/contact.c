@@ -1,8 +1,11 @@
 /* The frame's contacts in a heap, and their renewal. */
 #include "collider/contact.h"
 
+#include <errno.h>
+#include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
+
+#define PAIRS_A_PIECE 256
 
 /* Makes room for one more of size bytes; 0, or -1 with errno ENOMEM. */
 static int grow(void **array, uint32_t *capacity, uint32_t count, size_t size)
@@ -18,9 +21,9 @@ static int grow(void **array, uint32_t *capacity, uint32_t count, size_t size)
     return 0;
 }
 
-int contacts_init(struct contacts *contacts, uint32_t world_capacity)
+int contacts_init(struct contacts *contacts, uint32_t world_capacity, struct workers *workers)
 {
-    *contacts = (struct contacts){0};
+    *contacts = (struct contacts){.workers = workers};
     contacts->head = calloc(world_capacity, sizeof *contacts->head);
     contacts->version = calloc(world_capacity, sizeof *contacts->version);
     if (!contacts->head || !contacts->version) {
@@ -32,14 +35,20 @@ int contacts_init(struct contacts *contacts, uint32_t world_capacity)
 
 void contacts_free(struct contacts *contacts)
 {
-    free(contacts->heap);
+    free(contacts->heap.contact);
+    for (int i = 0; i < WORKERS_MAX; i++)
+        free(contacts->found[i].contact);
     free(contacts->pair);
     free(contacts->met);
     free(contacts->link);
     free(contacts->head);
     free(contacts->version);
+    free(contacts->strayed);
+    free(contacts->near.pair);
     *contacts = (struct contacts){0};
 }
+
+/* --- pairs -------------------------------------------------------------------------------------*/
 
 static int reserve_pairs(struct contacts *contacts, uint32_t count)
 {
@@ -69,25 +78,31 @@ static int link_row(struct contacts *contacts, uint32_t row, uint32_t pair)
     return 0;
 }
 
-int contacts_begin(struct contacts *contacts, const struct broad *broad)
+/* Takes in a pair for which reserve_pairs has made room. */
+static int add_pair(struct contacts *contacts, struct pair pair)
+{
+    uint32_t index = contacts->pair_count++;
+    contacts->pair[index] = pair;
+    contacts->met[index] = 0;
+    if (link_row(contacts, pair.a, index) != 0)
+        return -1;
+    return pair.b & PAIR_FIXED ? 0 : link_row(contacts, pair.b, index);
+}
+
+int contacts_begin(struct contacts *contacts, const struct pair_list *lists, uint32_t list_count)
 {
     uint32_t total = 0;
-    for (int i = 0; i < WORKERS_MAX; i++)
-        total += broad->list[i].count;
-    contacts->count = 0;
+    for (uint32_t i = 0; i < list_count; i++)
+        total += lists[i].count;
+    contacts->heap.count = 0;
     contacts->link_count = 0;
     contacts->pair_count = 0;
+    contacts->stray_count = 0;
     if (reserve_pairs(contacts, total) != 0)
         return -1;
-    for (int i = 0; i < WORKERS_MAX; i++) {
-        for (uint32_t n = 0; n < broad->list[i].count; n++) {
-            uint32_t index = contacts->pair_count++;
-            contacts->pair[index] = broad->list[i].pair[n];
-            contacts->met[index] = 0;
-            if (link_row(contacts, contacts->pair[index].a, index) != 0)
-                return -1;
-            if (!(contacts->pair[index].b & PAIR_FIXED) &&
-                link_row(contacts, contacts->pair[index].b, index) != 0)
+    for (uint32_t i = 0; i < list_count; i++) {
+        for (uint32_t n = 0; n < lists[i].count; n++) {
+            if (add_pair(contacts, lists[i].pair[n]) != 0)
                 return -1;
         }
     }
@@ -104,135 +119,257 @@ void contacts_end(struct contacts *contacts)
     }
 }
 
+/* --- the heap ----------------------------------------------------------------------------------*/
+
 /* The one order of contacts, whatever order they were found in. */
 static bool earlier(const struct contact *p, const struct contact *q)
 {
-    if (p->toi != q->toi)
-        return p->toi < q->toi;
+    if (p->touch.toi != q->touch.toi)
+        return p->touch.toi < q->touch.toi;
     if (p->a != q->a)
         return p->a < q->a;
     return p->b < q->b;
 }
 
-static int push(struct contacts *contacts, struct contact contact)
+static struct contact *list_room(struct contact_list *list)
 {
-    void *heap = contacts->heap;
-    if (grow(&heap, &contacts->capacity, contacts->count, sizeof *contacts->heap) != 0)
+    void *contact = list->contact;
+    if (grow(&contact, &list->capacity, list->count, sizeof *list->contact) != 0)
+        return NULL;
+    list->contact = contact;
+    return &list->contact[list->count++];
+}
+
+static int push(struct contacts *contacts, const struct contact *contact)
+{
+    if (!list_room(&contacts->heap))
         return -1;
-    contacts->heap = heap;
-    uint32_t i = contacts->count++;
-    while (i > 0 && earlier(&contact, &contacts->heap[(i - 1) / 2])) {
-        contacts->heap[i] = contacts->heap[(i - 1) / 2];
+    struct contact *heap = contacts->heap.contact;
+    uint32_t i = contacts->heap.count - 1;
+    while (i > 0 && earlier(contact, &heap[(i - 1) / 2])) {
+        heap[i] = heap[(i - 1) / 2];
         i = (i - 1) / 2;
     }
-    contacts->heap[i] = contact;
+    heap[i] = *contact;
     return 0;
 }
 
 static void pop(struct contacts *contacts)
 {
-    struct contact last = contacts->heap[--contacts->count];
+    struct contact *heap = contacts->heap.contact;
+    uint32_t count = --contacts->heap.count;
+    struct contact last = heap[count];
     uint32_t i = 0;
-    for (uint32_t child = 1; child < contacts->count; child = 2 * i + 1) {
-        if (child + 1 < contacts->count &&
-            earlier(&contacts->heap[child + 1], &contacts->heap[child]))
+    for (uint32_t child = 1; child < count; child = 2 * i + 1) {
+        if (child + 1 < count && earlier(&heap[child + 1], &heap[child]))
             child++;
-        if (!earlier(&contacts->heap[child], &last))
+        if (!earlier(&heap[child], &last))
             break;
-        contacts->heap[i] = contacts->heap[child];
+        heap[i] = heap[child];
         i = child;
     }
-    contacts->heap[i] = last;
+    heap[i] = last;
 }
 
-static double radius_of(const struct contact_input *input, uint32_t row)
+/* --- finding -----------------------------------------------------------------------------------*/
+
+/* Sweeps one pair from a time on; true with its contact when it has one. */
+static bool sweep_pair(const struct contacts *contacts, const struct contact_input *input,
+                       uint32_t index, double from, struct contact *contact)
 {
-    return input->world->kinds[input->entities->kind[row]].radius_m;
+    const struct pair *pair = &contacts->pair[index];
+    const uint8_t *state = input->detect.entities->state;
+    bool fixed = pair->b & PAIR_FIXED;
+    if (contacts->met[index] >= input->meets || state[pair->a] == ENTITY_FREE ||
+        (!fixed && state[pair->b] == ENTITY_FREE) ||
+        (fixed && !detect_stands(&input->detect, pair->b & ~PAIR_FIXED)))
+        return false;
+    *contact = (struct contact){.a = pair->a,
+                                .b = pair->b,
+                                .pair = index + 1,
+                                .version_a = contacts->version[pair->a],
+                                .version_b = fixed ? 0 : contacts->version[pair->b]};
+    return narrow_touch(&input->detect, input->motion, input->through_fixed, pair, from,
+                        &contact->touch);
 }
 
-/* Sweeps one pair from a time on and keeps its contact, if there is one. */
-static int sweep_pair(struct contacts *contacts, const struct contact_input *input, uint32_t index,
-                      double from)
+struct job {
+    struct contacts *contacts;
+    const struct contact_input *input;
+    _Atomic int failed;
+};
+
+static void find_some(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
-    struct pair pair = contacts->pair[index];
-    const struct path *a = &input->path[pair.a];
-    struct contact contact = {.a = pair.a, .b = pair.b, .pair = index + 1};
-    double reach = radius_of(input, pair.a);
-    bool hit;
-    if (contacts->met[index] || input->entities->state[pair.a] == ENTITY_FREE)
-        return 0;
-    if (pair.b & PAIR_FIXED) {
-        const struct fixed_object *object = &input->world->fixed[pair.b & ~PAIR_FIXED];
-        struct path still = {.at = {object->x, (double)object->y, object->z}};
-        reach += (double)object->radius_m;
-        if (input->through_fixed ||
-            input->world->kinds[object->kind].rigidity < YIELDING_RIGIDITY) {
-            struct vec3 gap = vec3_sub(path_at(a, from), still.at);
-            if (vec3_dot(gap, gap) < reach * reach)
-                return 0;
+    struct job *job = context;
+    struct contact contact;
+    for (uint32_t i = first; i < end; i++) {
+        if (!sweep_pair(job->contacts, job->input, i, 0.0, &contact))
+            continue;
+        struct contact *room = list_room(&job->contacts->found[worker]);
+        if (!room) {
+            atomic_store(&job->failed, 1);
+            return;
         }
-        hit = sweep_spheres(a, &still, reach, from, &contact.toi);
-    } else {
-        if (input->entities->state[pair.b] == ENTITY_FREE)
-            return 0;
-        reach += radius_of(input, pair.b);
-        hit = sweep_spheres(a, &input->path[pair.b], reach, from, &contact.toi);
-        contact.version_b = contacts->version[pair.b];
+        *room = contact;
     }
-    contact.version_a = contacts->version[pair.a];
-    return hit ? push(contacts, contact) : 0;
 }
 
 int contacts_find(struct contacts *contacts, const struct contact_input *input)
 {
-    for (uint32_t i = 0; i < contacts->pair_count; i++) {
-        if (sweep_pair(contacts, input, i, 0.0) != 0)
-            return -1;
+    struct job job = {.contacts = contacts, .input = input};
+    for (int i = 0; i < WORKERS_MAX; i++)
+        contacts->found[i].count = 0;
+    workers_run(contacts->workers, find_some, &job, contacts->pair_count, PAIRS_A_PIECE);
+    if (atomic_load(&job.failed)) {
+        errno = ENOMEM;
+        return -1;
+    }
+    for (int i = 0; i < WORKERS_MAX; i++) {
+        for (uint32_t n = 0; n < contacts->found[i].count; n++) {
+            if (push(contacts, &contacts->found[i].contact[n]) != 0)
+                return -1;
+        }
     }
     return 0;
 }
 
 int contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, double toi)
 {
-    return push(
-        contacts,
-        (struct contact){.toi = toi, .a = row, .b = what, .version_a = contacts->version[row]});
+    const struct contact contact = {
+        .touch.toi = toi, .a = row, .b = what, .version_a = contacts->version[row]};
+    return push(contacts, &contact);
 }
 
 int contacts_ground(struct contacts *contacts, const struct contact_input *input, uint32_t row)
 {
-    const struct entities *e = input->entities;
+    const struct detect_input *detect = &input->detect;
+    const struct entities *e = detect->entities;
     double toi;
     bool flies = e->behaviour[row] == BEHAVIOUR_FLIGHT ||
-                 input->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+                 detect->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
     if (!flies || e->state[row] != ENTITY_ACTIVE ||
-        !sweep_ground(&input->world->terrain, input->craters, &input->path[row], &toi))
+        !sweep_ground(&detect->world->terrain, detect->craters, &detect->path[row], &toi))
         return 0;
     return contacts_add_end(contacts, row, CONTACT_GROUND, toi);
 }
 
-bool contacts_next(struct contacts *contacts, struct contact *contact)
+const struct contact *contacts_peek(struct contacts *contacts)
 {
-    while (contacts->count > 0) {
-        *contact = contacts->heap[0];
+    while (contacts->heap.count > 0) {
+        const struct contact *first = &contacts->heap.contact[0];
+        bool body = first->b < PAIR_FIXED;
+        if (first->version_a == contacts->version[first->a] &&
+            (!body || first->version_b == contacts->version[first->b]))
+            return first;
         pop(contacts);
-        bool body = contact->b < PAIR_FIXED;
-        if (contact->version_a != contacts->version[contact->a] ||
-            (body && contact->version_b != contacts->version[contact->b]))
-            continue;
-        if (contact->pair != 0)
-            contacts->met[contact->pair - 1] = 1;
-        return true;
+    }
+    return NULL;
+}
+
+bool contacts_next(struct contacts *contacts, const struct contact_input *input,
+                   struct contact *contact)
+{
+    const struct contact *first = contacts_peek(contacts);
+    if (!first)
+        return false;
+    *contact = *first;
+    pop(contacts);
+    contact->last = contact->pair != 0 && ++contacts->met[contact->pair - 1] >= input->meets;
+    return true;
+}
+
+void contacts_settle(struct contacts *contacts, const struct contact_input *input,
+                     const struct contact *contact)
+{
+    contacts->met[contact->pair - 1] = (uint8_t)input->meets;
+}
+
+/* --- another way -------------------------------------------------------------------------------*/
+
+static bool paired(const struct contacts *contacts, const struct pair *pair)
+{
+    for (uint32_t link = contacts->head[pair->a]; link != 0; link = contacts->link[link - 1].next) {
+        const struct pair *known = &contacts->pair[contacts->link[link - 1].pair];
+        if (known->a == pair->a && known->b == pair->b)
+            return true;
     }
     return false;
+}
+
+static int meet(struct contacts *contacts, const struct contact_input *input, uint32_t row,
+                uint32_t other)
+{
+    bool fixed = other & PAIR_FIXED;
+    struct pair pair = {fixed || row < other ? row : other, fixed || row < other ? other : row};
+    if (other == row || paired(contacts, &pair) ||
+        (!fixed && detect_apart(&input->detect, pair.a, pair.b)))
+        return 0;
+    return reserve_pairs(contacts, contacts->pair_count + 1) == 0 ? add_pair(contacts, pair) : -1;
+}
+
+static bool box_within(const struct sweep_box *inner, const struct sweep_box *outer)
+{
+    return inner->min_x >= outer->min_x && inner->max_x <= outer->max_x &&
+           inner->min_y >= outer->min_y && inner->max_y <= outer->max_y &&
+           inner->min_z >= outer->min_z && inner->max_z <= outer->max_z;
+}
+
+static struct sweep_box box_union(const struct sweep_box *a, const struct sweep_box *b)
+{
+    return (struct sweep_box){
+        a->min_x < b->min_x ? a->min_x : b->min_x, a->min_y < b->min_y ? a->min_y : b->min_y,
+        a->min_z < b->min_z ? a->min_z : b->min_z, a->max_x > b->max_x ? a->max_x : b->max_x,
+        a->max_y > b->max_y ? a->max_y : b->max_y, a->max_z > b->max_z ? a->max_z : b->max_z,
+    };
+}
+
+/* Pairs the row with whatever its new way comes near: what the broad phase knows, and the rows that
+ * have left the boxes that it knows. */
+static int look_around(struct contacts *contacts, const struct contact_input *input, uint32_t row)
+{
+    struct sweep_box *known = &input->broad->box[row];
+    struct sweep_box box = detect_box(&input->detect, row);
+    bool strays = !box_within(&box, known);
+    contacts->near.count = 0;
+    if (broad_query(input->broad, &input->detect, &box, &contacts->near) != 0)
+        return -1;
+    uint32_t rows = contacts->near.count;
+    if (broad_query_fixed(input->broad, &input->detect, &box, &contacts->near) != 0)
+        return -1;
+    for (uint32_t i = 0; i < contacts->near.count; i++) {
+        const struct pair *near = &contacts->near.pair[i];
+        if (meet(contacts, input, row, i < rows ? near->a : near->b) != 0)
+            return -1;
+    }
+    for (uint32_t i = 0; i < contacts->stray_count; i++) {
+        if (detect_boxes_meet(&box, &input->broad->box[contacts->strayed[i]]) &&
+            meet(contacts, input, row, contacts->strayed[i]) != 0)
+            return -1;
+    }
+    if (!strays)
+        return 0;
+    void *strayed = contacts->strayed;
+    if (grow(&strayed, &contacts->stray_capacity, contacts->stray_count,
+             sizeof *contacts->strayed) != 0)
+        return -1;
+    contacts->strayed = strayed;
+    contacts->strayed[contacts->stray_count++] = row;
+    *known = box_union(known, &box);
+    return 0;
 }
 
 int contacts_change(struct contacts *contacts, const struct contact_input *input, uint32_t row,
                     double time)
 {
+    struct contact contact;
+    enum method method = (enum method)input->detect.world->params->collision.method;
     contacts->version[row]++;
+    if (!detect_discrete(method) && look_around(contacts, input, row) != 0)
+        return -1;
     for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
-        if (sweep_pair(contacts, input, contacts->link[link - 1].pair, time) != 0)
+        if (sweep_pair(contacts, input, contacts->link[link - 1].pair, time, &contact) &&
+            push(contacts, &contact) != 0)
             return -1;
     }
     return contacts_ground(contacts, input, row);

@@ -4,7 +4,7 @@
 #define JOLON_COLLIDER_CONTACT_H
 
 #include "collider/broad.h"
-#include "collider/sweep.h"
+#include "collider/narrow.h"
 
 #include <stdint.h>
 
@@ -12,12 +12,20 @@
 #define CONTACT_GROUND UINT32_MAX
 #define CONTACT_AIR    (UINT32_MAX - 1) /* a munition's life is over */
 
+/* Contacts this near in time happen at one moment [frame]. */
+#define CONTACT_TIE 1e-9
+
+/* A pair may meet this often in a frame; the last time its bodies stay where they are. Higher finds
+ * longer rattling between bodies that close in on a third. */
+#define CONTACT_MEETS_MAX 8
+
 struct contact {
-    double toi;                    /* 0..1 */
+    struct touch touch;
     uint32_t a;                    /* row */
     uint32_t b;                    /* row, PAIR_FIXED object, CONTACT_GROUND or CONTACT_AIR */
     uint32_t version_a, version_b; /* of the ways it was computed from */
     uint32_t pair;                 /* index + 1 into contacts.pair, 0 for ground and air */
+    uint32_t last;                 /* 1: the pair will not meet again in this frame */
 };
 
 struct contact_link {
@@ -25,42 +33,47 @@ struct contact_link {
     uint32_t next; /* link + 1 */
 };
 
-struct contacts {
-    struct contact *heap; /* binary heap, earliest first */
+struct contact_list {
+    struct contact *contact;
     uint32_t count, capacity;
-    struct pair *pair; /* all of the frame */
-    uint8_t *met;      /* [pair] 1: this pair has had its contact in this frame */
+};
+
+struct contacts {
+    struct workers *workers;
+    struct contact_list heap;               /* binary heap, earliest first */
+    struct contact_list found[WORKERS_MAX]; /* one a worker, before they go into the heap */
+    struct pair *pair;                      /* all of the frame */
+    uint8_t *met;                           /* [pair] how often this pair has met in this frame */
     uint32_t pair_count, pair_capacity;
     struct contact_link *link; /* pairs of each row */
     uint32_t link_count, link_capacity;
     uint32_t *head;    /* [capacity of the world] link + 1; only rows with pairs are set */
     uint32_t *version; /* [capacity of the world] of each row's way; only equality counts */
+    uint32_t *strayed; /* rows whose way has left the box that the broad phase knows */
+    uint32_t stray_count, stray_capacity;
+    struct pair_list near; /* what a query found */
 };
 
-/* 0, or -1 with errno ENOMEM. */
-int contacts_init(struct contacts *contacts, uint32_t world_capacity);
+/* What contact finding reads. */
+struct contact_input {
+    struct detect_input detect;
+    const struct motion *motion;
+    struct broad *broad; /* boxes of strayed rows are written */
+    uint32_t meets;      /* how often a pair may meet in a frame */
+    bool through_fixed;  /* see narrow_touch */
+};
+
+/* 0, or -1 with errno ENOMEM. workers may be NULL and stays the caller's. */
+int contacts_init(struct contacts *contacts, uint32_t world_capacity, struct workers *workers);
 void contacts_free(struct contacts *contacts);
 
-/* Begins a frame with the broad phase's pairs. 0, or -1 with errno ENOMEM. */
-int contacts_begin(struct contacts *contacts, const struct broad *broad);
+/* Begins a frame with these lists of pairs. 0, or -1 with errno ENOMEM. */
+int contacts_begin(struct contacts *contacts, const struct pair_list *lists, uint32_t list_count);
 
 /* Clears what begin marked. */
 void contacts_end(struct contacts *contacts);
 
-/* A fixed object of less rigidity than this bends aside and lets bodies through. */
-#define YIELDING_RIGIDITY 0.1
-
-/* What contact finding reads. */
-struct contact_input {
-    const struct world *world;
-    const struct crater_index *craters;
-    const struct entities *entities;
-    const struct path *path;
-    bool through_fixed; /* bodies may stand in any fixed object: only entering one is a contact; in
-                           a yielding one they always may */
-};
-
-/* Finds every contact of the frame's pairs. 0, or -1 with errno ENOMEM. */
+/* Finds every contact of the frame's pairs, on all workers. 0, or -1 with errno ENOMEM. */
 int contacts_find(struct contacts *contacts, const struct contact_input *input);
 
 /* Finds where a round or an aircraft on its present way meets the ground. 0, or -1 with errno
@@ -70,11 +83,20 @@ int contacts_ground(struct contacts *contacts, const struct contact_input *input
 /* A contact of a row with ground or air. 0, or -1 with errno ENOMEM. */
 int contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, double toi);
 
-/* Takes the earliest contact that still holds; false when there is none. */
-bool contacts_next(struct contacts *contacts, struct contact *contact);
+/* The earliest contact that still holds, left in its place; NULL when there is none. */
+const struct contact *contacts_peek(struct contacts *contacts);
 
-/* The row's way has changed at this time: its contacts so far are void and it is swept again
- * against everything it could meet, the ground too. 0, or -1 with errno ENOMEM. */
+/* Takes it; false when there is none. */
+bool contacts_next(struct contacts *contacts, const struct contact_input *input,
+                   struct contact *contact);
+
+/* The contact's pair meets no more in this frame. */
+void contacts_settle(struct contacts *contacts, const struct contact_input *input,
+                     const struct contact *contact);
+
+/* The row's way has changed at this time: its contacts so far are void, what its new way could meet
+ * is looked up, and it is swept again against all of that, the ground too. 0, or -1 with errno
+ * ENOMEM. */
 int contacts_change(struct contacts *contacts, const struct contact_input *input, uint32_t row,
                     double time);
 

@@ -1,10 +1,10 @@
 /* What the methods of detection share: boxes, and who can never collide. */
 #include "collider/detect.h"
 
-#include <stdlib.h>
+#include "world/square.h"
 
-/* Half a float's step at 50 km is 2 mm; 1 cm keeps every box outside. */
-#define BOX_SLACK_M 0.01
+#include <stdlib.h>
+#include <string.h>
 
 int pair_list_add(struct pair_list *list, uint32_t a, uint32_t b)
 {
@@ -20,10 +20,19 @@ int pair_list_add(struct pair_list *list, uint32_t a, uint32_t b)
     return 0;
 }
 
+static double kind_reach(const struct world *world, const struct kind *kind)
+{
+    return world->params->collision.shape == SHAPE_MODEL ? kind->bound_m : kind->radius_m;
+}
+
 double detect_row_reach(const struct detect_input *input, uint32_t row)
 {
-    const struct kind *kind = &input->world->kinds[input->entities->kind[row]];
-    return input->world->params->collision.shape == SHAPE_MODEL ? kind->bound_m : kind->radius_m;
+    return kind_reach(input->world, &input->world->kinds[input->entities->kind[row]]);
+}
+
+double detect_grow(const struct world *world, const struct kind *kind)
+{
+    return kind_reach(world, kind) + BOX_SLACK_M;
 }
 
 double detect_fixed_reach(const struct world *world, const struct fixed_object *object)
@@ -36,20 +45,8 @@ double detect_fixed_reach(const struct world *world, const struct fixed_object *
 
 struct sweep_box detect_box(const struct detect_input *input, uint32_t row)
 {
-    const struct path *path = &input->path[row];
-    double dt_s = input->world->params->dt_s;
-    struct vec3 p = path_at(path, path->since), q = path_at(path, 1.0);
-    double grow = detect_row_reach(input, row) + BOX_SLACK_M + lean_mps(dt_s) * dt_s;
-    return (struct sweep_box){
-        (float)(maths_min(p.x, q.x) - grow), (float)(maths_min(p.y, q.y) - grow),
-        (float)(maths_min(p.z, q.z) - grow), (float)(maths_max(p.x, q.x) + grow),
-        (float)(maths_max(p.y, q.y) + grow), (float)(maths_max(p.z, q.z) + grow),
-    };
-}
-
-static bool rests(const struct path *path)
-{
-    return path->along.x == 0.0 && path->along.y == 0.0 && path->along.z == 0.0;
+    const struct kind *kind = &input->world->kinds[input->entities->kind[row]];
+    return detect_way_box(&input->path[row], detect_grow(input->world, kind));
 }
 
 /* The way, lowered by the threshold, does not reach the ground. */
@@ -65,7 +62,7 @@ bool detect_tests_fixed(const struct detect_input *input, uint32_t row)
 {
     const struct path *path = &input->path[row];
     const struct kind *kind = &input->world->kinds[input->entities->kind[row]];
-    return input->world->counts.fixed > 0 && !rests(path) &&
+    return input->world->counts.fixed > 0 && !detect_rests(path) &&
            !(kind->domain == DOMAIN_AIR && above_threshold(input, path));
 }
 
@@ -80,27 +77,148 @@ bool detect_apart(const struct detect_input *input, uint32_t a, uint32_t b)
         return true;
     if (round_a && round_b && e->owner_id[a] != 0 && e->owner_id[a] == e->owner_id[b])
         return true;
-    return rests(&input->path[a]) && rests(&input->path[b]);
+    return detect_rests(&input->path[a]) && detect_rests(&input->path[b]);
 }
 
-bool detect_boxes_meet(const struct sweep_box *a, const struct sweep_box *b)
+/* A fixed object's extent: from its position to each side, and from its foot down and up [m]. */
+struct extent {
+    double reach, low, high;
+};
+
+static struct extent extent_of(const struct world *world, const struct fixed_object *object)
 {
-    return a->min_x <= b->max_x && b->min_x <= a->max_x && a->min_z <= b->max_z &&
-           b->min_z <= a->max_z && a->min_y <= b->max_y && b->min_y <= a->max_y;
+    double reach = detect_fixed_reach(world, object);
+    if (world->params->collision.shape != SHAPE_MODEL)
+        return (struct extent){reach, -reach, reach};
+    const struct kind *kind = &world->kinds[object->kind];
+    double scale = (double)object->radius_m / kind->radius_m;
+    return (struct extent){reach, kind->low_m * scale, kind->high_m * scale};
 }
 
 bool detect_box_meets_fixed(const struct detect_input *input, const struct sweep_box *box,
                             const struct fixed_object *object)
 {
-    const struct kind *kind = &input->world->kinds[object->kind];
-    double r = detect_fixed_reach(input->world, object), y = (double)object->y;
-    double low = -r, high = r;
-    if (input->world->params->collision.shape == SHAPE_MODEL) {
-        double scale = (double)object->radius_m / kind->radius_m;
-        low = kind->low_m * scale;
-        high = kind->high_m * scale;
+    struct extent e = extent_of(input->world, object);
+    double y = (double)object->y;
+    return (double)box->min_x <= object->x + e.reach && object->x - e.reach <= (double)box->max_x &&
+           (double)box->min_z <= object->z + e.reach && object->z - e.reach <= (double)box->max_z &&
+           (double)box->min_y <= y + e.high && y + e.low <= (double)box->max_y;
+}
+
+/* --- the methods -------------------------------------------------------------------------------*/
+
+detect_method *detect_method_of(enum method method)
+{
+    static detect_method *const methods[METHOD_COUNT] = {
+        [METHOD_NPSNET2] = npsnet2_pairs,     [METHOD_MPS] = mps_pairs,
+        [METHOD_OCCUPANCY] = occupancy_pairs, [METHOD_HOPCROFT] = hopcroft_pairs,
+        [METHOD_BRUTE] = brute_pairs,
+    };
+    return methods[method];
+}
+
+struct detect_workspace {
+    void *block[DETECT_BLOCKS];
+    size_t bytes[DETECT_BLOCKS];
+};
+
+void *detect_block(struct detect_workspace **workspace, uint32_t block, size_t count, size_t size)
+{
+    if (!*workspace)
+        *workspace = calloc(1, sizeof **workspace);
+    if (!*workspace)
+        return NULL;
+    struct detect_workspace *w = *workspace;
+    size_t bytes = count * size;
+    if (w->block[block] && bytes <= w->bytes[block])
+        return w->block[block];
+    free(w->block[block]);
+    w->bytes[block] = bytes + bytes / 2 + 64;
+    w->block[block] = malloc(w->bytes[block]);
+    return w->block[block];
+}
+
+void detect_workspace_free(struct detect_workspace *workspace)
+{
+    for (int i = 0; workspace && i < DETECT_BLOCKS; i++)
+        free(workspace->block[i]);
+    free(workspace);
+}
+
+/* --- bodies ------------------------------------------------------------------------------------*/
+
+static struct sweep_box box_of_fixed(const struct world *world, const struct fixed_object *object)
+{
+    struct extent e = extent_of(world, object);
+    double reach = e.reach + BOX_SLACK_M, y = (double)object->y;
+    return (struct sweep_box){
+        (float)(object->x - reach), (float)(y + e.low - BOX_SLACK_M),  (float)(object->z - reach),
+        (float)(object->x + reach), (float)(y + e.high + BOX_SLACK_M), (float)(object->z + reach),
+    };
+}
+
+/* Does the box touch a marked square? mark: marks them all. */
+static bool squares_marked(uint8_t *marked, const struct sweep_box *box, bool mark)
+{
+    struct square_box squares = square_box_of((double)box->min_x, (double)box->min_z,
+                                              (double)box->max_x, (double)box->max_z);
+    for (int32_t row = squares.z0; row <= squares.z1; row++) {
+        for (int32_t column = squares.x0; column <= squares.x1; column++) {
+            uint32_t square = square_index(column, row);
+            if (mark)
+                marked[square] = 1;
+            else if (marked[square])
+                return true;
+        }
     }
-    return (double)box->min_x <= object->x + r && object->x - r <= (double)box->max_x &&
-           (double)box->min_z <= object->z + r && object->z - r <= (double)box->max_z &&
-           (double)box->min_y <= y + high && y + low <= (double)box->max_y;
+    return false;
+}
+
+int detect_bodies(const struct detect_input *input, struct detect_workspace **workspace,
+                  struct detect_bodies *bodies)
+{
+    const struct world *world = input->world;
+    size_t most = (size_t)input->rows + world->counts.fixed;
+    uint32_t *what = detect_block(workspace, DETECT_BODIES, most, sizeof *what);
+    struct sweep_box *box = detect_block(workspace, DETECT_BODIES + 1, most, sizeof *box);
+    uint8_t *tests_fixed = detect_block(workspace, DETECT_BODIES + 2, input->rows, 1);
+    uint8_t *marked = detect_block(workspace, DETECT_BODIES + 3, SQUARE_COUNT, 1);
+    uint32_t count = 0, moving;
+    if (!what || !box || !tests_fixed || !marked)
+        return -1;
+    memset(marked, 0, SQUARE_COUNT);
+    for (uint32_t row = 0; row < input->rows; row++) {
+        if (!detect_there(input, row))
+            continue;
+        what[count] = row;
+        box[count] = detect_box(input, row);
+        tests_fixed[count] = detect_tests_fixed(input, row);
+        if (tests_fixed[count])
+            squares_marked(marked, &box[count], true);
+        count++;
+    }
+    moving = count;
+    for (uint32_t object = 0; object < world->counts.fixed; object++) {
+        box[count] = box_of_fixed(world, &world->fixed[object]);
+        if (detect_stands(input, object) && squares_marked(marked, &box[count], false))
+            what[count++] = object | PAIR_FIXED;
+    }
+    *bodies = (struct detect_bodies){count, moving, what, box, tests_fixed};
+    return 0;
+}
+
+int detect_meet(const struct detect_input *input, const struct detect_bodies *bodies, uint32_t i,
+                uint32_t j, struct pair_list *pairs)
+{
+    uint32_t first = i < j ? i : j, second = i < j ? j : i;
+    uint32_t a = bodies->what[first], b = bodies->what[second];
+    bool meet = false;
+    if (second < bodies->moving)
+        meet = detect_boxes_meet(&bodies->box[first], &bodies->box[second]) &&
+               !detect_apart(input, a, b);
+    else if (first < bodies->moving)
+        meet = bodies->tests_fixed[first] &&
+               detect_box_meets_fixed(input, &bodies->box[first],
+                                      &input->world->fixed[b & ~PAIR_FIXED]);
+    return meet ? pair_list_add(pairs, a, b) : 0;
 }

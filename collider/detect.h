@@ -17,6 +17,7 @@
 #include "world/world.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* What a pair's second side is. */
@@ -35,7 +36,10 @@ struct pair_list {
 /* 0, or -1 with errno ENOMEM. */
 int pair_list_add(struct pair_list *list, uint32_t a, uint32_t b);
 
-/* Box around the sweep of a row: of its sphere, or of its hulls, grown by what a lean adds. */
+/* Half a float's step at 50 km is 2 mm; 1 cm keeps every box outside [m]. */
+#define BOX_SLACK_M 0.01
+
+/* Box around the sweep of a row: of its sphere, or of its hulls. */
 struct sweep_box {
     float min_x, min_y, min_z, max_x, max_y, max_z; /* rounded outwards */
 };
@@ -50,13 +54,6 @@ struct detect_input {
     uint32_t rows;
 };
 
-/* Bodies that press on each other slower than this lean [m/s]: what an engine adds within a step,
- * and at least half a metre a second. A body that leans leaves its way by at most as much. */
-static inline double lean_mps(double dt_s)
-{
-    return maths_max(0.5, 10.0 * dt_s);
-}
-
 /* detect.c: what the methods share. */
 
 /* How far from its position a row, or a fixed object, reaches: its sphere's radius, or its hulls'
@@ -64,8 +61,28 @@ static inline double lean_mps(double dt_s)
 double detect_row_reach(const struct detect_input *input, uint32_t row);
 double detect_fixed_reach(const struct world *world, const struct fixed_object *object);
 
+/* How far a kind's box reaches beyond its way [m]. */
+double detect_grow(const struct world *world, const struct kind *kind);
+
+/* The box around a way. */
+static inline struct sweep_box detect_way_box(const struct path *path, double grow)
+{
+    struct vec3 p = path->at, q = path_at(path, 1.0);
+    return (struct sweep_box){
+        (float)(maths_min(p.x, q.x) - grow), (float)(maths_min(p.y, q.y) - grow),
+        (float)(maths_min(p.z, q.z) - grow), (float)(maths_max(p.x, q.x) + grow),
+        (float)(maths_max(p.y, q.y) + grow), (float)(maths_max(p.z, q.z) + grow),
+    };
+}
+
 /* The row's box. */
 struct sweep_box detect_box(const struct detect_input *input, uint32_t row);
+
+/* Does this way end where it begins? */
+static inline bool detect_rests(const struct path *path)
+{
+    return path->along.x == 0.0 && path->along.y == 0.0 && path->along.z == 0.0;
+}
 
 /* Does the row meet anything at all? Not a free one. */
 static inline bool detect_there(const struct detect_input *input, uint32_t row)
@@ -99,6 +116,32 @@ void detect_workspace_free(struct detect_workspace *workspace);
 /* The function of a method; NULL for METHOD_SWEPT. */
 detect_method *detect_method_of(enum method method);
 
+/* For the methods: room for count items of size bytes in the workspace's block with this number, of
+ * DETECT_BLOCKS; DETECT_BODIES and up are detect_bodies'. What a block held is lost when it grows.
+ * NULL with errno ENOMEM. */
+#define DETECT_BLOCKS 13
+#define DETECT_BODIES 9
+void *detect_block(struct detect_workspace **workspace, uint32_t block, size_t count, size_t size);
+
+/* All that can be met in the frame, numbered through: first the rows that are there, then the fixed
+ * objects that stand in gridsquares which a row that tests them touches. */
+struct detect_bodies {
+    uint32_t count, moving;      /* the first moving are rows */
+    const uint32_t *what;        /* [count] a row, or a fixed object with PAIR_FIXED */
+    const struct sweep_box *box; /* [count] a fixed object's is a little larger than it is */
+    const uint8_t *tests_fixed;  /* [moving] */
+};
+
+/* Lists them in the workspace, for as long as detect_bodies is not called again. 0, or -1 with
+ * errno ENOMEM. */
+int detect_bodies(const struct detect_input *input, struct detect_workspace **workspace,
+                  struct detect_bodies *bodies);
+
+/* Adds the pair of two bodies if they can meet, by the same predicates as brute.c. Two fixed ones
+ * cannot. 0, or -1 with errno ENOMEM. */
+int detect_meet(const struct detect_input *input, const struct detect_bodies *bodies, uint32_t i,
+                uint32_t j, struct pair_list *pairs);
+
 /* Does this method decide by itself at the frame's end (npsnet2, mps)? The others' pairs are
  * candidates. */
 static inline bool detect_discrete(enum method method)
@@ -106,7 +149,12 @@ static inline bool detect_discrete(enum method method)
     return method == METHOD_NPSNET2 || method == METHOD_MPS;
 }
 
-bool detect_boxes_meet(const struct sweep_box *a, const struct sweep_box *b);
+static inline bool detect_boxes_meet(const struct sweep_box *a, const struct sweep_box *b)
+{
+    return a->min_x <= b->max_x && b->min_x <= a->max_x && a->min_z <= b->max_z &&
+           b->min_z <= a->max_z && a->min_y <= b->max_y && b->min_y <= a->max_y;
+}
+
 bool detect_box_meets_fixed(const struct detect_input *input, const struct sweep_box *box,
                             const struct fixed_object *object);
 

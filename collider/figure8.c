@@ -1,77 +1,81 @@
-/* Figure 8 of the thesis (p. 22), with the gaps that it leaves closed: a fixed object's damage goes
- * by the impact's energy against its resistance, since the text asks for speed as well as mass, and
- * what lies between its last two constants counts as none. */
-#include "collider/respond.h"
-
-#define SEVERE_RAD  (5.0 * RAD_PER_DEG) /* around each quarter turn, both ends included */
-#define BOUNCE_KEEP 0.6 /* of a bouncing vehicle's speed: "diminish speed of both" */
+/* Figure 8 of the thesis (p. 22), with the gaps that it leaves closed (row 27).
+ *
+ * Its constants: severe_rad, bounce_keep and fast_mps belong to the kinds of the two that meet.
+ * An impact is severe when it is within the wider of their two severe_rad of a quarter turn; both
+ * are killed when either goes faster than its own kind's fast_mps; a bounce leaves each its own
+ * kind's bounce_keep. So no rule asks who of the two comes first or is the heavier. "Large",
+ * "moving quickly" and constant1..3 are the scenario's, the last also a kind's own (harm.c). */
+#include "collider/attrition.h"
+#include "collider/figure8.h"
 
 /* Angles come from headings, which are never exact to the last bit: a ten-thousandth of a degree
  * keeps 5 and 85 degrees on the severe side. */
 #define ANGLE_SLACK_RAD (1e-4 * RAD_PER_DEG)
 
-static bool severe(double angle_rad)
+static const struct kind *kind_of(const struct respond *respond, uint32_t row)
 {
-    double off = maths_wrap_half(4.0 * angle_rad) * 0.25;
-    return fabs(off) <= SEVERE_RAD + ANGLE_SLACK_RAD;
+    return &respond->world->kinds[respond->next->entities.kind[row]];
 }
 
-static double speed_of(const struct respond *respond, uint32_t row)
+static bool severe(const struct kind *a, const struct kind *b, double angle_rad)
 {
-    return vec3_length(entities_velocity(&respond->next->entities, row));
+    double off = maths_wrap_half(4.0 * angle_rad) * 0.25; /* from the nearest quarter turn */
+    return fabs(off) <= maths_max(a->severe_rad, b->severe_rad) + ANGLE_SLACK_RAD;
 }
 
-static double mass_of(const struct respond *respond, uint32_t row)
+static bool fast(const struct respond *respond, const struct kind *kind, double speed_mps)
 {
-    return respond->world->kinds[respond->next->entities.kind[row]].mass_kg;
+    double scenario = respond->world->params->collision.fast_vehicle_mps;
+    return speed_mps > (kind->fast_mps > 0.0 ? kind->fast_mps : scenario);
 }
 
 /* Mirrored off the plane of contact when it was going into it, and slower. */
-static struct vec3 bounced(struct vec3 velocity, struct vec3 normal)
+static struct vec3 bounced(struct vec3 velocity, struct vec3 normal, double keep)
 {
     double into = vec3_dot(velocity, normal);
     if (into > 0.0)
         velocity = vec3_sub(velocity, vec3_scale(normal, 2.0 * into));
-    return vec3_scale(velocity, BOUNCE_KEEP);
+    return vec3_scale(velocity, keep);
 }
 
-static int kill_both(struct respond *respond, const struct impact *impact)
+static double energy_of(const struct kind *kind, struct vec3 velocity)
 {
-    const struct vec3 still = {0.0, 0.0, 0.0};
-    if (respond_stay(respond, impact->a, impact->time, still) != 0 ||
-        respond_stay(respond, impact->b, impact->time, still) != 0 ||
-        harm_destroy(respond, impact->a, impact->time) != 0)
-        return -1;
-    return harm_destroy(respond, impact->b, impact->time);
+    return 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
 }
 
 int figure8_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome)
 {
     const struct entities *e = &respond->next->entities;
+    const struct kind *ka = kind_of(respond, impact->a), *kb = kind_of(respond, impact->b);
     struct vec3 va = entities_velocity(e, impact->a), vb = entities_velocity(e, impact->b);
-    double ma = mass_of(respond, impact->a), mb = mass_of(respond, impact->b);
-    double before = 0.5 * ma * vec3_dot(va, va) + 0.5 * mb * vec3_dot(vb, vb);
-    if (severe(impact->angle_rad)) {
-        double speed = maths_max(speed_of(respond, impact->a), speed_of(respond, impact->b));
-        if (speed > respond->world->params->collision.fast_vehicle_mps) {
-            outcome->response = RESPONSE_DESTROYED;
-            return kill_both(respond, impact);
-        }
+    double before = energy_of(ka, va) + energy_of(kb, vb);
+    if (severe(ka, kb, impact->angle_rad)) {
+        if (fast(respond, ka, vec3_length(va)) || fast(respond, kb, vec3_length(vb)))
+            return attrition_moving(respond, impact, outcome); /* "Kill both" */
         outcome->response = RESPONSE_STOP;
         va = vb = (struct vec3){0.0, 0.0, 0.0};
     } else {
         outcome->response = RESPONSE_BOUNCE;
-        va = bounced(va, impact->normal);
-        vb = bounced(vb, vec3_scale(impact->normal, -1.0));
+        va = bounced(va, impact->normal, ka->bounce_keep);
+        vb = bounced(vb, vec3_scale(impact->normal, -1.0), kb->bounce_keep);
     }
-    double lost = before - 0.5 * ma * vec3_dot(va, va) - 0.5 * mb * vec3_dot(vb, vb);
+    double lost = before - energy_of(ka, va) - energy_of(kb, vb);
     if (respond_stay(respond, impact->a, impact->time, va) != 0 ||
         respond_stay(respond, impact->b, impact->time, vb) != 0)
         return -1;
     /* The larger mass hurts the smaller more (row 30). */
-    if (harm_row(respond, impact->a, lost * mb / (ma + mb), impact->time) != 0)
+    double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
+    if (blow_row(respond, impact->a, impact, -1.0, lost * share_a, NULL) != 0)
         return -1;
-    return harm_row(respond, impact->b, lost * ma / (ma + mb), impact->time);
+    return blow_row(respond, impact->b, impact, 1.0, lost * (1.0 - share_a), NULL);
+}
+
+static void damage_object(struct respond *respond, uint32_t object, double mass_kg, double joules)
+{
+    if (respond->world->params->collision.measure == MEASURE_MASS)
+        harm_fixed_mass(respond, object, mass_kg);
+    else
+        harm_fixed(respond, object, joules);
 }
 
 int figure8_fixed(struct respond *respond, const struct impact *impact, struct outcome *outcome)
@@ -80,11 +84,11 @@ int figure8_fixed(struct respond *respond, const struct impact *impact, struct o
     const struct collision_params *limits = &world->params->collision;
     uint32_t object = impact->b & ~PAIR_FIXED;
     double fixed_kg = world->kinds[world->fixed[object].kind].mass_kg;
-    double mass_kg = mass_of(respond, impact->a);
+    double mass_kg = kind_of(respond, impact->a)->mass_kg;
     double energy = 0.5 * mass_kg * impact->closing_mps * impact->closing_mps;
-    harm_fixed(respond, object, energy);
-    if (fixed_kg >= limits->large_fixed_kg &&
-        speed_of(respond, impact->a) > limits->fast_fixed_mps) {
+    double speed = vec3_length(entities_velocity(&respond->next->entities, impact->a));
+    damage_object(respond, object, mass_kg, energy);
+    if (fixed_kg >= limits->large_fixed_kg && speed > limits->fast_fixed_mps) {
         outcome->response = RESPONSE_DESTROYED;
         if (respond_stay(respond, impact->a, impact->time, (struct vec3){0.0, 0.0, 0.0}) != 0)
             return -1;
@@ -93,5 +97,6 @@ int figure8_fixed(struct respond *respond, const struct impact *impact, struct o
     outcome->response = RESPONSE_SLOW;
     if (respond_slow(respond, impact->a, impact->time, mass_kg / (mass_kg + fixed_kg)) != 0)
         return -1;
-    return harm_row(respond, impact->a, energy * fixed_kg / (mass_kg + fixed_kg), impact->time);
+    return blow_row(respond, impact->a, impact, -1.0, energy * fixed_kg / (mass_kg + fixed_kg),
+                    NULL);
 }

@@ -1,16 +1,21 @@
 /* Energy into damage (thesis rows 26, 27, 30). A body takes harm until its kind's resistance_j is
  * reached; a fixed object is damaged by the single hardest blow, as in figure 8. */
-#include "collider/respond.h"
+#include "collider/figure8.h"
+
+/* A body's levels, as shares of resistance_j: those in between only show how much is left. */
+#define SHARE_HIGH 0.6
+#define SHARE_MED  0.3
+#define SHARE_LOW  0.1
 
 static enum damage level(double share)
 {
     if (share >= 1.0)
         return DAMAGE_DESTROYED;
-    if (share >= 0.6)
+    if (share >= SHARE_HIGH)
         return DAMAGE_HIGH;
-    if (share >= 0.3)
+    if (share >= SHARE_MED)
         return DAMAGE_MED;
-    return share >= 0.1 ? DAMAGE_LOW : DAMAGE_NONE;
+    return share >= SHARE_LOW ? DAMAGE_LOW : DAMAGE_NONE;
 }
 
 int harm_destroy(struct respond *respond, uint32_t row, double time)
@@ -48,19 +53,53 @@ int harm_row(struct respond *respond, uint32_t row, double joules, double time)
     return 0;
 }
 
-enum damage harm_fixed(struct respond *respond, uint32_t object, double joules)
+/* It never heals; the hardest blow counts. */
+static enum damage damage_fixed(struct respond *respond, uint32_t object, enum damage damage)
 {
-    const struct world *world = respond->world;
-    const struct collision_params *limits = &world->params->collision;
-    double share = joules / world->kinds[world->fixed[object].kind].resistance_j;
-    enum damage damage = share >= limits->damage_high  ? DAMAGE_HIGH
-                         : share >= limits->damage_med ? DAMAGE_MED
-                         : share >= limits->damage_low ? DAMAGE_LOW
-                                                       : DAMAGE_NONE;
     uint8_t *now = &respond->next->fixed_damage[object];
     if (damage > *now) {
         *now = (uint8_t)damage;
         respond->next->head->tally.fixed_damaged++;
     }
     return (enum damage) * now;
+}
+
+/* A kind's own constant, or the scenario's. */
+static double own_or(double own, double scenario)
+{
+    return own > 0.0 ? own : scenario;
+}
+
+double harm_high_share(const struct respond *respond, const struct kind *kind)
+{
+    return own_or(kind->damage_high, respond->world->params->collision.damage_high);
+}
+
+enum damage harm_fixed(struct respond *respond, uint32_t object, double joules)
+{
+    const struct world *world = respond->world;
+    const struct collision_params *limits = &world->params->collision;
+    const struct kind *kind = &world->kinds[world->fixed[object].kind];
+    double share = joules / kind->resistance_j;
+    enum damage damage = DAMAGE_NONE;
+    if (share >= harm_high_share(respond, kind))
+        damage = DAMAGE_HIGH;
+    else if (share >= own_or(kind->damage_med, limits->damage_med))
+        damage = DAMAGE_MED;
+    else if (share >= own_or(kind->damage_low, limits->damage_low))
+        damage = DAMAGE_LOW;
+    return damage_fixed(respond, object, damage);
+}
+
+enum damage harm_fixed_mass(struct respond *respond, uint32_t object, double mass_kg)
+{
+    const struct collision_params *limits = &respond->world->params->collision;
+    enum damage damage = DAMAGE_NONE;
+    if (mass_kg >= limits->mass_c1_kg)
+        damage = DAMAGE_HIGH;
+    else if (mass_kg >= limits->mass_c2_kg)
+        damage = DAMAGE_MED;
+    else if (mass_kg >= limits->mass_c3_kg)
+        damage = DAMAGE_LOW;
+    return damage_fixed(respond, object, damage);
 }

@@ -1,6 +1,6 @@
-/* Impulses along the contact normal with restitution: momentum is kept, kinetic energy never grows,
- * and what is lost harms the bodies. */
-#include "collider/respond.h"
+/* What becomes of single contacts under impulses: fixed objects that give way, how bouncy and rough
+ * a contact is, and what the lost energy does. */
+#include "collider/island.h"
 
 /* What would leave slower than this along the normal does not bounce at all. */
 #define STOP_MPS 0.2
@@ -10,69 +10,182 @@ static const struct kind *kind_of(const struct respond *respond, uint32_t row)
     return &respond->world->kinds[respond->next->entities.kind[row]];
 }
 
-/* The restitution of this impact: soft ones have none, so that bodies come to rest. */
-static double bounce_of(const struct kind *a, const struct kind *b, double closing_mps)
+static const struct kind *fixed_kind_of(const struct respond *respond, uint32_t body)
 {
-    double restitution = maths_min(a->restitution, b->restitution);
-    return restitution * closing_mps > STOP_MPS ? restitution : 0.0;
+    return &respond->world->kinds[respond->world->fixed[body & ~PAIR_FIXED].kind];
 }
 
-int impulse_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome)
+static const struct kind *other_kind(const struct respond *respond, uint32_t body)
 {
-    const struct entities *e = &respond->next->entities;
-    const struct kind *ka = kind_of(respond, impact->a), *kb = kind_of(respond, impact->b);
-    double restitution = bounce_of(ka, kb, impact->closing_mps);
-    double reduced = ka->mass_kg * kb->mass_kg / (ka->mass_kg + kb->mass_kg);
-    double impulse = (1.0 + restitution) * reduced * impact->closing_mps;
-    double lost = 0.5 * reduced * impact->closing_mps * impact->closing_mps *
-                  (1.0 - restitution * restitution);
-    struct vec3 va = vec3_sub(entities_velocity(e, impact->a),
-                              vec3_scale(impact->normal, impulse / ka->mass_kg));
-    struct vec3 vb = vec3_add(entities_velocity(e, impact->b),
-                              vec3_scale(impact->normal, impulse / kb->mass_kg));
-    double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
-    outcome->impulse_ns = impulse;
-    outcome->response = restitution > 0.0 ? RESPONSE_BOUNCE : RESPONSE_STOP;
-    if (respond_stay(respond, impact->a, impact->time, va) != 0 ||
-        respond_stay(respond, impact->b, impact->time, vb) != 0 ||
-        harm_row(respond, impact->a, lost * share_a, impact->time) != 0)
+    return body & PAIR_FIXED ? fixed_kind_of(respond, body) : kind_of(respond, body);
+}
+
+/* --- objects that give way ---------------------------------------------------------------------*/
+
+/* A bush bends: it takes its share of the momentum. */
+static int bend(struct respond *respond, struct island_meeting *meeting, const struct kind *fixed)
+{
+    const struct impact *impact = &meeting->impact;
+    double mass_kg = kind_of(respond, impact->a)->mass_kg;
+    double keeps = mass_kg / (mass_kg + fixed->mass_kg);
+    meeting->outcome.response = RESPONSE_SLOW;
+    meeting->outcome.impulse_ns = mass_kg * impact->closing_mps * (1.0 - keeps);
+    return respond_slow(respond, impact->a, impact->time, keeps);
+}
+
+/* It breaks: that costs its resistance, the rest of the energy goes on. */
+static int break_through(struct respond *respond, struct island_meeting *meeting,
+                         const struct kind *fixed, double yields_j)
+{
+    const struct impact *impact = &meeting->impact;
+    double mass_kg = kind_of(respond, impact->a)->mass_kg;
+    double speed = vec3_length(entities_velocity(&respond->next->entities, impact->a));
+    double whole = 0.5 * mass_kg * speed * speed;
+    double share = sqrt(maths_max(0.0, 1.0 - yields_j / whole));
+    meeting->outcome.response = RESPONSE_SLOW;
+    meeting->outcome.impulse_ns = mass_kg * speed * (1.0 - share);
+    if (respond_slow(respond, impact->a, impact->time, share) != 0)
         return -1;
-    return harm_row(respond, impact->b, lost * (1.0 - share_a), impact->time);
+    return blow_row(respond, impact->a, impact, -1.0, yields_j * fixed->rigidity, NULL);
 }
 
-int impulse_fixed(struct respond *respond, const struct impact *impact, struct outcome *outcome)
+int impulse_gives_way(struct respond *respond, struct island_meeting *meeting, bool *gives_way)
 {
-    const struct world *world = respond->world;
-    const struct kind *kind = kind_of(respond, impact->a);
-    uint32_t object = impact->b & ~PAIR_FIXED;
-    const struct kind *fixed = &world->kinds[world->fixed[object].kind];
-    double energy = 0.5 * kind->mass_kg * impact->closing_mps * impact->closing_mps;
-    if (fixed->rigidity < YIELDING_RIGIDITY) { /* a bush: it takes its share of the momentum */
-        double keeps = kind->mass_kg / (kind->mass_kg + fixed->mass_kg);
-        outcome->response = RESPONSE_SLOW;
-        outcome->impulse_ns = kind->mass_kg * impact->closing_mps * (1.0 - keeps);
-        return respond_slow(respond, impact->a, impact->time, keeps);
+    const struct impact *impact = &meeting->impact;
+    const struct kind *fixed = fixed_kind_of(respond, impact->b);
+    double mass_kg = kind_of(respond, impact->a)->mass_kg;
+    double energy = 0.5 * mass_kg * impact->closing_mps * impact->closing_mps;
+    int result;
+    *gives_way = false;
+    if (fixed->rigidity < YIELDING_RIGIDITY) {
+        result = bend(respond, meeting, fixed);
+    } else {
+        double yields_j = fixed->resistance_j * harm_high_share(respond, fixed);
+        if (meeting->leans || harm_fixed(respond, impact->b & ~PAIR_FIXED, energy) < DAMAGE_HIGH ||
+            energy < yields_j)
+            return 0;
+        result = break_through(respond, meeting, fixed, yields_j);
     }
-    double yields = fixed->resistance_j * world->params->collision.damage_high;
-    if (harm_fixed(respond, object, energy) >= DAMAGE_HIGH && energy >= yields) {
-        /* It gives way: breaking it costs its resistance, the rest goes on. */
-        double speed = vec3_length(entities_velocity(&respond->next->entities, impact->a));
-        double whole = 0.5 * kind->mass_kg * speed * speed;
-        double share = sqrt(maths_max(0.0, 1.0 - yields / whole));
-        outcome->response = RESPONSE_SLOW;
-        outcome->impulse_ns = kind->mass_kg * speed * (1.0 - share);
-        if (respond_slow(respond, impact->a, impact->time, share) != 0)
+    *gives_way = true;
+    if (result == 0 && !meeting->leans)
+        respond_tell(respond, &meeting->report, impact, &meeting->outcome);
+    return result;
+}
+
+/* --- contacts for the solver -------------------------------------------------------------------*/
+
+static struct vec3 velocity_at(const struct solve_body *body, struct vec3 point)
+{
+    struct vec3 r = vec3_sub(point, body->centre), w = body->spin;
+    return vec3_add(body->velocity, vec3_cross(w, r));
+}
+
+struct solve_contact impulse_contact(const struct respond *respond,
+                                     const struct island_meeting *meeting,
+                                     const struct solve_body bodies[2])
+{
+    const struct impact *impact = &meeting->impact;
+    const struct kind *ka = kind_of(respond, impact->a), *kb = other_kind(respond, impact->b);
+    struct solve_contact contact = {.point = impact->point,
+                                    .normal = impact->normal,
+                                    .friction = sqrt(ka->friction * kb->friction)};
+    struct vec3 closing =
+        vec3_sub(velocity_at(&bodies[0], contact.point), velocity_at(&bodies[1], contact.point));
+    double restitution = maths_min(ka->restitution, kb->restitution);
+    if (!meeting->leans && restitution * vec3_dot(closing, contact.normal) > STOP_MPS)
+        contact.restitution = restitution;
+    return contact;
+}
+
+/* --- solving -----------------------------------------------------------------------------------*/
+
+/* What a unit impulse at the contact changes of the speed along the normal there [1/kg]. */
+static double mobility(const struct solve_body *body, const struct solve_contact *contact)
+{
+    struct vec3 n = contact->normal, r = vec3_sub(contact->point, body->centre);
+    struct vec3 moment = vec3_cross(r, n);
+    struct vec3 spin = rotation_apply(&body->inverse_inertia, moment);
+    return n.x * n.x * body->inverse_mass.x + n.y * n.y * body->inverse_mass.y +
+           n.z * n.z * body->inverse_mass.z + vec3_dot(moment, spin);
+}
+
+static void strike(struct solve_body *body, struct vec3 point, struct vec3 impulse)
+{
+    struct vec3 r = vec3_sub(point, body->centre);
+    struct vec3 moment = vec3_cross(r, impulse);
+    body->velocity = vec3_add(body->velocity, (struct vec3){body->inverse_mass.x * impulse.x,
+                                                            body->inverse_mass.y * impulse.y,
+                                                            body->inverse_mass.z * impulse.z});
+    body->spin = vec3_add(body->spin, rotation_apply(&body->inverse_inertia, moment));
+}
+
+/* A spring between the two skins: no friction, one contact after the other. */
+static void by_spring(const struct respond *respond, struct island_meeting *meeting,
+                      struct solve_body *bodies, struct solve_contact *contact)
+{
+    struct solve_body *a = &bodies[contact->a], *b = &bodies[contact->b];
+    const struct impact *impact = &meeting->impact;
+    const struct kind *ka = kind_of(respond, impact->a);
+    const struct kind *kb = other_kind(respond, impact->b);
+    struct vec3 relative = vec3_sub(velocity_at(a, contact->point), velocity_at(b, contact->point));
+    double gives = mobility(a, contact) + mobility(b, contact);
+    contact->closing_mps = vec3_dot(relative, contact->normal);
+    contact->impulse = (struct vec3){0.0, 0.0, 0.0};
+    contact->lost_j = 0.0;
+    if (!(contact->closing_mps > 0.0) || !(gives > 0.0))
+        return;
+    const struct spring spring = {.reduced_kg = 1.0 / gives,
+                                  .closing_mps = contact->closing_mps,
+                                  .stiffness_npm =
+                                      spring_in_series(ka->stiffness_npm, kb->stiffness_npm),
+                                  .restitution = contact->restitution};
+    meeting->blow = spring_blow(&spring);
+    double out = contact->closing_mps * contact->restitution;
+    contact->lost_j = 0.5 / gives * (contact->closing_mps * contact->closing_mps - out * out);
+    contact->impulse = vec3_scale(contact->normal, meeting->blow.impulse_ns);
+    strike(a, contact->point, vec3_scale(contact->impulse, -1.0));
+    strike(b, contact->point, contact->impulse);
+}
+
+void impulse_solve(struct respond *respond, uint32_t first, uint32_t bodies)
+{
+    struct island *island = respond->island;
+    bool springs = respond->world->params->collision.response == MODEL_SPRING;
+    uint32_t contacts = 0;
+    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
+        if (springs)
+            by_spring(respond, &island->meeting[i - 1], island->solve, &island->contact[contacts]);
+        contacts++;
+    }
+    if (!springs)
+        solve_island(island->solve, bodies, island->contact, contacts);
+}
+
+/* --- afterwards --------------------------------------------------------------------------------*/
+
+int impulse_harm(struct respond *respond, struct island_meeting *meeting,
+                 const struct solve_contact *contact)
+{
+    const struct impact *impact = &meeting->impact;
+    const struct kind *ka = kind_of(respond, impact->a);
+    const struct spring_blow *spring = meeting->blow.depth_m > 0.0 ? &meeting->blow : NULL;
+    if (meeting->leans)
+        return 0;
+    meeting->outcome.impulse_ns = vec3_length(contact->impulse);
+    meeting->outcome.response = contact->restitution > 0.0 ? RESPONSE_BOUNCE : RESPONSE_STOP;
+    if (impact->b & PAIR_FIXED) {
+        const struct kind *fixed = fixed_kind_of(respond, impact->b);
+        if (blow_row(respond, impact->a, impact, -1.0, contact->lost_j * fixed->rigidity, spring) !=
+            0)
             return -1;
-        return harm_row(respond, impact->a, yields * fixed->rigidity, impact->time);
+    } else { /* the larger mass hurts the smaller more (row 30) */
+        const struct kind *kb = kind_of(respond, impact->b);
+        double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
+        if (blow_row(respond, impact->a, impact, -1.0, contact->lost_j * share_a, spring) != 0 ||
+            blow_row(respond, impact->b, impact, 1.0, contact->lost_j * (1.0 - share_a), spring) !=
+                0)
+            return -1;
     }
-    double restitution = bounce_of(kind, fixed, impact->closing_mps);
-    double impulse = (1.0 + restitution) * kind->mass_kg * impact->closing_mps;
-    struct vec3 velocity = vec3_sub(entities_velocity(&respond->next->entities, impact->a),
-                                    vec3_scale(impact->normal, impulse / kind->mass_kg));
-    outcome->impulse_ns = impulse;
-    outcome->response = restitution > 0.0 ? RESPONSE_BOUNCE : RESPONSE_STOP;
-    if (respond_stay(respond, impact->a, impact->time, velocity) != 0)
-        return -1;
-    return harm_row(respond, impact->a,
-                    energy * (1.0 - restitution * restitution) * fixed->rigidity, impact->time);
+    respond_tell(respond, &meeting->report, impact, &meeting->outcome);
+    return 0;
 }

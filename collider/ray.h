@@ -16,7 +16,8 @@ struct ray_model {
     uint32_t model; /* index into world->models */
     double scale;
     struct mat3 turn;
-    struct vec3 at; /* [m, world] */
+    struct vec3 at;  /* [m, world] */
+    double middle_m; /* how far its middle is above that */
 };
 
 struct ray_hit {
@@ -27,13 +28,16 @@ struct ray_hit {
 };
 
 /* Nearest polygon that the ray from a point along a unit direction meets within most_m: its plane
- * from the first three corners, then Haines's test. False when there is none. */
+ * from the first three corners, then Haines's test. From inside of a model that is a polygon's
+ * back. Of equally near ones the first in the model; no ray slips through between two that share an
+ * edge. False when there is none. */
 bool ray_nearest(const struct ray_model *model, struct vec3 from, struct vec3 direction,
                  double most_m, struct ray_hit *hit);
 
-/* Level 3 of the thesis: ray 1 from the vehicle's centre to the object's gives the point where it
- * leaves the vehicle's sphere; ray 2 from there back along the way tells by the polygons whether
- * the objects touch and where. See the .c for how the text is read. */
+/* Level 3 of the thesis: ray 1 from the vehicle's centre to the object's, at the height of the
+ * vehicle's middle, gives the point where it leaves the vehicle's sphere; ray 2 from there back
+ * along the way tells by the polygons whether the objects touch and where. The hit is on a polygon
+ * of the object, its distance from the vehicle's centre. See the .c for how the text is read. */
 bool ray_collision(const struct ray_model *vehicle, double vehicle_radius_m,
                    const struct ray_model *object, double object_radius_m, struct ray_hit *hit);
 

@@ -1,58 +1,82 @@
 /* One contact at a time, in the order of time: who met whom, which model answers, and the event. */
 #include "collider/respond.h"
 
-int respond_stay(struct respond *respond, uint32_t row, double time, struct vec3 velocity)
+#include "collider/attrition.h"
+
+#include <stdlib.h>
+
+/* Bodies that touched within this time and close no faster than this lean on each other, or rub
+ * along: that is one long contact, told of when it began. An engine adds far less within the time;
+ * less here tells of a vehicle that drives along another again and again. */
+#define LEAN_S   0.25
+#define LEAN_MPS 2.0
+
+/* A normal with less of it on the level is too steep to push what the ground holds. */
+#define LEVEL_MIN 0.2
+
+void respond_end(struct respond *respond)
 {
-    struct path *path = &respond->path[row];
-    struct vec3 at = path_at(path, time);
-    *path = (struct path){.at = at, .along = {0.0, 0.0, 0.0}, .since = time};
-    entities_set_position(&respond->next->entities, row, at);
-    entities_set_velocity(&respond->next->entities, row, velocity);
-    return contacts_change(respond->contacts, &respond->input, row, time);
+    free(respond->charge);
+    free(respond->near.pair);
 }
 
-int respond_slow(struct respond *respond, uint32_t row, double time, double share)
-{
-    struct entities *e = &respond->next->entities;
-    struct path *path = &respond->path[row];
-    struct vec3 at = path_at(path, time);
-    *path = (struct path){.at = at, .along = vec3_scale(path->along, share), .since = time};
-    entities_set_position(e, row, path_at(path, 1.0));
-    entities_set_velocity(e, row, vec3_scale(entities_velocity(e, row), share));
-    return contacts_change(respond->contacts, &respond->input, row, time);
-}
-
-void respond_bump(struct respond *respond, uint32_t row, double away_x, double away_z)
+/* Tells the agent which way leads away from what it ran into. */
+static void bump(struct respond *respond, uint32_t row, double away_x, double away_z)
 {
     struct entities *e = &respond->next->entities;
     e->bumped[row] = 1;
     e->bump_heading[row] = (float)maths_heading(away_x, away_z);
 }
 
-static struct impact impact_of(const struct respond *respond, const struct contact *contact)
+/* Bodies that the ground holds push each other on the level only: along the normal, or, where that
+ * is too steep to tell, along the line between their places. */
+static struct vec3 level_normal(const struct respond *respond, const struct contact *contact)
+{
+    struct vec3 level = {contact->touch.normal.x, 0.0, contact->touch.normal.z};
+    double length = vec3_length(level);
+    if (length < LEVEL_MIN) {
+        struct vec3 a = path_at(&respond->path[contact->a], contact->touch.toi), b;
+        if (contact->b & PAIR_FIXED) {
+            const struct fixed_object *object = &respond->world->fixed[contact->b & ~PAIR_FIXED];
+            b = (struct vec3){object->x, 0.0, object->z};
+        } else {
+            b = path_at(&respond->path[contact->b], contact->touch.toi);
+        }
+        level = (struct vec3){b.x - a.x, 0.0, b.z - a.z};
+        length = vec3_length(level);
+    }
+    return length > 0.0 ? vec3_scale(level, 1.0 / length) : (struct vec3){1.0, 0.0, 0.0};
+}
+
+/* Of the row's skin where it touches. */
+static struct vec3 velocity_at(const struct respond *respond, uint32_t row,
+                               const struct touch *touch)
+{
+    struct vec3 w = respond_spin(respond, row);
+    struct vec3 r = vec3_sub(touch->point, path_at(&respond->path[row], touch->toi));
+    return vec3_add(entities_velocity(&respond->next->entities, row), vec3_cross(w, r));
+}
+
+struct impact respond_impact(const struct respond *respond, const struct contact *contact)
 {
     const struct entities *e = &respond->next->entities;
-    const struct world *world = respond->world;
-    struct impact impact = {.a = contact->a, .b = contact->b, .time = contact->toi};
-    struct vec3 pa = path_at(&respond->path[contact->a], contact->toi);
-    struct vec3 va = entities_velocity(e, contact->a);
-    struct vec3 pb, vb = {0.0, 0.0, 0.0};
+    struct impact impact = {.a = contact->a,
+                            .b = contact->b,
+                            .time = contact->touch.toi,
+                            .point = contact->touch.point,
+                            .normal = contact->touch.normal,
+                            .depth_m = contact->touch.depth_m};
+    struct vec3 va = velocity_at(respond, contact->a, &contact->touch), vb = {0.0, 0.0, 0.0};
     double other_heading;
+    if (respond_grounded(respond, contact->a) &&
+        (contact->b & PAIR_FIXED || respond_grounded(respond, contact->b)))
+        impact.normal = level_normal(respond, contact);
     if (contact->b & PAIR_FIXED) {
-        const struct fixed_object *object = &world->fixed[contact->b & ~PAIR_FIXED];
-        pb = (struct vec3){object->x, (double)object->y, object->z};
-        other_heading = (double)object->turn * (TWO_PI / 65536.0);
+        other_heading = motion_fixed_heading(&respond->world->fixed[contact->b & ~PAIR_FIXED]);
     } else {
-        pb = path_at(&respond->path[contact->b], contact->toi);
-        vb = entities_velocity(e, contact->b);
+        vb = velocity_at(respond, contact->b, &contact->touch);
         other_heading = e->heading[contact->b];
     }
-    struct vec3 between = vec3_sub(pb, pa);
-    double distance = vec3_length(between);
-    impact.normal = distance > 0.0 ? vec3_scale(between, 1.0 / distance)
-                                   : (struct vec3){0.0, 1.0, 0.0}; /* centre in centre: any way */
-    impact.point =
-        vec3_add(pa, vec3_scale(impact.normal, world->kinds[e->kind[contact->a]].radius_m));
     impact.closing_mps = maths_max(0.0, vec3_dot(vec3_sub(va, vb), impact.normal));
     impact.angle_rad = maths_wrap_turn(other_heading - e->heading[contact->a]);
     return impact;
@@ -65,9 +89,8 @@ static int answer(struct respond *respond, const struct impact *impact, struct o
     case MODEL_FIGURE8:
         return fixed ? figure8_fixed(respond, impact, outcome)
                      : figure8_moving(respond, impact, outcome);
-    case MODEL_IMPULSE:
-        return fixed ? impulse_fixed(respond, impact, outcome)
-                     : impulse_moving(respond, impact, outcome);
+    case MODEL_MPS:
+        return fixed ? 0 : attrition_moving(respond, impact, outcome);
     default:
         return 0;
     }
@@ -98,10 +121,6 @@ static void put_float(float to[3], struct vec3 from)
     to[2] = (float)from.z;
 }
 
-/* Bodies that touched a moment ago and press on each other no harder than an engine's start: that
- * is one long contact, told of when it began. */
-#define LEAN_S 0.25
-
 /* How the other side of a contact is remembered: an entity by its id, which no slot change blurs.
  */
 static uint32_t body_mark(const struct respond *respond, uint32_t body)
@@ -116,14 +135,6 @@ static bool touched(const struct respond *respond, uint32_t row, uint32_t mark)
     return e->touch_body[row] == mark && (double)age * respond->world->params->dt_s <= LEAN_S;
 }
 
-static bool leans(const struct respond *respond, const struct impact *impact)
-{
-    return impact->closing_mps < lean_mps(respond->world->params->dt_s) &&
-           (touched(respond, impact->a, body_mark(respond, impact->b)) ||
-            (!(impact->b & PAIR_FIXED) &&
-             touched(respond, impact->b, body_mark(respond, impact->a))));
-}
-
 static void remember(struct respond *respond, const struct impact *impact)
 {
     struct entities *e = &respond->next->entities;
@@ -136,20 +147,47 @@ static void remember(struct respond *respond, const struct impact *impact)
     }
 }
 
-/* The row goes on from time with this velocity instead of the one that it came with; the boxes of
- * the broad phase leave room for a change of up to lean_mps(). */
-static int go_on(struct respond *respond, uint32_t row, double time, struct vec3 velocity)
+bool respond_leans(struct respond *respond, const struct impact *impact)
 {
-    struct entities *e = &respond->next->entities;
-    struct path *path = &respond->path[row];
-    struct vec3 change = vec3_sub(velocity, entities_velocity(e, row));
-    *path = (struct path){
-        .at = path_at(path, time),
-        .along = vec3_add(path->along, vec3_scale(change, respond->world->params->dt_s)),
-        .since = time};
-    entities_set_position(e, row, path_at(path, 1.0));
-    entities_set_velocity(e, row, velocity);
-    return contacts_change(respond->contacts, &respond->input, row, time);
+    bool leans =
+        impact->closing_mps < LEAN_MPS &&
+        (touched(respond, impact->a, body_mark(respond, impact->b)) ||
+         (!(impact->b & PAIR_FIXED) && touched(respond, impact->b, body_mark(respond, impact->a))));
+    remember(respond, impact);
+    return leans;
+}
+
+struct report respond_report(struct respond *respond, const struct impact *impact)
+{
+    struct vec3 direction = entities_velocity(&respond->next->entities, impact->a);
+    double speed = vec3_length(direction);
+    respond->next->head->tally.collisions++;
+    return (struct report){.event = sink_event(&respond->sink, EVENT_COLLISION),
+                           .direction_a = speed > 0.0 ? vec3_scale(direction, 1.0 / speed)
+                                                      : (struct vec3){0, 0, 0}};
+}
+
+void respond_tell(struct respond *respond, const struct report *report, const struct impact *impact,
+                  const struct outcome *outcome)
+{
+    if (outcome->response == RESPONSE_STOP || outcome->response == RESPONSE_BOUNCE) {
+        bump(respond, impact->a, -impact->normal.x, -impact->normal.z);
+        if (!(impact->b & PAIR_FIXED))
+            bump(respond, impact->b, impact->normal.x, impact->normal.z);
+    }
+    if (!report->event)
+        return;
+    struct event_collision *collision = &report->event->collision;
+    collision->a = party_of(respond, impact->a);
+    collision->b = party_of(respond, impact->b);
+    put(collision->point, impact->point);
+    put_float(collision->normal, impact->normal);
+    put_float(collision->direction_a, report->direction_a);
+    collision->toi = impact->time;
+    collision->closing_mps = (float)impact->closing_mps;
+    collision->angle_deg = (float)(impact->angle_rad * DEG_PER_RAD);
+    collision->impulse_ns = (float)outcome->impulse_ns;
+    collision->response = outcome->response;
 }
 
 /* Leaning bodies only stop pressing: what each brings along the normal is taken out, shared so that
@@ -158,57 +196,38 @@ static int lean(struct respond *respond, const struct impact *impact)
 {
     const struct entities *e = &respond->next->entities;
     const struct kind *kinds = respond->world->kinds;
-    double ma = kinds[e->kind[impact->a]].mass_kg;
     bool fixed = impact->b & PAIR_FIXED;
-    double share = 1.0;
-    if (!fixed) {
-        double mb = kinds[e->kind[impact->b]].mass_kg;
-        share = mb / (ma + mb);
-        struct vec3 push = vec3_scale(impact->normal, (1.0 - share) * impact->closing_mps);
-        if (go_on(respond, impact->b, impact->time,
-                  vec3_add(entities_velocity(e, impact->b), push)) != 0)
+    double ma = kinds[e->kind[impact->a]].mass_kg,
+           mb = fixed ? 0.0 : kinds[e->kind[impact->b]].mass_kg;
+    double share = fixed ? 1.0 : mb / (ma + mb);
+    const struct {
+        uint32_t row;
+        double push;
+    } side[2] = {{impact->a, -share}, {impact->b, 1.0 - share}};
+    for (int i = 0; i < (fixed ? 1 : 2); i++) {
+        uint32_t row = side[i].row;
+        struct vec3 push = vec3_scale(impact->normal, side[i].push * impact->closing_mps);
+        const struct vec3 spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+        if (respond_leave(respond, row, impact->time, path_at(&respond->path[row], impact->time),
+                          vec3_add(entities_velocity(e, row), push), spin, false) != 0)
             return -1;
     }
-    struct vec3 held = vec3_scale(impact->normal, share * impact->closing_mps);
-    return go_on(respond, impact->a, impact->time, vec3_sub(entities_velocity(e, impact->a), held));
+    if (respond_swept(respond, impact->a, impact->time) != 0)
+        return -1;
+    return fixed ? 0 : respond_swept(respond, impact->b, impact->time);
 }
 
-/* The event's place is taken before the answer, so that what follows from it comes after it. */
 static int collide(struct respond *respond, const struct contact *contact)
 {
-    struct entities *e = &respond->next->entities;
-    struct impact impact = impact_of(respond, contact);
+    struct impact impact = respond_impact(respond, contact);
     struct outcome outcome = {RESPONSE_NONE, 0.0};
-    bool leaning = leans(respond, &impact);
-    remember(respond, &impact);
-    if (leaning)
+    if (respond_leans(respond, &impact))
         return respond->world->params->collision.response != MODEL_NONE ? lean(respond, &impact)
                                                                         : 0;
-    struct event *event = sink_event(&respond->sink, EVENT_COLLISION);
-    struct vec3 direction = entities_velocity(e, contact->a);
-    double speed = vec3_length(direction);
-    respond->next->head->tally.collisions++;
+    struct report report = respond_report(respond, &impact);
     if (answer(respond, &impact, &outcome) != 0)
         return -1;
-    if (outcome.response == RESPONSE_STOP || outcome.response == RESPONSE_BOUNCE) {
-        respond_bump(respond, impact.a, -impact.normal.x, -impact.normal.z);
-        if (!(impact.b & PAIR_FIXED))
-            respond_bump(respond, impact.b, impact.normal.x, impact.normal.z);
-    }
-    if (!event)
-        return 0;
-    struct event_collision *collision = &event->collision;
-    collision->a = party_of(respond, impact.a);
-    collision->b = party_of(respond, impact.b);
-    put(collision->point, impact.point);
-    put_float(collision->normal, impact.normal);
-    if (speed > 0.0)
-        put_float(collision->direction_a, vec3_scale(direction, 1.0 / speed));
-    collision->toi = impact.time;
-    collision->closing_mps = (float)impact.closing_mps;
-    collision->angle_deg = (float)(impact.angle_rad * DEG_PER_RAD);
-    collision->impulse_ns = (float)outcome.impulse_ns;
-    collision->response = outcome.response;
+    respond_tell(respond, &report, &impact, &outcome);
     return 0;
 }
 
@@ -216,23 +235,25 @@ static int collide(struct respond *respond, const struct contact *contact)
 static int crash(struct respond *respond, const struct contact *contact)
 {
     struct entities *e = &respond->next->entities;
-    struct vec3 velocity = entities_velocity(e, contact->a);
+    uint32_t row = contact->a;
+    double time = contact->touch.toi;
+    struct vec3 velocity = entities_velocity(e, row);
     struct event *event = sink_event(&respond->sink, EVENT_COLLISION);
-    struct vec3 at = path_at(&respond->path[contact->a], contact->toi);
+    struct vec3 at = path_at(&respond->path[row], time);
     struct vec3 normal =
-        terrain_normal(&respond->world->terrain, respond->input.craters, at.x, at.z);
+        terrain_normal(&respond->world->terrain, respond->input.detect.craters, at.x, at.z);
     respond->next->head->tally.collisions++;
     struct vec3 slide = vec3_sub(velocity, vec3_scale(normal, vec3_dot(velocity, normal)));
     /* A wreck first: what still flies would meet the ground again where it stays. */
-    if (harm_destroy(respond, contact->a, contact->toi) != 0 ||
-        respond_stay(respond, contact->a, contact->toi, vec3_scale(slide, 0.3)) != 0)
+    if (harm_destroy(respond, row, time) != 0 ||
+        respond_stay(respond, row, time, vec3_scale(slide, 0.3)) != 0)
         return -1;
     if (event) {
-        event->collision.a = party_of(respond, contact->a);
+        event->collision.a = party_of(respond, row);
         event->collision.b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
-        put(event->collision.point, respond->path[contact->a].at);
+        put(event->collision.point, respond->path[row].at);
         put_float(event->collision.normal, vec3_scale(normal, -1.0));
-        event->collision.toi = contact->toi;
+        event->collision.toi = time;
         event->collision.closing_mps = (float)maths_max(0.0, -vec3_dot(velocity, normal));
         event->collision.response = RESPONSE_DESTROYED;
     }
@@ -244,25 +265,32 @@ static bool is_round(const struct respond *respond, uint32_t body)
     return body < PAIR_FIXED && respond->next->entities.behaviour[body] == BEHAVIOUR_FLIGHT;
 }
 
+static bool by_impulse(const struct respond *respond)
+{
+    enum response_model model = (enum response_model)respond->world->params->collision.response;
+    return model == MODEL_IMPULSE || model == MODEL_SPRING;
+}
+
 int respond_contact(struct respond *respond, const struct contact *contact)
 {
     bool round_a = is_round(respond, contact->a), round_b = is_round(respond, contact->b);
+    double time = contact->touch.toi;
     if (contact->b >= PAIR_FIXED && contact->b < CONTACT_AIR &&
-        respond->next->fixed_damage[contact->b & ~PAIR_FIXED] >= DAMAGE_HIGH)
+        !detect_stands(&respond->input.detect, contact->b & ~PAIR_FIXED))
         return 0; /* it fell earlier in this frame */
     int result;
     if (round_a && round_b) {
-        result = blast_munition(respond, contact->a, CONTACT_AIR, contact->toi);
+        result = blast_munition(respond, contact->a, CONTACT_AIR, time);
         if (result == 0)
-            result = blast_munition(respond, contact->b, CONTACT_AIR, contact->toi);
+            result = blast_munition(respond, contact->b, CONTACT_AIR, time);
     } else if (round_a) {
-        result = blast_munition(respond, contact->a, contact->b, contact->toi);
+        result = blast_munition(respond, contact->a, contact->b, time);
     } else if (round_b) {
-        result = blast_munition(respond, contact->b, contact->a, contact->toi);
+        result = blast_munition(respond, contact->b, contact->a, time);
     } else if (contact->b >= CONTACT_AIR) {
         result = crash(respond, contact);
     } else {
-        result = collide(respond, contact);
+        result = by_impulse(respond) ? island_answer(respond, contact) : collide(respond, contact);
     }
     return result == 0 ? blast_all(respond) : -1;
 }

@@ -5,7 +5,9 @@
 
 #include "collider/broad.h"
 #include "collider/contact.h"
+#include "collider/motion.h"
 #include "collider/sink.h"
+#include "collider/solve.h"
 
 /* A charge that goes off in this frame. */
 struct charge {
@@ -15,25 +17,34 @@ struct charge {
     uint32_t owner_slot, owner_id; /* who fired it; 0 for nobody */
 };
 
+struct island;
+
 struct respond {
     const struct world *world;
-    const struct broad *broad;
+    struct broad *broad;
     struct contacts *contacts;
+    struct motion *motion;
     struct contact_input input;
     struct state *next;
-    struct path *path;
+    struct path *path; /* motion's */
     struct sink sink;
     struct charge *charge; /* waiting; grows as blasts destroy what explodes in turn */
     uint32_t charges, charge_capacity;
+    struct pair_list near; /* what a blast reaches */
+    struct island *island; /* island.h */
 };
+
+/* Frees what the frame's answers took. */
+void respond_end(struct respond *respond);
 
 /* What a collision's answer works with. */
 struct impact {
     uint32_t a, b;      /* rows; b has PAIR_FIXED for a fixed object */
     double time;        /* 0..1 */
-    struct vec3 point;  /* [m, world] where the spheres touch */
-    struct vec3 normal; /* unit, from a towards b */
-    double closing_mps; /* along the normal, >= 0 */
+    struct vec3 point;  /* [m, world] where the bodies touch */
+    struct vec3 normal; /* unit, from a towards b; level between what the ground holds */
+    double depth_m;     /* how far they overlap along the touch's own normal */
+    double closing_mps; /* at the point, along the normal, >= 0 */
     double angle_rad;   /* b's heading off a's, 0..2 pi */
 };
 
@@ -43,29 +54,76 @@ struct outcome {
     double impulse_ns;
 };
 
-/* respond.c: answers one contact. 0, or -1 with errno ENOMEM. */
+/* A collision on its way into the ring. */
+struct report {
+    struct event *event; /* NULL: the frame's events are full */
+    struct vec3 direction_a;
+};
+
+/* --- respond.c: who met whom -------------------------------------------------------------------*/
+
+/* Answers the earliest contact, and with it those of the same moment that it must be solved
+ * together with. 0, or -1 with errno ENOMEM. */
 int respond_contact(struct respond *respond, const struct contact *contact);
 
-/* The row's way from time on: it stays where it is and leaves with this velocity, or goes on along
- * its way at a share of its speed. 0, or -1 with errno ENOMEM. */
+struct impact respond_impact(const struct respond *respond, const struct contact *contact);
+
+/* Is this a press that goes on, no new collision? Remembers the touch in any case. */
+bool respond_leans(struct respond *respond, const struct impact *impact);
+
+/* The event's place is taken before the answer, so that what follows from it comes after it. */
+struct report respond_report(struct respond *respond, const struct impact *impact);
+void respond_tell(struct respond *respond, const struct report *report, const struct impact *impact,
+                  const struct outcome *outcome);
+
+/* --- way.c: another way from a time on; 0, or -1 with errno ENOMEM -----------------------------*/
+
+/* Stays where it is for the rest of the frame and leaves with this velocity. */
 int respond_stay(struct respond *respond, uint32_t row, double time, struct vec3 velocity);
+
+/* Goes on along its way at a share of its speed. */
 int respond_slow(struct respond *respond, uint32_t row, double time, double share);
 
-/* Tells the agent which way leads away from what it ran into. */
-void respond_bump(struct respond *respond, uint32_t row, double away_x, double away_z);
+/* Goes on from `at` with this velocity and spin, or stays there for the rest of the frame and takes
+ * them with it. respond_swept must follow, for every row that leaves at this time, once all of them
+ * have left. */
+int respond_leave(struct respond *respond, uint32_t row, double time, struct vec3 at,
+                  struct vec3 velocity, struct vec3 spin_rps, bool stays);
+int respond_swept(struct respond *respond, uint32_t row, double time);
 
-/* figure8.c and impulse.c: the two response models. */
-int figure8_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome);
-int figure8_fixed(struct respond *respond, const struct impact *impact, struct outcome *outcome);
-int impulse_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome);
-int impulse_fixed(struct respond *respond, const struct impact *impact, struct outcome *outcome);
+/* How the row turns [rad/s, world axes]: what collisions gave it; on the ground what its driver
+ * steers, too. */
+struct vec3 respond_spin(const struct respond *respond, uint32_t row);
 
-/* harm.c: energy becomes damage. harm_row destroys at the kind's resistance_j. */
+/* Does the ground hold the row: a land vehicle, a ship, a wreck that lies? */
+bool respond_grounded(const struct respond *respond, uint32_t row);
+
+/* --- island.c: impulses, all contacts of one moment together -----------------------------------*/
+
+/* contact was just taken; takes those of the same moment that are answered by impulses too. 0, or
+ * -1 with errno ENOMEM. */
+int island_answer(struct respond *respond, const struct contact *contact);
+
+/* --- harm.c: energy becomes damage. harm_row destroys at the kind's resistance_j. --------------*/
 int harm_row(struct respond *respond, uint32_t row, double joules, double time);
 int harm_destroy(struct respond *respond, uint32_t row, double time);
 enum damage harm_fixed(struct respond *respond, uint32_t object, double joules);
+/* Energy over a fixed kind's resistance_j from which its damage is high. */
+double harm_high_share(const struct respond *respond, const struct kind *kind);
 
-/* blast.c: a munition ends, and what explodes with it. */
+/* --- blow.c: harm and a dent -------------------------------------------------------------------*/
+
+/* The row takes this energy, struck at the impact's point; side 1: inwards is along the normal, -1:
+ * against it. spring: by which it was struck, else NULL. 0, or -1 with errno ENOMEM. */
+struct spring_blow;
+int blow_row(struct respond *respond, uint32_t row, const struct impact *impact, double side,
+             double joules, const struct spring_blow *spring);
+
+/* --- figure8.c: the thesis's own answers -------------------------------------------------------*/
+int figure8_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome);
+int figure8_fixed(struct respond *respond, const struct impact *impact, struct outcome *outcome);
+
+/* --- blast.c: a munition ends, and what explodes with it ---------------------------------------*/
 int blast_munition(struct respond *respond, uint32_t row, uint32_t struck, double time);
 int blast_charge(struct respond *respond, const struct charge *charge);
 int blast_all(struct respond *respond);

@@ -11,12 +11,14 @@
 int collider_init(struct collider *collider, const struct world *world,
                   const struct crater *craters, struct workers *workers)
 {
+    uint32_t capacity = world->params->capacity;
     *collider =
         (struct collider){.world = world, .workers = workers, .fixed_hash_frame = UINT64_MAX};
-    collider->path = malloc(world->params->capacity * sizeof *collider->path);
-    if (!collider->path || crater_index_init(&collider->craters, craters) != 0 ||
+    if (crater_index_init(&collider->craters, craters) != 0 ||
+        motion_init(&collider->motion, world) != 0 ||
         broad_init(&collider->broad, world, workers) != 0 ||
-        contacts_init(&collider->contacts, world->params->capacity) != 0) {
+        contacts_init(&collider->contacts, capacity, workers) != 0 ||
+        island_init(&collider->island, capacity) != 0) {
         collider_free(collider);
         return -1;
     }
@@ -25,34 +27,30 @@ int collider_init(struct collider *collider, const struct world *world,
 
 void collider_free(struct collider *collider)
 {
-    free(collider->path);
     crater_index_free(&collider->craters);
+    motion_free(&collider->motion);
     broad_free(&collider->broad);
     contacts_free(&collider->contacts);
+    island_free(&collider->island);
+    detect_workspace_free(collider->workspace);
+    free(collider->pairs.pair);
     *collider = (struct collider){0};
 }
 
 struct stage {
     struct collider *collider;
-    const struct state *committed;
     const struct moved *moved;
     struct state *next;
 };
 
-/* Copies the moved rows and draws each body's way: from where the committed world has it to where
- * the mover put it. One that is new this frame has not moved yet. */
+/* Copies the moved rows and draws their ways. */
 static void take_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct stage *stage = context;
-    const struct entities *w = &stage->committed->entities, *m = &stage->moved->entities;
     (void)worker;
-    entities_copy(&stage->next->entities, m, first, end - first);
-    for (uint32_t i = first; i < end; i++) {
-        struct vec3 to = entities_position(m, i);
-        bool old = i < stage->committed->head->used && w->id[i] == m->id[i];
-        struct vec3 from = old ? entities_position(w, i) : to;
-        stage->collider->path[i] = (struct path){.at = from, .along = vec3_sub(to, from)};
-    }
+    entities_copy(&stage->next->entities, &stage->moved->entities, first, end - first);
+    for (uint32_t i = first; i < end; i++)
+        motion_take(&stage->collider->motion, i);
 }
 
 static void put_intents(struct sink *sink, const struct moved *moved)
@@ -82,24 +80,30 @@ static int find_ends(struct collider *collider, const struct respond *respond)
     return 0;
 }
 
+/* The frame's pairs by the method chosen. The broad phase runs with every method: blasts and
+ * changed ways look up what is near in it. */
+static int find_pairs(struct collider *collider, const struct detect_input *input)
+{
+    detect_method *method =
+        detect_method_of((enum method)collider->world->params->collision.method);
+    if (broad_pairs(&collider->broad, input) != 0)
+        return -1;
+    if (!method)
+        return contacts_begin(&collider->contacts, collider->broad.list, WORKERS_MAX);
+    collider->pairs.count = 0;
+    if (method(input, &collider->workspace, &collider->pairs) != 0)
+        return -1;
+    return contacts_begin(&collider->contacts, &collider->pairs, 1);
+}
+
 static int collide_all(struct collider *collider, struct respond *respond)
 {
-    const struct state *next = respond->next;
     struct contact contact;
-    const struct detect_input input = {
-        .world = collider->world,
-        .entities = &next->entities,
-        .path = collider->path,
-        .fixed_damage = next->fixed_damage,
-        .craters = &collider->craters,
-        .rows = next->head->used,
-    };
-    if (broad_pairs(&collider->broad, &input) != 0 ||
-        contacts_begin(&collider->contacts, &collider->broad) != 0 ||
+    if (find_pairs(collider, &respond->input.detect) != 0 ||
         contacts_find(&collider->contacts, &respond->input) != 0 ||
         find_ends(collider, respond) != 0)
         return -1;
-    while (contacts_next(&collider->contacts, &contact)) {
+    while (contacts_next(&collider->contacts, &respond->input, &contact)) {
         if (respond_contact(respond, &contact) != 0)
             return -1;
     }
@@ -125,43 +129,59 @@ static uint64_t fixed_hash(struct collider *collider, const struct state *commit
     return collider->fixed_hash;
 }
 
+struct respond collider_respond(struct collider *collider, struct state *next)
+{
+    const struct world *world = collider->world;
+    enum response_model model = (enum response_model)world->params->collision.response;
+    bool impulses = model == MODEL_IMPULSE || model == MODEL_SPRING;
+    return (struct respond){
+        .world = world,
+        .broad = &collider->broad,
+        .contacts = &collider->contacts,
+        .motion = &collider->motion,
+        .input = {.detect = {.world = world,
+                             .entities = &next->entities,
+                             .path = collider->motion.path,
+                             .fixed_damage = next->fixed_damage,
+                             .craters = &collider->craters,
+                             .rows = next->head->used},
+                  .motion = &collider->motion,
+                  .broad = &collider->broad,
+                  .meets = impulses ? CONTACT_MEETS_MAX : 1,
+                  .through_fixed = !impulses},
+        .next = next,
+        .path = collider->motion.path,
+        .island = &collider->island,
+    };
+}
+
 int collider_step(struct collider *collider, const struct state *committed,
                   const struct moved *moved, struct state *next, const struct event_ring *ring)
 {
     const struct world *world = collider->world;
-    struct stage stage = {collider, committed, moved, next};
+    struct stage stage = {collider, moved, next};
     int result = 0;
     if (crater_index_update(&collider->craters, committed->head->crater_count) != 0)
         return -1;
     begin_head(next->head, moved->head);
     memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
+    motion_begin(&collider->motion, committed, next);
     workers_run(collider->workers, take_rows, &stage, moved->head->used, ROWS_A_PIECE);
 
-    struct respond respond = {
-        .world = world,
-        .broad = &collider->broad,
-        .contacts = &collider->contacts,
-        .input = {.world = world,
-                  .craters = &collider->craters,
-                  .entities = &next->entities,
-                  .path = collider->path,
-                  .through_fixed = world->params->collision.response != MODEL_IMPULSE},
-        .next = next,
-        .path = collider->path,
-        .sink = {.slot = ring->slot,
-                 .slots = ring->slots,
-                 .first = committed->head->event_end,
-                 .frame = next->head->frame,
-                 .tick = next->head->tick,
-                 .most = world->params->events_per_frame,
-                 .tally = &next->head->tally},
-    };
+    struct respond respond = collider_respond(collider, next);
+    respond.sink = (struct sink){.slot = ring->slot,
+                                 .slots = ring->slots,
+                                 .first = committed->head->event_end,
+                                 .frame = next->head->frame,
+                                 .tick = next->head->tick,
+                                 .most = world->params->events_per_frame,
+                                 .tally = &next->head->tally};
     put_intents(&respond.sink, moved);
     if (next->head->advanced) {
         result = collide_all(collider, &respond);
         contacts_end(&collider->contacts);
-        free(respond.charge);
     }
+    respond_end(&respond);
     next->head->event_end = respond.sink.first + respond.sink.count;
     next->head->event_digest = sink_digest(&respond.sink, committed->head->event_digest);
     next->head->checksum = state_checksum_over(next, fixed_hash(collider, committed, next));

@@ -8,6 +8,10 @@
 
 #include "collider/broad.h"
 #include "collider/contact.h"
+#include "collider/detect.h"
+#include "collider/island.h"
+#include "collider/motion.h"
+#include "collider/respond.h"
 #include "world/workers.h"
 #include "world/world.h"
 
@@ -17,7 +21,10 @@ struct collider {
     struct workers *workers;     /* NULL: alone */
     struct broad broad;
     struct contacts contacts;
-    struct path *path; /* [capacity] each body's way through the frame */
+    struct motion motion;
+    struct island island;
+    struct detect_workspace *workspace; /* of a method beside the broad phase */
+    struct pair_list pairs;             /* its pairs */
     /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: of none yet */
     uint64_t fixed_hash, fixed_hash_frame;
 };
@@ -38,5 +45,9 @@ void collider_free(struct collider *collider);
  * (next is then not to be committed). */
 int collider_step(struct collider *collider, const struct state *committed,
                   const struct moved *moved, struct state *next, const struct event_ring *ring);
+
+/* What answers work with, over the frame that motion_begin was given; the sink is the caller's to
+ * set. Part of collider_step, and for tests. */
+struct respond collider_respond(struct collider *collider, struct state *next);
 
 #endif

@@ -7,6 +7,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -129,6 +130,29 @@ static int check_domain(const struct kind *kind, const struct key_reading *keys,
     return 0;
 }
 
+/* All three levels of damage are the kind's own, or none is. */
+static int check_damage(const struct kind *kind, const struct key_reading *keys,
+                        struct loader_message *message)
+{
+    double high = kind->damage_high, med = kind->damage_med, low = kind->damage_low;
+
+    if (high <= 0 && med <= 0 && low <= 0)
+        return 0;
+    if (high <= med)
+        return refuse_pair(keys, "damage_med", med,
+                           "is not below damage_high; allowed: below it, or none of the three",
+                           message);
+    if (med <= low)
+        return refuse_pair(keys, "damage_low", low,
+                           "is not below damage_med; allowed: below it, or none of the three",
+                           message);
+    if (low <= 0)
+        return refuse_pair(keys, "damage_low", low,
+                           "is needed beside damage_high; allowed: above 0, or none of the three",
+                           message);
+    return 0;
+}
+
 static int check_kind(const struct kind *kind, const struct key_reading *keys, const char *name,
                       struct loader_message *message)
 {
@@ -148,7 +172,29 @@ static int check_kind(const struct kind *kind, const struct key_reading *keys, c
     if (has_class && kind->domain != DOMAIN_FIXED)
         return refuse_pair(keys, "class", kind->object_class,
                            "is for fixed objects; allowed: with domain = \"fixed\"", message);
+    if (check_damage(kind, keys, message) != 0)
+        return -1;
     return check_domain(kind, keys, has_class, message);
+}
+
+/* A skin that has taken up resistance_j when it is pressed in by a quarter of the body's smallest
+ * side: k d^2 / 2 = resistance_j. */
+static double stiffness_of(const struct kind *kind)
+{
+    double depth = 0.25 * fmin(kind->length_m, fmin(kind->width_m, kind->height_m));
+
+    return 2.0 * kind->resistance_j / (depth * depth);
+}
+
+static void take_hulls(struct kind *kind, const struct hulls *hulls)
+{
+    kind->first_hull = hulls->first;
+    kind->hull_count = hulls->count;
+    kind->outer_hull = hulls->outer;
+    kind->bound_m = hulls->bound_m;
+    kind->level_m = hulls->level_m;
+    kind->low_m = hulls->low_m;
+    kind->high_m = hulls->high_m;
 }
 
 /* Says of a bad model also which kind wants it. */
@@ -193,6 +239,9 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
         goto err_config;
     *kind = entry.kind;
     kind->model = (uint16_t)model;
+    if (kind->stiffness_npm <= 0)
+        kind->stiffness_npm = stiffness_of(kind);
+    take_hulls(kind, &models->hulls[model]);
     kind->munition = KIND_NONE;
     memcpy(reading->munition, entry.munition, sizeof(entry.munition));
     reading->munition_line = keys.line[keys_find(&schema_kind, "munition")];

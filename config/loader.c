@@ -123,28 +123,42 @@ static int apply_override(struct load *load, const char *text)
                          load->message);
 }
 
+/* Three constants of which each must be above the next. */
+struct levels {
+    const char *name[3];
+    double value[3];
+};
+
+static int check_levels(const struct load *load, const struct levels *levels)
+{
+    for (int i = 1; i < 3; i++) {
+        const char *name = levels->name[i];
+        char text[32];
+
+        if (levels->value[i - 1] > levels->value[i])
+            continue;
+        snprintf(text, sizeof(text), "%.15g", levels->value[i]);
+        return keys_refuse(load->message, load->origin[keys_find(&schema_scenario, name)], name,
+                           text, "is not below the next level of damage; allowed: below %.15g",
+                           levels->value[i - 1]);
+    }
+    return 0;
+}
+
 /* Values that are allowed alone but not together. */
 static int check_together(const struct load *load)
 {
     const struct collision_params *collision = &load->scenario->params.collision;
-    const char *name = NULL;
-    double value = 0, below = 0;
-    char text[32];
+    const struct levels damage = {
+        {"collision.figure8.damage_high", "collision.figure8.damage_med",
+         "collision.figure8.damage_low"},
+        {collision->damage_high, collision->damage_med, collision->damage_low}};
+    const struct levels mass = {
+        {"collision.figure8.mass_c1_kg", "collision.figure8.mass_c2_kg",
+         "collision.figure8.mass_c3_kg"},
+        {collision->mass_c1_kg, collision->mass_c2_kg, collision->mass_c3_kg}};
 
-    if (!(collision->damage_high > collision->damage_med)) {
-        name = "collision.figure8.damage_med";
-        value = collision->damage_med;
-        below = collision->damage_high;
-    } else if (!(collision->damage_med > collision->damage_low)) {
-        name = "collision.figure8.damage_low";
-        value = collision->damage_low;
-        below = collision->damage_med;
-    }
-    if (name == NULL)
-        return 0;
-    snprintf(text, sizeof(text), "%.15g", value);
-    return keys_refuse(load->message, load->origin[keys_find(&schema_scenario, name)], name, text,
-                       "is not below the next level of damage; allowed: below %.15g", below);
+    return check_levels(load, &damage) == 0 ? check_levels(load, &mass) : -1;
 }
 
 static int read_lists(struct load *load)

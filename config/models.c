@@ -3,6 +3,7 @@
 #include "config/models.h"
 
 #include "config/keys.h"
+#include "config/table.h"
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
@@ -243,18 +244,6 @@ struct taking {
     struct loader_message *message;
 };
 
-/* Adds count items of size bytes to a table; NULL when memory is out. */
-static void *extend(void **table, uint32_t *used, uint32_t count, size_t size)
-{
-    void *larger = realloc(*table, ((size_t)*used + count) * size);
-
-    if (larger == NULL)
-        return NULL;
-    *table = larger;
-    *used += count;
-    return (char *)larger + ((size_t)*used - count) * size;
-}
-
 static int take_vertices(struct taking *taking, const struct aiMesh *mesh)
 {
     struct scenario *scenario = taking->models->scenario;
@@ -264,7 +253,7 @@ static int take_vertices(struct taking *taking, const struct aiMesh *mesh)
         return keys_refuse(taking->message, taking->place, NULL, NULL,
                            "has too many vertices; allowed: up to %u", MODELS_VERTEX_MAX);
     struct model_vertex *vertex =
-        extend(&table, &scenario->vertex_count, mesh->mNumVertices, sizeof(*vertex));
+        table_extend(&table, &scenario->vertex_count, mesh->mNumVertices, sizeof(*vertex));
     if (vertex == NULL)
         return keys_refuse(taking->message, taking->place, NULL, NULL, "no memory for it");
     scenario->vertices = table;
@@ -319,7 +308,7 @@ static int take_mesh(struct taking *taking, const struct aiMesh *mesh, uint32_t 
         return keys_refuse(taking->message, taking->place, NULL, NULL,
                            "has too many triangles; allowed: up to %u", MODELS_TRIANGLE_MAX);
     struct model_triangle *triangle =
-        extend(&table, &scenario->triangle_count, mesh->mNumFaces, sizeof(*triangle));
+        table_extend(&table, &scenario->triangle_count, mesh->mNumFaces, sizeof(*triangle));
     if (triangle == NULL)
         return keys_refuse(taking->message, taking->place, NULL, NULL, "no memory for it");
     scenario->triangles = table;
@@ -372,7 +361,7 @@ static int take_scene(struct models *models, const struct aiScene *scene, const 
 {
     struct scenario *scenario = models->scenario;
     void *table = scenario->models;
-    struct model *model = extend(&table, &scenario->model_count, 1, sizeof(*model));
+    struct model *model = table_extend(&table, &scenario->model_count, 1, sizeof(*model));
 
     if (model == NULL)
         return keys_refuse(message, place, NULL, NULL, "no memory for it");
@@ -386,6 +375,9 @@ static int take_scene(struct models *models, const struct aiScene *scene, const 
         return -1;
     if (model->triangle_count == 0)
         return keys_refuse(message, place, NULL, NULL, "has no triangles");
+    if (hulls_build(&models->hulls[scenario->model_count - 1], scenario, model, place, message) !=
+        0)
+        return -1;
     return (int)scenario->model_count - 1;
 }
 

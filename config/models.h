@@ -1,8 +1,10 @@
 /* Polygon models: config/models/NAME.obj and the material files they name, read with assimp into
- * a scenario's model tables. Each file is read once, hashed once, and only from that folder. */
+ * a scenario's model tables, their hulls beside them. Each file is read once, hashed once, and only
+ * from that folder. */
 #ifndef JOLON_CONFIG_MODELS_H
 #define JOLON_CONFIG_MODELS_H
 
+#include "config/hulls.h"
 #include "config/source.h"
 #include "world/scenario.h"
 
@@ -20,6 +22,7 @@ struct models {
     XXH3_state_t *hash;
     struct source file[MODELS_FILE_MAX];
     int file_count;
+    struct hulls hulls[KIND_COUNT_MAX]; /* of each of the scenario's models */
 };
 
 void models_open(struct models *models, struct scenario *scenario, const char *data_dir,

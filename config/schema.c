@@ -66,20 +66,22 @@ static const struct key_choice spacings[] = {
 static const struct key_choice object_sources[] = {
     {"table1", OBJECTS_TABLE1, true}, {"none", OBJECTS_NONE, true}, {NULL, 0, false}};
 static const struct key_choice methods[] = {{"swept", METHOD_SWEPT, true},
-                                            {"npsnet2", 0, false},
-                                            {"mps", 0, false},
-                                            {"occupancy", 0, false},
-                                            {"hopcroft", 0, false},
-                                            {"brute", 0, false},
+                                            {"npsnet2", METHOD_NPSNET2, true},
+                                            {"mps", METHOD_MPS, true},
+                                            {"occupancy", METHOD_OCCUPANCY, true},
+                                            {"hopcroft", METHOD_HOPCROFT, true},
+                                            {"brute", METHOD_BRUTE, true},
                                             {NULL, 0, false}};
 static const struct key_choice shapes[] = {
-    {"sphere", SHAPE_SPHERE, true}, {"model", 0, false}, {NULL, 0, false}};
-static const struct key_choice responses[] = {{"impulse", MODEL_IMPULSE, true},
-                                              {"figure8", MODEL_FIGURE8, true},
-                                              {"none", MODEL_NONE, true},
-                                              {"spring", 0, false},
-                                              {"mps", 0, false},
-                                              {NULL, 0, false}};
+    {"model", SHAPE_MODEL, true}, {"sphere", SHAPE_SPHERE, true}, {NULL, 0, false}};
+static const struct key_choice responses[] = {
+    {"impulse", MODEL_IMPULSE, true}, {"figure8", MODEL_FIGURE8, true},
+    {"spring", MODEL_SPRING, true},   {"mps", MODEL_MPS, true},
+    {"none", MODEL_NONE, true},       {NULL, 0, false}};
+static const struct key_choice nearnesses[] = {
+    {"and", NEARNESS_AND, true}, {"or", NEARNESS_OR, true}, {NULL, 0, false}};
+static const struct key_choice measures[] = {
+    {"energy", MEASURE_ENERGY, true}, {"mass", MEASURE_MASS, true}, {NULL, 0, false}};
 static const struct key_choice views[] = {{"chase", VIEW_CHASE, true},
                                           {"map", VIEW_MAP, true},
                                           {"both", VIEW_BOTH, true},
@@ -122,16 +124,23 @@ static const struct key scenario_keys[] = {
     /* No fallback: what stands on the ground follows from the ground (config/loader.c). */
     CHOICE("objects.source", S, objects, STORE_U32, object_sources, NULL),
     CHOICE("collision.method", S, params.collision.method, STORE_U32, methods, "swept"),
-    CHOICE("collision.shape", S, params.collision.shape, STORE_U32, shapes, "sphere"),
+    CHOICE("collision.shape", S, params.collision.shape, STORE_U32, shapes, "model"),
     CHOICE("collision.response", S, params.collision.response, STORE_U32, responses, "impulse"),
     NUMBER("collision.threshold_height_m", S, params.collision.threshold_height_m, 0, 1000, "60"),
+    CHOICE("collision.npsnet2.nearness", S, params.collision.nearness, STORE_U32, nearnesses,
+           "and"),
+    NUMBER("collision.mps.near_m", S, params.collision.mps_near_m, 0.1, 1000, "10"),
     NUMBER("collision.figure8.fast_vehicle_mps", S, params.collision.fast_vehicle_mps, 0, 1000,
            "8"),
     NUMBER("collision.figure8.fast_fixed_mps", S, params.collision.fast_fixed_mps, 0, 1000, "8"),
     NUMBER("collision.figure8.large_fixed_kg", S, params.collision.large_fixed_kg, 0, 1e9, "20000"),
+    CHOICE("collision.figure8.measure", S, params.collision.measure, STORE_U32, measures, "energy"),
     NUMBER("collision.figure8.damage_high", S, params.collision.damage_high, 0, 1000, "1"),
     NUMBER("collision.figure8.damage_med", S, params.collision.damage_med, 0, 1000, "0.3"),
     NUMBER("collision.figure8.damage_low", S, params.collision.damage_low, 0, 1000, "0.1"),
+    NUMBER("collision.figure8.mass_c1_kg", S, params.collision.mass_c1_kg, 0, 1e9, "20000"),
+    NUMBER("collision.figure8.mass_c2_kg", S, params.collision.mass_c2_kg, 0, 1e9, "8000"),
+    NUMBER("collision.figure8.mass_c3_kg", S, params.collision.mass_c3_kg, 0, 1e9, "1000"),
     WHOLE32("renderer.width", S, params.renderer.width, 16, 7680, "1280"),
     WHOLE32("renderer.height", S, params.renderer.height, 16, 4320, "720"),
     NUMBER("renderer.fps", S, params.renderer.fps, 0, 60, "2"),
@@ -211,7 +220,17 @@ static const struct key kind_keys[] = {
     NUMBER("rigidity", K, kind.rigidity, 0, 1, "0.5"),
     NUMBER("moldability", K, kind.moldability, 0, 1, "0.5"),
     NUMBER("restitution", K, kind.restitution, 0, 1, "0.2"),
+    NUMBER("friction", K, kind.friction, 0, 2, "0.6"),
     NEEDED("resistance_j", K, kind.resistance_j, 1, 1e12),
+    /* 0: follows from resistance_j and the size (config/kinds.c). */
+    NUMBER("stiffness_npm", K, kind.stiffness_npm, 0, 1e12, "0"),
+    SCALED("severe_deg", K, kind.severe_rad, 0, 45, RAD_PER_DEG, "5"),
+    NUMBER("bounce_keep", K, kind.bounce_keep, 0, 1, "0.6"),
+    NUMBER("fast_mps", K, kind.fast_mps, 0, 3000, "0"),
+    NUMBER("damage_high", K, kind.damage_high, 0, 1000, "0"),
+    NUMBER("damage_med", K, kind.damage_med, 0, 1000, "0"),
+    NUMBER("damage_low", K, kind.damage_low, 0, 1000, "0"),
+    NUMBER("debris_keep", K, kind.debris_keep, 0, 1, "1"),
     NUMBER("explosive_kg", K, kind.explosive_kg, 0, 100000, "0"),
     NUMBER("range_m", K, kind.range_m, 0, 50000, "0"),
     NUMBER("reload_s", K, kind.reload_s, 0, 3600, "0"),

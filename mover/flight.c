@@ -41,7 +41,7 @@ static void home(const struct move *move, uint32_t i, const struct kind *kind)
         /* Lead: where the target is after the time of flight. */
         to = vec3_add(to,
                       vec3_scale(entities_velocity(w, target), distance / maths_max(faster, 1.0)));
-        to.y += 0.3 * move->world->kinds[w->kind[target]].radius_m;
+        to.y += pose_aim_height(move, w->kind[target]);
         distance = vec3_length(to);
         if (distance > 0.0)
             velocity =

@@ -10,8 +10,8 @@ static void pose_by_heading(const struct move *move, uint32_t i)
     pose_on_ground(move, i, sine, cosine);
 }
 
-/* Keeps heading and speed and reacts to nothing; a land vehicle's height is the ground's, a ship's
- * the water's. */
+/* Keeps heading and speed and reacts to nothing, save that what ran into it may have set it
+ * turning; a land vehicle's height is the ground's, a ship's the water's. */
 void move_hold(const struct move *move, uint32_t i)
 {
     struct entities *m = move->m;
@@ -35,7 +35,9 @@ void move_wreck(const struct move *move, uint32_t i)
     const struct kind *kind = &move->world->kinds[m->kind[i]];
     double ground = pose_ground(move, m->x[i], m->z[i]);
     bool falls = kind->domain == DOMAIN_AIR && m->y[i] > ground;
-    if (!falls && m->vx[i] == 0.0 && m->vz[i] == 0.0 && m->y[i] == ground)
+    bool turned = spin_row(move, i);
+    if (!falls && !turned && m->vx[i] == 0.0 && m->vy[i] == 0.0 && m->vz[i] == 0.0 &&
+        m->y[i] == ground)
         return; /* at rest: the common case */
     if (!falls) {
         double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);

@@ -1,4 +1,5 @@
-/* Ground vehicles: they follow the terrain, slopes limit their speed, water stops them. */
+/* Ground vehicles: they follow the terrain, slopes and debris limit their speed, water stops them.
+ */
 #include "mover/move.h"
 
 #include "world/square.h"
@@ -17,6 +18,27 @@ static double slope_speed(const struct kind *kind, double climb_rad)
         return 0.0;
     double share = 1.0 - (1.0 - CRAWL_SHARE) * climb_rad / kind->max_slope_rad;
     return kind->max_speed_mps * share;
+}
+
+/* Share of full speed that what is left of fallen objects here allows; 1 where nothing fell. */
+static double debris_share(const struct move *move, double x, double z)
+{
+    const struct world *world = move->world;
+    const struct state *committed = move->committed;
+    double share = 1.0;
+    if (committed->head->tally.fixed_damaged == 0)
+        return share;
+    const uint32_t *objects;
+    uint32_t count = world_reach(world, square_of(x, z), &objects);
+    for (uint32_t n = 0; n < count; n++) {
+        if (committed->fixed_damage[objects[n]] < DAMAGE_HIGH)
+            continue;
+        const struct fixed_object *object = &world->fixed[objects[n]];
+        double dx = x - object->x, dz = z - object->z, radius = (double)object->radius_m;
+        if (dx * dx + dz * dz < radius * radius)
+            share = maths_min(share, world->kinds[object->kind].debris_keep);
+    }
+    return share;
 }
 
 static bool passable(const struct move *move, double x, double z)
@@ -46,6 +68,7 @@ bool move_land(const struct move *move, uint32_t i, const struct wish *wish)
     double limit = slope_speed(kind, climb);
     if (fabs(wanted) > 0.0 && limit <= 0.0)
         blocked = true;
+    limit = maths_min(limit, debris_share(move, m->x[i], m->z[i]) * kind->max_speed_mps);
     wanted = maths_clamp(wanted, -limit, limit);
     bool braking = fabs(wanted) < fabs(forward) || wanted * forward < 0.0;
     forward = pose_approach(forward, wanted,

@@ -32,12 +32,26 @@ bool move_land(const struct move *move, uint32_t i, const struct wish *wish);
 bool move_sea(const struct move *move, uint32_t i, const struct wish *wish);
 bool move_air(const struct move *move, uint32_t i, const struct wish *wish);
 
-/* hold.c: keeps velocity whatever comes; wrecks slide and fall to rest. */
+/* hold.c: keeps velocity whatever comes; wrecks slide and fall to rest, and turn by their spin. */
 void move_hold(const struct move *move, uint32_t i);
 void move_wreck(const struct move *move, uint32_t i);
 
 /* flight.c: munitions. */
 void move_flight(const struct move *move, uint32_t i);
+
+/* spin.c: turns a body by its spin columns for the frame, and slows them: on the ground and on the
+ * water about the vertical alone, in the air about the centre of mass. */
+void spin_turn(const struct move *move, uint32_t i);
+
+/* The same where there may be no spin; true when there was. */
+static inline bool spin_row(const struct move *move, uint32_t i)
+{
+    const struct entities *m = move->m;
+    if (m->spin_x[i] == 0.0 && m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0)
+        return false;
+    spin_turn(move, i);
+    return true;
+}
 
 /* agent.c: thinks for row i; true when the row moves by the wish. */
 bool agent_think(const struct move *move, uint32_t i, struct wish *wish);
@@ -47,6 +61,8 @@ void agent_blocked(const struct move *move, uint32_t i);
 
 /* pose.c: shared by the motions. */
 double pose_ground(const struct move *move, double x, double z);
+/* Height over a body's position to aim at [m]: the middle of what can be hit. */
+double pose_aim_height(const struct move *move, uint16_t kind);
 /* Heading turned towards wanted by at most rate_rps * dt. */
 double pose_turn(double heading, double wanted, double rate_rps, double dt_s);
 /* Pitch and roll [rad] of a body of the kind's length and width on the ground; sine and cosine of

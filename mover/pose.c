@@ -3,9 +3,19 @@
 
 #include "world/square.h"
 
+/* Of a sphere's radius: clear of the ground, well within it. */
+#define AIM_SHARE 0.35
+
 double pose_ground(const struct move *move, double x, double z)
 {
     return terrain_height(&move->world->terrain, move->craters, x, z);
+}
+
+double pose_aim_height(const struct move *move, uint16_t kind)
+{
+    const struct kind *k = &move->world->kinds[kind];
+    bool hulls = move->world->params->collision.shape == SHAPE_MODEL;
+    return hulls ? 0.5 * (k->low_m + k->high_m) : AIM_SHARE * k->radius_m;
 }
 
 double pose_turn(double heading, double wanted, double rate_rps, double dt_s)

@@ -32,6 +32,7 @@ static void move_row(const struct move *move, uint32_t i)
         move_flight(move, i);
         return;
     }
+    spin_row(move, i);
     if (!agent_think(move, i, &wish)) {
         move_hold(move, i);
         return;

@@ -4,7 +4,6 @@
 #include "world/random.h"
 
 #define MUZZLE_SHARE  0.7   /* of the shooter's height */
-#define AIM_SHARE     0.35  /* of the target's radius above its position */
 #define DROP_HEIGHT_M 300.0 /* rounds out of the sky come from this far above the point */
 
 /* About normal, standard deviation 1: the sum of twelve uniforms would do, four are enough. */
@@ -23,10 +22,9 @@ static struct vec3 aim(const struct serial *serial, struct vec3 muzzle, uint32_t
                        const struct kind *munition)
 {
     const struct entities *m = &serial->moved->entities;
-    const struct kind *kind = &serial->move->world->kinds[m->kind[target]];
     double speed = maths_max(munition->max_speed_mps, 1.0);
     struct vec3 at = entities_position(m, target);
-    at.y += AIM_SHARE * kind->radius_m;
+    at.y += pose_aim_height(serial->move, m->kind[target]);
     double flight_s = vec3_length(vec3_sub(at, muzzle)) / speed;
     at = vec3_add(at, vec3_scale(entities_velocity(m, target), flight_s));
     if (munition->guidance == GUIDANCE_BALLISTIC)

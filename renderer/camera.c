@@ -16,11 +16,6 @@
 #define SIGHT_SAMPLES     12
 #define SIGHT_CLEARANCE_M 1.0
 
-static struct vec3 cross(struct vec3 a, struct vec3 b)
-{
-    return (struct vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 static struct vec3 unit(struct vec3 v)
 {
     return vec3_scale(v, 1.0 / vec3_length(v));
@@ -46,8 +41,8 @@ void camera_look(struct camera *camera, struct vec3 eye, struct vec3 target, uin
 {
     camera->eye = eye;
     camera->forward = unit(vec3_sub(target, eye));
-    camera->right = unit(cross(camera->forward, (struct vec3){0.0, 1.0, 0.0}));
-    camera->up = cross(camera->right, camera->forward);
+    camera->right = unit(vec3_cross(camera->forward, (struct vec3){0.0, 1.0, 0.0}));
+    camera->up = vec3_cross(camera->right, camera->forward);
     camera->width = width;
     camera->height = height;
     /* The field of view is that of a 16:9 picture; others see the same height of the world. */

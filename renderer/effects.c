@@ -1,9 +1,6 @@
 /* Events turned into things to see. */
 #include "renderer/effects.h"
 
-#include "renderer/grain.h"
-#include "renderer/pose.h"
-
 #include <math.h>
 
 #define FLASH_SIZE_M     1.6
@@ -35,46 +32,6 @@ static double fireball(double explosive_kg)
     return 1.8 + 1.9 * cbrt(maths_max(explosive_kg, 0.0));
 }
 
-static struct dented *dented_of(struct effects *effects, uint32_t id)
-{
-    for (uint32_t i = 0; i < DENTED_MAX; i++)
-        if (effects->bodies[i].id == id)
-            return &effects->bodies[i];
-    struct dented *oldest = &effects->bodies[effects->dented++ % DENTED_MAX];
-    *oldest = (struct dented){.id = id};
-    return oldest;
-}
-
-static float within(double value, double half)
-{
-    return (float)maths_clamp(value, -half, half);
-}
-
-/* Remembers where a body was struck. The body has moved on since; its box bounds the error. */
-static void add_dent(struct effects *effects, const struct moment *moment,
-                     const struct event *event, const struct event_party *party)
-{
-    const struct entities *e = moment->entities;
-    if (party->fixed || party->damage == DAMAGE_NONE || party->kind >= moment->world->counts.kinds)
-        return;
-    uint32_t slot = entities_find(e, moment->head->used, party->id);
-    if (slot == SLOT_NONE)
-        return;
-    const double *point = event->collision.point;
-    double ago = world_time_s(moment->world, moment->head) - event_time(moment, event);
-    struct vec3 then =
-        vec3_sub(entities_position(e, slot), vec3_scale(entities_velocity(e, slot), ago));
-    struct pose pose = pose_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
-    struct vec3 off = vec3_sub((struct vec3){point[0], point[1], point[2]}, then);
-    const struct kind *kind = &moment->world->kinds[party->kind];
-    struct dented *body = dented_of(effects, party->id);
-    struct bruise *dent = &body->dents[body->count++ % DENTS_PER_BODY];
-    dent->x = within(vec3_dot(off, pose.forward), 0.5 * kind->length_m);
-    dent->y = within(vec3_dot(off, pose.up), 0.5 * kind->height_m);
-    dent->z = within(vec3_dot(off, pose.right), 0.5 * kind->width_m);
-    dent->depth_m = 0.05f * (float)kind->radius_m * (float)party->damage;
-}
-
 static void take_collision(struct effects *effects, const struct moment *moment,
                            const struct event *event)
 {
@@ -83,7 +40,6 @@ static void take_collision(struct effects *effects, const struct moment *moment,
     double size = 0.5 + 2.0 * fmin(1.5, cbrt((double)hit->impulse_ns / CRASH_IMPULSE_NS));
     add(effects, moment, event, EFFECT_CRASH, hit->point, size);
     for (uint32_t i = 0; i < 2; i++) {
-        add_dent(effects, moment, event, parties[i]);
         if (parties[i]->fixed || parties[i]->damage != DAMAGE_DESTROYED ||
             parties[i]->kind >= moment->world->counts.kinds)
             continue;
@@ -120,28 +76,4 @@ void effects_take(struct effects *effects, const struct moment *moment, const st
 uint32_t effects_count(const struct effects *effects)
 {
     return effects->taken < EFFECTS_MAX ? (uint32_t)effects->taken : EFFECTS_MAX;
-}
-
-uint32_t effects_dents(const struct effects *effects, const struct kind *kind, uint32_t id,
-                       enum damage damage, struct bruise dents[DENTS_PER_BODY])
-{
-    if (damage == DAMAGE_NONE)
-        return 0;
-    for (uint32_t i = 0; i < DENTED_MAX; i++) {
-        const struct dented *body = &effects->bodies[i];
-        if (body->id != id)
-            continue;
-        uint32_t count = body->count < DENTS_PER_BODY ? body->count : DENTS_PER_BODY;
-        for (uint32_t j = 0; j < count; j++)
-            dents[j] = body->dents[j];
-        return count;
-    }
-    for (uint32_t i = 0; i < (uint32_t)damage && i < DENTS_PER_BODY; i++) {
-        float along = grain_unit((int32_t)id, (int32_t)i, 1) - 0.5f;
-        float side = grain_unit((int32_t)id, (int32_t)i, 2) < 0.5f ? -0.5f : 0.5f;
-        dents[i] = (struct bruise){along * (float)kind->length_m, 0.1f * (float)kind->height_m,
-                                 side * (float)kind->width_m,
-                                 0.05f * (float)kind->radius_m * (float)damage};
-    }
-    return (uint32_t)damage < DENTS_PER_BODY ? (uint32_t)damage : DENTS_PER_BODY;
 }

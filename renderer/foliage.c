@@ -208,16 +208,6 @@ static void bush(struct canvas *c)
     }
 }
 
-static void broken(struct canvas *c)
-{
-    stick(c, 0.0f, 0.0f, 0.02f, 0.92f, 0.10f, 0.07f, bark);
-    for (uint32_t i = 0; i < 5; i++)
-        stick(c, between(c, -0.03f, 0.05f), 0.85f, between(c, -0.05f, 0.06f),
-              between(c, 0.92f, 1.0f), 0.02f, 0.004f, fresh_wood);
-    for (int32_t i = -1; i <= 1; i += 2)
-        stick(c, 0.0f, 0.55f, (float)i * 0.25f, between(c, 0.6f, 0.75f), 0.04f, 0.012f, bark);
-}
-
 static void stump(struct canvas *c)
 {
     stick(c, 0.0f, 0.0f, 0.0f, 0.75f, 0.62f, 0.5f, bark);
@@ -292,9 +282,6 @@ void foliage_paint(struct foliage_picture *picture, enum foliage which)
     case FOLIAGE_BUSH_B:
     case FOLIAGE_BUSH_C:
         bush(&c);
-        break;
-    case FOLIAGE_BROKEN:
-        broken(&c);
         break;
     case FOLIAGE_STUMP:
         stump(&c);

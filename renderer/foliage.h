@@ -19,7 +19,6 @@ enum foliage {
     FOLIAGE_BUSH_A,
     FOLIAGE_BUSH_B,
     FOLIAGE_BUSH_C,
-    FOLIAGE_BROKEN, /* a trunk that lost its crown */
     FOLIAGE_STUMP,
     FOLIAGE_GRASS_A,
     FOLIAGE_GRASS_B,

@@ -90,6 +90,15 @@ static uint32_t liveliest(const struct moment *moment, const struct effects *eff
     return best;
 }
 
+/* Does it live, or has it died only just? */
+static bool worth_following(const struct moment *moment, uint32_t slot)
+{
+    const struct entities *e = moment->entities;
+    double dead_s =
+        (double)(moment->head->tick - e->changed_tick[slot]) * moment->world->params->dt_s;
+    return e->state[slot] == ENTITY_ACTIVE || dead_s < FOLLOW_WRECK_S;
+}
+
 uint32_t follow_choose(struct follow *follow, const struct moment *moment,
                        const struct effects *effects, uint32_t first_id, bool only)
 {
@@ -97,19 +106,14 @@ uint32_t follow_choose(struct follow *follow, const struct moment *moment,
     uint32_t used = moment->head->used;
     double now = world_time_s(moment->world, moment->head);
     uint32_t first = first_id != 0 ? entities_find(e, used, first_id) : SLOT_NONE;
-    bool first_lives = first != SLOT_NONE && e->state[first] == ENTITY_ACTIVE;
-    if (first != SLOT_NONE && (only || first_lives)) {
+    if (first != SLOT_NONE && (only || worth_following(moment, first))) {
         *follow = (struct follow){.id = first_id, .since_s = now};
         return first;
     }
     uint32_t slot = follow->id != 0 ? entities_find(e, used, follow->id) : SLOT_NONE;
-    if (slot != SLOT_NONE) {
-        bool wreck = e->state[slot] == ENTITY_WRECK;
-        if (wreck && follow->dead_s <= 0.0)
-            follow->dead_s = now;
-        if (wreck ? now - follow->dead_s < FOLLOW_WRECK_S : now - follow->since_s < FOLLOW_KEEP_S)
-            return slot;
-    }
+    if (slot != SLOT_NONE && worth_following(moment, slot) &&
+        (e->state[slot] == ENTITY_WRECK || now - follow->since_s < FOLLOW_KEEP_S))
+        return slot;
     uint32_t next = liveliest(moment, effects);
     if (next == SLOT_NONE)
         return slot;

@@ -14,13 +14,13 @@
 struct follow {
     uint32_t id;    /* 0: none yet */
     double since_s; /* of simulation */
-    double dead_s;  /* when it was first seen as a wreck; 0: it lives */
 };
 
-/* Slot of the vehicle to follow: that of first_id until it is destroyed (0: none), or as long as
- * it exists if only is set; then the one being followed, while it lives and its time is not over;
- * else the liveliest: on land, moving, in company, near what just happened. The same moment and
- * history give the same choice. SLOT_NONE when there is no vehicle. */
+/* Slot of the vehicle to follow: that of first_id (0: none) until it has been a wreck for
+ * FOLLOW_WRECK_S, or as long as it exists if only is set; then the one being followed, while its
+ * time is not over and it is no older wreck either; else the liveliest: on land, moving, in
+ * company, near what just happened. The same moment and history give the same choice. SLOT_NONE
+ * when there is no vehicle. */
 uint32_t follow_choose(struct follow *follow, const struct moment *moment,
                        const struct effects *effects, uint32_t first_id, bool only);
 

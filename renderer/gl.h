@@ -18,6 +18,7 @@ enum gl_unit {
     UNIT_FACING,
     UNIT_PUFF,
     UNIT_CLOUD,
+    UNIT_DENTS,
 };
 
 /* What all shaders know of a picture; laid out as std140. */
@@ -34,6 +35,10 @@ struct gl_frame {
  * knows gl_frame and its texture units. 0 with the reason when the driver refuses it. */
 GLuint gl_program(const char *name, const char *vertex, const char *fragment,
                   struct reason *reason);
+
+/* The same with text that comes before the vertex shader's own. */
+GLuint gl_program_on(const char *name, const char *before, const char *vertex, const char *fragment,
+                     struct reason *reason);
 
 /* Vertex attributes from a buffer: floats, at a byte offset, stepping by instance if divisor. */
 void gl_attribute(GLuint index, GLint floats, size_t stride, size_t offset, GLuint divisor);
@@ -81,7 +86,10 @@ void gl_ground_close(struct gl_ground *ground);
 void gl_ground_draw(struct gl_ground *ground, const struct scene *scene,
                     const struct moment *moment);
 
-/* --- bodies (gl_bodies.c) --- */
+/* --- bodies (gl_bodies.c, gl_form.c) --- */
+
+/* What the vertex shaders of bodies begin with: inputs, formed(), turned(), in_world(). */
+extern const char gl_form_text[];
 
 struct gl_mesh {
     GLint first;
@@ -91,6 +99,7 @@ struct gl_mesh {
 struct gl_bodies {
     const struct scenery *scenery;
     GLuint program, shadow_program, array, meshes, copies;
+    GLuint dents, dent_texture; /* the buffer, and the texture that is a view of it */
     GLint u_pivots, u_low, u_shadow_pivots;
     struct gl_mesh *mesh; /* [models * MESH_DETAIL_COUNT] */
 };

@@ -8,58 +8,23 @@
 
 #define SHADE "vec4(0.05, 0.06, 0.09, 0.50)"
 
-/* Parts turn about their pivots; dents push the surface towards the body's middle. Shared by the
- * bodies and their shadows. */
-#define BODY_INPUTS                                                                                \
-    "layout(location = 0) in vec3 a_place;\n"                                                      \
-    "layout(location = 1) in vec3 a_normal;\n"                                                     \
-    "layout(location = 2) in vec4 a_colour;\n"                                                     \
-    "layout(location = 3) in float a_part;\n"                                                      \
-    "layout(location = 4) in vec3 i_at;\n"                                                         \
-    "layout(location = 5) in vec3 i_forward;\n"                                                    \
-    "layout(location = 6) in vec3 i_up;\n"                                                         \
-    "layout(location = 7) in vec3 i_right;\n"                                                      \
-    "layout(location = 8) in vec4 i_tint;\n"                                                       \
-    "layout(location = 9) in vec2 i_turn;\n"                                                       \
-    "layout(location = 10) in vec4 i_plane;\n"                                                     \
-    "layout(location = 11) in vec4 i_dent0;\n"                                                     \
-    "layout(location = 12) in vec4 i_dent1;\n"                                                     \
-    "layout(location = 13) in vec4 i_dent2;\n"                                                     \
-    "layout(location = 14) in vec4 i_dent3;\n"                                                     \
-    "uniform vec3 u_pivots[4];\n"                                                                  \
-    "vec3 turned(vec3 v, vec3 pivot)\n"                                                            \
-    "{\n"                                                                                          \
-    "    float turn = a_part < 1.5 ? i_turn.x : i_turn.y;\n"                                       \
-    "    float c = cos(turn), s = sin(turn);\n"                                                    \
-    "    vec3 p = v - pivot;\n"                                                                    \
-    "    if (a_part > 2.5)\n"                                                                      \
-    "        return pivot + vec3(c * p.x - s * p.y, s * p.x + c * p.y, p.z);\n"                    \
-    "    return pivot + vec3(c * p.x - s * p.z, p.y, s * p.x + c * p.z);\n"                        \
-    "}\n"                                                                                          \
-    "vec3 in_world(vec3 v) { return i_forward * v.x + i_up * v.y + i_right * v.z; }\n"
-
-static const char vertex_text[] = BODY_INPUTS
+static const char vertex_text[] =
     "uniform float u_low;\n"
     "out vec3 v_body, v_light;\n"
     "out vec4 v_colour, v_air;\n"
-    "out float v_burn;\n"
-    "void push(vec4 dent, inout vec3 place, inout vec3 normal)\n"
-    "{\n"
-    "    if (dent.w <= 0.0)\n"
-    "        return;\n"
-    "    float reach = 3.2 * dent.w;\n"
-    "    vec3 off = place - dent.xyz;\n"
-    "    float much = max(1.0 - dot(off, off) / (reach * reach), 0.0);\n"
-    "    place -= normalize(dent.xyz + vec3(1e-4)) * dent.w * much;\n"
-    "    normal = normalize(normal + off / reach * -1.1 * step(0.001, much));\n"
-    "}\n"
+    "out float v_burn, v_fell, v_bare;\n"
     "void main()\n"
     "{\n"
-    "    vec3 place = a_place, normal = a_normal;\n"
-    "    push(i_dent0, place, normal);\n"
-    "    push(i_dent1, place, normal);\n"
-    "    push(i_dent2, place, normal);\n"
-    "    push(i_dent3, place, normal);\n"
+    "    vec3 place = formed(a_place), normal = a_normal;\n"
+    /* Where the form is another, so is the way the surface faces. */
+    "    if (i_form.y > 0.5 || i_falls.z > 0.0 || i_broken.z > 0.0) {\n"
+    "        vec3 along = normalize(cross(normal, abs(normal.y) < 0.8 ? vec3(0.0, 1.0, 0.0)\n"
+    "                                                               : vec3(1.0, 0.0, 0.0)));\n"
+    "        vec3 u = formed(a_place + 0.04 * along) - place;\n"
+    "        vec3 v = formed(a_place + 0.04 * cross(normal, along)) - place;\n"
+    "        vec3 facing = cross(u, v);\n"
+    "        normal = dot(facing, facing) > 1e-12 ? normalize(facing) : normal;\n"
+    "    }\n"
     "    if (a_part > 0.5) {\n"
     "        place = turned(place, u_pivots[int(a_part + 0.5)]);\n"
     "        normal = turned(normal, vec3(0.0));\n"
@@ -80,6 +45,8 @@ static const char vertex_text[] = BODY_INPUTS
     "                       vec3(0.333))), 0.62 * a_colour.a);\n"
     "    v_body = a_place;\n"
     "    v_burn = i_tint.a;\n"
+    "    v_bare = i_form.y > 0.5 ? min(length(dented(a_place) - a_place) * 4.0, 1.0) : 0.0;\n"
+    "    v_fell = i_falls.z > 0.0 ? fell(a_place) : 0.0;\n"
     "    v_air = air(world);\n"
     "}\n";
 
@@ -87,11 +54,28 @@ static const char fragment_text[] =
     "uniform sampler2D u_detail;\n"
     "in vec3 v_body, v_light;\n"
     "in vec4 v_colour, v_air;\n"
-    "in float v_burn;\n"
+    "in float v_burn, v_fell, v_bare;\n"
     "out vec4 o_colour;\n"
     "void main()\n"
     "{\n"
     "    vec3 colour = v_colour.rgb;\n"
+    /* Bent sheet: the paint has gone where it bent most. (No level of detail is known within a
+       branch that not all pixels take.) */
+    "    if (v_bare > 0.0) {\n"
+    "        float scrape = textureLod(u_detail, v_body.xy * 0.9 + v_body.z, 0.0).g;\n"
+    "        colour = mix(colour, vec3(0.30, 0.285, 0.27) * (0.5 + scrape),\n"
+    "                     0.85 * smoothstep(1.0 - v_bare, 1.25 - v_bare, scrape + 0.15));\n"
+    "    }\n"
+    /* Rubble: what it was, dust, and dark gaps between. */
+    "    if (v_fell > 0.0) {\n"
+    "        vec2 at = v_body.xz + 0.7 * v_body.y;\n"
+    "        float lump = textureLod(u_detail, at * 0.21, 0.0).g;\n"
+    "        float gap = textureLod(u_detail, at * 0.43, 0.0).r;\n"
+    "        vec3 dust = vec3(0.60, 0.53, 0.43) * (0.7 + 0.5 * gap);\n"
+    "        vec3 rubble = mix(colour, dust, smoothstep(0.36, 0.52, lump));\n"
+    "        rubble *= mix(0.35, 1.0, smoothstep(0.34, 0.50, gap));\n"
+    "        colour = mix(colour, rubble, v_fell);\n"
+    "    }\n"
     "    if (u_sun.w > 0.5) {\n"
     "        vec2 at = vec2(v_body.x + 0.45 * v_body.y, v_body.z + 0.8 * v_body.y);\n"
     "        vec2 blot = texture(u_detail, at * 0.035).rg;\n"
@@ -110,7 +94,7 @@ static const char fragment_text[] =
     "    o_colour = vec4(mix(colour * v_light, v_air.rgb, v_air.a), 1.0);\n"
     "}\n";
 
-static const char shadow_vertex_text[] = BODY_INPUTS
+static const char shadow_vertex_text[] =
     "out float v_clear;\n"
     "void main()\n"
     "{\n"
@@ -119,7 +103,7 @@ static const char shadow_vertex_text[] = BODY_INPUTS
     "        v_clear = 0.0;\n"
     "        return;\n"
     "    }\n"
-    "    vec3 place = a_place;\n"
+    "    vec3 place = formed(a_place);\n"
     "    if (a_part > 0.5)\n"
     "        place = turned(place, u_pivots[int(a_part + 0.5)]);\n"
     "    vec3 world = i_at + in_world(place);\n"
@@ -197,19 +181,30 @@ static void describe_copies(const struct gl_bodies *bodies, uint32_t first)
     gl_attribute(8, 4, stride, base + offsetof(struct scene_body, tint), 1);
     gl_attribute(9, 2, stride, base + offsetof(struct scene_body, turret_rad), 1);
     gl_attribute(10, 4, stride, base + offsetof(struct scene_body, plane), 1);
-    for (GLuint i = 0; i < DENTS_PER_BODY; i++)
-        gl_attribute(11 + i, 4, stride,
-                     base + offsetof(struct scene_body, dents) + i * sizeof(float[4]), 1);
+    gl_attribute(11, 3, stride, base + offsetof(struct scene_body, dents), 1);
+    gl_attribute(12, 3, stride, base + offsetof(struct scene_body, falls), 1);
+    gl_attribute(13, 3, stride, base + offsetof(struct scene_body, broken), 1);
+}
+
+static void open_dents(struct gl_bodies *bodies)
+{
+    glGenBuffers(1, &bodies->dents);
+    glBindBuffer(GL_TEXTURE_BUFFER, bodies->dents);
+    glBufferData(GL_TEXTURE_BUFFER, sizeof(struct scene_dent), NULL, GL_STREAM_DRAW);
+    glGenTextures(1, &bodies->dent_texture);
+    glActiveTexture(GL_TEXTURE0 + UNIT_DENTS);
+    glBindTexture(GL_TEXTURE_BUFFER, bodies->dent_texture);
+    glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, bodies->dents);
 }
 
 int gl_bodies_open(struct gl_bodies *bodies, const struct scenery *scenery, struct reason *reason)
 {
     *bodies = (struct gl_bodies){.scenery = scenery};
-    bodies->program = gl_program("body", vertex_text, fragment_text, reason);
+    bodies->program = gl_program_on("body", gl_form_text, vertex_text, fragment_text, reason);
     if (bodies->program == 0)
         return -1;
-    bodies->shadow_program =
-        gl_program("body shadow", shadow_vertex_text, shadow_fragment_text, reason);
+    bodies->shadow_program = gl_program_on("body shadow", gl_form_text, shadow_vertex_text,
+                                           shadow_fragment_text, reason);
     if (bodies->shadow_program == 0)
         goto err_program;
     bodies->u_pivots = glGetUniformLocation(bodies->program, "u_pivots");
@@ -221,6 +216,7 @@ int gl_bodies_open(struct gl_bodies *bodies, const struct scenery *scenery, stru
     glBindVertexArray(bodies->array);
     glGenBuffers(1, &bodies->meshes);
     glGenBuffers(1, &bodies->copies);
+    open_dents(bodies);
     if (bodies->mesh == NULL || send_meshes(bodies) != 0) {
         gl_bodies_close(bodies);
         return reason_set(reason, "no memory for the models");
@@ -240,6 +236,8 @@ void gl_bodies_close(struct gl_bodies *bodies)
     glDeleteVertexArrays(1, &bodies->array);
     glDeleteBuffers(1, &bodies->meshes);
     glDeleteBuffers(1, &bodies->copies);
+    glDeleteTextures(1, &bodies->dent_texture);
+    glDeleteBuffers(1, &bodies->dents);
     free(bodies->mesh);
 }
 
@@ -248,6 +246,10 @@ void gl_bodies_send(struct gl_bodies *bodies, const struct scene *scene)
     glBindBuffer(GL_ARRAY_BUFFER, bodies->copies);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(scene->body_count * sizeof *scene->bodies),
                  scene->bodies, GL_STREAM_DRAW);
+    glBindBuffer(GL_TEXTURE_BUFFER, bodies->dents);
+    if (scene->dent_count > 0)
+        glBufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)(scene->dent_count * sizeof *scene->dents),
+                     scene->dents, GL_STREAM_DRAW);
 }
 
 static bool same_mesh(const struct scene_copy *a, const struct scene_copy *b)

@@ -44,11 +44,11 @@ static const char shared_text[] =
     "    return vec4(mix(horizon(way), white, fog / max(all, 1e-6)), 1.0 - exp(-all));\n"
     "}\n";
 
-static GLuint compile(GLenum type, const char *text, char log[LOG_BYTES])
+static GLuint compile(GLenum type, const char *before, const char *text, char log[LOG_BYTES])
 {
-    const char *texts[] = {shared_text, text};
+    const char *texts[] = {shared_text, before, text};
     GLuint shader = glCreateShader(type);
-    glShaderSource(shader, 2, texts, NULL);
+    glShaderSource(shader, 3, texts, NULL);
     glCompileShader(shader);
     GLint good = GL_FALSE;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
@@ -67,6 +67,7 @@ static void name_units(GLuint program)
     } samplers[] = {
         {"u_tile", UNIT_TILE},     {"u_detail", UNIT_DETAIL}, {"u_plant", UNIT_PLANT},
         {"u_facing", UNIT_FACING}, {"u_puff", UNIT_PUFF},     {"u_cloud", UNIT_CLOUD},
+        {"u_dents", UNIT_DENTS},
     };
     glUseProgram(program);
     for (size_t i = 0; i < sizeof samplers / sizeof samplers[0]; i++)
@@ -78,10 +79,16 @@ static void name_units(GLuint program)
 
 GLuint gl_program(const char *name, const char *vertex, const char *fragment, struct reason *reason)
 {
+    return gl_program_on(name, "", vertex, fragment, reason);
+}
+
+GLuint gl_program_on(const char *name, const char *before, const char *vertex, const char *fragment,
+                     struct reason *reason)
+{
     char log[LOG_BYTES] = "";
-    GLuint program = 0, vs = compile(GL_VERTEX_SHADER, vertex, log), fs = 0;
+    GLuint program = 0, vs = compile(GL_VERTEX_SHADER, before, vertex, log), fs = 0;
     if (vs != 0)
-        fs = compile(GL_FRAGMENT_SHADER, fragment, log);
+        fs = compile(GL_FRAGMENT_SHADER, "", fragment, log);
     if (fs != 0) {
         GLint good = GL_FALSE;
         program = glCreateProgram();

@@ -4,10 +4,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define FINE_EDGE_M        0.7   /* edges longer than this are halved */
-#define FINE_TRIANGLES_MAX 6000u /* of one model */
-#define COARSE_CELLS       12.0f /* grid cells along a model's longest side */
-#define COARSEST_CELLS     6.0f
+/* The finest level halves edges longer than FINE_EDGE_M; of a model that would get many more than
+ * FINE_TRIANGLES by it, longer ones: a triangle covers about FINE_SHARE of such an edge's square.
+ */
+#define FINE_EDGE_M    0.5f
+#define FINE_TRIANGLES 5000.0f
+#define FINE_SHARE     0.12f
+#define COARSE_CELLS   12.0f /* grid cells along a model's longest side */
+#define COARSEST_CELLS 6.0f
 
 struct corner {
     float p[3];
@@ -78,7 +82,8 @@ static int emit(struct mesh *mesh, uint32_t *capacity, const struct facet *facet
     return 0;
 }
 
-static int emit_fine(struct mesh *mesh, uint32_t *capacity, const struct facet *facet)
+/* edge_m: as long as one may be. */
+static int emit_fine(struct mesh *mesh, uint32_t *capacity, const struct facet *facet, float edge_m)
 {
     uint32_t longest = 0;
     float length = 0.0f;
@@ -89,7 +94,7 @@ static int emit_fine(struct mesh *mesh, uint32_t *capacity, const struct facet *
             longest = i;
         }
     }
-    if (length < (float)(FINE_EDGE_M * FINE_EDGE_M) || mesh->count > 3 * FINE_TRIANGLES_MAX)
+    if (length < edge_m * edge_m)
         return emit(mesh, capacity, facet);
     uint32_t a = longest, b = (longest + 1) % 3;
     struct corner middle;
@@ -99,9 +104,25 @@ static int emit_fine(struct mesh *mesh, uint32_t *capacity, const struct facet *
     first.corner[b] = middle;
     second.corner[a] = middle;
     /* Each half is shorter; the depth is bounded by the logarithm of the size. */
-    if (emit_fine(mesh, capacity, &first) != 0)
+    if (emit_fine(mesh, capacity, &first, edge_m) != 0)
         return -1;
-    return emit_fine(mesh, capacity, &second);
+    return emit_fine(mesh, capacity, &second, edge_m);
+}
+
+static float fine_edge(const struct world *world, uint32_t model)
+{
+    const struct model *m = &world->models[model];
+    const struct model_vertex *v = world->model_vertices + m->first_vertex;
+    float area = 0.0f;
+    for (uint32_t t = 0; t < m->triangle_count; t++) {
+        const uint32_t *corner = world->model_triangles[m->first_triangle + t].vertex;
+        const struct model_vertex *a = &v[corner[0]], *b = &v[corner[1]], *c = &v[corner[2]];
+        float ux = b->x - a->x, uy = b->y - a->y, uz = b->z - a->z;
+        float wx = c->x - a->x, wy = c->y - a->y, wz = c->z - a->z;
+        float nx = uy * wz - uz * wy, ny = uz * wx - ux * wz, nz = ux * wy - uy * wx;
+        area += 0.5f * sqrtf(nx * nx + ny * ny + nz * nz);
+    }
+    return fmaxf(FINE_EDGE_M, sqrtf(area / (FINE_SHARE * FINE_TRIANGLES)));
 }
 
 static const struct model_vertex *model_vertices(const struct world *world, uint32_t model)
@@ -142,6 +163,7 @@ int mesh_build(struct mesh *mesh, const struct world *world, uint32_t model,
     float longest = fmaxf(high[0] - low[0], fmaxf(high[1] - low[1], high[2] - low[2]));
     float cell = longest / (detail == MESH_COARSE ? COARSE_CELLS : COARSEST_CELLS);
     bool clustered = detail >= MESH_COARSE && longest > 0.0f;
+    float edge_m = fine_edge(world, model);
     uint32_t capacity = 0;
     for (uint32_t t = 0; t < m->triangle_count; t++) {
         struct facet facet = {.from = &world->model_triangles[m->first_triangle + t]};
@@ -151,7 +173,7 @@ int mesh_build(struct mesh *mesh, const struct world *world, uint32_t model,
             if (clustered)
                 snap(facet.corner[i].p, low, cell);
         }
-        int failed = detail == MESH_FINE ? emit_fine(mesh, &capacity, &facet)
+        int failed = detail == MESH_FINE ? emit_fine(mesh, &capacity, &facet, edge_m)
                                          : emit(mesh, &capacity, &facet);
         if (failed) {
             mesh_free(mesh);

@@ -9,16 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BODY_LEAST_PIXELS   1.3 /* smaller than this nobody sees it */
 #define SHADOW_LEAST_PIXELS 6.0
 #define SHADOW_RANGE_M      2500.0
 #define SHADOW_LIFT_M       0.06 /* above the ground, so that it does not sink into it */
-#define FIXED_RANGE_M       9000.0
 #define ROTOR_TURNS         4.6  /* a second */
-#define CRUSHED             0.35 /* height of what is left of a destroyed building */
 #define BURN_LOW            0.12f
 #define BURN_MED            0.28f
 #define BURN_HIGH           0.5f
+#define DENT_LEAST_REACH_M  0.55f /* sheet metal bends over this at least around a dent ... */
+#define DENT_REACH          2.2f  /* ... and over so many of its depths more */
 
 /* A body found, before the list is put in order. */
 struct body_order {
@@ -39,9 +38,10 @@ int scene_init(struct scene *scene)
     scene->bodies = malloc(SCENE_BODIES_MAX * sizeof *scene->bodies);
     scene->copies = malloc(SCENE_BODIES_MAX * sizeof *scene->copies);
     scene->puffs = malloc(SCENE_PUFFS_MAX * sizeof *scene->puffs);
+    scene->dents = malloc(SCENE_DENTS_MAX * sizeof *scene->dents);
     scene->order = malloc(SCENE_BODIES_MAX * sizeof *scene->order);
     if (scene->plants != NULL && scene->bodies != NULL && scene->copies != NULL &&
-        scene->puffs != NULL && scene->order != NULL)
+        scene->puffs != NULL && scene->dents != NULL && scene->order != NULL)
         return 0;
     scene_free(scene);
     return -1;
@@ -53,13 +53,14 @@ void scene_free(struct scene *scene)
     free(scene->bodies);
     free(scene->copies);
     free(scene->puffs);
+    free(scene->dents);
     free(scene->order);
     memset(scene, 0, sizeof *scene);
 }
 
-enum mesh_detail scene_detail(double pixels, bool dented)
+enum mesh_detail scene_detail(double pixels, bool bent)
 {
-    if (dented && pixels > 48.0)
+    if (bent && pixels > BENT_LEAST_PIXELS)
         return MESH_FINE;
     if (pixels > 56.0)
         return MESH_FULL;
@@ -73,8 +74,7 @@ static void copy_axis(float to[3], struct vec3 from, double scale)
     to[2] = (float)(from.z * scale);
 }
 
-/* A free place at the end of the list, cleared; NULL when there is none. */
-static struct scene_body *next_body(struct scene *scene, uint16_t model, enum mesh_detail detail)
+struct scene_body *scene_body_add(struct scene *scene, uint16_t model, enum mesh_detail detail)
 {
     if (scene->body_count == SCENE_BODIES_MAX) {
         scene->omitted++;
@@ -86,12 +86,25 @@ static struct scene_body *next_body(struct scene *scene, uint16_t model, enum me
     return &scene->bodies[i];
 }
 
+void scene_body_place(const struct scene *scene, struct scene_body *body, struct vec3 position,
+                      const struct pose *pose, double scale)
+{
+    scene_place(scene, position, body->at);
+    copy_axis(body->forward, pose->forward, scale);
+    copy_axis(body->up, pose->up, scale);
+    copy_axis(body->right, pose->right, scale);
+}
+
 /* The plane of the ground where the body's shadow falls, along the sun's light. */
-static void cast_shadow(struct scene *scene, const struct moment *moment, struct vec3 position,
-                        struct scene_body *body)
+void scene_body_shadow(struct scene *scene, const struct moment *moment, struct vec3 position,
+                       double pixels)
 {
     const struct terrain *terrain = &moment->world->terrain;
+    struct scene_body *body = &scene->bodies[scene->body_count - 1];
     struct vec3 foot = position;
+    if (pixels <= SHADOW_LEAST_PIXELS ||
+        vec3_length(vec3_sub(position, scene->camera.eye)) >= SHADOW_RANGE_M)
+        return;
     for (uint32_t i = 0; i < 3; i++) {
         double ground = terrain_height(terrain, moment->craters, foot.x, foot.z);
         double down = (position.y - ground) / SUN_Y;
@@ -130,8 +143,29 @@ static float burn_of(const struct entities *e, uint32_t slot)
     return e->damage[slot] < DAMAGE_COUNT ? burn[e->damage[slot]] : 1.0f;
 }
 
-static void add_entity(struct scene *scene, const struct moment *moment,
-                       const struct effects *effects, uint32_t slot)
+/* The body's dents into the scene's list. */
+static void add_dents(struct scene *scene, const struct moment *moment, uint32_t id,
+                      struct scene_body *body)
+{
+    struct dented of[DENTS_PER_BODY];
+    uint32_t count =
+        dents_of(moment->dents, id, moment->head->tick, moment->world->params->dt_s, of);
+    if (scene->dent_count + count > SCENE_DENTS_MAX) {
+        scene->omitted++;
+        return;
+    }
+    body->dents[0] = (float)scene->dent_count;
+    body->dents[1] = (float)count;
+    for (uint32_t i = 0; i < count; i++) {
+        struct scene_dent *dent = &scene->dents[scene->dent_count++];
+        memcpy(dent->point, of[i].point, sizeof dent->point);
+        memcpy(dent->way, of[i].direction, sizeof dent->way);
+        dent->depth_m = of[i].depth_m;
+        dent->reach_m = DENT_LEAST_REACH_M + DENT_REACH * of[i].depth_m;
+    }
+}
+
+static void add_entity(struct scene *scene, const struct moment *moment, uint32_t slot)
 {
     const struct entities *e = moment->entities;
     if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= moment->world->counts.kinds)
@@ -145,81 +179,20 @@ static void add_entity(struct scene *scene, const struct moment *moment,
     /* Its shadow may be in the picture when the body is not. */
     if (pixels < BODY_LEAST_PIXELS || !camera_sees(&scene->camera, position, 3.0 * kind->radius_m))
         return;
-    struct bruise dents[DENTS_PER_BODY];
-    enum damage damage = (enum damage)e->damage[slot];
-    uint32_t dent_count =
-        pixels > 48.0 ? effects_dents(effects, kind, e->id[slot], damage, dents) : 0;
-    struct scene_body *body = next_body(scene, kind->model, scene_detail(pixels, dent_count > 0));
+    bool bent = pixels > BENT_LEAST_PIXELS && dents_any(moment->dents, e->id[slot]);
+    struct scene_body *body = scene_body_add(scene, kind->model, scene_detail(pixels, bent));
     if (body == NULL)
         return;
     struct pose pose = pose_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
-    scene_place(scene, position, body->at);
-    copy_axis(body->forward, pose.forward, 1.0);
-    copy_axis(body->up, pose.up, 1.0);
-    copy_axis(body->right, pose.right, 1.0);
+    scene_body_place(scene, body, position, &pose, 1.0);
     memcpy(body->tint, force_colours[e->force[slot] % FORCE_COUNT], sizeof body->tint);
     body->burn = burn_of(e, slot);
     body->turret_rad = (float)turret_angle(moment, slot);
     double turns = e->state[slot] == ENTITY_WRECK ? 0.0 : ROTOR_TURNS * scene->time_s;
     body->rotor_rad = (float)(TWO_PI * (turns - floor(turns)) + e->id[slot] % 7u);
-    for (uint32_t i = 0; i < dent_count; i++) {
-        const float dent[4] = {dents[i].x, dents[i].y, dents[i].z, dents[i].depth_m};
-        memcpy(body->dents[i], dent, sizeof dent);
-    }
-    if (pixels > SHADOW_LEAST_PIXELS && distance < SHADOW_RANGE_M)
-        cast_shadow(scene, moment, position, body);
-}
-
-/* --- fixed objects made of polygons ----------------------------------------------------------- */
-
-static void add_fixed(struct scene *scene, const struct scenery *scenery,
-                      const struct moment *moment, uint32_t index)
-{
-    const struct fixed_object *object = &moment->world->fixed[index];
-    const struct kind *kind = &moment->world->kinds[object->kind];
-    struct vec3 position = {object->x, (double)object->y, object->z};
-    double size = maths_max((double)object->radius_m, (double)object->height_m);
-    double distance = vec3_length(vec3_sub(position, scene->camera.eye));
-    double pixels = camera_pixels(&scene->camera, 2.0 * size, distance);
-    if (pixels < BODY_LEAST_PIXELS || kind->model >= moment->world->counts.models ||
-        !camera_sees(&scene->camera, position, 3.0 * size))
-        return;
-    struct scene_body *body = next_body(scene, kind->model, scene_detail(pixels, false));
-    if (body == NULL)
-        return;
-    enum damage damage = (enum damage)moment->fixed_damage[index];
-    bool slender = (double)object->height_m > 2.5 * kind->width_m;
-    bool down = damage == DAMAGE_DESTROYED;
-    /* What is slender falls over; what is broad falls in. */
-    double lean = slender ? (down ? 80.0 : 5.0 * (double)damage) * RAD_PER_DEG : 0.0;
-    struct pose pose = pose_of(object->turn * (TWO_PI / 65536.0), lean, 0.0);
-    /* Models may stand on their origin or around it: the lowest corner goes to the ground. */
-    float low = scenery->frames[kind->model].low[1];
-    double tall = down && !slender ? CRUSHED : 1.0;
-    position.y -= lean > 1.0 ? 0.0 : (double)low * tall;
-    scene_place(scene, position, body->at);
-    copy_axis(body->forward, pose.forward, 1.0);
-    copy_axis(body->up, pose.up, tall);
-    copy_axis(body->right, pose.right, 1.0);
-    memcpy(body->tint, force_colours[FORCE_NEUTRAL], sizeof body->tint);
-    body->burn = 0.2f * (float)damage;
-    if (pixels > SHADOW_LEAST_PIXELS && distance < SHADOW_RANGE_M)
-        cast_shadow(scene, moment, position, body);
-}
-
-static void add_fixed_models(struct scene *scene, const struct scenery *scenery,
-                             const struct moment *moment)
-{
-    struct vec3 eye = scene->camera.eye;
-    struct square_box box = square_box_of(eye.x - FIXED_RANGE_M, eye.z - FIXED_RANGE_M,
-                                          eye.x + FIXED_RANGE_M, eye.z + FIXED_RANGE_M);
-    for (int32_t row = box.z0; row <= box.z1; row++) {
-        uint32_t first = scenery->square_start[square_index(box.x0, row)];
-        uint32_t end = scenery->square_start[square_index(box.x1, row) + 1];
-        for (uint32_t i = first; i < end; i++)
-            if (scenery->look[i] == LOOK_MODEL)
-                add_fixed(scene, scenery, moment, i);
-    }
+    if (bent)
+        add_dents(scene, moment, e->id[slot], body);
+    scene_body_shadow(scene, moment, position, pixels);
 }
 
 /* --- order ------------------------------------------------------------------------------------ */
@@ -273,12 +246,13 @@ void scene_build(struct scene *scene, const struct camera *camera, const struct 
     scene->fog = wanted->fog != 0;
     scene->haze = wanted->haze != 0;
     scene->texture = wanted->texture != 0;
-    scene->plant_count = scene->body_count = scene->puff_count = scene->omitted = 0;
+    scene->plant_count = scene->body_count = scene->puff_count = 0;
+    scene->dent_count = scene->omitted = 0;
     scene->patch_count = ground_select(&scenery->ground, camera, scene->patches);
     scene_plants(scene, scenery, moment);
     for (uint32_t slot = 0; slot < moment->head->used; slot++)
-        add_entity(scene, moment, effects, slot);
-    add_fixed_models(scene, scenery, moment);
+        add_entity(scene, moment, slot);
+    scene_fixed(scene, scenery, moment);
     sort_bodies(scene);
     scene_puffs(scene, moment, effects);
 }

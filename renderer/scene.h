@@ -9,6 +9,7 @@
 #include "renderer/camera.h"
 #include "renderer/effects.h"
 #include "renderer/moment.h"
+#include "renderer/pose.h"
 #include "renderer/scenery.h"
 
 #include <stdbool.h>
@@ -17,6 +18,10 @@
 #define SCENE_PLANTS_MAX 24576u
 #define SCENE_BODIES_MAX 8192u
 #define SCENE_PUFFS_MAX  8192u
+#define SCENE_DENTS_MAX  4096u
+
+#define BODY_LEAST_PIXELS 1.3  /* smaller than this nobody sees it */
+#define BENT_LEAST_PIXELS 48.0 /* nor that it is bent, smaller than this */
 
 /* Trees, bushes, tufts of grass: upright pictures that turn to the eye. */
 struct scene_plant {
@@ -31,12 +36,22 @@ struct scene_plant {
 /* Anything made of polygons. */
 struct scene_body {
     float at[3];
-    float forward[3], up[3], right[3]; /* body axes; up shorter than 1: crushed */
+    float forward[3], up[3], right[3]; /* body axes, scaled */
     float tint[3];                     /* the force's colour */
     float burn;                        /* 0 as built .. 1 burnt out */
     float turret_rad, rotor_rad;
-    float plane[4];                 /* n.xyz, d: its shadow falls where n.p == d; 0: nowhere */
-    float dents[DENTS_PER_BODY][4]; /* x, y, z, depth; body axes */
+    float plane[4];  /* n.xyz, d: its shadow falls where n.p == d; 0: nowhere */
+    float dents[2];  /* first and count in the scene's list */
+    float grain;     /* a number of its own, for what a heap looks like */
+    float falls[3];  /* x, z [1/m, body axes] and more: it fell in where x * falls[0] + z * falls[1]
+                        + falls[2] is above 1, raggedly */
+    float broken[3]; /* x, y [m, body axes], and how far what is above is bent ahead [rad] */
+};
+
+/* The surface within reach of the point is moved along the way, most at the point. */
+struct scene_dent {
+    float point[3], depth_m; /* [m, body axes] */
+    float way[3], reach_m;   /* unit, body axes */
 };
 
 /* What a body in the same place of the list is a copy of. */
@@ -81,6 +96,8 @@ struct scene {
     uint32_t body_count;
     struct scene_puff *puffs;
     uint32_t puff_count;
+    struct scene_dent *dents;
+    uint32_t dent_count;
     uint32_t omitted;         /* things in view for which a list had no room */
     struct body_order *order; /* scratch */
 };
@@ -94,11 +111,24 @@ void scene_build(struct scene *scene, const struct camera *camera, const struct 
                  const struct moment *moment, const struct effects *effects);
 
 /* Parts of scene_build, for the files that make them. */
+void scene_fixed(struct scene *scene, const struct scenery *scenery, const struct moment *moment);
 void scene_plants(struct scene *scene, const struct scenery *scenery, const struct moment *moment);
 void scene_puffs(struct scene *scene, const struct moment *moment, const struct effects *effects);
 
-/* Level of detail of a body that shows so large [pixel]; never finer for a smaller one. */
-enum mesh_detail scene_detail(double pixels, bool dented);
+/* Level of detail of a body that shows so large [pixel]; never finer for a smaller one. bent: its
+ * polygons are moved, and must be fine enough for it. */
+enum mesh_detail scene_detail(double pixels, bool bent);
+
+/* A free place at the end of the list of bodies, cleared; NULL, and counted, when there is none. */
+struct scene_body *scene_body_add(struct scene *scene, uint16_t model, enum mesh_detail detail);
+
+/* Where it is, how it is turned, and its size over its model's. */
+void scene_body_place(const struct scene *scene, struct scene_body *body, struct vec3 position,
+                      const struct pose *pose, double scale);
+
+/* Gives the last body of the list a shadow, unless it is too small or too far for one to show. */
+void scene_body_shadow(struct scene *scene, const struct moment *moment, struct vec3 position,
+                       double pixels);
 
 /* Places relative to the eye, in float. */
 static inline void scene_place(const struct scene *scene, struct vec3 position, float at[3])

@@ -13,6 +13,7 @@
 #define TUFT_CELL_M        2.6
 #define TUFT_FADE          0.35 /* share of the range over which tufts thin out */
 #define ROADS_MAX          96   /* pieces of road near the eye */
+#define STUMP_M            1.0f /* wide and high */
 #define ROAD_CLEAR_M       6.0  /* no tufts within this of a road's middle */
 
 struct road_pieces {
@@ -59,30 +60,45 @@ static float breadth(uint8_t look)
     }
 }
 
-/* What is left of a plant (thesis row 32: a stump where a tank went). */
-static void show_damage(struct scene_plant *plant, uint8_t look, enum damage damage, uint32_t index)
+/* A stump (thesis row 32), and beside it the tree that stood on it, lying. */
+static void fell(struct scene *scene, struct scene_plant *plant, float side)
+{
+    struct scene_plant stump = *plant;
+    stump.picture = (float)FOLIAGE_STUMP;
+    stump.height = stump.width = STUMP_M;
+    plant->lean = side * 2.1f;
+    plant->height *= 0.30f;
+    plant->width *= 0.75f;
+    plant->tint[0] *= 1.15f;
+    plant = next_plant(scene);
+    if (plant != NULL)
+        *plant = stump;
+}
+
+/* What is left of a plant. */
+static void show_damage(struct scene *scene, struct scene_plant *plant, enum damage damage,
+                        uint32_t index)
 {
     float side = grain_unit((int32_t)index, 3, 9) < 0.5f ? -1.0f : 1.0f;
-    bool bush = look >= FOLIAGE_BUSH_A && look <= FOLIAGE_BUSH_C;
+    bool bush = plant->picture >= (float)FOLIAGE_BUSH_A && plant->picture <= (float)FOLIAGE_BUSH_C;
     switch (damage) {
     case DAMAGE_NONE:
-        break;
-    case DAMAGE_DESTROYED:
-        plant->picture = bush ? (float)look : (float)FOLIAGE_STUMP;
-        plant->height = bush ? 0.25f * plant->height : 0.9f;
-        plant->width = bush ? plant->width : 0.9f;
-        break;
-    case DAMAGE_HIGH:
-        plant->picture = bush ? (float)look : (float)FOLIAGE_BROKEN;
-        plant->height *= 0.55f;
-        plant->width *= 0.6f;
-        plant->lean = 0.25f * side;
-        break;
+        return;
+    case DAMAGE_LOW: /* it stands: its leaves are the worse for it */
+        plant->height *= 0.96f;
+        plant->tint[0] *= 1.12f;
+        return;
+    case DAMAGE_MED:
+        plant->lean = 0.42f * side;
+        plant->height *= 0.9f;
+        plant->tint[0] *= 1.18f;
+        return;
     default:
-        plant->lean = side * (damage == DAMAGE_MED ? 0.35f : 0.15f);
-        plant->height *= damage == DAMAGE_MED ? 0.9f : 1.0f;
-        plant->tint[0] *= 1.15f;
-        break;
+        if (bush)
+            plant->height *= 0.35f;
+        else
+            fell(scene, plant, side);
+        return;
     }
 }
 
@@ -110,8 +126,8 @@ static void add_plant(struct scene *scene, const struct scenery *scenery,
     };
     scene_place(scene, foot, plant->at);
     ground_slope(moment, foot.x, foot.z, plant->slope);
-    show_damage(plant, look, (enum damage)moment->fixed_damage[index], index);
     plant->at[1] -= 0.02f * plant->height;
+    show_damage(scene, plant, (enum damage)moment->fixed_damage[index], index);
 }
 
 /* --- tufts ------------------------------------------------------------------------------------ */

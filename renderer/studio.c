@@ -20,7 +20,8 @@ static struct moment moment_of(const struct studio *studio)
                            .head = &studio->snapshot.head,
                            .entities = &studio->snapshot.entities,
                            .fixed_damage = studio->snapshot.fixed_damage,
-                           .craters = &studio->craters};
+                           .craters = &studio->craters,
+                           .dents = &studio->dents};
 }
 
 static bool wants(const struct studio *studio, enum view_mode view)
@@ -60,8 +61,10 @@ int studio_open(struct studio *studio, struct view *view, struct pulse *pulse,
         goto err_memory;
     if (crater_index_init(&studio->craters, view->w[0].craters) != 0)
         goto err_snapshot;
-    if (tracks_init(&studio->tracks, view->world.params->capacity) != 0)
+    if (dents_init(&studio->dents, view->w[0].dents, view->world.params->dent_slots) != 0)
         goto err_craters;
+    if (tracks_init(&studio->tracks, view->world.params->capacity) != 0)
+        goto err_dents;
     if (scenery_init(&studio->scenery, &view->world) != 0)
         goto err_tracks;
     if (scene_init(&studio->scene) != 0)
@@ -88,6 +91,7 @@ err_image:
     scene_free(&studio->scene);
     scenery_free(&studio->scenery);
     tracks_free(&studio->tracks);
+    dents_free(&studio->dents);
     crater_index_free(&studio->craters);
     snapshot_free(&studio->snapshot);
     return -1;
@@ -97,6 +101,8 @@ err_scenery:
     scenery_free(&studio->scenery);
 err_tracks:
     tracks_free(&studio->tracks);
+err_dents:
+    dents_free(&studio->dents);
 err_craters:
     crater_index_free(&studio->craters);
 err_snapshot:
@@ -114,6 +120,7 @@ void studio_close(struct studio *studio)
     scene_free(&studio->scene);
     scenery_free(&studio->scenery);
     tracks_free(&studio->tracks);
+    dents_free(&studio->dents);
     crater_index_free(&studio->craters);
     snapshot_free(&studio->snapshot);
 }
@@ -154,6 +161,7 @@ int studio_look(struct studio *studio, struct reason *reason)
     struct moment moment = moment_of(studio);
     if (crater_index_update(&studio->craters, moment.head->crater_count) != 0)
         return reason_set(reason, "no memory for %u craters", moment.head->crater_count);
+    dents_update(&studio->dents, moment.head->dent_count);
     studio->seen = moment.head->frame;
     log_frame(studio->seen);
     take_events(studio, &moment);

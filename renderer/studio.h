@@ -21,6 +21,7 @@ struct studio {
     struct options options; /* with the world's own where none were given */
     struct snapshot snapshot;
     struct crater_index craters;
+    struct dents dents;
     struct event_cursor events;
     struct effects effects;
     struct tracks tracks;

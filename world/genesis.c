@@ -113,7 +113,8 @@ static int build_objects(struct genesis *genesis, const struct complaint *to)
         return errno == EINVAL
                    ? complain(to, "objects: a class of Table 1 has no kind in config/kinds")
                    : out_of_memory(to);
-    if (reach_build(genesis->fixed, count, &genesis->reach_start, &genesis->reach) != 0)
+    if (reach_build(genesis->fixed, count, scenario->kinds, &genesis->reach_start,
+                    &genesis->reach) != 0)
         return out_of_memory(to);
     genesis->counts.reach = genesis->reach_start[SQUARE_COUNT];
     return 0;
@@ -173,7 +174,7 @@ static int build_group(struct genesis *genesis, const struct scenario_group *gro
                             scenario->kinds[group->kind].name, i + 1, group->count,
                             scenario->areas[group->area].x0, scenario->areas[group->area].z0,
                             scenario->areas[group->area].x1, scenario->areas[group->area].z1);
-        if (place_take(place, x, z, scenario->kinds[group->kind].radius_m) != 0)
+        if (place_take(place, x, z, reach_of_kind(&scenario->kinds[group->kind])) != 0)
             return out_of_memory(to);
         place_entity(genesis, group, slot, x, z);
         if (group->name[0] != '\0')
@@ -197,8 +198,8 @@ static int build_entities(struct genesis *genesis, const struct complaint *to)
         return out_of_memory(to);
     memset(genesis->first_memory, 0, entities_bytes(capacity));
     entities_bind(&genesis->first, capacity, genesis->first_memory);
-    if (place_init(&place, &terrain, genesis->fixed, genesis->reach_start, genesis->reach,
-                   scenario->params.seed) != 0)
+    if (place_init(&place, &terrain, genesis->fixed, scenario->kinds, genesis->reach_start,
+                   genesis->reach, scenario->params.seed) != 0)
         return out_of_memory(to);
     for (uint32_t g = 0; g < scenario->group_count && result == 0; g++)
         result = build_group(genesis, &scenario->groups[g], &place, to);

@@ -68,7 +68,7 @@ struct kind {
     uint32_t rounds;
     /* What follows comes from the model's hulls. */
     uint32_t first_hull, hull_count; /* index into the world's hulls */
-    uint32_t reserved;
+    uint32_t outer_hull;             /* the one around all of them */
     double bound_m;       /* radius about the position that holds every hull, however turned */
     double level_m;       /* the same on the map, upright */
     double low_m, high_m; /* lowest and highest point over the position, upright */

@@ -70,6 +70,12 @@ static inline double vec3_dot(struct vec3 a, struct vec3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/* Right-handed: x cross y is z. */
+static inline struct vec3 vec3_cross(struct vec3 a, struct vec3 b)
+{
+    return (struct vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 static inline double vec3_length(struct vec3 a)
 {
     return sqrt(vec3_dot(a, a));

@@ -2,6 +2,7 @@
 #include "world/place.h"
 
 #include "world/random.h"
+#include "world/reach.h"
 #include "world/square.h"
 
 #include <stdlib.h>
@@ -12,10 +13,12 @@
 #define SLOPE_SHARE 0.7  /* of the steepest slope that a kind climbs */
 
 int place_init(struct place *place, const struct terrain *terrain, const struct fixed_object *fixed,
-               const uint32_t *reach_start, const uint32_t *reach, uint64_t seed)
+               const struct kind *kinds, const uint32_t *reach_start, const uint32_t *reach,
+               uint64_t seed)
 {
     *place = (struct place){.terrain = *terrain,
                             .fixed = fixed,
+                            .kinds = kinds,
                             .reach_start = reach_start,
                             .reach = reach,
                             .seed = seed};
@@ -52,9 +55,9 @@ static bool ground_suits(const struct place *place, const struct kind *kind, dou
     }
 }
 
-static bool clear_of_vehicles(const struct place *place, double x, double z, double radius_m)
+static bool clear_of_vehicles(const struct place *place, double x, double z, double reach_m)
 {
-    double reach = radius_m + place->largest_m + CLEARANCE_M;
+    double reach = reach_m + place->largest_m + CLEARANCE_M;
     struct square_box box = square_box_of(x - reach, z - reach, x + reach, z + reach);
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
@@ -62,7 +65,7 @@ static bool clear_of_vehicles(const struct place *place, double x, double z, dou
             while (next != 0) {
                 const struct place_taken *other = &place->taken[next - 1];
                 double dx = other->x - x, dz = other->z - z;
-                double gap = radius_m + other->radius_m + CLEARANCE_M;
+                double gap = reach_m + other->reach_m + CLEARANCE_M;
                 if (dx * dx + dz * dz < gap * gap)
                     return false;
                 next = other->next;
@@ -72,9 +75,9 @@ static bool clear_of_vehicles(const struct place *place, double x, double z, dou
     return true;
 }
 
-static bool clear_of_objects(const struct place *place, double x, double z, double radius_m)
+static bool clear_of_objects(const struct place *place, double x, double z, double reach_m)
 {
-    double reach = radius_m + CLEARANCE_M;
+    double reach = reach_m + CLEARANCE_M;
     struct square_box box = square_box_of(x - reach, z - reach, x + reach, z + reach);
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
@@ -82,7 +85,7 @@ static bool clear_of_objects(const struct place *place, double x, double z, doub
             for (uint32_t i = place->reach_start[square]; i < place->reach_start[square + 1]; i++) {
                 const struct fixed_object *object = &place->fixed[place->reach[i]];
                 double dx = object->x - x, dz = object->z - z;
-                double gap = reach + (double)object->radius_m;
+                double gap = reach + reach_of_fixed(object, place->kinds);
                 if (dx * dx + dz * dz < gap * gap)
                     return false;
             }
@@ -105,20 +108,21 @@ int place_find(struct place *place, const struct area *area, const struct kind *
                double *x, double *z)
 {
     double x0 = area->x0, x1 = area->x1, z0 = area->z0, z1 = area->z1;
+    double reach = reach_of_kind(kind);
     leave_edge(&x0, &x1);
     leave_edge(&z0, &z1);
     for (uint64_t i = 0; i < TRIES; i++) {
         *x = random_between(place->seed, i, slot, RANDOM_PLACE_X, x0, x1);
         *z = random_between(place->seed, i, slot, RANDOM_PLACE_Z, z0, z1);
         if (ground_suits(place, kind, *x, *z) &&
-            (kind->domain == DOMAIN_AIR || clear_of_objects(place, *x, *z, kind->radius_m)) &&
-            clear_of_vehicles(place, *x, *z, kind->radius_m))
+            (kind->domain == DOMAIN_AIR || clear_of_objects(place, *x, *z, reach)) &&
+            clear_of_vehicles(place, *x, *z, reach))
             return 0;
     }
     return -1;
 }
 
-int place_take(struct place *place, double x, double z, double radius_m)
+int place_take(struct place *place, double x, double z, double reach_m)
 {
     if (place->count == place->capacity) {
         uint32_t capacity = place->capacity * 2 + 256;
@@ -129,8 +133,8 @@ int place_take(struct place *place, double x, double z, double radius_m)
         place->capacity = capacity;
     }
     uint32_t *head = &place->head[square_of(x, z)];
-    place->taken[place->count] = (struct place_taken){x, z, radius_m, *head};
+    place->taken[place->count] = (struct place_taken){x, z, reach_m, *head};
     *head = ++place->count;
-    place->largest_m = maths_max(place->largest_m, radius_m);
+    place->largest_m = maths_max(place->largest_m, reach_m);
     return 0;
 }

@@ -1,5 +1,5 @@
 /* Places for vehicles at genesis: random points of an area on ground that suits the kind, clear of
- * each other and of fixed objects. */
+ * each other and of fixed objects as far as either reaches (world/reach.h). */
 #ifndef JOLON_WORLD_PLACE_H
 #define JOLON_WORLD_PLACE_H
 
@@ -11,31 +11,33 @@
 #include <stdint.h>
 
 struct place_taken {
-    double x, z, radius_m;
+    double x, z, reach_m;
     uint32_t next; /* index + 1 in the same square, 0 ends */
 };
 
 struct place {
     struct terrain terrain;
     const struct fixed_object *fixed;
+    const struct kind *kinds; /* of the fixed objects */
     const uint32_t *reach_start, *reach;
     uint64_t seed;
     uint32_t *head; /* [SQUARE_COUNT] taken + 1 */
     struct place_taken *taken;
     uint32_t count, capacity;
-    double largest_m; /* radius taken so far */
+    double largest_m; /* reach taken so far */
 };
 
 /* 0, or -1 with errno ENOMEM. */
 int place_init(struct place *place, const struct terrain *terrain, const struct fixed_object *fixed,
-               const uint32_t *reach_start, const uint32_t *reach, uint64_t seed);
+               const struct kind *kinds, const uint32_t *reach_start, const uint32_t *reach,
+               uint64_t seed);
 void place_free(struct place *place);
 
 /* A place for entity number slot; 0, or -1 after 1,000 tries. */
 int place_find(struct place *place, const struct area *area, const struct kind *kind, uint32_t slot,
                double *x, double *z);
 
-/* Marks a place as taken; 0, or -1 with errno ENOMEM. */
-int place_take(struct place *place, double x, double z, double radius_m);
+/* Marks a place as taken, for a body of reach_of_kind() reach_m; 0, or -1 with errno ENOMEM. */
+int place_take(struct place *place, double x, double z, double reach_m);
 
 #endif

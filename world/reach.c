@@ -6,20 +6,20 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-static struct square_box box_of(const struct fixed_object *object)
+static struct square_box box_of(const struct fixed_object *object, const struct kind *kinds)
 {
-    double r = (double)object->radius_m;
+    double r = reach_of_fixed(object, kinds);
     return square_box_of(object->x - r, object->z - r, object->x + r, object->z + r);
 }
 
-int reach_build(const struct fixed_object *objects, uint32_t count, uint32_t **start,
-                uint32_t **items)
+int reach_build(const struct fixed_object *objects, uint32_t count, const struct kind *kinds,
+                uint32_t **start, uint32_t **items)
 {
     uint32_t *first = calloc(SQUARE_COUNT + 1, sizeof *first);
     if (!first)
         return -1;
     for (uint32_t i = 0; i < count; i++) {
-        struct square_box box = box_of(&objects[i]);
+        struct square_box box = box_of(&objects[i], kinds);
         for (int32_t row = box.z0; row <= box.z1; row++) {
             for (int32_t column = box.x0; column <= box.x1; column++)
                 first[square_index(column, row) + 1]++;
@@ -38,7 +38,7 @@ int reach_build(const struct fixed_object *objects, uint32_t count, uint32_t **s
     for (uint32_t s = 0; s < SQUARE_COUNT; s++)
         fill[s] = first[s];
     for (uint32_t i = 0; i < count; i++) {
-        struct square_box box = box_of(&objects[i]);
+        struct square_box box = box_of(&objects[i], kinds);
         for (int32_t row = box.z0; row <= box.z1; row++) {
             for (int32_t column = box.x0; column <= box.x1; column++)
                 list[fill[square_index(column, row)]++] = i;

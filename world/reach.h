@@ -3,12 +3,29 @@
 #define JOLON_WORLD_REACH_H
 
 #include "world/fixed.h"
+#include "world/kind.h"
+#include "world/maths.h"
 
 #include <stdint.h>
 
+/* How far over the map an upright body is from its position at most [m], whichever shape it is
+ * given: the sphere's radius, or the hulls'. */
+static inline double reach_of_kind(const struct kind *kind)
+{
+    return maths_max(kind->radius_m, kind->level_m);
+}
+
+/* The same of a fixed object, whose size varies about its kind's. */
+static inline double reach_of_fixed(const struct fixed_object *object, const struct kind *kinds)
+{
+    const struct kind *kind = &kinds[object->kind];
+    double radius = (double)object->radius_m;
+    return kind->level_m > kind->radius_m ? kind->level_m * (radius / kind->radius_m) : radius;
+}
+
 /* Builds start [SQUARE_COUNT + 1] and items [start[SQUARE_COUNT]] on the heap; the caller frees
- * both. Objects ascend within a square. 0, or -1 with errno ENOMEM. */
-int reach_build(const struct fixed_object *objects, uint32_t count, uint32_t **start,
-                uint32_t **items);
+ * both. Objects ascend within a square. kinds are the objects'. 0, or -1 with errno ENOMEM. */
+int reach_build(const struct fixed_object *objects, uint32_t count, const struct kind *kinds,
+                uint32_t **start, uint32_t **items);
 
 #endif

@@ -35,57 +35,74 @@ static struct dispersion disperse(const struct world *world)
     return d;
 }
 
-int verb_info(int argc, char **argv)
+static double per(uint32_t count, uint32_t squares)
 {
-    struct arguments arguments = arguments_read(argc, argv);
-    struct view view;
-    arguments_attach(&arguments, &view);
-    const struct world *world = &view.world;
+    return squares > 0 ? (double)count / (double)squares : 0.0;
+}
+
+static void info_text(const struct view *view, const struct dispersion *d)
+{
+    const struct world *world = &view->world;
     const struct params *params = world->params;
-    struct dispersion d = disperse(world);
-    double occupied_mean = d.occupied ? (double)world->counts.fixed / (double)d.occupied : 0.0;
-    double all_mean = (double)world->counts.fixed / (double)SQUARE_COUNT;
-    if (!arguments.json) {
-        printf("world        %s (%s, seed %" PRIu64 ")\n", view.name, params->name, params->seed);
-        printf("scenario     %s\n", params->scenario);
-        printf("step         %g Hz, pace %s\n", params->hz,
-               params->pace == PACE_MAX ? "max" : "real");
-        printf("memory       %.1f MB, room for %u entities of %zu bytes a table\n",
-               (double)view.layout.total / 1e6, params->capacity, entities_row_bytes());
-        printf("terrain      %u x %u posts, %g m apart\n", world->counts.posts_side,
-               world->counts.posts_side, world->terrain.spacing_m);
-        for (int i = 0; i < OBJECT_CLASS_COUNT; i++)
-            printf("%-16s %6u\n", object_class_name((enum object_class)i), d.of_class[i]);
-        printf("%-16s %6u in %u of %d gridsquares: at most %u, on average %.2f of the occupied, "
-               "%.2f of all\n",
-               "fixed objects", world->counts.fixed, d.occupied, SQUARE_COUNT, d.most,
-               occupied_mean, all_mean);
-        segment_detach(&view);
-        return EXIT_OK;
-    }
+    const struct counts *counts = &world->counts;
+    printf("world        %s (%s, seed %" PRIu64 ")\n", view->name, params->name, params->seed);
+    printf("scenario     %s\n", params->scenario);
+    printf("step         %g Hz, pace %s\n", params->hz, params->pace == PACE_MAX ? "max" : "real");
+    printf("memory       %.1f MB, room for %u entities of %zu bytes a table\n",
+           (double)view->layout.total / 1e6, params->capacity, entities_row_bytes());
+    printf("terrain      %u x %u posts, %g m apart\n", counts->posts_side, counts->posts_side,
+           world->terrain.spacing_m);
+    printf("shapes       %u models of %u triangles, in %u hulls of %u vertices\n", counts->models,
+           counts->model_triangles, counts->hulls, counts->hull_vertices);
+    for (int i = 0; i < OBJECT_CLASS_COUNT; i++)
+        printf("%-16s %6u\n", object_class_name((enum object_class)i), d->of_class[i]);
+    printf("%-16s %6u in %u of %d gridsquares: at most %u, on average %.2f of the occupied, "
+           "%.2f of all\n",
+           "fixed objects", counts->fixed, d->occupied, SQUARE_COUNT, d->most,
+           per(counts->fixed, d->occupied), per(counts->fixed, SQUARE_COUNT));
+}
+
+static void info_json(const struct view *view, const struct dispersion *d)
+{
+    const struct world *world = &view->world;
+    const struct params *params = world->params;
     cJSON *object = cJSON_CreateObject();
-    json_text(object, "world", view.name);
+    json_text(object, "world", view->name);
     json_text(object, "name", params->name);
     json_text(object, "scenario", params->scenario);
     json_whole(object, "seed", params->seed);
     json_number(object, "hz", params->hz);
     json_whole(object, "capacity", params->capacity);
-    json_whole(object, "bytes", view.layout.total);
+    json_whole(object, "bytes", view->layout.total);
     json_whole(object, "bytes_per_entity", entities_row_bytes());
     json_whole(object, "vehicles", params->initial_entities);
     cJSON *counts = json_object(object, "counts");
     for (int i = 0; i < OBJECT_CLASS_COUNT; i++)
-        json_whole(counts, object_class_name((enum object_class)i), d.of_class[i]);
+        json_whole(counts, object_class_name((enum object_class)i), d->of_class[i]);
     json_whole(object, "fixed_objects", world->counts.fixed);
     json_whole(object, "gridsquares", SQUARE_COUNT);
-    json_whole(object, "occupied", d.occupied);
-    json_whole(object, "most_per_square", d.most);
-    json_number(object, "average_per_occupied", occupied_mean);
-    json_number(object, "average_per_square", all_mean);
+    json_whole(object, "occupied", d->occupied);
+    json_whole(object, "most_per_square", d->most);
+    json_number(object, "average_per_occupied", per(world->counts.fixed, d->occupied));
+    json_number(object, "average_per_square", per(world->counts.fixed, SQUARE_COUNT));
+    json_whole(object, "hulls", world->counts.hulls);
+    json_whole(object, "hull_vertices", world->counts.hull_vertices);
     cJSON *terrain = json_object(object, "terrain");
     json_whole(terrain, "posts", world->counts.posts_side);
     json_number(terrain, "spacing_m", world->terrain.spacing_m);
     json_print(object);
+}
+
+int verb_info(int argc, char **argv)
+{
+    struct arguments arguments = arguments_read(argc, argv);
+    struct view view;
+    arguments_attach(&arguments, &view);
+    struct dispersion d = disperse(&view.world);
+    if (arguments.json)
+        info_json(&view, &d);
+    else
+        info_text(&view, &d);
     segment_detach(&view);
     return EXIT_OK;
 }

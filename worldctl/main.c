@@ -55,6 +55,5 @@ int main(int argc, char **argv)
         if (strcmp(argv[1], verbs[i].name) == 0)
             return verbs[i].run(argc - 1, argv + 1);
     }
-    fprintf(stderr, "jolon-world: %s: no such verb\n", argv[1]);
-    return usage(stderr, EXIT_USAGE);
+    die_usage("%s: no such verb; try jolon-world help", argv[1]);
 }

@@ -20,7 +20,7 @@ static const char battle[] =
     "objects = ( { kind = \"building\"; at = [25000.0, 25000.0]; },\n"
     "            { kind = \"tree\"; at = [24900.0, 25050.0]; },\n"
     "            { kind = \"tree\"; at = [25125.0, 25125.0]; } );\n"
-    "collision = { response = \"%s\"; };\n"
+    "collision = { shape = \"%s\"; response = \"%s\"; };\n"
     "vehicles = (\n"
     "  { kind = \"tank\"; count = 900; force = \"blue\"; fire_at_will = true;\n"
     "    area = [22500.0, 22500.0, 28000.0, 28000.0]; },\n"
@@ -62,13 +62,13 @@ static void run(const char *text, uint32_t threads, uint32_t frames, uint64_t di
     fixture_close(&f);
 }
 
-static void compare(const char *response, uint64_t seed)
+static void compare(const char *shape, const char *response, uint64_t seed)
 {
     static uint64_t digest[3][FRAMES_MAX];
     static const uint32_t threads[3] = {1, 2, 4};
     char text[sizeof battle + 64];
     uint32_t frames = frame_count();
-    snprintf(text, sizeof text, battle, (unsigned long long)(seed & 0xffffffff), response);
+    snprintf(text, sizeof text, battle, (unsigned long long)(seed & 0xffffffff), shape, response);
     for (int i = 0; i < 3; i++) {
         run(text, threads[i], frames, digest[i]);
         for (uint32_t frame = 0; i > 0 && frame < frames; frame++) {
@@ -83,13 +83,13 @@ static void compare(const char *response, uint64_t seed)
 static void test_digests_do_not_depend_on_threads_with_impulses(void **state)
 {
     (void)state;
-    compare("impulse", fixture_seed(4));
+    compare("model", "impulse", fixture_seed(4));
 }
 
 static void test_digests_do_not_depend_on_threads_with_figure_8(void **state)
 {
     (void)state;
-    compare("figure8", fixture_seed(5));
+    compare("sphere", "figure8", fixture_seed(5));
 }
 
 int main(void)

@@ -23,7 +23,7 @@
 
 /* --- the data folder ---------------------------------------------------------------------------*/
 
-static char data_dir[64];
+static char data_dir[64], shipped_dir[PATH_MAX];
 static pid_t data_dir_owner;
 
 static bool holds_kinds(const char *folder)
@@ -34,13 +34,14 @@ static bool holds_kinds(const char *folder)
     return stat(kinds, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
-/* The shipped config/: JOLON_DATA, or in a folder above the test's program. */
-static void find_shipped(char path[PATH_MAX])
+const char *fixture_shipped_dir(void)
 {
     const char *given = getenv("JOLON_DATA");
+    if (shipped_dir[0] != '\0')
+        return shipped_dir;
     if (given) {
-        assert_non_null(realpath(given, path));
-        return;
+        assert_non_null(realpath(given, shipped_dir));
+        return shipped_dir;
     }
     char self[PATH_MAX - 16];
     ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
@@ -48,11 +49,12 @@ static void find_shipped(char path[PATH_MAX])
     self[length] = '\0';
     for (char *slash = strrchr(self, '/'); slash; slash = strrchr(self, '/')) {
         *slash = '\0';
-        snprintf(path, PATH_MAX, "%s/config", self);
-        if (holds_kinds(path))
-            return;
+        snprintf(shipped_dir, sizeof shipped_dir, "%s/config", self);
+        if (holds_kinds(shipped_dir))
+            return shipped_dir;
     }
     fail_msg("no folder above the test's program has config/kinds; set JOLON_DATA to one");
+    return NULL;
 }
 
 static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *walk)
@@ -99,10 +101,10 @@ static void copy_kinds(const char *shipped)
 
 const char *fixture_data_dir(void)
 {
-    char shipped[PATH_MAX], path[PATH_MAX + 16], link[PATH_MAX];
+    char path[PATH_MAX + 16], link[PATH_MAX];
+    const char *shipped = fixture_shipped_dir();
     if (data_dir[0] != '\0')
         return data_dir;
-    find_shipped(shipped);
     snprintf(data_dir, sizeof data_dir, "/tmp/jolon-test-XXXXXX");
     assert_non_null(mkdtemp(data_dir));
     data_dir_owner = getpid();
@@ -132,12 +134,13 @@ void fixture_scenario(struct scenario *scenario, const char *text)
     assert_true(fd >= 0);
     FILE *file = fdopen(fd, "w");
     assert_non_null(file);
-    fprintf(file, "%s%s%s\n", unless(text, "world =", "world = { seed = 1; capacity = 64; };\n"),
+    fprintf(file, "%s%s%s%s\n", unless(text, "world =", "world = { seed = 1; capacity = 64; };\n"),
             unless(text, "terrain =",
                    "terrain = { source = \"flat\"; height_m = 100.0; spacing_m = 125.0; };\n"),
-            text);
+            unless(text, "collision =", "collision = { shape = \"sphere\"; };\n"), text);
     assert_int_equal(fclose(file), 0);
-    int result = loader_scenario(scenario, data_dir, path, NULL, 0, &message);
+    const char *folder = strstr(text, "shape = \"model\"") ? fixture_shipped_dir() : data_dir;
+    int result = loader_scenario(scenario, folder, path, NULL, 0, &message);
     unlink(path);
     if (result != 0)
         fail_msg("the test's scenario is refused: %s", message.text);

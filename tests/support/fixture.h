@@ -39,9 +39,14 @@ struct fixture {
  * longer than all the rest. Made at the first call, removed at exit. */
 const char *fixture_data_dir(void);
 
+/* The shipped config/: JOLON_DATA, or in a folder above the test's program. */
+const char *fixture_shipped_dir(void);
+
 /* Reads a scenario from text. Groups that the text does not mention are, to be fast,
  *     world = { seed = 1; capacity = 64; };
- *     terrain = { source = "flat"; height_m = 100.0; spacing_m = 125.0; };   (so no objects) */
+ *     terrain = { source = "flat"; height_m = 100.0; spacing_m = 125.0; };   (so no objects)
+ *     collision = { shape = "sphere"; };   (every kind has one small model: fixture_data_dir())
+ * Where the text says shape = "model" the kinds are the shipped ones with their own models. */
 void fixture_scenario(struct scenario *scenario, const char *text);
 
 /* A scenario's world at frame 0 in a private view, with a mover and a collider on one thread. */

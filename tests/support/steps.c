@@ -163,43 +163,27 @@ void steps_respond(struct fixture *fixture, struct respond *respond)
     next->head->tick++;
     entities_copy(&next->entities, &committed->entities, 0, committed->head->used);
     memcpy(next->fixed_damage, committed->fixed_damage, view->world.counts.fixed);
+    motion_begin(&collider->motion, committed, next);
     for (uint32_t i = 0; i < next->head->used; i++)
-        collider->path[i] = (struct path){.at = entities_position(&next->entities, i)};
-    *respond = (struct respond){
-        .world = &view->world,
-        .broad = &collider->broad,
-        .contacts = &collider->contacts,
-        .input = {.world = &view->world,
-                  .craters = &collider->craters,
-                  .entities = &next->entities,
-                  .path = collider->path},
-        .next = next,
-        .path = collider->path,
-        .sink = {.slot = view->events,
-                 .slots = view->header->event_slots,
-                 .first = committed->head->event_end,
-                 .frame = next->head->frame,
-                 .tick = next->head->tick,
-                 .most = view->world.params->events_per_frame,
-                 .tally = &next->head->tally},
-    };
-    const struct detect_input input = {
-        .world = collider->world,
-        .entities = &next->entities,
-        .path = collider->path,
-        .fixed_damage = next->fixed_damage,
-        .craters = &collider->craters,
-        .rows = next->head->used,
-    };
-    assert_int_equal(broad_pairs(&collider->broad, &input), 0);
-    assert_int_equal(contacts_begin(&collider->contacts, &collider->broad), 0);
+        motion_take(&collider->motion, i);
+    *respond = collider_respond(collider, next);
+    respond->sink = (struct sink){.slot = view->events,
+                                  .slots = view->header->event_slots,
+                                  .first = committed->head->event_end,
+                                  .frame = next->head->frame,
+                                  .tick = next->head->tick,
+                                  .most = view->world.params->events_per_frame,
+                                  .tally = &next->head->tally};
+    assert_int_equal(broad_pairs(&collider->broad, &respond->input.detect), 0);
+    assert_int_equal(contacts_begin(&collider->contacts, collider->broad.list, WORKERS_MAX), 0);
 }
 
 void steps_respond_end(struct respond *respond)
 {
     contacts_end(respond->contacts);
-    free(respond->charge);
+    respond_end(respond);
     respond->charge = NULL;
+    respond->near = (struct pair_list){0};
 }
 
 /* --- purity ------------------------------------------------------------------------------------*/

@@ -30,7 +30,7 @@ refuses "unknown shooter" 1 'Nobody' run bad.cfg
 refuses "missing file" 1 'no-such-file\.cfg' run ./no-such-file.cfg
 refuses "a folder is no scenario" 1 'out' run ./out
 refuses "unknown override" 1 'world\.sped' run --set world.sped=3 good.cfg
-refuses "method not in this version" 1 'brute' run --set collision.method=brute good.cfg
+refuses "source not in this version" 1 'dem' run --set terrain.source=dem good.cfg
 refuses "unknown option" 2 '--frobnicate' run --frobnicate
 refuses "two scenarios" 2 'more than one' run good.cfg good.cfg
 refuses "a bad world name" 2 'a-z' "$jolon" run -w 'no/good'

@@ -14,6 +14,8 @@ check "the digest is 16 hex digits" grep -Eqx '[0-9a-f]{16}' <<<"$digest"
 check "the same run has the same digest" equal "$(json digest <second)" "$digest"
 check "and the same events" equal "$(json event_digest <second)" "$(json event_digest <first)"
 check "on two threads too" equal "$(json digest <third)" "$digest"
+run --without renderer --without reporter --set renderer.follow=250 >followed
+check "who is looked at changes nothing: all collisions are found (row 40)" equal "$(json digest <followed)" "$digest"
 check "another seed is another run" [ "$(json digest <other)" != "$digest" ]
 check "frame 600 is the last" equal "$(json frame <first)" 600
 check "ten seconds were simulated" equal "$(json sim_time_s <first)" 10
@@ -24,6 +26,12 @@ for key in world munitions events collisions detonations craters destroyed late_
     frame_ms.p50 mover_ms.p99 collider_ms.max wall_s; do
     check "the summary has $key" json $key <first
 done
+# A late frame is one that did not keep the rate; few may be the machine's.
+run --without renderer --pace real --frames 300 >paced
+check "detection and response do not slow the simulation (row 35)" \
+    python3 -c "import sys; sys.exit($(json late_frames <paced) > 30 or $(json wall_s <paced) > 5.0 + 2.5)"
+check "they take a small part of a frame (row 35)" \
+    python3 -c "import sys; sys.exit($(json collider_ms.p50 <first) > 1000 / 60 / 4)"
 check "shots were fired" [ "$(json detonations <first)" -gt 0 ]
 check "the log holds every event once, in order" python3 - "$folder/events" "$(json events <first)" <<'P'
 import json, sys

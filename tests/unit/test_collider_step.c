@@ -53,7 +53,8 @@ static void test_row_36_three_at_once_are_all_found_in_order_of_time(void **stat
     fixture_run(&f, 1);
     static const uint32_t pairs[3][2] = {{1, 2}, {1, 3}, {2, 4}};
     double before = 0.0;
-    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 3);
+    /* They go on with what they got, and may meet again. */
+    assert_true(fixture_event_count(&f, EVENT_COLLISION) >= 3);
     for (uint32_t n = 0; n < 3; n++) {
         const struct event *event = fixture_event(&f, EVENT_COLLISION, n);
         assert_int_equal(event->collision.a.id, pairs[n][0]);
@@ -80,7 +81,7 @@ static bool grazes(const char *response, double speed_mps, double beside, double
     char text[200];
     struct fixture f;
     snprintf(text, sizeof text,
-             "collision = { response = \"%s\"; };\n"
+             "collision = { shape = \"sphere\"; response = \"%s\"; };\n"
              "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; } );\n",
              response);
     fixture_open(&f, text);
@@ -121,7 +122,8 @@ static void test_nobody_is_pushed_through(void **state)
     for (int n = 0; n < 2; n++) {
         char text[100];
         struct fixture f;
-        snprintf(text, sizeof text, "collision = { response = \"%s\"; };\n", responses[n]);
+        snprintf(text, sizeof text, "collision = { shape = \"sphere\"; response = \"%s\"; };\n",
+                 responses[n]);
         fixture_open(&f, text);
         steps_kind(&f, "tank")->resistance_j = 1e12;
         uint32_t wreck = fixture_put(
@@ -247,7 +249,7 @@ static void test_response_none_tells_and_changes_nothing(void **state)
 {
     struct fixture f;
     (void)state;
-    fixture_open(&f, "collision = { response = \"none\"; };\n"
+    fixture_open(&f, "collision = { shape = \"sphere\"; response = \"none\"; };\n"
                      "objects = ( { kind = \"building\"; at = [25030.0, 25000.0]; } );\n");
     fixture_put(&f, (struct fixture_entity){
                         .kind = "tank", .at = {25000, 100, 25000}, .velocity = {16, 0, 0}});
@@ -267,7 +269,7 @@ static void test_response_none_tells_and_changes_nothing(void **state)
 
 static const char battle[] =
     "world = { seed = 9; hz = 20.0; capacity = 1024; };\n"
-    "collision = { response = \"%s\"; };\n"
+    "collision = { shape = \"sphere\"; response = \"%s\"; };\n"
     "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; },\n"
     "            { kind = \"building\"; at = [24900.0, 25000.0]; },\n"
     "            { kind = \"tree\"; at = [25100.0, 25050.0]; } );\n"

@@ -1,4 +1,6 @@
-/* Figure 8 of the thesis, branch by branch and at its borders (rows 27 to 30). */
+/* Figure 8 of the thesis, branch by branch and at its borders (rows 26 to 30). */
+#include "collider/figure8.h"
+
 #include "tests/support/steps.h"
 
 #include <stdarg.h>
@@ -9,7 +11,7 @@
 
 #include <cmocka.h>
 
-#define FIGURE8 "collision = { response = \"figure8\"; };\n"
+#define FIGURE8 "collision = { shape = \"sphere\"; response = \"figure8\"; };\n"
 
 static struct fixture f;
 
@@ -18,6 +20,9 @@ static int open_world(void **state)
     (void)state;
     fixture_open(&f, FIGURE8 "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; },\n"
                              "            { kind = \"building\"; at = [26000.0, 25000.0]; } );\n");
+    struct kind *tank = steps_kind(&f, "tank"), *jeep = steps_kind(&f, "jeep");
+    tank->severe_rad = jeep->severe_rad = 5.0 * RAD_PER_DEG;
+    tank->bounce_keep = jeep->bounce_keep = 0.6;
     return 0;
 }
 
@@ -128,6 +133,102 @@ static void test_row_29_headings_give_the_angle(void **state)
     }
 }
 
+/* --- the kinds' constants ----------------------------------------------------------------------*/
+
+struct meeting {
+    enum response response;
+    double speed_tank, speed_jeep;
+    double harm_jeep;
+    enum damage damage_jeep;
+};
+
+/* A tank and a jeep meet at this angle, nose to nose along x. */
+static struct meeting mixed(double angle_deg, double speed_tank, double speed_jeep, bool swapped)
+{
+    struct respond respond;
+    struct outcome outcome = {RESPONSE_NONE, 0.0};
+    steps_empty(&f);
+    uint32_t tank = put("tank", 20000.0, 20000.0, (struct vec3){speed_tank, 0, 0});
+    uint32_t jeep = put("jeep", 20006.0, 20000.0, (struct vec3){-speed_jeep, 0, 0});
+    steps_respond(&f, &respond);
+    const struct impact impact = {.a = swapped ? jeep : tank,
+                                  .b = swapped ? tank : jeep,
+                                  .time = 0.5,
+                                  .normal = {swapped ? -1.0 : 1.0, 0.0, 0.0},
+                                  .closing_mps = speed_tank + speed_jeep,
+                                  .angle_rad = angle_deg * RAD_PER_DEG};
+    assert_int_equal(figure8_moving(&respond, &impact, &outcome), 0);
+    const struct entities *e = &respond.next->entities;
+    struct meeting meeting = {.response = outcome.response,
+                              .speed_tank = vec3_length(entities_velocity(e, tank)),
+                              .speed_jeep = vec3_length(entities_velocity(e, jeep)),
+                              .harm_jeep = e->harm_j[jeep],
+                              .damage_jeep = (enum damage)e->damage[jeep]};
+    steps_respond_end(&respond);
+    return meeting;
+}
+
+static void test_row_29_the_wider_of_the_two_kinds_decides_what_is_severe(void **state)
+{
+    (void)state;
+    for (int swapped = 0; swapped < 2; swapped++) {
+        steps_kind(&f, "tank")->severe_rad = 0.0;
+        steps_kind(&f, "jeep")->severe_rad = 10.0 * RAD_PER_DEG;
+        assert_int_equal(mixed(190.0, 4.0, 4.0, swapped).response, RESPONSE_STOP);
+        assert_int_equal(mixed(190.1, 4.0, 4.0, swapped).response, RESPONSE_BOUNCE);
+        steps_kind(&f, "jeep")->severe_rad = 0.0; /* exactly a quarter turn and nothing else */
+        assert_int_equal(mixed(180.0, 4.0, 4.0, swapped).response, RESPONSE_STOP);
+        assert_int_equal(mixed(180.1, 4.0, 4.0, swapped).response, RESPONSE_BOUNCE);
+    }
+}
+
+static void test_row_29_fast_is_each_kinds_own_or_the_scenarios(void **state)
+{
+    double scenario = steps_params(&f)->collision.fast_vehicle_mps;
+    (void)state;
+    for (int swapped = 0; swapped < 2; swapped++) {
+        steps_kind(&f, "tank")->fast_mps = 3.0;
+        steps_kind(&f, "jeep")->fast_mps = 0.0;
+        assert_int_equal(mixed(180.0, 3.0, scenario, swapped).response, RESPONSE_STOP);
+        assert_int_equal(mixed(180.0, 3.01, 0.0, swapped).response, RESPONSE_DESTROYED);
+        assert_int_equal(mixed(180.0, 0.0, scenario + 0.01, swapped).response, RESPONSE_DESTROYED);
+        steps_kind(&f, "tank")->fast_mps = 2.0 * scenario;
+        assert_int_equal(mixed(180.0, 2.0 * scenario, 0.0, swapped).response, RESPONSE_STOP);
+    }
+}
+
+static void test_row_29_a_bounce_leaves_each_kind_its_share(void **state)
+{
+    (void)state;
+    steps_kind(&f, "tank")->bounce_keep = 0.25;
+    steps_kind(&f, "jeep")->bounce_keep = 1.0;
+    steps_kind(&f, "jeep")->resistance_j = 1e12;
+    for (int swapped = 0; swapped < 2; swapped++) {
+        struct meeting meeting = mixed(135.0, 8.0, 6.0, swapped);
+        assert_int_equal(meeting.response, RESPONSE_BOUNCE);
+        assert_true(fabs(meeting.speed_tank - 2.0) < 1e-12);
+        assert_true(fabs(meeting.speed_jeep - 6.0) < 1e-12);
+    }
+}
+
+static void test_row_26_rigidity_and_moldability_decide_the_harm(void **state)
+{
+    static const struct {
+        double rigidity, moldability, share;
+    } skins[] = {{1.0, 0.0, 1.0}, {0.5, 0.0, 0.5}, {0.5, 0.5, 0.75}, {0.0, 0.0, 0.0}};
+    (void)state;
+    struct kind *jeep = steps_kind(&f, "jeep"), *tank = steps_kind(&f, "tank");
+    jeep->resistance_j = tank->resistance_j = 1e12;
+    double lost = 0.5 * 16.0 * (jeep->mass_kg + tank->mass_kg);
+    double share_jeep = tank->mass_kg / (jeep->mass_kg + tank->mass_kg);
+    for (size_t n = 0; n < sizeof skins / sizeof skins[0]; n++) {
+        jeep->rigidity = skins[n].rigidity;
+        jeep->moldability = skins[n].moldability;
+        double harm = mixed(180.0, 4.0, 4.0, false).harm_jeep;
+        assert_true(fabs(harm - lost * share_jeep * skins[n].share) < 1e-6);
+    }
+}
+
 static void test_row_30_the_larger_mass_hurts_the_smaller_more(void **state)
 {
     double before = 0.0;
@@ -226,6 +327,56 @@ static void test_row_27_damage_is_monotone_in_mass_and_speed(void **state)
     }
 }
 
+static void test_row_27_damage_by_mass_alone_as_printed(void **state)
+{
+    struct collision_params *limits = &steps_params(&f)->collision;
+    (void)state;
+    limits->measure = MEASURE_MASS;
+    limits->mass_c1_kg = 40000.0;
+    limits->mass_c2_kg = 10000.0;
+    limits->mass_c3_kg = 2000.0;
+    static const struct {
+        double mass_kg;
+        enum damage damage;
+    } cases[] = {{57000.0, DAMAGE_HIGH}, {40000.0, DAMAGE_HIGH}, {39999.0, DAMAGE_MED},
+                 {10000.0, DAMAGE_MED},  {9999.0, DAMAGE_LOW},   {2000.0, DAMAGE_LOW},
+                 {1999.0, DAMAGE_NONE},  {1.0, DAMAGE_NONE}};
+    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
+        for (double speed = 0.5; speed < 40.0; speed *= 2.0) /* whatever the speed */
+            assert_int_equal(strike(0, cases[n].mass_kg, speed).damage, cases[n].damage);
+    }
+}
+
+/* Two of the same mass and resistance, one of them fixed, are struck by the same tank; the tree has
+ * the levels of damage that bodies have. */
+static void test_row_30_fixed_suffers_more_than_what_can_spring_away(void **state)
+{
+    struct kind *tree = steps_kind(&f, "tree"), *jeep = steps_kind(&f, "jeep");
+    int more = 0;
+    (void)state;
+    tree->damage_high = 0.6;
+    tree->damage_med = 0.3;
+    tree->damage_low = 0.1;
+    jeep->rigidity = 1.0;
+    jeep->explosive_kg = 0.0;
+    for (double mass = 1000.0; mass < 1e6; mass *= 4.0) {
+        for (double resistance = 1e3; resistance < 1e8; resistance *= 1.5) {
+            tree->mass_kg = jeep->mass_kg = mass;
+            tree->resistance_j = jeep->resistance_j = resistance;
+            enum damage fixed = strike(0, 20000.0, 7.0).damage;
+            struct meeting stop = mixed(180.0, 7.0, 0.0, false);
+            struct meeting bounce = mixed(135.0, 7.0, 0.0, false);
+            assert_int_equal(stop.response, RESPONSE_STOP);
+            assert_int_equal(bounce.response, RESPONSE_BOUNCE);
+            for (int level = DAMAGE_LOW; level <= DAMAGE_HIGH; level++)
+                assert_true((int)fixed >= level || (int)stop.damage_jeep < level);
+            assert_true(bounce.damage_jeep <= stop.damage_jeep);
+            more += fixed > stop.damage_jeep;
+        }
+    }
+    assert_true(more > 0);
+}
+
 static void test_row_28_large_and_fast_kills_else_it_goes_on_slowed(void **state)
 {
     double fast = steps_params(&f)->collision.fast_fixed_mps;
@@ -273,9 +424,15 @@ int main(void)
         TEST(test_row_29_within_five_degrees_of_a_quarter_turn_is_severe),
         TEST(test_row_29_fast_kills_both_and_slow_stops_both),
         TEST(test_row_29_headings_give_the_angle),
+        TEST(test_row_29_the_wider_of_the_two_kinds_decides_what_is_severe),
+        TEST(test_row_29_fast_is_each_kinds_own_or_the_scenarios),
+        TEST(test_row_29_a_bounce_leaves_each_kind_its_share),
+        TEST(test_row_26_rigidity_and_moldability_decide_the_harm),
         TEST(test_row_30_the_larger_mass_hurts_the_smaller_more),
         TEST(test_row_27_damage_goes_by_energy_over_resistance),
         TEST(test_row_27_damage_is_monotone_in_mass_and_speed),
+        TEST(test_row_27_damage_by_mass_alone_as_printed),
+        TEST(test_row_30_fixed_suffers_more_than_what_can_spring_away),
         TEST(test_row_28_large_and_fast_kills_else_it_goes_on_slowed),
         TEST(test_row_28_the_heavier_the_vehicle_the_less_it_is_slowed),
         TEST(test_row_32_a_vehicle_passes_through_the_tree_that_it_struck),

@@ -210,8 +210,11 @@ static void test_time_scale_changes_the_pace(void **state)
         make_paced(&view, 200.0);
         struct view mover = bare_view_as(&view, ROLE_MOVER);
         struct view other = bare_view_as(&view, ROLE_COLLIDER);
-        for (int w = 0; w < 2; w++)
-            view.w[w].head->time_scale = i == 0 ? 0.5 : 4.0;
+        for (int w = 0; w < 2; w++) {
+            struct state_head *head = view.w[w].head;
+            head->time_scale = i == 0 ? 0.5 : 4.0;
+            head->checksum = state_checksum(&view.w[w], view.header->counts.fixed);
+        }
         pid_t collider = child_start(commit_at_once, &other);
         move_by_hand(&frame, &mover);
         uint64_t begin = clock_now_ns();

@@ -107,6 +107,28 @@ static void test_group_is_placed_in_its_area_and_clear_of_each_other(void **stat
     fixture_close(&f);
 }
 
+/* Guns, rotors and crowns of the real shapes keep clear too: at first nobody overlaps anybody. */
+static void test_real_shapes_start_clear_of_each_other(void **state)
+{
+    (void)state;
+    fixture_open(&f, "collision = { shape = \"model\"; };\n"
+                     "objects = ( { kind = \"tree\"; at = [1050.0, 2050.0]; } );\n"
+                     "vehicles = ( { kind = \"tank\"; count = 25; area = [1000.0, 2000.0, 1100.0, "
+                     "2100.0]; } );");
+    const struct world *world = &f.view.world;
+    const struct kind *tank = &world->kinds[fixture_kind(&f, "tank")];
+    const struct kind *tree = &world->kinds[fixture_kind(&f, "tree")];
+    struct state now = fixture_state(&f);
+    const struct entities *e = &now.entities;
+    assert_true(tank->level_m > tank->radius_m && tree->level_m > tree->radius_m);
+    for (uint32_t i = 0; i < 25; i++) {
+        assert_true(hypot(e->x[i] - 1050.0, e->z[i] - 2050.0) > tank->level_m + tree->level_m);
+        for (uint32_t j = 0; j < i; j++)
+            assert_true(hypot(e->x[i] - e->x[j], e->z[i] - e->z[j]) > 2.0 * tank->level_m);
+    }
+    fixture_close(&f);
+}
+
 static void test_frame_0_is_in_both_buffers_and_its_checksum_holds(void **state)
 {
     (void)state;
@@ -241,6 +263,15 @@ static void test_static_parts_are_copied_whole(void **state)
     assert_memory_equal(world->kinds, s->kinds, s->kind_count * sizeof *s->kinds);
     assert_memory_equal(world->models, s->models, s->model_count * sizeof *s->models);
     assert_memory_equal(world->model_vertices, s->vertices, s->vertex_count * sizeof *s->vertices);
+    assert_true(world->counts.hulls > 0);
+    assert_int_equal(world->counts.hulls, s->hull_count);
+    assert_memory_equal(world->hulls, s->hulls, s->hull_count * sizeof *s->hulls);
+    assert_int_equal(world->counts.hull_vertices, s->hull_vertex_count);
+    assert_memory_equal(world->hull_vertices, s->hull_vertices,
+                        s->hull_vertex_count * sizeof *s->hull_vertices);
+    assert_int_equal(world->counts.hull_planes, s->hull_plane_count);
+    assert_memory_equal(world->hull_planes, s->hull_planes,
+                        s->hull_plane_count * sizeof *s->hull_planes);
     assert_memory_equal(world->params, &s->params, sizeof s->params);
     assert_int_equal(world->counts.routes, 1);
     assert_int_equal(world->routes[0].count, 3);
@@ -326,6 +357,7 @@ int main(void)
         cmocka_unit_test(test_vehicle_at_a_place_starts_as_it_was_told),
         cmocka_unit_test(test_every_kind_of_vehicle_spawns_by_name),
         cmocka_unit_test(test_group_is_placed_in_its_area_and_clear_of_each_other),
+        cmocka_unit_test(test_real_shapes_start_clear_of_each_other),
         cmocka_unit_test(test_frame_0_is_in_both_buffers_and_its_checksum_holds),
         cmocka_unit_test(test_same_scenario_same_world_other_seed_another),
         cmocka_unit_test(test_names_of_groups_are_numbered),

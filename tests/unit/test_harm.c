@@ -1,4 +1,6 @@
 /* Energy into damage: rows 26, 27, 30, 33. */
+#include "collider/figure8.h"
+
 #include "tests/support/steps.h"
 
 #include <stdarg.h>
@@ -97,6 +99,38 @@ static void test_row_27_a_fixed_object_keeps_its_hardest_blow(void **state)
     assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_NONE); /* the committed frame's */
 }
 
+static void test_row_27_a_kinds_own_constants_go_before_the_scenarios(void **state)
+{
+    struct kind *tree = steps_kind(&f, "tree");
+    double resistance = tree->resistance_j;
+    (void)state;
+    tree->damage_low = 0.01;
+    tree->damage_med = 0.5;
+    assert_int_equal(harm_fixed(&respond, 0, 0.009 * resistance), DAMAGE_NONE);
+    assert_int_equal(harm_fixed(&respond, 0, 0.02 * resistance), DAMAGE_LOW);
+    assert_int_equal(harm_fixed(&respond, 0, 0.4 * resistance), DAMAGE_LOW);
+    assert_int_equal(harm_fixed(&respond, 0, 0.5 * resistance), DAMAGE_MED);
+    assert_int_equal(harm_fixed(&respond, 0, 0.99 * resistance), DAMAGE_MED);
+    tree->damage_high = 0.9; /* 0 before: the scenario's 1 */
+    assert_int_equal(harm_fixed(&respond, 0, 0.95 * resistance), DAMAGE_HIGH);
+}
+
+static void test_row_27_by_mass_an_object_keeps_its_hardest_blow(void **state)
+{
+    struct collision_params *limits = &steps_params(&f)->collision;
+    (void)state;
+    limits->mass_c1_kg = 3000.0;
+    limits->mass_c2_kg = 2000.0;
+    limits->mass_c3_kg = 1000.0;
+    assert_int_equal(harm_fixed_mass(&respond, 0, 999.9), DAMAGE_NONE);
+    assert_int_equal(respond.next->head->tally.fixed_damaged, 0);
+    assert_int_equal(harm_fixed_mass(&respond, 0, 2000.0), DAMAGE_MED);
+    assert_int_equal(harm_fixed_mass(&respond, 0, 1000.0), DAMAGE_MED);
+    assert_int_equal(respond.next->head->tally.fixed_damaged, 1);
+    assert_int_equal(harm_fixed_mass(&respond, 0, 3000.0), DAMAGE_HIGH);
+    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_NONE);
+}
+
 static void test_row_26_resistance_decides(void **state)
 {
     (void)state;
@@ -116,6 +150,8 @@ int main(void)
         TEST(test_nothing_and_nonsense_harm_nobody),
         TEST(test_one_is_destroyed_once),
         TEST(test_row_27_a_fixed_object_keeps_its_hardest_blow),
+        TEST(test_row_27_a_kinds_own_constants_go_before_the_scenarios),
+        TEST(test_row_27_by_mass_an_object_keeps_its_hardest_blow),
         TEST(test_row_26_resistance_decides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -156,6 +156,17 @@ static void test_an_aircrafts_wreck_falls_and_comes_to_rest_on_the_ground(void *
     assert_true(steps_speed(&f, row) == 0.0 && steps_rows(&f).y[row] == 100.0);
 }
 
+static void test_a_wreck_that_falls_straight_down_lies_at_rest_as_the_ground_does(void **state)
+{
+    uint32_t row = put("helicopter", 25000.0, 25000.0, 130.0, (struct vec3){0.0, 0.0, 0.0});
+    (void)state;
+    wreck(row);
+    steps_rows(&f).pitch[row] = 0.4;
+    fixture_run(&f, 240);
+    struct entities e = steps_rows(&f);
+    assert_true(e.y[row] == 100.0 && e.vy[row] == 0.0 && e.pitch[row] == 0.0);
+}
+
 static void test_a_wreck_sinks_into_a_crater_that_opens_under_it(void **state)
 {
     uint32_t row = put("tank", 25000.0, 25000.0, 100.0, (struct vec3){0.0, 0.0, 0.0});
@@ -179,6 +190,7 @@ int main(void)
         TEST(test_a_wreck_slides_to_rest),
         TEST(test_a_wreck_at_rest_stays_to_the_bit),
         TEST(test_an_aircrafts_wreck_falls_and_comes_to_rest_on_the_ground),
+        TEST(test_a_wreck_that_falls_straight_down_lies_at_rest_as_the_ground_does),
         TEST(test_a_wreck_sinks_into_a_crater_that_opens_under_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
 /* Impulses on cases that can be worked out by hand. Momentum and energy over random ones are in
  * tests/property/test_collide.c. */
+#include "collider/crush.h"
 #include "tests/support/steps.h"
 
 #include <stdarg.h>
@@ -69,7 +70,8 @@ static void test_a_head_on_blow_follows_newton(void **state)
     assert_true(fabs(collision()->toi - 0.5) < 1e-9);
     assert_int_equal(collision()->response, RESPONSE_BOUNCE);
     /* Lost: half the reduced mass of 750 times 64 times 1 - e^2, the jeep three quarters of it. */
-    assert_true(fabs(e.harm_j[jeep] - 13500.0) < 1e-6 && fabs(e.harm_j[tank] - 4500.0) < 1e-6);
+    assert_true(fabs(e.harm_j[jeep] - crush_of(steps_kind(&f, "jeep"), 13500.0).harm_j) < 1e-6);
+    assert_true(fabs(e.harm_j[tank] - crush_of(steps_kind(&f, "tank"), 4500.0).harm_j) < 1e-6);
 }
 
 static void test_the_event_says_where_and_which_way(void **state)
@@ -97,15 +99,15 @@ static void test_the_softer_of_the_two_decides_the_bounce(void **state)
     assert_int_equal(collision()->response, RESPONSE_STOP);
 }
 
-static void test_bodies_leave_from_where_they_touched(void **state)
+static void test_bodies_go_on_from_where_they_touched(void **state)
 {
     uint32_t tank, jeep;
     (void)state;
     ram(&tank, &jeep);
     struct entities e = steps_rows(&f);
-    assert_true(fabs(e.x[tank] - (20000.0 + 4.0 / 60.0)) < 1e-9);
-    assert_true(e.x[jeep] == 20004.6 + 4.0 / 60.0);
-    assert_true(e.x[jeep] - e.x[tank] >= 4.6 - 1e-9);
+    /* Half the frame is left, at 5 and at 9 m/s. */
+    assert_true(fabs(e.x[tank] - (20000.0 + 4.0 / 60.0 + 2.5 / 60.0)) < 1e-9);
+    assert_true(fabs(e.x[jeep] - (20004.6 + 4.0 / 60.0 + 4.5 / 60.0)) < 1e-9);
     assert_int_equal(e.bumped[tank] & e.bumped[jeep], 1);
     assert_true(fabs((double)e.bump_heading[tank] - 1.5 * PI) < 1e-6); /* away is west */
     assert_true(fabs((double)e.bump_heading[jeep] - HALF_PI) < 1e-6);
@@ -114,13 +116,37 @@ static void test_bodies_leave_from_where_they_touched(void **state)
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
 }
 
-static void test_only_the_speed_along_the_normal_changes(void **state)
+/* Touching along the diagonal: 3-4-5 with a reach of 4.6. */
+static void graze(double friction, uint32_t *tank, uint32_t *jeep)
 {
-    (void)state;
-    /* Touching along the diagonal: 3-4-5 with a reach of 4.6. */
-    uint32_t tank = put("tank", 20000.0, 20000.0, 8.0);
-    uint32_t jeep = put("jeep", 20000.0 + 0.8 * 4.6, 20000.0 + 0.6 * 4.6, 0.0);
+    steps_kind(&f, "tank")->friction = steps_kind(&f, "jeep")->friction = friction;
+    *tank = put("tank", 20000.0, 20000.0, 8.0);
+    *jeep = put("jeep", 20000.0 + 0.8 * 4.6, 20000.0 + 0.6 * 4.6, 0.0);
     fixture_run(&f, 1);
+}
+
+static void test_friction_drags_along_and_turns(void **state)
+{
+    uint32_t tank, jeep;
+    (void)state;
+    graze(0.5, &tank, &jeep);
+    struct entities e = steps_rows(&f);
+    double across = e.vz[tank] * 0.8 - e.vx[tank] * 0.6;
+    double dragged = e.vz[jeep] * 0.8 - e.vx[jeep] * 0.6;
+    assert_true(across > -8.0 * 0.6 && dragged < 0.0); /* some of it went over */
+    double mt = steps_kind(&f, "tank")->mass_kg, mj = steps_kind(&f, "jeep")->mass_kg;
+    assert_true(fabs(mt * e.vx[tank] + mj * e.vx[jeep] - 8.0 * mt) < 1e-6 * mt);
+    assert_true(fabs(mt * e.vz[tank] + mj * e.vz[jeep]) < 1e-6 * mt);
+    /* The jeep's north-west side is dragged to the north-east: clockwise, seen from above. */
+    assert_true(e.spin_y[jeep] < 0.0 && e.spin_y[tank] != 0.0);
+    assert_true(e.spin_x[jeep] == 0.0 && e.spin_z[jeep] == 0.0); /* the ground holds it level */
+}
+
+static void test_without_friction_only_the_speed_along_the_normal_changes(void **state)
+{
+    uint32_t tank, jeep;
+    (void)state;
+    graze(0.0, &tank, &jeep);
     struct entities e = steps_rows(&f);
     double along = e.vx[tank] * 0.8 + e.vz[tank] * 0.6,
            across = e.vz[tank] * 0.8 - e.vx[tank] * 0.6;
@@ -148,8 +174,9 @@ static void test_a_wall_throws_it_back(void **state)
     assert_true(fabs(steps_rows(&f).vx[row] + 10.0 * restitution) < 1e-6);
     double energy = 0.5 * 3000.0 * 100.0;
     double rigidity = steps_kind(&f, "building")->rigidity;
-    assert_true(fabs(steps_rows(&f).harm_j[row] -
-                     energy * (1.0 - restitution * restitution) * rigidity) < 1e-3);
+    double lost = energy * (1.0 - restitution * restitution) * rigidity;
+    assert_true(fabs(steps_rows(&f).harm_j[row] - crush_of(steps_kind(&f, "tank"), lost).harm_j) <
+                1e-3);
 }
 
 static void test_what_breaks_costs_its_resistance(void **state)
@@ -221,8 +248,9 @@ int main(void)
         TEST(test_a_head_on_blow_follows_newton),
         TEST(test_the_event_says_where_and_which_way),
         TEST(test_the_softer_of_the_two_decides_the_bounce),
-        TEST(test_bodies_leave_from_where_they_touched),
-        TEST(test_only_the_speed_along_the_normal_changes),
+        TEST(test_bodies_go_on_from_where_they_touched),
+        TEST(test_friction_drags_along_and_turns),
+        TEST(test_without_friction_only_the_speed_along_the_normal_changes),
         TEST(test_a_wall_throws_it_back),
         TEST(test_what_breaks_costs_its_resistance),
         TEST(test_what_withstands_by_a_hair_stops_it),

@@ -271,6 +271,89 @@ static void test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it(void **
     assert_true(steps_rows(&f).fuel_l[runs] == 0.0 && steps_speed(&f, runs) == 0.0);
 }
 
+/* --- debris ------------------------------------------------------------------------------------*/
+
+/* A fallen tree of radius 6 m at (25100, 25010), in both buffers: it fell some frames ago. */
+static void fell_tree(double keep)
+{
+    fixture_close(&f);
+    fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25100.0, 25010.0]; } );");
+    struct fixed_object *tree = (struct fixed_object *)(uintptr_t)f.view.world.fixed;
+    tree->radius_m = 6.0f;
+    steps_kind(&f, "tree")->debris_keep = keep;
+    for (int buffer = 0; buffer < 2; buffer++) {
+        f.view.w[buffer].fixed_damage[0] = DAMAGE_HIGH;
+        f.view.w[buffer].head->tally.fixed_damaged = 1;
+    }
+}
+
+static void test_debris_slows_what_drives_over_it(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "tank");
+    double full = kind->max_speed_mps, brakes = 2.0 * kind->acceleration_mps2;
+    (void)state;
+    fell_tree(0.5);
+    uint32_t row = put_tank(25040.0, 25010.0, 90.0, full);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    double slowest = full, before = full;
+    while (steps_rows(&f).x[row] < 25120.0) {
+        double x = steps_rows(&f).x[row];
+        fixture_run(&f, 1);
+        double speed = steps_speed(&f, row);
+        if (fabs(x - 25100.0) < 5.9) /* on it: braked, no harder than it can */
+            assert_true(speed < before && speed > before - brakes / HZ - 1e-9);
+        else if (x < 25093.9)
+            assert_true(near(speed, full, 1e-9));
+        slowest = maths_min(slowest, speed);
+        before = speed;
+    }
+    assert_true(slowest < 0.9 * full && slowest > 0.5 * full);
+    fixture_run(&f, (uint32_t)(8.0 * HZ));
+    assert_true(near(steps_speed(&f, row), full, 1e-9));
+    /* Somebody who creeps is not slowed. */
+    uint32_t slow = put_tank(25090.0, 25010.0, 90.0, 0.4 * full);
+    steps_drive(&f, slow, 0.4, 0.0, 0.0);
+    fixture_run(&f, 60);
+    assert_true(near(steps_speed(&f, slow), 0.4 * full, 1e-6)); /* throttle is a float */
+}
+
+static void test_debris_keeps_to_its_share(void **state)
+{
+    double full = steps_kind(&f, "tank")->max_speed_mps;
+    (void)state;
+    fell_tree(0.25);
+    uint32_t row = put_tank(25100.0, 25010.0, 90.0, 0.0);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(2.0 * HZ)); /* a quarter of full speed by then, 4 m on */
+    while (steps_rows(&f).x[row] < 25105.9) {
+        fixture_run(&f, 1);
+        assert_true(near(steps_speed(&f, row), 0.25 * full, 0.06));
+    }
+}
+
+static void test_what_stands_and_what_lies_aside_slows_nobody(void **state)
+{
+    double full = steps_kind(&f, "tank")->max_speed_mps;
+    (void)state;
+    fell_tree(0.2);
+    uint32_t aside = put_tank(25060.0, 25017.0, 90.0, full); /* passes its edge by a metre */
+    steps_drive(&f, aside, 1.0, 0.0, 0.0);
+    for (int frame = 0; frame < 5 * (int)HZ; frame++) {
+        fixture_run(&f, 1);
+        assert_true(near(steps_speed(&f, aside), full, 1e-9));
+    }
+    fell_tree(0.2);
+    for (int buffer = 0; buffer < 2; buffer++)
+        f.view.w[buffer].fixed_damage[0] = DAMAGE_MED;
+    steps_params(&f)->collision.response = MODEL_NONE; /* it leans, and is driven through */
+    uint32_t row = put_tank(25060.0, 25010.0, 90.0, full);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    for (int frame = 0; frame < 5 * (int)HZ; frame++) {
+        fixture_run(&f, 1);
+        assert_true(near(steps_speed(&f, row), full, 1e-9));
+    }
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -288,6 +371,9 @@ int main(void)
         TEST(test_it_turns_at_its_rate_when_it_rolls_and_slower_at_rest),
         TEST(test_a_sideways_slide_is_braked_by_its_tyres),
         TEST(test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it),
+        TEST(test_debris_slows_what_drives_over_it),
+        TEST(test_debris_keeps_to_its_share),
+        TEST(test_what_stands_and_what_lies_aside_slows_nobody),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,7 +66,7 @@ static void test_empty_file_has_defaults(void **state)
     assert_true(s.spacing_m == 31.25);
     assert_int_equal(s.objects, OBJECTS_TABLE1);
     assert_int_equal(s.params.collision.method, METHOD_SWEPT);
-    assert_int_equal(s.params.collision.shape, SHAPE_SPHERE);
+    assert_int_equal(s.params.collision.shape, SHAPE_MODEL);
     assert_int_equal(s.params.collision.response, MODEL_IMPULSE);
     assert_true(s.params.collision.threshold_height_m == 60.0);
     assert_true(s.params.collision.fast_vehicle_mps == 8.0);
@@ -75,6 +75,12 @@ static void test_empty_file_has_defaults(void **state)
     assert_true(s.params.collision.damage_high == 1.0);
     assert_true(s.params.collision.damage_med == 0.3);
     assert_true(s.params.collision.damage_low == 0.1);
+    assert_int_equal(s.params.collision.nearness, NEARNESS_AND);
+    assert_true(s.params.collision.mps_near_m == 10.0);
+    assert_int_equal(s.params.collision.measure, MEASURE_ENERGY);
+    assert_true(s.params.collision.mass_c1_kg == 20000.0);
+    assert_true(s.params.collision.mass_c2_kg == 8000.0);
+    assert_true(s.params.collision.mass_c3_kg == 1000.0);
     assert_int_equal(s.params.renderer.width, 1280);
     assert_int_equal(s.params.renderer.height, 720);
     assert_true(s.params.renderer.fps == 2.0);
@@ -206,8 +212,17 @@ static void test_override_is_file(void **state)
         {"terrain.spacing_m=125", "terrain = { spacing_m = 125; };"},
         {"objects.source=none", "objects = { source = \"none\"; };"},
         {"collision.method=swept", "collision = { method = \"swept\"; };"},
+        {"collision.method=brute", "collision = { method = \"brute\"; };"},
         {"collision.shape=sphere", "collision = { shape = \"sphere\"; };"},
+        {"collision.shape=model", "collision = { shape = \"model\"; };"},
         {"collision.response=figure8", "collision = { response = \"figure8\"; };"},
+        {"collision.npsnet2.nearness=or", "collision = { npsnet2 = { nearness = \"or\"; }; };"},
+        {"collision.mps.near_m=25", "collision = { mps = { near_m = 25; }; };"},
+        {"collision.figure8.measure=mass", "collision = { figure8 = { measure = \"mass\"; }; };"},
+        {"collision.figure8.mass_c1_kg=30000",
+         "collision = { figure8 = { mass_c1_kg = 30000; }; };"},
+        {"collision.figure8.mass_c2_kg=9000", "collision = { figure8 = { mass_c2_kg = 9000; }; };"},
+        {"collision.figure8.mass_c3_kg=0", "collision = { figure8 = { mass_c3_kg = 0; }; };"},
         {"collision.threshold_height_m=5", "collision = { threshold_height_m = 5; };"},
         {"collision.figure8.fast_vehicle_mps=1",
          "collision = { figure8 = { fast_vehicle_mps = 1; }; };"},
@@ -289,6 +304,30 @@ static void test_same_input_same_hash(void **state)
     scenario_free(&b);
 }
 
+/* Rows 42 to 45: every method goes with every shape and every response (rows 27 to 29, 42, 43). */
+static void test_methods_shapes_and_responses_combine(void **state)
+{
+    (void)state;
+    for (uint32_t method = 0; method < METHOD_COUNT; method++) {
+        for (uint32_t shape = 0; shape < SHAPE_COUNT; shape++) {
+            for (uint32_t response = 0; response < MODEL_COUNT; response++) {
+                struct scenario s;
+                char text[160];
+
+                snprintf(text, sizeof(text),
+                         "collision = { method = \"%s\"; shape = \"%s\"; response = \"%s\"; };",
+                         method_name((enum method)method), shape_name((enum shape)shape),
+                         response_model_name((enum response_model)response));
+                must_load(&s, text, NULL);
+                assert_int_equal(s.params.collision.method, method);
+                assert_int_equal(s.params.collision.shape, shape);
+                assert_int_equal(s.params.collision.response, response);
+                scenario_free(&s);
+            }
+        }
+    }
+}
+
 /* Row 8 of what the thesis asks for, with its Table 2 and the radius of its tanks. */
 static void test_shipped_kinds(void **state)
 {
@@ -366,6 +405,7 @@ int main(void)
         cmocka_unit_test(test_override_is_file),
         cmocka_unit_test(test_last_override_counts),
         cmocka_unit_test(test_same_input_same_hash),
+        cmocka_unit_test(test_methods_shapes_and_responses_combine),
         cmocka_unit_test(test_shipped_kinds),
         cmocka_unit_test(test_shipped_scenarios),
     };

@@ -28,6 +28,11 @@ static struct place place;
 static const struct kind tank = {.domain = DOMAIN_LAND, .radius_m = 3.0, .max_slope_rad = 0.5};
 static const struct kind ship = {.domain = DOMAIN_SEA, .radius_m = 60.0};
 static const struct kind jet = {.domain = DOMAIN_AIR, .radius_m = 8.0};
+/* Its gun reaches out of its sphere, as the oak's crown does. */
+static const struct kind gun = {
+    .domain = DOMAIN_LAND, .radius_m = 3.0, .level_m = 5.75, .max_slope_rad = 0.5};
+static const struct kind bare = {.domain = DOMAIN_FIXED, .radius_m = 2.0};
+static const struct kind oak = {.domain = DOMAIN_FIXED, .radius_m = 1.6, .level_m = 4.0};
 
 /* West of 20 km and south of 5 km it is sea, with an island at (10 km, 10 km); east of 40 km a wall
  * of 45 degrees; trees stand around (30 km, 30 km). */
@@ -45,9 +50,9 @@ static int make_ground(void **state)
         trees[i] = (struct fixed_object){.x = fixture_uniform(&random, 30000.0, 30300.0),
                                          .z = fixture_uniform(&random, 30000.0, 30300.0),
                                          .radius_m = 2.0f};
-    if (reach_build(trees, TREES, &reach_start, &reach) != 0)
+    if (reach_build(trees, TREES, &bare, &reach_start, &reach) != 0)
         return -1;
-    return place_init(&place, &terrain, trees, reach_start, reach, 1);
+    return place_init(&place, &terrain, trees, &bare, reach_start, reach, 1);
 }
 
 static int drop_ground(void **state)
@@ -153,6 +158,27 @@ static void test_land_vehicles_start_clear_of_objects(void **state)
     }
 }
 
+/* Row 38: what sticks out of a sphere keeps its distance too; the trees are 2 / 1.6 as large as
+ * their kind. */
+static void test_hulls_keep_clear_of_each_other(void **state)
+{
+    const struct area wood = {30000.0, 30000.0, 30300.0, 30300.0};
+    const double crown = 4.0 * 2.0 / 1.6;
+    struct place other;
+    double x[40], z[40];
+    (void)state;
+    assert_int_equal(place_init(&other, &terrain, trees, &oak, reach_start, reach, 1), 0);
+    for (uint32_t i = 0; i < 40; i++) {
+        assert_int_equal(place_find(&other, &wood, &gun, i, &x[i], &z[i]), 0);
+        assert_int_equal(place_take(&other, x[i], z[i], reach_of_kind(&gun)), 0);
+        for (int t = 0; t < TREES; t++)
+            assert_true(hypot(x[i] - trees[t].x, z[i] - trees[t].z) >= gun.level_m + crown);
+        for (uint32_t j = 0; j < i; j++)
+            assert_true(hypot(x[i] - x[j], z[i] - z[j]) >= 2 * gun.level_m);
+    }
+    place_free(&other);
+}
+
 static void test_no_place_is_said(void **state)
 {
     const struct area sea = {1000.0, 20000.0, 2000.0, 21000.0};
@@ -174,7 +200,7 @@ static void test_same_seed_same_places(void **state)
     struct place other;
     double x, z, again_x, again_z, other_x, other_z;
     (void)state;
-    assert_int_equal(place_init(&other, &terrain, trees, reach_start, reach, 2), 0);
+    assert_int_equal(place_init(&other, &terrain, trees, &bare, reach_start, reach, 2), 0);
     assert_int_equal(place_find(&place, &all, &tank, 7, &x, &z), 0);
     assert_int_equal(place_find(&place, &all, &tank, 7, &again_x, &again_z), 0);
     assert_int_equal(place_find(&other, &all, &tank, 7, &other_x, &other_z), 0);
@@ -216,6 +242,7 @@ int main(void)
         TEST(test_places_do_not_touch_each_other),
         TEST(test_a_large_neighbour_is_seen_across_squares),
         TEST(test_land_vehicles_start_clear_of_objects),
+        TEST(test_hulls_keep_clear_of_each_other),
         TEST(test_no_place_is_said),
         TEST(test_same_seed_same_places),
         TEST(test_nobody_starts_at_the_worlds_edge),

@@ -14,11 +14,17 @@
 
 #define OBJECTS 3000
 
+enum { BARE, OAK };
+
+/* The oak's crown reaches out of its sphere; nothing of the bare one does. */
+static const struct kind kinds[] = {
+    [BARE] = {.radius_m = 2.0, .level_m = 1.0}, [OAK] = {.radius_m = 2.0, .level_m = 5.0}};
+
 static uint32_t *start, *items;
 
 static void build(const struct fixed_object *objects, uint32_t count)
 {
-    assert_int_equal(reach_build(objects, count, &start, &items), 0);
+    assert_int_equal(reach_build(objects, count, kinds, &start, &items), 0);
 }
 
 static void release(void)
@@ -58,6 +64,25 @@ static void test_object_at_a_corner_is_in_all_four_squares(void **state)
     release();
 }
 
+/* rows 37, 38: a crown that hangs over a border is found from beyond it, as large as its tree is */
+static void test_object_is_found_as_far_as_its_hulls_reach(void **state)
+{
+    struct fixed_object tree = {.x = 1254.5, .z = 2562.0, .radius_m = 2.0f, .kind = BARE};
+    (void)state;
+    build(&tree, 1);
+    assert_int_equal(start[SQUARE_COUNT], 1);
+    release();
+    tree.kind = OAK; /* 5 m: half a metre over the border */
+    build(&tree, 1);
+    assert_int_equal(start[SQUARE_COUNT], 2);
+    assert_true(holds(20 * 400 + 9, 0) && holds(20 * 400 + 10, 0));
+    release();
+    tree.radius_m = 1.6f; /* a young one: 4 m */
+    build(&tree, 1);
+    assert_int_equal(start[SQUARE_COUNT], 1);
+    release();
+}
+
 /* rows 3, 37: each square's list is every object whose box overlaps it, in ascending order */
 static void test_every_square_has_the_objects_that_overlap_it(void **state)
 {
@@ -67,7 +92,8 @@ static void test_every_square_has_the_objects_that_overlap_it(void **state)
     for (int i = 0; i < OBJECTS; i++)
         objects[i] = (struct fixed_object){.x = fixture_uniform(&random, 0.0, 2500.0),
                                            .z = fixture_uniform(&random, 0.0, 2500.0),
-                                           .radius_m = (float)fixture_uniform(&random, 0.1, 80.0)};
+                                           .radius_m = (float)fixture_uniform(&random, 0.1, 80.0),
+                                           .kind = (uint16_t)(fixture_random(&random) % 2)};
     build(objects, OBJECTS);
     uint32_t expected = 0;
     for (uint32_t row = 0; row < 24; row++) {
@@ -75,7 +101,7 @@ static void test_every_square_has_the_objects_that_overlap_it(void **state)
             uint32_t square = row * 400 + column, at = start[square];
             double x0 = column * 125.0, z0 = row * 125.0;
             for (uint32_t i = 0; i < OBJECTS; i++) {
-                double r = (double)objects[i].radius_m;
+                double r = (double)objects[i].radius_m * (objects[i].kind == OAK ? 2.5 : 1.0);
                 if (objects[i].x + r < x0 || objects[i].x - r >= x0 + 125.0 ||
                     objects[i].z + r < z0 || objects[i].z - r >= z0 + 125.0)
                     continue;
@@ -114,6 +140,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_object_within_a_square_is_in_that_square_alone),
         cmocka_unit_test(test_object_at_a_corner_is_in_all_four_squares),
+        cmocka_unit_test(test_object_is_found_as_far_as_its_hulls_reach),
         cmocka_unit_test(test_every_square_has_the_objects_that_overlap_it),
         cmocka_unit_test(test_no_objects_no_reach),
         cmocka_unit_test(test_objects_on_the_worlds_edge_stay_in_it),

@@ -45,7 +45,12 @@ static const struct refusal refusals[] = {
      "wrold = {...}: unknown key; allowed here: world, terrain, objects, collision, renderer"},
     {"collision = { figure8 = { damage = 1; }; };", 1,
      "collision.figure8.damage = 1: unknown key; allowed here: fast_vehicle_mps, fast_fixed_mps, "
-     "large_fixed_kg, damage_high, damage_med, damage_low"},
+     "large_fixed_kg, measure, damage_high, damage_med, damage_low, mass_c1_kg, mass_c2_kg, "
+     "mass_c3_kg"},
+    {"collision = { npsnet2 = { near = 1; }; };", 1,
+     "collision.npsnet2.near = 1: unknown key; allowed here: nearness"},
+    {"collision = { mps = 3; };", 1,
+     "collision.mps = 3: is not a group; allowed: { key = value; ... }"},
     {VEHICLE("colour = \"green\";"), 2,
      "vehicles[0].colour = \"green\": unknown key; allowed here: kind, count, ..."},
     {"fires = ( { at = 1; } );", 1,
@@ -106,6 +111,10 @@ static const struct refusal refusals[] = {
      "terrain.spacing_m = 100: is not one of these; allowed: 125, 62.5, 31.25"},
     {"collision = { threshold_height_m = -1; };", 1,
      "collision.threshold_height_m = -1: out of range; allowed: 0..1000"},
+    {"collision = { mps = { near_m = 0; }; };", 1,
+     "collision.mps.near_m = 0: out of range; allowed: 0.1..1000"},
+    {"collision = { figure8 = { mass_c1_kg = 2e9; }; };", 1,
+     "collision.figure8.mass_c1_kg = 2000000000: out of range; allowed: 0..1000000000"},
     {"renderer = { width = 15; };", 1, "renderer.width = 15: out of range; allowed: 16..7680"},
     {"renderer = { height = 4321; };", 1,
      "renderer.height = 4321: out of range; allowed: 16..4320"},
@@ -144,24 +153,17 @@ static const struct refusal refusals[] = {
     {"world = { pace = \"fast\"; };", 1, "world.pace = \"fast\": unknown; allowed: real, max"},
     {"terrain = { source = \"dem\"; };", 1,
      "terrain.source = \"dem\": not in this version; allowed: generated, flat"},
-    {"collision = { method = \"npsnet2\"; };", 1,
-     "collision.method = \"npsnet2\": not in this version; allowed: swept"},
-    {"collision = { method = \"mps\"; };", 1,
-     "collision.method = \"mps\": not in this version; allowed: swept"},
-    {"collision = { method = \"occupancy\"; };", 1,
-     "collision.method = \"occupancy\": not in this version; allowed: swept"},
-    {"collision = { method = \"hopcroft\"; };", 1,
-     "collision.method = \"hopcroft\": not in this version; allowed: swept"},
-    {"collision = { method = \"brute\"; };", 1,
-     "collision.method = \"brute\": not in this version; allowed: swept"},
     {"collision = { method = \"best\"; };", 1,
-     "collision.method = \"best\": unknown; allowed: swept"},
-    {"collision = { shape = \"model\"; };", 1,
-     "collision.shape = \"model\": not in this version; allowed: sphere"},
-    {"collision = { response = \"spring\"; };", 1,
-     "collision.response = \"spring\": not in this version; allowed: impulse, figure8, none"},
-    {"collision = { response = \"mps\"; };", 1,
-     "collision.response = \"mps\": not in this version; allowed: impulse, figure8, none"},
+     "collision.method = \"best\": unknown; allowed: swept, npsnet2, mps, occupancy, hopcroft, "
+     "brute"},
+    {"collision = { shape = \"box\"; };", 1,
+     "collision.shape = \"box\": unknown; allowed: model, sphere"},
+    {"collision = { response = \"bounce\"; };", 1,
+     "collision.response = \"bounce\": unknown; allowed: impulse, figure8, spring, mps, none"},
+    {"collision = { npsnet2 = { nearness = \"xor\"; }; };", 1,
+     "collision.npsnet2.nearness = \"xor\": unknown; allowed: and, or"},
+    {"collision = { figure8 = { measure = \"speed\"; }; };", 1,
+     "collision.figure8.measure = \"speed\": unknown; allowed: energy, mass"},
     {VEHICLE("force = \"green\";"), 2,
      "vehicles[0].force = \"green\": unknown; allowed: neutral, blue, red"},
     {VEHICLE("behaviour = \"attack\";"), 2,
@@ -206,6 +208,12 @@ static const struct refusal refusals[] = {
     {"collision = { figure8 = {\ndamage_low = 0.5; }; };", 2,
      "collision.figure8.damage_low = 0.5: is not below the next level of damage; allowed: below "
      "0.3"},
+    {"collision = { figure8 = {\nmass_c2_kg = 20000; }; };", 2,
+     "collision.figure8.mass_c2_kg = 20000: is not below the next level of damage; allowed: below "
+     "20000"},
+    {"collision = { figure8 = {\nmass_c3_kg = 8001; }; };", 2,
+     "collision.figure8.mass_c3_kg = 8001: is not below the next level of damage; allowed: below "
+     "8000"},
     {"fires = ( { shooter = \"X\"; point = [1, 2]; } );", 1,
      "fires[0].shooter = \"X\": is no vehicle's name; allowed: a name of vehicles"},
     {VEHICLE("name = \"A\"; count = 12; } );\nfires = ( { shooter = \"A-13\"; point = [1, 2];"), 3,
@@ -278,9 +286,14 @@ static void test_override_refusals(void **state)
          "--set: world.seed = 99999999999999999999999: out of range; allowed: "
          "0..9007199254740991"},
         {"renderer.fog=yes", "--set: renderer.fog = yes: is not a boolean; allowed: true, false"},
-        {"collision.response=spring",
-         "--set: collision.response = spring: not in this version; allowed: impulse, figure8, "
+        {"collision.response=bounce",
+         "--set: collision.response = bounce: unknown; allowed: impulse, figure8, spring, mps, "
          "none"},
+        {"terrain.source=dem",
+         "--set: terrain.source = dem: not in this version; allowed: generated, flat"},
+        {"collision.figure8.mass_c3_kg=9000",
+         "--set: collision.figure8.mass_c3_kg = 9000: is not below the next level of damage; "
+         "allowed: below 8000"},
         {"collision.figure8.damage_low=2",
          "--set: collision.figure8.damage_low = 2: is not below the next level of damage; allowed: "
          "below 0.3"},
@@ -343,6 +356,7 @@ static void test_file_refusals(void **state)
     "name = \"k\"; model = \"k\"; mass_kg = 1; radius_m = 1; resistance_j = 1; "                   \
     "length_m = 1; width_m = 1; height_m = 1;\n"
 #define KIND_LAND  KIND_BEGIN "domain = \"land\"; max_speed_mps = 9; acceleration_mps2 = 1; "
+#define KIND_FIXED KIND_BEGIN "domain = \"fixed\"; class = \"tree\"; "
 #define KIND_MODEL "mtllib k.mtl\no body\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"
 
 static const struct refusal kind_refusals[] = {
@@ -352,6 +366,28 @@ static const struct refusal kind_refusals[] = {
     {KIND_BEGIN "domain = \"land\"; weight = 3;", 2, "weight = 3: unknown key; allowed here: ..."},
     {KIND_BEGIN "domain = \"land\"; rigidity = 1.5;", 2,
      "rigidity = 1.5: out of range; allowed: 0..1"},
+    {KIND_BEGIN "domain = \"land\"; friction = 2.5;", 2,
+     "friction = 2.5: out of range; allowed: 0..2"},
+    {KIND_BEGIN "domain = \"land\"; stiffness_npm = -1;", 2,
+     "stiffness_npm = -1: out of range; allowed: 0..1000000000000"},
+    {KIND_BEGIN "domain = \"land\"; severe_deg = 46;", 2,
+     "severe_deg = 46: out of range; allowed: 0..45"},
+    {KIND_BEGIN "domain = \"land\"; bounce_keep = 1.1;", 2,
+     "bounce_keep = 1.1: out of range; allowed: 0..1"},
+    {KIND_BEGIN "domain = \"land\"; fast_mps = 3001;", 2,
+     "fast_mps = 3001: out of range; allowed: 0..3000"},
+    {KIND_BEGIN "domain = \"land\"; damage_high = 1001;", 2,
+     "damage_high = 1001: out of range; allowed: 0..1000"},
+    {KIND_BEGIN "domain = \"land\"; debris_keep = -0.5;", 2,
+     "debris_keep = -0.5: out of range; allowed: 0..1"},
+    {KIND_FIXED "damage_high = 1; damage_med = 1; damage_low = 0.5;", 2,
+     "damage_med = 1: is not below damage_high; allowed: below it, or none of the three"},
+    {KIND_FIXED "damage_high = 1; damage_med = 0.5; damage_low = 0.5;", 2,
+     "damage_low = 0.5: is not below damage_med; allowed: below it, or none of the three"},
+    {KIND_FIXED "damage_high = 1; damage_med = 0.5; damage_low = 0;", 2,
+     "damage_low = 0: is needed beside damage_high; allowed: above 0, or none of the three"},
+    {KIND_FIXED "damage_high = 0; damage_med = 0.5; damage_low = 0.1;", 2,
+     "damage_med = 0.5: is not below damage_high; allowed: below it, or none of the three"},
     {KIND_BEGIN "domain = \"land\"; craters = 1;", 2,
      "craters = 1: is not a boolean; allowed: true, false"},
     {KIND_BEGIN "domain = \"land\"; max_speed_mps = 0;", 2,

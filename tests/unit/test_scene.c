@@ -24,9 +24,10 @@
 #define SEED     7u
 #define POSTS    401u
 #define CAPACITY 16u
+#define DENTS    64u
 
-enum { TANK, TREE, HOUSE, KINDS };
-enum { OAK, COTTAGE, FIXED };
+enum { TANK, TREE, HOUSE, POLE, TOWER, SHRUB, KINDS };
+enum { BUSH, TANKS, MAST, OAK, COTTAGE, FIXED }; /* in gridsquare order */
 
 /* A world of hills with a few things on it, in memory of the test's own. */
 struct stage {
@@ -43,6 +44,8 @@ struct stage {
     struct crater craters[4];
     struct crater_index index;
     struct effects effects;
+    struct dent dent[DENTS];
+    struct dents dents;
     struct scenery scenery;
     struct scene scene;
     struct moment moment;
@@ -67,6 +70,23 @@ static const struct kind kinds[KINDS] = {
                .radius_m = 6.0,
                .width_m = 8.0,
                .height_m = 5.0},
+    [POLE] = {.name = "pole",
+              .domain = DOMAIN_FIXED,
+              .object_class = OBJECT_POLE,
+              .radius_m = 0.4,
+              .width_m = 0.4,
+              .height_m = 8.0},
+    [TOWER] = {.name = "tower",
+               .domain = DOMAIN_FIXED,
+               .object_class = OBJECT_WATERTOWER,
+               .radius_m = 4.0,
+               .width_m = 6.0,
+               .height_m = 20.0},
+    [SHRUB] = {.name = "shrub",
+               .domain = DOMAIN_FIXED,
+               .object_class = OBJECT_BUSH,
+               .radius_m = 1.0,
+               .height_m = 1.5},
 };
 
 static const struct model_vertex box_vertices[] = {{-3, 0, -1}, {3, 0, -1}, {3, 2, -1}, {-3, 2, -1},
@@ -88,6 +108,9 @@ static const struct model models[] = {
 static const struct fixed_object objects[FIXED] = {
     [OAK] = {.x = 25060.0, .z = 24900.0, .radius_m = 2.0f, .height_m = 10.0f, .kind = TREE},
     [COTTAGE] = {.x = 25000.0, .z = 24940.0, .radius_m = 6.0f, .height_m = 5.0f, .kind = HOUSE},
+    [MAST] = {.x = 24900.0, .z = 24900.0, .radius_m = 0.6f, .height_m = 12.0f, .kind = POLE},
+    [TANKS] = {.x = 24800.0, .z = 24900.0, .radius_m = 4.0f, .height_m = 20.0f, .kind = TOWER},
+    [BUSH] = {.x = 24700.0, .z = 24900.0, .radius_m = 1.0f, .height_m = 1.5f, .kind = SHRUB},
 };
 
 static double draw(uint64_t number, double low, double high)
@@ -144,7 +167,9 @@ static int open_stage(void **context)
     assert_int_equal(crater_index_init(&s->index, s->craters), 0);
     assert_int_equal(scenery_init(&s->scenery, &s->world), 0);
     assert_int_equal(scene_init(&s->scene), 0);
-    s->moment = (struct moment){&s->world, &s->head, &s->entities, s->fixed_damage, &s->index};
+    assert_int_equal(dents_init(&s->dents, s->dent, DENTS), 0);
+    s->moment =
+        (struct moment){&s->world, &s->head, &s->entities, s->fixed_damage, &s->index, &s->dents};
     *context = s;
     return 0;
 }
@@ -155,6 +180,7 @@ static int close_stage(void **context)
     scene_free(&s->scene);
     scenery_free(&s->scenery);
     crater_index_free(&s->index);
+    dents_free(&s->dents);
     free(s->columns);
     free(s->reach_start);
     free(s->posts);
@@ -420,29 +446,169 @@ static void test_damage_shows_in_steps(void **context)
         const struct scene_body *body = &s->scene.bodies[at];
         assert_true(body->burn > before); /* each level looks worse than the one before */
         before = body->burn;
-        uint32_t dents = 0;
-        for (uint32_t i = 0; i < DENTS_PER_BODY; i++)
-            dents += body->dents[i][3] > 0.0f;
-        assert_int_equal(dents, damage);
         smoke = s->scene.puff_count;
     }
     assert_true(smoke > 10); /* a wreck burns */
 }
 
-static void test_destroyed_tree_is_a_stump(void **context)
+/* --- dents (row 33) --------------------------------------------------------------------------- */
+
+static void dent(struct stage *s, uint32_t id, float plastic_m)
+{
+    s->dent[s->head.dent_count++] = (struct dent){.id = id,
+                                                  .point = {3.0f, 1.0f, 0.0f},
+                                                  .direction = {-1.0f, 0.0f, 0.0f},
+                                                  .plastic_m = plastic_m};
+    dents_update(&s->dents, s->head.dent_count);
+}
+
+static void test_a_near_body_is_drawn_with_its_dents(void **context)
 {
     struct stage *s = *context;
-    struct camera camera = look_from(s, 25060.0, 24960.0, 0.0);
-    for (uint32_t damage = DAMAGE_NONE; damage <= DAMAGE_DESTROYED; damage += DAMAGE_DESTROYED) {
-        s->fixed_damage[OAK] = (uint8_t)damage;
-        s->params.renderer.texture = 0; /* no tufts: the tree is the only plant */
-        scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
-        assert_int_equal(s->scene.plant_count, 1);
-        bool stump = (enum foliage)s->scene.plants[0].picture == FOLIAGE_STUMP;
-        assert_int_equal(stump, damage == DAMAGE_DESTROYED);
+    uint32_t bent = put_tank(s, 25010.0, 24985.0, 0.0);
+    uint32_t far = put_tank(s, 25010.0, 24300.0, 0.0);
+    dent(s, s->entities.id[bent], 0.2f);
+    dent(s, s->entities.id[bent], 0.1f);
+    dent(s, s->entities.id[far], 0.3f);
+    struct camera camera = look_from(s, 25010.0, 25000.0, 0.0);
+    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
+    assert_int_equal(s->scene.dent_count, 2); /* nobody sees the far one's */
+    assert_true(s->scene.dents[0].depth_m == 0.2f && s->scene.dents[1].depth_m == 0.1f);
+    assert_true(s->scene.dents[0].reach_m > s->scene.dents[1].reach_m);
+    assert_true(s->scene.dents[0].way[0] == -1.0f && s->scene.dents[0].point[0] == 3.0f);
+    uint32_t with = 0;
+    for (uint32_t i = 0; i < s->scene.body_count; i++) {
+        if (s->scene.bodies[i].dents[1] <= 0.0f)
+            continue;
+        with++;
+        assert_true(s->scene.bodies[i].dents[0] == 0.0f && s->scene.bodies[i].dents[1] == 2.0f);
+        assert_int_equal(s->scene.copies[i].detail, MESH_FINE);
     }
-    assert_false(s->scene.texture);
-    assert_true(s->scene.fog);
+    assert_int_equal(with, 1);
+}
+
+/* --- what is left of fixed objects (rows 27, 32, 33) ------------------------------------------ */
+
+static void look_at(struct stage *s, uint32_t object)
+{
+    const struct fixed_object *at = &s->fixed[object];
+    struct vec3 middle = {at->x, (double)at->y + 0.5 * (double)at->height_m, at->z};
+    struct camera camera;
+    camera_look(&camera, vec3_add(middle, (struct vec3){3.0, 5.0, 30.0}), middle, 960, 540);
+    s->params.renderer.texture = 0; /* no tufts: they are plants too */
+    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
+}
+
+/* The body that stands where the object does. */
+static const struct scene_body *body_of(const struct stage *s, uint32_t object)
+{
+    for (uint32_t i = 0; i < s->scene.body_count; i++) {
+        const struct scene_body *body = &s->scene.bodies[i];
+        double x = (double)body->at[0] + s->scene.camera.eye.x - objects[object].x;
+        double z = (double)body->at[2] + s->scene.camera.eye.z - objects[object].z;
+        if (fabs(x) < 1e-2 && fabs(z) < 1e-2)
+            return body;
+    }
+    fail_msg("object %u is not in the scene", object);
+    return NULL;
+}
+
+static void test_a_tree_leans_and_then_is_a_stump(void **context)
+{
+    struct stage *s = *context;
+    for (uint32_t damage = DAMAGE_NONE; damage <= DAMAGE_DESTROYED; damage++) {
+        s->fixed_damage[OAK] = (uint8_t)damage;
+        look_at(s, OAK);
+        uint32_t stumps = 0;
+        for (uint32_t i = 0; i < s->scene.plant_count; i++)
+            stumps += (enum foliage)s->scene.plants[i].picture == FOLIAGE_STUMP;
+        bool down = damage >= DAMAGE_HIGH; /* a stump, and the tree beside it */
+        assert_int_equal(s->scene.plant_count, down ? 2 : 1);
+        assert_int_equal(stumps, down ? 1 : 0);
+        assert_true((fabsf(s->scene.plants[0].lean) > 0.2f) == (damage >= DAMAGE_MED));
+        assert_true((s->scene.plants[0].height < 5.0f) == down);
+    }
+}
+
+static void test_a_bush_ends_low(void **context)
+{
+    struct stage *s = *context;
+    float before = 2.0f;
+    for (uint32_t damage = DAMAGE_LOW; damage <= DAMAGE_HIGH; damage++) {
+        s->fixed_damage[BUSH] = (uint8_t)damage;
+        look_at(s, BUSH);
+        assert_int_equal(s->scene.plant_count, 1);
+        assert_true(s->scene.plants[0].height < before);
+        assert_true((enum foliage)s->scene.plants[0].picture != FOLIAGE_STUMP);
+        before = s->scene.plants[0].height;
+    }
+    assert_true(before < 0.6f);
+}
+
+static void test_a_pole_leans_and_then_is_broken(void **context)
+{
+    struct stage *s = *context;
+    float upright = 2.0f;
+    for (uint32_t damage = DAMAGE_NONE; damage <= DAMAGE_DESTROYED; damage++) {
+        s->fixed_damage[MAST] = (uint8_t)damage;
+        look_at(s, MAST);
+        const struct scene_body *body = body_of(s, MAST);
+        if (damage >= DAMAGE_HIGH) {
+            /* The top hangs to the ground: what is above the break is as long as it must be. */
+            assert_true(body->broken[1] > 1.0f && body->broken[1] < 4.0f);
+            double top = (double)body->broken[1] +
+                         (8.0 - (double)body->broken[1]) * cos((double)body->broken[2]);
+            assert_true(fabs(top) < 0.1 && body->up[1] > 1.49f);
+            continue;
+        }
+        assert_true(body->broken[2] == 0.0f && body->up[1] < upright); /* 1.5 times the model */
+        upright = body->up[1];
+    }
+    assert_true(upright < 1.48f);
+}
+
+static void test_a_tower_sags_and_then_lies(void **context)
+{
+    struct stage *s = *context;
+    float bent = -1.0f;
+    for (uint32_t damage = DAMAGE_NONE; damage <= DAMAGE_HIGH; damage++) {
+        s->fixed_damage[TANKS] = (uint8_t)damage;
+        look_at(s, TANKS);
+        const struct scene_body *body = body_of(s, TANKS);
+        assert_true(body->broken[2] > bent);
+        bent = body->broken[2];
+        assert_true(damage == DAMAGE_NONE || (damage == DAMAGE_HIGH) == (body->broken[1] == 0.0f));
+    }
+    assert_true(fabs((double)bent - HALF_PI) < 1e-6);
+}
+
+/* Share of the model's box that fell in, without the raggedness. */
+static double fallen(const struct scene_body *body)
+{
+    uint32_t down = 0;
+    for (int x = -10; x <= 10; x++)
+        for (int z = -10; z <= 10; z++)
+            down += 0.3f * (float)x * body->falls[0] + 0.1f * (float)z * body->falls[1] +
+                        body->falls[2] >
+                    1.0f;
+    return down / 441.0;
+}
+
+static void test_a_building_falls_in_by_steps_to_rubble(void **context)
+{
+    struct stage *s = *context;
+    double share[DAMAGE_COUNT];
+    for (uint32_t damage = DAMAGE_NONE; damage < DAMAGE_COUNT; damage++) {
+        s->fixed_damage[COTTAGE] = (uint8_t)damage;
+        look_at(s, COTTAGE);
+        const struct scene_body *body = body_of(s, COTTAGE);
+        share[damage] = fallen(body);
+        assert_true((body->falls[2] > 0.0f) == (damage != DAMAGE_NONE));
+        assert_true(body->up[1] == 1.0f && body->broken[2] == 0.0f);
+    }
+    assert_true(share[DAMAGE_NONE] == 0.0 && share[DAMAGE_LOW] > 0.0 && share[DAMAGE_LOW] < 0.4);
+    assert_true(share[DAMAGE_MED] > share[DAMAGE_LOW] + 0.1 && share[DAMAGE_MED] < 0.8);
+    assert_true(share[DAMAGE_HIGH] == 1.0 && share[DAMAGE_DESTROYED] == 1.0);
 }
 
 static void test_fire_and_detonation_show(void **context)
@@ -490,6 +656,9 @@ static void test_follow_keeps_its_choice(void **context)
     assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 0, false), 0);
     assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 2, false), 1);
     s->entities.state[1] = ENTITY_WRECK;
+    s->entities.changed_tick[1] = 200;
+    struct follow nobody = {.id = 0}; /* a renderer that was started just now sees it burn too */
+    assert_int_equal(follow_choose(&nobody, &s->moment, &s->effects, 2, false), 1);
     assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 2, false), 1);
     s->head.tick = 200 + 10 * (uint64_t)(FOLLOW_WRECK_S + 1.0);
     assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 2, false), 0);
@@ -591,7 +760,12 @@ int main(void)
         TEST(test_body_detail_is_monotone),
         TEST(test_scene_has_what_is_before_the_camera),
         TEST(test_damage_shows_in_steps),
-        TEST(test_destroyed_tree_is_a_stump),
+        TEST(test_a_near_body_is_drawn_with_its_dents),
+        TEST(test_a_tree_leans_and_then_is_a_stump),
+        TEST(test_a_bush_ends_low),
+        TEST(test_a_pole_leans_and_then_is_broken),
+        TEST(test_a_tower_sags_and_then_lies),
+        TEST(test_a_building_falls_in_by_steps_to_rubble),
         TEST(test_fire_and_detonation_show),
         TEST(test_follow_keeps_its_choice),
         TEST(test_statistics_equal_the_table),

@@ -1,0 +1,12 @@
+/* The response "mps" (thesis row 42): what MPS II and III did with platforms that came near each
+ * other. Nothing is looked at, neither speed nor angle nor mass. */
+#ifndef JOLON_COLLIDER_ATTRITION_H
+#define JOLON_COLLIDER_ATTRITION_H
+
+#include "collider/respond.h"
+
+/* Both are destroyed and stay where they are. 0, or -1 with errno ENOMEM. Fixed objects had no part
+ * in it: a platform that meets one goes on as if it were not there. */
+int attrition_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome);
+
+#endif

@@ -1,0 +1,319 @@
+/* From contacts of one moment to islands, through the solver, to the bodies' new ways. */
+#include "collider/island.h"
+
+#include "world/inertia.h"
+
+#include <stdlib.h>
+
+/* Less is no overlap but rounding, 50 km from the origin [m]. */
+#define ROUNDING_M 1e-9
+
+int island_init(struct island *island, uint32_t world_capacity)
+{
+    *island = (struct island){.body_of = calloc(world_capacity, sizeof *island->body_of)};
+    return island->body_of ? 0 : -1;
+}
+
+void island_free(struct island *island)
+{
+    free(island->meeting);
+    free(island->body);
+    free(island->body_of);
+    free(island->solve);
+    free(island->solve_of);
+    free(island->contact);
+    *island = (struct island){0};
+}
+
+/* --- the moment's meetings ---------------------------------------------------------------------*/
+
+static int reserve_meeting(struct island *island)
+{
+    if (island->meetings < island->meeting_capacity)
+        return 0;
+    uint32_t capacity = island->meeting_capacity * 2 + 64;
+    struct island_meeting *meeting = realloc(island->meeting, capacity * sizeof *meeting);
+    if (!meeting)
+        return -1;
+    island->meeting = meeting;
+    island->meeting_capacity = capacity;
+    return 0;
+}
+
+static int reserve_bodies(struct island *island)
+{
+    if (island->bodies + 2 <= island->body_capacity)
+        return 0;
+    uint32_t capacity = island->body_capacity * 2 + 64;
+    struct island_body *body = realloc(island->body, capacity * sizeof *body);
+    if (!body)
+        return -1;
+    island->body = body;
+    island->body_capacity = capacity;
+    return 0;
+}
+
+static uint32_t body_for(struct island *island, uint32_t row)
+{
+    if (island->body_of[row] == 0) {
+        uint32_t index = island->bodies++;
+        island->body[index] =
+            (struct island_body){.row = row, .parent = index, .local = UINT32_MAX};
+        island->body_of[row] = index + 1;
+    }
+    return island->body_of[row] - 1;
+}
+
+static uint32_t root_of(struct island *island, uint32_t body)
+{
+    while (island->body[body].parent != body) {
+        island->body[body].parent = island->body[island->body[body].parent].parent;
+        body = island->body[body].parent;
+    }
+    return body;
+}
+
+/* The lower root becomes both's, so that groups come in the order of their first meeting. */
+static void join(struct island *island, uint32_t p, uint32_t q)
+{
+    uint32_t a = root_of(island, p), b = root_of(island, q);
+    island->body[a > b ? a : b].parent = a > b ? b : a;
+}
+
+/* Takes in one contact: a lean, a fixed object that gives way, or a meeting for the solver. */
+static int take(struct respond *respond, const struct contact *contact)
+{
+    struct island *island = respond->island;
+    bool gives_way = false;
+    if (reserve_meeting(island) != 0 || reserve_bodies(island) != 0)
+        return -1;
+    struct island_meeting *meeting = &island->meeting[island->meetings];
+    *meeting = (struct island_meeting){
+        .contact = *contact, .impact = respond_impact(respond, contact), .body_b = BODY_FIXED};
+    meeting->leans = respond_leans(respond, &meeting->impact);
+    if (!meeting->leans)
+        meeting->report = respond_report(respond, &meeting->impact);
+    if (contact->b & PAIR_FIXED && impulse_gives_way(respond, meeting, &gives_way) != 0)
+        return -1;
+    if (gives_way)
+        return 0;
+    meeting->body_a = body_for(island, contact->a);
+    island->body[meeting->body_a].stays |= contact->last;
+    if (!(contact->b & PAIR_FIXED)) {
+        meeting->body_b = body_for(island, contact->b);
+        island->body[meeting->body_b].stays |= contact->last;
+        join(island, meeting->body_a, meeting->body_b);
+    }
+    island->meetings++;
+    return 0;
+}
+
+/* Is the next contact one of the same moment that impulses answer? Rounds and the ground are not.
+ */
+static bool same_moment(const struct respond *respond, const struct contact *next, double toi)
+{
+    const uint8_t *behaviour = respond->next->entities.behaviour;
+    return next && next->touch.toi <= toi + CONTACT_TIE && next->b < CONTACT_AIR &&
+           behaviour[next->a] != BEHAVIOUR_FLIGHT &&
+           (next->b & PAIR_FIXED || behaviour[next->b] != BEHAVIOUR_FLIGHT);
+}
+
+static int gather(struct respond *respond, const struct contact *first)
+{
+    struct contact contact = *first;
+    if (take(respond, &contact) != 0)
+        return -1;
+    while (same_moment(respond, contacts_peek(respond->contacts), first->touch.toi)) {
+        contacts_next(respond->contacts, &respond->input, &contact);
+        if (contact.b & PAIR_FIXED &&
+            !detect_stands(&respond->input.detect, contact.b & ~PAIR_FIXED))
+            continue;
+        if (take(respond, &contact) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static void chain(struct island *island)
+{
+    for (uint32_t i = 0; i < island->meetings; i++) {
+        struct island_body *root = &island->body[root_of(island, island->meeting[i].body_a)];
+        if (root->last != 0)
+            island->meeting[root->last - 1].next = i + 1;
+        else
+            root->first = i + 1;
+        root->last = i + 1;
+    }
+}
+
+/* --- into the solver ---------------------------------------------------------------------------*/
+
+static int reserve_solve(struct island *island, uint32_t meetings)
+{
+    if (meetings > island->contact_capacity) {
+        struct solve_contact *contact =
+            realloc(island->contact, 2 * meetings * sizeof *island->contact);
+        if (!contact)
+            return -1;
+        island->contact = contact;
+        island->contact_capacity = 2 * meetings;
+    }
+    uint32_t bodies = 2 * meetings;
+    if (bodies <= island->solve_capacity)
+        return 0;
+    struct solve_body *solve = realloc(island->solve, 2 * bodies * sizeof *solve);
+    if (!solve)
+        return -1;
+    island->solve = solve;
+    uint32_t *solve_of = realloc(island->solve_of, 2 * bodies * sizeof *solve_of);
+    if (!solve_of)
+        return -1;
+    island->solve_of = solve_of;
+    island->solve_capacity = 2 * bodies;
+    return 0;
+}
+
+static struct solve_body solve_body_of(const struct respond *respond, struct island_body *body,
+                                       double time)
+{
+    const struct entities *e = &respond->next->entities;
+    uint32_t row = body->row;
+    const struct inertia inertia = inertia_of(&respond->world->kinds[e->kind[row]]);
+    struct mat3 turn = rotation_matrix(motion_turned(respond->motion, row, time));
+    double light = 1.0 / inertia.mass_kg;
+    body->grounded = respond_grounded(respond, row);
+    body->spin = respond_spin(respond, row);
+    body->arm = rotation_apply(&turn, (struct vec3){0.0, inertia.centre_m, 0.0});
+    struct solve_body solve = {
+        .centre = vec3_add(path_at(&respond->path[row], time), body->arm),
+    };
+    if (body->grounded) { /* it can neither jump nor roll over */
+        solve.inverse_mass = (struct vec3){light, 0.0, light};
+        solve.inverse_inertia.m[1][1] = 1.0 / inertia.moment.y;
+    } else {
+        solve.inverse_mass = (struct vec3){light, light, light};
+        solve.inverse_inertia = inertia_inverse_world(&inertia, &turn);
+    }
+    solve.spin = body->spin;
+    solve.velocity = vec3_add(entities_velocity(e, row), vec3_cross(body->spin, body->arm));
+    if (body->grounded)
+        solve.velocity.y = 0.0; /* the slope's doing: it would push like a lift */
+    return solve;
+}
+
+/* A body's place in the solver. */
+static uint32_t local_of(const struct respond *respond, uint32_t *count, uint32_t index,
+                         double time)
+{
+    struct island *island = respond->island;
+    if (index == BODY_FIXED) {
+        island->solve[*count] = (struct solve_body){0};
+        island->solve_of[*count] = BODY_FIXED;
+        return (*count)++;
+    }
+    struct island_body *body = &island->body[index];
+    if (body->local == UINT32_MAX) {
+        island->solve[*count] = solve_body_of(respond, body, time);
+        island->solve_of[*count] = index;
+        body->local = (*count)++;
+    }
+    return body->local;
+}
+
+/* --- and out again -----------------------------------------------------------------------------*/
+
+/* The backup vector (Hahn 1988; thesis row 46): bodies that overlap part along the normal, the
+ * lighter by more, until their skins touch. */
+static void part(const struct respond *respond, const struct island_meeting *meeting,
+                 const struct solve_contact *contact)
+{
+    struct island *island = respond->island;
+    bool hulls = respond->world->params->collision.shape == SHAPE_MODEL;
+    double depth = meeting->impact.depth_m;
+    if (!(depth > ROUNDING_M))
+        return;
+    struct vec3 n = contact->normal;
+    double slant = vec3_dot(n, meeting->contact.touch.normal);
+    double way = (depth + (hulls ? TOUCH_M : 0.0)) / maths_max(slant, 0.5);
+    const struct solve_body *a = &island->solve[contact->a], *b = &island->solve[contact->b];
+    double la = a->inverse_mass.x, lb = b->inverse_mass.x;
+    struct island_body *body_a = &island->body[meeting->body_a];
+    body_a->shift = vec3_sub(body_a->shift, vec3_scale(n, way * la / (la + lb)));
+    if (meeting->body_b == BODY_FIXED)
+        return;
+    struct island_body *body_b = &island->body[meeting->body_b];
+    body_b->shift = vec3_add(body_b->shift, vec3_scale(n, way * lb / (la + lb)));
+}
+
+static int leave(struct respond *respond, const struct solve_body *solve,
+                 const struct island_body *body, double time)
+{
+    const struct entities *e = &respond->next->entities;
+    uint32_t row = body->row;
+    struct vec3 velocity = vec3_sub(solve->velocity, vec3_cross(solve->spin, body->arm));
+    struct vec3 spin = solve->spin;
+    if (body->grounded) {
+        velocity.y = 0.0; /* the mover puts it on the slope again */
+        spin.y = e->spin_y[row] + (solve->spin.y - body->spin.y);
+    }
+    struct vec3 at = vec3_add(path_at(&respond->path[row], time), body->shift);
+    return respond_leave(respond, row, time, at, velocity, spin, body->stays);
+}
+
+static int solve_group(struct respond *respond, uint32_t first, double time)
+{
+    struct island *island = respond->island;
+    uint32_t bodies = 0, contacts = 0;
+    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
+        const struct island_meeting *meeting = &island->meeting[i - 1];
+        uint32_t a = local_of(respond, &bodies, meeting->body_a, time);
+        uint32_t b = local_of(respond, &bodies, meeting->body_b, time);
+        const struct solve_body sides[2] = {island->solve[a], island->solve[b]};
+        struct solve_contact *contact = &island->contact[contacts++];
+        *contact = impulse_contact(respond, meeting, sides);
+        contact->a = a;
+        contact->b = b;
+    }
+    impulse_solve(respond, first, bodies);
+    contacts = 0;
+    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
+        const struct vec3 *impulse = &island->contact[contacts++].impulse;
+        if (vec3_dot(*impulse, *impulse) == 0.0) /* nothing has changed: it would be found again */
+            contacts_settle(respond->contacts, &respond->input, &island->meeting[i - 1].contact);
+    }
+    contacts = 0;
+    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next)
+        part(respond, &island->meeting[i - 1], &island->contact[contacts++]);
+    for (uint32_t i = 0; i < bodies; i++) {
+        if (island->solve_of[i] != BODY_FIXED &&
+            leave(respond, &island->solve[i], &island->body[island->solve_of[i]], time) != 0)
+            return -1;
+    }
+    contacts = 0;
+    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
+        if (impulse_harm(respond, &island->meeting[i - 1], &island->contact[contacts++]) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+int island_answer(struct respond *respond, const struct contact *contact)
+{
+    struct island *island = respond->island;
+    double time = contact->touch.toi;
+    int result = 0;
+    island->meetings = island->bodies = 0;
+    if (gather(respond, contact) != 0 || reserve_solve(island, island->meetings) != 0)
+        result = -1;
+    chain(island);
+    for (uint32_t i = 0; i < island->bodies && result == 0; i++) {
+        if (island->body[i].first != 0)
+            result = solve_group(respond, island->body[i].first, time);
+    }
+    for (uint32_t i = 0; i < island->bodies; i++) {
+        if (result == 0)
+            result = respond_swept(respond, island->body[i].row, time);
+        island->body_of[island->body[i].row] = 0;
+    }
+    return result;
+}

@@ -1,0 +1,134 @@
+/* Ways and turnings of the frame's rows. */
+#include "collider/motion.h"
+
+#include <stdlib.h>
+
+int motion_init(struct motion *motion, const struct world *world)
+{
+    uint32_t capacity = world->params->capacity;
+    *motion = (struct motion){.world = world};
+    motion->path = malloc(capacity * sizeof *motion->path);
+    motion->change = calloc(capacity, sizeof *motion->change);
+    if (!motion->path || !motion->change) {
+        motion_free(motion);
+        return -1;
+    }
+    return 0;
+}
+
+void motion_free(struct motion *motion)
+{
+    free(motion->path);
+    free(motion->changed);
+    free(motion->change);
+    free(motion->row);
+    *motion = (struct motion){0};
+}
+
+void motion_begin(struct motion *motion, const struct state *committed, const struct state *next)
+{
+    for (uint32_t i = 0; i < motion->changes; i++)
+        motion->change[motion->row[i]] = 0;
+    motion->changes = 0;
+    motion->committed = committed;
+    motion->next = next;
+}
+
+void motion_take(struct motion *motion, uint32_t row)
+{
+    struct vec3 to = entities_position(&motion->next->entities, row);
+    struct vec3 from =
+        motion_old(motion, row) ? entities_position(&motion->committed->entities, row) : to;
+    motion->path[row] = (struct path){.at = from, .along = vec3_sub(to, from)};
+}
+
+static struct quat pose(const struct entities *e, uint32_t row)
+{
+    return rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
+}
+
+struct turning motion_turning(const struct motion *motion, uint32_t row)
+{
+    if (motion->change[row] != 0)
+        return motion->changed[motion->change[row] - 1];
+    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    struct quat to = pose(n, row);
+    if (!motion_old(motion, row) ||
+        (w->heading[row] == n->heading[row] && w->pitch[row] == n->pitch[row] &&
+         w->roll[row] == n->roll[row]))
+        return (struct turning){to, to};
+    return (struct turning){pose(w, row), to};
+}
+
+struct quat motion_turned(const struct motion *motion, uint32_t row, double time)
+{
+    struct turning turning = motion_turning(motion, row);
+    double since = motion->path[row].since;
+    double left = 1.0 - since;
+    return left > 0.0 ? rotation_between(turning.from, turning.to, (time - since) / left)
+                      : turning.to;
+}
+
+static int reserve(struct motion *motion)
+{
+    if (motion->changes < motion->change_capacity)
+        return 0;
+    uint32_t capacity = motion->change_capacity * 2 + 256;
+    struct turning *changed = realloc(motion->changed, capacity * sizeof *changed);
+    if (!changed)
+        return -1;
+    motion->changed = changed;
+    uint32_t *row = realloc(motion->row, capacity * sizeof *row);
+    if (!row)
+        return -1;
+    motion->row = row;
+    motion->change_capacity = capacity;
+    return 0;
+}
+
+int motion_change(struct motion *motion, uint32_t row, const struct path *path,
+                  const struct turning *turning)
+{
+    if (motion->change[row] == 0) {
+        if (reserve(motion) != 0)
+            return -1;
+        motion->row[motion->changes] = row;
+        motion->change[row] = ++motion->changes;
+    }
+    motion->changed[motion->change[row] - 1] = *turning;
+    motion->path[row] = *path;
+    return 0;
+}
+
+static struct swept_body shape_of(const struct world *world, uint16_t kind, double scale)
+{
+    const struct kind *k = &world->kinds[kind];
+    return (struct swept_body){
+        .hull = world->hulls + k->first_hull,
+        .hull_count = k->hull_count,
+        .vertices = world->hull_vertices,
+        .planes = world->hull_planes,
+        .scale = scale,
+        .bound_m = scale * k->bound_m,
+    };
+}
+
+struct swept_body motion_body(const struct motion *motion, uint32_t row)
+{
+    struct swept_body body = shape_of(motion->world, motion->next->entities.kind[row], 1.0);
+    struct turning turning = motion_turning(motion, row);
+    body.path = motion->path[row];
+    body.from = turning.from;
+    body.to = turning.to;
+    return body;
+}
+
+struct swept_body motion_fixed(const struct world *world, uint32_t object)
+{
+    const struct fixed_object *fixed = &world->fixed[object];
+    double scale = (double)fixed->radius_m / world->kinds[fixed->kind].radius_m;
+    struct swept_body body = shape_of(world, fixed->kind, scale);
+    body.path.at = (struct vec3){fixed->x, (double)fixed->y, fixed->z};
+    body.from = body.to = rotation_of(motion_fixed_heading(fixed), 0.0, 0.0);
+    return body;
+}

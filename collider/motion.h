@@ -1,0 +1,65 @@
+/* How the bodies move within the frame: each row's way, and how it turns along it. Rows turn from
+ * the committed pose to the mover's until an answer to a contact gives them another way. The
+ * collider's own memory; one thread changes it, any number may read between changes. */
+#ifndef JOLON_COLLIDER_MOTION_H
+#define JOLON_COLLIDER_MOTION_H
+
+#include "collider/advance.h"
+#include "world/world.h"
+
+#include <stdint.h>
+
+/* Turned at path.since and at 1. */
+struct turning {
+    struct quat from, to;
+};
+
+struct motion {
+    const struct world *world;
+    const struct state *committed;
+    const struct state *next;
+    struct path *path;       /* [capacity] */
+    struct turning *changed; /* turnings that answers gave */
+    uint32_t changes, change_capacity;
+    uint32_t *change; /* [capacity] index + 1 into changed; 0: turns as the mover has it */
+    uint32_t *row;    /* [changes] whose it is */
+};
+
+/* 0, or -1 with errno ENOMEM. */
+int motion_init(struct motion *motion, const struct world *world);
+void motion_free(struct motion *motion);
+
+/* Begins a frame: motion_take for every row comes next. */
+void motion_begin(struct motion *motion, const struct state *committed, const struct state *next);
+
+/* Draws the row's way: from where the committed world has it to where next has it. One that is new
+ * this frame has not moved yet. Rows may be taken by any thread. */
+void motion_take(struct motion *motion, uint32_t row);
+
+/* Does the row hold the same entity as in the committed frame? */
+static inline bool motion_old(const struct motion *motion, uint32_t row)
+{
+    return row < motion->committed->head->used &&
+           motion->committed->entities.id[row] == motion->next->entities.id[row];
+}
+
+struct turning motion_turning(const struct motion *motion, uint32_t row);
+
+/* How the row is turned at a time in [path.since, 1]. */
+struct quat motion_turned(const struct motion *motion, uint32_t row, double time);
+
+/* Gives the row another turning, with its path. 0, or -1 with errno ENOMEM. */
+int motion_change(struct motion *motion, uint32_t row, const struct path *path,
+                  const struct turning *turning);
+
+/* The row, and a fixed object, as the narrow phase takes them. */
+struct swept_body motion_body(const struct motion *motion, uint32_t row);
+struct swept_body motion_fixed(const struct world *world, uint32_t object);
+
+/* How a fixed object is turned [rad, heading]. */
+static inline double motion_fixed_heading(const struct fixed_object *object)
+{
+    return (double)object->turn * (TWO_PI / 65536.0);
+}
+
+#endif

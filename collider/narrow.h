@@ -1,0 +1,21 @@
+/* Narrow phase: when and where two bodies touch, by spheres or by their models' hulls. Pure; any
+ * thread. */
+#ifndef JOLON_COLLIDER_NARROW_H
+#define JOLON_COLLIDER_NARROW_H
+
+#include "collider/advance.h"
+#include "collider/detect.h"
+#include "collider/motion.h"
+
+#include <stdbool.h>
+
+/* A fixed object of less rigidity than this bends aside and lets bodies through. */
+#define YIELDING_RIGIDITY 0.1
+
+/* First touch of the pair in [from, 1]; from is not before either's path.since. By the methods that
+ * look at the frame's end only, the touch is there. through_fixed: bodies may stand in any fixed
+ * object and only entering one is a touch; in a yielding one they always may. */
+bool narrow_touch(const struct detect_input *input, const struct motion *motion, bool through_fixed,
+                  const struct pair *pair, double from, struct touch *touch);
+
+#endif

@@ -1,0 +1,109 @@
+/* How an answer to a contact changes a body's way through the rest of the frame. */
+#include "collider/respond.h"
+
+#include "world/inertia.h"
+#include "world/square.h"
+
+/* A wreck this near the ground lies on it [m]. */
+#define LIES_M 0.05
+
+bool respond_grounded(const struct respond *respond, uint32_t row)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct world *world = respond->world;
+    enum domain domain = (enum domain)world->kinds[e->kind[row]].domain;
+    if (domain == DOMAIN_LAND || domain == DOMAIN_SEA)
+        return true;
+    return e->state[row] == ENTITY_WRECK &&
+           e->y[row] <= LIES_M + terrain_height(&world->terrain, respond->input.detect.craters,
+                                                e->x[row], e->z[row]);
+}
+
+struct vec3 respond_spin(const struct respond *respond, uint32_t row)
+{
+    const struct motion *motion = respond->motion;
+    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    if (!respond_grounded(respond, row))
+        return (struct vec3){n->spin_x[row], n->spin_y[row], n->spin_z[row]};
+    double yaw = n->spin_y[row];
+    if (motion->change[row] == 0 && motion_old(motion, row))
+        yaw = -maths_wrap_half(n->heading[row] - w->heading[row]) / respond->world->params->dt_s;
+    return (struct vec3){0.0, yaw, 0.0};
+}
+
+/* The way goes no further than the world's edge. */
+static struct path within_world(struct path path)
+{
+    double left = 1.0 - path.since;
+    if (left > 0.0) {
+        path.along.x =
+            (maths_clamp(path.at.x + path.along.x * left, 0.0, WORLD_SIDE_M) - path.at.x) / left;
+        path.along.z =
+            (maths_clamp(path.at.z + path.along.z * left, 0.0, WORLD_SIDE_M) - path.at.z) / left;
+    }
+    return path;
+}
+
+/* Gives the row this way and what follows from it for the frame's end. */
+static int take_way(struct respond *respond, uint32_t row, const struct path *path,
+                    const struct turning *turning, struct vec3 velocity)
+{
+    struct entities *e = &respond->next->entities;
+    struct path way = within_world(*path);
+    if (motion_change(respond->motion, row, &way, turning) != 0)
+        return -1;
+    entities_set_position(e, row, path_at(&way, 1.0));
+    entities_set_velocity(e, row, velocity);
+    rotation_angles(turning->to, &e->heading[row], &e->pitch[row], &e->roll[row]);
+    return 0;
+}
+
+int respond_swept(struct respond *respond, uint32_t row, double time)
+{
+    return contacts_change(respond->contacts, &respond->input, row, time);
+}
+
+int respond_stay(struct respond *respond, uint32_t row, double time, struct vec3 velocity)
+{
+    struct quat turned = motion_turned(respond->motion, row, time);
+    const struct turning turning = {turned, turned};
+    const struct path path = {.at = path_at(&respond->path[row], time), .since = time};
+    if (take_way(respond, row, &path, &turning, velocity) != 0)
+        return -1;
+    return respond_swept(respond, row, time);
+}
+
+int respond_slow(struct respond *respond, uint32_t row, double time, double share)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct path *before = &respond->path[row];
+    const struct turning turning = {motion_turned(respond->motion, row, time),
+                                    motion_turning(respond->motion, row).to};
+    const struct path path = {
+        .at = path_at(before, time), .along = vec3_scale(before->along, share), .since = time};
+    if (take_way(respond, row, &path, &turning, vec3_scale(entities_velocity(e, row), share)) != 0)
+        return -1;
+    return respond_swept(respond, row, time);
+}
+
+int respond_leave(struct respond *respond, uint32_t row, double time, struct vec3 at,
+                  struct vec3 velocity, struct vec3 spin_rps, bool stays)
+{
+    struct entities *e = &respond->next->entities;
+    double dt_s = respond->world->params->dt_s;
+    struct quat turned = motion_turned(respond->motion, row, time);
+    const struct turning turning = {
+        turned, stays ? turned : rotation_spun(turned, spin_rps, (1.0 - time) * dt_s)};
+    const struct path path = {
+        .at = at, .along = vec3_scale(velocity, stays ? 0.0 : dt_s), .since = time};
+    if (!respond_grounded(respond,
+                          row)) { /* its axes turn with it, its angular momentum does not */
+        const struct inertia inertia = inertia_of(&respond->world->kinds[e->kind[row]]);
+        struct mat3 before = rotation_matrix(turned), after = rotation_matrix(turning.to);
+        spin_rps = inertia_carried(&inertia, &before, spin_rps, &after);
+    }
+    e->spin_x[row] = spin_rps.x;
+    e->spin_y[row] = spin_rps.y;
+    e->spin_z[row] = spin_rps.z;
+    return take_way(respond, row, &path, &turning, velocity);
+}
