@@ -1,8 +1,6 @@
 /* Detonations: blast over what is near, craters in the ground, chains of what explodes in turn. */
 #include "collider/respond.h"
 
-#include "world/square.h"
-
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,30 +63,34 @@ static int blast_row(struct respond *respond, const struct charge *charge, doubl
     return harm_row(respond, row, joules, charge->time);
 }
 
-static int blast_square(struct respond *respond, const struct charge *charge, double radius,
-                        int32_t column, int32_t line)
+static int blast_rows(struct respond *respond, const struct charge *charge, double radius,
+                      const struct sweep_box *box, struct pair_list *found)
 {
-    const struct world *world = respond->world;
-    uint32_t square = square_index(column, line);
-    double west = charge->point.x - radius, north = charge->point.z - radius;
-    const struct bin_entry *entry;
-    uint32_t count = broad_square(respond->broad, square, &entry);
-    for (uint32_t i = 0; i < count; i++) {
-        /* A body that lies in several squares is harmed in the first it shares with the blast. */
-        const struct sweep_box *box = &respond->broad->box[entry[i].row];
-        if (square_of(maths_max((double)box->min_x, west), maths_max((double)box->min_z, north)) !=
-            square)
-            continue;
-        if (blast_row(respond, charge, radius, entry[i].row) != 0)
+    const struct detect_input input = {.world = respond->world};
+    found->count = 0;
+    if (broad_query(respond->broad, &input, box, found) != 0)
+        return -1;
+    for (uint32_t i = 0; i < found->count; i++) {
+        if (blast_row(respond, charge, radius, found->pair[i].a) != 0)
             return -1;
     }
-    const uint32_t *objects;
-    count = world_reach(world, square, &objects);
-    for (uint32_t i = 0; i < count; i++) {
-        const struct fixed_object *object = &world->fixed[objects[i]];
+    return 0;
+}
+
+static int blast_fixed(struct respond *respond, const struct charge *charge, double radius,
+                       const struct sweep_box *box, struct pair_list *found)
+{
+    const struct world *world = respond->world;
+    const struct detect_input input = {.world = world};
+    found->count = 0;
+    if (broad_query_fixed(respond->broad, &input, box, found) != 0)
+        return -1;
+    for (uint32_t i = 0; i < found->count; i++) {
+        uint32_t index = found->pair[i].b & ~PAIR_FIXED;
+        const struct fixed_object *object = &world->fixed[index];
         struct vec3 at = {object->x, (double)object->y, object->z};
         double distance = distance_to(charge->point, at, (double)object->radius_m);
-        harm_fixed(respond, objects[i], blast_energy(charge->explosive_kg, radius, distance));
+        harm_fixed(respond, index, blast_energy(charge->explosive_kg, radius, distance));
     }
     return 0;
 }
@@ -96,15 +98,14 @@ static int blast_square(struct respond *respond, const struct charge *charge, do
 static int blast_one(struct respond *respond, const struct charge *charge)
 {
     double radius = BLAST_RADIUS_M * maths_cbrt(charge->explosive_kg);
-    struct square_box box = square_box_of(charge->point.x - radius, charge->point.z - radius,
-                                          charge->point.x + radius, charge->point.z + radius);
-    for (int32_t row = box.z0; row <= box.z1; row++) {
-        for (int32_t column = box.x0; column <= box.x1; column++) {
-            if (blast_square(respond, charge, radius, column, row) != 0)
-                return -1;
-        }
-    }
-    return 0;
+    struct path still = {.at = charge->point};
+    struct sweep_box box = detect_way_box(&still, radius);
+    struct pair_list found = {0};
+    int result = blast_rows(respond, charge, radius, &box, &found);
+    if (result == 0)
+        result = blast_fixed(respond, charge, radius, &box, &found);
+    free(found.pair);
+    return result;
 }
 
 int blast_all(struct respond *respond)

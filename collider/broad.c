@@ -1,261 +1,224 @@
-/* The broad phase over gridsquares. */
+/* The broad phase over strips. */
 #include "collider/broad.h"
 
-#include "world/square.h"
+#include "collider/clones.h"
+#include "world/entity.h"
 
 #include <errno.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define ROWS_A_PIECE  2048
-#define PREFETCH_ROWS 8
-#define RUNS_A_PIECE  1024
-#define INSERTION_MAX 32
+#define BLOCK          64
+#define ROWS_A_PIECE   4096
+#define STRIPS_A_PIECE 4
+#define ALONE_MOST     8192 /* rows that one thread has done before others would have woken */
+#define LONG_M         64.0 /* a way's extent in x from which it is clipped to its strips */
 
 int broad_init(struct broad *broad, const struct world *world, struct workers *workers)
 {
-    *broad = (struct broad){.world = world, .workers = workers};
+    *broad = (struct broad){.world = world, .workers = workers, .lanes = workers_threads(workers)};
     broad->box = malloc(world->params->capacity * sizeof *broad->box);
-    if (!broad->box)
+    broad->lane = calloc(broad->lanes, sizeof *broad->lane);
+    if (!broad->box || !broad->lane || standing_init(&broad->standing, world) != 0) {
+        broad_free(broad);
+        errno = ENOMEM;
         return -1;
+    }
     return 0;
 }
 
 void broad_free(struct broad *broad)
 {
-    free(broad->box);
-    free(broad->entry);
-    free(broad->other);
+    for (uint32_t i = 0; broad->lane && i < broad->lanes; i++)
+        strip_lane_free(&broad->lane[i]);
     for (int i = 0; i < WORKERS_MAX; i++)
         free(broad->list[i].pair);
+    standing_free(&broad->standing);
+    free(broad->lane);
+    free(broad->box);
     *broad = (struct broad){0};
-}
-
-static struct square_box squares_of(const struct sweep_box *box)
-{
-    return square_box_of((double)box->min_x, (double)box->min_z, (double)box->max_x,
-                         (double)box->max_z);
 }
 
 struct job {
     struct broad *broad;
     const struct detect_input *input;
+    struct strips strips;
+    double grow[KIND_COUNT_MAX];
+    uint32_t flags[KIND_COUNT_MAX]; /* of the tag */
     _Atomic int failed;
 };
 
-/* --- against fixed objects ---------------------------------------------------------------------*/
+/* --- rows into strips --------------------------------------------------------------------------*/
 
-/* An object that reaches several of the row's squares is taken in the first that both touch. */
-static bool first_common(const struct world *world, const struct square_box *squares,
-                         const struct fixed_object *object, int32_t column, int32_t row)
+/* A block of rows on their way into the strips: each property in a row of its own, so that the
+ * compiler makes vectors of the loops. What they do is what detect_box and bins.h's functions do.
+ */
+struct block {
+    _Alignas(64) double grow[BLOCK];
+    float min_x[BLOCK], max_x[BLOCK], min_z[BLOCK], max_z[BLOCK];
+    int32_t west[BLOCK], east[BLOCK], north[BLOCK], south[BLOCK]; /* the same [steps] */
+    uint32_t tag[BLOCK];
+    uint32_t strip[BLOCK]; /* STRIP_COUNT: several */
+    struct bin_record record[BLOCK];
+    /* Fewer rows than a block are copied here first. */
+    struct path path[BLOCK];
+    struct sweep_box box[BLOCK];
+};
+
+static uint64_t bits_of(double value)
 {
-    double r = detect_fixed_reach(world, object);
-    int32_t x0 = square_axis(object->x - r), z0 = square_axis(object->z - r);
-    return column == (x0 > squares->x0 ? x0 : squares->x0) &&
-           row == (z0 > squares->z0 ? z0 : squares->z0);
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
 }
 
-static int fixed_pairs(struct job *job, uint32_t i, struct pair_list *list)
+static bool rests(const struct path *path)
 {
-    const struct world *world = job->broad->world;
-    const struct sweep_box *box = &job->broad->box[i];
-    struct square_box squares = squares_of(box);
-    for (int32_t row = squares.z0; row <= squares.z1; row++) {
-        for (int32_t column = squares.x0; column <= squares.x1; column++) {
-            const uint32_t *objects;
-            uint32_t count = world_reach(world, square_index(column, row), &objects);
-            for (uint32_t n = 0; n < count; n++) {
-                const struct fixed_object *object = &world->fixed[objects[n]];
-                if (!detect_stands(job->input, objects[n]) ||
-                    !detect_box_meets_fixed(job->input, box, object) ||
-                    !first_common(world, &squares, object, column, row))
-                    continue;
-                if (pair_list_add(list, i, objects[n] | PAIR_FIXED) != 0)
-                    return -1;
-            }
+    uint64_t any = bits_of(path->along.x) | bits_of(path->along.y) | bits_of(path->along.z);
+    return any << 1 == 0; /* 0.0 or -0.0 each */
+}
+
+static void name_rows(const struct job *job, struct block *restrict block,
+                      const struct path *restrict path, uint32_t first, uint32_t count)
+{
+    const struct entities *e = job->input->entities;
+    const uint8_t *state = e->state + first, *behaviour = e->behaviour + first;
+    const uint16_t *kinds = e->kind + first;
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t kind = state[k] != ENTITY_FREE ? kinds[k] : 0;
+        block->grow[k] = job->grow[kind];
+        block->tag[k] = (first + k) | job->flags[kind] | (rests(&path[k]) ? BIN_RESTS : 0) |
+                        (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0);
+    }
+}
+
+static void box_rows(struct block *restrict block, const struct path *restrict path,
+                     struct sweep_box *restrict box)
+{
+    for (uint32_t k = 0; k < BLOCK; k++) {
+        const struct path *way = &path[k];
+        __builtin_prefetch(&way[2 * BLOCK], 0, 2);
+        double left = 1.0 - way->since, grow = block->grow[k], low[2], high[2];
+        double at[2] = {way->at.x, way->at.y}, along[2] = {way->along.x, way->along.y};
+        for (int axis = 0; axis < 2; axis++) {
+            double to = at[axis] + along[axis] * left;
+            low[axis] = maths_min(at[axis], to) - grow;
+            high[axis] = maths_max(at[axis], to) + grow;
         }
+        double z = way->at.z, to_z = z + way->along.z * left;
+        block->min_x[k] = box[k].min_x = (float)low[0];
+        block->max_x[k] = box[k].max_x = (float)high[0];
+        block->min_z[k] = box[k].min_z = (float)(maths_min(z, to_z) - grow);
+        block->max_z[k] = box[k].max_z = (float)(maths_max(z, to_z) + grow);
+        box[k].min_y = (float)low[1];
+        box[k].max_y = (float)high[1];
+    }
+}
+
+/* bin_steps of each. In two loops: of one, gcc makes branches. */
+static void scale(float *restrict metres, int32_t *restrict steps)
+{
+    for (uint32_t k = 0; k < BLOCK; k++)
+        metres[k] = bin_scaled(metres[k]);
+    for (uint32_t k = 0; k < BLOCK; k++)
+        steps[k] = (int32_t)metres[k];
+}
+
+static void make_records(struct block *restrict block)
+{
+    for (size_t k = 0; k < BLOCK; k++) {
+        uint32_t north = (uint32_t)block->north[k];
+        uint32_t strip = north / BIN_STRIP_STEPS, edge = strip * BIN_STRIP_STEPS;
+        uint32_t south = (uint32_t)block->south[k] - edge;
+        int32_t width = block->east[k] - block->west[k];
+        block->record[k].min_x = block->west[k];
+        block->record[k].max_x = block->east[k];
+        block->record[k].z = (north - edge) | south << 16;
+        block->record[k].tag = block->tag[k] | (width > BIN_WIDE_STEPS ? BIN_WIDE : 0);
+        block->strip[k] = south < BIN_STRIP_STEPS ? strip : STRIP_COUNT;
+    }
+}
+
+static int add_spanning(const struct job *job, struct bins *bins, uint32_t tag)
+{
+    uint32_t row = tag & BIN_ROW;
+    const struct path *path = &job->input->path[row];
+    const struct sweep_box *box = &job->broad->box[row];
+    bool is_long = fabs(path->along.x) > LONG_M;
+    double grow = job->grow[job->input->entities->kind[row]];
+    struct bin_record record = {.min_x = bin_steps(box->min_x),
+                                .max_x = bin_steps(box->max_x),
+                                .tag = tag | BIN_SPANS | (is_long ? BIN_LONG | BIN_WIDE : 0)};
+    uint32_t last = bin_strip(box->max_z);
+    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
+        if (is_long) {
+            struct strip_span span = strip_span(path, box, grow, strip);
+            record.min_x = span.min_x;
+            record.max_x = span.max_x;
+        }
+        record.z = bin_z(box->min_z, box->max_z, strip);
+        if (bins_add(bins, strip, record) != 0)
+            return -1;
     }
     return 0;
 }
 
-static void sweep_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
+static int add_rows(const struct job *job, struct bins *bins, const struct block *block,
+                    uint32_t first, uint32_t count)
+{
+    const uint8_t *state = job->input->entities->state + first;
+    for (uint32_t k = 0; k < count; k++) {
+        if (state[k] == ENTITY_FREE)
+            continue;
+        if ((block->strip[k] < STRIP_COUNT ? bins_add(bins, block->strip[k], block->record[k])
+                                           : add_spanning(job, bins, block->record[k].tag)) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int bin_block(const struct job *job, struct block *block, struct bins *bins, uint32_t first,
+                     uint32_t count)
+{
+    const struct path *path = job->input->path + first;
+    struct sweep_box *box = job->broad->box + first;
+    if (count < BLOCK) {
+        memcpy(block->path, path, count * sizeof *path);
+        path = block->path;
+        box = block->box;
+    }
+    name_rows(job, block, path, first, count);
+    box_rows(block, path, box);
+    if (count < BLOCK)
+        memcpy(job->broad->box + first, box, count * sizeof *box);
+    scale(block->min_x, block->west);
+    scale(block->max_x, block->east);
+    scale(block->min_z, block->north);
+    scale(block->max_z, block->south);
+    make_records(block);
+    return add_rows(job, bins, block, first, count);
+}
+
+VECTOR_CLONES static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
-    const struct detect_input *input = job->input;
-    const struct world *world = job->broad->world;
-    for (uint32_t i = first; i < end; i++) {
-        if (i + PREFETCH_ROWS < end) {
-            struct vec3 ahead = input->path[i + PREFETCH_ROWS].at;
-            __builtin_prefetch(&world->reach_start[square_of(ahead.x, ahead.z)]);
-        }
-        if (!detect_there(input, i))
-            continue;
-        job->broad->box[i] = detect_box(input, i);
-        if (!detect_tests_fixed(input, i))
-            continue;
-        if (fixed_pairs(job, i, &job->broad->list[worker]) != 0)
+    struct block block = {0};
+    struct bins *bins = &job->broad->lane[worker].bins;
+    for (uint32_t row = first; row < end; row += BLOCK) {
+        if (bin_block(job, &block, bins, row, end - row < BLOCK ? end - row : BLOCK) != 0)
             atomic_store(&job->failed, 1);
     }
 }
 
-/* --- against moving bodies ---------------------------------------------------------------------*/
+/* --- strips ------------------------------------------------------------------------------------*/
 
-static int reserve_entries(struct broad *broad, uint32_t count)
-{
-    if (count <= broad->entry_capacity)
-        return 0;
-    uint32_t capacity = count + count / 2 + 1024;
-    struct bin_entry *entry = realloc(broad->entry, capacity * sizeof *entry);
-    if (!entry)
-        return -1;
-    broad->entry = entry;
-    struct bin_entry *other = realloc(broad->other, capacity * sizeof *other);
-    if (!other)
-        return -1;
-    broad->other = other;
-    broad->entry_capacity = capacity;
-    return 0;
-}
-
-static int bin_rows(struct broad *broad, const struct detect_input *input)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < input->rows; i++) {
-        if (!detect_there(input, i))
-            continue;
-        struct square_box squares = squares_of(&broad->box[i]);
-        uint32_t more = (uint32_t)((squares.x1 - squares.x0 + 1) * (squares.z1 - squares.z0 + 1));
-        if (reserve_entries(broad, count + more) != 0)
-            return -1;
-        for (int32_t row = squares.z0; row <= squares.z1; row++) {
-            for (int32_t column = squares.x0; column <= squares.x1; column++)
-                broad->entry[count++] = (struct bin_entry){square_index(column, row), i};
-        }
-    }
-    broad->entry_count = count;
-    return 0;
-}
-
-/* Stable radix sort by square: 18 bits in two passes of 9. */
-static void sort_entries(struct broad *broad)
-{
-    for (int pass = 0; pass < 2; pass++) {
-        uint32_t start[513] = {0};
-        int shift = pass * 9;
-        for (uint32_t i = 0; i < broad->entry_count; i++)
-            start[(broad->entry[i].square >> shift & 511u) + 1]++;
-        for (int digit = 0; digit < 512; digit++)
-            start[digit + 1] += start[digit];
-        for (uint32_t i = 0; i < broad->entry_count; i++)
-            broad->other[start[broad->entry[i].square >> shift & 511u]++] = broad->entry[i];
-        struct bin_entry *swap = broad->entry;
-        broad->entry = broad->other;
-        broad->other = swap;
-    }
-}
-
-/* Two boxes that share several squares meet in the first they share. */
-static bool first_shared(const struct sweep_box *a, const struct sweep_box *b, uint32_t square)
-{
-    float min_x = a->min_x > b->min_x ? a->min_x : b->min_x;
-    float min_z = a->min_z > b->min_z ? a->min_z : b->min_z;
-    return square_of((double)min_x, (double)min_z) == square;
-}
-
-static int pair_up(struct job *job, const struct bin_entry *p, const struct bin_entry *q,
-                   struct pair_list *list)
-{
-    const struct sweep_box *box = job->broad->box;
-    uint32_t a = p->row < q->row ? p->row : q->row;
-    uint32_t b = p->row < q->row ? q->row : p->row;
-    if (!detect_boxes_meet(&box[a], &box[b]) || !first_shared(&box[a], &box[b], p->square) ||
-        detect_apart(job->input, a, b))
-        return 0;
-    return pair_list_add(list, a, b);
-}
-
-/* Heap sort by west edge, for squares too crowded for insertion. Rows are told apart by number, so
- * the order is one. */
-static bool west_of(const struct sweep_box *box, struct bin_entry p, struct bin_entry q)
-{
-    float px = box[p.row].min_x, qx = box[q.row].min_x;
-    return px < qx || (!(qx < px) && p.row < q.row);
-}
-
-static void sift(const struct sweep_box *box, struct bin_entry *run, uint32_t root, uint32_t count)
-{
-    for (uint32_t child = 2 * root + 1; child < count; child = 2 * root + 1) {
-        if (child + 1 < count && west_of(box, run[child], run[child + 1]))
-            child++;
-        if (!west_of(box, run[root], run[child]))
-            return;
-        struct bin_entry swap = run[root];
-        run[root] = run[child];
-        run[child] = swap;
-        root = child;
-    }
-}
-
-static void sort_run(const struct sweep_box *box, struct bin_entry *run, uint32_t count)
-{
-    if (count <= INSERTION_MAX) {
-        for (uint32_t i = 1; i < count; i++) {
-            struct bin_entry entry = run[i];
-            uint32_t j = i;
-            for (; j > 0 && west_of(box, entry, run[j - 1]); j--)
-                run[j] = run[j - 1];
-            run[j] = entry;
-        }
-        return;
-    }
-    for (uint32_t i = count / 2; i-- > 0;)
-        sift(box, run, i, count);
-    for (uint32_t end = count - 1; end > 0; end--) {
-        struct bin_entry swap = run[0];
-        run[0] = run[end];
-        run[end] = swap;
-        sift(box, run, 0, end);
-    }
-}
-
-/* Sort and sweep along x within one square. */
-static int square_pairs(struct job *job, struct bin_entry *run, uint32_t count,
-                        struct pair_list *list)
-{
-    const struct sweep_box *box = job->broad->box;
-    sort_run(box, run, count);
-    for (uint32_t i = 0; i + 1 < count; i++) {
-        for (uint32_t j = i + 1; j < count && box[run[j].row].min_x <= box[run[i].row].max_x; j++) {
-            if (pair_up(job, &run[i], &run[j], list) != 0)
-                return -1;
-        }
-    }
-    return 0;
-}
-
-/* Squares that hold more than one row, as (first entry, entries), into the sort's second buffer. */
-static uint32_t list_runs(struct broad *broad)
-{
-    const struct bin_entry *entry = broad->entry;
-    struct bin_entry *runs = broad->other;
-    uint32_t count = 0;
-    for (uint32_t i = 0, end; i < broad->entry_count; i = end) {
-        for (end = i + 1; end < broad->entry_count && entry[end].square == entry[i].square;)
-            end++;
-        if (end - i > 1)
-            runs[count++] = (struct bin_entry){i, end - i};
-    }
-    return count;
-}
-
-static void meet_squares(void *context, uint32_t first, uint32_t end, uint32_t worker)
+static void meet_strips(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
-    struct broad *broad = job->broad;
-    for (uint32_t i = first; i < end; i++) {
-        struct bin_entry run = broad->other[i];
-        if (square_pairs(job, &broad->entry[run.square], run.row, &broad->list[worker]) != 0)
+    struct strip_lane *lane = &job->broad->lane[worker];
+    for (uint32_t strip = first; strip < end; strip++) {
+        if (strip_pairs(&job->strips, lane, strip) != 0)
             atomic_store(&job->failed, 1);
     }
 }
@@ -263,15 +226,29 @@ static void meet_squares(void *context, uint32_t first, uint32_t end, uint32_t w
 int broad_pairs(struct broad *broad, const struct detect_input *input)
 {
     struct job job = {.broad = broad, .input = input};
-    for (int i = 0; i < WORKERS_MAX; i++)
-        broad->list[i].count = 0;
-    workers_run(broad->workers, sweep_rows, &job, input->rows, ROWS_A_PIECE);
-    if (bin_rows(broad, input) != 0) {
-        errno = ENOMEM;
-        return -1;
+    struct workers *workers = input->rows > ALONE_MOST ? broad->workers : NULL;
+    const struct world *world = input->world;
+    for (uint32_t i = 0; i < world->counts.kinds; i++) {
+        job.grow[i] = detect_grow(world, &world->kinds[i]);
+        job.flags[i] = world->kinds[i].domain == DOMAIN_AIR ? BIN_AIR : 0;
     }
-    sort_entries(broad);
-    workers_run(broad->workers, meet_squares, &job, list_runs(broad), RUNS_A_PIECE);
+    job.strips = (struct strips){.input = input,
+                                 .standing = &broad->standing,
+                                 .box = broad->box,
+                                 .grow = job.grow,
+                                 .lane = broad->lane,
+                                 .lanes = broad->lanes};
+    for (uint32_t i = 0; i < broad->lanes; i++) {
+        bins_clear(&broad->lane[i].bins);
+        broad->lane[i].pairs = broad->list[i];
+        broad->lane[i].pairs.count = 0;
+    }
+    workers_run(workers, bin_rows, &job, input->rows, ROWS_A_PIECE);
+    workers_run(workers, meet_strips, &job, STRIP_COUNT, STRIPS_A_PIECE);
+    for (uint32_t i = 0; i < broad->lanes; i++) {
+        broad->list[i] = broad->lane[i].pairs;
+        broad->lane[i].pairs = (struct pair_list){0};
+    }
     if (atomic_load(&job.failed)) {
         errno = ENOMEM;
         return -1;
@@ -279,19 +256,83 @@ int broad_pairs(struct broad *broad, const struct detect_input *input)
     return 0;
 }
 
-uint32_t broad_square(const struct broad *broad, uint32_t square, const struct bin_entry **first)
+/* --- queries -----------------------------------------------------------------------------------*/
+
+static int by_row(const void *p, const void *q)
 {
-    uint32_t low = 0, high = broad->entry_count;
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        if (broad->entry[middle].square < square)
-            low = middle + 1;
-        else
-            high = middle;
+    const struct pair *a = p, *b = q;
+    return a->a != b->a ? (a->a < b->a ? -1 : 1) : (a->b > b->b) - (a->b < b->b);
+}
+
+/* Puts what was added since in order, each once. */
+static void order_found(struct pair_list *found, uint32_t since)
+{
+    struct pair *pair = found->pair + since;
+    uint32_t count = found->count - since, kept = 0;
+    if (count == 0)
+        return;
+    qsort(pair, count, sizeof *pair, by_row);
+    for (uint32_t i = 0; i < count; i++) {
+        if (kept == 0 || by_row(&pair[kept - 1], &pair[i]) != 0)
+            pair[kept++] = pair[i];
     }
-    uint32_t end = low;
-    while (end < broad->entry_count && broad->entry[end].square == square)
-        end++;
-    *first = broad->entry + low;
-    return end - low;
+    found->count = since + kept;
+}
+
+static struct bin_record record_of(const struct sweep_box *box, uint32_t strip)
+{
+    return (struct bin_record){.min_x = bin_steps(box->min_x),
+                               .max_x = bin_steps(box->max_x),
+                               .z = bin_z(box->min_z, box->max_z, strip)};
+}
+
+static int query_strip(const struct broad *broad, const struct bins *bins, uint32_t strip,
+                       const struct sweep_box *box, struct pair_list *found)
+{
+    struct bin_record one = record_of(box, strip);
+    uint32_t count;
+    const struct bin_chunk *chunk = bins_last(bins, strip, &count);
+    for (; chunk; chunk = chunk->before, count = BIN_CHUNK_RECORDS) {
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t row = chunk->record[i].tag & BIN_ROW;
+            if (bin_meet(&one, &chunk->record[i]) && detect_boxes_meet(box, &broad->box[row]) &&
+                pair_list_add(found, row, 0) != 0)
+                return -1;
+        }
+    }
+    return 0;
+}
+
+int broad_query(const struct broad *broad, const struct detect_input *input,
+                const struct sweep_box *box, struct pair_list *found)
+{
+    uint32_t since = found->count, last = bin_strip(box->max_z);
+    (void)input;
+    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
+        for (uint32_t i = 0; i < broad->lanes; i++) {
+            if (query_strip(broad, &broad->lane[i].bins, strip, box, found) != 0)
+                return -1;
+        }
+    }
+    order_found(found, since);
+    return 0;
+}
+
+int broad_query_fixed(const struct broad *broad, const struct detect_input *input,
+                      const struct sweep_box *box, struct pair_list *found)
+{
+    uint32_t since = found->count, last = bin_strip(box->max_z);
+    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
+        struct bin_record one = record_of(box, strip);
+        const struct bin_record *object = standing_from(&broad->standing, strip, one.min_x);
+        for (; object->min_x <= one.max_x; object++) {
+            uint32_t index = object->tag & BIN_OBJECT;
+            if (bin_meet(&one, object) &&
+                detect_box_meets_fixed(input, box, &input->world->fixed[index]) &&
+                pair_list_add(found, 0, index | PAIR_FIXED) != 0)
+                return -1;
+        }
+    }
+    order_found(found, since);
+    return 0;
 }

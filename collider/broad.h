@@ -1,40 +1,52 @@
-/* Broad phase: which bodies can meet in this frame. Moving bodies are put into the gridsquares that
- * the boxes around their sweeps touch, by a radix sort of (square, row) keys, so that the cost
- * follows the bodies and not the 160,000 squares; fixed ones are found by the squares' reach. */
+/* Broad phase: which bodies can meet in this frame. The world is cut into strips, rows of 400
+ * gridsquares. First each moving body goes, as a record of 16 bytes, into every strip that the box
+ * around its sweep touches (nearly always one); then each strip is sorted from west to east and
+ * swept, against itself and against the fixed objects that stand in it. Both passes run in
+ * parallel, by rows and by strips, and the cost follows the bodies: 500 of them cost little more
+ * than 500 records. */
 #ifndef JOLON_COLLIDER_BROAD_H
 #define JOLON_COLLIDER_BROAD_H
 
 #include "collider/detect.h"
+#include "collider/standing.h"
+#include "collider/strip.h"
 #include "world/workers.h"
 #include "world/world.h"
 
 #include <stdint.h>
 
-struct bin_entry {
-    uint32_t square;
-    uint32_t row;
-};
-
 struct broad {
     const struct world *world;
     struct workers *workers;
-    struct sweep_box *box; /* [capacity] */
-    struct bin_entry *entry, *other;
-    uint32_t entry_count, entry_capacity;
+    struct sweep_box *box; /* [capacity] of every row that is there */
+    struct standing standing;
+    struct strip_lane *lane; /* [lanes] one a worker */
+    uint32_t lanes;
     struct pair_list list[WORKERS_MAX]; /* one a worker: their order does not matter, since contacts
                                            are put in a total order */
 };
 
-/* 0, or -1 with errno ENOMEM. workers stays the caller's. */
+/* 0, or -1 with errno ENOMEM. The world's fixed objects are taken as they stand now. workers stays
+ * the caller's. */
 int broad_init(struct broad *broad, const struct world *world, struct workers *workers);
 void broad_free(struct broad *broad);
 
-/* Fills the lists with every pair whose swept boxes overlap, each once. Pairs that can never
- * collide are left out: a munition and its shooter, two wrecks at rest, a fixed object that is
- * already down. 0, or -1 with errno ENOMEM. */
+/* Fills the lists with every pair whose swept boxes overlap, each once; of bodies that cross
+ * several strips on a long way, only those that are near each other in one of them. Pairs that can
+ * never collide are left out: a munition and its shooter, two wrecks at rest, a fixed object that
+ * is already down. The set of pairs does not depend on the threads; their order may. 0, or -1 with
+ * errno ENOMEM. */
 int broad_pairs(struct broad *broad, const struct detect_input *input);
 
-/* Rows whose boxes touch the square, after broad_pairs: entries first .. first + count - 1. */
-uint32_t broad_square(const struct broad *broad, uint32_t square, const struct bin_entry **first);
+/* After broad_pairs: adds every row whose box (broad->box) meets this one, as pair.a, each once,
+ * ascending; pair.b is 0. A row on a long way counts where it passes. 0, or -1 with errno ENOMEM.
+ */
+int broad_query(const struct broad *broad, const struct detect_input *input,
+                const struct sweep_box *box, struct pair_list *found);
+
+/* Adds every fixed object, standing or down, whose box meets this one, as pair.b with PAIR_FIXED,
+ * each once, ascending; pair.a is 0. 0, or -1 with errno ENOMEM. */
+int broad_query_fixed(const struct broad *broad, const struct detect_input *input,
+                      const struct sweep_box *box, struct pair_list *found);
 
 #endif

@@ -20,10 +20,20 @@ int pair_list_add(struct pair_list *list, uint32_t a, uint32_t b)
     return 0;
 }
 
+static double kind_reach(const struct world *world, const struct kind *kind)
+{
+    return world->params->collision.shape == SHAPE_MODEL ? kind->bound_m : kind->radius_m;
+}
+
 double detect_row_reach(const struct detect_input *input, uint32_t row)
 {
-    const struct kind *kind = &input->world->kinds[input->entities->kind[row]];
-    return input->world->params->collision.shape == SHAPE_MODEL ? kind->bound_m : kind->radius_m;
+    return kind_reach(input->world, &input->world->kinds[input->entities->kind[row]]);
+}
+
+double detect_grow(const struct world *world, const struct kind *kind)
+{
+    double dt_s = world->params->dt_s;
+    return kind_reach(world, kind) + BOX_SLACK_M + lean_mps(dt_s) * dt_s;
 }
 
 double detect_fixed_reach(const struct world *world, const struct fixed_object *object)
@@ -36,15 +46,8 @@ double detect_fixed_reach(const struct world *world, const struct fixed_object *
 
 struct sweep_box detect_box(const struct detect_input *input, uint32_t row)
 {
-    const struct path *path = &input->path[row];
-    double dt_s = input->world->params->dt_s;
-    struct vec3 p = path_at(path, path->since), q = path_at(path, 1.0);
-    double grow = detect_row_reach(input, row) + BOX_SLACK_M + lean_mps(dt_s) * dt_s;
-    return (struct sweep_box){
-        (float)(maths_min(p.x, q.x) - grow), (float)(maths_min(p.y, q.y) - grow),
-        (float)(maths_min(p.z, q.z) - grow), (float)(maths_max(p.x, q.x) + grow),
-        (float)(maths_max(p.y, q.y) + grow), (float)(maths_max(p.z, q.z) + grow),
-    };
+    const struct kind *kind = &input->world->kinds[input->entities->kind[row]];
+    return detect_way_box(&input->path[row], detect_grow(input->world, kind));
 }
 
 static bool rests(const struct path *path)

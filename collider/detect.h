@@ -64,6 +64,20 @@ static inline double lean_mps(double dt_s)
 double detect_row_reach(const struct detect_input *input, uint32_t row);
 double detect_fixed_reach(const struct world *world, const struct fixed_object *object);
 
+/* How far a kind's box reaches beyond its way [m]. */
+double detect_grow(const struct world *world, const struct kind *kind);
+
+/* The box around a way. */
+static inline struct sweep_box detect_way_box(const struct path *path, double grow)
+{
+    struct vec3 p = path->at, q = path_at(path, 1.0);
+    return (struct sweep_box){
+        (float)(maths_min(p.x, q.x) - grow), (float)(maths_min(p.y, q.y) - grow),
+        (float)(maths_min(p.z, q.z) - grow), (float)(maths_max(p.x, q.x) + grow),
+        (float)(maths_max(p.y, q.y) + grow), (float)(maths_max(p.z, q.z) + grow),
+    };
+}
+
 /* The row's box. */
 struct sweep_box detect_box(const struct detect_input *input, uint32_t row);
 

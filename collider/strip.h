@@ -1,0 +1,54 @@
+/* One strip of gridsquares: which of the records in it meet, and which fixed objects they meet.
+ * Strips are independent of each other; each worker has a lane to work in. */
+#ifndef JOLON_COLLIDER_STRIP_H
+#define JOLON_COLLIDER_STRIP_H
+
+#include "collider/bins.h"
+#include "collider/detect.h"
+#include "collider/standing.h"
+
+#include <stdint.h>
+
+/* What a worker works with; kept from frame to frame. */
+struct strip_lane {
+    struct bins bins;
+    struct bin_record *record; /* [capacity] the strip's, as gathered */
+    struct bin_record *sorted; /* [capacity] bucket by bucket from west to east, and padding */
+    /* The sorted records' parts, and padding that meets nothing. */
+    int32_t *min_x, *max_x, *low_z, *high_z;
+    uint32_t *tag;
+    uint32_t tags; /* of all together */
+    uint32_t count, capacity;
+    uint32_t *bucket; /* [bucket_capacity] where the bucket's records end */
+    uint32_t bucket_capacity;
+    uint32_t shift;         /* a bucket is 2^shift steps wide */
+    struct pair *candidate; /* tags of records that meet, a strip's worth */
+    uint32_t candidates, candidate_capacity;
+    struct pair_list pairs; /* the result */
+};
+
+/* What the strips of a frame share. */
+struct strips {
+    const struct detect_input *input;
+    const struct standing *standing;
+    const struct sweep_box *box; /* [rows] */
+    const double *grow;          /* [kinds] from a row's way to its box */
+    struct strip_lane *lane;     /* [lanes] whose bins make up the strips */
+    uint32_t lanes;
+};
+
+void strip_lane_free(struct strip_lane *lane);
+
+/* The part of a row's box in which it can be while it is in the strip, from west to east: the whole
+ * of it, but for long ways. */
+struct strip_span {
+    int32_t min_x, max_x; /* [steps] */
+};
+struct strip_span strip_span(const struct path *path, const struct sweep_box *box, double grow,
+                             uint32_t strip);
+
+/* Adds to the lane's pairs what meets in this strip and in none before it. 0, or -1 with errno
+ * ENOMEM. */
+int strip_pairs(const struct strips *strips, struct strip_lane *lane, uint32_t strip);
+
+#endif
