@@ -9,6 +9,9 @@ CC       ?= gcc
 ifeq ($(origin CC),default)
 CC       := gcc
 endif
+ifeq ($(origin CXX),default)
+CXX      := g++
+endif
 OPT      ?= -O2
 SAN      ?=
 PREFIX   ?= /usr/local
@@ -28,6 +31,8 @@ WARN := -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wsign-conversion
         -Wnull-dereference -Wwrite-strings
 CFLAGS_ALL := -std=c17 $(OPT) -g -fno-common -ffp-contract=off -fno-strict-overflow -pthread \
         -D_GNU_SOURCE -I. $(WARN)
+# For the one file of C++: what both languages know.
+CXXFLAGS_ALL = $(filter-out -std=% -Wstrict-prototypes -Wmissing-prototypes,$(CFLAGS_ALL))
 LDFLAGS_ALL := -pthread
 ifneq ($(SAN),)
 CFLAGS_ALL  += -fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all
@@ -57,6 +62,7 @@ RENDERER_SRC := $(wildcard renderer/*.c)
 REPORTER_SRC := $(wildcard reporter/*.c)
 MONITOR_SRC  := $(wildcard monitor/*.c)
 BENCH_SRC    := $(wildcard bench/*.c)
+BENCH_CPP    := $(wildcard bench/*.cpp)
 UNIT_SRC     := $(wildcard tests/unit/test_*.c)
 PROPERTY_SRC := $(wildcard tests/property/test_*.c)
 SUPPORT_SRC  := $(wildcard tests/support/*.c)
@@ -85,6 +91,9 @@ JSON_CFLAGS   = $(call pc,cflags,libcjson)
 JSON_LIBS     = $(call pc,libs,libcjson)
 CURSES_LIBS   = $(call pc,libs,ncursesw)
 HASH_LIBS     = $(call pc,libs,libxxhash)
+# The engines that jolon-bench measures us beside; their headers are not held to our warnings.
+PEER_CFLAGS   = $(patsubst -I%,-isystem %,$(call pc,cflags,bullet))
+PEER_LIBS     = $(call pc,libs,ode) $(filter-out -lBulletSoftBody -lBulletDynamics,$(call pc,libs,bullet))
 TEST_LIBS     = $(call pc,libs,cmocka)
 BASE_LIBS     = $(HASH_LIBS) -lm
 
@@ -113,8 +122,8 @@ $(BIN)/jolon-ctl: $(call objects,$(filter reporter/ctl%.c reporter/dds%.c,$(REPO
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-monitor: $(call objects,$(MONITOR_SRC) $(filter reporter/dds%.c,$(REPORTER_SRC))) $(STATUS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-bench: $(call objects,$(BENCH_SRC)) $(STEPS) $(CONFIG) $(IPC) $(WORLD)
-	$(call link,$(CONFIG_LIBS) $(JSON_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-bench: $(call objects,$(BENCH_SRC)) $(patsubst %.cpp,$(OBJ)/%.o,$(BENCH_CPP)) $(STEPS) $(CONFIG) $(IPC) $(WORLD)
+	$(call link,$(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS) -lstdc++)
 $(BIN)/jolon: supervisor/jolon
 	@mkdir -p $(@D); install -m 755 $< $@
 
@@ -128,6 +137,10 @@ $(call objects,$(REPORTER_SRC) $(MONITOR_SRC)): $(IDL)/status.h
 $(OBJ)/%.o: %.c $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CC $<"
 	@$(CC) $(CFLAGS_ALL) $(CFLAGS_EXTRA) -MMD -MP -c -o $@ $<
+
+$(OBJ)/%.o: %.cpp $(BUILD)/flags | $(STAMP)
+	@mkdir -p $(@D); echo "  CXX $<"
+	@$(CXX) -std=c++17 $(CXXFLAGS_ALL) $(PEER_CFLAGS) -MMD -MP -c -o $@ $<
 
 # Generated from the IDL; generated code is not held to our warnings.
 $(IDL)/status.c $(IDL)/status.h &: ipc/status.idl | $(STAMP)

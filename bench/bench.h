@@ -8,12 +8,13 @@
 
 struct bench_options {
     uint32_t vehicles, threads, frames;
-    bool json;
+    bool json, peers;
 };
 
-/* --vehicles N, --threads T, --frames F, --json; wrong usage ends the process (exit 2). */
+/* --vehicles N, --threads T, --frames F, --peers, --json; wrong usage ends the process (exit 2). */
 struct bench_options bench_options(int argc, char **argv, struct bench_options defaults);
 
+int bench_detect(int argc, char **argv);   /* detect.c */
 int bench_handover(int argc, char **argv); /* handover.c */
 int bench_frame(int argc, char **argv);    /* frame.c */
 

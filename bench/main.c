@@ -11,11 +11,10 @@
 
 struct bench_options bench_options(int argc, char **argv, struct bench_options chosen)
 {
-    static const struct option options[] = {{"vehicles", required_argument, NULL, 'v'},
-                                            {"threads", required_argument, NULL, 't'},
-                                            {"frames", required_argument, NULL, 'f'},
-                                            {"json", no_argument, NULL, 'j'},
-                                            {NULL, 0, NULL, 0}};
+    static const struct option options[] = {
+        {"vehicles", required_argument, NULL, 'v'}, {"threads", required_argument, NULL, 't'},
+        {"frames", required_argument, NULL, 'f'},   {"peers", no_argument, NULL, 'p'},
+        {"json", no_argument, NULL, 'j'},           {NULL, 0, NULL, 0}};
     int option;
     while ((option = getopt_long(argc, argv, "", options, NULL)) != -1) {
         switch (option) {
@@ -27,6 +26,9 @@ struct bench_options bench_options(int argc, char **argv, struct bench_options c
             break;
         case 'f':
             chosen.frames = (uint32_t)process_whole("frames", optarg, 1, 10000000);
+            break;
+        case 'p':
+            chosen.peers = true;
             break;
         case 'j':
             chosen.json = true;
@@ -59,6 +61,9 @@ static const struct {
 } benches[] = {
     {"handover", bench_handover,
      "[--frames F] [--json]     a frame without work, beside a bare futex ping-pong"},
+    {"detect", bench_detect,
+     "[--vehicles N] [--threads T] [--frames F] [--peers] [--json]     detection beside ODE, "
+     "Bullet"},
     {"frame", bench_frame,
      "[--vehicles N] [--threads T] [--frames F] [--json]     the steps of a frame"},
 };
