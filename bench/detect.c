@@ -11,7 +11,11 @@
 #include <string.h>
 
 #define LONGEST_NS (60ull * NS_PER_S) /* an engine's run ends here */
-#define STEPS_MAX  330
+#define STEPS_MOST 330
+
+static const struct engine *const engines[] = {&engine_jolon, &engine_ode, &engine_bullet};
+
+#define ENGINES (sizeof engines / sizeof engines[0])
 
 struct result {
     const struct engine *engine;
@@ -113,12 +117,11 @@ static void print(const struct result *result, uint32_t vehicles, bool json)
 
 static uint32_t steps_for(uint32_t vehicles)
 {
-    return vehicles <= 100000 ? STEPS_MAX : STEPS_MAX / 5;
+    return vehicles <= 100000 ? STEPS_MOST : STEPS_MOST / 5;
 }
 
 int bench_detect(int argc, char **argv)
 {
-    static const struct engine *const peers[] = {&engine_ode_hash, &engine_ode_sap, &engine_bullet};
     struct bench_options options =
         bench_options(argc, argv, (struct bench_options){.vehicles = 500, .threads = 1});
     struct workload workload;
@@ -127,10 +130,8 @@ int bench_detect(int argc, char **argv)
     if (options.frames == 0)
         options.frames = steps_for(options.vehicles);
     workload_open(&workload, options.vehicles);
-    struct result result = measure(&engine_jolon, &workload, options);
-    print(&result, options.vehicles, options.json);
-    for (size_t i = 0; options.peers && i < sizeof peers / sizeof peers[0]; i++) {
-        result = measure(peers[i], &workload, options);
+    for (size_t i = 0; i < (options.peers ? ENGINES : 1); i++) {
+        struct result result = measure(engines[i], &workload, options);
         print(&result, options.vehicles, options.json);
     }
     workload_close(&workload);

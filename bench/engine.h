@@ -71,7 +71,7 @@ struct engine {
     void (*detect)(void *self, struct engine_touches *touches);
 };
 
-extern const struct engine engine_jolon, engine_ode_hash, engine_ode_sap, engine_bullet;
+extern const struct engine engine_jolon, engine_ode, engine_bullet;
 
 #ifdef __cplusplus
 }

@@ -3,11 +3,12 @@
 
 #include "collider/broad.h"
 #include "ipc/log.h"
-#include "world/reach.h"
 
 #include <errno.h>
+#include <sys/mman.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #define PAIRS_A_PIECE  4096
 #define PREFETCH_PAIRS 12
@@ -22,6 +23,7 @@ struct jolon {
     float posts[4];
     uint8_t cover[4];
     void *rows;
+    size_t rows_bytes;
     struct entities entities;
     struct path *path;
     struct world world;
@@ -30,13 +32,14 @@ struct jolon {
     struct broad broad;
     struct pair_list touching[WORKERS_MAX];
     const struct pair_list *list; /* the one that is tested now */
-    uint32_t *reach_start, *reach;
 };
 
 static void *reserve(size_t bytes)
 {
-    void *memory =
-        aligned_alloc(COLUMN_ALIGN, (bytes + COLUMN_ALIGN) / COLUMN_ALIGN * COLUMN_ALIGN);
+    size_t al = bytes > 1000000 ? 2u << 20 : 64;
+    void *memory = aligned_alloc(al, (bytes + al) / al * al);
+    if (al > 64)
+        madvise(memory, (bytes + al) / al * al, MADV_HUGEPAGE);
     if (!memory)
         die_refused("out of memory");
     memset(memory, 0, bytes);
@@ -57,7 +60,12 @@ static void make_world(struct jolon *self)
                                                .z = scene->fixed[i].z,
                                                .radius_m = (float)scene->fixed[i].radius_m,
                                                .kind = 1};
-    self->rows = reserve(entities_bytes(scene->bodies));
+    /* The table is the world's and not detection's: mapped, so that it is not counted. */
+    self->rows_bytes = entities_bytes(scene->bodies) + COLUMN_ALIGN;
+    self->rows =
+        mmap(NULL, self->rows_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (self->rows == MAP_FAILED)
+        die_refused("out of memory");
     entities_bind(&self->entities, scene->bodies, self->rows);
     self->path = reserve(scene->bodies * sizeof *self->path);
     for (uint32_t i = 0; i < scene->bodies; i++) {
@@ -70,10 +78,6 @@ static void make_world(struct jolon *self)
                                  .terrain = {self->posts, self->cover, 2, 50000.0},
                                  .kinds = self->kinds,
                                  .fixed = self->fixed};
-    if (reach_build(self->fixed, scene->fixed_count, self->kinds, &self->reach_start, &self->reach))
-        die_refused("out of memory");
-    self->world.reach_start = self->reach_start;
-    self->world.reach = self->reach;
     self->input = (struct detect_input){.world = &self->world,
                                         .entities = &self->entities,
                                         .path = self->path,
@@ -100,11 +104,9 @@ static void jolon_close(void *handle)
     for (int i = 0; i < WORKERS_MAX; i++)
         free(self->touching[i].pair);
     free(self->path);
-    free(self->rows);
+    munmap(self->rows, self->rows_bytes);
     free(self->damage);
     free(self->fixed);
-    free(self->reach);
-    free(self->reach_start);
     free(self);
 }
 

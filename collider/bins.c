@@ -54,5 +54,6 @@ struct bin_record *bins_chunk(struct bins *bins, uint32_t strip)
         return NULL;
     struct bin_chunk *chunk = &bins->slab[bins->slab_now].chunk[bins->chunk_now++];
     chunk->before = next ? (struct bin_chunk *)(void *)next - 1 : NULL;
+    chunk->before_that = chunk->before ? chunk->before->before : NULL;
     return chunk->record;
 }

@@ -22,6 +22,7 @@
 #define BIN_ROUND  0x00200000u /* a munition: detect_apart decides */
 #define BIN_AIR    0x00400000u /* an aircraft: detect_tests_fixed decides */
 #define BIN_LONG   0x00800000u /* a long way: narrower in each strip than its box is */
+#define BIN_WIDE   0x01000000u /* wider than BIN_WIDE_STEPS, or long */
 #define BIN_OBJECT 0x7fffffffu /* of a fixed object's tag: its index */
 #define BIN_SPANS  0x80000000u /* in several strips */
 
@@ -29,15 +30,19 @@
  * north edge and cut off at the strip's edges. A bound is rounded down on both sides, which keeps
  * the order of any two and so every overlap. */
 struct bin_record {
-    int32_t min_x, max_x; /* 0 .. BIN_X_LAST */
+    int32_t min_x, max_x; /* 0 .. BIN_LAST */
     uint32_t z;           /* low | high << 16 */
     uint32_t tag;
 };
 
 #define BIN_STEPS_PER_M 512
-#define BIN_X_BITS      25 /* 65 km */
-#define BIN_X_LAST      ((1 << BIN_X_BITS) - 2)
-#define BIN_Z_LAST      65535
+#define BIN_STRIP_STEPS 64000    /* 125 m */
+#define BIN_LAST        25599998 /* the last within the world that a float can hold */
+#define BIN_BITS        25       /* of any number of steps */
+#define BIN_WIDE_STEPS  (16 * BIN_STEPS_PER_M)
+
+_Static_assert(BIN_STRIP_STEPS == (int)SQUARE_SIDE_M * BIN_STEPS_PER_M, "a strip is a square deep");
+_Static_assert(BIN_LAST / BIN_STRIP_STEPS == STRIP_COUNT - 1, "all of the world, no strip more");
 
 _Static_assert(sizeof(struct bin_record) == 16, "four to a cache line");
 
@@ -45,8 +50,8 @@ _Static_assert(sizeof(struct bin_record) == 16, "four to a cache line");
 #define BIN_CHUNK_RECORDS (BIN_CHUNK_BYTES / sizeof(struct bin_record) - 1)
 
 struct bin_chunk {
-    struct bin_chunk *before; /* of the same strip, full; NULL: the first */
-    uint64_t reserved;
+    /* Of the same strip and full: the one before, and the one before that; NULL: none. */
+    struct bin_chunk *before, *before_that;
     struct bin_record record[BIN_CHUNK_RECORDS];
 };
 
@@ -99,40 +104,39 @@ static inline const struct bin_chunk *bins_last(const struct bins *bins, uint32_
     return chunk;
 }
 
-static inline float bin_clamp(float value, float last)
+/* Metres as steps, still a float; what lies outside the world is at its edge. Ascends. */
+static inline float bin_scaled(float metres)
 {
-    value = value > 0.0f ? value : 0.0f; /* not a number gives 0 */
-    return value < last ? value : last;
+    float steps = metres * BIN_STEPS_PER_M;
+    steps = steps > 0.0f ? steps : 0.0f; /* not a number gives 0 */
+    return steps < (float)BIN_LAST ? steps : (float)BIN_LAST;
 }
 
-/* The strip of z [m]; what lies outside the world is in its first or last. Ascends with z. */
+static inline int32_t bin_steps(float metres)
+{
+    return (int32_t)bin_scaled(metres);
+}
+
 static inline uint32_t bin_strip(float z)
 {
-    return (uint32_t)(int32_t)bin_clamp(z * (float)(1.0 / SQUARE_SIDE_M), STRIP_COUNT - 1);
+    return (uint32_t)bin_steps(z) / BIN_STRIP_STEPS;
 }
 
-/* x, or z within a strip, in steps. Ascend with x and z. */
-static inline int32_t bin_x(float x)
-{
-    return (int32_t)bin_clamp(x * BIN_STEPS_PER_M, BIN_X_LAST);
-}
-
-static inline float bin_depth(float z, int32_t strip)
-{
-    float edge = (float)strip * (float)(SQUARE_SIDE_M * BIN_STEPS_PER_M);
-    return bin_clamp(z * BIN_STEPS_PER_M - edge, BIN_Z_LAST);
-}
-
+/* A record's z in the strip. */
 static inline uint32_t bin_z(float min_z, float max_z, uint32_t strip)
 {
-    return (uint32_t)(int32_t)bin_depth(min_z, (int32_t)strip) |
-           (uint32_t)(int32_t)bin_depth(max_z, (int32_t)strip) << 16;
+    int32_t edge = (int32_t)strip * BIN_STRIP_STEPS;
+    int32_t low = bin_steps(min_z) - edge, high = bin_steps(max_z) - edge;
+    low = low > 0 ? low : 0;
+    high = high < BIN_STRIP_STEPS ? high : BIN_STRIP_STEPS;
+    return (uint32_t)low | (uint32_t)high << 16;
 }
 
+/* Without branches: in no order, half of the comparisons come out either way. */
 static inline bool bin_meet(const struct bin_record *p, const struct bin_record *q)
 {
-    return p->min_x <= q->max_x && q->min_x <= p->max_x && (p->z & 0xffffu) <= q->z >> 16 &&
-           (q->z & 0xffffu) <= p->z >> 16;
+    return (p->min_x <= q->max_x) & (q->min_x <= p->max_x) & ((p->z & 0xffffu) <= q->z >> 16) &
+           ((q->z & 0xffffu) <= p->z >> 16);
 }
 
 #endif

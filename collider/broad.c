@@ -1,6 +1,7 @@
 /* The broad phase over strips. */
 #include "collider/broad.h"
 
+#include "collider/clones.h"
 #include "world/entity.h"
 
 #include <errno.h>
@@ -45,42 +46,50 @@ struct job {
     struct strips strips;
     double grow[KIND_COUNT_MAX];
     uint32_t flags[KIND_COUNT_MAX]; /* of the tag */
-    int32_t width[WORKERS_MAX];     /* [steps] of the widest row but for wide ones */
     _Atomic int failed;
 };
 
 /* --- rows into strips --------------------------------------------------------------------------*/
 
 /* A block of rows on their way into the strips: each property in a row of its own, so that the
- * compiler makes vectors of the loops. They do what detect_box and bins.h's functions do. */
+ * compiler makes vectors of the loops. What they do is what detect_box and bins.h's functions do.
+ */
 struct block {
-    double grow[BLOCK];
-    uint32_t tag[BLOCK];
+    _Alignas(64) double grow[BLOCK];
     float min_x[BLOCK], max_x[BLOCK], min_z[BLOCK], max_z[BLOCK];
-    float part[BLOCK];
-    int32_t first[BLOCK], last[BLOCK];                                /* strips */
-    int32_t low_x[BLOCK], high_x[BLOCK], low_z[BLOCK], high_z[BLOCK]; /* [steps] */
+    int32_t west[BLOCK], east[BLOCK], north[BLOCK], south[BLOCK]; /* the same [steps] */
+    uint32_t tag[BLOCK];
+    uint32_t strip[BLOCK]; /* STRIP_COUNT: several */
+    struct bin_record record[BLOCK];
     /* Fewer rows than a block are copied here first. */
     struct path path[BLOCK];
     struct sweep_box box[BLOCK];
 };
 
-static bool rests(const struct path *path)
+static uint64_t bits_of(double value)
 {
-    uint64_t bits[3];
-    memcpy(bits, &path->along, sizeof bits);
-    return (bits[0] | bits[1] | bits[2]) << 1 == 0; /* 0.0 or -0.0 */
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
 }
 
-static void name_rows(const struct job *job, struct block *block, const struct path *path,
-                      uint32_t first, uint32_t count)
+static bool rests(const struct path *path)
+{
+    uint64_t any = bits_of(path->along.x) | bits_of(path->along.y) | bits_of(path->along.z);
+    return any << 1 == 0 && !path->turns; /* 0.0 or -0.0 each */
+}
+
+static void name_rows(const struct job *job, struct block *restrict block,
+                      const struct path *restrict path, uint32_t first, uint32_t count)
 {
     const struct entities *e = job->input->entities;
+    const uint8_t *state = e->state + first, *behaviour = e->behaviour + first;
+    const uint16_t *kinds = e->kind + first;
     for (uint32_t k = 0; k < count; k++) {
-        uint32_t row = first + k, kind = detect_there(job->input, row) ? e->kind[row] : 0;
+        uint32_t kind = state[k] != ENTITY_FREE ? kinds[k] : 0;
         block->grow[k] = job->grow[kind];
-        block->tag[k] = row | job->flags[kind] | (rests(&path[k]) ? BIN_RESTS : 0) |
-                        (e->behaviour[row] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0);
+        block->tag[k] = (first + k) | job->flags[kind] | (rests(&path[k]) ? BIN_RESTS : 0) |
+                        (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0);
     }
 }
 
@@ -88,14 +97,16 @@ static void box_rows(struct block *restrict block, const struct path *restrict p
                      struct sweep_box *restrict box)
 {
     for (uint32_t k = 0; k < BLOCK; k++) {
-        double left = 1.0 - path[k].since, grow = block->grow[k], low[2], high[2];
-        double at[2] = {path[k].at.x, path[k].at.y}, along[2] = {path[k].along.x, path[k].along.y};
+        const struct path *way = &path[k];
+        __builtin_prefetch(&way[2 * BLOCK], 0, 2);
+        double left = 1.0 - way->since, grow = block->grow[k], low[2], high[2];
+        double at[2] = {way->at.x, way->at.y}, along[2] = {way->along.x, way->along.y};
         for (int axis = 0; axis < 2; axis++) {
             double to = at[axis] + along[axis] * left;
             low[axis] = maths_min(at[axis], to) - grow;
             high[axis] = maths_max(at[axis], to) + grow;
         }
-        double z = path[k].at.z, to_z = z + path[k].along.z * left;
+        double z = way->at.z, to_z = z + way->along.z * left;
         block->min_x[k] = box[k].min_x = (float)low[0];
         block->max_x[k] = box[k].max_x = (float)high[0];
         block->min_z[k] = box[k].min_z = (float)(maths_min(z, to_z) - grow);
@@ -105,38 +116,44 @@ static void box_rows(struct block *restrict block, const struct path *restrict p
     }
 }
 
-/* In two loops: in one, gcc makes branches of the clamp. */
-static void scale(const float *restrict from, float by, float last, float *restrict part,
-                  int32_t *restrict to)
+/* bin_steps of each. In two loops: of one, gcc makes branches. */
+static void scale(float *restrict metres, int32_t *restrict steps)
 {
     for (uint32_t k = 0; k < BLOCK; k++)
-        part[k] = bin_clamp(from[k] * by, last);
+        metres[k] = bin_scaled(metres[k]);
     for (uint32_t k = 0; k < BLOCK; k++)
-        to[k] = (int32_t)part[k];
+        steps[k] = (int32_t)metres[k];
 }
 
-static void scale_depth(const float *restrict z, const int32_t *restrict strip,
-                        float *restrict part, int32_t *restrict to)
+static void make_records(struct block *restrict block)
 {
-    for (uint32_t k = 0; k < BLOCK; k++)
-        part[k] = bin_depth(z[k], strip[k]);
-    for (uint32_t k = 0; k < BLOCK; k++)
-        to[k] = (int32_t)part[k];
+    for (size_t k = 0; k < BLOCK; k++) {
+        uint32_t north = (uint32_t)block->north[k];
+        uint32_t strip = north / BIN_STRIP_STEPS, edge = strip * BIN_STRIP_STEPS;
+        uint32_t south = (uint32_t)block->south[k] - edge;
+        int32_t width = block->east[k] - block->west[k];
+        block->record[k].min_x = block->west[k];
+        block->record[k].max_x = block->east[k];
+        block->record[k].z = (north - edge) | south << 16;
+        block->record[k].tag = block->tag[k] | (width > BIN_WIDE_STEPS ? BIN_WIDE : 0);
+        block->strip[k] = south < BIN_STRIP_STEPS ? strip : STRIP_COUNT;
+    }
 }
 
-static int add_spanning(const struct job *job, struct bins *bins, const struct block *block,
-                        uint32_t k)
+static int add_spanning(const struct job *job, struct bins *bins, uint32_t tag)
 {
-    uint32_t row = block->tag[k] & BIN_ROW;
+    uint32_t row = tag & BIN_ROW;
     const struct path *path = &job->input->path[row];
     const struct sweep_box *box = &job->broad->box[row];
     bool is_long = fabs(path->along.x) > LONG_M;
-    struct bin_record record = {.min_x = block->low_x[k],
-                                .max_x = block->high_x[k],
-                                .tag = block->tag[k] | BIN_SPANS | (is_long ? BIN_LONG : 0)};
-    for (uint32_t strip = (uint32_t)block->first[k]; strip <= (uint32_t)block->last[k]; strip++) {
+    double grow = job->grow[job->input->entities->kind[row]];
+    struct bin_record record = {.min_x = bin_steps(box->min_x),
+                                .max_x = bin_steps(box->max_x),
+                                .tag = tag | BIN_SPANS | (is_long ? BIN_LONG | BIN_WIDE : 0)};
+    uint32_t last = bin_strip(box->max_z);
+    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
         if (is_long) {
-            struct strip_span span = strip_span(path, box, block->grow[k], strip);
+            struct strip_span span = strip_span(path, box, grow, strip);
             record.min_x = span.min_x;
             record.max_x = span.max_x;
         }
@@ -148,22 +165,21 @@ static int add_spanning(const struct job *job, struct bins *bins, const struct b
 }
 
 static int add_rows(const struct job *job, struct bins *bins, const struct block *block,
-                    uint32_t count)
+                    uint32_t first, uint32_t count)
 {
+    const uint8_t *state = job->input->entities->state + first;
     for (uint32_t k = 0; k < count; k++) {
-        uint32_t z = (uint32_t)block->low_z[k] | (uint32_t)block->high_z[k] << 16;
-        struct bin_record record = {block->low_x[k], block->high_x[k], z, block->tag[k]};
-        if (!detect_there(job->input, record.tag & BIN_ROW))
+        if (state[k] == ENTITY_FREE)
             continue;
-        if ((block->first[k] == block->last[k] ? bins_add(bins, (uint32_t)block->first[k], record)
-                                               : add_spanning(job, bins, block, k)) != 0)
+        if ((block->strip[k] < STRIP_COUNT ? bins_add(bins, block->strip[k], block->record[k])
+                                           : add_spanning(job, bins, block->record[k].tag)) != 0)
             return -1;
     }
     return 0;
 }
 
-static int bin_block(struct job *job, struct block *block, uint32_t first, uint32_t count,
-                     uint32_t worker)
+static int bin_block(const struct job *job, struct block *block, struct bins *bins, uint32_t first,
+                     uint32_t count)
 {
     const struct path *path = job->input->path + first;
     struct sweep_box *box = job->broad->box + first;
@@ -176,27 +192,21 @@ static int bin_block(struct job *job, struct block *block, uint32_t first, uint3
     box_rows(block, path, box);
     if (count < BLOCK)
         memcpy(job->broad->box + first, box, count * sizeof *box);
-    scale(block->min_z, (float)(1.0 / SQUARE_SIDE_M), STRIP_COUNT - 1, block->part, block->first);
-    scale(block->max_z, (float)(1.0 / SQUARE_SIDE_M), STRIP_COUNT - 1, block->part, block->last);
-    scale(block->min_x, BIN_STEPS_PER_M, BIN_X_LAST, block->part, block->low_x);
-    scale(block->max_x, BIN_STEPS_PER_M, BIN_X_LAST, block->part, block->high_x);
-    scale_depth(block->min_z, block->first, block->part, block->low_z);
-    scale_depth(block->max_z, block->first, block->part, block->high_z);
-    int32_t width = job->width[worker];
-    for (uint32_t k = 0; k < count; k++) {
-        int32_t w = block->high_x[k] - block->low_x[k];
-        width = w > width && w <= STRIP_WIDE ? w : width;
-    }
-    job->width[worker] = width;
-    return add_rows(job, &job->broad->lane[worker].bins, block, count);
+    scale(block->min_x, block->west);
+    scale(block->max_x, block->east);
+    scale(block->min_z, block->north);
+    scale(block->max_z, block->south);
+    make_records(block);
+    return add_rows(job, bins, block, first, count);
 }
 
-static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
+VECTOR_CLONES static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
     struct block block = {0};
+    struct bins *bins = &job->broad->lane[worker].bins;
     for (uint32_t row = first; row < end; row += BLOCK) {
-        if (bin_block(job, &block, row, end - row < BLOCK ? end - row : BLOCK, worker) != 0)
+        if (bin_block(job, &block, bins, row, end - row < BLOCK ? end - row : BLOCK) != 0)
             atomic_store(&job->failed, 1);
     }
 }
@@ -234,8 +244,6 @@ int broad_pairs(struct broad *broad, const struct detect_input *input)
         broad->lane[i].pairs.count = 0;
     }
     workers_run(workers, bin_rows, &job, input->rows, ROWS_A_PIECE);
-    for (uint32_t i = 0; i < broad->lanes; i++)
-        job.strips.width = job.width[i] > job.strips.width ? job.width[i] : job.strips.width;
     workers_run(workers, meet_strips, &job, STRIP_COUNT, STRIPS_A_PIECE);
     for (uint32_t i = 0; i < broad->lanes; i++) {
         broad->list[i] = broad->lane[i].pairs;
@@ -273,8 +281,8 @@ static void order_found(struct pair_list *found, uint32_t since)
 
 static struct bin_record record_of(const struct sweep_box *box, uint32_t strip)
 {
-    return (struct bin_record){.min_x = bin_x(box->min_x),
-                               .max_x = bin_x(box->max_x),
+    return (struct bin_record){.min_x = bin_steps(box->min_x),
+                               .max_x = bin_steps(box->max_x),
                                .z = bin_z(box->min_z, box->max_z, strip)};
 }
 

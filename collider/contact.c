@@ -40,6 +40,7 @@ void contacts_free(struct contacts *contacts)
         free(contacts->found[i].contact);
     free(contacts->pair);
     free(contacts->met);
+    free(contacts->swept);
     free(contacts->link);
     free(contacts->head);
     free(contacts->version);
@@ -63,6 +64,10 @@ static int reserve_pairs(struct contacts *contacts, uint32_t count)
     if (!met)
         return -1;
     contacts->met = met;
+    uint32_t *swept = realloc(contacts->swept, capacity * sizeof *swept);
+    if (!swept)
+        return -1;
+    contacts->swept = swept;
     contacts->pair_capacity = capacity;
     return 0;
 }
@@ -84,6 +89,7 @@ static int add_pair(struct contacts *contacts, struct pair pair)
     uint32_t index = contacts->pair_count++;
     contacts->pair[index] = pair;
     contacts->met[index] = 0;
+    contacts->swept[index] = 0;
     if (link_row(contacts, pair.a, index) != 0)
         return -1;
     return pair.b & PAIR_FIXED ? 0 : link_row(contacts, pair.b, index);
@@ -98,6 +104,7 @@ int contacts_begin(struct contacts *contacts, const struct pair_list *lists, uin
     contacts->link_count = 0;
     contacts->pair_count = 0;
     contacts->stray_count = 0;
+    contacts->change = 0;
     if (reserve_pairs(contacts, total) != 0)
         return -1;
     for (uint32_t i = 0; i < list_count; i++) {
@@ -279,10 +286,9 @@ bool contacts_next(struct contacts *contacts, const struct contact_input *input,
     return true;
 }
 
-void contacts_settle(struct contacts *contacts, const struct contact_input *input,
-                     const struct contact *contact)
+void contacts_settle(struct contacts *contacts, const struct contact *contact)
 {
-    contacts->met[contact->pair - 1] = (uint8_t)input->meets;
+    contacts->swept[contact->pair - 1] = contacts->change + 1;
 }
 
 /* --- another way -------------------------------------------------------------------------------*/
@@ -359,20 +365,35 @@ static int look_around(struct contacts *contacts, const struct contact_input *in
     return 0;
 }
 
-int contacts_change(struct contacts *contacts, const struct contact_input *input, uint32_t row,
-                    double time)
+/* Sweeps the row's pairs, but for those that this change has swept from the other side. */
+static int sweep_row(struct contacts *contacts, const struct contact_input *input, uint32_t row,
+                     double time)
 {
     struct contact contact;
-    enum method method = (enum method)input->detect.world->params->collision.method;
-    contacts->version[row]++;
-    if (!detect_discrete(method) && look_around(contacts, input, row) != 0)
-        return -1;
     for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
-        if (sweep_pair(contacts, input, contacts->link[link - 1].pair, time, &contact) &&
-            push(contacts, &contact) != 0)
+        uint32_t pair = contacts->link[link - 1].pair;
+        if (contacts->swept[pair] == contacts->change)
+            continue;
+        contacts->swept[pair] = contacts->change;
+        if (sweep_pair(contacts, input, pair, time, &contact) && push(contacts, &contact) != 0)
             return -1;
     }
     return contacts_ground(contacts, input, row);
+}
+
+int contacts_change(struct contacts *contacts, const struct contact_input *input,
+                    const uint32_t *rows, uint32_t count, double time)
+{
+    enum method method = (enum method)input->detect.world->params->collision.method;
+    contacts->change++;
+    for (uint32_t i = 0; i < count; i++)
+        contacts->version[rows[i]]++;
+    for (uint32_t i = 0; i < count; i++) {
+        if ((!detect_discrete(method) && look_around(contacts, input, rows[i]) != 0) ||
+            sweep_row(contacts, input, rows[i], time) != 0)
+            return -1;
+    }
+    return 0;
 }
 
 void contacts_drop(struct contacts *contacts, uint32_t row)

@@ -44,6 +44,8 @@ struct contacts {
     struct contact_list found[WORKERS_MAX]; /* one a worker, before they go into the heap */
     struct pair *pair;                      /* all of the frame */
     uint8_t *met;                           /* [pair] how often this pair has met in this frame */
+    uint32_t *swept;                        /* [pair] with which change last, 0: with none */
+    uint32_t change;                        /* changes so far in this frame */
     uint32_t pair_count, pair_capacity;
     struct contact_link *link; /* pairs of each row */
     uint32_t link_count, link_capacity;
@@ -90,15 +92,15 @@ const struct contact *contacts_peek(struct contacts *contacts);
 bool contacts_next(struct contacts *contacts, const struct contact_input *input,
                    struct contact *contact);
 
-/* The contact's pair meets no more in this frame. */
-void contacts_settle(struct contacts *contacts, const struct contact_input *input,
-                     const struct contact *contact);
+/* The next change does not sweep the contact's pair: it meets again only once one of the two takes
+ * yet another way. */
+void contacts_settle(struct contacts *contacts, const struct contact *contact);
 
-/* The row's way has changed at this time: its contacts so far are void, what its new way could meet
- * is looked up, and it is swept again against all of that, the ground too. 0, or -1 with errno
- * ENOMEM. */
-int contacts_change(struct contacts *contacts, const struct contact_input *input, uint32_t row,
-                    double time);
+/* The rows' ways have changed at this time: their contacts so far are void, what their new ways
+ * could meet is looked up, and they are swept again against all of that, the ground too; each pair
+ * once. 0, or -1 with errno ENOMEM. */
+int contacts_change(struct contacts *contacts, const struct contact_input *input,
+                    const uint32_t *rows, uint32_t count, double time);
 
 /* The row's contacts are void; none are found again, since its state is ENTITY_FREE now. */
 void contacts_drop(struct contacts *contacts, uint32_t row);

@@ -78,10 +78,10 @@ static inline struct sweep_box detect_way_box(const struct path *path, double gr
 /* The row's box. */
 struct sweep_box detect_box(const struct detect_input *input, uint32_t row);
 
-/* Does this way end where it begins? */
+/* Does nothing of it move? */
 static inline bool detect_rests(const struct path *path)
 {
-    return path->along.x == 0.0 && path->along.y == 0.0 && path->along.z == 0.0;
+    return path->along.x == 0.0 && path->along.y == 0.0 && path->along.z == 0.0 && !path->turns;
 }
 
 /* Does the row meet anything at all? Not a free one. */

@@ -95,7 +95,8 @@ int figure8_fixed(struct respond *respond, const struct impact *impact, struct o
         return harm_destroy(respond, impact->a, impact->time);
     }
     outcome->response = RESPONSE_SLOW;
-    if (respond_slow(respond, impact->a, impact->time, mass_kg / (mass_kg + fixed_kg)) != 0)
+    if (respond_slow(respond, impact->a, impact->time, mass_kg / (mass_kg + fixed_kg)) != 0 ||
+        respond_swept(respond, &impact->a, 1, impact->time) != 0)
         return -1;
     return blow_row(respond, impact->a, impact, -1.0, energy * fixed_kg / (mass_kg + fixed_kg),
                     NULL);

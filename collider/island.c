@@ -18,6 +18,7 @@ void island_free(struct island *island)
 {
     free(island->meeting);
     free(island->body);
+    free(island->row);
     free(island->body_of);
     free(island->solve);
     free(island->solve_of);
@@ -49,6 +50,10 @@ static int reserve_bodies(struct island *island)
     if (!body)
         return -1;
     island->body = body;
+    uint32_t *row = realloc(island->row, capacity * sizeof *row);
+    if (!row)
+        return -1;
+    island->row = row;
     island->body_capacity = capacity;
     return 0;
 }
@@ -59,6 +64,7 @@ static uint32_t body_for(struct island *island, uint32_t row)
         uint32_t index = island->bodies++;
         island->body[index] =
             (struct island_body){.row = row, .parent = index, .local = UINT32_MAX};
+        island->row[index] = row;
         island->body_of[row] = index + 1;
     }
     return island->body_of[row] - 1;
@@ -90,14 +96,18 @@ static int take(struct respond *respond, const struct contact *contact)
     struct island_meeting *meeting = &island->meeting[island->meetings];
     *meeting = (struct island_meeting){
         .contact = *contact, .impact = respond_impact(respond, contact), .body_b = BODY_FIXED};
+    if (respond_passes(respond, &meeting->impact))
+        return 0;
     meeting->leans = respond_leans(respond, &meeting->impact);
     if (!meeting->leans)
         meeting->report = respond_report(respond, &meeting->impact);
+    meeting->body_a = body_for(island, contact->a); /* it is swept with the others in any case */
     if (contact->b & PAIR_FIXED && impulse_gives_way(respond, meeting, &gives_way) != 0)
         return -1;
-    if (gives_way)
+    if (gives_way) {
+        contacts_settle(respond->contacts, contact);
         return 0;
-    meeting->body_a = body_for(island, contact->a);
+    }
     island->body[meeting->body_a].stays |= contact->last;
     if (!(contact->b & PAIR_FIXED)) {
         meeting->body_b = body_for(island, contact->b);
@@ -125,6 +135,7 @@ static int gather(struct respond *respond, const struct contact *first)
         return -1;
     while (same_moment(respond, contacts_peek(respond->contacts), first->touch.toi)) {
         contacts_next(respond->contacts, &respond->input, &contact);
+        contact.touch.toi = first->touch.toi;
         if (contact.b & PAIR_FIXED &&
             !detect_stands(&respond->input.detect, contact.b & ~PAIR_FIXED))
             continue;
@@ -182,7 +193,6 @@ static struct solve_body solve_body_of(const struct respond *respond, struct isl
     struct mat3 turn = rotation_matrix(motion_turned(respond->motion, row, time));
     double light = 1.0 / inertia.mass_kg;
     body->grounded = respond_grounded(respond, row);
-    body->spin = respond_spin(respond, row);
     body->arm = rotation_apply(&turn, (struct vec3){0.0, inertia.centre_m, 0.0});
     struct solve_body solve = {
         .centre = vec3_add(path_at(&respond->path[row], time), body->arm),
@@ -194,8 +204,8 @@ static struct solve_body solve_body_of(const struct respond *respond, struct isl
         solve.inverse_mass = (struct vec3){light, light, light};
         solve.inverse_inertia = inertia_inverse_world(&inertia, &turn);
     }
-    solve.spin = body->spin;
-    solve.velocity = vec3_add(entities_velocity(e, row), vec3_cross(body->spin, body->arm));
+    solve.spin = respond_spin(respond, row);
+    solve.velocity = vec3_add(entities_velocity(e, row), vec3_cross(solve.spin, body->arm));
     if (body->grounded)
         solve.velocity.y = 0.0; /* the slope's doing: it would push like a lift */
     return solve;
@@ -248,16 +258,12 @@ static void part(const struct respond *respond, const struct island_meeting *mee
 static int leave(struct respond *respond, const struct solve_body *solve,
                  const struct island_body *body, double time)
 {
-    const struct entities *e = &respond->next->entities;
     uint32_t row = body->row;
     struct vec3 velocity = vec3_sub(solve->velocity, vec3_cross(solve->spin, body->arm));
-    struct vec3 spin = solve->spin;
-    if (body->grounded) {
+    if (body->grounded)
         velocity.y = 0.0; /* the mover puts it on the slope again */
-        spin.y = e->spin_y[row] + (solve->spin.y - body->spin.y);
-    }
     struct vec3 at = vec3_add(path_at(&respond->path[row], time), body->shift);
-    return respond_leave(respond, row, time, at, velocity, spin, body->stays);
+    return respond_leave(respond, row, time, at, velocity, solve->spin, body->stays);
 }
 
 static int solve_group(struct respond *respond, uint32_t first, double time)
@@ -279,7 +285,7 @@ static int solve_group(struct respond *respond, uint32_t first, double time)
     for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
         const struct vec3 *impulse = &island->contact[contacts++].impulse;
         if (vec3_dot(*impulse, *impulse) == 0.0) /* nothing has changed: it would be found again */
-            contacts_settle(respond->contacts, &respond->input, &island->meeting[i - 1].contact);
+            contacts_settle(respond->contacts, &island->meeting[i - 1].contact);
     }
     contacts = 0;
     for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next)
@@ -310,10 +316,9 @@ int island_answer(struct respond *respond, const struct contact *contact)
         if (island->body[i].first != 0)
             result = solve_group(respond, island->body[i].first, time);
     }
-    for (uint32_t i = 0; i < island->bodies; i++) {
-        if (result == 0)
-            result = respond_swept(respond, island->body[i].row, time);
-        island->body_of[island->body[i].row] = 0;
-    }
+    if (result == 0)
+        result = respond_swept(respond, island->row, island->bodies, time);
+    for (uint32_t i = 0; i < island->bodies; i++)
+        island->body_of[island->row[i]] = 0;
     return result;
 }

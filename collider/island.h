@@ -30,7 +30,6 @@ struct island_body {
     bool grounded;
     struct vec3 arm;   /* [m, world] from the position to the centre of mass */
     struct vec3 shift; /* [m] back out of what it overlaps */
-    struct vec3 spin;  /* [rad/s] before */
 };
 
 /* The collider's own memory, kept from frame to frame. */
@@ -38,6 +37,7 @@ struct island {
     struct island_meeting *meeting;
     uint32_t meetings, meeting_capacity;
     struct island_body *body;
+    uint32_t *row; /* [bodies] theirs */
     uint32_t bodies, body_capacity;
     uint32_t *body_of; /* [capacity of the world] body + 1 of a row in this moment, else 0 */
     struct solve_body *solve;

@@ -1,6 +1,8 @@
 /* Ways and turnings of the frame's rows. */
 #include "collider/motion.h"
 
+#include "collider/detect.h"
+
 #include <stdlib.h>
 
 int motion_init(struct motion *motion, const struct world *world)
@@ -34,12 +36,24 @@ void motion_begin(struct motion *motion, const struct state *committed, const st
     motion->next = next;
 }
 
+/* Did the mover turn the row? */
+static bool turned(const struct motion *motion, uint32_t row)
+{
+    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    return motion_old(motion, row) &&
+           (w->heading[row] != n->heading[row] || w->pitch[row] != n->pitch[row] ||
+            w->roll[row] != n->roll[row]);
+}
+
 void motion_take(struct motion *motion, uint32_t row)
 {
     struct vec3 to = entities_position(&motion->next->entities, row);
     struct vec3 from =
         motion_old(motion, row) ? entities_position(&motion->committed->entities, row) : to;
-    motion->path[row] = (struct path){.at = from, .along = vec3_sub(to, from)};
+    struct path path = {.at = from, .along = vec3_sub(to, from)};
+    if (motion->world->params->collision.shape == SHAPE_MODEL && detect_rests(&path))
+        path.turns = turned(motion, row);
+    motion->path[row] = path;
 }
 
 static struct quat pose(const struct entities *e, uint32_t row)
@@ -53,11 +67,9 @@ struct turning motion_turning(const struct motion *motion, uint32_t row)
         return motion->changed[motion->change[row] - 1];
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
     struct quat to = pose(n, row);
-    if (!motion_old(motion, row) ||
-        (w->heading[row] == n->heading[row] && w->pitch[row] == n->pitch[row] &&
-         w->roll[row] == n->roll[row]))
-        return (struct turning){to, to};
-    return (struct turning){pose(w, row), to};
+    if (!turned(motion, row))
+        return (struct turning){.from = to, .to = to};
+    return (struct turning){.from = pose(w, row), .to = to};
 }
 
 struct quat motion_turned(const struct motion *motion, uint32_t row, double time)

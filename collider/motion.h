@@ -12,6 +12,7 @@
 /* Turned at path.since and at 1. */
 struct turning {
     struct quat from, to;
+    double driven_rps; /* about the vertical, beside the row's own spin: its driver's, its tyres' */
 };
 
 struct motion {

@@ -85,6 +85,11 @@ static bool touch_hulls(const struct motion *motion, const struct pair *pair, do
            advance_touch(&a, &b, from, touch);
 }
 
+bool narrow_lets_in(const struct world *world, bool through_fixed, uint32_t object)
+{
+    return through_fixed || world->kinds[world->fixed[object].kind].rigidity < YIELDING_RIGIDITY;
+}
+
 bool narrow_touch(const struct detect_input *input, const struct motion *motion, bool through_fixed,
                   const struct pair *pair, double from, struct touch *touch)
 {
@@ -99,8 +104,6 @@ bool narrow_touch(const struct detect_input *input, const struct motion *motion,
         return true;
     /* Who is inside already has entered before: the touch of it was answered then. Hulls within
      * their skin of each other count as inside. */
-    const struct kind *fixed = &world->kinds[world->fixed[pair->b & ~PAIR_FIXED].kind];
-    bool lets_in = through_fixed || fixed->rigidity < YIELDING_RIGIDITY;
     bool inside = touch->toi <= from && (hulls || touch->depth_m > 0.0 || from > 0.0);
-    return !(lets_in && inside);
+    return !(inside && narrow_lets_in(world, through_fixed, pair->b & ~PAIR_FIXED));
 }

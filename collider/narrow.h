@@ -12,6 +12,9 @@
 /* A fixed object of less rigidity than this bends aside and lets bodies through. */
 #define YIELDING_RIGIDITY 0.1
 
+/* May bodies be inside this fixed object? Under through_fixed in any, else in one that yields. */
+bool narrow_lets_in(const struct world *world, bool through_fixed, uint32_t object);
+
 /* First touch of the pair in [from, 1]; from is not before either's path.since. By the methods that
  * look at the frame's end only, the touch is there. through_fixed: bodies may stand in any fixed
  * object and only entering one is a touch; in a yielding one they always may. */

@@ -147,6 +147,23 @@ static void remember(struct respond *respond, const struct impact *impact)
     }
 }
 
+bool respond_passes(struct respond *respond, const struct impact *impact)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct world *world = respond->world;
+    uint32_t row = impact->a, object = impact->b & ~PAIR_FIXED;
+    if (!(impact->b & PAIR_FIXED) || !narrow_lets_in(world, respond->input.through_fixed, object) ||
+        e->touch_body[row] != impact->b)
+        return false;
+    double age_s = (double)(respond->next->head->tick - e->touch_tick[row]) * world->params->dt_s;
+    double across = 2.0 * (detect_row_reach(&respond->input.detect, row) +
+                           detect_fixed_reach(world, &world->fixed[object]));
+    if (age_s * vec3_length(entities_velocity(e, row)) > across)
+        return false;
+    remember(respond, impact);
+    return true;
+}
+
 bool respond_leans(struct respond *respond, const struct impact *impact)
 {
     bool leans =
@@ -207,23 +224,30 @@ static int lean(struct respond *respond, const struct impact *impact)
     for (int i = 0; i < (fixed ? 1 : 2); i++) {
         uint32_t row = side[i].row;
         struct vec3 push = vec3_scale(impact->normal, side[i].push * impact->closing_mps);
-        const struct vec3 spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+        const struct vec3 spin = respond_spin(respond, row);
         if (respond_leave(respond, row, impact->time, path_at(&respond->path[row], impact->time),
                           vec3_add(entities_velocity(e, row), push), spin, false) != 0)
             return -1;
     }
-    if (respond_swept(respond, impact->a, impact->time) != 0)
-        return -1;
-    return fixed ? 0 : respond_swept(respond, impact->b, impact->time);
+    const uint32_t rows[2] = {impact->a, impact->b};
+    return respond_swept(respond, rows, fixed ? 1 : 2, impact->time);
+}
+
+/* Does the model do anything about this collision? */
+static bool answered(const struct respond *respond, const struct impact *impact)
+{
+    enum response_model model = (enum response_model)respond->world->params->collision.response;
+    return model != MODEL_NONE && !(model == MODEL_MPS && impact->b & PAIR_FIXED);
 }
 
 static int collide(struct respond *respond, const struct contact *contact)
 {
     struct impact impact = respond_impact(respond, contact);
     struct outcome outcome = {RESPONSE_NONE, 0.0};
+    if (respond_passes(respond, &impact))
+        return 0;
     if (respond_leans(respond, &impact))
-        return respond->world->params->collision.response != MODEL_NONE ? lean(respond, &impact)
-                                                                        : 0;
+        return answered(respond, &impact) ? lean(respond, &impact) : 0;
     struct report report = respond_report(respond, &impact);
     if (answer(respond, &impact, &outcome) != 0)
         return -1;
@@ -253,6 +277,9 @@ static int crash(struct respond *respond, const struct contact *contact)
         event->collision.b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
         put(event->collision.point, respond->path[row].at);
         put_float(event->collision.normal, vec3_scale(normal, -1.0));
+        if (vec3_length(velocity) > 0.0)
+            put_float(event->collision.direction_a,
+                      vec3_scale(velocity, 1.0 / vec3_length(velocity)));
         event->collision.toi = time;
         event->collision.closing_mps = (float)maths_max(0.0, -vec3_dot(velocity, normal));
         event->collision.response = RESPONSE_DESTROYED;

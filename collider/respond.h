@@ -68,6 +68,10 @@ int respond_contact(struct respond *respond, const struct contact *contact);
 
 struct impact respond_impact(const struct respond *respond, const struct contact *contact);
 
+/* Is the row still on its way through an object that lets it in? What of it comes in later, a hull
+ * after the gun, is no new collision. Remembers the touch. */
+bool respond_passes(struct respond *respond, const struct impact *impact);
+
 /* Is this a press that goes on, no new collision? Remembers the touch in any case. */
 bool respond_leans(struct respond *respond, const struct impact *impact);
 
@@ -81,15 +85,16 @@ void respond_tell(struct respond *respond, const struct report *report, const st
 /* Stays where it is for the rest of the frame and leaves with this velocity. */
 int respond_stay(struct respond *respond, uint32_t row, double time, struct vec3 velocity);
 
-/* Goes on along its way at a share of its speed. */
+/* Goes on along its way at a share of its speed. respond_swept must follow. */
 int respond_slow(struct respond *respond, uint32_t row, double time, double share);
 
-/* Goes on from `at` with this velocity and spin, or stays there for the rest of the frame and takes
+/* Goes on from `at` with this velocity and spin (respond_spin's: the driver's steering in it does
+ * not become the row's own), or stays there for the rest of the frame and takes
  * them with it. respond_swept must follow, for every row that leaves at this time, once all of them
  * have left. */
 int respond_leave(struct respond *respond, uint32_t row, double time, struct vec3 at,
                   struct vec3 velocity, struct vec3 spin_rps, bool stays);
-int respond_swept(struct respond *respond, uint32_t row, double time);
+int respond_swept(struct respond *respond, const uint32_t *rows, uint32_t count, double time);
 
 /* How the row turns [rad/s, world axes]: what collisions gave it; on the ground what its driver
  * steers, too. */

@@ -34,8 +34,8 @@ static void put(const struct standing *standing, const struct world *world, uint
     double reach = reach_of(world, object);
     for (uint32_t strip = span.first; strip <= span.last; strip++)
         standing->record[next[strip]++] = (struct bin_record){
-            .min_x = bin_x((float)(object->x - reach)),
-            .max_x = bin_x((float)(object->x + reach)),
+            .min_x = bin_steps((float)(object->x - reach)),
+            .max_x = bin_steps((float)(object->x + reach)),
             .z = bin_z((float)(object->z - reach), (float)(object->z + reach), strip),
             .tag = i | (span.last > span.first ? BIN_SPANS : 0),
         };
@@ -51,9 +51,11 @@ static int by_west(const void *p, const void *q)
 
 static void finish_strip(struct standing *standing, uint32_t strip)
 {
-    uint32_t begin = standing->start[strip], end = standing->start[strip + 1] - 1, i = begin;
+    uint32_t begin = standing->start[strip], end = standing->start[strip + 1] - STANDING_AHEAD,
+             i = begin;
     qsort(standing->record + begin, end - begin, sizeof *standing->record, by_west);
-    standing->record[end] = (struct bin_record){.min_x = INT32_MAX, .max_x = INT32_MAX};
+    for (uint32_t n = 0; n < STANDING_AHEAD; n++)
+        standing->record[end + n] = (struct bin_record){.min_x = INT32_MAX, .max_x = INT32_MAX};
     for (uint32_t column = 0; column < STANDING_COLUMNS; column++) {
         while (column > 0 && i < end &&
                (uint32_t)standing->record[i].max_x >> STANDING_COLUMN_BITS < column)
@@ -72,7 +74,7 @@ int standing_init(struct standing *standing, const struct world *world)
     }
     for (uint32_t strip = 0; strip < STRIP_COUNT; strip++) {
         standing->start[strip] = next[strip] = total;
-        total += count[strip] + 1;
+        total += count[strip] + STANDING_AHEAD;
     }
     standing->start[STRIP_COUNT] = total;
     standing->record = malloc(total * sizeof *standing->record);

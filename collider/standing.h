@@ -10,10 +10,13 @@
 #include <stdint.h>
 
 #define STANDING_COLUMN_BITS 18 /* columns of 512 m, in steps */
-#define STANDING_COLUMNS     (1 << (BIN_X_BITS - STANDING_COLUMN_BITS))
+#define STANDING_COLUMNS     (1 << (BIN_BITS - STANDING_COLUMN_BITS))
+
+#define STANDING_AHEAD 4 /* this many records may be looked at from any of a strip's on */
 
 struct standing {
-    struct bin_record *record; /* by strip, then by min_x; each strip ends with one beyond all */
+    /* By strip, then by min_x; each strip ends with STANDING_AHEAD that lie beyond all. */
+    struct bin_record *record;
     uint32_t start[STRIP_COUNT + 1];
     /* [STRIP_COUNT][STANDING_COLUMNS] the first record that reaches into the column or beyond: none
      * before it does */

@@ -4,12 +4,14 @@
  * bucket of its east edge, and the comparison looks at both sides. */
 #include "collider/strip.h"
 
+#include "collider/clones.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#define SORT_LEAST     16u /* below it every pair is compared */
+#define SORT_LEAST     6u  /* below it every pair is compared */
 #define BUCKET_BITS    16u /* at most: a quarter of a megabyte, within a processor's own cache */
-#define BLOCK          32u /* records compared at a time */
+#define BLOCK          16u /* records compared at a time */
 #define NEAR           3u  /* neighbours that every record is compared with */
 #define PADDING        (2 * BLOCK)
 #define PREFETCH_PAIRS 8u
@@ -27,6 +29,7 @@ void strip_lane_free(struct strip_lane *lane)
     free(lane->max_x);
     free(lane->low_z);
     free(lane->high_z);
+    free(lane->tag);
     free(lane->bucket);
     free(lane->candidate);
     free(lane->pairs.pair);
@@ -53,6 +56,7 @@ static int reserve_records(struct strip_lane *lane, uint32_t count)
     lane->max_x = grown(lane->max_x, padded, sizeof *lane->max_x, &failed);
     lane->low_z = grown(lane->low_z, padded, sizeof *lane->low_z, &failed);
     lane->high_z = grown(lane->high_z, padded, sizeof *lane->high_z, &failed);
+    lane->tag = grown(lane->tag, padded, sizeof *lane->tag, &failed);
     if (failed)
         return -1;
     lane->capacity = (uint32_t)capacity;
@@ -91,7 +95,7 @@ struct strip_span strip_span(const struct path *path, const struct sweep_box *bo
                              uint32_t strip)
 {
     double left = 1.0 - path->since, dx = path->along.x * left, dz = path->along.z * left;
-    struct strip_span span = {bin_x(box->min_x), bin_x(box->max_x)};
+    struct strip_span span = {bin_steps(box->min_x), bin_steps(box->max_x)};
     if (dz == 0.0)
         return span;
     /* When the way is nearer to the strip than the body reaches. */
@@ -107,8 +111,8 @@ struct strip_span strip_span(const struct path *path, const struct sweep_box *bo
     if (!(from <= to))
         return span;
     double p = path->at.x + dx * from, q = path->at.x + dx * to;
-    int32_t min_x = bin_x((float)(maths_min(p, q) - reach));
-    int32_t max_x = bin_x((float)(maths_max(p, q) + reach));
+    int32_t min_x = bin_steps((float)(maths_min(p, q) - reach));
+    int32_t max_x = bin_steps((float)(maths_max(p, q) + reach));
     span.min_x = min_x > span.min_x ? min_x : span.min_x;
     span.max_x = max_x < span.max_x ? max_x : span.max_x;
     return span;
@@ -119,7 +123,7 @@ static struct strip_span span_in(const struct strips *strips, uint32_t tag, uint
     uint32_t row = tag & BIN_ROW;
     const struct sweep_box *box = &strips->box[row];
     if (!(tag & BIN_LONG))
-        return (struct strip_span){bin_x(box->min_x), bin_x(box->max_x)};
+        return (struct strip_span){bin_steps(box->min_x), bin_steps(box->max_x)};
     return strip_span(&strips->input->path[row], box,
                       strips->grow[strips->input->entities->kind[row]], strip);
 }
@@ -218,7 +222,7 @@ static int gather(const struct strips *strips, struct strip_lane *lane, uint32_t
         uint32_t count;
         const struct bin_chunk *chunk = bins_last(&strips->lane[i].bins, strip, &count);
         for (; chunk; chunk = chunk->before, count = BIN_CHUNK_RECORDS) {
-            prefetch_chunk(chunk->before);
+            prefetch_chunk(chunk->before_that);
             if (reserve_records(lane, total + count) != 0)
                 return -1;
             memcpy(lane->record + total, chunk->record, count * sizeof *chunk->record);
@@ -235,32 +239,37 @@ static int set_buckets(struct strip_lane *lane)
     uint32_t bits = 5;
     while (1u << bits < lane->count && bits < BUCKET_BITS)
         bits++;
-    lane->shift = BIN_X_BITS - bits;
+    lane->shift = BIN_BITS - bits;
     return reserve_buckets(lane, 1u << bits);
 }
 
-/* The bounds of the sorted records, each kind in a row. */
-static void spread(const struct bin_record *restrict record, int32_t *restrict min_x,
-                   int32_t *restrict max_x, int32_t *restrict low_z, int32_t *restrict high_z)
+/* Takes the records apart, each word in a row. All four are taken, for else gcc makes no vectors.
+ */
+static void spread(const uint32_t *restrict word, int32_t *restrict min_x, int32_t *restrict max_x,
+                   int32_t *restrict low_z, int32_t *restrict high_z, uint32_t *restrict tag)
 {
-    for (uint32_t k = 0; k < BLOCK; k++) {
-        min_x[k] = record[k].min_x;
-        max_x[k] = record[k].max_x;
-        low_z[k] = (int32_t)(record[k].z & 0xffffu);
-        high_z[k] = (int32_t)(record[k].z >> 16);
+    for (size_t k = 0; k < BLOCK; k++) {
+        min_x[k] = (int32_t)word[4 * k];
+        max_x[k] = (int32_t)word[4 * k + 1];
+        low_z[k] = (int32_t)(word[4 * k + 2] & 0xffffu);
+        high_z[k] = (int32_t)(word[4 * k + 2] >> 16);
+        tag[k] = word[4 * k + 3];
     }
 }
 
 static int sort_records(struct strip_lane *lane)
 {
-    uint32_t count = lane->count, end = 0;
+    uint32_t count = lane->count, end = 0, tags = 0;
     if (set_buckets(lane) != 0)
         return -1;
-    uint32_t *bucket = lane->bucket, shift = lane->shift, buckets = 1u << (BIN_X_BITS - shift);
+    uint32_t *bucket = lane->bucket, shift = lane->shift, buckets = 1u << (BIN_BITS - shift);
     const struct bin_record *record = lane->record;
     memset(bucket, 0, buckets * sizeof *bucket);
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
         bucket[(uint32_t)record[i].min_x >> shift]++;
+        tags |= record[i].tag;
+    }
+    lane->tags = tags;
     for (uint32_t i = 0; i < buckets; i++) {
         uint32_t more = bucket[i];
         bucket[i] = end;
@@ -271,8 +280,8 @@ static int sort_records(struct strip_lane *lane)
     for (uint32_t i = count; i < count + PADDING; i++)
         lane->sorted[i] = (struct bin_record){.min_x = INT32_MAX, .max_x = INT32_MIN};
     for (uint32_t i = 0; i < count + BLOCK; i += BLOCK)
-        spread(lane->sorted + i, lane->min_x + i, lane->max_x + i, lane->low_z + i,
-               lane->high_z + i);
+        spread((const void *)&lane->sorted[i], lane->min_x + i, lane->max_x + i, lane->low_z + i,
+               lane->high_z + i, lane->tag + i);
     return 0;
 }
 
@@ -337,7 +346,7 @@ static int sweep_far(struct strip_lane *lane, uint32_t i)
         compare_with(lane->min_x + j, lane->max_x + j, lane->low_z + j, lane->high_z + j, one, hit);
         uint32_t hits = list_hits(hit, place);
         for (uint32_t n = 0; n < hits; n++) {
-            if (found(lane, one->tag, lane->sorted[j + place[n]].tag) != 0)
+            if (found(lane, one->tag, lane->tag[j + place[n]]) != 0)
                 return -1;
         }
     }
@@ -353,8 +362,8 @@ static int sweep_block(struct strip_lane *lane, uint32_t i)
                            offset, hit);
         uint32_t hits = list_hits(hit, place);
         for (uint32_t n = 0; n < hits; n++) {
-            const struct bin_record *one = lane->sorted + i + place[n];
-            if (found(lane, one->tag, one[offset].tag) != 0)
+            const uint32_t *tag = lane->tag + i + place[n];
+            if (found(lane, tag[0], tag[offset]) != 0)
                 return -1;
         }
     }
@@ -390,35 +399,42 @@ static int sweep_few(struct strip_lane *lane)
 
 /* --- fixed objects -----------------------------------------------------------------------------*/
 
-/* Looks for the objects that one record meets. */
+/* Looks for the objects that one record meets: a few at a time and without branches, since none is
+ * met as a rule, but how many are passed on the way east is anyone's guess. */
 static int look_around(const struct strips *strips, struct strip_lane *lane,
                        const struct bin_record *one, uint32_t strip)
 {
     const struct bin_record *object = standing_from(strips->standing, strip, one->min_x);
-    for (; object->min_x <= one->max_x; object++) {
-        if (bin_meet(one, object) && take_fixed(strips, lane, one->tag, object, strip) != 0)
-            return -1;
+    for (; object->min_x <= one->max_x; object += STANDING_AHEAD) {
+        uint32_t met = 0;
+        for (uint32_t i = 0; i < STANDING_AHEAD; i++)
+            met |= (uint32_t)bin_meet(one, &object[i]) << i;
+        for (; met != 0; met &= met - 1) {
+            const struct bin_record *hit = &object[__builtin_ctz(met)];
+            if (take_fixed(strips, lane, one->tag, hit, strip) != 0)
+                return -1;
+        }
     }
     return 0;
 }
 
-static bool wide(const struct bin_record *record)
-{
-    return record->tag & BIN_LONG || record->max_x - record->min_x > STRIP_WIDE;
-}
-
-/* Looks for the sorted records that one object meets. */
+/* Looks for the sorted records that one object meets, but for wide ones. */
 static int look_from(const struct strips *strips, struct strip_lane *lane,
                      const struct bin_record *object, uint32_t strip)
 {
-    int32_t west = object->min_x - strips->width;
-    uint32_t key = west > 0 ? (uint32_t)west >> lane->shift : 0;
+    uint8_t hit[BLOCK], place[BLOCK];
+    int32_t west = object->min_x - BIN_WIDE_STEPS;
+    uint32_t key = (uint32_t)(west > 0 ? west : 0) >> lane->shift;
     uint32_t end = lane->bucket[(uint32_t)object->max_x >> lane->shift];
-    for (uint32_t i = key > 0 ? lane->bucket[key - 1] : 0; i < end; i++) {
-        const struct bin_record *one = &lane->sorted[i];
-        if (bin_meet(one, object) && !wide(one) &&
-            take_fixed(strips, lane, one->tag, object, strip) != 0)
-            return -1;
+    for (uint32_t i = key > 0 ? lane->bucket[key - 1] : 0; i < end; i += BLOCK) {
+        compare_with(lane->min_x + i, lane->max_x + i, lane->low_z + i, lane->high_z + i, object,
+                     hit);
+        uint32_t hits = list_hits(hit, place);
+        for (uint32_t n = 0; n < hits; n++) {
+            uint32_t tag = lane->tag[i + place[n]];
+            if (!(tag & BIN_WIDE) && take_fixed(strips, lane, tag, object, strip) != 0)
+                return -1;
+        }
     }
     return 0;
 }
@@ -426,7 +442,7 @@ static int look_from(const struct strips *strips, struct strip_lane *lane,
 static int meet_fixed(const struct strips *strips, struct strip_lane *lane, uint32_t strip)
 {
     const struct standing *standing = strips->standing;
-    uint32_t first = standing->start[strip], end = standing->start[strip + 1] - 1;
+    uint32_t first = standing->start[strip], end = standing->start[strip + 1] - STANDING_AHEAD;
     bool crowded = lane->count >= SORT_LEAST && lane->count > end - first;
     if (first == end)
         return 0;
@@ -434,16 +450,18 @@ static int meet_fixed(const struct strips *strips, struct strip_lane *lane, uint
         if (look_from(strips, lane, &standing->record[i], strip) != 0)
             return -1;
     }
+    if (crowded && !(lane->tags & BIN_WIDE))
+        return 0;
     for (uint32_t i = 0; i < lane->count; i++) {
         const struct bin_record *one = &lane->record[i];
-        if ((!crowded || wide(one)) && !(one->tag & BIN_RESTS) &&
+        if ((!crowded || one->tag & BIN_WIDE) && !(one->tag & BIN_RESTS) &&
             look_around(strips, lane, one, strip) != 0)
             return -1;
     }
     return 0;
 }
 
-int strip_pairs(const struct strips *strips, struct strip_lane *lane, uint32_t strip)
+VECTOR_CLONES int strip_pairs(const struct strips *strips, struct strip_lane *lane, uint32_t strip)
 {
     if (gather(strips, lane, strip) != 0)
         return -1;

@@ -14,8 +14,10 @@ struct strip_lane {
     struct bins bins;
     struct bin_record *record; /* [capacity] the strip's, as gathered */
     struct bin_record *sorted; /* [capacity] bucket by bucket from west to east, and padding */
-    /* The sorted records' bounds, and padding that meets nothing. */
+    /* The sorted records' parts, and padding that meets nothing. */
     int32_t *min_x, *max_x, *low_z, *high_z;
+    uint32_t *tag;
+    uint32_t tags; /* of all together */
     uint32_t count, capacity;
     uint32_t *bucket; /* [bucket_capacity] where the bucket's records end */
     uint32_t bucket_capacity;
@@ -33,11 +35,7 @@ struct strips {
     const double *grow;          /* [kinds] from a row's way to its box */
     struct strip_lane *lane;     /* [lanes] whose bins make up the strips */
     uint32_t lanes;
-    int32_t width; /* [steps] of the widest record but for wide ones */
 };
-
-/* Wider records look for fixed objects on their own [steps]. */
-#define STRIP_WIDE (64 * BIN_STEPS_PER_M)
 
 void strip_lane_free(struct strip_lane *lane);
 

@@ -12,6 +12,7 @@ struct path {
     struct vec3 at;
     struct vec3 along;
     double since;
+    bool turns; /* where it stands: along is 0 and yet its shape moves */
 };
 
 static inline struct vec3 path_at(const struct path *path, double time)

@@ -26,15 +26,28 @@ struct vec3 respond_spin(const struct respond *respond, uint32_t row)
     if (!respond_grounded(respond, row))
         return (struct vec3){n->spin_x[row], n->spin_y[row], n->spin_z[row]};
     double yaw = n->spin_y[row];
-    if (motion->change[row] == 0 && motion_old(motion, row))
+    if (motion->change[row] != 0)
+        yaw += motion_turning(motion, row).driven_rps;
+    else if (motion_old(motion, row))
         yaw = -maths_wrap_half(n->heading[row] - w->heading[row]) / respond->world->params->dt_s;
     return (struct vec3){0.0, yaw, 0.0};
 }
 
-/* The way goes no further than the world's edge. */
+/* What it turns beside its own spin. */
+static double driven(const struct respond *respond, uint32_t row)
+{
+    return respond_spin(respond, row).y - respond->next->entities.spin_y[row];
+}
+
+/* The way goes no further than the world's edge. It may begin beyond it, where the body was pushed
+ * out of another, but does not end there. */
 static struct path within_world(struct path path)
 {
     double left = 1.0 - path.since;
+    if (!(left > 0.0)) {
+        path.at.x = maths_clamp(path.at.x, 0.0, WORLD_SIDE_M);
+        path.at.z = maths_clamp(path.at.z, 0.0, WORLD_SIDE_M);
+    }
     if (left > 0.0) {
         path.along.x =
             (maths_clamp(path.at.x + path.along.x * left, 0.0, WORLD_SIDE_M) - path.at.x) / left;
@@ -58,32 +71,31 @@ static int take_way(struct respond *respond, uint32_t row, const struct path *pa
     return 0;
 }
 
-int respond_swept(struct respond *respond, uint32_t row, double time)
+int respond_swept(struct respond *respond, const uint32_t *rows, uint32_t count, double time)
 {
-    return contacts_change(respond->contacts, &respond->input, row, time);
+    return contacts_change(respond->contacts, &respond->input, rows, count, time);
 }
 
 int respond_stay(struct respond *respond, uint32_t row, double time, struct vec3 velocity)
 {
     struct quat turned = motion_turned(respond->motion, row, time);
-    const struct turning turning = {turned, turned};
+    const struct turning turning = {.from = turned, .to = turned};
     const struct path path = {.at = path_at(&respond->path[row], time), .since = time};
     if (take_way(respond, row, &path, &turning, velocity) != 0)
         return -1;
-    return respond_swept(respond, row, time);
+    return respond_swept(respond, &row, 1, time);
 }
 
 int respond_slow(struct respond *respond, uint32_t row, double time, double share)
 {
     const struct entities *e = &respond->next->entities;
     const struct path *before = &respond->path[row];
-    const struct turning turning = {motion_turned(respond->motion, row, time),
-                                    motion_turning(respond->motion, row).to};
+    const struct turning turning = {.from = motion_turned(respond->motion, row, time),
+                                    .to = motion_turning(respond->motion, row).to,
+                                    .driven_rps = driven(respond, row)};
     const struct path path = {
         .at = path_at(before, time), .along = vec3_scale(before->along, share), .since = time};
-    if (take_way(respond, row, &path, &turning, vec3_scale(entities_velocity(e, row), share)) != 0)
-        return -1;
-    return respond_swept(respond, row, time);
+    return take_way(respond, row, &path, &turning, vec3_scale(entities_velocity(e, row), share));
 }
 
 int respond_leave(struct respond *respond, uint32_t row, double time, struct vec3 at,
@@ -93,17 +105,19 @@ int respond_leave(struct respond *respond, uint32_t row, double time, struct vec
     double dt_s = respond->world->params->dt_s;
     struct quat turned = motion_turned(respond->motion, row, time);
     const struct turning turning = {
-        turned, stays ? turned : rotation_spun(turned, spin_rps, (1.0 - time) * dt_s)};
+        .from = turned,
+        .to = stays ? turned : rotation_spun(turned, spin_rps, (1.0 - time) * dt_s),
+        .driven_rps = driven(respond, row)};
     const struct path path = {
         .at = at, .along = vec3_scale(velocity, stays ? 0.0 : dt_s), .since = time};
-    if (!respond_grounded(respond,
-                          row)) { /* its axes turn with it, its angular momentum does not */
+    if (!respond_grounded(respond, row)) {
+        /* Its axes turn with it, its angular momentum does not. */
         const struct inertia inertia = inertia_of(&respond->world->kinds[e->kind[row]]);
         struct mat3 before = rotation_matrix(turned), after = rotation_matrix(turning.to);
         spin_rps = inertia_carried(&inertia, &before, spin_rps, &after);
     }
     e->spin_x[row] = spin_rps.x;
-    e->spin_y[row] = spin_rps.y;
+    e->spin_y[row] = spin_rps.y - turning.driven_rps;
     e->spin_z[row] = spin_rps.z;
     return take_way(respond, row, &path, &turning, velocity);
 }

@@ -377,26 +377,30 @@ static int add_pieces(struct hulls *hulls, struct scenario *scenario, struct pie
 /* One hull around everything, for a first look. To be freed in any case. */
 static int outer_make(struct shell *shell, const struct pieces *pieces)
 {
-    struct piece all = {.point = NULL};
+    uint32_t count = 0, taken = 0;
     int result = -1;
 
     for (uint32_t i = 0; i < pieces->count; i++)
-        all.count += pieces->piece[i].wrap.point_count;
-    all.point = malloc(all.count * sizeof(*all.point));
-    if (all.point == NULL)
+        count += pieces->piece[i].wrap.point_count;
+    if (count == 0) {
+        errno = EDOM; /* as wrap_points() would say */
         return -1;
-    all.count = 0;
+    }
+    struct vec3 *point = malloc(count * sizeof(*point));
+    if (point == NULL)
+        return -1;
     for (uint32_t i = 0; i < pieces->count; i++) {
         const struct wrap *wrap = &pieces->piece[i].wrap;
 
-        memcpy(all.point + all.count, wrap->point, wrap->point_count * sizeof(*all.point));
-        all.count += wrap->point_count;
+        memcpy(point + taken, wrap->point, wrap->point_count * sizeof(*point));
+        taken += wrap->point_count;
     }
+    struct piece all = {.point = point, .count = count};
     if (wrap_points(&all.wrap, all.point, all.count) == 0) {
         result = shell_make(shell, &all);
         wrap_free(&all.wrap);
     }
-    free(all.point);
+    free(point);
     return result;
 }
 

@@ -56,7 +56,7 @@ struct event_collision {
     float normal[3];      /* unit, from a towards b */
     float closing_mps;    /* along the normal, before */
     float angle_deg;      /* 0..360: b's heading off a's */
-    float impulse_ns;     /* along the normal */
+    float impulse_ns;     /* on each of them, friction included */
     float direction_a[3]; /* unit direction of travel, 0 when at rest (thesis row 34) */
     uint32_t response;    /* enum response */
 };

@@ -277,8 +277,8 @@ static void draw(struct solid *solid_a, struct solid *solid_b, double most_turn,
               along_b, from_b, turned(from_b, most_turn, random));
     if (fixture_random(random) % 4 == 0) { /* from the middle of the frame on */
         a->path.since = b->path.since = fixture_uniform(random, 0.0, 0.7);
-        a->path.at = path_at(&(struct path){at, along_a, 0.0}, a->path.since);
-        b->path.at = path_at(&(struct path){b->path.at, along_b, 0.0}, a->path.since);
+        a->path.at = path_at(&(struct path){.at = at, .along = along_a}, a->path.since);
+        b->path.at = path_at(&(struct path){.at = b->path.at, .along = along_b}, a->path.since);
     }
 }
 

@@ -63,7 +63,7 @@ static void stop(uint32_t row, double time)
 {
     struct path *path = &f.collider.motion.path[row];
     *path = (struct path){.at = path_at(path, time), .since = time};
-    assert_int_equal(contacts_change(contacts(), &respond.input, row, time), 0);
+    assert_int_equal(contacts_change(contacts(), &respond.input, &row, 1, time), 0);
 }
 
 /* --- order -------------------------------------------------------------------------------------*/
@@ -162,8 +162,8 @@ static void test_a_pair_meets_so_often_and_no_more(void **state)
     for (int n = 1; n <= CONTACT_MEETS_MAX; n++) { /* it presses on whatever it is told */
         assert_true(contacts_next(contacts(), &respond.input, &contact));
         assert_int_equal(contact.last, n == CONTACT_MEETS_MAX);
-        assert_int_equal(contacts_change(contacts(), &respond.input, a, contact.touch.toi), 0);
-        assert_int_equal(contacts_change(contacts(), &respond.input, b, contact.touch.toi), 0);
+        assert_int_equal(contacts_change(contacts(), &respond.input, &a, 1, contact.touch.toi), 0);
+        assert_int_equal(contacts_change(contacts(), &respond.input, &b, 1, contact.touch.toi), 0);
     }
     assert_false(contacts_next(contacts(), &respond.input, &contact));
 }
@@ -179,13 +179,13 @@ static void test_row_36_another_way_meets_others(void **state)
     find();
     assert_false(contacts_next(contacts(), &respond.input, &contact));
     f.collider.motion.path[a].along = (struct vec3){0.0, 0.0, 400.0};
-    assert_int_equal(contacts_change(contacts(), &respond.input, a, 0.0), 0);
+    assert_int_equal(contacts_change(contacts(), &respond.input, &a, 1, 0.0), 0);
     assert_true(contacts_next(contacts(), &respond.input, &contact));
     assert_true(contact.a == a && contact.b == b &&
                 fabs(contact.touch.toi - 288.0 / 400.0) < 1e-12);
     stop(a, 0.5); /* at 25200 */
     f.collider.motion.path[c].along = (struct vec3){-600.0, 0.0, -200.0};
-    assert_int_equal(contacts_change(contacts(), &respond.input, c, 0.0), 0);
+    assert_int_equal(contacts_change(contacts(), &respond.input, &c, 1, 0.0), 0);
     assert_true(contacts_next(contacts(), &respond.input, &contact));
     assert_true(contact.a == a && contact.b == c);
 }

@@ -417,6 +417,21 @@ static void test_row_32_a_vehicle_passes_through_the_tree_that_it_struck(void **
     assert_int_equal(fixture_event(&f, EVENT_COLLISION, 0)->collision.b.fixed, 1);
 }
 
+/* Of a long tank the gun comes first and the hull later: one passing is one collision. */
+static void test_one_passing_of_a_tree_is_told_once(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "collision = { response = \"figure8\"; shape = \"model\"; };\n"
+                     "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; } );");
+    fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                            .at = {24990.0, FIXTURE_GROUND_M, 25000.3},
+                                            .velocity = {3.5, 0.0, 0.0}});
+    fixture_run(&f, 600);
+    assert_true(steps_rows(&f).x[0] > 25010.0);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -436,6 +451,7 @@ int main(void)
         TEST(test_row_28_large_and_fast_kills_else_it_goes_on_slowed),
         TEST(test_row_28_the_heavier_the_vehicle_the_less_it_is_slowed),
         TEST(test_row_32_a_vehicle_passes_through_the_tree_that_it_struck),
+        TEST(test_one_passing_of_a_tree_is_told_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -107,6 +107,47 @@ static void test_row_36_who_is_struck_twice_in_a_frame_answers_twice(void **stat
     assert_true(fabs(e.x[three] - (20028.0 + 0.8 * 20.0)) < 1e-6);
 }
 
+/* A blow from the side parts two bodies at the moment in which they touch: nothing to answer. A
+ * second one drives the first into the other after all, within the frame. */
+static void test_row_36_who_parts_untouched_may_meet_later(void **state)
+{
+    (void)state;
+    const double touch = 12.0 - 1e-10, x = 20000.0, z = 20000.0;
+    const double cosine = 0.25881904510252074, sine = 0.9659258262890683; /* 75 degrees */
+    steps_params(&f)->dt_s = 0.1;
+    uint32_t one = put(x, z, 1.0, 0.0), two = put(x + touch, z, 0.0, 0.0);
+    put(x + touch * cosine, z + touch * sine, -200.0 * cosine, -200.0 * sine);
+    put(x - 18.4, z - 4.7, 600.0 * 0.988, 600.0 * 0.15);
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_true(e.vx[two] > 300.0);
+    assert_true(e.x[two] > e.x[one] + 12.0);
+}
+
+/* Slowed by a bush at the moment in which it strikes a tank, it has struck the tank once. */
+static void test_row_36_a_bush_beside_makes_no_second_collision(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "objects = ( { kind = \"bush\"; at = [25000.0, 25000.0]; } );");
+    const struct fixed_object *bush = &f.view.world.fixed[0];
+    steps_kind(&f, "tank")->resistance_j = 1e12;
+    double radius = steps_kind(&f, "tank")->radius_m, y = (double)bush->y;
+    double x = bush->x - radius - (double)bush->radius_m - 0.25;
+    uint32_t one =
+        fixture_put(&f, (struct fixture_entity){
+                            .kind = "tank", .at = {x, y, bush->z}, .velocity = {30.0, 0.0, 0.0}});
+    double ahead = 2.0 * radius + 0.25 - 1e-10; /* the bush comes a little later */
+    uint32_t two =
+        fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {x + ahead, y, bush->z}});
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 2);
+    assert_true(fabs(collision(0)->toi - collision(1)->toi) < CONTACT_TIE);
+    assert_true(collision(0)->b.fixed != collision(1)->b.fixed);
+    assert_true(e.vx[two] > 10.0 && e.vx[one] < e.vx[two]);
+}
+
 /* --- overlaps ----------------------------------------------------------------------------------*/
 
 static void test_row_46_overlapping_bodies_part_exactly(void **state)
@@ -126,6 +167,22 @@ static void test_row_46_overlapping_bodies_part_exactly(void **state)
     /* 3 m, the light one four times as far. */
     double pushed = e.x[heavy] - 20010.0, way = 0.2 / 60.0; /* both go on at 0.2 m/s */
     assert_true(fabs(pushed - 0.6 - way) < 1e-6);
+}
+
+/* A truck that turns where it stands sweeps its corners into who stands beside it. */
+static void test_who_turns_in_place_meets_its_neighbour(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "collision = { shape = \"model\"; };");
+    uint32_t truck =
+        fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {20000.0, 100.0, 20000.0}});
+    fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {20003.0, 100.0, 20000.0}});
+    struct entities e = steps_rows(&f);
+    e.spin_y[truck] = -6.0; /* both look north; it turns to the right */
+    fixture_run(&f, 30);
+    assert_true(fixture_event_count(&f, EVENT_COLLISION) >= 1);
+    assert_true(steps_speed(&f, 1) > 0.0); /* pushed aside */
 }
 
 /* --- dents -------------------------------------------------------------------------------------*/
@@ -214,7 +271,10 @@ int main(void)
         TEST(test_row_36_a_blow_goes_through_a_row_of_them),
         TEST(test_row_36_two_at_once_share_a_blow),
         TEST(test_row_36_who_is_struck_twice_in_a_frame_answers_twice),
+        TEST(test_row_36_who_parts_untouched_may_meet_later),
+        TEST(test_row_36_a_bush_beside_makes_no_second_collision),
         TEST(test_row_46_overlapping_bodies_part_exactly),
+        TEST(test_who_turns_in_place_meets_its_neighbour),
         TEST(test_rows_33_47_a_blow_leaves_a_dent_where_it_struck),
         TEST(test_dents_beyond_the_list_are_counted),
         TEST(test_a_touch_leaves_no_dent),
