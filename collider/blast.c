@@ -67,7 +67,7 @@ static void blast_fixed(struct respond *respond, const struct charge *charge, do
                         uint32_t index)
 {
     const struct fixed_object *object = &respond->world->fixed[index];
-    struct vec3 at = {object->x, (double)object->y, object->z};
+    struct vec3 at = fixed_position(object);
     double distance = distance_to(charge->point, at, (double)object->radius_m);
     harm_fixed(respond, index, blast_energy(charge->explosive_kg, radius, distance));
 }

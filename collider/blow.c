@@ -3,13 +3,6 @@
 #include "collider/respond.h"
 #include "collider/spring.h"
 
-static void put(float to[3], struct vec3 from)
-{
-    to[0] = (float)from.x;
-    to[1] = (float)from.y;
-    to[2] = (float)from.z;
-}
-
 /* inwards: unit, world axes. */
 static void dent(struct respond *respond, uint32_t row, const struct impact *impact,
                  struct vec3 inwards, const struct crush *crush)
@@ -27,8 +20,8 @@ static void dent(struct respond *respond, uint32_t row, const struct impact *imp
                            .tick = (uint32_t)head->tick,
                            .plastic_m = (float)crush->plastic_m,
                            .elastic_m = (float)crush->elastic_m};
-    put(entry->point, rotation_back(&turn, from_position));
-    put(entry->direction, rotation_back(&turn, inwards));
+    vec3_to_floats(entry->point, rotation_back(&turn, from_position));
+    vec3_to_floats(entry->direction, rotation_back(&turn, inwards));
 }
 
 int blow_row(struct respond *respond, uint32_t row, const struct impact *impact, double side,

@@ -40,7 +40,7 @@ double detect_fixed_reach(const struct world *world, const struct fixed_object *
     const struct kind *kind = &world->kinds[object->kind];
     if (world->params->collision.shape != SHAPE_MODEL)
         return (double)object->radius_m;
-    return kind->level_m * ((double)object->radius_m / kind->radius_m);
+    return kind->level_m * fixed_scale(object, kind);
 }
 
 struct sweep_box detect_box(const struct detect_input *input, uint32_t row)
@@ -91,7 +91,7 @@ static struct extent extent_of(const struct world *world, const struct fixed_obj
     if (world->params->collision.shape != SHAPE_MODEL)
         return (struct extent){reach, -reach, reach};
     const struct kind *kind = &world->kinds[object->kind];
-    double scale = (double)object->radius_m / kind->radius_m;
+    double scale = fixed_scale(object, kind);
     return (struct extent){reach, kind->low_m * scale, kind->high_m * scale};
 }
 

@@ -283,13 +283,12 @@ static int solve_group(struct respond *respond, uint32_t first, double time)
     impulse_solve(respond, first, bodies);
     contacts = 0;
     for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
-        const struct vec3 *impulse = &island->contact[contacts++].impulse;
-        if (vec3_dot(*impulse, *impulse) == 0.0) /* nothing has changed: it would be found again */
-            contacts_settle(respond->contacts, &island->meeting[i - 1].contact);
+        const struct island_meeting *meeting = &island->meeting[i - 1];
+        const struct solve_contact *contact = &island->contact[contacts++];
+        part(respond, meeting, contact);
+        if (vec3_dot(contact->impulse, contact->impulse) == 0.0)
+            contacts_settle(respond->contacts, &meeting->contact); /* it would be found again */
     }
-    contacts = 0;
-    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next)
-        part(respond, &island->meeting[i - 1], &island->contact[contacts++]);
     for (uint32_t i = 0; i < bodies; i++) {
         if (island->solve_of[i] != BODY_FIXED &&
             leave(respond, &island->solve[i], &island->body[island->solve_of[i]], time) != 0)

@@ -138,9 +138,9 @@ struct swept_body motion_body(const struct motion *motion, uint32_t row)
 struct swept_body motion_fixed(const struct world *world, uint32_t object)
 {
     const struct fixed_object *fixed = &world->fixed[object];
-    double scale = (double)fixed->radius_m / world->kinds[fixed->kind].radius_m;
+    double scale = fixed_scale(fixed, &world->kinds[fixed->kind]);
     struct swept_body body = shape_of(world, fixed->kind, scale);
-    body.path.at = (struct vec3){fixed->x, (double)fixed->y, fixed->z};
-    body.from = body.to = rotation_of(motion_fixed_heading(fixed), 0.0, 0.0);
+    body.path.at = fixed_position(fixed);
+    body.from = body.to = rotation_of(fixed_heading(fixed), 0.0, 0.0);
     return body;
 }

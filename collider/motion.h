@@ -57,10 +57,4 @@ int motion_change(struct motion *motion, uint32_t row, const struct path *path,
 struct swept_body motion_body(const struct motion *motion, uint32_t row);
 struct swept_body motion_fixed(const struct world *world, uint32_t object);
 
-/* How a fixed object is turned [rad, heading]. */
-static inline double motion_fixed_heading(const struct fixed_object *object)
-{
-    return (double)object->turn * (TWO_PI / 65536.0);
-}
-
 #endif

@@ -1,11 +1,6 @@
 /* One pair at a time: spheres in closed form, hulls by conservative advancement. */
 #include "collider/narrow.h"
 
-static struct vec3 fixed_position(const struct fixed_object *object)
-{
-    return (struct vec3){object->x, (double)object->y, object->z};
-}
-
 /* The touch of two spheres at its time. Centre in centre any normal would do: it is upwards. */
 static void touch_of_spheres(struct vec3 a, struct vec3 b, double radius_a, double reach,
                              struct touch *touch)

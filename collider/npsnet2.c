@@ -43,7 +43,7 @@ static struct body body_of_row(const struct detect_input *input, uint32_t row)
 
 static double scale_of(const struct world *world, const struct fixed_object *object)
 {
-    return (double)object->radius_m / world->kinds[object->kind].radius_m;
+    return fixed_scale(object, &world->kinds[object->kind]);
 }
 
 static struct body body_of_fixed(const struct world *world, const struct fixed_object *object)
@@ -51,7 +51,7 @@ static struct body body_of_fixed(const struct world *world, const struct fixed_o
     double reach = world->params->collision.shape == SHAPE_MODEL
                        ? world->kinds[object->kind].bound_m * scale_of(world, object)
                        : (double)object->radius_m;
-    return (struct body){{object->x, (double)object->y, object->z}, NPSNET2_RADIUS_SHARE * reach};
+    return (struct body){fixed_position(object), NPSNET2_RADIUS_SHARE * reach};
 }
 
 static struct ray_model model_of_row(const struct detect_input *input, uint32_t row)
@@ -68,12 +68,11 @@ static struct ray_model model_of_row(const struct detect_input *input, uint32_t 
 
 static struct ray_model model_of_fixed(const struct world *world, const struct fixed_object *object)
 {
-    return (struct ray_model){
-        .world = world,
-        .model = world->kinds[object->kind].model,
-        .scale = scale_of(world, object),
-        .turn = rotation_matrix(rotation_of(object->turn * (TWO_PI / 65536.0), 0.0, 0.0)),
-        .at = {object->x, (double)object->y, object->z}};
+    return (struct ray_model){.world = world,
+                              .model = world->kinds[object->kind].model,
+                              .scale = scale_of(world, object),
+                              .turn = rotation_matrix(rotation_of(fixed_heading(object), 0.0, 0.0)),
+                              .at = fixed_position(object)};
 }
 
 /* Level 3: by its two rays, does the row touch the other? */

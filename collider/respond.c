@@ -37,8 +37,7 @@ static struct vec3 level_normal(const struct respond *respond, const struct cont
     if (length < LEVEL_MIN) {
         struct vec3 a = path_at(&respond->path[contact->a], contact->touch.toi), b;
         if (contact->b & PAIR_FIXED) {
-            const struct fixed_object *object = &respond->world->fixed[contact->b & ~PAIR_FIXED];
-            b = (struct vec3){object->x, 0.0, object->z};
+            b = fixed_position(&respond->world->fixed[contact->b & ~PAIR_FIXED]);
         } else {
             b = path_at(&respond->path[contact->b], contact->touch.toi);
         }
@@ -72,7 +71,7 @@ struct impact respond_impact(const struct respond *respond, const struct contact
         (contact->b & PAIR_FIXED || respond_grounded(respond, contact->b)))
         impact.normal = level_normal(respond, contact);
     if (contact->b & PAIR_FIXED) {
-        other_heading = motion_fixed_heading(&respond->world->fixed[contact->b & ~PAIR_FIXED]);
+        other_heading = fixed_heading(&respond->world->fixed[contact->b & ~PAIR_FIXED]);
     } else {
         vb = velocity_at(respond, contact->b, &contact->touch);
         other_heading = e->heading[contact->b];
@@ -112,13 +111,6 @@ static void put(double to[3], struct vec3 from)
     to[0] = from.x;
     to[1] = from.y;
     to[2] = from.z;
-}
-
-static void put_float(float to[3], struct vec3 from)
-{
-    to[0] = (float)from.x;
-    to[1] = (float)from.y;
-    to[2] = (float)from.z;
 }
 
 /* How the other side of a contact is remembered: an entity by its id, which no slot change blurs.
@@ -198,8 +190,8 @@ void respond_tell(struct respond *respond, const struct report *report, const st
     collision->a = party_of(respond, impact->a);
     collision->b = party_of(respond, impact->b);
     put(collision->point, impact->point);
-    put_float(collision->normal, impact->normal);
-    put_float(collision->direction_a, report->direction_a);
+    vec3_to_floats(collision->normal, impact->normal);
+    vec3_to_floats(collision->direction_a, report->direction_a);
     collision->toi = impact->time;
     collision->closing_mps = (float)impact->closing_mps;
     collision->angle_deg = (float)(impact->angle_rad * DEG_PER_RAD);
@@ -276,10 +268,10 @@ static int crash(struct respond *respond, const struct contact *contact)
         event->collision.a = party_of(respond, row);
         event->collision.b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
         put(event->collision.point, respond->path[row].at);
-        put_float(event->collision.normal, vec3_scale(normal, -1.0));
+        vec3_to_floats(event->collision.normal, vec3_scale(normal, -1.0));
         if (vec3_length(velocity) > 0.0)
-            put_float(event->collision.direction_a,
-                      vec3_scale(velocity, 1.0 / vec3_length(velocity)));
+            vec3_to_floats(event->collision.direction_a,
+                           vec3_scale(velocity, 1.0 / vec3_length(velocity)));
         event->collision.toi = time;
         event->collision.closing_mps = (float)maths_max(0.0, -vec3_dot(velocity, normal));
         event->collision.response = RESPONSE_DESTROYED;

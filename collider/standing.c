@@ -1,6 +1,8 @@
 /* The fixed objects' records, sorted by strip and west edge. */
 #include "collider/standing.h"
 
+#include "world/reach.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,9 +12,7 @@
 /* How far it reaches on the map, whatever collision.shape says. */
 static double reach_of(const struct world *world, const struct fixed_object *object)
 {
-    const struct kind *kind = &world->kinds[object->kind];
-    double radius = (double)object->radius_m;
-    return maths_max(radius, kind->level_m * (radius / kind->radius_m)) + SLACK_M;
+    return reach_of_fixed(object, world->kinds) + SLACK_M;
 }
 
 struct span {

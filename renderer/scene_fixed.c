@@ -70,7 +70,7 @@ static void add_fixed(struct scene *scene, const struct scenery *scenery,
     const struct kind *kind = &moment->world->kinds[object->kind];
     uint8_t damage = moment->fixed_damage[index] < DAMAGE_HIGH ? moment->fixed_damage[index]
                                                                : (uint8_t)DAMAGE_HIGH;
-    struct vec3 position = {object->x, (double)object->y, object->z};
+    struct vec3 position = fixed_position(object);
     double size = maths_max((double)object->radius_m, (double)object->height_m);
     double distance = vec3_length(vec3_sub(position, scene->camera.eye));
     double pixels = camera_pixels(&scene->camera, 2.0 * size, distance);
@@ -82,8 +82,8 @@ static void add_fixed(struct scene *scene, const struct scenery *scenery,
     if (body == NULL)
         return;
     double lean = lean_of((enum object_class)kind->object_class, (enum damage)damage);
-    struct pose pose = pose_of(object->turn * (TWO_PI / 65536.0), -lean, 0.0);
-    scene_body_place(scene, body, position, &pose, (double)object->radius_m / kind->radius_m);
+    struct pose pose = pose_of(fixed_heading(object), -lean, 0.0);
+    scene_body_place(scene, body, position, &pose, fixed_scale(object, kind));
     memcpy(body->tint, bare, sizeof body->tint);
     body->grain = (float)(grain_hash((int32_t)index, 4, 9) % 64u);
     if (damage != DAMAGE_NONE)

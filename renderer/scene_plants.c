@@ -106,7 +106,7 @@ static void add_plant(struct scene *scene, const struct scenery *scenery,
                       const struct moment *moment, uint32_t index)
 {
     const struct fixed_object *object = &moment->world->fixed[index];
-    struct vec3 foot = {object->x, (double)object->y, object->z};
+    struct vec3 foot = fixed_position(object);
     double high = (double)object->height_m;
     double distance = vec3_length(vec3_sub(foot, scene->camera.eye));
     if (camera_pixels(&scene->camera, high, distance) < PLANT_LEAST_PIXELS ||

@@ -4,6 +4,9 @@
 #ifndef JOLON_WORLD_FIXED_H
 #define JOLON_WORLD_FIXED_H
 
+#include "world/kind.h"
+#include "world/maths.h"
+
 #include <stdint.h>
 
 struct fixed_object {
@@ -16,6 +19,23 @@ struct fixed_object {
 };
 
 _Static_assert(sizeof(struct fixed_object) == 32, "shared layout");
+
+/* Where it stands [m, world], how it is turned [rad, heading], and its size over its kind's, which
+ * is kinds[object->kind] of the world. */
+static inline struct vec3 fixed_position(const struct fixed_object *object)
+{
+    return (struct vec3){object->x, (double)object->y, object->z};
+}
+
+static inline double fixed_heading(const struct fixed_object *object)
+{
+    return (double)object->turn * (TWO_PI / 65536.0);
+}
+
+static inline double fixed_scale(const struct fixed_object *object, const struct kind *kind)
+{
+    return (double)object->radius_m / kind->radius_m;
+}
 
 /* Damage of anything, fixed or moving (thesis rows 27, 33). */
 enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED, DAMAGE_COUNT };

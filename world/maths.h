@@ -65,6 +65,13 @@ static inline struct vec3 vec3_scale(struct vec3 a, double s)
     return (struct vec3){a.x * s, a.y * s, a.z * s};
 }
 
+static inline void vec3_to_floats(float to[3], struct vec3 from)
+{
+    to[0] = (float)from.x;
+    to[1] = (float)from.y;
+    to[2] = (float)from.z;
+}
+
 static inline double vec3_dot(struct vec3 a, struct vec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;

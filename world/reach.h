@@ -19,8 +19,8 @@ static inline double reach_of_kind(const struct kind *kind)
 static inline double reach_of_fixed(const struct fixed_object *object, const struct kind *kinds)
 {
     const struct kind *kind = &kinds[object->kind];
-    double radius = (double)object->radius_m;
-    return kind->level_m > kind->radius_m ? kind->level_m * (radius / kind->radius_m) : radius;
+    return kind->level_m > kind->radius_m ? kind->level_m * fixed_scale(object, kind)
+                                          : (double)object->radius_m;
 }
 
 /* Builds start [SQUARE_COUNT + 1] and items [start[SQUARE_COUNT]] on the heap; the caller frees

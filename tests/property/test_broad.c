@@ -3,6 +3,7 @@
 #include "collider/broad.h"
 
 #include "tests/support/fixture.h"
+#include "tests/support/spread.h"
 #include "world/reach.h"
 #include "world/square.h"
 
@@ -77,51 +78,12 @@ static void end(struct small_world *w)
 
 /* --- drawing worlds ----------------------------------------------------------------------------*/
 
-/* Where the world's bodies are: its middle and its size. */
-struct place {
-    double x, z, extent;
-};
-
-static struct place draw_place(uint64_t *random)
-{
-    static const double extents[] = {0.0, 3.0, 40.0, 300.0, 3000.0};
-    struct place place = {fixture_uniform(random, 0, WORLD_SIDE_M),
-                          fixture_uniform(random, 0, WORLD_SIDE_M),
-                          extents[fixture_random(random) % 5]};
-    switch (fixture_random(random) % 4) {
-    case 0: /* on a corner of four squares */
-        place.x = SQUARE_SIDE_M * floor(place.x / SQUARE_SIDE_M);
-        place.z = SQUARE_SIDE_M * floor(place.z / SQUARE_SIDE_M);
-        break;
-    case 1: /* on a border */
-        place.x = SQUARE_SIDE_M * floor(place.x / SQUARE_SIDE_M);
-        break;
-    case 2: /* at the world's corner, and past it */
-        place.x = place.z = fixture_random(random) & 1 ? 0.0 : WORLD_SIDE_M;
-        break;
-    default:
-        break;
-    }
-    return place;
-}
-
-static struct vec3 draw_point(const struct place *place, uint64_t *random)
-{
-    double half = 0.5 * place->extent;
-    struct vec3 p = {place->x + fixture_uniform(random, -half, half),
-                     fixture_uniform(random, 0.0, 0.2 * place->extent + 1.0),
-                     place->z + fixture_uniform(random, -half, half)};
-    if (fixture_random(random) % 8 == 0) /* exactly on a border */
-        p.x = SQUARE_SIDE_M * floor(p.x / SQUARE_SIDE_M);
-    return p;
-}
-
-static void draw_fixed(struct small_world *w, const struct place *place, uint64_t *random)
+static void draw_fixed(struct small_world *w, const struct spread *place, uint64_t *random)
 {
     static const double radii[] = {0.01, 0.4, 1.8, 9.0, 130.0};
     uint32_t count = (uint32_t)(fixture_random(random) % (FIXED_MAX + 1));
     for (uint32_t i = 0; i < count; i++) {
-        struct vec3 p = draw_point(place, random);
+        struct vec3 p = spread_point(place, random);
         w->fixed[i] = (struct fixed_object){
             .x = maths_clamp(p.x, 0.0, WORLD_SIDE_M),
             .z = maths_clamp(p.z, 0.0, WORLD_SIDE_M),
@@ -136,7 +98,8 @@ static void draw_fixed(struct small_world *w, const struct place *place, uint64_
     w->world.reach = w->reach;
 }
 
-static void draw_row(struct small_world *w, uint32_t i, const struct place *place, uint64_t *random)
+static void draw_row(struct small_world *w, uint32_t i, const struct spread *place,
+                     uint64_t *random)
 {
     static const double speeds[] = {0.0, 0.0, 1.0, 30.0, 300.0, 1500.0};
     struct entities *e = &w->e;
@@ -154,7 +117,7 @@ static void draw_row(struct small_world *w, uint32_t i, const struct place *plac
         e->owner_slot[i] = (uint32_t)(fixture_random(random) % i);
         e->owner_id[i] = e->owner_slot[i] + 1 + (fixture_random(random) % 4 == 0 ? 1000u : 0u);
     }
-    w->path[i] = (struct path){.at = draw_point(place, random),
+    w->path[i] = (struct path){.at = spread_point(place, random),
                                .along = {along * fixture_uniform(random, -1, 1),
                                          along * fixture_uniform(random, -0.1, 0.1),
                                          along * fixture_uniform(random, -1, 1)},
@@ -165,9 +128,9 @@ static void draw_row(struct small_world *w, uint32_t i, const struct place *plac
         w->path[i] = w->path[i - 1];
 }
 
-static struct place draw_world(struct small_world *w, uint64_t *random)
+static struct spread draw_world(struct small_world *w, uint64_t *random)
 {
-    struct place place = draw_place(random);
+    struct spread place = spread_draw(random, 3000.0);
     w->rows = (uint32_t)(2 + fixture_random(random) % (w->capacity - 1));
     w->params.collision.shape = fixture_random(random) & 1 ? SHAPE_MODEL : SHAPE_SPHERE;
     draw_fixed(w, &place, random);
@@ -327,10 +290,10 @@ static void test_every_pair_is_found_exactly_once(void **state)
 
 /* --- queries -----------------------------------------------------------------------------------*/
 
-static struct sweep_box draw_box(const struct place *place, uint64_t *random)
+static struct sweep_box draw_box(const struct spread *place, uint64_t *random)
 {
     static const double sizes[] = {0.0, 0.5, 10.0, 200.0, 2000.0};
-    struct path way = {.at = draw_point(place, random)};
+    struct path way = {.at = spread_point(place, random)};
     return detect_way_box(&way, sizes[fixture_random(random) % 5]);
 }
 
@@ -373,7 +336,7 @@ static void test_a_query_finds_every_row_and_object_once_in_order(void **state)
     (void)state;
     begin(&w, ROWS_MAX);
     for (int world = 0; world < WORLDS / 3; world++) {
-        struct place place = draw_world(&w, &random);
+        struct spread place = draw_world(&w, &random);
         const struct detect_input input = input_of(&w);
         assert_int_equal(broad_init(&broad, &w.world, NULL), 0);
         assert_int_equal(broad_pairs(&broad, &input), 0);
@@ -423,7 +386,7 @@ static struct pair_list all_pairs(const struct broad *broad)
 
 static void draw_crowd(struct small_world *w, uint64_t *random)
 {
-    struct place place = {25000.0, 25000.0, CROWD_SIDE};
+    struct spread place = {25000.0, 25000.0, CROWD_SIDE};
     draw_fixed(w, &place, random);
     w->rows = w->capacity;
     for (uint32_t i = 0; i < w->rows; i++) {

@@ -4,6 +4,7 @@
 
 #include "tests/support/fixture.h"
 #include "tests/support/small_world.h"
+#include "tests/support/spread.h"
 #include "world/square.h"
 
 #include <stdarg.h>
@@ -24,45 +25,6 @@
 
 /* --- drawing worlds ----------------------------------------------------------------------------*/
 
-/* Where the world's bodies are: its middle and its size. */
-struct place {
-    double x, z, extent;
-};
-
-static struct place draw_place(uint64_t *random, double widest)
-{
-    const double extents[] = {0.0, 3.0, 40.0, 300.0, widest};
-    struct place place = {fixture_uniform(random, 0, WORLD_SIDE_M),
-                          fixture_uniform(random, 0, WORLD_SIDE_M),
-                          extents[fixture_random(random) % 5]};
-    switch (fixture_random(random) % 4) {
-    case 0: /* on a corner of four squares */
-        place.x = SQUARE_SIDE_M * floor(place.x / SQUARE_SIDE_M);
-        place.z = SQUARE_SIDE_M * floor(place.z / SQUARE_SIDE_M);
-        break;
-    case 1: /* on a border */
-        place.x = SQUARE_SIDE_M * floor(place.x / SQUARE_SIDE_M);
-        break;
-    case 2: /* at the world's corner, and past it */
-        place.x = place.z = fixture_random(random) & 1 ? 0.0 : WORLD_SIDE_M;
-        break;
-    default:
-        break;
-    }
-    return place;
-}
-
-static struct vec3 draw_point(const struct place *place, uint64_t *random)
-{
-    double half = 0.5 * place->extent;
-    struct vec3 p = {place->x + fixture_uniform(random, -half, half),
-                     fixture_uniform(random, 0.0, 0.2 * place->extent + 1.0),
-                     place->z + fixture_uniform(random, -half, half)};
-    if (fixture_random(random) % 8 == 0) /* exactly on a border */
-        p.x = SQUARE_SIDE_M * floor(p.x / SQUARE_SIDE_M);
-    return p;
-}
-
 static enum small_kind draw_kind(uint64_t *random)
 {
     enum small_kind kind = (enum small_kind)(fixture_random(random) % SMALL_TREE);
@@ -80,12 +42,12 @@ static struct vec3 beside(const struct small_world *w, uint32_t row, enum small_
     return at;
 }
 
-static void draw_row(struct small_world *w, const struct place *place, uint64_t *random)
+static void draw_row(struct small_world *w, const struct spread *place, uint64_t *random)
 {
     static const double speeds[] = {0.0, 0.0, 1.0, 30.0, 300.0, 1500.0};
     double along = speeds[fixture_random(random) % 6];
     enum small_kind kind = draw_kind(random);
-    struct vec3 at = draw_point(place, random);
+    struct vec3 at = spread_point(place, random);
     struct vec3 way = {along * fixture_uniform(random, -1, 1),
                        along * fixture_uniform(random, -0.1, 0.1),
                        along * fixture_uniform(random, -1, 1)};
@@ -112,11 +74,11 @@ static void draw_world(struct small_world *w, uint32_t rows, uint32_t fixed, dou
                        uint64_t *random)
 {
     static const double radii[] = {0.01, 0.4, 1.8, 9.0, 130.0};
-    struct place place = draw_place(random, widest);
+    struct spread place = spread_draw(random, widest);
     small_world_empty(w);
     w->params.collision.shape = fixture_random(random) % 3 == 0 ? SHAPE_MODEL : SHAPE_SPHERE;
     for (uint32_t i = 0; i < fixed; i++) {
-        struct vec3 p = draw_point(&place, random);
+        struct vec3 p = spread_point(&place, random);
         p.x = maths_clamp(p.x, 0.0, WORLD_SIDE_M);
         p.y = fixture_uniform(random, 0.0, 5.0);
         p.z = maths_clamp(p.z, 0.0, WORLD_SIDE_M);

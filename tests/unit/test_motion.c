@@ -130,7 +130,7 @@ static void test_bodies_have_their_kinds_hulls_at_their_size(void **state)
     assert_true(fabs(body.scale - (double)tree.radius_m / kind->radius_m) < 1e-12);
     assert_true(fabs(body.bound_m - body.scale * kind->bound_m) < 1e-12);
     assert_true(body.path.at.x == 25000.0 && body.path.at.z == 25100.0);
-    assert_true(fabs(maths_wrap_half(heading_of(body.to) - motion_fixed_heading(&tree))) < 1e-9);
+    assert_true(fabs(maths_wrap_half(heading_of(body.to) - fixed_heading(&tree))) < 1e-9);
 }
 
 int main(void)

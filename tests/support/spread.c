@@ -1,0 +1,39 @@
+/* Corners, borders, the world's edge, and anywhere. */
+#include "tests/support/spread.h"
+
+#include "tests/support/fixture.h"
+#include "world/square.h"
+
+struct spread spread_draw(uint64_t *random, double widest)
+{
+    const double extents[] = {0.0, 3.0, 40.0, 300.0, widest};
+    struct spread place = {fixture_uniform(random, 0, WORLD_SIDE_M),
+                           fixture_uniform(random, 0, WORLD_SIDE_M),
+                           extents[fixture_random(random) % 5]};
+    switch (fixture_random(random) % 4) {
+    case 0: /* on a corner of four squares */
+        place.x = SQUARE_SIDE_M * floor(place.x / SQUARE_SIDE_M);
+        place.z = SQUARE_SIDE_M * floor(place.z / SQUARE_SIDE_M);
+        break;
+    case 1: /* on a border */
+        place.x = SQUARE_SIDE_M * floor(place.x / SQUARE_SIDE_M);
+        break;
+    case 2: /* at the world's corner, and past it */
+        place.x = place.z = fixture_random(random) & 1 ? 0.0 : WORLD_SIDE_M;
+        break;
+    default:
+        break;
+    }
+    return place;
+}
+
+struct vec3 spread_point(const struct spread *place, uint64_t *random)
+{
+    double half = 0.5 * place->extent;
+    struct vec3 p = {place->x + fixture_uniform(random, -half, half),
+                     fixture_uniform(random, 0.0, 0.2 * place->extent + 1.0),
+                     place->z + fixture_uniform(random, -half, half)};
+    if (fixture_random(random) % 8 == 0) /* exactly on a border */
+        p.x = SQUARE_SIDE_M * floor(p.x / SQUARE_SIDE_M);
+    return p;
+}
