@@ -14,14 +14,15 @@ CXX      := g++
 endif
 OPT      ?= -O2
 SAN      ?=
+CRASHPOINTS ?=
 PREFIX   ?= /usr/local
 DESTDIR  ?=
 
-# Sanitized objects have a tree of their own.
+# Sanitized objects have a tree of their own, and so have those with crash points.
 comma    := ,
 empty    :=
 space    := $(empty) $(empty)
-BUILD    ?= build$(if $(SAN),/san-$(subst $(comma),-,$(SAN)))
+BUILD    ?= build$(if $(CRASHPOINTS),/crash)$(if $(SAN),/san-$(subst $(comma),-,$(SAN)))
 BIN      := $(BUILD)/bin
 OBJ      := $(BUILD)/obj
 IDL      := $(BUILD)/idl
@@ -33,7 +34,10 @@ CFLAGS_ALL := -std=c17 $(OPT) -g -fno-common -ffp-contract=off -fno-strict-overf
         -D_GNU_SOURCE -I. $(WARN)
 # For the one file of C++: what both languages know.
 CXXFLAGS_ALL = $(filter-out -std=% -Wstrict-prototypes -Wmissing-prototypes,$(CFLAGS_ALL))
-LDFLAGS_ALL := -pthread
+LDFLAGS_ALL := -pthread -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=strdup,--wrap=__strdup
+ifneq ($(CRASHPOINTS),)
+CFLAGS_ALL  += -DCRASHPOINTS
+endif
 ifneq ($(SAN),)
 CFLAGS_ALL  += -fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all
 LDFLAGS_ALL += -fsanitize=$(SAN)
@@ -45,35 +49,55 @@ CFLAGS_ALL  += -Wno-tsan
 endif
 
 # --- set-up: packages ---------------------------------------------------------------------------
-PACKAGES := $(shell sed -e 's/\#.*//' packages.txt)
 STAMP    := build/.packages
 $(STAMP): packages.txt supervisor/install-packages
-	@supervisor/install-packages packages.txt
+	@supervisor/install-packages $<
+	@mkdir -p $(@D) && touch $@
+TEST_STAMP := build/.packages-tests
+$(TEST_STAMP): tests/packages.txt supervisor/install-packages
+	@supervisor/install-packages $<
 	@mkdir -p $(@D) && touch $@
 
 # --- sources ------------------------------------------------------------------------------------
 WORLD_SRC    := $(wildcard world/*.c)
-IPC_SRC      := $(wildcard ipc/*.c)
+IPC_SRC      := $(filter-out $(if $(CRASHPOINTS),,ipc/crash.c),$(wildcard ipc/*.c))
+ARCHIVE_SRC  := $(wildcard archive/*.c)
+SANDBOX_SRC  := $(wildcard sandbox/*.c)
 CONFIG_SRC   := $(wildcard config/*.c)
 WORLDCTL_SRC := $(wildcard worldctl/*.c)
+KEEPER_SRC   := $(wildcard supervisor/*.c)
 MOVER_SRC    := $(wildcard mover/*.c)
 COLLIDER_SRC := $(wildcard collider/*.c)
+REPLAY_SRC   := $(wildcard replay/*.c)
 RENDERER_SRC := $(wildcard renderer/*.c)
 REPORTER_SRC := $(wildcard reporter/*.c)
 MONITOR_SRC  := $(wildcard monitor/*.c)
+RECORDER_SRC := $(wildcard recorder/*.c)
 BENCH_SRC    := $(wildcard bench/*.c)
 BENCH_CPP    := $(wildcard bench/*.cpp)
 UNIT_SRC     := $(wildcard tests/unit/test_*.c)
 PROPERTY_SRC := $(wildcard tests/property/test_*.c)
+CRASH_SRC    := $(wildcard tests/crash/*.c)
 SUPPORT_SRC  := $(wildcard tests/support/*.c)
+STORM_SRC    := $(wildcard tests/storm/*.c)
+LISTENER_SRC := tests/once/listener.c
+FUZZ_SRC     := $(wildcard tests/fuzz/fuzz_*.c)
 
 objects = $(patsubst %.c,$(OBJ)/%.o,$(1))
 WORLD    := $(call objects,$(WORLD_SRC))
 IPC      := $(call objects,$(IPC_SRC))
+ARCHIVE  := $(call objects,$(ARCHIVE_SRC))
+SANDBOX  := $(call objects,$(SANDBOX_SRC))
 CONFIG   := $(call objects,$(CONFIG_SRC))
 SUPPORT  := $(call objects,$(SUPPORT_SRC))
 # The steps without their main, for tests and benchmarks.
 STEPS    := $(call objects,$(filter-out %/main.c,$(MOVER_SRC) $(COLLIDER_SRC)))
+# What reads and writes logs, without the recorder itself.
+LOGS     := $(call objects,$(addprefix recorder/,journal.c command_log.c command_record.c event_log.c) \
+        worldctl/json.c)
+REPLAY   := $(call objects,$(REPLAY_SRC)) $(STEPS)
+# The keeper without its main: whom it watches, and what it makes of a death.
+KEEPER   := $(call objects,$(filter-out %/keeper.c,$(KEEPER_SRC)))
 # The scene without the drawing: nothing here knows of graphics.
 SCENE    := $(call objects,$(addprefix renderer/,camera.c dents.c effects.c follow.c foliage.c ground.c \
         image.c map.c mesh.c paint.c scene.c scene_fixed.c scene_plants.c scene_puffs.c scenery.c \
@@ -86,53 +110,69 @@ DDS_LIBS      = $(call pc,libs,CycloneDDS)
 RENDER_CFLAGS = $(call pc,cflags,epoxy egl libpng freetype2)
 # Not egl: libepoxy opens it when there is one, and a machine without it is told so.
 RENDER_LIBS   = $(call pc,libs,epoxy libpng freetype2)
-CONFIG_LIBS   = $(call pc,libs,libconfig assimp)
+# libconfig and libseccomp statically, with their allocations led through world/guarded.c.
+CONFIG_LIBS   = -Wl,-Bstatic $(call pc,libs,libconfig) -Wl,-Bdynamic $(call pc,libs,assimp) -lstdc++
 JSON_CFLAGS   = $(call pc,cflags,libcjson)
 JSON_LIBS     = $(call pc,libs,libcjson)
 CURSES_LIBS   = $(call pc,libs,ncursesw)
 HASH_LIBS     = $(call pc,libs,libxxhash)
+ARCHIVE_LIBS  = $(call pc,libs,libzstd)
 # The engines that jolon-bench measures us beside; their headers are not held to our warnings.
 PEER_CFLAGS   = $(patsubst -I%,-isystem %,$(call pc,cflags,bullet))
 PEER_LIBS     = $(call pc,libs,ode) $(filter-out -lBulletSoftBody -lBulletDynamics,$(call pc,libs,bullet))
+SANDBOX_LIBS  = -Wl,-Bstatic $(call pc,libs,libseccomp) -Wl,-Bdynamic
 TEST_LIBS     = $(call pc,libs,cmocka)
 BASE_LIBS     = $(HASH_LIBS) -lm
 
 PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-renderer \
-        $(BIN)/jolon-reporter $(BIN)/jolon-ctl $(BIN)/jolon-monitor $(BIN)/jolon-bench $(BIN)/jolon
+        $(BIN)/jolon-reporter $(BIN)/jolon-recorder $(BIN)/jolon-ctl $(BIN)/jolon-monitor \
+        $(BIN)/jolon-bench $(BIN)/jolon-keeper $(BIN)/jolon
+# Of the build with crash points: what their tests run.
+CRASH_PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-recorder \
+        $(BIN)/jolon-keeper $(BIN)/jolon $(BUILD)/tests/crash/test_crash
 UNIT_TESTS     := $(patsubst tests/unit/%.c,$(BUILD)/tests/unit/%,$(UNIT_SRC))
 PROPERTY_TESTS := $(patsubst tests/property/%.c,$(BUILD)/tests/property/%,$(PROPERTY_SRC))
+# What system tests run beside the programs.
+STORM          := $(BUILD)/tests/storm/storm
+LISTENER       := $(BUILD)/tests/once/listener
 
-.PHONY: all run test check bench install uninstall format lint clean help
-all: $(PROGRAMS)
+.PHONY: all run test check storm crash fuzz fuzzers model bench install uninstall format lint clean help
+all: $(if $(CRASHPOINTS),$(CRASH_PROGRAMS),$(PROGRAMS))
 
 # --- programs -----------------------------------------------------------------------------------
-link = @mkdir -p $(@D); echo "  LD $@"; $(CC) $(LDFLAGS_ALL) -o $@ $(filter %.o,$^) $(1)
+link = @mkdir -p $(@D); echo "  LD $@"; $(CC) $(LDFLAGS_ALL) -o $@ $(sort $(filter %.o,$^)) $(1)
 
-$(BIN)/jolon-world: $(call objects,$(WORLDCTL_SRC)) $(CONFIG) $(IPC) $(WORLD)
-	$(call link,$(CONFIG_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-mover: $(call objects,$(MOVER_SRC)) $(IPC) $(WORLD)
-	$(call link,$(BASE_LIBS))
-$(BIN)/jolon-collider: $(call objects,$(COLLIDER_SRC)) $(IPC) $(WORLD)
-	$(call link,$(BASE_LIBS))
-$(BIN)/jolon-renderer: $(call objects,$(RENDERER_SRC)) $(IPC) $(WORLD)
-	$(call link,$(RENDER_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-reporter: $(call objects,$(filter-out reporter/ctl%.c,$(REPORTER_SRC))) $(STATUS) $(IPC) $(WORLD)
-	$(call link,$(DDS_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-world: $(call objects,$(WORLDCTL_SRC)) $(REPLAY) $(LOGS) $(ARCHIVE) $(CONFIG) $(IPC) $(WORLD)
+	$(call link,$(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-mover: $(call objects,$(MOVER_SRC)) $(SANDBOX) $(IPC) $(WORLD)
+	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-collider: $(call objects,$(COLLIDER_SRC)) $(SANDBOX) $(IPC) $(WORLD)
+	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-renderer: $(call objects,$(RENDERER_SRC)) $(SANDBOX) $(IPC) $(WORLD)
+	$(call link,$(RENDER_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-reporter: $(call objects,$(filter-out reporter/ctl%.c,$(REPORTER_SRC))) $(STATUS) $(SANDBOX) $(IPC) $(WORLD)
+	$(call link,$(DDS_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-recorder: $(call objects,$(RECORDER_SRC) worldctl/json.c) $(ARCHIVE) $(SANDBOX) $(IPC) $(WORLD)
+	$(call link,$(ARCHIVE_LIBS) $(JSON_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-ctl: $(call objects,$(filter reporter/ctl%.c reporter/dds%.c,$(REPORTER_SRC))) $(STATUS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-monitor: $(call objects,$(MONITOR_SRC) $(filter reporter/dds%.c,$(REPORTER_SRC))) $(STATUS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-bench: $(call objects,$(BENCH_SRC)) $(patsubst %.cpp,$(OBJ)/%.o,$(BENCH_CPP)) $(STEPS) $(CONFIG) $(IPC) $(WORLD)
+$(BIN)/jolon-bench: $(call objects,$(BENCH_SRC)) $(patsubst %.cpp,$(OBJ)/%.o,$(BENCH_CPP)) $(REPLAY) $(LOGS) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS) -lstdc++)
+$(BIN)/jolon-keeper: $(call objects,$(KEEPER_SRC)) $(IPC) $(WORLD)
+	$(call link,$(BASE_LIBS))
 $(BIN)/jolon: supervisor/jolon
 	@mkdir -p $(@D); install -m 755 $< $@
 
 # --- objects ------------------------------------------------------------------------------------
 # Flags reach an object through its folder: only these folders see these libraries.
-$(OBJ)/reporter/%.o $(OBJ)/monitor/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
+$(OBJ)/reporter/%.o $(OBJ)/monitor/%.o $(OBJ)/tests/storm/%.o \
+$(OBJ)/tests/once/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
 $(OBJ)/renderer/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS)
-$(OBJ)/worldctl/%.o $(OBJ)/bench/%.o: CFLAGS_EXTRA = $(JSON_CFLAGS)
-$(call objects,$(REPORTER_SRC) $(MONITOR_SRC)): $(IDL)/status.h
+$(OBJ)/worldctl/%.o $(OBJ)/recorder/%.o $(OBJ)/replay/%.o $(OBJ)/tests/%.o \
+$(OBJ)/bench/%.o: CFLAGS_EXTRA = $(JSON_CFLAGS)
+$(call objects,$(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC)): $(IDL)/status.h
 
 $(OBJ)/%.o: %.c $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CC $<"
@@ -141,6 +181,9 @@ $(OBJ)/%.o: %.c $(BUILD)/flags | $(STAMP)
 $(OBJ)/%.o: %.cpp $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CXX $<"
 	@$(CXX) -std=c++17 $(CXXFLAGS_ALL) $(PEER_CFLAGS) -MMD -MP -c -o $@ $<
+
+TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(FUZZ_SRC)
+$(call objects,$(TEST_SRC)): | $(TEST_STAMP)
 
 # Generated from the IDL; generated code is not held to our warnings.
 $(IDL)/status.c $(IDL)/status.h &: ipc/status.idl | $(STAMP)
@@ -156,16 +199,65 @@ $(BUILD)/flags: FORCE
 FORCE:
 
 # --- tests --------------------------------------------------------------------------------------
-$(BUILD)/tests/%: $(OBJ)/tests/%.o $(SUPPORT) $(STEPS) $(CONFIG) $(IPC) $(WORLD)
-	$(call link,$(TEST_LIBS) $(CONFIG_LIBS) $(BASE_LIBS))
+$(BUILD)/tests/%: $(OBJ)/tests/%.o $(SUPPORT) $(REPLAY) $(LOGS) $(ARCHIVE) $(CONFIG) $(IPC) $(WORLD)
+	$(call link,$(TEST_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
+
+$(BUILD)/tests/unit/test_judge $(BUILD)/tests/unit/test_watch: $(KEEPER)
+$(BUILD)/tests/crash/test_crash: $(call objects,$(CRASH_SRC))
+$(BUILD)/tests/unit/test_output: $(call objects,$(addprefix renderer/,image.c output.c png.c))
+$(BUILD)/tests/unit/test_output: TEST_LIBS += $(call pc,libs,libpng)
+$(BUILD)/tests/unit/test_sandbox: $(SANDBOX)
+$(BUILD)/tests/unit/test_sandbox: TEST_LIBS += $(SANDBOX_LIBS)
+# Preloaded by system tests; it stands in the way of functions that the headers say much about.
+FAILING := $(BUILD)/tests/faults/failing.so
+$(FAILING): tests/faults/failing.c $(BUILD)/flags
+	@mkdir -p $(@D); echo "  LD $@"
+	@$(CC) -std=c17 $(OPT) -g -D_GNU_SOURCE $(filter-out -Wpedantic,$(WARN)) -fPIC -shared -o $@ $< -ldl
 
 $(BUILD)/tests/unit/test_scene $(BUILD)/tests/unit/test_dents: $(SCENE)
+$(BUILD)/tests/unit/test_checkpoint: $(OBJ)/recorder/checkpoint.o
+$(BUILD)/tests/unit/test_recorder: $(call objects,recorder/brake.c)
+$(BUILD)/tests/unit/test_compare: $(call objects,worldctl/compare.c)
+
+$(STORM): $(call objects,$(STORM_SRC) $(filter reporter/dds%.c,$(REPORTER_SRC)) worldctl/json.c) $(STATUS) $(IPC) $(WORLD)
+	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
+$(LISTENER): $(call objects,$(LISTENER_SRC) $(filter reporter/dds%.c,$(REPORTER_SRC))) $(STATUS) $(IPC) $(WORLD)
+	$(call link,$(DDS_LIBS) $(BASE_LIBS))
 
 check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property
 
-test: all $(UNIT_TESTS) $(PROPERTY_TESTS)
-	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property system
+# Crash points are tried unsanitized: a sanitizer has its own handler for faults.
+test: all $(UNIT_TESTS) $(PROPERTY_TESTS) $(FAILING) $(STORM) $(LISTENER) $(if $(SAN),,crash)
+	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property system $(if $(SAN),,crash)
+
+crash:
+	@$(MAKE) --no-print-directory CRASHPOINTS=1 BUILD=$(BUILD)/crash all
+
+# --- fuzzing ------------------------------------------------------------------------------------
+# Harnesses are clang's: tests/fuzz/run calls make again, with a compiler, sanitizers and a build
+# tree for them.
+FUZZERS := $(patsubst tests/fuzz/%.c,$(BIN)/%,$(FUZZ_SRC))
+fuzzers: $(FUZZERS)
+$(BIN)/fuzz_%: $(OBJ)/tests/fuzz/fuzz_%.o $(OBJ)/tests/fuzz/support.o $(CONFIG) $(IPC) $(WORLD)
+	$(call link,-fsanitize=fuzzer $(FUZZ_LINK) $(CONFIG_LIBS) $(BASE_LIBS))
+FUZZ_WRAP = -Wl,$(subst $(space),$(comma),$(patsubst %,--wrap=%,$(1)))
+$(BIN)/fuzz_scenario $(BIN)/fuzz_kind: $(OBJ)/tests/fuzz/one_model.o
+$(BIN)/fuzz_scenario $(BIN)/fuzz_kind: FUZZ_LINK = $(call FUZZ_WRAP,aiImportFileEx aiReleaseImport)
+$(BIN)/fuzz_command: $(call objects,reporter/check.c $(filter-out %/main.c,$(MOVER_SRC)))
+$(BIN)/fuzz_ctl $(BIN)/fuzz_log: $(OBJ)/tests/fuzz/ending.o
+$(BIN)/fuzz_ctl: $(call objects,reporter/ctl_parse.c reporter/dds_config.c reporter/dds_link.c)
+$(BIN)/fuzz_ctl: FUZZ_LINK = $(call FUZZ_WRAP,exit) $(DDS_LIBS)
+$(BIN)/fuzz_image: $(ARCHIVE)
+$(BIN)/fuzz_image: FUZZ_LINK = $(ARCHIVE_LIBS)
+$(BIN)/fuzz_log: $(LOGS) $(REPLAY)
+$(BIN)/fuzz_log: FUZZ_LINK = $(call FUZZ_WRAP,exit) $(JSON_LIBS)
+$(OBJ)/tests/fuzz/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
+$(call objects,$(FUZZ_SRC)): $(IDL)/status.h
+
+# SECONDS: of each harness.
+fuzz: | $(TEST_STAMP)
+	@tests/fuzz/run --seconds $(if $(filter file,$(origin SECONDS)),30,$(SECONDS))
 
 # --- running ------------------------------------------------------------------------------------
 # `make SECONDS=n`: bash has a variable of that name, but a make variable is only ours.
@@ -175,8 +267,21 @@ OUT      ?= out
 run: all
 	@$(BIN)/jolon run --seconds $(SECONDS) --out $(OUT) $(SCENARIO)
 
+# Kills and stops at random, and an account: tests/storm/README.md. With more of everything:
+# make storm KILLS=10000 SCENARIO=hunter-liggett STORMY='--renderer --commands 10000'
+KILLS    ?= 1000
+SEED     ?=
+STORMY   ?=
+storm: all $(STORM)
+	@$(STORM) --kills $(KILLS) $(if $(SEED),--seed $(SEED)) $(if $(SCENARIO),--scenario $(SCENARIO)) $(STORMY)
+
 bench: all
 	@bench/run $(BIN)/jolon-bench
+
+# The frame protocol's model: MODEL=short, usual or full.
+MODEL    ?= usual
+model: | $(TEST_STAMP)
+	@tests/model/run $(MODEL)
 
 # --- installing ---------------------------------------------------------------------------------
 SHARE = $(DESTDIR)$(PREFIX)/share/jolon
@@ -195,7 +300,7 @@ uninstall:
 # --- keeping it tidy ----------------------------------------------------------------------------
 C_FILES = $(shell git ls-files '*.c' '*.h')
 format:
-	clang-format -i $(C_FILES)
+	@clang-format -i $(C_FILES)
 lint:
 	@tests/lint
 clean:
@@ -204,6 +309,10 @@ help:
 	@echo 'make run [SECONDS=60] [SCENARIO=file]   run the Hunter-Liggett world and look at it'
 	@echo 'make test                               every test; SAN=address,undefined sanitized'
 	@echo 'make check                              unit and property tests only'
+	@echo 'make fuzz [SECONDS=30]                  hostile input, as long for each harness'
+	@echo 'make CRASHPOINTS=1                      programs that die at a given store, into build/crash'
+	@echo 'make storm [KILLS=1000] [SEED=n]           kill everything at random, count what came of it'
+	@echo 'make model [MODEL=short|usual|full]      check the frame protocol with spin'
 	@echo 'make bench                              measure; results in bench/results/'
 	@echo 'make install PREFIX=/usr/local DESTDIR= make uninstall'
 	@echo 'make format | lint | clean'

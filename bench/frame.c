@@ -2,13 +2,12 @@
  * Hunter-Liggett world (500 vehicles), or on its ground with any number of vehicles on patrol. */
 #include "bench/bench.h"
 
-#include "collider/step.h"
 #include "config/loader.h"
 #include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
 #include "ipc/segment.h"
-#include "mover/step.h"
+#include "replay/player.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -87,31 +86,22 @@ struct times {
 
 static void run(struct view *view, const struct bench_options *options, struct times *times)
 {
-    struct workers *workers = workers_create(options->threads);
-    struct mover mover;
-    struct collider collider;
-    const struct command_source none[COMMAND_RING_COUNT] = {
-        {.slots = 1}, {.slots = 1}, {.slots = 1}};
-    const struct event_ring ring = {view->events, view->header->event_slots};
-    if (!workers || mover_init(&mover, &view->world, view->w[0].craters, workers) != 0 ||
-        collider_init(&collider, &view->world, view->w[0].craters, workers) != 0)
+    struct player player;
+    if (player_init(&player, view, options->threads) != 0)
         die_refused("cannot begin: %s", strerror(errno));
     for (uint32_t i = 0; i < options->frames; i++) {
-        struct state *now = &view->w[i & 1], *next = &view->w[(i + 1) & 1];
         uint64_t t0 = clock_now_ns();
-        if (mover_step(&mover, now, &view->m, none) != 0)
+        if (player_move(&player, NULL) != 0)
             die_refused("out of memory");
         uint64_t t1 = clock_now_ns();
-        if (collider_step(&collider, now, &view->m, next, &ring) != 0)
+        if (player_collide(&player) != 0)
             die_refused("out of memory");
         uint64_t t2 = clock_now_ns();
         times->mover_ms[i] = (double)(t1 - t0) / 1e6;
         times->collider_ms[i] = (double)(t2 - t1) / 1e6;
         times->frame_ms[i] = (double)(t2 - t0) / 1e6;
     }
-    mover_free(&mover);
-    collider_free(&collider);
-    workers_destroy(workers);
+    player_free(&player);
 }
 
 int bench_frame(int argc, char **argv)

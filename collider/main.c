@@ -4,6 +4,7 @@
 #include "ipc/frame.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "sandbox/sandbox.h"
 
 #include <errno.h>
 #include <string.h>
@@ -11,20 +12,28 @@
 int main(int argc, char **argv)
 {
     struct stage_options options = process_stage_options(argc, argv, "jolon-collider");
+    struct sandbox sandbox;
     struct view view;
     struct reason reason;
     struct collider collider;
     struct frame frame;
 
     log_open("collider");
+    process_close_inherited();
     process_signals();
     process_die_with_parent(options.parent);
-    if (segment_attach(&view, options.world, ROLE_COLLIDER, &reason) != 0)
+    if (sandbox_begin(&sandbox, ROLE_COLLIDER, options.sandbox_off, &reason) != 0 ||
+        (options.stand_by ? segment_stand_by : segment_attach)(&view, options.world, ROLE_COLLIDER,
+                                                               &reason) != 0)
         die_refused("%s", reason.text);
     struct workers *workers = workers_create(options.threads);
     if (!workers || collider_init(&collider, &view.world, view.w[0].craters, workers) != 0)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
     const struct event_ring ring = {view.events, view.header->event_slots};
+    if (sandbox_enter(&sandbox, &reason) != 0)
+        die_refused("%s", reason.text);
+    if (segment_take(&view) != 0 || (options.stand_by && frame_finished(&view)))
+        return EXIT_OK; /* asked to stop, or the run ended, while another had the role */
     segment_ready(&view);
     log_info("collides world \"%s\" on %u thread(s)", view.name, options.threads);
 

@@ -129,6 +129,19 @@ static uint64_t fixed_hash(struct collider *collider, const struct state *commit
     return collider->fixed_hash;
 }
 
+/* The checksum of the frame that is now whole. What it added to the lists is not kept: a frame that
+ * is computed again may add something else. */
+static uint64_t checksum(struct collider *collider, const struct state *committed,
+                         const struct state *next)
+{
+    struct row_hashes rows;
+    list_hashes_extend(&collider->lists, committed);
+    struct list_hashes lists = collider->lists;
+    list_hashes_extend(&lists, next);
+    row_hashes_all(&rows, &next->entities, next->head->used, collider->workers);
+    return state_checksum_of(next, &rows, fixed_hash(collider, committed, next), &lists);
+}
+
 struct respond collider_respond(struct collider *collider, struct state *next)
 {
     const struct world *world = collider->world;
@@ -184,6 +197,6 @@ int collider_step(struct collider *collider, const struct state *committed,
     respond_end(&respond);
     next->head->event_end = respond.sink.first + respond.sink.count;
     next->head->event_digest = sink_digest(&respond.sink, committed->head->event_digest);
-    next->head->checksum = state_checksum_over(next, fixed_hash(collider, committed, next));
+    next->head->checksum = checksum(collider, committed, next);
     return result;
 }

@@ -12,6 +12,7 @@
 #include "collider/island.h"
 #include "collider/motion.h"
 #include "collider/respond.h"
+#include "world/checksum.h"
 #include "world/workers.h"
 #include "world/world.h"
 
@@ -27,6 +28,7 @@ struct collider {
     struct pair_list pairs;             /* its pairs */
     /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: of none yet */
     uint64_t fixed_hash, fixed_hash_frame;
+    struct list_hashes lists; /* of the committed craters and dents */
 };
 
 /* Where the frame's events go: the ring from the committed end on. */

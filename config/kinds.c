@@ -217,6 +217,7 @@ static int find_model(struct models *models, const struct key_reading *keys, con
 static int read_kind(struct reading *reading, struct kind *kind, const char *name,
                      struct models *models, struct loader_message *message)
 {
+    char folder[PATH_MAX], file[KIND_NAME_MAX + sizeof(SUFFIX)];
     struct kind_entry entry;
     struct source source;
     config_t config;
@@ -224,11 +225,13 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     int result = -1, model;
 
     memset(&entry, 0, sizeof(entry));
-    if (source_read(&source, reading->path, message) != 0)
+    snprintf(folder, sizeof(folder), "%s/kinds", models->data_dir);
+    snprintf(file, sizeof(file), "%s" SUFFIX, name);
+    if (source_read_in(&source, folder, file, SCHEMA_KIND_BYTES_MAX, message) != 0)
         return -1;
     XXH3_64bits_update(models->hash, name, strlen(name) + 1);
     XXH3_64bits_update(models->hash, source.text, source.bytes);
-    config_init(&config);
+    memset(&config, 0, sizeof(config));
     if (source_parse(&source, &config, message) != 0 ||
         keys_defaults(&schema_kind, &entry, message) != 0 ||
         keys_read(&keys, config_root_setting(&config), "", "", message) != 0 ||

@@ -26,26 +26,34 @@ static void copy(struct copying *copying, size_t count)
     copying->to += count;
 }
 
-static size_t string_length(const char *text)
+static size_t string_length(const char *text, bool *ends)
 {
     size_t length = 1;
 
     while (text[length] != '\0' && text[length] != '"')
         length += text[length] == '\\' && text[length + 1] != '\0' ? 2 : 1;
-    return length + (text[length] == '"');
+    *ends = text[length] == '"';
+    return length + *ends;
 }
 
-/* Length of the comment that text begins with, 0 when it does not. */
-static size_t comment_length(const char *text)
+static size_t comment_length(const char *text, bool *ends)
 {
-    if (text[0] == '#' || (text[0] == '/' && text[1] == '/'))
-        return strcspn(text, "\n");
-    if (text[0] == '/' && text[1] == '*') {
-        const char *end = strstr(text + 2, "*/");
+    const char *end = strstr(text + 2, "*/");
 
-        return end != NULL ? (size_t)(end - text) + 2 : strlen(text);
-    }
-    return 0;
+    *ends = end != NULL;
+    return *ends ? (size_t)(end - text) + 2 : strlen(text);
+}
+
+/* Length of the string or comment that text begins with, 0 when it does not. ends: false when it
+ * goes on past the end of the text. */
+static size_t opaque_length(const char *text, bool *ends)
+{
+    *ends = true;
+    if (text[0] == '"')
+        return string_length(text, ends);
+    if (text[0] == '/' && text[1] == '*')
+        return comment_length(text, ends);
+    return text[0] == '#' || (text[0] == '/' && text[1] == '/') ? strcspn(text, "\n") : 0;
 }
 
 static void copy_number(struct copying *copying)
@@ -74,23 +82,60 @@ static bool is_number_array(const char *text)
     return text[length] == ']' && length > 1;
 }
 
+void literals_measure(const char *text, struct literals_shape *shape)
+{
+    uint32_t members[LITERALS_DEPTH + 1] = {0};
+    uint32_t depth = 0;
+    int line = 1;
+
+    memset(shape, 0, sizeof(*shape));
+    for (const char *at = text; *at != '\0';) {
+        bool ends;
+        size_t length = opaque_length(at, &ends);
+
+        if (length > 0) {
+            if (!ends)
+                shape->open_line = line;
+            for (size_t i = 0; i < length; i++)
+                line += at[i] == '\n';
+            at += length;
+            continue;
+        }
+        if (strchr("([{", *at) != NULL) {
+            if (++depth <= LITERALS_DEPTH)
+                members[depth] = 0;
+            if (depth > shape->deepest) {
+                shape->deepest = depth;
+                shape->deepest_line = line;
+            }
+        } else if (strchr(")]}", *at) != NULL) {
+            depth -= depth > 0;
+        } else if ((*at == '=' || *at == ':') && depth <= LITERALS_DEPTH) {
+            if (++members[depth] > shape->fullest) {
+                shape->fullest = members[depth];
+                shape->fullest_line = line;
+            }
+        }
+        line += *at++ == '\n';
+    }
+}
+
 char *literals_widen(const char *text)
 {
     /* Every character added follows eight of a number or more. */
     size_t bytes = strlen(text);
-    char *widened = malloc(bytes + bytes / 8 + 2);
+    char *widened = malloc(bytes + bytes / 8 + 3);
     struct copying copying = {text, widened, false};
 
     if (widened == NULL)
         return NULL;
     while (*copying.from != '\0') {
         unsigned char c = (unsigned char)*copying.from;
-        size_t comment = comment_length(copying.from);
+        bool ends;
+        size_t opaque = opaque_length(copying.from, &ends);
 
-        if (comment > 0) {
-            copy(&copying, comment);
-        } else if (c == '"') {
-            copy(&copying, string_length(copying.from));
+        if (opaque > 0) {
+            copy(&copying, opaque);
         } else if (isalpha(c) || c == '*' || c == '_') {
             do
                 copy(&copying, 1);
@@ -109,6 +154,8 @@ char *literals_widen(const char *text)
             }
         }
     }
+    if (copying.to > widened && copying.to[-1] != '\n')
+        *copying.to++ = '\n'; /* without it the parser refuses a comment at the end */
     *copying.to = '\0';
     return widened;
 }

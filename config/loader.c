@@ -100,7 +100,8 @@ static int read_file(struct load *load)
     return 0;
 }
 
-static int apply_override(struct load *load, const char *text)
+/* Index of the key that an override sets, and the text of its value; -1 with the message. */
+static int find_override(struct load *load, const char *text, const char **value)
 {
     const struct key_place place = {OVERRIDE_PLACE, 0};
     const char *equals = strchr(text, '=');
@@ -115,11 +116,22 @@ static int apply_override(struct load *load, const char *text)
         return keys_refuse(load->message, place, name, equals + 1,
                            "unknown key; allowed: a scenario key of one value, such as world.seed "
                            "or collision.response");
-    if (strcmp(name, "objects.source") == 0)
-        load->objects_chosen = true;
     load->origin[index] = place;
+    *value = equals + 1;
+    return index;
+}
+
+static int apply_override(struct load *load, const char *text)
+{
+    const char *value = NULL;
+    int index = find_override(load, text, &value);
+
+    if (index < 0)
+        return -1;
+    if (strcmp(schema_scenario.keys[index].name, "objects.source") == 0)
+        load->objects_chosen = true;
     XXH3_64bits_update(load->hash, text, strlen(text) + 1);
-    return keys_set_text(&schema_scenario.keys[index], load->scenario, equals + 1, place,
+    return keys_set_text(&schema_scenario.keys[index], load->scenario, value, load->origin[index],
                          load->message);
 }
 
@@ -217,6 +229,22 @@ static void derive(struct load *load)
         snprintf(params->scenario, PATH_TEXT_MAX, "...%s", path + length - (PATH_TEXT_MAX - 4));
 }
 
+/* What the same scenario can be read from again. */
+static int write_recipe(const struct load *load, const char *const *overrides, int override_count)
+{
+    char *absolute = realpath(load->source.path, NULL);
+    int result =
+        recipe_add(&load->scenario->recipe, "scenario", absolute ? absolute : load->source.path);
+
+    free(absolute);
+    for (int i = 0; i < override_count && result == 0; i++)
+        result = recipe_add(&load->scenario->recipe, "set", overrides[i]);
+    if (result != 0)
+        return keys_refuse(load->message, (struct key_place){load->source.path, 0}, NULL, NULL,
+                           "no memory for its recipe, or its overrides are too long");
+    return 0;
+}
+
 static int read_scenario(struct load *load, const char *const *overrides, int override_count)
 {
     if (source_parse(&load->source, &load->config, load->message) != 0)
@@ -233,7 +261,7 @@ static int read_scenario(struct load *load, const char *const *overrides, int ov
         read_lists(load) != 0)
         return -1;
     derive(load);
-    return 0;
+    return write_recipe(load, overrides, override_count);
 }
 
 int loader_scenario(struct scenario *scenario, const char *data_dir, const char *path,
@@ -247,14 +275,13 @@ int loader_scenario(struct scenario *scenario, const char *data_dir, const char 
     memset(scenario, 0, sizeof(*scenario));
     message->text[0] = '\0';
     if (find_scenario(data_dir, path, found, sizeof(found), message) != 0 ||
-        source_read(&load.source, found, message) != 0)
+        source_read(&load.source, found, SCHEMA_SCENARIO_BYTES_MAX, message) != 0)
         return -1;
     load.hash = XXH3_createState();
     if (load.hash == NULL || XXH3_64bits_reset(load.hash) != XXH_OK) {
         keys_refuse(message, (struct key_place){found, 0}, NULL, NULL, "no memory to read it");
         goto err_source;
     }
-    config_init(&load.config);
     result = read_scenario(&load, overrides, override_count);
     config_destroy(&load.config);
     if (result != 0)
@@ -263,4 +290,46 @@ err_source:
     XXH3_freeState(load.hash);
     source_free(&load.source);
     return result;
+}
+
+/* May the key change in a world that exists? Its counts, its capacities and what stands in it were
+ * made from the others. */
+static bool changeable(const struct key *key)
+{
+    _Static_assert(offsetof(struct scenario, params) == 0, "keys of params come first");
+    return key->offset < sizeof(struct params) &&
+           key->offset != offsetof(struct scenario, params.capacity);
+}
+
+int loader_branch(struct params *params, const char *const *overrides, int override_count,
+                  struct loader_message *message)
+{
+    struct scenario scenario = {.params = *params};
+    struct load load = {.scenario = &scenario, .message = message};
+
+    for (uint32_t i = 0; i < schema_scenario.count; i++)
+        load.origin[i] = (struct key_place){OVERRIDE_PLACE, 0};
+    for (int i = 0; i < override_count; i++) {
+        uint64_t before = XXH3_64bits(&scenario.params, sizeof(scenario.params));
+        const char *value = NULL;
+        int index = find_override(&load, overrides[i], &value);
+
+        if (index < 0)
+            return -1;
+        const struct key *key = &schema_scenario.keys[index];
+        if (!changeable(key))
+            return keys_refuse(message, load.origin[index], key->name, value,
+                               "cannot change in a world that was made already; allowed: "
+                               "world.seed, hz, frames, pace and name, collision.*, renderer.*");
+        if (keys_set_text(key, &scenario, value, load.origin[index], message) != 0)
+            return -1;
+        scenario.params.dt_s = 1.0 / scenario.params.hz;
+        if (before != XXH3_64bits(&scenario.params, sizeof(scenario.params)))
+            scenario.params.scenario_hash = XXH3_64bits_withSeed(
+                overrides[i], strlen(overrides[i]) + 1, scenario.params.scenario_hash);
+    }
+    if (check_together(&load) != 0)
+        return -1;
+    *params = scenario.params;
+    return 0;
 }

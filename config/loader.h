@@ -1,5 +1,5 @@
 /* The one reader of configuration: kinds, models and scenario files (libconfig) into a struct
- * scenario. Start-up only; nothing of it is called once a world exists. */
+ * scenario. Start-up only; nothing of it is called while a world runs. */
 #ifndef JOLON_CONFIG_LOADER_H
 #define JOLON_CONFIG_LOADER_H
 
@@ -17,5 +17,11 @@ struct loader_message {
 int loader_scenario(struct scenario *scenario, const char *data_dir, const char *path,
                     const char *const *overrides, int override_count,
                     struct loader_message *message);
+
+/* Applies overrides to the parameters of a world that was made already: keys that no count, no
+ * capacity and nothing that stands in the world follows from. Each that changes something changes
+ * scenario_hash. 0; -1 with the message, and params as they were. */
+int loader_branch(struct params *params, const char *const *overrides, int override_count,
+                  struct loader_message *message);
 
 #endif

@@ -1,8 +1,9 @@
 /* Polygon models by assimp. It opens files through our own calls, so that what it reads is what
- * was hashed and nothing outside the models' folder. */
+ * was checked (config/obj.h) and hashed, and nothing outside the models' folder. */
 #include "config/models.h"
 
 #include "config/keys.h"
+#include "config/memory.h"
 #include "config/table.h"
 
 #include <assimp/cfileio.h>
@@ -46,17 +47,22 @@ void models_close(struct models *models)
     models->file_count = 0;
 }
 
-/* The file of this name in the models' folder, read at most once. NULL with the message. */
-static const struct source *find_file(struct models *models, const char *name,
+/* The file of this name in the models' folder, read at most once. NULL with the message. An
+ * obj_open. */
+static const struct source *find_file(void *context, const char *name,
                                       struct loader_message *message)
 {
-    char path[PATH_MAX];
+    struct models *models = context;
+    char folder[PATH_MAX], path[PATH_MAX];
     struct source *source = &models->file[models->file_count];
     const struct key_place place = {path, 0};
-    int length = snprintf(path, sizeof(path), "%s/models/%s", models->data_dir, name);
+    int length = snprintf(folder, sizeof(folder), "%s/models", models->data_dir);
 
+    if (length >= 0 && (size_t)length < sizeof(folder))
+        length = snprintf(path, sizeof(path), "%s/%s", folder, name);
     if (length < 0 || (size_t)length >= sizeof(path)) {
-        keys_refuse(message, place, NULL, NULL, "is too long for a path");
+        keys_refuse(message, (struct key_place){models->data_dir, 0}, NULL, NULL,
+                    "is too long for a path");
         return NULL;
     }
     for (int i = 0; i < models->file_count; i++) {
@@ -68,7 +74,7 @@ static const struct source *find_file(struct models *models, const char *name,
                     MODELS_FILE_MAX);
         return NULL;
     }
-    if (source_read(source, path, message) != 0)
+    if (source_read_in(source, folder, name, MODELS_BYTES_MAX, message) != 0)
         return NULL;
     models->file_count++;
     XXH3_64bits_update(models->hash, name, strlen(name) + 1);
@@ -131,11 +137,11 @@ static const char *base_name(const char *path)
     return slash != NULL ? slash + 1 : path;
 }
 
-/* assimp asks for paths; only the last part counts, so "mtllib ../../etc/x" leads nowhere else. */
+/* assimp asks for paths; only the last part counts: what obj_check() let through. */
 static struct aiFile *open_reader(struct aiFileIO *io, const char *path, const char *mode)
 {
     struct models *models = (struct models *)(void *)io->UserData;
-    struct loader_message ignored; /* check_materials() was there first and would have refused */
+    struct loader_message ignored; /* obj_check() was there first and would have refused */
     struct reader *reader;
     const struct source *source;
 
@@ -159,80 +165,6 @@ static void close_reader(struct aiFileIO *io, struct aiFile *file)
 {
     (void)io;
     free(file->UserData);
-}
-
-/* A line of an OBJ or MTL file: its first word and the word after it. */
-struct words {
-    const char *first, *second;
-    int first_length, second_length;
-};
-
-/* Splits the line at text and returns where the next one begins, NULL at the end. */
-static const char *next_line(const char *text, struct words *words)
-{
-    if (*text == '\0')
-        return NULL;
-    words->first = text + strspn(text, " \t");
-    words->first_length = (int)strcspn(words->first, " \t\r\n");
-    words->second = words->first + words->first_length;
-    words->second += strspn(words->second, " \t");
-    words->second_length = (int)strcspn(words->second, " \t\r\n");
-    text += strcspn(text, "\n");
-    return *text == '\n' ? text + 1 : text;
-}
-
-static bool is_word(const char *word, int length, const char *text)
-{
-    return (size_t)length == strlen(text) && memcmp(word, text, (size_t)length) == 0;
-}
-
-/* Does the material file give this material a colour? */
-static bool has_material(const struct source *library, const char *name, int length)
-{
-    struct words words;
-    bool inside = false;
-
-    for (const char *at = library->text; (at = next_line(at, &words)) != NULL;) {
-        if (is_word(words.first, words.first_length, "newmtl"))
-            inside =
-                words.second_length == length && memcmp(words.second, name, (size_t)length) == 0;
-        else if (inside && is_word(words.first, words.first_length, "Kd"))
-            return true;
-    }
-    return false;
-}
-
-/* assimp gives triangles of no material, or of one that it does not find, some other. */
-static int check_materials(struct models *models, const struct source *source,
-                           struct loader_message *message)
-{
-    struct key_place place = {source->path, 0};
-    const struct source *library = NULL;
-    struct words words;
-    bool chosen = false;
-
-    for (const char *at = source->text; (at = next_line(at, &words)) != NULL;) {
-        place.line++;
-        if (is_word(words.first, words.first_length, "mtllib")) {
-            char file[KIND_NAME_MAX + sizeof(".mtl")];
-
-            snprintf(file, sizeof(file), "%.*s", words.second_length, words.second);
-            library = find_file(models, base_name(file), message);
-            if (library == NULL)
-                return -1;
-        } else if (is_word(words.first, words.first_length, "usemtl")) {
-            chosen = library != NULL && has_material(library, words.second, words.second_length);
-            if (!chosen)
-                return keys_refuse(message, place, NULL, NULL,
-                                   "usemtl %.*s: unknown material; right would be: one with a Kd "
-                                   "in the file of mtllib",
-                                   words.second_length, words.second);
-        } else if (is_word(words.first, words.first_length, "f") && !chosen) {
-            return keys_refuse(message, place, NULL, NULL,
-                               "has a face before any usemtl; right would be: usemtl NAME first");
-        }
-    }
-    return 0;
 }
 
 /* A model being taken out of assimp's scene. */
@@ -396,10 +328,15 @@ int models_find(struct models *models, const char *name, struct loader_message *
     if (source == NULL)
         return -1;
     const struct key_place place = {source->path, 0};
-    if (check_materials(models, source, message) != 0)
+    if (obj_check(source, find_file, models, message) != 0)
         return -1;
+    memory_watch();
     const struct aiScene *scene =
         aiImportFileEx(source->path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, &io);
+    if (memory_missed()) {
+        aiReleaseImport(scene);
+        return keys_refuse(message, place, NULL, NULL, "no memory to read it");
+    }
     if (scene == NULL)
         return keys_refuse(message, place, NULL, NULL, "is not a model: %s", aiGetErrorString());
     int index = take_scene(models, scene, name, place, message);

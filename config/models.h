@@ -5,15 +5,17 @@
 #define JOLON_CONFIG_MODELS_H
 
 #include "config/hulls.h"
+#include "config/obj.h"
 #include "config/source.h"
 #include "world/scenario.h"
 
 #include <stdint.h>
 #include <xxhash.h>
 
-#define MODELS_VERTEX_MAX   65535u /* of one model */
-#define MODELS_TRIANGLE_MAX 65535u
-#define MODELS_EXTENT_MAX   1000.0f /* [m] of a coordinate */
+#define MODELS_BYTES_MAX    (16u * 1024u * 1024u) /* of one file */
+#define MODELS_VERTEX_MAX   OBJ_VERTICES_MAX      /* of one model */
+#define MODELS_TRIANGLE_MAX OBJ_TRIANGLES_MAX
+#define MODELS_EXTENT_MAX   ((float)OBJ_EXTENT_MAX) /* [m] of a coordinate */
 #define MODELS_FILE_MAX     (2 * KIND_COUNT_MAX)
 
 struct models {

@@ -86,6 +86,8 @@ static const struct key_choice views[] = {{"chase", VIEW_CHASE, true},
                                           {"map", VIEW_MAP, true},
                                           {"both", VIEW_BOTH, true},
                                           {NULL, 0, false}};
+static const struct key_choice whens_full[] = {
+    {"gap", WHEN_FULL_GAP, true}, {"pause", WHEN_FULL_PAUSE, true}, {NULL, 0, false}};
 static const struct key_choice forces[] = {{"neutral", FORCE_NEUTRAL, true},
                                            {"blue", FORCE_BLUE, true},
                                            {"red", FORCE_RED, true},
@@ -141,6 +143,7 @@ static const struct key scenario_keys[] = {
     NUMBER("collision.figure8.mass_c1_kg", S, params.collision.mass_c1_kg, 0, 1e9, "20000"),
     NUMBER("collision.figure8.mass_c2_kg", S, params.collision.mass_c2_kg, 0, 1e9, "8000"),
     NUMBER("collision.figure8.mass_c3_kg", S, params.collision.mass_c3_kg, 0, 1e9, "1000"),
+    CHOICE("recorder.when_full", S, params.when_full, STORE_U32, whens_full, "gap"),
     WHOLE32("renderer.width", S, params.renderer.width, 16, 7680, "1280"),
     WHOLE32("renderer.height", S, params.renderer.height, 16, 4320, "720"),
     NUMBER("renderer.fps", S, params.renderer.fps, 0, 60, "2"),

@@ -7,7 +7,11 @@
 #include "world/scenario.h"
 
 /* Limits of files, checked before anything is allocated. */
-#define SCHEMA_FILE_BYTES_MAX   (16u * 1024u * 1024u)
+#define SCHEMA_SCENARIO_BYTES_MAX (4u * 1024u * 1024u)
+#define SCHEMA_KIND_BYTES_MAX     (64u * 1024u)
+#define SCHEMA_DEPTH_MAX          8u  /* of groups, lists and arrays in each other */
+#define SCHEMA_MEMBERS_MAX        64u /* keys of one group, as of a struct key_table */
+
 #define SCHEMA_GROUPS_MAX       65536
 #define SCHEMA_OBJECTS_MAX      1048576
 #define SCHEMA_FIRES_MAX        65536

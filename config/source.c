@@ -4,9 +4,11 @@
 #include "config/keys.h"
 #include "config/literals.h"
 #include "config/schema.h"
+#include "world/guarded.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -20,6 +22,8 @@ static const char *type_of(mode_t mode)
         return "a pipe";
     if (S_ISSOCK(mode))
         return "a socket";
+    if (S_ISLNK(mode))
+        return "a symbolic link";
     return "a device";
 }
 
@@ -43,46 +47,99 @@ static int read_all(struct source *source, int fd, struct loader_message *messag
     return 0;
 }
 
-int source_read(struct source *source, const char *path, struct loader_message *message)
+static int check_status(const struct stat *status, size_t most, struct key_place place,
+                        struct loader_message *message)
+{
+    if (!S_ISREG(status->st_mode))
+        return keys_refuse(message, place, NULL, NULL, "is %s; allowed: a regular file",
+                           type_of(status->st_mode));
+    if (status->st_size > (off_t)most)
+        return keys_refuse(message, place, NULL, NULL, "has %lld bytes; allowed: up to %zu",
+                           (long long)status->st_size, most);
+    return 0;
+}
+
+/* Opens a file below folder (AT_FDCWD: here). A device may act on being opened, so it is looked at
+ * before; what is looked at after is what is read. -1 with the message. */
+static int open_checked(int folder, const char *name, int follow, struct key_place place,
+                        size_t most, struct stat *status, struct loader_message *message)
+{
+    int flags = O_RDONLY | O_CLOEXEC | O_NOCTTY;
+
+    if (fstatat(folder, name, status, follow) == 0 &&
+        check_status(status, most, place, message) != 0)
+        return -1;
+    /* Without O_NONBLOCK the open of a pipe would wait for a writer. */
+    int fd = openat(folder, name, flags | O_NONBLOCK | (follow != 0 ? O_NOFOLLOW : 0));
+    if (fd < 0)
+        return keys_refuse(message, place, NULL, NULL, "cannot be opened: %s", strerror(errno));
+    if (fstat(fd, status) != 0) {
+        keys_refuse(message, place, NULL, NULL, "cannot be examined: %s", strerror(errno));
+        goto err_open;
+    }
+    if (check_status(status, most, place, message) == 0)
+        return fd;
+err_open:
+    close(fd);
+    return -1;
+}
+
+/* Takes an open file, and closes it. */
+static int take(struct source *source, int fd, const struct stat *status,
+                struct loader_message *message)
+{
+    const struct key_place place = {source->path, 0};
+    int result = -1;
+
+    if (fd < 0)
+        return -1;
+    source->bytes = (size_t)status->st_size;
+    source->text = malloc(source->bytes + 1);
+    if (source->text == NULL)
+        keys_refuse(message, place, NULL, NULL, "no memory to read it");
+    else
+        result = read_all(source, fd, message);
+    if (result != 0)
+        source_free(source);
+    close(fd);
+    return result;
+}
+
+int source_read(struct source *source, const char *path, size_t most,
+                struct loader_message *message)
 {
     const struct key_place place = {path, 0};
     struct stat status;
-    int result = -1;
 
     memset(source, 0, sizeof(*source));
     if (strlen(path) >= sizeof(source->path))
         return keys_refuse(message, place, NULL, NULL, "is too long for a path");
     memcpy(source->path, path, strlen(path) + 1);
-    /* Without O_NONBLOCK the open of a pipe would wait for a writer. */
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    if (fd < 0)
+    int fd = open_checked(AT_FDCWD, path, 0, place, most, &status, message);
+    return take(source, fd, &status, message);
+}
+
+int source_read_in(struct source *source, const char *folder, const char *name, size_t most,
+                   struct loader_message *message)
+{
+    const struct key_place place = {source->path, 0};
+    struct stat status;
+
+    memset(source, 0, sizeof(*source));
+    int length = snprintf(source->path, sizeof(source->path), "%s/%s", folder, name);
+    if (length < 0 || (size_t)length >= sizeof(source->path))
+        return keys_refuse(message, place, NULL, NULL, "is too long for a path");
+    if (name[0] == '\0' || strchr(name, '/') != NULL || strcmp(name, ".") == 0 ||
+        strcmp(name, "..") == 0)
+        return keys_refuse(message, place, NULL, NULL,
+                           "is no file of %s; allowed: the name of one, without '/'", folder);
+    int dir = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (dir < 0)
         return keys_refuse(message, place, NULL, NULL, "cannot be opened: %s", strerror(errno));
-    if (fstat(fd, &status) != 0) {
-        keys_refuse(message, place, NULL, NULL, "cannot be examined: %s", strerror(errno));
-        goto err_open;
-    }
-    if (!S_ISREG(status.st_mode)) {
-        keys_refuse(message, place, NULL, NULL, "is %s; allowed: a regular file",
-                    type_of(status.st_mode));
-        goto err_open;
-    }
-    if (status.st_size > (off_t)SCHEMA_FILE_BYTES_MAX) {
-        keys_refuse(message, place, NULL, NULL, "has %lld bytes; allowed: up to %u",
-                    (long long)status.st_size, SCHEMA_FILE_BYTES_MAX);
-        goto err_open;
-    }
-    source->bytes = (size_t)status.st_size;
-    source->text = malloc(source->bytes + 1);
-    if (source->text == NULL) {
-        keys_refuse(message, place, NULL, NULL, "no memory to read it");
-        goto err_open;
-    }
-    result = read_all(source, fd, message);
-    if (result != 0)
-        source_free(source);
-err_open:
-    close(fd);
-    return result;
+    /* Of a name of one part, not following a link is all there is to staying in the folder. */
+    int fd = open_checked(dir, name, AT_SYMLINK_NOFOLLOW, place, most, &status, message);
+    close(dir);
+    return take(source, fd, &status, message);
 }
 
 void source_free(struct source *source)
@@ -113,20 +170,62 @@ static int refuse_includes(const struct source *source, struct loader_message *m
     return 0;
 }
 
+/* Trees that no schema has are not built: the parser keeps every part of them, and looks through a
+ * group for each key that it adds to it. And it takes a string that never ends for the file's end.
+ */
+static int check_shape(const struct source *source, struct loader_message *message)
+{
+    struct literals_shape shape;
+
+    literals_measure(source->text, &shape);
+    const struct key_place deepest = {source->path, shape.deepest_line};
+    const struct key_place open = {source->path, shape.open_line};
+    const struct key_place fullest = {source->path, shape.fullest_line};
+    if (shape.open_line > 0)
+        return keys_refuse(message, open, NULL, NULL,
+                           "has a string or comment that never ends; right would be: \" or */");
+    if (shape.deepest > SCHEMA_DEPTH_MAX)
+        return keys_refuse(message, deepest, NULL, NULL,
+                           "is nested %u deep; allowed: up to %u of ( [ { in each other",
+                           shape.deepest, SCHEMA_DEPTH_MAX);
+    if (shape.fullest > SCHEMA_MEMBERS_MAX)
+        return keys_refuse(message, fullest, NULL, NULL, "is a group of %u keys; allowed: up to %u",
+                           shape.fullest, SCHEMA_MEMBERS_MAX);
+    return 0;
+}
+
+struct parsing {
+    config_t *config;
+    const char *text;
+    int result;
+};
+
+static void parse(void *context)
+{
+    struct parsing *parsing = context;
+    config_init(parsing->config);
+    parsing->result = config_read_string(parsing->config, parsing->text);
+}
+
 int source_parse(const struct source *source, config_t *config, struct loader_message *message)
 {
     struct key_place place = {source->path, 0};
 
     if (strlen(source->text) != source->bytes)
         return keys_refuse(message, place, NULL, NULL, "is not text: it has a NUL byte");
-    if (refuse_includes(source, message) != 0)
+    if (refuse_includes(source, message) != 0 || check_shape(source, message) != 0)
         return -1;
     char *text = literals_widen(source->text);
     if (text == NULL)
         return keys_refuse(message, place, NULL, NULL, "no memory to read it");
-    int parsed = config_read_string(config, text);
+    struct parsing parsing = {config, text, CONFIG_FALSE};
+    bool whole = memory_guarded(parse, &parsing);
     free(text);
-    if (parsed != CONFIG_TRUE) {
+    if (!whole) {
+        memset(config, 0, sizeof(*config)); /* what it holds may be half made */
+        return keys_refuse(message, place, NULL, NULL, "no memory to read it");
+    }
+    if (parsing.result != CONFIG_TRUE) {
         place.line = config_error_line(config);
         return keys_refuse(message, place, NULL, NULL,
                            "%s; right would be: group = { key = value; key = value; };",

@@ -16,12 +16,22 @@ struct source {
     size_t bytes;
 };
 
-/* Reads a file of at most SCHEMA_FILE_BYTES_MAX. 0, or -1 with the message and nothing to free. */
-int source_read(struct source *source, const char *path, struct loader_message *message);
+/* Reads a file of at most `most` bytes that the user named: it may lie anywhere, behind a symbolic
+ * link too. 0, or -1 with the message and nothing to free. */
+int source_read(struct source *source, const char *path, size_t most,
+                struct loader_message *message);
+
+/* Reads the file `name` of a folder, for names that came out of files or directories: one that
+ * could lead out of the folder (with a '/', "..", a symbolic link) is refused. The folder is the
+ * user's and may lie anywhere. 0, or -1 with the message and nothing to free. */
+int source_read_in(struct source *source, const char *folder, const char *name, size_t most,
+                   struct loader_message *message);
+
 void source_free(struct source *source);
 
-/* Parses into config, which the caller has initialised and destroys. @include is refused: a
- * scenario is one file, and says all it says. 0, or -1 with the message. */
+/* Parses into config, which the caller has zeroed and destroys. @include is refused: a
+ * scenario is one file, and says all it says. So is nesting and a group larger than any schema has,
+ * before the parser builds it. 0, or -1 with the message. */
 int source_parse(const struct source *source, config_t *config, struct loader_message *message);
 
 #endif

@@ -2,6 +2,7 @@
 #include "ipc/door.h"
 
 #include "ipc/clock.h"
+#include "ipc/crash.h"
 
 #include <time.h>
 
@@ -11,6 +12,7 @@
 int doors_init(struct doors *doors)
 {
     for (int role = 0; role < ROLE_COUNT; role++) {
+        CRASH_POINT("doorbell made");
         if (sem_init(&doors->role[role].bell, 1, 0) != 0)
             return -1;
     }
@@ -20,6 +22,7 @@ int doors_init(struct doors *doors)
 void door_ring(struct doors *doors, enum role role)
 {
     int value = 0;
+    CRASH_POINT("doorbell rung");
     if (sem_getvalue(&doors->role[role].bell, &value) == 0 && value <= 0)
         sem_post(&doors->role[role].bell);
 }
@@ -28,8 +31,10 @@ void door_wait(struct doors *doors, enum role role, uint64_t until_ns)
 {
     struct timespec until = {.tv_sec = (time_t)(until_ns / NS_PER_S),
                              .tv_nsec = (long)(until_ns % NS_PER_S)};
+    CRASH_POINT("doorbell waited for");
     if (sem_clockwait(&doors->role[role].bell, CLOCK_MONOTONIC, &until) != 0)
         return; /* time is over, or a signal came: look again */
+    CRASH_POINT("doorbell silenced");
     for (int i = 0; i < DRAIN_MAX && sem_trywait(&doors->role[role].bell) == 0; i++)
         continue;
 }

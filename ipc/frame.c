@@ -3,6 +3,7 @@
 #include "ipc/frame.h"
 
 #include "ipc/clock.h"
+#include "ipc/crash.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
 
@@ -30,6 +31,7 @@ static uint64_t bell_wait_ns(const struct view *view)
 void frame_beat(struct view *view)
 {
     CHECK(view->role < ROLE_COUNT);
+    CRASH_POINT("beat");
     atomic_store_explicit(&view->slot[view->role]->beat_ns, clock_now_ns(), memory_order_relaxed);
 }
 
@@ -55,28 +57,21 @@ static void check_words(const struct view *view, uint64_t commit, uint64_t moved
                     view->name, (unsigned long long)moved, (unsigned long long)commit);
 }
 
-static void check_buffer(struct view *view, uint64_t commit)
+static void check_frame(struct view *view, uint64_t commit)
 {
-    const struct state *state = &view->w[commit & 1];
-    const struct state_head *head = state->head;
+    const struct state_head *head = view->w[commit & 1].head;
+    struct reason reason;
     if (head->frame != commit)
         die_refused("world \"%s\" is damaged: buffer %llu holds frame %llu; commit = %llu",
                     view->name, (unsigned long long)(commit & 1), (unsigned long long)head->frame,
                     (unsigned long long)commit);
-    if (head->used > view->header->capacity)
-        die_refused("world \"%s\" is damaged: used = %u; capacity = %u", view->name, head->used,
-                    view->header->capacity);
-    if (head->crater_count > view->header->crater_slots)
-        die_refused("world \"%s\" is damaged: crater_count = %u; crater_slots = %u", view->name,
-                    head->crater_count, view->header->crater_slots);
-    if (head->dent_count > view->header->dent_slots)
-        die_refused("world \"%s\" is damaged: dent_count = %u; dent_slots = %u", view->name,
-                    head->dent_count, view->header->dent_slots);
+    if (segment_check_head(view, head, &reason) != 0)
+        die_refused("world \"%s\" is damaged: %s", view->name, reason.text);
     if (view->checked)
         return; /* what is committed since then was computed from what was good */
-    if (state_checksum(state, view->header->counts.fixed) != head->checksum)
-        die_refused("world \"%s\" is damaged: frame %llu fails its checksum", view->name,
-                    (unsigned long long)commit);
+    if (segment_check_state(view, commit, &reason) != 0 ||
+        (view->role == ROLE_COLLIDER && segment_check_moved(view, commit + 1, &reason) != 0))
+        die_refused("world \"%s\" is damaged: %s", view->name, reason.text);
     view->checked = true;
 }
 
@@ -102,6 +97,7 @@ static bool due(struct frame *frame, struct view *view, const struct state_head 
     if (view->world.params->pace == PACE_MAX)
         return true;
     if (due_ns == 0) {
+        CRASH_POINT("first due time");
         atomic_store_explicit(&slot->due_ns, now + step, memory_order_relaxed);
         return true;
     }
@@ -110,12 +106,25 @@ static bool due(struct frame *frame, struct view *view, const struct state_head 
         door_wait(view->doors, ROLE_MOVER, due_ns - now < WAIT_MAX_NS ? due_ns : now + WAIT_MAX_NS);
         return false;
     }
-    if (!frame->in_time)
+    if (!frame->in_time) {
+        CRASH_POINT("late frame");
         atomic_fetch_add_explicit(&slot->late_frames, 1, memory_order_relaxed);
+    }
     if (now > due_ns + step)
         due_ns = now;
+    CRASH_POINT("next due time");
     atomic_store_explicit(&slot->due_ns, due_ns + step, memory_order_relaxed);
     return true;
+}
+
+static void look_for_commands(struct frame *frame, const struct view *view, uint64_t number)
+{
+    const struct moved_word *words = view->moved_word;
+    for (int i = 0; i < COMMAND_RING_COUNT; i++) {
+        uint64_t head = load(&view->commands[i]->head);
+        bool limited = words->again == number && words->again_end[i] < head;
+        frame->command_head[i] = limited ? words->again_end[i] : head;
+    }
 }
 
 int frame_mover_begin(struct frame *frame, struct view *view)
@@ -131,12 +140,12 @@ int frame_mover_begin(struct frame *frame, struct view *view)
             continue;
         }
         const struct state_head *head = view->w[commit & 1].head;
-        check_buffer(view, commit);
+        check_frame(view, commit);
         if (head_finished(view, head, commit))
             return -1;
-        for (int i = 0; i < COMMAND_RING_COUNT; i++)
-            frame->command_head[i] = load(&view->commands[i]->head);
+        look_for_commands(frame, view, commit + 1);
         if (head->paused && head->steps_left == 0 && !commands_wait(frame, head)) {
+            CRASH_POINT("no due time");
             atomic_store_explicit(&view->slot[ROLE_MOVER]->due_ns, 0, memory_order_relaxed);
             door_wait(view->doors, ROLE_MOVER, clock_now_ns() + WAIT_MAX_NS);
             continue;
@@ -146,6 +155,7 @@ int frame_mover_begin(struct frame *frame, struct view *view)
         frame->number = commit + 1;
         frame->begun_ns = clock_now_ns();
         log_frame(frame->number);
+        CRASH_GUARD_STORES(view->m.head, view->layout.bytes[REGION_MOVED]);
         return 0;
     }
     return -1;
@@ -155,15 +165,20 @@ static void stage_done(struct view *view, const struct frame *frame, uint64_t st
 {
     struct role_slot *slot = view->slot[view->role];
     histogram_add(&slot->stage, stage_ns);
+    CRASH_POINT("stage's time");
     atomic_store_explicit(&slot->stage_ns, stage_ns, memory_order_relaxed);
+    CRASH_POINT("stage's frame");
     atomic_store_explicit(&slot->frame, frame->number, memory_order_relaxed);
 }
 
 void frame_mover_end(struct frame *frame, struct view *view)
 {
     uint64_t stage_ns = clock_now_ns() - frame->begun_ns;
+    CRASH_UNGUARD();
+    CRASH_POINT("mover's time");
     view->m.head->mover_ns = stage_ns;
     stage_done(view, frame, stage_ns);
+    CRASH_POINT("moved");
     atomic_store_explicit(&view->moved_word->moved, frame->number, memory_order_release);
     door_ring(view->doors, ROLE_COLLIDER);
 }
@@ -176,13 +191,17 @@ int frame_collider_begin(struct frame *frame, struct view *view)
         frame_beat(view);
         check_words(view, commit, moved);
         if (moved == commit + 1) {
-            check_buffer(view, commit);
+            check_frame(view, commit);
             frame->number = commit + 1;
             frame->begun_ns = clock_now_ns();
             log_frame(frame->number);
             /* Readers of the buffer that is written now must see that it is (rule 6). */
+            CRASH_POINT("writing");
             atomic_store_explicit(&view->commit->writing, frame->number, memory_order_relaxed);
             atomic_thread_fence(memory_order_release);
+            CRASH_POINT("first store to the back buffer");
+            CRASH_GUARD_STORES(view->w[0].head, view->layout.offset[REGION_MOVED_WORD] -
+                                                    view->layout.offset[REGION_WORLD_A]);
             return 0;
         }
         if (frame_finished(view))
@@ -201,14 +220,17 @@ static long commit_futex(const struct view *view, int operation, uint32_t value,
 
 void frame_collider_end(struct frame *frame, struct view *view)
 {
+    CRASH_UNGUARD();
     uint64_t mover_ns = view->m.head->mover_ns;
     uint64_t stage_ns = clock_now_ns() - frame->begun_ns;
     stage_done(view, frame, stage_ns);
     histogram_add(&view->slot[ROLE_COLLIDER]->whole, mover_ns + stage_ns);
+    CRASH_POINT("commit");
     atomic_store_explicit(&view->commit->commit, frame->number, memory_order_release);
     door_ring(view->doors, ROLE_MOVER);
     for (int role = ROLE_RENDERER; role <= ROLE_RENDERER_4; role++)
         door_ring(view->doors, (enum role)role);
+    CRASH_POINT("readers' wake");
     commit_futex(view, FUTEX_WAKE, INT32_MAX, NULL);
 }
 

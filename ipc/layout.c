@@ -36,6 +36,7 @@ static const char *const region_names[REGION_COUNT] = {
     [REGION_FIRES] = "fires",
     [REGION_ROAD_POINTS] = "road points",
     [REGION_NAMES] = "names",
+    [REGION_RECIPE] = "recipe",
     [REGION_COMMIT] = "commit words",
     [REGION_WORLD_A] = "world A",
     [REGION_WORLD_B] = "world B",
@@ -47,6 +48,7 @@ static const char *const region_names[REGION_COUNT] = {
     [REGION_COMMANDS] = "commands (reporter)",
     [REGION_COMMANDS + 1] = "commands (gateway)",
     [REGION_COMMANDS + 2] = "commands (console)",
+    [REGION_COMMANDS + 3] = "commands (recorder)",
     [REGION_DOORS] = "doorbells",
 };
 
@@ -74,7 +76,7 @@ static bool plausible(const struct segment_header *h)
         n->kinds,       n->models, n->model_vertices, n->model_triangles, n->fixed,
         n->reach,       n->areas,  n->routes,         n->route_points,    n->fires,
         n->road_points, n->names,  h->crater_slots,   h->event_slots,     h->intents_per_frame,
-        h->dent_slots,  n->hulls,  n->hull_vertices,  n->hull_planes};
+        h->dent_slots,  n->hulls,  n->hull_vertices,  n->hull_planes,     n->recipe};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         if (parts[i] > PART_MAX)
             return false;
@@ -113,6 +115,7 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_FIRES] = n->fires * sizeof(struct fire_order);
     b[REGION_ROAD_POINTS] = n->road_points * sizeof(struct road_point);
     b[REGION_NAMES] = n->names * sizeof(struct entity_name);
+    b[REGION_RECIPE] = n->recipe;
     b[REGION_COMMIT] = sizeof(struct commit_words);
     b[REGION_WORLD_A] = b[REGION_WORLD_B] = state_bytes(h);
     b[REGION_CRATERS] = h->crater_slots * sizeof(struct crater);
@@ -170,6 +173,7 @@ uint64_t layout_hash(void)
         sizeof(struct road_point),
         sizeof(struct entity_name),
         sizeof(struct commit_words),
+        sizeof(struct moved_word),
         BEHAVIOUR_COUNT,
         FORCE_COUNT,
         DAMAGE_COUNT,
@@ -180,6 +184,8 @@ uint64_t layout_hash(void)
         MODEL_COUNT,
         EVENT_TYPE_COUNT,
         COMMAND_TYPE_COUNT,
+        sizeof(struct event_command),
+        offsetof(struct event_command, number),
     };
 #define X(type, name) #type " " #name ";"
     static const char columns[] = ENTITY_COLUMNS(X); /* their order and types */
@@ -200,6 +206,8 @@ bool layout_writable(enum role role, enum region region)
         return (region >= REGION_COMMIT && region <= REGION_EVENTS) || region == REGION_DOORS;
     case ROLE_REPORTER:
         return region == REGION_COMMANDS + RING_REPORTER || region == REGION_DOORS;
+    case ROLE_RECORDER:
+        return region == REGION_COMMANDS + RING_RECORDER || region == REGION_DOORS;
     case ROLE_RENDERER:
     case ROLE_RENDERER_2:
     case ROLE_RENDERER_3:

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 #define SEGMENT_MAGIC   0x314e4f4c4f4a0a1au /* "\x1a\nJOLON1": also no text file's first bytes */
-#define SEGMENT_VERSION 1u
+#define SEGMENT_VERSION 2u
 
 /* A table's head has this much room before its columns begin. */
 #define LAYOUT_HEAD_BYTES 512u
@@ -41,7 +41,8 @@ enum region {
     REGION_FIRES,
     REGION_ROAD_POINTS,
     REGION_NAMES,
-    REGION_COMMIT,  /* struct commit_words: collider */
+    REGION_RECIPE,
+    REGION_COMMIT,  /* struct commit_words: collider; the regions before it never change */
     REGION_WORLD_A, /* head, columns, fixed damage: collider */
     REGION_WORLD_B,
     REGION_CRATERS,    /* collider */
@@ -63,11 +64,14 @@ struct segment_header {
     uint32_t header_bytes;
     uint64_t layout_hash; /* of sizes and offsets as compiled: another build refuses */
     uint64_t total_bytes;
-    uint64_t static_hash; /* XXH3 over every region up to REGION_NAMES but this one */
+    uint64_t static_hash[REGION_COMMIT]; /* XXH3 of each region that never changes; [0] is 0 */
     struct counts counts;
     uint32_t capacity, event_slots, intents_per_frame, command_slots, crater_slots;
-    uint32_t dent_slots;
-    uint64_t head_hash; /* XXH3 over the words above but magic */
+    uint32_t dent_slots, reserved;
+    uint64_t made;        /* random: one creation's own, which its images carry with them */
+    uint64_t origin;      /* of the image it was loaded from (image_segment()); 0: of a scenario */
+    uint64_t first_event; /* the event ring begins with it: 0, or where the image was taken */
+    uint64_t head_hash;   /* XXH3 over the words above but magic */
 };
 
 struct layout {

@@ -2,6 +2,7 @@
 #include "ipc/log.h"
 
 #include "ipc/clock.h"
+#include "ipc/crash.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -17,6 +18,7 @@ static uint64_t log_frame_number;
 void log_open(const char *role)
 {
     log_role = role;
+    CRASH_ROLE(role);
 }
 
 void log_frame(uint64_t frame)
@@ -105,6 +107,25 @@ void die_usage(const char *format, ...)
     last_words(format, args);
     va_end(args);
     exit(EXIT_USAGE);
+}
+
+void die_at_once(const char *text)
+{
+    const char *const parts[] = {"jolon",
+                                 strcmp(log_role, "jolon") != 0 ? "-" : "",
+                                 strcmp(log_role, "jolon") != 0 ? log_role : "",
+                                 ": ",
+                                 text,
+                                 "\n"};
+    char line[LINE_MAX_BYTES];
+    size_t length = 0;
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        for (const char *at = parts[i]; *at != '\0' && length < sizeof line; at++)
+            line[length++] = *at;
+    }
+    ssize_t written = write(STDERR_FILENO, line, length);
+    (void)written;
+    _exit(EXIT_REFUSED);
 }
 
 void check_failed(const char *condition, const char *file, int line)

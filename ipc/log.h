@@ -21,6 +21,9 @@ bool log_due(uint64_t *last_ns, uint64_t interval_ns);
 _Noreturn void die_refused(const char *format, ...) __attribute__((format(printf, 1, 2)));
 _Noreturn void die_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* The same from within a signal handler: writes at once and ends the process without clean-up. */
+_Noreturn void die_at_once(const char *text);
+
 /* A bug: always on, aborts with the place. */
 #define CHECK(condition)                                                                           \
     do {                                                                                           \

@@ -22,6 +22,38 @@ static void on_stop(int signal_number)
     stopping = 1;
 }
 
+static char gone[2][SEGMENT_PATH_MAX]; /* what goes with the world's memory; "": nothing */
+
+/* A page that the object no longer has: somebody made it shorter under us. A bus error of any other
+ * kind is a crash like any other: the instruction runs again, without a handler, and ends the
+ * process. Roles run this within their sandbox: no system call but what each of them may. */
+static void on_bus_error(int signal_number, siginfo_t *info, void *context)
+{
+    (void)signal_number;
+    (void)context;
+    if (info->si_code != BUS_ADRERR)
+        return;
+    for (int i = 0; i < 2; i++) {
+        if (gone[i][0] != '\0')
+            unlink(gone[i]);
+    }
+    die_at_once("the world's memory went away: its object in /dev/shm was made shorter");
+}
+
+void process_guard_removes(const char *shm, const char *lock)
+{
+    snprintf(gone[0], sizeof gone[0], "%s", shm);
+    snprintf(gone[1], sizeof gone[1], "%s", lock);
+}
+
+void process_guard(void)
+{
+    struct sigaction bus = {.sa_sigaction = on_bus_error,
+                            .sa_flags = SA_SIGINFO | (int)SA_RESETHAND};
+    sigemptyset(&bus.sa_mask);
+    sigaction(SIGBUS, &bus, NULL);
+}
+
 bool process_stopping(void)
 {
     return stopping != 0;
@@ -37,6 +69,12 @@ void process_signals(void)
     sigaction(SIGINT, &stop, NULL);
     sigaction(SIGHUP, &stop, NULL);
     sigaction(SIGPIPE, &ignore, NULL);
+    process_guard();
+}
+
+void process_close_inherited(void)
+{
+    (void)close_range(STDERR_FILENO + 1, ~0u, 0); /* a kernel without it leaves them open */
 }
 
 void process_die_with_parent(int parent_pid)
@@ -74,12 +112,18 @@ uint64_t process_whole(const char *option, const char *text, uint64_t low, uint6
     return value;
 }
 
-double process_number(const char *option, const char *text, double low, double high)
+bool process_number_read(const char *text, double low, double high, double *value)
 {
     char *end;
     errno = 0;
-    double value = strtod(text, &end);
-    if (errno != 0 || end == text || *end != '\0' || !(value >= low && value <= high))
+    *value = strtod(text, &end);
+    return errno == 0 && end != text && *end == '\0' && *value >= low && *value <= high;
+}
+
+double process_number(const char *option, const char *text, double low, double high)
+{
+    double value;
+    if (!process_number_read(text, low, high, &value))
         die_usage("--%s %s: must be a number from %g to %g", option, text, low, high);
     return value;
 }
@@ -89,6 +133,8 @@ struct stage_options process_stage_options(int argc, char **argv, const char *pr
     static const struct option options[] = {{"world", required_argument, NULL, 'w'},
                                             {"threads", required_argument, NULL, 't'},
                                             {"parent", required_argument, NULL, 'p'},
+                                            {"stand-by", no_argument, NULL, 's'},
+                                            {"no-sandbox", no_argument, NULL, 'n'},
                                             {"help", no_argument, NULL, 'h'},
                                             {NULL, 0, NULL, 0}};
     struct stage_options chosen = {.world = "default", .threads = 1};
@@ -105,8 +151,16 @@ struct stage_options process_stage_options(int argc, char **argv, const char *pr
         case 'p':
             chosen.parent = (int)process_whole("parent", optarg, 1, INT32_MAX);
             break;
+        case 's':
+            chosen.stand_by = true;
+            break;
+        case 'n':
+            chosen.sandbox_off = true;
+            break;
         case 'h':
-            printf("usage: %s [--world NAME] [--threads 1..16] [--parent PID]\n", program);
+            printf("usage: %s [--world NAME] [--threads 1..16] [--parent PID] [--stand-by] "
+                   "[--no-sandbox]\n",
+                   program);
             exit(EXIT_OK);
         default:
             die_usage("%s: no such option, or its value is missing; try %s --help",

@@ -11,8 +11,19 @@
 /* Set by SIGTERM, SIGINT and SIGHUP; loops end when it is true. */
 bool process_stopping(void);
 
-/* Installs the handlers; SIGPIPE is ignored. */
+/* Installs the handlers, process_guard()'s too; SIGPIPE is ignored. */
 void process_signals(void);
+
+/* When the world's object is made shorter under a process that has it mapped, it says so in one
+ * line and ends with exit 1, instead of dying of the bus error without a word. The process that
+ * owns the world names the object and its lock by process_guard_removes(): they are removed then,
+ * for there is no other clean-up. */
+void process_guard(void);
+void process_guard_removes(const char *shm, const char *lock);
+
+/* Closes every descriptor beyond standard error: what a parent left open is not the role's. To be
+ * called before any is opened. */
+void process_close_inherited(void);
 
 /* Asks the kernel for SIGKILL when the parent dies; ends at once when it is dead already. */
 void process_die_with_parent(int parent_pid);
@@ -21,6 +32,9 @@ void process_die_with_parent(int parent_pid);
  * what would be right (exit 2). */
 uint64_t process_whole(const char *option, const char *text, uint64_t low, uint64_t high);
 double process_number(const char *option, const char *text, double low, double high);
+
+/* The same number of a text from elsewhere: false when it is none, or not within low..high. */
+bool process_number_read(const char *text, double low, double high, double *value);
 
 /* State letter of a process as the kernel tells it (R, S, D, T, Z ...); '\0' when it is gone. A
  * child that its parent has not waited for yet is a zombie (Z) and keeps its number. */
@@ -31,10 +45,12 @@ struct stage_options {
     const char *world;
     uint32_t threads; /* 1..16 */
     int parent;       /* pid to die with, 0 for none */
+    bool stand_by;    /* wait for the role's holder to die instead of refusing */
+    bool sandbox_off;
 };
 
-/* Reads --world NAME, --threads N, --parent PID; wrong usage ends the process (exit 2) and --help
- * prints usage and ends it (exit 0). */
+/* Reads --world NAME, --threads N, --parent PID, --stand-by, --no-sandbox; wrong usage ends the
+ * process (exit 2) and --help prints usage and ends it (exit 0). */
 struct stage_options process_stage_options(int argc, char **argv, const char *program);
 
 /* Finds config/, from the place of the running program: the build tree's or the installed one. */

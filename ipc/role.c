@@ -1,6 +1,8 @@
 /* The table of roles, and histograms of their times. */
 #include "ipc/role.h"
 
+#include "ipc/crash.h"
+
 #include <string.h>
 
 static const char *const role_names[ROLE_COUNT] = {
@@ -51,8 +53,11 @@ static uint64_t bucket_ns(uint32_t index)
 
 void histogram_add(struct histogram *histogram, uint64_t ns)
 {
+    CRASH_POINT("histogram's bucket");
     histogram->bucket[bucket_of(ns)]++;
+    CRASH_POINT("histogram's count");
     histogram->count++;
+    CRASH_POINT("histogram's most");
     if (ns > histogram->max_ns)
         histogram->max_ns = ns;
 }

@@ -26,6 +26,10 @@ struct commit_words {                      /* only writer: collider */
 
 struct moved_word {                      /* only writer: mover */
     _Alignas(64) _Atomic uint64_t moved; /* frame that M holds */
+    /* Written by segment_repair() alone, while nobody runs: frame again (0: none) is made a second
+     * time and takes the commands of each ring up to again_end, as it did the first time. */
+    _Alignas(64) uint64_t again;
+    uint64_t again_end[COMMAND_RING_COUNT];
 };
 
 struct command_ring_words {             /* only writer: the ring's process */
@@ -37,7 +41,8 @@ struct command_ring_words {             /* only writer: the ring's process */
 struct view {
     char name[SEGMENT_NAME_MAX];
     enum role role;
-    int lock_fd;  /* holds the role's lock; -1 for a reader */
+    int lock_fd;  /* of the role's lock; -1 for a reader */
+    bool holds;   /* the role's lock is ours */
     bool checked; /* a stage has checked the frame that it found against its checksum */
     void *base;
     struct layout layout;
@@ -56,6 +61,8 @@ struct view {
 /* A place to say in one line what was refused and why. */
 struct reason {
     char text[512];
+    bool foreign; /* what was refused is no world of this build: nothing is lost with it */
+    bool damaged; /* a check looked at the world and found it damaged; else it may be good */
 };
 
 /* Formats into reason and returns -1, so that a failing path reads "return reason_set(...)". */
@@ -88,6 +95,11 @@ int segment_private(struct view *view, const struct segment_header *header, stru
 /* The header fields that follow from a scenario's parameters and a genesis' counts. */
 struct segment_header segment_header_for(const struct params *params, const struct counts *counts);
 
+/* Do the parameters that sizes and waits are computed from fit the header? path is for the message.
+ * 0, or -1 with the reason. */
+int segment_params_fit(const struct params *params, const struct segment_header *header,
+                       const char *path, struct reason *reason);
+
 /* Copies a genesis and its parameters into a begun or private segment, as frame 0. */
 void segment_fill(struct view *view, const struct genesis *genesis);
 
@@ -96,21 +108,64 @@ void segment_fill(struct view *view, const struct genesis *genesis);
  * does not exist, is not this build's, or the role is held by a live process. Does not block. */
 int segment_attach(struct view *view, const char *name, enum role role, struct reason *reason);
 
-/* The holder says that it is up; readers may now count on it. */
+/* The same without the role's lock: to be ready for the day that its holder dies. */
+int segment_stand_by(struct view *view, const char *name, enum role role, struct reason *reason);
+
+/* Waits, blocked in the kernel, until the role's lock is free, and takes it. Nothing of the world
+ * may have been written, and nothing read from it counts, before this returns 0. -1 with EINTR when
+ * the process is asked to stop meanwhile. A view that holds its role already has it at once. */
+int segment_take(struct view *view);
+
+/* The holder says that it is up, and who it is; readers may now count on it. */
 void segment_ready(struct view *view);
 
 /* Unmaps and drops the lock; marks the slot absent. */
 void segment_detach(struct view *view);
 
+/* Takes the hash of every region that never changes into the header of a begun or private view. */
+void segment_hash_static(struct view *view);
+
+/* All of them as one. */
+uint64_t segment_static_hash(const struct segment_header *header);
+
 /* Hashes the static regions (about a millisecond) and compares. 0, or -1 with the reason. */
 int segment_verify(const struct view *view, struct reason *reason);
+
+/* Are a head's counts within the tables and lists that they count in? Is W[frame & 1] whole and
+ * this frame? Is the moved table? The last two hash what there is (1 ms for about 20,000 entities).
+ * 0, or -1 with what is wrong, by its field. */
+int segment_check_head(const struct view *view, const struct state_head *head,
+                       struct reason *reason);
+int segment_check_state(const struct view *view, uint64_t frame, struct reason *reason);
+int segment_check_moved(const struct view *view, uint64_t frame, struct reason *reason);
+
+/* Looks at a world that no mover and no collider runs (their locks are held meanwhile) and puts its
+ * words right: when the last frame is damaged it goes back to the one before, if that is whole;
+ * when the moved table is, the frame is moved again. What was lost is computed again, to the same
+ * bytes. 0 when the world is good, 1 when it was repaired, -1 when it cannot be or is run; report
+ * says in one line what was found and done. Hashes the whole world: milliseconds, more with many
+ * entities. */
+int segment_repair(const char *name, struct reason *report);
 
 /* Removes the world's object, and its lock file unless a supervisor holds that. Refuses while a
  * role is held, unless force. 0, or -1 with the reason. */
 int segment_remove(const char *name, bool force, struct reason *reason);
 
-/* Pid of the live holder of a role, 0 when none. */
+/* Has the role a live holder? For a view that holds a role itself; opens nothing. */
+bool segment_held(const struct view *view, enum role role);
+
+/* Pid that the holder of a role has said, 0 when none holds it. For people to read: a holder that
+ * has just taken the role has not said it yet (0), or the one before it is still named. */
 int segment_holder(const char *name, enum role role);
+
+/* Pid of the live holder of a role. Waits until until_ns (CLOCK_MONOTONIC) for one that has just
+ * taken it to say its pid. 0 when nobody holds the role, or has not said it by then. */
+int segment_holder_alive(const char *name, enum role role, uint64_t until_ns);
+
+/* Waits until none of the roles 0 .. last is held, by their locks, at most until until_ns
+ * (CLOCK_MONOTONIC). 0, or -1 with the reason: which role is held and, if that is known, by whom.
+ */
+int segment_wait_free(const char *name, enum role last, uint64_t until_ns, struct reason *reason);
 
 /* Names of this user's worlds, at most max; how many there are. */
 int segment_list(char names[][SEGMENT_NAME_MAX], int max);

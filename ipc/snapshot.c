@@ -1,6 +1,8 @@
 /* A reader's copies: of a frame, of events; and the one writer's side of a command ring. */
 #include "ipc/snapshot.h"
 
+#include "ipc/crash.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,26 +44,45 @@ void snapshot_free(struct snapshot *snapshot)
     *snapshot = (struct snapshot){0};
 }
 
+/* Rows, damage and lists against the head's checksum. */
+static bool copy_good(struct snapshot *snapshot, const struct view *view, uint64_t frame)
+{
+    struct state copy = snapshot_state(snapshot, view);
+    struct row_hashes rows;
+    struct reason reason;
+    if (snapshot->head.frame != frame || segment_check_head(view, &snapshot->head, &reason) != 0)
+        return false;
+    row_hashes_all(&rows, &copy.entities, copy.head->used, NULL);
+    list_hashes_extend(&snapshot->lists, &copy);
+    return state_checksum_of(&copy, &rows, state_fixed_hash(&copy, view->header->counts.fixed),
+                             &snapshot->lists) == snapshot->head.checksum;
+}
+
 int snapshot_take(struct snapshot *snapshot, const struct view *view)
 {
+    int bad = 0;
     for (int i = 0; i < TRIES; i++) {
         uint64_t frame = load(&view->commit->commit);
         const struct state *from = &view->w[frame & 1];
         snapshot->head = *from->head;
         uint32_t used = snapshot->head.used;
         if (used > view->header->capacity)
-            used = 0; /* torn: found out below */
+            used = 0; /* torn, or damaged: found out below */
         entities_copy(&snapshot->entities, &from->entities, 0, used);
         memcpy(snapshot->fixed_damage, from->fixed_damage, view->header->counts.fixed);
-        if (!still_whole(view, frame))
+        if (!still_whole(view, frame)) {
+            snapshot->overtaken++;
             continue;
-        struct state copy = snapshot_state(snapshot, view);
-        if (snapshot->head.frame != frame || snapshot->head.used != used ||
-            state_checksum(&copy, view->header->counts.fixed) != snapshot->head.checksum) {
+        }
+        if (copy_good(snapshot, view, frame))
+            return 0;
+        /* A repair may have gone back a frame while this one was copied: look once more. */
+        snapshot->lists = (struct list_hashes){0};
+        snapshot->damaged++;
+        if (++bad == 2) {
             errno = EBADMSG;
             return -1;
         }
-        return 0;
     }
     errno = EAGAIN;
     return -1;
@@ -96,7 +117,8 @@ struct state snapshot_state(const struct snapshot *snapshot, const struct view *
 static uint64_t oldest_safe(const struct view *view, uint64_t end)
 {
     uint64_t kept = view->header->event_slots - view->world.params->events_per_frame;
-    return end > kept ? end - kept : 0;
+    uint64_t first = view->header->first_event;
+    return end > kept && end - kept > first ? end - kept : first;
 }
 
 uint32_t events_read(const struct view *view, struct event_cursor *cursor, struct event *events,
@@ -107,6 +129,8 @@ uint32_t events_read(const struct view *view, struct event_cursor *cursor, struc
     if (snapshot_head(&head, view) != 0)
         return 0;
     uint64_t oldest = oldest_safe(view, head.event_end);
+    if (cursor->next < view->header->first_event) /* never were in this ring: no gap */
+        cursor->next = view->header->first_event;
     if (cursor->next < oldest) {
         cursor->gap += oldest - cursor->next;
         cursor->next = oldest;
@@ -163,9 +187,13 @@ int command_put(struct view *view, enum command_ring ring, const struct command 
         return -1;
     }
     struct command *slot = &words->slot[end & (slots - 1)];
+    CRASH_POINT("command");
     *slot = *command;
+    CRASH_POINT("command's sequence");
     slot->sequence = end;
+    CRASH_POINT("command ring's head");
     atomic_store_explicit(&words->head, end + 1, memory_order_release);
     door_ring(view->doors, ROLE_MOVER);
+    CRASH_POINT("after a command");
     return 0;
 }

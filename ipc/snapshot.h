@@ -6,11 +6,15 @@
 #define JOLON_IPC_SNAPSHOT_H
 
 #include "ipc/segment.h"
+#include "world/checksum.h"
 
 struct snapshot {
     struct state_head head;
     struct entities entities; /* rows 0 .. head.used - 1 */
     uint8_t *fixed_damage;    /* [world.counts.fixed] */
+    struct list_hashes lists; /* of the craters and dents seen so far */
+    uint64_t overtaken;       /* copies since init that the world had gone on from: taken again */
+    uint64_t damaged; /* ... that failed their checksum: while a repair went back, or wrong */
     void *memory;
 };
 
@@ -33,7 +37,10 @@ struct event_cursor {
     uint64_t gap;  /* events lost since the last read, because the ring had gone round */
 };
 
-/* Copies up to max committed events from cursor on; how many. Adds to cursor->gap what was lost. */
+/* Copies up to max committed events from cursor on; how many. Adds to cursor->gap what was lost.
+ * Of a world that goes on from an image, the ring begins at header->first_event: what was before
+ * is not to be had here, is skipped and is no gap. A reader that wants those looks at first_event
+ * itself. A cursor beyond the last event reads nothing until the world comes there. */
 uint32_t events_read(const struct view *view, struct event_cursor *cursor, struct event *events,
                      uint32_t max);
 

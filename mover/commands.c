@@ -5,6 +5,7 @@
 #include "world/square.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #define COMMANDS_A_FRAME 256 /* of one ring; the rest waits for the next frame */
 #define TIME_SCALE_MIN   0.01
@@ -195,21 +196,44 @@ static enum command_result apply(struct serial *serial, const struct command *co
     }
 }
 
+static void put_answer(struct event *event, const struct command *command,
+                       const struct state_head *head)
+{
+    event->command = (struct event_command){
+        .source = command->source,
+        .sequence = command->source_sequence,
+        .type = command->type,
+        .given = command->entity,
+        .target = command->target,
+        .amount = command->amount,
+        .kind = command->kind,
+        .force = command->force,
+        .number = (uint32_t)head->tally.commands,
+    };
+    memcpy(event->command.value, command->value, sizeof command->value);
+}
+
 static void apply_ring(struct serial *serial, const struct command_source *source, uint32_t ring)
 {
+    const struct params *params = serial->move->world->params;
     struct state_head *head = serial->moved->head;
+    uint32_t most = params->intents_per_frame < params->events_per_frame ? params->intents_per_frame
+                                                                         : params->events_per_frame;
     uint64_t *cursor = &head->command_cursor[ring];
     for (int n = 0; n < COMMANDS_A_FRAME && *cursor < source->end; n++) {
         /* A copy: the ring's writer must not change it between a check and its use. */
         const struct command command = source->slot[*cursor & (source->slots - 1)];
-        /* An answer must have room, with one more for what the command itself says. */
-        if (head->intent_count + 2 > serial->move->world->params->intents_per_frame)
+        /* An answer must have room in the frame, with one more for what the command itself says:
+         * one that is taken is always told of, or else it stays in its ring. */
+        if (head->intent_count + 2 > most)
             return;
         uint32_t entity = 0;
         enum command_result result = apply(serial, &command, &entity);
         struct event *event = serial_intent(serial, EVENT_COMMAND);
-        event->command = (struct event_command){
-            command.source, command.source_sequence, command.type, result, entity, ring};
+        put_answer(event, &command, head);
+        event->command.result = (uint8_t)result;
+        event->command.ring = (uint8_t)ring;
+        event->command.entity = entity;
         head->tally.commands++;
         ++*cursor;
     }

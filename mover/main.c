@@ -2,6 +2,7 @@
 #include "ipc/frame.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "sandbox/sandbox.h"
 #include "mover/step.h"
 
 #include <errno.h>
@@ -12,20 +13,28 @@ int main(int argc, char **argv)
 {
     struct stage_options options = process_stage_options(argc, argv, "jolon-mover");
     struct command_source sources[COMMAND_RING_COUNT];
+    struct sandbox sandbox;
     struct view view;
     struct reason reason;
     struct mover mover;
     struct frame frame;
 
     log_open("mover");
+    process_close_inherited();
     process_signals();
     process_die_with_parent(options.parent);
     prctl(PR_SET_TIMERSLACK, 1000); /* [ns] a frame begins when it is due, not 50 us later */
-    if (segment_attach(&view, options.world, ROLE_MOVER, &reason) != 0)
+    if (sandbox_begin(&sandbox, ROLE_MOVER, options.sandbox_off, &reason) != 0 ||
+        (options.stand_by ? segment_stand_by : segment_attach)(&view, options.world, ROLE_MOVER,
+                                                               &reason) != 0)
         die_refused("%s", reason.text);
     struct workers *workers = workers_create(options.threads);
     if (!workers || mover_init(&mover, &view.world, view.w[0].craters, workers) != 0)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
+    if (sandbox_enter(&sandbox, &reason) != 0)
+        die_refused("%s", reason.text);
+    if (segment_take(&view) != 0 || (options.stand_by && frame_finished(&view)))
+        return EXIT_OK; /* asked to stop, or the run ended, while another had the role */
     segment_ready(&view);
     log_info("moves world \"%s\" on %u thread(s)", view.name, options.threads);
 

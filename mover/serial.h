@@ -9,7 +9,15 @@
 struct serial {
     const struct move *move;
     struct moved *moved;
+    struct moved_pieces *pieces;
 };
+
+/* Whoever makes a row, or changes one that has moved, says so: its piece is hashed again at the
+ * step's end. */
+static inline void serial_changes(struct serial *serial, uint32_t row)
+{
+    serial->pieces->changed[row / CHECKSUM_ROWS] = true;
+}
 
 /* spawn.c: a free row made into an active entity of this kind at rest, SLOT_NONE when the table is
  * full (counted in the tally). Life, ids and counts are set; the caller places it. */

@@ -32,6 +32,7 @@ uint32_t spawn_entity(struct serial *serial, uint16_t kind_index, uint8_t force)
         head->tally.spawns_refused++;
         return SLOT_NONE;
     }
+    serial_changes(serial, row);
     head->used = row < head->used ? head->used : row + 1;
     head->alloc_next = (row + 1) % m->capacity;
     entities_clear(m, row);

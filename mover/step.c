@@ -3,7 +3,8 @@
 
 #include "mover/serial.h"
 
-#define ROWS_A_PIECE  2048
+#include <string.h>
+
 #define PREFETCH_ROWS 8
 
 int mover_init(struct mover *mover, const struct world *world, const struct crater *craters,
@@ -52,18 +53,33 @@ static void move_row(const struct move *move, uint32_t i)
         agent_blocked(move, i);
 }
 
-/* Rows that the committed world has; one spawned by a command of this frame moves from the next. */
-static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
+static void move_piece(const struct move *move, uint32_t first, uint32_t end)
 {
-    const struct move *move = context;
     const struct entities *w = &move->committed->entities;
-    (void)worker;
     for (uint32_t i = first; i < end; i++) {
         if (i + PREFETCH_ROWS < end)
             terrain_prefetch(&move->world->terrain, w->x[i + PREFETCH_ROWS],
                              w->z[i + PREFETCH_ROWS]);
         if (w->state[i] != ENTITY_FREE && move->m->id[i] == w->id[i])
             move_row(move, i);
+    }
+}
+
+struct rows {
+    const struct move *move;
+    struct moved_pieces *pieces;
+};
+
+/* Rows that the committed world has; one spawned by a command of this frame moves from the next. A
+ * piece is hashed while it is in the cache. */
+static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct rows *rows = context;
+    (void)worker;
+    for (; first < end; first += CHECKSUM_ROWS) {
+        uint32_t past = end - first < CHECKSUM_ROWS ? end : first + CHECKSUM_ROWS;
+        move_piece(rows->move, first, past);
+        row_hashes_piece(&rows->pieces->hashes, rows->move->m, first / CHECKSUM_ROWS, past);
     }
 }
 
@@ -106,6 +122,7 @@ static void pull_triggers(struct serial *serial)
         if (trigger == 0)
             continue;
         m->trigger[i] = 0;
+        serial_changes(serial, i);
         if (trigger >> TRIGGER_REASON_SHIFT) {
             struct event *event = serial_intent(serial, EVENT_AGENT);
             if (event)
@@ -128,6 +145,21 @@ static void begin_head(struct moved *moved, const struct state_head *committed)
     moved->head->checksum = 0;
 }
 
+/* The checksum of the table that is now whole: pieces that changed after they were hashed again. */
+static uint64_t checksum(struct mover *mover, const struct moved *moved)
+{
+    struct moved_pieces *pieces = &mover->pieces;
+    uint32_t used = moved->head->used;
+    if (!moved->head->advanced)
+        row_hashes_all(&pieces->hashes, &moved->entities, used, mover->workers);
+    for (uint32_t i = 0; i * CHECKSUM_ROWS < used && moved->head->advanced; i++) {
+        if (pieces->changed[i])
+            row_hashes_piece(&pieces->hashes, &moved->entities, i, used);
+    }
+    memset(pieces->changed, 0, sizeof pieces->changed);
+    return moved_checksum_of(moved, &pieces->hashes);
+}
+
 int mover_step(struct mover *mover, const struct state *committed, struct moved *moved,
                const struct command_source sources[COMMAND_RING_COUNT])
 {
@@ -140,21 +172,23 @@ int mover_step(struct mover *mover, const struct state *committed, struct moved 
         .tick = committed->head->tick + 1,
         .dt_s = mover->world->params->dt_s,
     };
-    struct serial serial = {.move = &move, .moved = moved};
+    struct serial serial = {.move = &move, .moved = moved, .pieces = &mover->pieces};
+    struct rows rows = {&move, &mover->pieces};
     uint32_t used = committed->head->used;
     if (crater_index_update(&mover->craters, committed->head->crater_count) != 0)
         return -1;
     begin_head(moved, committed->head);
-    workers_run(mover->workers, copy_rows, &move, used, ROWS_A_PIECE);
+    workers_run(mover->workers, copy_rows, &move, used, CHECKSUM_ROWS);
     commands_apply(&serial, sources);
     if (!head->paused || head->steps_left > 0) {
         if (head->paused)
             head->steps_left--;
         head->advanced = 1;
         head->tick = move.tick;
-        workers_run(mover->workers, move_rows, &move, used, ROWS_A_PIECE);
+        workers_run(mover->workers, move_rows, &rows, used, CHECKSUM_ROWS);
         scenario_fires(&serial);
         pull_triggers(&serial);
     }
+    head->checksum = checksum(mover, moved);
     return 0;
 }

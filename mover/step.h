@@ -3,6 +3,7 @@
 #ifndef JOLON_MOVER_STEP_H
 #define JOLON_MOVER_STEP_H
 
+#include "world/checksum.h"
 #include "world/workers.h"
 #include "world/world.h"
 
@@ -13,10 +14,17 @@ struct command_source {
     uint64_t end;
 };
 
+/* The moved table's pieces as their rows are left behind, and which of them changed since. */
+struct moved_pieces {
+    struct row_hashes hashes;
+    bool changed[CHECKSUM_PIECES];
+};
+
 struct mover {
     const struct world *world;
     struct crater_index craters; /* cache of the committed craters */
     struct workers *workers;     /* NULL: alone */
+    struct moved_pieces pieces;  /* of this frame */
 };
 
 /* craters: the world's list. 0, or -1 with errno ENOMEM. workers may be NULL and stays the

@@ -93,6 +93,7 @@ bool weapons_fire(struct serial *serial, uint32_t shooter, uint32_t target, uint
     m->owner_slot[row] = shooter;
     m->owner_id[row] = m->id[shooter];
     m->rounds[shooter]--;
+    serial_changes(serial, shooter);
     m->reload_tick[shooter] =
         (uint32_t)(serial->move->tick + (uint64_t)(kind->reload_s / serial->move->dt_s));
 
@@ -109,6 +110,7 @@ bool weapons_fire(struct serial *serial, uint32_t shooter, uint32_t target, uint
         m->target_id[row] = m->id[target];
         m->threat_slot[target] = shooter;
         m->threat_id[target] = m->id[shooter];
+        serial_changes(serial, target);
     }
     return true;
 }

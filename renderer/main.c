@@ -7,6 +7,7 @@
 #include "renderer/options.h"
 #include "renderer/pulse.h"
 #include "renderer/studio.h"
+#include "sandbox/sandbox.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -66,6 +67,22 @@ static int run(struct studio *studio, struct view *view, struct reason *reason)
     return 0;
 }
 
+/* Before any thread: the folder of the pictures is opened, and nothing but it can be written to.
+ * The driver's cache moves there too: it holds programs, and others run those that it keeps at
+ * home. */
+static int confine(struct sandbox *sandbox, struct output *output, const struct options *options,
+                   struct reason *reason)
+{
+    char cache[1024];
+    if (output_open(output, options->out, reason) != 0)
+        return -1;
+    if (output_cache(output, cache, sizeof cache) == 0)
+        setenv("MESA_SHADER_CACHE_DIR", cache, 1);
+    if (sandbox_begin(sandbox, options->role, options->sandbox_off, reason) != 0)
+        return -1;
+    return sandbox_files(sandbox, &output->folder, 1, reason);
+}
+
 /* One picture of the present frame, without a role. */
 static int snap(struct studio *studio, struct reason *reason)
 {
@@ -77,6 +94,8 @@ int main(int argc, char **argv)
     static struct studio studio;
     struct options options;
     struct view view;
+    struct sandbox sandbox = {.on = false};
+    struct output output;
     struct pulse pulse;
     struct reason reason;
 
@@ -84,10 +103,13 @@ int main(int argc, char **argv)
     options_read(&options, argc, argv);
     bool snapping = options.snap != NULL;
     log_open(snapping ? "renderer" : role_name(options.role));
+    process_close_inherited();
     process_signals();
     if (options.parent_pid != 0)
         process_die_with_parent(options.parent_pid);
     if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &reason) != 0)
+        die_refused("%s", reason.text);
+    if (!snapping && confine(&sandbox, &output, &options, &reason) != 0)
         die_refused("%s", reason.text);
     /* The pulse keeps its priority; drawing, and the threads of the OpenGL driver, get out of the
      * frame loop's way. */
@@ -97,7 +119,8 @@ int main(int argc, char **argv)
         log_warn("cannot lower its priority: %s", strerror(errno));
     setenv("LP_NUM_THREADS", "1", 0);
 
-    if (studio_open(&studio, &view, &pulse, &options, &reason) != 0)
+    if (studio_open(&studio, &view, &pulse, snapping ? NULL : &output, &options, &reason) != 0 ||
+        sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
     int result;
     if (snapping) {
@@ -109,6 +132,7 @@ int main(int argc, char **argv)
                  studio.options.width, studio.options.height, studio.options.fps);
         result = run(&studio, &view, &reason);
         pulse_stop(&pulse);
+        output_close(&output);
     }
     if (result != 0)
         die_refused("%s", reason.text);

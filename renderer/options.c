@@ -28,20 +28,16 @@ static const char usage_text[] =
     "      --follow ID     the vehicle to follow; 0 picks a lively one (default: the scenario's,\n"
     "                      until it is destroyed)\n"
     "      --parent PID    end when this process does\n"
+    "      --no-sandbox    give up no privileges\n"
     "      --help          this text\n";
 
 static const struct option long_options[] = {
-    {"world", required_argument, NULL, 'w'},
-    {"out", required_argument, NULL, 'o'},
-    {"snap", required_argument, NULL, 's'},
-    {"role", required_argument, NULL, 'r'},
-    {"fps", required_argument, NULL, 'f'},
-    {"view", required_argument, NULL, 'v'},
-    {"size", required_argument, NULL, 'z'},
-    {"follow", required_argument, NULL, 'F'},
-    {"parent", required_argument, NULL, 'p'},
-    {"help", no_argument, NULL, 'h'},
-    {NULL, 0, NULL, 0},
+    {"world", required_argument, NULL, 'w'},  {"out", required_argument, NULL, 'o'},
+    {"snap", required_argument, NULL, 's'},   {"role", required_argument, NULL, 'r'},
+    {"fps", required_argument, NULL, 'f'},    {"view", required_argument, NULL, 'v'},
+    {"size", required_argument, NULL, 'z'},   {"follow", required_argument, NULL, 'F'},
+    {"parent", required_argument, NULL, 'p'}, {"no-sandbox", no_argument, NULL, 'S'},
+    {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0},
 };
 
 static int view_of(const char *text)
@@ -103,6 +99,9 @@ static void take(struct options *options, int letter, const char *value)
         break;
     case 'p':
         options->parent_pid = (int)process_whole("parent", value, 1, INT32_MAX);
+        break;
+    case 'S':
+        options->sandbox_off = true;
         break;
     case 'h':
         fputs(usage_text, stdout);

@@ -19,6 +19,7 @@ struct options {
     uint32_t follow;        /* entity id, 0: picks one */
     bool follow_given;      /* follows it even as a wreck; else the world's choice while it lives */
     int parent_pid;         /* 0: none */
+    bool sandbox_off;
 };
 
 /* Ends the process on wrong usage (exit 2) and on --help and --version (exit 0). */

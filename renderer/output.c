@@ -3,8 +3,11 @@
 
 #include "renderer/png.h"
 
+#include <dirent.h>
 #include <errno.h>
-#include <glob.h>
+#include <fcntl.h>
+#include <fnmatch.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,20 +15,20 @@
 #include <unistd.h>
 
 #define PATH_BYTES 1024
+#define NAME_BYTES 64
+#define CACHE_NAME ".shaders"
 
-static int path_of(const struct output *output, char path[PATH_BYTES], const char *view,
-                   const uint64_t *frame, const char *suffix)
+/* VIEW-FRAME.png, or VIEW.png without a frame. */
+static void name_of(char name[NAME_BYTES], const char *view, const uint64_t *frame,
+                    const char *suffix)
 {
-    int length;
     if (frame != NULL)
-        length = snprintf(path, PATH_BYTES, "%s/%s-%06llu.png%s", output->folder, view,
-                          (unsigned long long)*frame, suffix);
+        snprintf(name, NAME_BYTES, "%s-%06llu.png%s", view, (unsigned long long)*frame, suffix);
     else
-        length = snprintf(path, PATH_BYTES, "%s/%s.png%s", output->folder, view, suffix);
-    return length > 0 && length < PATH_BYTES ? 0 : -1;
+        snprintf(name, NAME_BYTES, "%s.png%s", view, suffix);
 }
 
-/* mkdir -p: the folders above it too. */
+/* mkdir -p, the folders above it too, for their owner alone. A descriptor of the last, or -1. */
 static int make_folders(const char *folder)
 {
     char path[PATH_BYTES];
@@ -36,75 +39,123 @@ static int make_folders(const char *folder)
     }
     for (char *slash = strchr(path + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
-        if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        if (mkdir(path, 0700) != 0 && errno != EEXIST)
             return -1;
         *slash = '/';
     }
-    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+    if (mkdir(path, 0700) != 0 && errno != EEXIST)
         return -1;
-    struct stat found;
-    if (stat(path, &found) != 0)
-        return -1;
-    if (S_ISDIR(found.st_mode))
-        return 0;
-    errno = ENOTDIR;
-    return -1;
+    return open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 }
 
 /* Gives the frame's picture a place among those kept; the one that had it is removed. */
 static void keep(const struct output *output, struct output_row *row, const char *view,
                  uint64_t frame)
 {
-    char old[PATH_BYTES];
+    char old[NAME_BYTES];
     for (uint32_t i = 0; i < OUTPUT_KEPT; i++)
         if (row->frame[i] == frame)
             row->frame[i] = OUTPUT_NONE; /* of an earlier run: the file is the new one's now */
     uint64_t *place = &row->frame[row->written++ % OUTPUT_KEPT];
-    if (*place != OUTPUT_NONE && path_of(output, old, view, place, "") == 0)
-        unlink(old);
+    if (*place != OUTPUT_NONE) {
+        name_of(old, view, place, "");
+        unlinkat(output->folder, old, 0);
+    }
     *place = frame;
+}
+
+static int is_numbered(const struct dirent *entry)
+{
+    return fnmatch("*-[0-9]*.png", entry->d_name, 0) == 0;
 }
 
 static void keep_found(const struct output *output, struct output_row *row, const char *view)
 {
-    char pattern[PATH_BYTES];
-    glob_t found;
+    struct dirent **found;
+    size_t length = strlen(view);
     for (uint32_t i = 0; i < OUTPUT_KEPT; i++)
         row->frame[i] = OUTPUT_NONE;
-    int length = snprintf(pattern, sizeof pattern, "%s/%s-[0-9]*.png", output->folder, view);
-    if (length < 0 || (size_t)length >= sizeof pattern || glob(pattern, 0, NULL, &found) != 0)
-        return;
-    for (size_t i = 0; i < found.gl_pathc; i++) {
-        const char *number = strrchr(found.gl_pathv[i], '-') + 1;
-        keep(output, row, view, strtoull(number, NULL, 10));
+    int count = scandirat(output->folder, ".", &found, is_numbered, versionsort);
+    for (int i = 0; i < count; i++) {
+        const char *name = found[i]->d_name;
+        if (strncmp(name, view, length) == 0 && name[length] == '-')
+            keep(output, row, view, strtoull(name + length + 1, NULL, 10));
+        free(found[i]);
     }
-    globfree(&found);
+    if (count >= 0)
+        free(found);
+}
+
+static int is_temporary(const struct dirent *entry)
+{
+    return fnmatch("*.png.[0-9]*.tmp", entry->d_name, 0) == 0;
+}
+
+/* Half pictures of renderers that were killed. */
+static void sweep_temporaries(int folder)
+{
+    struct dirent **found;
+    int count = scandirat(folder, ".", &found, is_temporary, NULL);
+    for (int i = 0; i < count; i++) {
+        const char *number = strstr(found[i]->d_name, ".png.") + strlen(".png.");
+        long pid = strtol(number, NULL, 10);
+        if (pid > 0 && kill((pid_t)pid, 0) != 0 && errno == ESRCH)
+            unlinkat(folder, found[i]->d_name, 0);
+        free(found[i]);
+    }
+    if (count >= 0)
+        free(found);
 }
 
 int output_open(struct output *output, const char *folder, struct reason *reason)
 {
-    memset(output, 0, sizeof *output);
-    output->folder = folder;
-    if (make_folders(folder) != 0)
+    *output = (struct output){.path = folder, .folder = make_folders(folder)};
+    if (output->folder < 0)
         return reason_set(reason, "--out %s: cannot make the folder: %s", folder, strerror(errno));
-    if (access(folder, W_OK | X_OK) != 0)
-        return reason_set(reason, "--out %s: cannot write there: %s", folder, strerror(errno));
+    if (faccessat(output->folder, ".", W_OK | X_OK, 0) != 0) {
+        reason_set(reason, "--out %s: cannot write there: %s", folder, strerror(errno));
+        output_close(output);
+        return -1;
+    }
+    sweep_temporaries(output->folder);
     keep_found(output, &output->chase, "chase");
     keep_found(output, &output->map, "map");
     return 0;
 }
 
-/* The latest picture is another name of the numbered file, so it is written once. */
-static int point_latest(const char *numbered, const char *temporary, const char *latest)
+void output_close(struct output *output)
 {
-    if (unlink(temporary) != 0 && errno != ENOENT)
+    close(output->folder);
+    output->folder = -1;
+}
+
+int output_cache(const struct output *output, char *path, size_t bytes)
+{
+    int length = snprintf(path, bytes, "%s/" CACHE_NAME, output->path);
+    if (length < 0 || (size_t)length >= bytes) {
+        errno = ENAMETOOLONG;
         return -1;
-    if (link(numbered, temporary) != 0)
+    }
+    if (mkdirat(output->folder, CACHE_NAME, 0700) != 0 && errno != EEXIST)
         return -1;
-    if (rename(temporary, latest) == 0)
+    int fd = openat(output->folder, CACHE_NAME, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (fd < 0)
+        return -1;
+    close(fd);
+    return 0;
+}
+
+/* The latest picture is another name of the numbered file, so it is written once. */
+static int point_latest(int folder, const char *numbered, const char *temporary, const char *latest)
+{
+    if (unlinkat(folder, temporary, 0) != 0 && errno != ENOENT)
+        return -1;
+    if (linkat(folder, numbered, folder, temporary, 0) != 0)
+        return -1;
+    if (renameat(folder, temporary, folder, latest) == 0)
         return 0;
     int cause = errno;
-    unlink(temporary);
+    unlinkat(folder, temporary, 0);
     errno = cause;
     return -1;
 }
@@ -113,17 +164,16 @@ int output_picture(struct output *output, const char *view, const struct image *
                    uint64_t frame, const char *comment, struct reason *reason)
 {
     struct output_row *row = view[0] == 'c' ? &output->chase : &output->map;
-    char numbered[PATH_BYTES], latest[PATH_BYTES], temporary[PATH_BYTES];
-    if (path_of(output, numbered, view, &frame, "") != 0 ||
-        path_of(output, latest, view, NULL, "") != 0 ||
-        path_of(output, temporary, view, NULL, ".tmp") != 0)
-        return reason_set(reason, "--out %s: the path is too long", output->folder);
-    if (output_file(numbered, image, comment, reason) != 0)
-        return -1;
+    char numbered[NAME_BYTES], latest[NAME_BYTES], temporary[NAME_BYTES];
+    name_of(numbered, view, &frame, "");
+    name_of(latest, view, NULL, "");
+    name_of(temporary, view, NULL, ".tmp");
     /* File systems without links get a second copy. */
-    if (point_latest(numbered, temporary, latest) != 0 &&
-        output_file(latest, image, comment, reason) != 0)
-        return -1;
+    if (png_write_file(output->folder, numbered, image, comment) != 0 ||
+        (point_latest(output->folder, numbered, temporary, latest) != 0 &&
+         png_write_file(output->folder, latest, image, comment) != 0))
+        return reason_set(reason, "cannot write %s/%s: %s", output->path, numbered,
+                          strerror(errno));
     keep(output, row, view, frame);
     return 0;
 }
@@ -131,7 +181,7 @@ int output_picture(struct output *output, const char *view, const struct image *
 int output_file(const char *path, const struct image *image, const char *comment,
                 struct reason *reason)
 {
-    if (png_write_file(path, image, comment) == 0)
+    if (png_write_file(AT_FDCWD, path, image, comment) == 0)
         return 0;
     return reason_set(reason, "cannot write %s: %s", path, strerror(errno));
 }

@@ -18,13 +18,19 @@ struct output_row {
 };
 
 struct output {
-    const char *folder;
+    const char *path; /* of the folder, as the user named it */
+    int folder;       /* its descriptor: names are looked up beneath it alone */
     struct output_row chase, map;
 };
 
-/* Makes the folder if need be, and tries that it can be written to. Numbered pictures that an
- * earlier renderer left there count among those kept. 0, or -1 with the reason. */
+/* Makes the folder if need be, mode 0700, and tries that it can be written to. Numbered pictures
+ * that an earlier renderer left there count among those kept. 0, or -1 with the reason. */
 int output_open(struct output *output, const char *folder, struct reason *reason);
+void output_close(struct output *output);
+
+/* Makes a folder there, mode 0700, for what the graphics driver wants to keep, and tells its path.
+ * 0, or -1 with errno; a link of its name is no folder. */
+int output_cache(const struct output *output, char *path, size_t bytes);
 
 /* Writes "VIEW-FRAME.png" and makes "VIEW.png" the same picture, each in one step: a reader never
  * finds half a picture. view is "chase" or "map". 0, or -1 with the reason. */

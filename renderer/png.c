@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include <errno.h>
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,7 +75,22 @@ static int write_stream(FILE *file, const struct image *image, const char *comme
     return result;
 }
 
-int png_write_file(const char *path, const struct image *image, const char *comment)
+/* What a renderer with our number left there when it was killed is in the way. */
+static FILE *make_file(int folder, const char *path)
+{
+    const int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+    int fd = openat(folder, path, flags, 0600);
+    if (fd < 0 && errno == EEXIST && unlinkat(folder, path, 0) == 0)
+        fd = openat(folder, path, flags, 0600);
+    if (fd < 0)
+        return NULL;
+    FILE *file = fdopen(fd, "wb");
+    if (file == NULL)
+        close(fd);
+    return file;
+}
+
+int png_write_file(int folder, const char *path, const struct image *image, const char *comment)
 {
     char temporary[PATH_BYTES];
     int length = snprintf(temporary, sizeof temporary, "%s.%ld.tmp", path, (long)getpid());
@@ -82,7 +98,7 @@ int png_write_file(const char *path, const struct image *image, const char *comm
         errno = ENAMETOOLONG;
         return -1;
     }
-    FILE *file = fopen(temporary, "wb");
+    FILE *file = make_file(folder, temporary);
     if (file == NULL)
         return -1;
     int result = write_stream(file, image, comment);
@@ -92,12 +108,12 @@ int png_write_file(const char *path, const struct image *image, const char *comm
         result = -1;
         cause = errno;
     }
-    if (result == 0 && rename(temporary, path) != 0) {
+    if (result == 0 && renameat(folder, temporary, folder, path) != 0) {
         result = -1;
         cause = errno;
     }
     if (result != 0)
-        unlink(temporary);
+        unlinkat(folder, temporary, 0);
     errno = cause;
     return result;
 }

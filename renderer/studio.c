@@ -44,19 +44,18 @@ static void take_defaults(struct options *options, const struct renderer_params 
 }
 
 int studio_open(struct studio *studio, struct view *view, struct pulse *pulse,
-                const struct options *options, struct reason *reason)
+                struct output *output, const struct options *options, struct reason *reason)
 {
     memset(studio, 0, sizeof *studio);
     studio->view = view;
     studio->pulse = pulse;
+    studio->output = output;
     studio->options = *options;
     studio->drawn = UINT64_MAX;
     studio->followed = SLOT_NONE;
     take_defaults(&studio->options, &view->world.params->renderer);
     uint32_t width = studio->options.width, height = studio->options.height;
 
-    if (options->out != NULL && output_open(&studio->output, options->out, reason) != 0)
-        return -1;
     if (snapshot_init(&studio->snapshot, view) != 0)
         goto err_memory;
     if (crater_index_init(&studio->craters, view->w[0].craters) != 0)
@@ -211,8 +210,8 @@ static void describe(const struct studio *studio, const struct moment *moment, c
 static int put_out(struct studio *studio, const char *name, const char *words,
                    struct reason *reason)
 {
-    if (studio->options.snap == NULL)
-        return output_picture(&studio->output, name, &studio->image, studio->seen, words, reason);
+    if (studio->output != NULL)
+        return output_picture(studio->output, name, &studio->image, studio->seen, words, reason);
     if (studio->options.view != VIEW_BOTH || name[0] == 'c')
         return output_file(studio->options.snap, &studio->image, words, reason);
     /* Both into one name given: the map's has "-map" before its ending. */

@@ -18,6 +18,7 @@
 struct studio {
     struct view *view;
     struct pulse *pulse;
+    struct output *output;  /* NULL: a picture goes where options.snap says */
     struct options options; /* with the world's own where none were given */
     struct snapshot snapshot;
     struct crater_index craters;
@@ -32,16 +33,16 @@ struct studio {
     struct chart chart;
     struct draw draw; /* self is NULL when only maps are wanted */
     struct image image;
-    struct output output;
     uint64_t seen;     /* frame of the snapshot */
     uint64_t drawn;    /* frame of the last pictures, UINT64_MAX for none */
     uint64_t drawn_ns; /* CLOCK_MONOTONIC when they were begun */
     uint64_t complained_ns;
 };
 
-/* 0, or -1 with the reason: no memory, no OpenGL, no font, a folder that cannot be written to. */
+/* output: NULL to draw into options->snap. 0, or -1 with the reason: no memory, no OpenGL, no font.
+ */
 int studio_open(struct studio *studio, struct view *view, struct pulse *pulse,
-                const struct options *options, struct reason *reason);
+                struct output *output, const struct options *options, struct reason *reason);
 void studio_close(struct studio *studio);
 
 /* When the next picture is due (CLOCK_MONOTONIC); UINT64_MAX when only one at the end is. */

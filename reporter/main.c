@@ -9,6 +9,7 @@
 #include "reporter/options.h"
 #include "reporter/orders.h"
 #include "reporter/report.h"
+#include "sandbox/sandbox.h"
 
 #include <errno.h>
 #include <unistd.h>
@@ -46,7 +47,7 @@ static int open_topics(struct reporter *reporter, struct reason *reason)
         report_world(&reporter->report, view, reason) != 0 ||
         events_open(&reporter->events, view, link, reporter->report.run, reason) != 0 ||
         batch_open(&reporter->batch, view, link, reporter->report.run, reason) != 0 ||
-        orders_open(&reporter->orders, link, reason) != 0)
+        orders_open(&reporter->orders, view, link, reason) != 0)
         return -1;
     reporter->waitset = dds_topics_waitset(link, &reporter->orders.reader, 1, reason);
     return reporter->waitset < 0 ? -1 : 0;
@@ -111,19 +112,22 @@ static void last_words(struct reporter *reporter)
 int main(int argc, char **argv)
 {
     static struct reporter reporter;
+    struct sandbox sandbox;
     struct reason reason;
     log_open("reporter");
     struct options options;
     options_parse(&options, argc, argv);
+    process_close_inherited();
     process_die_with_parent(options.parent);
     process_signals();
     errno = 0;
     if (nice(NICENESS) == -1 && errno)
         log_warn("runs at normal priority: nice %d not allowed", NICENESS);
-    if (segment_attach(&reporter.view, options.world, ROLE_REPORTER, &reason) != 0)
+    if (sandbox_begin(&sandbox, ROLE_REPORTER, options.sandbox_off, &reason) != 0 ||
+        segment_attach(&reporter.view, options.world, ROLE_REPORTER, &reason) != 0)
         die_refused("%s", reason.text);
     if (dds_link_open(&reporter.link, &options.link, options.world, &reason) != 0 ||
-        open_topics(&reporter, &reason) != 0) {
+        open_topics(&reporter, &reason) != 0 || sandbox_enter(&sandbox, &reason) != 0) {
         segment_detach(&reporter.view);
         die_refused("%s", reason.text);
     }

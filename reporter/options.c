@@ -12,17 +12,17 @@ static const char usage[] =
     "usage: jolon-reporter [options]\n"
     "  -w, --world NAME     (default \"default\")\n"
     "  --parent PID         end when this process does\n"
+    "  --no-sandbox         give up no privileges\n"
     "  --dds-config FILE    a Cyclone DDS configuration instead of the built-in one\n"
     "  --interface ADDRESS  publish on this interface (address or name) instead of loopback\n"
     "  --domain N           DDS domain, 0 to 230 (default 0)\n";
 
 void options_parse(struct options *options, int argc, char **argv)
 {
-    static const struct option known[] = {{"world", required_argument, NULL, 'w'},
-                                          {"parent", required_argument, NULL, 'p'},
-                                          DDS_LINK_LONG_OPTIONS,
-                                          {"help", no_argument, NULL, 'h'},
-                                          {NULL, 0, NULL, 0}};
+    static const struct option known[] = {
+        {"world", required_argument, NULL, 'w'}, {"parent", required_argument, NULL, 'p'},
+        {"no-sandbox", no_argument, NULL, 'n'},  DDS_LINK_LONG_OPTIONS,
+        {"help", no_argument, NULL, 'h'},        {NULL, 0, NULL, 0}};
     int option;
     *options = (struct options){.world = "default"};
     opterr = 0; /* we say it, in one line */
@@ -35,6 +35,9 @@ void options_parse(struct options *options, int argc, char **argv)
             break;
         case 'p':
             options->parent = (int)process_whole("parent", optarg, 1, INT32_MAX);
+            break;
+        case 'n':
+            options->sandbox_off = true;
             break;
         case 'h':
             (void)fputs(usage, stdout);

@@ -7,6 +7,7 @@
 struct options {
     const char *world;
     int parent; /* process id, 0: none */
+    bool sandbox_off;
     struct dds_link_options link;
 };
 

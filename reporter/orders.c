@@ -5,15 +5,19 @@
 #include "ipc/log.h"
 #include "ipc/snapshot.h"
 #include "reporter/check.h"
+#include "reporter/recall.h"
 
 #include <errno.h>
 
 #define TAKE_AT_ONCE 32
 
-int orders_open(struct orders *orders, const struct dds_link *link, struct reason *reason)
+int orders_open(struct orders *orders, const struct view *view, const struct dds_link *link,
+                struct reason *reason)
 {
     *orders = (struct orders){0};
     book_clear(&orders->book);
+    if (recall(&orders->book, view, RING_REPORTER) != 0)
+        return reason_set(reason, "world \"%s\": its last frame cannot be read", view->name);
     orders->writer = dds_topics_writer(link, TOPIC_REPLY, reason);
     if (orders->writer < 0)
         return -1;

@@ -17,8 +17,9 @@ struct orders {
     struct book book;
 };
 
-/* Makes the reader and writer; -1 with the reason. */
-int orders_open(struct orders *orders, const struct dds_link *link, struct reason *reason);
+/* Recalls what a predecessor took, then makes the reader and writer; -1 with the reason. */
+int orders_open(struct orders *orders, const struct view *view, const struct dds_link *link,
+                struct reason *reason);
 
 /* Takes what has come and puts it into the ring of view. When the run is over, and the answers of
  * its last frame were noted, the rest is refused. Does not block. */

@@ -35,7 +35,7 @@ static uint64_t run_of(const struct view *view)
     struct stat status = {0};
     segment_paths(view->name, shm, lock);
     (void)stat(shm, &status);
-    return view->header->static_hash ^ ((uint64_t)status.st_ino * 0x9e3779b97f4a7c15u);
+    return view->header->head_hash ^ ((uint64_t)status.st_ino * 0x9e3779b97f4a7c15u);
 }
 
 int report_open(struct report *report, const struct view *view, const struct dds_link *link,
@@ -133,7 +133,7 @@ static jolon_ProcessState state_of(const struct view *view, enum role role, uint
     uint32_t state = atomic_load_explicit(&view->slot[role]->state, memory_order_relaxed);
     if (state == ROLE_ABSENT || state >= ROLE_STATE_COUNT)
         return jolon_PROCESS_ABSENT;
-    if (beat_age_ns > BEAT_FRESH_NS && segment_holder(view->name, role) == 0)
+    if (beat_age_ns > BEAT_FRESH_NS && !segment_held(view, role))
         return jolon_PROCESS_DEAD;
     return (jolon_ProcessState)state;
 }

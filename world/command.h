@@ -7,7 +7,13 @@
 #include <stdint.h>
 
 /* The command rings, each with one writing process. */
-enum command_ring { RING_REPORTER, RING_GATEWAY, RING_CONSOLE, COMMAND_RING_COUNT };
+enum command_ring {
+    RING_REPORTER,
+    RING_GATEWAY,
+    RING_CONSOLE,
+    RING_RECORDER, /* pauses and resumes, where recorder.when_full says so */
+    COMMAND_RING_COUNT
+};
 
 enum command_type {
     COMMAND_NONE,
@@ -53,6 +59,7 @@ struct command {
 
 _Static_assert(sizeof(struct command) == 128, "two cache lines a slot");
 
+const char *command_ring_name(enum command_ring ring);
 const char *command_type_name(enum command_type type);
 const char *command_result_name(enum command_result result);
 

@@ -84,12 +84,19 @@ struct event_agent {
     uint32_t because;  /* enum agent_reason */
 };
 
+/* The whole command, as it was taken: a run's commands can be sent again from its events. */
 struct event_command {
     uint64_t source, sequence; /* the sender's own key */
+    double value[6];           /* this and what follows: as sent, see struct command */
     uint32_t type;             /* enum command_type */
-    uint32_t result;           /* enum command_result */
-    uint32_t entity;           /* the entity it made or changed, 0 for none */
-    uint32_t ring;             /* which command ring brought it */
+    uint32_t given;            /* entity */
+    uint32_t target, amount;
+    uint16_t kind, force;
+    uint8_t result; /* enum command_result */
+    uint8_t ring;   /* enum command_ring that brought it */
+    uint8_t reserved[2];
+    uint32_t entity; /* the entity it made or changed, 0 for none */
+    uint32_t number; /* commands of the run before it, modulo 2^32 */
 };
 
 struct event {
@@ -110,6 +117,7 @@ struct event {
 };
 
 _Static_assert(sizeof(struct event_collision) == 88, "shared layout");
+_Static_assert(sizeof(struct event_command) == 96, "shared layout");
 _Static_assert(sizeof(struct event) == 128, "two cache lines a slot");
 
 const char *event_type_name(enum event_type type);

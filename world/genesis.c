@@ -6,6 +6,7 @@
 #include "world/random.h"
 #include "world/reach.h"
 #include "world/square.h"
+#include "world/checksum.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -208,18 +209,43 @@ static int build_entities(struct genesis *genesis, const struct complaint *to)
     return result;
 }
 
-static int find_name(const struct genesis *genesis, const char *name, uint32_t *slot)
+static int by_name(const void *a, const void *b)
 {
+    const struct entity_name *const *p = a, *const *q = b;
+    int order = strncmp((*p)->text, (*q)->text, ENTITY_NAME_MAX);
+    return order != 0 ? order : (*p > *q) - (*p < *q);
+}
+
+/* The vehicles' names in their order: orders may be as many as vehicles. NULL: out of memory. */
+static const struct entity_name **sort_names(const struct genesis *genesis)
+{
+    const struct entity_name **sorted = calloc(genesis->used + 1, sizeof(void *));
+    if (!sorted)
+        return NULL;
+    for (uint32_t i = 0; i < genesis->used; i++)
+        sorted[i] = &genesis->names[i];
+    qsort(sorted, genesis->used, sizeof(void *), by_name);
+    return sorted;
+}
+
+static int find_name(const struct genesis *genesis, const struct entity_name **sorted,
+                     const char *name, uint32_t *slot)
+{
+    uint32_t low = 0, high = genesis->used;
     *slot = SLOT_NONE;
     if (name[0] == '\0')
         return 0;
-    for (uint32_t i = 0; i < genesis->used; i++) {
-        if (strncmp(genesis->names[i].text, name, ENTITY_NAME_MAX) == 0) {
-            *slot = i;
-            return 0;
-        }
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (strncmp(sorted[middle]->text, name, ENTITY_NAME_MAX) < 0)
+            low = middle + 1;
+        else
+            high = middle;
     }
-    return -1;
+    if (low == genesis->used || strncmp(sorted[low]->text, name, ENTITY_NAME_MAX) != 0)
+        return -1;
+    *slot = (uint32_t)(sorted[low] - genesis->names);
+    return 0;
 }
 
 static int by_tick(const void *a, const void *b)
@@ -230,30 +256,44 @@ static int by_tick(const void *a, const void *b)
     return p->reserved < q->reserved ? -1 : p->reserved > q->reserved; /* the file's order */
 }
 
-static int build_fires(struct genesis *genesis, const struct complaint *to)
+static int build_fire(struct genesis *genesis, uint32_t index, const struct entity_name **sorted,
+                      const struct complaint *to)
 {
     const struct scenario *scenario = genesis->scenario;
-    genesis->fires = calloc(scenario->fire_count + 1, sizeof *genesis->fires);
-    if (!genesis->fires)
+    const struct scenario_fire *from = &scenario->fires[index];
+    struct fire_order *order = &genesis->fires[index];
+    double tick = floor(from->at_s * scenario->params.hz + 0.5);
+    order->tick = tick < 1.0 ? 1 : (uint64_t)tick;
+    order->kind = from->munition;
+    order->reserved = (uint16_t)index;
+    order->x = from->x;
+    order->z = from->z;
+    if (find_name(genesis, sorted, from->shooter, &order->shooter_slot) != 0)
+        return complain(to, "%s:%d: fires.shooter = \"%s\": no vehicle has that name",
+                        scenario->params.scenario, from->line, from->shooter);
+    if (find_name(genesis, sorted, from->target, &order->target_slot) != 0)
+        return complain(to, "%s:%d: fires.target = \"%s\": no vehicle has that name",
+                        scenario->params.scenario, from->line, from->target);
+    return 0;
+}
+
+static int build_fires(struct genesis *genesis, const struct complaint *to)
+{
+    uint32_t count = genesis->scenario->fire_count;
+    int result = 0;
+    genesis->fires = calloc(count + 1, sizeof *genesis->fires);
+    const struct entity_name **sorted = sort_names(genesis);
+    if (!genesis->fires || !sorted) {
+        free(sorted);
         return out_of_memory(to);
-    for (uint32_t i = 0; i < scenario->fire_count; i++) {
-        const struct scenario_fire *from = &scenario->fires[i];
-        struct fire_order *order = &genesis->fires[i];
-        double tick = floor(from->at_s * scenario->params.hz + 0.5);
-        order->tick = tick < 1.0 ? 1 : (uint64_t)tick;
-        order->kind = from->munition;
-        order->reserved = (uint16_t)i;
-        order->x = from->x;
-        order->z = from->z;
-        if (find_name(genesis, from->shooter, &order->shooter_slot) != 0)
-            return complain(to, "%s:%d: fires.shooter = \"%s\": no vehicle has that name",
-                            scenario->params.scenario, from->line, from->shooter);
-        if (find_name(genesis, from->target, &order->target_slot) != 0)
-            return complain(to, "%s:%d: fires.target = \"%s\": no vehicle has that name",
-                            scenario->params.scenario, from->line, from->target);
     }
-    qsort(genesis->fires, scenario->fire_count, sizeof *genesis->fires, by_tick);
-    genesis->counts.fires = scenario->fire_count;
+    for (uint32_t i = 0; i < count && result == 0; i++)
+        result = build_fire(genesis, i, sorted, to);
+    free(sorted);
+    if (result != 0)
+        return -1;
+    qsort(genesis->fires, count, sizeof *genesis->fires, by_tick);
+    genesis->counts.fires = count;
     return 0;
 }
 
@@ -273,6 +313,7 @@ int genesis_build(struct genesis *genesis, const struct scenario *scenario, char
         .areas = scenario->area_count,
         .routes = scenario->route_count,
         .route_points = scenario->route_point_count,
+        .recipe = recipe_room(scenario->recipe.bytes),
     };
     if (build_ground(genesis, &to) != 0 || build_objects(genesis, &to) != 0 ||
         build_entities(genesis, &to) != 0 || build_fires(genesis, &to) != 0) {
@@ -342,6 +383,7 @@ void genesis_fill(const struct genesis *genesis, struct world *world, struct sta
     fill(world->fires, genesis->fires, n->fires, sizeof *genesis->fires);
     fill(world->road_points, genesis->roads, n->road_points, sizeof *genesis->roads);
     fill(world->names, genesis->names, n->names, sizeof *genesis->names);
+    fill(world->recipe, s->recipe.text, s->recipe.bytes, 1);
     for (int i = 0; i < 2; i++)
         fill_state(genesis, &state[i]);
 }

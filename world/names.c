@@ -34,6 +34,7 @@ WORDS(response_name, response, "none", "bounce", "stop", "slow", "destroyed")
 WORDS(struck_name, struck, "vehicle", "fixed", "ground", "water", "air")
 WORDS(agent_reason_name, agent_reason, "fired upon", "target gone", "out of rounds", "time over",
       "collision", "enemy seen", "command", "out of fuel")
+WORDS(command_ring_name, command_ring, "reporter", "gateway", "console", "recorder")
 WORDS(command_type_name, command_type, "none", "pause", "resume", "step", "scale", "drive",
       "release", "fire", "spawn", "remove", "quit")
 WORDS(command_result_name, command_result, "done", "no such entity", "no such kind",

@@ -19,5 +19,6 @@ void scenario_free(struct scenario *scenario)
     free(scenario->areas);
     free(scenario->routes);
     free(scenario->route_points);
+    recipe_free(&scenario->recipe);
     memset(scenario, 0, sizeof(*scenario));
 }

@@ -3,6 +3,7 @@
 #ifndef JOLON_WORLD_SCENARIO_H
 #define JOLON_WORLD_SCENARIO_H
 
+#include "world/recipe.h"
 #include "world/world.h"
 
 #include <stdbool.h>
@@ -75,6 +76,7 @@ struct scenario {
     uint32_t route_count;
     struct route_point *route_points;
     uint32_t route_point_count;
+    struct recipe recipe;
 };
 
 void scenario_free(struct scenario *scenario);

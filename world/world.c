@@ -1,9 +1,10 @@
-/* Digest, checksum, and small questions about a world. */
+/* Digest, and small questions about a world. */
 #include "world/world.h"
+
+#include "world/hash.h"
 
 #include <stddef.h>
 #include <string.h>
-#include <xxhash.h>
 
 double world_time_s(const struct world *world, const struct state_head *head)
 {
@@ -22,24 +23,6 @@ static uint64_t hash_columns(uint64_t hash, const struct entities *e, uint32_t u
     ENTITY_COLUMNS(X)
 #undef X
     return hash;
-}
-
-uint64_t state_fixed_hash(const struct state *state, uint32_t fixed_count)
-{
-    return XXH3_64bits(state->fixed_damage, fixed_count);
-}
-
-uint64_t state_checksum_over(const struct state *state, uint64_t fixed_hash)
-{
-    struct state_head copy = *state->head;
-    copy.checksum = 0;
-    uint64_t hash = XXH3_64bits_withSeed(&copy, sizeof copy, fixed_hash);
-    return hash_columns(hash, &state->entities, copy.used);
-}
-
-uint64_t state_checksum(const struct state *state, uint32_t fixed_count)
-{
-    return state_checksum_over(state, state_fixed_hash(state, fixed_count));
 }
 
 uint64_t world_digest(const struct world *world, const struct state *state)

@@ -43,6 +43,8 @@ enum figure8_measure { MEASURE_ENERGY, MEASURE_MASS, MEASURE_COUNT };
 /* NPSNET-2's 100 m test: X or Z within it, as printed, or both. */
 enum nearness { NEARNESS_AND, NEARNESS_OR, NEARNESS_COUNT };
 enum pace { PACE_REAL, PACE_MAX };
+/* What becomes of events that the recorder cannot write before the ring is full of them. */
+enum when_full { WHEN_FULL_GAP, WHEN_FULL_PAUSE, WHEN_FULL_COUNT };
 
 /* Constants of the collision response; docs/scenario.md says what each does. */
 struct collision_params {
@@ -85,12 +87,12 @@ struct params {
     uint32_t pace; /* enum pace */
     uint32_t capacity;
     uint32_t event_slots;       /* power of two */
-    uint32_t events_per_frame;  /* at most; event_slots / 8 */
+    uint32_t events_per_frame;  /* at most; 1 .. event_slots / 2, the loader sets / 8 */
     uint32_t intents_per_frame; /* at most */
     uint32_t command_slots;     /* power of two, of each ring */
     uint32_t crater_slots;
     uint32_t dent_slots;
-    uint32_t reserved;
+    uint32_t when_full; /* enum when_full */
     uint32_t initial_entities;
     struct collision_params collision;
     struct renderer_params renderer;
@@ -153,6 +155,7 @@ struct counts {
     uint32_t kinds, models, model_vertices, model_triangles;
     uint32_t hulls, hull_vertices, hull_planes;
     uint32_t posts_side, fixed, reach, areas, routes, route_points, fires, road_points, names;
+    uint32_t recipe; /* [byte] */
 };
 
 struct world {
@@ -175,6 +178,7 @@ struct world {
     const struct fire_order *fires; /* ascending tick */
     const struct road_point *road_points;
     const struct entity_name *names; /* of the initial entities: slot i has id i + 1 */
+    const char *recipe;              /* [counts.recipe] what it was made from */
 };
 
 /* Counters since the world began; part of the digest. */
@@ -209,7 +213,7 @@ struct state_head {
     uint32_t advanced;     /* 1: simulated time moved in this frame */
     uint64_t mover_ns;     /* M only: what moving took; not in the digest */
     struct tally tally;
-    uint64_t checksum; /* state_checksum() */
+    uint64_t checksum; /* state_checksum(), moved_checksum() */
 };
 
 /* One buffer of the world. fixed_damage and the crater list belong to W only. */
@@ -244,15 +248,6 @@ static inline uint32_t world_reach(const struct world *world, uint32_t square,
 /* Digest of a frame: everything that the next frame depends on, in a fixed order, as XXH3-64.
  * Not in it: pacing, stage times, slots beyond used. */
 uint64_t world_digest(const struct world *world, const struct state *state);
-
-/* The state's own checksum as the collider stores it: head (its checksum as 0), rows, damage of the
- * fixed objects. Craters, which both buffers share, are in the digest alone. */
-uint64_t state_checksum(const struct state *state, uint32_t fixed_count);
-
-/* The same in two parts, for a writer that knows that no fixed object was damaged since it last
- * took the first: state_checksum(s, n) is state_checksum_over(s, state_fixed_hash(s, n)). */
-uint64_t state_fixed_hash(const struct state *state, uint32_t fixed_count);
-uint64_t state_checksum_over(const struct state *state, uint64_t fixed_hash);
 
 const char *method_name(enum method method);
 const char *shape_name(enum shape shape);

@@ -12,17 +12,28 @@
 
 struct arguments {
     const char *world; /* "default" */
-    bool json, follow, fixed, force, progress, adopt;
-    const char *terrain, *log, *path; /* NULL when not given; path is the one plain argument */
-    uint64_t from_frame, hang_ms;
+    bool json, follow, fixed, force, adopt, inputs;
+    const char *terrain, *events, *path; /* NULL when not given; path is the one plain argument */
+    const char *other;                   /* the second one, of verbs that take two */
+    const char *from; /* a frame or an image's file, as the verb means it; NULL when not given */
+    uint64_t frames;  /* 0: not given */
+    uint32_t threads; /* 1 */
     double wall_s, seconds; /* seconds 0: as the scenario says */
-    int parent, pid;
     const char *set[ARGUMENT_SETS_MAX];
     int sets;
 };
 
 /* Reads a verb's arguments; wrong ones end the process with what would be right (exit 2). */
 struct arguments arguments_read(int argc, char **argv);
+
+/* The same for a verb that takes two plain arguments and needs both. */
+struct arguments arguments_read_two(int argc, char **argv);
+
+/* Adds one --set; wrong usage ends the process (exit 2). */
+void arguments_set(struct arguments *arguments, const char *text);
+
+/* Sets the run's end by --seconds, if given: of the run since its frame 0. */
+void arguments_seconds(const struct arguments *arguments, struct params *params);
 
 /* Attaches as a reader, or ends the process with the reason (exit 1). */
 void arguments_attach(const struct arguments *arguments, struct view *view);

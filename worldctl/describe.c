@@ -130,7 +130,7 @@ static void add_role(cJSON *array, const struct view *view, enum role role)
     const struct role_slot *slot = view->slot[role];
     int pid = segment_holder(view->name, role);
     cJSON *entry = cJSON_CreateObject();
-    cJSON_AddItemToArray(array, entry);
+    cJSON_AddItemToArray(array, entry); /* if there was no memory, its first value says so */
     json_text(entry, "role", role_name(role));
     json_whole(entry, "pid", (uint64_t)pid);
     json_text(entry, "state",

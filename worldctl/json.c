@@ -13,6 +13,13 @@ static void need(const void *made)
         die_refused("out of memory while writing JSON");
 }
 
+/* Adding copies the key: that may fail too, and would leave the value out without a word. */
+static void put(cJSON *object, const char *key, cJSON *item)
+{
+    if (!item || !cJSON_AddItemToObject(object, key, item))
+        need(NULL);
+}
+
 void json_text(cJSON *object, const char *key, const char *text)
 {
     need(cJSON_AddStringToObject(object, key, text));
@@ -47,29 +54,28 @@ static cJSON *single(float value)
 {
     char text[32];
     snprintf(text, sizeof text, "%.9g", (double)value);
-    cJSON *item = isfinite(value) ? cJSON_CreateRaw(text) : cJSON_CreateNull();
-    need(item);
-    return item;
+    return isfinite(value) ? cJSON_CreateRaw(text) : cJSON_CreateNull();
 }
 
 void json_single(cJSON *object, const char *key, float value)
 {
-    cJSON_AddItemToObject(object, key, single(value));
+    put(object, key, single(value));
 }
 
 void json_triple(cJSON *object, const char *key, double x, double y, double z)
 {
     const double value[3] = {x, y, z};
-    cJSON *array = cJSON_CreateDoubleArray(value, 3);
-    need(array);
-    cJSON_AddItemToObject(object, key, array);
+    put(object, key, cJSON_CreateDoubleArray(value, 3));
 }
 
 void json_triple_single(cJSON *object, const char *key, const float value[3])
 {
     cJSON *array = json_array(object, key);
-    for (int i = 0; i < 3; i++)
-        cJSON_AddItemToArray(array, single(value[i]));
+    for (int i = 0; i < 3; i++) {
+        cJSON *item = single(value[i]);
+        need(item);
+        cJSON_AddItemToArray(array, item);
+    }
 }
 
 cJSON *json_object(cJSON *object, const char *key)
@@ -162,7 +168,7 @@ static void add_agent(cJSON *object, const struct world *world, const struct eve
 static void add_command(cJSON *object, const struct event_command *command)
 {
     json_hex(object, "source", command->source);
-    json_whole(object, "sequence", command->sequence);
+    json_whole(object, "command_sequence", command->sequence);
     json_text(object, "command", command_type_name((enum command_type)command->type));
     json_text(object, "result", command_result_name((enum command_result)command->result));
     json_whole(object, "id", command->entity);

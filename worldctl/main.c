@@ -1,6 +1,7 @@
-/* jolon-world: creates, checks, describes, dumps, watches and removes worlds. The only program that
- * reads configuration. */
+/* jolon-world: makes, checks, repairs, describes, dumps, saves and removes worlds; replays recorded
+ * runs and compares worlds. The only program that reads configuration. */
 #include "ipc/log.h"
+#include "ipc/process.h"
 #include "worldctl/verbs.h"
 
 #include <stdio.h>
@@ -14,9 +15,12 @@ struct verb {
 
 static const struct verb verbs[] = {
     {"create", verb_create,
-     "[--world NAME] [--seconds S] [--adopt] [--set KEY=VALUE]... [SCENARIO]     make a world"},
+     "[--world NAME] [--seconds S] [--adopt] [--set KEY=VALUE]... [SCENARIO | --from FILE]     "
+     "make a world, or go on from an image"},
     {"check", verb_check,
      "[--world NAME | [--set KEY=VALUE]... SCENARIO]     check a world's memory, or a scenario"},
+    {"repair", verb_repair,
+     "[--world NAME]     go back to a damaged world's newest whole frame, while nobody runs it"},
     {"info", verb_info, "[--world NAME] [--json]     what the world is made of"},
     {"status", verb_status, "[--world NAME] [--json]     who runs it and how far it is"},
     {"summary", verb_summary, "[--world NAME] [--json] [--wall SECONDS]     what happened"},
@@ -24,14 +28,18 @@ static const struct verb verbs[] = {
     {"dump", verb_dump,
      "[--world NAME] [--json] [--fixed | --terrain X0,Z0,X1,Z1,STEP]     every entity"},
     {"events", verb_events,
-     "[--world NAME] [--follow] [--from FRAME] [--json] [--log FILE]     what happened, in order"},
+     "[--world NAME] [--follow] [--from FRAME] [--json]     what happened, in order"},
+    {"replay", verb_replay,
+     "[--frames N] [--json] [--events FILE] [--threads N] LOG     run a log of commands again"},
+    {"diff", verb_diff,
+     "[--json] [--threads N] A B     first difference of two logs of commands, images, worlds"},
     {"list", verb_list, "     this user's worlds"},
     {"remove", verb_remove, "[--world NAME] [--force]     free a world's shared memory"},
     {"pid", verb_pid, "[--world NAME] ROLE     pid of a role's live process"},
     {"frame", verb_frame, "[--world NAME]     the last committed frame"},
-    {"ready", verb_ready, "[--world NAME] --pid PID ROLE     wait until that process has the role"},
-    {"watch", verb_watch,
-     "[--world NAME] [--progress] [--hang-ms N]     kill roles that hang, show progress"},
+    {"save", verb_save, "[--world NAME] [--inputs] FILE     write an image of the world"},
+    {"replay-frame", verb_replay_frame,
+     "DUMP     run the frame after an image's in this process, for a debugger"},
 };
 
 #define VERBS (sizeof verbs / sizeof verbs[0])
@@ -40,13 +48,14 @@ static int usage(FILE *to, int code)
 {
     fprintf(to, "usage: jolon-world VERB ...\n");
     for (size_t i = 0; i < VERBS; i++)
-        fprintf(to, "  %-8s %s\n", verbs[i].name, verbs[i].usage);
+        fprintf(to, "  %-12s %s\n", verbs[i].name, verbs[i].usage);
     return code;
 }
 
 int main(int argc, char **argv)
 {
     log_open("world");
+    process_guard();
     if (argc < 2)
         return usage(stderr, EXIT_USAGE);
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0)

@@ -4,6 +4,7 @@
 #define JOLON_WORLDCTL_VERBS_H
 
 int verb_create(int argc, char **argv);
+int verb_repair(int argc, char **argv);
 int verb_check(int argc, char **argv);
 int verb_info(int argc, char **argv);
 int verb_status(int argc, char **argv);
@@ -15,7 +16,9 @@ int verb_list(int argc, char **argv);
 int verb_remove(int argc, char **argv);
 int verb_pid(int argc, char **argv);
 int verb_frame(int argc, char **argv);
-int verb_ready(int argc, char **argv);
-int verb_watch(int argc, char **argv);
+int verb_save(int argc, char **argv);
+int verb_replay_frame(int argc, char **argv);
+int verb_replay(int argc, char **argv);
+int verb_diff(int argc, char **argv);
 
 #endif

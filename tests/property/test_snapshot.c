@@ -4,7 +4,7 @@
 
 #include "tests/support/bare_view.h"
 #include "tests/support/child.h"
-#include "tests/support/fixture.h"
+#include "tests/support/told_frame.h"
 
 #include <errno.h>
 #include <setjmp.h>
@@ -22,30 +22,12 @@
 
 static struct view view;
 
-/* What every byte that matters of a frame follows from. */
-static uint32_t rows_of(uint64_t frame)
-{
-    return 1 + (uint32_t)(frame * 7 % CAPACITY);
-}
-static uint64_t value_of(uint64_t frame, uint32_t row)
-{
-    return frame * 2654435761u + row;
-}
-
 static void fill(const struct state *next)
 {
-    struct state_head *head = next->head;
-    uint64_t frame = head->frame;
-    head->used = rows_of(frame);
-    head->tick = frame * 3;
-    head->event_digest = value_of(frame, 0);
-    head->crater_count = (uint32_t)(frame % 16);
-    head->tally.spawns_refused = frame;
-    for (uint32_t i = 0; i < head->used; i++) {
-#define X(type, name) next->entities.name[i] = (type)(value_of(frame, i) & 0xffff);
-        ENTITY_COLUMNS(X)
-#undef X
-    }
+    struct entities entities = next->entities;
+    uint64_t frame = next->head->frame;
+    next->head->crater_count = (uint32_t)(frame % 16);
+    told_frame_fill(next->head, &entities, 1 + (uint32_t)(frame * 7 % CAPACITY));
     memset(next->fixed_damage, (int)(frame & 0xff), FIXED);
 }
 
@@ -62,26 +44,14 @@ static int write_frames(void *context)
 
 static bool head_whole(const struct state_head *head)
 {
-    uint64_t frame = head->frame;
-    return frame == 0 || (head->used == rows_of(frame) && head->tick == frame * 3 &&
-                          head->event_digest == value_of(frame, 0) &&
-                          head->crater_count == frame % 16 && head->tally.spawns_refused == frame);
+    return told_frame_head(head) && head->crater_count == head->frame % 16;
 }
 
 static bool whole(const struct snapshot *s)
 {
     uint64_t frame = s->head.frame;
-    if (frame == 0)
-        return true;
-    if (!head_whole(&s->head))
+    if (!head_whole(&s->head) || !told_frame_rows(&s->head, &s->entities))
         return false;
-    for (uint32_t i = 0; i < s->head.used; i++) {
-#define X(type, name)                                                                              \
-    if (s->entities.name[i] != (type)(value_of(frame, i) & 0xffff))                                \
-        return false;
-        ENTITY_COLUMNS(X)
-#undef X
-    }
     for (uint32_t i = 0; i < FIXED; i++) {
         if (s->fixed_damage[i] != (frame & 0xff))
             return false;

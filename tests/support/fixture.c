@@ -3,6 +3,7 @@
 
 #include "config/loader.h"
 #include "world/random.h"
+#include "world/checksum.h"
 
 #include <dirent.h>
 #include <ftw.h>
@@ -162,30 +163,15 @@ void fixture_open(struct fixture *fixture, const char *text)
     fixture_threads(fixture, 1);
 }
 
-static void free_steps(struct fixture *fixture)
-{
-    if (!fixture->workers)
-        return;
-    mover_free(&fixture->mover);
-    collider_free(&fixture->collider);
-    workers_destroy(fixture->workers);
-    fixture->workers = NULL;
-}
-
 void fixture_threads(struct fixture *fixture, uint32_t threads)
 {
-    const struct world *world = &fixture->view.world;
-    const struct crater *craters = fixture->view.w[0].craters;
-    free_steps(fixture);
-    fixture->workers = workers_create(threads);
-    assert_non_null(fixture->workers);
-    assert_int_equal(mover_init(&fixture->mover, world, craters, fixture->workers), 0);
-    assert_int_equal(collider_init(&fixture->collider, world, craters, fixture->workers), 0);
+    player_free(&fixture->player);
+    assert_int_equal(player_init(&fixture->player, &fixture->view, threads), 0);
 }
 
 void fixture_close(struct fixture *fixture)
 {
-    free_steps(fixture);
+    player_free(&fixture->player);
     segment_abandon(&fixture->view);
     genesis_free(&fixture->genesis);
     scenario_free(&fixture->scenario);
@@ -259,23 +245,8 @@ uint32_t fixture_put(struct fixture *fixture, struct fixture_entity entity)
 
 void fixture_run(struct fixture *fixture, uint32_t frames)
 {
-    struct view *view = &fixture->view;
-    const struct event_ring ring = {view->events, view->header->event_slots};
-    struct command_source sources[COMMAND_RING_COUNT];
-    for (uint32_t n = 0; n < frames; n++) {
-        uint64_t frame = committed(fixture) + 1;
-        const struct state *now = &view->w[(frame - 1) & 1];
-        for (int i = 0; i < COMMAND_RING_COUNT; i++)
-            sources[i] =
-                (struct command_source){view->commands[i]->slot, view->header->command_slots,
-                                        atomic_load(&view->commands[i]->head)};
-        assert_int_equal(mover_step(&fixture->mover, now, &view->m, sources), 0);
-        atomic_store(&view->moved_word->moved, frame);
-        atomic_store(&view->commit->writing, frame);
-        assert_int_equal(
-            collider_step(&fixture->collider, now, &view->m, &view->w[frame & 1], &ring), 0);
-        atomic_store(&view->commit->commit, frame);
-    }
+    for (uint32_t n = 0; n < frames; n++)
+        assert_int_equal(player_step(&fixture->player, NULL), 0);
 }
 
 uint64_t fixture_digest(const struct fixture *fixture)

@@ -13,12 +13,10 @@
 #ifndef JOLON_TESTS_SUPPORT_FIXTURE_H
 #define JOLON_TESTS_SUPPORT_FIXTURE_H
 
-#include "collider/step.h"
 #include "ipc/segment.h"
-#include "mover/step.h"
+#include "replay/player.h"
 #include "world/genesis.h"
 #include "world/scenario.h"
-#include "world/workers.h"
 
 #include <stdint.h>
 
@@ -28,9 +26,7 @@ struct fixture {
     struct scenario scenario;
     struct genesis genesis;
     struct view view; /* private; mapped shared, so that children of fork see it */
-    struct workers *workers;
-    struct mover mover;
-    struct collider collider;
+    struct player player;
 };
 
 /* --- scenarios and worlds ----------------------------------------------------------------------*/

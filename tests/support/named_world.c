@@ -20,20 +20,26 @@ void named_world_name(char name[SEGMENT_NAME_MAX])
     snprintf(name, SEGMENT_NAME_MAX, "test-%d-%u", (int)getpid(), ++made);
 }
 
-void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text)
+void named_world_publish(const char *name, const struct scenario *scenario,
+                         const struct genesis *genesis)
 {
-    struct fixture f;
     struct view view;
     struct reason reason;
-    named_world_name(name);
-    fixture_open(&f, scenario_text);
-    struct segment_header header = segment_header_for(&f.scenario.params, &f.genesis.counts);
+    struct segment_header header = segment_header_for(&scenario->params, &genesis->counts);
     if (segment_begin(&view, name, &header, &reason) != 0)
         fail_msg("%s", reason.text);
-    segment_fill(&view, &f.genesis);
+    segment_fill(&view, genesis);
     if (segment_publish(&view, &reason) != 0)
         fail_msg("%s", reason.text);
     segment_detach(&view);
+}
+
+void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text)
+{
+    struct fixture f;
+    named_world_name(name);
+    fixture_open(&f, scenario_text);
+    named_world_publish(name, &f.scenario, &f.genesis);
     fixture_close(&f);
 }
 
@@ -44,7 +50,8 @@ void named_world_remove(const char *name)
         fail_msg("%s", reason.text);
 }
 
-int named_world_leftovers(void)
+/* Counts this test's files, and removes them. */
+static int go_through(bool remove)
 {
     char prefix[64];
     int count = 0;
@@ -52,10 +59,25 @@ int named_world_leftovers(void)
         snprintf(prefix, sizeof prefix, "jolon.%u.test-%d-", (unsigned)getuid(), (int)getpid());
     DIR *directory = opendir("/dev/shm");
     assert_non_null(directory);
-    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory))
-        count += strncmp(entry->d_name, prefix, (size_t)length) == 0;
+    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
+        if (strncmp(entry->d_name, prefix, (size_t)length) != 0)
+            continue;
+        count++;
+        if (remove)
+            unlinkat(dirfd(directory), entry->d_name, 0);
+    }
     closedir(directory);
     return count;
+}
+
+int named_world_leftovers(void)
+{
+    return go_through(false);
+}
+
+void named_world_clear(void)
+{
+    go_through(true);
 }
 
 int named_world_check_left(void **state)

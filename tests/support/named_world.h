@@ -8,6 +8,10 @@
 /* A name that no other world has: "test-PID-N". */
 void named_world_name(char name[SEGMENT_NAME_MAX]);
 
+/* Creates and publishes a world of a genesis under a name. */
+void named_world_publish(const char *name, const struct scenario *scenario,
+                         const struct genesis *genesis);
+
 /* Creates and publishes a world of the scenario's text (see fixture.h) under a new name. */
 void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text);
 
@@ -16,6 +20,9 @@ void named_world_remove(const char *name);
 
 /* Files in /dev/shm that belong to this test: objects, locks, temporaries. */
 int named_world_leftovers(void);
+
+/* Removes them: what a failed part of a test left must not disturb the next. */
+void named_world_clear(void);
 
 /* Group tear-down for cmocka: fails when something is left over. */
 int named_world_check_left(void **state);

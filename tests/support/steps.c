@@ -69,7 +69,7 @@ void steps_cover(const struct fixture *fixture, enum cover cover, double x0, dou
 
 double steps_ground_at(const struct fixture *fixture, double x, double z)
 {
-    return terrain_height(&fixture->view.world.terrain, &fixture->mover.craters, x, z);
+    return terrain_height(&fixture->view.world.terrain, &fixture->player.mover.craters, x, z);
 }
 
 /* --- rows --------------------------------------------------------------------------------------*/
@@ -140,7 +140,7 @@ void steps_serial(struct fixture *fixture, struct move *move, struct serial *ser
     const struct state *committed = &view->w[atomic_load(&view->commit->commit) & 1];
     *move = (struct move){
         .world = &view->world,
-        .craters = &fixture->mover.craters,
+        .craters = &fixture->player.mover.craters,
         .committed = committed,
         .m = &view->m.entities,
         .tick = committed->head->tick + 1,
@@ -148,13 +148,14 @@ void steps_serial(struct fixture *fixture, struct move *move, struct serial *ser
     };
     *view->m.head = *committed->head;
     entities_copy(&view->m.entities, &committed->entities, 0, committed->head->used);
-    *serial = (struct serial){.move = move, .moved = &view->m};
+    *serial =
+        (struct serial){.move = move, .moved = &view->m, .pieces = &fixture->player.mover.pieces};
 }
 
 void steps_respond(struct fixture *fixture, struct respond *respond)
 {
     struct view *view = &fixture->view;
-    struct collider *collider = &fixture->collider;
+    struct collider *collider = &fixture->player.collider;
     uint64_t commit = atomic_load(&view->commit->commit);
     const struct state *committed = &view->w[commit & 1];
     struct state *next = &view->w[(commit + 1) & 1];
@@ -223,10 +224,9 @@ void steps_move(struct fixture *fixture)
 {
     struct view *view = &fixture->view;
     struct command_source sources[COMMAND_RING_COUNT];
-    for (int i = 0; i < COMMAND_RING_COUNT; i++)
-        sources[i] = (struct command_source){view->commands[i]->slot, view->header->command_slots,
-                                             atomic_load(&view->commands[i]->head)};
-    assert_int_equal(mover_step(&fixture->mover, &view->w[atomic_load(&view->commit->commit) & 1],
-                                &view->m, sources),
+    player_sources(view, sources);
+    assert_int_equal(mover_step(&fixture->player.mover,
+                                &view->w[atomic_load(&view->commit->commit) & 1], &view->m,
+                                sources),
                      0);
 }

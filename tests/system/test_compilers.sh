@@ -71,7 +71,7 @@ for compiler in gcc clang-14; do
         fi
         tree=build/compilers/$compiler$level
         programs=()
-        for program in jolon-world jolon-mover jolon-collider jolon; do programs+=("$tree/bin/$program"); done
+        for program in jolon-world jolon-mover jolon-collider jolon-recorder jolon-keeper jolon; do programs+=("$tree/bin/$program"); done
         if ! env -u MAKEFLAGS -u MFLAGS make -s -C "$source_dir" -j"$(nproc)" BUILD=$tree CC=$compiler \
             OPT=$level "${programs[@]}" >make.log 2>&1; then
             not_ok "$what builds"

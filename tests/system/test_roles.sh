@@ -30,6 +30,41 @@ check "a stopped mover is killed and replaced (hang)" bash -c "
     for i in \$(seq 100); do sleep 0.1; now=\$('$bin/jolon-world' pid --world $name mover 2>/dev/null)
         [ -n \"\$now\" ] && [ \"\$now\" != \"\$before\" ] && exit 0; done; exit 1"
 check "the world moves on after a hang" moves_on
+standing_by() { # pid of the process that waits for a role, of a set whose keeper is $2
+    local child
+    for child in $(pgrep -P "$2" "jolon-$1"); do
+        [ "$child" = "$(pid "$1")" ] || echo "$child"
+    done
+}
+keeper=$(cat "/dev/shm/jolon.$UID.$name.lock")
+stands_by() { [ "$(standing_by "$1" "$keeper" | wc -l)" = 1 ]; }
+for role in mover collider; do
+    check "somebody stands by for the $role" eventually stands_by $role
+    holder=$(pid $role)
+    kill -KILL "$holder"
+    check "and takes over when it is killed" eventually replaced $role "$holder"
+    check "somebody stands by again" eventually stands_by $role
+    heir=$(standing_by $role "$keeper")
+    kill -STOP "$heir"
+    check "one that is stopped is replaced" eventually gone "$heir"
+    check "and somebody stands by again" eventually stands_by $role
+done
+
+restarts() { status | json roles | grep -o "'restarts': [0-9]*" | awk '{ n += $2 } END { print n }'; }
+before=$(restarts)
+kill -STOP "$keeper"
+sleep 3
+kill -CONT "$keeper"
+check "the set goes on after its keeper slept" moves_on
+everybody=$(pgrep -P "$keeper" | tr '\n' ' ')
+# shellcheck disable=SC2086 -- several pids
+kill -STOP "$keeper" $everybody
+sleep 3
+# shellcheck disable=SC2086
+kill -CONT $everybody "$keeper"
+check "and after everybody slept" moves_on
+check "and nobody was killed for it" equal "$(restarts)" "$before"
+
 "$jolon" start -w "$name" >second 2>&1
 check "a second set is refused with 1" equal $? 1
 check "and says why" grep -q "is run already by pid" second

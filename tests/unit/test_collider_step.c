@@ -1,5 +1,6 @@
 /* The collider's step as a whole: pure, repeatable, nothing missed, everything in order of time. */
 #include "tests/support/steps.h"
+#include "world/checksum.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -288,7 +289,7 @@ static void collide_again(struct fixture *f)
     struct view *view = &f->view;
     const struct event_ring ring = {view->events, view->header->event_slots};
     uint64_t commit = atomic_load(&view->commit->commit);
-    assert_int_equal(collider_step(&f->collider, &view->w[commit & 1], &view->m,
+    assert_int_equal(collider_step(&f->player.collider, &view->w[commit & 1], &view->m,
                                    &view->w[(commit + 1) & 1], &ring),
                      0);
 }

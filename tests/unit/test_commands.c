@@ -358,6 +358,49 @@ static void test_commands_wait_while_a_frame_has_no_room_for_answers(void **stat
     assert_int_equal(fixture_event_count(&f, EVENT_COMMAND), 30);
 }
 
+static void test_and_while_it_has_no_room_for_events(void **state)
+{
+    (void)state;
+    steps_params(&f)->events_per_frame = 5;
+    for (int n = 0; n < 30; n++)
+        steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_NONE});
+    fixture_run(&f, 1);
+    assert_int_equal(fixture_event_count(&f, EVENT_COMMAND), 4);
+    fixture_run(&f, 7);
+    assert_int_equal(fixture_event_count(&f, EVENT_COMMAND), 30);
+    assert_int_equal(fixture_state(&f).head->tally.events_dropped, 0);
+}
+
+static void test_an_answer_carries_the_whole_command(void **state)
+{
+    const uint64_t odd = 0x7ff8dead0000beefu; /* a NaN that is told from others */
+    struct command command = {.source = UINT64_MAX,
+                              .source_sequence = UINT64_MAX - 1,
+                              .type = 65536 + COMMAND_PAUSE, /* no type in any width */
+                              .entity = 3000000000u,
+                              .target = 4000000000u,
+                              .amount = UINT32_MAX,
+                              .kind = 65535,
+                              .force = 65534,
+                              .value = {0.1, -0.0, 1e-310, -1e308, 0.0, 3.0}};
+    (void)state;
+    memcpy(&command.value[4], &odd, sizeof odd);
+    for (uint32_t number = 0; number < 3; number++) {
+        struct event_command answer = steps_command(&f, command);
+        assert_int_equal(answer.source, command.source);
+        assert_int_equal(answer.sequence, command.source_sequence);
+        assert_int_equal(answer.given, command.entity);
+        assert_int_equal(answer.target, command.target);
+        assert_int_equal(answer.amount, command.amount);
+        assert_int_equal(answer.kind, command.kind);
+        assert_int_equal(answer.force, command.force);
+        assert_memory_equal(answer.value, command.value, sizeof command.value);
+        assert_int_equal(answer.result, COMMAND_UNKNOWN);
+        assert_int_equal(answer.number, number);
+    }
+    assert_int_equal(fixture_state(&f).head->paused, 0);
+}
+
 static void test_a_row_removed_and_used_again_in_one_frame_is_the_new_one(void **state)
 {
     (void)state;
@@ -403,6 +446,8 @@ int main(void)
         TEST(test_commands_are_applied_while_paused),
         TEST(test_each_command_is_applied_exactly_once_in_its_rings_order),
         TEST(test_commands_wait_while_a_frame_has_no_room_for_answers),
+        TEST(test_and_while_it_has_no_room_for_events),
+        TEST(test_an_answer_carries_the_whole_command),
         TEST(test_a_row_removed_and_used_again_in_one_frame_is_the_new_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -23,14 +23,14 @@ static int open_world(void **state)
 static int close_world(void **state)
 {
     (void)state;
-    contacts_end(&f.collider.contacts);
+    contacts_end(&f.player.collider.contacts);
     fixture_close(&f);
     return 0;
 }
 
 static struct contacts *contacts(void)
 {
-    return &f.collider.contacts;
+    return &f.player.collider.contacts;
 }
 
 /* A helicopter (radius 6) at x, going this far along x in the frame. */
@@ -38,7 +38,8 @@ static uint32_t put(double x, double z, double along)
 {
     uint32_t row =
         fixture_put(&f, (struct fixture_entity){.kind = "helicopter", .at = {x, 900.0, z}});
-    f.collider.motion.path[row] = (struct path){.at = {x, 900.0, z}, .along = {along, 0.0, 0.0}};
+    f.player.collider.motion.path[row] =
+        (struct path){.at = {x, 900.0, z}, .along = {along, 0.0, 0.0}};
     return row;
 }
 
@@ -49,19 +50,19 @@ static void find(void)
     struct path kept[512];
     uint32_t used = now.head->used;
     for (uint32_t i = 0; i < used; i++)
-        kept[i] = f.collider.motion.path[i];
+        kept[i] = f.player.collider.motion.path[i];
     steps_respond(&f, &respond);
     steps_respond_end(&respond);
     for (uint32_t i = 0; i < used; i++)
-        f.collider.motion.path[i] = kept[i];
-    assert_int_equal(broad_pairs(&f.collider.broad, &respond.input.detect), 0);
-    assert_int_equal(contacts_begin(contacts(), f.collider.broad.list, WORKERS_MAX), 0);
+        f.player.collider.motion.path[i] = kept[i];
+    assert_int_equal(broad_pairs(&f.player.collider.broad, &respond.input.detect), 0);
+    assert_int_equal(contacts_begin(contacts(), f.player.collider.broad.list, WORKERS_MAX), 0);
     assert_int_equal(contacts_find(contacts(), &respond.input), 0);
 }
 
 static void stop(uint32_t row, double time)
 {
-    struct path *path = &f.collider.motion.path[row];
+    struct path *path = &f.player.collider.motion.path[row];
     *path = (struct path){.at = path_at(path, time), .since = time};
     assert_int_equal(contacts_change(contacts(), &respond.input, &row, 1, time), 0);
 }
@@ -178,13 +179,13 @@ static void test_row_36_another_way_meets_others(void **state)
     uint32_t b = put(25000.0, 25300.0, 0.0), c = put(25300.0, 25300.0, 0.0);
     find();
     assert_false(contacts_next(contacts(), &respond.input, &contact));
-    f.collider.motion.path[a].along = (struct vec3){0.0, 0.0, 400.0};
+    f.player.collider.motion.path[a].along = (struct vec3){0.0, 0.0, 400.0};
     assert_int_equal(contacts_change(contacts(), &respond.input, &a, 1, 0.0), 0);
     assert_true(contacts_next(contacts(), &respond.input, &contact));
     assert_true(contact.a == a && contact.b == b &&
                 fabs(contact.touch.toi - 288.0 / 400.0) < 1e-12);
     stop(a, 0.5); /* at 25200 */
-    f.collider.motion.path[c].along = (struct vec3){-600.0, 0.0, -200.0};
+    f.player.collider.motion.path[c].along = (struct vec3){-600.0, 0.0, -200.0};
     assert_int_equal(contacts_change(contacts(), &respond.input, &c, 1, 0.0), 0);
     assert_true(contacts_next(contacts(), &respond.input, &contact));
     assert_true(contact.a == a && contact.b == c);
@@ -215,7 +216,7 @@ static void test_a_frame_knows_nothing_of_the_one_before(void **state)
         assert_false(contacts_next(contacts(), &respond.input, &contact));
         contacts_end(contacts());
     }
-    f.collider.motion.path[a].along.x = 0.0;
+    f.player.collider.motion.path[a].along.x = 0.0;
     find();
     assert_false(contacts_next(contacts(), &respond.input, &contact));
 }
@@ -230,19 +231,19 @@ static void test_through_fixed_only_entering_is_a_contact(void **state)
     fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; } );");
     uint32_t row =
         fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {24990.0, 100.0, 25000.0}});
-    f.collider.motion.path[row] =
+    f.player.collider.motion.path[row] =
         (struct path){.at = {24990.0, 100.0, 25000.0}, .along = {8.0, 0, 0}};
     find();
     assert_true(contacts_next(contacts(), &respond.input, &contact));
     assert_true(fabs(contact.touch.toi - (10.0 - 3.0 - (double)1.8f) / 8.0) < 1e-12);
     contacts_end(contacts());
-    f.collider.motion.path[row].at.x = 24996.0; /* it stands in it */
+    f.player.collider.motion.path[row].at.x = 24996.0; /* it stands in it */
     find();
     assert_true(contacts_next(contacts(), &respond.input, &contact));
     assert_true(contact.touch.toi == 0.0);
     respond.input.through_fixed = true;
     contacts_end(contacts());
-    assert_int_equal(contacts_begin(contacts(), f.collider.broad.list, WORKERS_MAX), 0);
+    assert_int_equal(contacts_begin(contacts(), f.player.collider.broad.list, WORKERS_MAX), 0);
     assert_int_equal(contacts_find(contacts(), &respond.input), 0);
     assert_false(contacts_next(contacts(), &respond.input, &contact));
 }

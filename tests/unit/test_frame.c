@@ -7,6 +7,7 @@
 #include "tests/support/child.h"
 #include "tests/support/fixture.h"
 #include "tests/support/stage.h"
+#include "world/checksum.h"
 
 #include <setjmp.h>
 #include <signal.h>

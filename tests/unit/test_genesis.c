@@ -3,6 +3,7 @@
 
 #include "tests/support/fixture.h"
 #include "world/square.h"
+#include "world/checksum.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -111,6 +111,7 @@ static void test_the_frame_protocols_writers(void **state)
     assert_true(layout_writable(ROLE_MOVER, REGION_MOVED_WORD));
     assert_true(layout_writable(ROLE_MOVER, REGION_MOVED));
     assert_true(layout_writable(ROLE_REPORTER, REGION_COMMANDS + RING_REPORTER));
+    assert_true(layout_writable(ROLE_RECORDER, REGION_COMMANDS + RING_RECORDER));
     assert_false(layout_writable(ROLE_COLLIDER, REGION_MOVED));
     assert_false(layout_writable(ROLE_COLLIDER, REGION_MOVED_WORD));
     assert_false(layout_writable(ROLE_MOVER, REGION_COMMIT));
@@ -124,7 +125,7 @@ static void test_the_frame_protocols_writers(void **state)
 static void test_static_regions_have_no_writer(void **state)
 {
     (void)state;
-    for (int region = REGION_HEADER; region <= REGION_NAMES; region++) {
+    for (int region = REGION_HEADER; region <= REGION_RECIPE; region++) {
         for (int role = 0; role <= ROLE_NONE; role++)
             assert_false(layout_writable((enum role)role, (enum region)region));
     }
@@ -183,6 +184,7 @@ static void test_counts_out_of_range_are_refused(void **state)
     REFUSES(counts.fires, UINT32_MAX);
     REFUSES(counts.road_points, UINT32_MAX);
     REFUSES(counts.names, UINT32_MAX);
+    REFUSES(counts.recipe, UINT32_MAX);
 }
 
 /* A row of a million works: 1,048,576 entities and their slots. */

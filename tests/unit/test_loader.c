@@ -233,6 +233,7 @@ static void test_override_is_file(void **state)
         {"collision.figure8.damage_high=4", "collision = { figure8 = { damage_high = 4; }; };"},
         {"collision.figure8.damage_med=0.5", "collision = { figure8 = { damage_med = 0.5; }; };"},
         {"collision.figure8.damage_low=0.25", "collision = { figure8 = { damage_low = 0.25; }; };"},
+        {"recorder.when_full=pause", "recorder = { when_full = \"pause\"; };"},
         {"renderer.width=640", "renderer = { width = 640; };"},
         {"renderer.height=480", "renderer = { height = 480; };"},
         {"renderer.fps=0", "renderer = { fps = 0; };"},

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -254,36 +255,61 @@ static void test_colours_are_the_palettes(void **state)
 
 #define TOP       "mtllib k.mtl\n"
 #define TRIANGLE  "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
-#define MATERIALS "newmtl red\nKd 1 0 0\nnewmtl plain\nKa 1 0 0\nnewmtl bright\nKd 2 0 0\n"
+#define MATERIALS "newmtl red\nKd 1 0 0\nnewmtl plain\nKa 1 0 0\n"
 
 static const struct {
     const char *text; /* NULL: no file */
     const char *says;
 } bad[] = {
     {NULL, "k.obj: cannot be opened: No such file or directory"},
-    {"", "k.obj: is not a model: "},
-    {"nonsense\n", "k.obj: "},
-    {TOP "o body\n" TRIANGLE "f 1 2 3\n", "k.obj:6: has a face before any usemtl; "},
-    {TOP "o body\n" TRIANGLE "usemtl blue\nf 1 2 3\n", "k.obj:6: usemtl blue: unknown material; "},
-    {"o body\n" TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj:5: usemtl red: unknown material; "},
+    {"", "k.obj: has no faces; right would be: f 1 2 3"},
+    {"nonsense\n", "k.obj:1: nonsense: is not taken from a model; "},
+    {TOP "o body\n" TRIANGLE "f 1 2 3\n", "k.obj:6: f: has no material; right would be: usemtl "},
+    {TOP "o body\n" TRIANGLE "usemtl blue\nf 1 2 3\n",
+     "k.obj:6: usemtl = blue: unknown material; "},
+    {"o body\n" TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj:5: usemtl = red: unknown material; "},
     {TOP "o body\n" TRIANGLE "usemtl plain\nf 1 2 3\n",
-     "k.obj:6: usemtl plain: unknown material; "},
+     "k.obj:6: usemtl = plain: unknown material; "},
     {"mtllib none.mtl\no body\n" TRIANGLE "usemtl red\nf 1 2 3\n",
      "none.mtl: cannot be opened: No such file or directory"},
     {"mtllib ../../../../etc/passwd\no body\n" TRIANGLE "usemtl red\nf 1 2 3\n",
-     "passwd: cannot be opened: No such file or directory"},
-    {TOP "o body\n" TRIANGLE "usemtl bright\nf 1 2 3\n",
-     "k.obj: material bright: Kd is out of range; allowed: 0..1"},
+     "k.obj:1: mtllib = ../../../../etc/passwd: is not a name; allowed: 1..63 of a-z A-Z 0-9"},
+    {"mtllib /etc/passwd\n", "k.obj:1: mtllib = /etc/passwd: is not a name; "},
+    {"mtllib ..\n", "k.obj:1: mtllib = ..: is not a file's name; "},
+    {"mtllib link.mtl\n", "link.mtl: is a symbolic link; allowed: a regular file"},
+    {"mtllib bright.mtl\n", "bright.mtl:2: Kd = 2: out of range; allowed: 0..1"},
+    {"mtllib twice.mtl\n", "twice.mtl:3: newmtl = red: is another material's name too; "},
+    {"mtllib image.mtl\n", "image.mtl:2: map_Kd: is not taken from a model; "},
+    {TOP TOP, "k.obj:2: mtllib: stands twice; allowed: once"},
+    {TOP "o body left\n", "k.obj:2: o: needs one name; "},
     {TOP "o wing\n" TRIANGLE "usemtl red\nf 1 2 3\n",
      "k.obj: object wing: unknown part; allowed: body, turret, rotor, tail_rotor"},
     {TOP TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj: object defaultobject: unknown part; "},
-    {TOP "o body\nv 0 0 0\nv 1001 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n",
-     "k.obj: vertex 1 (1001, 0, 0) is out of range; allowed: -1000..1000 m"},
-    {TOP "o body\nv 0 0 0\nv nan 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n", "k.obj: "},
-    {TOP "o body\nv 0 0 0\nv 1e39 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n", "k.obj: "},
-    {TOP "o body\n" TRIANGLE "usemtl red\nf 1 2 7\n", "k.obj: "},
-    {TOP "o body\n" TRIANGLE "usemtl red\nf 1 2\n", "k.obj: has a face of 2 corners; "},
+    {TOP "o body\nv 0 0 0\nv 1001 0 0\n", "k.obj:4: v = 1001: out of range; allowed: -1000..1000"},
+    {TOP "v nan 0 0\n", "k.obj:2: v = nan: is not a number; "},
+    {TOP "v .5 0 0\n", "k.obj:2: v = .5: is not a number; "},
+    {TOP "v 0x1 0 0\n", "k.obj:2: v = 0x1: is not a number; "},
+    {TOP "v 1e39 0 0\n", "k.obj:2: v = 1e39: out of range; allowed: -1000..1000"},
+    {TOP " v 0 0 0\n", "k.obj:2: v: is indented; "},
+    {TOP "v 0 0\n", "k.obj:2: v: has 2 numbers; allowed: 3..3"},
+    {TOP "v 0 0 0 \\\n", "k.obj:2: has a byte 0x5c; "},
+    {TOP "v 0 0\r0\n", "k.obj:2: has a byte 0x0d; "},
+    {TOP "o b\xc3\xb6rdy\n", "k.obj:2: has a byte 0xc3; "},
+    {TOP TRIANGLE "usemtl red\nf 1 2 7\n", "k.obj:6: f = 7: is no corner; allowed: 1..3, "},
+    {TOP TRIANGLE "usemtl red\nf 1 2 0\n", "k.obj:6: f = 0: is no corner; "},
+    {TOP TRIANGLE "usemtl red\nf 1 2 -1\n", "k.obj:6: f = -1: is no corner; "},
+    {TOP TRIANGLE "usemtl red\nf 1/1 2/1 3/1\n", "k.obj:6: f = 1/1: is no corner; "},
+    {TOP TRIANGLE "usemtl red\nf 1// 2 3\n", "k.obj:6: f = 1//: is no corner; "},
+    {TOP TRIANGLE "usemtl red\nf 1 2\n", "k.obj:6: f: has 2 corners; allowed: 3..64"},
 };
+
+static void put_model(const char *name, const char *text)
+{
+    char path[128];
+
+    snprintf(path, sizeof(path), "%s/models/%s", quick_config.folder, name);
+    quick_config_write(path, text);
+}
 
 static void test_refusals(void **state)
 {
@@ -302,6 +328,11 @@ static void test_refusals(void **state)
     snprintf(begin, sizeof(begin), "%s:1: model = k: %s/models/", path, quick_config.folder);
     snprintf(path, sizeof(path), "%s/models/k.mtl", quick_config.folder);
     quick_config_write(path, MATERIALS);
+    put_model("bright.mtl", "newmtl bright\nKd 2 0 0\n");
+    put_model("twice.mtl", "newmtl red\nKd 1 0 0\nnewmtl red\n");
+    put_model("image.mtl", "newmtl red\nmap_Kd /etc/passwd\n");
+    snprintf(path, sizeof(path), "%s/models/link.mtl", quick_config.folder);
+    assert_int_equal(symlink("k.mtl", path), 0);
     quick_config_write(quick_config.scenario_path, "");
     snprintf(path, sizeof(path), "%s/models/k.obj", quick_config.folder);
     for (size_t i = 0; i < COUNT(bad); i++) {
@@ -337,6 +368,25 @@ static void test_square_is_two_triangles(void **state)
     scenario_free(&s);
 }
 
+/* What programs that draw models write beside what is needed. */
+static void test_whole_grammar_is_taken(void **state)
+{
+    struct scenario s;
+
+    (void)state;
+    put_model("all.mtl", "# Erd\xc3\xa4hnlich\r\nnewmtl red\r\nNs 250.0\r\nKa 1 1 1\r\nKd 1 0 0\r\n"
+                         "Ks 0.5 0.5 0.5\r\nKe 0 0 0\r\nNi 1.45\r\nd 1.0\r\nillum 2\r\n");
+    put_model("k.obj", "# C: \"drawn\"\r\nmtllib all.mtl\r\n\r\no body\r\nv\t0 0 0\r\nv 1 0 0\r\n"
+                       "v 0 1e0 0\r\nv 0.5 -1 +0.25e-00\r\nvt 0 0\r\nvt 1 0 0\r\nvn 0 0 1\r\n"
+                       "s off\r\nusemtl red\r\nf 1 2 3\r\nf 1/1 2/2 3/1\r\nf 1//1 2//1 4//1\r\n"
+                       "g body\r\nf 1/1/1 2/2/1 4/1/1");
+    if (loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0, &message) !=
+        0)
+        fail_msg("%s", message.text);
+    assert_int_equal(s.triangle_count, 4);
+    scenario_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest shipped_tests[] = {
@@ -350,6 +400,7 @@ int main(void)
     const struct CMUnitTest bad_tests[] = {
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_square_is_two_triangles),
+        cmocka_unit_test(test_whole_grammar_is_taken),
     };
 
     return cmocka_run_group_tests(shipped_tests, load_shipped, free_shipped) +

@@ -42,7 +42,8 @@ static const struct refusal refusals[] = {
     {"world = {\n sede = 7; };", 2,
      "world.sede = 7: unknown key; allowed here: name, seed, hz, capacity, frames, pace"},
     {"\nwrold = { seed = 7; };", 2,
-     "wrold = {...}: unknown key; allowed here: world, terrain, objects, collision, renderer"},
+     "wrold = {...}: unknown key; allowed here: world, terrain, objects, collision, recorder, "
+     "renderer"},
     {"collision = { figure8 = { damage = 1; }; };", 1,
      "collision.figure8.damage = 1: unknown key; allowed here: fast_vehicle_mps, fast_fixed_mps, "
      "large_fixed_kg, measure, damage_high, damage_med, damage_low, mass_c1_kg, mass_c2_kg, "
@@ -343,8 +344,8 @@ static void test_file_refusals(void **state)
     check_file(path, "is a pipe; allowed: a regular file");
     snprintf(path, sizeof(path), "%s/large", quick_config.folder);
     quick_config_write(path, "");
-    assert_int_equal(truncate(path, (off_t)SCHEMA_FILE_BYTES_MAX + 1), 0);
-    check_file(path, "has 16777217 bytes; allowed: up to 16777216");
+    assert_int_equal(truncate(path, (off_t)SCHEMA_SCENARIO_BYTES_MAX + 1), 0);
+    check_file(path, "has 4194305 bytes; allowed: up to 4194304");
     assert_int_equal(truncate(path, 100), 0);
     check_file(path, "is not text: it has a NUL byte");
 }

@@ -352,12 +352,41 @@ static void test_kill_of_the_holder_frees_the_role(void **state)
         wait_until_held(role);
         assert_int_equal(segment_holder(name, role), holder);
         attach_refused(name, role, "is running already");
+        assert_false(reason.damaged);
+        assert_int_equal(segment_holder_alive(name, role, 0), holder);
         child_kill(holder);
+        assert_int_equal(segment_holder_alive(name, role, UINT64_MAX), 0);
         assert_int_equal(segment_holder(name, role), 0); /* though its slot still says ready */
         attach(&view, role);
         assert_int_equal(atomic_load(&view.slot[role]->pid), getpid());
         segment_detach(&view);
     }
+}
+
+/* Between the taking of a lock and the storing of the pid nobody is named, or the one before. */
+static void test_waits_go_by_the_lock_and_not_by_the_pid(void **state)
+{
+    enum role role = ROLE_MOVER;
+    struct view view;
+    char text[32];
+    (void)state;
+    pid_t dead = child_start(hold_for_long, &role);
+    child_kill(dead);
+    attach(&view, ROLE_COLLIDER);
+    assert_int_equal(segment_wait_free(name, ROLE_MOVER, 0, &reason), 0);
+    assert_int_equal(segment_wait_free(name, ROLE_RENDERER, 0, &reason), -1);
+    snprintf(text, sizeof text, "by pid %d,", getpid());
+    assert_non_null(strstr(reason.text, "the collider of world"));
+    assert_non_null(strstr(reason.text, text));
+    const int said[] = {0, dead};
+    for (int i = 0; i < 2; i++) {
+        atomic_store(&view.slot[ROLE_COLLIDER]->pid, (uint32_t)said[i]);
+        assert_int_equal(segment_holder_alive(name, ROLE_COLLIDER, 0), 0);
+        assert_int_equal(segment_wait_free(name, ROLE_COLLIDER, 0, &reason), -1);
+        assert_non_null(strstr(reason.text, "by a process,"));
+    }
+    segment_detach(&view);
+    assert_int_equal(segment_wait_free(name, ROLE_COLLIDER, UINT64_MAX, &reason), 0);
 }
 
 /* --- removal -----------------------------------------------------------------------------------*/
@@ -480,6 +509,7 @@ int main(void)
         TEST(test_second_holder_of_a_role_is_refused_by_name_and_pid),
         TEST(test_all_roles_side_by_side),
         TEST(test_kill_of_the_holder_frees_the_role),
+        TEST(test_waits_go_by_the_lock_and_not_by_the_pid),
         TEST(test_removal_is_refused_while_a_role_is_held),
         TEST(test_removal_by_force),
         TEST(test_lock_file_stays_while_a_supervisor_holds_it),

@@ -2,6 +2,7 @@
 #include "world/world.h"
 
 #include "tests/support/fixture.h"
+#include "world/checksum.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -202,18 +203,22 @@ static void test_same_bytes_elsewhere_have_the_same_digest(void **state)
     assert_int_equal(state_checksum(&other, f.view.world.counts.fixed), checksum());
 }
 
+static bool within(size_t byte, size_t offset, size_t bytes)
+{
+    return byte >= offset && byte < offset + bytes;
+}
+
 static void test_checksum_covers_all_of_head_and_rows_but_itself(void **state)
 {
     uint64_t before = checksum();
     unsigned char *head = (unsigned char *)now.head;
     (void)state;
     for (size_t i = 0; i < sizeof *now.head; i++) {
-        bool own = i >= offsetof(struct state_head, checksum) &&
-                   i < offsetof(struct state_head, checksum) + sizeof now.head->checksum;
-        bool used = i >= offsetof(struct state_head, used) &&
-                    i < offsetof(struct state_head, used) + sizeof now.head->used;
-        if (used) /* says how much is read */
-            continue;
+        bool own = within(i, offsetof(struct state_head, checksum), sizeof now.head->checksum);
+        if (within(i, offsetof(struct state_head, used), sizeof now.head->used) ||
+            within(i, offsetof(struct state_head, crater_count), sizeof now.head->crater_count) ||
+            within(i, offsetof(struct state_head, dent_count), sizeof now.head->dent_count))
+            continue; /* say how much is read */
         head[i] ^= 0x10;
         if ((checksum() == before) != own)
             fail_msg("byte %zu of the head", i);
@@ -228,6 +233,44 @@ static void test_checksum_covers_all_of_head_and_rows_but_itself(void **state)
     }
     ENTITY_COLUMNS(X)
 #undef X
+}
+
+static void test_checksum_covers_craters_and_dents_up_to_their_counts(void **state)
+{
+    (void)state;
+    now.head->crater_count = 5;
+    now.head->dent_count = 3;
+    uint64_t before = checksum();
+    for (size_t i = 0; i < 6 * sizeof *now.craters; i++) {
+        unsigned char *byte = (unsigned char *)now.craters + i;
+        *byte ^= 0x20;
+        assert_int_equal(checksum() == before, i >= 5 * sizeof *now.craters);
+        *byte ^= 0x20;
+    }
+    for (size_t i = 0; i < 4 * sizeof *now.dents; i++) {
+        unsigned char *byte = (unsigned char *)now.dents + i;
+        *byte ^= 0x20;
+        assert_int_equal(checksum() == before, i >= 3 * sizeof *now.dents);
+        *byte ^= 0x20;
+    }
+}
+
+/* What is hashed as it grows is what is hashed at once, also after a step back. */
+static void test_running_hashes_of_lists(void **state)
+{
+    static const uint32_t counts[] = {0, 1, 4, 4, 9, 3, 5};
+    struct list_hashes running = {0};
+    (void)state;
+    for (uint32_t i = 0; i < 10; i++)
+        now.craters[i].x = now.dents[i].id = i + 7;
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        struct list_hashes once = {0};
+        now.head->crater_count = counts[i];
+        now.head->dent_count = counts[i] / 2;
+        list_hashes_extend(&running, &now);
+        list_hashes_extend(&once, &now);
+        assert_memory_equal(&running, &once, sizeof once);
+    }
 }
 
 static void test_time_is_ticks_times_the_step(void **state)
@@ -329,6 +372,8 @@ int main(void)
         TEST(test_settings_of_the_picture_do_not_count),
         TEST(test_same_bytes_elsewhere_have_the_same_digest),
         TEST(test_checksum_covers_all_of_head_and_rows_but_itself),
+        TEST(test_checksum_covers_craters_and_dents_up_to_their_counts),
+        TEST(test_running_hashes_of_lists),
         TEST(test_time_is_ticks_times_the_step),
         TEST(test_names_are_found_by_id),
         TEST(test_objects_of_a_square_are_found_from_the_square),

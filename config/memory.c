@@ -1,0 +1,28 @@
+/* Whether an allocation of C++ failed. */
+#include "config/memory.h"
+
+#include <stddef.h>
+
+typedef void new_handler(void);
+
+/* std::set_new_handler(), by its name in the library. */
+extern new_handler *set_new_handler(new_handler *handler) __asm__("_ZSt15set_new_handlerPFvvE");
+
+static bool missed;
+
+static void remember(void)
+{
+    missed = true;
+    set_new_handler(NULL); /* and so operator new throws */
+}
+
+void memory_watch(void)
+{
+    missed = false;
+    set_new_handler(remember);
+}
+
+bool memory_missed(void)
+{
+    return missed;
+}

@@ -1,0 +1,31 @@
+/* OBJ: the plain part of Wavefront's OBJ and MTL files that a model may use. Files are checked
+ * against it line by line before assimp sees them: what assimp is given is small, whole and in
+ * order, whatever a file was. Pure but for the files that a model names; start-up only. */
+#ifndef JOLON_CONFIG_OBJ_H
+#define JOLON_CONFIG_OBJ_H
+
+#include "config/source.h"
+
+#include <stdint.h>
+
+#define OBJ_LINE_MAX      1023    /* characters */
+#define OBJ_WORD_MAX      63      /* of a name */
+#define OBJ_CORNERS_MAX   64u     /* of a face */
+#define OBJ_VERTICES_MAX  65535u  /* v */
+#define OBJ_DATA_MAX      262140u /* vt, and vn */
+#define OBJ_TRIANGLES_MAX 65535u  /* a face of n corners is n - 2 */
+#define OBJ_SECTIONS_MAX  1024u   /* o, g and usemtl */
+#define OBJ_MATERIALS_MAX 256u
+#define OBJ_EXTENT_MAX    1000.0 /* [m] of a vertex's coordinate */
+
+/* Gives the text of a file that stands beside the model, read at most once; NULL with the message.
+ * name: one word of a-z A-Z 0-9 . - _ that does not begin with a dot. */
+typedef const struct source *obj_open(void *context, const char *name,
+                                      struct loader_message *message);
+
+/* Checks an OBJ file and the MTL file that it names. 0; -1 with the message, with file, line, word,
+ * value and what is allowed. */
+int obj_check(const struct source *source, obj_open *open, void *context,
+              struct loader_message *message);
+
+#endif

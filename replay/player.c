@@ -1,0 +1,79 @@
+/* The two stages of a frame, one after the other, in one process. */
+#include "replay/player.h"
+
+#include <errno.h>
+
+int player_init(struct player *player, struct view *view, uint32_t threads)
+{
+    *player = (struct player){.view = view};
+    player->workers = workers_create(threads);
+    if (!player->workers)
+        return -1;
+    if (mover_init(&player->mover, &view->world, view->w[0].craters, player->workers) != 0)
+        goto err_workers;
+    if (collider_init(&player->collider, &view->world, view->w[0].craters, player->workers) != 0)
+        goto err_mover;
+    return 0;
+err_mover:
+    mover_free(&player->mover);
+err_workers:
+    workers_destroy(player->workers);
+    player->workers = NULL;
+    errno = ENOMEM;
+    return -1;
+}
+
+void player_free(struct player *player)
+{
+    if (!player->workers)
+        return;
+    mover_free(&player->mover);
+    collider_free(&player->collider);
+    workers_destroy(player->workers);
+    player->workers = NULL;
+}
+
+void player_sources(const struct view *view, struct command_source sources[COMMAND_RING_COUNT])
+{
+    for (int i = 0; i < COMMAND_RING_COUNT; i++)
+        sources[i] = (struct command_source){view->commands[i]->slot, view->header->command_slots,
+                                             atomic_load(&view->commands[i]->head)};
+}
+
+uint64_t player_frame(const struct player *player)
+{
+    return atomic_load(&player->view->commit->commit);
+}
+
+int player_move(struct player *player, const struct command_source *sources)
+{
+    struct view *view = player->view;
+    struct command_source own[COMMAND_RING_COUNT];
+    uint64_t commit = player_frame(player);
+    player_sources(view, own);
+    if (mover_step(&player->mover, &view->w[commit & 1], &view->m, sources ? sources : own) != 0)
+        return -1;
+    atomic_store(&view->moved_word->moved, commit + 1);
+    return 0;
+}
+
+int player_collide(struct player *player)
+{
+    struct view *view = player->view;
+    const struct event_ring ring = {view->events, view->header->event_slots};
+    uint64_t commit = player_frame(player);
+    atomic_store(&view->commit->writing, commit + 1);
+    if (collider_step(&player->collider, &view->w[commit & 1], &view->m, &view->w[(commit + 1) & 1],
+                      &ring) != 0)
+        return -1;
+    atomic_store(&view->commit->commit, commit + 1);
+    return 0;
+}
+
+int player_step(struct player *player, const struct command_source *sources)
+{
+    if (atomic_load(&player->view->moved_word->moved) == player_frame(player) &&
+        player_move(player, sources) != 0)
+        return -1;
+    return player_collide(player);
+}

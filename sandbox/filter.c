@@ -1,0 +1,256 @@
+/* The lists. Each rule is one system call, some only with certain arguments; what no rule is about
+ * is trapped. */
+#include "sandbox/filter.h"
+
+#include "world/guarded.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sched.h>
+#include <seccomp.h>
+#include <signal.h>
+#include <stdint.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#define TESTS_MAX 2
+
+struct rule {
+    int call;
+    uint32_t tests; /* all must hold */
+    struct scmp_arg_cmp test[TESTS_MAX];
+};
+
+struct list {
+    const struct rule *rule;
+    size_t count;
+    uint32_t action; /* instead of the trap */
+};
+
+#define ANY(call)                                                                                  \
+    {                                                                                              \
+        SCMP_SYS(call), 0,                                                                         \
+        {                                                                                          \
+            {                                                                                      \
+                0                                                                                  \
+            }                                                                                      \
+        }                                                                                          \
+    }
+/* Argument number is value. */
+#define WITH(call, number, value)                                                                  \
+    {                                                                                              \
+        SCMP_SYS(call), 1,                                                                         \
+        {                                                                                          \
+            {                                                                                      \
+                number, SCMP_CMP_EQ, value, 0                                                      \
+            }                                                                                      \
+        }                                                                                          \
+    }
+/* Of the bits of mask in the argument, those of value are set. */
+#define BITS(number, mask, value)                                                                  \
+    {                                                                                              \
+        number, SCMP_CMP_MASKED_EQ, mask, value                                                    \
+    }
+
+/* ioctl numbers carry the kind of device that they are for. */
+#define IOCTL_KIND      0xff00u
+#define IOCTL_DRM       0x6400u /* 'd' */
+#define IOCTL_NVIDIA    0x4600u /* 'F' */
+#define MAP_WHICH       ((uint64_t)(MAP_TYPE | MAP_ANONYMOUS))
+#define MAP_MEMORY_ONLY ((uint64_t)(MAP_PRIVATE | MAP_ANONYMOUS))
+
+/* What computing, sleeping, logging, ending and aborting takes. */
+static const struct rule computing[] = {
+    ANY(futex),                     /* doorbells, locks, workers, the readers' wait */
+    ANY(clock_nanosleep),           /* waits by the clock */
+    ANY(clock_gettime),             /* where the clock cannot be read without a call */
+    ANY(restart_syscall),           /* a wait goes on after SIGSTOP and SIGCONT */
+    ANY(rt_sigreturn),              /* back from the handler of SIGTERM, or of SIGSYS */
+    ANY(rt_sigprocmask),            /* abort, and a thread's start and end */
+    WITH(rt_sigaction, 0, SIGABRT), /* abort; not SIGSYS, whose handler must stay */
+    ANY(getpid),                    /* abort, names of temporary files */
+    ANY(gettid),
+    WITH(write, 0, STDERR_FILENO),  /* the log */
+    WITH(writev, 0, STDERR_FILENO), /* the C library's last words */
+    ANY(close),
+    ANY(exit),
+    ANY(exit_group),
+    ANY(set_robust_list), /* a thread that was made before, and begins only now */
+    ANY(rseq),
+    /* Memory of its own, that nothing can be executed in. */
+    ANY(brk),
+    ANY(munmap),
+    ANY(mremap),
+    ANY(madvise),
+    {SCMP_SYS(mmap), 2, {BITS(2, PROT_EXEC, 0), BITS(3, MAP_WHICH, MAP_MEMORY_ONLY)}},
+    {SCMP_SYS(mprotect), 1, {BITS(2, PROT_EXEC, 0)}},
+};
+
+/* A stand-by waits for the role's lock until its holder is dead. */
+static const struct rule standing_by[] = {
+    WITH(fcntl, 1, F_OFD_SETLKW),
+};
+
+/* Threads, which share all that the process is confined to; not processes. */
+static const struct rule threads[] = {
+    {SCMP_SYS(clone), 1, {BITS(0, CLONE_THREAD, CLONE_THREAD)}},
+    WITH(prctl, 0, PR_SET_NAME),
+    ANY(sched_getaffinity),
+};
+
+/* Files; which ones is Landlock's part (sandbox/files.c). */
+static const struct rule files[] = {
+    ANY(openat),    ANY(read),       ANY(pread64),    ANY(write),     ANY(pwrite64),
+    ANY(lseek),     ANY(newfstatat), ANY(fstat),      ANY(statx),     ANY(fstatfs),
+    ANY(ftruncate), ANY(fallocate),  ANY(fsync),      ANY(fdatasync), WITH(fcntl, 1, F_GETFL),
+    ANY(rename),    ANY(renameat),   ANY(renameat2),  ANY(unlink),    ANY(unlinkat),
+    ANY(link),      ANY(linkat),     ANY(getdents64),
+};
+
+/* Drawing in software compiles shaders when it meets them; in hardware it talks to its device and
+ * maps its memory. */
+static const struct rule drawing[] = {
+    ANY(mmap),
+    ANY(mprotect),
+    ANY(mkdir), /* the driver's cache */
+    ANY(flock),
+    ANY(poll),
+    ANY(ppoll),
+    ANY(sched_yield),
+    WITH(fcntl, 1, F_DUPFD_CLOEXEC),
+    {SCMP_SYS(ioctl), 1, {BITS(1, IOCTL_KIND, IOCTL_DRM)}},
+    {SCMP_SYS(ioctl), 1, {BITS(1, IOCTL_KIND, IOCTL_NVIDIA)}},
+};
+
+/* The sockets that there are, the pipe that wakes their threads, and new sockets of the internet
+ * alone. */
+static const struct rule networking[] = {
+    WITH(fcntl, 1, F_OFD_GETLK), /* whether a silent role is dead */
+    ANY(write),
+    ANY(sendmsg),
+    ANY(recvmsg),
+    ANY(sendto),
+    ANY(recvfrom),
+    ANY(setsockopt),
+    ANY(getsockopt),
+    ANY(getsockname),
+    ANY(pselect6),
+    ANY(read),
+    ANY(bind),
+    ANY(connect),
+    ANY(listen),
+    ANY(accept4),
+    WITH(socket, 0, AF_INET),
+    WITH(socket, 0, AF_INET6),
+    /* The bounded end of dds_link_close(). */
+    ANY(alarm),
+    WITH(rt_sigaction, 0, SIGALRM),
+};
+
+/* The C library tries clone3 first, whose flags a filter cannot see; told that there is none, it
+ * takes clone. */
+static const struct rule absent[] = {ANY(clone3)};
+
+/* What a driver wishes for threads that it makes when it has much to do. It could be for any
+ * process of the user's, and it does without. */
+static const struct rule wishes[] = {
+    ANY(sched_setscheduler),
+    ANY(sched_setaffinity),
+    ANY(setpriority),
+};
+
+#define LIST(rules, action)                                                                        \
+    {                                                                                              \
+        rules, sizeof(rules) / sizeof(rules)[0], action                                            \
+    }
+#define ALLOW(rules) LIST(rules, SCMP_ACT_ALLOW)
+#define END                                                                                        \
+    {                                                                                              \
+        NULL, 0, 0                                                                                 \
+    }
+#define EVERY_ROLE ALLOW(computing), LIST(absent, SCMP_ACT_ERRNO(ENOSYS))
+static const struct list frame_lists[] = {EVERY_ROLE, ALLOW(standing_by), END};
+static const struct list renderer_lists[] = {
+    EVERY_ROLE, ALLOW(threads), ALLOW(files), ALLOW(drawing), LIST(wishes, SCMP_ACT_ERRNO(EPERM)),
+    END};
+static const struct list reporter_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(networking), END};
+static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(files), END};
+
+static const struct list *const role_lists[ROLE_COUNT] = {
+    [ROLE_MOVER] = frame_lists,         [ROLE_COLLIDER] = frame_lists,
+    [ROLE_REPORTER] = reporter_lists,   [ROLE_RECORDER] = recorder_lists,
+    [ROLE_RENDERER] = renderer_lists,   [ROLE_RENDERER_2] = renderer_lists,
+    [ROLE_RENDERER_3] = renderer_lists, [ROLE_RENDERER_4] = renderer_lists,
+};
+
+static int add_lists(scmp_filter_ctx filter, const struct list *list)
+{
+    for (; list->rule; list++) {
+        for (size_t i = 0; i < list->count; i++) {
+            const struct rule *rule = &list->rule[i];
+            int result =
+                seccomp_rule_add_array(filter, list->action, rule->call, rule->tests, rule->test);
+            if (result != 0 && result != -EEXIST)
+                return result;
+        }
+    }
+    return 0;
+}
+
+/* Signals go to the process itself: abort, and the trap's own end. */
+static int add_own_signals(scmp_filter_ctx filter)
+{
+    const uint64_t self = (uint64_t)getpid();
+    static const int signals[] = {SIGABRT, SIGSYS};
+    int result = 0;
+    for (size_t i = 0; i < sizeof signals / sizeof signals[0] && result == 0; i++)
+        result = seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 2,
+                                  SCMP_A0(SCMP_CMP_EQ, self, 0),
+                                  SCMP_A2(SCMP_CMP_EQ, (uint64_t)signals[i], 0));
+    return result;
+}
+
+static int set_attributes(scmp_filter_ctx filter)
+{
+    int result = seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1);
+    /* Another architecture's calls have other numbers: nothing could be said of them. */
+    if (result == 0)
+        result = seccomp_attr_set(filter, SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS);
+    /* Kernels before 5.16 slow every process with a filter down, against speculation, unless told
+     * not to. */
+    if (result == 0)
+        result = seccomp_attr_set(filter, SCMP_FLTATR_CTL_SSB, 1);
+    return result;
+}
+
+struct loading {
+    enum role role;
+    int result;
+};
+
+static void load(void *context)
+{
+    struct loading *loading = context;
+    scmp_filter_ctx filter = seccomp_init(SCMP_ACT_TRAP);
+    if (!filter)
+        return;
+    int result = set_attributes(filter);
+    if (result == 0)
+        result = add_lists(filter, role_lists[loading->role]);
+    if (result == 0)
+        result = add_own_signals(filter);
+    if (result == 0)
+        result = seccomp_load(filter);
+    seccomp_release(filter);
+    loading->result = result;
+}
+
+int filter_load(enum role role)
+{
+    struct loading loading = {role, -ENOMEM};
+    if (role >= ROLE_COUNT)
+        return -EINVAL;
+    return memory_guarded(load, &loading) ? loading.result : -ENOMEM;
+}

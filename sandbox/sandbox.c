@@ -1,0 +1,111 @@
+/* The steps into the sandbox, and the privileges. */
+#include "sandbox/sandbox.h"
+
+#include "ipc/log.h"
+#include "sandbox/files.h"
+#include "sandbox/filter.h"
+#include "sandbox/trap.h"
+
+#include <errno.h>
+#include <linux/capability.h>
+#include <malloc.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SANITIZED true
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||                         \
+    __has_feature(memory_sanitizer)
+#define SANITIZED true
+#endif
+#endif
+#ifndef SANITIZED
+#define SANITIZED false
+#endif
+
+/* Signals to itself, page protection, a file at its end (ipc/crash.h). */
+#ifdef CRASHPOINTS
+#define CRASHES true
+#else
+#define CRASHES false
+#endif
+
+static bool under_valgrind(void)
+{
+    const char *preloaded = getenv("LD_PRELOAD");
+    return preloaded && strstr(preloaded, "vgpreload");
+}
+
+static int refused(struct reason *reason, const char *what, int error)
+{
+    return reason_set(reason,
+                      "sandbox: %s: %s; this kernel or container does not allow it: allow it, or "
+                      "run with --no-sandbox",
+                      what, strerror(error));
+}
+
+/* What this process may not get back, whoever's program it would become. */
+static int drop_capabilities(void)
+{
+    struct __user_cap_header_struct header = {.version = _LINUX_CAPABILITY_VERSION_3};
+    const struct __user_cap_data_struct none[_LINUX_CAPABILITY_U32S_3] = {{0}};
+    /* Only who has CAP_SETPCAP can drop from the bounding set; others have nothing to bound. */
+    for (int capability = 0; prctl(PR_CAPBSET_READ, capability) >= 0; capability++)
+        (void)prctl(PR_CAPBSET_DROP, capability);
+    (void)prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
+    return (int)syscall(SYS_capset, &header, none);
+}
+
+int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reason *reason)
+{
+    *sandbox = (struct sandbox){.role = role};
+    if (off) {
+        log_warn("runs WITHOUT its sandbox (--no-sandbox): a fault in it can do whatever its user "
+                 "can");
+        return 0;
+    }
+    if (SANITIZED || CRASHES || under_valgrind()) {
+        log_info("runs without its sandbox: %s needs more system calls than that allows",
+                 SANITIZED ? "a sanitizer"
+                 : CRASHES ? "a build with crash points"
+                           : "valgrind");
+        return 0;
+    }
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
+        return refused(reason, "no new privileges", errno);
+    if (drop_capabilities() != 0)
+        return refused(reason, "dropping capabilities", errno);
+    /* All threads allocate from one arena: with further ones the C library opens files, now and
+     * then, to count processors and to ask how memory is promised. */
+    (void)mallopt(M_ARENA_MAX, 1);
+    sandbox->on = true;
+    return 0;
+}
+
+int sandbox_files(const struct sandbox *sandbox, const int *folders, size_t count,
+                  struct reason *reason)
+{
+    if (!sandbox->on)
+        return 0;
+    bool drivers = sandbox->role >= ROLE_RENDERER && sandbox->role <= ROLE_RENDERER_4;
+    int result = files_confine(folders, count, drivers);
+    if (result == -ENOSYS || result == -EOPNOTSUPP) {
+        log_info("this kernel has no Landlock: any file of its user's is open to it");
+        return 0;
+    }
+    return result == 0 ? 0 : refused(reason, "Landlock", -result);
+}
+
+int sandbox_enter(const struct sandbox *sandbox, struct reason *reason)
+{
+    if (!sandbox->on)
+        return 0;
+    int result = trap_install(sandbox->role);
+    if (result == 0)
+        result = filter_load(sandbox->role);
+    return result == 0 ? 0 : refused(reason, "seccomp", -result);
+}

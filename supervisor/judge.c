@@ -1,0 +1,80 @@
+/* The rules that a death is judged by. */
+#include "supervisor/judge.h"
+
+#include "ipc/clock.h"
+#include "ipc/log.h"
+
+#define STATUS_KILLED (128 + 9)
+#define FREE_RESTARTS 8u /* kills from outside that cost no wait */
+#define DELAY_STEP_NS (50 * (uint64_t)NS_PER_MS)
+#define LONG_LIFE_NS  (5 * (uint64_t)NS_PER_S) /* of a role that makes no frames */
+#define DELAY_MAX_NS  ((uint64_t)NS_PER_S)
+
+bool judge_makes_frames(enum role role)
+{
+    return role == ROLE_MOVER || role == ROLE_COLLIDER;
+}
+
+static uint64_t delay_after(uint32_t deaths, uint32_t free)
+{
+    uint64_t delay = deaths > free ? (deaths - free) * DELAY_STEP_NS : 0;
+    return delay < DELAY_MAX_NS ? delay : DELAY_MAX_NS;
+}
+
+static enum verdict give_up(enum role role)
+{
+    return judge_makes_frames(role) ? VERDICT_GIVE_UP : VERDICT_WITHOUT;
+}
+
+/* A kill from outside, or a request to stop that was not ours, says nothing about the frame, and
+ * little about the role. */
+static enum verdict killed(struct history *history, const struct death *death, uint64_t *delay_ns)
+{
+    history->quick_kills++;
+    *delay_ns = delay_after(history->quick_kills, FREE_RESTARTS);
+    return history->quick_kills < JUDGE_QUICK_KILLS ? VERDICT_RESTART : give_up(death->role);
+}
+
+static enum verdict crashed(struct history *history, const struct death *death, uint64_t *delay_ns)
+{
+    if (judge_makes_frames(death->role)) {
+        if (history->same_frame == 0 || history->crash_frame != death->frame)
+            history->same_frame = 0;
+        history->crash_frame = death->frame;
+        if (++history->same_frame >= JUDGE_SAME_FRAME_DEATHS)
+            return VERDICT_POISON;
+    }
+    history->quick_crashes++;
+    *delay_ns = delay_after(history->quick_crashes, 1);
+    return history->quick_crashes < JUDGE_QUICK_CRASHES ? VERDICT_RESTART : give_up(death->role);
+}
+
+/* What it got done wipes out what went before. */
+static void forgive(struct history *history, const struct death *death)
+{
+    bool frames = death->frame > death->frame_at_start;
+    bool makes_frames = judge_makes_frames(death->role);
+    if (death->was_ready)
+        history->stood_by = 0;
+    if (makes_frames ? frames : death->was_ready)
+        history->quick_kills = 0;
+    if (makes_frames ? frames : death->lived_ns > LONG_LIFE_NS)
+        history->quick_crashes = 0;
+}
+
+enum verdict judge_death(struct history *history, const struct death *death, uint64_t *delay_ns)
+{
+    *delay_ns = 0;
+    if (death->status == EXIT_OK && judge_makes_frames(death->role) && death->finished)
+        return VERDICT_FINISHED;
+    if (death->stood_by) { /* no frame was lost by it, and none stands for its want */
+        *delay_ns = delay_after(++history->stood_by, FREE_RESTARTS);
+        return VERDICT_RESTART;
+    }
+    if (death->status == EXIT_REFUSED || death->status == EXIT_USAGE)
+        return judge_makes_frames(death->role) ? VERDICT_REFUSED : VERDICT_WITHOUT;
+    forgive(history, death);
+    if (death->status == EXIT_OK || (death->status == STATUS_KILLED && !death->hung))
+        return killed(history, death, delay_ns);
+    return crashed(history, death, delay_ns);
+}

@@ -1,0 +1,53 @@
+/* What a death means: start again, go on without, end, or give up. Pure: a history and a death in,
+ * a verdict out. */
+#ifndef JOLON_SUPERVISOR_JUDGE_H
+#define JOLON_SUPERVISOR_JUDGE_H
+
+#include "ipc/role.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Crashes of a frame role on one frame after which that frame is poison. */
+#define JUDGE_SAME_FRAME_DEATHS 3u
+/* Crashes in a row, without getting a frame done, after which a role is given up. */
+#define JUDGE_QUICK_CRASHES 5u
+/* The same for kills from outside: somebody's whim, or a machine that has no memory left. */
+#define JUDGE_QUICK_KILLS 60u
+
+struct death {
+    enum role role;
+    int status;              /* as a shell has it: exit code, or 128 + signal */
+    bool hung;               /* the keeper killed it because it hung */
+    bool stood_by;           /* another process of ours has the role */
+    bool was_ready;          /* it had the role and had said that it was up */
+    bool finished;           /* the run's last frame is committed */
+    uint64_t frame;          /* committed when it was found dead */
+    uint64_t frame_at_start; /* and when it was started */
+    uint64_t lived_ns;
+};
+
+/* Of one role; begin with zeros. */
+struct history {
+    uint32_t quick_crashes, quick_kills; /* in a row */
+    uint32_t stood_by;                   /* deaths in a row of who only stood by */
+    uint32_t same_frame;                 /* crashes on crash_frame */
+    uint64_t crash_frame;
+};
+
+enum verdict {
+    VERDICT_RESTART,
+    VERDICT_WITHOUT,  /* the rest goes on */
+    VERDICT_FINISHED, /* it ended because the run did */
+    VERDICT_REFUSED,  /* a frame role ended with exit code 1 or 2: it said why */
+    VERDICT_POISON,   /* this frame always kills the role */
+    VERDICT_GIVE_UP   /* the role always dies */
+};
+
+/* Judges and remembers. *delay_ns: how long to wait before the restart. */
+enum verdict judge_death(struct history *history, const struct death *death, uint64_t *delay_ns);
+
+/* Is this role one of the two that make frames? */
+bool judge_makes_frames(enum role role);
+
+#endif

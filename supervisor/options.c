@@ -1,0 +1,69 @@
+/* Reading the keeper's command line. */
+#include "supervisor/options.h"
+
+#include "ipc/log.h"
+#include "ipc/process.h"
+
+#include <getopt.h>
+
+#define HANG_MS 100
+
+static const struct option known[] = {{"world", required_argument, NULL, 'w'},
+                                      {"out", required_argument, NULL, 'o'},
+                                      {"log", required_argument, NULL, 'l'},
+                                      {"ready", required_argument, NULL, 'r'},
+                                      {"commands", required_argument, NULL, 'm'},
+                                      {"events", required_argument, NULL, 'e'},
+                                      {"checkpoint", required_argument, NULL, 'c'},
+                                      {"every", required_argument, NULL, 'n'},
+                                      {"threads", required_argument, NULL, 't'},
+                                      {"without", required_argument, NULL, 'x'},
+                                      {"hang-ms", required_argument, NULL, 'H'},
+                                      {"background", no_argument, NULL, 'b'},
+                                      {"json", no_argument, NULL, 'j'},
+                                      {"no-sandbox", no_argument, NULL, 's'},
+                                      {NULL, 0, NULL, 0}};
+
+static void leave_out(struct plan *plan, const char *name)
+{
+    enum role role = role_find(name);
+    if (role == ROLE_NONE || judge_makes_frames(role))
+        die_usage("--without %s: there are renderer, reporter, recorder", name);
+    plan->left_out[role] = true;
+}
+
+struct plan options_plan(int argc, char **argv)
+{
+    struct plan plan = {.world = "default", .threads = "1", .hang_ms = HANG_MS};
+    int option;
+    opterr = 0; /* we say it, in one line */
+    while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
+        const char **text = option == 'w'   ? &plan.world
+                            : option == 'o' ? &plan.out
+                            : option == 'l' ? &plan.log
+                            : option == 'r' ? &plan.ready
+                            : option == 'm' ? &plan.commands
+                            : option == 'e' ? &plan.events
+                            : option == 'c' ? &plan.checkpoint
+                            : option == 'n' ? &plan.every
+                            : option == 't' ? &plan.threads
+                                            : NULL;
+        if (text)
+            *text = optarg;
+        else if (option == 'x')
+            leave_out(&plan, optarg);
+        else if (option == 'H')
+            plan.hang_ms = process_whole("hang-ms", optarg, 20, 3600000);
+        else if (option == 'b')
+            plan.background = true;
+        else if (option == 'j')
+            plan.json = true;
+        else if (option == 's')
+            plan.sandbox_off = true;
+        else
+            die_usage("%s: no such option; jolon-keeper is started by jolon", argv[optind - 1]);
+    }
+    if (!plan.out || !plan.log || !plan.commands || optind < argc)
+        die_usage("jolon-keeper is started by jolon, with --out, --log and --commands");
+    return plan;
+}

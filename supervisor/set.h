@@ -1,0 +1,90 @@
+/* The set: the processes that keep a world going, and what the keeper knows of each.
+ *
+ * Only the keeper's one thread uses it. A role is kept by one process, a frame role by two once the
+ * set is up: one holds the role's lock, the other stands by for it, so that the kernel itself hands
+ * the role over at the moment the holder is dead. */
+#ifndef JOLON_SUPERVISOR_SET_H
+#define JOLON_SUPERVISOR_SET_H
+
+#include "ipc/segment.h"
+#include "supervisor/judge.h"
+
+#define SET_CHILDREN 2
+
+/* What the set is started with; strings are the command line's. */
+struct plan {
+    const char *world, *out, *log, *ready;
+    const char *commands, *events, *checkpoint, *every;
+    const char *threads;
+    uint64_t hang_ms;
+    bool left_out[ROLE_COUNT];
+    bool background, json, sandbox_off;
+};
+
+/* A child process. */
+struct child {
+    int pid;        /* 0: none */
+    bool was_ready; /* it had the role and was up when last looked at */
+    bool hung;      /* killed by us because it hung */
+    uint64_t spawned_ns;
+    uint64_t frame_at_start;
+    uint64_t stopped_ns; /* since when a signal keeps it stopped, 0: it is not */
+};
+
+/* A role and who keeps it. */
+struct post {
+    enum role role;
+    struct child child[SET_CHILDREN];
+    int wanted;           /* children: 0 when the set goes on without the role */
+    uint64_t spawn_at_ns; /* not before */
+    struct history history;
+    uint64_t beat_ns; /* the last one seen, and the processor time used until then */
+    uint64_t beat_used_ns;
+};
+
+struct set {
+    const struct plan *plan;
+    char folder[256]; /* of the programs */
+    struct view view;
+    struct post post[ROLE_COUNT];
+    int log_fd;
+};
+
+/* Finds the programs' folder, opens the log, attaches to the world. 0, or -1 with the reason. */
+int set_open(struct set *set, const struct plan *plan, struct reason *reason);
+
+/* Starts what is wanted, due and not there. A process that cannot be started is tried again. */
+void set_spawn(struct set *set, uint64_t now_ns);
+
+/* Is the role's slot held and ready, by a child of this set? */
+bool set_ready(struct set *set, enum role role);
+
+/* Has the post a child that lives and is not stopped? */
+bool set_kept(const struct post *post);
+
+/* The post and child of a pid; NULL when it is none of ours. */
+struct post *set_find(struct set *set, int pid, struct child **child);
+
+/* Our process that has the role, NULL when none of ours has it. */
+struct child *set_holder(struct set *set, enum role role);
+
+/* Ends a role's processes: SIGTERM, after some seconds SIGKILL, and waits for their deaths. The
+ * holder's exit status as a shell has it; 0 when there was none. */
+int set_stop(struct set *set, enum role role);
+
+/* SIGKILL to a role's processes, and waits for their deaths. */
+void set_kill(struct set *set, enum role role);
+
+/* Runs one of the programs to its end. Its output goes to the log, or where ours goes. The exit
+ * status as a shell has it. */
+int set_run(const struct set *set, const char *program, const char *const *arguments, bool to_log);
+
+uint64_t set_frame(const struct set *set);
+
+/* May something be written to standard error without waiting for who reads it? */
+bool set_heard(void);
+
+/* One line to the log and, in the foreground, to standard error. */
+void set_note(const struct set *set, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

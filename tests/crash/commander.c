@@ -1,0 +1,58 @@
+/* A writer of commands. */
+#include "tests/crash/commander.h"
+
+#include "ipc/clock.h"
+#include "ipc/frame.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+#include "ipc/snapshot.h"
+
+#include <errno.h>
+#include <string.h>
+
+#define SOURCE  77
+#define LOOK_NS (NS_PER_MS / 5)
+
+/* The fast time scale makes each frame that follows late. */
+static const struct command list[] = {
+    {.type = COMMAND_PAUSE},
+    {.type = COMMAND_FIRE, .entity = 2, .target = 3},
+    {.type = COMMAND_STEP, .amount = 3},
+    {.type = COMMAND_SCALE, .value = {100.0}},
+    {.type = COMMAND_STEP, .amount = 4},
+    {.type = COMMAND_QUIT},
+};
+
+#define COMMANDS (sizeof list / sizeof list[0])
+
+/* Waits until the world has taken so many commands and stands. */
+static void settle(const struct view *view, uint64_t taken)
+{
+    struct state_head head;
+    while (!frame_finished(view)) {
+        if (snapshot_head(&head, view) == 0 && head.command_cursor[RING_REPORTER] >= taken &&
+            head.paused && head.steps_left == 0)
+            return;
+        clock_sleep_until_ns(clock_now_ns() + LOOK_NS);
+    }
+}
+
+int commander_main(const char *world)
+{
+    struct view view;
+    struct reason reason;
+    log_open("commander");
+    if (segment_attach(&view, world, ROLE_REPORTER, &reason) != 0)
+        die_refused("%s", reason.text);
+    segment_ready(&view);
+    for (uint64_t i = 0; i < COMMANDS; i++) {
+        struct command command = list[i];
+        command.source = SOURCE;
+        command.source_sequence = i + 1;
+        if (command_put(&view, RING_REPORTER, &command) != 0 && errno != EEXIST)
+            die_refused("command %llu: %s", (unsigned long long)i, strerror(errno));
+        settle(&view, i + 1);
+    }
+    segment_detach(&view);
+    return EXIT_OK;
+}

@@ -1,0 +1,393 @@
+/* One run: a world, its processes, their small parent. */
+#include "tests/crash/trial.h"
+
+#include "ipc/clock.h"
+#include "ipc/snapshot.h"
+#include "tests/support/child.h"
+#include "tests/support/fixture.h"
+#include "tests/support/named_world.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <limits.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define TIME_OUT_NS (60 * (uint64_t)NS_PER_S)
+#define LOOK_NS     (NS_PER_MS / 5)
+
+static char folder[64], self[PATH_MAX - 64], bin[PATH_MAX - 32];
+
+/* --- the folder and plans ----------------------------------------------------------------------*/
+
+void trial_open(void)
+{
+    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    assert_true(length > 0);
+    snprintf(bin, sizeof bin, "%.*s/../../bin", (int)(strrchr(self, '/') - self), self);
+    snprintf(folder, sizeof folder, "/tmp/jolon-crash-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+}
+
+static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *walk)
+{
+    (void)status, (void)type, (void)walk;
+    return remove(path);
+}
+
+void trial_close(void)
+{
+    assert_int_equal(nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS), 0);
+}
+
+void trial_path(char *path, size_t bytes, const char *name)
+{
+    assert_true(snprintf(path, bytes, "%s/%s", folder, name) < (int)bytes);
+}
+
+void plan_make(struct plan *plan, const char *text, uint32_t event_slots)
+{
+    char message[512];
+    *plan = (struct plan){0};
+    fixture_scenario(&plan->scenario, text);
+    struct params *params = &plan->scenario.params;
+    params->event_slots = event_slots;
+    params->events_per_frame = event_slots / 2;
+    params->intents_per_frame = event_slots / 4;
+    params->crater_slots = params->dent_slots = params->command_slots = 64;
+    if (genesis_build(&plan->genesis, &plan->scenario, message, sizeof message) != 0)
+        fail_msg("the test's world is refused: %s", message);
+}
+
+void plan_free(struct plan *plan)
+{
+    genesis_free(&plan->genesis);
+    scenario_free(&plan->scenario);
+}
+
+void plan_publish(const struct plan *plan, char name[SEGMENT_NAME_MAX])
+{
+    named_world_name(name);
+    named_world_publish(name, &plan->scenario, &plan->genesis);
+}
+
+/* --- processes ---------------------------------------------------------------------------------*/
+
+struct start {
+    const char *const *argv;
+    const struct death *death;
+    const char *count;
+};
+
+static int exec_program(void *context)
+{
+    const struct start *start = context;
+    char program[PATH_MAX], path[PATH_MAX], order[128];
+    bool own = strchr(start->argv[0], '/') != NULL;
+    snprintf(program, sizeof program, "%s%s%s", own ? "" : bin, own ? "" : "/", start->argv[0]);
+    if (start->death) {
+        snprintf(order, sizeof order, "%s:%s:%llu", start->death->role, start->death->point,
+                 (unsigned long long)start->death->crossing);
+        setenv("JOLON_CRASH", order, 1);
+    }
+    if (start->count) {
+        snprintf(path, sizeof path, "%s/%s", folder, start->count);
+        setenv("JOLON_CRASH_COUNT", path, 1);
+    }
+    snprintf(path, sizeof path, "%s/said", folder);
+    int said = open(path, O_WRONLY | O_CREAT | O_APPEND, 0600);
+    if (said < 0 || dup2(said, STDOUT_FILENO) < 0 || dup2(said, STDERR_FILENO) < 0)
+        return 126;
+    char *argv[16] = {NULL};
+    for (int i = 0; start->argv[i] && i < 15; i++)
+        argv[i] = (char *)(uintptr_t)start->argv[i];
+    execv(program, argv);
+    return 127;
+}
+
+pid_t trial_start(const char *const argv[], const struct death *death, const char *count)
+{
+    struct start start = {argv, death, count};
+    return child_start(exec_program, &start);
+}
+
+enum { COLLIDER, RECORDER, COMMANDER, MOVER, STAND_BY, PROCESSES };
+
+struct trial {
+    struct ending *ending;
+    const struct plan *plan;
+    char name[SEGMENT_NAME_MAX], log[PATH_MAX], commands[PATH_MAX];
+    struct view view; /* a reader's */
+    struct process {
+        const char *role;
+        bool wanted, begun, done;
+        const struct death *order; /* for its next start */
+        bool ordered;              /* the one that runs is to die */
+        const char *count;
+        pid_t pid;
+        pid_t told; /* to stop */
+    } process[PROCESSES];
+};
+
+/* Who is wanted, and who is to die. */
+static void cast(struct trial *trial, const struct death *death, const char *count)
+{
+    const struct death *first = trial->plan->first_death;
+    struct process *process = trial->process;
+    process[COLLIDER] = (struct process){.role = "collider", .wanted = true};
+    process[RECORDER] = (struct process){.role = "recorder", .wanted = true};
+    process[COMMANDER] = (struct process){.role = "commander", .wanted = trial->plan->commands};
+    process[MOVER] = (struct process){.role = "mover", .wanted = true};
+    process[STAND_BY] = (struct process){.role = first ? first->role : "", .wanted = first != NULL};
+    for (int i = 0; i < PROCESSES; i++) {
+        const struct death *order = first && i != STAND_BY ? first : death;
+        if (order && strcmp(order->role, process[i].role) == 0)
+            process[i].order = order;
+        if (!first || i == STAND_BY)
+            process[i].count = count;
+    }
+}
+
+static void start(struct trial *trial, int which)
+{
+    struct process *process = &trial->process[which];
+    const char *stage = strcmp(process->role, "mover") == 0 ? "jolon-mover" : "jolon-collider";
+    const char *const argv[PROCESSES][8] = {
+        [COLLIDER] = {"jolon-collider", "--world", trial->name},
+        [RECORDER] = {"jolon-recorder", "--world", trial->name, "--events", trial->log,
+                      "--commands", trial->commands},
+        [COMMANDER] = {self, "commander", trial->name},
+        [MOVER] = {"jolon-mover", "--world", trial->name},
+        [STAND_BY] = {stage, "--stand-by", "--world", trial->name},
+    };
+    process->begun = true;
+    process->ordered = process->order != NULL;
+    process->pid = trial_start(argv[which], process->order, process->count);
+    process->order = NULL;
+}
+
+/* Who died as told is started anew, but for the first, for whom another stands by. */
+static void ended(struct trial *trial, int which, int status)
+{
+    struct process *process = &trial->process[which];
+    struct ending *ending = trial->ending;
+    bool first = trial->plan->first_death && which != STAND_BY;
+    process->pid = 0;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+        process->done = true;
+    } else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL && process->ordered) {
+        process->done = first;
+        ending->died |= !first;
+        if (!first)
+            start(trial, which);
+    } else {
+        snprintf(ending->refused, sizeof ending->refused, "the %s ends with %s %d", process->role,
+                 WIFEXITED(status) ? "exit code" : "signal",
+                 WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status));
+    }
+}
+
+/* Is the process up, in its role? */
+static bool is_ready(const struct trial *trial, int which)
+{
+    const struct process *process = &trial->process[which];
+    const struct role_slot *slot = trial->view.slot[role_find(process->role)];
+    return process->pid != 0 && (pid_t)atomic_load(&slot->pid) == process->pid &&
+           atomic_load(&slot->state) == ROLE_READY;
+}
+
+static bool is_over(const struct trial *trial, int which)
+{
+    return trial->process[which].done || !trial->process[which].wanted;
+}
+
+/* The mover comes when there is something to command it, who stands by when there is somebody to
+ * stand by for, the recorder's end when all is over. */
+static void advance(struct trial *trial)
+{
+    struct process *process = trial->process;
+    bool commanded = !trial->plan->commands || atomic_load(&trial->view.commands[0]->head) > 0;
+    int first = strcmp(process[STAND_BY].role, "mover") == 0 ? MOVER : COLLIDER;
+    if (!process[MOVER].begun && commanded)
+        start(trial, MOVER);
+    if (process[STAND_BY].wanted && !process[STAND_BY].begun &&
+        (process[first].done || is_ready(trial, first)))
+        start(trial, STAND_BY);
+    if (!is_over(trial, MOVER) || !is_over(trial, COLLIDER) || !is_over(trial, STAND_BY))
+        return;
+    if (!process[RECORDER].begun)
+        start(trial, RECORDER);
+    if (process[RECORDER].pid != process[RECORDER].told && is_ready(trial, RECORDER)) {
+        process[RECORDER].told = process[RECORDER].pid;
+        kill(process[RECORDER].pid, SIGTERM);
+    }
+}
+
+static bool all_over(const struct trial *trial)
+{
+    for (int i = 0; i < PROCESSES; i++) {
+        if (!is_over(trial, i))
+            return false;
+    }
+    return true;
+}
+
+static void reap(struct trial *trial)
+{
+    for (int i = 0; i < PROCESSES; i++) {
+        pid_t pid = trial->process[i].pid;
+        int status;
+        if (pid > 0 && waitpid(pid, &status, WNOHANG) == pid)
+            ended(trial, i, status);
+    }
+}
+
+static void parent(struct trial *trial)
+{
+    uint64_t until = clock_now_ns() + TIME_OUT_NS;
+    start(trial, COLLIDER);
+    if (!trial->plan->late_recorder)
+        start(trial, RECORDER);
+    if (trial->plan->commands)
+        start(trial, COMMANDER);
+    while (!all_over(trial) && trial->ending->refused[0] == '\0') {
+        advance(trial);
+        reap(trial);
+        if (clock_now_ns() > until)
+            snprintf(trial->ending->refused, sizeof trial->ending->refused,
+                     "the run does not end: frame %llu",
+                     (unsigned long long)atomic_load(&trial->view.commit->commit));
+        clock_sleep_until_ns(clock_now_ns() + LOOK_NS);
+    }
+    for (int i = 0; i < PROCESSES; i++) {
+        if (trial->process[i].pid > 0)
+            child_kill(trial->process[i].pid);
+    }
+}
+
+/* --- what a run comes to -----------------------------------------------------------------------*/
+
+static void read_log(struct ending *ending, const char *path)
+{
+    int fd = open(path, O_RDONLY);
+    ssize_t length = fd < 0 ? -1 : read(fd, ending->log, sizeof ending->log);
+    if (fd >= 0)
+        close(fd);
+    if (length < 0 || length == (ssize_t)sizeof ending->log)
+        snprintf(ending->refused, sizeof ending->refused, "the event log: %s",
+                 length < 0 ? strerror(errno) : "too long for this test");
+    else
+        ending->log_bytes = (size_t)length;
+}
+
+/* What does not differ from run to run: commands, gaps, the last line, which is the run's end. */
+static void read_commands(struct ending *ending, const char *path)
+{
+    char line[4096] = "";
+    size_t bytes = 0, room = sizeof ending->log - ending->log_bytes;
+    FILE *file = fopen(path, "r");
+    while (file && fgets(line, sizeof line, file) && bytes < room) {
+        if (strstr(line, "\"type\":\"command\"") || strstr(line, "\"type\":\"gap\""))
+            bytes +=
+                (size_t)snprintf(ending->log + ending->log_bytes + bytes, room - bytes, "%s", line);
+    }
+    if (bytes < room)
+        bytes +=
+            (size_t)snprintf(ending->log + ending->log_bytes + bytes, room - bytes, "%s", line);
+    if (!file || bytes >= room || !strstr(line, "\"type\":\"end\""))
+        snprintf(ending->refused, sizeof ending->refused, "the log of commands has no end");
+    else
+        ending->log_bytes += bytes;
+    if (file)
+        fclose(file);
+}
+
+static void take_result(struct trial *trial)
+{
+    struct ending *ending = trial->ending;
+    struct snapshot snapshot;
+    struct reason reason;
+    assert_int_equal(snapshot_init(&snapshot, &trial->view), 0);
+    if (snapshot_take(&snapshot, &trial->view) != 0) {
+        snprintf(ending->refused, sizeof ending->refused, "the last frame: %s", strerror(errno));
+    } else {
+        struct state state = snapshot_state(&snapshot, &trial->view);
+        ending->frame = snapshot.head.frame;
+        ending->digest = world_digest(&trial->view.world, &state);
+        ending->event_digest = snapshot.head.event_digest;
+    }
+    snapshot_free(&snapshot);
+    if (segment_verify(&trial->view, &reason) != 0)
+        snprintf(ending->refused, sizeof ending->refused, "%.*s", 200, reason.text);
+}
+
+/* What a recorder left that was killed in its first line. */
+static void tear_log(const char *path)
+{
+    static const char torn[] = "{\"frame\":1,\"ind";
+    int fd = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    assert_true(fd >= 0);
+    assert_int_equal(write(fd, torn, sizeof torn - 1), sizeof torn - 1);
+    assert_int_equal(close(fd), 0);
+}
+
+void trial_play(struct ending *ending, const struct plan *plan, const char *world,
+                const struct death *death, const char *count)
+{
+    struct trial trial = {.ending = ending, .plan = plan};
+    struct reason reason;
+    *ending = (struct ending){0};
+    cast(&trial, death, count);
+    snprintf(trial.name, sizeof trial.name, "%s", world);
+    trial_path(trial.log, sizeof trial.log, "events");
+    trial_path(trial.commands, sizeof trial.commands, "commands");
+    tear_log(trial.log);
+    if (segment_attach(&trial.view, world, ROLE_NONE, &reason) != 0)
+        fail_msg("%s", reason.text);
+    parent(&trial);
+    if (ending->refused[0] == '\0')
+        take_result(&trial);
+    if (ending->refused[0] == '\0')
+        read_log(ending, trial.log);
+    if (ending->refused[0] == '\0')
+        read_commands(ending, trial.commands);
+    segment_detach(&trial.view);
+}
+
+void trial_run(struct ending *ending, const struct plan *plan, const char *world,
+               const struct death *death, const char *count)
+{
+    struct reason reason;
+    trial_play(ending, plan, world, death, count);
+    if (segment_remove(world, false, &reason) != 0)
+        snprintf(ending->refused, sizeof ending->refused, "%.*s", 200, reason.text);
+    int left = named_world_leftovers();
+    if (left != 0)
+        snprintf(ending->refused, sizeof ending->refused, "%d files are left in /dev/shm", left);
+}
+
+const char *ending_differs(const struct ending *ending, const struct ending *calm)
+{
+    if (ending->refused[0] != '\0')
+        return ending->refused;
+    if (ending->frame != calm->frame)
+        return "it ends with another frame";
+    if (ending->digest != calm->digest)
+        return "its digest is another";
+    if (ending->event_digest != calm->event_digest)
+        return "its events' digest is another";
+    if (ending->log_bytes != calm->log_bytes ||
+        memcmp(ending->log, calm->log, calm->log_bytes) != 0)
+        return "its log of events or of commands is another";
+    return NULL;
+}

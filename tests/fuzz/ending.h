@@ -1,0 +1,21 @@
+/* Code that ends the process with one line when it refuses something, run by a harness that goes
+ * on. Linked with --wrap=exit (see the Makefile).
+ *
+ *     if (ENDING_CATCH() == 0)
+ *         may_call_exit();
+ *     ending_done();
+ */
+#ifndef JOLON_TESTS_FUZZ_ENDING_H
+#define JOLON_TESTS_FUZZ_ENDING_H
+
+#include <setjmp.h>
+
+extern jmp_buf ending;
+
+/* From here to ending_done() exit() comes back here, with a value that is not 0. */
+#define ENDING_CATCH() (ending_begin(), setjmp(ending))
+
+void ending_begin(void);
+void ending_done(void);
+
+#endif

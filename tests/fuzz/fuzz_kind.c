@@ -1,0 +1,17 @@
+/* Kind files, beside the few that support.c has. */
+#include "tests/fuzz/support.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    struct loader_message message;
+    struct scenario scenario;
+    support_put("kinds/k.cfg", data, size);
+    if (loader_scenario(&scenario, support_data_dir(), support_file("", 0), NULL, 0, &message) !=
+        0) {
+        support_check_message(&message);
+        return 0;
+    }
+    support_check_scenario(&scenario);
+    scenario_free(&scenario);
+    return 0;
+}

@@ -1,0 +1,80 @@
+/* Scenario files and --set: read, checked, and what passed made into a world when it is small. */
+#include "tests/fuzz/support.h"
+
+#include "config/literals.h"
+#include "ipc/log.h"
+#include "ipc/segment.h"
+#include "world/genesis.h"
+#include "world/square.h"
+
+#include <string.h>
+
+#define OVERRIDES_MAX 8
+#define OVERRIDE_MARK "#--set "
+
+/* Lines at the beginning that the parser takes for comments are overrides: "#--set KEY=VALUE". */
+static int take_overrides(char *text, const char *overrides[OVERRIDES_MAX], const char **rest)
+{
+    int count = 0;
+    while (count < OVERRIDES_MAX && strncmp(text, OVERRIDE_MARK, strlen(OVERRIDE_MARK)) == 0) {
+        char *end = text + strcspn(text, "\n");
+        overrides[count++] = text + strlen(OVERRIDE_MARK);
+        text = *end == '\0' ? end : end + 1;
+        *end = '\0';
+    }
+    *rest = text;
+    return count;
+}
+
+/* The shipped sizes would take seconds. */
+static bool is_small(const struct scenario *scenario)
+{
+    return scenario->terrain == TERRAIN_FLAT && scenario->objects != OBJECTS_TABLE1 &&
+           scenario->spacing_m > 100.0 && scenario->params.capacity <= 4096 &&
+           scenario->params.initial_entities <= 64;
+}
+
+static void make_world(const struct scenario *scenario)
+{
+    struct genesis genesis;
+    struct layout layout;
+    char text[512] = "";
+    if (genesis_build(&genesis, scenario, text, sizeof text) != 0) {
+        CHECK(text[0] != '\0');
+        return;
+    }
+    struct segment_header header = segment_header_for(&scenario->params, &genesis.counts);
+    CHECK(layout_compute(&layout, &header) == 0);
+    CHECK(genesis.used == scenario->params.initial_entities);
+    for (uint32_t i = 0; i < genesis.used; i++) {
+        CHECK(genesis.first.x[i] >= 0.0 && genesis.first.x[i] <= WORLD_SIDE_M);
+        CHECK(genesis.first.z[i] >= 0.0 && genesis.first.z[i] <= WORLD_SIDE_M);
+        CHECK(genesis.first.y[i] >= -1e5 && genesis.first.y[i] <= 1e5);
+    }
+    genesis_free(&genesis);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static char text[65536];
+    static const struct scenario empty;
+    const char *overrides[OVERRIDES_MAX], *rest;
+    struct loader_message message;
+    struct scenario scenario;
+    if (size >= sizeof text)
+        return 0;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    int count = take_overrides(text, overrides, &rest);
+    const char *path = support_file(rest, size - (size_t)(rest - text));
+    if (loader_scenario(&scenario, support_data_dir(), path, overrides, count, &message) != 0) {
+        support_check_message(&message);
+        CHECK(memcmp(&scenario, &empty, sizeof empty) == 0);
+        return 0;
+    }
+    support_check_scenario(&scenario);
+    if (is_small(&scenario))
+        make_world(&scenario);
+    scenario_free(&scenario);
+    return 0;
+}

@@ -1,0 +1,118 @@
+/* Checksums that writers put together from pieces are those of the whole, in every frame of a busy
+ * world, on any number of threads: shots, spawns, removals, pauses. SEED=n chooses others. */
+#include "tests/support/fixture.h"
+#include "tests/support/steps.h"
+#include "world/checksum.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+/* A few that fire, each group in a piece of its own among many that do not, so that a piece that
+ * somebody forgets to hash again is not hashed for another's sake. */
+static const char scenario[] =
+#define HERD                                                                                       \
+    "{ kind = \"truck\"; count = 2100; behaviour = \"idle\";"                                      \
+    "  area = [0.0, 30000.0, 50000.0, 49000.0]; },"
+#define FIGHTERS(force)                                                                            \
+    "{ kind = \"tank\"; count = 3; force = \"" force "\"; fire_at_will = true;"                    \
+    "  area = [24000.0, 24000.0, 25500.0, 25500.0]; },"
+    "world = { seed = 5; capacity = 16384; };"
+    "vehicles = ("
+    "{ kind = \"tank\"; name = \"A\"; behaviour = \"idle\"; at = [2000.0, 2000.0]; }," HERD
+        FIGHTERS("blue") HERD FIGHTERS("red") HERD
+    "{ kind = \"jeep\"; at = [3000.0, 2000.0]; } );"
+    "fires = ( { at_s = 0.2; shooter = \"A\"; point = [2500.0, 2000.0]; },"
+    "{ at_s = 0.9; munition = \"artillery\"; point = [25100.0, 25100.0]; } );";
+
+#define FRAMES 120
+
+static struct command random_command(uint64_t *random, uint64_t number)
+{
+    static const enum command_type types[] = {COMMAND_SPAWN,  COMMAND_SPAWN,  COMMAND_REMOVE,
+                                              COMMAND_REMOVE, COMMAND_DRIVE,  COMMAND_FIRE,
+                                              COMMAND_PAUSE,  COMMAND_RESUME, COMMAND_RESUME};
+    struct command command = {.source = 1, .source_sequence = number};
+    command.type = types[fixture_random(random) % (sizeof types / sizeof types[0])];
+    command.entity = (uint32_t)(fixture_random(random) % 6400);
+    command.value[0] = command.value[1] = 25000.0;
+    if (command.type == COMMAND_DRIVE)
+        command.value[0] = command.value[1] = 0.5;
+    return command;
+}
+
+static void check_frames(uint32_t threads, uint64_t seed)
+{
+    struct fixture f;
+    uint32_t shots = 0;
+    fixture_open(&f, scenario);
+    fixture_threads(&f, threads);
+    for (uint64_t i = 0; i < FRAMES; i++) {
+        for (uint64_t n = fixture_random(&seed) % 8; n > 5; n--)
+            steps_send(&f, RING_CONSOLE, random_command(&seed, i * 4 + n));
+        fixture_run(&f, 1);
+        struct state now = fixture_state(&f);
+        if (f.view.m.head->checksum != moved_checksum(&f.view.m))
+            fail_msg("frame %d: the moved table, on %u threads", (int)now.head->frame, threads);
+        if (now.head->checksum != state_checksum(&now, f.view.header->counts.fixed))
+            fail_msg("frame %d: the world, on %u threads", (int)now.head->frame, threads);
+        shots = (uint32_t)now.head->tally.fires;
+    }
+    assert_true(shots > 5); /* or the test looks at nothing */
+    fixture_close(&f);
+}
+
+static void test_checksums_of_pieces_are_those_of_the_whole(void **state)
+{
+    uint64_t seed = fixture_seed(11);
+    (void)state;
+    check_frames(1, seed);
+    check_frames(3, seed);
+}
+
+/* The moved table's checksum covers its head, rows and intents. */
+static void test_every_part_of_the_moved_table_is_covered(void **state)
+{
+    struct fixture f;
+    uint64_t seed = fixture_seed(12);
+    (void)state;
+    fixture_open(&f, scenario);
+    do
+        fixture_run(&f, 1);
+    while (f.view.m.head->intent_count == 0);
+    const struct moved *m = &f.view.m;
+    uint64_t right = moved_checksum(m);
+    unsigned char *head = (unsigned char *)m->head;
+    head[offsetof(struct state_head, tick)] ^= 1;
+    assert_int_not_equal(moved_checksum(m), right);
+    head[offsetof(struct state_head, tick)] ^= 1;
+    m->head->mover_ns ^= 1; /* a time is no part of a result */
+    assert_int_equal(moved_checksum(m), right);
+    m->intents[m->head->intent_count - 1].bytes[95] ^= 1;
+    assert_int_not_equal(moved_checksum(m), right);
+    m->intents[m->head->intent_count - 1].bytes[95] ^= 1;
+#define X(type, name)                                                                              \
+    {                                                                                              \
+        unsigned char *cell =                                                                      \
+            (unsigned char *)&m->entities.name[fixture_random(&seed) % m->head->used];             \
+        cell[sizeof(type) - 1] ^= 0x80;                                                            \
+        assert_int_not_equal(moved_checksum(m), right);                                            \
+        cell[sizeof(type) - 1] ^= 0x80;                                                            \
+    }
+    ENTITY_COLUMNS(X)
+#undef X
+    assert_int_equal(moved_checksum(m), right);
+    fixture_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_checksums_of_pieces_are_those_of_the_whole),
+        cmocka_unit_test(test_every_part_of_the_moved_table_is_covered),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

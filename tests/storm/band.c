@@ -1,0 +1,332 @@
+/* Start, adoption and end of the set; whose process is whose. */
+#include "tests/storm/band.h"
+
+#include "ipc/clock.h"
+#include "ipc/process.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define START_LIMIT_S 60
+#define START_TRIES   20
+#define REST_NS       (20 * (uint64_t)NS_PER_S)
+#define BEAT_FRESH_NS (100 * (uint64_t)NS_PER_MS)
+#define LEFT_NS       (3 * (uint64_t)NS_PER_S)
+#define PARENTS_MAX   4
+#define CHILDREN_MAX  64
+
+extern char **environ;
+
+/* --- processes ---------------------------------------------------------------------------------*/
+
+static int parent_of(int pid)
+{
+    char path[64], line[512];
+    int parent = 0;
+    snprintf(path, sizeof path, "/proc/%d/stat", pid);
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return 0;
+    size_t length = fread(line, 1, sizeof line - 1, file);
+    fclose(file);
+    line[length] = '\0';
+    const char *end = strrchr(line, ')'); /* pid (name) state parent */
+    if (end && strlen(end) > 4)
+        parent = (int)strtol(end + 4, NULL, 10);
+    return parent;
+}
+
+static bool descends(int pid, int ancestor)
+{
+    for (int i = 0; i < PARENTS_MAX && pid > 1; i++) {
+        pid = parent_of(pid);
+        if (pid == ancestor)
+            return true;
+    }
+    return false;
+}
+
+/* A number may be given to another process between two looks at it; a pidfd is of one process for
+ * ever. What is verified while the pidfd is open and found alive afterwards is that one. */
+static int pin(int pid, int ancestor)
+{
+    if (pid <= 1 || ancestor <= 0)
+        return -1;
+    int pidfd = (int)syscall(SYS_pidfd_open, pid, 0);
+    if (pidfd < 0)
+        return -1;
+    char state = process_state(pid);
+    if (descends(pid, ancestor) && state != 'Z' && state != 'X' && band_signal(pidfd, 0))
+        return pidfd;
+    close(pidfd);
+    return -1;
+}
+
+int band_pin(const struct band *band, int pid)
+{
+    return pin(pid, band->supervisor);
+}
+
+int band_pin_supervisor(const struct band *band)
+{
+    return pin(band->supervisor, (int)getpid());
+}
+
+bool band_signal(int pidfd, int signal_number)
+{
+    return syscall(SYS_pidfd_send_signal, pidfd, signal_number, NULL, 0) == 0;
+}
+
+int band_children(int pid, int *children, int max)
+{
+    char path[64];
+    int count = 0;
+    snprintf(path, sizeof path, "/proc/%d/task", pid);
+    DIR *tasks = opendir(path);
+    if (!tasks)
+        return 0;
+    for (struct dirent *entry = readdir(tasks); entry; entry = readdir(tasks)) {
+        char list[128];
+        if (entry->d_name[0] == '.')
+            continue;
+        snprintf(list, sizeof list, "/proc/%d/task/%.16s/children", pid, entry->d_name);
+        FILE *file = fopen(list, "r");
+        while (file && count < max && fscanf(file, "%d", &children[count]) == 1)
+            count++;
+        if (file)
+            fclose(file);
+    }
+    closedir(tasks);
+    return count;
+}
+
+void band_reap(void)
+{
+    while (waitpid(-1, NULL, WNOHANG) > 0)
+        continue;
+}
+
+static int wait_for(pid_t pid, unsigned limit_s)
+{
+    uint64_t until = clock_now_ns() + limit_s * (uint64_t)NS_PER_S;
+    int status = 0;
+    while (waitpid(pid, &status, WNOHANG) == 0) {
+        if (clock_now_ns() > until) {
+            kill(pid, SIGKILL);
+            waitpid(pid, &status, 0);
+            return -1;
+        }
+        clock_sleep_until_ns(clock_now_ns() + NS_PER_MS);
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/* The whole of what a file holds from its start, as text; what is beyond bytes is left out. */
+static void read_back(int fd, char *text, size_t bytes)
+{
+    ssize_t length = pread(fd, text, bytes - 1, 0);
+    text[length > 0 ? length : 0] = '\0';
+}
+
+int band_run(const char *const *arguments, char *text, size_t bytes, unsigned limit_s)
+{
+    posix_spawn_file_actions_t actions;
+    pid_t pid;
+    int fd = memfd_create("output", MFD_CLOEXEC); /* no pipe: nobody waits for its other end */
+    if (fd < 0)
+        return -1;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, fd, STDOUT_FILENO);
+    int error = posix_spawn(&pid, arguments[0], &actions, NULL, (char *const *)(uintptr_t)arguments,
+                            environ);
+    posix_spawn_file_actions_destroy(&actions);
+    int code = error == 0 ? wait_for(pid, limit_s) : -1;
+    if (text)
+        read_back(fd, text, bytes);
+    close(fd);
+    return code;
+}
+
+/* --- the set -----------------------------------------------------------------------------------*/
+
+/* Pid that the world's lock file holds, 0 when it holds none. */
+static int supervisor_of(const char *world)
+{
+    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    int pid = 0;
+    segment_paths(world, shm, lock);
+    FILE *file = fopen(lock, "r");
+    if (!file)
+        return 0;
+    if (fscanf(file, "%d", &pid) != 1)
+        pid = 0;
+    fclose(file);
+    return pid;
+}
+
+static int start_once(const struct band *band)
+{
+    const struct storm_options *options = band->options;
+    char program[STORM_PATH_MAX], events[STORM_PATH_MAX];
+    const char *arguments[24];
+    int n = 0;
+    snprintf(program, sizeof program, "%s/jolon", options->bin);
+    snprintf(events, sizeof events, "%s/events.log", options->out);
+    arguments[n++] = program;
+    arguments[n++] = "start";
+    arguments[n++] = "-w";
+    arguments[n++] = options->world;
+    arguments[n++] = "--out";
+    arguments[n++] = options->out;
+    arguments[n++] = "--events";
+    arguments[n++] = events;
+    if (!options->renderer) {
+        arguments[n++] = "--without";
+        arguments[n++] = "renderer";
+    }
+    if (options->commands == 0) {
+        arguments[n++] = "--without";
+        arguments[n++] = "reporter";
+    }
+    arguments[n++] = options->scenario;
+    arguments[n] = NULL;
+    char said[256];
+    return band_run(arguments, said, sizeof said, START_LIMIT_S);
+}
+
+/* What the killed supervisor left may hold locks until the kernel is through with it. */
+static int start(struct band *band, struct reason *reason)
+{
+    int code = 1;
+    for (int tries = 0; tries < START_TRIES && code != 0 && !process_stopping(); tries++) {
+        if (tries > 0) {
+            band->starts_refused++;
+            clock_sleep_until_ns(clock_now_ns() + 50 * (uint64_t)NS_PER_MS);
+        }
+        code = start_once(band);
+    }
+    if (code != 0)
+        return reason_set(reason, "`jolon start` of world \"%s\" ended with %d, %d times",
+                          band->options->world, code, START_TRIES);
+    band->starts++;
+    band->supervisor = supervisor_of(band->options->world);
+    int pidfd = band_pin_supervisor(band);
+    if (pidfd < 0)
+        return reason_set(reason,
+                          "the supervisor of world \"%s\" (pid %d) is not alive or not ours",
+                          band->options->world, (int)band->supervisor);
+    close(pidfd);
+    band->descriptors = 0;
+    return 0;
+}
+
+int band_start(struct band *band, const struct storm_options *options, struct reason *reason)
+{
+    *band = (struct band){.options = options};
+    if (start(band, reason) != 0)
+        return -1;
+    return segment_attach(&band->view, options->world, ROLE_NONE, reason);
+}
+
+int band_adopt(struct band *band, struct reason *reason)
+{
+    return start(band, reason);
+}
+
+int band_stop(struct band *band)
+{
+    char program[STORM_PATH_MAX];
+    snprintf(program, sizeof program, "%s/jolon", band->options->bin);
+    const char *arguments[] = {program, "stop", "-w", band->options->world, NULL};
+    char said[256];
+    int code = band_run(arguments, said, sizeof said, START_LIMIT_S);
+    band->supervisor = 0;
+    return code;
+}
+
+static bool rests(const struct view *view, enum role role, uint64_t now)
+{
+    const struct role_slot *slot = view->slot[role];
+    return atomic_load(&slot->state) == ROLE_READY &&
+           now - atomic_load(&slot->beat_ns) < BEAT_FRESH_NS;
+}
+
+bool band_rest(const struct band *band)
+{
+    uint64_t until = clock_now_ns() + REST_NS;
+    int roles = STRUCK_ROLES;
+    for (;;) {
+        uint64_t now = clock_now_ns();
+        int resting = 0;
+        for (int role = 0; role < roles; role++) {
+            bool there = atomic_load(&band->view.slot[role]->starts) > 0;
+            resting += !there || rests(&band->view, (enum role)role, now);
+        }
+        if (resting == roles)
+            return true;
+        if (now > until || process_stopping())
+            return false;
+        clock_sleep_until_ns(now + 5 * (uint64_t)NS_PER_MS);
+    }
+}
+
+void band_count_descriptors(struct band *band)
+{
+    char path[64];
+    int count = 0;
+    snprintf(path, sizeof path, "/proc/%d/fd", (int)band->supervisor);
+    DIR *directory = opendir(path);
+    if (!directory)
+        return;
+    while (readdir(directory))
+        count++;
+    closedir(directory);
+    if (band->descriptors == 0)
+        band->descriptors = count;
+    else if (count - band->descriptors > band->descriptors_over)
+        band->descriptors_over = count - band->descriptors;
+}
+
+/* --- what is left ------------------------------------------------------------------------------*/
+
+int band_processes_left(void)
+{
+    uint64_t until = clock_now_ns() + LEFT_NS;
+    int children[CHILDREN_MAX];
+    for (;;) {
+        band_reap();
+        int count = band_children((int)getpid(), children, CHILDREN_MAX);
+        if (count == 0 || clock_now_ns() > until)
+            return count;
+        clock_sleep_until_ns(clock_now_ns() + 10 * (uint64_t)NS_PER_MS);
+    }
+}
+
+int band_files_left(const struct storm_options *options)
+{
+    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    int count = 0;
+    segment_paths(options->world, shm, lock);
+    const char *name = strrchr(shm, '/') + 1;
+    DIR *directory = opendir("/dev/shm");
+    if (!directory)
+        return 0;
+    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
+        size_t length = strlen(name);
+        count += strncmp(entry->d_name, name, length) == 0 &&
+                 (entry->d_name[length] == '\0' || entry->d_name[length] == '.');
+    }
+    closedir(directory);
+    return count;
+}

@@ -1,0 +1,43 @@
+/* Frames whose every value follows from their number. */
+#include "tests/support/told_frame.h"
+
+static uint64_t value_of(uint64_t frame, uint32_t row)
+{
+    return frame * 2654435761u + row;
+}
+
+void told_frame_fill(struct state_head *head, struct entities *entities, uint32_t rows)
+{
+    uint64_t frame = head->frame;
+    head->used = rows;
+    head->tick = frame * 3;
+    head->event_digest = value_of(frame, rows);
+    head->tally.spawns_refused = frame;
+    for (uint32_t i = 0; i < rows; i++) {
+#define X(type, name) entities->name[i] = (type)(value_of(frame, i) & 0xffff);
+        ENTITY_COLUMNS(X)
+#undef X
+    }
+}
+
+bool told_frame_head(const struct state_head *head)
+{
+    uint64_t frame = head->frame;
+    return frame == 0 ||
+           (head->tick == frame * 3 && head->event_digest == value_of(frame, head->used) &&
+            head->tally.spawns_refused == frame);
+}
+
+bool told_frame_rows(const struct state_head *head, const struct entities *entities)
+{
+    if (head->frame == 0)
+        return true;
+    for (uint32_t i = 0; i < head->used; i++) {
+#define X(type, name)                                                                              \
+    if (entities->name[i] != (type)(value_of(head->frame, i) & 0xffff))                            \
+        return false;
+        ENTITY_COLUMNS(X)
+#undef X
+    }
+    return true;
+}

@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""Runs programs with their nth call failing, for test_failing.sh, in its folder. Prints TAP."""
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+
+bin_dir, name = os.environ["BIN"], os.environ["NAME"]
+samples = int(os.environ["SAMPLES"])
+rng = random.Random(int(os.environ["SEED"]))
+shm = f"/dev/shm/jolon.{os.getuid()}.{name}"
+number = 0
+
+HANGS = 1000  # in place of an exit code
+
+
+def program(what, *args):
+    return [f"{bin_dir}/jolon-{what}", *args]
+
+
+world = lambda verb, *args: program("world", verb, "--world", name, *args)
+
+
+def leftovers():
+    prefix = os.path.basename(shm)
+    return sorted(entry for entry in os.listdir("/dev/shm") if entry.startswith(prefix))
+
+
+def said(stderr):
+    """What a program said last: roles say first that they are there."""
+    return [line for line in stderr.decode(errors="replace").splitlines() if " info frame " not in line]
+
+
+def remove():
+    for entry in leftovers():
+        os.remove(f"/dev/shm/{entry}")
+
+
+def restore():
+    """The world as it was made, for the next try."""
+    shutil.copyfile("pristine", shm)
+    os.chmod(shm, 0o600)
+    open(shm + ".lock", "a").close()
+    os.chmod(shm + ".lock", 0o600)
+
+
+class Case:
+    """A program and what it needs: `before` each run, a `peer` beside it, `after` to look at what it did."""
+
+    def __init__(self, command, before=restore, peer=None, same_output=True, keeps_world=True, finish=None):
+        self.command, self.before, self.peer = command, before, peer
+        self.same_output, self.keeps_world, self.finish = same_output, keeps_world, finish
+
+    def run(self, fail):
+        self.before()
+        if os.path.exists("mark"):
+            os.remove("mark")
+        environment = dict(os.environ, LD_PRELOAD=os.environ["FAILING"], FAIL_CALL=fail, FAIL_MARK="mark")
+        peer = subprocess.Popen(self.peer, stderr=subprocess.DEVNULL) if self.peer else None
+        child = subprocess.Popen(self.command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        try:
+            if self.finish:
+                self.finish(child)
+            out, err = child.communicate(timeout=60)
+        except subprocess.TimeoutExpired:
+            child.kill()
+            child.communicate()
+            return HANGS, b"", []
+        finally:
+            for process in (child, peer):
+                if process and process.poll() is None:
+                    process.kill()
+                    process.wait()
+        return child.returncode, out, said(err)
+
+
+def judge(case, fail, right):
+    """None when all is well, else what is wrong; and whether the call was reached."""
+    code, out, lines = case.run(fail)
+    reached = os.path.exists("mark")
+    where = open("mark").read().strip() if reached else "not reached"
+    wrong = None
+    if code == 0:
+        if case.same_output and out != right:
+            wrong = "ends with 0 and another output"
+    elif code != 1:
+        wrong = "hangs" if code == HANGS else f"ends with {code}"
+    elif len(lines) != 1:
+        wrong = f"says {len(lines)} lines"
+    elif not lines[0].startswith("jolon-"):
+        wrong = "says no line of its own"
+    if not wrong and code == 1 and not case.keeps_world and leftovers():
+        wrong = f"leaves {leftovers()}"
+    return (f"{fail} at {where}: {wrong}: {lines}" if wrong else None), reached
+
+
+def count_calls(case, kind):
+    """How many calls of the class there are, to a factor of two or so."""
+    high = 1
+    while judge(case, f"{kind}:{high}", None)[1]:
+        high *= 2
+    return high
+
+
+def check(what, case, kinds):
+    global number
+    if os.environ.get("ONLY", what) not in what:
+        return
+    problems, tries = [], 0
+    code, right, lines = case.run("none:1")
+    if code != 0:
+        problems.append(f"undisturbed, it ends with {code}: {lines}")
+    for kind in kinds if not problems else []:
+        end = count_calls(case, kind)
+        numbers = list(range(1, min(end, samples) + 1))
+        if end > samples:
+            numbers += sorted(rng.randint(samples + 1, end) for _ in range(samples))
+        for n in numbers:
+            more = rng.choice(("", "+"))  # that call alone, or all from it on
+            problem, reached = judge(case, f"{kind}:{n}{more}", right)
+            tries += 1
+            if problem:
+                problems.append(problem)
+            if not reached and n <= samples:
+                break
+    number += 1
+    print(f"{'not ok' if problems else 'ok'} {number} - {what}: {tries} failing runs")
+    for problem in problems[:6]:
+        print(f"  {problem}"[:600])
+
+
+def until_logged(child):
+    """The recorder goes on for ever: it is asked to stop when it has everything, or gets no further."""
+    until = time.monotonic() + 5
+    while child.poll() is None and log_lines() < logged and time.monotonic() < until:
+        time.sleep(0.01)
+    if child.poll() is None:
+        child.send_signal(signal.SIGTERM)
+
+
+def log_lines():
+    return open("log", "rb").read().count(b"\n") if os.path.exists("log") else 0
+
+
+def no_log():
+    restore()
+    for log in ("log", "commands"):
+        if os.path.exists(log):
+            os.remove(log)
+
+
+everything = ["malloc", "mmap", "open", "read", "lock", "fallocate", "semaphore", "rename", "thread"]
+attaching = ["malloc", "mmap", "open", "lock"]
+stage = attaching + ["thread"]
+create = world("create", "--set", "world.frames=12", "good.cfg")
+check("create", Case(create, before=remove, keeps_world=False), everything)
+
+remove()
+subprocess.run(create, check=True, stdout=subprocess.DEVNULL)
+shutil.copyfile(shm, "pristine")
+collider, mover = program("collider", "--world", name), program("mover", "--world", name)
+threads = ["--threads", "3"]
+check("mover", Case(mover + threads, peer=collider), stage)
+check("collider", Case(collider + threads, peer=mover), stage)
+
+restore()
+peer = subprocess.Popen(collider, stderr=subprocess.DEVNULL)
+subprocess.run(mover, check=True, stderr=subprocess.DEVNULL)
+peer.wait()
+shutil.copyfile(shm, "pristine")
+for verb in (["check"], ["repair"], ["info", "--json"], ["digest"], ["dump"], ["dump", "--json"],
+             ["dump", "--fixed", "--json"], ["events"], ["events", "--json"]):
+    check(" ".join(verb), Case(world(*verb)), attaching)
+logged = len(subprocess.run(world("events", "--json"), capture_output=True).stdout.splitlines())
+recorder = program("recorder", "--world", name, "--commands", "commands", "--events", "log")
+check("recorder", Case(recorder, before=no_log, finish=until_logged), attaching + ["read"])
+check("remove", Case(world("remove")), attaching)
+remove()

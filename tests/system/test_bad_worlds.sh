@@ -1,0 +1,185 @@
+#!/usr/bin/env bash
+# Worlds that are not whole: flipped bits, wrong objects of the name, memory taken away. One line
+# each, and either the world goes on as if nothing had been or it is refused; nothing is left.
+. "$(dirname "$0")/lib.sh"
+
+shm=/dev/shm/jolon.$UID.$name
+cat >good.cfg <<'C'
+world = { seed = 3; capacity = 256; pace = "max"; };
+terrain = { source = "flat"; spacing_m = 125.0; };
+collision = { shape = "sphere"; };
+objects = ( { kind = "tree"; at = [25120.0, 25120.0]; } );
+vehicles = ( { kind = "tank"; count = 12; force = "blue"; fire_at_will = true; area = [25000.0, 25000.0, 25150.0, 25150.0]; },
+             { kind = "jeep"; count = 12; force = "red"; fire_at_will = true; area = [25100.0, 25100.0, 25300.0, 25300.0]; } );
+fires = ( { at_s = 0.5; munition = "artillery"; point = [25100.0, 25100.0]; } );
+C
+world() { "$bin/jolon-world" "$@"; }
+create() { world create --world "$name" "$@" good.cfg; }
+remove() { world remove --world "$name"; }
+
+# Runs the world's mover and collider to the end of the run, or until the mover refuses.
+roles() {
+    "$bin/jolon-collider" --world "$name" 2>>log &
+    local collider=$! status
+    "$bin/jolon-mover" --world "$name" 2>>log
+    status=$?
+    [ $status = 0 ] || kill $collider 2>/dev/null
+    wait $collider && return $status
+}
+
+# Like refuses of lib.sh, for a world that is there and stays.
+refused() {
+    local what=$1 pattern=$2 got
+    shift 2
+    "$@" >stdout 2>stderr </dev/null
+    got=$?
+    # A role says first that it is there.
+    grep -v ' info frame 0: ' stderr >said
+    mv said stderr
+    if [ $got = 1 ] && [ "$(wc -l <stderr)" = 1 ] && grep -Eq -- "$pattern" stderr; then ok "$what"; else
+        not_ok "$what"
+        echo "# exit $got, wanted 1 and $pattern"
+        sed 's/^/# /' stderr
+    fi
+}
+
+# flip OFFSET: one bit of the byte there.
+flip() {
+    python3 - "$shm" "$1" <<'P'
+import sys
+with open(sys.argv[1], "r+b", buffering=0) as world:
+    world.seek(int(sys.argv[2]))
+    byte = world.read(1)[0]
+    world.seek(int(sys.argv[2]))
+    world.write(bytes([byte ^ 16]))
+P
+}
+
+# Where the rows of the buffer of this frame are: searched for by its number, at a page's begin.
+buffer_of() {
+    python3 - "$shm" "$1" <<'P'
+import struct, sys
+data = open(sys.argv[1], "rb").read()
+frame = int(sys.argv[2])
+for at in range(0, len(data), 4096): # a head: frame, tick, ..., and not the commit word's page
+    words = struct.unpack_from("<4Q", data, at)
+    if words[0] == frame and words[1] == frame and words[3] != 0:
+        print(at + 512 + 64)
+        break
+P
+}
+
+# --- the undisturbed run --------------------------------------------------------------------------
+check "a good world is made" create --set world.frames=300
+check "and runs" roles
+right=$(world digest --world "$name")
+check "check finds it good" world check --world "$name"
+remove
+
+# --- bits of the body -----------------------------------------------------------------------------
+create --set world.frames=150 >/dev/null
+roles
+hash_at=$(buffer_of 150)
+check "the last frame's buffer is found" [ -n "$hash_at" ]
+flip "$hash_at"
+refused "check finds a flipped bit of the last frame" 'frame.* checksum.*repair' world check --world "$name"
+check "repair goes back a frame" world repair --world "$name"
+world repair --world "$name" >told 2>&1
+check "and then finds the world good" grep -q 'good at frame 149' told
+roles
+check "the frame is made again" equal "$(world frame --world "$name")" 150
+flip "$hash_at"
+flip "$(buffer_of 149)"
+refused "both buffers damaged: refused by their names" 'both buffers: .*world [AB].*world [AB]' world repair --world "$name"
+refused "adoption leaves such a world alone" 'both buffers.*jolon clean' create --set world.frames=150 --adopt
+check "it is still there" [ -e "$shm" ]
+remove
+
+# A set that died, a flipped bit, and the next start: the run ends as the undisturbed one did.
+"$jolon" run -w "$name" --frames 300 --set world.pace=real --without renderer --without reporter --out out good.cfg >/dev/null 2>&1 &
+run=$!
+far() { [ "$(world frame --world "$name")" -ge 60 ]; }
+eventually far
+kill -KILL $run
+wait $run 2>/dev/null
+unheld() { ! world pid --world "$name" mover && ! world pid --world "$name" collider; }
+check "the roles die with their supervisor" eventually unheld
+frame=$(world frame --world "$name")
+flip "$(buffer_of "$frame")"
+refused "a mover that takes over finds the flipped bit" "is damaged: frame $frame fails its checksum" "$bin/jolon-mover" --world "$name"
+"$jolon" run -w "$name" --frames 300 --set world.pace=real --without renderer --without reporter --out out good.cfg >stdout 2>told
+check "adoption says that it went back" grep -q "frame $frame fails its checksum.*goes on from frame $((frame - 1))" told
+check "and the run ends" grep -q 'digest' stdout
+check "with the digest of an undisturbed one" grep -q "digest ${right%% *}" stdout
+check "nothing is left" nothing_left "$name"
+
+# --- bits of the header and of what never changes -------------------------------------------------
+create >/dev/null
+flip 12
+refused "a flipped bit of the header is named" 'header\.header_bytes is damaged: it is [0-9]+ and was [0-9]+' world check --world "$name"
+refused "adoption refuses it" 'header\.header_bytes' create --adopt
+flip 12
+flip $((4096 + 48))
+refused "a flipped bit of the parameters is named" 'params\.scenario is damaged' world status --world "$name"
+flip $((4096 + 48))
+flip $((4096 * 2 + 100))
+refused "a flipped bit of the kinds is named" 'kinds' world check --world "$name"
+refused "and not repaired" 'kinds' world repair --world "$name"
+flip $((4096 * 2 + 100))
+check "put back, it is good" world check --world "$name"
+
+# --- objects that are no world --------------------------------------------------------------------
+chmod 644 "$shm"
+refused "another mode" 'mode 644' create --adopt
+chmod 600 "$shm"
+if [ "$UID" = 0 ]; then
+    chown 12345 "$shm"
+    refused "another owner" 'belongs to user 12345' create --adopt
+    chown 0 "$shm"
+else
+    skip "another owner" "only root can give a file away"
+fi
+truncate -s 4096 "$shm"
+refused "a shorter object" 'size 4096' create --adopt
+remove
+create >/dev/null
+truncate -s +4096 "$shm"
+refused "a longer object" 'size [0-9]+; its counts need' create --adopt
+remove
+create >/dev/null && mv "$shm" "$folder/elsewhere" && ln -s "$folder/elsewhere" "$shm"
+refused "a symbolic link" 'cannot open' create --adopt
+rm "$shm"
+mkdir "$shm"
+refused "a folder" 'no shared-memory object|cannot open' create --adopt
+rmdir "$shm"
+mkfifo "$shm"
+refused "a pipe" 'no shared-memory object' create --adopt
+rm "$shm"
+remove
+# What no build of Jolon can go on with makes room: it was never finished, or is another build's.
+head -c 100000 /dev/zero >"$shm"
+chmod 600 "$shm"
+check "an object without the magic makes room" create --adopt
+remove
+for kind in mkdir mkfifo 'ln -s /nonexistent'; do
+    $kind "$shm.lock"
+    refused "a lock that is no file ($kind)" '\.lock: (cannot open|is no plain file)' create
+    [ "$kind" = mkdir ] && rmdir "$shm.lock" || rm "$shm.lock"
+    check "leaves nothing" nothing_left "$name"
+done
+: >"$shm.new-999999999" # of a creator that was killed
+create >/dev/null
+check "what a killed creator left is swept" [ ! -e "$shm.new-999999999" ]
+remove
+
+# --- memory that goes away ------------------------------------------------------------------------
+"$jolon" run -w "$name" --set world.pace=real --without renderer --without reporter --out out good.cfg >stdout 2>told &
+run=$!
+eventually far
+truncate -s 0 "$shm"
+wait $run
+status=$?
+check "a set whose memory is taken away gives up" [ $status = 1 ] || [ $status = 3 ]
+check "and says so" grep -q 'memory went away' told out/jolon.log
+check "nothing is left" nothing_left "$name"
+done_testing

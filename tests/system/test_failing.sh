@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# No memory, no descriptor, no room: whatever call fails, a program ends with one clear line and exit
+# 1, or does without and gives the same result. tests/faults/failing.c makes the nth call of a class
+# fail; long rows of calls are sampled. SEED=n chooses others, SAMPLES=n more, ONLY=dump programs.
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/lib.sh"
+
+[ -z "${JOLON_SANITIZER-}" ] || { skip "failing calls" "a sanitizer has its own malloc"; done_testing; }
+failing=$bin/../tests/faults/failing.so
+[ -e "$failing" ] || { skip "failing calls" "make test builds what makes them fail"; done_testing; }
+SEED=${SEED:-$RANDOM}
+echo "# SEED=$SEED"
+cat >good.cfg <<'C'
+world = { seed = 3; capacity = 64; pace = "max"; };
+terrain = { source = "flat"; spacing_m = 125.0; };
+collision = { shape = "sphere"; };
+objects = ( { kind = "tree"; at = [25120.0, 25120.0]; } );
+vehicles = ( { kind = "tank"; count = 3; force = "blue"; fire_at_will = true; area = [25000.0, 25000.0, 25150.0, 25150.0]; },
+             { kind = "jeep"; count = 3; force = "red"; fire_at_will = true; area = [25100.0, 25100.0, 25300.0, 25300.0]; } );
+fires = ( { at_s = 0.05; munition = "artillery"; point = [25100.0, 25100.0]; } );
+C
+FAILING=$failing NAME=$name BIN=$bin SEED=$SEED SAMPLES=${SAMPLES:-8} \
+    python3 "$here/failing.py" >told 2>&1
+sed '/^\(not \)\?ok/!s/^/# /' told
+number=$(grep -cE '^(not )?ok' told)
+failures=$(grep -c '^not ok' told)
+check "programs were tried" [ "$number" -ge 1 ]
+check "nothing is left" nothing_left "$name"
+done_testing

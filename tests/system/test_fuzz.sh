@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# Hostile input: each harness of tests/fuzz over its corpus and a fixed number of inputs from a
+# fixed seed. `make fuzz SECONDS=n` goes on for longer.
+. "$(dirname "$0")/lib.sh"
+source_dir=$(cd "$(dirname "$bin")/.." && pwd)
+until [ -e "$source_dir/Makefile" ] || [ "$source_dir" = / ]; do source_dir=$(dirname "$source_dir"); done
+
+if [ -n "${JOLON_SANITIZER-}" ]; then
+    skip "hostile input" "the harnesses are sanitized in any build; the plain one runs them"
+    done_testing
+fi
+"$source_dir/tests/fuzz/run" --runs 200 >told 2>err
+status=$?
+if [ $status = 3 ]; then
+    skip "hostile input" "$(tail -n 1 err)"
+    done_testing
+fi
+check "the harnesses can be built and run" [ -s told ]
+for file in "$source_dir"/tests/fuzz/fuzz_*.c; do
+    harness=${file##*/fuzz_} harness=${harness%.c}
+    if grep -q "^$harness: [0-9]* inputs, " told; then
+        ok "$harness: $(sed -n "s/^$harness: //p" told)"
+    else
+        not_ok "$harness"
+        sed -n "/^$harness: /,/^[a-z]*: /{/^$harness: /p;/^    /p}" told | sed 's/^/# /'
+    fi
+done
+check "nothing was found" equal $status 0
+check "it leaves no shared memory" nothing_left fuzz
+[ $status = 0 ] || sed 's/^/# /' err
+done_testing

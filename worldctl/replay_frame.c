@@ -1,0 +1,81 @@
+/* Verb replay-frame: the frame after an image's once more, in this process and on one thread, so
+ * that a debugger sees what a role died of. */
+#include "worldctl/verbs.h"
+
+#include "archive/image.h"
+#include "ipc/log.h"
+#include "replay/player.h"
+#include "worldctl/arguments.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+
+/* The page tables that the role had: a store elsewhere dies here as it died there. */
+static void protect(const struct view *view, enum role role)
+{
+    const struct layout *layout = &view->layout;
+    for (int i = 0; i < REGION_COUNT; i++) {
+        size_t end = i + 1 < REGION_COUNT ? layout->offset[i + 1] : layout->total;
+        int writable = layout_writable(role, (enum region)i) ? PROT_WRITE : 0;
+        if (end > layout->offset[i] && mprotect((unsigned char *)view->base + layout->offset[i],
+                                                end - layout->offset[i], PROT_READ | writable) != 0)
+            die_refused("cannot protect the world's memory: %s", strerror(errno));
+    }
+}
+
+static void load(const struct arguments *arguments, struct image *image, struct view *view)
+{
+    struct reason reason;
+    if (image_open(image, arguments->path, &reason) != 0)
+        die_refused("%s", reason.text);
+    struct segment_header header = image_segment(image);
+    if (segment_private(view, &header, &reason) != 0 || image_load(view, image, &reason) != 0)
+        die_refused("%s", reason.text);
+}
+
+static void run(struct player *player, bool moved)
+{
+    struct view *view = player->view;
+    uint64_t frame = player_frame(player) + 1;
+    log_frame(frame);
+    if (moved) {
+        log_info("frame %" PRIu64 ": was moved already", frame);
+    } else {
+        log_info("frame %" PRIu64 ": moves", frame);
+        protect(view, ROLE_MOVER);
+        if (player_move(player, NULL) != 0)
+            die_refused("out of memory for the index of craters");
+    }
+    log_info("frame %" PRIu64 ": collides", frame);
+    protect(view, ROLE_COLLIDER);
+    if (player_collide(player) != 0)
+        die_refused("out of memory for the frame's contacts");
+}
+
+int verb_replay_frame(int argc, char **argv)
+{
+    struct arguments arguments = arguments_read(argc, argv);
+    static struct image image;
+    struct view view;
+    struct player player;
+    if (!arguments.path)
+        die_usage("replay-frame: wants the DUMP to run, as `save --inputs` or a set that gave up "
+                  "wrote it");
+    load(&arguments, &image, &view);
+    if (player_init(&player, &view, 1) != 0)
+        die_refused("out of memory to run a frame");
+    bool moved = atomic_load(&view.moved_word->moved) == image.header.frame + 1;
+    run(&player, moved);
+    const struct state *state = &view.w[player_frame(&player) & 1];
+    printf("frame %" PRIu64 ": %s, digest %016" PRIx64 ", %" PRIu64 " events, %u entities\n",
+           state->head->frame, moved ? "collided" : "moved and collided",
+           world_digest(&view.world, state), state->head->event_end - image.header.event_end,
+           state->head->vehicles + state->head->munitions);
+    player_free(&player);
+    segment_abandon(&view);
+    image_close(&image);
+    return EXIT_OK;
+}
