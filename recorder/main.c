@@ -1,43 +1,14 @@
 /* jolon-recorder: writes the run's events and commands into logs that no kill can spoil, and its
  * checkpoints. */
 #include "ipc/clock.h"
-#include "ipc/crash.h"
 #include "ipc/frame.h"
-#include "ipc/log.h"
 #include "ipc/process.h"
-#include "recorder/brake.h"
-#include "recorder/checkpoint.h"
-#include "recorder/command_log.h"
-#include "recorder/event_log.h"
-#include "recorder/options.h"
+#include "recorder/record.h"
 #include "sandbox/sandbox.h"
 
-#include <inttypes.h>
 #include <signal.h>
 
 #define WAIT_NS (20 * (uint64_t)NS_PER_MS)
-
-struct recorder {
-    struct options options;
-    struct view view;
-    struct command_log commands;
-    struct event_log events;
-    struct checkpoint checkpoint;
-    struct brake brake;
-};
-
-static void open_files(struct recorder *recorder)
-{
-    const struct options *options = &recorder->options;
-    struct reason reason;
-    command_log_open(&recorder->commands, &recorder->view, options->commands);
-    if (options->events)
-        event_log_open(&recorder->events, &recorder->view, options->events);
-    if (options->checkpoint && checkpoint_open(&recorder->checkpoint, &recorder->view,
-                                               options->checkpoint, options->every, &reason) != 0)
-        die_refused("--checkpoint %s", reason.text);
-    brake_open(&recorder->brake, &recorder->view);
-}
 
 /* The logs are open; what is still made and renamed are checkpoints. */
 static int confine(const struct recorder *recorder, const struct sandbox *sandbox,
@@ -47,82 +18,6 @@ static int confine(const struct recorder *recorder, const struct sandbox *sandbo
     if (sandbox_files(sandbox, folder, recorder->options.checkpoint ? 1 : 0, reason) != 0)
         return -1;
     return sandbox_enter(sandbox, reason);
-}
-
-/* True when there is more to do at once. */
-static bool write_logs(struct recorder *recorder)
-{
-    struct role_slot *slot = recorder->view.slot[ROLE_RECORDER];
-    bool more = command_log_turn(&recorder->commands, &recorder->view);
-    uint64_t written = recorder->commands.written;
-    if (recorder->options.events) {
-        uint64_t gaps = recorder->events.gaps;
-        more |= event_log_turn(&recorder->events, &recorder->view);
-        CRASH_POINT("gaps");
-        atomic_fetch_add(&slot->gaps, recorder->events.gaps - gaps);
-        if (recorder->events.written < written)
-            written = recorder->events.written;
-    }
-    brake_turn(&recorder->brake, &recorder->view, written);
-    return more;
-}
-
-/* The logs reach the disk with the checkpoint, so that after a crash of the machine they are not
- * behind it. */
-static void write_checkpoint(struct recorder *recorder)
-{
-    uint64_t before = recorder->checkpoint.written;
-    if (!recorder->options.checkpoint)
-        return;
-    checkpoint_turn(&recorder->checkpoint, &recorder->view);
-    if (recorder->checkpoint.written == before)
-        return;
-    (void)write_logs(recorder);
-    if (journal_sync(&recorder->commands.journal) != 0 ||
-        (recorder->options.events && journal_sync(&recorder->events.journal) != 0))
-        log_warn("the logs did not reach the disk with the checkpoint");
-}
-
-/* One look at everything: true when there is more to do at once. */
-static bool turn(struct recorder *recorder, uint64_t frame)
-{
-    struct role_slot *slot = recorder->view.slot[ROLE_RECORDER];
-    uint64_t begun_ns = clock_now_ns();
-    log_frame(frame);
-    frame_beat(&recorder->view);
-    atomic_store_explicit(&slot->frame, frame, memory_order_relaxed);
-    bool more = write_logs(recorder);
-    write_checkpoint(recorder);
-    atomic_store_explicit(&slot->stage_ns, clock_now_ns() - begun_ns, memory_order_relaxed);
-    return more;
-}
-
-/* What could not be written is said, and is an error. The logs first: a checkpoint takes long on a
- * slow disk, and a log that was stopped without its end cannot be told from a killed one. */
-static enum exit_code close_files(struct recorder *recorder)
-{
-    const struct options *options = &recorder->options;
-    enum exit_code code = EXIT_OK;
-    uint64_t missing = 0;
-    if (command_log_close(&recorder->commands, &recorder->view) != 0) {
-        log_warn("--commands %s: the run's end is not in it", options->commands);
-        code = EXIT_REFUSED;
-    }
-    if (options->events)
-        missing = event_log_close(&recorder->events, &recorder->view);
-    if (missing > 0) {
-        atomic_fetch_add(&recorder->view.slot[ROLE_RECORDER]->gaps, missing);
-        log_warn("--events %s: %" PRIu64 " events of the run are not in it", options->events,
-                 missing);
-        code = EXIT_REFUSED;
-    }
-    if (brake_holds(&recorder->brake) && !frame_finished(&recorder->view))
-        log_warn("the world is left paused; `jolon ctl resume` lets it go on unrecorded");
-    if (options->checkpoint) {
-        (void)checkpoint_write(&recorder->checkpoint, &recorder->view);
-        checkpoint_close(&recorder->checkpoint);
-    }
-    return code;
 }
 
 int main(int argc, char **argv)
@@ -140,7 +35,7 @@ int main(int argc, char **argv)
     if (sandbox_begin(&sandbox, ROLE_RECORDER, recorder.options.sandbox_off, &reason) != 0 ||
         segment_attach(view, recorder.options.world, ROLE_RECORDER, &reason) != 0)
         die_refused("%s", reason.text);
-    open_files(&recorder);
+    record_open(&recorder);
     if (confine(&recorder, &sandbox, &reason) != 0)
         die_refused("%s", reason.text);
     segment_ready(view);
@@ -148,14 +43,14 @@ int main(int argc, char **argv)
     for (;;) {
         bool last = process_stopping();
         uint64_t seen = atomic_load(&view->commit->commit);
-        if (turn(&recorder, seen))
+        if (record_turn(&recorder, seen))
             continue;
         if (last)
             break;
         frame_wait(view, seen, clock_now_ns() + WAIT_NS);
     }
 
-    int code = (int)close_files(&recorder);
+    int code = (int)record_close(&recorder);
     segment_detach(view);
     return code;
 }
