@@ -43,7 +43,7 @@ static const char usage[] =
     "usage: storm [--kills N] [--seed N] [--gap-ms X] [--scenario FILE] [--commands N]\n"
     "             [--renderer] [--world NAME] [--out DIR] [--json]\n"
     "  kills, stops and continues the processes of a set of its own at random; see\n"
-    "  tests/storm/README.md. JOLON_HANG_MS is the watchdog's limit, as for jolon.\n";
+    "  tests/storm/README.md. JOLON_HANG_MS is the keeper's limit, as for jolon.\n";
 
 static void find_programs(char *path, size_t bytes)
 {

@@ -31,7 +31,7 @@ struct storm_options {
     uint64_t kills, seed;
     uint64_t commands; /* sent during the storm, 0: none and no reporter */
     double gap_ms;     /* longest between two strikes */
-    double hang_ms;    /* the watchdog's limit */
+    double hang_ms;    /* the keeper's limit */
     bool renderer, json, keep;
 };
 
