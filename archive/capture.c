@@ -1,16 +1,13 @@
 /* A consistent copy of a frame, of the command rings beside it and of the frame under way. */
 #include "archive/capture.h"
 
+#include "ipc/frame.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define TRIES 100
-
-static uint64_t load(const _Atomic uint64_t *word)
-{
-    return atomic_load_explicit(word, memory_order_acquire);
-}
 
 static uint64_t larger(uint64_t a, uint64_t b)
 {
@@ -56,9 +53,9 @@ static bool take_moved(struct capture *capture, const struct view *view)
 {
     uint64_t frame = capture->snapshot.head.frame;
     const struct moved *from = &view->m;
-    capture->inputs = load(&view->moved_word->moved) == frame + 1;
+    capture->inputs = segment_load(&view->moved_word->moved) == frame + 1;
     if (!capture->inputs)
-        return load(&view->commit->commit) == frame;
+        return segment_load(&view->commit->commit) == frame;
     capture->moved_head = *from->head;
     uint32_t used = from->head->used, intents = from->head->intent_count;
     if (used > view->header->capacity || intents > view->header->intents_per_frame)
@@ -96,20 +93,12 @@ static bool take_ring(struct capture *capture, const struct view *view, int ring
     return capture->ring[ring].first <= cursor;
 }
 
-/* A frame that a repair has made again is to take what it took the first time and no more
- * (segment_repair()): what came since is cut off, as if the image had been taken then. */
-static uint64_t end_of(const struct view *view, uint64_t next, int ring, uint64_t head)
-{
-    const struct moved_word *word = view->moved_word;
-    return word->again == next && word->again_end[ring] < head ? word->again_end[ring] : head;
-}
-
 static bool take(struct capture *capture, const struct view *view, bool inputs)
 {
     uint64_t head[COMMAND_RING_COUNT];
     bool whole = true;
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
-        head[i] = load(&view->commands[i]->head);
+        head[i] = segment_load(&view->commands[i]->head);
     if (snapshot_take(&capture->snapshot, view) != 0)
         return false;
     errno = EAGAIN;
@@ -117,8 +106,9 @@ static bool take(struct capture *capture, const struct view *view, bool inputs)
     if (inputs && !take_moved(capture, view))
         return false;
     for (int i = 0; i < COMMAND_RING_COUNT && whole; i++) {
-        uint64_t end = larger(end_of(view, capture->snapshot.head.frame + 1, i, head[i]),
-                              capture->snapshot.head.command_cursor[i]);
+        uint64_t end =
+            larger(frame_commands_end(view, capture->snapshot.head.frame + 1, i, head[i]),
+                   capture->snapshot.head.command_cursor[i]);
         if (capture->inputs)
             end = larger(end, capture->moved_head.command_cursor[i]);
         whole = take_ring(capture, view, i, end);

@@ -16,11 +16,6 @@
 #define WAIT_MAX_NS (20 * (uint64_t)NS_PER_MS) /* no wait is longer without a beat */
 #define STEP_MAX_NS ((uint64_t)NS_PER_S) /* so slow a world still hears commands every second */
 
-static uint64_t load(const _Atomic uint64_t *word)
-{
-    return atomic_load_explicit(word, memory_order_acquire);
-}
-
 /* A quarter of a frame: what one lost doorbell may cost. */
 static uint64_t bell_wait_ns(const struct view *view)
 {
@@ -43,7 +38,7 @@ static bool head_finished(const struct view *view, const struct state_head *head
 
 bool frame_finished(const struct view *view)
 {
-    uint64_t commit = load(&view->commit->commit);
+    uint64_t commit = segment_load(&view->commit->commit);
     return head_finished(view, view->w[commit & 1].head, commit);
 }
 
@@ -117,22 +112,25 @@ static bool due(struct frame *frame, struct view *view, const struct state_head 
     return true;
 }
 
-static void look_for_commands(struct frame *frame, const struct view *view, uint64_t number)
+uint64_t frame_commands_end(const struct view *view, uint64_t number, int ring, uint64_t head)
 {
     const struct moved_word *words = view->moved_word;
-    for (int i = 0; i < COMMAND_RING_COUNT; i++) {
-        uint64_t head = load(&view->commands[i]->head);
-        bool limited = words->again == number && words->again_end[i] < head;
-        frame->command_head[i] = limited ? words->again_end[i] : head;
-    }
+    return words->again == number && words->again_end[ring] < head ? words->again_end[ring] : head;
+}
+
+static void look_for_commands(struct frame *frame, const struct view *view, uint64_t number)
+{
+    for (int i = 0; i < COMMAND_RING_COUNT; i++)
+        frame->command_head[i] =
+            frame_commands_end(view, number, i, segment_load(&view->commands[i]->head));
 }
 
 int frame_mover_begin(struct frame *frame, struct view *view)
 {
     frame->in_time = false;
     while (!process_stopping()) {
-        uint64_t commit = load(&view->commit->commit);
-        uint64_t moved = load(&view->moved_word->moved);
+        uint64_t commit = segment_load(&view->commit->commit);
+        uint64_t moved = segment_load(&view->moved_word->moved);
         frame_beat(view);
         check_words(view, commit, moved);
         if (moved == commit + 1) { /* rule 3: M is the collider's to read until it commits */
@@ -187,7 +185,7 @@ int frame_collider_begin(struct frame *frame, struct view *view)
 {
     while (!process_stopping()) {
         uint64_t commit = atomic_load_explicit(&view->commit->commit, memory_order_relaxed);
-        uint64_t moved = load(&view->moved_word->moved);
+        uint64_t moved = segment_load(&view->moved_word->moved);
         frame_beat(view);
         check_words(view, commit, moved);
         if (moved == commit + 1) {
@@ -237,7 +235,7 @@ void frame_collider_end(struct frame *frame, struct view *view)
 uint64_t frame_wait(const struct view *view, uint64_t seen, uint64_t until_ns)
 {
     for (;;) {
-        uint64_t commit = load(&view->commit->commit);
+        uint64_t commit = segment_load(&view->commit->commit);
         uint64_t now = clock_now_ns();
         if (commit > seen || now >= until_ns || process_stopping())
             return commit;

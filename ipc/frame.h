@@ -27,6 +27,10 @@ void frame_collider_end(struct frame *frame, struct view *view);
  * commit word itself (a futex; works on a read-only mapping). Returns the last committed frame. */
 uint64_t frame_wait(const struct view *view, uint64_t seen, uint64_t until_ns);
 
+/* Up to where frame number takes a ring's commands, of head that there are: a frame that a repair
+ * has made again takes what it took the first time and no more (segment_repair()). */
+uint64_t frame_commands_end(const struct view *view, uint64_t number, int ring, uint64_t head);
+
 /* Has the run ended: its last frame committed, or quit by command? */
 bool frame_finished(const struct view *view);
 

@@ -37,6 +37,12 @@ struct command_ring_words {             /* only writer: the ring's process */
     _Alignas(64) struct command slot[]; /* [command_slots] */
 };
 
+/* A frame word or a ring's head, with all that was stored before it. */
+static inline uint64_t segment_load(const _Atomic uint64_t *word)
+{
+    return atomic_load_explicit(word, memory_order_acquire);
+}
+
 /* A mapped world. Everything const is mapped read-only for this role, by the page tables. */
 struct view {
     char name[SEGMENT_NAME_MAX];

@@ -9,11 +9,6 @@
 
 #define TRIES 100
 
-static uint64_t load(const _Atomic uint64_t *word)
-{
-    return atomic_load_explicit(word, memory_order_acquire);
-}
-
 /* Rule 6: what was copied of frame's buffer is whole if nobody began to write that buffer again,
  * which first happens for frame + 2. The fence keeps the copy before the look. */
 static bool still_whole(const struct view *view, uint64_t frame)
@@ -62,7 +57,7 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view)
 {
     int bad = 0;
     for (int i = 0; i < TRIES; i++) {
-        uint64_t frame = load(&view->commit->commit);
+        uint64_t frame = segment_load(&view->commit->commit);
         const struct state *from = &view->w[frame & 1];
         snapshot->head = *from->head;
         uint32_t used = snapshot->head.used;
@@ -91,7 +86,7 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view)
 int snapshot_head(struct state_head *head, const struct view *view)
 {
     for (int i = 0; i < TRIES; i++) {
-        uint64_t frame = load(&view->commit->commit);
+        uint64_t frame = segment_load(&view->commit->commit);
         *head = *view->w[frame & 1].head;
         if (still_whole(view, frame)) {
             if (head->frame == frame)

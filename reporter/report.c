@@ -9,7 +9,6 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #define PROCESS_PERIOD_NS NS_PER_S
 
@@ -28,20 +27,10 @@ _Static_assert((int)jolon_DOMAIN_FIXED == (int)DOMAIN_FIXED &&
                "domains in ipc/status.idl");
 _Static_assert(jolon_MAP_CELLS == jolon_MAP_SIDE * jolon_MAP_SIDE, "map in ipc/status.idl");
 
-/* A number for this very world: the same name may be given again, an inode is not for long. */
-static uint64_t run_of(const struct view *view)
-{
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
-    struct stat status = {0};
-    segment_paths(view->name, shm, lock);
-    (void)stat(shm, &status);
-    return view->header->head_hash ^ ((uint64_t)status.st_ino * 0x9e3779b97f4a7c15u);
-}
-
 int report_open(struct report *report, const struct view *view, const struct dds_link *link,
                 struct reason *reason)
 {
-    *report = (struct report){.run = run_of(view)};
+    *report = (struct report){.run = view->header->made}; /* the same name may be given again */
     report->world = dds_topics_writer(link, TOPIC_WORLD, reason);
     if (report->world < 0)
         return -1;

@@ -38,7 +38,7 @@ static enum verdict killed(struct history *history, const struct death *death, u
 static enum verdict crashed(struct history *history, const struct death *death, uint64_t *delay_ns)
 {
     if (judge_makes_frames(death->role)) {
-        if (history->same_frame == 0 || history->crash_frame != death->frame)
+        if (history->crash_frame != death->frame)
             history->same_frame = 0;
         history->crash_frame = death->frame;
         if (++history->same_frame >= JUDGE_SAME_FRAME_DEATHS)

@@ -180,8 +180,7 @@ static void take_children(struct keeper *keeper)
         else if (WIFCONTINUED(status))
             child->stopped_ns = 0;
         else if (!keeper->over)
-            take_death(keeper, post, child,
-                       WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status));
+            take_death(keeper, post, child, set_status(status));
         else
             *child = (struct child){0};
     }
@@ -202,12 +201,6 @@ static void turn(struct keeper *keeper)
     set_spawn(&keeper->set, now);
     if (!keeper->plan->background && !keeper->plan->json)
         progress_turn(&keeper->progress, &keeper->set.view);
-}
-
-/* The children of a set that was killed die with it, but not in no time. */
-static int wait_for_the_dead(const struct keeper *keeper, struct reason *reason)
-{
-    return segment_wait_free(keeper->plan->world, ROLE_RENDERER, clock_now_ns() + LEFT_NS, reason);
 }
 
 /* One role after the other, the mover last: frames begin when everybody is there to see them. */
@@ -315,7 +308,9 @@ int main(int argc, char **argv)
     process_signals();
     segment_paths(plan.world, shm, lock);
     process_guard_removes(shm, lock);
-    if (set_open(&keeper.set, &plan, &reason) != 0 || wait_for_the_dead(&keeper, &reason) != 0)
+    /* The children of a set that was killed die with it, but not in no time. */
+    if (set_open(&keeper.set, &plan, &reason) != 0 ||
+        segment_wait_free(plan.world, ROLE_RENDERER, clock_now_ns() + LEFT_NS, &reason) != 0)
         die_refused("%s", reason.text);
     keeper.begun_ns = keeper.watch.last_ns = keeper.watch.since_ns = clock_now_ns();
     keeper.progress = progress_begin();

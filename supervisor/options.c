@@ -6,8 +6,6 @@
 
 #include <getopt.h>
 
-#define HANG_MS 100
-
 static const struct option known[] = {{"world", required_argument, NULL, 'w'},
                                       {"out", required_argument, NULL, 'o'},
                                       {"log", required_argument, NULL, 'l'},
@@ -34,7 +32,7 @@ static void leave_out(struct plan *plan, const char *name)
 
 struct plan options_plan(int argc, char **argv)
 {
-    struct plan plan = {.world = "default", .threads = "1", .hang_ms = HANG_MS};
+    struct plan plan = {.world = "default", .threads = "1"};
     int option;
     opterr = 0; /* we say it, in one line */
     while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
@@ -63,7 +61,7 @@ struct plan options_plan(int argc, char **argv)
         else
             die_usage("%s: no such option; jolon-keeper is started by jolon", argv[optind - 1]);
     }
-    if (!plan.out || !plan.log || !plan.commands || optind < argc)
-        die_usage("jolon-keeper is started by jolon, with --out, --log and --commands");
+    if (!plan.out || !plan.log || !plan.commands || plan.hang_ms == 0 || optind < argc)
+        die_usage("jolon-keeper is started by jolon, with --out, --log, --commands and --hang-ms");
     return plan;
 }

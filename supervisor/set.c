@@ -213,7 +213,7 @@ struct post *set_find(struct set *set, int pid, struct child **child)
 
 /* --- ending ------------------------------------------------------------------------------------*/
 
-static int status_of(int status)
+int set_status(int status)
 {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
@@ -229,7 +229,7 @@ static int end(struct child *child, int signal_number, uint64_t until_ns)
         pid_t dead = waitpid(child->pid, &status, WNOHANG);
         if (dead == child->pid || (dead < 0 && errno == ECHILD)) {
             *child = (struct child){0};
-            return status_of(status);
+            return set_status(status);
         }
         uint64_t now = clock_now_ns();
         if (now >= until_ns)
@@ -279,5 +279,5 @@ int set_run(const struct set *set, const char *program, const char *const *argum
         return EXIT_REFUSED;
     while (waitpid(pid, &status, 0) < 0 && errno == EINTR)
         continue;
-    return status_of(status);
+    return set_status(status);
 }

@@ -38,8 +38,8 @@ struct post {
     int wanted;           /* children: 0 when the set goes on without the role */
     uint64_t spawn_at_ns; /* not before */
     struct history history;
-    uint64_t beat_ns; /* the last one seen, and the processor time used until then */
-    uint64_t beat_used_ns;
+    uint64_t quiet_ns; /* when it was silent for half of what it may, and its processor time then */
+    uint64_t quiet_used_ns;
 };
 
 struct set {
@@ -74,6 +74,9 @@ int set_stop(struct set *set, enum role role);
 
 /* SIGKILL to a role's processes, and waits for their deaths. */
 void set_kill(struct set *set, enum role role);
+
+/* A status of waitpid() as a shell has it: the exit code, or 128 and the signal. */
+int set_status(int status);
 
 /* Runs one of the programs to its end. Its output goes to the log, or where ours goes. The exit
  * status as a shell has it. */
