@@ -69,7 +69,7 @@ KEEPER_SRC   := $(wildcard supervisor/*.c)
 MOVER_SRC    := $(wildcard mover/*.c)
 COLLIDER_SRC := $(wildcard collider/*.c)
 REPLAY_SRC   := $(wildcard replay/*.c)
-RENDERER_SRC := $(wildcard renderer/*.c)
+RENDERER_SRC := $(wildcard renderer/*.c renderer/*/*.c)
 REPORTER_SRC := $(wildcard reporter/*.c)
 MONITOR_SRC  := $(wildcard monitor/*.c)
 RECORDER_SRC := $(wildcard recorder/*.c)
@@ -99,9 +99,10 @@ REPLAY   := $(call objects,$(REPLAY_SRC)) $(STEPS)
 # The keeper without its main: whom it watches, and what it makes of a death.
 KEEPER   := $(call objects,$(filter-out %/keeper.c,$(KEEPER_SRC)))
 # The scene without the drawing: nothing here knows of graphics.
-SCENE    := $(call objects,$(addprefix renderer/,camera.c dents.c effects.c follow.c foliage.c ground.c \
-        image.c map.c mesh.c paint.c scene.c scene_fixed.c scene_plants.c scene_puffs.c scenery.c \
-        smooth.c statistics.c texture.c track.c))
+SCENE    := $(call objects,$(wildcard renderer/scene/*.c) $(addprefix renderer/,image/image.c \
+        image/smooth.c chart/map.c chart/track.c))
+# All that makes a picture and puts it out: the renderer without its main and its studio.
+PICTURE  := $(call objects,$(wildcard renderer/*/*.c))
 STATUS   := $(OBJ)/idl/status.o
 
 pc = $(shell pkg-config --$(1) $(2) 2>/dev/null)
@@ -204,7 +205,7 @@ $(BUILD)/tests/%: $(OBJ)/tests/%.o $(SUPPORT) $(REPLAY) $(LOGS) $(ARCHIVE) $(CON
 
 $(BUILD)/tests/unit/test_judge $(BUILD)/tests/unit/test_watch: $(KEEPER)
 $(BUILD)/tests/crash/test_crash: $(call objects,$(CRASH_SRC))
-$(BUILD)/tests/unit/test_output: $(call objects,$(addprefix renderer/,image.c output.c png.c))
+$(BUILD)/tests/unit/test_output: $(call objects,$(addprefix renderer/,image/image.c output/output.c image/png.c))
 $(BUILD)/tests/unit/test_output: TEST_LIBS += $(call pc,libs,libpng)
 $(BUILD)/tests/unit/test_sandbox: $(SANDBOX)
 $(BUILD)/tests/unit/test_sandbox: TEST_LIBS += $(SANDBOX_LIBS)

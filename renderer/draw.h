@@ -3,8 +3,8 @@
 #define JOLON_RENDERER_DRAW_H
 
 #include "ipc/segment.h"
-#include "renderer/image.h"
-#include "renderer/scene.h"
+#include "renderer/image/image.h"
+#include "renderer/scene/scene.h"
 
 struct draw {
     void *self; /* the back end's own */

@@ -4,12 +4,12 @@
 #define JOLON_RENDERER_STUDIO_H
 
 #include "ipc/snapshot.h"
-#include "renderer/chart.h"
+#include "renderer/chart/chart.h"
 #include "renderer/draw.h"
-#include "renderer/effects.h"
-#include "renderer/follow.h"
+#include "renderer/scene/effects.h"
+#include "renderer/scene/follow.h"
 #include "renderer/options.h"
-#include "renderer/output.h"
+#include "renderer/output/output.h"
 #include "renderer/pulse.h"
 
 #include <stdbool.h>

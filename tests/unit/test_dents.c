@@ -1,6 +1,6 @@
 /* The renderer's index over the list of dents, and what of a dent is left (rows 33 and 47 of what
  * the thesis states: dents at the point of impact; an elastic part that comes back). */
-#include "renderer/dents.h"
+#include "renderer/scene/dents.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* Pictures' files: for their owner alone, and no link that somebody planted is followed. */
-#include "renderer/output.h"
+#include "renderer/output/output.h"
 
 #include <errno.h>
 #include <fcntl.h>

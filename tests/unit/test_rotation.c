@@ -1,7 +1,7 @@
 /* Rotations: the conventions by hand, then what must hold of any turn. SEED=n draws others. */
 #include "world/rotation.h"
 
-#include "renderer/pose.h"
+#include "renderer/scene/pose.h"
 #include "tests/support/fixture.h"
 
 #include <stdarg.h>

@@ -1,13 +1,13 @@
 /* The renderer's pure part: cameras, culling, levels of detail, the lists of a scene, the map and
  * the statistics (rows 5, 12, 13 and 33 of what the thesis states). Nothing here draws with OpenGL.
  */
-#include "renderer/scene.h"
+#include "renderer/scene/scene.h"
 
-#include "renderer/follow.h"
-#include "renderer/map.h"
-#include "renderer/pose.h"
-#include "renderer/statistics.h"
-#include "renderer/track.h"
+#include "renderer/scene/follow.h"
+#include "renderer/chart/map.h"
+#include "renderer/scene/pose.h"
+#include "renderer/scene/statistics.h"
+#include "renderer/chart/track.h"
 #include "world/random.h"
 #include "world/square.h"
 

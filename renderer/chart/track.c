@@ -1,0 +1,46 @@
+/* Tracks: a ring of points a slot. */
+#include "renderer/chart/track.h"
+
+#include <stdlib.h>
+
+int tracks_init(struct tracks *tracks, uint32_t capacity)
+{
+    tracks->slots = capacity < TRACK_SLOTS_MAX ? capacity : TRACK_SLOTS_MAX;
+    tracks->last_s = -TRACK_INTERVAL_S;
+    tracks->track = calloc(tracks->slots, sizeof *tracks->track);
+    return tracks->track == NULL ? -1 : 0;
+}
+
+void tracks_free(struct tracks *tracks)
+{
+    free(tracks->track);
+    tracks->track = NULL;
+}
+
+void tracks_note(struct tracks *tracks, const struct moment *moment)
+{
+    double now = world_time_s(moment->world, moment->head);
+    if (now - tracks->last_s < TRACK_INTERVAL_S)
+        return;
+    tracks->last_s = now;
+    const struct entities *e = moment->entities;
+    for (uint32_t i = 0; i < moment->head->used && i < tracks->slots; i++) {
+        if (e->state[i] != ENTITY_ACTIVE)
+            continue;
+        struct track *track = &tracks->track[i];
+        if (track->id != e->id[i]) {
+            track->id = e->id[i];
+            track->count = 0;
+        }
+        track->x[track->count % TRACK_POINTS] = (float)e->x[i];
+        track->z[track->count % TRACK_POINTS] = (float)e->z[i];
+        track->count++;
+    }
+}
+
+const struct track *tracks_of(const struct tracks *tracks, uint32_t slot, uint32_t id)
+{
+    if (slot >= tracks->slots || tracks->track[slot].id != id)
+        return NULL;
+    return &tracks->track[slot];
+}

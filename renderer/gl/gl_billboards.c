@@ -1,0 +1,226 @@
+/* Plants and puffs in OpenGL: one picture each, turned to the eye, all in one draw a kind. */
+#include "renderer/gl/gl.h"
+
+#include <stddef.h>
+
+static const char plant_vertex_text[] =
+    "layout(location = 0) in vec3 i_at;\n"
+    "layout(location = 1) in vec4 i_form;\n" /* width, height, lean, picture */
+    "layout(location = 3) in vec3 i_tint;\n"
+    "out vec3 v_picture, v_tint, v_right, v_out;\n"
+    "out vec4 v_air;\n"
+    "out float v_cut;\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));\n"
+    "    vec2 ahead = normalize(i_at.xz + vec2(1e-5, 0.0));\n"
+    "    v_right = vec3(-ahead.y, 0.0, ahead.x);\n"
+    "    v_out = vec3(-ahead.x, 0.0, -ahead.y);\n"
+    "    float aside = (corner.x - 0.5) * i_form.x + i_form.z * corner.y * i_form.y;\n"
+    "    vec3 place = i_at + v_right * aside + vec3(0.0, corner.y * i_form.y, 0.0);\n"
+    "    gl_Position = u_matrix * vec4(place, 1.0);\n"
+    "    v_picture = vec3(corner.x, 1.0 - corner.y, i_form.w);\n"
+    "    v_tint = i_tint;\n"
+    "    v_air = air(place);\n"
+    /* Small pictures are averages of leaf and gap: a lower threshold keeps their size. */
+    "    v_cut = mix(0.5, 0.22, smoothstep(150.0, 1800.0, length(i_at)));\n"
+    "}\n";
+
+static const char plant_fragment_text[] =
+    "uniform sampler2DArray u_plant, u_facing;\n"
+    "in vec3 v_picture, v_tint, v_right, v_out;\n"
+    "in vec4 v_air;\n"
+    "in float v_cut;\n"
+    "out vec4 o_colour;\n"
+    "void main()\n"
+    "{\n"
+    "    vec4 leaf = texture(u_plant, v_picture);\n"
+    "    if (leaf.a < v_cut)\n"
+    "        discard;\n"
+    "    vec3 f = texture(u_facing, v_picture).xyz * 2.0 - 1.0;\n"
+    "    vec3 n = normalize(v_right * f.x + vec3(0.0, f.y, 0.0) + v_out * f.z);\n"
+    "    float sun = dot(n, u_sun.xyz);\n"
+    "    float through = 0.16 * max(-sun, 0.0);\n"
+    "    float open = mix(0.62, 1.05, smoothstep(1.0, 0.35, v_picture.y));\n"
+    "    vec3 light = sky_light * (0.80 + 0.35 * n.y) * open\n"
+    "               + sun_light * (max(0.85 * sun + 0.15, 0.0) + through) * open;\n"
+    "    vec3 colour = u_sun.w > 0.5 ? leaf.rgb * v_tint : vec3(0.25, 0.32, 0.15);\n"
+    "    o_colour = vec4(mix(colour * light, v_air.rgb, v_air.a), 1.0);\n"
+    "}\n";
+
+/* The same picture laid on the ground, away from the sun. */
+static const char shadow_vertex_text[] =
+    "layout(location = 0) in vec3 i_at;\n"
+    "layout(location = 1) in vec4 i_form;\n"
+    "layout(location = 2) in vec2 i_slope;\n"
+    "out vec3 v_picture;\n"
+    "out float v_clear;\n"
+    "void main()\n"
+    "{\n"
+    "    v_picture = vec3(0.0);\n"
+    "    v_clear = 0.0;\n"
+    "    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);\n"
+    "    float far = length(i_at);\n"
+    "    if (far > 2200.0 || i_form.y < 0.3 || (i_form.y < 1.3 && far > 60.0))\n"
+    "        return;\n"
+    "    vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));\n"
+    "    vec2 away = -normalize(u_sun.xz);\n"
+    "    vec2 across = vec2(-away.y, away.x);\n"
+    /* Where the sun's ray through the top meets the slope. */
+    "    float steep = u_sun.y / length(u_sun.xz) + dot(i_slope, away);\n"
+    "    float reach = i_form.y / max(steep, 0.25);\n"
+    "    float aside = (corner.x - 0.5) * i_form.x + i_form.z * corner.y * i_form.y;\n"
+    "    vec2 off = across * aside + away * corner.y * reach;\n"
+    "    vec3 place = i_at + vec3(off.x, dot(i_slope, off) + 0.10 + 0.02 * i_form.y, off.y);\n"
+    "    gl_Position = u_matrix * vec4(place, 1.0);\n"
+    "    v_picture = vec3(corner.x, 1.0 - corner.y, i_form.w);\n"
+    "    v_clear = (1.0 - air(place).a) * smoothstep(2200.0, 1400.0, far);\n"
+    "}\n";
+
+static const char shadow_fragment_text[] =
+    "uniform sampler2DArray u_plant;\n"
+    "in vec3 v_picture;\n"
+    "in float v_clear;\n"
+    "out vec4 o_colour;\n"
+    "void main()\n"
+    "{\n"
+    "    if (texture(u_plant, v_picture).a < 0.4)\n"
+    "        discard;\n"
+    "    o_colour = vec4(0.05, 0.06, 0.09, 0.50 * v_clear);\n"
+    "}\n";
+
+static const char puff_vertex_text[] =
+    "layout(location = 0) in vec3 i_at;\n"
+    "layout(location = 1) in vec3 i_axis;\n"
+    "layout(location = 2) in vec4 i_form;\n" /* size, turn, picture, glow */
+    "layout(location = 3) in vec4 i_colour;\n"
+    "out vec3 v_picture;\n"
+    "out vec4 v_colour, v_air;\n"
+    "out float v_glow;\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 2.0 - 1.0;\n"
+    "    vec3 off;\n"
+    "    if (dot(i_axis, i_axis) > 0.0) {\n"
+    "        vec3 side = normalize(cross(i_axis, i_at)) * i_form.x;\n"
+    "        off = i_axis * corner.y + side * corner.x;\n"
+    "    } else {\n"
+    "        float c = cos(i_form.y), s = sin(i_form.y);\n"
+    "        vec2 turned = vec2(c * corner.x - s * corner.y, s * corner.x + c * corner.y);\n"
+    "        off = (u_right.xyz * turned.x + u_up.xyz * turned.y) * i_form.x;\n"
+    "    }\n"
+    "    gl_Position = u_matrix * vec4(i_at + off, 1.0);\n"
+    /* It is a ball, not a sheet: for depth it counts from its near side, so that the ground does
+       not cut it along a line. */
+    "    vec3 near = i_at + off - normalize(i_at) * min(i_form.x, 0.5 * length(i_at));\n"
+    "    vec4 clip = u_matrix * vec4(near, 1.0);\n"
+    "    if (clip.w > 0.5)\n"
+    "        gl_Position.z = clip.z / clip.w * gl_Position.w;\n"
+    "    v_picture = vec3(corner.x * 0.5 + 0.5, 0.5 - corner.y * 0.5, i_form.z);\n"
+    "    v_colour = i_colour;\n"
+    "    v_glow = i_form.w;\n"
+    "    v_air = air(i_at);\n"
+    "}\n";
+
+static const char puff_fragment_text[] =
+    "uniform sampler2DArray u_puff;\n"
+    "in vec3 v_picture;\n"
+    "in vec4 v_colour, v_air;\n"
+    "in float v_glow;\n"
+    "out vec4 o_colour;\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 puff = texture(u_puff, v_picture).rg;\n"
+    "    float much = puff.r * v_colour.a;\n"
+    "    if (much < 0.004)\n"
+    "        discard;\n"
+    "    vec3 lit = v_colour.rgb * (0.35 + 1.3 * puff.g);\n"
+    "    vec3 hot = v_colour.rgb * (0.6 + 0.8 * puff.g) * 1.05 + 0.06 * puff.r * puff.r;\n"
+    "    vec3 colour = mix(lit, hot, v_glow);\n"
+    "    colour = mix(colour, v_air.rgb * (1.0 - v_glow), v_air.a);\n"
+    "    o_colour = vec4(colour * much, much * (1.0 - v_glow));\n"
+    "}\n";
+
+static void describe_plants(const struct gl_billboards *boards)
+{
+    size_t stride = sizeof(struct scene_plant);
+    glBindVertexArray(boards->plant_array);
+    glBindBuffer(GL_ARRAY_BUFFER, boards->plants);
+    gl_attribute(0, 3, stride, offsetof(struct scene_plant, at), 1);
+    gl_attribute(1, 4, stride, offsetof(struct scene_plant, width), 1);
+    gl_attribute(2, 2, stride, offsetof(struct scene_plant, slope), 1);
+    gl_attribute(3, 3, stride, offsetof(struct scene_plant, tint), 1);
+}
+
+static void describe_puffs(const struct gl_billboards *boards)
+{
+    size_t stride = sizeof(struct scene_puff);
+    glBindVertexArray(boards->puff_array);
+    glBindBuffer(GL_ARRAY_BUFFER, boards->puffs);
+    gl_attribute(0, 3, stride, offsetof(struct scene_puff, at), 1);
+    gl_attribute(1, 3, stride, offsetof(struct scene_puff, axis), 1);
+    gl_attribute(2, 4, stride, offsetof(struct scene_puff, size), 1);
+    gl_attribute(3, 4, stride, offsetof(struct scene_puff, colour), 1);
+}
+
+int gl_billboards_open(struct gl_billboards *boards, struct reason *reason)
+{
+    *boards = (struct gl_billboards){.plants = 0};
+    boards->plant_program = gl_program("plant", plant_vertex_text, plant_fragment_text, reason);
+    boards->shadow_program =
+        gl_program("plant shadow", shadow_vertex_text, shadow_fragment_text, reason);
+    boards->puff_program = gl_program("puff", puff_vertex_text, puff_fragment_text, reason);
+    if (boards->plant_program == 0 || boards->shadow_program == 0 || boards->puff_program == 0) {
+        gl_billboards_close(boards);
+        return -1;
+    }
+    glGenVertexArrays(1, &boards->plant_array);
+    glGenVertexArrays(1, &boards->puff_array);
+    glGenBuffers(1, &boards->plants);
+    glGenBuffers(1, &boards->puffs);
+    describe_plants(boards);
+    describe_puffs(boards);
+    return 0;
+}
+
+void gl_billboards_close(struct gl_billboards *boards)
+{
+    glDeleteProgram(boards->plant_program);
+    glDeleteProgram(boards->shadow_program);
+    glDeleteProgram(boards->puff_program);
+    glDeleteVertexArrays(1, &boards->plant_array);
+    glDeleteVertexArrays(1, &boards->puff_array);
+    glDeleteBuffers(1, &boards->plants);
+    glDeleteBuffers(1, &boards->puffs);
+}
+
+void gl_billboards_send(struct gl_billboards *boards, const struct scene *scene)
+{
+    glBindBuffer(GL_ARRAY_BUFFER, boards->plants);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(scene->plant_count * sizeof *scene->plants),
+                 scene->plants, GL_STREAM_DRAW);
+    glBindBuffer(GL_ARRAY_BUFFER, boards->puffs);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(scene->puff_count * sizeof *scene->puffs),
+                 scene->puffs, GL_STREAM_DRAW);
+}
+
+void gl_plants_draw_shadows(struct gl_billboards *boards, const struct scene *scene)
+{
+    glUseProgram(boards->shadow_program);
+    glBindVertexArray(boards->plant_array);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)scene->plant_count);
+}
+
+void gl_plants_draw(struct gl_billboards *boards, const struct scene *scene)
+{
+    glUseProgram(boards->plant_program);
+    glBindVertexArray(boards->plant_array);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)scene->plant_count);
+}
+
+void gl_puffs_draw(struct gl_billboards *boards, const struct scene *scene)
+{
+    glUseProgram(boards->puff_program);
+    glBindVertexArray(boards->puff_array);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)scene->puff_count);
+}

@@ -1,0 +1,291 @@
+/* Polygon bodies in OpenGL: every mesh once, drawn as often as the scene has copies of it, and once
+ * more flattened onto the ground as their shadows. */
+#include "renderer/gl/gl.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SHADE "vec4(0.05, 0.06, 0.09, 0.50)"
+
+static const char vertex_text[] =
+    "uniform float u_low;\n"
+    "out vec3 v_body, v_light;\n"
+    "out vec4 v_colour, v_air;\n"
+    "out float v_burn, v_fell, v_bare;\n"
+    "void main()\n"
+    "{\n"
+    "    vec3 place = formed(a_place), normal = a_normal;\n"
+    /* Where the form is another, so is the way the surface faces. */
+    "    if (i_form.y > 0.5 || i_falls.z > 0.0 || i_broken.z > 0.0) {\n"
+    "        vec3 along = normalize(cross(normal, abs(normal.y) < 0.8 ? vec3(0.0, 1.0, 0.0)\n"
+    "                                                               : vec3(1.0, 0.0, 0.0)));\n"
+    "        vec3 u = formed(a_place + 0.04 * along) - place;\n"
+    "        vec3 v = formed(a_place + 0.04 * cross(normal, along)) - place;\n"
+    "        vec3 facing = cross(u, v);\n"
+    "        normal = dot(facing, facing) > 1e-12 ? normalize(facing) : normal;\n"
+    "    }\n"
+    "    if (a_part > 0.5) {\n"
+    "        place = turned(place, u_pivots[int(a_part + 0.5)]);\n"
+    "        normal = turned(normal, vec3(0.0));\n"
+    "    }\n"
+    "    vec3 world = i_at + in_world(place);\n"
+    "    vec3 n = normalize(in_world(normal));\n"
+    "    gl_Position = u_matrix * vec4(world, 1.0);\n"
+    "    float sun = max(dot(n, u_sun.xyz), 0.0);\n"
+    /* The sky lights what faces up, the ground throws a little back, and what is low under a
+       body gets neither. */
+    "    float open = mix(0.55, 1.0, smoothstep(0.0, 1.3, place.y - u_low));\n"
+    "    vec3 sky_part = mix(vec3(0.36, 0.31, 0.24), sky_light * 1.12, 0.5 + 0.5 * n.y);\n"
+    "    v_light = sky_part * open + sun_light * sun * mix(0.8, 1.0, open);\n"
+    "    vec3 back = reflect(normalize(world), n);\n"
+    "    v_light += 0.16 * sun_light * pow(max(dot(back, u_sun.xyz), 0.0), 12.0);\n"
+    "    v_colour = a_colour;\n"
+    "    v_colour.rgb = mix(a_colour.rgb, i_tint.rgb * (0.55 + 0.9 * dot(a_colour.rgb,\n"
+    "                       vec3(0.333))), 0.62 * a_colour.a);\n"
+    "    v_body = a_place;\n"
+    "    v_burn = i_tint.a;\n"
+    "    v_bare = i_form.y > 0.5 ? min(length(dented(a_place) - a_place) * 4.0, 1.0) : 0.0;\n"
+    "    v_fell = i_falls.z > 0.0 ? fell(a_place) : 0.0;\n"
+    "    v_air = air(world);\n"
+    "}\n";
+
+static const char fragment_text[] =
+    "uniform sampler2D u_detail;\n"
+    "in vec3 v_body, v_light;\n"
+    "in vec4 v_colour, v_air;\n"
+    "in float v_burn, v_fell, v_bare;\n"
+    "out vec4 o_colour;\n"
+    "void main()\n"
+    "{\n"
+    "    vec3 colour = v_colour.rgb;\n"
+    /* Bent sheet: the paint has gone where it bent most. (No level of detail is known within a
+       branch that not all pixels take.) */
+    "    if (v_bare > 0.0) {\n"
+    "        float scrape = textureLod(u_detail, v_body.xy * 0.9 + v_body.z, 0.0).g;\n"
+    "        colour = mix(colour, vec3(0.30, 0.285, 0.27) * (0.5 + scrape),\n"
+    "                     0.85 * smoothstep(1.0 - v_bare, 1.25 - v_bare, scrape + 0.15));\n"
+    "    }\n"
+    /* Rubble: what it was, dust, and dark gaps between. */
+    "    if (v_fell > 0.0) {\n"
+    "        vec2 at = v_body.xz + 0.7 * v_body.y;\n"
+    "        float lump = textureLod(u_detail, at * 0.21, 0.0).g;\n"
+    "        float gap = textureLod(u_detail, at * 0.43, 0.0).r;\n"
+    "        vec3 dust = vec3(0.60, 0.53, 0.43) * (0.7 + 0.5 * gap);\n"
+    "        vec3 rubble = mix(colour, dust, smoothstep(0.36, 0.52, lump));\n"
+    "        rubble *= mix(0.35, 1.0, smoothstep(0.34, 0.50, gap));\n"
+    "        colour = mix(colour, rubble, v_fell);\n"
+    "    }\n"
+    "    if (u_sun.w > 0.5) {\n"
+    "        vec2 at = vec2(v_body.x + 0.45 * v_body.y, v_body.z + 0.8 * v_body.y);\n"
+    "        vec2 blot = texture(u_detail, at * 0.035).rg;\n"
+    "        vec2 fine = texture(u_detail, at * 0.31).rg;\n"
+    "        float patch_dark = smoothstep(0.46, 0.54, blot.r) * v_colour.a;\n"
+    "        colour *= 1.0 - 0.30 * patch_dark;\n"
+    "        colour *= 0.86 + 0.28 * fine.r;\n"
+    "        float soot = smoothstep(1.02 - 1.1 * v_burn, 1.30 - v_burn, fine.g + 0.3 * blot.g);\n"
+    "        vec3 burnt = mix(vec3(0.055, 0.05, 0.047), vec3(0.20, 0.115, 0.07),\n"
+    "                         smoothstep(0.60, 0.80, fine.g + 0.4 * (blot.g - 0.5)) * 0.8 * "
+    "step(0.9, v_burn));\n"
+    "        colour = mix(colour, burnt, max(soot, 0.94 * smoothstep(0.8, 1.0, v_burn)));\n"
+    "    } else {\n"
+    "        colour = mix(colour, vec3(0.07), v_burn * 0.9);\n"
+    "    }\n"
+    "    o_colour = vec4(mix(colour * v_light, v_air.rgb, v_air.a), 1.0);\n"
+    "}\n";
+
+static const char shadow_vertex_text[] =
+    "out float v_clear;\n"
+    "void main()\n"
+    "{\n"
+    "    if (dot(i_plane.xyz, i_plane.xyz) < 0.5) {\n"
+    "        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);\n"
+    "        v_clear = 0.0;\n"
+    "        return;\n"
+    "    }\n"
+    "    vec3 place = formed(a_place);\n"
+    "    if (a_part > 0.5)\n"
+    "        place = turned(place, u_pivots[int(a_part + 0.5)]);\n"
+    "    vec3 world = i_at + in_world(place);\n"
+    "    float down = (dot(i_plane.xyz, world) - i_plane.w) / dot(i_plane.xyz, u_sun.xyz);\n"
+    "    world -= u_sun.xyz * max(down, 0.0);\n"
+    "    gl_Position = u_matrix * vec4(world, 1.0);\n"
+    "    v_clear = 1.0 - air(world).a;\n"
+    "}\n";
+
+static const char shadow_fragment_text[] = "in float v_clear;\n"
+                                           "out vec4 o_colour;\n"
+                                           "void main()\n"
+                                           "{\n"
+                                           "    vec4 shade = " SHADE ";\n"
+                                           "    o_colour = vec4(shade.rgb, shade.a * v_clear);\n"
+                                           "}\n";
+
+/* All meshes of all models into one buffer. 0, or -1 with errno. */
+static int send_meshes(struct gl_bodies *bodies)
+{
+    const struct world *world = bodies->scenery->world;
+    struct mesh_vertex *all = NULL;
+    size_t count = 0;
+    for (uint32_t model = 0; model < world->counts.models; model++)
+        for (uint32_t detail = 0; detail < MESH_DETAIL_COUNT; detail++) {
+            struct mesh mesh;
+            if (mesh_build(&mesh, world, model, (enum mesh_detail)detail) != 0)
+                goto err_all;
+            struct mesh_vertex *grown = realloc(all, (count + mesh.count + 1) * sizeof *all);
+            if (grown == NULL) {
+                mesh_free(&mesh);
+                goto err_all;
+            }
+            all = grown;
+            if (mesh.count > 0)
+                memcpy(all + count, mesh.vertices, mesh.count * sizeof *all);
+            bodies->mesh[model * MESH_DETAIL_COUNT + detail] =
+                (struct gl_mesh){(GLint)count, (GLsizei)mesh.count};
+            count += mesh.count;
+            mesh_free(&mesh);
+        }
+    glBindBuffer(GL_ARRAY_BUFFER, bodies->meshes);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *all), all, GL_STATIC_DRAW);
+    free(all);
+    return 0;
+
+err_all:
+    free(all);
+    return -1;
+}
+
+static void describe_vertices(const struct gl_bodies *bodies)
+{
+    size_t stride = sizeof(struct mesh_vertex);
+    glBindBuffer(GL_ARRAY_BUFFER, bodies->meshes);
+    gl_attribute(0, 3, stride, offsetof(struct mesh_vertex, position), 0);
+    gl_attribute(1, 3, stride, offsetof(struct mesh_vertex, normal), 0);
+    glEnableVertexAttribArray(2);
+    glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, (GLsizei)stride,
+                          (const void *)(uintptr_t)offsetof(struct mesh_vertex, red));
+    glEnableVertexAttribArray(3);
+    glVertexAttribPointer(3, 1, GL_UNSIGNED_INT, GL_FALSE, (GLsizei)stride,
+                          (const void *)(uintptr_t)offsetof(struct mesh_vertex, part));
+}
+
+/* Points the copies' attributes at the first of a batch: OpenGL 3.3 has no first instance. */
+static void describe_copies(const struct gl_bodies *bodies, uint32_t first)
+{
+    size_t stride = sizeof(struct scene_body), base = first * stride;
+    glBindBuffer(GL_ARRAY_BUFFER, bodies->copies);
+    gl_attribute(4, 3, stride, base + offsetof(struct scene_body, at), 1);
+    gl_attribute(5, 3, stride, base + offsetof(struct scene_body, forward), 1);
+    gl_attribute(6, 3, stride, base + offsetof(struct scene_body, up), 1);
+    gl_attribute(7, 3, stride, base + offsetof(struct scene_body, right), 1);
+    gl_attribute(8, 4, stride, base + offsetof(struct scene_body, tint), 1);
+    gl_attribute(9, 2, stride, base + offsetof(struct scene_body, turret_rad), 1);
+    gl_attribute(10, 4, stride, base + offsetof(struct scene_body, plane), 1);
+    gl_attribute(11, 3, stride, base + offsetof(struct scene_body, dents), 1);
+    gl_attribute(12, 3, stride, base + offsetof(struct scene_body, falls), 1);
+    gl_attribute(13, 3, stride, base + offsetof(struct scene_body, broken), 1);
+}
+
+static void open_dents(struct gl_bodies *bodies)
+{
+    glGenBuffers(1, &bodies->dents);
+    glBindBuffer(GL_TEXTURE_BUFFER, bodies->dents);
+    glBufferData(GL_TEXTURE_BUFFER, sizeof(struct scene_dent), NULL, GL_STREAM_DRAW);
+    glGenTextures(1, &bodies->dent_texture);
+    glActiveTexture(GL_TEXTURE0 + UNIT_DENTS);
+    glBindTexture(GL_TEXTURE_BUFFER, bodies->dent_texture);
+    glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, bodies->dents);
+}
+
+int gl_bodies_open(struct gl_bodies *bodies, const struct scenery *scenery, struct reason *reason)
+{
+    *bodies = (struct gl_bodies){.scenery = scenery};
+    bodies->program = gl_program_on("body", gl_form_text, vertex_text, fragment_text, reason);
+    if (bodies->program == 0)
+        return -1;
+    bodies->shadow_program = gl_program_on("body shadow", gl_form_text, shadow_vertex_text,
+                                           shadow_fragment_text, reason);
+    if (bodies->shadow_program == 0)
+        goto err_program;
+    bodies->u_pivots = glGetUniformLocation(bodies->program, "u_pivots");
+    bodies->u_low = glGetUniformLocation(bodies->program, "u_low");
+    bodies->u_shadow_pivots = glGetUniformLocation(bodies->shadow_program, "u_pivots");
+    size_t meshes = (size_t)scenery->world->counts.models * MESH_DETAIL_COUNT;
+    bodies->mesh = calloc(meshes + 1, sizeof *bodies->mesh);
+    glGenVertexArrays(1, &bodies->array);
+    glBindVertexArray(bodies->array);
+    glGenBuffers(1, &bodies->meshes);
+    glGenBuffers(1, &bodies->copies);
+    open_dents(bodies);
+    if (bodies->mesh == NULL || send_meshes(bodies) != 0) {
+        gl_bodies_close(bodies);
+        return reason_set(reason, "no memory for the models");
+    }
+    describe_vertices(bodies);
+    return 0;
+
+err_program:
+    glDeleteProgram(bodies->program);
+    return -1;
+}
+
+void gl_bodies_close(struct gl_bodies *bodies)
+{
+    glDeleteProgram(bodies->program);
+    glDeleteProgram(bodies->shadow_program);
+    glDeleteVertexArrays(1, &bodies->array);
+    glDeleteBuffers(1, &bodies->meshes);
+    glDeleteBuffers(1, &bodies->copies);
+    glDeleteTextures(1, &bodies->dent_texture);
+    glDeleteBuffers(1, &bodies->dents);
+    free(bodies->mesh);
+}
+
+void gl_bodies_send(struct gl_bodies *bodies, const struct scene *scene)
+{
+    glBindBuffer(GL_ARRAY_BUFFER, bodies->copies);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(scene->body_count * sizeof *scene->bodies),
+                 scene->bodies, GL_STREAM_DRAW);
+    glBindBuffer(GL_TEXTURE_BUFFER, bodies->dents);
+    if (scene->dent_count > 0)
+        glBufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)(scene->dent_count * sizeof *scene->dents),
+                     scene->dents, GL_STREAM_DRAW);
+}
+
+static bool same_mesh(const struct scene_copy *a, const struct scene_copy *b)
+{
+    return a->model == b->model && a->detail == b->detail;
+}
+
+/* One draw for each run of copies of a mesh. */
+static void draw_runs(const struct gl_bodies *bodies, const struct scene *scene, GLint u_pivots,
+                      GLint u_low)
+{
+    glBindVertexArray(bodies->array);
+    for (uint32_t first = 0, end; first < scene->body_count; first = end) {
+        const struct scene_copy *copy = &scene->copies[first];
+        for (end = first + 1; end < scene->body_count; end++)
+            if (!same_mesh(copy, &scene->copies[end]))
+                break;
+        const struct gl_mesh *mesh =
+            &bodies->mesh[(size_t)copy->model * MESH_DETAIL_COUNT + copy->detail];
+        const struct mesh_frame *frame = &bodies->scenery->frames[copy->model];
+        glUniform3fv(u_pivots, PART_COUNT, &frame->pivot[0][0]);
+        if (u_low >= 0)
+            glUniform1f(u_low, frame->low[1]);
+        describe_copies(bodies, first);
+        glDrawArraysInstanced(GL_TRIANGLES, mesh->first, mesh->count, (GLsizei)(end - first));
+    }
+}
+
+void gl_bodies_draw_shadows(struct gl_bodies *bodies, const struct scene *scene)
+{
+    glUseProgram(bodies->shadow_program);
+    draw_runs(bodies, scene, bodies->u_shadow_pivots, -1);
+}
+
+void gl_bodies_draw(struct gl_bodies *bodies, const struct scene *scene)
+{
+    glUseProgram(bodies->program);
+    draw_runs(bodies, scene, bodies->u_pivots, bodies->u_low);
+}

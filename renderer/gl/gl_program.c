@@ -1,0 +1,120 @@
+/* Shaders: compiling them, and the text that all of them share. */
+#include "renderer/gl/gl.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define LOG_BYTES 512
+
+/* Light and air are one model for everything in a picture: ground fades into the very colour that
+ * the sky has there. */
+static const char shared_text[] =
+    "#version 330 core\n"
+    "layout(std140) uniform frame {\n"
+    "    mat4 u_matrix;\n"
+    "    vec4 u_right, u_up, u_forward, u_sun, u_fog;\n"
+    "};\n"
+    "const vec3 sky_light = vec3(0.44, 0.48, 0.56);\n"
+    "const vec3 sun_light = vec3(0.76, 0.70, 0.56);\n"
+    "vec3 horizon(vec3 way)\n"
+    "{\n"
+    "    float towards = dot(normalize(way.xz + vec2(1e-5, 0.0)), normalize(u_sun.xz));\n"
+    "    float glow = 0.5 + 0.5 * towards;\n"
+    "    return mix(vec3(0.70, 0.785, 0.865), vec3(0.955, 0.885, 0.77), glow * glow * glow);\n"
+    "}\n"
+    "vec3 sky(vec3 way)\n"
+    "{\n"
+    "    float high = max(way.y, 0.0);\n"
+    "    vec3 deep = vec3(0.215, 0.405, 0.715);\n"
+    "    vec3 mid = vec3(0.475, 0.645, 0.860);\n"
+    "    vec3 c = mix(mid, deep, 1.0 - exp(-2.6 * high));\n"
+    "    return mix(c, horizon(way), exp(-9.0 * high));\n"
+    "}\n"
+    /* rgb: what the air puts in front of a thing at this place from the eye; a: how much. */
+    "vec4 air(vec3 place)\n"
+    "{\n"
+    "    float far = length(place);\n"
+    "    float rise = place.y * u_fog.z;\n"
+    "    float layer = abs(rise) > 1e-3 ? (1.0 - exp(-rise)) / rise : 1.0;\n"
+    "    float fog = u_fog.y * exp(-u_fog.w * u_fog.z) * layer * far;\n"
+    "    float haze = u_fog.x * far;\n"
+    "    vec3 way = place / max(far, 1e-3);\n"
+    "    vec3 white = mix(vec3(0.80, 0.82, 0.83), horizon(way), 0.5);\n"
+    "    float all = fog + haze;\n"
+    "    return vec4(mix(horizon(way), white, fog / max(all, 1e-6)), 1.0 - exp(-all));\n"
+    "}\n";
+
+static GLuint compile(GLenum type, const char *before, const char *text, char log[LOG_BYTES])
+{
+    const char *texts[] = {shared_text, before, text};
+    GLuint shader = glCreateShader(type);
+    glShaderSource(shader, 3, texts, NULL);
+    glCompileShader(shader);
+    GLint good = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    if (good)
+        return shader;
+    glGetShaderInfoLog(shader, LOG_BYTES, NULL, log);
+    glDeleteShader(shader);
+    return 0;
+}
+
+static void name_units(GLuint program)
+{
+    static const struct {
+        const char *name;
+        enum gl_unit unit;
+    } samplers[] = {
+        {"u_tile", UNIT_TILE},     {"u_detail", UNIT_DETAIL}, {"u_plant", UNIT_PLANT},
+        {"u_facing", UNIT_FACING}, {"u_puff", UNIT_PUFF},     {"u_cloud", UNIT_CLOUD},
+        {"u_dents", UNIT_DENTS},
+    };
+    glUseProgram(program);
+    for (size_t i = 0; i < sizeof samplers / sizeof samplers[0]; i++)
+        glUniform1i(glGetUniformLocation(program, samplers[i].name), (GLint)samplers[i].unit);
+    GLuint block = glGetUniformBlockIndex(program, "frame");
+    if (block != GL_INVALID_INDEX)
+        glUniformBlockBinding(program, block, 0);
+}
+
+GLuint gl_program(const char *name, const char *vertex, const char *fragment, struct reason *reason)
+{
+    return gl_program_on(name, "", vertex, fragment, reason);
+}
+
+GLuint gl_program_on(const char *name, const char *before, const char *vertex, const char *fragment,
+                     struct reason *reason)
+{
+    char log[LOG_BYTES] = "";
+    GLuint program = 0, vs = compile(GL_VERTEX_SHADER, before, vertex, log), fs = 0;
+    if (vs != 0)
+        fs = compile(GL_FRAGMENT_SHADER, "", fragment, log);
+    if (fs != 0) {
+        GLint good = GL_FALSE;
+        program = glCreateProgram();
+        glAttachShader(program, vs);
+        glAttachShader(program, fs);
+        glLinkProgram(program);
+        glGetProgramiv(program, GL_LINK_STATUS, &good);
+        if (!good) {
+            glGetProgramInfoLog(program, LOG_BYTES, NULL, log);
+            glDeleteProgram(program);
+            program = 0;
+        }
+    }
+    glDeleteShader(vs);
+    glDeleteShader(fs);
+    if (program == 0)
+        reason_set(reason, "the OpenGL driver refuses the %s shader: %.200s", name, log);
+    else
+        name_units(program);
+    return program;
+}
+
+void gl_attribute(GLuint index, GLint floats, size_t stride, size_t offset, GLuint divisor)
+{
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, (GLsizei)stride,
+                          (const void *)(uintptr_t)offset);
+    glVertexAttribDivisor(index, divisor);
+}

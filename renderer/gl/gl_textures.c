@@ -1,0 +1,112 @@
+/* Textures that never change, from their painters into the driver. */
+#include "renderer/gl/gl.h"
+
+#include "renderer/scene/foliage.h"
+#include "renderer/scene/texture.h"
+
+#include <stdlib.h>
+
+static GLuint make(enum gl_unit unit, GLenum target, GLint wrap)
+{
+    GLuint texture;
+    glGenTextures(1, &texture);
+    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    glBindTexture(target, texture);
+    glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
+    glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return texture;
+}
+
+static int open_flat(struct gl_textures *textures)
+{
+    size_t texels = (size_t)TEXTURE_DETAIL_SIDE * TEXTURE_DETAIL_SIDE;
+    uint8_t(*detail)[2] = malloc(texels * sizeof *detail);
+    if (detail == NULL)
+        return -1;
+    texture_detail(detail);
+    textures->detail = make(UNIT_DETAIL, GL_TEXTURE_2D, GL_REPEAT);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG8, (GLsizei)TEXTURE_DETAIL_SIDE,
+                 (GLsizei)TEXTURE_DETAIL_SIDE, 0, GL_RG, GL_UNSIGNED_BYTE, detail);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    /* Seen at a low angle the ground would blur long before the eye expects it. */
+    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, -0.6f);
+    free(detail);
+
+    uint8_t *clouds = malloc((size_t)TEXTURE_CLOUD_SIDE * TEXTURE_CLOUD_SIDE);
+    if (clouds == NULL)
+        return -1;
+    texture_clouds(clouds);
+    textures->clouds = make(UNIT_CLOUD, GL_TEXTURE_2D, GL_REPEAT);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, (GLsizei)TEXTURE_CLOUD_SIDE, (GLsizei)TEXTURE_CLOUD_SIDE,
+                 0, GL_RED, GL_UNSIGNED_BYTE, clouds);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    free(clouds);
+    return 0;
+}
+
+static int open_plants(struct gl_textures *textures)
+{
+    struct foliage_picture *picture = malloc(sizeof *picture);
+    if (picture == NULL)
+        return -1;
+    GLsizei side = (GLsizei)FOLIAGE_SIDE;
+    textures->plants = make(UNIT_PLANT, GL_TEXTURE_2D_ARRAY, GL_CLAMP_TO_EDGE);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, side, side, FOLIAGE_COUNT, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, NULL);
+    textures->facing = make(UNIT_FACING, GL_TEXTURE_2D_ARRAY, GL_CLAMP_TO_EDGE);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, side, side, FOLIAGE_COUNT, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, NULL);
+    for (GLint i = 0; i < FOLIAGE_COUNT; i++) {
+        foliage_paint(picture, (enum foliage)i);
+        glActiveTexture(GL_TEXTURE0 + UNIT_PLANT);
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, i, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                        picture->colour);
+        glActiveTexture(GL_TEXTURE0 + UNIT_FACING);
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, i, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                        picture->facing);
+    }
+    free(picture);
+    glActiveTexture(GL_TEXTURE0 + UNIT_PLANT);
+    glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+    glActiveTexture(GL_TEXTURE0 + UNIT_FACING);
+    glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+    return 0;
+}
+
+static int open_puffs(struct gl_textures *textures)
+{
+    uint8_t(*puff)[2] = malloc((size_t)TEXTURE_PUFF_SIDE * TEXTURE_PUFF_SIDE * sizeof *puff);
+    if (puff == NULL)
+        return -1;
+    GLsizei side = (GLsizei)TEXTURE_PUFF_SIDE;
+    textures->puffs = make(UNIT_PUFF, GL_TEXTURE_2D_ARRAY, GL_CLAMP_TO_EDGE);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG8, side, side, PUFF_PICTURES, 0, GL_RG,
+                 GL_UNSIGNED_BYTE, NULL);
+    for (GLint i = 0; i < PUFF_PICTURES; i++) {
+        texture_puff(puff, (enum puff_picture)i);
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, i, side, side, 1, GL_RG, GL_UNSIGNED_BYTE,
+                        puff);
+    }
+    free(puff);
+    glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+    return 0;
+}
+
+int gl_textures_open(struct gl_textures *textures, struct reason *reason)
+{
+    *textures = (struct gl_textures){.detail = 0};
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (open_flat(textures) == 0 && open_plants(textures) == 0 && open_puffs(textures) == 0)
+        return 0;
+    gl_textures_close(textures);
+    return reason_set(reason, "no memory for the textures");
+}
+
+void gl_textures_close(struct gl_textures *textures)
+{
+    const GLuint all[] = {textures->detail, textures->plants, textures->facing, textures->puffs,
+                          textures->clouds};
+    glDeleteTextures((GLsizei)(sizeof all / sizeof all[0]), all);
+}

@@ -1,0 +1,28 @@
+/* The colour of the ground, seen from above: cover, slope and height, roads, craters, light. One
+ * painter for the ground under the camera and for the map, so that both show the same country.
+ * Pure; a picture of the same place is the same at every size but for the detail it can hold. */
+#ifndef JOLON_RENDERER_PAINT_H
+#define JOLON_RENDERER_PAINT_H
+
+#include "renderer/scene/moment.h"
+
+#include <stdint.h>
+
+/* Alpha of a texel: water, or ground with the share of scrub in its fine texture. */
+#define PAINT_WATER_ALPHA  0
+#define PAINT_GROUND_ALPHA 96 /* bare grass; 255 is all scrub */
+
+struct paint_tile {
+    double x, z;   /* [m, world] centre of the first texel */
+    double step_m; /* between texels */
+    uint32_t columns, rows;
+    struct vec3 sun; /* unit; where the light comes from */
+    double relief;   /* slopes are shaded as if so much steeper: 1 is true */
+    uint8_t *rgba;   /* [rows * columns * 4], from the north-west */
+    float *light;    /* [rows * columns] scratch */
+};
+
+void paint_ground(const struct world *world, const struct crater_index *craters,
+                  const struct paint_tile *tile);
+
+#endif

@@ -1,0 +1,141 @@
+/* The scene: what one picture shows, as lists ready to draw. Pure: a moment of the world and a
+ * camera go in, culled lists at the right level of detail come out. No graphics library here, and
+ * no world in the back ends that draw it, save for the ground they tile.
+ *
+ * Places in the lists are metres relative to the camera's eye, world axes. */
+#ifndef JOLON_RENDERER_SCENE_H
+#define JOLON_RENDERER_SCENE_H
+
+#include "renderer/scene/camera.h"
+#include "renderer/scene/effects.h"
+#include "renderer/scene/moment.h"
+#include "renderer/scene/pose.h"
+#include "renderer/scene/scenery.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define SCENE_PLANTS_MAX 24576u
+#define SCENE_BODIES_MAX 8192u
+#define SCENE_PUFFS_MAX  8192u
+#define SCENE_DENTS_MAX  4096u
+
+#define BODY_LEAST_PIXELS 1.3  /* smaller than this nobody sees it */
+#define BENT_LEAST_PIXELS 48.0 /* nor that it is bent, smaller than this */
+
+/* Trees, bushes, tufts of grass: upright pictures that turn to the eye. */
+struct scene_plant {
+    float at[3]; /* the foot */
+    float width, height;
+    float lean;     /* to its right, as a share of the height: broken trees */
+    float picture;  /* enum foliage */
+    float slope[2]; /* of the ground: rise a metre to the east, to the south */
+    float tint[3];  /* on the picture's colours */
+};
+
+/* Anything made of polygons. */
+struct scene_body {
+    float at[3];
+    float forward[3], up[3], right[3]; /* body axes, scaled */
+    float tint[3];                     /* the force's colour */
+    float burn;                        /* 0 as built .. 1 burnt out */
+    float turret_rad, rotor_rad;
+    float plane[4];  /* n.xyz, d: its shadow falls where n.p == d; 0: nowhere */
+    float dents[2];  /* first and count in the scene's list */
+    float grain;     /* a number of its own, for what a heap looks like */
+    float falls[3];  /* x, z [1/m, body axes] and more: it fell in where x * falls[0] + z * falls[1]
+                        + falls[2] is above 1, raggedly */
+    float broken[3]; /* x, y [m, body axes], and how far what is above is bent ahead [rad] */
+};
+
+/* The surface within reach of the point is moved along the way, most at the point. */
+struct scene_dent {
+    float point[3], depth_m; /* [m, body axes] */
+    float way[3], reach_m;   /* unit, body axes */
+};
+
+/* What a body in the same place of the list is a copy of. */
+struct scene_copy {
+    uint16_t model;
+    uint8_t detail; /* enum mesh_detail */
+    uint8_t shadow;
+};
+
+enum puff_picture {
+    PUFF_SMOKE_A,
+    PUFF_SMOKE_B,
+    PUFF_SMOKE_C,
+    PUFF_SMOKE_D,
+    PUFF_FLAME_A,
+    PUFF_FLAME_B,
+    PUFF_GLOW,
+    PUFF_PICTURES
+};
+
+/* Smoke, dust, fire, tracers: pictures that face the eye, farthest first. */
+struct scene_puff {
+    float at[3];
+    float axis[3]; /* stretched so far to both sides of the place; 0: round */
+    float size;    /* half the side, half the width of a stretched one */
+    float turn_rad;
+    float picture; /* enum puff_picture */
+    float glow;    /* 0 covers what is behind it .. 1 adds light to it */
+    float colour[4];
+};
+
+struct scene {
+    struct camera camera;
+    double time_s;           /* of simulation, for what moves in the picture */
+    bool fog, haze, texture; /* thesis row 5 */
+    struct ground_patch patches[GROUND_PATCHES_MAX];
+    uint32_t patch_count;
+    struct scene_plant *plants;
+    uint32_t plant_count;
+    struct scene_body *bodies; /* copies of one model and detail follow each other */
+    struct scene_copy *copies;
+    uint32_t body_count;
+    struct scene_puff *puffs;
+    uint32_t puff_count;
+    struct scene_dent *dents;
+    uint32_t dent_count;
+    uint32_t omitted;         /* things in view for which a list had no room */
+    struct body_order *order; /* scratch */
+};
+
+/* 0, or -1 with errno ENOMEM. */
+int scene_init(struct scene *scene);
+void scene_free(struct scene *scene);
+
+/* Fills all lists for the camera, which is copied in. */
+void scene_build(struct scene *scene, const struct camera *camera, const struct scenery *scenery,
+                 const struct moment *moment, const struct effects *effects);
+
+/* Parts of scene_build, for the files that make them. */
+void scene_fixed(struct scene *scene, const struct scenery *scenery, const struct moment *moment);
+void scene_plants(struct scene *scene, const struct scenery *scenery, const struct moment *moment);
+void scene_puffs(struct scene *scene, const struct moment *moment, const struct effects *effects);
+
+/* Level of detail of a body that shows so large [pixel]; never finer for a smaller one. bent: its
+ * polygons are moved, and must be fine enough for it. */
+enum mesh_detail scene_detail(double pixels, bool bent);
+
+/* A free place at the end of the list of bodies, cleared; NULL, and counted, when there is none. */
+struct scene_body *scene_body_add(struct scene *scene, uint16_t model, enum mesh_detail detail);
+
+/* Where it is, how it is turned, and its size over its model's. */
+void scene_body_place(const struct scene *scene, struct scene_body *body, struct vec3 position,
+                      const struct pose *pose, double scale);
+
+/* Gives the last body of the list a shadow, unless it is too small or too far for one to show. */
+void scene_body_shadow(struct scene *scene, const struct moment *moment, struct vec3 position,
+                       double pixels);
+
+/* Places relative to the eye, in float. */
+static inline void scene_place(const struct scene *scene, struct vec3 position, float at[3])
+{
+    at[0] = (float)(position.x - scene->camera.eye.x);
+    at[1] = (float)(position.y - scene->camera.eye.y);
+    at[2] = (float)(position.z - scene->camera.eye.z);
+}
+
+#endif

@@ -1,0 +1,106 @@
+/* Fixed objects made of polygons, whole and damaged (thesis rows 27, 32 and 33): poles lean and
+ * break, towers lean and fall over, buildings and rocks fall in until they are a heap. */
+#include "renderer/scene/scene.h"
+
+#include "renderer/scene/grain.h"
+#include "world/square.h"
+
+#include <string.h>
+
+#define FIXED_RANGE_M   9000.0
+#define POLE_BREAKS     0.24  /* of its height */
+#define LEGS_GIVE       0.22  /* of a tower's height: there they buckle */
+#define FALLS_IN_SLIGHT 0.35f /* see falls of struct scene_body; -1 to 1 from end to end */
+#define FALLS_IN_HALF   0.90f
+#define FALLS_IN_WHOLE  3.0f
+
+static const float bare[3] = {0.52f, 0.50f, 0.40f}; /* of what no force paints */
+
+/* What leans or falls does so to where its heading points. */
+static double lean_of(enum object_class object_class, enum damage damage)
+{
+    static const double pole_deg[] = {0.0, 3.0, 15.0};
+    if (object_class != OBJECT_POLE || damage >= DAMAGE_HIGH) /* it has fallen */
+        return 0.0;
+    return pole_deg[damage] * RAD_PER_DEG;
+}
+
+/* One end of it falls in first: which, its grain says. frame: of its model. */
+static void fall_in(struct scene_body *body, enum damage damage, const struct mesh_frame *frame)
+{
+    static const float more[] = {0.0f, FALLS_IN_SLIGHT, FALLS_IN_HALF, FALLS_IN_WHOLE};
+    double turn = (double)body->grain * (TWO_PI / 64.0), along, across;
+    maths_sincos(turn, &across, &along);
+    double reach = fabs(along) * 0.5 * (double)(frame->high[0] - frame->low[0]) +
+                   fabs(across) * 0.5 * (double)(frame->high[2] - frame->low[2]);
+    body->falls[0] = (float)(along / reach);
+    body->falls[1] = (float)(across / reach);
+    body->falls[2] = more[damage];
+}
+
+static void show_damage(struct scene_body *body, const struct kind *kind, enum damage damage,
+                        const struct mesh_frame *frame)
+{
+    static const float tower_rad[] = {0.0f, 0.04f, 0.16f, (float)HALF_PI};
+    bool down = damage == DAMAGE_HIGH;
+    body->burn = 0.1f * (float)damage;
+    switch ((enum object_class)kind->object_class) {
+    case OBJECT_POLE: /* what is above the break hangs down until its top lies on the ground */
+        if (down) {
+            double broken_m = POLE_BREAKS * kind->height_m, rest_m = kind->height_m - broken_m;
+            body->broken[1] = (float)broken_m;
+            body->broken[2] = (float)(HALF_PI + maths_atan2(broken_m, rest_m));
+        }
+        break;
+    case OBJECT_WATERTOWER: /* its legs give, and at last it goes over the edge of its feet */
+        body->broken[0] = down ? frame->high[0] : 0.0f;
+        body->broken[1] = down ? 0.0f : (float)(LEGS_GIVE * kind->height_m);
+        body->broken[2] = tower_rad[damage];
+        break;
+    default:
+        fall_in(body, damage, frame);
+        break;
+    }
+}
+
+static void add_fixed(struct scene *scene, const struct scenery *scenery,
+                      const struct moment *moment, uint32_t index)
+{
+    const struct fixed_object *object = &moment->world->fixed[index];
+    const struct kind *kind = &moment->world->kinds[object->kind];
+    uint8_t damage = moment->fixed_damage[index] < DAMAGE_HIGH ? moment->fixed_damage[index]
+                                                               : (uint8_t)DAMAGE_HIGH;
+    struct vec3 position = fixed_position(object);
+    double size = maths_max((double)object->radius_m, (double)object->height_m);
+    double distance = vec3_length(vec3_sub(position, scene->camera.eye));
+    double pixels = camera_pixels(&scene->camera, 2.0 * size, distance);
+    if (pixels < BODY_LEAST_PIXELS || kind->model >= moment->world->counts.models ||
+        !camera_sees(&scene->camera, position, 3.0 * size))
+        return;
+    struct scene_body *body =
+        scene_body_add(scene, kind->model, scene_detail(pixels, damage != DAMAGE_NONE));
+    if (body == NULL)
+        return;
+    double lean = lean_of((enum object_class)kind->object_class, (enum damage)damage);
+    struct pose pose = pose_of(fixed_heading(object), -lean, 0.0);
+    scene_body_place(scene, body, position, &pose, fixed_scale(object, kind));
+    memcpy(body->tint, bare, sizeof body->tint);
+    body->grain = (float)(grain_hash((int32_t)index, 4, 9) % 64u);
+    if (damage != DAMAGE_NONE)
+        show_damage(body, kind, (enum damage)damage, &scenery->frames[kind->model]);
+    scene_body_shadow(scene, moment, position, pixels);
+}
+
+void scene_fixed(struct scene *scene, const struct scenery *scenery, const struct moment *moment)
+{
+    struct vec3 eye = scene->camera.eye;
+    struct square_box box = square_box_of(eye.x - FIXED_RANGE_M, eye.z - FIXED_RANGE_M,
+                                          eye.x + FIXED_RANGE_M, eye.z + FIXED_RANGE_M);
+    for (int32_t row = box.z0; row <= box.z1; row++) {
+        uint32_t first = scenery->square_start[square_index(box.x0, row)];
+        uint32_t end = scenery->square_start[square_index(box.x1, row) + 1];
+        for (uint32_t i = first; i < end; i++)
+            if (scenery->look[i] == LOOK_MODEL)
+                add_fixed(scene, scenery, moment, i);
+    }
+}
