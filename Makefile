@@ -70,17 +70,23 @@ MOVER_SRC    := $(wildcard mover/*.c)
 COLLIDER_SRC := $(wildcard collider/*.c)
 REPLAY_SRC   := $(wildcard replay/*.c)
 RENDERER_SRC := $(wildcard renderer/*.c renderer/*/*.c)
+VIDEO_SRC    := $(wildcard video/*.c)
 REPORTER_SRC := $(wildcard reporter/*.c)
 MONITOR_SRC  := $(wildcard monitor/*.c)
 RECORDER_SRC := $(wildcard recorder/*.c)
+FIGURES_SRC  := $(wildcard figures/*.c)
 BENCH_SRC    := $(wildcard bench/*.c)
 BENCH_CPP    := $(wildcard bench/*.cpp)
 UNIT_SRC     := $(wildcard tests/unit/test_*.c)
 PROPERTY_SRC := $(wildcard tests/property/test_*.c)
 CRASH_SRC    := $(wildcard tests/crash/*.c)
-SUPPORT_SRC  := $(wildcard tests/support/*.c)
+MAP_STAGE    := tests/support/map_stage.c
+SOFT_STAGE   := tests/support/soft_stage.c
+SUPPORT_SRC  := $(filter-out $(MAP_STAGE) $(SOFT_STAGE),$(wildcard tests/support/*.c))
 STORM_SRC    := $(wildcard tests/storm/*.c)
 LISTENER_SRC := tests/once/listener.c
+FILM_SRC     := tests/film/film.c
+GOLDEN_SRC   := $(wildcard tests/golden/*.c)
 FUZZ_SRC     := $(wildcard tests/fuzz/fuzz_*.c)
 
 objects = $(patsubst %.c,$(OBJ)/%.o,$(1))
@@ -96,21 +102,33 @@ STEPS    := $(call objects,$(filter-out %/main.c,$(MOVER_SRC) $(COLLIDER_SRC)))
 LOGS     := $(call objects,$(addprefix recorder/,journal.c command_log.c command_record.c event_log.c) \
         worldctl/json.c)
 REPLAY   := $(call objects,$(REPLAY_SRC)) $(STEPS)
+# The world that a log of commands begins with.
+REPLAYED := $(call objects,$(addprefix worldctl/,remake.c load.c resume.c adopt.c arguments.c))
 # The keeper without its main: whom it watches, and what it makes of a death.
 KEEPER   := $(call objects,$(filter-out %/keeper.c,$(KEEPER_SRC)))
+# The map without words, and what its words say and where.
+MAP      := $(call objects,$(addprefix renderer/,image/image.c $(addprefix chart/,base.c gauges.c \
+        layout.c map.c symbol.c)))
+# Inner loops, compiled a second time where there is a wider vector to choose at run time.
+KERNEL_SRC := $(wildcard renderer/*/kernel_*.c)
+KERNELS  := $(if $(filter x86_64%,$(shell $(CC) -dumpmachine 2>/dev/null || uname -m)),$(KERNEL_SRC:%.c=$(OBJ)/%.avx2.o))
 # The scene without the drawing: nothing here knows of graphics.
 SCENE    := $(call objects,$(wildcard renderer/scene/*.c) $(addprefix renderer/,image/image.c \
-        image/smooth.c chart/map.c chart/track.c))
+        image/smooth.c image/kernel_smooth.c chart/track.c)) \
+        $(filter $(OBJ)/renderer/image/%,$(KERNELS))
+# The rasteriser of our own.
+SOFT     := $(call objects,$(wildcard renderer/soft/*.c)) $(KERNELS)
 # All that makes a picture and puts it out: the renderer without its main and its studio.
-PICTURE  := $(call objects,$(wildcard renderer/*/*.c))
+PICTURE  := $(call objects,$(wildcard renderer/*/*.c)) $(KERNELS)
 STATUS   := $(OBJ)/idl/status.o
 
 pc = $(shell pkg-config --$(1) $(2) 2>/dev/null)
 DDS_CFLAGS    = $(call pc,cflags,CycloneDDS) -I$(IDL)
 DDS_LIBS      = $(call pc,libs,CycloneDDS)
-RENDER_CFLAGS = $(call pc,cflags,epoxy egl libpng freetype2)
-# Not egl: libepoxy opens it when there is one, and a machine without it is told so.
-RENDER_LIBS   = $(call pc,libs,epoxy libpng freetype2)
+RENDER_CFLAGS = $(call pc,cflags,epoxy egl libdeflate libjpeg libmicrohttpd freetype2 libavformat libavcodec libavutil)
+# Not egl: libepoxy opens it when there is one, and a machine without it is told so. Nor libav:
+# renderer/output/libav.c opens it when there is video to be made.
+RENDER_LIBS   = $(call pc,libs,epoxy libdeflate libjpeg libmicrohttpd freetype2)
 # libconfig and libseccomp statically, with their allocations led through world/guarded.c.
 CONFIG_LIBS   = -Wl,-Bstatic $(call pc,libs,libconfig) -Wl,-Bdynamic $(call pc,libs,assimp) -lstdc++
 JSON_CFLAGS   = $(call pc,cflags,libcjson)
@@ -126,18 +144,20 @@ TEST_LIBS     = $(call pc,libs,cmocka)
 BASE_LIBS     = $(HASH_LIBS) -lm
 
 PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-renderer \
-        $(BIN)/jolon-reporter $(BIN)/jolon-recorder $(BIN)/jolon-ctl $(BIN)/jolon-monitor \
+        $(BIN)/jolon-video $(BIN)/jolon-reporter $(BIN)/jolon-recorder $(BIN)/jolon-ctl $(BIN)/jolon-monitor \
         $(BIN)/jolon-bench $(BIN)/jolon-keeper $(BIN)/jolon
 # Of the build with crash points: what their tests run.
 CRASH_PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-recorder \
         $(BIN)/jolon-keeper $(BIN)/jolon $(BUILD)/tests/crash/test_crash
 UNIT_TESTS     := $(patsubst tests/unit/%.c,$(BUILD)/tests/unit/%,$(UNIT_SRC))
+GOLDEN_TESTS   := $(BUILD)/tests/golden/test_golden
 PROPERTY_TESTS := $(patsubst tests/property/%.c,$(BUILD)/tests/property/%,$(PROPERTY_SRC))
 # What system tests run beside the programs.
 STORM          := $(BUILD)/tests/storm/storm
 LISTENER       := $(BUILD)/tests/once/listener
+FILM           := $(BUILD)/tests/film/film
 
-.PHONY: all run test check storm crash fuzz fuzzers model bench install uninstall format lint clean help
+.PHONY: all run test check figures storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
 all: $(if $(CRASHPOINTS),$(CRASH_PROGRAMS),$(PROGRAMS))
 
 # --- programs -----------------------------------------------------------------------------------
@@ -149,8 +169,10 @@ $(BIN)/jolon-mover: $(call objects,$(MOVER_SRC)) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-collider: $(call objects,$(COLLIDER_SRC)) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-renderer: $(call objects,$(RENDERER_SRC)) $(SANDBOX) $(IPC) $(WORLD)
+$(BIN)/jolon-renderer: $(call objects,$(RENDERER_SRC)) $(KERNELS) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(RENDER_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-video: $(call objects,$(VIDEO_SRC) $(filter-out %/main.c,$(RENDERER_SRC))) $(KERNELS) $(REPLAYED) $(REPLAY) $(LOGS) $(ARCHIVE) $(CONFIG) $(IPC) $(WORLD)
+	$(call link,$(RENDER_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-reporter: $(call objects,$(filter-out reporter/ctl%.c,$(REPORTER_SRC))) $(STATUS) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-recorder: $(call objects,$(RECORDER_SRC) worldctl/json.c) $(ARCHIVE) $(SANDBOX) $(IPC) $(WORLD)
@@ -159,8 +181,8 @@ $(BIN)/jolon-ctl: $(call objects,$(filter reporter/ctl%.c reporter/dds%.c,$(REPO
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-monitor: $(call objects,$(MONITOR_SRC) $(filter reporter/dds%.c,$(REPORTER_SRC))) $(STATUS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-bench: $(call objects,$(BENCH_SRC)) $(patsubst %.cpp,$(OBJ)/%.o,$(BENCH_CPP)) $(REPLAY) $(LOGS) $(CONFIG) $(IPC) $(WORLD)
-	$(call link,$(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS) -lstdc++)
+$(BIN)/jolon-bench: $(call objects,$(BENCH_SRC)) $(patsubst %.cpp,$(OBJ)/%.o,$(BENCH_CPP)) $(PICTURE) $(REPLAY) $(LOGS) $(CONFIG) $(IPC) $(WORLD)
+	$(call link,$(RENDER_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS) -lstdc++)
 $(BIN)/jolon-keeper: $(call objects,$(KEEPER_SRC)) $(IPC) $(WORLD)
 	$(call link,$(BASE_LIBS))
 $(BIN)/jolon: supervisor/jolon
@@ -171,6 +193,12 @@ $(BIN)/jolon: supervisor/jolon
 $(OBJ)/reporter/%.o $(OBJ)/monitor/%.o $(OBJ)/tests/storm/%.o \
 $(OBJ)/tests/once/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
 $(OBJ)/renderer/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS)
+# Painting is loops over rows, which the compiler makes vectors of. None of this changes a result.
+$(call objects,$(addprefix renderer/scene/,paint.c country.c grain_rows.c)): CFLAGS_EXTRA = \
+        $(RENDER_CFLAGS) -O3 -fno-math-errno -fno-trapping-math
+$(OBJ)/video/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS) $(JSON_CFLAGS)
+# Their vectors are passed within one file only.
+$(call objects,$(KERNEL_SRC)) $(KERNELS): CFLAGS_EXTRA = $(RENDER_CFLAGS) -Wno-psabi
 $(OBJ)/worldctl/%.o $(OBJ)/recorder/%.o $(OBJ)/replay/%.o $(OBJ)/tests/%.o \
 $(OBJ)/bench/%.o: CFLAGS_EXTRA = $(JSON_CFLAGS)
 $(call objects,$(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC)): $(IDL)/status.h
@@ -179,11 +207,15 @@ $(OBJ)/%.o: %.c $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CC $<"
 	@$(CC) $(CFLAGS_ALL) $(CFLAGS_EXTRA) -MMD -MP -c -o $@ $<
 
+$(OBJ)/%.avx2.o: %.c $(BUILD)/flags | $(STAMP)
+	@mkdir -p $(@D); echo "  CC $< (AVX2)"
+	@$(CC) $(CFLAGS_ALL) -mavx2 $(CFLAGS_EXTRA) -MMD -MP -c -o $@ $<
+
 $(OBJ)/%.o: %.cpp $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CXX $<"
 	@$(CXX) -std=c++17 $(CXXFLAGS_ALL) $(PEER_CFLAGS) -MMD -MP -c -o $@ $<
 
-TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(FUZZ_SRC)
+TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(FILM_SRC) $(GOLDEN_SRC) $(FUZZ_SRC)
 $(call objects,$(TEST_SRC)): | $(TEST_STAMP)
 
 # Generated from the IDL; generated code is not held to our warnings.
@@ -205,8 +237,20 @@ $(BUILD)/tests/%: $(OBJ)/tests/%.o $(SUPPORT) $(REPLAY) $(LOGS) $(ARCHIVE) $(CON
 
 $(BUILD)/tests/unit/test_judge $(BUILD)/tests/unit/test_watch: $(KEEPER)
 $(BUILD)/tests/crash/test_crash: $(call objects,$(CRASH_SRC))
+$(GOLDEN_TESTS): $(call objects,bench/scene.c bench/world.c) $(PICTURE)
+$(GOLDEN_TESTS): TEST_LIBS += $(RENDER_LIBS) $(call pc,libs,libpng)
 $(BUILD)/tests/unit/test_output: $(call objects,$(addprefix renderer/,image/image.c output/output.c image/png.c))
-$(BUILD)/tests/unit/test_output: TEST_LIBS += $(call pc,libs,libpng)
+$(BUILD)/tests/unit/test_output: TEST_LIBS += $(call pc,libs,libdeflate)
+$(BUILD)/tests/unit/test_png: $(call objects,$(addprefix renderer/image/,image.c png.c))
+$(BUILD)/tests/unit/test_png: TEST_LIBS += $(call pc,libs,libdeflate libpng)
+$(BUILD)/tests/unit/test_outlet: $(call objects,$(addprefix renderer/,image/image.c output/outlet.c output/picture.c))
+$(BUILD)/tests/unit/test_stream: $(call objects,$(addprefix renderer/,image/image.c image/jpeg.c \
+        $(addprefix output/,picture.c stream.c stream_http.c)))
+$(BUILD)/tests/unit/test_stream: TEST_LIBS += $(call pc,libs,libjpeg libmicrohttpd)
+$(BUILD)/tests/unit/test_video: $(call objects,$(addprefix renderer/,image/image.c image/yuv.c output/video.c output/libav.c))
+$(BUILD)/tests/unit/test_yuv: $(call objects,$(addprefix renderer/image/,image.c yuv.c))
+$(BUILD)/tests/unit/test_jpeg: $(call objects,$(addprefix renderer/image/,image.c jpeg.c))
+$(BUILD)/tests/unit/test_jpeg: TEST_LIBS += $(call pc,libs,libjpeg)
 $(BUILD)/tests/unit/test_sandbox: $(SANDBOX)
 $(BUILD)/tests/unit/test_sandbox: TEST_LIBS += $(SANDBOX_LIBS)
 # Preloaded by system tests; it stands in the way of functions that the headers say much about.
@@ -215,7 +259,22 @@ $(FAILING): tests/faults/failing.c $(BUILD)/flags
 	@mkdir -p $(@D); echo "  LD $@"
 	@$(CC) -std=c17 $(OPT) -g -D_GNU_SOURCE $(filter-out -Wpedantic,$(WARN)) -fPIC -shared -o $@ $< -ldl
 
-$(BUILD)/tests/unit/test_scene $(BUILD)/tests/unit/test_dents: $(SCENE)
+$(addprefix $(BUILD)/tests/unit/test_soft_,bodies plants puffs): $(SOFT) $(SCENE) $(call objects,$(SOFT_STAGE))
+# What needs the scene alone.
+$(addprefix $(BUILD)/tests/unit/test_,aim blend dents effects gear ground mesh paint scene tiles): $(SCENE)
+$(BUILD)/tests/unit/test_map $(BUILD)/tests/unit/test_layout $(BUILD)/tests/unit/test_gauges: $(SCENE) $(MAP) \
+        $(call objects,$(MAP_STAGE))
+$(BUILD)/tests/unit/test_chart: $(SCENE) $(MAP) $(call objects,$(MAP_STAGE) $(addprefix renderer/,image/text.c \
+        $(addprefix chart/,chart.c instruments.c legend.c)))
+$(BUILD)/tests/unit/test_palette: $(call objects,figures/palette.c renderer/image/image.c)
+$(BUILD)/tests/unit/test_chart: TEST_LIBS += $(call pc,libs,freetype2)
+$(BUILD)/tests/unit/test_effects $(BUILD)/tests/unit/test_plants: $(SCENE)
+$(BUILD)/tests/unit/test_views: $(OBJ)/renderer/views.o
+$(BUILD)/tests/unit/test_governor: $(OBJ)/renderer/governor.o
+$(BUILD)/tests/unit/test_stretch: $(call objects,$(addprefix renderer/image/,image.c stretch.c))
+$(BUILD)/tests/unit/test_soft: $(SOFT) $(SCENE)
+# It walks spans itself.
+$(OBJ)/tests/unit/test_soft.o: CFLAGS_EXTRA = -Wno-psabi
 $(BUILD)/tests/unit/test_checkpoint: $(OBJ)/recorder/checkpoint.o
 $(BUILD)/tests/unit/test_recorder: $(call objects,recorder/brake.c)
 $(BUILD)/tests/unit/test_compare: $(call objects,worldctl/compare.c)
@@ -225,12 +284,15 @@ $(STORM): $(call objects,$(STORM_SRC) $(filter reporter/dds%.c,$(REPORTER_SRC)) 
 $(LISTENER): $(call objects,$(LISTENER_SRC) $(filter reporter/dds%.c,$(REPORTER_SRC))) $(STATUS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(BASE_LIBS))
 
+$(FILM): $(call objects,$(FILM_SRC))
+	$(call link,$(call pc,libs,libavformat libavcodec libavutil))
+
 check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property
 
 # Crash points are tried unsanitized: a sanitizer has its own handler for faults.
-test: all $(UNIT_TESTS) $(PROPERTY_TESTS) $(FAILING) $(STORM) $(LISTENER) $(if $(SAN),,crash)
-	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property system $(if $(SAN),,crash)
+test: all $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(FILM) $(if $(SAN),,crash)
+	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property golden system $(if $(SAN),,crash)
 
 crash:
 	@$(MAKE) --no-print-directory CRASHPOINTS=1 BUILD=$(BUILD)/crash all
@@ -276,8 +338,10 @@ STORMY   ?=
 storm: all $(STORM)
 	@$(STORM) --kills $(KILLS) $(if $(SEED),--seed $(SEED)) $(if $(SCENARIO),--scenario $(SCENARIO)) $(STORMY)
 
-bench: all
+bench: all bench-render
 	@bench/run $(BIN)/jolon-bench
+bench-render: $(BIN)/jolon-bench
+	@bench/run-render $(BIN)/jolon-bench
 
 # The frame protocol's model: MODEL=short, usual or full.
 MODEL    ?= usual
@@ -298,6 +362,15 @@ uninstall:
 	rm -f $(DESTDIR)$(PREFIX)/lib/systemd/system/jolon@.service
 	rm -rf $(SHARE)
 
+# --- pictures of the documents ------------------------------------------------------------------
+SHEET := $(BUILD)/figures/sheet
+$(OBJ)/figures/%.o: CFLAGS_EXTRA = $(call pc,cflags,libpng)
+$(call objects,$(FIGURES_SRC)): | $(TEST_STAMP)
+$(SHEET): $(call objects,$(FIGURES_SRC) $(addprefix renderer/image/,image.c text.c)) $(IPC) $(WORLD)
+	$(call link,$(call pc,libs,libpng freetype2) $(BASE_LIBS))
+figures: all $(SHEET)
+	@figures/make $(BUILD)
+
 # --- keeping it tidy ----------------------------------------------------------------------------
 C_FILES = $(shell git ls-files '*.c' '*.h')
 format:
@@ -315,7 +388,9 @@ help:
 	@echo 'make storm [KILLS=1000] [SEED=n]           kill everything at random, count what came of it'
 	@echo 'make model [MODEL=short|usual|full]      check the frame protocol with spin'
 	@echo 'make bench                              measure; results in bench/results/'
+	@echo 'make bench-render                       what pictures cost, alone'
 	@echo 'make install PREFIX=/usr/local DESTDIR= make uninstall'
+	@echo 'make figures                            the pictures of docs/ again (A.1 to A.9 of the thesis)'
 	@echo 'make format | lint | clean'
 
 -include $(shell find $(OBJ) -name '*.d' 2>/dev/null)

@@ -6,6 +6,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#define BENCH_SIDE_MIN 64u /* [pixel] of pictures */
+#define BENCH_SIDE_MAX 4096u
+
 struct bench_options {
     uint32_t vehicles, threads, frames;
     bool json, peers;
@@ -16,8 +19,11 @@ struct bench_options bench_options(int argc, char **argv, struct bench_options d
 
 int bench_detect(int argc, char **argv);   /* detect.c */
 int bench_handover(int argc, char **argv); /* handover.c */
+int bench_encode(int argc, char **argv);   /* encode.c */
 int bench_frame(int argc, char **argv);    /* frame.c */
 int bench_methods(int argc, char **argv);  /* methods.c */
+int bench_models(int argc, char **argv);   /* models.c */
+int bench_render(int argc, char **argv);   /* render.c */
 int bench_shapes(int argc, char **argv);   /* shapes.c */
 
 /* The fraction (0..1) of the values that lie at or below the result; sorts them. */

@@ -64,10 +64,17 @@ static const struct {
     {"detect", bench_detect,
      "[--vehicles N] [--threads T] [--frames F] [--peers] [--json]     detection beside ODE, "
      "Bullet"},
+    {"encode", bench_encode,
+     "[--size WxH] [--frames F] [--json]     a picture as PNG, JPEG and video"},
     {"frame", bench_frame,
      "[--vehicles N] [--threads T] [--frames F] [--json]     the steps of a frame"},
     {"methods", bench_methods,
      "[--vehicles N] [--json]     the ways to detect, for a thousand bodies up to N"},
+    {"models", bench_models, "[--kind NAME] [--size WxH] [--gl] FILE     what models look like"},
+    {"render", bench_render,
+     "[--gl] [--size WxH] [--seconds S] [--threads T] [--beside] [--follow ID] [--out DIR "
+     "[--all]] "
+     "[--json]     a picture's stages"},
     {"shapes", bench_shapes, "[--frames SAMPLES] [--json]     what spheres get wrong"},
 };
 

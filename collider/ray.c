@@ -83,7 +83,7 @@ bool ray_nearest(const struct ray_model *model, struct vec3 from, struct vec3 di
     struct beam beam = beam_of(model, from, direction);
     struct vec3 corner[3], normal = {0.0, 0.0, 0.0};
     double nearest = INFINITY;
-    for (uint32_t i = 0; i < shape->triangle_count; i++) {
+    for (uint32_t i = 0; i < model_solid_triangles(shape); i++) {
         corners_of(model->world, shape, i, corner);
         struct vec3 n = normal_of(corner);
         double speed = vec3_dot(n, beam.along);

@@ -86,8 +86,8 @@ const char *key_type_name(enum key_type type)
 {
     static const char *const names[KEY_TYPE_COUNT] = {
         [KEY_BOOLEAN] = "boolean", [KEY_INTEGER] = "integer", [KEY_NUMBER] = "number",
-        [KEY_TEXT] = "text",       [KEY_CHOICE] = "choice",   [KEY_POINT] = "point",
-        [KEY_AREA] = "area",       [KEY_ROUTE] = "route",
+        [KEY_TEXT] = "text",       [KEY_CHOICE] = "choice",   [KEY_CHOICES] = "choices",
+        [KEY_POINT] = "point",     [KEY_AREA] = "area",       [KEY_ROUTE] = "route",
     };
 
     return type < KEY_TYPE_COUNT ? names[type] : "?";
@@ -119,6 +119,7 @@ void keys_allowed(const struct key *key, char *text, size_t bytes)
     case KEY_INTEGER:
     case KEY_NUMBER:
     case KEY_CHOICE:
+    case KEY_CHOICES:
         if (key->choices != NULL) {
             for (const struct key_choice *choice = key->choices; choice->name != NULL; choice++) {
                 if (choice->built)
@@ -218,6 +219,28 @@ static int store_choice(const struct given *given, void *destination, const char
     return refuse_value(given, "unknown");
 }
 
+/* Each word of "word,word"; blanks after a comma do not matter. */
+static int store_choices(const struct given *given, void *destination, const char *words)
+{
+    uint32_t all = 0;
+
+    for (const char *at = words; at != NULL;) {
+        const struct key_choice *choice = given->key->choices;
+
+        at += strspn(at, " ");
+        size_t length = strcspn(at, ",");
+        while (choice->name != NULL &&
+               (strncmp(choice->name, at, length) != 0 || choice->name[length] != '\0'))
+            choice++;
+        if (choice->name == NULL)
+            return refuse_value(given, "unknown");
+        all |= choice->value;
+        at = at[length] == ',' ? at + length + 1 : NULL;
+    }
+    memcpy((char *)destination + given->key->offset, &all, sizeof(all));
+    return 0;
+}
+
 /* Names and titles: printable ASCII, so that they are the same in every table, file and topic. */
 static int store_text(const struct given *given, void *destination, const char *text)
 {
@@ -262,6 +285,8 @@ int keys_set_text(const struct key *key, void *destination, const char *text,
         return store_text(&given, destination, text);
     case KEY_CHOICE:
         return store_choice(&given, destination, text);
+    case KEY_CHOICES:
+        return store_choices(&given, destination, text);
     case KEY_POINT:
     case KEY_AREA:
     case KEY_ROUTE:
@@ -451,11 +476,14 @@ static int store_setting(const struct given *given, void *destination,
                                     : store_number(given, destination, number_of(setting));
     case KEY_TEXT:
     case KEY_CHOICE:
+    case KEY_CHOICES:
         if (setting->type != CONFIG_TYPE_STRING)
             return refuse_value(given, "is not text in quotes");
-        return key->type == KEY_TEXT
-                   ? store_text(given, destination, config_setting_get_string(setting))
-                   : store_choice(given, destination, config_setting_get_string(setting));
+        if (key->type == KEY_TEXT)
+            return store_text(given, destination, config_setting_get_string(setting));
+        return key->type == KEY_CHOICE
+                   ? store_choice(given, destination, config_setting_get_string(setting))
+                   : store_choices(given, destination, config_setting_get_string(setting));
     case KEY_POINT:
         return store_point(given, destination, setting);
     case KEY_AREA:

@@ -22,9 +22,10 @@ enum key_type {
     KEY_NUMBER, /* an integer is taken too; with choices: one of them */
     KEY_TEXT,
     KEY_CHOICE,
-    KEY_POINT, /* [x, z] */
-    KEY_AREA,  /* [x0, z0, x1, z1] with x0 < x1 and z0 < z1 */
-    KEY_ROUTE, /* ( [x, z], [x, z], ... ), two points or more */
+    KEY_CHOICES, /* one or several, with commas between; their values added by "or" */
+    KEY_POINT,   /* [x, z] */
+    KEY_AREA,    /* [x0, z0, x1, z1] with x0 < x1 and z0 < z1 */
+    KEY_ROUTE,   /* ( [x, z], [x, z], ... ), two points or more */
     KEY_TYPE_COUNT
 };
 

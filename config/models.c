@@ -24,12 +24,19 @@ struct reader {
     size_t at;
 };
 
+/* Of those that can be several on a model each stands with a number behind its name. */
 static const char *const part_names[PART_COUNT] = {
     [PART_BODY] = "body",
     [PART_TURRET] = "turret",
+    [PART_GUN] = "gun",
     [PART_ROTOR] = "rotor",
     [PART_TAIL_ROTOR] = "tail_rotor",
+    [PART_WHEEL] = "wheel",
+    [PART_FRONT_WHEEL] = "front_wheel",
+    [PART_TRACK] = "track",
 };
+
+static const char solid_name[] = "solid";
 
 void models_open(struct models *models, struct scenario *scenario, const char *data_dir,
                  XXH3_state_t *hash)
@@ -173,6 +180,7 @@ struct taking {
     const struct aiScene *scene;
     struct key_place place;
     struct model *model;
+    uint32_t joints; /* used, the turret's among them */
     struct loader_message *message;
 };
 
@@ -204,6 +212,15 @@ static int take_vertices(struct taking *taking, const struct aiMesh *mesh)
     return 0;
 }
 
+static uint8_t tint_of(const char *material)
+{
+    if (strcmp(material, "force") == 0)
+        return MODEL_TINT_FORCE;
+    if (strcmp(material, "paint") == 0)
+        return MODEL_TINT_PAINT;
+    return strncmp(material, "wash", 4) == 0 ? MODEL_TINT_WASH : 0;
+}
+
 /* The material's colour and whether it is the force's; -1 with the message. */
 static int take_material(struct taking *taking, const struct aiMesh *mesh,
                          struct model_triangle *like)
@@ -223,14 +240,13 @@ static int take_material(struct taking *taking, const struct aiMesh *mesh,
     like->red = (uint8_t)lrintf(color.r * 255.0f);
     like->green = (uint8_t)lrintf(color.g * 255.0f);
     like->blue = (uint8_t)lrintf(color.b * 255.0f);
-    like->force_tint = strcmp(name.data, "force") == 0;
+    like->force_tint = tint_of(name.data);
     return 0;
 }
 
-static int take_mesh(struct taking *taking, const struct aiMesh *mesh, uint32_t part)
+static int take_mesh(struct taking *taking, const struct aiMesh *mesh, struct model_triangle like)
 {
     struct scenario *scenario = taking->models->scenario;
-    struct model_triangle like = {.part = part};
     uint32_t first = taking->model->vertex_count;
     void *table = scenario->triangles;
 
@@ -264,25 +280,61 @@ static int take_mesh(struct taking *taking, const struct aiMesh *mesh, uint32_t 
     return 0;
 }
 
-/* OBJ objects and groups come as nodes of that name under the root. */
-static int take_node(struct taking *taking, const struct aiNode *node, int depth)
+/* The part that an object's name stands for, a number behind a "_" left aside; PART_COUNT: none. */
+static uint32_t part_of(const char *name)
 {
+    size_t length = strlen(name), end = length;
     uint32_t part = 0;
+
+    while (end > 0 && name[end - 1] >= '0' && name[end - 1] <= '9')
+        end--;
+    if (end < length && end > 0 && name[end - 1] == '_')
+        length = end - 1;
+    while (part < PART_COUNT &&
+           (strncmp(name, part_names[part], length) != 0 || part_names[part][length] != '\0'))
+        part++;
+    return part;
+}
+
+/* What an object's triangles have in common; -1 with the message. */
+static int take_part(struct taking *taking, const struct aiNode *node, struct model_triangle *like)
+{
+    uint32_t part = part_of(node->mName.data);
+
+    if (part == PART_COUNT)
+        return keys_refuse(taking->message, taking->place, NULL, NULL,
+                           "object %s: unknown part; allowed: body, turret, gun, rotor, "
+                           "tail_rotor, wheel, front_wheel, track, solid, a number behind",
+                           node->mName.data);
+    like->part = (uint16_t)part;
+    if (part == PART_BODY || part == PART_TURRET)
+        return 0;
+    if (taking->joints == MODEL_JOINTS_MAX)
+        return keys_refuse(taking->message, taking->place, NULL, NULL,
+                           "object %s: moves, and is one too many; allowed: up to %u",
+                           node->mName.data, MODEL_JOINTS_MAX - 1);
+    like->joint = (uint16_t)taking->joints++;
+    return 0;
+}
+
+/* OBJ objects and groups come as nodes of that name under the root. solid: takes those that only
+ * collide, else those that are seen. */
+static int take_node(struct taking *taking, const struct aiNode *node, bool solid, int depth)
+{
+    struct model_triangle like = {.part = PART_BODY};
 
     if (depth > NODE_DEPTH_MAX)
         return keys_refuse(taking->message, taking->place, NULL, NULL, "is nested too deeply");
-    while (part < PART_COUNT && strcmp(node->mName.data, part_names[part]) != 0)
-        part++;
-    if (node->mNumMeshes > 0 && part == PART_COUNT)
-        return keys_refuse(taking->message, taking->place, NULL, NULL,
-                           "object %s: unknown part; allowed: body, turret, rotor, tail_rotor",
-                           node->mName.data);
-    for (unsigned i = 0; i < node->mNumMeshes; i++) {
-        if (take_mesh(taking, taking->scene->mMeshes[node->mMeshes[i]], part) != 0)
+    if (node->mNumMeshes > 0 && (strcmp(node->mName.data, solid_name) == 0) == solid) {
+        if (!solid && take_part(taking, node, &like) != 0)
             return -1;
+        for (unsigned i = 0; i < node->mNumMeshes; i++) {
+            if (take_mesh(taking, taking->scene->mMeshes[node->mMeshes[i]], like) != 0)
+                return -1;
+        }
     }
     for (unsigned i = 0; i < node->mNumChildren; i++) {
-        if (take_node(taking, node->mChildren[i], depth + 1) != 0)
+        if (take_node(taking, node->mChildren[i], solid, depth + 1) != 0)
             return -1;
     }
     return 0;
@@ -302,10 +354,14 @@ static int take_scene(struct models *models, const struct aiScene *scene, const 
     memcpy(model->name, name, strlen(name));
     model->first_vertex = scenario->vertex_count;
     model->first_triangle = scenario->triangle_count;
-    struct taking taking = {models, scene, place, model, message};
-    if (take_node(&taking, scene->mRootNode, 0) != 0)
+    struct taking taking = {models, scene, place, model, 1, message};
+    if (take_node(&taking, scene->mRootNode, true, 0) != 0)
         return -1;
-    if (model->triangle_count == 0)
+    model->solid_triangles = model->triangle_count;
+    model->solid_vertices = model->vertex_count;
+    if (take_node(&taking, scene->mRootNode, false, 0) != 0)
+        return -1;
+    if (model->triangle_count == model->solid_triangles)
         return keys_refuse(message, place, NULL, NULL, "has no triangles");
     if (hulls_build(&models->hulls[scenario->model_count - 1], scenario, model, place, message) !=
         0)

@@ -10,7 +10,7 @@
 /* The places of a model's corners, each once, as a forest: a tree is a piece. */
 struct places {
     struct vec3 *at;  /* [count] in order of x, y, z */
-    uint32_t *of;     /* [the model's vertex_count] index of each vertex's place */
+    uint32_t *of;     /* [vertices] index of each vertex's place */
     uint32_t *parent; /* [count] never behind its child */
     uint32_t count;
 };
@@ -158,10 +158,13 @@ int pieces_find(struct pieces *pieces, const struct scenario *scenario, const st
     struct places places;
     int result;
 
+    uint32_t vertices = model->solid_triangles > 0 ? model->solid_vertices : model->vertex_count;
+
     memset(pieces, 0, sizeof(*pieces));
-    result = find_places(&places, &scenario->vertices[model->first_vertex], model->vertex_count);
+    result = find_places(&places, &scenario->vertices[model->first_vertex], vertices);
     if (result == 0) {
-        join_corners(&places, &scenario->triangles[model->first_triangle], model->triangle_count);
+        join_corners(&places, &scenario->triangles[model->first_triangle],
+                     model_solid_triangles(model));
         result = deal_places(pieces, &places);
     }
     places_free(&places);

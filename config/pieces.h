@@ -1,5 +1,6 @@
 /* Pieces: what of a model hangs together. Corners at the same place are joined, whatever part of
- * the model they belong to; each piece is wrapped. */
+ * the model they belong to; each piece is wrapped. Of a model with a part that is solid, that part
+ * alone. */
 #ifndef JOLON_CONFIG_PIECES_H
 #define JOLON_CONFIG_PIECES_H
 

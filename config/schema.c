@@ -82,10 +82,18 @@ static const struct key_choice nearnesses[] = {
     {"and", NEARNESS_AND, true}, {"or", NEARNESS_OR, true}, {NULL, 0, false}};
 static const struct key_choice measures[] = {
     {"energy", MEASURE_ENERGY, true}, {"mass", MEASURE_MASS, true}, {NULL, 0, false}};
-static const struct key_choice views[] = {{"chase", VIEW_CHASE, true},
-                                          {"map", VIEW_MAP, true},
-                                          {"both", VIEW_BOTH, true},
+static const struct key_choice views[] = {{"chase", 1u << VIEW_CHASE, true},
+                                          {"map", 1u << VIEW_MAP, true},
+                                          {"inside", 1u << VIEW_INSIDE, true},
+                                          {"orbit", 1u << VIEW_ORBIT, true},
+                                          {"free", 1u << VIEW_FREE, true},
+                                          {"overhead", 1u << VIEW_OVERHEAD, true},
+                                          {"both", 1u << VIEW_CHASE | 1u << VIEW_MAP, true},
                                           {NULL, 0, false}};
+static const struct key_choice back_ends[] = {{"auto", BACK_END_AUTO, true},
+                                              {"gl", BACK_END_GL, true},
+                                              {"soft", BACK_END_SOFT, true},
+                                              {NULL, 0, false}};
 static const struct key_choice whens_full[] = {
     {"gap", WHEN_FULL_GAP, true}, {"pause", WHEN_FULL_PAUSE, true}, {NULL, 0, false}};
 static const struct key_choice forces[] = {{"neutral", FORCE_NEUTRAL, true},
@@ -146,12 +154,15 @@ static const struct key scenario_keys[] = {
     CHOICE("recorder.when_full", S, params.when_full, STORE_U32, whens_full, "gap"),
     WHOLE32("renderer.width", S, params.renderer.width, 16, 7680, "1280"),
     WHOLE32("renderer.height", S, params.renderer.height, 16, 4320, "720"),
-    NUMBER("renderer.fps", S, params.renderer.fps, 0, 60, "2"),
-    CHOICE("renderer.view", S, params.renderer.view, STORE_U32, views, "both"),
+    NUMBER("renderer.fps", S, params.renderer.fps, 0, 120, "2"),
+    {ROW("renderer.view", KEY_CHOICES, STORE_U32, S, params.renderer.views), .choices = views,
+     .fallback = "both"},
     WHOLE32("renderer.follow", S, params.renderer.follow, 0, UINT32_MAX, "0"),
     BOOLEAN("renderer.fog", S, params.renderer.fog, STORE_U32, "true"),
     BOOLEAN("renderer.haze", S, params.renderer.haze, STORE_U32, "true"),
     BOOLEAN("renderer.texture", S, params.renderer.texture, STORE_U32, "true"),
+    CHOICE("renderer.backend", S, params.renderer.back_end, STORE_U32, back_ends, "auto"),
+    BOOLEAN("renderer.hold", S, params.renderer.hold, STORE_U32, "true"),
 };
 #undef S
 const struct key_table schema_scenario = {"", scenario_keys, COUNT(scenario_keys)};

@@ -112,6 +112,16 @@ uint64_t process_whole(const char *option, const char *text, uint64_t low, uint6
     return value;
 }
 
+struct process_size process_size(const char *option, const char *text, uint32_t low, uint32_t high)
+{
+    struct process_size size;
+    int used = 0;
+    if (sscanf(text, "%5ux%5u%n", &size.width, &size.height, &used) != 2 || text[used] != '\0' ||
+        size.width < low || size.width > high || size.height < low || size.height > high)
+        die_usage("--%s %s: not WxH with each from %u to %u, as 1280x720", option, text, low, high);
+    return size;
+}
+
 bool process_number_read(const char *text, double low, double high, double *value)
 {
     char *end;

@@ -33,6 +33,12 @@ void process_die_with_parent(int parent_pid);
 uint64_t process_whole(const char *option, const char *text, uint64_t low, uint64_t high);
 double process_number(const char *option, const char *text, double low, double high);
 
+/* The same of a size in pixels, WIDTHxHEIGHT, each within low..high. */
+struct process_size {
+    uint32_t width, height;
+};
+struct process_size process_size(const char *option, const char *text, uint32_t low, uint32_t high);
+
 /* The same number of a text from elsewhere: false when it is none, or not within low..high. */
 bool process_number_read(const char *text, double low, double high, double *value);
 

@@ -58,6 +58,8 @@ struct role_slot {
     _Atomic uint64_t late_frames; /* mover: not committed within a frame's time of their due */
     _Atomic uint64_t due_ns;      /* mover: CLOCK_MONOTONIC when the next frame is due */
     _Atomic uint64_t gaps;        /* consumers: events lost to a ring that went round */
+    _Atomic uint32_t detail_pct;  /* renderers: what is drawn of all detail; 0: others ... */
+    _Atomic uint32_t size_pct;    /* ... and the size it is drawn at, of the picture's */
     struct histogram stage;       /* the role's own work a frame */
     struct histogram whole;       /* collider: mover's and collider's work of one frame */
 };

@@ -6,18 +6,60 @@
 #include "renderer/image/image.h"
 #include "renderer/scene/scene.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
+#define DRAW_NAME_BYTES 256
+
+#define DRAW_STAGES_MAX 12u
+
+/* What the last picture cost: processor time of all threads together. */
+struct draw_stages {
+    uint32_t count;
+    struct draw_stage {
+        const char *name;
+        uint64_t cpu_ns;
+    } stage[DRAW_STAGES_MAX];
+};
+
 struct draw {
     void *self; /* the back end's own */
-    /* Draws the scene into an image of the size it was opened for. craters: the moment's, for the
-     * ground. 0, or -1 with the reason; the back end is of no more use then. */
+    /* Draws the scene into an image no larger than it was opened for, in the image's size. craters:
+     * the moment's, for the ground. 0, or -1 with the reason; the back end is of no more use then.
+     */
     int (*picture)(void *self, const struct scene *scene, const struct moment *moment,
                    struct image *image, struct reason *reason);
+    /* NULL when the back end cannot tell. */
+    const struct draw_stages *(*stages)(void *self);
     void (*close)(void *self);
 };
 
+/* Which OpenGL: all zero is the first that draws, hardware before software. */
+struct gl_wish {
+    const char *device; /* its number, or part of its name; NULL: any */
+    bool hardware;      /* software is no good */
+};
+
 /* OpenGL 3.3 core or later without a window (EGL), on the machine's graphics hardware or in
- * software. 0, or -1 with the reason, which names what is missing. Takes up to a second. */
+ * software, for pictures up to width x height; name: how it is called, for people. 0, or -1 with
+ * the reason, which names what is missing. Takes up to a second. */
 int gl_open(struct draw *draw, const struct scenery *scenery, uint32_t width, uint32_t height,
-            struct reason *reason);
+            const struct gl_wish *wish, char name[DRAW_NAME_BYTES], struct reason *reason);
+
+/* Does the machine look as if it had graphics hardware? Looks at device files alone and loads
+ * nothing; why: what is missing. */
+bool gl_hardware(char *why, size_t bytes);
+
+/* Prints every OpenGL that there is to standard output, a line each. */
+void gl_list(void);
+
+/* Our own software, on as many threads (1 .. WORKERS_MAX), for pictures up to width x height. The
+ * same scene gives the same picture to the bit on every machine and any number of threads. 0, or -1
+ * with the reason: no memory, or too large a picture. */
+int soft_open(struct draw *draw, const struct scenery *scenery, uint32_t width, uint32_t height,
+              uint32_t threads, struct reason *reason);
+
+/* The vectors that it works with on this processor: "AVX2". */
+const char *soft_vectors(void);
 
 #endif

@@ -4,6 +4,8 @@
 #include "ipc/frame.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "renderer/account.h"
+#include "renderer/back_end.h"
 #include "renderer/options.h"
 #include "renderer/pulse.h"
 #include "renderer/studio.h"
@@ -17,17 +19,6 @@
 #define NICENESS         12         /* far behind the frame loop */
 #define LOOK_INTERVAL_NS 500000000u /* between two looks at the world when no picture is due */
 #define WAIT_NS          100000000u /* the longest wait without a look at the signals */
-
-/* Statistics of one picture for jolon status; nobody depends on them. */
-static void account(struct view *view, const struct studio *studio, uint64_t begun_ns)
-{
-    struct role_slot *slot = view->slot[view->role];
-    uint64_t took = clock_now_ns() - begun_ns;
-    atomic_store_explicit(&slot->frame, studio->seen, memory_order_relaxed);
-    atomic_store_explicit(&slot->stage_ns, took, memory_order_relaxed);
-    atomic_store_explicit(&slot->gaps, studio->events.gap, memory_order_relaxed);
-    histogram_add(&slot->stage, took);
-}
 
 /* Waits for the next picture's time or the end of the run, looking at the world meanwhile. */
 static int wait_for_next(struct studio *studio, struct view *view, struct reason *reason)
@@ -49,6 +40,10 @@ static int wait_for_next(struct studio *studio, struct view *view, struct reason
 static int run(struct studio *studio, struct view *view, struct reason *reason)
 {
     bool last = false;
+    if (studio_look(studio, reason) != 0)
+        return -1;
+    if (studio_check_vehicles(studio, reason) != 0)
+        log_warn("%s; follows another until it is there", reason->text);
     while (!last) {
         last = process_stopping() || frame_finished(view);
         if (!last) {
@@ -60,47 +55,53 @@ static int run(struct studio *studio, struct view *view, struct reason *reason)
         if (last && studio_look(studio, reason) != 0)
             return -1;
         uint64_t begun_ns = clock_now_ns();
-        if (studio_draw(studio, reason) != 0)
+        if (studio_draw(studio, last, reason) != 0)
             return -1;
-        account(view, studio, begun_ns);
+        account_picture(view, studio, begun_ns);
     }
     return 0;
 }
 
-/* Before any thread: the folder of the pictures is opened, and nothing but it can be written to.
- * The driver's cache moves there too: it holds programs, and others run those that it keeps at
- * home. */
-static int confine(struct sandbox *sandbox, struct output *output, const struct options *options,
+/* Before any thread: what pictures go to is opened, and nothing but their folder can be written to
+ * by name. The driver's cache moves there too: it holds programs, and others run those that it
+ * keeps at home. */
+static int confine(struct sandbox *sandbox, struct outlets *outlets, const struct options *options,
                    struct reason *reason)
 {
     char cache[1024];
-    if (output_open(output, options->out, reason) != 0)
+    if (outlets_open(outlets, &options->outlets, reason) != 0)
         return -1;
-    if (output_cache(output, cache, sizeof cache) == 0)
+    if (output_cache(&outlets->output, cache, sizeof cache) == 0)
         setenv("MESA_SHADER_CACHE_DIR", cache, 1);
     if (sandbox_begin(sandbox, options->role, options->sandbox_off, reason) != 0)
         return -1;
-    return sandbox_files(sandbox, &output->folder, 1, reason);
+    sandbox->serves = outlets->stream != NULL;
+    return sandbox_files(sandbox, &outlets->output.folder, 1, reason);
 }
 
 /* One picture of the present frame, without a role. */
 static int snap(struct studio *studio, struct reason *reason)
 {
-    return studio_look(studio, reason) == 0 && studio_draw(studio, reason) == 0 ? 0 : -1;
+    return studio_look(studio, reason) == 0 && studio_check_vehicles(studio, reason) == 0 &&
+                   studio_draw(studio, true, reason) == 0
+               ? 0
+               : -1;
 }
 
 int main(int argc, char **argv)
 {
     static struct studio studio;
+    static struct outlets outlets;
     struct options options;
     struct view view;
     struct sandbox sandbox = {.on = false};
-    struct output output;
     struct pulse pulse;
-    struct reason reason;
+    struct reason reason, second;
 
     log_open("renderer");
     options_read(&options, argc, argv);
+    if (options.list_devices)
+        return back_end_list();
     bool snapping = options.snap != NULL;
     log_open(snapping ? "renderer" : role_name(options.role));
     process_close_inherited();
@@ -109,7 +110,7 @@ int main(int argc, char **argv)
         process_die_with_parent(options.parent_pid);
     if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &reason) != 0)
         die_refused("%s", reason.text);
-    if (!snapping && confine(&sandbox, &output, &options, &reason) != 0)
+    if (!snapping && confine(&sandbox, &outlets, &options, &reason) != 0)
         die_refused("%s", reason.text);
     /* The pulse keeps its priority; drawing, and the threads of the OpenGL driver, get out of the
      * frame loop's way. */
@@ -117,9 +118,11 @@ int main(int argc, char **argv)
         die_refused("cannot start a thread: %s", strerror(errno));
     if (setpriority(PRIO_PROCESS, 0, NICENESS) != 0)
         log_warn("cannot lower its priority: %s", strerror(errno));
+    if (!snapping && outlets_start(&outlets, &reason) != 0)
+        die_refused("%s", reason.text);
     setenv("LP_NUM_THREADS", "1", 0);
 
-    if (studio_open(&studio, &view, &pulse, snapping ? NULL : &output, &options, &reason) != 0 ||
+    if (studio_open(&studio, &view, &pulse, snapping ? NULL : &outlets, &options, &reason) != 0 ||
         sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
     int result;
@@ -127,12 +130,13 @@ int main(int argc, char **argv)
         result = snap(&studio, &reason);
     } else {
         segment_ready(&view);
-        log_info("draws world \"%s\" into %s: %s, %ux%u, %.3g pictures a second", view.name,
-                 options.out, view_mode_name((enum view_mode)studio.options.view),
+        log_info("draws world \"%s\" into %s: %s%s, %ux%u, %.3g pictures a second", view.name,
+                 options.out, studio.shots[0].wish.name, studio.shot_count > 1 ? ", ..." : "",
                  studio.options.width, studio.options.height, studio.options.fps);
         result = run(&studio, &view, &reason);
+        if (outlets_close(&outlets, result == 0 ? &reason : &second) != 0)
+            result = -1;
         pulse_stop(&pulse);
-        output_close(&output);
     }
     if (result != 0)
         die_refused("%s", reason.text);

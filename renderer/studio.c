@@ -4,78 +4,176 @@
 #include "ipc/clock.h"
 #include "ipc/frame.h"
 #include "ipc/log.h"
+#include "renderer/back_end.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
-#define EVENT_BATCH       256u
-#define EVENTS_BEFORE     2048u /* read at the start, for what still burns */
-#define COMPLAINT_NS      10000000000ull
-#define OVERLOOK_HEIGHT_M 60.0
-
-static struct moment moment_of(const struct studio *studio)
-{
-    return (struct moment){.world = &studio->view->world,
-                           .head = &studio->snapshot.head,
-                           .entities = &studio->snapshot.entities,
-                           .fixed_damage = studio->snapshot.fixed_damage,
-                           .craters = &studio->craters,
-                           .dents = &studio->dents};
-}
-
-static bool wants(const struct studio *studio, enum view_mode view)
-{
-    return studio->options.view == VIEW_BOTH || studio->options.view == (int)view;
-}
+#define EVENT_BATCH   256u
+#define EVENTS_BEFORE 2048u /* read at the start, for what still burns */
+#define COMPLAINT_NS  10000000000ull
 
 static void take_defaults(struct options *options, const struct renderer_params *params)
 {
     if (options->fps < 0.0)
         options->fps = params->fps;
-    if (options->view < 0)
-        options->view = (int)params->view;
+    if (options->views.count == 0)
+        views_of_bits(&options->views, params->views);
     if (options->width == 0) {
         options->width = params->width;
         options->height = params->height;
     }
     if (!options->follow_given)
         options->follow = params->follow;
+    if (options->back_end < 0)
+        options->back_end = (int)params->back_end;
+    if (options->hold < 0)
+        options->hold = params->hold != 0;
 }
 
-int studio_open(struct studio *studio, struct view *view, struct pulse *pulse,
-                struct output *output, const struct options *options, struct reason *reason)
+static void take_shots(struct studio *studio)
 {
-    memset(studio, 0, sizeof *studio);
-    studio->view = view;
-    studio->pulse = pulse;
-    studio->output = output;
-    studio->options = *options;
-    studio->drawn = UINT64_MAX;
-    studio->followed = SLOT_NONE;
-    take_defaults(&studio->options, &view->world.params->renderer);
-    uint32_t width = studio->options.width, height = studio->options.height;
+    const struct options *options = &studio->options;
+    for (uint32_t i = 0; i < options->views.count; i++)
+        studio->shots[i] = (struct shot){.wish = options->views.wish[i],
+                                         .aim_wish = {.view = options->views.wish[i].mode,
+                                                      .field_rad = options->field_rad,
+                                                      .stand = options->stand},
+                                         .slot = SLOT_NONE};
+    studio->shot_count = options->views.count;
+}
 
-    if (snapshot_init(&studio->snapshot, view) != 0)
-        goto err_memory;
+static bool wants_cameras(const struct studio *studio)
+{
+    for (uint32_t i = 0; i < studio->shot_count; i++)
+        if (studio->shots[i].wish.mode != VIEW_MAP)
+            return true;
+    return false;
+}
+
+/* The world as it is copied: two frames, and what is known beside them. */
+static int open_world(struct studio *studio, struct view *view)
+{
+    if (snapshot_init(&studio->snapshot[0], view) != 0)
+        return -1;
+    if (snapshot_init(&studio->snapshot[1], view) != 0)
+        goto err_first;
+    if (blend_init(&studio->blend, view->header->capacity) != 0)
+        goto err_second;
     if (crater_index_init(&studio->craters, view->w[0].craters) != 0)
-        goto err_snapshot;
+        goto err_blend;
     if (dents_init(&studio->dents, view->w[0].dents, view->world.params->dent_slots) != 0)
         goto err_craters;
     if (tracks_init(&studio->tracks, view->world.params->capacity) != 0)
         goto err_dents;
+    if (gear_init(&studio->gear, view->world.params->capacity) == 0)
+        return 0;
+    tracks_free(&studio->tracks);
+err_dents:
+    dents_free(&studio->dents);
+err_craters:
+    crater_index_free(&studio->craters);
+err_blend:
+    blend_free(&studio->blend);
+err_second:
+    snapshot_free(&studio->snapshot[1]);
+err_first:
+    snapshot_free(&studio->snapshot[0]);
+    return -1;
+}
+
+static void close_world(struct studio *studio)
+{
+    gear_free(&studio->gear);
+    tracks_free(&studio->tracks);
+    dents_free(&studio->dents);
+    crater_index_free(&studio->craters);
+    blend_free(&studio->blend);
+    snapshot_free(&studio->snapshot[1]);
+    snapshot_free(&studio->snapshot[0]);
+}
+
+/* What pictures are made of. */
+static int open_canvas(struct studio *studio, struct view *view)
+{
+    uint32_t width = studio->options.width, height = studio->options.height;
     if (scenery_init(&studio->scenery, &view->world) != 0)
-        goto err_tracks;
+        return -1;
     if (scene_init(&studio->scene) != 0)
         goto err_scenery;
     if (image_init(&studio->image, width, height) != 0)
         goto err_scene;
+    if (image_init(&studio->small, width, height) == 0)
+        return 0;
+    image_free(&studio->image);
+err_scene:
+    scene_free(&studio->scene);
+err_scenery:
+    scenery_free(&studio->scenery);
+    return -1;
+}
+
+static void close_canvas(struct studio *studio)
+{
+    image_free(&studio->small);
+    image_free(&studio->image);
+    scene_free(&studio->scene);
+    scenery_free(&studio->scenery);
+}
+
+static void begin(struct studio *studio, struct view *view, struct pulse *pulse,
+                  struct outlets *outlets, const struct options *options)
+{
+    const struct params *params = view->world.params;
+    memset(studio, 0, sizeof *studio);
+    studio->view = view;
+    studio->pulse = pulse;
+    studio->outlets = outlets;
+    studio->options = *options;
+    studio->drawn = UINT64_MAX;
+    studio->at_s = -1.0;
+    take_defaults(&studio->options, &params->renderer);
+    take_shots(studio);
+    double fps = outlets != NULL ? studio->options.fps : 0.0;
+    studio->smooth = fps >= STUDIO_SMOOTH_FPS && !options->exact && params->pace == PACE_REAL;
+    governor_init(&studio->governor, studio->options.hold ? fps : 0.0);
+}
+
+/* Is the view of the video among those that are drawn? 0, or -1 with the reason. */
+static int check_video_view(const struct studio *studio, struct reason *reason)
+{
+    const char *wanted = studio->outlets != NULL ? studio->options.outlets.video_view : NULL;
+    char drawn[VIEWS_MAX * (VIEW_NAME_BYTES + 2)] = "";
+    for (uint32_t i = 0; i < studio->shot_count && wanted != NULL; i++) {
+        const char *name = studio->shots[i].wish.name;
+        if (strcmp(name, wanted) == 0)
+            return 0;
+        size_t used = strlen(drawn);
+        snprintf(drawn + used, sizeof drawn - used, "%s%s", used > 0 ? ", " : "", name);
+    }
+    return wanted == NULL
+               ? 0
+               : reason_set(reason, "--video-view %s: is not drawn; there is %s", wanted, drawn);
+}
+
+int studio_open(struct studio *studio, struct view *view, struct pulse *pulse,
+                struct outlets *outlets, const struct options *options, struct reason *reason)
+{
+    begin(studio, view, pulse, outlets, options);
+    if (check_video_view(studio, reason) != 0)
+        return -1;
+    uint32_t width = studio->options.width, height = studio->options.height;
+    if (open_world(studio, view) != 0)
+        goto err_memory;
+    if (open_canvas(studio, view) != 0)
+        goto err_world;
     pulse_stage(pulse);
     if (chart_open(&studio->chart, &view->world, width, height, reason) != 0)
-        goto err_image;
+        goto err_canvas;
     pulse_stage(pulse);
-    if (wants(studio, VIEW_CHASE) &&
-        gl_open(&studio->draw, &studio->scenery, width, height, reason) != 0)
+    if (wants_cameras(studio) &&
+        back_end_open(&studio->draw, &studio->options, &studio->scenery, reason) != 0)
         goto err_chart;
     pulse_stage(pulse);
     struct state_head head;
@@ -85,27 +183,12 @@ int studio_open(struct studio *studio, struct view *view, struct pulse *pulse,
 
 err_chart:
     chart_close(&studio->chart);
-err_image:
-    image_free(&studio->image);
-    scene_free(&studio->scene);
-    scenery_free(&studio->scenery);
-    tracks_free(&studio->tracks);
-    dents_free(&studio->dents);
-    crater_index_free(&studio->craters);
-    snapshot_free(&studio->snapshot);
+err_canvas:
+    close_canvas(studio);
+    close_world(studio);
     return -1;
-err_scene:
-    scene_free(&studio->scene);
-err_scenery:
-    scenery_free(&studio->scenery);
-err_tracks:
-    tracks_free(&studio->tracks);
-err_dents:
-    dents_free(&studio->dents);
-err_craters:
-    crater_index_free(&studio->craters);
-err_snapshot:
-    snapshot_free(&studio->snapshot);
+err_world:
+    close_world(studio);
 err_memory:
     return reason_set(reason, "no memory for a renderer of %ux%u pictures", width, height);
 }
@@ -115,13 +198,8 @@ void studio_close(struct studio *studio)
     if (studio->draw.self != NULL)
         studio->draw.close(studio->draw.self);
     chart_close(&studio->chart);
-    image_free(&studio->image);
-    scene_free(&studio->scene);
-    scenery_free(&studio->scenery);
-    tracks_free(&studio->tracks);
-    dents_free(&studio->dents);
-    crater_index_free(&studio->craters);
-    snapshot_free(&studio->snapshot);
+    close_canvas(studio);
+    close_world(studio);
 }
 
 uint64_t studio_due_ns(const struct studio *studio)
@@ -147,9 +225,36 @@ static void take_events(struct studio *studio, const struct moment *moment)
     } while (count == EVENT_BATCH);
 }
 
+struct moment studio_moment(const struct studio *studio, uint32_t which)
+{
+    const struct snapshot *snapshot = &studio->snapshot[which];
+    return (struct moment){.world = &studio->view->world,
+                           .head = &snapshot->head,
+                           .entities = &snapshot->entities,
+                           .fixed_damage = snapshot->fixed_damage,
+                           .craters = &studio->craters,
+                           .dents = &studio->dents,
+                           .gear = &studio->gear};
+}
+
+/* Takes a frame in beside the one before it, unless it is that one. */
+static int take_frame(struct studio *studio)
+{
+    uint32_t other = 1 - studio->latest;
+    if (studio->whole > 0 && segment_load(&studio->view->commit->commit) == studio->seen)
+        return 0;
+    if (snapshot_take(&studio->snapshot[other], studio->view) != 0) {
+        studio->whole = studio->whole > 0; /* the earlier one was written over */
+        return -1;
+    }
+    studio->latest = other;
+    studio->whole = studio->whole > 0 ? 2 : 1;
+    return 0;
+}
+
 int studio_look(struct studio *studio, struct reason *reason)
 {
-    if (snapshot_take(&studio->snapshot, studio->view) != 0) {
+    if (take_frame(studio) != 0) {
         if (errno == EBADMSG)
             return reason_set(reason, "world \"%s\" is damaged: its checksum is wrong",
                               studio->view->name);
@@ -157,7 +262,7 @@ int studio_look(struct studio *studio, struct reason *reason)
             log_warn("the world goes on faster than it can be copied; the picture stays");
         return 0;
     }
-    struct moment moment = moment_of(studio);
+    struct moment moment = studio_moment(studio, studio->latest);
     if (crater_index_update(&studio->craters, moment.head->crater_count) != 0)
         return reason_set(reason, "no memory for %u craters", moment.head->crater_count);
     dents_update(&studio->dents, moment.head->dent_count);
@@ -165,103 +270,22 @@ int studio_look(struct studio *studio, struct reason *reason)
     log_frame(studio->seen);
     take_events(studio, &moment);
     tracks_note(&studio->tracks, &moment);
-    studio->followed = follow_choose(&studio->follow, &moment, &studio->effects,
-                                     studio->options.follow, studio->options.follow_given);
     pulse_stage(studio->pulse);
     return 0;
 }
 
-/* Behind the followed vehicle; with none there is, over the middle of the square. */
-static struct camera aim(const struct studio *studio, const struct moment *moment)
+int studio_check_vehicles(const struct studio *studio, struct reason *reason)
 {
-    struct camera camera;
-    const struct entities *e = moment->entities;
-    uint32_t slot = studio->followed;
-    struct camera_subject subject = {.radius_m = 3.0 * OVERLOOK_HEIGHT_M / 9.0};
-    if (slot != SLOT_NONE) {
-        const struct kind *kind = &moment->world->kinds[e->kind[slot]];
-        subject = (struct camera_subject){.position = entities_position(e, slot),
-                                          .heading_rad = e->heading[slot],
-                                          .pitch_rad = e->pitch[slot],
-                                          .radius_m = kind->radius_m};
-    } else {
-        double middle = 25000.0;
-        subject.position = (struct vec3){
-            middle, terrain_height(&moment->world->terrain, NULL, middle, middle), middle};
-    }
-    camera_chase(&camera, &subject, &moment->world->terrain, moment->craters, studio->options.width,
-                 studio->options.height);
-    return camera;
-}
-
-static void describe(const struct studio *studio, const struct moment *moment, char *words,
-                     size_t bytes)
-{
-    if (studio->followed == SLOT_NONE) {
-        snprintf(words, bytes, "frame=%llu time_s=%.3f", (unsigned long long)moment->head->frame,
-                 world_time_s(moment->world, moment->head));
-        return;
-    }
-    struct statistics statistics;
-    statistics_of(&statistics, moment, studio->followed);
-    statistics_line(&statistics, words, bytes);
-}
-
-static int put_out(struct studio *studio, const char *name, const char *words,
-                   struct reason *reason)
-{
-    if (studio->output != NULL)
-        return output_picture(studio->output, name, &studio->image, studio->seen, words, reason);
-    if (studio->options.view != VIEW_BOTH || name[0] == 'c')
-        return output_file(studio->options.snap, &studio->image, words, reason);
-    /* Both into one name given: the map's has "-map" before its ending. */
-    char path[1024];
-    const char *dot = strrchr(studio->options.snap, '.');
-    int stem =
-        (int)(dot != NULL ? dot - studio->options.snap : (ptrdiff_t)strlen(studio->options.snap));
-    int length = snprintf(path, sizeof path, "%.*s-map%s", stem, studio->options.snap,
-                          dot != NULL ? dot : "");
-    if (length < 0 || (size_t)length >= sizeof path)
-        return reason_set(reason, "--snap %s: the path is too long", studio->options.snap);
-    return output_file(path, &studio->image, words, reason);
-}
-
-static int draw_chase(struct studio *studio, const struct moment *moment, const char *words,
-                      struct reason *reason)
-{
-    struct camera camera = aim(studio, moment);
-    scene_build(&studio->scene, &camera, &studio->scenery, moment, &studio->effects);
-    if (studio->scene.omitted > 0 && log_due(&studio->complained_ns, COMPLAINT_NS))
-        log_warn("%u things in view are left out: more than a picture can hold",
-                 studio->scene.omitted);
-    pulse_stage(studio->pulse);
-    if (studio->draw.picture(studio->draw.self, &studio->scene, moment, &studio->image, reason) !=
-        0)
-        return -1;
-    pulse_stage(studio->pulse);
-    chart_instruments(&studio->chart, &studio->image, moment, &studio->tracks, studio->followed);
-    return put_out(studio, "chase", words, reason);
-}
-
-int studio_draw(struct studio *studio, struct reason *reason)
-{
-    struct moment moment = moment_of(studio);
-    char words[512];
-    studio->drawn_ns = clock_now_ns();
-    if (studio->drawn == studio->seen)
-        return 0;
-    describe(studio, &moment, words, sizeof words);
-    if (wants(studio, VIEW_CHASE) && draw_chase(studio, &moment, words, reason) != 0)
-        return -1;
-    pulse_stage(studio->pulse);
-    if (wants(studio, VIEW_MAP)) {
-        if (chart_map(&studio->chart, &studio->image, &moment, &studio->tracks, studio->followed) !=
-            0)
-            return reason_set(reason, "no memory for the map");
-        if (put_out(studio, "map", words, reason) != 0)
-            return -1;
-    }
-    pulse_stage(studio->pulse);
-    studio->drawn = studio->seen;
+    struct moment moment = studio_moment(studio, studio->latest);
+    uint32_t wanted[VIEWS_MAX + 1] = {studio->options.follow_given ? studio->options.follow : 0};
+    for (uint32_t i = 0; i < studio->shot_count; i++)
+        wanted[i + 1] = studio->shots[i].wish.vehicle;
+    for (uint32_t i = 0; i <= studio->shot_count; i++)
+        if (wanted[i] != 0 &&
+            entities_find(moment.entities, moment.head->used, wanted[i]) == SLOT_NONE)
+            return reason_set(reason,
+                              "vehicle %u: world \"%s\" has none of that number; jolon world dump "
+                              "-w %s lists them",
+                              wanted[i], studio->view->name, studio->view->name);
     return 0;
 }

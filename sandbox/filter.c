@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <sched.h>
 #include <seccomp.h>
 #include <signal.h>
@@ -114,7 +115,8 @@ static const struct rule files[] = {
 static const struct rule drawing[] = {
     ANY(mmap),
     ANY(mprotect),
-    ANY(mkdir), /* the driver's cache */
+    ANY(mkdir),   /* the driver's cache */
+    ANY(sysinfo), /* the C library's sorting asks how much memory there is */
     ANY(flock),
     ANY(poll),
     ANY(ppoll),
@@ -149,6 +151,12 @@ static const struct rule networking[] = {
     WITH(rt_sigaction, 0, SIGALRM),
 };
 
+/* Clients of a socket that listens already: none is made, and nobody is connected to. */
+static const struct rule serving[] = {
+    ANY(accept4), ANY(recvfrom), ANY(sendto),
+    ANY(sendmsg), ANY(shutdown), WITH(setsockopt, 1, IPPROTO_TCP),
+};
+
 /* The C library tries clone3 first, whose flags a filter cannot see; told that there is none, it
  * takes clone. */
 static const struct rule absent[] = {ANY(clone3)};
@@ -175,6 +183,7 @@ static const struct list frame_lists[] = {EVERY_ROLE, ALLOW(standing_by), END};
 static const struct list renderer_lists[] = {
     EVERY_ROLE, ALLOW(threads), ALLOW(files), ALLOW(drawing), LIST(wishes, SCMP_ACT_ERRNO(EPERM)),
     END};
+static const struct list serving_lists[] = {ALLOW(serving), END};
 static const struct list reporter_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(networking), END};
 static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(files), END};
 
@@ -227,6 +236,7 @@ static int set_attributes(scmp_filter_ctx filter)
 
 struct loading {
     enum role role;
+    bool serves;
     int result;
 };
 
@@ -239,6 +249,8 @@ static void load(void *context)
     int result = set_attributes(filter);
     if (result == 0)
         result = add_lists(filter, role_lists[loading->role]);
+    if (result == 0 && loading->serves)
+        result = add_lists(filter, serving_lists);
     if (result == 0)
         result = add_own_signals(filter);
     if (result == 0)
@@ -247,10 +259,10 @@ static void load(void *context)
     loading->result = result;
 }
 
-int filter_load(enum role role)
+int filter_load(enum role role, bool serves)
 {
-    struct loading loading = {role, -ENOMEM};
-    if (role >= ROLE_COUNT)
+    struct loading loading = {role, serves, -ENOMEM};
+    if (role >= ROLE_COUNT || (serves && role_lists[role] != renderer_lists))
         return -EINVAL;
     return memory_guarded(load, &loading) ? loading.result : -ENOMEM;
 }

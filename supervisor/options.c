@@ -17,6 +17,12 @@ static const struct option known[] = {{"world", required_argument, NULL, 'w'},
                                       {"threads", required_argument, NULL, 't'},
                                       {"without", required_argument, NULL, 'x'},
                                       {"hang-ms", required_argument, NULL, 'H'},
+                                      {"fps", required_argument, NULL, 'd'},
+                                      {"video", required_argument, NULL, 'd'},
+                                      {"video-view", required_argument, NULL, 'd'},
+                                      {"video-fps", required_argument, NULL, 'd'},
+                                      {"stream", required_argument, NULL, 'd'},
+                                      {"stream-address", required_argument, NULL, 'd'},
                                       {"background", no_argument, NULL, 'b'},
                                       {"json", no_argument, NULL, 'j'},
                                       {"no-sandbox", no_argument, NULL, 's'},
@@ -28,6 +34,15 @@ static void leave_out(struct plan *plan, const char *name)
     if (role == ROLE_NONE || judge_makes_frames(role))
         die_usage("--without %s: there are renderer, reporter, recorder", name);
     plan->left_out[role] = true;
+}
+
+/* The renderer reads it itself, and says what is wrong with it. */
+static void pass_on(struct plan *plan, const char *option, const char *value)
+{
+    if (plan->drawings + 2 > PLAN_DRAWING_MAX)
+        die_usage("%s %s: too many options of the renderer", option, value);
+    plan->drawing[plan->drawings++] = option;
+    plan->drawing[plan->drawings++] = value;
 }
 
 struct plan options_plan(int argc, char **argv)
@@ -50,6 +65,8 @@ struct plan options_plan(int argc, char **argv)
             *text = optarg;
         else if (option == 'x')
             leave_out(&plan, optarg);
+        else if (option == 'd')
+            pass_on(&plan, argv[optind - 2], optarg);
         else if (option == 'H')
             plan.hang_ms = process_whole("hang-ms", optarg, 20, 3600000);
         else if (option == 'b')

@@ -18,7 +18,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#define ARGUMENTS_MAX 24
+#define ARGUMENTS_MAX 40
 #define STOP_NS       (5 * (uint64_t)NS_PER_S) /* a child that takes longer to end is killed */
 #define POLL_NS       (5 * (uint64_t)NS_PER_MS)
 
@@ -94,6 +94,8 @@ static void role_arguments(struct command_line *line, const struct plan *plan, e
         break;
     case ROLE_RENDERER:
         add(line, "--out", plan->out);
+        for (int i = 0; i < plan->drawings; i++)
+            add(line, NULL, plan->drawing[i]);
         break;
     case ROLE_RECORDER:
         add(line, "--commands", plan->commands);

@@ -9,13 +9,16 @@
 #include "ipc/segment.h"
 #include "supervisor/judge.h"
 
-#define SET_CHILDREN 2
+#define SET_CHILDREN     2
+#define PLAN_DRAWING_MAX 16
 
 /* What the set is started with; strings are the command line's. */
 struct plan {
     const char *world, *out, *log, *ready;
     const char *commands, *events, *checkpoint, *every;
     const char *threads;
+    const char *drawing[PLAN_DRAWING_MAX]; /* the renderer's options and their values */
+    int drawings;
     uint64_t hang_ms;
     bool left_out[ROLE_COUNT];
     bool background, json, sandbox_off;

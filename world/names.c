@@ -42,7 +42,8 @@ WORDS(command_result_name, command_result, "done", "no such entity", "no such ki
 WORDS(method_name, method, "swept", "npsnet2", "mps", "occupancy", "hopcroft", "brute")
 WORDS(shape_name, shape, "sphere", "model")
 WORDS(response_model_name, response_model, "figure8", "impulse", "none", "spring", "mps")
-WORDS(view_mode_name, view_mode, "chase", "map", "both")
+WORDS(view_mode_name, view_mode, "chase", "map", "inside", "orbit", "free", "overhead")
+WORDS(back_end_name, back_end, "auto", "gl", "soft")
 
 uint16_t kind_find(const struct kind *kinds, uint32_t count, const char *name)
 {

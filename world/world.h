@@ -67,14 +67,27 @@ struct collision_params {
 /* What the renderer is told; the simulation does not read it. */
 struct renderer_params {
     uint32_t width, height; /* [pixel] */
-    double fps;             /* pictures a second of the clock, 0..60 */
-    uint32_t view;          /* enum view_mode */
+    double fps;             /* pictures a second of the clock, 0..120 */
+    uint32_t views;         /* 1 << enum view_mode of each that is wanted */
     uint32_t follow;        /* entity id, 0: picks one */
     uint32_t fog, haze, texture;
+    uint32_t back_end; /* enum back_end */
+    uint32_t hold;     /* 1: less detail, then smaller, rather than fewer pictures */
     uint32_t reserved;
 };
 
-enum view_mode { VIEW_CHASE, VIEW_MAP, VIEW_BOTH, VIEW_COUNT };
+enum view_mode {
+    VIEW_CHASE,    /* from behind */
+    VIEW_MAP,      /* the map */
+    VIEW_INSIDE,   /* as the crew sees it */
+    VIEW_ORBIT,    /* around it */
+    VIEW_FREE,     /* from a place that stays where it is */
+    VIEW_OVERHEAD, /* straight down */
+    VIEW_COUNT
+};
+
+/* What draws: OpenGL, the renderer's own rasteriser, or whichever suits the machine. */
+enum back_end { BACK_END_AUTO, BACK_END_GL, BACK_END_SOFT, BACK_END_COUNT };
 
 struct params {
     char name[WORLD_NAME_MAX];    /* of the ground: "hunter-liggett" */
@@ -104,20 +117,48 @@ struct model {
     char name[KIND_NAME_MAX];
     uint32_t first_triangle, triangle_count;
     uint32_t first_vertex, vertex_count;
+    uint32_t solid_triangles, solid_vertices; /* the first so many collide and are not seen, the
+                                                 others are seen only; 0: all of them do both */
 };
 
 struct model_vertex {
     float x, y, z;
 };
 
-enum model_part { PART_BODY, PART_TURRET, PART_ROTOR, PART_TAIL_ROTOR, PART_COUNT };
+/* How a part of a model moves (docs/scenario.md, Models). */
+enum model_part {
+    PART_BODY,
+    PART_TURRET,
+    PART_GUN, /* on the turret, where there is one */
+    PART_ROTOR,
+    PART_TAIL_ROTOR,
+    PART_WHEEL,
+    PART_FRONT_WHEEL, /* steers */
+    PART_TRACK,
+    PART_COUNT
+};
+
+#define MODEL_JOINTS_MAX 32u /* things of a model that move each by itself, and the turret */
+
+/* How much of a triangle's colour is its force's, 255 being all of it: of the materials "force",
+ * for flags and panels, "paint", in camouflage, and "wash" with what follows, plain. */
+#define MODEL_TINT_FORCE 255
+#define MODEL_TINT_PAINT 80
+#define MODEL_TINT_WASH  70
 
 struct model_triangle {
     uint32_t vertex[3];       /* index within the model */
     uint8_t red, green, blue; /* 0..255, sRGB */
-    uint8_t force_tint;       /* 1: takes the force's colour */
-    uint32_t part;            /* enum model_part */
+    uint8_t force_tint;       /* MODEL_TINT_..., or 0 */
+    uint16_t part;            /* enum model_part */
+    uint16_t joint;           /* which of them; 0: the body and the turret */
 };
+
+/* How many of a model's first triangles collide. */
+static inline uint32_t model_solid_triangles(const struct model *model)
+{
+    return model->solid_triangles > 0 ? model->solid_triangles : model->triangle_count;
+}
 
 struct area {
     double x0, z0, x1, z1;
@@ -253,5 +294,6 @@ const char *method_name(enum method method);
 const char *shape_name(enum shape shape);
 const char *response_model_name(enum response_model model);
 const char *view_mode_name(enum view_mode view);
+const char *back_end_name(enum back_end back_end);
 
 #endif

@@ -138,6 +138,10 @@ static void add_role(cJSON *array, const struct view *view, enum role role)
     json_number(entry, "beat_age_ms", beat_age_ms(slot));
     json_whole(entry, "restarts", atomic_load(&slot->starts) - 1);
     json_number(entry, "stage_ms", (double)atomic_load(&slot->stage_ns) / 1e6);
+    if (atomic_load(&slot->detail_pct) > 0) {
+        json_whole(entry, "detail_pct", atomic_load(&slot->detail_pct));
+        json_whole(entry, "size_pct", atomic_load(&slot->size_pct));
+    }
 }
 
 static int snapshot_head_or_refuse(const struct view *view, struct state_head *head)
@@ -189,10 +193,14 @@ int verb_status(int argc, char **argv)
         if (starts == 0)
             continue;
         int pid = segment_holder(view.name, (enum role)role);
-        printf("  %-10s %-8s pid %-7d beat %6.1f ms ago, %" PRIu64 " restarts, %.3f ms a frame\n",
+        printf("  %-10s %-8s pid %-7d beat %6.1f ms ago, %" PRIu64 " restarts, %.3f ms a frame",
                role_name((enum role)role),
                pid ? role_state_name((enum role_state)atomic_load(&slot->state)) : "dead", pid,
                beat_age_ms(slot), starts - 1, (double)atomic_load(&slot->stage_ns) / 1e6);
+        if (atomic_load(&slot->detail_pct) > 0)
+            printf(", %u %% of the detail at %u %% of the size", atomic_load(&slot->detail_pct),
+                   atomic_load(&slot->size_pct));
+        printf("\n");
     }
     segment_detach(&view);
     return EXIT_OK;

@@ -1,33 +1,84 @@
 /* Pictures with words: the map with its close-up, legend and figures, and the instruments laid over
- * a camera's picture. */
+ * a camera's picture. What stays the same from picture to picture is kept: the ground, and letters.
+ */
 #ifndef JOLON_RENDERER_CHART_H
 #define JOLON_RENDERER_CHART_H
 
+#include "renderer/chart/base.h"
+#include "renderer/chart/layout.h"
 #include "renderer/chart/map.h"
-#include "renderer/scene/statistics.h"
 #include "renderer/image/text.h"
+#include "renderer/scene/statistics.h"
 
 #include <stdint.h>
+
+/* What a picture is taken from; borrowed for one call. */
+struct chart_source {
+    const struct moment *moment;
+    const struct tracks *tracks;
+    const struct effects *effects; /* recent detonations; NULL for none */
+    const struct camera *camera;   /* whose view the triangle shows; NULL: no triangle */
+    uint32_t slot;                 /* of the followed vehicle, SLOT_NONE for none */
+    double fps;                    /* pictures a second that the renderer makes; 0: not known */
+};
+
+/* A map within a picture: its ground, and an image of its own to be drawn in. */
+struct chart_part {
+    struct base base;
+    struct image image;
+};
 
 struct chart {
     struct text *text; /* owned */
     const struct world *world;
-    struct image whole, small; /* ground of the whole square, for the map and the instruments */
-    struct image close_up;     /* ground around the followed vehicle, painted anew each time */
-    uint32_t width, height;    /* of the pictures */
+    uint32_t width, height; /* of the pictures */
+    struct map_layout layout;
+    struct base whole, area;
+    struct chart_part close_up, small;
 };
 
-/* 0, or -1 with the reason. Takes some tenths of a second. */
+/* 0, or -1 with the reason. Quick: ground is painted when a picture first needs it, at most some
+ * tenths of a second. */
 int chart_open(struct chart *chart, const struct world *world, uint32_t width, uint32_t height,
                struct reason *reason);
 void chart_close(struct chart *chart);
 
-/* The map as a picture. slot: the followed vehicle, SLOT_NONE for none. 0, or -1 with errno. */
-int chart_map(struct chart *chart, struct image *image, const struct moment *moment,
-              const struct tracks *tracks, uint32_t slot);
+/* The map as a picture: the whole square, and as the picture's size and aspect have room, a
+ * close-up around the followed vehicle, its figures, and a legend. 0, or -1 with errno. */
+int chart_map(struct chart *chart, struct image *image, const struct chart_source *source);
 
-/* The statistics bar below and a small map in the corner of a camera's picture. */
-void chart_instruments(struct chart *chart, struct image *image, const struct moment *moment,
-                       const struct tracks *tracks, uint32_t slot);
+/* A map of one place that fills the picture: centre [m, world], and metres a pixel. To pan is to
+ * change the centre, and costs what comes into view; to zoom is to change metres, and paints all
+ * anew. 0, or -1 with errno. */
+int chart_area(struct chart *chart, struct image *image, const struct chart_source *source,
+               double x, double z, double metres);
+
+/* The statistics bar below and a small map in the corner of a camera's picture. A small map that
+ * there is no memory for is left out. */
+void chart_instruments(struct chart *chart, struct image *image, const struct chart_source *source);
+
+/* --- for the files of chart/ ------------------------------------------------------------------ */
+
+/* Makes a part's image of a size, unless it is. 0, or -1 with errno ENOMEM. */
+int chart_part_size(struct chart_part *part, uint32_t width, uint32_t height);
+
+/* How a map is drawn. */
+struct chart_scale {
+    double symbol;   /* [pixel] length of symbols */
+    double triangle; /* [pixel] of the viewing triangle */
+    uint8_t tracks;  /* opacity, 0: without */
+};
+
+/* What lies below a map's words: ground, craters, tracks, what the camera sees. 0, or -1 with
+ * errno ENOMEM. */
+int chart_ground(struct base *base, struct image *image, const struct map_view *view,
+                 const struct chart_source *source, const struct chart_scale *scale);
+
+/* What lies above them: vehicles, fires, detonations, the followed vehicle's ring. */
+void chart_things(struct image *image, const struct map_view *view,
+                  const struct chart_source *source, const struct chart_scale *scale);
+
+/* Words, shortened until they take at most width pixels. */
+void chart_shorten(struct chart *chart, char *words, uint32_t size, int32_t width);
 
 #endif

@@ -1,12 +1,18 @@
-/* The map (thesis row 12): shaded ground with contours, and every vehicle's position, direction and
- * track on it. Pure; drawn in software. Words are added by chart.c. */
+/* The map (thesis row 12): every vehicle's position, direction and track over the base map, what
+ * burns and explodes, and what the driven vehicle's camera sees. Pure; drawn in software. Words are
+ * added by chart.c. Everything is clipped by the image, not by the view: a view that is not all of
+ * its image needs an image of its own. */
 #ifndef JOLON_RENDERER_MAP_H
 #define JOLON_RENDERER_MAP_H
 
-#include "renderer/image/image.h"
-#include "renderer/scene/moment.h"
+#include "renderer/chart/symbol.h"
 #include "renderer/chart/track.h"
+#include "renderer/image/image.h"
+#include "renderer/scene/camera.h"
+#include "renderer/scene/effects.h"
+#include "renderer/scene/moment.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* A piece of the world in a rectangle of a picture. */
@@ -20,9 +26,12 @@ struct map_view {
 /* The whole square, as large as fits. */
 struct map_view map_whole(int32_t left, int32_t top, uint32_t side);
 
-/* side_m of ground around a place, as wide as the rectangle. */
-struct map_view map_around(double x, double z, double side_m, int32_t left, int32_t top,
+/* The ground around a place, at a scale. */
+struct map_view map_around(double x, double z, double metres, int32_t left, int32_t top,
                            uint32_t width, uint32_t height);
+
+/* Moves a view by less than a pixel, so that its pixels are those of the world's raster. */
+void map_align(struct map_view *view);
 
 /* Where a place of the world is in the picture. */
 struct point map_point(const struct map_view *view, double x, double z);
@@ -30,33 +39,33 @@ struct point map_point(const struct map_view *view, double x, double z);
 /* Is it within the rectangle, or at most margin pixels outside? */
 bool map_holds(const struct map_view *view, struct point point, double margin);
 
-/* The ground, with a contour line every contour_m (every fifth stronger), into an image of its own
- * of the view's size; its corner is the view's, left and top do not matter. 0, or -1 with errno
- * ENOMEM. */
-int map_ground(struct image *image, const struct map_view *view, const struct world *world,
-               const struct crater_index *craters, double contour_m);
+/* The longest of 1, 2 and 5 times a power of ten that is at most metres. */
+double map_round(double metres);
 
-/* Roads as lines, which the ground's own dust hardly shows from so high. */
-void map_roads(struct image *image, const struct map_view *view, const struct world *world,
-               double pixels);
 void map_grid(struct image *image, const struct map_view *view, double step_m);
 void map_craters(struct image *image, const struct map_view *view,
-                 const struct crater_index *craters);
+                 const struct crater_index *craters, double pixels);
+
+/* Tracks of all vehicles: a dot where each was every TRACK_INTERVAL_S, fading with age from this
+ * opacity; pixels is the length of symbols. */
 void map_tracks(struct image *image, const struct map_view *view, const struct moment *moment,
-                const struct tracks *tracks);
+                const struct tracks *tracks, double pixels, uint8_t opacity);
 
-/* Symbols of length pixels: arrowheads on land, swept wings in the air, hulls at sea, dots for
- * munitions, crosses for wrecks; coloured by force. */
+/* Symbols of length pixels (symbol.h); the followed vehicle (SLOT_NONE: none) on top of all. */
 void map_vehicles(struct image *image, const struct map_view *view, const struct moment *moment,
-                  double pixels);
-
-/* The followed vehicle: a ring, its direction, and the triangle that it sees. */
-void map_followed(struct image *image, const struct map_view *view, const struct moment *moment,
                   uint32_t slot, double pixels);
 
-struct rgba map_force_colour(enum force force);
-void map_symbol(struct image *image, struct point at, enum domain domain, double heading_rad,
-                double pixels, struct rgba colour);
-void map_cross(struct image *image, struct point at, double pixels);
+/* Detonations of the last seconds. */
+void map_blasts(struct image *image, const struct map_view *view, const struct moment *moment,
+                const struct effects *effects, double pixels);
+
+/* The triangle that a camera sees, from its eye in its direction with its field of view; nothing
+ * for one that looks nearly straight down. */
+void map_sight(struct image *image, const struct map_view *view, const struct camera *camera,
+               double length);
+
+/* The followed vehicle's ring and direction. */
+void map_followed(struct image *image, const struct map_view *view, const struct moment *moment,
+                  uint32_t slot, double pixels, double length);
 
 #endif

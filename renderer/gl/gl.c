@@ -6,15 +6,9 @@
 #include "renderer/scene/light.h"
 #include "renderer/image/smooth.h"
 
-#include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define HAZE_PER_M     (1.0 / 36000.0) /* air that everything is seen through */
-#define FOG_PER_M      (1.0 / 9000.0)  /* of the valleys, at its base */
-#define FOG_BASE_M     180.0
-#define FOG_FALL_PER_M (1.0 / 120.0)
-#define CLEAR_PER_M    (1.0 / 400000.0)
 
 struct gl {
     struct gl_context context;
@@ -24,9 +18,9 @@ struct gl {
     struct gl_billboards boards;
     GLuint sky_program, smooth_program, empty_array, frame_block;
     GLuint target, colour, depth; /* where the scene is drawn */
-    uint32_t width, height;
-    struct image drawn;  /* read back, its edges still rough */
-    uint8_t *luma, *row; /* scratch */
+    uint32_t width, height;       /* of the largest picture */
+    struct image drawn;           /* read back, its edges still rough; of the last one's size */
+    uint8_t *row;                 /* scratch */
 };
 
 static const char sky_vertex_text[] =
@@ -48,17 +42,27 @@ static const char sky_fragment_text[] =
     "{\n"
     "    vec3 way = normalize(v_way);\n"
     "    vec3 colour = sky(way);\n"
-    "    float near_sun = max(dot(way, u_sun.xyz), 0.0);\n"
-    "    colour += vec3(1.0, 0.86, 0.62) * (0.22 * pow(near_sun, 24.0) + pow(near_sun, 1800.0));\n"
+    "    float sun = max(dot(way, u_sun.xyz), 0.0);\n"
+    "    float s8 = sun * sun * sun * sun;\n"
+    "    s8 *= s8;\n"
+    "    float s32 = s8 * s8;\n"
+    "    s32 *= s32;\n"
+    "    float s256 = s32 * s32;\n"
+    "    s256 *= s256;\n"
+    "    s256 *= s256;\n"
+    "    float disc = clamp((sun - SUN_EDGE) / (SUN_WHOLE - SUN_EDGE), 0.0, 1.0);\n"
+    "    vec3 glow = SUN_WARM * (0.20 * s32 + 0.30 * s256 + disc);\n"
+    "    colour += glow;\n"
     "    if (way.y > 0.01) {\n"
     "        vec2 at = way.xz / (way.y + 0.12);\n"
     "        float broad = texture(u_cloud, at * 0.11 + 0.0004 * u_forward.w).r;\n"
     "        float fine = texture(u_cloud, at * 0.47 + 0.0007 * u_forward.w).r;\n"
     "        float cloud = smoothstep(0.50, 0.78, 0.68 * broad + 0.36 * fine);\n"
     "        cloud *= 0.72 * smoothstep(0.02, 0.16, way.y);\n"
-    "        vec3 lit = mix(vec3(0.80, 0.83, 0.88), vec3(1.0, 0.975, 0.93), 0.4 + 0.6 * fine);\n"
-    "        colour = mix(colour, lit, cloud);\n"
+    "        vec3 lit = mix(CLOUD_SHADE, CLOUD_LIT, 0.4 + 0.6 * fine);\n"
+    "        colour = mix(colour, lit + 0.5 * glow, cloud);\n"
     "    }\n"
+    "    colour = mix(colour, white(way), sky_fog(way));\n"
     "    o_colour = vec4(colour, 1.0);\n"
     "}\n";
 
@@ -123,7 +127,7 @@ static void draw_shadows(struct gl *gl, const struct scene *scene)
 static void draw_scene(struct gl *gl, const struct scene *scene, const struct moment *moment)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, gl->target);
-    glViewport(0, 0, (GLsizei)gl->width, (GLsizei)gl->height);
+    glViewport(0, 0, (GLsizei)gl->drawn.width, (GLsizei)gl->drawn.height);
     glClearStencil(0);
     glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
@@ -147,11 +151,11 @@ static void draw_scene(struct gl *gl, const struct scene *scene, const struct mo
 /* OpenGL gives rows from the bottom. */
 static void read_back(struct gl *gl)
 {
-    size_t row_bytes = (size_t)gl->width * 4;
-    uint8_t *top = gl->drawn.pixels, *low = top + (gl->height - 1) * row_bytes;
+    GLsizei width = (GLsizei)gl->drawn.width, height = (GLsizei)gl->drawn.height;
+    size_t row_bytes = (size_t)gl->drawn.width * 4;
+    uint8_t *top = gl->drawn.pixels, *low = top + (gl->drawn.height - 1) * row_bytes;
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, (GLsizei)gl->width, (GLsizei)gl->height, GL_RGBA, GL_UNSIGNED_BYTE,
-                 gl->drawn.pixels);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, gl->drawn.pixels);
     for (; top < low; top += row_bytes, low -= row_bytes) {
         memcpy(gl->row, top, row_bytes);
         memcpy(top, low, row_bytes);
@@ -163,13 +167,15 @@ static int gl_picture(void *self, const struct scene *scene, const struct moment
                       struct image *image, struct reason *reason)
 {
     struct gl *gl = self;
+    gl->drawn.width = image->width;
+    gl->drawn.height = image->height;
     send_frame(gl, scene);
     gl_bodies_send(&gl->bodies, scene);
     gl_billboards_send(&gl->boards, scene);
     draw_scene(gl, scene, moment);
 
     read_back(gl);
-    smooth_edges(image, &gl->drawn, gl->luma);
+    smooth_edges(image, &gl->drawn);
     GLenum error = glGetError();
     if (error == GL_NO_ERROR)
         return 0;
@@ -180,7 +186,6 @@ static int gl_picture(void *self, const struct scene *scene, const struct moment
 static void free_memory(struct gl *gl)
 {
     image_free(&gl->drawn);
-    free(gl->luma);
     free(gl->row);
     free(gl);
 }
@@ -206,21 +211,25 @@ static int open_programs(struct gl *gl, struct reason *reason)
     return 0;
 }
 
+void gl_list(void)
+{
+    gl_context_list();
+}
+
 int gl_open(struct draw *draw, const struct scenery *scenery, uint32_t width, uint32_t height,
-            struct reason *reason)
+            const struct gl_wish *wish, char name[DRAW_NAME_BYTES], struct reason *reason)
 {
     struct gl *gl = calloc(1, sizeof *gl);
     if (gl == NULL)
         return reason_set(reason, "no memory for OpenGL");
     gl->width = width;
     gl->height = height;
-    gl->luma = malloc((size_t)width * height);
     gl->row = malloc((size_t)width * 4);
-    if (gl->luma == NULL || gl->row == NULL || image_init(&gl->drawn, width, height) != 0) {
+    if (gl->row == NULL || image_init(&gl->drawn, width, height) != 0) {
         reason_set(reason, "no memory for a %ux%u picture", width, height);
         goto err_memory;
     }
-    if (gl_context_open(&gl->context, reason) != 0)
+    if (gl_context_open(&gl->context, wish, reason) != 0)
         goto err_memory;
     if (open_target(gl, reason) != 0 || open_programs(gl, reason) != 0)
         goto err_context;
@@ -232,6 +241,7 @@ int gl_open(struct draw *draw, const struct scenery *scenery, uint32_t width, ui
         goto err_ground;
     if (gl_billboards_open(&gl->boards, reason) != 0)
         goto err_bodies;
+    snprintf(name, DRAW_NAME_BYTES, "%s", gl->context.name);
     *draw = (struct draw){.self = gl, .picture = gl_picture, .close = gl_close};
     return 0;
 

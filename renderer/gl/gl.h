@@ -5,6 +5,7 @@
 
 #include "ipc/segment.h"
 #include "renderer/scene/scene.h"
+#include "renderer/scene/tiles.h"
 
 #include <epoxy/gl.h>
 
@@ -54,32 +55,22 @@ void gl_textures_close(struct gl_textures *textures);
 
 /* --- ground (gl_ground.c) --- */
 
-#define GL_TILE_TEXELS 128u /* a side of a patch's painting */
-#define GL_TILES       448u /* patches kept: 40 MB of paintings */
-
+/* A tile's copy in the driver, in the same place as in the cache. */
 struct gl_tile {
-    struct ground_patch patch;
-    GLuint texture, vertices, array;
-    uint64_t used;    /* picture in which it was last drawn; 0: never filled */
-    uint32_t craters; /* of the world when it was made */
-    uint32_t cells;   /* a side */
-    bool wet;         /* some of it is water */
+    GLuint texture, vertices, triangles, array;
+    uint64_t shape_version, paint_version; /* that were sent */
 };
 
 struct gl_ground_shader {
     GLuint program;
-    GLint u_origin, u_detail;
+    GLint u_origin, u_detail, u_part, u_texel, u_surf;
 };
 
 struct gl_ground {
     const struct scenery *scenery;
     struct gl_ground_shader land, shore;
-    GLuint triangles;
-    GLintptr first[GROUND_CELLS_MAX + 1]; /* where the triangles of so many cells begin [byte] */
-    struct gl_tile tiles[GL_TILES];
-    uint64_t pictures;
-    uint8_t *rgba; /* scratch */
-    float *light;
+    struct tiles cache;
+    struct gl_tile tiles[TILE_CAPACITY];
 };
 int gl_ground_open(struct gl_ground *ground, const struct scenery *scenery, struct reason *reason);
 void gl_ground_close(struct gl_ground *ground);

@@ -12,23 +12,25 @@ static const char vertex_text[] =
     "uniform float u_low;\n"
     "out vec3 v_body, v_light;\n"
     "out vec4 v_colour, v_air;\n"
+    "out vec2 v_link;\n"
     "out float v_burn, v_fell, v_bare;\n"
     "void main()\n"
     "{\n"
-    "    vec3 place = formed(a_place), normal = a_normal;\n"
+    "    vec3 rolling = rolled(a_place, 1.0);\n"
+    "    vec3 place = formed(rolling), normal = rolled(a_normal, 0.0);\n"
     /* Where the form is another, so is the way the surface faces. */
     "    if (i_form.y > 0.5 || i_falls.z > 0.0 || i_broken.z > 0.0) {\n"
     "        vec3 along = normalize(cross(normal, abs(normal.y) < 0.8 ? vec3(0.0, 1.0, 0.0)\n"
     "                                                               : vec3(1.0, 0.0, 0.0)));\n"
-    "        vec3 u = formed(a_place + 0.04 * along) - place;\n"
-    "        vec3 v = formed(a_place + 0.04 * cross(normal, along)) - place;\n"
+    "        vec3 u = formed(rolling + 0.04 * along) - place;\n"
+    "        vec3 v = formed(rolling + 0.04 * cross(normal, along)) - place;\n"
     "        vec3 facing = cross(u, v);\n"
     "        normal = dot(facing, facing) > 1e-12 ? normalize(facing) : normal;\n"
     "    }\n"
-    "    if (a_part > 0.5) {\n"
-    "        place = turned(place, u_pivots[int(a_part + 0.5)]);\n"
-    "        normal = turned(normal, vec3(0.0));\n"
-    "    }\n"
+    "    place = turned(place, 1.0);\n"
+    "    normal = turned(normal, 0.0);\n"
+    "    vec4 pivot = u_pivots[int(a_part.y + 0.5)];\n"
+    "    v_link = a_part.x > 6.5 ? vec2(a_along + way(pivot), 1.0) : vec2(0.0);\n"
     "    vec3 world = i_at + in_world(place);\n"
     "    vec3 n = normalize(in_world(normal));\n"
     "    gl_Position = u_matrix * vec4(world, 1.0);\n"
@@ -42,10 +44,10 @@ static const char vertex_text[] =
     "    v_light += 0.16 * sun_light * pow(max(dot(back, u_sun.xyz), 0.0), 12.0);\n"
     "    v_colour = a_colour;\n"
     "    v_colour.rgb = mix(a_colour.rgb, i_tint.rgb * (0.55 + 0.9 * dot(a_colour.rgb,\n"
-    "                       vec3(0.333))), 0.62 * a_colour.a);\n"
+    "                       vec3(0.333))), 0.85 * a_colour.a);\n"
     "    v_body = a_place;\n"
     "    v_burn = i_tint.a;\n"
-    "    v_bare = i_form.y > 0.5 ? min(length(dented(a_place) - a_place) * 4.0, 1.0) : 0.0;\n"
+    "    v_bare = i_form.y > 0.5 ? min(length(dented(rolling) - rolling) * 4.0, 1.0) : 0.0;\n"
     "    v_fell = i_falls.z > 0.0 ? fell(a_place) : 0.0;\n"
     "    v_air = air(world);\n"
     "}\n";
@@ -54,11 +56,16 @@ static const char fragment_text[] =
     "uniform sampler2D u_detail;\n"
     "in vec3 v_body, v_light;\n"
     "in vec4 v_colour, v_air;\n"
+    "in vec2 v_link;\n"
     "in float v_burn, v_fell, v_bare;\n"
     "out vec4 o_colour;\n"
     "void main()\n"
     "{\n"
     "    vec3 colour = v_colour.rgb;\n"
+    /* A track's links, light and dark by turns, until they are finer than pixels. */
+    "    float link = smoothstep(0.1, 0.3, abs(fract(0.5 * v_link.x) - 0.5));\n"
+    "    link = mix(link, 0.5, clamp(2.0 * fwidth(v_link.x) - 0.5, 0.0, 1.0));\n"
+    "    colour *= mix(1.0, 0.55 + 0.9 * link, v_link.y);\n"
     /* Bent sheet: the paint has gone where it bent most. (No level of detail is known within a
        branch that not all pixels take.) */
     "    if (v_bare > 0.0) {\n"
@@ -74,16 +81,23 @@ static const char fragment_text[] =
     "        vec3 dust = vec3(0.60, 0.53, 0.43) * (0.7 + 0.5 * gap);\n"
     "        vec3 rubble = mix(colour, dust, smoothstep(0.36, 0.52, lump));\n"
     "        rubble *= mix(0.35, 1.0, smoothstep(0.34, 0.50, gap));\n"
-    "        colour = mix(colour, rubble, v_fell);\n"
+    /* Between what stands and what lies, a slope of earth. */
+    "        float torn = smoothstep(0.01, 0.15, v_fell) * (1.0 - smoothstep(0.85, 1.0, v_fell));\n"
+    "        vec3 earth = vec3(0.42, 0.35, 0.27) * (0.55 + 0.9 * lump * gap);\n"
+    "        colour = mix(mix(colour, rubble, smoothstep(0.5, 1.0, v_fell)), earth, 0.92 * torn);\n"
     "    }\n"
     "    if (u_sun.w > 0.5) {\n"
     "        vec2 at = vec2(v_body.x + 0.45 * v_body.y, v_body.z + 0.8 * v_body.y);\n"
     "        vec2 blot = texture(u_detail, at * 0.035).rg;\n"
     "        vec2 fine = texture(u_detail, at * 0.31).rg;\n"
-    "        float patch_dark = smoothstep(0.46, 0.54, blot.r) * v_colour.a;\n"
+    "        float patch_dark = smoothstep(0.46, 0.54, blot.r) * step(0.29, v_colour.a) * "
+    "step(v_colour.a, 0.6);\n"
     "        colour *= 1.0 - 0.30 * patch_dark;\n"
     "        colour *= 0.86 + 0.28 * fine.r;\n"
-    "        float soot = smoothstep(1.02 - 1.1 * v_burn, 1.30 - v_burn, fine.g + 0.3 * blot.g);\n"
+    /* Soot lies in drifts, thin at the edges, and never quite covers what still goes. */
+    "        float soot = smoothstep(1.12 - 1.15 * v_burn, 1.54 - 1.15 * v_burn,\n"
+    "                                fine.g + 0.3 * blot.g);\n"
+    "        soot *= min(0.5 + 0.8 * v_burn, 1.0) * smoothstep(0.0, 0.1, v_burn);\n"
     "        vec3 burnt = mix(vec3(0.055, 0.05, 0.047), vec3(0.20, 0.115, 0.07),\n"
     "                         smoothstep(0.60, 0.80, fine.g + 0.4 * (blot.g - 0.5)) * 0.8 * "
     "step(0.9, v_burn));\n"
@@ -103,9 +117,7 @@ static const char shadow_vertex_text[] =
     "        v_clear = 0.0;\n"
     "        return;\n"
     "    }\n"
-    "    vec3 place = formed(a_place);\n"
-    "    if (a_part > 0.5)\n"
-    "        place = turned(place, u_pivots[int(a_part + 0.5)]);\n"
+    "    vec3 place = turned(formed(rolled(a_place, 1.0)), 1.0);\n"
     "    vec3 world = i_at + in_world(place);\n"
     "    float down = (dot(i_plane.xyz, world) - i_plane.w) / dot(i_plane.xyz, u_sun.xyz);\n"
     "    world -= u_sun.xyz * max(down, 0.0);\n"
@@ -165,8 +177,9 @@ static void describe_vertices(const struct gl_bodies *bodies)
     glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, (GLsizei)stride,
                           (const void *)(uintptr_t)offsetof(struct mesh_vertex, red));
     glEnableVertexAttribArray(3);
-    glVertexAttribPointer(3, 1, GL_UNSIGNED_INT, GL_FALSE, (GLsizei)stride,
+    glVertexAttribPointer(3, 2, GL_UNSIGNED_SHORT, GL_FALSE, (GLsizei)stride,
                           (const void *)(uintptr_t)offsetof(struct mesh_vertex, part));
+    gl_attribute(15, 1, stride, offsetof(struct mesh_vertex, along), 0);
 }
 
 /* Points the copies' attributes at the first of a batch: OpenGL 3.3 has no first instance. */
@@ -179,11 +192,12 @@ static void describe_copies(const struct gl_bodies *bodies, uint32_t first)
     gl_attribute(6, 3, stride, base + offsetof(struct scene_body, up), 1);
     gl_attribute(7, 3, stride, base + offsetof(struct scene_body, right), 1);
     gl_attribute(8, 4, stride, base + offsetof(struct scene_body, tint), 1);
-    gl_attribute(9, 2, stride, base + offsetof(struct scene_body, turret_rad), 1);
+    gl_attribute(9, 4, stride, base + offsetof(struct scene_body, turret_rad), 1);
     gl_attribute(10, 4, stride, base + offsetof(struct scene_body, plane), 1);
     gl_attribute(11, 3, stride, base + offsetof(struct scene_body, dents), 1);
     gl_attribute(12, 3, stride, base + offsetof(struct scene_body, falls), 1);
     gl_attribute(13, 3, stride, base + offsetof(struct scene_body, broken), 1);
+    gl_attribute(14, 2, stride, base + offsetof(struct scene_body, way_m), 1);
 }
 
 static void open_dents(struct gl_bodies *bodies)
@@ -270,7 +284,7 @@ static void draw_runs(const struct gl_bodies *bodies, const struct scene *scene,
         const struct gl_mesh *mesh =
             &bodies->mesh[(size_t)copy->model * MESH_DETAIL_COUNT + copy->detail];
         const struct mesh_frame *frame = &bodies->scenery->frames[copy->model];
-        glUniform3fv(u_pivots, PART_COUNT, &frame->pivot[0][0]);
+        glUniform4fv(u_pivots, MODEL_JOINTS_MAX, &frame->pivot[0][0]);
         if (u_low >= 0)
             glUniform1f(u_low, frame->low[1]);
         describe_copies(bodies, first);

@@ -3,27 +3,12 @@
  * so every candidate is tried, every failure is named, and a known pixel must come back. */
 #include "renderer/gl/gl_context.h"
 
-#include "ipc/log.h"
+#include "renderer/gl/gl_devices.h"
 
 #include <epoxy/gl.h>
 
-#include <dlfcn.h>
-#include <errno.h>
-#include <glob.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-#define DEVICES_MAX    16
-#define CANDIDATES_MAX (DEVICES_MAX + 2)
-
-struct candidate {
-    EGLDeviceEXT device;
-    EGLenum platform; /* 0: the default display */
-    bool software;
-    char name[48];
-};
 
 struct version {
     EGLint major, minor;
@@ -51,60 +36,12 @@ static const char *egl_error(void)
     }
 }
 
-static bool has_word(const char *list, const char *word)
-{
-    size_t length = strlen(word);
-    for (const char *at = list; at != NULL && (at = strstr(at, word)) != NULL; at += length)
-        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0'))
-            return true;
-    return false;
-}
-
 /* Adds "name: what; " to the reason, as far as there is room. */
 static void note(struct reason *reason, const char *name, const char *what)
 {
     size_t used = strlen(reason->text);
     snprintf(reason->text + used, sizeof reason->text - used, "%s%.40s: %.60s",
              used > 0 ? "; " : "", name, what);
-}
-
-static uint32_t find_devices(struct candidate *candidates, bool software)
-{
-    EGLDeviceEXT devices[DEVICES_MAX];
-    EGLint count = 0;
-    uint32_t found = 0;
-    if (!eglQueryDevicesEXT(DEVICES_MAX, devices, &count))
-        return 0;
-    for (EGLint i = 0; i < count; i++) {
-        const char *extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
-        if (has_word(extensions, "EGL_MESA_device_software") != software)
-            continue;
-        struct candidate *c = &candidates[found++];
-        *c = (struct candidate){
-            .platform = EGL_PLATFORM_DEVICE_EXT, .device = devices[i], .software = software};
-        snprintf(c->name, sizeof c->name, "%s device %d", software ? "software" : "hardware", i);
-    }
-    return found;
-}
-
-static uint32_t find_candidates(struct candidate candidates[CANDIDATES_MAX])
-{
-    const char *client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    bool platforms = has_word(client, "EGL_EXT_platform_base");
-    bool devices = platforms && has_word(client, "EGL_EXT_platform_device") &&
-                   (has_word(client, "EGL_EXT_device_base") ||
-                    (has_word(client, "EGL_EXT_device_enumeration") &&
-                     has_word(client, "EGL_EXT_device_query")));
-    uint32_t count = 0;
-    if (devices) {
-        count = find_devices(candidates, false);
-        count += find_devices(candidates + count, true);
-    }
-    if (platforms && has_word(client, "EGL_MESA_platform_surfaceless"))
-        candidates[count++] =
-            (struct candidate){.name = "surfaceless", .platform = EGL_PLATFORM_SURFACELESS_MESA};
-    candidates[count++] = (struct candidate){.name = "default display"};
-    return count;
 }
 
 /* A green that no cleared, lost or uninitialised memory looks like must come back. */
@@ -131,12 +68,12 @@ static bool draws_a_pixel(void)
 static const char *make_context(struct gl_context *gl)
 {
     const char *extensions = eglQueryString(gl->display, EGL_EXTENSIONS);
-    if (!has_word(extensions, "EGL_KHR_surfaceless_context"))
+    if (!gl_has_word(extensions, "EGL_KHR_surfaceless_context"))
         return "it cannot draw without a window";
     if (!eglBindAPI(EGL_OPENGL_API))
         return "it has OpenGL ES alone";
     EGLConfig config = NULL; /* EGL_NO_CONFIG_KHR */
-    if (!has_word(extensions, "EGL_KHR_no_config_context")) {
+    if (!gl_has_word(extensions, "EGL_KHR_no_config_context")) {
         const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE,
                                  EGL_PBUFFER_BIT, EGL_NONE};
         EGLint found = 0;
@@ -169,7 +106,7 @@ static const char *make_context(struct gl_context *gl)
     return why;
 }
 
-static const char *try_candidate(struct gl_context *gl, const struct candidate *candidate)
+static const char *try_candidate(struct gl_context *gl, const struct gl_candidate *candidate)
 {
     if (candidate->platform == 0)
         gl->display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
@@ -186,57 +123,88 @@ static const char *try_candidate(struct gl_context *gl, const struct candidate *
     return why;
 }
 
-/* Why graphics hardware that is there may not be usable; "" when nothing is known. */
-static const char *hardware_hint(void)
+/* Is the context on hardware, and how is it called? */
+static void describe(struct gl_context *gl, const struct gl_candidate *candidate)
 {
-    const char *hint = "";
-    glob_t nodes;
-    if (glob("/dev/dri/renderD*", 0, NULL, &nodes) == 0) {
-        for (size_t i = 0; i < nodes.gl_pathc; i++)
-            if (access(nodes.gl_pathv[i], R_OK | W_OK) != 0 && errno == EACCES)
-                hint = " (no permission for /dev/dri/renderD*: add the user to the group render)";
-        globfree(&nodes);
-    }
-    glob_t vendor;
-    if (access("/dev/nvidiactl", F_OK) == 0) {
-        if (glob("/usr/share/glvnd/egl_vendor.d/*nvidia*", 0, NULL, &vendor) != 0)
-            hint = " (an NVIDIA device is here, but its EGL vendor file is not installed)";
-        else
-            globfree(&vendor);
-    }
-    return hint;
+    const char *renderer = (const char *)glGetString(GL_RENDERER);
+    gl->software = candidate->software || strstr(renderer, "llvmpipe") != NULL ||
+                   strstr(renderer, "softpipe") != NULL || strstr(renderer, "swrast") != NULL;
+    snprintf(gl->name, sizeof gl->name, "%.80s, OpenGL %.40s, on %s (%s)", renderer,
+             (const char *)glGetString(GL_VERSION), candidate->name,
+             gl->software ? "software" : "hardware");
 }
 
-int gl_context_open(struct gl_context *gl, struct reason *reason)
+/* A context on this candidate as it is wished for; NULL, or why there is none. */
+static const char *try_wished(struct gl_context *gl, const struct gl_candidate *candidate,
+                              const struct gl_wish *wish)
 {
-    /* epoxy ends the process when it finds no libEGL, so it is asked only when there is one. */
-    void *library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_GLOBAL);
-    if (library == NULL)
-        return reason_set(reason, "no OpenGL: libEGL.so.1 is not installed; on Debian and Ubuntu: "
-                                  "apt-get install libegl1 libgl1-mesa-dri");
-    setenv("EGL_LOG_LEVEL", "fatal", 0);
+    if (!gl_may_be(candidate, wish))
+        return "not asked for";
+    if (wish->hardware && candidate->software)
+        return "draws in software";
+    const char *why = try_candidate(gl, candidate);
+    if (why != NULL)
+        return why;
+    describe(gl, candidate);
+    if (wish->hardware && gl->software)
+        why = "draws in software";
+    else if (!gl_is_called(candidate, gl->name, wish))
+        why = "has another name";
+    if (why != NULL)
+        gl_context_close(gl);
+    return why;
+}
 
-    struct candidate candidates[CANDIDATES_MAX];
-    uint32_t count = find_candidates(candidates);
+int gl_context_open(struct gl_context *gl, const struct gl_wish *wish, struct reason *reason)
+{
+    if (gl_library(reason) != 0)
+        return -1;
+    struct gl_candidate candidates[GL_CANDIDATES_MAX];
+    uint32_t count = gl_find_candidates(candidates);
     struct reason failures = {.text = ""};
     for (uint32_t i = 0; i < count; i++) {
-        const char *why = try_candidate(gl, &candidates[i]);
-        if (why != NULL) {
-            note(&failures, candidates[i].name, why);
-            continue;
-        }
-        const char *renderer = (const char *)glGetString(GL_RENDERER);
-        bool software = candidates[i].software || strstr(renderer, "llvmpipe") != NULL ||
-                        strstr(renderer, "softpipe") != NULL || strstr(renderer, "swrast") != NULL;
-        log_info("drawing with %s, OpenGL %s, on %s (%s)%s", renderer,
-                 (const char *)glGetString(GL_VERSION), candidates[i].name,
-                 software ? "software" : "hardware", software ? hardware_hint() : "");
-        return 0;
+        const char *why = try_wished(gl, &candidates[i], wish);
+        if (why == NULL)
+            return 0;
+        note(&failures, candidates[i].name, why);
     }
+    if (wish->device != NULL)
+        return reason_set(reason,
+                          "--device %.40s: no OpenGL of that number or name; tried: %.300s; "
+                          "jolon-renderer --list-devices shows what there is",
+                          wish->device, failures.text);
+    if (wish->hardware)
+        return reason_set(reason, "no usable OpenGL 3.3 on it%s; tried: %.300s", gl_hardware_hint(),
+                          failures.text);
     return reason_set(reason,
                       "no usable OpenGL 3.3%s; tried: %.300s; on Debian and Ubuntu: apt-get "
                       "install libgl1-mesa-dri (it draws in software)",
-                      hardware_hint(), failures.text);
+                      gl_hardware_hint(), failures.text);
+}
+
+void gl_context_list(void)
+{
+    struct reason reason;
+    struct gl_candidate candidates[GL_CANDIDATES_MAX];
+    if (gl_library(&reason) != 0) {
+        printf("-  %s\n", reason.text);
+        return;
+    }
+    uint32_t count = gl_find_candidates(candidates);
+    for (uint32_t i = 0; i < count; i++) {
+        struct gl_context gl;
+        char number[12] = "-";
+        if (candidates[i].number >= 0)
+            snprintf(number, sizeof number, "%d", candidates[i].number);
+        const char *why = try_candidate(&gl, &candidates[i]);
+        if (why != NULL) {
+            printf("%s  %s: %s\n", number, candidates[i].name, why);
+            continue;
+        }
+        describe(&gl, &candidates[i]);
+        printf("%s  %s\n", number, gl.name);
+        gl_context_close(&gl);
+    }
 }
 
 void gl_context_close(struct gl_context *gl)

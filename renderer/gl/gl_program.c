@@ -1,34 +1,63 @@
 /* Shaders: compiling them, and the text that all of them share. */
 #include "renderer/gl/gl.h"
 
+#include "renderer/scene/light.h"
+#include "renderer/scene/tiles.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #define LOG_BYTES 512
 
+/* Numbers of light.h and tiles.h, by their own names. */
+#define NUMBER(name) "const float " #name " = " LIGHT_TEXT(name) ";\n"
+#define COLOUR(name) "const vec3 " #name " = vec3(" LIGHT_TEXT(name) ");\n"
+
+/* clang-format off */
+static const char numbers_text[] =
+    "#version 330 core\n"
+    COLOUR(SKY_DEEP) COLOUR(SKY_MID) COLOUR(HORIZON_COOL) COLOUR(HORIZON_WARM) COLOUR(FOG_WHITE)
+    COLOUR(SUN_WARM) COLOUR(CLOUD_SHADE) COLOUR(CLOUD_LIT) COLOUR(FOAM_WHITE)
+    NUMBER(SUN_EDGE) NUMBER(SUN_WHOLE)
+    NUMBER(FINE_M) NUMBER(FINE_FADES_M) NUMBER(FINE_FADED_M)
+    NUMBER(WAVES_M) NUMBER(WAVE_STEEP) NUMBER(WAVE_HALF_M) NUMBER(WAVE_LIFT) NUMBER(SURF_S)
+    NUMBER(SHORE_WATER) NUMBER(SHORE_GROUND) NUMBER(TILE_WANTED) NUMBER(TILE_COVERED)
+    NUMBER(SKY_LIGHT_RED) NUMBER(SKY_LIGHT_GREEN) NUMBER(SKY_LIGHT_BLUE)
+    NUMBER(SUN_LIGHT_RED) NUMBER(SUN_LIGHT_GREEN) NUMBER(SUN_LIGHT_BLUE);
+/* clang-format on */
+
 /* Light and air are one model for everything in a picture: ground fades into the very colour that
  * the sky has there. */
 static const char shared_text[] =
-    "#version 330 core\n"
     "layout(std140) uniform frame {\n"
     "    mat4 u_matrix;\n"
     "    vec4 u_right, u_up, u_forward, u_sun, u_fog;\n"
     "};\n"
-    "const vec3 sky_light = vec3(0.44, 0.48, 0.56);\n"
-    "const vec3 sun_light = vec3(0.76, 0.70, 0.56);\n"
+    "const vec3 sky_light = vec3(SKY_LIGHT_RED, SKY_LIGHT_GREEN, SKY_LIGHT_BLUE);\n"
+    "const vec3 sun_light = vec3(SUN_LIGHT_RED, SUN_LIGHT_GREEN, SUN_LIGHT_BLUE);\n"
     "vec3 horizon(vec3 way)\n"
     "{\n"
     "    float towards = dot(normalize(way.xz + vec2(1e-5, 0.0)), normalize(u_sun.xz));\n"
     "    float glow = 0.5 + 0.5 * towards;\n"
-    "    return mix(vec3(0.70, 0.785, 0.865), vec3(0.955, 0.885, 0.77), glow * glow * glow);\n"
+    "    return mix(HORIZON_COOL, HORIZON_WARM, glow * glow * glow);\n"
+    "}\n"
+    /* Of the fog, whose own white takes the horizon's colour on. */
+    "vec3 white(vec3 way)\n"
+    "{\n"
+    "    return mix(FOG_WHITE, horizon(way), 0.5);\n"
     "}\n"
     "vec3 sky(vec3 way)\n"
     "{\n"
     "    float high = max(way.y, 0.0);\n"
-    "    vec3 deep = vec3(0.215, 0.405, 0.715);\n"
-    "    vec3 mid = vec3(0.475, 0.645, 0.860);\n"
-    "    vec3 c = mix(mid, deep, 1.0 - exp(-2.6 * high));\n"
+    "    vec3 c = mix(SKY_MID, SKY_DEEP, 1.0 - exp(-2.6 * high));\n"
     "    return mix(c, horizon(way), exp(-9.0 * high));\n"
+    "}\n"
+    /* How much fog there is between the eye and the sky along a unit way: all the fog above the
+     * eye, seen aslant. */
+    "float sky_fog(vec3 way)\n"
+    "{\n"
+    "    float fog = u_fog.y * exp(-u_fog.w * u_fog.z);\n"
+    "    return fog / (fog + u_fog.z * max(way.y, 1e-4));\n"
     "}\n"
     /* rgb: what the air puts in front of a thing at this place from the eye; a: how much. */
     "vec4 air(vec3 place)\n"
@@ -39,16 +68,15 @@ static const char shared_text[] =
     "    float fog = u_fog.y * exp(-u_fog.w * u_fog.z) * layer * far;\n"
     "    float haze = u_fog.x * far;\n"
     "    vec3 way = place / max(far, 1e-3);\n"
-    "    vec3 white = mix(vec3(0.80, 0.82, 0.83), horizon(way), 0.5);\n"
     "    float all = fog + haze;\n"
-    "    return vec4(mix(horizon(way), white, fog / max(all, 1e-6)), 1.0 - exp(-all));\n"
+    "    return vec4(mix(horizon(way), white(way), fog / max(all, 1e-6)), 1.0 - exp(-all));\n"
     "}\n";
 
 static GLuint compile(GLenum type, const char *before, const char *text, char log[LOG_BYTES])
 {
-    const char *texts[] = {shared_text, before, text};
+    const char *texts[] = {numbers_text, shared_text, before, text};
     GLuint shader = glCreateShader(type);
-    glShaderSource(shader, 3, texts, NULL);
+    glShaderSource(shader, 4, texts, NULL);
     glCompileShader(shader);
     GLint good = GL_FALSE;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &good);

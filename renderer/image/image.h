@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#define IMAGE_CORNERS_MAX 8u
+
 struct image {
     uint32_t width, height;
     uint8_t *pixels; /* RGBA, rows from the top; owned */
@@ -25,14 +27,25 @@ void image_free(struct image *image);
 void image_blend(struct image *image, int32_t x, int32_t y, struct rgba colour, float coverage);
 void image_rectangle(struct image *image, int32_t x, int32_t y, int32_t width, int32_t height,
                      struct rgba colour);
+/* A small square, for what there are thousands of. */
+void image_dot(struct image *image, struct point centre, double side, struct rgba colour);
 void image_line(struct image *image, struct point from, struct point to, double width,
                 struct rgba colour);
 void image_disc(struct image *image, struct point centre, double radius, struct rgba colour);
 void image_ring(struct image *image, struct point centre, double radius, double width,
                 struct rgba colour);
-/* A convex polygon of 3 to 8 corners, in either sense of turn. */
+/* A convex polygon of 3 to IMAGE_CORNERS_MAX corners, in either sense of turn. */
 void image_polygon(struct image *image, const struct point *corners, uint32_t count,
                    struct rgba colour);
+
+/* Blends one pixel that is known to be there; a: 0..255, in place of the colour's own. */
+static inline void image_lay(uint8_t *pixel, struct rgba colour, int32_t a)
+{
+    pixel[0] = (uint8_t)(pixel[0] + ((colour.r - pixel[0]) * a) / 255);
+    pixel[1] = (uint8_t)(pixel[1] + ((colour.g - pixel[1]) * a) / 255);
+    pixel[2] = (uint8_t)(pixel[2] + ((colour.b - pixel[2]) * a) / 255);
+    pixel[3] = 255;
+}
 
 /* Copies all of from to (x, y) of to. */
 void image_copy(struct image *to, const struct image *from, int32_t x, int32_t y);

@@ -1,27 +1,57 @@
-/* Text by FreeType. Each letter is rendered when it is drawn: a picture has some hundred. */
+/* Text by FreeType. A letter of a size is rendered once and kept: pictures say the same words again
+ * and again. */
 #include "renderer/image/text.h"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+#define LETTER_FIRST ' '
+#define LETTER_LAST  '~'
+#define LETTERS      (LETTER_LAST - LETTER_FIRST + 1)
+#define SIZES        16u /* kept at once; the one used longest ago gives way */
+#define RIM_SHARE    14u /* a rim is so small a part of the letters' size, but a pixel at least */
+
+/* A letter's coverage, a byte a pixel. */
+struct glyph {
+    uint8_t *coverage; /* [width * rows], NULL where nothing is to be seen; owned */
+    int32_t left, top; /* of the first pixel, from the pen; up is positive */
+    uint32_t width, rows;
+};
+
+struct letter {
+    struct glyph fill, rim;
+    int32_t advance;
+    bool known;
+};
+
+struct font_size {
+    uint32_t size; /* [pixel], 0: empty */
+    uint64_t used; /* when last */
+    struct letter letters[LETTERS];
+};
 
 struct text {
     FT_Library library;
     FT_Face face;
+    uint64_t clock; /* counts uses */
+    struct font_size sizes[SIZES];
 };
 
 /* Where distributions put it; Debian's first. */
 static const char *const font_paths[] = {
-    "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
-    "/usr/share/fonts/dejavu-sans-mono-fonts/DejaVuSansMono.ttf",
-    "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
-    "/usr/share/fonts/dejavu/DejaVuSansMono.ttf",
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+    "/usr/share/fonts/TTF/DejaVuSans.ttf",
+    "/usr/share/fonts/dejavu/DejaVuSans.ttf",
 };
 
 struct text *text_open(struct reason *reason)
 {
-    struct text *text = malloc(sizeof *text);
+    struct text *text = calloc(1, sizeof *text);
     if (text == NULL || FT_Init_FreeType(&text->library) != 0) {
         free(text);
         reason_set(reason, "no memory for the font");
@@ -39,37 +69,155 @@ struct text *text_open(struct reason *reason)
     return NULL;
 }
 
+static void forget(struct font_size *size)
+{
+    for (uint32_t i = 0; i < LETTERS; i++) {
+        free(size->letters[i].fill.coverage);
+        free(size->letters[i].rim.coverage);
+    }
+    memset(size, 0, sizeof *size);
+}
+
 void text_close(struct text *text)
 {
+    if (text == NULL)
+        return;
+    for (uint32_t i = 0; i < SIZES; i++)
+        forget(&text->sizes[i]);
     FT_Done_Face(text->face);
     FT_Done_FreeType(text->library);
     free(text);
 }
 
-static void draw_letter(const FT_Bitmap *bitmap, struct image *image, int32_t x, int32_t y,
-                        struct rgba colour)
+/* --- letters ---------------------------------------------------------------------------------- */
+
+static void keep_fill(struct glyph *glyph, FT_GlyphSlot slot)
 {
+    const FT_Bitmap *bitmap = &slot->bitmap;
+    *glyph = (struct glyph){.left = slot->bitmap_left,
+                            .top = slot->bitmap_top,
+                            .width = bitmap->width,
+                            .rows = bitmap->rows};
+    if (bitmap->width == 0 || bitmap->rows == 0)
+        return;
+    glyph->coverage = malloc((size_t)bitmap->width * bitmap->rows);
+    if (glyph->coverage == NULL)
+        return;
     for (uint32_t row = 0; row < bitmap->rows; row++)
-        for (uint32_t column = 0; column < bitmap->width; column++) {
-            const uint8_t *line = bitmap->buffer + (ptrdiff_t)row * bitmap->pitch;
-            if (line[column] != 0)
-                image_blend(image, x + (int32_t)column, y + (int32_t)row, colour,
-                            (float)line[column] / 255.0f);
+        memcpy(glyph->coverage + (size_t)row * bitmap->width,
+               bitmap->buffer + (ptrdiff_t)row * bitmap->pitch, bitmap->width);
+}
+
+/* The letter grown by a width all round: the most coverage within that reach. */
+static void keep_rim(struct glyph *rim, const struct glyph *fill, int32_t reach)
+{
+    if (fill->coverage == NULL)
+        return;
+    *rim = (struct glyph){.left = fill->left - reach,
+                          .top = fill->top + reach,
+                          .width = fill->width + 2 * (uint32_t)reach,
+                          .rows = fill->rows + 2 * (uint32_t)reach};
+    rim->coverage = calloc((size_t)rim->width * rim->rows, 1);
+    if (rim->coverage == NULL)
+        return;
+    for (int32_t dy = -reach; dy <= reach; dy++)
+        for (int32_t dx = -reach; dx <= reach; dx++) {
+            if (dx * dx + dy * dy > reach * reach + 1)
+                continue;
+            for (uint32_t row = 0; row < fill->rows; row++) {
+                const uint8_t *from = fill->coverage + (size_t)row * fill->width;
+                uint8_t *to =
+                    rim->coverage + (size_t)((int32_t)row + reach + dy) * rim->width + reach + dx;
+                for (uint32_t column = 0; column < fill->width; column++)
+                    to[column] = from[column] > to[column] ? from[column] : to[column];
+            }
         }
+}
+
+static struct font_size *size_of(struct text *text, uint32_t size)
+{
+    struct font_size *oldest = &text->sizes[0];
+    text->clock++;
+    for (uint32_t i = 0; i < SIZES; i++) {
+        struct font_size *kept = &text->sizes[i];
+        if (kept->size == size) {
+            kept->used = text->clock;
+            return kept;
+        }
+        if (kept->used < oldest->used)
+            oldest = kept;
+    }
+    forget(oldest);
+    oldest->size = size;
+    oldest->used = text->clock;
+    return oldest;
+}
+
+/* Names may hold anything; only printable ASCII is drawn. A letter that cannot be rendered, for
+ * want of memory, is a gap. */
+static const struct letter *letter_of(struct text *text, struct font_size *size, char c)
+{
+    uint32_t index = c >= LETTER_FIRST && c <= LETTER_LAST ? (uint32_t)(c - LETTER_FIRST)
+                                                           : (uint32_t)('?' - LETTER_FIRST);
+    struct letter *letter = &size->letters[index];
+    if (!letter->known) {
+        letter->known = true;
+        if (FT_Set_Pixel_Sizes(text->face, 0, size->size) != 0 ||
+            FT_Load_Char(text->face, LETTER_FIRST + index, FT_LOAD_RENDER) != 0)
+            return letter;
+        uint32_t reach = size->size / RIM_SHARE;
+        letter->advance = (int32_t)(text->face->glyph->advance.x >> 6);
+        keep_fill(&letter->fill, text->face->glyph);
+        keep_rim(&letter->rim, &letter->fill, reach > 1 ? (int32_t)reach : 1);
+    }
+    return letter;
+}
+
+/* --- drawing ---------------------------------------------------------------------------------- */
+
+/* Light adds up as the square of what is stored, nearly: mixed so, thin strokes keep their weight
+ * on dark and on bright ground. The square root is exact, so the picture is too. */
+static uint8_t mix(uint8_t under, uint8_t over, float share)
+{
+    float u = (float)under * (float)under, o = (float)over * (float)over;
+    return (uint8_t)(sqrtf(u + (o - u) * share) + 0.5f);
+}
+
+static void draw_glyph(const struct glyph *glyph, struct image *image, int32_t x, int32_t y,
+                       struct rgba colour)
+{
+    if (glyph->coverage == NULL)
+        return;
+    x += glyph->left;
+    y -= glyph->top;
+    int32_t first = x < 0 ? -x : 0, end = (int32_t)glyph->width;
+    if (x + end > (int32_t)image->width)
+        end = (int32_t)image->width - x;
+    for (int32_t row = 0; row < (int32_t)glyph->rows; row++) {
+        if (y + row < 0 || y + row >= (int32_t)image->height)
+            continue;
+        const uint8_t *line = glyph->coverage + (size_t)row * glyph->width;
+        uint8_t *pixels = image->pixels + ((size_t)(y + row) * image->width) * 4;
+        for (int32_t column = first; column < end; column++) {
+            if (line[column] == 0)
+                continue;
+            uint8_t *pixel = pixels + (size_t)(x + column) * 4;
+            float share = (float)(line[column] * colour.a) * (1.0f / 65025.0f);
+            pixel[0] = mix(pixel[0], colour.r, share);
+            pixel[1] = mix(pixel[1], colour.g, share);
+            pixel[2] = mix(pixel[2], colour.b, share);
+        }
+    }
 }
 
 int32_t text_draw(struct text *text, struct image *image, int32_t x, int32_t y, uint32_t size,
                   struct rgba colour, const char *words)
 {
-    FT_Set_Pixel_Sizes(text->face, 0, size);
+    struct font_size *kept = size_of(text, size);
     for (const char *c = words; *c != '\0'; c++) {
-        /* Names may hold anything; only printable ASCII is drawn. */
-        FT_ULong letter = *c >= ' ' && *c <= '~' ? (FT_ULong)*c : '?';
-        if (FT_Load_Char(text->face, letter, FT_LOAD_RENDER) != 0)
-            continue;
-        FT_GlyphSlot glyph = text->face->glyph;
-        draw_letter(&glyph->bitmap, image, x + glyph->bitmap_left, y - glyph->bitmap_top, colour);
-        x += (int32_t)(glyph->advance.x >> 6);
+        const struct letter *letter = letter_of(text, kept, *c);
+        draw_glyph(&letter->fill, image, x, y, colour);
+        x += letter->advance;
     }
     return x;
 }
@@ -77,21 +225,22 @@ int32_t text_draw(struct text *text, struct image *image, int32_t x, int32_t y, 
 int32_t text_draw_rimmed(struct text *text, struct image *image, int32_t x, int32_t y,
                          uint32_t size, struct rgba colour, const char *words)
 {
-    const struct rgba rim = {8, 10, 14, 150};
-    for (int32_t dy = -1; dy <= 1; dy++)
-        for (int32_t dx = -1; dx <= 1; dx++)
-            if (dx != 0 || dy != 0)
-                text_draw(text, image, x + dx, y + dy, size, rim, words);
+    const struct rgba rim = {8, 10, 14, 190};
+    struct font_size *kept = size_of(text, size);
+    int32_t pen = x;
+    for (const char *c = words; *c != '\0'; c++) {
+        const struct letter *letter = letter_of(text, kept, *c);
+        draw_glyph(&letter->rim, image, pen, y, rim);
+        pen += letter->advance;
+    }
     return text_draw(text, image, x, y, size, colour, words);
 }
 
 int32_t text_width(struct text *text, uint32_t size, const char *words)
 {
+    struct font_size *kept = size_of(text, size);
     int32_t width = 0;
-    FT_Set_Pixel_Sizes(text->face, 0, size);
     for (const char *c = words; *c != '\0'; c++)
-        if (FT_Load_Char(text->face, *c >= ' ' && *c <= '~' ? (FT_ULong)*c : '?',
-                         FT_LOAD_DEFAULT) == 0)
-            width += (int32_t)(text->face->glyph->advance.x >> 6);
+        width += letter_of(text, kept, *c)->advance;
     return width;
 }

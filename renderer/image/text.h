@@ -1,4 +1,5 @@
-/* Words in pictures, from an installed font (FreeType). */
+/* Words in pictures, from an installed font (FreeType). Each letter of a size is rendered once,
+ * hinted to whole pixels, and kept; it is laid over the picture in proportion to light. */
 #ifndef JOLON_RENDERER_TEXT_H
 #define JOLON_RENDERER_TEXT_H
 
@@ -7,9 +8,9 @@
 
 struct text; /* a font, opened */
 
-/* Opens the DejaVu Sans Mono font. NULL with the reason when it is not installed. */
+/* Opens the DejaVu Sans font. NULL with the reason when it is not installed. */
 struct text *text_open(struct reason *reason);
-void text_close(struct text *text);
+void text_close(struct text *text); /* NULL is nothing */
 
 /* Writes ASCII words with their left end and baseline at (x, y); size is a line's height [pixel].
  * Returns where the next word would begin. */

@@ -69,6 +69,7 @@ static int is_numbered(const struct dirent *entry)
     return fnmatch("*-[0-9]*.png", entry->d_name, 0) == 0;
 }
 
+/* The numbered pictures that there are of a view. */
 static void keep_found(const struct output *output, struct output_row *row, const char *view)
 {
     struct dirent **found;
@@ -118,9 +119,23 @@ int output_open(struct output *output, const char *folder, struct reason *reason
         return -1;
     }
     sweep_temporaries(output->folder);
-    keep_found(output, &output->chase, "chase");
-    keep_found(output, &output->map, "map");
     return 0;
+}
+
+/* The view's row; its first picture looks for those that an earlier renderer left. */
+static struct output_row *row_of(struct output *output, const char *view)
+{
+    for (uint32_t i = 0; i < OUTPUT_ROWS; i++) {
+        struct output_row *row = &output->row[i];
+        if (strcmp(row->view, view) == 0)
+            return row;
+        if (row->view[0] != '\0')
+            continue;
+        snprintf(row->view, sizeof row->view, "%s", view);
+        keep_found(output, row, view);
+        return row;
+    }
+    return NULL;
 }
 
 void output_close(struct output *output)
@@ -163,8 +178,10 @@ static int point_latest(int folder, const char *numbered, const char *temporary,
 int output_picture(struct output *output, const char *view, const struct image *image,
                    uint64_t frame, const char *comment, struct reason *reason)
 {
-    struct output_row *row = view[0] == 'c' ? &output->chase : &output->map;
+    struct output_row *row = row_of(output, view);
     char numbered[NAME_BYTES], latest[NAME_BYTES], temporary[NAME_BYTES];
+    if (row == NULL)
+        return reason_set(reason, "pictures of more than %u views", OUTPUT_ROWS);
     name_of(numbered, view, &frame, "");
     name_of(latest, view, NULL, "");
     name_of(temporary, view, NULL, ".tmp");

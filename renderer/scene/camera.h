@@ -11,8 +11,15 @@
 #include <stdint.h>
 
 #define CAMERA_FIELD_OF_VIEW_RAD (60.0 * RAD_PER_DEG) /* from left to right at 16:9 */
+#define CAMERA_NEAR_M            1.0
 #define CAMERA_FAR_M             90000.0
-#define CAMERA_CLEARANCE_M       2.5 /* at least so high above the ground */
+
+/* What a camera sees through. */
+struct camera_lens {
+    double field_rad;       /* from left to right of a 16:9 picture */
+    double near_m;          /* nothing nearer is seen */
+    uint32_t width, height; /* [pixel] of the picture */
+};
 
 struct camera {
     struct vec3 eye;                /* [m, world] */
@@ -24,22 +31,18 @@ struct camera {
     float matrix[16];       /* eye-relative metres to clip space, column by column */
 };
 
-/* What a chase camera hangs behind. */
-struct camera_subject {
-    struct vec3 position;
-    double heading_rad, pitch_rad, radius_m;
-};
+/* Looks ahead along forward, turned so that up is up in the picture; neither need be a unit, nor
+ * need they stand upright on each other, but they must not be parallel. */
+void camera_turn(struct camera *camera, struct vec3 eye, struct vec3 forward, struct vec3 up,
+                 const struct camera_lens *lens);
 
-/* Looks from eye to target (never straight up or down), level. */
+/* Looks from eye to target, level; straight down or up, north is at the picture's top or bottom. */
+void camera_look_through(struct camera *camera, struct vec3 eye, struct vec3 target,
+                         const struct camera_lens *lens);
+
+/* The same through the usual lens. */
 void camera_look(struct camera *camera, struct vec3 eye, struct vec3 target, uint32_t width,
                  uint32_t height);
-
-/* Behind and above the subject, looking slightly beyond it: 25 m back and 9 m up for a tank, more
- * for larger bodies; above the ground by CAMERA_CLEARANCE_M at least, with a free line of sight to
- * the subject. */
-void camera_chase(struct camera *camera, const struct camera_subject *subject,
-                  const struct terrain *terrain, const struct crater_index *craters, uint32_t width,
-                  uint32_t height);
 
 /* Can any of this ball be in the picture? Never false for one that is. */
 bool camera_sees(const struct camera *camera, struct vec3 centre, double radius_m);

@@ -2,6 +2,7 @@
 #include "renderer/scene/foliage.h"
 
 #include "renderer/scene/grain.h"
+#include "world/maths.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -52,7 +53,8 @@ static float between(struct canvas *c, float low, float high)
 
 static uint8_t byte_of(float v)
 {
-    return (uint8_t)(fminf(1.0f, fmaxf(0.0f, v)) * 255.0f + 0.5f);
+    v = v > 0.0f ? v : 0.0f;
+    return (uint8_t)((v < 1.0f ? v : 1.0f) * 255.0f + 0.5f);
 }
 
 static struct tone tone_mix(struct tone a, struct tone b, float t)
@@ -60,12 +62,17 @@ static struct tone tone_mix(struct tone a, struct tone b, float t)
     return (struct tone){a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
 }
 
+/* Would it be seen here? */
+static bool shows(const struct canvas *c, int32_t px, int32_t py, float depth)
+{
+    return px >= 0 && py >= 0 && px < (int32_t)FOLIAGE_SIDE && py < (int32_t)FOLIAGE_SIDE &&
+           depth > c->depth[py][px];
+}
+
 static void put(struct canvas *c, int32_t px, int32_t py, float depth, struct tone tone,
                 const float normal[3])
 {
-    if (px < 0 || py < 0 || px >= (int32_t)FOLIAGE_SIDE || py >= (int32_t)FOLIAGE_SIDE)
-        return;
-    if (depth <= c->depth[py][px])
+    if (!shows(c, px, py, depth))
         return;
     c->depth[py][px] = depth;
     uint8_t *colour = c->picture->colour[py][px], *facing = c->picture->facing[py][px];
@@ -86,10 +93,12 @@ static void clump(struct canvas *c, float x, float y, float z, float radius, str
         for (int32_t px = (int32_t)(cx - r); px <= (int32_t)(cx + r); px++) {
             float dx = ((float)px + 0.5f - cx) / r, dy = (cy - (float)py - 0.5f) / r;
             float out = dx * dx + dy * dy;
-            float ragged = grain_unit(px / 2, py / 2, c->seed ^ 77u);
-            if (out >= 1.0f || out > 0.35f + 0.65f * ragged)
+            if (out >= 1.0f)
                 continue;
             float dz = sqrtf(1.0f - out), n[3];
+            if (!shows(c, px, py, z + radius * dz) ||
+                (out > 0.35f && out > 0.35f + 0.65f * grain_unit(px / 2, py / 2, c->seed ^ 77u)))
+                continue;
             n[0] = 0.55f * lean[0] + 0.45f * dx;
             n[1] = 0.55f * lean[1] + 0.45f * dy;
             n[2] = 0.55f * lean[2] + 0.45f * dz;
@@ -109,7 +118,9 @@ static void leafy(struct canvas *c, const struct lobe *lobe, uint32_t clumps, fl
     for (uint32_t i = 0; i < clumps; i++) {
         float turn = between(c, 0.0f, 6.2831853f), high = between(c, -0.95f, 1.0f);
         float ring = sqrtf(1.0f - high * high);
-        float n[3] = {cosf(turn) * ring, high, fabsf(sinf(turn)) * ring};
+        double sine, cosine;
+        maths_sincos((double)turn, &sine, &cosine);
+        float n[3] = {(float)cosine * ring, high, fabsf((float)sine) * ring};
         float in = between(c, 0.78f, 1.02f);
         float x = lobe->x + n[0] * lobe->rx * in, y = lobe->y + n[1] * lobe->ry * in;
         float z = lobe->z + n[2] * lobe->rx * in;
@@ -123,7 +134,8 @@ static void leafy(struct canvas *c, const struct lobe *lobe, uint32_t clumps, fl
 static void stick(struct canvas *c, float x0, float y0, float x1, float y1, float thick0,
                   float thick1, struct tone tone)
 {
-    int32_t steps = (int32_t)(hypotf(x1 - x0, y1 - y0) * SIDE * 1.5f) + 2;
+    float along = sqrtf((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0));
+    int32_t steps = (int32_t)(along * SIDE * 1.5f) + 2;
     for (int32_t i = 0; i <= steps; i++) {
         float t = (float)i / (float)steps, half = (thick0 + (thick1 - thick0) * t) * SIDE * 0.5f;
         float cx = (x0 + (x1 - x0) * t + 0.5f) * SIDE, cy = (1.0f - (y0 + (y1 - y0) * t)) * SIDE;

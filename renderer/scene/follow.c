@@ -31,8 +31,8 @@ static bool is_vehicle(const struct moment *moment, uint32_t slot)
 static double action_near(const struct effects *effects, struct vec3 position, double now_s)
 {
     double sum = 0.0;
-    for (uint32_t i = 0; i < effects_count(effects); i++) {
-        const struct effect *effect = &effects->ring[i];
+    for (uint32_t i = 0; i < effects->count; i++) {
+        const struct effect *effect = &effects->effect[i];
         double age = now_s - effect->time_s;
         double off = vec3_length(vec3_sub(effect->point, position));
         if (age < ACTION_LIFE_S && off < ACTION_NEAR_M)

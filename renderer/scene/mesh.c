@@ -1,8 +1,12 @@
-/* Meshes: coarser ones by clustering vertices on a grid, finer ones by halving long edges. */
+/* Meshes: coarser ones by thinning out, finer ones by halving long edges. */
 #include "renderer/scene/mesh.h"
+
+#include "renderer/scene/belt.h"
+#include "renderer/scene/facets.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The finest level halves edges longer than FINE_EDGE_M; of a model that would get many more than
  * FINE_TRIANGLES by it, longer ones: a triangle covers about FINE_SHARE of such an edge's square.
@@ -10,177 +14,176 @@
 #define FINE_EDGE_M    0.5f
 #define FINE_TRIANGLES 5000.0f
 #define FINE_SHARE     0.12f
-#define COARSE_CELLS   12.0f /* grid cells along a model's longest side */
-#define COARSEST_CELLS 6.0f
-
-struct corner {
-    float p[3];
-};
-
-/* One triangle on its way into a mesh. */
-struct facet {
-    struct corner corner[3];
-    const struct model_triangle *from;
-};
-
-static void subtract(float out[3], const float a[3], const float b[3])
-{
-    for (uint32_t i = 0; i < 3; i++)
-        out[i] = a[i] - b[i];
-}
+#define FOOT_M         0.02f /* corners this near to the lowest are at the foot too */
 
 static float squared(const float a[3], const float b[3])
 {
-    float d[3];
-    subtract(d, a, b);
-    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-}
-
-/* 0, or -1: the triangle has no area and is left out. */
-static int facet_normal(const struct facet *facet, float normal[3])
-{
-    float u[3], v[3];
-    subtract(u, facet->corner[1].p, facet->corner[0].p);
-    subtract(v, facet->corner[2].p, facet->corner[0].p);
-    normal[0] = u[1] * v[2] - u[2] * v[1];
-    normal[1] = u[2] * v[0] - u[0] * v[2];
-    normal[2] = u[0] * v[1] - u[1] * v[0];
-    float length = sqrtf(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    if (length < 1e-9f)
-        return -1;
-    for (uint32_t i = 0; i < 3; i++)
-        normal[i] /= length;
-    return 0;
-}
-
-/* Adds the facet; 0, or -1 with errno ENOMEM. capacity is of vertices. */
-static int emit(struct mesh *mesh, uint32_t *capacity, const struct facet *facet)
-{
-    float normal[3];
-    if (facet_normal(facet, normal) != 0)
-        return 0;
-    if (mesh->count + 3 > *capacity) {
-        uint32_t more = *capacity * 2 + 192;
-        struct mesh_vertex *grown = realloc(mesh->vertices, more * sizeof *grown);
-        if (grown == NULL)
-            return -1;
-        mesh->vertices = grown;
-        *capacity = more;
-    }
-    for (uint32_t i = 0; i < 3; i++) {
-        struct mesh_vertex *vertex = &mesh->vertices[mesh->count++];
-        for (uint32_t axis = 0; axis < 3; axis++) {
-            vertex->position[axis] = facet->corner[i].p[axis];
-            vertex->normal[axis] = normal[axis];
-        }
-        vertex->red = facet->from->red;
-        vertex->green = facet->from->green;
-        vertex->blue = facet->from->blue;
-        vertex->force_tint = facet->from->force_tint ? 255 : 0;
-        vertex->part = facet->from->part;
-    }
-    return 0;
+    float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return x * x + y * y + z * z;
 }
 
 /* edge_m: as long as one may be. */
-static int emit_fine(struct mesh *mesh, uint32_t *capacity, const struct facet *facet, float edge_m)
+static int add_fine(struct facets *facets, const struct facet *facet, float edge_m)
 {
     uint32_t longest = 0;
     float length = 0.0f;
     for (uint32_t i = 0; i < 3; i++) {
-        float edge = squared(facet->corner[i].p, facet->corner[(i + 1) % 3].p);
+        float edge = squared(facet->corner[i], facet->corner[(i + 1) % 3]);
         if (edge > length) {
             length = edge;
             longest = i;
         }
     }
     if (length < edge_m * edge_m)
-        return emit(mesh, capacity, facet);
+        return facets_add(facets, facet);
     uint32_t a = longest, b = (longest + 1) % 3;
-    struct corner middle;
-    for (uint32_t axis = 0; axis < 3; axis++)
-        middle.p[axis] = 0.5f * (facet->corner[a].p[axis] + facet->corner[b].p[axis]);
     struct facet first = *facet, second = *facet;
-    first.corner[b] = middle;
-    second.corner[a] = middle;
+    for (uint32_t axis = 0; axis < 3; axis++)
+        first.corner[b][axis] = second.corner[a][axis] =
+            0.5f * (facet->corner[a][axis] + facet->corner[b][axis]);
     /* Each half is shorter; the depth is bounded by the logarithm of the size. */
-    if (emit_fine(mesh, capacity, &first, edge_m) != 0)
+    if (add_fine(facets, &first, edge_m) != 0)
         return -1;
-    return emit_fine(mesh, capacity, &second, edge_m);
+    return add_fine(facets, &second, edge_m);
 }
 
-static float fine_edge(const struct world *world, uint32_t model)
+static struct facet facet_of(const struct world *world, const struct model *m, uint32_t triangle)
 {
-    const struct model *m = &world->models[model];
     const struct model_vertex *v = world->model_vertices + m->first_vertex;
-    float area = 0.0f;
-    for (uint32_t t = 0; t < m->triangle_count; t++) {
-        const uint32_t *corner = world->model_triangles[m->first_triangle + t].vertex;
-        const struct model_vertex *a = &v[corner[0]], *b = &v[corner[1]], *c = &v[corner[2]];
-        float ux = b->x - a->x, uy = b->y - a->y, uz = b->z - a->z;
-        float wx = c->x - a->x, wy = c->y - a->y, wz = c->z - a->z;
-        float nx = uy * wz - uz * wy, ny = uz * wx - ux * wz, nz = ux * wy - uy * wx;
-        area += 0.5f * sqrtf(nx * nx + ny * ny + nz * nz);
+    struct facet facet = {.from = &world->model_triangles[m->first_triangle + triangle]};
+    for (uint32_t i = 0; i < 3; i++) {
+        const struct model_vertex *at = &v[facet.from->vertex[i]];
+        facet.corner[i][0] = at->x;
+        facet.corner[i][1] = at->y;
+        facet.corner[i][2] = at->z;
+    }
+    return facet;
+}
+
+/* The n-th triangle that is seen. */
+static struct facet seen_facet(const struct world *world, const struct model *m, uint32_t n)
+{
+    return facet_of(world, m, m->solid_triangles + n);
+}
+
+static uint32_t seen_count(const struct model *m)
+{
+    return m->triangle_count - m->solid_triangles;
+}
+
+static float fine_edge(const struct world *world, const struct model *m)
+{
+    float area = 0.0f, across[3];
+    for (uint32_t t = 0; t < seen_count(m); t++) {
+        struct facet facet = seen_facet(world, m, t);
+        area += 0.5f * facet_across(&facet, across);
     }
     return fmaxf(FINE_EDGE_M, sqrtf(area / (FINE_SHARE * FINE_TRIANGLES)));
 }
 
-static const struct model_vertex *model_vertices(const struct world *world, uint32_t model)
+static void model_box(const struct world *world, const struct model *m, float low[3], float high[3])
 {
-    return world->model_vertices + world->models[model].first_vertex;
-}
-
-static void model_box(const struct world *world, uint32_t model, float low[3], float high[3])
-{
-    const struct model_vertex *v = model_vertices(world, model);
     for (uint32_t axis = 0; axis < 3; axis++) {
         low[axis] = INFINITY;
         high[axis] = -INFINITY;
     }
-    for (uint32_t i = 0; i < world->models[model].vertex_count; i++) {
-        const float p[3] = {v[i].x, v[i].y, v[i].z};
-        for (uint32_t axis = 0; axis < 3; axis++) {
-            low[axis] = fminf(low[axis], p[axis]);
-            high[axis] = fmaxf(high[axis], p[axis]);
+    for (uint32_t t = 0; t < seen_count(m); t++) {
+        struct facet facet = seen_facet(world, m, t);
+        for (uint32_t i = 0; i < 9; i++) {
+            low[i % 3] = fminf(low[i % 3], facet.corner[i / 3][i % 3]);
+            high[i % 3] = fmaxf(high[i % 3], facet.corner[i / 3][i % 3]);
         }
     }
 }
 
-static void snap(float p[3], const float low[3], float cell)
+/* What is seen of the model, at this level of detail. */
+static int collect(struct facets *facets, const struct world *world, const struct model *m,
+                   enum mesh_detail detail)
 {
-    for (uint32_t axis = 0; axis < 3; axis++)
-        p[axis] = low[axis] + cell * roundf((p[axis] - low[axis]) / cell);
+    static const double pixels[MESH_DETAIL_COUNT] = {[MESH_MIDDLE] = MESH_FULL_PIXELS,
+                                                     [MESH_COARSE] = MESH_MIDDLE_PIXELS,
+                                                     [MESH_COARSEST] = MESH_COARSE_PIXELS};
+    static const uint32_t most[MESH_DETAIL_COUNT] = {[MESH_MIDDLE] = MESH_MIDDLE_MOST,
+                                                     [MESH_COARSE] = MESH_COARSE_MOST,
+                                                     [MESH_COARSEST] = MESH_COARSEST_MOST};
+    float low[3], high[3], edge_m = fine_edge(world, m), across[3];
+    bool solid = detail == MESH_COARSEST && m->solid_triangles > 0;
+    uint32_t end = solid ? m->solid_triangles : m->triangle_count;
+    for (uint32_t t = solid ? 0 : m->solid_triangles; t < end; t++) {
+        struct facet facet = facet_of(world, m, t);
+        if (facet_across(&facet, across) < 1e-9f)
+            continue; /* it has no area */
+        if (detail == MESH_FINE ? add_fine(facets, &facet, edge_m) : facets_add(facets, &facet))
+            return -1;
+    }
+    if (detail < MESH_MIDDLE)
+        return 0;
+    model_box(world, m, low, high);
+    float longest = fmaxf(high[0] - low[0], fmaxf(high[1] - low[1], high[2] - low[2]));
+    double pixel_m = (double)longest / pixels[detail];
+    return facets_thin(facets, MESH_DROP_PIXELS * pixel_m, MESH_ERROR_PIXELS * pixel_m,
+                       most[detail]);
+}
+
+static void put_vertices(struct mesh *mesh, const struct facets *facets, const float (*normals)[3])
+{
+    for (uint32_t i = 0; i < 3 * facets->count; i++) {
+        const struct facet *facet = &facets->facet[i / 3];
+        struct mesh_vertex *vertex = &mesh->vertices[mesh->count++];
+        *vertex = (struct mesh_vertex){.red = facet->from->red,
+                                       .green = facet->from->green,
+                                       .blue = facet->from->blue,
+                                       .force_tint = facet->from->force_tint,
+                                       .part = facet->from->part,
+                                       .joint = facet->from->joint};
+        memcpy(vertex->position, facet->corner[i % 3], sizeof vertex->position);
+        memcpy(vertex->normal, normals[i], sizeof vertex->normal);
+    }
+}
+
+/* Where on its track's belt each corner is: those of a triangle near each other. */
+static int lay_tracks(struct mesh *mesh, const struct world *world, uint32_t model)
+{
+    for (uint32_t joint = 1; joint < MODEL_JOINTS_MAX; joint++) {
+        struct belt belt = {.corner = NULL};
+        for (uint32_t i = 0; i < mesh->count; i++) {
+            struct mesh_vertex *vertex = &mesh->vertices[i];
+            if (vertex->part != PART_TRACK || vertex->joint != joint)
+                continue;
+            if (belt.corner == NULL && belt_find(&belt, world, model, joint) != 0)
+                return -1;
+            float near = i % 3 == 0 ? 0.0f : mesh->vertices[i - i % 3].along;
+            vertex->along = belt_along(&belt, vertex->position, near);
+        }
+        belt_free(&belt);
+    }
+    return 0;
 }
 
 int mesh_build(struct mesh *mesh, const struct world *world, uint32_t model,
                enum mesh_detail detail)
 {
+    struct facets facets = {NULL, 0, 0};
+    float(*normals)[3] = NULL;
     *mesh = (struct mesh){NULL, 0};
-    const struct model *m = &world->models[model];
-    const struct model_vertex *v = model_vertices(world, model);
-    float low[3], high[3];
-    model_box(world, model, low, high);
-    float longest = fmaxf(high[0] - low[0], fmaxf(high[1] - low[1], high[2] - low[2]));
-    float cell = longest / (detail == MESH_COARSE ? COARSE_CELLS : COARSEST_CELLS);
-    bool clustered = detail >= MESH_COARSE && longest > 0.0f;
-    float edge_m = fine_edge(world, model);
-    uint32_t capacity = 0;
-    for (uint32_t t = 0; t < m->triangle_count; t++) {
-        struct facet facet = {.from = &world->model_triangles[m->first_triangle + t]};
-        for (uint32_t i = 0; i < 3; i++) {
-            const struct model_vertex *at = &v[facet.from->vertex[i]];
-            facet.corner[i] = (struct corner){{at->x, at->y, at->z}};
-            if (clustered)
-                snap(facet.corner[i].p, low, cell);
-        }
-        int failed = detail == MESH_FINE ? emit_fine(mesh, &capacity, &facet, edge_m)
-                                         : emit(mesh, &capacity, &facet);
-        if (failed) {
-            mesh_free(mesh);
-            return -1;
-        }
-    }
+    if (collect(&facets, world, &world->models[model], detail) != 0)
+        goto err;
+    mesh->vertices = calloc(3 * (size_t)facets.count + 1, sizeof *mesh->vertices);
+    normals = malloc((3 * (size_t)facets.count + 1) * sizeof *normals);
+    if (mesh->vertices == NULL || normals == NULL || facets_normals(&facets, normals) != 0)
+        goto err;
+    put_vertices(mesh, &facets, (const float(*)[3])normals);
+    if (lay_tracks(mesh, world, model) != 0)
+        goto err;
+    free(normals);
+    facets_free(&facets);
     return 0;
+
+err:
+    free(normals);
+    facets_free(&facets);
+    mesh_free(mesh);
+    return -1;
 }
 
 void mesh_free(struct mesh *mesh)
@@ -189,29 +192,92 @@ void mesh_free(struct mesh *mesh)
     *mesh = (struct mesh){NULL, 0};
 }
 
-void mesh_frame(struct mesh_frame *frame, const struct world *world, uint32_t model)
+/* --- what turns about what -------------------------------------------------------------------- */
+
+/* The corners of one joint, the turret's being those of its part. */
+struct joint {
+    uint32_t part; /* enum model_part; PART_BODY: there is nothing */
+    float low[3], high[3];
+};
+
+/* Grows around the joint's corners whose coordinate along the axis is within FOOT_M of `from`. */
+static void grow(struct joint *box, const struct world *world, const struct model *m,
+                 uint32_t joint, uint32_t axis, float from)
+{
+    for (uint32_t i = 0; i < 3; i++) {
+        box->low[i] = INFINITY;
+        box->high[i] = -INFINITY;
+    }
+    for (uint32_t t = 0; t < seen_count(m); t++) {
+        struct facet facet = seen_facet(world, m, t);
+        if (facet.from->joint != joint || facet.from->part == PART_BODY)
+            continue;
+        box->part = facet.from->part;
+        for (uint32_t c = 0; c < 3; c++)
+            for (uint32_t i = 0; facet.corner[c][axis] <= from && i < 3; i++) {
+                box->low[i] = fminf(box->low[i], facet.corner[c][i]);
+                box->high[i] = fmaxf(box->high[i], facet.corner[c][i]);
+            }
+    }
+}
+
+/* How far the joint's corners reach from its axle, along which nothing is measured. */
+static float reach(const struct world *world, const struct model *m, uint32_t joint,
+                   const float pivot[3], uint32_t axle)
+{
+    float most = 0.0f;
+    for (uint32_t t = 0; t < seen_count(m); t++) {
+        struct facet facet = seen_facet(world, m, t);
+        for (uint32_t c = 0; facet.from->joint == joint && c < 3; c++) {
+            float u = facet.corner[c][0] - pivot[0];
+            float v = facet.corner[c][3 - axle] - pivot[3 - axle];
+            most = fmaxf(most, sqrtf(u * u + v * v));
+        }
+    }
+    return most;
+}
+
+/* A turret turns about the middle of its foot, which is round; a gun is held at its hind end;
+ * rotors and wheels are even about their axes, a rotor's foot being its mast. */
+static int find_pivot(struct mesh_frame *frame, const struct world *world, uint32_t model,
+                      uint32_t joint)
 {
     const struct model *m = &world->models[model];
-    const struct model_vertex *v = model_vertices(world, model);
-    model_box(world, model, frame->low, frame->high);
-    /* A turret turns about the middle of its widest reach that is not its gun: the mean of its
-     * corners lies well inside the body of it. Rotors are even about their axis. */
-    for (uint32_t part = 0; part < PART_COUNT; part++) {
-        double sum[3] = {0.0, 0.0, 0.0};
-        uint32_t corners = 0;
-        for (uint32_t t = 0; t < m->triangle_count; t++) {
-            const struct model_triangle *triangle = &world->model_triangles[m->first_triangle + t];
-            if (triangle->part != part)
-                continue;
-            for (uint32_t i = 0; i < 3; i++) {
-                const struct model_vertex *at = &v[triangle->vertex[i]];
-                sum[0] += (double)at->x;
-                sum[1] += (double)at->y;
-                sum[2] += (double)at->z;
-                corners++;
-            }
-        }
-        for (uint32_t axis = 0; axis < 3; axis++)
-            frame->pivot[part][axis] = corners > 0 ? (float)(sum[axis] / corners) : 0.0f;
+    struct joint box = {.part = PART_BODY};
+    float *pivot = frame->pivot[joint];
+    grow(&box, world, m, joint, 0, INFINITY);
+    frame->part[joint] = (uint8_t)box.part;
+    if (box.part == PART_BODY)
+        return 0;
+    if (box.part == PART_TRACK) {
+        struct belt belt;
+        if (belt_find(&belt, world, model, joint) != 0)
+            return -1;
+        pivot[3] = belt.link_m;
+        belt_free(&belt);
     }
+    if (box.part == PART_TURRET || box.part == PART_ROTOR)
+        grow(&box, world, m, joint, 1, box.low[1] + FOOT_M);
+    else if (box.part == PART_GUN)
+        grow(&box, world, m, joint, 0, box.low[0] + FOOT_M);
+    for (uint32_t i = 0; i < 3; i++)
+        pivot[i] = 0.5f * (box.low[i] + box.high[i]);
+    if (box.part == PART_ROTOR)
+        pivot[3] = reach(world, m, joint, pivot, 1);
+    else if (box.part == PART_WHEEL || box.part == PART_FRONT_WHEEL || box.part == PART_TAIL_ROTOR)
+        pivot[3] = reach(world, m, joint, pivot, 2);
+    return 0;
+}
+
+int mesh_frame(struct mesh_frame *frame, const struct world *world, uint32_t model)
+{
+    const struct model *m = &world->models[model];
+    *frame = (struct mesh_frame){.turret = false};
+    model_box(world, m, frame->low, frame->high);
+    for (uint32_t joint = 0; joint < MODEL_JOINTS_MAX; joint++)
+        if (find_pivot(frame, world, model, joint) != 0)
+            return -1;
+    for (uint32_t t = 0; t < seen_count(m); t++)
+        frame->turret = frame->turret || seen_facet(world, m, t).from->part == PART_TURRET;
+    return 0;
 }

@@ -1,15 +1,24 @@
-/* Painting the ground. Colours are sRGB fractions; light multiplies them. */
+/* Painting the ground, in blocks, row by row: what varies is laid out along a row first, so that
+ * one loop does one thing to all of it. Colours are sRGB fractions; light multiplies them. */
 #include "renderer/scene/paint.h"
 
-#include "renderer/scene/light.h"
+#include "renderer/scene/country.h"
 #include "renderer/scene/grain.h"
+#include "renderer/scene/grain_rows.h"
+#include "renderer/scene/light.h"
+#include "renderer/scene/ways.h"
 
 #include <math.h>
+#include <string.h>
 
-#define ROAD_HALF_M     4.0 /* half a road's width */
-#define ROAD_SHOULDER_M 2.5
-#define ROAD_RUT_M      1.7 /* ruts to each side of the middle */
-#define SCORCH_REACH    2.6 /* of a crater's radius: how far its soot lies */
+#define BLOCK COUNTRY_TEXELS
+
+#define ROAD_HALF_M  4.0f /* half a road's width */
+#define ROAD_FADES_M 2.5f /* beyond it, into what lies beside */
+#define ROAD_RUT_M   1.7f /* ruts to each side of the middle */
+#define ROAD_REACH_M (ROAD_HALF_M + ROAD_FADES_M)
+
+_Static_assert(BLOCK == GRAIN_COLUMNS, "a block's rows are rows of grain");
 
 struct colour {
     float r, g, b;
@@ -21,12 +30,53 @@ struct texel {
     float water; /* 0..1 */
 };
 
-/* Where a texel lies and how the ground slopes there. */
+/* Where a texel lies and how the ground is there. */
 struct site {
-    double x, z, step;
-    double height;
-    float slope_x, slope_z;    /* rise a metre to the east, to the south */
-    float broad, middle, fine; /* noise of some 400, 60 and 9 m */
+    float height;
+    float slope_x, slope_z;          /* rise a metre to the east, to the south */
+    float broad, middle, fine, tuft; /* noise of some 400, 60, 9 and 4 m */
+    float open;                      /* water around, 0..1 */
+    float far;                       /* 1 where texels are larger than trees */
+};
+
+/* A row of sites, and of what becomes of them. */
+struct row {
+    float height[BLOCK], slope_x[BLOCK], slope_z[BLOCK];
+    float broad[BLOCK], middle[BLOCK], fine[BLOCK], tuft[BLOCK], open[BLOCK];
+    float rough_x[BLOCK], rough_z[BLOCK]; /* unevenness that no post holds */
+    float move_x[BLOCK], move_z[BLOCK];   /* of the borders of covers, in cells */
+    float r[BLOCK], g[BLOCK], b[BLOCK], scrub[BLOCK], water[BLOCK], wave[BLOCK], sun[BLOCK];
+    float wash[BLOCK];     /* 1 at the water's very edge */
+    uint8_t covers[BLOCK]; /* or COUNTRY_MIXED */
+};
+
+enum {
+    BROAD_A,
+    BROAD_B,
+    MIDDLE_A,
+    MIDDLE_B,
+    FINE_A,
+    FINE_B,
+    TUFT,
+    ROUGH_X,
+    ROUGH_Z,
+    MOVE_A_X,
+    MOVE_B_X,
+    MOVE_A_Z,
+    MOVE_B_Z,
+    NOISES
+};
+
+struct block {
+    const struct paint_tile *tile;
+    double x, z; /* [m, world] of its first texel */
+    uint32_t column, row, columns, rows;
+    float far;
+    struct country country;
+    struct grain_rows noise[NOISES];
+    float roads[BLOCK * BLOCK]; /* [m] from the middle of the nearest road */
+    bool has_roads;
+    struct row now;
 };
 
 static const struct colour straw = {0.800f, 0.670f, 0.410f};
@@ -44,8 +94,12 @@ static const struct colour sand = {0.880f, 0.800f, 0.620f};
 static const struct colour sea_deep = {0.075f, 0.235f, 0.340f};
 static const struct colour sea_shallow = {0.215f, 0.440f, 0.470f};
 static const struct colour lake_deep = {0.110f, 0.260f, 0.330f};
-static const struct colour foam = {0.930f, 0.950f, 0.940f};
-static const struct colour dust = {0.760f, 0.670f, 0.510f};
+static const struct colour sea_shore = {0.400f, 0.520f, 0.460f};
+static const struct colour lake_shore = {0.270f, 0.370f, 0.330f};
+static const struct colour subsoil = {0.440f, 0.345f, 0.235f};
+static const struct colour wet_sand = {0.520f, 0.450f, 0.330f};
+static const struct colour dust = {0.800f, 0.730f, 0.600f};
+static const struct colour gravel = {0.560f, 0.490f, 0.380f};
 static const struct colour soot = {0.110f, 0.095f, 0.080f};
 
 static float clamp01(float v)
@@ -69,181 +123,262 @@ static struct colour scale(struct colour a, float s)
     return (struct colour){a.r * s, a.g * s, a.b * s};
 }
 
-/* Noise of a wavelength [m]; nothing where the texels are too coarse to hold it. */
-static float band(const struct site *s, double wavelength, uint32_t seed)
+static float between(float a, float b, float t)
 {
-    float held = clamp01((float)(wavelength / s->step) * 0.5f - 0.5f);
-    return held > 0.0f ? held * grain_value(s->x / wavelength, s->z / wavelength, seed) : 0.0f;
-}
-
-/* --- the shape of the ground ------------------------------------------------------------------ */
-
-static int64_t post_clamp(int64_t i, const struct terrain *terrain)
-{
-    return i < 0 ? 0 : i >= terrain->side ? terrain->side - 1 : i;
-}
-
-static float post(const struct terrain *terrain, int64_t column, int64_t row)
-{
-    return terrain->posts[post_clamp(row, terrain) * terrain->side + post_clamp(column, terrain)];
-}
-
-/* Slopes as if the ground bent smoothly from post to post: flat triangles would show as facets. */
-static void smooth_slope(const struct terrain *terrain, struct site *s)
-{
-    double gx = s->x / terrain->spacing_m, gz = s->z / terrain->spacing_m;
-    int64_t c = grain_floor(gx), r = grain_floor(gz);
-    float u = (float)(gx - (double)c), v = (float)(gz - (double)r), sx = 0.0f, sz = 0.0f,
-          height = 0.0f;
-    for (int64_t i = 0; i < 4; i++) {
-        int64_t pc = c + (i & 1), pr = r + (i >> 1);
-        float weight = (i & 1 ? u : 1.0f - u) * (i >> 1 ? v : 1.0f - v);
-        sx += weight * (post(terrain, pc + 1, pr) - post(terrain, pc - 1, pr));
-        sz += weight * (post(terrain, pc, pr + 1) - post(terrain, pc, pr - 1));
-        height += weight * post(terrain, pc, pr);
-    }
-    float scale_m = (float)(0.5 / terrain->spacing_m);
-    s->slope_x = sx * scale_m;
-    s->slope_z = sz * scale_m;
-    s->height = height;
+    return a + (b - a) * t;
 }
 
 /* --- covers ----------------------------------------------------------------------------------- */
 
-/* The cover of a post; roads are painted by their own lines, so a post's COVER_ROAD is grass. */
-static uint8_t post_cover(const struct terrain *terrain, int64_t column, int64_t row)
-{
-    int64_t at = post_clamp(row, terrain) * terrain->side + post_clamp(column, terrain);
-    uint8_t cover = terrain->cover[at];
-    return cover == COVER_ROAD || cover >= COVER_COUNT ? (uint8_t)COVER_GRASS : cover;
-}
-
-/* Is it one cover as far around a cell as borders can be shaken? */
-static bool one_cover(const struct terrain *terrain, int64_t column, int64_t row, uint8_t cover)
-{
-    for (int64_t r = row - 1; r <= row + 2; r++)
-        for (int64_t c = column - 1; c <= column + 2; c++)
-            if (post_cover(terrain, c, r) != cover)
-                return false;
-    return true;
-}
-
-/* Shares of the covers around a place. Borders are shaken by noise as long as a cell and shorter,
- * by less than a cell in all: the grid of the posts must not show. */
-static void cover_shares(const struct terrain *terrain, const struct site *s,
-                         float share[COVER_COUNT])
-{
-    double cell = terrain->spacing_m, gx = s->x / cell, gz = s->z / cell;
-    int64_t c = grain_floor(gx), r = grain_floor(gz);
-    uint8_t here = post_cover(terrain, c, r);
-    for (uint32_t i = 0; i < COVER_COUNT; i++)
-        share[i] = 0.0f;
-    if (one_cover(terrain, c, r, here)) {
-        share[here] = 1.0f;
-        return;
-    }
-    float shake_x = 0.50f * band(s, 1.7 * cell, 31) + 0.24f * band(s, 0.6 * cell, 32);
-    float shake_z = 0.50f * band(s, 1.7 * cell, 33) + 0.24f * band(s, 0.6 * cell, 34);
-    gx += (double)(shake_x + 0.10f * s->fine);
-    gz += (double)(shake_z - 0.10f * s->fine);
-    c = grain_floor(gx);
-    r = grain_floor(gz);
-    /* Steeper than linear: a border is some metres wide, not a whole cell. */
-    float u = ramp(0.25f, 0.75f, (float)(gx - (double)c));
-    float v = ramp(0.25f, 0.75f, (float)(gz - (double)r));
-    for (int64_t i = 0; i < 4; i++)
-        share[post_cover(terrain, c + (i & 1), r + (i >> 1))] +=
-            (i & 1 ? u : 1.0f - u) * (i >> 1 ? v : 1.0f - v);
-}
-
-static struct colour grass_colour(const struct site *s)
+static inline struct texel grass_texel(const struct site *s)
 {
     /* Slopes that face north keep their water: greener. South slopes and tops bleach. */
     float north = clamp01(0.5f + 1.8f * s->slope_z + 0.25f * s->broad);
-    float low = clamp01(1.0f - (float)s->height / 700.0f);
+    float low = clamp01(1.0f - s->height / 700.0f);
     struct colour c = mix(straw, dry, clamp01(0.5f + 0.6f * s->middle + 0.25f * s->fine));
     c = mix(c, olive, 0.62f * ramp(0.45f, 0.95f, north + 0.2f * s->middle));
     c = mix(c, meadow, 0.45f * low * ramp(0.25f, 0.8f, s->broad + 0.3f * s->middle));
     float steep = sqrtf(s->slope_x * s->slope_x + s->slope_z * s->slope_z);
-    return mix(c, earth, 0.75f * ramp(0.45f, 0.85f, steep + 0.15f * s->fine));
+    c = mix(c, earth, 0.75f * ramp(0.45f, 0.85f, steep + 0.15f * s->fine));
+    return (struct texel){c, 0.0f, 0.0f};
 }
 
-static struct texel cover_texel(const struct site *s, enum cover cover, float share)
+static inline float clump(const struct site *s)
 {
-    struct texel t = {.scrub = 0.0f, .water = 0.0f};
-    float clump = ramp(-0.25f, 0.35f, s->fine + 0.5f * s->middle + band(s, 4.0, 51) * 0.5f);
+    return ramp(-0.25f, 0.35f, s->fine + 0.5f * s->middle + 0.5f * s->tuft);
+}
+
+static inline struct texel chaparral_texel(const struct site *s)
+{
+    return (struct texel){mix(mix(dry, olive, 0.5f), shrub, 0.35f + 0.6f * clump(s)), 0.85f, 0.0f};
+}
+
+static inline struct texel forest_texel(const struct site *s)
+{
+    /* Far away a wood is its crowns; near by they stand there, and the ground shows. */
+    struct colour crowns = mix(canopy, canopy_light, clump(s));
+    struct colour floor_near =
+        mix(mix(litter, olive, 0.35f + 0.3f * s->middle), shrub, 0.60f * clump(s));
+    return (struct texel){mix(floor_near, crowns, 0.42f + 0.45f * s->far), 0.6f, 0.0f};
+}
+
+static inline struct texel rock_texel(const struct site *s)
+{
+    float dark = clamp01(0.5f + 0.7f * s->fine + 0.3f * s->middle);
+    return (struct texel){mix(rock, rock_dark, dark), 0.3f, 0.0f};
+}
+
+static inline struct texel sand_texel(const struct site *s)
+{
+    return (struct texel){mix(sand, dry, clamp01(0.25f + 0.3f * s->middle)), 0.0f, 0.0f};
+}
+
+/* How far the water there is from its shore: 0 at it, 1 where nothing of it shows any more. */
+static inline float off_shore(const struct site *s)
+{
+    return clamp01(2.2f * s->open - 1.2f + 0.08f * s->fine);
+}
+
+static inline struct texel sea_texel(const struct site *s)
+{
+    float off = off_shore(s);
+    struct colour c = mix(sea_shore, sea_shallow, ramp(0.0f, 0.35f, off + 0.05f * s->middle));
+    return (struct texel){mix(c, sea_deep, ramp(0.2f, 1.0f, off)), 0.0f, 1.0f};
+}
+
+static inline struct texel lake_texel(const struct site *s)
+{
+    return (struct texel){mix(lake_shore, lake_deep, ramp(0.0f, 0.8f, off_shore(s))), 0.0f, 1.0f};
+}
+
+static inline struct texel cover_texel(const struct site *s, enum cover cover)
+{
     switch (cover) {
     case COVER_CHAPARRAL:
-        t.colour = mix(mix(dry, olive, 0.5f), shrub, 0.35f + 0.6f * clump);
-        t.scrub = 0.85f;
-        break;
-    case COVER_FOREST: {
-        /* Far away a wood is its crowns; near by they stand there, and the ground shows. */
-        float far = clamp01((float)s->step / 10.0f);
-        struct colour crowns = mix(canopy, canopy_light, clump);
-        struct colour floor_near =
-            mix(mix(litter, olive, 0.35f + 0.3f * s->middle), shrub, 0.60f * clump);
-        t.colour = mix(floor_near, crowns, 0.42f + 0.45f * far);
-        t.scrub = 0.6f;
-        break;
-    }
+        return chaparral_texel(s);
+    case COVER_FOREST:
+        return forest_texel(s);
     case COVER_ROCK:
-        t.colour = mix(rock, rock_dark, clamp01(0.5f + 0.7f * s->fine + 0.3f * s->middle));
-        t.scrub = 0.3f;
-        break;
+        return rock_texel(s);
     case COVER_SAND:
-        t.colour = mix(sand, dry, clamp01(0.25f + 0.3f * s->middle));
-        break;
+        return sand_texel(s);
     case COVER_SEA:
-        /* The share of sea falls towards the shore, and stands for the depth. */
-        t.colour = mix(sea_shallow, sea_deep, ramp(0.6f, 1.0f, share));
-        t.water = 1.0f;
-        break;
+        return sea_texel(s);
     case COVER_LAKE:
-        t.colour = mix(sea_shallow, lake_deep, ramp(0.4f, 0.9f, share));
-        t.water = 1.0f;
-        break;
+        return lake_texel(s);
     default:
-        t.colour = grass_colour(s);
-        break;
+        return grass_texel(s);
     }
-    return t;
 }
 
-static struct texel blend_covers(const struct terrain *terrain, const struct site *s)
+static inline struct site site_of(const struct block *block, uint32_t i)
 {
-    float share[COVER_COUNT];
-    cover_shares(terrain, s, share);
+    const struct row *row = &block->now;
+    return (struct site){row->height[i], row->slope_x[i], row->slope_z[i],
+                         row->broad[i],  row->middle[i],  row->fine[i],
+                         row->tuft[i],   row->open[i],    block->far};
+}
+
+static inline void put_texel(struct row *row, uint32_t i, const struct texel *t)
+{
+    row->r[i] = t->colour.r;
+    row->g[i] = t->colour.g;
+    row->b[i] = t->colour.b;
+    row->scrub[i] = t->scrub;
+    row->water[i] = t->water;
+}
+
+/* A loop for each cover, which holds nothing else. */
+#define RUN_OF(name)                                                                               \
+    static void run_of_##name(struct block *block, uint32_t first, uint32_t end)                   \
+    {                                                                                              \
+        for (uint32_t i = first; i < end; i++) {                                                   \
+            struct site site = site_of(block, i);                                                  \
+            struct texel texel = name##_texel(&site);                                              \
+            put_texel(&block->now, i, &texel);                                                     \
+        }                                                                                          \
+    }
+RUN_OF(grass)
+RUN_OF(chaparral)
+RUN_OF(forest)
+RUN_OF(rock)
+RUN_OF(sand)
+RUN_OF(sea)
+RUN_OF(lake)
+
+/* The land of mixed covers, from their shares. */
+static struct texel blend(const struct site *site, const float share[COVER_COUNT])
+{
     struct texel sum = {.scrub = 0.0f};
-    for (uint32_t i = 0; i < COVER_COUNT; i++) {
-        if (share[i] <= 0.0f)
+    float all = 0.0f;
+    for (uint32_t c = 0; c < COVER_COUNT; c++) {
+        if (share[c] <= 0.0f || cover_is_water((enum cover)c))
             continue;
-        struct texel t = cover_texel(s, (enum cover)i, share[i]);
-        sum.colour.r += share[i] * t.colour.r;
-        sum.colour.g += share[i] * t.colour.g;
-        sum.colour.b += share[i] * t.colour.b;
-        sum.scrub += share[i] * t.scrub;
-        sum.water += share[i] * t.water;
+        struct texel t = cover_texel(site, (enum cover)c);
+        sum.colour.r += share[c] * t.colour.r;
+        sum.colour.g += share[c] * t.colour.g;
+        sum.colour.b += share[c] * t.colour.b;
+        sum.scrub += share[c] * t.scrub;
+        all += share[c];
     }
-    /* Wet sand and a line of foam where the sea meets the land. */
-    float sea = share[COVER_SEA];
-    if (sea > 0.02f && sea < 0.98f) {
-        float line = 1.0f - fabsf(sea - 0.5f - 0.12f * s->fine) / 0.16f;
-        sum.colour = mix(sum.colour, foam, 0.85f * clamp01(line));
-    }
+    if (all < 0.01f)
+        return sand_texel(site);
+    sum.colour = scale(sum.colour, 1.0f / all);
+    sum.scrub /= all;
     return sum;
+}
+
+/* Where land meets water its height tells which is which: posts are far apart, and a cliff between
+ * two of them must not be flooded. Low land is beach, or bare rock where it is steep. */
+static void put_shore(struct block *block, uint32_t i, const struct site *site, struct texel *t,
+                      bool sea)
+{
+    float above = site->height - block->country.level + 0.25f * site->fine;
+    float steep = site->slope_x * site->slope_x + site->slope_z * site->slope_z;
+    struct colour low = mix(wet_sand, rock_dark, ramp(0.1f, 0.4f, steep));
+    struct colour beach = mix(sand, rock, ramp(0.1f, 0.4f, steep));
+    float bare = sea ? 1.0f - ramp(2.0f, 5.0f, above) : 0.6f - 0.6f * ramp(0.5f, 1.5f, above);
+    bare *= ramp(0.2f, 0.45f, site->open); /* nothing of it where no post of water is near */
+    t->colour = mix(t->colour, mix(low, beach, ramp(0.6f, 1.9f, above)), bare);
+    t->scrub *= 1.0f - bare;
+    float water = 1.0f - ramp(0.1f, 0.6f, above);
+    struct texel w = sea ? sea_texel(site) : lake_texel(site);
+    t->colour = mix(t->colour, w.colour, water);
+    t->water = water;
+    block->now.wave[i] = sea ? 1.0f : 0.0f;
+    block->now.wash[i] = ramp(-0.1f, 0.4f, above);
+}
+
+static void run_mixed(struct block *block, uint32_t first, uint32_t end)
+{
+    struct row *row = &block->now;
+    for (uint32_t i = first; i < end; i++) {
+        struct site site = site_of(block, i);
+        float share[COVER_COUNT];
+        country_shares(&block->country, i, row->move_x[i] + 0.10f * row->fine[i],
+                       row->move_z[i] - 0.10f * row->fine[i], share);
+        struct texel t = blend(&site, share);
+        if (site.open > 0.0f)
+            put_shore(block, i, &site, &t, block->country.sea);
+        put_texel(row, i, &t);
+    }
+}
+
+/* One run of one cover after the other. */
+static void colour_row(struct block *block)
+{
+    static void (*const run[COVER_COUNT])(struct block *, uint32_t, uint32_t) = {
+        [COVER_GRASS] = run_of_grass,   [COVER_CHAPARRAL] = run_of_chaparral,
+        [COVER_FOREST] = run_of_forest, [COVER_ROCK] = run_of_rock,
+        [COVER_SAND] = run_of_sand,     [COVER_ROAD] = run_of_grass,
+        [COVER_SEA] = run_of_sea,       [COVER_LAKE] = run_of_lake};
+    const uint8_t *covers = block->now.covers;
+    for (uint32_t i = 0; i < block->columns;) {
+        uint32_t first = i;
+        while (i < block->columns && covers[i] == covers[first])
+            i++;
+        if (covers[first] == COUNTRY_MIXED)
+            run_mixed(block, first, i);
+        else
+            run[covers[first]](block, first, i);
+        if (covers[first] == COVER_SEA)
+            for (uint32_t w = first; w < i; w++)
+                block->now.wave[w] = 1.0f;
+    }
+}
+
+/* --- roads ------------------------------------------------------------------------------------ */
+
+/* A road where the row meets one: ruts, a crown between them where grass comes through, gravel
+ * along the edges. Where a texel is wider than the road it takes the road's share of it, but a road
+ * never fades away altogether: people look for roads. */
+static void lay_roads(struct block *block, uint32_t number, double z)
+{
+    struct row *row = &block->now;
+    const float *off = block->roads + (size_t)number * BLOCK;
+    float step = (float)block->tile->step_m, edge = 0.5f * step;
+    float strength = 2.2f * ROAD_HALF_M / step;
+    strength = strength < 0.45f ? 0.45f : strength > 1.0f ? 1.0f : strength;
+    for (uint32_t i = 0; i < block->columns; i++) {
+        if (off[i] >= ROAD_REACH_M + edge)
+            continue;
+        double x = block->x + i * block->tile->step_m;
+        float wander = grain_value(x / 5.0, z / 5.0, 71);
+        float d = off[i] + 0.6f * wander;
+        float on = 1.0f - ramp(ROAD_HALF_M - 0.4f - edge, ROAD_REACH_M + edge, d);
+        struct colour c = dust;
+        if (step < 2.0f) {
+            float rut = 1.0f - ramp(0.25f, 0.8f, fabsf(off[i] - ROAD_RUT_M));
+            float crown = 1.0f - ramp(0.3f, 0.8f, off[i] - 0.3f * wander);
+            c = mix(c, dry, 0.35f * crown);
+            c = mix(c, gravel, 0.55f * ramp(ROAD_HALF_M - 1.4f, ROAD_HALF_M + 0.4f, d));
+            c = scale(c, 1.0f - 0.20f * rut - 0.05f * wander - 0.06f * row->tuft[i]);
+        }
+        on *= strength;
+        row->r[i] = between(row->r[i], c.r, on);
+        row->g[i] = between(row->g[i], c.g, on);
+        row->b[i] = between(row->b[i], c.b, on);
+        row->scrub[i] *= 1.0f - on;
+        row->water[i] *= 1.0f - on;
+    }
 }
 
 /* --- light ------------------------------------------------------------------------------------ */
 
-/* Share of the sun's light on the site, with the small unevenness that no post holds. */
-static float sun_share(const struct site *s, const struct paint_tile *tile, float water)
+/* Share of the sun's light on the sites, with the small unevenness that no post holds. */
+static void light_row(struct block *block)
 {
-    float rough = (1.0f - water) * (float)tile->relief;
-    float sx = rough * (s->slope_x + 0.11f * band(s, 31.0, 61) + 0.07f * s->middle);
-    float sz = rough * (s->slope_z + 0.11f * band(s, 31.0, 62) - 0.07f * s->middle);
-    float facing = (float)tile->sun.y - sx * (float)tile->sun.x - sz * (float)tile->sun.z;
-    return facing > 0.0f ? facing / sqrtf(1.0f + sx * sx + sz * sz) : 0.0f;
+    struct row *row = &block->now;
+    float relief = (float)block->tile->relief;
+    float x = (float)block->tile->sun.x, y = (float)block->tile->sun.y;
+    float z = (float)block->tile->sun.z;
+    for (uint32_t i = 0; i < block->columns; i++) {
+        float rough = (1.0f - row->water[i]) * relief;
+        float sx = rough * (row->slope_x[i] + 0.11f * row->rough_x[i] + 0.07f * row->middle[i]);
+        float sz = rough * (row->slope_z[i] + 0.11f * row->rough_z[i] - 0.07f * row->middle[i]);
+        float facing = y - sx * x - sz * z;
+        row->sun[i] = (facing > 0.0f ? facing : 0.0f) / sqrtf(1.0f + sx * sx + sz * sz);
+    }
 }
 
 static uint8_t byte_of(float v)
@@ -258,124 +393,182 @@ static void put_lit(uint8_t *rgba, struct colour c, float sun)
     rgba[2] = byte_of(c.b * (SKY_LIGHT_BLUE + SUN_LIGHT_BLUE * sun));
 }
 
-static void paint_texel(const struct terrain *terrain, const struct paint_tile *tile,
-                        struct site *s, size_t at)
+static void put_row(const struct block *block, uint32_t number)
 {
-    s->broad = band(s, 410.0, 11) * 0.65f + band(s, 1900.0, 12) * 0.35f;
-    s->middle = band(s, 71.0, 13) * 0.7f + band(s, 27.0, 14) * 0.3f;
-    s->fine = band(s, 9.0, 15) * 0.7f + band(s, 3.1, 16) * 0.3f;
-    smooth_slope(terrain, s);
-    struct texel t = blend_covers(terrain, s);
-    t.colour = scale(t.colour, 1.0f + (1.0f - t.water) * (0.06f * s->broad + 0.05f * s->middle));
-    tile->light[at] = sun_share(s, tile, t.water);
-    put_lit(tile->rgba + at * 4, t.colour, tile->light[at]);
-    float ground = PAINT_GROUND_ALPHA + (255 - PAINT_GROUND_ALPHA) * t.scrub;
-    tile->rgba[at * 4 + 3] = (uint8_t)(ground * (1.0f - ramp(0.35f, 0.65f, t.water)) + 0.5f);
+    const struct row *row = &block->now;
+    size_t at = (size_t)(block->row + number) * block->tile->columns + block->column;
+    uint8_t *rgba = block->tile->rgba + at * 4;
+    for (uint32_t i = 0; i < block->columns; i++, rgba += 4) {
+        float uneven = 0.06f * row->broad[i] + 0.05f * row->middle[i] + 0.03f * row->fine[i] +
+                       0.05f * row->tuft[i];
+        uneven = 1.0f + (1.0f - row->water[i]) * uneven;
+        put_lit(rgba, (struct colour){row->r[i] * uneven, row->g[i] * uneven, row->b[i] * uneven},
+                row->sun[i]);
+        float ground = PAINT_GROUND_ALPHA + (255 - PAINT_GROUND_ALPHA) * row->scrub[i];
+        float near = clamp01(2.2f - 2.2f * row->open[i]);
+        near = near > row->wash[i] ? near : row->wash[i];
+        float shore = PAINT_SHORE_ALPHA * row->wave[i] * near;
+        float dry_share = 1.0f - ramp(0.35f, 0.65f, row->water[i]);
+        rgba[3] = (uint8_t)(between(shore, ground, dry_share) + 0.5f);
+    }
+    memcpy(block->tile->light + at, row->sun, block->columns * sizeof *row->sun);
 }
 
-/* --- what lies on the ground ------------------------------------------------------------------ */
-
-struct box {
-    int64_t x0, z0, x1, z1; /* texels, inclusive */
-};
-
-/* The texels within a box of the world; false when there are none. */
-static bool tile_box(const struct paint_tile *tile, double x0, double z0, double x1, double z1,
-                     struct box *box)
-{
-    double columns = (double)tile->columns - 1.0, rows = (double)tile->rows - 1.0;
-    double c0 = ceil((x0 - tile->x) / tile->step_m), c1 = floor((x1 - tile->x) / tile->step_m);
-    double r0 = ceil((z0 - tile->z) / tile->step_m), r1 = floor((z1 - tile->z) / tile->step_m);
-    if (!(c1 >= 0.0 && r1 >= 0.0 && c0 <= columns && r0 <= rows && c0 <= c1 && r0 <= r1))
-        return false;
-    box->x0 = (int64_t)fmax(0.0, c0);
-    box->z0 = (int64_t)fmax(0.0, r0);
-    box->x1 = (int64_t)fmin(columns, c1);
-    box->z1 = (int64_t)fmin(rows, r1);
-    return true;
-}
+/* --- craters ---------------------------------------------------------------------------------- */
 
 /* Lays a colour over a texel, lit as the ground under it is. */
-static void lay(const struct paint_tile *tile, size_t at, struct colour colour, float share)
+static void lay(uint8_t *texel, float light, struct colour colour, float share)
 {
-    uint8_t lit[3], *texel = tile->rgba + at * 4;
-    put_lit(lit, colour, tile->light[at]);
+    uint8_t lit[3];
+    put_lit(lit, colour, light);
     for (uint32_t i = 0; i < 3; i++)
-        texel[i] = byte_of(((float)texel[i] + ((float)lit[i] - (float)texel[i]) * share) / 255.0f);
-    float alpha = (float)texel[3] + ((float)PAINT_GROUND_ALPHA - (float)texel[3]) * share;
-    texel[3] = (uint8_t)(alpha + 0.5f);
+        texel[i] = (uint8_t)(between((float)texel[i], (float)lit[i], share) + 0.5f);
+    texel[3] = (uint8_t)(between((float)texel[3], (float)PAINT_GROUND_ALPHA, share) + 0.5f);
 }
 
-static void paint_road(const struct paint_tile *tile, const struct road_point *a,
-                       const struct road_point *b)
+/* The part of the sun's light that a crater's own slopes take away or give, at so many radii from
+ * its middle along the unit way (x, z). */
+static float crater_light(const struct paint_tile *tile, const struct crater *crater, float out,
+                          float x, float z)
 {
-    /* Where a texel is wider than the road it takes the road's share of it, but a road never
-     * fades away altogether: people look for roads. */
-    double half = ROAD_HALF_M + ROAD_SHOULDER_M, edge = 0.5 * tile->step_m;
-    double strength = maths_clamp(2.2 * ROAD_HALF_M / tile->step_m, 0.45, 1.0);
-    double reach = half + edge, ax = (double)a->x, az = (double)a->z;
-    double dx = (double)b->x - ax, dz = (double)b->z - az, squared = dx * dx + dz * dz;
-    struct box box;
-    if (!tile_box(tile, fmin(ax, ax + dx) - reach, fmin(az, az + dz) - reach,
-                  fmax(ax, ax + dx) + reach, fmax(az, az + dz) + reach, &box))
-        return;
-    for (int64_t row = box.z0; row <= box.z1; row++)
-        for (int64_t column = box.x0; column <= box.x1; column++) {
-            double x = tile->x + (double)column * tile->step_m;
-            double z = tile->z + (double)row * tile->step_m;
-            double t = squared > 0.0 ? ((x - ax) * dx + (z - az) * dz) / squared : 0.0;
-            t = maths_clamp(t, 0.0, 1.0);
-            double off = hypot(x - ax - t * dx, z - az - t * dz);
-            if (off >= reach)
-                continue;
-            float wander = grain_value(x / 5.0, z / 5.0, 71);
-            float on = 1.0f - ramp((float)(ROAD_HALF_M - 1.0 - edge), (float)reach,
-                                   (float)off + 0.8f * wander);
-            struct colour colour = dust;
-            if (tile->step_m < 2.0) {
-                float rut = 1.0f - ramp(0.2f, 0.9f, fabsf((float)off - (float)ROAD_RUT_M));
-                colour = scale(dust, 1.0f - 0.16f * rut - 0.07f * wander);
-            }
-            lay(tile, (size_t)row * tile->columns + (size_t)column, colour, on * (float)strength);
-        }
+    float deep = crater->depth_m / crater->radius_m, rise = 0.0f;
+    if (out < 1.0f)
+        rise = 2.0f * deep * (1.0f + (float)CRATER_RIM_HEIGHT) * out;
+    else if (out < (float)CRATER_RIM)
+        rise = -2.0f * deep * (float)CRATER_RIM_HEIGHT * ((float)CRATER_RIM - out) /
+               (((float)CRATER_RIM - 1.0f) * ((float)CRATER_RIM - 1.0f));
+    return -rise * (x * (float)tile->sun.x + z * (float)tile->sun.z) / sqrtf(1.0f + rise * rise);
 }
 
 static void paint_crater(const struct paint_tile *tile, const struct crater *crater)
 {
-    double radius = crater->radius_m, reach = SCORCH_REACH * radius;
-    struct box box;
-    if (!tile_box(tile, crater->x - reach, crater->z - reach, crater->x + reach, crater->z + reach,
-                  &box))
+    float radius = crater->radius_m;
+    double reach = PAINT_CRATER_REACH * (double)radius, step = tile->step_m;
+    double c0 = ceil((crater->x - reach - tile->x) / step);
+    double c1 = floor((crater->x + reach - tile->x) / step);
+    double r0 = ceil((crater->z - reach - tile->z) / step);
+    double r1 = floor((crater->z + reach - tile->z) / step);
+    if (!(c1 >= 0.0 && r1 >= 0.0 && c0 < tile->columns && r0 < tile->rows))
         return;
-    for (int64_t row = box.z0; row <= box.z1; row++)
-        for (int64_t column = box.x0; column <= box.x1; column++) {
-            double dx = tile->x + (double)column * tile->step_m - crater->x;
-            double dz = tile->z + (double)row * tile->step_m - crater->z;
-            /* Rays of soot and thrown earth. */
-            float turn = (float)maths_atan2(dz, dx), out = (float)(hypot(dx, dz) / radius);
-            float ray = grain_value((double)turn * 4.0, crater->x, 81);
-            float black = 0.9f * (1.0f - ramp(0.75f, (float)SCORCH_REACH * 0.8f, out - 0.4f * ray));
-            struct colour colour =
-                mix(soot, earth,
-                    0.45f * (1.0f - ramp(0.0f, 0.6f, out)) + 0.35f * ramp(0.9f, 1.2f, out));
-            lay(tile, (size_t)row * tile->columns + (size_t)column, colour, black);
+    uint32_t first = (uint32_t)maths_max(c0, 0.0), top = (uint32_t)maths_max(r0, 0.0);
+    for (uint32_t row = top; row < tile->rows && row <= r1; row++)
+        for (uint32_t column = first; column < tile->columns && column <= c1; column++) {
+            double x = tile->x + column * step, z = tile->z + row * step;
+            float dx = (float)(x - crater->x), dz = (float)(z - crater->z);
+            float off = sqrtf(dx * dx + dz * dz), out = off / radius;
+            float unit_x = off > 0.0f ? dx / off : 0.0f, unit_z = off > 0.0f ? dz / off : 0.0f;
+            /* Rays of thrown earth and of soot. */
+            float ray = grain_value((double)unit_x * 3.0 + crater->x, (double)unit_z * 3.0, 81);
+            float lump = grain_value(x / 0.7, z / 0.7, 82);
+            float thrown = 1.0f - ramp(0.9f, (float)PAINT_CRATER_REACH, out - 0.7f * ray);
+            float black = 1.0f - ramp(0.2f, 1.9f, out - 0.3f * ray + 0.2f * lump);
+            struct colour soil = mix(subsoil, earth, 0.5f + 0.5f * lump);
+            struct colour colour = mix(soil, soot, 0.85f * black);
+            size_t at = (size_t)row * tile->columns + column;
+            float light = tile->light[at] + crater_light(tile, crater, out, unit_x, unit_z);
+            float share = out < 1.1f ? 1.0f : clamp01(thrown * (0.85f + 0.5f * lump));
+            lay(tile->rgba + at * 4, clamp01(light), colour, share);
         }
 }
 
-void paint_ground(const struct world *world, const struct crater_index *craters,
+/* --- blocks ----------------------------------------------------------------------------------- */
+
+static void open_block(struct block *block, const struct world *world)
+{
+    static const struct {
+        double wavelength_m;
+        uint32_t seed;
+    } noises[NOISES] = {[BROAD_A] = {410.0, 11}, [BROAD_B] = {1900.0, 12}, [MIDDLE_A] = {71.0, 13},
+                        [MIDDLE_B] = {27.0, 14}, [FINE_A] = {9.0, 15},     [FINE_B] = {3.1, 16},
+                        [TUFT] = {4.0, 51},      [ROUGH_X] = {31.0, 61},   [ROUGH_Z] = {31.0, 62},
+                        [MOVE_A_X] = {1.7, 31},  [MOVE_B_X] = {0.6, 32},   [MOVE_A_Z] = {1.7, 33},
+                        [MOVE_B_Z] = {0.6, 34}};
+    const struct paint_tile *tile = block->tile;
+    block->x = tile->x + block->column * tile->step_m;
+    block->z = tile->z + block->row * tile->step_m;
+    block->far = clamp01((float)tile->step_m / 10.0f);
+    country_open(&block->country, &world->terrain, block->x, block->z, tile->step_m, block->columns,
+                 block->rows);
+    for (uint32_t i = 0; i < NOISES; i++) {
+        /* Borders move by noise as long as a cell and shorter, by less than a cell in all: the grid
+         * of the posts must not show. */
+        double unit = i >= MOVE_A_X ? block->country.cell_m : 1.0;
+        grain_rows_begin(&block->noise[i], noises[i].wavelength_m * unit, noises[i].seed, block->x,
+                         tile->step_m, block->columns);
+    }
+    block->has_roads =
+        ways_near(world, block->x, block->z, tile->step_m, block->columns, block->rows, BLOCK,
+                  (double)ROAD_REACH_M + 0.5 * tile->step_m, block->roads);
+}
+
+static void fill_noise(struct block *block, double z)
+{
+    struct row *row = &block->now;
+    struct grain_rows *noise = block->noise;
+    memset(row->broad, 0, sizeof row->broad);
+    memset(row->middle, 0, sizeof row->middle);
+    memset(row->fine, 0, sizeof row->fine);
+    memset(row->tuft, 0, sizeof row->tuft);
+    memset(row->rough_x, 0, sizeof row->rough_x);
+    memset(row->rough_z, 0, sizeof row->rough_z);
+    grain_rows_add(&noise[BROAD_A], z, 0.65f, row->broad);
+    grain_rows_add(&noise[BROAD_B], z, 0.35f, row->broad);
+    grain_rows_add(&noise[MIDDLE_A], z, 0.65f, row->middle);
+    grain_rows_add(&noise[MIDDLE_B], z, 0.45f, row->middle);
+    grain_rows_add(&noise[FINE_A], z, 0.7f, row->fine);
+    grain_rows_add(&noise[FINE_B], z, 0.3f, row->fine);
+    grain_rows_add(&noise[TUFT], z, 1.0f, row->tuft);
+    grain_rows_add(&noise[ROUGH_X], z, 1.0f, row->rough_x);
+    grain_rows_add(&noise[ROUGH_Z], z, 1.0f, row->rough_z);
+    if (memchr(row->covers, COUNTRY_MIXED, block->columns) == NULL)
+        return;
+    memset(row->move_x, 0, sizeof row->move_x);
+    memset(row->move_z, 0, sizeof row->move_z);
+    grain_rows_add(&noise[MOVE_A_X], z, 0.50f, row->move_x);
+    grain_rows_add(&noise[MOVE_B_X], z, 0.24f, row->move_x);
+    grain_rows_add(&noise[MOVE_A_Z], z, 0.50f, row->move_z);
+    grain_rows_add(&noise[MOVE_B_Z], z, 0.24f, row->move_z);
+}
+
+static void paint_block(struct block *block, const struct world *world)
+{
+    struct row *row = &block->now;
+    open_block(block, world);
+    memset(row->open, 0, sizeof row->open);
+    for (uint32_t number = 0; number < block->rows; number++) {
+        double z = block->z + number * block->tile->step_m;
+        country_row(&block->country, z);
+        country_covers(&block->country, row->covers);
+        country_ground(&block->country, row->height, row->slope_x, row->slope_z);
+        if (block->country.wet)
+            country_water(&block->country, row->open);
+        fill_noise(block, z);
+        memset(row->wave, 0, sizeof row->wave);
+        memset(row->wash, 0, sizeof row->wash);
+        colour_row(block);
+        if (block->has_roads)
+            lay_roads(block, number, z);
+        light_row(block);
+        put_row(block, number);
+    }
+}
+
+bool paint_ground(const struct world *world, const struct crater_index *craters,
                   const struct paint_tile *tile)
 {
-    struct site site = {.step = tile->step_m};
-    for (uint32_t row = 0; row < tile->rows; row++)
-        for (uint32_t column = 0; column < tile->columns; column++) {
-            site.x = tile->x + column * tile->step_m;
-            site.z = tile->z + row * tile->step_m;
-            paint_texel(&world->terrain, tile, &site, (size_t)row * tile->columns + column);
+    struct block block; /* too large to be cleared for each tile */
+    bool sea = false;
+    block.tile = tile;
+    for (block.row = 0; block.row < tile->rows; block.row += BLOCK)
+        for (block.column = 0; block.column < tile->columns; block.column += BLOCK) {
+            uint32_t columns = tile->columns - block.column, rows = tile->rows - block.row;
+            block.columns = columns < BLOCK ? columns : BLOCK;
+            block.rows = rows < BLOCK ? rows : BLOCK;
+            paint_block(&block, world);
+            sea |= block.country.sea;
         }
-    for (uint32_t i = 0; i + 1 < world->counts.road_points; i++)
-        if (world->road_points[i].road == world->road_points[i + 1].road)
-            paint_road(tile, &world->road_points[i], &world->road_points[i + 1]);
     if (craters != NULL)
         for (uint32_t i = 0; i < craters->count; i++)
             paint_crater(tile, &craters->craters[i]);
+    return sea;
 }

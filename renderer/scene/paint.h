@@ -6,11 +6,16 @@
 
 #include "renderer/scene/moment.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
-/* Alpha of a texel: water, or ground with the share of scrub in its fine texture. */
+/* Alpha of a texel: water, more the nearer to the sea's shore, or ground with the share of scrub in
+ * its fine texture. */
 #define PAINT_WATER_ALPHA  0
+#define PAINT_SHORE_ALPHA  64
 #define PAINT_GROUND_ALPHA 96 /* bare grass; 255 is all scrub */
+
+#define PAINT_CRATER_REACH 2.6 /* of a crater's radius: how far its soot lies */
 
 struct paint_tile {
     double x, z;   /* [m, world] centre of the first texel */
@@ -22,7 +27,8 @@ struct paint_tile {
     float *light;    /* [rows * columns] scratch */
 };
 
-void paint_ground(const struct world *world, const struct crater_index *craters,
+/* Returns whether there is sea in it or next to it. */
+bool paint_ground(const struct world *world, const struct crater_index *craters,
                   const struct paint_tile *tile);
 
 #endif

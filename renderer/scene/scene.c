@@ -4,6 +4,8 @@
 #include "renderer/scene/grain.h"
 #include "renderer/scene/light.h"
 #include "renderer/scene/pose.h"
+#include "renderer/scene/tiles.h"
+#include "renderer/scene/tufts.h"
 #include "world/square.h"
 
 #include <stdlib.h>
@@ -26,22 +28,26 @@ struct body_order {
 };
 
 static const float force_colours[FORCE_COUNT][3] = {
-    [FORCE_NEUTRAL] = {0.52f, 0.50f, 0.40f},
-    [FORCE_BLUE] = {0.30f, 0.40f, 0.46f},
-    [FORCE_RED] = {0.58f, 0.39f, 0.26f},
+    [FORCE_NEUTRAL] = {0.54f, 0.53f, 0.44f},
+    [FORCE_BLUE] = {0.17f, 0.33f, 0.60f},
+    [FORCE_RED] = {0.70f, 0.24f, 0.15f},
 };
 
 int scene_init(struct scene *scene)
 {
-    memset(scene, 0, sizeof *scene);
+    *scene = (struct scene){.detail = 1.0f, .paintings = TILES_ALL};
     scene->plants = malloc(SCENE_PLANTS_MAX * sizeof *scene->plants);
     scene->bodies = malloc(SCENE_BODIES_MAX * sizeof *scene->bodies);
     scene->copies = malloc(SCENE_BODIES_MAX * sizeof *scene->copies);
     scene->puffs = malloc(SCENE_PUFFS_MAX * sizeof *scene->puffs);
     scene->dents = malloc(SCENE_DENTS_MAX * sizeof *scene->dents);
     scene->order = malloc(SCENE_BODIES_MAX * sizeof *scene->order);
+    scene->puff_keys = malloc(2 * SCENE_PUFFS_MAX * sizeof *scene->puff_keys);
+    scene->puffs_sorted = malloc(SCENE_PUFFS_MAX * sizeof *scene->puffs_sorted);
+    scene->tufts = tufts_new();
     if (scene->plants != NULL && scene->bodies != NULL && scene->copies != NULL &&
-        scene->puffs != NULL && scene->dents != NULL && scene->order != NULL)
+        scene->puffs != NULL && scene->dents != NULL && scene->order != NULL &&
+        scene->puff_keys != NULL && scene->puffs_sorted != NULL && scene->tufts != NULL)
         return 0;
     scene_free(scene);
     return -1;
@@ -55,6 +61,9 @@ void scene_free(struct scene *scene)
     free(scene->puffs);
     free(scene->dents);
     free(scene->order);
+    free(scene->puff_keys);
+    free(scene->puffs_sorted);
+    tufts_free(scene->tufts);
     memset(scene, 0, sizeof *scene);
 }
 
@@ -62,9 +71,11 @@ enum mesh_detail scene_detail(double pixels, bool bent)
 {
     if (bent && pixels > BENT_LEAST_PIXELS)
         return MESH_FINE;
-    if (pixels > 56.0)
+    if (pixels > MESH_FULL_PIXELS)
         return MESH_FULL;
-    return pixels > 18.0 ? MESH_COARSE : MESH_COARSEST;
+    if (pixels > MESH_MIDDLE_PIXELS)
+        return MESH_MIDDLE;
+    return pixels > MESH_COARSE_PIXELS ? MESH_COARSE : MESH_COARSEST;
 }
 
 static void copy_axis(float to[3], struct vec3 from, double scale)
@@ -123,16 +134,19 @@ void scene_body_shadow(struct scene *scene, const struct moment *moment, struct 
 
 /* --- vehicles and munitions ------------------------------------------------------------------- */
 
-static double turret_angle(const struct moment *moment, uint32_t slot)
+/* Where its turret points, how far it has come. */
+static void show_gear(const struct scene *scene, const struct moment *moment, uint32_t slot,
+                      struct scene_body *body)
 {
     const struct entities *e = moment->entities;
-    if (e->state[slot] == ENTITY_WRECK)
-        return (double)grain_unit((int32_t)e->id[slot], 0, 41) * 2.0 - 1.0;
-    uint32_t target = e->target_slot[slot];
-    if (e->behaviour[slot] != BEHAVIOUR_ATTACK || !entities_alive(e, target, e->target_id[slot]))
-        return 0.0;
-    double bearing = maths_heading(e->x[target] - e->x[slot], e->z[target] - e->z[slot]);
-    return maths_wrap_half(bearing - e->heading[slot]);
+    struct gear_state state = gear_of(moment->gear, moment, slot);
+    double turns = e->state[slot] == ENTITY_WRECK ? 0.0 : ROTOR_TURNS * scene->time_s;
+    body->turret_rad = state.turret_rad;
+    body->gun_rad = state.gun_rad;
+    body->steer_rad = state.steer_rad;
+    body->rotor_rad = (float)(TWO_PI * (turns - floor(turns)) + e->id[slot] % 7u);
+    for (uint32_t side = 0; side < 2; side++)
+        body->way_m[side] = (float)state.way_m[side];
 }
 
 static float burn_of(const struct entities *e, uint32_t slot)
@@ -187,9 +201,7 @@ static void add_entity(struct scene *scene, const struct moment *moment, uint32_
     scene_body_place(scene, body, position, &pose, 1.0);
     memcpy(body->tint, force_colours[e->force[slot] % FORCE_COUNT], sizeof body->tint);
     body->burn = burn_of(e, slot);
-    body->turret_rad = (float)turret_angle(moment, slot);
-    double turns = e->state[slot] == ENTITY_WRECK ? 0.0 : ROTOR_TURNS * scene->time_s;
-    body->rotor_rad = (float)(TWO_PI * (turns - floor(turns)) + e->id[slot] % 7u);
+    show_gear(scene, moment, slot, body);
     if (bent)
         add_dents(scene, moment, e->id[slot], body);
     scene_body_shadow(scene, moment, position, pixels);
@@ -241,7 +253,8 @@ void scene_build(struct scene *scene, const struct camera *camera, const struct 
                  const struct moment *moment, const struct effects *effects)
 {
     scene->camera = *camera;
-    scene->time_s = world_time_s(moment->world, moment->head);
+    scene->sight = sight_of(camera);
+    scene->time_s = moment_time_s(moment);
     const struct renderer_params *wanted = &moment->world->params->renderer;
     scene->fog = wanted->fog != 0;
     scene->haze = wanted->haze != 0;
@@ -253,6 +266,8 @@ void scene_build(struct scene *scene, const struct camera *camera, const struct 
     for (uint32_t slot = 0; slot < moment->head->used; slot++)
         add_entity(scene, moment, slot);
     scene_fixed(scene, scenery, moment);
+    scene_debris(scene, scenery, moment, effects);
     sort_bodies(scene);
+    scene_rotors(scene, scenery, moment);
     scene_puffs(scene, moment, effects);
 }

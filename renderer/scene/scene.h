@@ -11,6 +11,7 @@
 #include "renderer/scene/moment.h"
 #include "renderer/scene/pose.h"
 #include "renderer/scene/scenery.h"
+#include "renderer/scene/sight.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -20,10 +21,24 @@
 #define SCENE_PUFFS_MAX  8192u
 #define SCENE_DENTS_MAX  4096u
 
+#define SCENE_PLANT_STEEP 0.70710678f /* sine and cosine of 45 degrees */
+
 #define BODY_LEAST_PIXELS 1.3  /* smaller than this nobody sees it */
 #define BENT_LEAST_PIXELS 48.0 /* nor that it is bent, smaller than this */
 
-/* Trees, bushes, tufts of grass: upright pictures that turn to the eye. */
+/* How parts move (enum model_part), about the pivots of their joints (struct mesh_frame), in the
+ * order in which a back end does it to a corner and its normal: a wheel rolls about z, the top
+ * ahead, by its side's way over its radius: pivot left of the middle (z < 0) is the left side; a
+ * front wheel then turns about y by the steering; then come dents, what fell in and what is broken:
+ * all that changes the form; a gun tilts about z by gun_rad, muzzle up, then turns as the turret
+ * does; a turret turns about y by turret_rad, a rotor about y and a tail rotor about z by
+ * rotor_rad. A track's shade alternates with (along + way / length of a link), light and dark by
+ * turns. */
+
+/* Trees, bushes, tufts of grass: upright pictures that turn to the eye. Seen from more than 45
+ * degrees above, they lie back by the angle beyond that, their tops away from the eye, so that from
+ * the air they are no thinner: with the foot at (level, -below) from the eye, by
+ * asin((below - level) / distance * SCENE_PLANT_STEEP). */
 struct scene_plant {
     float at[3]; /* the foot */
     float width, height;
@@ -36,10 +51,11 @@ struct scene_plant {
 /* Anything made of polygons. */
 struct scene_body {
     float at[3];
-    float forward[3], up[3], right[3]; /* body axes, scaled */
-    float tint[3];                     /* the force's colour */
-    float burn;                        /* 0 as built .. 1 burnt out */
-    float turret_rad, rotor_rad;
+    float forward[3], up[3], right[3];               /* body axes, scaled */
+    float tint[3];                                   /* the force's colour */
+    float burn;                                      /* 0 as built .. 1 burnt out */
+    float turret_rad, gun_rad, rotor_rad, steer_rad; /* to the right, up, around, to the right */
+    float way_m[2];  /* that its left and its right wheels and tracks have run, wrapped */
     float plane[4];  /* n.xyz, d: its shadow falls where n.p == d; 0: nowhere */
     float dents[2];  /* first and count in the scene's list */
     float grain;     /* a number of its own, for what a heap looks like */
@@ -69,6 +85,8 @@ enum puff_picture {
     PUFF_FLAME_A,
     PUFF_FLAME_B,
     PUFF_GLOW,
+    PUFF_DISC,  /* of a rotor */
+    PUFF_SPRAY, /* soil or water thrown up, towards the upper edge */
     PUFF_PICTURES
 };
 
@@ -83,12 +101,21 @@ struct scene_puff {
     float colour[4];
 };
 
+/* A puff's place in the order. */
+struct puff_key {
+    uint32_t key, index;
+};
+
 struct scene {
     struct camera camera;
-    double time_s;           /* of simulation, for what moves in the picture */
+    struct sight sight; /* of the camera */
+    float detail;       /* above 0 .. 1, full: how far tufts and woods reach, how dense puffs are;
+                           the caller's, 1 at first */
+    double time_s;      /* of simulation, for what moves in the picture */
     bool fog, haze, texture; /* thesis row 5 */
     struct ground_patch patches[GROUND_PATCHES_MAX];
     uint32_t patch_count;
+    uint32_t paintings; /* ground tiles that the picture may paint; TILES_ALL but live */
     struct scene_plant *plants;
     uint32_t plant_count;
     struct scene_body *bodies; /* copies of one model and detail follow each other */
@@ -98,8 +125,11 @@ struct scene {
     uint32_t puff_count;
     struct scene_dent *dents;
     uint32_t dent_count;
-    uint32_t omitted;         /* things in view for which a list had no room */
-    struct body_order *order; /* scratch */
+    uint32_t omitted;                /* things in view for which a list had no room */
+    struct body_order *order;        /* scratch */
+    struct puff_key *puff_keys;      /* scratch, twice as many */
+    struct scene_puff *puffs_sorted; /* scratch */
+    struct tufts *tufts;             /* kept from picture to picture */
 };
 
 /* 0, or -1 with errno ENOMEM. */
@@ -113,6 +143,9 @@ void scene_build(struct scene *scene, const struct camera *camera, const struct 
 /* Parts of scene_build, for the files that make them. */
 void scene_fixed(struct scene *scene, const struct scenery *scenery, const struct moment *moment);
 void scene_plants(struct scene *scene, const struct scenery *scenery, const struct moment *moment);
+void scene_debris(struct scene *scene, const struct scenery *scenery, const struct moment *moment,
+                  const struct effects *effects);
+void scene_rotors(struct scene *scene, const struct scenery *scenery, const struct moment *moment);
 void scene_puffs(struct scene *scene, const struct moment *moment, const struct effects *effects);
 
 /* Level of detail of a body that shows so large [pixel]; never finer for a smaller one. bent: its

@@ -1,5 +1,6 @@
 /* Fixed objects made of polygons, whole and damaged (thesis rows 27, 32 and 33): poles lean and
- * break, towers lean and fall over, buildings and rocks fall in until they are a heap. */
+ * break, towers lean and fall over, buildings and rocks fall in until they are a heap, trees lie.
+ */
 #include "renderer/scene/scene.h"
 
 #include "renderer/scene/grain.h"
@@ -8,13 +9,18 @@
 #include <string.h>
 
 #define FIXED_RANGE_M   9000.0
+#define FELLED_AWAY_M   0.6   /* from the stump to the end of the trunk */
+#define FELLED_LIFT_M   0.5   /* above the ground: branches hold it up */
 #define POLE_BREAKS     0.24  /* of its height */
 #define LEGS_GIVE       0.22  /* of a tower's height: there they buckle */
 #define FALLS_IN_SLIGHT 0.35f /* see falls of struct scene_body; -1 to 1 from end to end */
 #define FALLS_IN_HALF   0.90f
 #define FALLS_IN_WHOLE  3.0f
 
-static const float bare[3] = {0.52f, 0.50f, 0.40f}; /* of what no force paints */
+/* What no force paints is painted by whoever lives in it. */
+#define WASHES 4u
+static const float washes[WASHES][3] = {
+    {0.80f, 0.74f, 0.62f}, {0.93f, 0.91f, 0.86f}, {0.74f, 0.55f, 0.40f}, {0.70f, 0.66f, 0.50f}};
 
 /* What leans or falls does so to where its heading points. */
 static double lean_of(enum object_class object_class, enum damage damage)
@@ -84,11 +90,39 @@ static void add_fixed(struct scene *scene, const struct scenery *scenery,
     double lean = lean_of((enum object_class)kind->object_class, (enum damage)damage);
     struct pose pose = pose_of(fixed_heading(object), -lean, 0.0);
     scene_body_place(scene, body, position, &pose, fixed_scale(object, kind));
-    memcpy(body->tint, bare, sizeof body->tint);
+    memcpy(body->tint, washes[grain_hash((int32_t)index, 6, 9) % WASHES], sizeof body->tint);
     body->grain = (float)(grain_hash((int32_t)index, 4, 9) % 64u);
     if (damage != DAMAGE_NONE)
         show_damage(body, kind, (enum damage)damage, &scenery->frames[kind->model]);
     scene_body_shadow(scene, moment, position, pixels);
+}
+
+/* A tree that was felled lies beside its stump, on the slope, whichever way its grain says. */
+static void add_felled(struct scene *scene, const struct moment *moment, uint32_t index)
+{
+    const struct fixed_object *object = &moment->world->fixed[index];
+    const struct kind *kind = &moment->world->kinds[object->kind];
+    const struct terrain *terrain = &moment->world->terrain;
+    struct vec3 foot = fixed_position(object);
+    double high_m = (double)object->height_m;
+    double distance = vec3_length(vec3_sub(foot, scene->camera.eye));
+    double pixels = camera_pixels(&scene->camera, high_m, distance);
+    if (pixels < BODY_LEAST_PIXELS || kind->model >= moment->world->counts.models ||
+        !camera_sees(&scene->camera, foot, 2.0 * high_m))
+        return;
+    struct scene_body *body = scene_body_add(scene, kind->model, scene_detail(pixels, false));
+    if (body == NULL)
+        return;
+    double heading = TWO_PI * (double)grain_unit((int32_t)index, 3, 9), x, z;
+    maths_sincos(heading, &x, &z);
+    double top_x = foot.x + high_m * x, top_z = foot.z - high_m * z;
+    double rise =
+        maths_atan2(terrain_height(terrain, moment->craters, top_x, top_z) - foot.y, high_m);
+    struct vec3 butt = {foot.x + FELLED_AWAY_M * x, foot.y + FELLED_LIFT_M,
+                        foot.z - FELLED_AWAY_M * z};
+    struct pose pose = pose_of(heading, rise - HALF_PI, 0.0);
+    scene_body_place(scene, body, butt, &pose, fixed_scale(object, kind));
+    scene_body_shadow(scene, moment, butt, pixels);
 }
 
 void scene_fixed(struct scene *scene, const struct scenery *scenery, const struct moment *moment)
@@ -102,5 +136,8 @@ void scene_fixed(struct scene *scene, const struct scenery *scenery, const struc
         for (uint32_t i = first; i < end; i++)
             if (scenery->look[i] == LOOK_MODEL)
                 add_fixed(scene, scenery, moment, i);
+            else if (moment->fixed_damage[i] >= DAMAGE_HIGH &&
+                     moment->world->kinds[moment->world->fixed[i].kind].object_class == OBJECT_TREE)
+                add_felled(scene, moment, i);
     }
 }

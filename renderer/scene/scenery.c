@@ -4,6 +4,7 @@
 #include "renderer/scene/grain.h"
 #include "world/square.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -50,6 +51,89 @@ static void find_starts(struct scenery *scenery)
     scenery->square_start[SQUARE_COUNT] = world->counts.fixed;
 }
 
+/* Width of a picture over its height: each fills its square differently. */
+static float breadth(uint8_t look)
+{
+    switch (look) {
+    case FOLIAGE_PINE_A:
+    case FOLIAGE_PINE_B:
+        return 0.85f;
+    case FOLIAGE_FIR:
+        return 0.60f;
+    case FOLIAGE_BUSH_A:
+    case FOLIAGE_BUSH_B:
+    case FOLIAGE_BUSH_C:
+        return 1.45f;
+    case FOLIAGE_OAK_A:
+    case FOLIAGE_OAK_B:
+    case FOLIAGE_OAK_C:
+        return 1.25f;
+    default:
+        return 1.05f;
+    }
+}
+
+static void find_plant(struct scenery *scenery, uint32_t index)
+{
+    const struct fixed_object *object = &scenery->world->fixed[index];
+    struct scenery_plant *plant = &scenery->plants[index];
+    float tone = 0.86f + 0.28f * grain_unit((int32_t)index, 1, 9);
+    float dry = grain_unit((int32_t)index, 2, 9);
+    *plant = (struct scenery_plant){
+        .width = object->height_m * breadth(scenery->look[index]) * (0.9f + 0.2f * dry),
+        .height = object->height_m,
+        .sink = 0.02f * object->height_m,
+        .tint = {tone * (0.92f + 0.22f * dry), tone, tone * (1.05f - 0.2f * dry)},
+    };
+    scenery_slope(&scenery->world->terrain, object->x, object->z, plant->slope);
+}
+
+/* The order in which the plants of a gridsquare are thinned out: by chance, the same always. */
+static void find_ranks(struct scenery *scenery, uint32_t square)
+{
+    uint32_t first = scenery->square_start[square], end = scenery->square_start[square + 1];
+    uint32_t plants = 0;
+    for (uint32_t i = first; i < end; i++)
+        plants += scenery->look[i] != LOOK_MODEL;
+    if (plants <= SCENERY_LONELY) {
+        for (uint32_t i = first; i < end; i++)
+            scenery->plants[i].lone = 1.0f;
+        return;
+    }
+    for (uint32_t i = first; i < end; i++) {
+        uint32_t before = 0, own = grain_hash((int32_t)i, 5, 9);
+        for (uint32_t j = first; j < end; j++)
+            before += scenery->look[j] != LOOK_MODEL && grain_hash((int32_t)j, 5, 9) < own;
+        scenery->plants[i].rank =
+            before < SCENERY_LONELY ? 0.0f : ((float)before + 0.5f) / (float)plants;
+        scenery->plants[i].lone = (float)SCENERY_LONELY / (float)plants;
+    }
+}
+
+static void find_blocks(struct scenery *scenery)
+{
+    const struct world *world = scenery->world;
+    for (uint32_t i = 0; i < SCENERY_BLOCKS * SCENERY_BLOCKS; i++)
+        scenery->blocks[i] = (struct scenery_block){INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < world->counts.fixed; i++) {
+        if (scenery->look[i] == LOOK_MODEL)
+            continue;
+        const struct fixed_object *object = &world->fixed[i];
+        uint32_t column = (uint32_t)square_axis(object->x) / SCENERY_BLOCK;
+        uint32_t row = (uint32_t)square_axis(object->z) / SCENERY_BLOCK;
+        struct scenery_block *block = &scenery->blocks[row * SCENERY_BLOCKS + column];
+        block->low = fminf(block->low, object->y);
+        block->high = fmaxf(block->high, object->y + object->height_m);
+    }
+}
+
+void scenery_slope(const struct terrain *terrain, double x, double z, float slope[2])
+{
+    double here = terrain_base_height(terrain, x, z);
+    slope[0] = (float)(terrain_base_height(terrain, x + 2.0, z) - here) * 0.5f;
+    slope[1] = (float)(terrain_base_height(terrain, x, z + 2.0) - here) * 0.5f;
+}
+
 int scenery_init(struct scenery *scenery, const struct world *world)
 {
     *scenery = (struct scenery){.world = world};
@@ -57,16 +141,27 @@ int scenery_init(struct scenery *scenery, const struct world *world)
         return -1;
     scenery->square_start = malloc((SQUARE_COUNT + 1) * sizeof *scenery->square_start);
     scenery->look = malloc(world->counts.fixed + 1);
+    scenery->plants = malloc((world->counts.fixed + 1) * sizeof *scenery->plants);
+    scenery->blocks = malloc(SCENERY_BLOCKS * SCENERY_BLOCKS * sizeof *scenery->blocks);
     scenery->frames = malloc((world->counts.models + 1) * sizeof *scenery->frames);
-    if (scenery->square_start == NULL || scenery->look == NULL || scenery->frames == NULL) {
+    if (scenery->square_start == NULL || scenery->look == NULL || scenery->plants == NULL ||
+        scenery->blocks == NULL || scenery->frames == NULL) {
         scenery_free(scenery);
         return -1;
     }
     find_starts(scenery);
-    for (uint32_t i = 0; i < world->counts.fixed; i++)
+    for (uint32_t i = 0; i < world->counts.fixed; i++) {
         scenery->look[i] = look_of(&world->kinds[world->fixed[i].kind], i);
+        find_plant(scenery, i);
+    }
+    for (uint32_t square = 0; square < SQUARE_COUNT; square++)
+        find_ranks(scenery, square);
+    find_blocks(scenery);
     for (uint32_t i = 0; i < world->counts.models; i++)
-        mesh_frame(&scenery->frames[i], world, i);
+        if (mesh_frame(&scenery->frames[i], world, i) != 0) {
+            scenery_free(scenery);
+            return -1;
+        }
     return 0;
 }
 
@@ -75,6 +170,8 @@ void scenery_free(struct scenery *scenery)
     ground_free(&scenery->ground);
     free(scenery->square_start);
     free(scenery->look);
+    free(scenery->plants);
+    free(scenery->blocks);
     free(scenery->frames);
     *scenery = (struct scenery){.world = NULL};
 }

@@ -25,8 +25,9 @@ void statistics_of(struct statistics *statistics, const struct moment *moment, u
             e->y[slot] - terrain_height(&world->terrain, moment->craters, e->x[slot], e->z[slot]),
         .fuel_share = kind->fuel_l > 0.0 ? e->fuel_l[slot] / kind->fuel_l : 1.0,
         .rounds = e->rounds[slot],
+        .rounds_full = kind->rounds,
         .frame = moment->head->frame,
-        .time_s = world_time_s(world, moment->head),
+        .time_s = moment_time_s(moment),
     };
     if (own[0] != '\0')
         snprintf(statistics->name, sizeof statistics->name, "%s", own);

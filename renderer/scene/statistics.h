@@ -17,6 +17,7 @@ struct statistics {
     double above_ground_m; /* of the position */
     double fuel_share;     /* 0..1 of the full tank; 1 for kinds without one */
     uint32_t rounds;
+    uint32_t rounds_full; /* a full load; 0 for kinds without any */
     uint64_t frame;
     double time_s; /* of simulation */
 };

@@ -190,11 +190,14 @@ static void check_kind(const struct scenario *s, const struct kind *kind)
     const struct model *model = &s->models[kind->model];
     CHECK(model->first_vertex + model->vertex_count <= s->vertex_count);
     CHECK(model->first_triangle + model->triangle_count <= s->triangle_count);
-    for (uint32_t i = 0; i < model->vertex_count; i++)
+    CHECK(model->solid_vertices <= model->vertex_count);
+    CHECK(model->solid_triangles == 0 || model->solid_triangles < model->triangle_count);
+    uint32_t held = model->solid_triangles > 0 ? model->solid_vertices : model->vertex_count;
+    for (uint32_t i = 0; i < held; i++)
         check_held(s, kind, &s->vertices[model->first_vertex + i]);
     for (uint32_t i = 0; i < model->triangle_count; i++) {
         const struct model_triangle *t = &s->triangles[model->first_triangle + i];
-        CHECK(t->part < PART_COUNT);
+        CHECK(t->part < PART_COUNT && t->joint < MODEL_JOINTS_MAX);
         for (int k = 0; k < 3; k++)
             CHECK(t->vertex[k] < model->vertex_count);
     }

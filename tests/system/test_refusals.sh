@@ -54,9 +54,13 @@ fi
 
 # Without GL, without a DDS interface: the simulation goes on and says what is missing.
 env __EGL_VENDOR_LIBRARY_DIRS=/nonexistent LIBGL_DRIVERS_PATH=/nonexistent \
-    "$jolon" run -w "$name" --frames 30 --pace max --without reporter --out out --json good.cfg >told 2>err
-check "without GL the run ends well" equal "$(json frame <told)" 30
+    "$jolon" run -w "$name" --frames 30 --pace max --without reporter --set renderer.backend=gl --out out --json \
+    good.cfg >told 2>err
+check "without the GL asked for the run ends well" equal "$(json frame <told)" 30
 check "and one line says what is missing" grep -q 'goes on without the renderer: .*OpenGL' err
+env __EGL_VENDOR_LIBRARY_DIRS=/nonexistent LIBGL_DRIVERS_PATH=/nonexistent \
+    "$jolon" run -w "$name" --frames 30 --pace max --without reporter --out out good.cfg >told 2>&1
+check "without any GL there are pictures all the same" [ -s out/chase.png ]
 check "nothing is left" nothing_left "$name"
 "$bin/jolon-world" create --world "$name" good.cfg >/dev/null
 refuses_interface() { "$bin/jolon-reporter" --world "$name" --interface 203.0.113.7; }

@@ -84,7 +84,7 @@ static void test_empty_file_has_defaults(void **state)
     assert_int_equal(s.params.renderer.width, 1280);
     assert_int_equal(s.params.renderer.height, 720);
     assert_true(s.params.renderer.fps == 2.0);
-    assert_int_equal(s.params.renderer.view, VIEW_BOTH);
+    assert_int_equal(s.params.renderer.views, 1u << VIEW_CHASE | 1u << VIEW_MAP);
     assert_int_equal(s.params.renderer.follow, 0);
     assert_int_equal(s.params.renderer.fog, 1);
     assert_int_equal(s.params.renderer.haze, 1);
@@ -243,6 +243,9 @@ static void test_override_is_file(void **state)
         {"renderer.fog=false", "renderer = { fog = false; };"},
         {"renderer.haze=false", "renderer = { haze = false; };"},
         {"renderer.texture=false", "renderer = { texture = false; };"},
+        {"renderer.view=map,orbit", "renderer = { view = \"map, orbit\"; };"},
+        {"renderer.backend=soft", "renderer = { backend = \"soft\"; };"},
+        {"renderer.hold=false", "renderer = { hold = false; };"},
     };
 
     struct scenario plain;

@@ -18,6 +18,8 @@
 
 #include <cmocka.h>
 
+#define SEEN_MOST    4500 /* triangles of a model that are drawn ... */
+#define SOLID_MOST   500  /* ... and that collide: rays try each of them */
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 static struct scenario shipped;
@@ -61,11 +63,12 @@ static void test_tables_fit(void **state)
 
         assert_int_equal(model->first_vertex, vertices);
         assert_int_equal(model->first_triangle, triangles);
-        assert_in_range(model->triangle_count, 12, 500);
+        assert_in_range(model->triangle_count - model->solid_triangles, 12, SEEN_MOST);
+        assert_in_range(model_solid_triangles(model), 12, SOLID_MOST);
         for (uint32_t i = 0; i < model->triangle_count; i++) {
             const struct model_triangle *t = &shipped.triangles[triangles + i];
 
-            assert_true(t->part < PART_COUNT && t->force_tint <= 1);
+            assert_true(t->part < PART_COUNT && t->joint < MODEL_JOINTS_MAX);
             for (int c = 0; c < 3; c++)
                 assert_true(t->vertex[c] < model->vertex_count);
         }
@@ -84,6 +87,13 @@ struct edge {
 static int compare_edges(const void *a, const void *b)
 {
     return memcmp(a, b, sizeof(struct edge));
+}
+
+static uint32_t root_of(uint32_t *parent, uint32_t i)
+{
+    while (parent[i] != i)
+        i = parent[i] = parent[parent[i]];
+    return i;
 }
 
 /* Every edge is walked as often in one direction as in the other. */
@@ -131,20 +141,51 @@ static double area(const struct model *model, uint32_t t)
     return sqrt(nx * nx + ny * ny + nz * nz) / 2;
 }
 
+/* The pieces that hang together by their corners' places, of the triangles first .. end - 1: each
+ * holds a volume, so none is inside out. */
+static void check_pieces(const struct model *model, uint32_t first, uint32_t end)
+{
+    uint32_t count = 3 * (end - first), *parent = calloc(count + 1, sizeof(*parent));
+    struct edge *place = calloc(count + 1, sizeof(*place)); /* to: which corner, as x and y */
+    double *inside = calloc(count + 1, sizeof(*inside));
+
+    assert_true(parent != NULL && place != NULL && inside != NULL);
+    for (uint32_t i = 0; i < count; i++) {
+        place[i].from = *corner(model, first + i / 3, (int)(i % 3));
+        place[i].to.x = (float)i;
+        parent[i] = i;
+    }
+    qsort(place, count, sizeof(*place), compare_edges);
+    for (uint32_t i = 1; i < count; i++) {
+        if (memcmp(&place[i - 1].from, &place[i].from, sizeof(place[i].from)) == 0)
+            parent[root_of(parent, (uint32_t)place[i].to.x)] =
+                root_of(parent, (uint32_t)place[i - 1].to.x);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        parent[root_of(parent, i)] = root_of(parent, i - i % 3);
+    for (uint32_t i = 0; i < count; i += 3)
+        inside[root_of(parent, i)] += volume(model, first + i / 3);
+    for (uint32_t i = 0; i < count; i++) {
+        if (root_of(parent, i) == i && !(inside[i] > 0.0))
+            fail_msg("%s: the piece with triangle %u is turned inside out", model->name,
+                     first + i / 3);
+    }
+    free(parent);
+    free(place);
+    free(inside);
+}
+
 static void test_closed_and_outwards(void **state)
 {
     (void)state;
     for (uint32_t m = 0; m < shipped.model_count; m++) {
         const struct model *model = &shipped.models[m];
-        double inside = 0;
 
         check_closed(model);
-        for (uint32_t t = 0; t < model->triangle_count; t++) {
+        for (uint32_t t = 0; t < model->triangle_count; t++)
             assert_true(area(model, t) > 1e-9);
-            inside += volume(model, t);
-        }
-        if (!(inside > 0))
-            fail_msg("%s is turned inside out", model->name);
+        check_pieces(model, 0, model->solid_triangles);
+        check_pieces(model, model->solid_triangles, model->triangle_count);
     }
 }
 
@@ -152,11 +193,13 @@ struct box {
     double low[3], high[3];
 };
 
+/* Around what collides. */
 static struct box box_of(const struct model *model)
 {
+    uint32_t count = model->solid_triangles > 0 ? model->solid_vertices : model->vertex_count;
     struct box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
-    for (uint32_t i = 0; i < model->vertex_count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         const struct model_vertex *v = &shipped.vertices[model->first_vertex + i];
         const double at[3] = {(double)v->x, (double)v->y, (double)v->z};
 
@@ -166,6 +209,37 @@ static struct box box_of(const struct model *model)
         }
     }
     return box;
+}
+
+/* Aerials apart, what is seen is what collides: nearly all of its corners are within or near the
+ * box of that, and none is far. */
+static void test_seen_where_solid(void **state)
+{
+    (void)state;
+    for (uint32_t m = 0; m < shipped.model_count; m++) {
+        const struct model *model = &shipped.models[m];
+        const struct box box = box_of(model);
+        uint32_t out = 0, seen = 3 * (model->triangle_count - model->solid_triangles);
+
+        for (uint32_t i = 0; i < seen; i++) {
+            const struct model_vertex *v =
+                corner(model, model->solid_triangles + i / 3, (int)i % 3);
+            const double at[3] = {(double)v->x, (double)v->y, (double)v->z};
+            double most = 0;
+
+            for (int axis = 0; axis < 3; axis++) {
+                double over = fmax(box.low[axis] - at[axis], at[axis] - box.high[axis]);
+
+                most = fmax(most, over / fmax(box.high[axis] - box.low[axis], 1.0));
+            }
+            out += most > 0.04;
+            if (most > 0.5)
+                fail_msg("%s: (%g, %g, %g) is far from what collides", model->name, at[0], at[1],
+                         at[2]);
+        }
+        if (out > seen / 8)
+            fail_msg("%s: %u of %u corners are out of what collides", model->name, out, seen);
+    }
 }
 
 /* Guns and aerials stick out of a body; nothing is much smaller than its kind says. */
@@ -204,13 +278,33 @@ static uint32_t count_part(const struct model *model, enum model_part part)
     return count;
 }
 
+static int count_joints(const struct model *model, enum model_part part)
+{
+    bool has[MODEL_JOINTS_MAX] = {false};
+    int count = 0;
+
+    for (uint32_t t = 0; t < model->triangle_count; t++) {
+        const struct model_triangle *triangle = &shipped.triangles[model->first_triangle + t];
+
+        count += triangle->part == part && !has[triangle->joint];
+        if (triangle->part == part)
+            has[triangle->joint] = true;
+    }
+    return count;
+}
+
 static void test_parts(void **state)
 {
     static const struct {
         const char *kind;
-        bool turret, rotors;
-    } rows[] = {{"tank", true, false},     {"carrier", true, false}, {"helicopter", false, true},
-                {"helo-cow", false, true}, {"jet", false, false},    {"tree", false, false}};
+        bool turret, gun, rotors, tracks;
+        int wheels; /* joints of them */
+    } rows[] = {
+        {"tank", true, true, false, true, 14},      {"carrier", true, true, false, true, 14},
+        {"ship", true, true, false, false, 0},      {"helicopter", false, true, true, false, 0},
+        {"helo-cow", false, false, true, false, 0}, {"jeep", true, true, false, false, 4},
+        {"truck", false, false, false, false, 6},   {"jet", false, false, false, false, 0},
+        {"tree", false, false, false, false, 0}};
 
     (void)state;
     for (size_t i = 0; i < COUNT(rows); i++) {
@@ -220,6 +314,10 @@ static void test_parts(void **state)
         assert_int_equal(count_part(model, PART_TURRET) > 0, rows[i].turret);
         assert_int_equal(count_part(model, PART_ROTOR) > 0, rows[i].rotors);
         assert_int_equal(count_part(model, PART_TAIL_ROTOR) > 0, rows[i].rotors);
+        assert_int_equal(count_part(model, PART_GUN) > 0, rows[i].gun);
+        assert_int_equal(count_part(model, PART_TRACK) > 0, rows[i].tracks);
+        assert_int_equal(count_joints(model, PART_WHEEL) + count_joints(model, PART_FRONT_WHEEL),
+                         rows[i].wheels);
     }
 }
 
@@ -231,7 +329,7 @@ static void test_forces_can_be_told_apart(void **state)
         uint32_t tinted = 0;
 
         for (uint32_t t = 0; t < model->triangle_count; t++)
-            tinted += shipped.triangles[model->first_triangle + t].force_tint;
+            tinted += shipped.triangles[model->first_triangle + t].force_tint == MODEL_TINT_FORCE;
         assert_int_equal(tinted > 0, shipped.kinds[k].domain <= DOMAIN_AIR);
     }
 }
@@ -283,7 +381,10 @@ static const struct {
     {TOP TOP, "k.obj:2: mtllib: stands twice; allowed: once"},
     {TOP "o body left\n", "k.obj:2: o: needs one name; "},
     {TOP "o wing\n" TRIANGLE "usemtl red\nf 1 2 3\n",
-     "k.obj: object wing: unknown part; allowed: body, turret, rotor, tail_rotor"},
+     "k.obj: object wing: unknown part; allowed: body, turret, gun, rotor, tail_rotor, "},
+    {TOP "o wheel_x\n" TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj: object wheel_x: unknown part; "},
+    {TOP "o _1\n" TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj: object _1: unknown part; "},
+    {TOP "o solid\n" TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj: has no triangles"},
     {TOP TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj: object defaultobject: unknown part; "},
     {TOP "o body\nv 0 0 0\nv 1001 0 0\n", "k.obj:4: v = 1001: out of range; allowed: -1000..1000"},
     {TOP "v nan 0 0\n", "k.obj:2: v = nan: is not a number; "},
@@ -392,6 +493,7 @@ int main(void)
     const struct CMUnitTest shipped_tests[] = {
         cmocka_unit_test(test_tables_fit),
         cmocka_unit_test(test_closed_and_outwards),
+        cmocka_unit_test(test_seen_where_solid),
         cmocka_unit_test(test_sizes_are_the_kinds),
         cmocka_unit_test(test_parts),
         cmocka_unit_test(test_forces_can_be_told_apart),

@@ -328,7 +328,7 @@ static void test_row_25_how_many_pass_and_that_no_swept_method_misses_one(void *
 /* --- level 3 -----------------------------------------------------------------------------------*/
 
 /* Every kind is a cube of 2 m. */
-static const struct model cube = {"cube", 0, 12, 0, 8};
+static const struct model cube = {.name = "cube", .triangle_count = 12, .vertex_count = 8};
 static const struct model_vertex corners[] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                               {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 static const struct model_triangle faces[] = {

@@ -119,7 +119,15 @@ static const struct refusal refusals[] = {
     {"renderer = { width = 15; };", 1, "renderer.width = 15: out of range; allowed: 16..7680"},
     {"renderer = { height = 4321; };", 1,
      "renderer.height = 4321: out of range; allowed: 16..4320"},
-    {"renderer = { fps = 61; };", 1, "renderer.fps = 61: out of range; allowed: 0..60"},
+    {"renderer = { view = \"chase,, map\"; };", 1,
+     "renderer.view = \"chase,, map\": unknown; allowed: chase, map, inside, orbit, free, "
+     "overhead, both"},
+    {"renderer = { view = \"chas\"; };", 1,
+     "renderer.view = \"chas\": unknown; allowed: chase, map, inside, orbit, free, overhead, both"},
+    {"renderer = { view = 1; };", 1,
+     "renderer.view = 1: is not text in quotes; allowed: chase, map, inside, orbit, free, "
+     "overhead, both"},
+    {"renderer = { fps = 121; };", 1, "renderer.fps = 121: out of range; allowed: 0..120"},
     {VEHICLE("at = [1, 50001];"), 2,
      "vehicles[0].at = [1, 50001]: out of range; allowed: [x, z], each 0..50000"},
     {VEHICLE("area = [0, 0, 10, 60000];"), 2,

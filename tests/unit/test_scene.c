@@ -1,10 +1,9 @@
-/* The renderer's pure part: cameras, culling, levels of detail, the lists of a scene, the map and
- * the statistics (rows 5, 12, 13 and 33 of what the thesis states). Nothing here draws with OpenGL.
+/* The renderer's pure part: cameras, culling, levels of detail, the lists of a scene, tracks
+ * and statistics (rows 5, 12, 13 and 33 of what the thesis states). Nothing here draws with OpenGL.
  */
 #include "renderer/scene/scene.h"
 
 #include "renderer/scene/follow.h"
-#include "renderer/chart/map.h"
 #include "renderer/scene/pose.h"
 #include "renderer/scene/statistics.h"
 #include "renderer/chart/track.h"
@@ -168,8 +167,8 @@ static int open_stage(void **context)
     assert_int_equal(scenery_init(&s->scenery, &s->world), 0);
     assert_int_equal(scene_init(&s->scene), 0);
     assert_int_equal(dents_init(&s->dents, s->dent, DENTS), 0);
-    s->moment =
-        (struct moment){&s->world, &s->head, &s->entities, s->fixed_damage, &s->index, &s->dents};
+    s->moment = (struct moment){&s->world, &s->head,  &s->entities, s->fixed_damage,
+                                &s->index, &s->dents, NULL,         0.0};
     *context = s;
     return 0;
 }
@@ -241,25 +240,6 @@ static void test_pose_axes(void **context)
     struct pose any = pose_of(1.0, 0.4, -0.7);
     assert_true(fabs(vec3_dot(any.forward, any.up)) < 1e-12);
     assert_true(fabs(vec3_dot(any.up, any.right)) < 1e-12);
-}
-
-static void test_chase_camera_stays_above_ground(void **context)
-{
-    struct stage *s = *context;
-    for (uint64_t i = 0; i < 2000; i++) {
-        double x = draw(4 * i, 100.0, 49900.0), z = draw(4 * i + 1, 100.0, 49900.0);
-        struct camera_subject subject = {
-            .position = {x, terrain_base_height(&s->world.terrain, x, z) + 1.0, z},
-            .heading_rad = draw(4 * i + 2, 0.0, TWO_PI),
-            .pitch_rad = draw(4 * i + 3, -0.5, 0.5),
-            .radius_m = 4.0};
-        struct camera camera;
-        camera_chase(&camera, &subject, &s->world.terrain, NULL, 1280, 720);
-        double ground = terrain_base_height(&s->world.terrain, camera.eye.x, camera.eye.z);
-        assert_true(camera.eye.y >= ground + CAMERA_CLEARANCE_M - 1e-9);
-        assert_true(camera_sees(&camera, subject.position, subject.radius_m));
-        assert_true(in_picture(&camera, subject.position));
-    }
 }
 
 static void test_culling_keeps_what_is_in_view(void **context)
@@ -337,58 +317,6 @@ static void test_ground_detail_falls_with_distance(void **context)
     }
     assert_int_equal(patches[0].level, GROUND_LEVEL_MAX);
     assert_true(patches[count - 1].level < 5);
-}
-
-static void test_ground_vertices_lie_on_the_terrain(void **context)
-{
-    struct stage *s = *context;
-    static float vertices[GROUND_VERTICES(GROUND_CELLS_MAX)][3];
-    for (int32_t level = 4; level <= GROUND_LEVEL_MAX; level++) {
-        struct ground_patch patch = {.column = 5, .row = 3, .level = level};
-        uint32_t cells = ground_cells(&s->world.terrain, &s->index, &patch);
-        double side = ground_patch_side(level), x0 = 5 * side, z0 = 3 * side;
-        ground_vertices(&s->world.terrain, &s->index, &patch, cells, vertices);
-        for (uint32_t i = 0; i < (cells + 1) * (cells + 1); i++) {
-            double height = terrain_base_height(&s->world.terrain, x0 + (double)vertices[i][0],
-                                                z0 + (double)vertices[i][2]);
-            assert_true(fabs(height - (double)vertices[i][1]) < 1e-3);
-        }
-    }
-}
-
-static void test_crater_shows_in_near_ground(void **context)
-{
-    struct stage *s = *context;
-    static float vertices[GROUND_VERTICES(GROUND_CELLS_MAX)][3];
-    double side = ground_patch_side(GROUND_LEVEL_MAX);
-    struct ground_patch patch = {.column = 100, .row = 100, .level = GROUND_LEVEL_MAX};
-    assert_true(ground_cells(&s->world.terrain, &s->index, &patch) < GROUND_CELLS_MAX);
-    s->craters[0] =
-        (struct crater){.x = 100.5 * side, .z = 100.5 * side, .radius_m = 6.0f, .depth_m = 2.0f};
-    assert_int_equal(crater_index_update(&s->index, 1), 0);
-    uint32_t cells = ground_cells(&s->world.terrain, &s->index, &patch);
-    assert_int_equal(cells, GROUND_CELLS_MAX);
-    ground_vertices(&s->world.terrain, &s->index, &patch, cells, vertices);
-    const float *middle = vertices[cells / 2 * (cells + 1) + cells / 2];
-    double flat = terrain_base_height(&s->world.terrain, 100.5 * side, 100.5 * side);
-    assert_true((double)middle[1] < flat - 1.5);
-}
-
-static void test_ground_triangles_face_up(void **context)
-{
-    struct stage *s = *context;
-    static uint16_t triangles[GROUND_TRIANGLES(GROUND_CELLS_MAX)][3];
-    static float v[GROUND_VERTICES(GROUND_CELLS_MAX)][3];
-    struct ground_patch patch = {.column = 9, .row = 9, .level = 5};
-    for (uint32_t cells = 1; cells <= GROUND_CELLS_MAX; cells *= 2) {
-        ground_vertices(&s->world.terrain, NULL, &patch, cells, v);
-        ground_triangles(cells, triangles);
-        for (uint32_t i = 0; i < 2 * cells * cells; i++) {
-            const float *a = v[triangles[i][0]], *b = v[triangles[i][1]], *c = v[triangles[i][2]];
-            float up = (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]);
-            assert_true(up > 0.0f);
-        }
-    }
 }
 
 /* --- scenes ----------------------------------------------------------------------------------- */
@@ -522,10 +450,14 @@ static void test_a_tree_leans_and_then_is_a_stump(void **context)
         uint32_t stumps = 0;
         for (uint32_t i = 0; i < s->scene.plant_count; i++)
             stumps += (enum foliage)s->scene.plants[i].picture == FOLIAGE_STUMP;
-        bool down = damage >= DAMAGE_HIGH; /* a stump, and the tree beside it */
-        assert_int_equal(s->scene.plant_count, down ? 2 : 1);
+        bool down = damage >= DAMAGE_HIGH; /* a stump, and the tree lying beside it */
+        assert_int_equal(s->scene.plant_count, 1);
         assert_int_equal(stumps, down ? 1 : 0);
-        assert_true((fabsf(s->scene.plants[0].lean) > 0.2f) == (damage >= DAMAGE_MED));
+        assert_true((fabsf(s->scene.plants[0].lean) > 0.2f) == (damage == DAMAGE_MED));
+        uint32_t lying = 0;
+        for (uint32_t i = 0; i < s->scene.body_count; i++)
+            lying += fabsf(s->scene.bodies[i].up[1]) < 0.7f;
+        assert_int_equal(lying, down ? 1 : 0);
         assert_true((s->scene.plants[0].height < 5.0f) == down);
     }
 }
@@ -617,15 +549,19 @@ static void test_fire_and_detonation_show(void **context)
     struct camera camera = look_from(s, 25000.0, 25000.0, 0.0);
     s->head.frame = s->head.tick = 100;
     struct event events[2] = {
-        {.frame = 99, .type = EVENT_FIRE, .fire = {.point = {25000.0, camera.eye.y - 5, 24970.0}}},
+        {.frame = 99,
+         .tick = 99,
+         .type = EVENT_FIRE,
+         .fire = {.shooter = {.id = 7}, .point = {25000.0, camera.eye.y - 5, 24970.0}}},
         {.frame = 95,
+         .tick = 95,
          .type = EVENT_DETONATION,
          .detonation = {.point = {25000.0, camera.eye.y - 5, 24950.0}, .explosive_kg = 8.0f}},
     };
     scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
     uint32_t quiet = s->scene.puff_count;
     effects_take(&s->effects, &s->moment, events, 2);
-    assert_int_equal(effects_count(&s->effects), 2);
+    assert_int_equal(s->effects.count, 2);
     scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
     assert_true(s->scene.puff_count > quiet + 20);
     for (uint32_t i = 1; i < s->scene.puff_count; i++) { /* farthest first */
@@ -638,7 +574,7 @@ static void test_fire_and_detonation_show(void **context)
     assert_int_equal(s->scene.puff_count, quiet);
 }
 
-/* --- choice, tracks, statistics, map ---------------------------------------------------------- */
+/* --- choice, tracks, statistics --------------------------------------------------------------- */
 
 static void test_follow_keeps_its_choice(void **context)
 {
@@ -696,33 +632,6 @@ static void test_statistics_equal_the_table(void **context)
     assert_non_null(strstr(line, "rounds=37 "));
 }
 
-static void test_map_shows_the_table(void **context)
-{
-    struct stage *s = *context;
-    struct map_view view = map_whole(10, 20, 500); /* 100 m a pixel */
-    struct point middle = map_point(&view, 25000.0, 25000.0);
-    assert_true(fabs(middle.x - 260.0) < 1e-9 && fabs(middle.y - 270.0) < 1e-9);
-    struct map_view close = map_around(30000.0, 20000.0, 6000.0, 0, 0, 600, 400);
-    struct point centre = map_point(&close, 30000.0, 20000.0);
-    assert_true(fabs(centre.x - 300.0) < 1e-9 && fabs(centre.y - 200.0) < 1e-9);
-
-    struct image image;
-    assert_int_equal(image_init(&image, 520, 540), 0);
-    put_tank(s, 12345.0, 33330.0, 0.0);
-    map_vehicles(&image, &view, &s->moment, 7.0);
-    struct point at = map_point(&view, 12345.0, 33330.0);
-    struct rgba blue = map_force_colour(FORCE_BLUE);
-    const uint8_t *pixel = image.pixels + ((size_t)at.y * image.width + (size_t)at.x) * 4;
-    assert_int_equal(pixel[0], blue.r);
-    assert_int_equal(pixel[1], blue.g);
-    assert_int_equal(pixel[2], blue.b);
-    uint32_t coloured = 0; /* and nowhere else */
-    for (size_t i = 0; i < (size_t)image.width * image.height; i++)
-        coloured += image.pixels[i * 4 + 2] == blue.b;
-    assert_true(coloured > 0 && coloured < 60);
-    image_free(&image);
-}
-
 static void test_tracks_remember_positions(void **context)
 {
     struct stage *s = *context;
@@ -750,13 +659,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(test_pose_axes),
-        TEST(test_chase_camera_stays_above_ground),
         TEST(test_culling_keeps_what_is_in_view),
         TEST(test_ground_is_covered_once),
         TEST(test_ground_detail_falls_with_distance),
-        TEST(test_ground_vertices_lie_on_the_terrain),
-        TEST(test_crater_shows_in_near_ground),
-        TEST(test_ground_triangles_face_up),
         TEST(test_body_detail_is_monotone),
         TEST(test_scene_has_what_is_before_the_camera),
         TEST(test_damage_shows_in_steps),
@@ -769,7 +674,6 @@ int main(void)
         TEST(test_fire_and_detonation_show),
         TEST(test_follow_keeps_its_choice),
         TEST(test_statistics_equal_the_table),
-        TEST(test_map_shows_the_table),
         TEST(test_tracks_remember_positions),
     };
     return cmocka_run_group_tests_name("scene", tests, NULL, NULL);

@@ -57,7 +57,16 @@ static const char *response_word(uint32_t v)
 }
 static const char *view_word(uint32_t v)
 {
-    return view_mode_name((enum view_mode)v);
+    uint32_t view = 0;
+    if (v == (1u << VIEW_CHASE | 1u << VIEW_MAP))
+        return "both";
+    while (v != 1u << view)
+        assert_true(++view < VIEW_COUNT);
+    return view_mode_name((enum view_mode)view);
+}
+static const char *back_end_word(uint32_t v)
+{
+    return back_end_name((enum back_end)v);
 }
 
 static void test_words_are_the_worlds(void **state)
@@ -71,6 +80,7 @@ static void test_words_are_the_worlds(void **state)
     check_words(&schema_scenario, "collision.shape", shape_word);
     check_words(&schema_scenario, "collision.response", response_word);
     check_words(&schema_scenario, "renderer.view", view_word);
+    check_words(&schema_scenario, "renderer.backend", back_end_word);
 }
 
 /* --- the document ------------------------------------------------------------------------------

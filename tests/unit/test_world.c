@@ -335,6 +335,7 @@ WORD(method_name, method)
 WORD(shape_name, shape)
 WORD(response_model_name, response_model)
 WORD(view_mode_name, view_mode)
+WORD(back_end_name, back_end)
 
 static void test_every_value_has_a_word_of_its_own(void **state)
 {
@@ -356,6 +357,7 @@ static void test_every_value_has_a_word_of_its_own(void **state)
     check_words(word_shape_name, SHAPE_COUNT);
     check_words(word_response_model_name, MODEL_COUNT);
     check_words(word_view_mode_name, VIEW_COUNT);
+    check_words(word_back_end_name, BACK_END_COUNT);
 }
 
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)

@@ -1,0 +1,66 @@
+/* Choosing what draws. */
+#include "renderer/back_end.h"
+
+#include "ipc/log.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+#define WHY_BYTES    400
+#define THREADS_MOST 4u /* unless more are asked for */
+
+static int open_gl(struct draw *draw, const struct options *options, const struct scenery *scenery,
+                   const char *because, struct reason *reason)
+{
+    struct gl_wish wish = {.device = options->device,
+                           .hardware = options->back_end != BACK_END_GL && options->device == NULL};
+    char name[DRAW_NAME_BYTES];
+    if (gl_open(draw, scenery, options->width, options->height, &wish, name, reason) != 0)
+        return -1;
+    log_info("draws with %s: %s", name, because);
+    return 0;
+}
+
+/* Half of the cores are left for the simulation, and for other renderers. */
+static uint32_t threads_for(const struct options *options)
+{
+    if (options->threads > 0)
+        return options->threads;
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return cores < 4 ? 1 : cores > 8 ? THREADS_MOST : (uint32_t)(cores / 2);
+}
+
+static int open_soft(struct draw *draw, const struct options *options,
+                     const struct scenery *scenery, const char *because, struct reason *reason)
+{
+    uint32_t threads = threads_for(options);
+    if (soft_open(draw, scenery, options->width, options->height, threads, reason) != 0)
+        return -1;
+    log_info("draws with the own rasteriser, %u thread%s, %s: %s", threads, threads == 1 ? "" : "s",
+             soft_vectors(), because);
+    return 0;
+}
+
+int back_end_open(struct draw *draw, const struct options *options, const struct scenery *scenery,
+                  struct reason *reason)
+{
+    char missing[WHY_BYTES], because[WHY_BYTES + 32];
+    if (options->back_end == BACK_END_GL || options->device != NULL)
+        return open_gl(draw, options, scenery, "asked for", reason);
+    if (options->back_end == BACK_END_SOFT)
+        return open_soft(draw, options, scenery, "asked for", reason);
+    if (gl_hardware(missing, sizeof missing)) {
+        if (open_gl(draw, options, scenery, "graphics hardware", reason) == 0)
+            return 0;
+        snprintf(missing, sizeof missing, "%.390s", reason->text);
+    }
+    snprintf(because, sizeof because, "no graphics hardware (%s)", missing);
+    return open_soft(draw, options, scenery, because, reason);
+}
+
+int back_end_list(void)
+{
+    printf("soft  own rasteriser, %s; --backend soft\n", soft_vectors());
+    gl_list();
+    return 0;
+}

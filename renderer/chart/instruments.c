@@ -1,0 +1,241 @@
+/* The instruments over a camera's picture: the small map and the statistics bar. */
+#include "renderer/chart/chart.h"
+#include "renderer/chart/gauges.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define BAR_LETTERS   38  /* letters' sizes in a picture's height ... */
+#define BAR_ACROSS    64  /* ... and in its width, whichever gives smaller ones */
+#define BAR_LEAST     11u /* [pixel] smaller values cannot be read at a glance */
+#define NAME_LEAST    8u
+#define ROWS_MOST     2u
+#define ROW_LESS_THAN 280u /* [pixel] a lower picture has one row of fields */
+#define SMALL_SHARE   4    /* the small map's side, of the picture's shorter side */
+#define SMALL_SYMBOL  4.0  /* [pixel] at a height of 720 */
+
+static const struct rgba white = {240, 242, 238, 255};
+static const struct rgba grey = {176, 184, 184, 255};
+static const struct rgba amber = {255, 205, 96, 255};
+static const struct rgba back = {12, 15, 18, 190};
+
+static void small_map(struct chart *chart, struct image *image, const struct chart_source *source)
+{
+    uint32_t side = (chart->width < chart->height ? chart->width : chart->height) / SMALL_SHARE;
+    int32_t gap = (int32_t)side / 15, left = (int32_t)(chart->width - side) - gap;
+    struct map_view view = map_whole(0, 0, side);
+    struct chart_scale scale = {.symbol = maths_max(SMALL_SYMBOL * side / 180.0, 3.0),
+                                .triangle = 0.25 * side};
+    if (chart_part_size(&chart->small, side, side) != 0 ||
+        chart_ground(&chart->small.base, &chart->small.image, &view, source, &scale) != 0)
+        return;
+    chart_things(&chart->small.image, &view, source, &scale);
+    image_rectangle(image, left - 2, gap - 2, (int32_t)side + 4, (int32_t)side + 4,
+                    (struct rgba){10, 12, 14, 200});
+    image_copy(image, &chart->small.image, left, gap);
+}
+
+/* --- the bar ---------------------------------------------------------------------------------- */
+
+struct cell {
+    const struct gauge *gauge; /* NULL: left out */
+    int32_t width;             /* with the gap behind it */
+    uint32_t row;
+};
+
+struct bar {
+    uint32_t large, small; /* [pixel] letters of values and of names */
+    int32_t margin, row_height, name_width;
+    uint32_t rows, count;
+    struct cell cells[GAUGES_MAX];
+};
+
+static int32_t cell_width(struct chart *chart, const struct bar *bar, const struct gauge *gauge,
+                          int32_t gap)
+{
+    int32_t name = text_width(chart->text, bar->small, gauge->name);
+    int32_t widest = text_width(chart->text, bar->large, gauge->widest);
+    int32_t value = text_width(chart->text, bar->large, gauge->value);
+    value = value > widest ? value : widest;
+    return (name > value ? name : value) + gap;
+}
+
+/* Gives cells their rows, filling one after the other; false when they do not fit. */
+static bool fill_rows(struct bar *bar, int32_t width, uint32_t rows)
+{
+    int32_t room = width - 2 * bar->margin - bar->name_width, x = 0, total = 0;
+    uint32_t row = 0;
+    for (uint32_t i = 0; i < bar->count; i++)
+        total += bar->cells[i].gauge != NULL ? bar->cells[i].width : 0;
+    /* Rows of about one length look better than a full one over a short one. */
+    int32_t target = rows == 1 ? room : total / (int32_t)rows;
+    for (uint32_t i = 0; i < bar->count; i++) {
+        struct cell *cell = &bar->cells[i];
+        if (cell->gauge == NULL)
+            continue;
+        if (x > 0 && (x + cell->width > room || (x + cell->width / 2 > target && row + 1 < rows))) {
+            row++;
+            x = 0;
+        }
+        if (row == rows || x + cell->width > room)
+            return false;
+        cell->row = row;
+        x += cell->width;
+    }
+    bar->rows = rows;
+    return true;
+}
+
+/* The least important field, if it is of this rank or a higher one. */
+static void leave_out_one(struct bar *bar, uint32_t rank)
+{
+    struct cell *last = NULL;
+    for (uint32_t i = 0; i < bar->count; i++)
+        if (bar->cells[i].gauge != NULL && bar->cells[i].gauge->rank >= rank &&
+            (last == NULL || bar->cells[i].gauge->rank > last->gauge->rank))
+            last = &bar->cells[i];
+    if (last != NULL)
+        last->gauge = NULL;
+}
+
+/* Measures all fields with a gap between them. */
+static void measure(struct chart *chart, struct bar *bar, const struct gauge *gauges, int32_t gap)
+{
+    for (uint32_t i = 0; i < bar->count; i++)
+        bar->cells[i] =
+            (struct cell){.gauge = &gauges[i], .width = cell_width(chart, bar, &gauges[i], gap)};
+}
+
+/* One row if all of it fits, if need be closer and without the spare field; else two; then the
+ * least important fields go. */
+static void choose_rows(struct chart *chart, struct bar *bar, const struct gauge *gauges)
+{
+    int32_t width = (int32_t)chart->width, large = (int32_t)bar->large;
+    measure(chart, bar, gauges, large * 3 / 4);
+    if (fill_rows(bar, width, 1))
+        return;
+    measure(chart, bar, gauges, large / 2);
+    if (fill_rows(bar, width, 1))
+        return;
+    leave_out_one(bar, GAUGE_RANK_SPARE);
+    if (fill_rows(bar, width, 1))
+        return;
+    uint32_t most = chart->height < ROW_LESS_THAN ? 1 : ROWS_MOST;
+    if (most > 1)
+        measure(chart, bar, gauges, large * 3 / 4);
+    while (!fill_rows(bar, width, most))
+        leave_out_one(bar, 0);
+}
+
+/* Gives fields what is left of their row, as far as they still belong together. */
+static void spread(struct bar *bar, int32_t width)
+{
+    for (uint32_t row = 0; row < bar->rows; row++) {
+        int32_t left = width - 2 * bar->margin - bar->name_width, count = 0;
+        for (uint32_t i = 0; i < bar->count; i++)
+            if (bar->cells[i].gauge != NULL && bar->cells[i].row == row) {
+                left -= bar->cells[i].width;
+                count++;
+            }
+        int32_t more = count > 0 ? left / count : 0, most = (int32_t)bar->large * 3 / 2;
+        for (uint32_t i = 0; i < bar->count; i++)
+            if (bar->cells[i].row == row)
+                bar->cells[i].width += more < most ? more : most;
+    }
+}
+
+static void arrange(struct chart *chart, struct bar *bar, const struct gauge *gauges,
+                    uint32_t count, const struct statistics *s)
+{
+    uint32_t height = chart->height / BAR_LETTERS, across = chart->width / BAR_ACROSS;
+    char words[64];
+    bar->large = height < across ? height : across;
+    bar->large = bar->large < BAR_LEAST ? BAR_LEAST : bar->large;
+    bar->small = bar->large * 2 / 3 < NAME_LEAST ? NAME_LEAST : bar->large * 2 / 3;
+    bar->margin = (int32_t)bar->large * 2 / 3;
+    bar->row_height = (int32_t)(bar->large + bar->small) * 4 / 3;
+    snprintf(words, sizeof words, "%s %s", s->force, s->kind);
+    int32_t kind = text_width(chart->text, bar->small, words);
+    int32_t name = text_width(chart->text, bar->large, s->name),
+            most_name = (int32_t)chart->width / 5;
+    bar->name_width = (name > kind ? name : kind) + (int32_t)bar->large;
+    if (bar->name_width > most_name)
+        bar->name_width = most_name;
+    bar->count = count;
+    choose_rows(chart, bar, gauges);
+    spread(bar, (int32_t)chart->width);
+}
+
+static void draw_cell(struct chart *chart, struct image *image, const struct bar *bar,
+                      const struct gauge *gauge, int32_t x, int32_t top)
+{
+    static const struct rgba colours[] = {[GAUGE_GOOD] = {176, 232, 150, 255},
+                                          [GAUGE_PLAIN] = {240, 242, 238, 255},
+                                          [GAUGE_WARNING] = {255, 214, 92, 255},
+                                          [GAUGE_ALARM] = {255, 255, 255, 255}};
+    int32_t small = (int32_t)bar->small, large = (int32_t)bar->large;
+    int32_t upper = top + small * 11 / 10, lower = upper + large * 11 / 10;
+    /* An alarm shows by its form too: its value stands on a red ground, a warning's is underlined.
+     */
+    if (gauge->state >= GAUGE_WARNING) {
+        int32_t width = text_width(chart->text, bar->large, gauge->value);
+        int32_t height = gauge->state == GAUGE_ALARM ? large * 108 / 100 : 1 + large / 16;
+        int32_t foot = lower + large * 2 / 10;
+        image_rectangle(image, x - large / 6, foot - height, width + large / 3, height,
+                        gauge->state == GAUGE_ALARM ? (struct rgba){196, 36, 20, 255}
+                                                    : colours[GAUGE_WARNING]);
+    }
+    text_draw(chart->text, image, x, upper, bar->small, grey, gauge->name);
+    text_draw(chart->text, image, x, lower, bar->large, colours[gauge->state], gauge->value);
+}
+
+static void draw_name(struct chart *chart, struct image *image, const struct bar *bar,
+                      const struct statistics *s, int32_t top)
+{
+    int32_t small = (int32_t)bar->small, upper = top + small * 11 / 10;
+    char name[sizeof s->name], words[64];
+    snprintf(name, sizeof name, "%s", s->name);
+    snprintf(words, sizeof words, "%s %s", s->force, s->kind);
+    chart_shorten(chart, name, bar->large, bar->name_width - (int32_t)bar->large / 2);
+    chart_shorten(chart, words, bar->small, bar->name_width - (int32_t)bar->large / 2);
+    text_draw(chart->text, image, bar->margin, upper, bar->small, grey, words);
+    text_draw(chart->text, image, bar->margin, upper + (int32_t)bar->large * 11 / 10, bar->large,
+              amber, name);
+}
+
+static void statistics_bar(struct chart *chart, struct image *image, const struct statistics *s,
+                           double fps)
+{
+    struct gauge gauges[GAUGES_MAX];
+    struct bar bar = {.rows = 0};
+    arrange(chart, &bar, gauges, gauges_of(gauges, s, fps), s);
+    int32_t width = (int32_t)chart->width, pad = (int32_t)bar.small / 3;
+    int32_t height = (int32_t)bar.rows * bar.row_height + pad;
+    int32_t top = (int32_t)chart->height - height;
+    image_rectangle(image, 0, top, width, height, back);
+    image_rectangle(image, 0, top, width, 1, (struct rgba){white.r, white.g, white.b, 60});
+    draw_name(chart, image, &bar, s, top + pad);
+    int32_t x = 0;
+    uint32_t row = 0;
+    for (uint32_t i = 0; i < bar.count; i++) {
+        const struct cell *cell = &bar.cells[i];
+        if (cell->gauge == NULL)
+            continue;
+        if (cell->row != row)
+            x = 0;
+        row = cell->row;
+        draw_cell(chart, image, &bar, cell->gauge, bar.margin + bar.name_width + x,
+                  top + pad + (int32_t)row * bar.row_height);
+        x += cell->width;
+    }
+}
+
+void chart_instruments(struct chart *chart, struct image *image, const struct chart_source *source)
+{
+    small_map(chart, image, source);
+    if (source->slot == SLOT_NONE)
+        return;
+    struct statistics s;
+    statistics_of(&s, source->moment, source->slot);
+    statistics_bar(chart, image, &s, source->fps);
+}

@@ -1,0 +1,247 @@
+/* The pictures of one moment: each view drawn, its words put on it, and given away. */
+#include "renderer/studio.h"
+
+#include "ipc/clock.h"
+#include "ipc/log.h"
+#include "renderer/image/stretch.h"
+#include "renderer/scene/tiles.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define COMPLAINT_NS 10000000000ull
+#define PAINT_S      0.001 /* about what one tile of the ground takes */
+#define PAINT_SHARE  0.25  /* of a picture's time for it */
+#define PAINT_LEAST  2u
+#define PAINT_FIRST  64u
+#define RATE_SHARE   0.1 /* of the latest interval in the rate that is shown */
+#define SIDE_LEAST   16u /* [pixel] of a picture that is drawn smaller */
+
+/* Time of simulation to show: as it was asked for, or by the clock. */
+static double show_time(struct studio *studio, const struct moment *latest)
+{
+    if (studio->at_s >= 0.0)
+        return studio->at_s;
+    double rate = latest->head->paused != 0 ? 0.0 : latest->head->time_scale;
+    return blend_time(&studio->clock, (double)clock_now_ns() / 1e9, moment_time_s(latest),
+                      studio->view->world.params->dt_s, rate);
+}
+
+/* What is shown: the last frame, or at a high rate the state between it and the one before. */
+static struct moment present(struct studio *studio, bool last)
+{
+    struct moment latest = studio_moment(studio, studio->latest);
+    if (last || !studio->smooth)
+        return latest;
+    double newest_s = moment_time_s(&latest), show_s = show_time(studio, &latest);
+    if (studio->whole < 2)
+        return latest;
+    struct moment earlier = studio_moment(studio, 1 - studio->latest);
+    double passed_s = newest_s - moment_time_s(&earlier);
+    double share = passed_s > 0.0 ? 1.0 - (newest_s - show_s) / passed_s : 1.0;
+    return blend_between(&studio->blend, &earlier, &latest, share);
+}
+
+/* The vehicle of each view: its own, or the one that the renderer follows. */
+static void choose_vehicles(struct studio *studio, const struct moment *moment)
+{
+    uint32_t followed = follow_choose(&studio->follow, moment, &studio->effects,
+                                      studio->options.follow, studio->options.follow_given);
+    for (uint32_t i = 0; i < studio->shot_count; i++) {
+        struct shot *shot = &studio->shots[i];
+        uint32_t own = SLOT_NONE;
+        if (shot->wish.vehicle != 0)
+            own = entities_find(moment->entities, moment->head->used, shot->wish.vehicle);
+        shot->slot = own != SLOT_NONE ? own : followed;
+    }
+}
+
+/* What is stored with the picture: the vehicle's figures as they are in it. */
+static void describe(const struct shot *shot, const struct moment *moment, char *words,
+                     size_t bytes)
+{
+    if (shot->slot != SLOT_NONE) {
+        struct statistics statistics;
+        statistics_of(&statistics, moment, shot->slot);
+        statistics_line(&statistics, words, bytes);
+    } else {
+        snprintf(words, bytes, "frame=%llu time_s=%.3f", (unsigned long long)moment->head->frame,
+                 moment_time_s(moment));
+    }
+    size_t used = strlen(words);
+    int more = snprintf(words + used, bytes - used, " view=%s", view_mode_name(shot->wish.mode));
+    if (moment->ahead_s > 0.0) /* the picture is so much later than the frame */
+        snprintf(words + used + more, bytes - used - (size_t)more, " ahead_s=%.4f",
+                 moment->ahead_s);
+}
+
+/* The first view goes where --snap says; others have their names before its ending. */
+static int put_file(const struct studio *studio, const struct shot *shot, const char *words,
+                    struct reason *reason)
+{
+    const char *name = studio->options.snap;
+    if (shot == studio->shots)
+        return output_file(name, &studio->image, words, reason);
+    char path[1024];
+    const char *dot = strrchr(name, '.');
+    if (dot == NULL || strchr(dot, '/') != NULL)
+        dot = name + strlen(name);
+    int length =
+        snprintf(path, sizeof path, "%.*s-%s%s", (int)(dot - name), name, shot->wish.name, dot);
+    if (length < 0 || (size_t)length >= sizeof path)
+        return reason_set(reason, "--snap %s: the path is too long", name);
+    return output_file(path, &studio->image, words, reason);
+}
+
+static int put_out(struct studio *studio, const struct shot *shot, const struct moment *moment,
+                   struct reason *reason)
+{
+    char words[512];
+    describe(shot, moment, words, sizeof words);
+    pulse_stage(studio->pulse);
+    if (studio->outlets == NULL)
+        return put_file(studio, shot, words, reason);
+    return outlets_put(studio->outlets, shot->wish.name, &studio->image, moment->head->frame,
+                       moment_time_s(moment), words, reason);
+}
+
+/* Where the scene is drawn: the picture itself, or a smaller one. */
+static struct image *canvas(struct studio *studio, const struct governor_level *level)
+{
+    if (level->quarters == 4)
+        return &studio->image;
+    uint32_t width = studio->image.width * level->quarters / 4;
+    uint32_t height = studio->image.height * level->quarters / 4;
+    studio->small.width = width > SIDE_LEAST ? width : SIDE_LEAST;
+    studio->small.height = height > SIDE_LEAST ? height : SIDE_LEAST;
+    return &studio->small;
+}
+
+/* At a high rate the ground is painted over several pictures, so that none comes late; and a
+ * renderer that begins shows its first soon. */
+static uint32_t paintings_of(const struct studio *studio, bool whole)
+{
+    if (whole || (!studio->smooth && studio->drawn != UINT64_MAX))
+        return TILES_ALL;
+    if (!studio->smooth)
+        return PAINT_FIRST;
+    double several = PAINT_SHARE / (studio->options.fps * PAINT_S);
+    return several > PAINT_LEAST ? (uint32_t)several : PAINT_LEAST;
+}
+
+static struct chart_source source_of(const struct studio *studio, const struct shot *shot,
+                                     const struct moment *moment, const struct camera *camera)
+{
+    return (struct chart_source){.moment = moment,
+                                 .tracks = &studio->tracks,
+                                 .effects = &studio->effects,
+                                 .camera = camera,
+                                 .slot = shot->slot,
+                                 .fps = studio->rate};
+}
+
+static int draw_camera(struct studio *studio, struct shot *shot, const struct moment *moment,
+                       const struct governor_level *level, struct reason *reason)
+{
+    struct camera camera;
+    struct image *drawn = canvas(studio, level);
+    shot->aim_wish.width = drawn->width;
+    shot->aim_wish.height = drawn->height;
+    aim_camera(&shot->aim, &shot->aim_wish, moment, shot->slot, &camera);
+    scene_build(&studio->scene, &camera, &studio->scenery, moment, &studio->effects);
+    if (studio->scene.omitted > 0 && log_due(&studio->complained_ns, COMPLAINT_NS))
+        log_warn("%u things in view are left out: more than a picture can hold",
+                 studio->scene.omitted);
+    pulse_stage(studio->pulse);
+    if (studio->draw.picture(studio->draw.self, &studio->scene, moment, drawn, reason) != 0)
+        return -1;
+    pulse_stage(studio->pulse);
+    /* The first picture waits for all its ground; at a rate, ground comes when there is time. */
+    if (studio->smooth)
+        studio->scene.paintings = STUDIO_PAINTINGS;
+    if (drawn != &studio->image)
+        image_stretch(&studio->image, drawn);
+    struct chart_source source = source_of(studio, shot, moment, &camera);
+    chart_instruments(&studio->chart, &studio->image, &source);
+    return 0;
+}
+
+/* The map, with what the chase camera would see. */
+static int draw_map(struct studio *studio, struct shot *shot, const struct moment *moment,
+                    struct reason *reason)
+{
+    struct camera camera;
+    shot->aim_wish.view = VIEW_CHASE;
+    shot->aim_wish.width = studio->image.width;
+    shot->aim_wish.height = studio->image.height;
+    aim_camera(&shot->aim, &shot->aim_wish, moment, shot->slot, &camera);
+    struct chart_source source = source_of(studio, shot, moment, &camera);
+    if (chart_map(&studio->chart, &studio->image, &source) != 0)
+        return reason_set(reason, "no memory for the map");
+    return 0;
+}
+
+static int draw_shot(struct studio *studio, struct shot *shot, const struct moment *moment,
+                     const struct governor_level *level, struct reason *reason)
+{
+    int failed = shot->wish.mode == VIEW_MAP ? draw_map(studio, shot, moment, reason)
+                                             : draw_camera(studio, shot, moment, level, reason);
+    if (failed)
+        return -1;
+    return put_out(studio, shot, moment, reason);
+}
+
+/* Draws less or more from the next picture on, and says so. */
+static void govern(struct studio *studio)
+{
+    struct governor *governor = &studio->governor;
+    uint64_t now_ns = clock_now_ns();
+    double took_s = (double)(now_ns - studio->drawn_ns) / 1e9;
+    int change = governor_note(governor, took_s, (double)now_ns / 1e9);
+    if (change == 0)
+        return;
+    const struct governor_level *level = &governor_levels[governor->level];
+    log_info("pictures take %.1f of %.1f ms: draws %s, %.0f %% of the detail at %u %% of the size",
+             1e3 * governor->judged_s, 1e3 * governor->interval_s, change < 0 ? "less" : "more",
+             100.0 * level->detail, 25 * level->quarters);
+}
+
+/* Pictures a second, as they have been lately; of a film, as it will be seen. */
+static void note_rate(struct studio *studio)
+{
+    uint64_t now_ns = clock_now_ns();
+    if (studio->at_s >= 0.0) {
+        studio->rate = studio->options.fps;
+    } else if (studio->drawn_ns != 0) {
+        double rate = (double)NS_PER_S / (double)(now_ns - studio->drawn_ns);
+        studio->rate += (studio->rate == 0.0 ? 1.0 : RATE_SHARE) * (rate - studio->rate);
+    }
+    studio->drawn_ns = now_ns;
+}
+
+int studio_draw(struct studio *studio, bool last, struct reason *reason)
+{
+    note_rate(studio);
+    struct moment moment = present(studio, last);
+    /* What stands still is drawn once more, with everything. */
+    bool same = studio->drawn == moment.head->frame && studio->drawn_ahead_s == moment.ahead_s;
+    bool whole = last || (same && moment.head->paused != 0);
+    if (same && (studio->drawn_whole || !whole))
+        return 0;
+    const struct governor_level *level = &governor_levels[whole ? 0 : studio->governor.level];
+    studio->scene.detail = (float)level->detail;
+    studio->scene.paintings = paintings_of(studio, whole);
+    choose_vehicles(studio, &moment);
+    gear_note(&studio->gear, &moment);
+    for (uint32_t i = 0; i < studio->shot_count; i++) {
+        if (draw_shot(studio, &studio->shots[i], &moment, level, reason) != 0)
+            return -1;
+        pulse_stage(studio->pulse);
+    }
+    studio->drawn = moment.head->frame;
+    studio->drawn_ahead_s = moment.ahead_s;
+    studio->drawn_whole = level == governor_levels && studio->scene.paintings == TILES_ALL;
+    if (!whole)
+        govern(studio);
+    return 0;
+}

@@ -1,0 +1,638 @@
+/* Bodies and their shadows, made ready: corners are moved, lit and projected; faces set up. */
+#include "renderer/soft/air.h"
+#include "renderer/soft/form.h"
+#include "renderer/soft/kernel.h"
+#include "renderer/soft/soft_bodies.h"
+#include "renderer/soft/span.h"
+
+#define SHADE_BIAS   0.002f /* of the distance: a shadow lies so much nearer than its plane */
+#define SHADE_PIXELS 2.0f   /* and as its plane is so many pixels further */
+
+/* m times a place, and t. */
+struct affine {
+    float m[3][3], t[3];
+};
+
+/* One body on its way. */
+struct maker {
+    struct soft_bodies *bodies;
+    const struct soft_frame *frame;
+    const struct scene_body *body;
+    const struct soft_mesh *mesh;
+    const struct mesh_frame *gear;
+    struct form form;
+    struct soft_paint paint;
+    float dark;   /* of its shadow; 0: it has none */
+    float link_m; /* of its tracks */
+    bool shaped, sides, cuts;
+    /* Faces at hand, at most eight, and corners cut for them. */
+    uint32_t corner[3][LANES];
+    const struct soft_face *face[LANES];
+    uint32_t count, cut;
+};
+
+/* --- parts ------------------------------------------------------------------------------------ */
+
+static const struct affine still = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+
+/* First b, then a. */
+static struct affine after(const struct affine *a, const struct affine *b)
+{
+    struct affine both;
+    for (uint32_t i = 0; i < 3; i++) {
+        both.t[i] = a->t[i];
+        for (uint32_t j = 0; j < 3; j++) {
+            both.m[i][j] =
+                a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j];
+            both.t[i] += a->m[i][j] * b->t[j];
+        }
+    }
+    return both;
+}
+
+/* Turns about a pivot, from axis i towards axis j. */
+static struct affine swing(const float pivot[4], uint32_t i, uint32_t j, float angle_rad)
+{
+    double s, c;
+    struct affine a = still;
+    maths_sincos((double)angle_rad, &s, &c);
+    a.m[i][i] = a.m[j][j] = (float)c;
+    a.m[i][j] = -(float)s;
+    a.m[j][i] = (float)s;
+    for (uint32_t k = 0; k < 3; k++)
+        a.t[k] = pivot[k] - a.m[k][0] * pivot[0] - a.m[k][1] * pivot[1] - a.m[k][2] * pivot[2];
+    return a;
+}
+
+/* [radians or links] */
+static float way_of(const struct maker *m, const struct soft_group *group)
+{
+    const float *pivot = m->gear->pivot[group->joint];
+    return m->body->way_m[pivot[2] < 0.0f ? 0 : 1] / pivot[3];
+}
+
+/* What a part does before the body's form changes ... */
+static struct affine rolled(const struct maker *m, const struct soft_group *group)
+{
+    const float *pivot = m->gear->pivot[group->joint];
+    if (group->part != PART_WHEEL && group->part != PART_FRONT_WHEEL)
+        return still;
+    struct affine roll = swing(pivot, 0, 1, -way_of(m, group));
+    if (group->part == PART_WHEEL)
+        return roll;
+    struct affine steer = swing(pivot, 0, 2, m->body->steer_rad);
+    return after(&steer, &roll);
+}
+
+/* ... and after. */
+static struct affine turned(const struct maker *m, const struct soft_group *group)
+{
+    const struct scene_body *body = m->body;
+    const float *pivot = m->gear->pivot[group->joint];
+    struct affine turret, gun;
+    switch (group->part) {
+    case PART_TAIL_ROTOR:
+        return swing(pivot, 0, 1, body->rotor_rad);
+    case PART_ROTOR:
+        return swing(pivot, 0, 2, body->rotor_rad);
+    case PART_TURRET:
+        return swing(m->gear->pivot[0], 0, 2, body->turret_rad);
+    case PART_GUN:
+        turret = swing(m->gear->pivot[0], 0, 2, body->turret_rad);
+        gun = swing(pivot, 0, 1, body->gun_rad);
+        return after(&turret, &gun);
+    default:
+        return still;
+    }
+}
+
+/* --- corners ---------------------------------------------------------------------------------- */
+
+VEC void load3(v8f v[3], float *const column[3], uint32_t at)
+{
+    for (uint32_t i = 0; i < 3; i++)
+        v[i] = vec_load_f(column[i] + at);
+}
+
+VEC void store3(float *const column[3], uint32_t at, const v8f v[3])
+{
+    for (uint32_t i = 0; i < 3; i++)
+        vec_store_f(column[i] + at, v[i]);
+}
+
+VEC void apply(const struct affine *a, const v8f v[3], float one, v8f out[3])
+{
+    for (uint32_t i = 0; i < 3; i++)
+        out[i] = a->m[i][0] * v[0] + a->m[i][1] * v[1] + a->m[i][2] * v[2] + one * a->t[i];
+}
+
+/* Where the corners of a body that is not as it was built are now, and its normals as they were. */
+static void form_group(const struct maker *m, const struct soft_group *group)
+{
+    float **column = m->bodies->column;
+    struct affine roll = rolled(m, group);
+    for (uint32_t at = group->first; at < group->end; at += LANES) {
+        v8f built[3], v[3], n[3], normal[3];
+        load3(built, m->mesh->column + MESH_PLACE_X, at);
+        load3(n, m->mesh->column + MESH_NORMAL_X, at);
+        apply(&roll, built, 1.0f, v);
+        apply(&roll, n, 0.0f, normal);
+        v8f bare = m->form.dent_count > 0 ? form_bare(&m->form, v) : vec_f(0.0f);
+        v8f fell = m->form.fallen ? form_fell(&m->form, built) : vec_f(0.0f);
+        form_corners(&m->form, v);
+        vec_store_f(column[CORNER_VALUE + SIDE_BARE] + at, bare);
+        vec_store_f(column[CORNER_VALUE + SIDE_FELL] + at, fell);
+        store3(column + CORNER_PLACE, at, v);
+        store3(column + CORNER_NORMAL, at, normal);
+    }
+}
+
+/* Adds each face's normal, as it is now, to those of its corners that moved. */
+static void form_normals(const struct maker *m)
+{
+    float *const *place = m->bodies->column + CORNER_PLACE;
+    float *const *normal = m->bodies->column + CORNER_NORMAL;
+    const float *bare = m->bodies->column[CORNER_VALUE + SIDE_BARE];
+    const float *fell = m->bodies->column[CORNER_VALUE + SIDE_FELL];
+    for (uint32_t i = 0; i < m->mesh->face_count; i++) {
+        const uint32_t *corner = m->mesh->faces[i].corner;
+        float u[3], v[3], across[3];
+        for (uint32_t axis = 0; axis < 3; axis++) {
+            u[axis] = place[axis][corner[1]] - place[axis][corner[0]];
+            v[axis] = place[axis][corner[2]] - place[axis][corner[0]];
+        }
+        for (uint32_t axis = 0; axis < 3; axis++) {
+            uint32_t next = axis < 2 ? axis + 1 : 0, last = axis > 0 ? axis - 1 : 2;
+            across[axis] = u[next] * v[last] - u[last] * v[next];
+        }
+        /* Much more than the unit normals that are there. */
+        for (uint32_t k = 0; k < 3; k++)
+            if (m->form.broken || bare[corner[k]] > 0.0f || fell[corner[k]] > 0.0f)
+                for (uint32_t axis = 0; axis < 3; axis++)
+                    normal[axis][corner[k]] += 1.0e4f * across[axis];
+    }
+}
+
+/* The sky lights what faces up, the ground throws a little back, and what is low under a body gets
+ * neither. */
+VEC struct colour8 light_of(const struct soft_frame *f, const v8f world[3], const v8f n[3],
+                            v8f high)
+{
+    struct colour8 sun_light = colour_of(SUN_LIGHT_RED, SUN_LIGHT_GREEN, SUN_LIGHT_BLUE);
+    struct colour8 sky =
+        colour_of(SKY_LIGHT_RED * 1.12f, SKY_LIGHT_GREEN * 1.12f, SKY_LIGHT_BLUE * 1.12f);
+    v8f zero = vec_f(0.0f),
+        sun = vec_max(n[0] * f->sun[0] + n[1] * f->sun[1] + n[2] * f->sun[2], zero);
+    v8f open = 0.55f + 0.45f * vec_smoothstep(0.0f, 1.3f, high);
+    struct colour8 around = colour_mix(colour_of(0.36f, 0.31f, 0.24f), sky, 0.5f + 0.5f * n[1]);
+    v8f far = vec_sqrt(vec_dot3(world, world)), along = 2.0f * vec_dot3(world, n), towards = zero;
+    for (uint32_t i = 0; i < 3; i++)
+        towards += (world[i] - along * n[i]) * f->sun[i];
+    v8f back = vec_max(towards / far, zero), square = back * back, fourth = square * square;
+    v8f strong =
+        sun * (0.8f + 0.2f * (open - 0.55f) * (1.0f / 0.45f)) + 0.16f * fourth * fourth * fourth;
+    return (struct colour8){around.r * open + sun_light.r * strong,
+                            around.g * open + sun_light.g * strong,
+                            around.b * open + sun_light.b * strong};
+}
+
+/* Places from the eye to where they are in the picture; set: 0 or CORNER_SHADE. */
+VEC void project(const struct soft_frame *f, float *const *column, uint32_t at, const v8f place[3])
+{
+    v8f ahead = f->ahead[0] * place[0] + f->ahead[1] * place[1] + f->ahead[2] * place[2];
+    v8f across = f->across[0] * place[0] + f->across[1] * place[1] + f->across[2] * place[2];
+    v8f down = f->down[0] * place[0] + f->down[1] * place[1] + f->down[2] * place[2];
+    v8f over = 1.0f / vec_max(ahead, vec_f(1e-3f));
+    vec_store_f(column[CORNER_AHEAD] + at, ahead);
+    vec_store_f(column[CORNER_ACROSS] + at, across);
+    vec_store_f(column[CORNER_DOWN] + at, down);
+    vec_store_f(column[CORNER_OVER] + at, over);
+    vec_store_f(column[CORNER_COLUMN] + at, f->centre_x + across * over);
+    vec_store_f(column[CORNER_ROW] + at, f->centre_y + down * over);
+}
+
+/* Along the sun's light onto the plane. */
+VEC void drop(const struct soft_frame *f, const float plane[4], v8f place[3])
+{
+    float steep = 1.0f / (plane[0] * f->sun[0] + plane[1] * f->sun[1] + plane[2] * f->sun[2]);
+    v8f high = plane[0] * place[0] + plane[1] * place[1] + plane[2] * place[2] - plane[3];
+    v8f back = vec_max(high * steep, vec_f(0.0f));
+    for (uint32_t i = 0; i < 3; i++)
+        place[i] -= f->sun[i] * back;
+}
+
+static struct affine in_world(const struct scene_body *body)
+{
+    struct affine a;
+    for (uint32_t i = 0; i < 3; i++) {
+        a.m[i][0] = body->forward[i];
+        a.m[i][1] = body->up[i];
+        a.m[i][2] = body->right[i];
+        a.t[i] = body->at[i];
+    }
+    return a;
+}
+
+/* Corners of a part: to the picture, and lit. seen: by itself, not by its shadow alone. */
+static void place_group(const struct maker *m, const struct soft_group *group, bool seen)
+{
+    float **column = m->bodies->column;
+    float *const *value = column + CORNER_VALUE, *const *mesh = m->mesh->column;
+    float *const *from = m->shaped ? column + CORNER_PLACE : mesh + MESH_PLACE_X;
+    float *const *facing = m->shaped ? column + CORNER_NORMAL : mesh + MESH_NORMAL_X;
+    struct affine part = turned(m, group), world = in_world(m->body);
+    if (!m->shaped) {
+        struct affine roll = rolled(m, group);
+        part = after(&part, &roll);
+    }
+    world = after(&world, &part);
+    float links = group->part == PART_TRACK ? way_of(m, group) : 0.0f, low = m->gear->low[1];
+    for (uint32_t at = group->first; at < group->end; at += LANES) {
+        v8f v[3], n[3], place[3], normal[3];
+        load3(v, from, at);
+        apply(&world, v, 1.0f, place);
+        if (m->dark > 0.0f) {
+            v8f fallen[3] = {place[0], place[1], place[2]};
+            drop(m->frame, m->body->plane, fallen);
+            project(m->frame, column + CORNER_SHADE, at, fallen);
+        }
+        if (!seen)
+            continue;
+        project(m->frame, column, at, place);
+        load3(n, facing, at);
+        apply(&world, n, 0.0f, normal);
+        v8f over = 1.0f / vec_sqrt(vec_dot3(normal, normal) + 1e-20f);
+        for (uint32_t i = 0; i < 3; i++)
+            normal[i] *= over;
+        v8f high = part.m[1][0] * v[0] + part.m[1][1] * v[1] + part.m[1][2] * v[2] + part.t[1];
+        struct colour8 light = light_of(m->frame, place, normal, high - low);
+        vec_store_f(value[SIDE_RED] + at, light.r);
+        vec_store_f(value[SIDE_GREEN] + at, light.g);
+        vec_store_f(value[SIDE_BLUE] + at, light.b);
+        vec_store_f(value[SIDE_ALONG] + at, vec_load_f(mesh[MESH_ALONG] + at) + links);
+    }
+}
+
+/* --- faces ------------------------------------------------------------------------------------ */
+
+enum face_kind { FACE_FLAT, FACE_SIDE, FACE_SHADE };
+
+VEC v8f corner_value(const struct maker *m, uint32_t column, v8i corner)
+{
+    return vec_gather_f(m->bodies->column[column], corner);
+}
+
+/* Base colours of the faces at hand, with the force's; which are in camouflage. */
+VEC struct colour8 base_colours(const struct maker *m, v8f *worn)
+{
+    struct colour8 c;
+    const float *tint = m->body->tint;
+    for (uint32_t i = 0; i < LANES; i++) {
+        const struct soft_face *face = m->face[i < m->count ? i : 0];
+        c.r[i] = face->red;
+        c.g[i] = face->green;
+        c.b[i] = face->blue;
+        (*worn)[i] = face->force_tint;
+    }
+    *worn *= 1.0f / 255.0f;
+    c = colour_scale(c, vec_f(1.0f / 255.0f));
+    v8f bright = 0.55f + 0.3f * (c.r + c.g + c.b);
+    struct colour8 force = {tint[0] * bright, tint[1] * bright, tint[2] * bright};
+    c = colour_mix(c, force, 0.85f * *worn);
+    *worn = vec_select((*worn >= 0.29f) & (*worn <= 0.6f), vec_f(1.0f), vec_f(0.0f));
+    return c;
+}
+
+/* The colours of faces too small for their paint to be seen: its mean. */
+VEC v8u flat_colours(const struct maker *m, const v8i corner[3])
+{
+    const struct soft_paint *p = &m->paint;
+    v8f worn, light[3];
+    struct colour8 c = base_colours(m, &worn);
+    for (uint32_t i = 0; i < 3; i++)
+        light[i] = (corner_value(m, CORNER_VALUE + SIDE_RED + i, corner[0]) +
+                    corner_value(m, CORNER_VALUE + SIDE_RED + i, corner[1]) +
+                    corner_value(m, CORNER_VALUE + SIDE_RED + i, corner[2])) *
+                   (p->clear / 3.0f);
+    if (m->frame->texture) {
+        v8f soot = vec_clamp((0.65f - vec_f(p->soot_low)) * p->soot_over, 0.0f, 1.0f);
+        soot = vec_max(soot * soot * (3.0f - 2.0f * soot) * p->soot_most, vec_f(p->burnt));
+        c = colour_mix(colour_scale(c, 1.0f - 0.15f * worn), colour_of(0.055f, 0.05f, 0.047f),
+                       soot);
+    } else {
+        c = colour_mix(c, colour_of(0.07f, 0.07f, 0.07f), vec_f(p->plain));
+    }
+    return vec_pack(c.r * light[0] + p->air[0], c.g * light[1] + p->air[1],
+                    c.b * light[2] + p->air[2]);
+}
+
+static struct soft_rows *next_rows(struct soft_faces *faces, const struct span8 *s, uint32_t lane)
+{
+    struct soft_rows *rows = &faces->rows[faces->count++];
+    *rows = (struct soft_rows){(int16_t)s->first[lane], (int16_t)s->end[lane]};
+    return rows;
+}
+
+VEC void put_flats(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
+{
+    struct soft_faces *faces = &m->bodies->flats;
+    struct plane8 depth = span_plane(s, corner_value(m, CORNER_OVER, corner[0]),
+                                     corner_value(m, CORNER_OVER, corner[1]),
+                                     corner_value(m, CORNER_OVER, corner[2]));
+    v8u colours = flat_colours(m, corner);
+    for (; lanes != 0; lanes &= lanes - 1) {
+        uint32_t lane = (uint32_t)__builtin_ctz(lanes);
+        struct soft_flat *flat = (struct soft_flat *)faces->list + faces->count;
+        *flat = (struct soft_flat){span_of(s, (int)lane), span_plane_of(&depth, (int)lane),
+                                   colours[lane]};
+        next_rows(faces, s, lane);
+    }
+}
+
+/* The mip whose texels are as large as pixels, or a little finer. */
+VEC v8i mip_of(v8f pixel_m, float per_m)
+{
+    v8f texels = vec_max(pixel_m * (per_m * 0.93f * (float)(1 << SOFT_DETAIL_POWER)), vec_f(1.0f));
+    v8i mip = (v8i)((v8u)texels >> 23) - 127;
+    return vec_select_i(mip < SOFT_DETAIL_MIPS, mip, vec_i(SOFT_DETAIL_MIPS - 1));
+}
+
+VEC void put_sides(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
+{
+    struct soft_faces *faces = &m->bodies->sides;
+    v8f over[3], worn;
+    for (uint32_t i = 0; i < 3; i++)
+        over[i] = corner_value(m, CORNER_OVER, corner[i]);
+    struct plane8 depth = span_plane(s, over[0], over[1], over[2]), value[SIDE_VALUES];
+    for (uint32_t i = 0; i < SIDE_VALUES; i++)
+        if (m->shaped || (i != SIDE_FELL && i != SIDE_BARE))
+            value[i] = span_plane(s, corner_value(m, CORNER_VALUE + i, corner[0]) * over[0],
+                                  corner_value(m, CORNER_VALUE + i, corner[1]) * over[1],
+                                  corner_value(m, CORNER_VALUE + i, corner[2]) * over[2]);
+        else
+            value[i] = (struct plane8){vec_f(0.0f), vec_f(0.0f), vec_f(0.0f)};
+    v8f pixel_m = 3.0f * m->frame->pixel_m / (over[0] + over[1] + over[2]);
+    v8i broad = mip_of(pixel_m, PAINT_BROAD_PER_M), fine = mip_of(pixel_m, PAINT_FINE_PER_M);
+    /* The largest is too large for a processor's nearer caches, and no one sees it. */
+    fine = vec_select_i(fine > 0, fine, vec_i(1));
+    struct colour8 c = base_colours(m, &worn);
+    /* Until they are finer than pixels. */
+    v8f links = vec_clamp(1.5f - 2.0f * pixel_m / m->link_m, 0.0f, 1.0f);
+    for (; lanes != 0; lanes &= lanes - 1) {
+        uint32_t lane = (uint32_t)__builtin_ctz(lanes);
+        struct soft_side *side = (struct soft_side *)faces->list + faces->count;
+        side->span = span_of(s, (int)lane);
+        side->depth = span_plane_of(&depth, (int)lane);
+        for (uint32_t i = 0; i < SIDE_VALUES; i++)
+            side->value[i] = span_plane_of(&value[i], (int)lane);
+        side->colour[0] = c.r[lane];
+        side->colour[1] = c.g[lane];
+        side->colour[2] = c.b[lane];
+        side->worn = worn[lane];
+        side->links = links[lane];
+        side->paint = (uint16_t)(m->bodies->paint_count - 1);
+        side->broad = (uint8_t)broad[lane];
+        side->fine = (uint8_t)fine[lane];
+        side->track = m->face[lane]->track;
+        next_rows(faces, s, lane);
+    }
+}
+
+VEC void put_shades(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
+{
+    struct soft_faces *faces = &m->bodies->shades;
+    struct plane8 depth = span_plane(s, corner_value(m, CORNER_SHADE + CORNER_OVER, corner[0]),
+                                     corner_value(m, CORNER_SHADE + CORNER_OVER, corner[1]),
+                                     corner_value(m, CORNER_SHADE + CORNER_OVER, corner[2]));
+    float more = 1.0f + SHADE_BIAS;
+    depth.top = more * depth.top + SHADE_PIXELS * (vec_abs(depth.x) + vec_abs(depth.y));
+    depth.x *= more;
+    depth.y *= more;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        uint32_t lane = (uint32_t)__builtin_ctz(lanes);
+        struct soft_shade *shade = (struct soft_shade *)faces->list + faces->count;
+        *shade = (struct soft_shade){span_of(s, (int)lane), span_plane_of(&depth, (int)lane),
+                                     (uint32_t)(m->dark * (float)SOFT_SHADOW_FULL + 0.5f)};
+        next_rows(faces, s, lane);
+    }
+}
+
+/* Sets up the faces at hand. */
+VEC void put_faces(struct maker *m, enum face_kind kind)
+{
+    uint32_t set = kind == FACE_SHADE ? CORNER_SHADE : 0;
+    struct corners8 c;
+    struct span8 s;
+    v8i corner[3];
+    if (m->count == 0)
+        return;
+    for (uint32_t i = 0; i < 3; i++) {
+        for (uint32_t lane = 0; lane < LANES; lane++)
+            corner[i][lane] = (int32_t)m->corner[i][lane < m->count ? lane : 0];
+        c.x[i] = corner_value(m, set + CORNER_COLUMN, corner[i]);
+        c.y[i] = corner_value(m, set + CORNER_ROW, corner[i]);
+    }
+    v8i there = span_set_up(&s, &c, m->frame->width, m->frame->height);
+    there &= vec_count() < (int32_t)m->count;
+    if (m->mesh->closed)
+        there &= s.area < 0.0f;
+    uint32_t lanes = vec_bits(there);
+    if (lanes != 0 && kind == FACE_FLAT)
+        put_flats(m, &s, corner, lanes);
+    if (lanes != 0 && kind == FACE_SIDE)
+        put_sides(m, &s, corner, lanes);
+    if (lanes != 0 && kind == FACE_SHADE)
+        put_shades(m, &s, corner, lanes);
+    m->count = m->cut = 0;
+}
+
+VEC void add_face(struct maker *m, const struct soft_face *face, uint32_t a, uint32_t b, uint32_t c)
+{
+    m->corner[0][m->count] = a;
+    m->corner[1][m->count] = b;
+    m->corner[2][m->count] = c;
+    m->face[m->count++] = face;
+}
+
+/* The values of a corner that mix evenly along an edge. */
+#define CUT_VALUES (2 + SIDE_VALUES)
+
+_Static_assert(CUT_VALUES <= SPAN_VALUES_MAX, "more values than can be cut");
+
+static void add_cut_face(struct maker *m, const struct soft_face *face, uint32_t set)
+{
+    float **column = m->bodies->column;
+    struct clip_corner from[3], cut[4];
+    for (uint32_t i = 0; i < 3; i++) {
+        uint32_t at = face->corner[i];
+        from[i].ahead = column[set + CORNER_AHEAD][at];
+        from[i].value[0] = column[set + CORNER_ACROSS][at];
+        from[i].value[1] = column[set + CORNER_DOWN][at];
+        for (uint32_t v = 0; v < SIDE_VALUES; v++)
+            from[i].value[2 + v] = column[CORNER_VALUE + v][at];
+    }
+    uint32_t count = span_clip(from, CUT_VALUES, m->frame->near_m, cut);
+    uint32_t first = m->mesh->corner_count + m->cut;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t at = first + i;
+        float over = 1.0f / cut[i].ahead;
+        column[set + CORNER_OVER][at] = over;
+        column[set + CORNER_COLUMN][at] = m->frame->centre_x + cut[i].value[0] * over;
+        column[set + CORNER_ROW][at] = m->frame->centre_y + cut[i].value[1] * over;
+        for (uint32_t v = 0; v < SIDE_VALUES; v++)
+            column[CORNER_VALUE + v][at] = cut[i].value[2 + v];
+    }
+    m->cut += count;
+    for (uint32_t i = 2; i < count; i++)
+        add_face(m, face, first, first + i - 1, first + i);
+}
+
+/* Sets up what crosses the near plane, and all other faces of a body that does. */
+VEC void make_cut_faces(struct maker *m, enum face_kind kind)
+{
+    uint32_t set = kind == FACE_SHADE ? CORNER_SHADE : 0;
+    const float *ahead = m->bodies->column[set + CORNER_AHEAD];
+    float near = m->frame->near_m;
+    for (uint32_t i = 0; i < m->mesh->face_count; i++) {
+        const struct soft_face *face = &m->mesh->faces[i];
+        const uint32_t *corner = face->corner;
+        if (ahead[corner[0]] < near || ahead[corner[1]] < near || ahead[corner[2]] < near)
+            add_cut_face(m, face, set);
+        else
+            add_face(m, face, corner[0], corner[1], corner[2]);
+        if (m->count >= LANES - 1)
+            put_faces(m, kind);
+    }
+    put_faces(m, kind);
+}
+
+/* Which of eight faces are seen, a bit each. */
+VEC uint32_t seen_faces(const struct maker *m, const struct soft_face *faces, uint32_t count,
+                        uint32_t set)
+{
+    struct corners8 c;
+    v8i lane = vec_count();
+    v8i at = vec_select_i(lane < (int32_t)count, lane, vec_i(0)) * (int32_t)sizeof *faces;
+    for (uint32_t i = 0; i < 3; i++) {
+        v8i corner = (v8i)vec_gather_bytes(&faces->corner[i], at);
+        c.x[i] = corner_value(m, set + CORNER_COLUMN, corner);
+        c.y[i] = corner_value(m, set + CORNER_ROW, corner);
+    }
+    v8f area = span_area(&c);
+    v8i shown = span_shown(&c, area, m->frame->width, m->frame->height);
+    shown &= lane < (int32_t)count;
+    return vec_bits(m->mesh->closed ? shown & (area < 0.0f) : shown);
+}
+
+/* Most faces look away or hold no pixel: those that are seen are gathered before they are set up.
+ */
+VEC void make_faces(struct maker *m, enum face_kind kind)
+{
+    uint32_t set = kind == FACE_SHADE ? CORNER_SHADE : 0, count = m->mesh->face_count;
+    if (m->cuts) {
+        make_cut_faces(m, kind);
+        return;
+    }
+    for (uint32_t i = 0; i < count; i += LANES) {
+        const struct soft_face *faces = &m->mesh->faces[i];
+        uint32_t bits = seen_faces(m, faces, count - i < LANES ? count - i : LANES, set);
+        for (; bits != 0; bits &= bits - 1) {
+            const struct soft_face *face = &faces[__builtin_ctz(bits)];
+            add_face(m, face, face->corner[0], face->corner[1], face->corner[2]);
+            if (m->count == LANES)
+                put_faces(m, kind);
+        }
+    }
+    put_faces(m, kind);
+}
+
+/* --- bodies ----------------------------------------------------------------------------------- */
+
+static float step(float low, float high, float v)
+{
+    float t = (v - low) / (high - low);
+    t = t < 0.0f ? 0.0f : t > 1.0f ? 1.0f : t;
+    return t * t * (3.0f - 2.0f * t);
+}
+
+/* What all faces of the body have in common, with the air before it. */
+static void mix_paint(struct maker *m)
+{
+    const float *at = m->body->at;
+    v8f place[3] = {vec_f(at[0]), vec_f(at[1]), vec_f(at[2])};
+    struct air8 air = air_at(m->frame, place);
+    float burn = m->body->burn, much = air.much[0];
+    m->paint = (struct soft_paint){
+        .soot_low = 1.12f - 1.15f * burn,
+        .soot_over = 1.0f / 0.42f,
+        .soot_most = fminf(0.5f + 0.8f * burn, 1.0f) * step(0.0f, 0.1f, burn),
+        .burnt = 0.94f * step(0.8f, 1.0f, burn),
+        .rust = burn >= 0.9f ? 0.8f : 0.0f,
+        .plain = 0.9f * burn,
+        .air = {much * air.colour.r[0], much * air.colour.g[0], much * air.colour.b[0]},
+        .clear = 1.0f - much,
+        .shaped = m->shaped,
+    };
+}
+
+/* Is the ball about its place wholly outside the picture? */
+static bool outside(const struct soft_frame *f, const struct soft_reach *reach, const float at[3])
+{
+    float half_x = f->centre_x * f->pixel_m, half_y = f->centre_y * f->pixel_m;
+    float x = fabsf(f->right[0] * at[0] + f->right[1] * at[1] + f->right[2] * at[2]);
+    float y = fabsf(f->up[0] * at[0] + f->up[1] * at[1] + f->up[2] * at[2]);
+    return reach->ahead + reach->metres < f->near_m ||
+           x - reach->ahead * half_x > reach->metres * sqrtf(1.0f + half_x * half_x) ||
+           y - reach->ahead * half_y > reach->metres * sqrtf(1.0f + half_y * half_y);
+}
+
+static void make_body(struct maker *m, uint32_t index)
+{
+    const struct soft_frame *f = m->frame;
+    const struct scene_copy *copy = &f->scene->copies[index];
+    struct soft_bodies *bodies = m->bodies;
+    struct soft_reach reach = soft_bodies_reach(bodies, f, index);
+    m->body = &f->scene->bodies[index];
+    bool seen = !outside(f, &reach, m->body->at);
+    if (!seen && !copy->shadow)
+        return;
+    m->mesh = &bodies->mesh[copy->model * MESH_DETAIL_COUNT + copy->detail];
+    m->gear = &bodies->scenery->frames[copy->model];
+    m->form = form_of(m->body, f->scene->dents);
+    m->shaped = form_any(&m->form);
+    m->sides = reach.pixels >= SIDE_LEAST_PIXELS;
+    m->cuts = reach.ahead - 4.0f * reach.metres < f->near_m;
+    m->count = m->cut = 0;
+    m->link_m = 1.0f;
+    for (uint32_t i = 0; i < m->mesh->group_count; i++)
+        if (m->mesh->groups[i].part == PART_TRACK)
+            m->link_m = m->gear->pivot[m->mesh->groups[i].joint][3];
+    mix_paint(m);
+    m->dark = copy->shadow ? m->paint.clear : 0.0f;
+    for (uint32_t i = 0; m->shaped && i < m->mesh->group_count; i++)
+        form_group(m, &m->mesh->groups[i]);
+    if (m->shaped)
+        form_normals(m);
+    for (uint32_t i = 0; i < m->mesh->group_count; i++)
+        place_group(m, &m->mesh->groups[i], seen);
+    if (m->dark > 0.0f)
+        make_faces(m, FACE_SHADE);
+    if (!seen)
+        return;
+    if (!m->sides) {
+        make_faces(m, FACE_FLAT);
+        return;
+    }
+    bodies->paints[bodies->paint_count++] = m->paint;
+    for (uint32_t axis = 0; axis < 3; axis++)
+        memcpy(bodies->column[CORNER_VALUE + SIDE_X + axis], m->mesh->column[MESH_PLACE_X + axis],
+               m->mesh->corner_count * sizeof(float));
+    make_faces(m, FACE_SIDE);
+}
+
+void KERNEL(soft_bodies_set_up)(struct soft_bodies *bodies, const struct soft_frame *frame)
+{
+    struct maker maker = {.bodies = bodies, .frame = frame};
+    for (uint32_t i = 0; i < frame->scene->body_count; i++)
+        make_body(&maker, i);
+}

@@ -1,0 +1,224 @@
+/* The ground's triangles, and its depth in a band. */
+#include "renderer/soft/kernel.h"
+#include "renderer/soft/soft_ground.h"
+#include "renderer/soft/span.h"
+
+/* Where a patch's vertices are seen: x, y [pixel] and depth. */
+struct seen {
+    float *x, *y, *depth;
+};
+
+/* Triangles on their way into the list, eight at a time. */
+struct batch {
+    struct corners8 corners;
+    v8f depth[3];
+    uint32_t count, patch;
+};
+
+/* A patch's vertices into the picture. Those nearer than the near plane have no place there; the
+ * rest of a vector is whatever lies behind the last vertex. Returns whether any is too near. */
+static bool project(const struct seen *seen, const float (*vertices)[3], uint32_t count,
+                    const float corner[3], const struct soft_frame *frame)
+{
+    v8i near = vec_i(0);
+    for (uint32_t i = 0; i < count; i += LANES) {
+        v8f place[3];
+        uint32_t held = count - i < LANES ? count - i : LANES;
+        for (uint32_t lane = 0; lane < LANES; lane++) {
+            const float *v = vertices[i + (lane < held ? lane : 0)];
+            for (uint32_t a = 0; a < 3; a++)
+                place[a][lane] = v[a];
+        }
+        v8f across = vec_f(0.0f), down = vec_f(0.0f), ahead = vec_f(0.0f);
+        for (uint32_t a = 0; a < 3; a++) {
+            v8f p = place[a] + corner[a];
+            across += p * frame->across[a];
+            down += p * frame->down[a];
+            ahead += p * frame->ahead[a];
+        }
+        v8i too_near = ahead < frame->near_m;
+        near |= too_near;
+        v8f depth = 1.0f / vec_select(too_near, vec_f(1.0f), ahead);
+        vec_store_f(seen->x + i, frame->centre_x + across * depth);
+        vec_store_f(seen->y + i, frame->centre_y + down * depth);
+        vec_store_f(seen->depth + i, vec_select(too_near, vec_f(0.0f), depth));
+    }
+    return vec_bits(near) != 0;
+}
+
+/* How steeply depth changes from pixel to pixel, in the promise's code. */
+static v8u steepness(const struct plane8 *depth)
+{
+    v8f steep = vec_max(vec_abs(depth->x), vec_abs(depth->y));
+    /* The float's own bits are its logarithm, near enough. */
+    v8i halves = (((v8i)steep) >> 22) - 2 * (127 - SOFT_STEEP_LOW);
+    halves = vec_select_i(halves < 0, vec_i(0), halves);
+    int32_t most = (1 << SOFT_STEEP_BITS) - 1;
+    return (v8u)vec_select_i(halves > most, vec_i(most), halves);
+}
+
+static void flush(struct soft_ground *ground, const struct soft_frame *frame, struct batch *batch)
+{
+    struct span8 span;
+    v8i drawn = span_set_up(&span, &batch->corners, frame->width, frame->height);
+    drawn &= (span.area < 0.0f) & (vec_count() < (int32_t)batch->count);
+    batch->count = 0;
+    uint32_t bits = vec_bits(drawn);
+    if (bits == 0)
+        return;
+    const v8f *at = batch->depth;
+    struct plane8 depth = span_plane(&span, at[0], at[1], at[2]);
+    v8f least = vec_min(vec_min(at[0], at[1]), at[2]);
+    v8f most = vec_max(vec_max(at[0], at[1]), at[2]);
+    v8u steep = steepness(&depth);
+    for (; bits != 0; bits &= bits - 1) {
+        int lane = __builtin_ctz(bits);
+        uint32_t n = ground->count++;
+        ground->list[n] = (struct soft_ground_triangle){
+            .span = span_of(&span, lane),
+            .depth = span_plane_of(&depth, lane),
+            .least = least[lane],
+            .most = most[lane],
+            .promise = batch->patch | steep[lane] << SOFT_PATCH_BITS,
+        };
+        ground->rows[n] = (struct soft_rows){(int16_t)span.first[lane], (int16_t)span.end[lane]};
+    }
+}
+
+static void put(struct batch *batch, uint32_t corner, float x, float y, float depth)
+{
+    uint32_t lane = batch->count;
+    batch->corners.x[corner][lane] = x;
+    batch->corners.y[corner][lane] = y;
+    batch->depth[corner][lane] = depth;
+}
+
+/* A triangle of which a part, but not all, is too near. */
+static void put_cut(struct soft_ground *ground, const struct soft_frame *frame, struct batch *batch,
+                    const float (*vertices)[3], const float corner[3], const uint16_t triangle[3])
+{
+    struct clip_corner in[3], cut[4];
+    for (uint32_t i = 0; i < 3; i++) {
+        const float *v = vertices[triangle[i]];
+        in[i] = (struct clip_corner){.ahead = 0.0f};
+        for (uint32_t a = 0; a < 3; a++) {
+            float p = v[a] + corner[a];
+            in[i].value[0] += p * frame->across[a];
+            in[i].value[1] += p * frame->down[a];
+            in[i].ahead += p * frame->ahead[a];
+        }
+    }
+    uint32_t count = span_clip(in, 2, frame->near_m, cut);
+    for (uint32_t last = 2; last < count; last++) {
+        const uint32_t of[3] = {0, last - 1, last};
+        for (uint32_t i = 0; i < 3; i++) {
+            const struct clip_corner *c = &cut[of[i]];
+            float depth = 1.0f / c->ahead;
+            put(batch, i, frame->centre_x + c->value[0] * depth,
+                frame->centre_y + c->value[1] * depth, depth);
+        }
+        if (++batch->count == LANES)
+            flush(ground, frame, batch);
+    }
+}
+
+/* All triangles of a patch of which none is too near: eight at a time from their vertices. */
+static void put_all(struct soft_ground *ground, const struct soft_frame *frame, struct batch *batch,
+                    const struct seen *seen, const uint16_t (*triangles)[3], uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i += LANES) {
+        uint32_t held = count - i < LANES ? count - i : LANES;
+        for (uint32_t corner = 0; corner < 3; corner++) {
+            v8i at = vec_i(0);
+            for (uint32_t lane = 0; lane < held; lane++)
+                at[lane] = triangles[i + lane][corner];
+            batch->corners.x[corner] = vec_gather_f(seen->x, at);
+            batch->corners.y[corner] = vec_gather_f(seen->y, at);
+            batch->depth[corner] = vec_gather_f(seen->depth, at);
+        }
+        batch->count = held;
+        flush(ground, frame, batch);
+    }
+}
+
+static void put_near(struct soft_ground *ground, const struct soft_frame *frame,
+                     struct batch *batch, const struct seen *seen, const struct tile *tile,
+                     const float corner[3])
+{
+    const uint16_t(*triangles)[3] = (const uint16_t(*)[3])tile->mesh.triangles;
+    const float(*vertices)[3] = (const float(*)[3])tile->mesh.vertices;
+    for (uint32_t i = 0; i < tile->mesh.triangle_count; i++) {
+        uint32_t behind = 0;
+        for (uint32_t c = 0; c < 3; c++) {
+            uint16_t v = triangles[i][c];
+            put(batch, c, seen->x[v], seen->y[v], seen->depth[v]);
+            behind += seen->depth[v] == 0.0f;
+        }
+        if (behind == 3)
+            continue;
+        if (behind > 0)
+            put_cut(ground, frame, batch, vertices, corner, triangles[i]);
+        else if (++batch->count == LANES)
+            flush(ground, frame, batch);
+    }
+    if (batch->count > 0)
+        flush(ground, frame, batch);
+}
+
+void KERNEL(soft_ground_set_up)(struct soft_ground *ground, const struct soft_frame *frame)
+{
+    const struct scene *scene = frame->scene;
+    size_t room = SOFT_SEEN_ROOM;
+    struct seen seen = {ground->seen, ground->seen + room, ground->seen + 2 * room};
+    struct batch batch = {.count = 0};
+    ground->count = 0;
+    for (uint32_t i = 0; i < scene->patch_count; i++) {
+        const struct ground_patch *patch = &scene->patches[i];
+        const struct tile *tile = ground->tiles.views[i].shape;
+        const struct ground_mesh *mesh = &tile->mesh;
+        double side = ground_patch_side(patch->level);
+        float corner[3];
+        scene_place(scene, (struct vec3){patch->column * side, 0.0, patch->row * side}, corner);
+        batch.patch = i;
+        if (project(&seen, (const float(*)[3])mesh->vertices, mesh->vertex_count, corner, frame))
+            put_near(ground, frame, &batch, &seen, tile, corner);
+        else
+            put_all(ground, frame, &batch, &seen, (const uint16_t(*)[3])mesh->triangles,
+                    mesh->triangle_count);
+    }
+}
+
+/* --- a band ------------------------------------------------------------------------------------
+ */
+
+struct depth_pass {
+    const struct soft_ground_triangle *triangle;
+    const struct soft_target *target;
+};
+
+VEC void depth_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
+{
+    const struct depth_pass *pass = context;
+    const struct soft_ground_triangle *t = pass->triangle;
+    float *depth = pass->target->depth + at;
+    uint32_t *colour = pass->target->colour + at;
+    v8f here = span_value(&t->span, &t->depth, x, y), old = vec_load_f(depth);
+    here = vec_clamp(here, t->least, t->most);
+    v8i seen = inside & (here > old);
+    if (vec_bits(seen) == 0)
+        return;
+    vec_store_f(depth, vec_select(seen, here, old));
+    vec_store_u(colour, vec_select_u(seen, vec_u(t->promise), vec_load_u(colour)));
+}
+
+void KERNEL(soft_ground_fill)(const struct soft_ground *ground, const struct soft_frame *frame,
+                              const struct soft_target *target)
+{
+    (void)frame;
+    struct depth_pass pass = {.target = target};
+    const struct soft_bins *bins = &ground->bins;
+    for (uint32_t i = bins->start[target->band]; i < bins->start[target->band + 1]; i++) {
+        pass.triangle = &ground->list[bins->item[i]];
+        span_walk(&pass.triangle->span, target, depth_pixels, &pass);
+    }
+}

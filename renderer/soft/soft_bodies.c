@@ -1,0 +1,148 @@
+/* Bodies of the software back end: their meshes, texture and lists. */
+#include "renderer/soft/soft_bodies.h"
+
+#include "renderer/soft/kernel.h"
+
+#include <stdlib.h>
+
+#define REACH_SPARE 1.2f /* parts that turn, sheet that is bent */
+
+/* --- opening and closing ---------------------------------------------------------------------- */
+
+/* The mesh of this place in the list, and room to work out its corners. 0, or -1: no memory. */
+static int open_mesh(struct soft_bodies *bodies, uint32_t i)
+{
+    struct soft_mesh *mesh = &bodies->mesh[i];
+    if (soft_mesh_open(mesh, bodies->scenery->world, i / MESH_DETAIL_COUNT,
+                       (enum mesh_detail)(i % MESH_DETAIL_COUNT)) != 0)
+        return -1;
+    bodies->opened[i] = true;
+    /* A multiple of SOFT_ALIGN bytes. */
+    size_t room = ((size_t)mesh->corner_count + CORNERS_CUT + 15u) / 16u * 16u;
+    if (room <= bodies->column_room)
+        return 0;
+    free(bodies->column[0]);
+    bodies->column_room = 0;
+    bodies->column[0] = aligned_alloc(SOFT_ALIGN, room * CORNER_COLUMNS * sizeof(float));
+    if (bodies->column[0] == NULL)
+        return -1;
+    bodies->column_room = room;
+    for (uint32_t k = 1; k < CORNER_COLUMNS; k++)
+        bodies->column[k] = bodies->column[0] + room * k;
+    return 0;
+}
+
+/* Room for all meshes. Each is made when it is first needed: a picture takes few of them, and to
+ * make them all takes a quarter of a second, which no one waits for. */
+static int room_for_meshes(struct soft_bodies *bodies)
+{
+    bodies->meshes = bodies->scenery->world->counts.models * MESH_DETAIL_COUNT;
+    bodies->mesh = calloc(bodies->meshes + 1, sizeof *bodies->mesh);
+    bodies->opened = calloc(bodies->meshes + 1, sizeof *bodies->opened);
+    return bodies->mesh == NULL || bodies->opened == NULL ? -1 : 0;
+}
+
+struct soft_bodies *soft_bodies_open(const struct scenery *scenery,
+                                     const struct soft_detail *detail, struct reason *reason)
+{
+    struct soft_bodies *bodies = calloc(1, sizeof *bodies);
+    if (bodies != NULL) {
+        bodies->scenery = scenery;
+        bodies->detail = detail;
+        if (room_for_meshes(bodies) == 0)
+            return bodies;
+    }
+    soft_bodies_close(bodies);
+    reason_set(reason, "no memory for the bodies");
+    return NULL;
+}
+
+static void free_faces(struct soft_faces *faces)
+{
+    soft_bins_free(&faces->bins);
+    free(faces->list);
+    free(faces->rows);
+}
+
+void soft_bodies_close(struct soft_bodies *bodies)
+{
+    if (bodies == NULL)
+        return;
+    for (uint32_t i = 0; bodies->mesh != NULL && i < bodies->meshes; i++)
+        soft_mesh_close(&bodies->mesh[i]);
+    free_faces(&bodies->flats);
+    free_faces(&bodies->sides);
+    free_faces(&bodies->shades);
+    free(bodies->mesh);
+    free(bodies->opened);
+    free(bodies->column[0]);
+    free(bodies->paints);
+    free(bodies);
+}
+
+/* --- a picture -------------------------------------------------------------------------------- */
+
+struct soft_reach soft_bodies_reach(const struct soft_bodies *bodies,
+                                    const struct soft_frame *frame, uint32_t index)
+{
+    const struct scene_body *body = &frame->scene->bodies[index];
+    const struct mesh_frame *box = &bodies->scenery->frames[frame->scene->copies[index].model];
+    const float *f = body->forward, *at = body->at;
+    float scale = f[0] * f[0] + f[1] * f[1] + f[2] * f[2], reach = 0.0f;
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        float most = fmaxf(-box->low[axis], box->high[axis]);
+        reach += most * most;
+    }
+    struct soft_reach r = {.metres = REACH_SPARE * sqrtf(reach * scale),
+                           .ahead = frame->ahead[0] * at[0] + frame->ahead[1] * at[1] +
+                                    frame->ahead[2] * at[2]};
+    r.pixels = 2.0f * r.metres / (frame->pixel_m * fmaxf(r.ahead - r.metres, frame->near_m));
+    return r;
+}
+
+/* Room for what a cut at the near plane may make of so many faces. */
+static int face_room(struct soft_faces *faces, size_t count, size_t size)
+{
+    void *rows = faces->rows;
+    int failed = soft_room(&faces->list, &faces->list_room, 2 * count, size);
+    failed |= soft_room(&rows, &faces->row_room, 2 * count, sizeof *faces->rows);
+    faces->rows = rows;
+    faces->count = 0;
+    return failed;
+}
+
+static int sort_faces(struct soft_faces *faces, uint32_t bands)
+{
+    return soft_bins_sort(&faces->bins, faces->rows, faces->count, bands);
+}
+
+int soft_bodies_prepare(struct soft_bodies *bodies, const struct soft_frame *frame)
+{
+    const struct scene *scene = frame->scene;
+    size_t flats = 0, sides = 0, shades = 0;
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        const struct scene_copy *copy = &scene->copies[i];
+        uint32_t which = copy->model * (uint32_t)MESH_DETAIL_COUNT + copy->detail;
+        if (!bodies->opened[which] && open_mesh(bodies, which) != 0)
+            return -1;
+        uint32_t faces = bodies->mesh[which].face_count;
+        if (soft_bodies_reach(bodies, frame, i).pixels < SIDE_LEAST_PIXELS)
+            flats += faces;
+        else
+            sides += faces;
+        shades += copy->shadow ? faces : 0;
+    }
+    void *paints = bodies->paints;
+    int failed = soft_room(&paints, &bodies->paint_room, scene->body_count, sizeof *bodies->paints);
+    bodies->paints = paints;
+    bodies->paint_count = 0;
+    if (failed != 0 || face_room(&bodies->flats, flats, sizeof(struct soft_flat)) != 0 ||
+        face_room(&bodies->sides, sides, sizeof(struct soft_side)) != 0 ||
+        face_room(&bodies->shades, shades, sizeof(struct soft_shade)) != 0)
+        return -1;
+    frame->kernels->soft_bodies_set_up(bodies, frame);
+    if (sort_faces(&bodies->flats, frame->bands) != 0 ||
+        sort_faces(&bodies->sides, frame->bands) != 0)
+        return -1;
+    return sort_faces(&bodies->shades, frame->bands);
+}

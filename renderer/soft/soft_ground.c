@@ -1,0 +1,95 @@
+/* The ground of the software back end: its tiles, the textures over them, and its lists. */
+#include "renderer/soft/soft_ground.h"
+
+#include "renderer/soft/kernel.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct soft_ground *soft_ground_open(const struct scenery *scenery, struct reason *reason)
+{
+    struct soft_ground *ground = calloc(1, sizeof *ground);
+    if (ground != NULL) {
+        ground->scenery = scenery;
+        /* Whole vectors of vertices are written. */
+        ground->seen = aligned_alloc(SOFT_ALIGN, 3 * SOFT_SEEN_ROOM * sizeof *ground->seen);
+        if (tiles_init(&ground->tiles) == 0 && ground->seen != NULL &&
+            soft_detail_make(&ground->detail) == 0 && (ground->clouds = soft_clouds_make()) != NULL)
+            return ground;
+        soft_ground_close(ground);
+    }
+    reason_set(reason, "no memory for the ground");
+    return NULL;
+}
+
+void soft_ground_close(struct soft_ground *ground)
+{
+    if (ground == NULL)
+        return;
+    tiles_free(&ground->tiles);
+    soft_bins_free(&ground->bins);
+    soft_detail_free(&ground->detail);
+    free(ground->clouds);
+    free(ground->list);
+    free(ground->rows);
+    free(ground->seen);
+    free(ground);
+}
+
+/* A place's part of a period, with all the precision that there is. */
+static float fraction(double v)
+{
+    return (float)(v - floor(v));
+}
+
+const struct soft_detail *soft_ground_detail(const struct soft_ground *ground)
+{
+    return &ground->detail;
+}
+
+void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *frame)
+{
+    const struct scene *scene = frame->scene;
+    struct vec3 eye = scene->camera.eye;
+    tiles_update(&ground->tiles, scene->patches, scene->patch_count, frame->moment,
+                 scene->paintings);
+    ground->fine_at[0] = fraction(eye.x / (double)FINE_M);
+    ground->fine_at[1] = fraction(eye.z / (double)FINE_M);
+    double east = eye.x + 0.35 * eye.z, south = eye.z - 0.35 * eye.x;
+    ground->ripples_at[0] = fraction(east * (double)SOFT_RIPPLES_PER_M);
+    ground->ripples_at[1] = fraction(south * (double)SOFT_RIPPLES_PER_M);
+    ground->swell_at[0] = fraction(south * (double)SOFT_SWELL_PER_M);
+    ground->swell_at[1] = fraction(east * (double)SOFT_SWELL_PER_M);
+    for (uint32_t i = 0; i < scene->patch_count; i++) {
+        const struct tile_view *view = &ground->tiles.views[i];
+        double side = ground_patch_side(scene->patches[i].level), last = TILE_TEXELS - 1;
+        double per_m = (double)view->share / side * last;
+        ground->patches[i] = (struct soft_patch){
+            .paint = view->paint->paint,
+            .at_u = (float)((double)view->at_u * last +
+                            (eye.x - scene->patches[i].column * side) * per_m),
+            .at_v =
+                (float)((double)view->at_v * last + (eye.z - scene->patches[i].row * side) * per_m),
+            .per_m = (float)per_m,
+            .wet = view->paint->wet,
+            .surf = view->paint->surf,
+        };
+    }
+}
+
+int soft_ground_prepare(struct soft_ground *ground, const struct soft_frame *frame)
+{
+    size_t most = 0;
+    for (uint32_t i = 0; i < frame->scene->patch_count; i++)
+        most += ground->tiles.views[i].shape->mesh.triangle_count;
+    /* The near plane makes two of some. */
+    void *list = ground->list, *rows = ground->rows;
+    int full = soft_room(&list, &ground->list_room, 2 * most, sizeof *ground->list);
+    full |= soft_room(&rows, &ground->rows_room, 2 * most, sizeof *ground->rows);
+    ground->list = list;
+    ground->rows = rows;
+    if (full != 0)
+        return -1;
+    frame->kernels->soft_ground_set_up(ground, frame);
+    return soft_bins_sort(&ground->bins, ground->rows, ground->count, frame->bands);
+}

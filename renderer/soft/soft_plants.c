@@ -1,0 +1,156 @@
+/* Plants of the software back end: their pictures and lists. */
+#include "renderer/soft/soft_plants.h"
+
+#include "renderer/soft/kernel.h"
+
+#include <stdlib.h>
+
+/* --- pictures --------------------------------------------------------------------------------- */
+
+/* A texel on its way to smaller pictures. */
+struct leaf {
+    float colour[3], alpha, facing[3];
+};
+
+static void read_picture(struct leaf *to, const struct foliage_picture *picture)
+{
+    for (uint32_t row = 0; row < FOLIAGE_SIDE; row++)
+        for (uint32_t column = 0; column < FOLIAGE_SIDE; column++) {
+            struct leaf *leaf = &to[row * FOLIAGE_SIDE + column];
+            for (uint32_t i = 0; i < 3; i++) {
+                leaf->colour[i] = (float)picture->colour[row][column][i];
+                leaf->facing[i] = (float)picture->facing[row][column][i] / 127.5f - 1.0f;
+            }
+            leaf->alpha = (float)picture->colour[row][column][3];
+        }
+}
+
+/* Four texels into one; what is not there has no say in what colour it is. */
+static void halve(struct leaf *leaves, uint32_t side)
+{
+    for (uint32_t row = 0; row < side; row++)
+        for (uint32_t column = 0; column < side; column++) {
+            const struct leaf *a = leaves + (size_t)row * 4 * side + (size_t)column * 2;
+            const struct leaf from[4] = {a[0], a[1], a[2 * side], a[2 * side + 1]};
+            struct leaf sum = {.alpha = 0.0f};
+            float all = 0.0f;
+            for (uint32_t k = 0; k < 4; k++) {
+                float much = from[k].alpha + 0.01f;
+                all += much;
+                sum.alpha += 0.25f * from[k].alpha;
+                for (uint32_t i = 0; i < 3; i++) {
+                    sum.colour[i] += much * from[k].colour[i];
+                    sum.facing[i] += much * from[k].facing[i];
+                }
+            }
+            for (uint32_t i = 0; i < 3; i++) {
+                sum.colour[i] /= all;
+                sum.facing[i] /= all;
+            }
+            leaves[row * side + column] = sum;
+        }
+}
+
+/* Light gets less to what is low in a picture. */
+static float open_at(uint32_t row, uint32_t side)
+{
+    float low = ((float)row + 0.5f) / (float)side, t = (1.0f - low) / (1.0f - 0.35f);
+    t = fminf(t, 1.0f);
+    return 0.62f + (PLANT_OPEN - 0.62f) * t * t * (3.0f - 2.0f * t);
+}
+
+static uint32_t byte_of(float v)
+{
+    v = v > 0.0f ? v : 0.0f;
+    return (uint32_t)(int32_t)((v < 255.0f ? v : 255.0f) + 0.5f);
+}
+
+static void write_level(struct soft_leaf *to, const struct leaf *from, uint32_t side)
+{
+    for (uint32_t row = 0; row < side; row++) {
+        float open = open_at(row, side) / PLANT_OPEN;
+        for (uint32_t column = 0; column < side; column++) {
+            const struct leaf *leaf = &from[row * side + column];
+            const float *n = leaf->facing, *c = leaf->colour;
+            float scale = 127.5f / sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] + 1e-6f);
+            to[row * side + column] = (struct soft_leaf){
+                byte_of(c[0] * open) | byte_of(c[1] * open) << 8 | byte_of(c[2] * open) << 16 |
+                    byte_of(leaf->alpha) << 24,
+                byte_of(n[0] * scale + 127.5f) | byte_of(n[1] * scale + 127.5f) << 8 |
+                    byte_of(n[2] * scale + 127.5f) << 16 | byte_of(255.0f * open) << 24};
+        }
+    }
+}
+
+static int open_pictures(struct soft_plants *plants)
+{
+    struct foliage_picture *picture = malloc(sizeof *picture);
+    struct leaf *leaves = malloc((size_t)FOLIAGE_SIDE * FOLIAGE_SIDE * sizeof *leaves);
+    uint32_t all = 0, at = 0;
+    for (uint32_t side = FOLIAGE_SIDE; side > 1; side /= 2)
+        all += side * side;
+    plants->leaves = malloc((size_t)all * FOLIAGE_COUNT * sizeof *plants->leaves);
+    int failed = picture == NULL || leaves == NULL || plants->leaves == NULL ? -1 : 0;
+    for (uint32_t which = 0; failed == 0 && which < FOLIAGE_COUNT; which++) {
+        uint32_t side = FOLIAGE_SIDE;
+        foliage_paint(picture, (enum foliage)which);
+        read_picture(leaves, picture);
+        for (uint32_t level = PLANT_LEVELS; level > 0; level--, side /= 2) {
+            if (level < PLANT_LEVELS)
+                halve(leaves, side);
+            write_level(plants->leaves + at, leaves, side);
+            plants->first[which][level] = at;
+            at += side * side;
+        }
+    }
+    free(picture);
+    free(leaves);
+    return failed;
+}
+
+/* --- opening, closing, preparing -------------------------------------------------------------- */
+
+struct soft_plants *soft_plants_open(struct reason *reason)
+{
+    struct soft_plants *plants = calloc(1, sizeof *plants);
+    if (plants != NULL && open_pictures(plants) == 0)
+        return plants;
+    soft_plants_close(plants);
+    reason_set(reason, "no memory for the plants");
+    return NULL;
+}
+
+void soft_plants_close(struct soft_plants *plants)
+{
+    if (plants == NULL)
+        return;
+    soft_bins_free(&plants->bins);
+    soft_bins_free(&plants->cast_bins);
+    free(plants->leaves);
+    free(plants->plants);
+    free(plants->casts);
+    free(plants->rows);
+    free(plants->cast_rows);
+    free(plants);
+}
+
+int soft_plants_prepare(struct soft_plants *plants, const struct soft_frame *frame)
+{
+    size_t count = frame->scene->plant_count;
+    void *list = plants->plants, *casts = plants->casts;
+    void *rows = plants->rows, *cast_rows = plants->cast_rows;
+    int failed = soft_room(&list, &plants->plant_room, count, sizeof *plants->plants);
+    failed |= soft_room(&casts, &plants->cast_room, count, sizeof *plants->casts);
+    failed |= soft_room(&rows, &plants->row_room, count, sizeof *plants->rows);
+    failed |= soft_room(&cast_rows, &plants->cast_row_room, count, sizeof *plants->cast_rows);
+    plants->plants = list;
+    plants->casts = casts;
+    plants->rows = rows;
+    plants->cast_rows = cast_rows;
+    if (failed != 0)
+        return -1;
+    frame->kernels->soft_plants_set_up(plants, frame);
+    if (soft_bins_sort(&plants->bins, plants->rows, plants->count, frame->bands) != 0)
+        return -1;
+    return soft_bins_sort(&plants->cast_bins, plants->cast_rows, plants->cast_count, frame->bands);
+}

@@ -1,0 +1,94 @@
+/* Reading lists of views. */
+#include "renderer/views.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#define WORDS "chase, map, inside, orbit, free, overhead, both"
+
+static bool same_word(const char *text, size_t length, const char *word)
+{
+    return strlen(word) == length && strncmp(text, word, length) == 0;
+}
+
+static void add(struct views *views, enum view_mode mode, uint32_t vehicle)
+{
+    struct view_wish *wish = &views->wish[views->count++];
+    *wish = (struct view_wish){.mode = mode, .vehicle = vehicle};
+    if (vehicle == 0)
+        snprintf(wish->name, sizeof wish->name, "%s", view_mode_name(mode));
+    else
+        snprintf(wish->name, sizeof wish->name, "%s.%u", view_mode_name(mode), vehicle);
+}
+
+/* The id after a colon; 0 without one. -1 when it is no id. */
+static int read_vehicle(const char *text, size_t length, uint32_t *vehicle)
+{
+    uint64_t id = 0;
+    *vehicle = 0;
+    if (length == 0)
+        return 0;
+    if (length == 1 || length > 11)
+        return -1;
+    for (size_t i = 1; i < length; i++) {
+        if (text[i] < '0' || text[i] > '9')
+            return -1;
+        id = 10 * id + (uint64_t)(text[i] - '0');
+    }
+    *vehicle = (uint32_t)id;
+    return id >= 1 && id <= UINT32_MAX ? 0 : -1;
+}
+
+/* One entry of the list: its word and, from the colon on, its vehicle. */
+static int read_entry(struct views *views, const char *text, size_t length, struct reason *reason)
+{
+    size_t word = strcspn(text, ":,");
+    uint32_t vehicle, mode = 0;
+    bool both = same_word(text, word, "both");
+    while (!both && mode < VIEW_COUNT && !same_word(text, word, view_mode_name(mode)))
+        mode++;
+    if (mode == VIEW_COUNT)
+        return reason_set(reason, "%.*s is not one of " WORDS, (int)(length < 40 ? length : 40),
+                          text);
+    if (read_vehicle(text + word, length - word, &vehicle) != 0)
+        return reason_set(reason, "%.*s: after the colon comes a vehicle's id, as chase:17",
+                          (int)(length < 40 ? length : 40), text);
+    if (views->count + both >= VIEWS_MAX)
+        return reason_set(reason, "more than %u views; start another renderer", VIEWS_MAX);
+    add(views, both ? VIEW_CHASE : (enum view_mode)mode, vehicle);
+    if (both)
+        add(views, VIEW_MAP, vehicle);
+    return 0;
+}
+
+/* Two views of one name would write the same files. */
+static int check_different(const struct views *views, struct reason *reason)
+{
+    for (uint32_t i = 0; i < views->count; i++)
+        for (uint32_t j = 0; j < i; j++)
+            if (strcmp(views->wish[i].name, views->wish[j].name) == 0)
+                return reason_set(reason, "%s is there twice", view_mode_name(views->wish[i].mode));
+    return 0;
+}
+
+int views_read(struct views *views, const char *text, struct reason *reason)
+{
+    *views = (struct views){.count = 0};
+    for (;;) {
+        size_t length = strcspn(text, ",");
+        if (read_entry(views, text, length, reason) != 0)
+            return -1;
+        if (text[length] == '\0')
+            return check_different(views, reason);
+        text += length + 1;
+    }
+}
+
+void views_of_bits(struct views *views, uint32_t bits)
+{
+    *views = (struct views){.count = 0};
+    for (uint32_t mode = 0; mode < VIEW_COUNT; mode++)
+        if (bits & 1u << mode)
+            add(views, (enum view_mode)mode, 0);
+}
