@@ -16,7 +16,8 @@ static int32_t least(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
-uint32_t layout_letters(uint32_t width, uint32_t height)
+/* Size of ordinary words in a picture. */
+static uint32_t letters_of(uint32_t width, uint32_t height)
 {
     uint32_t letters = (width < height ? width : height) / PICTURE_LETTERS;
     return letters < LAYOUT_LETTERS_LEAST ? LAYOUT_LETTERS_LEAST : letters;
@@ -66,7 +67,7 @@ static void stack_panel(struct map_layout *layout, struct box panel)
 void layout_map(struct map_layout *layout, uint32_t width, uint32_t height)
 {
     int32_t w = (int32_t)width, h = (int32_t)height, side = least(w, h);
-    int32_t em = (int32_t)layout_letters(width, height);
+    int32_t em = (int32_t)letters_of(width, height);
     *layout = (struct map_layout){.letters = (uint32_t)em, .whole = {0, 0, side, side}};
     if (w - side - RULE >= PANEL_LEAST * em) {
         stack_panel(layout, (struct box){side + RULE, 0, w - side - RULE, h});

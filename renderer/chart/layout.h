@@ -22,9 +22,6 @@ struct map_layout {
     struct box whole, close_up, figures, legend;
 };
 
-/* Size of ordinary words in a picture. */
-uint32_t layout_letters(uint32_t width, uint32_t height);
-
 void layout_map(struct map_layout *layout, uint32_t width, uint32_t height);
 
 bool box_within(struct box box, struct box bounds);

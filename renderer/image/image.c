@@ -69,13 +69,6 @@ static uint8_t *pixel_of(struct image *image, int32_t x, int32_t y)
     return image->pixels + ((size_t)y * image->width + (size_t)x) * 4;
 }
 
-void image_blend(struct image *image, int32_t x, int32_t y, struct rgba colour, float coverage)
-{
-    if (x < 0 || y < 0 || (uint32_t)x >= image->width || (uint32_t)y >= image->height)
-        return;
-    image_lay(pixel_of(image, x, y), colour, (int32_t)((float)colour.a * coverage + 0.5f));
-}
-
 static void fill(struct image *image, struct span span, struct rgba colour)
 {
     uint8_t *first = pixel_of(image, span.x0, span.y0);

@@ -24,7 +24,6 @@ int image_init(struct image *image, uint32_t width, uint32_t height);
 void image_free(struct image *image);
 
 /* Everything below clips to the picture and blends by the colour's alpha. */
-void image_blend(struct image *image, int32_t x, int32_t y, struct rgba colour, float coverage);
 void image_rectangle(struct image *image, int32_t x, int32_t y, int32_t width, int32_t height,
                      struct rgba colour);
 /* A small square, for what there are thousands of. */

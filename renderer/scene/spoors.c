@@ -8,7 +8,8 @@
 #define MUNITION_INTERVAL_S 0.35
 #define LEAST_MPS           0.5 /* slower than this nothing is left behind */
 
-double spoors_interval_s(uint8_t domain)
+/* Seconds between two points of what moves in this domain; 12 of them outlast what it leaves. */
+static double interval_s(uint8_t domain)
 {
     return domain == DOMAIN_SEA    ? SEA_INTERVAL_S
            : domain == DOMAIN_LAND ? LAND_INTERVAL_S
@@ -46,7 +47,7 @@ static void note(struct spoor *spoor, const struct moment *moment, uint32_t slot
     const double velocity[3] = {e->vx[slot], e->vy[slot], e->vz[slot]};
     if (spoor->count > 0 && newest(spoor)->time_s > now_s)
         spoor->count = 0; /* time was turned back */
-    if (spoor->count > 0 && now_s - newest(spoor)->time_s < spoors_interval_s(kind->domain))
+    if (spoor->count > 0 && now_s - newest(spoor)->time_s < interval_s(kind->domain))
         return;
     if (spoor->count == 0 && vec3_length(entities_velocity(e, slot)) < LEAST_MPS)
         return; /* a long stand is no spoor */

@@ -39,9 +39,6 @@ void spoors_end(struct spoors *spoors, uint32_t id, const double point[3], doubl
 /* The slot's spoor if it is this entity's, else NULL. */
 const struct spoor *spoors_of(const struct spoors *spoors, uint32_t slot, uint32_t id);
 
-/* Seconds between two points of what moves in this domain; 12 of them outlast what it leaves. */
-double spoors_interval_s(uint8_t domain);
-
 /* Where the entity was at a time, on a smooth curve through the points up to now, at a moment when
  * it was there. From before the first point on it came straight. */
 struct spoor_point spoor_at(const struct spoor *spoor, const struct spoor_point *now,
