@@ -13,7 +13,7 @@
  *     rename     renameat2: ENOMEM
  *
  * Calls are counted from main() on: before it there is no program yet that could say anything.
- * FAIL_MARK=FILE: the file is made when a call failed, and holds where that was called from. */
+ * FAIL_MARK=FILE: the file holds where the failed call came from; zeros, when none failed. */
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
@@ -38,12 +38,55 @@ void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *memory, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
+enum { MARK_BYTES = 256 };
+
 static _Atomic uint64_t calls;
 static bool begun;
 static int (*main_of_the_program)(int, char **, char **);
 
+/* The environment without getenv(): malloc is called before it is ready. */
+static const char *setting(const char *name)
+{
+    size_t length = strlen(name);
+    for (char **at = environ; at && *at; at++) {
+        if (strncmp(*at, name, length) == 0 && (*at)[length] == '=')
+            return *at + length + 1;
+    }
+    return NULL;
+}
+
+/* Where a failed call is noted: the file of FAIL_MARK, mapped before the program closes itself in,
+ * for then it can open none. */
+static char *noted;
+
+static void open_mark(void)
+{
+    const char *path = setting("FAIL_MARK");
+    if (!path)
+        return;
+    long fd = syscall(SYS_openat, AT_FDCWD, path, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    syscall(SYS_ftruncate, fd, MARK_BYTES);
+    long page = syscall(SYS_mmap, NULL, MARK_BYTES, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0L);
+    syscall(SYS_close, fd);
+    if (page == -1)
+        abort();
+    noted = (char *)page;
+}
+
+static void mark(const void *caller)
+{
+    Dl_info info = {0};
+    if (!noted)
+        return;
+    dladdr(caller, &info);
+    snprintf(noted, MARK_BYTES, "%s+0x%zx %s", info.dli_fname ? info.dli_fname : "?",
+             (size_t)((const char *)caller - (const char *)info.dli_fbase),
+             info.dli_sname ? info.dli_sname : "?");
+}
+
 static int begin(int argc, char **argv, char **environment)
 {
+    open_mark();
     begun = true;
     return main_of_the_program(argc, argv, environment);
 }
@@ -59,34 +102,6 @@ int __libc_start_main(int (*program)(int, char **, char **), int argc, char **ar
     *(void **)(void *)&next = dlsym(RTLD_NEXT, "__libc_start_main");
     main_of_the_program = program;
     return next(begin, argc, argv, init, fini, loader_fini, stack_end);
-}
-
-/* The environment without getenv(): malloc is called before it is ready. */
-static const char *setting(const char *name)
-{
-    size_t length = strlen(name);
-    for (char **at = environ; at && *at; at++) {
-        if (strncmp(*at, name, length) == 0 && (*at)[length] == '=')
-            return *at + length + 1;
-    }
-    return NULL;
-}
-
-/* By system calls alone, which nothing here stands in the way of. */
-static void mark(const void *caller)
-{
-    Dl_info info = {0};
-    char text[256];
-    const char *path = setting("FAIL_MARK");
-    if (!path)
-        return;
-    dladdr(caller, &info);
-    int length = snprintf(text, sizeof text, "%s+0x%zx %s\n", info.dli_fname ? info.dli_fname : "?",
-                          (size_t)((const char *)caller - (const char *)info.dli_fbase),
-                          info.dli_sname ? info.dli_sname : "?");
-    long fd = syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
-    syscall(SYS_write, fd, text, (size_t)length);
-    syscall(SYS_close, fd);
 }
 
 /* Is this call of the class the one that fails? */

@@ -79,8 +79,9 @@ class Case:
 def judge(case, fail, right):
     """None when all is well, else what is wrong; and whether the call was reached."""
     code, out, lines = case.run(fail)
-    reached = os.path.exists("mark")
-    where = open("mark").read().strip() if reached else "not reached"
+    with open("mark", "rb") as mark:
+        where = mark.read().strip(b"\0").decode(errors="replace")
+    reached = where != ""
     wrong = None
     if code == 0:
         if case.same_output and out != right:
@@ -93,7 +94,7 @@ def judge(case, fail, right):
         wrong = "says no line of its own"
     if not wrong and code == 1 and not case.keeps_world and leftovers():
         wrong = f"leaves {leftovers()}"
-    return (f"{fail} at {where}: {wrong}: {lines}" if wrong else None), reached
+    return (f"{fail} at {where or 'no call'}: {wrong}: {lines}" if wrong else None), reached
 
 
 def count_calls(case, kind):
