@@ -71,6 +71,8 @@ COLLIDER_SRC := $(wildcard collider/*.c)
 REPLAY_SRC   := $(wildcard replay/*.c)
 RENDERER_SRC := $(wildcard renderer/*.c renderer/*/*.c)
 VIDEO_SRC    := $(wildcard video/*.c)
+TOPICS_SRC   := $(wildcard topics/*.c)
+CTL_SRC      := $(wildcard ctl/*.c)
 REPORTER_SRC := $(wildcard reporter/*.c)
 MONITOR_SRC  := $(wildcard monitor/*.c)
 RECORDER_SRC := $(wildcard recorder/*.c)
@@ -121,6 +123,8 @@ SOFT     := $(call objects,$(wildcard renderer/soft/*.c)) $(KERNELS)
 # All that makes a picture and puts it out: the renderer without its main and its studio.
 PICTURE  := $(call objects,$(wildcard renderer/*/*.c)) $(KERNELS)
 STATUS   := $(OBJ)/idl/status.o
+# A link to a world over DDS: what it says, and commands to it.
+TOPICS   := $(call objects,$(TOPICS_SRC)) $(STATUS)
 
 pc = $(shell pkg-config --$(1) $(2) 2>/dev/null)
 DDS_CFLAGS    = $(call pc,cflags,CycloneDDS) -I$(IDL)
@@ -173,13 +177,13 @@ $(BIN)/jolon-renderer: $(call objects,$(RENDERER_SRC)) $(KERNELS) $(SANDBOX) $(I
 	$(call link,$(RENDER_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-video: $(call objects,$(VIDEO_SRC) $(filter-out %/main.c,$(RENDERER_SRC))) $(KERNELS) $(REPLAYED) $(REPLAY) $(LOGS) $(ARCHIVE) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(RENDER_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-reporter: $(call objects,$(filter-out reporter/ctl%.c,$(REPORTER_SRC))) $(STATUS) $(SANDBOX) $(IPC) $(WORLD)
+$(BIN)/jolon-reporter: $(call objects,$(REPORTER_SRC)) $(TOPICS) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-recorder: $(call objects,$(RECORDER_SRC) worldctl/json.c) $(ARCHIVE) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(ARCHIVE_LIBS) $(JSON_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-ctl: $(call objects,$(filter reporter/ctl%.c reporter/dds%.c,$(REPORTER_SRC))) $(STATUS) $(IPC) $(WORLD)
+$(BIN)/jolon-ctl: $(call objects,$(CTL_SRC)) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-monitor: $(call objects,$(MONITOR_SRC) $(filter reporter/dds%.c,$(REPORTER_SRC))) $(STATUS) $(IPC) $(WORLD)
+$(BIN)/jolon-monitor: $(call objects,$(MONITOR_SRC)) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-bench: $(call objects,$(BENCH_SRC)) $(patsubst %.cpp,$(OBJ)/%.o,$(BENCH_CPP)) $(PICTURE) $(REPLAY) $(LOGS) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(RENDER_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS) -lstdc++)
@@ -190,7 +194,7 @@ $(BIN)/jolon: supervisor/jolon
 
 # --- objects ------------------------------------------------------------------------------------
 # Flags reach an object through its folder: only these folders see these libraries.
-$(OBJ)/reporter/%.o $(OBJ)/monitor/%.o $(OBJ)/tests/storm/%.o \
+$(OBJ)/topics/%.o $(OBJ)/ctl/%.o $(OBJ)/reporter/%.o $(OBJ)/monitor/%.o $(OBJ)/tests/storm/%.o \
 $(OBJ)/tests/once/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
 $(OBJ)/renderer/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS)
 # Painting is loops over rows, which the compiler makes vectors of. None of this changes a result.
@@ -201,7 +205,7 @@ $(OBJ)/video/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS) $(JSON_CFLAGS)
 $(call objects,$(KERNEL_SRC)) $(KERNELS): CFLAGS_EXTRA = $(RENDER_CFLAGS) -Wno-psabi
 $(OBJ)/worldctl/%.o $(OBJ)/recorder/%.o $(OBJ)/replay/%.o $(OBJ)/tests/%.o \
 $(OBJ)/bench/%.o: CFLAGS_EXTRA = $(JSON_CFLAGS)
-$(call objects,$(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC)): $(IDL)/status.h
+$(call objects,$(TOPICS_SRC) $(CTL_SRC) $(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC)): $(IDL)/status.h
 
 $(OBJ)/%.o: %.c $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CC $<"
@@ -279,9 +283,9 @@ $(BUILD)/tests/unit/test_checkpoint: $(OBJ)/recorder/checkpoint.o
 $(BUILD)/tests/unit/test_recorder: $(call objects,recorder/brake.c)
 $(BUILD)/tests/unit/test_compare: $(call objects,worldctl/compare.c)
 
-$(STORM): $(call objects,$(STORM_SRC) $(filter reporter/dds%.c,$(REPORTER_SRC)) worldctl/json.c) $(STATUS) $(IPC) $(WORLD)
+$(STORM): $(call objects,$(STORM_SRC) worldctl/json.c) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(LISTENER): $(call objects,$(LISTENER_SRC) $(filter reporter/dds%.c,$(REPORTER_SRC))) $(STATUS) $(IPC) $(WORLD)
+$(LISTENER): $(call objects,$(LISTENER_SRC)) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(BASE_LIBS))
 
 $(FILM): $(call objects,$(FILM_SRC))
@@ -309,7 +313,7 @@ $(BIN)/fuzz_scenario $(BIN)/fuzz_kind: $(OBJ)/tests/fuzz/one_model.o
 $(BIN)/fuzz_scenario $(BIN)/fuzz_kind: FUZZ_LINK = $(call FUZZ_WRAP,aiImportFileEx aiReleaseImport)
 $(BIN)/fuzz_command: $(call objects,reporter/check.c $(filter-out %/main.c,$(MOVER_SRC)))
 $(BIN)/fuzz_ctl $(BIN)/fuzz_log: $(OBJ)/tests/fuzz/ending.o
-$(BIN)/fuzz_ctl: $(call objects,reporter/ctl_parse.c reporter/dds_config.c reporter/dds_link.c)
+$(BIN)/fuzz_ctl: $(call objects,ctl/parse.c topics/dds_config.c topics/dds_link.c)
 $(BIN)/fuzz_ctl: FUZZ_LINK = $(call FUZZ_WRAP,exit) $(DDS_LIBS)
 $(BIN)/fuzz_image: $(ARCHIVE)
 $(BIN)/fuzz_image: FUZZ_LINK = $(ARCHIVE_LIBS)

@@ -55,7 +55,7 @@ static void add_role(cJSON *roles, const jolon_ProcessStatus *status)
     cJSON *role = cJSON_CreateObject();
     word(role, "role", status->role);
     whole(role, "pid", status->pid);
-    word(role, "state", picture_process_state(status->state));
+    word(role, "state", mirror_process_state(status->state));
     number(role, "beat_age_ms", status->beat_age_ms);
     whole(role, "restarts", status->restarts);
     number(role, "stage_ms", status->stage_ms);
@@ -79,13 +79,13 @@ static void add_tally(cJSON *object, const jolon_FrameStatus *frame)
     whole(object, "events_dropped", frame->tally.events_dropped);
 }
 
-char *json_status(const struct picture *picture, uint64_t now_ns)
+char *json_status(const struct mirror *mirror, uint64_t now_ns)
 {
-    const jolon_FrameStatus *frame = &picture->frame;
+    const jolon_FrameStatus *frame = &mirror->frame;
     cJSON *object = cJSON_CreateObject();
-    word(object, "world", picture->name);
-    word(object, "state", picture_run_state(picture, now_ns));
-    if (picture->frame_ns) {
+    word(object, "world", mirror->name);
+    word(object, "state", mirror_run_state(mirror, now_ns));
+    if (mirror->frame_ns) {
         whole(object, "commit", frame->frame);
         whole(object, "moved", frame->moved);
         number(object, "sim_time_s", frame->sim_time_s);
@@ -102,11 +102,11 @@ char *json_status(const struct picture *picture, uint64_t now_ns)
         times(object, "mover_ms", &frame->mover_time);
         times(object, "collider_ms", &frame->collider_time);
     }
-    if (picture->has_batch)
-        whole(object, "entities", picture->batch.count);
+    if (mirror->has_batch)
+        whole(object, "entities", mirror->batch.count);
     cJSON *roles = cJSON_AddArrayToObject(object, "roles");
-    for (uint32_t i = 0; i < picture->role_count; i++)
-        add_role(roles, &picture->role[i]);
+    for (uint32_t i = 0; i < mirror->role_count; i++)
+        add_role(roles, &mirror->role[i]);
     char *text = cJSON_PrintUnformatted(object);
     cJSON_Delete(object);
     return text;

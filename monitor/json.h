@@ -3,11 +3,11 @@
 #ifndef JOLON_MONITOR_JSON_H
 #define JOLON_MONITOR_JSON_H
 
-#include "monitor/picture.h"
-#include "monitor/tail.h"
+#include "topics/mirror.h"
+#include "topics/tail.h"
 
 /* The status as one object, without a newline, NULL when there is no memory; for cJSON_free(). */
-char *json_status(const struct picture *picture, uint64_t now_ns);
+char *json_status(const struct mirror *mirror, uint64_t now_ns);
 
 /* An event as one object; a tail_format. */
 void json_event(char line[TAIL_LINE_MAX], enum dds_topic topic, const void *event);

@@ -19,10 +19,10 @@ static const char *clock_text(char text[CLOCK_MAX], double time_s)
 }
 
 /* "59.9 of 60.0 Hz", or without the second number when frames are made as fast as can be */
-static const char *rate_text(char text[CLOCK_MAX], const struct picture *picture)
+static const char *rate_text(char text[CLOCK_MAX], const struct mirror *mirror)
 {
-    const jolon_FrameStatus *frame = &picture->frame;
-    if (picture->has_world && !picture->world.real_time)
+    const jolon_FrameStatus *frame = &mirror->frame;
+    if (mirror->has_world && !mirror->world.real_time)
         (void)snprintf(text, CLOCK_MAX, "%.1f Hz", frame->rate_hz);
     else
         (void)snprintf(text, CLOCK_MAX, "%.1f of %.1f Hz", frame->rate_hz,
@@ -30,47 +30,47 @@ static const char *rate_text(char text[CLOCK_MAX], const struct picture *picture
     return text;
 }
 
-void lines_status(char line[LINES_MAX], const struct picture *picture, uint64_t now_ns)
+void lines_status(char line[LINES_MAX], const struct mirror *mirror, uint64_t now_ns)
 {
     char time[CLOCK_MAX], rate[CLOCK_MAX];
-    const jolon_FrameStatus *frame = &picture->frame;
-    if (!picture_live(picture, now_ns)) {
-        lines_notice(line, picture, now_ns);
+    const jolon_FrameStatus *frame = &mirror->frame;
+    if (!mirror_live(mirror, now_ns)) {
+        lines_notice(line, mirror, now_ns);
         return;
     }
     (void)snprintf(line, LINES_MAX,
                    "%s  frame %llu  %s  %s  frame %.2f ms  late %llu  vehicles %u  "
                    "munitions %u  collisions %llu  destroyed %llu  events %llu",
-                   picture_run_state(picture, now_ns), (unsigned long long)frame->frame,
-                   clock_text(time, frame->sim_time_s), rate_text(rate, picture),
+                   mirror_run_state(mirror, now_ns), (unsigned long long)frame->frame,
+                   clock_text(time, frame->sim_time_s), rate_text(rate, mirror),
                    frame->frame_time.p50_ms, (unsigned long long)frame->late_frames,
                    frame->vehicles, frame->munitions, (unsigned long long)frame->tally.collisions,
                    (unsigned long long)frame->tally.destroyed, (unsigned long long)frame->events);
 }
 
-void lines_world(char line[LINES_MAX], const struct picture *picture, uint64_t now_ns)
+void lines_world(char line[LINES_MAX], const struct mirror *mirror, uint64_t now_ns)
 {
     char time[CLOCK_MAX];
-    (void)snprintf(line, LINES_MAX, "jolon  %s  %s%s%s  frame %llu  %s", picture->name,
-                   picture_run_state(picture, now_ns), picture->has_world ? "  " : "",
-                   picture->has_world ? picture->world.ground : "",
-                   (unsigned long long)picture->frame.frame,
-                   clock_text(time, picture->frame.sim_time_s));
+    (void)snprintf(line, LINES_MAX, "jolon  %s  %s%s%s  frame %llu  %s", mirror->name,
+                   mirror_run_state(mirror, now_ns), mirror->has_world ? "  " : "",
+                   mirror->has_world ? mirror->world.ground : "",
+                   (unsigned long long)mirror->frame.frame,
+                   clock_text(time, mirror->frame.sim_time_s));
 }
 
-void lines_frame(char line[LINES_MAX], const struct picture *picture)
+void lines_frame(char line[LINES_MAX], const struct mirror *mirror)
 {
     char rate[CLOCK_MAX];
-    const jolon_FrameStatus *frame = &picture->frame;
+    const jolon_FrameStatus *frame = &mirror->frame;
     (void)snprintf(line, LINES_MAX, "%s  late %llu  frame ms p50 %.2f p99 %.2f max %.2f  scale %g",
-                   rate_text(rate, picture), (unsigned long long)frame->late_frames,
+                   rate_text(rate, mirror), (unsigned long long)frame->late_frames,
                    frame->frame_time.p50_ms, frame->frame_time.p99_ms, frame->frame_time.max_ms,
                    frame->time_scale);
 }
 
-void lines_counts(char line[LINES_MAX], const struct picture *picture)
+void lines_counts(char line[LINES_MAX], const struct mirror *mirror)
 {
-    const jolon_FrameStatus *frame = &picture->frame;
+    const jolon_FrameStatus *frame = &mirror->frame;
     (void)snprintf(line, LINES_MAX,
                    "vehicles %u  destroyed %llu  munitions %u  collisions %llu  fires %llu  "
                    "craters %u",
@@ -88,23 +88,23 @@ void lines_process_head(char line[LINES_MAX])
 void lines_process(char line[LINES_MAX], const jolon_ProcessStatus *status)
 {
     (void)snprintf(line, LINES_MAX, "%-10s %-9s %8u %8.1f %8.3f %8.3f %8.3f %8llu", status->role,
-                   picture_process_state(status->state), status->pid, status->beat_age_ms,
+                   mirror_process_state(status->state), status->pid, status->beat_age_ms,
                    status->stage_p50_ms, status->stage_p99_ms, status->stage_max_ms,
                    (unsigned long long)status->restarts);
 }
 
-void lines_notice(char line[LINES_MAX], const struct picture *picture, uint64_t now_ns)
+void lines_notice(char line[LINES_MAX], const struct mirror *mirror, uint64_t now_ns)
 {
     line[0] = '\0';
-    if (!picture->frame_ns)
+    if (!mirror->frame_ns)
         (void)snprintf(line, LINES_MAX,
                        "world '%s': waiting for its reporter; `jolon worlds` lists those there are",
-                       picture->name);
-    else if (!picture_live(picture, now_ns))
+                       mirror->name);
+    else if (!mirror_live(mirror, now_ns))
         (void)snprintf(line, LINES_MAX,
                        "world '%s': silent for %llu s since frame %llu; waiting for its reporter",
-                       picture->name, (unsigned long long)((now_ns - picture->frame_ns) / NS_PER_S),
-                       (unsigned long long)picture->frame.frame);
+                       mirror->name, (unsigned long long)((now_ns - mirror->frame_ns) / NS_PER_S),
+                       (unsigned long long)mirror->frame.frame);
 }
 
 /* "tank 12", "tree 40211", "ground" */

@@ -2,25 +2,25 @@
 #ifndef JOLON_MONITOR_LINES_H
 #define JOLON_MONITOR_LINES_H
 
-#include "monitor/picture.h"
-#include "monitor/tail.h"
+#include "topics/mirror.h"
+#include "topics/tail.h"
 
 #define LINES_MAX 256u
 
 /* "running  frame 12345  00:03:25.7  60.0 of 60.0 Hz ...": everything in one line. */
-void lines_status(char line[LINES_MAX], const struct picture *picture, uint64_t now_ns);
+void lines_status(char line[LINES_MAX], const struct mirror *mirror, uint64_t now_ns);
 
 /* The same in three lines. */
-void lines_world(char line[LINES_MAX], const struct picture *picture, uint64_t now_ns);
-void lines_frame(char line[LINES_MAX], const struct picture *picture);
-void lines_counts(char line[LINES_MAX], const struct picture *picture);
+void lines_world(char line[LINES_MAX], const struct mirror *mirror, uint64_t now_ns);
+void lines_frame(char line[LINES_MAX], const struct mirror *mirror);
+void lines_counts(char line[LINES_MAX], const struct mirror *mirror);
 
 /* A table of the processes. */
 void lines_process_head(char line[LINES_MAX]);
 void lines_process(char line[LINES_MAX], const jolon_ProcessStatus *status);
 
 /* Why there is nothing new to see, "" when there is. */
-void lines_notice(char line[LINES_MAX], const struct picture *picture, uint64_t now_ns);
+void lines_notice(char line[LINES_MAX], const struct mirror *mirror, uint64_t now_ns);
 
 /* An event in a few words; a tail_format. */
 void lines_event(char line[TAIL_LINE_MAX], enum dds_topic topic, const void *event);

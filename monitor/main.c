@@ -28,7 +28,7 @@ static int run_events(struct tail *tail)
     return EXIT_OK;
 }
 
-static int run_screen(struct picture *picture, struct tail *tail, const struct options *options)
+static int run_screen(struct mirror *mirror, struct tail *tail, const struct options *options)
 {
     static struct screen screen;
     struct reason reason;
@@ -36,11 +36,11 @@ static int run_screen(struct picture *picture, struct tail *tail, const struct o
     if (screen_open(&screen, &reason) != 0)
         die_refused("%s", reason.text);
     while (!process_stopping() && !screen_quit()) {
-        picture_take(picture);
+        mirror_take(mirror);
         (void)tail_turn(tail, screen_event, &screen);
         uint64_t now_ns = clock_now_ns();
         if (now_ns >= due_ns) {
-            screen_draw(&screen, picture, now_ns);
+            screen_draw(&screen, mirror, now_ns);
             due_ns = now_ns + (uint64_t)(NS_PER_S / options->rate_hz);
         }
         clock_sleep_until_ns(now_ns + LOOK_NS < due_ns ? now_ns + LOOK_NS : due_ns);
@@ -51,7 +51,7 @@ static int run_screen(struct picture *picture, struct tail *tail, const struct o
 
 int main(int argc, char **argv)
 {
-    static struct picture picture;
+    static struct mirror mirror;
     static struct tail tail;
     struct options options;
     struct dds_link link;
@@ -66,20 +66,20 @@ int main(int argc, char **argv)
         options.rate_hz = screen ? OPTIONS_SCREEN_HZ : OPTIONS_LINES_HZ;
     process_signals();
     if (dds_link_open(&link, &options.link, options.world, &reason) != 0 ||
-        (!options.events && picture_open(&picture, &link, options.world, &reason) != 0) ||
+        (!options.events && mirror_open(&mirror, &link, options.world, &reason) != 0) ||
         ((options.events || screen) &&
          tail_open(&tail, &link, screen ? lines_event : json_event, &reason) != 0))
         die_refused("%s", reason.text);
     if (options.events)
         code = run_events(&tail);
     else if (options.once)
-        code = plain_once(&picture, &options);
+        code = plain_once(&mirror, &options);
     else if (screen)
-        code = run_screen(&picture, &tail, &options);
+        code = run_screen(&mirror, &tail, &options);
     else
-        code = plain_lines(&picture, &options);
+        code = plain_lines(&mirror, &options);
     tail_close(&tail);
-    picture_close(&picture);
+    mirror_close(&mirror);
     dds_link_close(&link, code);
     return code;
 }

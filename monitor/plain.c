@@ -29,74 +29,74 @@ bool plain_line(void *unused, const char *line)
     return puts(line) >= 0;
 }
 
-static bool print_json(const struct picture *picture, uint64_t now_ns)
+static bool print_json(const struct mirror *mirror, uint64_t now_ns)
 {
-    char *text = json_status(picture, now_ns);
+    char *text = json_status(mirror, now_ns);
     bool good = text && puts(text) >= 0;
     cJSON_free(text);
     return good && plain_flush();
 }
 
-static void print_text(const struct picture *picture, uint64_t now_ns)
+static void print_text(const struct mirror *mirror, uint64_t now_ns)
 {
     char line[LINES_MAX];
-    lines_world(line, picture, now_ns);
+    lines_world(line, mirror, now_ns);
     (void)puts(line);
-    lines_frame(line, picture);
+    lines_frame(line, mirror);
     (void)puts(line);
-    lines_counts(line, picture);
+    lines_counts(line, mirror);
     (void)puts(line);
     lines_process_head(line);
     (void)puts(line);
-    for (uint32_t i = 0; i < picture->role_count; i++) {
-        lines_process(line, &picture->role[i]);
+    for (uint32_t i = 0; i < mirror->role_count; i++) {
+        lines_process(line, &mirror->role[i]);
         (void)puts(line);
     }
 }
 
-int plain_once(struct picture *picture, const struct options *options)
+int plain_once(struct mirror *mirror, const struct options *options)
 {
     uint64_t limit_ns = clock_now_ns() + ONCE_LIMIT_NS;
     uint64_t now_ns = clock_now_ns();
-    for (; !picture_whole(picture) && now_ns < limit_ns; now_ns = clock_now_ns()) {
+    for (; !mirror_whole(mirror) && now_ns < limit_ns; now_ns = clock_now_ns()) {
         if (process_stopping())
             return EXIT_REFUSED;
-        picture_wait(picture, limit_ns);
-        picture_take(picture);
+        mirror_wait(mirror, limit_ns);
+        mirror_take(mirror);
     }
-    if (!picture_whole(picture)) {
+    if (!mirror_whole(mirror)) {
         (void)fprintf(stderr,
                       "jolon-monitor: world '%s': %s within 3 s; is it running, with its "
                       "reporter? `jolon worlds` lists those there are\n",
                       options->world,
-                      picture->frame_ns ? "only part of its status came" : "no status came");
+                      mirror->frame_ns ? "only part of its status came" : "no status came");
         return EXIT_REFUSED;
     }
     if (options->json)
-        return print_json(picture, now_ns) ? EXIT_OK : EXIT_REFUSED;
-    print_text(picture, now_ns);
+        return print_json(mirror, now_ns) ? EXIT_OK : EXIT_REFUSED;
+    print_text(mirror, now_ns);
     return plain_flush() ? EXIT_OK : EXIT_REFUSED;
 }
 
 /* A line each time it is due; while there is no world, one when it goes and then seldom. */
-int plain_lines(struct picture *picture, const struct options *options)
+int plain_lines(struct mirror *mirror, const struct options *options)
 {
     char line[LINES_MAX];
     uint64_t due_ns = clock_now_ns() + FIRST_NS;
     uint64_t notice_ns = 0;
     while (!process_stopping()) {
-        picture_wait(picture, due_ns);
-        picture_take(picture);
+        mirror_wait(mirror, due_ns);
+        mirror_take(mirror);
         uint64_t now_ns = clock_now_ns();
         if (now_ns < due_ns)
             continue;
         due_ns = now_ns + (uint64_t)(NS_PER_S / options->rate_hz);
-        bool live = picture_live(picture, now_ns);
+        bool live = mirror_live(mirror, now_ns);
         if (!live && now_ns < notice_ns)
             continue;
         notice_ns = live ? 0 : now_ns + NOTICE_NS;
-        lines_status(line, picture, now_ns);
-        if (options->json ? !print_json(picture, now_ns) : puts(line) < 0 || !plain_flush())
+        lines_status(line, mirror, now_ns);
+        if (options->json ? !print_json(mirror, now_ns) : puts(line) < 0 || !plain_flush())
             return EXIT_REFUSED; /* nobody reads any more */
     }
     return EXIT_OK;

@@ -3,14 +3,14 @@
 #define JOLON_MONITOR_PLAIN_H
 
 #include "monitor/options.h"
-#include "monitor/picture.h"
+#include "topics/mirror.h"
 
 /* Prints the status once, when all of it has come; waits 3 s for that at most. An exit code. */
-int plain_once(struct picture *picture, const struct options *options);
+int plain_once(struct mirror *mirror, const struct options *options);
 
 /* Prints a line (a JSON object) at the options' rate until the process is asked to stop or nobody
  * reads any more. An exit code. */
-int plain_lines(struct picture *picture, const struct options *options);
+int plain_lines(struct mirror *mirror, const struct options *options);
 
 /* Puts a line to standard output; a tail_print. */
 bool plain_line(void *unused, const char *line);

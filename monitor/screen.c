@@ -78,12 +78,12 @@ static bool wants_care(const jolon_ProcessStatus *status)
            (status->state == jolon_PROCESS_READY && status->beat_age_ms > 100.0);
 }
 
-static char mark_of(const jolon_Entity *entity, const struct picture *picture)
+static char mark_of(const jolon_Entity *entity, const struct mirror *mirror)
 {
     if (entity->state == jolon_ENTITY_WRECK)
         return MAP_WRECK;
-    if (picture->has_world && entity->kind < picture->world.kinds._length &&
-        picture->kinds[entity->kind].domain == jolon_DOMAIN_MUNITION)
+    if (mirror->has_world && entity->kind < mirror->world.kinds._length &&
+        mirror->kinds[entity->kind].domain == jolon_DOMAIN_MUNITION)
         return MAP_MUNITION;
     if (entity->force == jolon_FORCE_BLUE)
         return MAP_BLUE;
@@ -107,16 +107,16 @@ static void draw_cell(int row, int column, char cell)
     put(row, column, text, attributes, pair);
 }
 
-static void draw_map(struct screen *screen, const struct picture *picture, int top, int rows,
+static void draw_map(struct screen *screen, const struct mirror *mirror, int top, int rows,
                      int columns)
 {
     struct map *map = &screen->map;
-    double side_m = picture->world.side_m;
-    map_ground(map, rows, columns, picture->world.height_m, picture->world.water,
-               picture->has_world ? jolon_MAP_SIDE : 0);
-    for (uint32_t i = 0; picture->has_batch && i < picture->batch.count; i++) {
-        const jolon_Entity *entity = &picture->batch.entity[i];
-        map_mark(map, entity->x_m, entity->z_m, side_m, mark_of(entity, picture));
+    double side_m = mirror->world.side_m;
+    map_ground(map, rows, columns, mirror->world.height_m, mirror->world.water,
+               mirror->has_world ? jolon_MAP_SIDE : 0);
+    for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++) {
+        const jolon_Entity *entity = &mirror->batch.entity[i];
+        map_mark(map, entity->x_m, entity->z_m, side_m, mark_of(entity, mirror));
     }
     for (int row = 0; row < map->rows; row++) {
         for (int column = 0; column < map->columns; column++)
@@ -137,43 +137,43 @@ static void draw_events(const struct screen *screen, int top, int rows, int colu
 }
 
 /* The part above the map; how many rows it took. */
-static int draw_status(const struct picture *picture, uint64_t now_ns)
+static int draw_status(const struct mirror *mirror, uint64_t now_ns)
 {
     char line[LINES_MAX];
     int row = 0;
-    lines_world(line, picture, now_ns);
+    lines_world(line, mirror, now_ns);
     size_t length = strlen(line);
     while (length < (size_t)COLS && length < sizeof line - 1)
         line[length++] = ' ';
     line[length] = '\0';
     put(row++, 0, line, A_REVERSE, PAIR_PLAIN);
-    lines_frame(line, picture);
+    lines_frame(line, mirror);
     put(row++, 0, line, A_NORMAL, PAIR_PLAIN);
-    lines_counts(line, picture);
+    lines_counts(line, mirror);
     put(row++, 0, line, A_NORMAL, PAIR_PLAIN);
     lines_process_head(line);
     put(row++, 0, line, A_UNDERLINE, PAIR_PLAIN);
-    for (uint32_t i = 0; i < picture->role_count; i++) {
-        bool care = wants_care(&picture->role[i]);
-        lines_process(line, &picture->role[i]);
+    for (uint32_t i = 0; i < mirror->role_count; i++) {
+        bool care = wants_care(&mirror->role[i]);
+        lines_process(line, &mirror->role[i]);
         put(row++, 0, line, care ? A_BOLD : A_NORMAL, care ? PAIR_WARN : PAIR_PLAIN);
     }
     return row;
 }
 
-void screen_draw(struct screen *screen, const struct picture *picture, uint64_t now_ns)
+void screen_draw(struct screen *screen, const struct mirror *mirror, uint64_t now_ns)
 {
     char notice[LINES_MAX];
     (void)erase();
-    int top = draw_status(picture, now_ns);
+    int top = draw_status(mirror, now_ns);
     int rows = LINES - top - 1;
     int columns = rows * COLUMNS_A_ROW;
     if (columns > COLS - EVENT_COLUMNS_MIN)
         columns = COLS - EVENT_COLUMNS_MIN;
     if (rows > 0 && columns > 0)
-        draw_map(screen, picture, top, rows, columns);
+        draw_map(screen, mirror, top, rows, columns);
     draw_events(screen, top, rows, columns > 0 ? columns + 1 : 0);
-    lines_notice(notice, picture, now_ns);
+    lines_notice(notice, mirror, now_ns);
     if (notice[0])
         put(LINES - 1, 0, notice, A_BOLD, PAIR_WARN);
     else

@@ -3,7 +3,7 @@
 #define JOLON_MONITOR_SCREEN_H
 
 #include "monitor/map.h"
-#include "monitor/picture.h"
+#include "topics/mirror.h"
 
 #define SCREEN_EVENTS    128u
 #define SCREEN_EVENT_MAX 128u
@@ -23,7 +23,7 @@ void screen_close(void);
 /* Adds a line to the events; a tail_print with a struct screen as context. */
 bool screen_event(void *screen, const char *line);
 
-void screen_draw(struct screen *screen, const struct picture *picture, uint64_t now_ns);
+void screen_draw(struct screen *screen, const struct mirror *mirror, uint64_t now_ns);
 
 /* Takes the keys that were pressed: true when one of them means quit. Does not block. */
 bool screen_quit(void);

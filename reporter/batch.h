@@ -3,7 +3,7 @@
 #define JOLON_REPORTER_BATCH_H
 
 #include "ipc/snapshot.h"
-#include "reporter/dds_topics.h"
+#include "topics/dds_topics.h"
 
 #include "status.h"
 

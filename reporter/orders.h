@@ -7,7 +7,7 @@
 #define JOLON_REPORTER_ORDERS_H
 
 #include "reporter/book.h"
-#include "reporter/dds_topics.h"
+#include "topics/dds_topics.h"
 
 struct orders {
     dds_entity_t reader, writer;

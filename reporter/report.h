@@ -5,7 +5,7 @@
 #ifndef JOLON_REPORTER_REPORT_H
 #define JOLON_REPORTER_REPORT_H
 
-#include "reporter/dds_topics.h"
+#include "topics/dds_topics.h"
 
 #include "status.h"
 

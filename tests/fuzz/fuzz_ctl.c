@@ -2,7 +2,7 @@
 #include "tests/fuzz/support.h"
 
 #include "ipc/log.h"
-#include "reporter/ctl_parse.h"
+#include "ctl/parse.h"
 #include "tests/fuzz/ending.h"
 
 #include <getopt.h>

@@ -5,7 +5,7 @@
  * it has of the topic in that run, and says on standard error when one is missing. */
 #include "ipc/log.h"
 #include "ipc/process.h"
-#include "reporter/dds_topics.h"
+#include "topics/dds_topics.h"
 
 #include "status.h"
 

@@ -4,7 +4,7 @@
 #include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
-#include "reporter/dds_topics.h"
+#include "topics/dds_topics.h"
 
 #include "status.h"
 

@@ -1,6 +1,6 @@
 /* The configuration that Cyclone DDS gets: the file that is installed says what is built in, and
  * what cannot be right is refused with its name. */
-#include "reporter/dds_config.c" /* the unit tests are not linked with the processes */
+#include "topics/dds_config.c" /* the unit tests are not linked with the processes */
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* Events taken, put in order, repeats dropped. */
-#include "monitor/tail.h"
+#include "topics/tail.h"
 
 #include "ipc/clock.h"
 

@@ -1,6 +1,6 @@
 /* The configuration that Cyclone DDS is given, as text. Pure but for reading the file; no DDS. */
-#ifndef JOLON_REPORTER_DDS_CONFIG_H
-#define JOLON_REPORTER_DDS_CONFIG_H
+#ifndef JOLON_TOPICS_DDS_CONFIG_H
+#define JOLON_TOPICS_DDS_CONFIG_H
 
 #include "ipc/segment.h"
 

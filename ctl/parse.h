@@ -1,8 +1,8 @@
 /* The command line of jolon-ctl, as a command. Pure but for ending the program on wrong usage. */
-#ifndef JOLON_REPORTER_CTL_PARSE_H
-#define JOLON_REPORTER_CTL_PARSE_H
+#ifndef JOLON_CTL_PARSE_H
+#define JOLON_CTL_PARSE_H
 
-#include "reporter/dds_link.h"
+#include "topics/dds_link.h"
 
 #include "status.h"
 
@@ -14,7 +14,7 @@ struct ctl_request {
     double timeout_s;
     bool json;
     struct dds_link_options link;
-    jolon_Command command; /* source and sequence are still 0 */
+    jolon_Command command; /* source and sequence are 0 */
 };
 
 /* Fills request from the arguments. Ends the program: with help on standard output (0), or with

@@ -1,9 +1,9 @@
 /* The link to DDS: domain with an explicit configuration, participant, partition, bounded end. */
-#include "reporter/dds_link.h"
+#include "topics/dds_link.h"
 
 #include "ipc/clock.h"
 #include "ipc/log.h"
-#include "reporter/dds_config.h"
+#include "topics/dds_config.h"
 
 #include <errno.h>
 #include <netinet/in.h>

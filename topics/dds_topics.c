@@ -1,5 +1,5 @@
 /* Topics, their qualities of service, readers, writers and the wait for them. */
-#include "reporter/dds_topics.h"
+#include "topics/dds_topics.h"
 
 #include "status.h"
 

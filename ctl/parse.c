@@ -1,5 +1,5 @@
 /* jolon-ctl's arguments: one table of verbs, one of options. */
-#include "reporter/ctl_parse.h"
+#include "ctl/parse.h"
 
 #include "ipc/log.h"
 #include "world/world.h"

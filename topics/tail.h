@@ -3,10 +3,10 @@
  * Topics run side by side, so an event waits TAIL_HOLD_NS for earlier ones before it is handed
  * on. A restarted reporter sends some again: they are dropped by their sequence. What a topic says
  * went before and never came is counted as missed. */
-#ifndef JOLON_MONITOR_TAIL_H
-#define JOLON_MONITOR_TAIL_H
+#ifndef JOLON_TOPICS_TAIL_H
+#define JOLON_TOPICS_TAIL_H
 
-#include "reporter/dds_topics.h"
+#include "topics/dds_topics.h"
 
 #include "status.h"
 

@@ -2,8 +2,8 @@
  *
  * Shared by the reporter, jolon-ctl and the monitor. The configuration is given to Cyclone DDS in
  * so many words, so that CYCLONEDDS_URI in somebody's environment changes nothing. */
-#ifndef JOLON_REPORTER_DDS_LINK_H
-#define JOLON_REPORTER_DDS_LINK_H
+#ifndef JOLON_TOPICS_DDS_LINK_H
+#define JOLON_TOPICS_DDS_LINK_H
 
 #include "ipc/segment.h"
 

@@ -1,77 +1,22 @@
-/* jolon-ctl: sends one command to a world and waits for its reply. It repeats the command under
- * the same key until it is answered, so that it is done once even if the reporter is killed. */
+/* jolon-ctl: sends one command to a world and waits for its reply. */
+#include "ctl/parse.h"
 #include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
-#include "reporter/ctl_parse.h"
-#include "reporter/dds_topics.h"
+#include "topics/caller.h"
 
 #include "status.h"
 #include "world/world.h"
 
 #include <cjson/cJSON.h>
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/random.h>
-
-#define REPEAT_NS (150 * (uint64_t)NS_PER_MS)
 
 struct ctl {
     struct dds_link link;
-    dds_entity_t replies, commands, waitset;
+    struct caller caller;
     jolon_CommandReply reply;
 };
-
-static void open_ends(struct ctl *ctl, const struct ctl_request *request)
-{
-    struct reason reason;
-    if (dds_link_open(&ctl->link, &request->link, request->world, &reason) != 0)
-        die_refused("%s", reason.text);
-    /* The reader first: the reply may come as soon as the command is out. */
-    if ((ctl->replies = dds_topics_reader(&ctl->link, TOPIC_REPLY, &reason)) < 0 ||
-        (ctl->waitset = dds_topics_waitset(&ctl->link, &ctl->replies, 1, &reason)) < 0 ||
-        (ctl->commands = dds_topics_writer(&ctl->link, TOPIC_COMMAND, &reason)) < 0)
-        die_refused("%s", reason.text);
-}
-
-/* True when our reply was among those that came; it then is in ctl->reply. */
-static bool take_reply(struct ctl *ctl, const jolon_Command *command)
-{
-    bool found = false;
-    void *sample = NULL;
-    dds_sample_info_t info;
-    while (dds_take(ctl->replies, &sample, &info, 1, 1) > 0) {
-        const jolon_CommandReply *reply = sample;
-        if (info.valid_data && reply->source == command->source &&
-            reply->sequence == command->sequence) {
-            ctl->reply = *reply;
-            found = true;
-        }
-        (void)dds_return_loan(ctl->replies, &sample, 1);
-        sample = NULL;
-    }
-    return found;
-}
-
-static bool exchange(struct ctl *ctl, const jolon_Command *command, uint64_t until_ns)
-{
-    uint64_t repeat_ns = 0;
-    for (;;) {
-        uint64_t now_ns = clock_now_ns();
-        if (take_reply(ctl, command))
-            return true;
-        if (now_ns >= until_ns || process_stopping())
-            return false;
-        if (now_ns >= repeat_ns) {
-            (void)dds_write(ctl->commands, command); /* what does not get out is repeated */
-            repeat_ns = now_ns + REPEAT_NS;
-        }
-        uint64_t wake_ns = repeat_ns < until_ns ? repeat_ns : until_ns;
-        dds_topics_wait(ctl->waitset, wake_ns - now_ns);
-    }
-}
 
 static void print_done(const struct ctl_request *request, const jolon_CommandReply *reply)
 {
@@ -182,9 +127,7 @@ static void print_refusal(const struct ctl *ctl, const struct ctl_request *reque
 
 static void print_silence(const struct ctl *ctl, const struct ctl_request *request)
 {
-    dds_publication_matched_status_t matched = {0};
-    (void)dds_get_publication_matched_status(ctl->commands, &matched);
-    if (matched.current_count == 0)
+    if (!caller_heard(&ctl->caller))
         (void)fprintf(stderr,
                       "jolon-ctl: world '%s': nobody takes commands for it; is it running, with "
                       "its reporter? `jolon status -w %s` shows it\n",
@@ -196,30 +139,19 @@ static void print_silence(const struct ctl *ctl, const struct ctl_request *reque
                       request->world, request->verb, request->timeout_s, request->world);
 }
 
-/* A number that no other sender has; 53 bits, so that programs that know only doubles keep it. */
-static uint64_t choose_source(void)
-{
-    uint64_t source = 0;
-    while (source == 0) {
-        if (getrandom(&source, sizeof source, 0) != (ssize_t)sizeof source)
-            die_refused("no random numbers: %s", strerror(errno));
-        source >>= 11;
-    }
-    return source;
-}
-
 int main(int argc, char **argv)
 {
-    struct ctl ctl = {0};
+    static struct ctl ctl;
     struct ctl_request request;
+    struct reason reason;
     log_open("ctl");
     ctl_parse(&request, argc, argv);
     process_signals();
-    open_ends(&ctl, &request);
-    request.command.source = choose_source();
-    request.command.sequence = 1;
+    if (dds_link_open(&ctl.link, &request.link, request.world, &reason) != 0 ||
+        caller_open(&ctl.caller, &ctl.link, &reason) != 0)
+        die_refused("%s", reason.text);
     uint64_t until_ns = clock_now_ns() + (uint64_t)(request.timeout_s * NS_PER_S);
-    bool answered = exchange(&ctl, &request.command, until_ns);
+    bool answered = caller_call(&ctl.caller, &request.command, until_ns, &ctl.reply);
     bool done = answered && ctl.reply.result == jolon_RESULT_DONE;
     if (request.json)
         print_json(&request, &ctl.reply,

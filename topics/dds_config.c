@@ -1,5 +1,5 @@
 /* Cyclone DDS's configuration: the built-in text, a file's, and the choice of the interface. */
-#include "reporter/dds_config.h"
+#include "topics/dds_config.h"
 
 #include <arpa/inet.h>
 #include <ctype.h>

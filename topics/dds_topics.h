@@ -2,10 +2,10 @@
  *
  * All are RELIABLE, TRANSIENT_LOCAL and KEEP_LAST with a bounded depth: a late reader gets the last
  * samples, and a stopped or slow one never blocks the writer (KEEP_ALL would). */
-#ifndef JOLON_REPORTER_DDS_TOPICS_H
-#define JOLON_REPORTER_DDS_TOPICS_H
+#ifndef JOLON_TOPICS_DDS_TOPICS_H
+#define JOLON_TOPICS_DDS_TOPICS_H
 
-#include "reporter/dds_link.h"
+#include "topics/dds_link.h"
 
 enum dds_topic {
     TOPIC_WORLD,

@@ -1,0 +1,72 @@
+/* The mirror: what a program without shared memory knows of a world, taken from its topics.
+ *
+ * Everything comes over DDS, so that a monitor works as well from another machine. A world that is
+ * not there, goes, or comes back is a state of the mirror, not an error. */
+#ifndef JOLON_TOPICS_MIRROR_H
+#define JOLON_TOPICS_MIRROR_H
+
+#include "topics/dds_topics.h"
+
+#include "status.h"
+
+#include <stdbool.h>
+
+#define MIRROR_ROLES_MAX 16u
+#define MIRROR_KINDS_MAX 64u
+
+/* No FrameStatus for this long: the reporter is gone or stopped. Ten come a second. */
+#define MIRROR_SILENCE_NS 1500000000u
+
+enum mirror_reader { MIRROR_WORLD, MIRROR_PROCESS, MIRROR_FRAME, MIRROR_ENTITIES, MIRROR_READERS };
+
+struct mirror {
+    dds_entity_t reader[MIRROR_READERS];
+    dds_entity_t waitset;
+    const char *name; /* of the world, as asked for */
+
+    bool has_world;
+    jolon_WorldInfo world; /* its sequence points into kinds */
+    jolon_KindInfo kinds[MIRROR_KINDS_MAX];
+
+    uint64_t frame_ns; /* CLOCK_MONOTONIC when frame came, 0: none yet */
+    jolon_FrameStatus frame;
+
+    uint32_t role_count;
+    jolon_ProcessStatus role[MIRROR_ROLES_MAX];
+
+    /* The last whole batch, and the one of which parts are still to come. */
+    struct mirror_batch {
+        jolon_Entity *entity;
+        uint32_t count, room;
+        uint64_t run, frame;
+        uint32_t parts_left;
+    } batch, coming;
+    bool has_batch;
+};
+
+/* Makes the readers; -1 with the reason. */
+int mirror_open(struct mirror *mirror, const struct dds_link *link, const char *world,
+                struct reason *reason);
+void mirror_close(struct mirror *mirror);
+
+/* Takes what has come. Does not block. */
+void mirror_take(struct mirror *mirror);
+
+/* Waits for something to take, at most until_ns (CLOCK_MONOTONIC). */
+void mirror_wait(const struct mirror *mirror, uint64_t until_ns);
+
+/* Does the world speak now? */
+bool mirror_live(const struct mirror *mirror, uint64_t now_ns);
+
+/* Is there one of everything: world, frame, processes, entities? */
+bool mirror_whole(const struct mirror *mirror);
+
+/* "?" when the world did not name it. */
+const char *mirror_kind_name(const struct mirror *mirror, uint32_t kind);
+
+/* The words of ipc/status.idl's states; of the run also what follows from silence: "waiting" when
+ * nothing ever came, "silent" when it stopped. */
+const char *mirror_process_state(jolon_ProcessState state);
+const char *mirror_run_state(const struct mirror *mirror, uint64_t now_ns);
+
+#endif
