@@ -224,6 +224,14 @@ static void attack(const struct move *move, uint32_t i, struct wish *wish)
         m->trigger[i] |= TRIGGER_FIRE;
 }
 
+void move_let_go(const struct entities *m, uint32_t i)
+{
+    m->throttle[i] = m->steer[i] = m->climb[i] = 0.0f;
+    m->traverse[i] = m->elevate[i] = m->brake[i] = 0.0f;
+    m->flags[i] &= (uint8_t)~ENTITY_GEAR_MASK;
+    m->driver[i] = 0;
+}
+
 static void wish_driven(const struct move *move, uint32_t i, struct wish *wish)
 {
     const struct entities *m = move->m;
@@ -285,8 +293,13 @@ bool agent_think(const struct move *move, uint32_t i, struct wish *wish)
     if (m->behaviour[i] == BEHAVIOUR_DRIVEN) {
         m->bumped[i] = 0;
         m->threat_slot[i] = m->threat_id[i] = 0;
-        wish_driven(move, i, wish);
-        return true;
+        if (m->driver[i] != 0 && move->tick > m->until_tick[i]) {
+            move_let_go(m, i);
+            back_to_order(move, i, REASON_LEASE_OVER);
+        } else {
+            wish_driven(move, i, wish);
+            return true;
+        }
     }
     react(move, i);
     if ((m->flags[i] & ENTITY_FLAG_FIRE_AT_WILL) && can_shoot(move, i) &&

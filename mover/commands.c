@@ -40,21 +40,42 @@ static enum command_result set_behaviour(struct serial *serial, uint32_t row, ui
     return COMMAND_DONE;
 }
 
+/* Has another source this vehicle for itself? */
+static bool taken(const struct serial *serial, uint32_t row, const struct command *command)
+{
+    const struct entities *m = &serial->moved->entities;
+    return m->behaviour[row] == BEHAVIOUR_DRIVEN && m->driver[row] != 0 &&
+           m->driver[row] != command->source;
+}
+
 static enum command_result drive(struct serial *serial, const struct command *command)
 {
     struct entities *m = &serial->moved->entities;
+    const double *v = command->value;
     uint32_t row = vehicle_row(serial, command->entity);
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
     if (m->state[row] != ENTITY_ACTIVE)
         return COMMAND_CANNOT;
-    for (int i = 0; i < 3; i++) {
-        if (!within(command->value[i], -1.0, 1.0))
+    if (taken(serial, row, command))
+        return COMMAND_TAKEN;
+    for (int i = 0; i < 5; i++) {
+        if (!within(v[i], -1.0, 1.0))
             return COMMAND_OUT_OF_RANGE;
     }
-    m->throttle[row] = (float)command->value[0];
-    m->steer[row] = (float)command->value[1];
-    m->climb[row] = (float)command->value[2];
+    if (!within(v[5], 0.0, 1.0) || command->force >= GEAR_COUNT ||
+        command->amount > COMMAND_LEASE_MAX)
+        return COMMAND_OUT_OF_RANGE;
+    m->throttle[row] = (float)v[0];
+    m->steer[row] = (float)v[1];
+    m->climb[row] = (float)v[2];
+    m->traverse[row] = (float)v[3];
+    m->elevate[row] = (float)v[4];
+    m->brake[row] = (float)v[5];
+    m->flags[row] =
+        (uint8_t)((m->flags[row] & ~ENTITY_GEAR_MASK) | command->force << ENTITY_GEAR_SHIFT);
+    m->driver[row] = command->amount > 0 ? command->source : 0;
+    m->until_tick[row] = (uint32_t)(serial->move->tick + command->amount);
     return set_behaviour(serial, row, BEHAVIOUR_DRIVEN);
 }
 
@@ -66,7 +87,9 @@ static enum command_result release(struct serial *serial, const struct command *
         return COMMAND_NO_SUCH_ENTITY;
     if (m->behaviour[row] != BEHAVIOUR_DRIVEN)
         return COMMAND_CANNOT;
-    m->throttle[row] = m->steer[row] = m->climb[row] = 0.0f;
+    if (command->amount == 0 && taken(serial, row, command))
+        return COMMAND_TAKEN;
+    move_let_go(m, row);
     return set_behaviour(serial, row, m->order[row]);
 }
 
@@ -96,6 +119,8 @@ static enum command_result fire(struct serial *serial, const struct command *com
         if (target == row)
             return COMMAND_OUT_OF_RANGE;
     }
+    if (taken(serial, row, command))
+        return COMMAND_TAKEN;
     if (m->state[row] != ENTITY_ACTIVE || serial->move->tick < m->reload_tick[row] ||
         m->rounds[row] == 0 || world->kinds[m->kind[row]].munition == KIND_NONE)
         return COMMAND_CANNOT;

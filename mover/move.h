@@ -53,6 +53,9 @@ static inline bool spin_row(const struct move *move, uint32_t i)
     return true;
 }
 
+/* agent.c: takes the controls of row i from whoever drives it. */
+void move_let_go(const struct entities *m, uint32_t i);
+
 /* agent.c: thinks for row i; true when the row moves by the wish. */
 bool agent_think(const struct move *move, uint32_t i, struct wish *wish);
 

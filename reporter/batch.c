@@ -55,9 +55,12 @@ static void fill(jolon_Entity *to, const struct entities *from, uint32_t row)
         .heading_rad = (float)from->heading[row],
         .pitch_rad = (float)from->pitch[row],
         .roll_rad = (float)from->roll[row],
+        .turret_rad = from->turret[row],
+        .gun_rad = from->gun[row],
         .target = from->target_id[row],
         .rounds = from->rounds[row],
         .fuel_l = (float)from->fuel_l[row],
+        .driver = from->driver[row],
     };
 }
 

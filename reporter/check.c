@@ -9,14 +9,16 @@
 _Static_assert((int)jolon_COMMAND_QUIT == (int)COMMAND_QUIT &&
                    (int)COMMAND_TYPE_COUNT == (int)jolon_COMMAND_QUIT + 1,
                "command types in ipc/status.idl");
-_Static_assert((int)jolon_RESULT_UNKNOWN == (int)COMMAND_UNKNOWN &&
-                   (int)COMMAND_RESULT_COUNT == (int)jolon_RESULT_UNKNOWN + 1,
+_Static_assert((int)jolon_RESULT_TAKEN == (int)COMMAND_TAKEN &&
+                   (int)COMMAND_RESULT_COUNT == (int)jolon_RESULT_TAKEN + 1,
                "command results in ipc/status.idl");
 _Static_assert((int)jolon_FORCE_RED == (int)FORCE_RED && (int)FORCE_COUNT == FORCE_RED + 1,
                "forces in ipc/status.idl");
-_Static_assert((int)jolon_BEHAVIOUR_FLIGHT == (int)BEHAVIOUR_FLIGHT &&
-                   (int)BEHAVIOUR_COUNT == (int)jolon_BEHAVIOUR_FLIGHT + 1,
+_Static_assert((int)jolon_BEHAVIOUR_RESUPPLY == (int)BEHAVIOUR_RESUPPLY &&
+                   (int)BEHAVIOUR_COUNT == (int)jolon_BEHAVIOUR_RESUPPLY + 1,
                "behaviours in ipc/status.idl");
+_Static_assert((int)jolon_GEAR_LOW == (int)GEAR_LOW && (int)GEAR_COUNT == (int)jolon_GEAR_LOW + 1,
+               "gears in ipc/status.idl");
 _Static_assert(sizeof((jolon_Command *)0)->kind == KIND_NAME_MAX, "kind names in ipc/status.idl");
 
 /* False also for what is no number. */
@@ -33,11 +35,18 @@ static bool on_the_map(const jolon_Command *wire)
 static enum command_result check_drive(struct command *command, const jolon_Command *wire)
 {
     if (!within(wire->throttle, -1.0, 1.0) || !within(wire->steer, -1.0, 1.0) ||
-        !within(wire->climb, -1.0, 1.0))
+        !within(wire->climb, -1.0, 1.0) || !within(wire->traverse, -1.0, 1.0) ||
+        !within(wire->elevate, -1.0, 1.0) || !within(wire->brake, 0.0, 1.0) ||
+        wire->gear > jolon_GEAR_LOW || wire->lease_frames > COMMAND_LEASE_MAX)
         return COMMAND_OUT_OF_RANGE;
     command->value[0] = wire->throttle;
     command->value[1] = wire->steer;
     command->value[2] = wire->climb;
+    command->value[3] = wire->traverse;
+    command->value[4] = wire->elevate;
+    command->value[5] = wire->brake;
+    command->force = (uint16_t)wire->gear;
+    command->amount = wire->lease_frames;
     return COMMAND_DONE;
 }
 
@@ -110,6 +119,8 @@ enum command_result check_command(struct command *command, const jolon_Command *
     case jolon_COMMAND_DRIVE:
         return check_drive(command, wire);
     case jolon_COMMAND_RELEASE:
+        command->amount = wire->anyway;
+        return wire->entity ? COMMAND_DONE : COMMAND_NO_SUCH_ENTITY;
     case jolon_COMMAND_REMOVE:
         return wire->entity ? COMMAND_DONE : COMMAND_NO_SUCH_ENTITY;
     case jolon_COMMAND_FIRE:

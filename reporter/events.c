@@ -15,8 +15,8 @@ _Static_assert((int)jolon_RESPONSE_DESTROYED == (int)RESPONSE_DESTROYED &&
 _Static_assert((int)jolon_STRUCK_AIR == (int)STRUCK_AIR &&
                    (int)STRUCK_COUNT == (int)jolon_STRUCK_AIR + 1,
                "what is struck in ipc/status.idl");
-_Static_assert((int)jolon_REASON_OUT_OF_FUEL == (int)REASON_OUT_OF_FUEL &&
-                   (int)REASON_COUNT == (int)jolon_REASON_OUT_OF_FUEL + 1,
+_Static_assert((int)jolon_REASON_LEASE_OVER == (int)REASON_LEASE_OVER &&
+                   (int)REASON_COUNT == (int)jolon_REASON_LEASE_OVER + 1,
                "agents' reasons in ipc/status.idl");
 _Static_assert((int)jolon_DAMAGE_DESTROYED == (int)DAMAGE_DESTROYED &&
                    (int)DAMAGE_COUNT == (int)jolon_DAMAGE_DESTROYED + 1,

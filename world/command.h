@@ -21,8 +21,10 @@ enum command_type {
     COMMAND_RESUME,
     COMMAND_STEP,    /* amount: frames to advance while paused */
     COMMAND_SCALE,   /* value[0]: simulated seconds a second of the clock */
-    COMMAND_DRIVE,   /* entity; value: throttle, steer, climb, each -1..1 */
-    COMMAND_RELEASE, /* entity: back to its agent */
+    COMMAND_DRIVE,   /* entity; value: throttle, steer, climb, traverse, elevate, each -1..1, and
+                        brake, 0..1; force: enum gearing; amount: frames for which the source alone
+                        drives it, after which it goes back to its agent; 0: anybody, without end */
+    COMMAND_RELEASE, /* entity: back to its agent; amount 1: whoever drives it */
     COMMAND_FIRE,    /* entity shoots: at target if not 0, else ahead; entity 0: kind detonates a
                         munition falling on value[0], value[1] (x, z) */
     COMMAND_SPAWN,   /* kind, force, value: x, z, altitude above ground, heading, speed; amount:
@@ -40,6 +42,7 @@ enum command_result {
     COMMAND_TABLE_FULL,
     COMMAND_CANNOT,  /* no rounds, destroyed, still reloading, not paused */
     COMMAND_UNKNOWN, /* not a type */
+    COMMAND_TAKEN,   /* another source drives it */
     COMMAND_RESULT_COUNT
 };
 
@@ -58,6 +61,9 @@ struct command {
 };
 
 _Static_assert(sizeof(struct command) == 128, "two cache lines a slot");
+
+/* Frames of simulation for which a DRIVE can hold a vehicle, at most. */
+#define COMMAND_LEASE_MAX 1000000u
 
 const char *command_ring_name(enum command_ring ring);
 const char *command_type_name(enum command_type type);

@@ -34,6 +34,10 @@ enum behaviour {
     BEHAVIOUR_BACK_OFF, /* away from what it ran into */
     BEHAVIOUR_DRIVEN,   /* by commands: a player or an outside program */
     BEHAVIOUR_FLIGHT,   /* a munition */
+    BEHAVIOUR_FOLLOW,   /* keeps its place in its formation */
+    BEHAVIOUR_SCRIPT,   /* by the steps of its script */
+    BEHAVIOUR_WITHDRAW, /* to its force's base, for rounds or fuel, or hurt */
+    BEHAVIOUR_RESUPPLY, /* there, until it has them */
     BEHAVIOUR_COUNT
 };
 
@@ -63,7 +67,15 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
     X(float, throttle)     /* -1..1, when driven */                                                \
     X(float, steer)        /* -1..1, when driven: right */                                         \
     X(float, climb)        /* -1..1, when driven: up (aircraft) */                                 \
+    X(float, brake)        /* 0..1, when driven */                                                 \
+    X(float, traverse)     /* -1..1, when driven: turret to the right */                           \
+    X(float, elevate)      /* -1..1, when driven: gun up */                                        \
+    X(float, turret)       /* [rad] clockwise off the heading, -pi..pi */                          \
+    X(float, gun)          /* [rad] up off the body's own plane */                                 \
+    X(float, dodge)        /* [rad] to the right of its goal, around what is in its way */         \
+    X(float, ease)         /* 0..1: share of its speed that it does without for what is ahead */   \
     X(float, bump_heading) /* [rad] away from what it ran into this frame */                       \
+    X(uint64_t, driver) /* who drives it alone until until_tick: a command's source, 0: nobody */  \
     X(uint32_t, id)                                                                                \
     X(uint32_t, target_slot) /* what it attacks, flees, or homes on */                             \
     X(uint32_t, target_id)                                                                         \
@@ -77,8 +89,8 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
     X(uint32_t, touch_tick)  /* when; a press that goes on is no new collision */                  \
     X(uint32_t, born_tick)                                                                         \
     X(uint32_t, changed_tick) /* when its damage last grew; for fire and smoke */                  \
-    X(uint32_t, order_arg)    /* its area (patrol) or route */                                     \
-    X(uint32_t, leg)          /* its next route point */                                           \
+    X(uint32_t, order_arg)    /* its area (patrol), route, formation or script */                  \
+    X(uint32_t, leg)          /* its next route point or step of its script */                     \
     X(uint32_t, rounds)                                                                            \
     X(uint16_t, kind)                                                                              \
     X(uint8_t, state)                                                                              \
@@ -91,6 +103,24 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
     X(uint8_t, trigger) /* mover's own: wants to fire this frame */
 
 #define ENTITY_FLAG_FIRE_AT_WILL 1u /* engages enemies that it sees, not only who fires at it */
+#define ENTITY_FLAG_HOLD_FIRE    2u /* fires at nobody, whatever happens to it */
+#define ENTITY_FLAG_STAND        4u /* never flees or withdraws */
+
+/* How a driven vehicle's throttle goes to its wheels; a driver's choice, in flags. */
+enum gearing {
+    GEAR_AUTOMATIC, /* forwards, or backwards when the throttle is negative */
+    GEAR_REVERSE,   /* the throttle drives backwards */
+    GEAR_NEUTRAL,   /* not at all: it rolls */
+    GEAR_LOW,       /* slow and strong */
+    GEAR_COUNT
+};
+#define ENTITY_GEAR_SHIFT 4u
+#define ENTITY_GEAR_MASK  0x30u
+
+static inline enum gearing entity_gear(uint8_t flags)
+{
+    return (enum gearing)((flags & ENTITY_GEAR_MASK) >> ENTITY_GEAR_SHIFT);
+}
 
 struct entities {
     uint32_t capacity;
@@ -149,6 +179,7 @@ static inline void entities_set_velocity(const struct entities *e, uint32_t i, s
 
 const char *entity_state_name(enum entity_state state);
 const char *behaviour_name(enum behaviour behaviour);
+const char *gear_name(enum gearing gear);
 const char *force_name(enum force force);
 
 #endif

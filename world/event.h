@@ -38,6 +38,15 @@ enum agent_reason {
     REASON_ENEMY_SEEN,
     REASON_COMMAND,
     REASON_OUT_OF_FUEL,
+    REASON_LOST_SIGHT,
+    REASON_HURT,
+    REASON_OUTNUMBERED,
+    REASON_LOW_FUEL,
+    REASON_SUPPLIED,
+    REASON_ARRIVED,
+    REASON_LEADER_LOST,
+    REASON_SCRIPT,     /* a step of its script says so */
+    REASON_LEASE_OVER, /* its driver was not heard from any more */
     REASON_COUNT
 };
 

@@ -26,19 +26,21 @@ WORDS(object_class_name, object_class, "tree", "bush", "pole", "building", "wate
 WORDS(damage_name, damage, "none", "low", "med", "high", "destroyed")
 WORDS(entity_state_name, entity_state, "free", "active", "wreck")
 WORDS(behaviour_name, behaviour, "idle", "hold", "patrol", "route", "attack", "flee", "back_off",
-      "driven", "flight")
+      "driven", "flight", "follow", "script", "withdraw", "resupply")
+WORDS(gear_name, gearing, "automatic", "reverse", "neutral", "low")
 WORDS(force_name, force, "neutral", "blue", "red")
 WORDS(event_type_name, event_type, "none", "collision", "fire", "detonation", "crater", "agent",
       "command")
 WORDS(response_name, response, "none", "bounce", "stop", "slow", "destroyed")
 WORDS(struck_name, struck, "vehicle", "fixed", "ground", "water", "air")
 WORDS(agent_reason_name, agent_reason, "fired upon", "target gone", "out of rounds", "time over",
-      "collision", "enemy seen", "command", "out of fuel")
+      "collision", "enemy seen", "command", "out of fuel", "lost sight", "hurt", "outnumbered",
+      "low fuel", "supplied", "arrived", "leader lost", "script", "lease over")
 WORDS(command_ring_name, command_ring, "reporter", "gateway", "console", "recorder")
 WORDS(command_type_name, command_type, "none", "pause", "resume", "step", "scale", "drive",
       "release", "fire", "spawn", "remove", "quit")
 WORDS(command_result_name, command_result, "done", "no such entity", "no such kind",
-      "value out of range", "table full", "cannot do that now", "unknown command")
+      "value out of range", "table full", "cannot do that now", "unknown command", "somebody else drives it")
 WORDS(method_name, method, "swept", "npsnet2", "mps", "occupancy", "hopcroft", "brute")
 WORDS(shape_name, shape, "sphere", "model")
 WORDS(response_model_name, response_model, "figure8", "impulse", "none", "spring", "mps")
