@@ -54,7 +54,7 @@ $(STAMP): packages.txt supervisor/install-packages
 	@supervisor/install-packages $<
 	@mkdir -p $(@D) && touch $@
 TEST_STAMP := build/.packages-tests
-$(TEST_STAMP): tests/packages.txt supervisor/install-packages
+$(TEST_STAMP): tests/packages.txt supervisor/install-packages | $(STAMP) # one apt-get at a time
 	@supervisor/install-packages $<
 	@mkdir -p $(@D) && touch $@
 
@@ -73,6 +73,10 @@ RENDERER_SRC := $(wildcard renderer/*.c renderer/*/*.c)
 VIDEO_SRC    := $(wildcard video/*.c)
 TOPICS_SRC   := $(wildcard topics/*.c)
 CTL_SRC      := $(wildcard ctl/*.c)
+DRIVE_SRC    := $(wildcard drive/*.c)
+HTTP_SRC     := $(wildcard http/*.c)
+CONSOLE_SRC  := $(wildcard console/*.c)
+HARNESS_SRC  := $(wildcard harness/*.c)
 REPORTER_SRC := $(wildcard reporter/*.c)
 MONITOR_SRC  := $(wildcard monitor/*.c)
 RECORDER_SRC := $(wildcard recorder/*.c)
@@ -87,6 +91,8 @@ SOFT_STAGE   := tests/support/soft_stage.c
 SUPPORT_SRC  := $(filter-out $(MAP_STAGE) $(SOFT_STAGE),$(wildcard tests/support/*.c))
 STORM_SRC    := $(wildcard tests/storm/*.c)
 LISTENER_SRC := tests/once/listener.c
+LAG_SRC      := tests/lag/lag.c
+EXAMPLES_SRC := examples/escort.c
 FILM_SRC     := tests/film/film.c
 GOLDEN_SRC   := $(wildcard tests/golden/*.c)
 FUZZ_SRC     := $(wildcard tests/fuzz/fuzz_*.c)
@@ -121,13 +127,22 @@ SCENE    := $(call objects,$(wildcard renderer/scene/*.c) $(addprefix renderer/,
 # The rasteriser of our own.
 SOFT     := $(call objects,$(wildcard renderer/soft/*.c)) $(KERNELS)
 # All that makes a picture and puts it out: the renderer without its main and its studio.
-PICTURE  := $(call objects,$(wildcard renderer/*/*.c)) $(KERNELS)
+PICTURE  := $(call objects,$(wildcard renderer/*/*.c http/*.c)) $(KERNELS)
 STATUS   := $(OBJ)/idl/status.o
+# What servers of HTTP have in common.
+HTTP     := $(call objects,$(HTTP_SRC))
+# The page that the console serves, compiled in.
+PAGE_FILES := $(sort $(wildcard $(addprefix console/page/*.,html css js svg png ico webmanifest)))
+PAGE     := $(OBJ)/console/page_files.o
 # A link to a world over DDS: what it says, and commands to it.
-TOPICS   := $(call objects,$(TOPICS_SRC)) $(STATUS)
+TOPICS   := $(call objects,$(filter-out %_json.c,$(TOPICS_SRC))) $(STATUS)
+# What of it reads and writes JSON, for those who do.
+TOPICS_JSON := $(call objects,$(filter %_json.c,$(TOPICS_SRC)))
 
 pc = $(shell pkg-config --$(1) $(2) 2>/dev/null)
 DDS_CFLAGS    = $(call pc,cflags,CycloneDDS) -I$(IDL)
+# Devices' libraries are opened by drive/library.c when one is there; this is for their headers.
+DEVICE_CFLAGS = $(call pc,cflags,libevdev spnav)
 DDS_LIBS      = $(call pc,libs,CycloneDDS)
 RENDER_CFLAGS = $(call pc,cflags,epoxy egl libdeflate libjpeg libmicrohttpd freetype2 libavformat libavcodec libavutil)
 # Not egl: libepoxy opens it when there is one, and a machine without it is told so. Nor libav:
@@ -148,7 +163,7 @@ TEST_LIBS     = $(call pc,libs,cmocka)
 BASE_LIBS     = $(HASH_LIBS) -lm
 
 PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-renderer \
-        $(BIN)/jolon-video $(BIN)/jolon-reporter $(BIN)/jolon-recorder $(BIN)/jolon-ctl $(BIN)/jolon-monitor \
+        $(BIN)/jolon-video $(BIN)/jolon-reporter $(BIN)/jolon-recorder $(BIN)/jolon-ctl $(BIN)/jolon-drive $(BIN)/jolon-harness $(BIN)/jolon-console $(BIN)/jolon-monitor \
         $(BIN)/jolon-bench $(BIN)/jolon-keeper $(BIN)/jolon
 # Of the build with crash points: what their tests run.
 CRASH_PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-recorder \
@@ -159,9 +174,10 @@ PROPERTY_TESTS := $(patsubst tests/property/%.c,$(BUILD)/tests/property/%,$(PROP
 # What system tests run beside the programs.
 STORM          := $(BUILD)/tests/storm/storm
 LISTENER       := $(BUILD)/tests/once/listener
+LAG            := $(BUILD)/tests/lag/lag
 FILM           := $(BUILD)/tests/film/film
 
-.PHONY: all run test check figures storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
+.PHONY: all run test tests check examples figures game storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
 all: $(if $(CRASHPOINTS),$(CRASH_PROGRAMS),$(PROGRAMS))
 
 # --- programs -----------------------------------------------------------------------------------
@@ -173,9 +189,9 @@ $(BIN)/jolon-mover: $(call objects,$(MOVER_SRC)) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-collider: $(call objects,$(COLLIDER_SRC)) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-renderer: $(call objects,$(RENDERER_SRC)) $(KERNELS) $(SANDBOX) $(IPC) $(WORLD)
+$(BIN)/jolon-renderer: $(call objects,$(RENDERER_SRC)) $(HTTP) $(KERNELS) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(RENDER_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-video: $(call objects,$(VIDEO_SRC) $(filter-out %/main.c,$(RENDERER_SRC))) $(KERNELS) $(REPLAYED) $(REPLAY) $(LOGS) $(ARCHIVE) $(CONFIG) $(IPC) $(WORLD)
+$(BIN)/jolon-video: $(call objects,$(VIDEO_SRC) $(filter-out %/main.c,$(RENDERER_SRC))) $(HTTP) $(KERNELS) $(REPLAYED) $(REPLAY) $(LOGS) $(ARCHIVE) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(RENDER_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-reporter: $(call objects,$(REPORTER_SRC)) $(TOPICS) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
@@ -183,7 +199,13 @@ $(BIN)/jolon-recorder: $(call objects,$(RECORDER_SRC) worldctl/json.c) $(ARCHIVE
 	$(call link,$(ARCHIVE_LIBS) $(JSON_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-ctl: $(call objects,$(CTL_SRC)) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-monitor: $(call objects,$(MONITOR_SRC)) $(TOPICS) $(IPC) $(WORLD)
+$(BIN)/jolon-drive: $(call objects,$(DRIVE_SRC)) $(TOPICS) $(IPC) $(WORLD)
+	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-console: $(call objects,$(CONSOLE_SRC)) $(PAGE) $(HTTP) $(TOPICS) $(TOPICS_JSON) $(IPC) $(WORLD)
+	$(call link,$(call pc,libs,libmicrohttpd) $(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-harness: $(call objects,$(HARNESS_SRC)) $(TOPICS) $(TOPICS_JSON) $(IPC) $(WORLD)
+	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-monitor: $(call objects,$(MONITOR_SRC)) $(TOPICS) $(TOPICS_JSON) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-bench: $(call objects,$(BENCH_SRC)) $(patsubst %.cpp,$(OBJ)/%.o,$(BENCH_CPP)) $(PICTURE) $(REPLAY) $(LOGS) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(RENDER_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS) -lstdc++)
@@ -194,8 +216,9 @@ $(BIN)/jolon: supervisor/jolon
 
 # --- objects ------------------------------------------------------------------------------------
 # Flags reach an object through its folder: only these folders see these libraries.
-$(OBJ)/topics/%.o $(OBJ)/ctl/%.o $(OBJ)/reporter/%.o $(OBJ)/monitor/%.o $(OBJ)/tests/storm/%.o \
+$(OBJ)/topics/%.o $(OBJ)/ctl/%.o $(OBJ)/harness/%.o $(OBJ)/console/%.o $(OBJ)/reporter/%.o $(OBJ)/monitor/%.o $(OBJ)/tests/storm/%.o \
 $(OBJ)/tests/once/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
+$(OBJ)/drive/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(DEVICE_CFLAGS)
 $(OBJ)/renderer/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS)
 # Painting is loops over rows, which the compiler makes vectors of. None of this changes a result.
 $(call objects,$(addprefix renderer/scene/,paint.c country.c grain_rows.c)): CFLAGS_EXTRA = \
@@ -205,7 +228,7 @@ $(OBJ)/video/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS) $(JSON_CFLAGS)
 $(call objects,$(KERNEL_SRC)) $(KERNELS): CFLAGS_EXTRA = $(RENDER_CFLAGS) -Wno-psabi
 $(OBJ)/worldctl/%.o $(OBJ)/recorder/%.o $(OBJ)/replay/%.o $(OBJ)/tests/%.o \
 $(OBJ)/bench/%.o: CFLAGS_EXTRA = $(JSON_CFLAGS)
-$(call objects,$(TOPICS_SRC) $(CTL_SRC) $(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC)): $(IDL)/status.h
+$(call objects,$(TOPICS_SRC) $(CTL_SRC) $(DRIVE_SRC) $(HARNESS_SRC) $(CONSOLE_SRC) $(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC)): $(IDL)/status.h
 
 $(OBJ)/%.o: %.c $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CC $<"
@@ -219,8 +242,15 @@ $(OBJ)/%.o: %.cpp $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CXX $<"
 	@$(CXX) -std=c++17 $(CXXFLAGS_ALL) $(PEER_CFLAGS) -MMD -MP -c -o $@ $<
 
-TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(FILM_SRC) $(GOLDEN_SRC) $(FUZZ_SRC)
+TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(LAG_SRC) $(FILM_SRC) $(GOLDEN_SRC) $(FUZZ_SRC)
 $(call objects,$(TEST_SRC)): | $(TEST_STAMP)
+
+# Again when a file comes or goes, too.
+$(OBJ)/console/page.list: FORCE
+	@mkdir -p $(@D); echo '$(PAGE_FILES)' | cmp -s - $@ || echo '$(PAGE_FILES)' > $@
+$(PAGE): $(PAGE_FILES) $(OBJ)/console/page.list console/embed | $(STAMP)
+	@mkdir -p $(@D); echo "  AS $@"
+	@console/embed $(PAGE_FILES) > $(@:.o=.s) && $(CC) -c -o $@ $(@:.o=.s)
 
 # Generated from the IDL; generated code is not held to our warnings.
 $(IDL)/status.c $(IDL)/status.h &: ipc/status.idl | $(STAMP)
@@ -239,6 +269,9 @@ FORCE:
 $(BUILD)/tests/%: $(OBJ)/tests/%.o $(SUPPORT) $(REPLAY) $(LOGS) $(ARCHIVE) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(TEST_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
 
+# What the topics say.
+$(OBJ)/tests/unit/test_desk.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
+$(OBJ)/tests/unit/test_desk.o: $(IDL)/status.h
 $(BUILD)/tests/unit/test_judge $(BUILD)/tests/unit/test_watch: $(KEEPER)
 $(BUILD)/tests/crash/test_crash: $(call objects,$(CRASH_SRC))
 $(GOLDEN_TESTS): $(call objects,bench/scene.c bench/world.c) $(PICTURE)
@@ -249,17 +282,24 @@ $(BUILD)/tests/unit/test_png: $(call objects,$(addprefix renderer/image/,image.c
 $(BUILD)/tests/unit/test_png: TEST_LIBS += $(call pc,libs,libdeflate libpng)
 $(BUILD)/tests/unit/test_outlet: $(call objects,$(addprefix renderer/,image/image.c output/outlet.c output/picture.c))
 $(BUILD)/tests/unit/test_stream: $(call objects,$(addprefix renderer/,image/image.c image/jpeg.c \
-        $(addprefix output/,picture.c stream.c stream_http.c)))
+        $(addprefix output/,picture.c query.c stream.c stream_asked.c stream_door.c \
+        stream_http.c wanted.c))) $(HTTP)
 $(BUILD)/tests/unit/test_stream: TEST_LIBS += $(call pc,libs,libjpeg libmicrohttpd)
+$(BUILD)/tests/unit/test_query: $(OBJ)/renderer/output/query.o
+$(BUILD)/tests/unit/test_wanted: $(OBJ)/renderer/output/wanted.o
 $(BUILD)/tests/unit/test_video: $(call objects,$(addprefix renderer/,image/image.c image/yuv.c output/video.c output/libav.c))
 $(BUILD)/tests/unit/test_yuv: $(call objects,$(addprefix renderer/image/,image.c yuv.c))
 $(BUILD)/tests/unit/test_jpeg: $(call objects,$(addprefix renderer/image/,image.c jpeg.c))
 $(BUILD)/tests/unit/test_jpeg: TEST_LIBS += $(call pc,libs,libjpeg)
+$(BUILD)/tests/unit/test_console_body: $(call objects,$(addprefix console/,body.c answer.c text.c players.c secret.c)) $(TOPICS) $(TOPICS_JSON)
+$(BUILD)/tests/unit/test_console_body: TEST_LIBS += $(DDS_LIBS)
+$(BUILD)/tests/unit/test_console_parts: $(call objects,$(addprefix console/,answer.c crowd.c fetch.c \
+        pictures.c players.c secret.c text.c)) $(HTTP)
 $(BUILD)/tests/unit/test_sandbox: $(SANDBOX)
 $(BUILD)/tests/unit/test_sandbox: TEST_LIBS += $(SANDBOX_LIBS)
 # Preloaded by system tests; it stands in the way of functions that the headers say much about.
 FAILING := $(BUILD)/tests/faults/failing.so
-$(FAILING): tests/faults/failing.c $(BUILD)/flags
+$(FAILING): tests/faults/failing.c $(BUILD)/flags | $(TEST_STAMP)
 	@mkdir -p $(@D); echo "  LD $@"
 	@$(CC) -std=c17 $(OPT) -g -D_GNU_SOURCE $(filter-out -Wpedantic,$(WARN)) -fPIC -shared -o $@ $< -ldl
 
@@ -277,16 +317,35 @@ $(BUILD)/tests/unit/test_views: $(OBJ)/renderer/views.o
 $(BUILD)/tests/unit/test_governor: $(OBJ)/renderer/governor.o
 $(BUILD)/tests/unit/test_stretch: $(call objects,$(addprefix renderer/image/,image.c stretch.c))
 $(BUILD)/tests/unit/test_soft: $(SOFT) $(SCENE)
+$(call objects,$(addprefix tests/unit/test_,gamepad.c spacemouse.c)): CFLAGS_EXTRA = $(DEVICE_CFLAGS)
+$(BUILD)/tests/unit/test_choose: $(TOPICS)
+$(BUILD)/tests/unit/test_choose: TEST_LIBS += $(DDS_LIBS)
+$(OBJ)/tests/unit/test_choose.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
+$(OBJ)/tests/unit/test_choose.o: $(IDL)/status.h
 # It walks spans itself.
 $(OBJ)/tests/unit/test_soft.o: CFLAGS_EXTRA = -Wno-psabi
 $(BUILD)/tests/unit/test_checkpoint: $(OBJ)/recorder/checkpoint.o
 $(BUILD)/tests/unit/test_recorder: $(call objects,recorder/brake.c)
+$(BUILD)/tests/unit/test_order: $(TOPICS) $(TOPICS_JSON)
+$(BUILD)/tests/unit/test_order: TEST_LIBS += $(DDS_LIBS)
+$(OBJ)/tests/unit/test_order.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
+$(OBJ)/tests/unit/test_order.o: $(IDL)/status.h
 $(BUILD)/tests/unit/test_compare: $(call objects,worldctl/compare.c)
 
 $(STORM): $(call objects,$(STORM_SRC) worldctl/json.c) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(LISTENER): $(call objects,$(LISTENER_SRC)) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(BASE_LIBS))
+
+$(LAG): $(call objects,$(LAG_SRC)) $(IPC) $(WORLD)
+	$(call link,$(BASE_LIBS))
+# They are built as their readers build them: the types, DDS and nothing of ours.
+EXAMPLES := $(BUILD)/examples/escort
+examples: $(EXAMPLES)
+$(BUILD)/examples/%: $(OBJ)/examples/%.o $(STATUS)
+	$(call link,$(DDS_LIBS) -lm)
+$(OBJ)/examples/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
+$(call objects,$(EXAMPLES_SRC)): $(IDL)/status.h
 
 $(FILM): $(call objects,$(FILM_SRC))
 	$(call link,$(call pc,libs,libavformat libavcodec libavutil))
@@ -295,10 +354,12 @@ check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property
 
 # Crash points are tried unsanitized: a sanitizer has its own handler for faults.
-test: all $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(FILM) $(if $(SAN),,crash)
+# All that is tried, built: `make -j tests` first, and `make test` only runs it.
+tests: all $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(LAG) $(FILM) $(EXAMPLES) $(if $(SAN),,crash)
+test: tests
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property golden system $(if $(SAN),,crash)
 
-crash:
+crash: | $(STAMP) $(TEST_STAMP)
 	@$(MAKE) --no-print-directory CRASHPOINTS=1 BUILD=$(BUILD)/crash all
 
 # --- fuzzing ------------------------------------------------------------------------------------
@@ -313,14 +374,16 @@ $(BIN)/fuzz_scenario $(BIN)/fuzz_kind: $(OBJ)/tests/fuzz/one_model.o
 $(BIN)/fuzz_scenario $(BIN)/fuzz_kind: FUZZ_LINK = $(call FUZZ_WRAP,aiImportFileEx aiReleaseImport)
 $(BIN)/fuzz_command: $(call objects,reporter/check.c $(filter-out %/main.c,$(MOVER_SRC)))
 $(BIN)/fuzz_ctl $(BIN)/fuzz_log: $(OBJ)/tests/fuzz/ending.o
-$(BIN)/fuzz_ctl: $(call objects,ctl/parse.c topics/dds_config.c topics/dds_link.c)
+$(BIN)/fuzz_ctl: $(call objects,ctl/parse.c) $(TOPICS)
 $(BIN)/fuzz_ctl: FUZZ_LINK = $(call FUZZ_WRAP,exit) $(DDS_LIBS)
+$(BIN)/fuzz_order: $(TOPICS) $(TOPICS_JSON)
+$(BIN)/fuzz_order: FUZZ_LINK = $(DDS_LIBS) $(JSON_LIBS)
 $(BIN)/fuzz_image: $(ARCHIVE)
 $(BIN)/fuzz_image: FUZZ_LINK = $(ARCHIVE_LIBS)
 $(BIN)/fuzz_log: $(LOGS) $(REPLAY)
 $(BIN)/fuzz_log: FUZZ_LINK = $(call FUZZ_WRAP,exit) $(JSON_LIBS)
-$(OBJ)/tests/fuzz/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
-$(call objects,$(FUZZ_SRC)): $(IDL)/status.h
+$(OBJ)/tests/fuzz/%.o $(OBJ)/tests/unit/test_console_%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
+$(call objects,$(FUZZ_SRC) $(wildcard tests/unit/test_console_*.c)): $(IDL)/status.h
 
 # SECONDS: of each harness.
 fuzz: | $(TEST_STAMP)
@@ -339,6 +402,14 @@ run: all
 KILLS    ?= 1000
 SEED     ?=
 STORMY   ?=
+# make game [SECONDS=300] [SEED=n] [SCENARIO=file]: tests/game/README.md
+# With pages in a browser where tests/system/test_console_page.sh has found and made what they need.
+PAGE_MODULES := $(wildcard build/tests/browser/node_modules)
+GAME_PAGES = $(if $(PAGE_MODULES),--browser $(shell command -v chromium) --modules $(abspath build/tests/browser))
+game: all
+	@tests/game/game --bin $(BIN) --seconds $(if $(filter file,$(origin SECONDS)),300,$(SECONDS)) \
+		$(if $(SEED),--seed $(SEED)) $(GAME_PAGES) $(SCENARIO)
+
 storm: all $(STORM)
 	@$(STORM) --kills $(KILLS) $(if $(SEED),--seed $(SEED)) $(if $(SCENARIO),--scenario $(SCENARIO)) $(STORMY)
 
@@ -354,10 +425,16 @@ model: | $(TEST_STAMP)
 
 # --- installing ---------------------------------------------------------------------------------
 SHARE = $(DESTDIR)$(PREFIX)/share/jolon
+MAN1  = $(DESTDIR)$(PREFIX)/share/man/man1
+COMPLETIONS = $(DESTDIR)$(PREFIX)/share/bash-completion/completions
 install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)
 	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
 	cp -R config/kinds config/models config/scenarios config/cyclonedds.xml $(SHARE)
+	install -d $(MAN1) $(COMPLETIONS)
+	install -m 644 man/*.1 $(MAN1)
+	ln -sf jolon-run.1 $(MAN1)/jolon-start.1
+	install -m 644 supervisor/jolon.completion $(COMPLETIONS)/jolon
 	install -d $(DESTDIR)$(PREFIX)/lib/systemd/system
 	sed 's|@BIN@|$(PREFIX)/bin|' supervisor/jolon@.service \
 		> $(DESTDIR)$(PREFIX)/lib/systemd/system/jolon@.service
@@ -365,6 +442,7 @@ uninstall:
 	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,$(notdir $(PROGRAMS)))
 	rm -f $(DESTDIR)$(PREFIX)/lib/systemd/system/jolon@.service
 	rm -rf $(SHARE)
+	rm -f $(addprefix $(MAN1)/,$(notdir $(wildcard man/*.1)) jolon-start.1) $(COMPLETIONS)/jolon
 
 # --- pictures of the documents ------------------------------------------------------------------
 SHEET := $(BUILD)/figures/sheet
@@ -387,8 +465,10 @@ help:
 	@echo 'make run [SECONDS=60] [SCENARIO=file]   run the Hunter-Liggett world and look at it'
 	@echo 'make test                               every test; SAN=address,undefined sanitized'
 	@echo 'make check                              unit and property tests only'
+	@echo 'make examples                           programs that drive vehicles, see examples/README.md'
 	@echo 'make fuzz [SECONDS=30]                  hostile input, as long for each harness'
 	@echo 'make CRASHPOINTS=1                      programs that die at a given store, into build/crash'
+	@echo 'make game [SECONDS=300] [SEED=n]          two players and a program at once, while everything is killed'
 	@echo 'make storm [KILLS=1000] [SEED=n]           kill everything at random, count what came of it'
 	@echo 'make model [MODEL=short|usual|full]      check the frame protocol with spin'
 	@echo 'make bench                              measure; results in bench/results/'

@@ -11,10 +11,11 @@
 
 struct bench_options {
     uint32_t vehicles, threads, frames;
-    bool json, peers;
+    bool json, peers, agents;
 };
 
-/* --vehicles N, --threads T, --frames F, --peers, --json; wrong usage ends the process (exit 2). */
+/* --vehicles N, --threads T, --frames F, --peers, --json, --agents; wrong usage ends the process
+ * (exit 2). */
 struct bench_options bench_options(int argc, char **argv, struct bench_options defaults);
 
 int bench_detect(int argc, char **argv);   /* detect.c */
@@ -25,6 +26,7 @@ int bench_methods(int argc, char **argv);  /* methods.c */
 int bench_models(int argc, char **argv);   /* models.c */
 int bench_render(int argc, char **argv);   /* render.c */
 int bench_shapes(int argc, char **argv);   /* shapes.c */
+int bench_traffic(int argc, char **argv);  /* traffic.c */
 
 /* The fraction (0..1) of the values that lie at or below the result; sorts them. */
 double bench_quantile(double *values, uint32_t count, double fraction);

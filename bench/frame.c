@@ -1,5 +1,6 @@
 /* What the steps of a frame cost: mover and collider one after the other in one process, on the
- * Hunter-Liggett world (500 vehicles), or on its ground with any number of vehicles on patrol. */
+ * Hunter-Liggett world (500 vehicles), or on its ground with any number of vehicles on patrol, or
+ * at war. */
 #include "bench/bench.h"
 #include "bench/world.h"
 
@@ -43,7 +44,10 @@ int bench_frame(int argc, char **argv)
         argc, argv,
         (struct bench_options){.vehicles = BENCH_SCENARIO_VEHICLES, .threads = 1, .frames = 1200});
     struct view view;
-    bench_world_open(&view, NULL, options.vehicles);
+    if (options.agents)
+        bench_world_agents(&view, options.vehicles);
+    else
+        bench_world_open(&view, NULL, options.vehicles);
     double *values = calloc((size_t)options.frames * 3, sizeof *values);
     if (!values)
         die_refused("out of memory");
@@ -57,15 +61,20 @@ int bench_frame(int argc, char **argv)
     if (options.json)
         printf(
             "{\"vehicles\":%u,\"threads\":%u,\"frames\":%u,\"mover_ms\":%.6f,\"collider_ms\":%.6f,"
-            "\"frame_ms\":%.6f,\"frame_p99_ms\":%.6f,\"collisions\":%llu}\n",
+            "\"frame_ms\":%.6f,\"frame_p99_ms\":%.6f,\"collisions\":%llu,\"fires\":%llu,"
+            "\"changes\":%llu,\"destroyed\":%llu}\n",
             options.vehicles, options.threads, options.frames, mover, collider, frame, slow,
-            (unsigned long long)head->tally.collisions);
+            (unsigned long long)head->tally.collisions, (unsigned long long)head->tally.fires,
+            (unsigned long long)head->tally.agent_changes,
+            (unsigned long long)head->tally.destroyed);
     else
         printf(
             "%u vehicles, %u thread(s), %u frames: mover %.3f ms, collider %.3f ms, frame %.3f ms "
-            "(p99 %.3f); %llu collisions\n",
+            "(p99 %.3f); %llu collisions, %llu shots, %llu changes of mind, %llu destroyed\n",
             options.vehicles, options.threads, options.frames, mover, collider, frame, slow,
-            (unsigned long long)head->tally.collisions);
+            (unsigned long long)head->tally.collisions, (unsigned long long)head->tally.fires,
+            (unsigned long long)head->tally.agent_changes,
+            (unsigned long long)head->tally.destroyed);
     free(values);
     segment_abandon(&view);
     return EXIT_OK;

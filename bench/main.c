@@ -11,10 +11,13 @@
 
 struct bench_options bench_options(int argc, char **argv, struct bench_options chosen)
 {
-    static const struct option options[] = {
-        {"vehicles", required_argument, NULL, 'v'}, {"threads", required_argument, NULL, 't'},
-        {"frames", required_argument, NULL, 'f'},   {"peers", no_argument, NULL, 'p'},
-        {"json", no_argument, NULL, 'j'},           {NULL, 0, NULL, 0}};
+    static const struct option options[] = {{"vehicles", required_argument, NULL, 'v'},
+                                            {"threads", required_argument, NULL, 't'},
+                                            {"frames", required_argument, NULL, 'f'},
+                                            {"peers", no_argument, NULL, 'p'},
+                                            {"json", no_argument, NULL, 'j'},
+                                            {"agents", no_argument, NULL, 'a'},
+                                            {NULL, 0, NULL, 0}};
     int option;
     while ((option = getopt_long(argc, argv, "", options, NULL)) != -1) {
         switch (option) {
@@ -32,6 +35,9 @@ struct bench_options bench_options(int argc, char **argv, struct bench_options c
             break;
         case 'j':
             chosen.json = true;
+            break;
+        case 'a':
+            chosen.agents = true;
             break;
         default:
             die_usage("try jolon-bench help");
@@ -67,7 +73,8 @@ static const struct {
     {"encode", bench_encode,
      "[--size WxH] [--frames F] [--json]     a picture as PNG, JPEG and video"},
     {"frame", bench_frame,
-     "[--vehicles N] [--threads T] [--frames F] [--json]     the steps of a frame"},
+     "[--vehicles N [--agents]] [--threads T] [--frames F] [--json]     the steps of a frame; "
+     "--agents: of two forces at war"},
     {"methods", bench_methods,
      "[--vehicles N] [--json]     the ways to detect, for a thousand bodies up to N"},
     {"models", bench_models, "[--kind NAME] [--size WxH] [--gl] FILE     what models look like"},
@@ -76,6 +83,8 @@ static const struct {
      "[--all]] "
      "[--json]     a picture's stages"},
     {"shapes", bench_shapes, "[--frames SAMPLES] [--json]     what spheres get wrong"},
+    {"traffic", bench_traffic,
+     "[--vehicles N] [--threads T] [--frames F] [--json]     what agents run into"},
 };
 
 #define BENCHES (sizeof benches / sizeof benches[0])

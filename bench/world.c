@@ -9,14 +9,29 @@
 #include <stdlib.h>
 
 /* What patrols when another number than the scenario's is asked for: parts of a hundred. */
-static const struct {
+struct share {
     const char *kind;
-    uint32_t share;
-} mixture[] = {{"tank", 50}, {"truck", 20}, {"jeep", 20}, {"helicopter", 10}};
+    uint32_t percent;
+    enum force force;
+    uint8_t flags; /* ENTITY_FLAG_* */
+};
 
-#define KINDS (sizeof mixture / sizeof mixture[0])
+#define KINDS 8
 
-static void replace_groups(struct scenario *scenario, uint32_t vehicles)
+static const struct share mixture[KINDS] = {{"tank", 50, FORCE_NEUTRAL, 0},
+                                            {"truck", 20, FORCE_BLUE, 0},
+                                            {"jeep", 20, FORCE_RED, 0},
+                                            {"helicopter", 10, FORCE_NEUTRAL, 0}};
+
+/* Two forces that engage whom they see. */
+#define AT_WILL ENTITY_FLAG_FIRE_AT_WILL
+static const struct share agents[KINDS] = {
+    {"tank", 25, FORCE_BLUE, AT_WILL},      {"tank", 25, FORCE_RED, AT_WILL},
+    {"carrier", 10, FORCE_BLUE, AT_WILL},   {"carrier", 10, FORCE_RED, AT_WILL},
+    {"jeep", 10, FORCE_BLUE, AT_WILL},      {"jeep", 10, FORCE_RED, AT_WILL},
+    {"helicopter", 5, FORCE_BLUE, AT_WILL}, {"helicopter", 5, FORCE_RED, AT_WILL}};
+
+static void replace_groups(struct scenario *scenario, uint32_t vehicles, const struct share *shares)
 {
     struct scenario_group *groups = calloc(KINDS, sizeof *groups);
     struct area *areas = calloc(1, sizeof *areas);
@@ -24,28 +39,33 @@ static void replace_groups(struct scenario *scenario, uint32_t vehicles)
     if (!groups || !areas)
         die_refused("out of memory");
     areas[0] = (struct area){0.0, 0.0, 50000.0, 50000.0};
-    for (uint32_t i = 0; i < KINDS; i++) {
-        uint16_t kind = kind_find(scenario->kinds, scenario->kind_count, mixture[i].kind);
-        uint32_t count = i + 1 < KINDS ? vehicles * mixture[i].share / 100 : left;
+    uint32_t used = 0;
+    for (; used < KINDS && shares[used].kind; used++) {
+        const struct share *share = &shares[used];
+        uint16_t kind = kind_find(scenario->kinds, scenario->kind_count, share->kind);
+        bool last = used + 1 == KINDS || !shares[used + 1].kind;
+        uint32_t count = last ? left : vehicles * share->percent / 100;
         if (kind == KIND_NONE)
-            die_refused("kind %s is missing", mixture[i].kind);
-        groups[i] = (struct scenario_group){.kind = kind,
-                                            .force = (uint8_t)(i % FORCE_COUNT),
-                                            .behaviour = BEHAVIOUR_PATROL,
-                                            .count = count,
-                                            .route = UINT32_MAX};
+            die_refused("kind %s is missing", share->kind);
+        groups[used] = (struct scenario_group){.kind = kind,
+                                               .force = (uint8_t)share->force,
+                                               .behaviour = BEHAVIOUR_PATROL,
+                                               .flags = share->flags,
+                                               .count = count,
+                                               .route = UINT32_MAX};
         left -= count;
     }
     free(scenario->groups);
     free(scenario->areas);
     scenario->groups = groups;
-    scenario->group_count = KINDS;
+    scenario->group_count = used;
     scenario->areas = areas;
     scenario->area_count = 1;
     scenario->fire_count = 0;
 }
 
-void bench_world_open(struct view *view, const char *path, uint32_t vehicles)
+static void open_world(struct view *view, const char *path, uint32_t vehicles,
+                       const struct share *shares)
 {
     char data_dir[512], capacity[64], text[512];
     const char *const overrides[] = {capacity};
@@ -60,8 +80,8 @@ void bench_world_open(struct view *view, const char *path, uint32_t vehicles)
         die_refused("cannot find the data; set JOLON_DATA");
     if (loader_scenario(&scenario, data_dir, path, overrides, 1, &message) != 0)
         die_refused("%s", message.text);
-    if (vehicles != BENCH_SCENARIO_VEHICLES)
-        replace_groups(&scenario, vehicles);
+    if (shares)
+        replace_groups(&scenario, vehicles, shares);
     if (genesis_build(&genesis, &scenario, text, sizeof text) != 0)
         die_refused("%s", text);
     struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
@@ -70,4 +90,14 @@ void bench_world_open(struct view *view, const char *path, uint32_t vehicles)
     segment_fill(view, &genesis);
     genesis_free(&genesis);
     scenario_free(&scenario);
+}
+
+void bench_world_open(struct view *view, const char *path, uint32_t vehicles)
+{
+    open_world(view, path, vehicles, vehicles != BENCH_SCENARIO_VEHICLES ? mixture : NULL);
+}
+
+void bench_world_agents(struct view *view, uint32_t vehicles)
+{
+    open_world(view, NULL, vehicles, agents);
 }

@@ -13,4 +13,8 @@
  * segment_abandon. Refused (exit 1) when the scenario cannot be read or memory is out. */
 void bench_world_open(struct view *view, const char *path, uint32_t vehicles);
 
+/* Hunter-Liggett's ground with so many armed vehicles of two forces all over it, on patrol and at
+ * war: they engage whom they see. Otherwise the same. */
+void bench_world_agents(struct view *view, uint32_t vehicles);
+
 #endif

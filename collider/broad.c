@@ -1,7 +1,7 @@
 /* The broad phase over strips. */
 #include "collider/broad.h"
 
-#include "collider/clones.h"
+#include "world/clones.h"
 #include "world/entity.h"
 
 #include <errno.h>

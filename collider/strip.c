@@ -4,7 +4,7 @@
  * bucket of its east edge, and the comparison looks at both sides. */
 #include "collider/strip.h"
 
-#include "collider/clones.h"
+#include "world/clones.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SUFFIX ".cfg"
+#define SUFFIX          ".cfg"
+#define UNARMED_SIGHT_M 1500.0
 
 /* A kind's file while it is being read; its munition waits until all kinds are known. */
 struct reading {
@@ -153,6 +154,33 @@ static int check_damage(const struct kind *kind, const struct key_reading *keys,
     return 0;
 }
 
+/* What turns must be armed, and what is moved must have somewhere to go. */
+static int check_gun(const struct kind *kind, const struct key_reading *keys, bool has_munition,
+                     struct loader_message *message)
+{
+    if (kind->turret_rate_rps > 0 && !has_munition)
+        return refuse_pair(keys, "turret_rate_dps", kind->turret_rate_rps * DEG_PER_RAD,
+                           "is for what fires a munition; allowed: with munition", message);
+    if (kind->gun_rate_rps > 0 && !has_munition)
+        return refuse_pair(keys, "gun_rate_dps", kind->gun_rate_rps * DEG_PER_RAD,
+                           "is for what fires a munition; allowed: with munition", message);
+    if (kind->gun_low_rad > 0)
+        return refuse_pair(keys, "gun_low_deg", kind->gun_low_rad * DEG_PER_RAD,
+                           "is above the level, where a gun rests; allowed: up to 0", message);
+    if (kind->gun_high_rad < 0)
+        return refuse_pair(keys, "gun_high_deg", kind->gun_high_rad * DEG_PER_RAD,
+                           "is below the level, where a gun rests; allowed: from 0 on", message);
+    if (kind->gun_rate_rps <= 0 && (kind->gun_low_rad < 0 || kind->gun_high_rad > 0))
+        return refuse_pair(keys, "gun_rate_dps", 0.0,
+                           "is needed beside gun_low_deg and gun_high_deg; allowed: above 0",
+                           message);
+    if (kind->domain == DOMAIN_MUNITION && kind->guidance == GUIDANCE_HOMING &&
+        (kind->seeker_rad <= 0 || kind->turn_rate_rps <= 0))
+        return refuse_pair(keys, kind->seeker_rad <= 0 ? "seeker_deg" : "turn_rate_dps", 0.0,
+                           "is needed by a homing munition; allowed: above 0", message);
+    return 0;
+}
+
 static int check_kind(const struct kind *kind, const struct key_reading *keys, const char *name,
                       struct loader_message *message)
 {
@@ -172,7 +200,7 @@ static int check_kind(const struct kind *kind, const struct key_reading *keys, c
     if (has_class && kind->domain != DOMAIN_FIXED)
         return refuse_pair(keys, "class", kind->object_class,
                            "is for fixed objects; allowed: with domain = \"fixed\"", message);
-    if (check_damage(kind, keys, message) != 0)
+    if (check_damage(kind, keys, message) != 0 || check_gun(kind, keys, has_munition, message) != 0)
         return -1;
     return check_domain(kind, keys, has_class, message);
 }
@@ -184,6 +212,21 @@ static double stiffness_of(const struct kind *kind)
     double depth = 0.25 * fmin(kind->length_m, fmin(kind->width_m, kind->height_m));
 
     return 2.0 * kind->resistance_j / (depth * depth);
+}
+
+/* What a vehicle's file leaves open of how it sees and thinks. */
+static void complete_mind(struct kind *kind, bool has_doctrine)
+{
+    if (kind->sight_m <= 0)
+        kind->sight_m = kind->range_m > 0 ? kind->range_m : UNARMED_SIGHT_M;
+    if (has_doctrine)
+        return;
+    if (kind->domain == DOMAIN_SEA)
+        kind->doctrine = DOCTRINE_WARSHIP;
+    else if (kind->domain == DOMAIN_AIR)
+        kind->doctrine = kind->min_speed_mps > 0 ? DOCTRINE_JET : DOCTRINE_HELICOPTER;
+    else
+        kind->doctrine = kind->range_m > 0 ? DOCTRINE_LIGHT : DOCTRINE_SOFT;
 }
 
 static void take_hulls(struct kind *kind, const struct hulls *hulls)
@@ -244,6 +287,7 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     kind->model = (uint16_t)model;
     if (kind->stiffness_npm <= 0)
         kind->stiffness_npm = stiffness_of(kind);
+    complete_mind(kind, (keys.given >> keys_find(&schema_kind, "doctrine") & 1u) != 0);
     take_hulls(kind, &models->hulls[model]);
     kind->munition = KIND_NONE;
     memcpy(reading->munition, entry.munition, sizeof(entry.munition));

@@ -1,289 +1,12 @@
-/* Lists of a scenario: counted first, then allocated once, then read. */
+/* Fixed objects, ordered shots, and the names that shots go by. */
 #include "config/lists.h"
 
+#include "config/entry.h"
 #include "config/schema.h"
-#include "world/square.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define DOMAIN_BIT(domain) (1u << (domain))
-#define DOMAINS_VEHICLE    (DOMAIN_BIT(DOMAIN_LAND) | DOMAIN_BIT(DOMAIN_SEA) | DOMAIN_BIT(DOMAIN_AIR))
-
-/* Leaves room for "-1048576", the largest count. */
-#define SHARED_NAME_MAX 15
-
-/* One entry on its way from the file. */
-struct entry {
-    struct scenario *scenario;
-    const config_setting_t *setting;
-    struct key_reading keys;
-    char path[KEY_PATH_MAX]; /* "vehicles[3]" */
-    struct loader_message *message;
-};
-
-static bool is_given(const struct entry *entry, uint32_t key)
-{
-    return (entry->keys.given >> key & 1u) != 0;
-}
-
-/* Refuses the value of one of the entry's keys; value NULL: what the file says there. */
-static int refuse(const struct entry *entry, uint32_t key, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
-static int refuse(const struct entry *entry, uint32_t key, const char *format, ...)
-{
-    const char *name = entry->keys.table->keys[key].name;
-    const config_setting_t *setting = config_setting_get_member(entry->setting, name);
-    struct key_place place = {entry->keys.file, (int)config_setting_source_line(entry->setting)};
-    char path[KEY_PATH_MAX + 24], value[80], text[512];
-    va_list arguments;
-
-    va_start(arguments, format);
-    vsnprintf(text, sizeof(text), format, arguments);
-    va_end(arguments);
-    snprintf(path, sizeof(path), "%s.%s", entry->path, name);
-    if (setting != NULL) {
-        place.line = (int)config_setting_source_line(setting);
-        keys_value_text(setting, value, sizeof(value));
-    }
-    return keys_refuse(entry->message, place, path, setting != NULL ? value : NULL, "%s", text);
-}
-
-/* Names of the kinds of these domains, for messages. */
-static void name_kinds(const struct scenario *scenario, unsigned domains, char *text, size_t bytes)
-{
-    size_t used = 0;
-
-    text[0] = '\0';
-    for (uint32_t i = 0; i < scenario->kind_count && used < bytes; i++) {
-        const struct kind *kind = &scenario->kinds[i];
-
-        if ((domains & DOMAIN_BIT(kind->domain)) != 0)
-            used += (size_t)snprintf(text + used, bytes - used, "%s%s", used > 0 ? ", " : "",
-                                     kind->name);
-    }
-}
-
-/* Index of a kind of one of these domains, KIND_NONE with the message. */
-static uint16_t find_kind(const struct entry *entry, uint32_t key, const char *name,
-                          unsigned domains)
-{
-    const struct scenario *scenario = entry->scenario;
-    uint16_t kind = kind_find(scenario->kinds, scenario->kind_count, name);
-    char names[400];
-
-    if (kind != KIND_NONE && (domains & DOMAIN_BIT(scenario->kinds[kind].domain)) != 0)
-        return kind;
-    name_kinds(scenario, domains, names, sizeof(names));
-    refuse(entry, key, "%s; allowed: %s",
-           kind == KIND_NONE ? "unknown kind" : "is not a kind for this list", names);
-    return KIND_NONE;
-}
-
-/* Prepares the entry, sets defaults and reads what the file gives. */
-static int read_entry(struct entry *entry, const struct key_table *table, int index,
-                      const config_setting_t *list, void *destination)
-{
-    const config_setting_t *setting = config_setting_get_elem(list, (unsigned)index);
-
-    entry->setting = setting;
-    entry->keys.table = table;
-    entry->keys.destination = destination;
-    entry->keys.given = 0;
-    snprintf(entry->path, sizeof(entry->path), "%s[%d]", table->path, index);
-    if (setting->type != CONFIG_TYPE_GROUP) {
-        const struct key_place place = {entry->keys.file, (int)config_setting_source_line(setting)};
-        char value[80];
-
-        keys_value_text(setting, value, sizeof(value));
-        return keys_refuse(entry->message, place, entry->path, value,
-                           "is not a group; allowed: { key = value; ... }");
-    }
-    if (keys_defaults(table, destination, entry->message) != 0)
-        return -1;
-    return keys_read(&entry->keys, setting, "", entry->path, entry->message);
-}
-
-/* How many entries a list has, -1 with the message when it is none or too long. */
-static int list_length(const config_setting_t *list, const char *file, int max,
-                       struct loader_message *message)
-{
-    const struct key_place place = {file, (int)config_setting_source_line(list)};
-    char value[80];
-
-    keys_value_text(list, value, sizeof(value));
-    if (list->type != CONFIG_TYPE_LIST)
-        return keys_refuse(message, place, config_setting_name(list), value,
-                           "is not a list; allowed: ( { key = value; ... }, ... )");
-    if (config_setting_length(list) > max)
-        return keys_refuse(message, place, config_setting_name(list), value,
-                           "has %d entries; allowed: up to %d", config_setting_length(list), max);
-    return config_setting_length(list);
-}
-
-/* Space for count items; NULL with the message. At least one, so that NULL means failure. */
-static void *allocate(uint32_t count, size_t size, const char *file, struct loader_message *message)
-{
-    const struct key_place place = {file, 0};
-    void *memory = calloc((size_t)count + 1, size);
-
-    if (memory == NULL)
-        keys_refuse(message, place, NULL, NULL, "no memory for its lists");
-    return memory;
-}
-
-/* --- vehicles ----------------------------------------------------------------------------------
- */
-
-static int check_vehicle(const struct entry *entry, const struct vehicle_entry *vehicle,
-                         uint64_t total)
-{
-    bool placed = is_given(entry, VEHICLE_AT);
-
-    if (placed && vehicle->count != 1)
-        return refuse(entry, VEHICLE_COUNT, "stands beside at, which places one; allowed: 1");
-    total += vehicle->count;
-    if (total > entry->scenario->params.capacity)
-        return refuse(entry, VEHICLE_COUNT,
-                      "makes %llu vehicles in all; allowed: up to world.capacity, %u",
-                      (unsigned long long)total, entry->scenario->params.capacity);
-    if (vehicle->count > 1 && strlen(vehicle->name) > SHARED_NAME_MAX)
-        return refuse(entry, VEHICLE_NAME,
-                      "is too long for several vehicles, whose names end in \"-1\" and so on; "
-                      "allowed: up to %d characters",
-                      SHARED_NAME_MAX);
-    return 0;
-}
-
-/* patrol roams, a placed vehicle waits, one with a route follows it - unless the entry says. */
-static int choose_behaviour(const struct entry *entry, struct vehicle_entry *vehicle)
-{
-    bool route = is_given(entry, VEHICLE_ROUTE);
-
-    if (!is_given(entry, VEHICLE_BEHAVIOUR))
-        vehicle->behaviour = route                         ? BEHAVIOUR_ROUTE
-                             : is_given(entry, VEHICLE_AT) ? BEHAVIOUR_IDLE
-                                                           : BEHAVIOUR_PATROL;
-    if (vehicle->behaviour == BEHAVIOUR_ROUTE && !route)
-        return refuse(entry, VEHICLE_BEHAVIOUR,
-                      "has no route; right would be: route = ( [x, z], "
-                      "[x, z] )");
-    if (vehicle->behaviour != BEHAVIOUR_ROUTE && route)
-        return refuse(entry, VEHICLE_ROUTE, "is only followed with behaviour = \"route\"");
-    return 0;
-}
-
-/* The entry's route is appended to the scenario's, whose space was counted before. */
-static uint32_t add_route(struct scenario *scenario, const config_setting_t *points)
-{
-    struct route *route = &scenario->routes[scenario->route_count];
-
-    route->first = scenario->route_point_count;
-    route->count = (uint32_t)config_setting_length(points);
-    for (uint32_t i = 0; i < route->count; i++) {
-        double point[2] = {0, 0};
-
-        keys_point(config_setting_get_elem(points, i), point);
-        scenario->route_points[scenario->route_point_count++] =
-            (struct route_point){point[0], point[1]};
-    }
-    return scenario->route_count++;
-}
-
-static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
-{
-    struct scenario *scenario = entry->scenario;
-    struct scenario_group *group = &scenario->groups[scenario->group_count];
-    uint32_t total = scenario->params.initial_entities;
-
-    if (choose_behaviour(entry, vehicle) != 0 || check_vehicle(entry, vehicle, total) != 0)
-        return -1;
-    group->kind = find_kind(entry, VEHICLE_KIND, vehicle->kind, DOMAINS_VEHICLE);
-    if (group->kind == KIND_NONE)
-        return -1;
-    memcpy(group->name, vehicle->name, sizeof(group->name));
-    group->force = (uint8_t)vehicle->force;
-    group->behaviour = (uint8_t)vehicle->behaviour;
-    group->fire_at_will = (uint8_t)vehicle->fire_at_will;
-    group->placed = is_given(entry, VEHICLE_AT);
-    group->turned = is_given(entry, VEHICLE_HEADING);
-    group->moving = is_given(entry, VEHICLE_SPEED);
-    group->floating = is_given(entry, VEHICLE_ALTITUDE);
-    group->count = vehicle->count;
-    group->x = vehicle->at[0];
-    group->z = vehicle->at[1];
-    group->altitude_m = vehicle->altitude_m;
-    group->heading_rad =
-        vehicle->heading_rad < 0 ? vehicle->heading_rad + TWO_PI : vehicle->heading_rad;
-    group->speed_mps = vehicle->speed_mps;
-    group->area = 0;
-    if (is_given(entry, VEHICLE_AREA)) {
-        const double *area = vehicle->area;
-
-        group->area = scenario->area_count++;
-        scenario->areas[group->area] = (struct area){area[0], area[1], area[2], area[3]};
-    }
-    group->route = vehicle->route != NULL ? add_route(scenario, vehicle->route) : UINT32_MAX;
-    scenario->params.initial_entities += vehicle->count;
-    scenario->group_count++;
-    return 0;
-}
-
-/* Upper bound of the points of all routes, so that one allocation holds them. */
-static uint32_t count_points(const config_setting_t *list)
-{
-    uint64_t points = 0;
-
-    for (int i = 0; list != NULL && i < config_setting_length(list); i++) {
-        const config_setting_t *entry = config_setting_get_elem(list, (unsigned)i);
-        const config_setting_t *route =
-            entry->type == CONFIG_TYPE_GROUP ? config_setting_get_member(entry, "route") : NULL;
-
-        if (route != NULL && config_setting_length(route) > 0)
-            points += (uint64_t)config_setting_length(route);
-    }
-    return points > SCHEMA_ROUTE_POINTS_MAX ? UINT32_MAX : (uint32_t)points;
-}
-
-int lists_vehicles(struct scenario *scenario, const config_setting_t *list, const char *file,
-                   struct loader_message *message)
-{
-    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
-    int length = list != NULL ? list_length(list, file, SCHEMA_GROUPS_MAX, message) : 0;
-    uint32_t points = length > 0 ? count_points(list) : 0;
-
-    if (length < 0)
-        return -1;
-    if (points > SCHEMA_ROUTE_POINTS_MAX) {
-        const struct key_place place = {file, (int)config_setting_source_line(list)};
-
-        return keys_refuse(message, place, "vehicles", NULL,
-                           "routes have too many points; allowed: up to %u in all",
-                           SCHEMA_ROUTE_POINTS_MAX);
-    }
-    uint32_t count = (uint32_t)length;
-    scenario->groups = allocate(count, sizeof(*scenario->groups), file, message);
-    scenario->areas = allocate(count + 1, sizeof(*scenario->areas), file, message);
-    scenario->routes = allocate(count, sizeof(*scenario->routes), file, message);
-    scenario->route_points = allocate(points, sizeof(*scenario->route_points), file, message);
-    if (scenario->groups == NULL || scenario->areas == NULL || scenario->routes == NULL ||
-        scenario->route_points == NULL)
-        return -1;
-    scenario->areas[scenario->area_count++] = (struct area){0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M};
-    scenario->params.initial_entities = 0;
-    for (int i = 0; i < length; i++) {
-        struct vehicle_entry vehicle;
-
-        memset(&vehicle, 0, sizeof(vehicle));
-        if (read_entry(&entry, &schema_vehicle, i, list, &vehicle) != 0 ||
-            add_vehicle(&entry, &vehicle) != 0)
-            return -1;
-    }
-    return 0;
-}
 
 /* --- fixed objects -----------------------------------------------------------------------------
  */
@@ -292,27 +15,50 @@ int lists_objects(struct scenario *scenario, const config_setting_t *list, const
                   struct loader_message *message)
 {
     struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
-    int length = list != NULL ? list_length(list, file, SCHEMA_OBJECTS_MAX, message) : 0;
+    int length = list != NULL ? entry_count(list, file, SCHEMA_OBJECTS_MAX, message) : 0;
 
     if (length < 0)
         return -1;
     scenario->object_list =
-        allocate((uint32_t)length, sizeof(*scenario->object_list), file, message);
+        entry_allocate((uint32_t)length, sizeof(*scenario->object_list), file, message);
     if (scenario->object_list == NULL)
         return -1;
     for (int i = 0; i < length; i++) {
         struct object_entry object;
 
         memset(&object, 0, sizeof(object));
-        if (read_entry(&entry, &schema_object, i, list, &object) != 0)
+        if (entry_read(&entry, &schema_object, i, list, &object) != 0)
             return -1;
-        uint16_t kind = find_kind(&entry, OBJECT_KEY_KIND, object.kind, DOMAIN_BIT(DOMAIN_FIXED));
+        uint16_t kind = entry_kind(&entry, OBJECT_KEY_KIND, object.kind, DOMAIN_BIT(DOMAIN_FIXED));
         if (kind == KIND_NONE)
             return -1;
         scenario->object_list[scenario->object_count++] =
             (struct scenario_object){kind, object.at[0], object.at[1], object.heading_rad};
     }
     return 0;
+}
+
+/* --- bases -------------------------------------------------------------------------------------
+ */
+
+int lists_bases(struct scenario *scenario, const config_setting_t *list, const char *file,
+                struct loader_message *message)
+{
+    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
+    int length = list != NULL ? entry_count(list, file, FORCE_COUNT, message) : 0;
+
+    for (int i = 0; i < length; i++) {
+        struct base_entry base;
+
+        memset(&base, 0, sizeof(base));
+        if (entry_read(&entry, &schema_base, i, list, &base) != 0)
+            return -1;
+        if (scenario->based[base.force])
+            return entry_refuse(&entry, BASE_FORCE, "has a base already; allowed: one a force");
+        scenario->based[base.force] = 1;
+        scenario->params.base[base.force] = (struct force_base){base.at[0], base.at[1]};
+    }
+    return length < 0 ? -1 : 0;
 }
 
 /* --- names -------------------------------------------------------------------------------------
@@ -383,7 +129,7 @@ static int collect_names(struct named *named, const struct scenario *scenario,
                          struct loader_message *message)
 {
     named->count = 0;
-    named->group = allocate(scenario->group_count, sizeof(*named->group), file, message);
+    named->group = entry_allocate(scenario->group_count, sizeof(*named->group), file, message);
     if (named->group == NULL)
         return -1;
     for (uint32_t i = 0; i < scenario->group_count; i++) {
@@ -419,26 +165,28 @@ static int check_fire(const struct entry *entry, const struct fire_entry *fire,
     const struct scenario_group *shooter = find_vehicle(named, fire->shooter);
 
     *munition = KIND_NONE;
-    if (is_given(entry, FIRE_SHOOTER) && shooter == NULL)
-        return refuse(entry, FIRE_SHOOTER, "is no vehicle's name; allowed: a name of vehicles");
-    if (is_given(entry, FIRE_TARGET) && find_vehicle(named, fire->target) == NULL)
-        return refuse(entry, FIRE_TARGET, "is no vehicle's name; allowed: a name of vehicles");
-    if (is_given(entry, FIRE_TARGET) == is_given(entry, FIRE_POINT))
-        return refuse(entry, FIRE_TARGET,
-                      "a shot goes to a target or to a point; allowed: one of "
-                      "target and point");
-    if (is_given(entry, FIRE_MUNITION)) {
-        *munition = find_kind(entry, FIRE_MUNITION, fire->munition, DOMAIN_BIT(DOMAIN_MUNITION));
+    if (entry_given(entry, FIRE_SHOOTER) && shooter == NULL)
+        return entry_refuse(entry, FIRE_SHOOTER,
+                            "is no vehicle's name; allowed: a name of vehicles");
+    if (entry_given(entry, FIRE_TARGET) && find_vehicle(named, fire->target) == NULL)
+        return entry_refuse(entry, FIRE_TARGET,
+                            "is no vehicle's name; allowed: a name of vehicles");
+    if (entry_given(entry, FIRE_TARGET) == entry_given(entry, FIRE_POINT))
+        return entry_refuse(entry, FIRE_TARGET,
+                            "a shot goes to a target or to a point; allowed: one of "
+                            "target and point");
+    if (entry_given(entry, FIRE_MUNITION)) {
+        *munition = entry_kind(entry, FIRE_MUNITION, fire->munition, DOMAIN_BIT(DOMAIN_MUNITION));
         return *munition == KIND_NONE ? -1 : 0;
     }
     if (shooter == NULL)
-        return refuse(entry, FIRE_MUNITION,
-                      "is missing; a shot without a shooter needs the munition that falls");
+        return entry_refuse(entry, FIRE_MUNITION,
+                            "is missing; a shot without a shooter needs the munition that falls");
     if (kinds[shooter->kind].munition == KIND_NONE)
-        return refuse(entry, FIRE_SHOOTER,
-                      "is a %s, which has no munition; right would be: one "
-                      "that has, or a munition here",
-                      kinds[shooter->kind].name);
+        return entry_refuse(entry, FIRE_SHOOTER,
+                            "is a %s, which has no munition; right would be: one "
+                            "that has, or a munition here",
+                            kinds[shooter->kind].name);
     return 0;
 }
 
@@ -446,13 +194,13 @@ int lists_fires(struct scenario *scenario, const config_setting_t *list,
                 const config_setting_t *vehicles, const char *file, struct loader_message *message)
 {
     struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
-    int length = list != NULL ? list_length(list, file, SCHEMA_FIRES_MAX, message) : 0;
+    int length = list != NULL ? entry_count(list, file, SCHEMA_FIRES_MAX, message) : 0;
     struct named named = {NULL, 0};
     int result = -1;
 
     if (length < 0)
         return -1;
-    scenario->fires = allocate((uint32_t)length, sizeof(*scenario->fires), file, message);
+    scenario->fires = entry_allocate((uint32_t)length, sizeof(*scenario->fires), file, message);
     if (scenario->fires == NULL || collect_names(&named, scenario, vehicles, file, message) != 0)
         goto err_names;
     for (int i = 0; i < length; i++) {
@@ -460,7 +208,7 @@ int lists_fires(struct scenario *scenario, const config_setting_t *list,
         uint16_t munition;
 
         memset(&fire, 0, sizeof(fire));
-        if (read_entry(&entry, &schema_fire, i, list, &fire) != 0 ||
+        if (entry_read(&entry, &schema_fire, i, list, &fire) != 0 ||
             check_fire(&entry, &fire, &named, &munition) != 0)
             goto err_names;
         struct scenario_fire *to = &scenario->fires[scenario->fire_count++];

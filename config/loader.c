@@ -4,6 +4,7 @@
 #include "config/kinds.h"
 #include "config/lists.h"
 #include "config/schema.h"
+#include "config/scripts.h"
 #include "config/source.h"
 
 #include <errno.h>
@@ -71,6 +72,7 @@ static bool is_list(const config_setting_t *setting)
     const char *name = config_setting_name(setting);
 
     return strcmp(name, "vehicles") == 0 || strcmp(name, "fires") == 0 ||
+           strcmp(name, "scripts") == 0 || strcmp(name, "bases") == 0 ||
            (strcmp(name, "objects") == 0 && setting->type == CONFIG_TYPE_LIST);
 }
 
@@ -186,7 +188,10 @@ static int read_lists(struct load *load)
         scenario->objects = scenario->terrain == TERRAIN_GENERATED ? OBJECTS_TABLE1 : OBJECTS_NONE;
     if (objects != NULL && objects->type != CONFIG_TYPE_LIST)
         objects = NULL;
-    if (lists_vehicles(scenario, vehicles, file, load->message) != 0 ||
+    if (scripts_read(scenario, config_setting_get_member(root, "scripts"), file, load->hash,
+                     load->message) != 0 ||
+        lists_bases(scenario, config_setting_get_member(root, "bases"), file, load->message) != 0 ||
+        lists_vehicles(scenario, vehicles, file, load->message) != 0 ||
         lists_objects(scenario, objects, file, load->message) != 0 ||
         lists_fires(scenario, fires, vehicles, file, load->message) != 0)
         return -1;

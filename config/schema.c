@@ -104,12 +104,33 @@ static const struct key_choice behaviours[] = {{"idle", BEHAVIOUR_IDLE, true},
                                                {"hold", BEHAVIOUR_HOLD, true},
                                                {"patrol", BEHAVIOUR_PATROL, true},
                                                {"route", BEHAVIOUR_ROUTE, true},
+                                               {"follow", BEHAVIOUR_FOLLOW, true},
+                                               {"script", BEHAVIOUR_SCRIPT, true},
+                                               {NULL, 0, false}};
+static const struct key_choice orders[] = {
+    {"idle", BEHAVIOUR_IDLE, true},         {"hold", BEHAVIOUR_HOLD, true},
+    {"patrol", BEHAVIOUR_PATROL, true},     {"route", BEHAVIOUR_ROUTE, true},
+    {"withdraw", BEHAVIOUR_WITHDRAW, true}, {NULL, 0, false}};
+static const struct key_choice engagements[] = {{"free", ENTITY_FLAG_FIRE_AT_WILL, true},
+                                                {"return", 0, true},
+                                                {"hold", ENTITY_FLAG_HOLD_FIRE, true},
+                                                {NULL, 0, false}};
+static const struct key_choice formations[] = {{"column", FORMATION_COLUMN, true},
+                                               {"line", FORMATION_LINE, true},
+                                               {"wedge", FORMATION_WEDGE, true},
+                                               {"echelon-left", FORMATION_ECHELON_LEFT, true},
+                                               {"echelon-right", FORMATION_ECHELON_RIGHT, true},
                                                {NULL, 0, false}};
 static const struct key_choice domains[] = {
     {"land", DOMAIN_LAND, true},         {"sea", DOMAIN_SEA, true},     {"air", DOMAIN_AIR, true},
     {"munition", DOMAIN_MUNITION, true}, {"fixed", DOMAIN_FIXED, true}, {NULL, 0, false}};
 static const struct key_choice guidances[] = {
     {"ballistic", GUIDANCE_BALLISTIC, true}, {"homing", GUIDANCE_HOMING, true}, {NULL, 0, false}};
+static const struct key_choice doctrines[] = {
+    {"armour", DOCTRINE_ARMOUR, true}, {"light", DOCTRINE_LIGHT, true},
+    {"soft", DOCTRINE_SOFT, true},     {"helicopter", DOCTRINE_HELICOPTER, true},
+    {"jet", DOCTRINE_JET, true},       {"warship", DOCTRINE_WARSHIP, true},
+    {"beast", DOCTRINE_BEAST, true},   {NULL, 0, false}};
 static const struct key_choice classes[] = {{"tree", OBJECT_TREE, true},
                                             {"bush", OBJECT_BUSH, true},
                                             {"pole", OBJECT_POLE, true},
@@ -177,16 +198,67 @@ static const struct key vehicle_keys[] = {
     [VEHICLE_BEHAVIOUR] = CHOICE("behaviour", V, behaviour, STORE_U32, behaviours, NULL),
     [VEHICLE_AREA] = PLACE("area", KEY_AREA, STORE_DOUBLE, V, area, false),
     [VEHICLE_ROUTE] = PLACE("route", KEY_ROUTE, STORE_ROUTE, V, route, false),
+    [VEHICLE_ROADS] = BOOLEAN("roads", V, roads, STORE_U32, "false"),
+    [VEHICLE_SCRIPT] = TEXT("script", V, script, NULL),
     [VEHICLE_NAME] = TEXT("name", V, name, NULL),
     [VEHICLE_AT] = PLACE("at", KEY_POINT, STORE_DOUBLE, V, at, false),
     [VEHICLE_ALTITUDE] = NUMBER("altitude_m", V, altitude_m, 0, 20000, NULL),
     [VEHICLE_HEADING] = SCALED("heading_deg", V, heading_rad, -360, 360, RAD_PER_DEG, NULL),
     [VEHICLE_SPEED] = NUMBER("speed_mps", V, speed_mps, 0, 3000, NULL),
     [VEHICLE_FIRE_AT_WILL] = BOOLEAN("fire_at_will", V, fire_at_will, STORE_U32, "false"),
+    /* No fallback: what fire_at_will says. */
+    [VEHICLE_ENGAGE] = CHOICE("engage", V, engage, STORE_U32, engagements, NULL),
+    [VEHICLE_STAND] = BOOLEAN("stand", V, stand, STORE_U32, "false"),
+    [VEHICLE_FORMATION] = CHOICE("formation", V, formation, STORE_U32, formations, NULL),
+    [VEHICLE_SPACING] = NUMBER("spacing_m", V, spacing_m, 1, 5000, "50"),
 };
 #undef V
 const struct key_table schema_vehicle = {"vehicles", vehicle_keys, COUNT(vehicle_keys)};
 _Static_assert(COUNT(vehicle_keys) == VEHICLE_KEY_COUNT, "a row for each vehicle_key");
+
+#define C struct script_entry
+static const struct key script_keys[] = {
+    [SCRIPT_NAME] = TEXT_NEEDED("name", C, name),
+    [SCRIPT_FILE] = TEXT("file", C, file, NULL),
+    [SCRIPT_REPEAT] = BOOLEAN("repeat", C, repeat, STORE_U32, "false"),
+    [SCRIPT_REACT] = BOOLEAN("react", C, react, STORE_U32, "false"),
+};
+#undef C
+const struct key_table schema_script = {"scripts", script_keys, COUNT(script_keys)};
+_Static_assert(COUNT(script_keys) == SCRIPT_KEY_COUNT, "a row for each script_key");
+
+#define T struct step_entry
+static const struct key step_keys[] = {
+    [STEP_KEY_AT] = NUMBER("at_s", T, at_s, 0, 1e7, NULL),
+    [STEP_KEY_AFTER] = NUMBER("after_s", T, after_s, 0, 1e7, NULL),
+    [STEP_KEY_GO] = PLACE("go", KEY_POINT, STORE_DOUBLE, T, go, false),
+    [STEP_KEY_ARRIVE] = PLACE("arrive", KEY_POINT, STORE_DOUBLE, T, arrive, false),
+    [STEP_KEY_FACE] = SCALED("face_deg", T, face_rad, -360, 360, RAD_PER_DEG, NULL),
+    [STEP_KEY_STOP] = BOOLEAN("stop", T, stop, STORE_U32, NULL),
+    [STEP_KEY_WAIT] = NUMBER("wait_s", T, wait_s, 0, 1e7, NULL),
+    [STEP_KEY_FIRE] = TEXT("fire", T, fire, NULL),
+    [STEP_KEY_FIRE_AT] = PLACE("fire_at", KEY_POINT, STORE_DOUBLE, T, fire_at, false),
+    [STEP_KEY_BEHAVIOUR] = CHOICE("behaviour", T, behaviour, STORE_U32, orders, NULL),
+    [STEP_KEY_THROTTLE] = NUMBER("throttle", T, throttle, -1, 1, "0"),
+    [STEP_KEY_STEER] = NUMBER("steer", T, steer, -1, 1, "0"),
+    [STEP_KEY_CLIMB] = NUMBER("climb", T, climb, -1, 1, "0"),
+    [STEP_KEY_FOR] = NUMBER("for_s", T, for_s, 0, 1e7, NULL),
+    [STEP_KEY_SPEED] = NUMBER("speed_mps", T, speed_mps, 0.1, 3000, NULL),
+    [STEP_KEY_ALTITUDE] = NUMBER("altitude_m", T, altitude_m, 0, 20000, NULL),
+};
+#undef T
+const struct key_table schema_step = {"steps", step_keys, COUNT(step_keys)};
+_Static_assert(COUNT(step_keys) == STEP_KEY_COUNT, "a row for each step_key");
+
+#define B struct base_entry
+static const struct key base_keys[] = {
+    [BASE_FORCE] = {ROW("force", KEY_CHOICE, STORE_U32, B, force), .choices = forces,
+                    .required = true},
+    [BASE_AT] = PLACE("at", KEY_POINT, STORE_DOUBLE, B, at, true),
+};
+#undef B
+const struct key_table schema_base = {"bases", base_keys, COUNT(base_keys)};
+_Static_assert(COUNT(base_keys) == BASE_KEY_COUNT, "a row for each base_key");
 
 #define O struct object_entry
 static const struct key object_keys[] = {
@@ -247,7 +319,17 @@ static const struct key kind_keys[] = {
     NUMBER("debris_keep", K, kind.debris_keep, 0, 1, "1"),
     NUMBER("explosive_kg", K, kind.explosive_kg, 0, 100000, "0"),
     NUMBER("range_m", K, kind.range_m, 0, 50000, "0"),
+    /* 0: follows from range_m (config/kinds.c). */
+    NUMBER("sight_m", K, kind.sight_m, 0, 50000, "0"),
+    SCALED("view_deg", K, kind.view_rad, 1, 360, RAD_PER_DEG, "360"),
+    /* No fallback: follows from the domain (config/kinds.c). */
+    CHOICE("doctrine", K, kind.doctrine, STORE_U32, doctrines, NULL),
     NUMBER("reload_s", K, kind.reload_s, 0, 3600, "0"),
+    SCALED("turret_rate_dps", K, kind.turret_rate_rps, 0, 360, RAD_PER_DEG, "0"),
+    SCALED("gun_rate_dps", K, kind.gun_rate_rps, 0, 360, RAD_PER_DEG, "0"),
+    SCALED("gun_low_deg", K, kind.gun_low_rad, -90, 90, RAD_PER_DEG, "0"),
+    SCALED("gun_high_deg", K, kind.gun_high_rad, -90, 90, RAD_PER_DEG, "0"),
+    SCALED("seeker_deg", K, kind.seeker_rad, 0, 180, RAD_PER_DEG, "0"),
     SCALED("dispersion_mrad", K, kind.dispersion_rad, 0, 500, 0.001, "0"),
     NUMBER("life_s", K, kind.life_s, 0, 600, "0"),
     NUMBER("courage", K, kind.courage, 0, 1, "0.5"),

@@ -12,10 +12,10 @@
 #define SCHEMA_DEPTH_MAX          8u  /* of groups, lists and arrays in each other */
 #define SCHEMA_MEMBERS_MAX        64u /* keys of one group, as of a struct key_table */
 
-#define SCHEMA_GROUPS_MAX       65536
-#define SCHEMA_OBJECTS_MAX      1048576
-#define SCHEMA_FIRES_MAX        65536
-#define SCHEMA_ROUTE_POINTS_MAX 1048576u
+#define SCHEMA_GROUPS_MAX  65536
+#define SCHEMA_OBJECTS_MAX 1048576
+#define SCHEMA_SCRIPTS_MAX 65536
+#define SCHEMA_FIRES_MAX   65536
 /* Largest whole number that is exact in a double, as JSON and many languages carry numbers. */
 #define SCHEMA_WHOLE_MAX 9007199254740991.0
 
@@ -30,12 +30,18 @@ enum vehicle_key {
     VEHICLE_BEHAVIOUR,
     VEHICLE_AREA,
     VEHICLE_ROUTE,
+    VEHICLE_ROADS,
+    VEHICLE_SCRIPT,
     VEHICLE_NAME,
     VEHICLE_AT,
     VEHICLE_ALTITUDE,
     VEHICLE_HEADING,
     VEHICLE_SPEED,
     VEHICLE_FIRE_AT_WILL,
+    VEHICLE_ENGAGE,
+    VEHICLE_STAND,
+    VEHICLE_FORMATION,
+    VEHICLE_SPACING,
     VEHICLE_KEY_COUNT
 };
 
@@ -45,12 +51,65 @@ struct vehicle_entry {
     uint32_t count;
     uint32_t force, behaviour;
     uint32_t fire_at_will;
+    uint32_t engage; /* ENTITY_FLAG_*, 0: only who fires at it */
+    uint32_t stand;
+    uint32_t formation;
+    double spacing_m;
     double area[4];
     double at[2];
     const config_setting_t *route;
+    uint32_t roads;
+    char script[ENTITY_NAME_MAX];
     double altitude_m, heading_rad, speed_mps;
 };
 extern const struct key_table schema_vehicle;
+
+enum script_key { SCRIPT_NAME, SCRIPT_FILE, SCRIPT_REPEAT, SCRIPT_REACT, SCRIPT_KEY_COUNT };
+
+struct script_entry {
+    char name[ENTITY_NAME_MAX];
+    char file[SCRIPT_FILE_MAX];
+    uint32_t repeat, react;
+};
+extern const struct key_table schema_script;
+
+enum step_key {
+    STEP_KEY_AT,
+    STEP_KEY_AFTER,
+    STEP_KEY_GO,
+    STEP_KEY_ARRIVE,
+    STEP_KEY_FACE,
+    STEP_KEY_STOP,
+    STEP_KEY_WAIT,
+    STEP_KEY_FIRE,
+    STEP_KEY_FIRE_AT,
+    STEP_KEY_BEHAVIOUR,
+    STEP_KEY_THROTTLE,
+    STEP_KEY_STEER,
+    STEP_KEY_CLIMB,
+    STEP_KEY_FOR,
+    STEP_KEY_SPEED,
+    STEP_KEY_ALTITUDE,
+    STEP_KEY_COUNT
+};
+
+struct step_entry {
+    double at_s, after_s;
+    double go[2], arrive[2], fire_at[2];
+    double face_rad, wait_s, for_s, speed_mps, altitude_m;
+    double throttle, steer, climb;
+    uint32_t stop, behaviour;
+    char fire[ENTITY_NAME_MAX];
+};
+extern const struct key_table schema_step;
+
+enum base_key { BASE_FORCE, BASE_AT, BASE_KEY_COUNT };
+
+struct base_entry {
+    uint32_t force;
+    double at[2];
+};
+extern const struct key_table schema_base;
 
 enum object_key { OBJECT_KEY_KIND, OBJECT_KEY_AT, OBJECT_KEY_HEADING, OBJECT_KEY_COUNT };
 

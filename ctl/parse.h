@@ -1,24 +1,28 @@
-/* The command line of jolon-ctl, as a command. Pure but for ending the program on wrong usage. */
+/* The command line of jolon-ctl, as an order. Pure but for ending the program on wrong usage. */
 #ifndef JOLON_CTL_PARSE_H
 #define JOLON_CTL_PARSE_H
 
-#include "topics/dds_link.h"
-
-#include "status.h"
+#include "topics/order.h"
 
 #include <stdbool.h>
 
+#define CTL_LINE_MAX 1024u
+
 struct ctl_request {
     const char *world;
-    const char *verb;
     double timeout_s;
     bool json;
+    bool lines; /* orders come from standard input, one a line */
     struct dds_link_options link;
-    jolon_Command command; /* source and sequence are 0 */
+    struct order order;
 };
 
 /* Fills request from the arguments. Ends the program: with help on standard output (0), or with
  * one line that says what is wrong and what would be right (2). */
 void ctl_parse(struct ctl_request *request, int argc, char **argv);
+
+/* An order of standard input: a verb and its arguments, as on the command line. Changes the line.
+ * 0; 1 for an empty line or a comment (#); -1 with the reason. */
+int ctl_parse_line(struct order *order, char *line, struct reason *reason);
 
 #endif

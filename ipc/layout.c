@@ -35,6 +35,9 @@ static const char *const region_names[REGION_COUNT] = {
     [REGION_ROUTE_POINTS] = "route points",
     [REGION_FIRES] = "fires",
     [REGION_ROAD_POINTS] = "road points",
+    [REGION_FORMATIONS] = "formations",
+    [REGION_SCRIPTS] = "scripts",
+    [REGION_SCRIPT_STEPS] = "script steps",
     [REGION_NAMES] = "names",
     [REGION_RECIPE] = "recipe",
     [REGION_COMMIT] = "commit words",
@@ -73,10 +76,11 @@ static bool plausible(const struct segment_header *h)
 {
     const struct counts *n = &h->counts;
     const uint32_t parts[] = {
-        n->kinds,       n->models, n->model_vertices, n->model_triangles, n->fixed,
-        n->reach,       n->areas,  n->routes,         n->route_points,    n->fires,
-        n->road_points, n->names,  h->crater_slots,   h->event_slots,     h->intents_per_frame,
-        h->dent_slots,  n->hulls,  n->hull_vertices,  n->hull_planes,     n->recipe};
+        n->kinds,       n->models,  n->model_vertices, n->model_triangles, n->fixed,
+        n->reach,       n->areas,   n->routes,         n->route_points,    n->fires,
+        n->road_points, n->names,   h->crater_slots,   h->event_slots,     h->intents_per_frame,
+        h->dent_slots,  n->hulls,   n->hull_vertices,  n->hull_planes,     n->recipe,
+        n->formations,  n->scripts, n->script_steps};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         if (parts[i] > PART_MAX)
             return false;
@@ -114,6 +118,9 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_ROUTE_POINTS] = n->route_points * sizeof(struct route_point);
     b[REGION_FIRES] = n->fires * sizeof(struct fire_order);
     b[REGION_ROAD_POINTS] = n->road_points * sizeof(struct road_point);
+    b[REGION_FORMATIONS] = n->formations * sizeof(struct formation);
+    b[REGION_SCRIPTS] = n->scripts * sizeof(struct script);
+    b[REGION_SCRIPT_STEPS] = n->script_steps * sizeof(struct script_step);
     b[REGION_NAMES] = n->names * sizeof(struct entity_name);
     b[REGION_RECIPE] = n->recipe;
     b[REGION_COMMIT] = sizeof(struct commit_words);
@@ -171,11 +178,16 @@ uint64_t layout_hash(void)
         sizeof(struct route),
         sizeof(struct route_point),
         sizeof(struct road_point),
+        sizeof(struct formation),
+        sizeof(struct script),
+        sizeof(struct script_step),
         sizeof(struct entity_name),
         sizeof(struct commit_words),
         sizeof(struct moved_word),
         BEHAVIOUR_COUNT,
         FORCE_COUNT,
+        FORMATION_SHAPE_COUNT,
+        STEP_TYPE_COUNT,
         DAMAGE_COUNT,
         METHOD_COUNT,
         SHAPE_COUNT,

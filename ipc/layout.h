@@ -40,6 +40,9 @@ enum region {
     REGION_ROUTE_POINTS,
     REGION_FIRES,
     REGION_ROAD_POINTS,
+    REGION_FORMATIONS,
+    REGION_SCRIPTS,
+    REGION_SCRIPT_STEPS,
     REGION_NAMES,
     REGION_RECIPE,
     REGION_COMMIT,  /* struct commit_words: collider; the regions before it never change */
@@ -67,7 +70,7 @@ struct segment_header {
     uint64_t static_hash[REGION_COMMIT]; /* XXH3 of each region that never changes; [0] is 0 */
     struct counts counts;
     uint32_t capacity, event_slots, intents_per_frame, command_slots, crater_slots;
-    uint32_t dent_slots, reserved;
+    uint32_t dent_slots;
     uint64_t made;        /* random: one creation's own, which its images carry with them */
     uint64_t origin;      /* of the image it was loaded from (image_segment()); 0: of a scenario */
     uint64_t first_event; /* the event ring begins with it: 0, or where the image was taken */

@@ -77,3 +77,17 @@ uint64_t histogram_quantile(const struct histogram *histogram, double fraction)
     }
     return histogram->max_ns;
 }
+
+void histogram_since(struct histogram *since, const struct histogram *now,
+                     const struct histogram *before)
+{
+    *since = (struct histogram){0};
+    for (uint32_t i = 0; i < HISTOGRAM_BUCKETS; i++) {
+        uint32_t count =
+            now->bucket[i] > before->bucket[i] ? now->bucket[i] - before->bucket[i] : 0;
+        since->bucket[i] = count;
+        since->count += count;
+        if (count > 0)
+            since->max_ns = bucket_ns(i) < now->max_ns ? bucket_ns(i) : now->max_ns;
+    }
+}

@@ -45,6 +45,11 @@ void histogram_add(struct histogram *histogram, uint64_t ns);
 /* The value below which the fraction (0..1) of the entries lie [ns]; 0 when empty. */
 uint64_t histogram_quantile(const struct histogram *histogram, double fraction);
 
+/* The entries that came between two looks at a histogram that somebody else goes on filling; its
+ * greatest is that of its highest bucket. */
+void histogram_since(struct histogram *since, const struct histogram *now,
+                     const struct histogram *before);
+
 /* Written by the role's holder alone, read by anyone without waiting: statistics, of which a torn
  * read shows an old number beside a new one, and of which none goes into the world. */
 struct role_slot {

@@ -54,6 +54,9 @@ void segment_bind(struct view *view)
     world->route_points = segment_part(view, REGION_ROUTE_POINTS);
     world->fires = segment_part(view, REGION_FIRES);
     world->road_points = segment_part(view, REGION_ROAD_POINTS);
+    world->formations = segment_part(view, REGION_FORMATIONS);
+    world->scripts = segment_part(view, REGION_SCRIPTS);
+    world->script_steps = segment_part(view, REGION_SCRIPT_STEPS);
     world->names = segment_part(view, REGION_NAMES);
     world->recipe = segment_part(view, REGION_RECIPE);
     view->commit = segment_part(view, REGION_COMMIT);
@@ -178,6 +181,7 @@ void segment_fill(struct view *view, const struct genesis *genesis)
     struct params *params = segment_part(view, REGION_PARAMS);
     CRASH_POINT("parameters");
     *params = genesis->scenario->params;
+    memcpy(params->base, genesis->base, sizeof params->base);
     CRASH_GUARD_PAGES(view->base, view->layout.total);
     genesis_fill(genesis, &view->world, view->w);
     CRASH_UNGUARD();

@@ -76,6 +76,9 @@ static const struct field header_fields[] = {
     HEADER(counts.fires),
     HEADER(counts.road_points),
     HEADER(counts.names),
+    HEADER(counts.formations),
+    HEADER(counts.scripts),
+    HEADER(counts.script_steps),
     HEADER(counts.recipe),
     HEADER(capacity),
     HEADER(event_slots),
@@ -83,7 +86,6 @@ static const struct field header_fields[] = {
     HEADER(command_slots),
     HEADER(crater_slots),
     HEADER(dent_slots),
-    HEADER(reserved),
     FIELD(segment_header, made, FORM_HEX),
     FIELD(segment_header, origin, FORM_HEX),
     HEADER(first_event),
@@ -108,6 +110,7 @@ static const struct field params_fields[] = {
     PARAM(dent_slots),
     PARAM(initial_entities),
     FIELD(params, collision, FORM_OTHER),
+    FIELD(params, base, FORM_OTHER),
     FIELD(params, renderer, FORM_OTHER),
 };
 

@@ -3,7 +3,6 @@
 #define JOLON_MONITOR_LINES_H
 
 #include "topics/mirror.h"
-#include "topics/tail.h"
 
 #define LINES_MAX 256u
 
@@ -18,11 +17,5 @@ void lines_counts(char line[LINES_MAX], const struct mirror *mirror);
 /* A table of the processes. */
 void lines_process_head(char line[LINES_MAX]);
 void lines_process(char line[LINES_MAX], const jolon_ProcessStatus *status);
-
-/* Why there is nothing new to see, "" when there is. */
-void lines_notice(char line[LINES_MAX], const struct mirror *mirror, uint64_t now_ns);
-
-/* An event in a few words; a tail_format. */
-void lines_event(char line[TAIL_LINE_MAX], enum dds_topic topic, const void *event);
 
 #endif

@@ -1,55 +1,90 @@
 /* The map in characters. */
 #include "monitor/map.h"
 
+#include <math.h>
 #include <string.h>
 
-static char band(float height_m, float low_m, float high_m)
+static char band(double height_m, double low_m, double high_m)
 {
     static const char bands[] = MAP_BANDS;
     const int count = (int)sizeof bands - 1;
     if (!(high_m > low_m))
         return bands[0];
-    int index = (int)((height_m - low_m) / (high_m - low_m) * (float)count);
+    int index = (int)((height_m - low_m) / (high_m - low_m) * (double)count);
     return bands[index < 0 ? 0 : index >= count ? count - 1 : index];
 }
 
-void map_ground(struct map *map, int rows, int columns, const float *height_m, const uint8_t *water,
-                uint32_t side)
+static uint32_t cell_of(double at, uint32_t side)
+{
+    return at <= 0.0 ? 0 : at >= (double)side ? side - 1 : (uint32_t)at;
+}
+
+/* Between the middles of four cells; at is in cells from the north-western corner. */
+static double height_at(const struct map_ground *ground, double x, double z)
+{
+    uint32_t x0 = cell_of(x - 0.5, ground->side), z0 = cell_of(z - 0.5, ground->side);
+    uint32_t x1 = cell_of(x + 0.5, ground->side), z1 = cell_of(z + 0.5, ground->side);
+    double u = x1 > x0 ? x - 0.5 - (double)x0 : 0.0, v = z1 > z0 ? z - 0.5 - (double)z0 : 0.0;
+    const float *north = ground->height_m + (size_t)z0 * ground->side;
+    const float *south = ground->height_m + (size_t)z1 * ground->side;
+    double a = (double)north[x0] + u * (double)(north[x1] - north[x0]);
+    double b = (double)south[x0] + u * (double)(south[x1] - south[x0]);
+    return a + v * (b - a);
+}
+
+static char ground_cell(const struct map_ground *ground, double x, double z, double low_m,
+                        double high_m)
+{
+    if (!(x >= 0.0 && z >= 0.0 && x < ground->side_m && z < ground->side_m))
+        return MAP_BEYOND;
+    double cells = (double)ground->side / ground->side_m;
+    uint32_t column = cell_of(x * cells, ground->side), row = cell_of(z * cells, ground->side);
+    if (ground->water[(size_t)row * ground->side + column])
+        return MAP_WATER;
+    return band(height_at(ground, x * cells, z * cells), low_m, high_m);
+}
+
+void map_begin(struct map *map, int rows, int columns, const struct map_area *area,
+               const struct map_ground *ground)
 {
     map->rows = rows < 0 ? 0 : rows > MAP_ROWS_MAX ? MAP_ROWS_MAX : rows;
     map->columns = columns < 0 ? 0 : columns > MAP_COLUMNS_MAX ? MAP_COLUMNS_MAX : columns;
+    map->m_per_column = area->across_m / (double)(map->columns > 0 ? map->columns : 1);
+    double down_m = map->m_per_column * MAP_COLUMNS_A_ROW;
+    map->x0 = area->x - 0.5 * area->across_m;
+    map->z0 = area->z - 0.5 * down_m * (double)map->rows;
     memset(map->cell, ' ', sizeof map->cell);
-    if (side == 0)
+    if (ground->side == 0)
         return;
-    float low_m = height_m[0], high_m = height_m[0];
-    for (uint32_t i = 1; i < side * side; i++) {
-        low_m = height_m[i] < low_m ? height_m[i] : low_m;
-        high_m = height_m[i] > high_m ? height_m[i] : high_m;
+    double low_m = (double)ground->height_m[0], high_m = low_m;
+    for (uint32_t i = 1; i < ground->side * ground->side; i++) {
+        low_m = fmin(low_m, (double)ground->height_m[i]);
+        high_m = fmax(high_m, (double)ground->height_m[i]);
     }
     for (int row = 0; row < map->rows; row++) {
-        for (int column = 0; column < map->columns; column++) {
-            uint32_t z = (uint32_t)(2 * row + 1) * side / (uint32_t)(2 * map->rows);
-            uint32_t x = (uint32_t)(2 * column + 1) * side / (uint32_t)(2 * map->columns);
-            uint32_t from = z * side + x;
-            map->cell[row][column] = water[from] ? MAP_WATER : band(height_m[from], low_m, high_m);
-        }
+        for (int column = 0; column < map->columns; column++)
+            map->cell[row][column] =
+                ground_cell(ground, map->x0 + ((double)column + 0.5) * map->m_per_column,
+                            map->z0 + ((double)row + 0.5) * down_m, low_m, high_m);
     }
 }
 
 /* 0 for the ground. */
 static int rank(char cell)
 {
-    static const char ascending[] = {MAP_WRECK, MAP_NEUTRAL, MAP_RED,
-                                     MAP_BLUE,  MAP_BOTH,    MAP_MUNITION};
+    static const char ascending[] = {MAP_WRECK, MAP_NEUTRAL,  MAP_RED,   MAP_BLUE,
+                                     MAP_BOTH,  MAP_MUNITION, MAP_CHOSEN};
     const char *found = memchr(ascending, cell, sizeof ascending);
     return found ? (int)(found - ascending) + 1 : 0;
 }
 
-void map_mark(struct map *map, double x, double z, double side_m, char mark)
+void map_mark(struct map *map, double x, double z, char mark)
 {
-    if (!(x >= 0.0 && x < side_m && z >= 0.0 && z < side_m))
+    double column = (x - map->x0) / map->m_per_column;
+    double row = (z - map->z0) / (map->m_per_column * MAP_COLUMNS_A_ROW);
+    if (!(column >= 0.0 && row >= 0.0 && column < (double)map->columns && row < (double)map->rows))
         return;
-    char *cell = &map->cell[(int)(z / side_m * map->rows)][(int)(x / side_m * map->columns)];
+    char *cell = &map->cell[(int)row][(int)column];
     if ((*cell == MAP_RED && mark == MAP_BLUE) || (*cell == MAP_BLUE && mark == MAP_RED))
         *cell = MAP_BOTH;
     else if (rank(mark) > rank(*cell))

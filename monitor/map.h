@@ -6,7 +6,10 @@
 #include <stdint.h>
 
 #define MAP_ROWS_MAX    120
-#define MAP_COLUMNS_MAX 240
+#define MAP_COLUMNS_MAX 480
+
+/* A character is about twice as high as wide. */
+#define MAP_COLUMNS_A_ROW 2
 
 /* Marks in ascending rank: the higher one shows where several share a cell. */
 #define MAP_WRECK    'x'
@@ -15,22 +18,41 @@
 #define MAP_BLUE     'b'
 #define MAP_BOTH     '%' /* red and blue in one cell */
 #define MAP_MUNITION '*'
+#define MAP_CHOSEN   '@' /* the one that is looked at */
 
-/* The ground: water, then four bands from the lowest land to the highest. */
-#define MAP_WATER '~'
-#define MAP_BANDS " .:^"
+/* The ground: water, then four bands from the lowest land to the highest, and beyond the world. */
+#define MAP_WATER  '~'
+#define MAP_BANDS  " .:^"
+#define MAP_BEYOND '\''
+
+/* What there is of the ground: side x side heights [m] of cells of a square of side_m, row by row
+ * from the north-west; water is 1 where a cell is. side 0: nothing. */
+struct map_ground {
+    const float *height_m;
+    const uint8_t *water;
+    uint32_t side;
+    double side_m;
+};
+
+/* The part of the world that is shown. */
+struct map_area {
+    double x, z;     /* [m] its middle */
+    double across_m; /* from its western to its eastern edge, above 0 */
+};
 
 struct map {
     int rows, columns;
+    double x0, z0;       /* [m] of the north-western corner */
+    double m_per_column; /* a row shows MAP_COLUMNS_A_ROW times as much */
     char cell[MAP_ROWS_MAX][MAP_COLUMNS_MAX];
 };
 
-/* Begins a map of rows x columns characters (cut to the most there can be) with the ground of a
- * square grid of side x side heights [m]; water is 1 where a cell is. side 0: no ground. */
-void map_ground(struct map *map, int rows, int columns, const float *height_m, const uint8_t *water,
-                uint32_t side);
+/* Begins a map of rows x columns characters (cut to the most there can be) of an area, with the
+ * ground, whose heights between the cells' middles are interpolated. */
+void map_begin(struct map *map, int rows, int columns, const struct map_area *area,
+               const struct map_ground *ground);
 
-/* Puts a mark at (x, z) [m] of a square of side_m; what lies outside is left out. */
-void map_mark(struct map *map, double x, double z, double side_m, char mark);
+/* Puts a mark at (x, z) [m]; what lies outside is left out. */
+void map_mark(struct map *map, double x, double z, char mark);
 
 #endif

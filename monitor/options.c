@@ -17,6 +17,8 @@ static const char usage[] =
     "  --once             print the status and exit; 1 when none comes within 3 s\n"
     "  --json             the status as JSON, one object a line\n"
     "  --events           every event as a JSON line, the latest 4096 of each type first\n"
+    "  --vehicles         with --json: the vehicles too, one object each under \"list\"\n"
+    "  --filter WORDS     only those that suit, as 'red tank speed>10'; means --vehicles\n"
     "  --lines            one status line a second, also on a terminal\n"
     "  --rate HZ          how often the screen (default 5) or the line (default 1) is made anew\n"
     "  --dds-config FILE, --interface ADDRESS, --domain N  as jolon-reporter\n"
@@ -29,6 +31,8 @@ void options_parse(struct options *options, int argc, char **argv)
                                           {"json", no_argument, NULL, 'j'},
                                           {"events", no_argument, NULL, 'e'},
                                           {"lines", no_argument, NULL, 'l'},
+                                          {"vehicles", no_argument, NULL, 'v'},
+                                          {"filter", required_argument, NULL, 'f'},
                                           {"rate", required_argument, NULL, 'r'},
                                           DDS_LINK_LONG_OPTIONS,
                                           {"help", no_argument, NULL, 'h'},
@@ -55,6 +59,12 @@ void options_parse(struct options *options, int argc, char **argv)
         case 'l':
             options->lines = true;
             break;
+        case 'v':
+            options->filter = options->filter ? options->filter : "";
+            break;
+        case 'f':
+            options->filter = optarg;
+            break;
         case 'r':
             options->rate_hz = process_number("rate", optarg, RATE_MIN_HZ, RATE_MAX_HZ);
             break;
@@ -72,6 +82,8 @@ void options_parse(struct options *options, int argc, char **argv)
     if (!segment_name_ok(options->world))
         die_usage("--world %s: no name for a world: 1 to %d of a-z A-Z 0-9 _ -", options->world,
                   SEGMENT_NAME_MAX - 1);
+    if (options->filter && (!options->json || options->events))
+        die_usage("--vehicles and --filter: only with --json");
     if (options->events && (options->once || options->lines))
         die_usage("--events: not together with --once or --lines");
 }

@@ -29,9 +29,9 @@ bool plain_line(void *unused, const char *line)
     return puts(line) >= 0;
 }
 
-static bool print_json(const struct mirror *mirror, uint64_t now_ns)
+static bool print_json(const struct mirror *mirror, const struct options *options, uint64_t now_ns)
 {
-    char *text = json_status(mirror, now_ns);
+    char *text = json_status(mirror, options->filter, now_ns);
     bool good = text && puts(text) >= 0;
     cJSON_free(text);
     return good && plain_flush();
@@ -73,7 +73,7 @@ int plain_once(struct mirror *mirror, const struct options *options)
         return EXIT_REFUSED;
     }
     if (options->json)
-        return print_json(mirror, now_ns) ? EXIT_OK : EXIT_REFUSED;
+        return print_json(mirror, options, now_ns) ? EXIT_OK : EXIT_REFUSED;
     print_text(mirror, now_ns);
     return plain_flush() ? EXIT_OK : EXIT_REFUSED;
 }
@@ -96,7 +96,7 @@ int plain_lines(struct mirror *mirror, const struct options *options)
             continue;
         notice_ns = live ? 0 : now_ns + NOTICE_NS;
         lines_status(line, mirror, now_ns);
-        if (options->json ? !print_json(mirror, now_ns) : puts(line) < 0 || !plain_flush())
+        if (options->json ? !print_json(mirror, options, now_ns) : puts(line) < 0 || !plain_flush())
             return EXIT_REFUSED; /* nobody reads any more */
     }
     return EXIT_OK;

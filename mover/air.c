@@ -25,23 +25,28 @@ bool move_air(const struct move *move, uint32_t i, const struct wish *wish)
     const struct kind *kind = &move->world->kinds[m->kind[i]];
     double full = maths_max(kind->max_speed_mps, 1e-9);
     double forward, rightward, sine, cosine;
-    pose_speeds(m, i, &forward, &rightward);
+    maths_sincos(m->heading[i], &sine, &cosine);
+    pose_along(m, i, sine, cosine, &forward, &rightward);
 
     double before = m->heading[i];
-    m->heading[i] = pose_turn(before, wish->heading_rad, kind->turn_rate_rps, move->dt_s);
-    maths_sincos(m->heading[i], &sine, &cosine);
+    pose_steer(move, i, wish, kind->turn_rate_rps);
+    if (m->heading[i] != before)
+        maths_sincos(m->heading[i], &sine, &cosine);
 
-    double wanted = maths_clamp(wish->speed_mps, kind->min_speed_mps, kind->max_speed_mps);
-    double climb_limit = kind->climb_rate_mps;
-    double height = ground_ahead(move, i) + wish->altitude_m;
-    double climb = maths_clamp((height - m->y[i]) * 0.8, -climb_limit, climb_limit);
-    if (!pose_burn(move, i, maths_clamp(wanted / full, 0.2, 1.0))) {
+    double wanted = wish->speed_mps;
+    if (!wish->driven) /* a driver of what hovers flies backwards too */
+        wanted = maths_clamp(wanted, kind->min_speed_mps, kind->max_speed_mps);
+    double climb_limit = kind->climb_rate_mps, climb = wish->climb_mps;
+    if (!wish->driven)
+        climb = maths_clamp((ground_ahead(move, i) + wish->altitude_m - m->y[i]) * 0.8,
+                            -climb_limit, climb_limit);
+    if (!pose_burn(move, i, maths_clamp(fabs(wanted) / full, 0.2, 1.0))) {
         wanted = 0.0; /* it glides down */
         climb = -climb_limit;
     }
     double gain = kind->acceleration_mps2 * move->dt_s;
     double speed_before = forward;
-    forward = pose_approach(forward, wanted, gain);
+    forward = pose_approach(forward, wanted, gain * (1.0 + wish->brake));
     rightward = pose_approach(rightward, 0.0, SIDE_DRAG_MPS2 * move->dt_s);
 
     m->vx[i] = forward * sine + rightward * cosine;

@@ -1,6 +1,7 @@
 /* Players' and programs' commands: applied once, in the order of the rings, each with its answer.
  */
 #include "mover/serial.h"
+#include "mover/turret.h"
 
 #include "world/square.h"
 
@@ -72,8 +73,8 @@ static enum command_result drive(struct serial *serial, const struct command *co
     m->traverse[row] = (float)v[3];
     m->elevate[row] = (float)v[4];
     m->brake[row] = (float)v[5];
-    m->flags[row] =
-        (uint8_t)((m->flags[row] & ~ENTITY_GEAR_MASK) | command->force << ENTITY_GEAR_SHIFT);
+    m->flags[row] = (uint8_t)((m->flags[row] & ~ENTITY_GEAR_MASK) | (unsigned)command->force
+                                                                        << ENTITY_GEAR_SHIFT);
     m->driver[row] = command->amount > 0 ? command->source : 0;
     m->until_tick[row] = (uint32_t)(serial->move->tick + command->amount);
     return set_behaviour(serial, row, BEHAVIOUR_DRIVEN);
@@ -90,6 +91,7 @@ static enum command_result release(struct serial *serial, const struct command *
     if (command->amount == 0 && taken(serial, row, command))
         return COMMAND_TAKEN;
     move_let_go(m, row);
+    m->until_tick[row] = (uint32_t)serial->move->tick; /* no longer its driver's */
     return set_behaviour(serial, row, m->order[row]);
 }
 
@@ -124,6 +126,14 @@ static enum command_result fire(struct serial *serial, const struct command *com
     if (m->state[row] != ENTITY_ACTIVE || serial->move->tick < m->reload_tick[row] ||
         m->rounds[row] == 0 || world->kinds[m->kind[row]].munition == KIND_NONE)
         return COMMAND_CANNOT;
+    if (target != SLOT_NONE) { /* the gunner lays his gun on it, if it is not yet */
+        m->target_slot[row] = target;
+        m->target_id[row] = m->id[target];
+        serial_changes(serial, row);
+        if (target >= serial->move->committed->head->used ||
+            !turret_bears(serial->move, m, row, target))
+            return COMMAND_CANNOT;
+    }
     return weapons_fire(serial, row, target, KIND_NONE) ? COMMAND_DONE : COMMAND_TABLE_FULL;
 }
 

@@ -2,6 +2,9 @@
 #include "mover/move.h"
 
 #define BOOST_MPS2 300.0 /* a missile's acceleration to full speed */
+#define NAVIGATION                                                                                 \
+    4.0 /* of proportional navigation: its way turns so much faster than the sight                 \
+         */
 
 /* Turns velocity towards direction (unit) by at most most_rad, keeping its length. */
 static struct vec3 turned(struct vec3 velocity, struct vec3 direction, double most_rad)
@@ -25,27 +28,47 @@ static struct vec3 turned(struct vec3 velocity, struct vec3 direction, double mo
     return vec3_add(vec3_scale(ahead, speed * cosine), vec3_scale(side, speed * sine / across));
 }
 
+/* Does the seeker see the target from here? Straight ahead it sees at any distance. */
+static bool sees(const struct kind *kind, struct vec3 velocity, struct vec3 to)
+{
+    double across = vec3_length(vec3_cross(velocity, to)), along = vec3_dot(velocity, to);
+    return maths_atan2(across, along) <= kind->seeker_rad;
+}
+
+/* Where to fly (unit) to meet what is at to and moves at closing, seen from the missile: turning
+ * its way NAVIGATION times as fast as the line of sight turns makes that line stand still, so that
+ * a crossing target is met without a guess at the time of flight (Zarchan, Tactical and Strategic
+ * Missile Guidance, chapter 2). */
+static struct vec3 navigated(struct vec3 velocity, struct vec3 to, struct vec3 closing, double dt_s)
+{
+    double square = maths_max(vec3_dot(to, to), 1e-6);
+    struct vec3 sight_rps = vec3_scale(vec3_cross(to, closing), 1.0 / square);
+    struct vec3 turn = vec3_scale(vec3_cross(sight_rps, velocity), NAVIGATION * dt_s);
+    struct vec3 next = vec3_add(velocity, turn);
+    return vec3_scale(next, 1.0 / maths_max(vec3_length(next), 1e-9));
+}
+
 static void home(const struct move *move, uint32_t i, const struct kind *kind)
 {
     struct entities *m = move->m;
     const struct entities *w = &move->committed->entities;
+    uint32_t target = m->target_slot[i];
     struct vec3 velocity = entities_velocity(m, i);
     double speed = vec3_length(velocity);
     double faster = pose_approach(speed, kind->max_speed_mps, BOOST_MPS2 * move->dt_s);
     if (speed > 0.0)
         velocity = vec3_scale(velocity, faster / speed);
-    if (entities_alive(w, m->target_slot[i], m->target_id[i])) {
-        uint32_t target = m->target_slot[i];
+    if (m->target_id[i] != 0 && entities_alive(w, target, m->target_id[i])) {
         struct vec3 to = vec3_sub(entities_position(w, target), entities_position(m, i));
-        double distance = vec3_length(to);
-        /* Lead: where the target is after the time of flight. */
-        to = vec3_add(to,
-                      vec3_scale(entities_velocity(w, target), distance / maths_max(faster, 1.0)));
         to.y += pose_aim_height(move, w->kind[target]);
-        distance = vec3_length(to);
-        if (distance > 0.0)
+        if (sees(kind, velocity, to))
             velocity =
-                turned(velocity, vec3_scale(to, 1.0 / distance), kind->turn_rate_rps * move->dt_s);
+                turned(velocity,
+                       navigated(velocity, to, vec3_sub(entities_velocity(w, target), velocity),
+                                 move->dt_s),
+                       kind->turn_rate_rps * move->dt_s);
+        else /* what left the seeker's cone is lost for good */
+            m->target_slot[i] = m->target_id[i] = 0;
     }
     entities_set_velocity(m, i, velocity);
     entities_set_position(m, i,

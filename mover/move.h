@@ -3,29 +3,51 @@
 #ifndef JOLON_MOVER_MOVE_H
 #define JOLON_MOVER_MOVE_H
 
+#include "mover/near.h"
+#include "mover/outlook.h"
 #include "world/world.h"
+
+struct avoid;
 
 struct move {
     const struct world *world;
     const struct crater_index *craters;
+    const struct near *near;       /* of the committed world */
+    const struct outlook *outlook; /* likewise */
+    const struct avoid *avoid;
     const struct state *committed;
     struct entities *m;
-    uint64_t tick; /* that this frame reaches */
+    uint64_t tick;  /* that this frame reaches */
+    uint32_t think; /* [frame] between two thoughts of one agent */
+    uint32_t turn;  /* [frame] between two of its looks, a whole number of thoughts */
     double dt_s;
 };
+
+/* Is it row i's turn to think? */
+static inline bool move_thinks(const struct move *move, uint32_t i)
+{
+    return ((uint32_t)move->tick + move->m->id[i]) % move->think == 0;
+}
 
 /* What an agent, or a player, wants of a vehicle this frame. */
 struct wish {
     double heading_rad;
     double speed_mps;  /* negative: backwards */
-    double altitude_m; /* aircraft: above the ground */
+    double altitude_m; /* aircraft: above the ground; not when driven */
+    bool driven;       /* by a command; what follows is a driver's alone */
+    enum gearing gear; /* land vehicles and ships */
+    double turn;       /* -1..1 of its turn rate, instead of heading_rad */
+    double climb_mps;  /* aircraft, instead of altitude_m */
+    double brake;      /* 0..1 of how hard it can slow */
 };
 
 #define GRAVITY_MPS2 9.80665
+#define BRAKES       2.0 /* times its acceleration: how hard a vehicle slows at most */
 
 /* trigger column: what a row asks of the step's second, serial half. */
 #define TRIGGER_FIRE         1u
-#define TRIGGER_REASON_SHIFT 1u /* enum agent_reason + 1 above it: its behaviour changed */
+#define TRIGGER_FIRE_AT      2u /* at its goal, a point on the ground */
+#define TRIGGER_REASON_SHIFT 2u /* enum agent_reason + 1 above it: its behaviour changed */
 
 /* land.c, sea.c, air.c: true when the way is blocked (water, land, slope, the world's edge). */
 bool move_land(const struct move *move, uint32_t i, const struct wish *wish);
@@ -53,10 +75,12 @@ static inline bool spin_row(const struct move *move, uint32_t i)
     return true;
 }
 
-/* agent.c: takes the controls of row i from whoever drives it. */
+/* driven.c: what the controls of row i ask of it; takes them from whoever drives it. */
+void driven_wish(const struct move *move, uint32_t i, struct wish *wish);
 void move_let_go(const struct entities *m, uint32_t i);
 
-/* agent.c: thinks for row i; true when the row moves by the wish. */
+/* agent.c: row i's wish: thought of anew when it is its turn or something happened to it, else as
+ * it holds its controls. True when the row moves by the wish. */
 bool agent_think(const struct move *move, uint32_t i, struct wish *wish);
 
 /* The agent hears that its way is blocked. */
@@ -68,11 +92,21 @@ double pose_ground(const struct move *move, double x, double z);
 double pose_aim_height(const struct move *move, uint16_t kind);
 /* Heading turned towards wanted by at most rate_rps * dt. */
 double pose_turn(double heading, double wanted, double rate_rps, double dt_s);
+/* Turns row i as the wish asks, at most at rate_rps. */
+void pose_steer(const struct move *move, uint32_t i, const struct wish *wish, double rate_rps);
+/* How hard a vehicle slows [m/s2] that goes at forward and wants another speed: an agent, and a
+ * driver who brakes or reverses, as hard as its kind can; one who lets the throttle go, drag_mps2.
+ */
+double pose_slowing(const struct kind *kind, const struct wish *wish, double forward,
+                    double drag_mps2);
 /* Pitch and roll [rad] of a body of the kind's length and width on the ground; sine and cosine of
  * its heading. */
 void pose_on_ground(const struct move *move, uint32_t i, double sine, double cosine);
-/* Speed [m/s] along the heading, and to its right. */
+/* Speed [m/s] along the heading, and to its right; and the same by the heading's sine and cosine.
+ */
 void pose_speeds(const struct entities *m, uint32_t i, double *forward, double *rightward);
+void pose_along(const struct entities *m, uint32_t i, double sine, double cosine, double *forward,
+                double *rightward);
 /* Value moved towards wanted by at most step. */
 double pose_approach(double value, double wanted, double step);
 /* Moves a coordinate of the map by its speed; at the world's edge both end. */

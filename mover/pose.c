@@ -25,26 +25,56 @@ double pose_turn(double heading, double wanted, double rate_rps, double dt_s)
     return maths_wrap_turn(heading + maths_clamp(off, -most, most));
 }
 
+void pose_steer(const struct move *move, uint32_t i, const struct wish *wish, double rate_rps)
+{
+    double *heading = &move->m->heading[i];
+    if (wish->driven)
+        *heading = maths_wrap_turn(*heading + wish->turn * rate_rps * move->dt_s);
+    else
+        *heading = pose_turn(*heading, wish->heading_rad, rate_rps, move->dt_s);
+}
+
+double pose_slowing(const struct kind *kind, const struct wish *wish, double forward,
+                    double drag_mps2)
+{
+    double hardest = BRAKES * kind->acceleration_mps2;
+    if (!wish->driven || wish->speed_mps * forward < 0.0)
+        return hardest;
+    return drag_mps2 + wish->brake * maths_max(0.0, hardest - drag_mps2);
+}
+
 void pose_on_ground(const struct move *move, uint32_t i, double sine, double cosine)
 {
     struct entities *m = move->m;
     const struct kind *kind = &move->world->kinds[m->kind[i]];
     double half_length = maths_max(kind->length_m * 0.5, 0.5);
     double half_width = maths_max(kind->width_m * 0.5, 0.5);
-    double front = pose_ground(move, m->x[i] + sine * half_length, m->z[i] - cosine * half_length);
-    double back = pose_ground(move, m->x[i] - sine * half_length, m->z[i] + cosine * half_length);
-    double right = pose_ground(move, m->x[i] + cosine * half_width, m->z[i] + sine * half_width);
-    double left = pose_ground(move, m->x[i] - cosine * half_width, m->z[i] - sine * half_width);
-    m->pitch[i] = maths_atan2(front - back, 2.0 * half_length);
-    m->roll[i] = maths_atan2(left - right, 2.0 * half_width);
+    double length_x = sine * half_length, length_z = cosine * half_length;
+    double width_x = cosine * half_width, width_z = sine * half_width;
+    double px = m->x[i], pz = m->z[i];
+    const double x[] = {px + length_x, px - length_x, px + width_x, px - width_x};
+    const double z[] = {pz - length_z, pz + length_z, pz + width_z, pz - width_z};
+    double height[TERRAIN_POINTS]; /* front, back, right, left */
+    terrain_heights(&move->world->terrain, move->craters, x, z, height);
+    double angle[2];
+    maths_slopes((const double[]){height[0] - height[1], height[3] - height[2]},
+                 (const double[]){2.0 * half_length, 2.0 * half_width}, angle);
+    m->pitch[i] = angle[0];
+    m->roll[i] = angle[1];
+}
+
+void pose_along(const struct entities *m, uint32_t i, double sine, double cosine, double *forward,
+                double *rightward)
+{
+    *forward = m->vx[i] * sine - m->vz[i] * cosine;
+    *rightward = m->vx[i] * cosine + m->vz[i] * sine;
 }
 
 void pose_speeds(const struct entities *m, uint32_t i, double *forward, double *rightward)
 {
     double sine, cosine;
     maths_sincos(m->heading[i], &sine, &cosine);
-    *forward = m->vx[i] * sine - m->vz[i] * cosine;
-    *rightward = m->vx[i] * cosine + m->vz[i] * sine;
+    pose_along(m, i, sine, cosine, forward, rightward);
 }
 
 double pose_approach(double value, double wanted, double step)

@@ -3,7 +3,8 @@
 
 #include "world/square.h"
 
-#define KEEL_DRAG_MPS2 2.0 /* how hard a sideways slide is braked */
+#define KEEL_DRAG_MPS2 2.0  /* how hard a sideways slide is braked */
+#define HULL_DRAG      0.35 /* of its acceleration: how it slows when its screws stand still */
 
 static bool navigable(const struct move *move, double x, double z)
 {
@@ -17,18 +18,23 @@ bool move_sea(const struct move *move, uint32_t i, const struct wish *wish)
     const struct kind *kind = &move->world->kinds[m->kind[i]];
     double forward, rightward, sine, cosine;
     bool blocked = false;
-    pose_speeds(m, i, &forward, &rightward);
+    maths_sincos(m->heading[i], &sine, &cosine);
+    pose_along(m, i, sine, cosine, &forward, &rightward);
+    double before = m->heading[i];
 
     /* A rudder bites with the way a ship has. */
     double bite = maths_clamp(fabs(forward) / maths_max(kind->max_speed_mps, 1e-9), 0.15, 1.0);
-    m->heading[i] =
-        pose_turn(m->heading[i], wish->heading_rad, kind->turn_rate_rps * bite, move->dt_s);
-    maths_sincos(m->heading[i], &sine, &cosine);
+    pose_steer(move, i, wish, kind->turn_rate_rps * bite);
+    if (m->heading[i] != before)
+        maths_sincos(m->heading[i], &sine, &cosine);
 
     double wanted = maths_clamp(wish->speed_mps, -0.5 * kind->max_speed_mps, kind->max_speed_mps);
     if (!pose_burn(move, i, fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9)))
         wanted = 0.0;
-    forward = pose_approach(forward, wanted, kind->acceleration_mps2 * move->dt_s);
+    double rate = kind->acceleration_mps2;
+    if (wish->driven && fabs(wanted) < fabs(forward))
+        rate = pose_slowing(kind, wish, forward, HULL_DRAG * rate);
+    forward = pose_approach(forward, wanted, rate * move->dt_s);
     rightward = pose_approach(rightward, 0.0, KEEL_DRAG_MPS2 * move->dt_s);
 
     double vx = forward * sine + rightward * cosine;

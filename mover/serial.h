@@ -31,6 +31,9 @@ struct event_party serial_party(const struct serial *serial, uint32_t row);
 /* weapons.c: row fires its munition at target's row, or ahead when SLOT_NONE. False when it has no
  * munition or no room for another entity or event; nothing has changed then. */
 bool weapons_fire(struct serial *serial, uint32_t shooter, uint32_t target, uint16_t munition);
+/* The same at a point on the ground. */
+bool weapons_fire_at(struct serial *serial, uint32_t shooter, double x, double z,
+                     uint16_t munition);
 /* A munition of this kind falls on the ground at (x, z). */
 bool weapons_drop(struct serial *serial, uint16_t munition, double x, double z);
 

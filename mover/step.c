@@ -1,7 +1,9 @@
 /* The mover's step: copy, commands, every row for itself, then what reaches beyond a row. */
 #include "mover/step.h"
 
+#include "mover/percept.h"
 #include "mover/serial.h"
+#include "mover/turret.h"
 
 #include <string.h>
 
@@ -11,12 +13,20 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
                struct workers *workers)
 {
     *mover = (struct mover){.world = world, .workers = workers};
-    return crater_index_init(&mover->craters, craters);
+    avoid_init(&mover->avoid, world);
+    if (crater_index_init(&mover->craters, craters) == 0 &&
+        near_init(&mover->near, world->params->capacity) == 0 &&
+        outlook_init(&mover->outlook, world, &mover->craters) == 0)
+        return 0;
+    mover_free(mover);
+    return -1;
 }
 
 void mover_free(struct mover *mover)
 {
     crater_index_free(&mover->craters);
+    near_free(&mover->near);
+    outlook_free(&mover->outlook);
 }
 
 static void move_row(const struct move *move, uint32_t i)
@@ -36,6 +46,7 @@ static void move_row(const struct move *move, uint32_t i)
     spin_row(move, i);
     if (!agent_think(move, i, &wish)) {
         move_hold(move, i);
+        turret_turn(move, i);
         return;
     }
     switch ((enum domain)move->world->kinds[m->kind[i]].domain) {
@@ -51,6 +62,8 @@ static void move_row(const struct move *move, uint32_t i)
     }
     if (blocked)
         agent_blocked(move, i);
+    turret_turn(move, i);
+    turret_hold_fire(move, i);
 }
 
 static void move_piece(const struct move *move, uint32_t first, uint32_t end)
@@ -108,7 +121,10 @@ static void scenario_fires(struct serial *serial)
             continue;
         if (target != SLOT_NONE && !entities_alive(m, target, target + 1))
             continue;
-        weapons_fire(serial, shooter, target, order->kind);
+        if (target != SLOT_NONE)
+            weapons_fire(serial, shooter, target, order->kind);
+        else
+            weapons_fire_at(serial, shooter, order->x, order->z, order->kind);
     }
 }
 
@@ -133,6 +149,8 @@ static void pull_triggers(struct serial *serial)
         }
         if ((trigger & TRIGGER_FIRE) && entities_alive(m, m->target_slot[i], m->target_id[i]))
             weapons_fire(serial, i, m->target_slot[i], KIND_NONE);
+        if (trigger & TRIGGER_FIRE_AT)
+            weapons_fire_at(serial, i, m->goal_x[i], m->goal_z[i], KIND_NONE);
     }
 }
 
@@ -167,9 +185,14 @@ int mover_step(struct mover *mover, const struct state *committed, struct moved 
     struct move move = {
         .world = mover->world,
         .craters = &mover->craters,
+        .near = &mover->near,
+        .outlook = &mover->outlook,
+        .avoid = &mover->avoid,
         .committed = committed,
         .m = &moved->entities,
         .tick = committed->head->tick + 1,
+        .think = percept_think(mover->world->params, committed->head->used),
+        .turn = percept_turn(mover->world->params, committed->head->used),
         .dt_s = mover->world->params->dt_s,
     };
     struct serial serial = {.move = &move, .moved = moved, .pieces = &mover->pieces};
@@ -185,6 +208,8 @@ int mover_step(struct mover *mover, const struct state *committed, struct moved 
             head->steps_left--;
         head->advanced = 1;
         head->tick = move.tick;
+        near_build(&mover->near, &committed->entities, used);
+        mover->outlook.fixed_damage = committed->fixed_damage;
         workers_run(mover->workers, move_rows, &rows, used, CHECKSUM_ROWS);
         scenario_fires(&serial);
         pull_triggers(&serial);

@@ -3,6 +3,9 @@
 #ifndef JOLON_MOVER_STEP_H
 #define JOLON_MOVER_STEP_H
 
+#include "mover/avoid.h"
+#include "mover/near.h"
+#include "mover/outlook.h"
 #include "world/checksum.h"
 #include "world/workers.h"
 #include "world/world.h"
@@ -23,6 +26,9 @@ struct moved_pieces {
 struct mover {
     const struct world *world;
     struct crater_index craters; /* cache of the committed craters */
+    struct near near;            /* of the committed vehicles; of this frame */
+    struct outlook outlook;      /* over the committed ground; of this frame */
+    struct avoid avoid;          /* of the kinds */
     struct workers *workers;     /* NULL: alone */
     struct moved_pieces pieces;  /* of this frame */
 };

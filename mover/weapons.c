@@ -1,9 +1,12 @@
 /* Shots: aim, dispersion, the new munition, and the target's alarm. */
 #include "mover/serial.h"
 
+#include "mover/turret.h"
 #include "world/random.h"
 
-#define MUZZLE_SHARE  0.7   /* of the shooter's height */
+#include <stddef.h>
+
+#define LAUNCH_SHARE  0.3   /* of a missile's full speed: how it leaves */
 #define DROP_HEIGHT_M 300.0 /* rounds out of the sky come from this far above the point */
 
 /* About normal, standard deviation 1: the sum of twelve uniforms would do, four are enough. */
@@ -15,31 +18,6 @@ static double spread(const struct serial *serial, uint32_t row, enum random_purp
     for (int i = 0; i < 4; i++)
         sum += (double)(bits >> (16 * i) & 0xffff) * (1.0 / 65536.0);
     return (sum - 2.0) * 1.7320508075688772;
-}
-
-/* Direction (unit) from the muzzle that meets the moving target, gravity taken into account. */
-static struct vec3 aim(const struct serial *serial, struct vec3 muzzle, uint32_t target,
-                       const struct kind *munition)
-{
-    const struct entities *m = &serial->moved->entities;
-    double speed = maths_max(munition->max_speed_mps, 1.0);
-    struct vec3 at = entities_position(m, target);
-    at.y += pose_aim_height(serial->move, m->kind[target]);
-    double flight_s = vec3_length(vec3_sub(at, muzzle)) / speed;
-    at = vec3_add(at, vec3_scale(entities_velocity(m, target), flight_s));
-    if (munition->guidance == GUIDANCE_BALLISTIC)
-        at.y += 0.5 * GRAVITY_MPS2 * flight_s * flight_s;
-    struct vec3 to = vec3_sub(at, muzzle);
-    double distance = vec3_length(to);
-    return distance > 0.0 ? vec3_scale(to, 1.0 / distance) : (struct vec3){0.0, 1.0, 0.0};
-}
-
-static struct vec3 ahead(const struct entities *m, uint32_t row)
-{
-    double sine, cosine, sine_pitch, cosine_pitch;
-    maths_sincos(m->heading[row], &sine, &cosine);
-    maths_sincos(m->pitch[row], &sine_pitch, &cosine_pitch);
-    return (struct vec3){sine * cosine_pitch, sine_pitch, -cosine * cosine_pitch};
 }
 
 static struct vec3 dispersed(const struct serial *serial, uint32_t row, struct vec3 direction,
@@ -66,7 +44,10 @@ static void point_munition(struct entities *m, uint32_t row, struct vec3 positio
     m->pitch[row] = maths_atan2(velocity.y, level);
 }
 
-bool weapons_fire(struct serial *serial, uint32_t shooter, uint32_t target, uint16_t munition)
+/* The new munition, its shooter's loss and the event; the row target, if any, is told. Directed at
+ * point, if not NULL, instead. */
+static bool launch(struct serial *serial, uint32_t shooter, uint32_t target,
+                   const struct vec3 *point, uint16_t munition)
 {
     struct entities *m = &serial->moved->entities;
     const struct world *world = serial->move->world;
@@ -80,15 +61,19 @@ bool weapons_fire(struct serial *serial, uint32_t shooter, uint32_t target, uint
     if (row == SLOT_NONE)
         return false;
     const struct kind *round = &world->kinds[munition];
-    struct vec3 position = entities_position(m, shooter);
-    position.y += kind->domain == DOMAIN_AIR ? 0.0 : MUZZLE_SHARE * kind->height_m;
-    struct vec3 direction =
-        target != SLOT_NONE ? aim(serial, position, target, round) : ahead(m, shooter);
+    struct vec3 position = turret_muzzle(serial->move, m, shooter);
+    struct vec3 direction = point ? turret_lead_point(position, round, *point)
+                            : target != SLOT_NONE
+                                ? turret_lead(serial->move, position, round, m, target)
+                                : turret_barrel(m, shooter);
     direction = dispersed(serial, row, direction, round->dispersion_rad);
     double clear = kind->radius_m + round->radius_m + 0.5;
     struct vec3 muzzle = vec3_add(position, vec3_scale(direction, clear));
-    double speed =
-        round->guidance == GUIDANCE_HOMING ? 0.3 * round->max_speed_mps : round->max_speed_mps;
+    double speed = round->max_speed_mps;
+    if (round->guidance == GUIDANCE_HOMING) { /* its motor burns from here on */
+        double carried = maths_max(0.0, vec3_dot(direction, entities_velocity(m, shooter)));
+        speed = maths_min(speed, LAUNCH_SHARE * speed + carried);
+    }
     point_munition(m, row, muzzle, vec3_scale(direction, speed));
     m->owner_slot[row] = shooter;
     m->owner_id[row] = m->id[shooter];
@@ -113,6 +98,17 @@ bool weapons_fire(struct serial *serial, uint32_t shooter, uint32_t target, uint
         serial_changes(serial, target);
     }
     return true;
+}
+
+bool weapons_fire(struct serial *serial, uint32_t shooter, uint32_t target, uint16_t munition)
+{
+    return launch(serial, shooter, target, NULL, munition);
+}
+
+bool weapons_fire_at(struct serial *serial, uint32_t shooter, double x, double z, uint16_t munition)
+{
+    const struct vec3 point = {x, pose_ground(serial->move, x, z), z};
+    return launch(serial, shooter, SLOT_NONE, &point, munition);
 }
 
 bool weapons_drop(struct serial *serial, uint16_t munition, double x, double z)

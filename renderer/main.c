@@ -9,6 +9,8 @@
 #include "renderer/options.h"
 #include "renderer/pulse.h"
 #include "renderer/studio.h"
+#include "renderer/survey.h"
+#include "renderer/turns.h"
 #include "sandbox/sandbox.h"
 
 #include <errno.h>
@@ -16,26 +18,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#define NICENESS         12         /* far behind the frame loop */
-#define LOOK_INTERVAL_NS 500000000u /* between two looks at the world when no picture is due */
-#define WAIT_NS          100000000u /* the longest wait without a look at the signals */
-
-/* Waits for the next picture's time or the end of the run, looking at the world meanwhile. */
-static int wait_for_next(struct studio *studio, struct view *view, struct reason *reason)
-{
-    uint64_t now, look_ns = clock_now_ns() + LOOK_INTERVAL_NS, due_ns = studio_due_ns(studio);
-    while ((now = clock_now_ns()) < due_ns && !process_stopping() && !frame_finished(view)) {
-        uint64_t until = now + WAIT_NS < due_ns ? now + WAIT_NS : due_ns;
-        clock_sleep_until_ns(until);
-        pulse_stage(studio->pulse);
-        if (now >= look_ns) {
-            look_ns = now + LOOK_INTERVAL_NS;
-            if (studio_look(studio, reason) != 0)
-                return -1;
-        }
-    }
-    return studio_look(studio, reason);
-}
+#define NICENESS 12 /* far behind the frame loop */
 
 static int run(struct studio *studio, struct view *view, struct reason *reason)
 {
@@ -47,7 +30,7 @@ static int run(struct studio *studio, struct view *view, struct reason *reason)
     while (!last) {
         last = process_stopping() || frame_finished(view);
         if (!last) {
-            if (wait_for_next(studio, view, reason) != 0)
+            if (turns_wait(studio, view, reason) != 0)
                 return -1;
             last = process_stopping() || frame_finished(view);
         }
@@ -58,6 +41,8 @@ static int run(struct studio *studio, struct view *view, struct reason *reason)
         if (studio_draw(studio, last, reason) != 0)
             return -1;
         account_picture(view, studio, begun_ns);
+        if (!last && turns_share(studio, reason) != 0)
+            return -1;
     }
     return 0;
 }
@@ -75,7 +60,6 @@ static int confine(struct sandbox *sandbox, struct outlets *outlets, const struc
         setenv("MESA_SHADER_CACHE_DIR", cache, 1);
     if (sandbox_begin(sandbox, options->role, options->sandbox_off, reason) != 0)
         return -1;
-    sandbox->serves = outlets->stream != NULL;
     return sandbox_files(sandbox, &outlets->output.folder, 1, reason);
 }
 
@@ -92,6 +76,7 @@ int main(int argc, char **argv)
 {
     static struct studio studio;
     static struct outlets outlets;
+    static struct survey survey;
     struct options options;
     struct view view;
     struct sandbox sandbox = {.on = false};
@@ -110,6 +95,8 @@ int main(int argc, char **argv)
         process_die_with_parent(options.parent_pid);
     if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &reason) != 0)
         die_refused("%s", reason.text);
+    survey_open(&survey, &view.world);
+    options.outlets.painter = survey_painter(&survey);
     if (!snapping && confine(&sandbox, &outlets, &options, &reason) != 0)
         die_refused("%s", reason.text);
     /* The pulse keeps its priority; drawing, and the threads of the OpenGL driver, get out of the
@@ -141,6 +128,7 @@ int main(int argc, char **argv)
     if (result != 0)
         die_refused("%s", reason.text);
     studio_close(&studio);
+    survey_close(&survey);
     segment_detach(&view);
     return EXIT_OK;
 }

@@ -1,6 +1,7 @@
 /* Reading the command line. */
 #include "renderer/options.h"
 
+#include "http/listen.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
 #include "world/square.h"
@@ -261,6 +262,8 @@ static void take_live_defaults(struct options *options)
         wish->stills_fps = live ? LIVE_STILLS_FPS : 0.0;
     wish->world = options->world;
     wish->folder = options->out;
+    wish->asked = options->out != NULL;
+    wish->role = options->role;
 }
 
 static void take(struct options *options, int letter, const char *value)
@@ -340,7 +343,7 @@ void options_read(struct options *options, int argc, char **argv)
                                 .outlets = {.stills_fps = -1.0,
                                             .video_fps = VIDEO_FPS,
                                             .stream_port = -1,
-                                            .stream_address = STREAM_ADDRESS}};
+                                            .stream_address = HTTP_LISTEN_ADDRESS}};
     int letter;
     while ((letter = getopt_long(argc, argv, "w:", long_options, NULL)) != -1)
         take(options, letter, optarg);

@@ -27,8 +27,7 @@ static double show_time(struct studio *studio, const struct moment *latest)
                       studio->view->world.params->dt_s, rate);
 }
 
-/* What is shown: the last frame, or at a high rate the state between it and the one before. */
-static struct moment present(struct studio *studio, bool last)
+struct moment studio_present(struct studio *studio, bool last)
 {
     struct moment latest = studio_moment(studio, studio->latest);
     if (last || !studio->smooth)
@@ -42,16 +41,23 @@ static struct moment present(struct studio *studio, bool last)
     return blend_between(&studio->blend, &earlier, &latest, share);
 }
 
+uint32_t studio_find(struct studio *studio, const struct moment *moment, uint32_t vehicle)
+{
+    if (vehicle != 0)
+        return entities_find(moment->entities, moment->head->used, vehicle);
+    return follow_choose(&studio->follow, moment, &studio->effects, studio->options.follow,
+                         studio->options.follow_given);
+}
+
 /* The vehicle of each view: its own, or the one that the renderer follows. */
 static void choose_vehicles(struct studio *studio, const struct moment *moment)
 {
-    uint32_t followed = follow_choose(&studio->follow, moment, &studio->effects,
-                                      studio->options.follow, studio->options.follow_given);
+    uint32_t followed = studio_find(studio, moment, 0);
     for (uint32_t i = 0; i < studio->shot_count; i++) {
         struct shot *shot = &studio->shots[i];
         uint32_t own = SLOT_NONE;
         if (shot->wish.vehicle != 0)
-            own = entities_find(moment->entities, moment->head->used, shot->wish.vehicle);
+            own = studio_find(studio, moment, shot->wish.vehicle);
         shot->slot = own != SLOT_NONE ? own : followed;
     }
 }
@@ -106,12 +112,13 @@ static int put_out(struct studio *studio, const struct shot *shot, const struct 
 }
 
 /* Where the scene is drawn: the picture itself, or a smaller one. */
-static struct image *canvas(struct studio *studio, const struct governor_level *level)
+static struct image *canvas(struct studio *studio, struct image *whole,
+                            const struct governor_level *level)
 {
     if (level->quarters == 4)
-        return &studio->image;
-    uint32_t width = studio->image.width * level->quarters / 4;
-    uint32_t height = studio->image.height * level->quarters / 4;
+        return whole;
+    uint32_t width = whole->width * level->quarters / 4;
+    uint32_t height = whole->height * level->quarters / 4;
     studio->small.width = width > SIDE_LEAST ? width : SIDE_LEAST;
     studio->small.height = height > SIDE_LEAST ? height : SIDE_LEAST;
     return &studio->small;
@@ -130,21 +137,23 @@ static uint32_t paintings_of(const struct studio *studio, bool whole)
 }
 
 static struct chart_source source_of(const struct studio *studio, const struct shot *shot,
-                                     const struct moment *moment, const struct camera *camera)
+                                     const struct moment *moment, const struct camera *camera,
+                                     double rate)
 {
     return (struct chart_source){.moment = moment,
                                  .tracks = &studio->tracks,
                                  .effects = &studio->effects,
                                  .camera = camera,
                                  .slot = shot->slot,
-                                 .fps = studio->rate};
+                                 .fps = rate};
 }
 
-static int draw_camera(struct studio *studio, struct shot *shot, const struct moment *moment,
-                       const struct governor_level *level, struct reason *reason)
+int studio_shoot(struct studio *studio, struct shot *shot, const struct moment *moment,
+                 const struct governor_level *level, const struct studio_sheet *sheet,
+                 struct reason *reason)
 {
     struct camera camera;
-    struct image *drawn = canvas(studio, level);
+    struct image *drawn = canvas(studio, sheet->image, level);
     shot->aim_wish.width = drawn->width;
     shot->aim_wish.height = drawn->height;
     aim_camera(&shot->aim, &shot->aim_wish, moment, shot->slot, &camera);
@@ -156,13 +165,24 @@ static int draw_camera(struct studio *studio, struct shot *shot, const struct mo
     if (studio->draw.picture(studio->draw.self, &studio->scene, moment, drawn, reason) != 0)
         return -1;
     pulse_stage(studio->pulse);
+    if (drawn != sheet->image)
+        image_stretch(sheet->image, drawn);
+    struct chart_source source = source_of(studio, shot, moment, &camera, sheet->rate);
+    if (sheet->chart != NULL)
+        chart_instruments(sheet->chart, sheet->image, &source);
+    return 0;
+}
+
+static int draw_camera(struct studio *studio, struct shot *shot, const struct moment *moment,
+                       const struct governor_level *level, struct reason *reason)
+{
+    const struct studio_sheet sheet = {
+        .image = &studio->image, .chart = &studio->chart, .rate = studio->rate};
+    if (studio_shoot(studio, shot, moment, level, &sheet, reason) != 0)
+        return -1;
     /* The first picture waits for all its ground; at a rate, ground comes when there is time. */
     if (studio->smooth)
         studio->scene.paintings = STUDIO_PAINTINGS;
-    if (drawn != &studio->image)
-        image_stretch(&studio->image, drawn);
-    struct chart_source source = source_of(studio, shot, moment, &camera);
-    chart_instruments(&studio->chart, &studio->image, &source);
     return 0;
 }
 
@@ -175,7 +195,7 @@ static int draw_map(struct studio *studio, struct shot *shot, const struct momen
     shot->aim_wish.width = studio->image.width;
     shot->aim_wish.height = studio->image.height;
     aim_camera(&shot->aim, &shot->aim_wish, moment, shot->slot, &camera);
-    struct chart_source source = source_of(studio, shot, moment, &camera);
+    struct chart_source source = source_of(studio, shot, moment, &camera, studio->rate);
     if (chart_map(&studio->chart, &studio->image, &source) != 0)
         return reason_set(reason, "no memory for the map");
     return 0;
@@ -222,7 +242,7 @@ static void note_rate(struct studio *studio)
 int studio_draw(struct studio *studio, bool last, struct reason *reason)
 {
     note_rate(studio);
-    struct moment moment = present(studio, last);
+    struct moment moment = studio_present(studio, last);
     /* What stands still is drawn once more, with everything. */
     bool same = studio->drawn == moment.head->frame && studio->drawn_ahead_s == moment.ahead_s;
     bool whole = last || (same && moment.head->paused != 0);

@@ -44,8 +44,16 @@ static void take_shots(struct studio *studio)
     studio->shot_count = options->views.count;
 }
 
+/* May clients ask for pictures, of their own sizes? */
+static bool is_asked(const struct studio *studio)
+{
+    return studio->outlets != NULL && studio->outlets->stream != NULL;
+}
+
 static bool wants_cameras(const struct studio *studio)
 {
+    if (is_asked(studio))
+        return true;
     for (uint32_t i = 0; i < studio->shot_count; i++)
         if (studio->shots[i].wish.mode != VIEW_MAP)
             return true;
@@ -94,6 +102,17 @@ static void close_world(struct studio *studio)
     snapshot_free(&studio->snapshot[0]);
 }
 
+/* The options for whatever picture may be drawn. Memory that no picture needs is not touched. */
+static struct options largest_pictures(const struct studio *studio)
+{
+    struct options options = studio->options;
+    if (is_asked(studio)) {
+        options.width = options.width > QUERY_WIDTH_MAX ? options.width : QUERY_WIDTH_MAX;
+        options.height = options.height > QUERY_HEIGHT_MAX ? options.height : QUERY_HEIGHT_MAX;
+    }
+    return options;
+}
+
 /* What pictures are made of. */
 static int open_canvas(struct studio *studio, struct view *view)
 {
@@ -104,7 +123,8 @@ static int open_canvas(struct studio *studio, struct view *view)
         goto err_scenery;
     if (image_init(&studio->image, width, height) != 0)
         goto err_scene;
-    if (image_init(&studio->small, width, height) == 0)
+    struct options largest = largest_pictures(studio);
+    if (image_init(&studio->small, largest.width, largest.height) == 0)
         return 0;
     image_free(&studio->image);
 err_scene:
@@ -172,10 +192,12 @@ int studio_open(struct studio *studio, struct view *view, struct pulse *pulse,
     if (chart_open(&studio->chart, &view->world, width, height, reason) != 0)
         goto err_canvas;
     pulse_stage(pulse);
+    struct options largest = largest_pictures(studio);
     if (wants_cameras(studio) &&
-        back_end_open(&studio->draw, &studio->options, &studio->scenery, reason) != 0)
+        back_end_open(&studio->draw, &largest, &studio->scenery, reason) != 0)
         goto err_chart;
     pulse_stage(pulse);
+    booth_open(studio);
     struct state_head head;
     if (snapshot_head(&head, view) == 0 && head.event_end > EVENTS_BEFORE)
         studio->events.next = head.event_end - EVENTS_BEFORE;
@@ -195,6 +217,7 @@ err_memory:
 
 void studio_close(struct studio *studio)
 {
+    booth_close(studio);
     if (studio->draw.self != NULL)
         studio->draw.close(studio->draw.self);
     chart_close(&studio->chart);

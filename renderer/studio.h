@@ -4,16 +4,17 @@
 #define JOLON_RENDERER_STUDIO_H
 
 #include "ipc/snapshot.h"
+#include "renderer/booth.h"
 #include "renderer/chart/chart.h"
 #include "renderer/draw.h"
 #include "renderer/governor.h"
 #include "renderer/options.h"
 #include "renderer/output/outlets.h"
 #include "renderer/pulse.h"
-#include "renderer/scene/aim.h"
 #include "renderer/scene/blend.h"
 #include "renderer/scene/effects.h"
 #include "renderer/scene/follow.h"
+#include "renderer/shot.h"
 #include "renderer/views.h"
 
 #include <stdbool.h>
@@ -21,14 +22,6 @@
 
 #define STUDIO_SMOOTH_FPS 20.0 /* from this rate on, pictures show what is between frames */
 #define STUDIO_PAINTINGS  4u   /* tiles of ground that one of these paints, 1 ms each */
-
-/* One view of what is to be drawn, and its camera. */
-struct shot {
-    struct view_wish wish;
-    struct aim_wish aim_wish;
-    struct aim aim;
-    uint32_t slot; /* of its vehicle in the moment that is drawn; SLOT_NONE for none */
-};
 
 struct studio {
     struct view *view;
@@ -64,6 +57,7 @@ struct studio {
     bool drawn_whole;     /* ... and with everything */
     uint64_t drawn_ns;    /* CLOCK_MONOTONIC when they were begun */
     double rate;          /* pictures a second, measured; 0: not yet */
+    struct booth booth;
     uint64_t complained_ns;
 };
 
@@ -91,5 +85,27 @@ struct moment studio_moment(const struct studio *studio, uint32_t which);
 /* Draws what was seen last and writes it out, every view, unless it was drawn before. last: exactly
  * the last frame seen, at full quality, whatever the rate. 0, or -1 with the reason. */
 int studio_draw(struct studio *studio, bool last, struct reason *reason);
+
+/* --- for the booth ------------------------------------------------------------------------------
+ */
+
+/* Where a camera's picture goes, and what is laid over it. */
+struct studio_sheet {
+    struct image *image;
+    struct chart *chart; /* instruments of the image's size; NULL: none */
+    double rate;         /* pictures a second, for them */
+};
+
+/* What is shown: the last frame, or at a high rate the state between it and the one before. It
+ * lives until the next call. */
+struct moment studio_present(struct studio *studio, bool last);
+
+/* The slot of a vehicle, SLOT_NONE when there is none; of 0: of the one that is followed. */
+uint32_t studio_find(struct studio *studio, const struct moment *moment, uint32_t vehicle);
+
+/* Draws what a shot's camera sees. 0, or -1 with the reason. */
+int studio_shoot(struct studio *studio, struct shot *shot, const struct moment *moment,
+                 const struct governor_level *level, const struct studio_sheet *sheet,
+                 struct reason *reason);
 
 #endif

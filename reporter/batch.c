@@ -11,6 +11,8 @@ _Static_assert(BATCH_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/status.id
 _Static_assert((int)jolon_ENTITY_FREE == (int)ENTITY_FREE &&
                    (int)jolon_ENTITY_WRECK == (int)ENTITY_WRECK,
                "entity states in ipc/status.idl");
+_Static_assert((int)jolon_GEAR_LOW == (int)GEAR_LOW && (int)GEAR_COUNT == (int)jolon_GEAR_LOW + 1,
+               "gears in ipc/status.idl");
 
 int batch_open(struct batch *batch, const struct view *view, const struct dds_link *link,
                uint64_t run, struct reason *reason)
@@ -18,6 +20,7 @@ int batch_open(struct batch *batch, const struct view *view, const struct dds_li
     uint32_t capacity = view->header->capacity;
     *batch = (struct batch){.room = capacity < BATCH_PART ? capacity : BATCH_PART};
     batch->wire.run = run;
+    batch->dt_s = view->world.params->dt_s;
     batch->writer = dds_topics_writer(link, TOPIC_ENTITIES, reason);
     if (batch->writer < 0)
         return -1;
@@ -37,8 +40,11 @@ void batch_close(struct batch *batch)
     batch->entity = NULL;
 }
 
-static void fill(jolon_Entity *to, const struct entities *from, uint32_t row)
+/* tick: of the frame; dt_s: of a tick. */
+static void fill(jolon_Entity *to, const struct entities *from, uint32_t row, uint64_t tick,
+                 double dt_s)
 {
+    uint32_t ready = from->reload_tick[row];
     *to = (jolon_Entity){
         .id = from->id[row],
         .kind = from->kind[row],
@@ -61,6 +67,9 @@ static void fill(jolon_Entity *to, const struct entities *from, uint32_t row)
         .rounds = from->rounds[row],
         .fuel_l = (float)from->fuel_l[row],
         .driver = from->driver[row],
+        .throttle = from->throttle[row],
+        .gear = (jolon_Gear)entity_gear(from->flags[row]),
+        .reload_s = ready > tick ? (float)((double)(ready - tick) * dt_s) : 0.0f,
     };
 }
 
@@ -100,7 +109,8 @@ static void write_part(struct batch *batch)
     uint32_t count = 0;
     for (; batch->row < snapshot->head.used && count < batch->room; batch->row++) {
         if (snapshot->entities.state[batch->row] != ENTITY_FREE)
-            fill(&batch->entity[count++], &snapshot->entities, batch->row);
+            fill(&batch->entity[count++], &snapshot->entities, batch->row, snapshot->head.tick,
+                 batch->dt_s);
     }
     batch->wire.entities._buffer = batch->entity;
     batch->wire.entities._length = batch->wire.entities._maximum = count;

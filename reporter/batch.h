@@ -22,6 +22,7 @@ struct batch {
     struct snapshot snapshot;
     jolon_Entity *entity; /* [room] */
     uint32_t room;
+    double dt_s;
     jolon_EntityBatch wire;      /* the part to be written next */
     bool busy;                   /* parts of the snapshot are still to be written */
     uint32_t row;                /* where the next part begins */

@@ -45,6 +45,7 @@ static int open_topics(struct reporter *reporter, struct reason *reason)
     struct view *view = &reporter->view;
     if (report_open(&reporter->report, view, link, reason) != 0 ||
         report_world(&reporter->report, view, reason) != 0 ||
+        report_names(&reporter->report, view, reason) != 0 ||
         events_open(&reporter->events, view, link, reporter->report.run, reason) != 0 ||
         batch_open(&reporter->batch, view, link, reporter->report.run, reason) != 0 ||
         orders_open(&reporter->orders, view, link, reason) != 0)

@@ -1,4 +1,4 @@
-/* WorldInfo, ProcessStatus and FrameStatus out of the segment. */
+/* WorldInfo, EntityNames, ProcessStatus and FrameStatus out of the segment. */
 #include "reporter/report.h"
 
 #include "ipc/clock.h"
@@ -25,6 +25,7 @@ _Static_assert((int)jolon_PROCESS_STOPPING == (int)ROLE_STOPPING &&
 _Static_assert((int)jolon_DOMAIN_FIXED == (int)DOMAIN_FIXED &&
                    (int)DOMAIN_COUNT == (int)jolon_DOMAIN_FIXED + 1,
                "domains in ipc/status.idl");
+_Static_assert(sizeof((jolon_EntityName *)0)->name == ENTITY_NAME_MAX, "names in ipc/status.idl");
 _Static_assert(jolon_MAP_CELLS == jolon_MAP_SIDE * jolon_MAP_SIDE, "map in ipc/status.idl");
 
 int report_open(struct report *report, const struct view *view, const struct dds_link *link,
@@ -33,6 +34,9 @@ int report_open(struct report *report, const struct view *view, const struct dds
     *report = (struct report){.run = view->header->made}; /* the same name may be given again */
     report->world = dds_topics_writer(link, TOPIC_WORLD, reason);
     if (report->world < 0)
+        return -1;
+    report->names = dds_topics_writer(link, TOPIC_NAMES, reason);
+    if (report->names < 0)
         return -1;
     report->process = dds_topics_writer(link, TOPIC_PROCESS, reason);
     if (report->process < 0)
@@ -75,6 +79,10 @@ int report_world(struct report *report, const struct view *view, struct reason *
         copy_text(kind[i].name, sizeof kind[i].name, view->world.kinds[i].name);
         kind[i].domain = (jolon_Domain)view->world.kinds[i].domain;
         kind[i].length_m = (float)view->world.kinds[i].length_m;
+        kind[i].max_speed_mps = (float)view->world.kinds[i].max_speed_mps;
+        kind[i].range_m = (float)view->world.kinds[i].range_m;
+        kind[i].rounds = view->world.kinds[i].rounds;
+        kind[i].fuel_l = (float)view->world.kinds[i].fuel_l;
     }
     copy_text(info->world, sizeof info->world, view->name);
     copy_text(info->ground, sizeof info->ground, params->name);
@@ -93,6 +101,30 @@ int report_world(struct report *report, const struct view *view, struct reason *
     dds_return_t code = dds_write(report->world, info);
     free(info);
     return code < 0 ? reason_set(reason, "world info: %s", dds_strretcode(code)) : 0;
+}
+
+int report_names(const struct report *report, const struct view *view, struct reason *reason)
+{
+    const struct world *world = &view->world;
+    uint32_t named = 0;
+    for (uint32_t id = 1; id <= world->counts.names && named < jolon_NAMES_MAX; id++)
+        named += world_entity_name(world, id)[0] != '\0';
+    jolon_EntityName *name = calloc(named + 1, sizeof *name); /* not none: NULL is an error */
+    if (!name)
+        return reason_set(reason, "entity names: %s", strerror(errno));
+    jolon_EntityNames wire = {.run = report->run};
+    for (uint32_t id = 1; wire.names._length < named; id++) {
+        if (!world_entity_name(world, id)[0])
+            continue;
+        jolon_EntityName *to = &name[wire.names._length++];
+        to->id = id;
+        copy_text(to->name, sizeof to->name, world_entity_name(world, id));
+    }
+    wire.names._buffer = name;
+    wire.names._maximum = named;
+    dds_return_t code = dds_write(report->names, &wire);
+    free(name);
+    return code < 0 ? reason_set(reason, "entity names: %s", dds_strretcode(code)) : 0;
 }
 
 static double to_ms(uint64_t ns)
@@ -206,6 +238,16 @@ static jolon_RunState run_state(struct report *report, const struct view *view,
                                                                  : jolon_RUN_RUNNING;
 }
 
+/* Of the frames since the last call. */
+static jolon_Times recent_times(struct report *report, const struct histogram *whole)
+{
+    static struct histogram now, since; /* too large for the stack's comfort */
+    now = *whole;
+    histogram_since(&since, &now, &report->whole);
+    report->whole = now;
+    return times_of(&since);
+}
+
 void report_frame(struct report *report, const struct view *view, uint64_t now_ns)
 {
     struct state_head head;
@@ -238,6 +280,7 @@ void report_frame(struct report *report, const struct view *view, uint64_t now_n
         .frame_time = times_of(&collider->whole),
         .mover_time = times_of(&mover->stage),
         .collider_time = times_of(&collider->stage),
+        .recent = recent_times(report, &collider->whole),
     };
     (void)dds_write(report->frame, &status); /* ten a second: the next one makes up for it */
 }

@@ -1,7 +1,7 @@
 /* Reports: what the world, its processes and its frames say of themselves.
  *
- * WorldInfo once, ProcessStatus of each role on change and once a second, FrameStatus as often as
- * the caller asks. Reads the segment; writes nothing but DDS samples. */
+ * WorldInfo and EntityNames once, ProcessStatus of each role on change and once a second,
+ * FrameStatus as often as the caller asks. Reads the segment; writes nothing but DDS samples. */
 #ifndef JOLON_REPORTER_REPORT_H
 #define JOLON_REPORTER_REPORT_H
 
@@ -13,8 +13,8 @@
 #define REPORT_PERIOD_NS    100000000u
 
 struct report {
-    dds_entity_t world, process, frame; /* writers */
-    uint64_t run;                       /* of the world that view shows */
+    dds_entity_t world, names, process, frame; /* writers */
+    uint64_t run;                              /* of the world that view shows */
     struct {
         jolon_ProcessState state;
         uint32_t pid;
@@ -25,6 +25,7 @@ struct report {
         uint64_t at_ns, commit;
     } rate[REPORT_RATE_SAMPLES];
     uint32_t rate_next, rate_count;
+    struct histogram whole;       /* of frame times, when the last FrameStatus was made */
     uint64_t commit, advanced_ns; /* last commit seen, and when it was new */
 };
 
@@ -34,6 +35,9 @@ int report_open(struct report *report, const struct view *view, const struct dds
 
 /* Writes WorldInfo; -1 with the reason when there is no memory for it. */
 int report_world(struct report *report, const struct view *view, struct reason *reason);
+
+/* Writes EntityNames; same error. */
+int report_names(const struct report *report, const struct view *view, struct reason *reason);
 
 /* Writes the ProcessStatus of each role that changed, or was not written for a second. */
 void report_processes(struct report *report, const struct view *view, uint64_t now_ns);

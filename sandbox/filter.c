@@ -138,7 +138,9 @@ static const struct rule networking[] = {
     ANY(setsockopt),
     ANY(getsockopt),
     ANY(getsockname),
+    ANY(sysinfo), /* DDS sorts 32 readers or more, and sorting asks how much memory there is */
     ANY(pselect6),
+    ANY(sysinfo), /* sorting a peer's many types, the C library asks how much memory there is */
     ANY(read),
     ANY(bind),
     ANY(connect),
@@ -153,8 +155,14 @@ static const struct rule networking[] = {
 
 /* Clients of a socket that listens already: none is made, and nobody is connected to. */
 static const struct rule serving[] = {
-    ANY(accept4), ANY(recvfrom), ANY(sendto),
-    ANY(sendmsg), ANY(shutdown), WITH(setsockopt, 1, IPPROTO_TCP),
+    ANY(accept4),
+    ANY(recvfrom),
+    ANY(sendto),
+    ANY(sendmsg),
+    ANY(shutdown),
+    WITH(setsockopt, 1, IPPROTO_TCP),
+    /* Whose process a client is. */
+    {SCMP_SYS(getsockopt), 2, {{1, SCMP_CMP_EQ, SOL_SOCKET, 0}, {2, SCMP_CMP_EQ, SO_PEERCRED, 0}}},
 };
 
 /* The C library tries clone3 first, whose flags a filter cannot see; told that there is none, it
@@ -180,10 +188,13 @@ static const struct rule wishes[] = {
     }
 #define EVERY_ROLE ALLOW(computing), LIST(absent, SCMP_ACT_ERRNO(ENOSYS))
 static const struct list frame_lists[] = {EVERY_ROLE, ALLOW(standing_by), END};
-static const struct list renderer_lists[] = {
-    EVERY_ROLE, ALLOW(threads), ALLOW(files), ALLOW(drawing), LIST(wishes, SCMP_ACT_ERRNO(EPERM)),
-    END};
-static const struct list serving_lists[] = {ALLOW(serving), END};
+static const struct list renderer_lists[] = {EVERY_ROLE,
+                                             ALLOW(threads),
+                                             ALLOW(files),
+                                             ALLOW(drawing),
+                                             ALLOW(serving),
+                                             LIST(wishes, SCMP_ACT_ERRNO(EPERM)),
+                                             END};
 static const struct list reporter_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(networking), END};
 static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(files), END};
 
@@ -236,7 +247,6 @@ static int set_attributes(scmp_filter_ctx filter)
 
 struct loading {
     enum role role;
-    bool serves;
     int result;
 };
 
@@ -249,8 +259,6 @@ static void load(void *context)
     int result = set_attributes(filter);
     if (result == 0)
         result = add_lists(filter, role_lists[loading->role]);
-    if (result == 0 && loading->serves)
-        result = add_lists(filter, serving_lists);
     if (result == 0)
         result = add_own_signals(filter);
     if (result == 0)
@@ -259,10 +267,10 @@ static void load(void *context)
     loading->result = result;
 }
 
-int filter_load(enum role role, bool serves)
+int filter_load(enum role role)
 {
-    struct loading loading = {role, serves, -ENOMEM};
-    if (role >= ROLE_COUNT || (serves && role_lists[role] != renderer_lists))
+    struct loading loading = {role, -ENOMEM};
+    if (role >= ROLE_COUNT)
         return -EINVAL;
     return memory_guarded(load, &loading) ? loading.result : -ENOMEM;
 }

@@ -4,10 +4,7 @@
 
 #include "ipc/role.h"
 
-#include <stdbool.h>
-
-/* Loads the role's filter into every thread of the process, for good. serves: a renderer may take
- * clients of a socket that listens already. 0, or a negative errno. */
-int filter_load(enum role role, bool serves);
+/* Loads the role's filter into every thread of the process, for good. 0, or a negative errno. */
+int filter_load(enum role role);
 
 #endif

@@ -106,6 +106,6 @@ int sandbox_enter(const struct sandbox *sandbox, struct reason *reason)
         return 0;
     int result = trap_install(sandbox->role);
     if (result == 0)
-        result = filter_load(sandbox->role, sandbox->serves);
+        result = filter_load(sandbox->role);
     return result == 0 ? 0 : refused(reason, "seccomp", -result);
 }

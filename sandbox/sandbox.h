@@ -23,7 +23,6 @@
 struct sandbox {
     enum role role;
     bool on; /* false: every further step does nothing, which sandbox_begin has said in the log */
-    bool serves; /* set by a renderer before it enters: it has clients, of a socket it listens on */
 };
 
 /* off: the user's --no-sandbox. Sanitizers, valgrind and crash points need system calls of their

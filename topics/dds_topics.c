@@ -31,6 +31,7 @@ static const struct {
     [TOPIC_AGENT] = {"AgentEvent", &jolon_AgentEvent_desc, 4096, 0},
     [TOPIC_COMMAND] = {"Command", &jolon_Command_desc, 256, 0},
     [TOPIC_REPLY] = {"CommandReply", &jolon_CommandReply_desc, 256, 0},
+    [TOPIC_NAMES] = {"EntityNames", &jolon_EntityNames_desc, 1, 0},
 };
 
 static dds_qos_t *make_qos(enum dds_topic topic, bool writer)

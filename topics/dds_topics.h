@@ -19,6 +19,7 @@ enum dds_topic {
     TOPIC_AGENT,
     TOPIC_COMMAND,
     TOPIC_REPLY,
+    TOPIC_NAMES,
     TOPIC_COUNT
 };
 

@@ -18,12 +18,15 @@ int mirror_open(struct mirror *mirror, const struct dds_link *link, const char *
         if (mirror->reader[i] < 0)
             return -1;
     }
+    if (names_open(&mirror->names, link, reason) != 0)
+        return -1;
     mirror->waitset = dds_topics_waitset(link, mirror->reader, MIRROR_READERS, reason);
     return mirror->waitset < 0 ? -1 : 0;
 }
 
 void mirror_close(struct mirror *mirror)
 {
+    names_close(&mirror->names);
     free(mirror->batch.entity);
     free(mirror->coming.entity);
     mirror->batch.entity = mirror->coming.entity = NULL;
@@ -118,6 +121,7 @@ void mirror_take(struct mirror *mirror)
             sample = NULL;
         }
     }
+    names_take(&mirror->names);
 }
 
 void mirror_wait(const struct mirror *mirror, uint64_t until_ns)
@@ -135,6 +139,20 @@ bool mirror_live(const struct mirror *mirror, uint64_t now_ns)
 bool mirror_whole(const struct mirror *mirror)
 {
     return mirror->has_world && mirror->frame_ns && mirror->role_count && mirror->has_batch;
+}
+
+const jolon_Entity *mirror_entity(const struct mirror *mirror, uint32_t id)
+{
+    for (uint32_t i = 0; mirror->has_batch && id && i < mirror->batch.count; i++) {
+        if (mirror->batch.entity[i].id == id)
+            return &mirror->batch.entity[i];
+    }
+    return NULL;
+}
+
+const jolon_KindInfo *mirror_kind(const struct mirror *mirror, uint32_t kind)
+{
+    return mirror->has_world && kind < mirror->world.kinds._length ? &mirror->kinds[kind] : NULL;
 }
 
 const char *mirror_kind_name(const struct mirror *mirror, uint32_t kind)

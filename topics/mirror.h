@@ -6,6 +6,7 @@
 #define JOLON_TOPICS_MIRROR_H
 
 #include "topics/dds_topics.h"
+#include "topics/names.h"
 
 #include "status.h"
 
@@ -27,6 +28,7 @@ struct mirror {
     bool has_world;
     jolon_WorldInfo world; /* its sequence points into kinds */
     jolon_KindInfo kinds[MIRROR_KINDS_MAX];
+    struct names names; /* of its vehicles */
 
     uint64_t frame_ns; /* CLOCK_MONOTONIC when frame came, 0: none yet */
     jolon_FrameStatus frame;
@@ -60,6 +62,12 @@ bool mirror_live(const struct mirror *mirror, uint64_t now_ns);
 
 /* Is there one of everything: world, frame, processes, entities? */
 bool mirror_whole(const struct mirror *mirror);
+
+/* The entity of the last whole batch with this id, NULL when it is gone. */
+const jolon_Entity *mirror_entity(const struct mirror *mirror, uint32_t id);
+
+/* What the world says of a kind, NULL when it did not name it. */
+const jolon_KindInfo *mirror_kind(const struct mirror *mirror, uint32_t kind);
 
 /* "?" when the world did not name it. */
 const char *mirror_kind_name(const struct mirror *mirror, uint32_t kind);

@@ -64,12 +64,12 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
     X(double, goal_x)      /* [m] where the behaviour is going */                                  \
     X(double, goal_z)      /* [m] */                                                               \
     X(double, fuel_l)      /* [l] */                                                               \
-    X(float, throttle)     /* -1..1, when driven */                                                \
-    X(float, steer)        /* -1..1, when driven: right */                                         \
+    X(float, throttle)     /* -1..1, by its driver or its agent */                                 \
+    X(float, steer)        /* -1..1, likewise: right */                                            \
     X(float, climb)        /* -1..1, when driven: up (aircraft) */                                 \
     X(float, brake)        /* 0..1, when driven */                                                 \
-    X(float, traverse)     /* -1..1, when driven: turret to the right */                           \
-    X(float, elevate)      /* -1..1, when driven: gun up */                                        \
+    X(float, traverse)     /* -1..1, likewise: turret to the right */                              \
+    X(float, elevate)      /* -1..1, likewise: gun up */                                           \
     X(float, turret)       /* [rad] clockwise off the heading, -pi..pi */                          \
     X(float, gun)          /* [rad] up off the body's own plane */                                 \
     X(float, dodge)        /* [rad] to the right of its goal, around what is in its way */         \
@@ -85,6 +85,7 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
     X(uint32_t, threat_id)                                                                         \
     X(uint32_t, until_tick)  /* when the present behaviour ends, a munition's life likewise */     \
     X(uint32_t, reload_tick) /* when it may fire again */                                          \
+    X(uint32_t, seen_tick)   /* when it last saw its target */                                     \
     X(uint32_t, touch_body)  /* what it touched last: an id, or a fixed object with the top bit */ \
     X(uint32_t, touch_tick)  /* when; a press that goes on is no new collision */                  \
     X(uint32_t, born_tick)                                                                         \

@@ -1,44 +1,20 @@
 /* From a scenario to a world's static parts and its frame 0. */
 #include "world/genesis.h"
 
+#include "world/complaint.h"
 #include "world/generate.h"
-#include "world/place.h"
-#include "world/random.h"
+#include "world/muster.h"
 #include "world/reach.h"
+#include "world/road_routes.h"
+#include "world/callsign.h"
+#include "world/scripting.h"
 #include "world/square.h"
 #include "world/checksum.h"
 
 #include <errno.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct complaint {
-    char *text;
-    size_t bytes;
-};
-
-__attribute__((format(printf, 2, 3))) static int complain(const struct complaint *to,
-                                                          const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    vsnprintf(to->text, to->bytes, format, args);
-    va_end(args);
-    return -1;
-}
-
-static int out_of_memory(const struct complaint *to)
-{
-    return complain(to, "out of memory while making the world");
-}
-
-static struct terrain terrain_of(const struct genesis *genesis)
-{
-    return (struct terrain){genesis->posts, genesis->cover, genesis->counts.posts_side,
-                            WORLD_SIDE_M / (double)(genesis->counts.posts_side - 1)};
-}
 
 static int build_ground(struct genesis *genesis, const struct complaint *to)
 {
@@ -50,7 +26,7 @@ static int build_ground(struct genesis *genesis, const struct complaint *to)
     genesis->cover = malloc(posts);
     genesis->roads = malloc(GENERATE_ROAD_MAX * sizeof *genesis->roads);
     if (!genesis->posts || !genesis->cover || !genesis->roads)
-        return out_of_memory(to);
+        return complaint_memory(to);
     if (scenario->terrain == TERRAIN_FLAT) {
         generate_flat(genesis->posts, genesis->cover, side, scenario->flat_height_m);
         return 0;
@@ -58,7 +34,7 @@ static int build_ground(struct genesis *genesis, const struct complaint *to)
     if (generate_hunter_liggett(genesis->posts, genesis->cover, side, scenario->params.seed,
                                 genesis->roads, GENERATE_ROAD_MAX,
                                 &genesis->counts.road_points) != 0)
-        return complain(to, "the ground could not be generated: %s", strerror(errno));
+        return complaint_say(to, "the ground could not be generated: %s", strerror(errno));
     return 0;
 }
 
@@ -97,14 +73,14 @@ static void list_objects(struct genesis *genesis, const struct terrain *terrain)
 static int build_objects(struct genesis *genesis, const struct complaint *to)
 {
     const struct scenario *scenario = genesis->scenario;
-    struct terrain terrain = terrain_of(genesis);
+    struct terrain terrain = genesis_terrain(genesis);
     uint32_t count = scenario->objects == OBJECTS_TABLE1 ? GENERATE_TABLE1_TOTAL
                      : scenario->objects == OBJECTS_LIST ? scenario->object_count
                                                          : 0;
     genesis->counts.fixed = count;
     genesis->fixed = calloc(count + 1, sizeof *genesis->fixed);
     if (!genesis->fixed)
-        return out_of_memory(to);
+        return complaint_memory(to);
     if (scenario->objects == OBJECTS_LIST)
         list_objects(genesis, &terrain);
     if (scenario->objects == OBJECTS_TABLE1 &&
@@ -112,139 +88,12 @@ static int build_objects(struct genesis *genesis, const struct complaint *to)
                                 genesis->roads, genesis->counts.road_points,
                                 scenario->params.seed) != 0)
         return errno == EINVAL
-                   ? complain(to, "objects: a class of Table 1 has no kind in config/kinds")
-                   : out_of_memory(to);
+                   ? complaint_say(to, "objects: a class of Table 1 has no kind in config/kinds")
+                   : complaint_memory(to);
     if (reach_build(genesis->fixed, count, scenario->kinds, &genesis->reach_start,
                     &genesis->reach) != 0)
-        return out_of_memory(to);
+        return complaint_memory(to);
     genesis->counts.reach = genesis->reach_start[SQUARE_COUNT];
-    return 0;
-}
-
-static void place_entity(struct genesis *genesis, const struct scenario_group *group, uint32_t slot,
-                         double x, double z)
-{
-    const struct scenario *scenario = genesis->scenario;
-    const struct kind *kind = &scenario->kinds[group->kind];
-    struct terrain terrain = terrain_of(genesis);
-    struct entities *e = &genesis->first;
-    double altitude = group->floating ? group->altitude_m : kind->cruise_altitude_m;
-    double heading =
-        group->turned ? maths_wrap_turn(group->heading_rad)
-                      : random_between(scenario->params.seed, 0, slot, RANDOM_HEADING, 0, TWO_PI);
-    double speed = group->moving ? group->speed_mps : kind->min_speed_mps;
-    double sine, cosine;
-    maths_sincos(heading, &sine, &cosine);
-    e->id[slot] = slot + 1;
-    e->state[slot] = ENTITY_ACTIVE;
-    e->kind[slot] = group->kind;
-    e->force[slot] = group->force;
-    e->behaviour[slot] = e->order[slot] = group->behaviour;
-    e->order_arg[slot] = group->behaviour == BEHAVIOUR_ROUTE ? group->route : group->area;
-    e->flags[slot] = group->fire_at_will ? ENTITY_FLAG_FIRE_AT_WILL : 0;
-    e->x[slot] = x;
-    e->z[slot] = z;
-    e->y[slot] =
-        terrain_base_height(&terrain, x, z) + (kind->domain == DOMAIN_AIR ? altitude : 0.0);
-    e->heading[slot] = heading;
-    e->vx[slot] = speed * sine;
-    e->vz[slot] = -speed * cosine;
-    e->fuel_l[slot] = kind->fuel_l;
-    e->rounds[slot] = kind->rounds;
-    e->goal_x[slot] = x; /* reached: the mover's first think chooses the next */
-    e->goal_z[slot] = z;
-}
-
-static int build_group(struct genesis *genesis, const struct scenario_group *group,
-                       struct place *place, const struct complaint *to)
-{
-    const struct scenario *scenario = genesis->scenario;
-    for (uint32_t i = 0; i < group->count; i++) {
-        uint32_t slot = genesis->used;
-        double x = group->x, z = group->z;
-        if (slot >= scenario->params.capacity)
-            return complain(to,
-                            "vehicles: more than world.capacity = %u; raise it (at most %u) or "
-                            "lower a count",
-                            scenario->params.capacity, CAPACITY_MAX);
-        if (!group->placed && place_find(place, &scenario->areas[group->area],
-                                         &scenario->kinds[group->kind], slot, &x, &z) != 0)
-            return complain(to,
-                            "vehicles: no place for %s number %u of %u in area [%.0f, %.0f, %.0f, "
-                            "%.0f]: too crowded, or the wrong ground for its domain",
-                            scenario->kinds[group->kind].name, i + 1, group->count,
-                            scenario->areas[group->area].x0, scenario->areas[group->area].z0,
-                            scenario->areas[group->area].x1, scenario->areas[group->area].z1);
-        if (place_take(place, x, z, reach_of_kind(&scenario->kinds[group->kind])) != 0)
-            return out_of_memory(to);
-        place_entity(genesis, group, slot, x, z);
-        if (group->name[0] != '\0')
-            snprintf(genesis->names[slot].text, ENTITY_NAME_MAX,
-                     group->count > 1 ? "%.15s-%u" : "%s", group->name, i + 1);
-        genesis->used++;
-    }
-    return 0;
-}
-
-static int build_entities(struct genesis *genesis, const struct complaint *to)
-{
-    const struct scenario *scenario = genesis->scenario;
-    uint32_t capacity = scenario->params.capacity;
-    struct terrain terrain = terrain_of(genesis);
-    struct place place;
-    int result = 0;
-    genesis->first_memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(capacity));
-    genesis->names = calloc(capacity, sizeof *genesis->names);
-    if (!genesis->first_memory || !genesis->names)
-        return out_of_memory(to);
-    memset(genesis->first_memory, 0, entities_bytes(capacity));
-    entities_bind(&genesis->first, capacity, genesis->first_memory);
-    if (place_init(&place, &terrain, genesis->fixed, scenario->kinds, genesis->reach_start,
-                   genesis->reach, scenario->params.seed) != 0)
-        return out_of_memory(to);
-    for (uint32_t g = 0; g < scenario->group_count && result == 0; g++)
-        result = build_group(genesis, &scenario->groups[g], &place, to);
-    place_free(&place);
-    genesis->counts.names = genesis->used;
-    return result;
-}
-
-static int by_name(const void *a, const void *b)
-{
-    const struct entity_name *const *p = a, *const *q = b;
-    int order = strncmp((*p)->text, (*q)->text, ENTITY_NAME_MAX);
-    return order != 0 ? order : (*p > *q) - (*p < *q);
-}
-
-/* The vehicles' names in their order: orders may be as many as vehicles. NULL: out of memory. */
-static const struct entity_name **sort_names(const struct genesis *genesis)
-{
-    const struct entity_name **sorted = calloc(genesis->used + 1, sizeof(void *));
-    if (!sorted)
-        return NULL;
-    for (uint32_t i = 0; i < genesis->used; i++)
-        sorted[i] = &genesis->names[i];
-    qsort(sorted, genesis->used, sizeof(void *), by_name);
-    return sorted;
-}
-
-static int find_name(const struct genesis *genesis, const struct entity_name **sorted,
-                     const char *name, uint32_t *slot)
-{
-    uint32_t low = 0, high = genesis->used;
-    *slot = SLOT_NONE;
-    if (name[0] == '\0')
-        return 0;
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        if (strncmp(sorted[middle]->text, name, ENTITY_NAME_MAX) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    if (low == genesis->used || strncmp(sorted[low]->text, name, ENTITY_NAME_MAX) != 0)
-        return -1;
-    *slot = (uint32_t)(sorted[low] - genesis->names);
     return 0;
 }
 
@@ -256,7 +105,7 @@ static int by_tick(const void *a, const void *b)
     return p->reserved < q->reserved ? -1 : p->reserved > q->reserved; /* the file's order */
 }
 
-static int build_fire(struct genesis *genesis, uint32_t index, const struct entity_name **sorted,
+static int build_fire(struct genesis *genesis, uint32_t index, const struct callsigns *callsigns,
                       const struct complaint *to)
 {
     const struct scenario *scenario = genesis->scenario;
@@ -268,33 +117,48 @@ static int build_fire(struct genesis *genesis, uint32_t index, const struct enti
     order->reserved = (uint16_t)index;
     order->x = from->x;
     order->z = from->z;
-    if (find_name(genesis, sorted, from->shooter, &order->shooter_slot) != 0)
-        return complain(to, "%s:%d: fires.shooter = \"%s\": no vehicle has that name",
-                        scenario->params.scenario, from->line, from->shooter);
-    if (find_name(genesis, sorted, from->target, &order->target_slot) != 0)
-        return complain(to, "%s:%d: fires.target = \"%s\": no vehicle has that name",
-                        scenario->params.scenario, from->line, from->target);
+    if (callsign_find(callsigns, from->shooter, &order->shooter_slot) != 0)
+        return complaint_say(to, "%s:%d: fires.shooter = \"%s\": no vehicle has that name",
+                             scenario->params.scenario, from->line, from->shooter);
+    if (callsign_find(callsigns, from->target, &order->target_slot) != 0)
+        return complaint_say(to, "%s:%d: fires.target = \"%s\": no vehicle has that name",
+                             scenario->params.scenario, from->line, from->target);
     return 0;
 }
 
-static int build_fires(struct genesis *genesis, const struct complaint *to)
+static int build_fires(struct genesis *genesis, const struct callsigns *callsigns,
+                       const struct complaint *to)
 {
     uint32_t count = genesis->scenario->fire_count;
-    int result = 0;
     genesis->fires = calloc(count + 1, sizeof *genesis->fires);
-    const struct entity_name **sorted = sort_names(genesis);
-    if (!genesis->fires || !sorted) {
-        free(sorted);
-        return out_of_memory(to);
+    if (!genesis->fires)
+        return complaint_memory(to);
+    for (uint32_t i = 0; i < count; i++) {
+        if (build_fire(genesis, i, callsigns, to) != 0)
+            return -1;
     }
-    for (uint32_t i = 0; i < count && result == 0; i++)
-        result = build_fire(genesis, i, sorted, to);
-    free(sorted);
-    if (result != 0)
-        return -1;
     qsort(genesis->fires, count, sizeof *genesis->fires, by_tick);
     genesis->counts.fires = count;
     return 0;
+}
+
+/* What goes by vehicles' names: ordered shots, and those of scripts. */
+static int build_orders(struct genesis *genesis, const struct complaint *to)
+{
+    struct callsigns callsigns;
+    if (callsign_init(&callsigns, genesis->names, genesis->used) != 0)
+        return complaint_memory(to);
+    int result = scripting_build(genesis, &callsigns, to);
+    if (result == 0)
+        result = build_fires(genesis, &callsigns, to);
+    callsign_free(&callsigns);
+    return result;
+}
+
+struct terrain genesis_terrain(const struct genesis *genesis)
+{
+    return (struct terrain){genesis->posts, genesis->cover, genesis->counts.posts_side,
+                            WORLD_SIDE_M / (double)(genesis->counts.posts_side - 1)};
 }
 
 int genesis_build(struct genesis *genesis, const struct scenario *scenario, char *text,
@@ -311,12 +175,11 @@ int genesis_build(struct genesis *genesis, const struct scenario *scenario, char
         .hull_vertices = scenario->hull_vertex_count,
         .hull_planes = scenario->hull_plane_count,
         .areas = scenario->area_count,
-        .routes = scenario->route_count,
-        .route_points = scenario->route_point_count,
         .recipe = recipe_room(scenario->recipe.bytes),
     };
     if (build_ground(genesis, &to) != 0 || build_objects(genesis, &to) != 0 ||
-        build_entities(genesis, &to) != 0 || build_fires(genesis, &to) != 0) {
+        road_routes_build(genesis, &to) != 0 || muster_build(genesis, &to) != 0 ||
+        build_orders(genesis, &to) != 0) {
         genesis_free(genesis);
         return -1;
     }
@@ -332,6 +195,11 @@ void genesis_free(struct genesis *genesis)
     free(genesis->reach);
     free(genesis->roads);
     free(genesis->fires);
+    free(genesis->routes);
+    free(genesis->route_points);
+    free(genesis->formations);
+    free(genesis->scripts);
+    free(genesis->steps);
     free(genesis->names);
     free(genesis->first_memory);
     *genesis = (struct genesis){0};
@@ -378,10 +246,14 @@ void genesis_fill(const struct genesis *genesis, struct world *world, struct sta
     fill(world->reach_start, genesis->reach_start, SQUARE_COUNT + 1, sizeof(uint32_t));
     fill(world->reach, genesis->reach, n->reach, sizeof(uint32_t));
     fill(world->areas, s->areas, n->areas, sizeof *s->areas);
-    fill(world->routes, s->routes, n->routes, sizeof *s->routes);
-    fill(world->route_points, s->route_points, n->route_points, sizeof *s->route_points);
+    fill(world->routes, genesis->routes, n->routes, sizeof *genesis->routes);
+    fill(world->route_points, genesis->route_points, n->route_points,
+         sizeof *genesis->route_points);
     fill(world->fires, genesis->fires, n->fires, sizeof *genesis->fires);
     fill(world->road_points, genesis->roads, n->road_points, sizeof *genesis->roads);
+    fill(world->formations, genesis->formations, n->formations, sizeof *genesis->formations);
+    fill(world->scripts, genesis->scripts, n->scripts, sizeof *genesis->scripts);
+    fill(world->script_steps, genesis->steps, n->script_steps, sizeof *genesis->steps);
     fill(world->names, genesis->names, n->names, sizeof *genesis->names);
     fill(world->recipe, s->recipe.text, s->recipe.bytes, 1);
     for (int i = 0; i < 2; i++)

@@ -18,7 +18,13 @@ struct genesis {
     uint32_t *reach_start, *reach;
     struct road_point *roads;
     struct fire_order *fires;
+    struct route *routes;
+    struct route_point *route_points;
+    struct formation *formations;
+    struct script *scripts;
+    struct script_step *steps;
     struct entity_name *names;
+    struct force_base base[FORCE_COUNT];
     struct entities first; /* frame 0's entities, rows 0 .. used - 1 */
     void *first_memory;
     uint32_t used;
@@ -28,10 +34,14 @@ struct genesis {
  * a fire order, no place found for a vehicle, out of memory. */
 int genesis_build(struct genesis *genesis, const struct scenario *scenario, char *text,
                   size_t bytes);
+/* The ground as built so far. */
+struct terrain genesis_terrain(const struct genesis *genesis);
+
 void genesis_free(struct genesis *genesis);
 
 /* Copies everything into a world whose pointers lead to writable memory of the counts' sizes, and
- * frame 0 into both states. world->params must already hold scenario->params. */
+ * frame 0 into both states. world->params must already hold scenario->params with the genesis's
+ * bases. */
 void genesis_fill(const struct genesis *genesis, struct world *world, struct state state[2]);
 
 #endif

@@ -14,6 +14,18 @@ enum domain { DOMAIN_LAND, DOMAIN_SEA, DOMAIN_AIR, DOMAIN_MUNITION, DOMAIN_FIXED
 /* How a munition flies. */
 enum guidance { GUIDANCE_BALLISTIC, GUIDANCE_HOMING };
 
+/* What a vehicle does about what it notices: mover/doctrine.c. */
+enum doctrine {
+    DOCTRINE_ARMOUR,
+    DOCTRINE_LIGHT,
+    DOCTRINE_SOFT,
+    DOCTRINE_HELICOPTER,
+    DOCTRINE_JET,
+    DOCTRINE_WARSHIP,
+    DOCTRINE_BEAST,
+    DOCTRINE_COUNT
+};
+
 /* The rows of Table 1. */
 enum object_class {
     OBJECT_TREE,
@@ -60,11 +72,18 @@ struct kind {
                                  left of one */
     double explosive_kg;      /* TNT; of a vehicle: what burns when it is destroyed */
     double range_m;           /* vehicles: how far they shoot */
+    double sight_m;           /* vehicles: how far they see enemies */
+    double view_rad;          /* vehicles: how wide, about where the turret points */
+    uint32_t doctrine;        /* enum doctrine; vehicles */
     double reload_s;          /* vehicles: between two rounds */
-    double dispersion_rad;    /* munitions: one standard error */
-    double life_s;            /* munitions: end of flight */
-    double courage;           /* 0..1: how often it returns fire rather than flee */
-    double fuel_l, fuel_lps;  /* tank, and burnt at full throttle a second */
+    double turret_rate_rps;   /* vehicles: 0: no turret, it aims with the hull */
+    double gun_rate_rps;      /* up and down; 0: the gun does not move */
+    double gun_low_rad, gun_high_rad; /* how far, off the hull's own plane */
+    double seeker_rad;                /* homing munitions: how far off their way they see */
+    double dispersion_rad;            /* munitions: one standard error */
+    double life_s;                    /* munitions: end of flight */
+    double courage;                   /* 0..1: how often it returns fire rather than flee */
+    double fuel_l, fuel_lps;          /* tank, and burnt at full throttle a second */
     uint32_t rounds;
     /* What follows comes from the model's hulls. */
     uint32_t first_hull, hull_count; /* index into the world's hulls */

@@ -37,26 +37,11 @@ void maths_sincos(double angle_rad, double *sine, double *cosine)
     int64_t quadrant = (int64_t)(turns + (turns < 0.0 ? -0.5 : 0.5)); /* rounds to the nearest */
     double n = (double)quadrant;
     double x = (angle_rad - n * PIO2_HIGH) - n * PIO2_LOW;
-    double s = kernel_sin(x);
-    double c = kernel_cos(x);
-    switch (quadrant & 3) {
-    case 0:
-        *sine = s;
-        *cosine = c;
-        break;
-    case 1:
-        *sine = c;
-        *cosine = -s;
-        break;
-    case 2:
-        *sine = -s;
-        *cosine = -c;
-        break;
-    default:
-        *sine = -c;
-        *cosine = s;
-        break;
-    }
+    /* By tables, not branches: which quadrant a heading is in no processor can guess. */
+    const double kernel[2] = {kernel_sin(x), kernel_cos(x)};
+    static const double sign[4] = {1.0, 1.0, -1.0, -1.0};
+    *sine = kernel[quadrant & 1] * sign[quadrant & 3];
+    *cosine = kernel[~quadrant & 1] * sign[(quadrant + 1) & 3];
 }
 
 double maths_sin(double angle_rad)
@@ -73,22 +58,27 @@ double maths_cos(double angle_rad)
     return cosine;
 }
 
+/* Coefficients of the arc tangent. */
+#define ATAN_0  3.33333333333329318027e-01
+#define ATAN_1  (-1.99999999998764832476e-01)
+#define ATAN_2  1.42857142725034663711e-01
+#define ATAN_3  (-1.11111104054623557880e-01)
+#define ATAN_4  9.09088713343650656196e-02
+#define ATAN_5  (-7.69187620504482999495e-02)
+#define ATAN_6  6.66107313738753120669e-02
+#define ATAN_7  (-5.83357013379057348645e-02)
+#define ATAN_8  4.97687799461593236017e-02
+#define ATAN_9  (-3.65315727442169155270e-02)
+#define ATAN_10 1.62858201153657823623e-02
+
 /* Arc tangent for 0 <= x <= 7/16. */
 static double kernel_atan(double x)
 {
     double z = x * x;
     double w = z * z;
     double even =
-        z * (3.33333333333329318027e-01 +
-             w * (1.42857142725034663711e-01 +
-                  w * (9.09088713343650656196e-02 +
-                       w * (6.66107313738753120669e-02 +
-                            w * (4.97687799461593236017e-02 + w * 1.62858201153657823623e-02)))));
-    double odd =
-        w * (-1.99999999998764832476e-01 +
-             w * (-1.11111104054623557880e-01 +
-                  w * (-7.69187620504482999495e-02 +
-                       w * (-5.83357013379057348645e-02 + w * -3.65315727442169155270e-02))));
+        z * (ATAN_0 + w * (ATAN_2 + w * (ATAN_4 + w * (ATAN_6 + w * (ATAN_8 + w * ATAN_10)))));
+    double odd = w * (ATAN_1 + w * (ATAN_3 + w * (ATAN_5 + w * (ATAN_7 + w * ATAN_9))));
     return x - x * (even + odd);
 }
 
@@ -115,7 +105,28 @@ double maths_atan2(double y, double x)
     angle = ay <= ax ? atan_octant(ay, ax) : HALF_PI - atan_octant(ax, ay);
     if (x < 0.0)
         angle = PI - angle;
-    return y < 0.0 ? -angle : angle;
+    static const double sign[2] = {1.0, -1.0};
+    return angle * sign[y < 0.0];
+}
+
+typedef double two __attribute__((vector_size(2 * sizeof(double))));
+
+void maths_slopes(const double rise[2], const double run[2], double angle_rad[2])
+{
+    two t = (two){rise[0], rise[1]} / (two){run[0], run[1]};
+    if (!(fabs(t[0]) <= 0.4375 && fabs(t[1]) <= 0.4375)) { /* steeper than vehicles climb */
+        angle_rad[0] = maths_atan2(rise[0], run[0]);
+        angle_rad[1] = maths_atan2(rise[1], run[1]);
+        return;
+    }
+    /* kernel_atan(), which is odd to the bit. */
+    two z = t * t, w = z * z;
+    two even =
+        z * (ATAN_0 + w * (ATAN_2 + w * (ATAN_4 + w * (ATAN_6 + w * (ATAN_8 + w * ATAN_10)))));
+    two odd = w * (ATAN_1 + w * (ATAN_3 + w * (ATAN_5 + w * (ATAN_7 + w * ATAN_9))));
+    two angle = t - t * (even + odd);
+    angle_rad[0] = angle[0];
+    angle_rad[1] = angle[1];
 }
 
 double maths_cbrt(double value)

@@ -28,6 +28,9 @@ double maths_cos(double angle_rad);
 /* Angle of the vector (x, y) from the x axis, -pi..pi; 0 for (0, 0). Error below 5e-16. */
 double maths_atan2(double y, double x);
 
+/* Angles of two slopes, to the bit what maths_atan2(rise, run) gives of each; run > 0. */
+void maths_slopes(const double rise[2], const double run[2], double angle_rad[2]);
+
 /* Cube root of a normal value > 0 (0 for others) by Newton's method on an exponent guess; relative
  * error below 1e-15. */
 double maths_cbrt(double value);

@@ -27,6 +27,10 @@ WORDS(damage_name, damage, "none", "low", "med", "high", "destroyed")
 WORDS(entity_state_name, entity_state, "free", "active", "wreck")
 WORDS(behaviour_name, behaviour, "idle", "hold", "patrol", "route", "attack", "flee", "back_off",
       "driven", "flight", "follow", "script", "withdraw", "resupply")
+WORDS(formation_shape_name, formation_shape, "column", "line", "wedge", "echelon-left",
+      "echelon-right")
+WORDS(step_type_name, step_type, "go", "arrive", "face", "stop", "wait", "fire", "fire_at",
+      "controls", "altitude", "behaviour")
 WORDS(gear_name, gearing, "automatic", "reverse", "neutral", "low")
 WORDS(force_name, force, "neutral", "blue", "red")
 WORDS(event_type_name, event_type, "none", "collision", "fire", "detonation", "crater", "agent",
@@ -40,7 +44,8 @@ WORDS(command_ring_name, command_ring, "reporter", "gateway", "console", "record
 WORDS(command_type_name, command_type, "none", "pause", "resume", "step", "scale", "drive",
       "release", "fire", "spawn", "remove", "quit")
 WORDS(command_result_name, command_result, "done", "no such entity", "no such kind",
-      "value out of range", "table full", "cannot do that now", "unknown command", "somebody else drives it")
+      "value out of range", "table full", "cannot do that now", "unknown command",
+      "somebody else drives it")
 WORDS(method_name, method, "swept", "npsnet2", "mps", "occupancy", "hopcroft", "brute")
 WORDS(shape_name, shape, "sphere", "model")
 WORDS(response_model_name, response_model, "figure8", "impulse", "none", "spring", "mps")

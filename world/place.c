@@ -104,6 +104,15 @@ static void leave_edge(double *low, double *high)
     }
 }
 
+bool place_suits(const struct place *place, const struct kind *kind, double x, double z)
+{
+    double reach = reach_of_kind(kind);
+    return x >= EDGE_M && z >= EDGE_M && x <= WORLD_SIDE_M - EDGE_M && z <= WORLD_SIDE_M - EDGE_M &&
+           ground_suits(place, kind, x, z) &&
+           (kind->domain == DOMAIN_AIR || clear_of_objects(place, x, z, reach)) &&
+           clear_of_vehicles(place, x, z, reach);
+}
+
 int place_find(struct place *place, const struct area *area, const struct kind *kind, uint32_t slot,
                double *x, double *z)
 {

@@ -8,6 +8,7 @@
 #include "world/terrain.h"
 #include "world/world.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 struct place_taken {
@@ -32,6 +33,9 @@ int place_init(struct place *place, const struct terrain *terrain, const struct 
                const struct kind *kinds, const uint32_t *reach_start, const uint32_t *reach,
                uint64_t seed);
 void place_free(struct place *place);
+
+/* May a vehicle of this kind stand here? */
+bool place_suits(const struct place *place, const struct kind *kind, double x, double z);
 
 /* A place for entity number slot; 0, or -1 after 1,000 tries. */
 int place_find(struct place *place, const struct area *area, const struct kind *kind, uint32_t slot,

@@ -20,7 +20,9 @@ enum random_purpose {
     RANDOM_OBJECT_X, /* genesis: a fixed object's place in its square */
     RANDOM_OBJECT_Z,
     RANDOM_OBJECT_SHAPE,
-    RANDOM_SQUARE_SIZE, /* genesis: how many objects an occupied square holds */
+    RANDOM_SQUARE_SIZE,   /* genesis: how many objects an occupied square holds */
+    RANDOM_MISSION_RANGE, /* where a round of a fire mission falls */
+    RANDOM_MISSION_AZIMUTH,
 };
 
 /* splitmix64's finaliser (Steele, Lea & Flood 2014). */

@@ -16,6 +16,8 @@ void scenario_free(struct scenario *scenario)
     free(scenario->groups);
     free(scenario->object_list);
     free(scenario->fires);
+    free(scenario->scripts);
+    free(scenario->steps);
     free(scenario->areas);
     free(scenario->routes);
     free(scenario->route_points);

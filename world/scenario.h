@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#define ROUTE_POINTS_MAX 1048576u /* of all routes together */
+
 enum terrain_source { TERRAIN_GENERATED, TERRAIN_FLAT };
 enum object_source { OBJECTS_TABLE1, OBJECTS_NONE, OBJECTS_LIST };
 
@@ -17,15 +19,38 @@ struct scenario_group {
     char name[ENTITY_NAME_MAX]; /* "" for none; with count > 1 "-1", "-2", ... is added */
     uint16_t kind;
     uint8_t force, behaviour;
-    uint8_t fire_at_will;
+    uint8_t flags;    /* ENTITY_FLAG_* */
+    uint8_t roads;    /* 1: its route goes along roads */
+    uint8_t formed;   /* 1: in a formation: leads it, or follows the group before */
     uint8_t placed;   /* 1: at x, z; 0: anywhere in the area where its kind can be */
     uint8_t turned;   /* 1: heading_rad was given */
     uint8_t moving;   /* 1: speed_mps was given */
     uint8_t floating; /* 1: altitude_m was given */
     uint32_t count;
-    uint32_t area;  /* index into areas */
-    uint32_t route; /* index into routes, UINT32_MAX for none */
-    double x, z, altitude_m, heading_rad, speed_mps;
+    uint32_t area;   /* index into areas */
+    uint32_t route;  /* index into routes, UINT32_MAX for none */
+    uint32_t script; /* index into scripts, UINT32_MAX for none */
+    uint32_t shape;  /* enum formation_shape */
+    int line;        /* of the file, for messages */
+    double x, z, altitude_m, heading_rad, speed_mps, spacing_m;
+};
+
+/* A step of a script, as it stands in the file. */
+struct scenario_step {
+    struct script_step step;      /* target_slot and order_arg follow at genesis */
+    char target[ENTITY_NAME_MAX]; /* whom it fires at */
+    int line;                     /* of the script's file, for messages */
+};
+
+#define SCRIPT_FILE_MAX  64
+#define SCRIPT_STEPS_MAX 1048576u /* of all vehicles together */
+
+struct scenario_script {
+    char name[ENTITY_NAME_MAX];
+    char file[SCRIPT_FILE_MAX]; /* of its waypoints, beside the scenario; "": in the scenario */
+    uint32_t first, count;      /* steps */
+    uint8_t reacts, repeats;
+    int line;
 };
 
 struct scenario_object {
@@ -48,6 +73,7 @@ struct scenario {
     double flat_height_m;
     double spacing_m; /* between posts: 125, 62.5 or 31.25 */
     enum object_source objects;
+    uint8_t based[FORCE_COUNT]; /* 1: params.base was given */
 
     struct kind *kinds;
     uint32_t kind_count;
@@ -72,6 +98,10 @@ struct scenario {
     uint32_t fire_count;
     struct area *areas;
     uint32_t area_count;
+    struct scenario_script *scripts;
+    uint32_t script_count;
+    struct scenario_step *steps;
+    uint32_t step_count;
     struct route *routes;
     uint32_t route_count;
     struct route_point *route_points;

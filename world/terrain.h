@@ -40,6 +40,12 @@ double terrain_base_height(const struct terrain *terrain, double x, double z);
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
                       double z);
 
+/* The same at the points that a body stands on. */
+#define TERRAIN_POINTS 4
+void terrain_heights(const struct terrain *terrain, const struct crater_index *craters,
+                     const double x[TERRAIN_POINTS], const double z[TERRAIN_POINTS],
+                     double height[TERRAIN_POINTS]);
+
 /* Asks for the memory that heights and cover at (x, z) will need. A vehicle's ground is rarely in a
  * cache: asked for some rows ahead, the waits overlap. */
 void terrain_prefetch(const struct terrain *terrain, double x, double z);

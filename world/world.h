@@ -8,8 +8,10 @@
 #include "world/entity.h"
 #include "world/event.h"
 #include "world/fixed.h"
+#include "world/formation.h"
 #include "world/hull.h"
 #include "world/kind.h"
+#include "world/script.h"
 #include "world/terrain.h"
 
 #include <stdbool.h>
@@ -89,6 +91,11 @@ enum view_mode {
 /* What draws: OpenGL, the renderer's own rasteriser, or whichever suits the machine. */
 enum back_end { BACK_END_AUTO, BACK_END_GL, BACK_END_SOFT, BACK_END_COUNT };
 
+/* Where vehicles of a force withdraw to. */
+struct force_base {
+    double x, z; /* [m] */
+};
+
 struct params {
     char name[WORLD_NAME_MAX];    /* of the ground: "hunter-liggett" */
     char scenario[PATH_TEXT_MAX]; /* the file it came from, for people */
@@ -108,6 +115,8 @@ struct params {
     uint32_t when_full; /* enum when_full */
     uint32_t initial_entities;
     struct collision_params collision;
+    struct force_base
+        base[FORCE_COUNT]; /* a scenario's, or the mean of the force's initial places */
     struct renderer_params renderer;
 };
 
@@ -196,6 +205,7 @@ struct counts {
     uint32_t kinds, models, model_vertices, model_triangles;
     uint32_t hulls, hull_vertices, hull_planes;
     uint32_t posts_side, fixed, reach, areas, routes, route_points, fires, road_points, names;
+    uint32_t formations, scripts, script_steps;
     uint32_t recipe; /* [byte] */
 };
 
@@ -218,6 +228,9 @@ struct world {
     const struct route_point *route_points;
     const struct fire_order *fires; /* ascending tick */
     const struct road_point *road_points;
+    const struct formation *formations;
+    const struct script *scripts;
+    const struct script_step *script_steps;
     const struct entity_name *names; /* of the initial entities: slot i has id i + 1 */
     const char *recipe;              /* [counts.recipe] what it was made from */
 };

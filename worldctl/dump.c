@@ -8,7 +8,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static cJSON *entity_json(const struct world *world, const struct entities *e, uint32_t i)
+/* Until it may fire again. */
+static double reload_s(const struct world *world, const struct state_head *head, uint32_t tick)
+{
+    return tick > head->tick ? (double)(tick - head->tick) * world->params->dt_s : 0.0;
+}
+
+static cJSON *entity_json(const struct world *world, const struct state_head *head,
+                          const struct entities *e, uint32_t i)
 {
     cJSON *object = cJSON_CreateObject();
     json_whole(object, "id", e->id[i]);
@@ -27,6 +34,11 @@ static cJSON *entity_json(const struct world *world, const struct entities *e, u
     json_text(object, "damage", damage_name((enum damage)e->damage[i]));
     json_whole(object, "rounds", e->rounds[i]);
     json_number(object, "fuel", e->fuel_l[i]);
+    json_number(object, "turret_deg", (double)e->turret[i] * DEG_PER_RAD);
+    json_number(object, "gun_deg", (double)e->gun[i] * DEG_PER_RAD);
+    json_number(object, "reload_s", reload_s(world, head, e->reload_tick[i]));
+    json_number(object, "throttle", (double)e->throttle[i]);
+    json_text(object, "gear", gear_name(entity_gear(e->flags[i])));
     json_text(object, "behaviour", behaviour_name((enum behaviour)e->behaviour[i]));
     return object;
 }
@@ -39,7 +51,7 @@ static void dump_entities(const struct arguments *arguments, const struct view *
         if (e->state[i] == ENTITY_FREE)
             continue;
         if (arguments->json) {
-            json_print(entity_json(&view->world, e, i));
+            json_print(entity_json(&view->world, &snapshot->head, e, i));
             continue;
         }
         printf("%6u %-14s %-7s x %10.2f y %8.2f z %10.2f heading %5.1f %6.1f m/s %-6s %-9s %s\n",

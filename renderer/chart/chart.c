@@ -21,8 +21,7 @@
 static const struct rgba panel = {22, 26, 30, 255};
 static const struct rgba rule = {10, 12, 14, 255};
 
-int chart_open(struct chart *chart, const struct world *world, uint32_t width, uint32_t height,
-               struct reason *reason)
+static void begin(struct chart *chart, const struct world *world, uint32_t width, uint32_t height)
 {
     *chart = (struct chart){.world = world, .width = width, .height = height};
     layout_map(&chart->layout, width, height);
@@ -30,8 +29,22 @@ int chart_open(struct chart *chart, const struct world *world, uint32_t width, u
     base_open(&chart->close_up.base, world);
     base_open(&chart->small.base, world);
     base_open(&chart->area, world);
+}
+
+int chart_open(struct chart *chart, const struct world *world, uint32_t width, uint32_t height,
+               struct reason *reason)
+{
+    begin(chart, world, width, height);
     chart->text = text_open(reason);
     return chart->text == NULL ? -1 : 0;
+}
+
+void chart_open_beside(struct chart *chart, const struct chart *first, uint32_t width,
+                       uint32_t height)
+{
+    begin(chart, first->world, width, height);
+    chart->text = first->text;
+    chart->beside = true;
 }
 
 static void close_part(struct chart_part *part)
@@ -42,7 +55,8 @@ static void close_part(struct chart_part *part)
 
 void chart_close(struct chart *chart)
 {
-    text_close(chart->text);
+    if (!chart->beside)
+        text_close(chart->text);
     base_close(&chart->whole);
     close_part(&chart->close_up);
     close_part(&chart->small);

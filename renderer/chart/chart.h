@@ -10,6 +10,7 @@
 #include "renderer/image/text.h"
 #include "renderer/scene/statistics.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* What a picture is taken from; borrowed for one call. */
@@ -29,7 +30,8 @@ struct chart_part {
 };
 
 struct chart {
-    struct text *text; /* owned */
+    struct text *text; /* owned, unless it is another's */
+    bool beside;       /* it is */
     const struct world *world;
     uint32_t width, height; /* of the pictures */
     struct map_layout layout;
@@ -41,6 +43,9 @@ struct chart {
  * tenths of a second. */
 int chart_open(struct chart *chart, const struct world *world, uint32_t width, uint32_t height,
                struct reason *reason);
+/* One for pictures of another size, with the letters of the first, which must outlive it. */
+void chart_open_beside(struct chart *chart, const struct chart *first, uint32_t width,
+                       uint32_t height);
 void chart_close(struct chart *chart);
 
 /* The map as a picture: the whole square, and as the picture's size and aspect have room, a

@@ -66,12 +66,20 @@ static int open_video(struct outlets *outlets, struct reason *reason)
     return 0;
 }
 
+/* Without a socket of its own the renderer draws all the same: it says so and goes on. */
 static int open_stream(struct outlets *outlets, struct reason *reason)
 {
     const struct outlets_wish *wish = &outlets->wish;
-    outlets->stream =
-        stream_open(wish->stream_address, (uint16_t)wish->stream_port, wish->world, reason);
+    struct reason socket_reason;
+    outlets->stream = stream_open(wish->world, &wish->painter, reason);
     if (outlets->stream == NULL)
+        return -1;
+    if (wish->asked && stream_listen_here(outlets->stream, wish->role, &socket_reason) != 0)
+        log_warn("%s; nobody can ask for pictures there", socket_reason.text);
+    if (wish->stream_port < 0)
+        return 0;
+    if (stream_listen(outlets->stream, wish->stream_address, (uint16_t)wish->stream_port, reason) !=
+        0)
         return -1;
     log_info("stream: %s shows every view", stream_url(outlets->stream));
     return 0;
@@ -81,9 +89,10 @@ int outlets_open(struct outlets *outlets, const struct outlets_wish *wish, struc
 {
     *outlets = (struct outlets){.wish = *wish, .output.folder = -1, .video_fd = -1};
     picture_pool_init(&outlets->pool);
+    picture_pool_init(&outlets->asked);
     if (wish->folder != NULL && output_open(&outlets->output, wish->folder, reason) != 0)
         return -1;
-    if (wish->stream_port >= 0 && open_stream(outlets, reason) != 0)
+    if ((wish->stream_port >= 0 || wish->asked) && open_stream(outlets, reason) != 0)
         return -1;
     return wish->video != NULL ? open_video(outlets, reason) : 0;
 }
@@ -190,6 +199,21 @@ int outlets_put(struct outlets *outlets, const char *view, struct image *image, 
     return result;
 }
 
+void outlets_grant(struct outlets *outlets, uint32_t row, uint64_t generation, struct image *image,
+                   uint64_t frame, double time_s)
+{
+    struct picture *picture = NULL;
+    if (image != NULL) {
+        picture = picture_make(&outlets->asked, image, "asked", "");
+        if (picture == NULL)
+            return; /* whoever waits asks again */
+        picture->frame = frame;
+        picture->time_s = time_s;
+    }
+    stream_grant(outlets->stream, row, generation, picture);
+    picture_release(picture);
+}
+
 /* --- the end -----------------------------------------------------------------------------------*/
 
 static int close_stills(struct outlets *outlets, struct reason *reason)
@@ -240,5 +264,6 @@ int outlets_close(struct outlets *outlets, struct reason *reason)
     if (outlets->video != NULL && close_video(outlets, result == 0 ? reason : &second) != 0)
         result = -1;
     picture_pool_free(&outlets->pool);
+    picture_pool_free(&outlets->asked);
     return result;
 }

@@ -28,6 +28,9 @@ struct outlets_wish {
     int video_fd;           /* of a replay: where it goes, which stays the caller's */
     int stream_port;        /* below 0: none */
     const char *stream_address;
+    bool asked; /* gives pictures to who asks, on the socket of this role */
+    enum role role;
+    struct stream_painter painter;
 };
 
 /* A view's last picture that is not a still yet. */
@@ -47,9 +50,10 @@ struct outlets {
     char video_path[OUTLETS_PATH_BYTES];
     char video_view[PICTURE_VIEW_BYTES]; /* "" before the first picture */
     int video_fd;
-    bool video_over; /* it failed, which was said */
-    struct stream *stream;
-    uint64_t lost; /* pictures that there was no memory for */
+    bool video_over;           /* it failed, which was said */
+    struct stream *stream;     /* NULL: none */
+    struct picture_pool asked; /* of pictures that clients ask for, of many sizes */
+    uint64_t lost;             /* pictures that there was no memory for */
     bool started;
 };
 
@@ -66,6 +70,11 @@ int outlets_start(struct outlets *outlets, struct reason *reason);
  * written, or a replay; a live video that cannot is said once and left. */
 int outlets_put(struct outlets *outlets, const char *view, struct image *image, uint64_t frame,
                 double time_s, const char *words, struct reason *reason);
+
+/* Answers a wish of the stream's (stream_wishes) with a picture, taking the image's pixels and
+ * giving it others; image NULL: there is no such vehicle. */
+void outlets_grant(struct outlets *outlets, uint32_t row, uint64_t generation, struct image *image,
+                   uint64_t frame, double time_s);
 
 /* Completes all files, each view's last picture among them, and ends the threads. 0, or -1 with the
  * reason, as outlets_put(). */

@@ -1,26 +1,42 @@
-/* The live stream: an HTTP server that shows pictures to browsers (docs/video.md). Two threads of
- * its own: one makes a JPEG of a picture, once however many watch and not at all when nobody does;
- * libmicrohttpd's serves the clients. Nobody who watches, or does not read, makes the drawing wait:
- * a client takes the newest picture when it is done with the one before. */
+/* The live stream: an HTTP server that shows pictures (docs/pictures.md): the renderer's views to
+ * browsers that watch, and to any client the picture that it asks for. It has threads of its own:
+ * one makes a JPEG of a picture, once however many watch and not at all when nobody does; one
+ * paints maps; libmicrohttpd's serve the clients. Nobody who watches, or does not read, makes the
+ * drawing wait: a client takes the newest picture when it is done with the one before. */
 #ifndef JOLON_RENDERER_STREAM_H
 #define JOLON_RENDERER_STREAM_H
 
+#include "ipc/role.h"
 #include "ipc/segment.h"
 #include "renderer/output/picture.h"
+#include "renderer/output/query.h"
+#include "renderer/output/wanted.h"
 
 #include <stdint.h>
 
-#define STREAM_ADDRESS "127.0.0.1" /* by default; others can be told */
-
 struct stream;
 
-/* Binds and listens, without a thread yet; port 0: any that is free. A warning says when others
- * than this machine's may come. world: the name that is shown. NULL with the reason: no such
- * address, the port is in use or not allowed, no memory. */
-struct stream *stream_open(const char *address, uint16_t port, const char *world,
+/* What paints maps, in a thread of its own: 0, or -1 when there is no memory. */
+struct stream_painter {
+    void *self;
+    int (*paint)(void *self, const struct query_map *map, struct image *image);
+};
+
+/* A stream that listens nowhere yet. world: the name that is shown. NULL with the reason: no
+ * memory. */
+struct stream *stream_open(const char *world, const struct stream_painter *painter,
                            struct reason *reason);
 
-/* "http://ADDRESS:PORT/" */
+/* Binds and listens, without a thread yet; port 0: any that is free. A warning says when others
+ * than this machine's may come. 0, or -1 with the reason: no such address, the port is in use or
+ * not allowed. */
+int stream_listen(struct stream *stream, const char *address, uint16_t port, struct reason *reason);
+
+/* Listens on the renderer's own socket (ipc/pictures.h), for processes of this user alone. 0, or -1
+ * with the reason: another process has the name. */
+int stream_listen_here(struct stream *stream, enum role role, struct reason *reason);
+
+/* "http://ADDRESS:PORT/" of stream_listen(). */
 const char *stream_url(const struct stream *stream);
 
 /* Starts to serve. 0, or -1 with the reason. */
@@ -31,5 +47,26 @@ void stream_put(struct stream *stream, struct picture *picture);
 
 /* Ends all connections and threads, and lets every picture go. NULL is nothing. */
 void stream_close(struct stream *stream);
+
+/* --- pictures that are asked for, for the drawing thread ----------------------------------------
+ */
+
+struct stream_wish {
+    struct wanted_key key;
+    uint64_t generation; /* another for another wish in the same row; 0: none is there */
+    bool waiting;        /* somebody waits for it now */
+    bool again;          /* ... even if it would be as the last */
+};
+
+/* Fills wishes[WANTED_MAX] with the rows that somebody has asked for lately. How many wait. */
+uint32_t stream_wishes(struct stream *stream, struct stream_wish *wishes);
+
+/* Answers a row's wish: with a picture, which the caller goes on holding, or with NULL: there is no
+ * such vehicle. A wish that is another by now is left alone. */
+void stream_grant(struct stream *stream, uint32_t row, uint64_t generation,
+                  struct picture *picture);
+
+/* Sleeps until the time (CLOCK_MONOTONIC), or until somebody begins to wait for a picture. */
+void stream_sleep(struct stream *stream, uint64_t until_ns);
 
 #endif

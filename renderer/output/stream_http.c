@@ -1,13 +1,16 @@
-/* The stream's clients, by libmicrohttpd: one thread for all of them, in which every function here
- * runs but those that start, end and wake it. */
+/* The stream's clients, by libmicrohttpd: one thread for all of a door, in which every function
+ * here runs but those that start, end and wake it. */
 #include "renderer/output/stream_inside.h"
 
+#include "http/host.h"
 #include "ipc/log.h"
+#include "ipc/pictures.h"
 
 #include <microhttpd.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
 
 #define PATIENCE_S    10    /* with a client that neither reads nor asks */
 #define MEMORY_BYTES  16384 /* of a connection: its request, and what is sent */
@@ -33,34 +36,57 @@ static void wait_here(struct stream_client *client)
     MHD_suspend_connection(client->connection);
 }
 
+/* Takes the client out of those that wait. */
+static void go_on(struct stream_client **at)
+{
+    struct stream_client *client = *at;
+    *at = client->next;
+    client->suspended = false;
+    client->view->askers -= client->asked ? 1 : 0;
+    MHD_resume_connection(client->connection);
+}
+
 void stream_http_wake(struct stream *stream, const struct stream_view *view)
 {
     struct stream_client **at = &stream->waiting;
     while (*at != NULL) {
-        struct stream_client *client = *at;
-        if (view != NULL && client->view != view) {
-            at = &client->next;
+        if (view != NULL && (*at)->view != view)
+            at = &(*at)->next;
+        else
+            go_on(at);
+    }
+}
+
+uint64_t stream_http_expire(struct stream *stream, uint64_t now_ns)
+{
+    struct stream_client **at = &stream->waiting;
+    uint64_t next_ns = UINT64_MAX;
+    while (*at != NULL) {
+        uint64_t until_ns = (*at)->until_ns;
+        if (until_ns != 0 && until_ns <= now_ns) {
+            go_on(at);
             continue;
         }
-        *at = client->next;
-        client->suspended = false;
-        client->view->askers -= client->asked ? 1 : 0;
-        MHD_resume_connection(client->connection);
+        if (until_ns != 0 && until_ns < next_ns)
+            next_ns = until_ns;
+        at = &(*at)->next;
     }
+    return next_ns;
+}
+
+struct stream_reply stream_wait_here(struct stream_client *client)
+{
+    client->asked = true;
+    client->view->askers++;
+    pthread_cond_signal(&client->stream->come);
+    wait_here(client);
+    return (struct stream_reply){.waits = true};
 }
 
 /* --- answers -----------------------------------------------------------------------------------*/
 
-/* What a client is to get; made under the lock, and sent without it, as libmicrohttpd has locks of
- * its own. */
-struct reply {
-    struct MHD_Response *response; /* NULL: none, the client waits or there is no memory */
-    unsigned status;
-    const char *type;
-    bool waits;
-};
-
-static enum MHD_Result send_reply(struct MHD_Connection *connection, const struct reply *reply)
+static enum MHD_Result send_reply(struct MHD_Connection *connection,
+                                  const struct stream_reply *reply)
 {
     struct MHD_Response *response = reply->response;
     if (response == NULL)
@@ -77,26 +103,26 @@ static enum MHD_Result send_reply(struct MHD_Connection *connection, const struc
     return result;
 }
 
-static struct reply reply_bytes(const void *bytes, size_t count, const char *type)
+struct stream_reply stream_reply_bytes(const void *bytes, size_t count, const char *type)
 {
     union {
         const void *bytes;
         void *copied; /* it is not written to */
     } body = {bytes};
-    return (struct reply){
+    return (struct stream_reply){
         .response = MHD_create_response_from_buffer(count, body.copied, MHD_RESPMEM_MUST_COPY),
         .status = MHD_HTTP_OK,
         .type = type};
 }
 
-static struct reply refuse(unsigned status, const char *text)
+struct stream_reply stream_refuse(unsigned status, const char *text)
 {
-    struct reply reply = reply_bytes(text, strlen(text), "text/plain; charset=utf-8");
+    struct stream_reply reply = stream_reply_bytes(text, strlen(text), "text/plain; charset=utf-8");
     reply.status = status;
     return reply;
 }
 
-static struct reply reply_page(const struct stream *stream)
+static struct stream_reply reply_page(const struct stream *stream)
 {
     char page[PAGE_BYTES];
     int used = snprintf(
@@ -116,10 +142,10 @@ static struct reply reply_page(const struct stream *stream)
                          name, name, name, name);
     }
     snprintf(page + used, sizeof page - (size_t)used, "</body></html>\n");
-    return reply_bytes(page, strlen(page), "text/html; charset=utf-8");
+    return stream_reply_bytes(page, strlen(page), "text/html; charset=utf-8");
 }
 
-static struct reply reply_status(const struct stream *stream)
+static struct stream_reply reply_status(const struct stream *stream)
 {
     char page[PAGE_BYTES];
     int used = snprintf(page, sizeof page, "{\"world\":\"%s\",\"watchers\":%u,\"views\":[",
@@ -137,27 +163,22 @@ static struct reply reply_status(const struct stream *stream)
                          (unsigned long long)view->skipped);
     }
     snprintf(page + used, sizeof page - (size_t)used, "]}\n");
-    return reply_bytes(page, strlen(page), "application/json");
+    return stream_reply_bytes(page, strlen(page), "application/json");
 }
 
 /* --- one picture -------------------------------------------------------------------------------*/
 
 /* Under the lock. The newest one: when it is not encoded yet, the first call waits for that, and
  * libmicrohttpd calls again. */
-static struct reply reply_picture(struct stream_client *client)
+static struct stream_reply reply_picture(struct stream_client *client)
 {
     struct stream_view *view = client->view;
     struct stream *stream = client->stream;
-    if (!client->asked && (view->fresh != NULL || view->jpeg == NULL) && !stream->ending) {
-        client->asked = true;
-        view->askers++;
-        pthread_cond_signal(&stream->come);
-        wait_here(client);
-        return (struct reply){.waits = true};
-    }
+    if (!client->asked && (view->fresh != NULL || view->jpeg == NULL) && !stream->ending)
+        return stream_wait_here(client);
     if (view->jpeg == NULL)
-        return refuse(MHD_HTTP_SERVICE_UNAVAILABLE, "no picture yet\n");
-    return reply_bytes(view->jpeg->bytes, view->jpeg->count, "image/jpeg");
+        return stream_refuse(MHD_HTTP_SERVICE_UNAVAILABLE, "no picture yet\n");
+    return stream_reply_bytes(view->jpeg->bytes, view->jpeg->count, "image/jpeg");
 }
 
 /* --- all of them -------------------------------------------------------------------------------*/
@@ -233,36 +254,23 @@ static ssize_t give(void *context, uint64_t position, char *to, size_t room)
 }
 
 /* Under the lock. */
-static struct reply reply_stream(struct stream_client *client)
+static struct stream_reply reply_stream(struct stream_client *client)
 {
     struct stream *stream = client->stream;
     if (stream->watchers >= STREAM_WATCHERS)
-        return refuse(MHD_HTTP_SERVICE_UNAVAILABLE, "too many watch already\n");
+        return stream_refuse(MHD_HTTP_SERVICE_UNAVAILABLE, "too many watch already\n");
     struct MHD_Response *response =
         MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, PART_BYTES, give, client, NULL);
     if (response == NULL)
-        return (struct reply){.waits = false};
+        return (struct stream_reply){.waits = false};
     client->watching = true;
     stream->watchers++;
     client->view->watchers++;
     pthread_cond_signal(&stream->come);
-    return (struct reply){.response = response, .status = MHD_HTTP_OK, .type = MULTIPART};
+    return (struct stream_reply){.response = response, .status = MHD_HTTP_OK, .type = MULTIPART};
 }
 
 /* --- requests ----------------------------------------------------------------------------------*/
-
-/* A page elsewhere can have its own name lead to 127.0.0.1; only this machine's own names are asked
- * for in good faith there. */
-static bool is_host(const char *host)
-{
-    static const char *const names[] = {"localhost", "127.0.0.1", "[::1]"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        size_t length = strlen(names[i]);
-        if (strncmp(host, names[i], length) == 0 && (host[length] == '\0' || host[length] == ':'))
-            return true;
-    }
-    return strncmp(host, "127.", 4) == 0 && host[strspn(host, "0123456789.:")] == '\0';
-}
 
 static bool ends_with(const char *path, size_t length, const char *ending, size_t *stem)
 {
@@ -274,7 +282,7 @@ static bool ends_with(const char *path, size_t length, const char *ending, size_
 }
 
 /* Under the lock. */
-static struct reply reply_path(struct stream_client *client, const char *path)
+static struct stream_reply reply_path(struct stream_client *client, const char *path)
 {
     struct stream *stream = client->stream;
     size_t stem = 0, length = strnlen(path, REQUEST_BYTES);
@@ -282,13 +290,20 @@ static struct reply reply_path(struct stream_client *client, const char *path)
         return reply_page(stream);
     if (strcmp(path, "/status.json") == 0)
         return reply_status(stream);
+    if (strcmp(path, "/picture.jpg") == 0)
+        return stream_asked_picture(client);
+    if (strcmp(path, "/map.jpg") == 0 && stream->painter.paint != NULL &&
+        (client->map != NULL ||
+         MHD_get_connection_values(client->connection, MHD_GET_ARGUMENT_KIND, NULL, NULL) > 0))
+        return stream_asked_map(client);
     bool live = length < REQUEST_BYTES && ends_with(path, length, ".mjpeg", &stem);
     bool still = length < REQUEST_BYTES && ends_with(path, length, ".jpg", &stem);
     if (live || still)
         client->view = stream_find(stream, path + 1, stem - 1);
     if (client->view == NULL)
-        return refuse(MHD_HTTP_NOT_FOUND, "there is /, /VIEW.mjpeg, /VIEW.jpg, "
-                                          "/status.json\n");
+        return stream_refuse(MHD_HTTP_NOT_FOUND, "there is /, /VIEW.mjpeg, /VIEW.jpg, "
+                                                 "/picture.jpg?view=&vehicle=&size=, "
+                                                 "/map.jpg?x=&z=&metres=&size=, /status.json\n");
     return live ? reply_stream(client) : reply_picture(client);
 }
 
@@ -304,24 +319,25 @@ static enum MHD_Result on_request(void *context, struct MHD_Connection *connecti
                                   const char *path, const char *method, const char *version,
                                   const char *body, size_t *body_bytes, void **kept)
 {
-    struct stream *stream = context;
+    const struct stream_door *door = context;
+    struct stream *stream = door->stream;
     (void)version;
     (void)body;
     (void)body_bytes;
-    struct reply reply;
+    struct stream_reply reply;
     const char *host =
         MHD_lookup_connection_value(connection, MHD_HEADER_KIND, MHD_HTTP_HEADER_HOST);
     if (strcmp(method, MHD_HTTP_METHOD_GET) != 0 && strcmp(method, MHD_HTTP_METHOD_HEAD) != 0) {
-        reply = refuse(MHD_HTTP_METHOD_NOT_ALLOWED, "pictures can only be looked at\n");
-    } else if (stream->local && host != NULL && !is_host(host)) {
-        reply = refuse(MHD_HTTP_FORBIDDEN, "ask by a name of this machine\n");
+        reply = stream_refuse(MHD_HTTP_METHOD_NOT_ALLOWED, "pictures can only be looked at\n");
+    } else if (door->local && !door->ours && host != NULL && !http_host_local(host)) {
+        reply = stream_refuse(MHD_HTTP_FORBIDDEN, "ask by a name of this machine\n");
+    } else if (*kept == NULL) {
+        /* An answer to the first call would close the connection after it; there is another. */
+        *kept = new_client(stream, connection);
+        return *kept != NULL ? MHD_YES : MHD_NO;
     } else {
-        struct stream_client *client = *kept =
-            *kept != NULL ? *kept : new_client(stream, connection);
-        if (client == NULL)
-            return MHD_NO;
         pthread_mutex_lock(&stream->lock);
-        reply = reply_path(client, path);
+        reply = reply_path(*kept, path);
         pthread_mutex_unlock(&stream->lock);
     }
     return send_reply(connection, &reply);
@@ -330,7 +346,8 @@ static enum MHD_Result on_request(void *context, struct MHD_Connection *connecti
 static void on_end(void *context, struct MHD_Connection *connection, void **kept,
                    enum MHD_RequestTerminationCode why)
 {
-    struct stream *stream = context;
+    const struct stream_door *door = context;
+    struct stream *stream = door->stream;
     struct stream_client *client = *kept;
     (void)connection;
     (void)why;
@@ -338,6 +355,7 @@ static void on_end(void *context, struct MHD_Connection *connection, void **kept
         return;
     pthread_mutex_lock(&stream->lock);
     CHECK(!client->suspended);
+    stream_asked_end(client);
     if (client->watching) {
         stream->watchers--;
         client->view->watchers--;
@@ -348,16 +366,35 @@ static void on_end(void *context, struct MHD_Connection *connection, void **kept
     *kept = NULL;
 }
 
+/* Any user may connect to an abstract socket: those of others are sent away at once, so that they
+ * take nobody's place. */
+static void on_connection(void *context, struct MHD_Connection *connection, void **kept,
+                          enum MHD_ConnectionNotificationCode what)
+{
+    const struct stream_door *door = context;
+    (void)kept;
+    if (what != MHD_CONNECTION_NOTIFY_STARTED || !door->ours)
+        return;
+    const union MHD_ConnectionInfo *info =
+        MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+    if (info != NULL && !pictures_peer_is(info->connect_fd, door->user))
+        shutdown(info->connect_fd, SHUT_RDWR);
+}
+
 int stream_http_start(struct stream *stream)
 {
-    stream->daemon = MHD_start_daemon(
-        MHD_USE_POLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, on_request, stream,
-        MHD_OPTION_LISTEN_SOCKET, stream->listener, MHD_OPTION_CONNECTION_LIMIT, STREAM_CLIENTS,
-        MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)PATIENCE_S, MHD_OPTION_CONNECTION_MEMORY_LIMIT,
-        (size_t)MEMORY_BYTES, MHD_OPTION_NOTIFY_COMPLETED, on_end, stream, MHD_OPTION_END);
-    if (stream->daemon == NULL)
-        return -1;
-    stream->listener = -1; /* the daemon's to close */
+    for (uint32_t i = 0; i < stream->doors; i++) {
+        struct stream_door *door = &stream->door[i];
+        door->daemon = MHD_start_daemon(
+            MHD_USE_POLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, on_request,
+            door, MHD_OPTION_LISTEN_SOCKET, door->listener, MHD_OPTION_CONNECTION_LIMIT,
+            STREAM_CLIENTS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)PATIENCE_S,
+            MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)MEMORY_BYTES, MHD_OPTION_NOTIFY_COMPLETED,
+            on_end, door, MHD_OPTION_NOTIFY_CONNECTION, on_connection, door, MHD_OPTION_END);
+        if (door->daemon == NULL)
+            return -1;
+        door->listener = -1; /* the daemon's to close */
+    }
     return 0;
 }
 
@@ -367,6 +404,9 @@ void stream_http_end(struct stream *stream)
     stream->ending = true;
     stream_http_wake(stream, NULL);
     pthread_mutex_unlock(&stream->lock);
-    MHD_stop_daemon(stream->daemon);
-    stream->daemon = NULL;
+    for (uint32_t i = 0; i < stream->doors; i++) {
+        if (stream->door[i].daemon != NULL)
+            MHD_stop_daemon(stream->door[i].daemon);
+        stream->door[i].daemon = NULL;
+    }
 }

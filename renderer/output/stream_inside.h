@@ -1,18 +1,25 @@
-/* What the two halves of the stream share: stream.c, which has the views, and stream_http.c, which
- * has the clients. */
+/* What the parts of the stream share: stream.c has the views and the thread that encodes them,
+ * stream_door.c where it listens, stream_http.c the clients, stream_asked.c the pictures and
+ * maps that clients ask for. One lock is over all of it, held for copies at most: no
+ * thread draws, encodes or sends under it. */
 #ifndef JOLON_RENDERER_STREAM_INSIDE_H
 #define JOLON_RENDERER_STREAM_INSIDE_H
 
+#include "renderer/output/query.h"
 #include "renderer/output/stream.h"
+#include "renderer/output/wanted.h"
 
 #include <pthread.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <sys/types.h>
 
 #define STREAM_VIEWS_MAX 16u
 #define STREAM_WATCHERS  16u /* clients that watch at the same time */
-#define STREAM_CLIENTS   32u /* connections in all: so that who is too much is told */
+#define STREAM_CLIENTS   32u /* connections of a door: so that who is too much is told */
+#define STREAM_DOORS     2u
+#define STREAM_MAPS      16u /* maps that are kept, or under way */
 
 struct MHD_Connection;
 struct MHD_Daemon;
@@ -36,10 +43,33 @@ struct stream_view {
     uint64_t drawn, encoded, skipped; /* pictures put; JPEGs made; those that clients passed over */
 };
 
+/* Where clients come in. Each has a thread of libmicrohttpd's. */
+struct stream_door {
+    struct stream *stream;
+    struct MHD_Daemon *daemon;
+    int listener; /* the daemon's, once that runs */
+    bool local;   /* an address that only this machine can reach */
+    bool ours;    /* a Unix socket, for processes of ... */
+    uid_t user;   /* ... this user */
+};
+
+/* A map that was asked for: its ground never changes, so it is kept until others take its place. */
+struct stream_map {
+    struct query_map key;
+    bool used;
+    bool wanted;       /* to be painted; the painting thread clears it */
+    uint64_t asked_ns; /* CLOCK_MONOTONIC when somebody last asked */
+    uint32_t holders;  /* requests that are not answered yet */
+    struct stream_view view;
+};
+
 /* A client that waits for a picture: its connection is suspended until there is one. */
 struct stream_client {
     struct stream *stream;
     struct stream_view *view;
+    struct wanted *wanted;  /* the row that the request holds; NULL: none */
+    struct stream_map *map; /* likewise */
+    uint64_t until_ns;      /* waits no longer; 0: as long as it takes */
     struct MHD_Connection *connection;
     struct stream_client *next; /* of those that wait */
     bool suspended;             /* in the list */
@@ -52,29 +82,69 @@ struct stream_client {
 
 struct stream {
     char world[32], url[96];
-    int listener;
-    bool local; /* only this machine can reach it */
-    struct MHD_Daemon *daemon;
-    pthread_t thread;
+    struct stream_door door[STREAM_DOORS];
+    uint32_t doors;
+    struct stream_painter painter; /* paint is NULL: there are no maps */
+    bool started;
+    pthread_t encoding, painting;
     pthread_mutex_t lock; /* of all below */
-    pthread_cond_t come;
+    pthread_cond_t come;  /* the encoding thread has something to do, ... */
+    pthread_cond_t asked; /* ... the drawing thread, ... */
+    pthread_cond_t paint; /* ... the painting thread */
     bool ending;
+    uint64_t numbers;         /* of pictures that were asked for: no two have the same */
+    uint64_t asks, asks_seen; /* requests that wait for a picture; ... by the drawing thread */
+    struct wanted_table wanted;
+    struct stream_view wanted_view[WANTED_MAX]; /* of those rows */
+    bool again[WANTED_MAX]; /* somebody waits for a picture even if it would be the same */
+    struct stream_map map[STREAM_MAPS];
     struct stream_view view[STREAM_VIEWS_MAX];
     uint32_t views, watchers;
     struct stream_client *waiting;
 };
 
-/* Starts and ends libmicrohttpd on the stream's listener. 0, or -1 with errno. The second wants
- * `ending` set, so that nobody waits again. */
+/* Starts and ends libmicrohttpd at every door. 0, or -1 with errno. The second wants `ending` set,
+ * so that nobody waits again. */
 int stream_http_start(struct stream *stream);
 void stream_http_end(struct stream *stream);
 
-/* Under the lock: lets go on who waits for this view, NULL: for any. */
+/* What a client is to get; made under the lock, and sent without it, as libmicrohttpd has locks of
+ * its own. */
+struct stream_reply {
+    struct MHD_Response *response; /* NULL: none, the client waits or there is no memory */
+    unsigned status;
+    const char *type;
+    bool waits;
+};
+
+struct stream_reply stream_reply_bytes(const void *bytes, size_t count, const char *type);
+struct stream_reply stream_refuse(unsigned status, const char *text);
+
+/* --- under the lock ----------------------------------------------------------------------------
+ */
+
+/* Lets go on who waits for this view, NULL: for any. */
 void stream_http_wake(struct stream *stream, const struct stream_view *view);
 
-/* Under the lock. */
+/* Lets go on who has waited long enough; when the next will have [ns], UINT64_MAX for none. */
+uint64_t stream_http_expire(struct stream *stream, uint64_t now_ns);
+
+/* Keeps a request waiting for its view's next picture; in the connection's own callback. */
+struct stream_reply stream_wait_here(struct stream_client *client);
+
 struct stream_view *stream_find(struct stream *stream, const char *name, size_t length);
 struct stream_jpeg *stream_hold(struct stream_jpeg *jpeg);
 void stream_release(struct stream_jpeg *jpeg);
+/* NULL when there is no memory. Without the lock. */
+struct stream_jpeg *stream_encode(const struct image *image, uint64_t frame, double time_s);
+
+/* Answers to "/picture.jpg?..." and "/map.jpg?...", and what of them a request still holds at its
+ * end. */
+struct stream_reply stream_asked_picture(struct stream_client *client);
+struct stream_reply stream_asked_map(struct stream_client *client);
+void stream_asked_end(struct stream_client *client);
+
+/* The thread that paints maps; argument: the stream. */
+void *stream_paint(void *argument);
 
 #endif

@@ -1,21 +1,18 @@
-/* Ways along the body's own axis, angles that follow at a turret's rate. */
+/* Ways along the body's own axis, turret and gun as the world has them. */
 #include "renderer/scene/gear.h"
 
-#include "renderer/scene/grain.h"
 #include "renderer/scene/moment.h"
 #include "renderer/scene/pose.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define GUN_LEAST_RAD  (-0.10)
-#define GUN_MOST_RAD   0.30
-#define GUN_HANGS_RAD  (-0.12)
+#define GUN_HANGS_RAD  (-0.12f)
+#define GUN_SINKS_RADS 0.35 /* [rad/s] a wreck's gun, until it hangs */
 #define WHEELBASE      0.6  /* of the length */
 #define TRACK_APART    0.38 /* of the width, from the middle to each side */
 #define STEER_LEAST_M  0.02 /* that it must have moved for its wheels to show which way */
 #define STEER_FOLLOWS  0.35 /* of the difference, a note */
-#define WRECK_TURN_RAD 1.0  /* either way, of the turret of one whose end was not seen */
 
 int gear_init(struct gear *gear, uint32_t capacity)
 {
@@ -30,45 +27,18 @@ void gear_free(struct gear *gear)
     *gear = (struct gear){NULL, 0};
 }
 
-/* The turret to the right, the gun up, to point at what is attacked; ahead when nothing is. */
-static void aim(const struct moment *moment, uint32_t slot, double *turret, double *gun)
-{
-    const struct entities *e = moment->entities;
-    uint32_t target = e->target_slot[slot];
-    *turret = *gun = 0.0;
-    if (e->behaviour[slot] != BEHAVIOUR_ATTACK || !entities_alive(e, target, e->target_id[slot]))
-        return;
-    double x = e->x[target] - e->x[slot], y = e->y[target] - e->y[slot];
-    double z = e->z[target] - e->z[slot];
-    *turret = maths_wrap_half(maths_heading(x, z) - e->heading[slot]);
-    double up = maths_atan2(y, sqrt(x * x + z * z)) - e->pitch[slot] * maths_cos(*turret);
-    *gun = maths_clamp(up, GUN_LEAST_RAD, GUN_MOST_RAD);
-}
-
 static struct gear_state first_sight(const struct moment *moment, uint32_t slot)
 {
     const struct entities *e = moment->entities;
-    double turret = 0.0, gun = GUN_HANGS_RAD;
-    struct gear_state state = {.id = e->id[slot],
+    bool wreck = e->state[slot] == ENTITY_WRECK;
+    return (struct gear_state){.id = e->id[slot],
                                .time_s = moment_time_s(moment),
                                .x = e->x[slot],
                                .y = e->y[slot],
                                .z = e->z[slot],
-                               .heading = e->heading[slot]};
-    if (e->state[slot] == ENTITY_WRECK)
-        turret = WRECK_TURN_RAD * ((double)grain_unit((int32_t)state.id, 0, 41) * 2.0 - 1.0);
-    else
-        aim(moment, slot, &turret, &gun);
-    state.turret_rad = (float)turret;
-    state.gun_rad = (float)gun;
-    return state;
-}
-
-/* From one angle towards another, by no more than so much, the short way around. */
-static float follow(float from, double to, double most)
-{
-    double way = maths_wrap_half(to - (double)from);
-    return (float)maths_wrap_half((double)from + maths_clamp(way, -most, most));
+                               .heading = e->heading[slot],
+                               .turret_rad = e->turret[slot],
+                               .gun_rad = wreck ? GUN_HANGS_RAD : e->gun[slot]};
 }
 
 static double wrapped(double way)
@@ -100,16 +70,14 @@ static void roll(struct gear_state *state, const struct moment *moment, uint32_t
 static void go_on(struct gear_state *state, const struct moment *moment, uint32_t slot, double dt_s)
 {
     const struct entities *e = moment->entities;
-    double turret, gun;
+    state->turret_rad = e->turret[slot];
     if (e->state[slot] == ENTITY_WRECK) { /* it stands as it was hit, and the gun sinks */
-        turret = (double)state->turret_rad;
-        gun = GUN_HANGS_RAD;
+        float most = (float)(GUN_SINKS_RADS * dt_s);
+        state->gun_rad = fmaxf(fminf(state->gun_rad, GUN_HANGS_RAD), state->gun_rad - most);
     } else {
-        aim(moment, slot, &turret, &gun);
+        state->gun_rad = e->gun[slot];
         roll(state, moment, slot);
     }
-    state->turret_rad = follow(state->turret_rad, turret, GEAR_TURRET_RADS * dt_s);
-    state->gun_rad = follow(state->gun_rad, gun, GEAR_GUN_RADS * dt_s);
     state->time_s += dt_s;
     state->x = e->x[slot];
     state->y = e->y[slot];

@@ -9,6 +9,7 @@
 #include "reporter/check.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #define COMMANDS_MAX 16
@@ -21,7 +22,7 @@ static void check_checked(const struct command *command)
 {
     CHECK(command->type > COMMAND_NONE && command->type < COMMAND_TYPE_COUNT);
     CHECK(command->kind == KIND_NONE || command->kind < view.world.counts.kinds);
-    CHECK(command->force < FORCE_COUNT);
+    CHECK(command->force < (command->type == COMMAND_DRIVE ? (int)GEAR_COUNT : (int)FORCE_COUNT));
     for (size_t i = 0; i < sizeof command->value / sizeof command->value[0]; i++)
         CHECK(isfinite(command->value[i]));
 }
@@ -41,19 +42,38 @@ static void check_moved(void)
     }
 }
 
-_Static_assert(sizeof(jolon_Command) == sizeof(struct command), "one input for either");
-
 /* Checks bytes as they come over DDS; true when they are a command. */
 static bool take_wire(struct command *command, const uint8_t *data)
 {
     jolon_Command wire;
-    memcpy(&wire, data, sizeof wire);
-    wire.kind[sizeof wire.kind - 1] = '\0'; /* as the DDS library leaves a bounded string */
+    uint8_t bytes[sizeof wire];
+    memcpy(bytes, data, sizeof wire);
+    bytes[offsetof(jolon_Command, anyway)] &= 1; /* the DDS library lets no other boolean in */
+    memcpy(&wire, bytes, sizeof wire);
+    wire.kind[sizeof wire.kind - 1] = '\0'; /* as it leaves a bounded string */
     enum command_result result = check_command(command, &wire, &view.world);
     CHECK(result < COMMAND_RESULT_COUNT);
     if (result == COMMAND_DONE)
         check_checked(command);
     return result == COMMAND_DONE;
+}
+
+/* The next command of the input: a struct command as it lies in a ring where its source is beyond
+ * INT64_MAX, else a jolon_Command. How many bytes it is, 0 when no whole one is left; good says
+ * whether it is to be moved. */
+static size_t take_next(struct command *command, const uint8_t *data, size_t size, bool *good)
+{
+    uint64_t source = 0;
+    if (size < sizeof source)
+        return 0;
+    memcpy(&source, data, sizeof source);
+    size_t bytes = source > INT64_MAX ? sizeof *command : sizeof(jolon_Command);
+    if (size < bytes)
+        return 0;
+    if (source > INT64_MAX)
+        memcpy(command, data, sizeof *command);
+    *good = source > INT64_MAX || take_wire(command, data);
+    return bytes;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -65,13 +85,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         support_world(&view);
         CHECK(mover_init(&mover, &view.world, view.w[0].craters, NULL) == 0);
     }
-    for (int n = 0; n < COMMANDS_MAX && size >= sizeof(struct command); n++) {
+    for (int n = 0; n < COMMANDS_MAX; n++) {
         struct command *command = &ring[sources[0].end];
-        memcpy(command, data, sizeof *command);
-        if (command->source <= INT64_MAX ? take_wire(command, data) : true)
+        bool good = false;
+        size_t bytes = take_next(command, data, size, &good);
+        if (bytes == 0)
+            break;
+        if (good)
             command->sequence = sources[0].end++;
-        data += sizeof *command;
-        size -= sizeof *command;
+        data += bytes;
+        size -= bytes;
     }
     if (sources[0].end == 0)
         return 0;

@@ -1,8 +1,9 @@
-/* The command line of jolon-ctl: one argument a line. */
+/* The command line of jolon-ctl: one argument a line; and its lines from standard input, which are
+ * the same bytes with blanks between the words. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/log.h"
 #include "ctl/parse.h"
+#include "ipc/log.h"
 #include "tests/fuzz/ending.h"
 
 #include <getopt.h>
@@ -13,17 +14,40 @@
 
 #define ARGUMENTS_MAX 24
 
-static void check(const struct ctl_request *request)
+static void check_order(const struct order *order)
 {
-    const jolon_Command *c = &request->command;
-    CHECK(segment_name_ok(request->world) && request->verb);
-    CHECK(request->timeout_s > 0.0 && request->timeout_s <= 3600.0);
-    CHECK(request->link.domain <= DDS_LINK_DOMAIN_MAX);
+    const jolon_Command *c = &order->command;
+    CHECK(order->verb && (order->given & ~order->verb->allowed) == 0);
     CHECK(c->type > jolon_COMMAND_NONE && c->type <= jolon_COMMAND_QUIT);
     CHECK(memchr(c->kind, '\0', sizeof c->kind));
-    CHECK(c->force <= jolon_FORCE_RED && c->behaviour <= jolon_BEHAVIOUR_PATROL);
+    CHECK(c->force <= jolon_FORCE_RED && c->behaviour <= jolon_BEHAVIOUR_PATROL &&
+          c->gear <= jolon_GEAR_LOW);
     CHECK(isfinite(c->x_m) && isfinite(c->z_m) && isfinite(c->altitude_m) &&
           isfinite(c->heading_rad) && isfinite(c->speed_mps) && isfinite(c->scale));
+    CHECK(order->rounds >= 1 && order->rounds <= ORDER_ROUNDS_MAX);
+}
+
+static void check(const struct ctl_request *request)
+{
+    CHECK(segment_name_ok(request->world));
+    CHECK(request->timeout_s > 0.0 && request->timeout_s <= 3600.0);
+    CHECK(request->link.domain <= DDS_LINK_DOMAIN_MAX);
+    if (!request->lines)
+        check_order(&request->order);
+}
+
+static void run_line(const uint8_t *data, size_t size)
+{
+    char line[CTL_LINE_MAX];
+    struct order order;
+    struct reason reason = {.text = ""};
+    size = size < sizeof line - 1 ? size : sizeof line - 1;
+    memcpy(line, data, size);
+    line[size] = '\0';
+    int result = ctl_parse_line(&order, line, &reason);
+    CHECK(result == 0 || result == 1 || reason.text[0]);
+    if (result == 0)
+        check_order(&order);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -49,5 +73,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         check(&request);
     }
     ending_done();
+    run_line(data, size);
     return 0;
 }

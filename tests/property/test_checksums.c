@@ -18,8 +18,8 @@ static const char scenario[] =
     "{ kind = \"truck\"; count = 2100; behaviour = \"idle\";"                                      \
     "  area = [0.0, 30000.0, 50000.0, 49000.0]; },"
 #define FIGHTERS(force)                                                                            \
-    "{ kind = \"tank\"; count = 3; force = \"" force "\"; fire_at_will = true;"                    \
-    "  area = [24000.0, 24000.0, 25500.0, 25500.0]; },"
+    "{ kind = \"tank\"; count = 12; force = \"" force "\"; fire_at_will = true;"                   \
+    "  area = [24700.0, 24700.0, 25300.0, 25300.0]; },"
     "world = { seed = 5; capacity = 16384; };"
     "vehicles = ("
     "{ kind = \"tank\"; name = \"A\"; behaviour = \"idle\"; at = [2000.0, 2000.0]; }," HERD
@@ -28,7 +28,7 @@ static const char scenario[] =
     "fires = ( { at_s = 0.2; shooter = \"A\"; point = [2500.0, 2000.0]; },"
     "{ at_s = 0.9; munition = \"artillery\"; point = [25100.0, 25100.0]; } );";
 
-#define FRAMES 120
+#define FRAMES 400
 
 static struct command random_command(uint64_t *random, uint64_t number)
 {

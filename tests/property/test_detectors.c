@@ -12,7 +12,8 @@
 
 #define FRAMES 300
 
-/* 300 vehicles on 400 m x 400 m of trees: somebody always meets somebody. */
+/* 300 vehicles on 400 m x 400 m of trees, a third of which gives way to nobody: somebody always
+ * meets somebody. */
 static const char battle[] =
     "world = { seed = %llu; hz = 20.0; capacity = 1024; };\n"
     "objects = ( { kind = \"building\"; at = [25000.0, 25000.0]; },\n"
@@ -28,7 +29,7 @@ static const char battle[] =
     "    area = [24800.0, 24800.0, 25200.0, 25200.0]; },\n"
     "  { kind = \"jet\"; count = 10; force = \"red\"; fire_at_will = true;\n"
     "    area = [24800.0, 24800.0, 25200.0, 25200.0]; },\n"
-    "  { kind = \"truck\"; count = 100; force = \"blue\";\n"
+    "  { kind = \"truck\"; count = 100; behaviour = \"hold\"; speed_mps = 15.0;\n"
     "    area = [24800.0, 24800.0, 25200.0, 25200.0]; } );\n"
     "fires = ( { at_s = 0.2; munition = \"artillery\"; point = [25000.0, 25000.0]; } );\n";
 

@@ -28,7 +28,7 @@ static const char battle[] =
     "    area = [22500.0, 22500.0, 28000.0, 28000.0]; },\n"
     "  { kind = \"jeep\"; count = 1600; force = \"blue\"; fire_at_will = true;\n"
     "    area = [22500.0, 22500.0, 28000.0, 28000.0]; },\n"
-    "  { kind = \"truck\"; count = 1600; force = \"red\";\n"
+    "  { kind = \"truck\"; count = 1600; behaviour = \"hold\"; speed_mps = 22.0;\n"
     "    area = [22500.0, 22500.0, 28000.0, 28000.0]; },\n"
     "  { kind = \"jet\"; count = 150; force = \"red\"; fire_at_will = true;\n"
     "    area = [22500.0, 22500.0, 28000.0, 28000.0]; },\n"

@@ -1,6 +1,9 @@
 /* Tests' hands on the inside of a frame. */
 #include "tests/support/steps.h"
 
+#include "mover/turret.h"
+#include "world/rotation.h"
+
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -132,6 +135,30 @@ void steps_drive(struct fixture *fixture, uint32_t row, double throttle, double 
     assert_int_equal(answer.result, COMMAND_DONE);
 }
 
+void steps_pedals(struct fixture *fixture, uint32_t row, double throttle, double brake,
+                  enum gearing gear)
+{
+    struct event_command answer =
+        steps_command(fixture, (struct command){.type = COMMAND_DRIVE,
+                                                .entity = steps_rows(fixture).id[row],
+                                                .force = (uint16_t)gear,
+                                                .value = {throttle, 0.0, 0.0, 0.0, 0.0, brake}});
+    assert_int_equal(answer.result, COMMAND_DONE);
+}
+
+void steps_lay(const struct fixture *fixture, uint32_t row, uint32_t target)
+{
+    struct entities e = steps_rows(fixture);
+    const struct kind *kinds = fixture->view.world.kinds;
+    struct move move = {.world = &fixture->view.world};
+    struct mat3 body = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    struct vec3 lead = turret_lead(&move, turret_muzzle(&move, &e, row),
+                                   &kinds[kinds[e.kind[row]].munition], &e, target);
+    lead = rotation_back(&body, lead);
+    e.turret[row] = (float)maths_atan2(lead.z, lead.x);
+    e.gun[row] = (float)maths_atan2(lead.y, sqrt(lead.x * lead.x + lead.z * lead.z));
+}
+
 /* --- the middle of a frame ---------------------------------------------------------------------*/
 
 void steps_serial(struct fixture *fixture, struct move *move, struct serial *serial)
@@ -141,6 +168,9 @@ void steps_serial(struct fixture *fixture, struct move *move, struct serial *ser
     *move = (struct move){
         .world = &view->world,
         .craters = &fixture->player.mover.craters,
+        .near = &fixture->player.mover.near,
+        .outlook = &fixture->player.mover.outlook,
+        .avoid = &fixture->player.mover.avoid,
         .committed = committed,
         .m = &view->m.entities,
         .tick = committed->head->tick + 1,

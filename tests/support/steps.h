@@ -46,12 +46,17 @@ void steps_send(struct fixture *fixture, enum command_ring ring, struct command 
 /* Sends it by the console's ring, runs one frame and returns the answer. */
 struct event_command steps_command(struct fixture *fixture, struct command command);
 
-/* Drives a row: throttle, steer, climb. Must be done. Runs one frame. */
+/* Drives a row: throttle, steer, climb; or brake and gear too. Must be done. Runs one frame. */
 void steps_drive(struct fixture *fixture, uint32_t row, double throttle, double steer,
                  double climb);
+void steps_pedals(struct fixture *fixture, uint32_t row, double throttle, double brake,
+                  enum gearing gear);
 
 /* Row of an id in the committed frame, SLOT_NONE when there is none. */
 uint32_t steps_find(const struct fixture *fixture, uint32_t id);
+
+/* Turns turret and gun of a row onto another in no time. */
+void steps_lay(const struct fixture *fixture, uint32_t row, uint32_t target);
 
 /* --- the middle of a frame ---------------------------------------------------------------------*/
 

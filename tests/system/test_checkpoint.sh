@@ -16,7 +16,11 @@ digest() { "$world" digest --world "$1"; }
 drop() { "$world" remove --world "$1"; }
 reached() { [ "$("$world" frame --world "$name")" -ge "$1" ]; }
 moved() { "$world" save --inputs moved.image --world "$name" | grep -q 'and the inputs of the next'; }
-trap 'for left in $name $name-b; do "$world" remove --force --world $left >/dev/null 2>&1; done; at_end' EXIT
+remove_both() {
+    local left
+    for left in "$name" "$name-b"; do "$world" remove --force --world "$left" >/dev/null 2>&1; done
+}
+trap 'remove_both; at_end' EXIT
 
 # --- going on ---------------------------------------------------------------------------------------
 "$world" create --world "$name" --set world.frames=900 --set world.pace=max >/dev/null
@@ -129,7 +133,7 @@ check "writing its own" grep -aq 'checkpoint set.image: frame' out/jolon.log
 "$world" create --from mid.image --world "$name" >/dev/null
 cp mid.image kept.image
 whole=0
-for try in 1 2 3 4; do
+for _ in 1 2 3 4; do
     "$world" save kept.image --world "$name" >/dev/null 2>&1 &
     saver=$!
     sleep "0.$((RANDOM % 25 + 100))"

@@ -20,7 +20,7 @@ objects = { source = "table1"; };
 vehicles = (
     { kind = "tank"; count = 60; force = "blue"; fire_at_will = true; area = [28200.0, 19800.0, 28500.0, 20200.0]; },
     { kind = "tank"; count = 60; force = "red"; fire_at_will = true; area = [28300.0, 19800.0, 28600.0, 20200.0]; },
-    { kind = "jeep"; count = 90; area = [28300.0, 19800.0, 28550.0, 20100.0]; },
+    { kind = "jeep"; count = 90; behaviour = "hold"; speed_mps = 12.0; area = [28300.0, 19800.0, 28550.0, 20100.0]; },
     { kind = "truck"; count = 60; force = "red"; area = [28250.0, 19850.0, 28550.0, 20150.0]; },
     { kind = "attack-tomato"; count = 30; force = "red"; fire_at_will = true; area = [28200.0, 19800.0, 28600.0, 20200.0]; },
     { kind = "helicopter"; count = 20; force = "blue"; fire_at_will = true; area = [28200.0, 19800.0, 28500.0, 20200.0]; },

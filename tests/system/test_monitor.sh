@@ -23,9 +23,13 @@ for key in commit moved sim_time_s hz paused events roles.0.role roles.0.pid rol
     roles.0.beat_age_ms roles.0.restarts roles.0.stage_ms; do
     check "it has $key" json $key <once
 done
+check "it lists the vehicles that suit" equal \
+    "$("$jolon" monitor -w "$name" --once --json --filter 'red tank' | json list.0.id)" 2
+refuses_usage() { "$jolon" monitor -w "$name" --filter red; [ $? = 2 ]; }
+check "a filter is for JSON" refuses_usage
 timeout 3 "$jolon" monitor -w "$name" >lines 2>&1
 check "without a terminal it writes lines" [ "$(wc -l <lines)" -ge 2 ]
-for i in 1 2 3 4 5; do "$jolon" monitor -w "$name" >/dev/null 2>&1 & monitors+=($!); done
+for _ in 1 2 3 4 5; do "$jolon" monitor -w "$name" >/dev/null 2>&1 & monitors+=($!); done
 sleep 0.5
 kill -KILL "${monitors[@]}"
 { wait "${monitors[@]}"; } 2>/dev/null

@@ -10,7 +10,7 @@ small="--set renderer.width=320 --set renderer.height=180 --set renderer.fps=30 
 # A run in the background, until its first picture is there; and its end, with its summary.
 begin() {
     rm -rf "$folder/out"
-    # shellcheck disable=SC2086 -- words
+    # shellcheck disable=SC2086 # words
     "$jolon" run -w "$name" --json --out "$folder/out" $small >summary 2>err &
     run=$!
     eventually [ -f "$folder/out/chase.png" ]
@@ -56,7 +56,7 @@ check "the digest at frame $frames is that of a run without a renderer" \
 stand="--view free --eye 27000,21000,30 --look 90,0"
 [ "$flat_s" -lt 120 ] || stand="--view chase"
 begin
-# shellcheck disable=SC2086 -- words
+# shellcheck disable=SC2086 # words
 "$bin/jolon-renderer" -w "$name" --role renderer-2 --out second --fps 60 --size 320x180 --stills 2 $stand 2>second.err &
 second=$!
 check "its memory is flat over $flat_s s" python3 - "$second" "$flat_s" <<'P'

@@ -57,7 +57,7 @@ sleep 3
 kill -CONT "$keeper"
 check "the set goes on after its keeper slept" moves_on
 everybody=$(pgrep -P "$keeper" | tr '\n' ' ')
-# shellcheck disable=SC2086 -- several pids
+# shellcheck disable=SC2086 # several pids
 kill -STOP "$keeper" $everybody
 sleep 3
 # shellcheck disable=SC2086

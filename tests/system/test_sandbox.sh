@@ -10,6 +10,7 @@ fields() { awk -v name="$2:" '$1 == name { print $2 }' /proc/"$1"/task/*/status 
 descriptors() { for fd in /proc/"$1"/fd/*; do echo "${fd##*/} $(readlink "$fd")"; done; }
 is_up() { [ "$("$jolon" status -w "$name" --json | json state)" = running ]; }
 
+# shellcheck disable=SC2120 # check passes some
 start() {
     "$jolon" start -w "$name" --out out --events events --checkpoint checkpoint --every 60 \
         --set renderer.width=320 --set renderer.height=180 "$@"

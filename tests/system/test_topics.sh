@@ -30,6 +30,7 @@ check "CYCLONEDDS_URI of the environment changes nothing" \
 # --- commands ---------------------------------------------------------------------------------------
 check "pause" eval '$ctl pause | grep -Eq "^paused at frame [0-9]+$"'
 check "it stands" eventually eval '[ "$(key state)" = paused ]'
+# shellcheck disable=SC2034 # for eval
 before=$(key commit)
 check "step" $ctl step 5
 check "it stepped" eventually eval '[ "$(key commit)" -ge $((before + 5)) ]'
@@ -45,6 +46,7 @@ check "another kind is refused with those there are" \
 check "wrong usage is 2" equal "$? $(wc -l <stderr)" "2 1"
 
 # --- a storm of commands while the reporter dies again and again -------------------------------------
+# shellcheck disable=SC2034 # for eval
 vehicles=$(key vehicles)
 storm() { seq "$spawns" | xargs -P 8 -I{} $ctl --timeout 30 spawn tank --at 25000,{}0 >replies; }
 storm &

@@ -11,7 +11,7 @@ small="--set renderer.width=160 --set renderer.height=90"
 run() {
     local as=$1
     shift
-    # shellcheck disable=SC2086 -- words
+    # shellcheck disable=SC2086 # words
     "$jolon" run -w "$name" --json --pace max --frames 600 --without reporter --out "$folder/$as" $small "$@" \
         duel >"$as.json" 2>"$as.err" || sed 's/^/# /' "$as.err"
 }
@@ -60,7 +60,7 @@ check "the own rasteriser is said in one line, with why" \
 
 # --- pictures of a running world ------------------------------------------------------------------
 snap() { "$jolon" snap -w "$name" --backend soft "$@"; }
-# shellcheck disable=SC2086 -- words
+# shellcheck disable=SC2086 # words
 "$jolon" start -w "$name" --out running --without renderer --without reporter --set world.frames=0 $small duel >/dev/null
 check "a snap of the running world" snap shot.png
 check "has the scenario's size" equal "$(size shot.png)" 160x90

@@ -162,6 +162,45 @@ static void test_without_fuel_it_comes_down(void **state)
     assert_true(steps_rows(&f).y[row] < FIXTURE_GROUND_M + 1.0);
 }
 
+static void test_a_driven_helicopter_follows_stick_and_collective(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "helicopter");
+    uint32_t row = put("helicopter", 25000.0, 25000.0, 200.0, 0.0, BEHAVIOUR_IDLE);
+    (void)state;
+    steps_drive(&f, row, -1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(10.0 * HZ));
+    assert_true(fabs(steps_rows(&f).vx[row] + 0.25 * kind->max_speed_mps) < 1e-9);
+    assert_true(steps_rows(&f).pitch[row] > 0.0); /* it leans back */
+    double height = steps_rows(&f).y[row];
+    steps_drive(&f, row, 0.0, 1.0, 0.0); /* comes to a hover and turns there */
+    fixture_run(&f, (uint32_t)(10.0 * HZ));
+    assert_true(steps_speed(&f, row) < 1e-9 && steps_rows(&f).y[row] == height);
+    double heading = steps_rows(&f).heading[row];
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(fabs(maths_wrap_half(steps_rows(&f).heading[row] - heading) - kind->turn_rate_rps) <
+                1e-9);
+    steps_drive(&f, row, 0.0, 0.0, 0.5);
+    fixture_run(&f, (uint32_t)(5.0 * HZ));
+    assert_true(fabs(steps_rows(&f).vy[row] - 0.5 * kind->climb_rate_mps) < 1e-9);
+}
+
+static void test_a_jets_throttle_is_above_its_least_speed_and_its_brake_slows_it(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "jet");
+    uint32_t row = put("jet", 25000.0, 25000.0, 900.0, 200.0, BEHAVIOUR_IDLE);
+    (void)state;
+    steps_pedals(&f, row, 1.0, 1.0, GEAR_AUTOMATIC);
+    double before = steps_speed(&f, row);
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(fabs(before - steps_speed(&f, row) - 2.0 * kind->acceleration_mps2) < 1e-6);
+    fixture_run(&f, (uint32_t)(20.0 * HZ));
+    assert_true(fabs(steps_speed(&f, row) - kind->min_speed_mps) < 1e-9);
+    steps_drive(&f, row, 0.5, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(20.0 * HZ));
+    assert_true(fabs(steps_speed(&f, row) - 0.5 * (kind->min_speed_mps + kind->max_speed_mps)) <
+                1e-9);
+}
+
 static void test_nothing_is_nan_with_a_kind_that_cannot_fly(void **state)
 {
     struct kind *kind = steps_kind(&f, "helicopter");
@@ -185,6 +224,8 @@ int main(void)
         TEST(test_patrols_stay_inside_the_world),
         TEST(test_it_banks_into_its_turn),
         TEST(test_without_fuel_it_comes_down),
+        TEST(test_a_driven_helicopter_follows_stick_and_collective),
+        TEST(test_a_jets_throttle_is_above_its_least_speed_and_its_brake_slows_it),
         TEST(test_nothing_is_nan_with_a_kind_that_cannot_fly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

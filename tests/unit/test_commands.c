@@ -101,6 +101,86 @@ static void test_a_round_in_flight_takes_no_commands(void **state)
     assert_int_equal(DOES(.type = COMMAND_FIRE, .entity = 1, .target = id), COMMAND_NO_SUCH_ENTITY);
 }
 
+static void test_a_lease_keeps_others_out_and_ends(void **state)
+{
+    const struct command mine = {
+        .type = COMMAND_DRIVE, .source = 7, .entity = 1, .amount = 10, .value = {0.5}};
+    const struct command theirs = {.type = COMMAND_DRIVE, .source = 8, .entity = 1};
+    (void)state;
+    assert_int_equal(does(mine), COMMAND_DONE);
+    assert_true(steps_rows(&f).driver[tank] == 7);
+    assert_int_equal(does(theirs), COMMAND_TAKEN);
+    assert_int_equal(DOES(.type = COMMAND_FIRE, .source = 8, .entity = 1), COMMAND_TAKEN);
+    assert_int_equal(DOES(.type = COMMAND_RELEASE, .source = 8, .entity = 1), COMMAND_TAKEN);
+    fixture_run(&f, 5);
+    assert_int_equal(does(mine), COMMAND_DONE); /* renewed: ten more from here */
+    fixture_run(&f, 10);
+    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_DRIVEN);
+    assert_int_equal(fixture_event_count(&f, EVENT_AGENT), 1);
+    fixture_run(&f, 1);
+    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_HOLD);
+    assert_true(steps_rows(&f).driver[tank] == 0 && steps_rows(&f).throttle[tank] == 0.0f);
+    const struct event *event = fixture_event(&f, EVENT_AGENT, 1);
+    assert_int_equal(event->agent.because, REASON_LEASE_OVER);
+    assert_int_equal(does(theirs), COMMAND_DONE);
+}
+
+static void test_a_lease_is_kept_while_paused_and_ends_only_with_simulated_time(void **state)
+{
+    (void)state;
+    assert_int_equal(DOES(.type = COMMAND_DRIVE, .source = 7, .entity = 1, .amount = 5),
+                     COMMAND_DONE);
+    DOES(.type = COMMAND_PAUSE);
+    fixture_run(&f, 50);
+    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_DRIVEN);
+    DOES(.type = COMMAND_RESUME);
+    fixture_run(&f, 10);
+    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_HOLD);
+}
+
+static void test_an_operator_releases_whoever_drives(void **state)
+{
+    (void)state;
+    assert_int_equal(DOES(.type = COMMAND_DRIVE, .source = 7, .entity = 1, .amount = 600),
+                     COMMAND_DONE);
+    assert_int_equal(DOES(.type = COMMAND_RELEASE, .source = 8, .entity = 1, .amount = 1),
+                     COMMAND_DONE);
+    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_HOLD);
+    assert_true(steps_rows(&f).driver[tank] == 0);
+}
+
+static void test_without_a_lease_anybody_drives_and_without_end(void **state)
+{
+    (void)state;
+    assert_int_equal(DOES(.type = COMMAND_DRIVE, .source = 7, .entity = 1), COMMAND_DONE);
+    fixture_run(&f, 500);
+    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_DRIVEN);
+    assert_int_equal(DOES(.type = COMMAND_DRIVE, .source = 8, .entity = 1, .amount = 60),
+                     COMMAND_DONE); /* and now it is one's own */
+    assert_int_equal(DOES(.type = COMMAND_DRIVE, .source = 7, .entity = 1), COMMAND_TAKEN);
+}
+
+static void test_drive_sets_brake_gear_and_the_turrets_controls(void **state)
+{
+    (void)state;
+    assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 1, .force = GEAR_LOW,
+                          .value = {0.5, 0.0, 0.0, -1.0, 0.25, 0.75}),
+                     COMMAND_DONE);
+    struct entities e = steps_rows(&f);
+    assert_int_equal(entity_gear(e.flags[tank]), GEAR_LOW);
+    assert_true(e.brake[tank] == 0.75f && e.traverse[tank] == -1.0f && e.elevate[tank] == 0.25f);
+    assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 1, .force = GEAR_COUNT),
+                     COMMAND_OUT_OF_RANGE);
+    assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 1, .value = {[5] = -0.1}),
+                     COMMAND_OUT_OF_RANGE);
+    assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 1, .amount = COMMAND_LEASE_MAX + 1),
+                     COMMAND_OUT_OF_RANGE);
+    assert_int_equal(DOES(.type = COMMAND_RELEASE, .entity = 1), COMMAND_DONE);
+    e = steps_rows(&f);
+    assert_int_equal(e.flags[tank], 0);
+    assert_true(e.brake[tank] == 0.0f && e.traverse[tank] == 0.0f && e.elevate[tank] == 0.0f);
+}
+
 /* --- fire --------------------------------------------------------------------------------------*/
 
 static void test_fire_answers(void **state)
@@ -108,6 +188,8 @@ static void test_fire_answers(void **state)
     uint16_t bomb = fixture_kind(&f, "bomb"), wheels = fixture_kind(&f, "tank");
     uint16_t kinds = (uint16_t)f.view.world.counts.kinds;
     (void)state;
+    assert_int_equal(DOES(.type = COMMAND_FIRE, .entity = 1, .target = 2), COMMAND_CANNOT);
+    fixture_run(&f, 60 * 3); /* the gunner lays his gun: a quarter turn at 40 degrees a second */
     assert_int_equal(DOES(.type = COMMAND_FIRE, .entity = 1, .target = 2), COMMAND_DONE);
     assert_int_equal(DOES(.type = COMMAND_FIRE, .entity = 1, .target = 2), COMMAND_CANNOT);
     assert_int_equal(DOES(.type = COMMAND_FIRE, .entity = 2), COMMAND_CANNOT); /* unarmed */
@@ -430,6 +512,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_drive_takes_over_and_release_gives_back),
         TEST(test_drive_refuses_what_is_out_of_range_and_who_is_not_there),
+        TEST(test_a_lease_keeps_others_out_and_ends),
+        TEST(test_a_lease_is_kept_while_paused_and_ends_only_with_simulated_time),
+        TEST(test_an_operator_releases_whoever_drives),
+        TEST(test_without_a_lease_anybody_drives_and_without_end),
+        TEST(test_drive_sets_brake_gear_and_the_turrets_controls),
         TEST(test_a_round_in_flight_takes_no_commands),
         TEST(test_fire_answers),
         TEST(test_nobody_fires_at_itself),

@@ -114,6 +114,73 @@ static void test_a_missile_reaches_a_crossing_jet(void **state)
     }
 }
 
+static void test_what_leaves_the_seekers_cone_is_lost_for_good(void **state)
+{
+    uint32_t jet = fixture_put(&f, (struct fixture_entity){.kind = "jet",
+                                                           .at = {25000.0, 900.0, 24000.0},
+                                                           .velocity = {200.0, 0.0, 0.0}});
+    double cone = steps_kind(&f, "missile")->seeker_rad;
+    (void)state;
+    for (int out = 0; out < 2; out++) { /* just within, and just outside */
+        double off = cone + (out ? 0.05 : -0.05);
+        uint32_t row =
+            put_missile(jet, (struct vec3){25000.0, 900.0, 25000.0},
+                        (struct vec3){100.0 * maths_sin(off), 0.0, -100.0 * maths_cos(off)});
+        struct entities e = steps_rows(&f);
+        double heading = e.heading[row];
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        assert_int_equal(e.target_id[row], out ? 0 : e.id[jet]);
+        assert_true((fabs(maths_wrap_half(e.heading[row] - heading)) < 1e-9) == (out == 1));
+        if (out == 1) { /* it comes into view again: too late */
+            e.x[jet] = e.x[row] + 1000.0 * maths_sin(off);
+            e.z[jet] = e.z[row] - 1000.0 * maths_cos(off);
+            fixture_run(&f, 30);
+            assert_true(fabs(maths_wrap_half(steps_rows(&f).heading[row] - heading)) < 1e-9);
+        }
+    }
+}
+
+/* Crossing jets that turn all the time, from all sides: the least distance on the way. */
+static void test_missiles_meet_what_turns_away(void **state)
+{
+    uint64_t random = fixture_seed(5);
+    int hits = 0, shots = 60;
+    (void)state;
+    steps_params(&f)->collision.response = MODEL_NONE;
+    for (int n = 0; n < shots; n++) {
+        steps_empty(&f);
+        double bearing = fixture_uniform(&random, 0.0, TWO_PI);
+        double course = fixture_uniform(&random, 0.0, TWO_PI);
+        double distance = fixture_uniform(&random, 800.0, 4500.0);
+        double speed = fixture_uniform(&random, 70.0, 240.0);
+        uint32_t jet = fixture_put(
+            &f, (struct fixture_entity){
+                    .kind = "jet",
+                    .at = {25000.0 + distance * maths_sin(bearing), 900.0,
+                           25000.0 - distance * maths_cos(bearing)},
+                    .velocity = {speed * maths_sin(course), 0.0, -speed * maths_cos(course)},
+                    .behaviour = BEHAVIOUR_DRIVEN});
+        struct entities e = steps_rows(&f);
+        struct vec3 at = {25000.0, 500.0, 25000.0};
+        struct vec3 way =
+            vec3_sub(vec3_add(entities_position(&e, jet),
+                              vec3_scale(entities_velocity(&e, jet), distance / 380.0)),
+                     at);
+        e.steer[jet] = fixture_random(&random) % 2 ? 0.7f : -0.7f;
+        e.throttle[jet] = 0.5f;
+        uint32_t row = put_missile(jet, at, vec3_scale(way, 114.0 / vec3_length(way)));
+        uint32_t id = steps_rows(&f).id[row];
+        for (int frame = 0; frame < 60 * 20 && steps_find(&f, id) != SLOT_NONE; frame++)
+            fixture_run(&f, 1);
+        uint32_t ends = fixture_event_count(&f, EVENT_DETONATION);
+        const struct event *end = fixture_event(&f, EVENT_DETONATION, ends - 1);
+        hits += end != NULL && end->detonation.struck == STRUCK_VEHICLE;
+    }
+    print_message("%d of %d missiles struck\n", hits, shots);
+    assert_true(hits >= shots * 9 / 10);
+}
+
 static void test_a_missile_turns_and_gains_speed_within_its_means(void **state)
 {
     const struct kind *kind = steps_kind(&f, "missile");
@@ -166,6 +233,8 @@ int main(void)
         TEST(test_the_parabola_does_not_depend_on_the_frame_rate),
         TEST(test_a_round_ends_in_the_air_when_its_life_is_over),
         TEST(test_a_missile_reaches_a_crossing_jet),
+        TEST(test_what_leaves_the_seekers_cone_is_lost_for_good),
+        TEST(test_missiles_meet_what_turns_away),
         TEST(test_a_missile_turns_and_gains_speed_within_its_means),
         TEST(test_a_missile_without_a_target_flies_straight),
     };

@@ -121,6 +121,9 @@ static void test_every_bit_of_the_header(void **state)
         HEADER(counts.fires),
         HEADER(counts.road_points),
         HEADER(counts.names),
+        HEADER(counts.formations),
+        HEADER(counts.scripts),
+        HEADER(counts.script_steps),
         HEADER(counts.recipe),
         HEADER(capacity),
         HEADER(event_slots),
@@ -128,7 +131,6 @@ static void test_every_bit_of_the_header(void **state)
         HEADER(command_slots),
         HEADER(crater_slots),
         HEADER(dent_slots),
-        HEADER(reserved),
         HEADER(made),
         HEADER(origin),
         HEADER(first_event),
@@ -159,6 +161,7 @@ static void test_every_bit_of_the_parameters(void **state)
         {offsetof(struct params, initial_entities), "params"},
         PARAM(initial_entities),
         PARAM(collision),
+        PARAM(base),
         PARAM(renderer),
     };
     (void)state;

@@ -206,12 +206,106 @@ static void test_it_gains_speed_at_its_acceleration_and_brakes_twice_as_hard(voi
     assert_true(near(steps_speed(&f, row), kind->max_speed_mps, 1e-9));
     double from = steps_rows(&f).x[row];
     double stop_s = kind->max_speed_mps / (2.0 * kind->acceleration_mps2);
-    steps_drive(&f, row, 0.0, 0.0, 0.0);
+    steps_pedals(&f, row, 1.0, 1.0, GEAR_AUTOMATIC); /* the brake outdoes the throttle */
     fixture_run(&f, (uint32_t)(stop_s * HZ) + 1);
     assert_true(steps_speed(&f, row) == 0.0);
     /* v squared over 2 a, within a frame's way. */
     assert_true(near(steps_rows(&f).x[row] - from, 0.5 * kind->max_speed_mps * stop_s,
                      kind->max_speed_mps / HZ));
+}
+
+static void test_a_throttle_let_go_slows_it_by_its_engine(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "tank");
+    uint32_t row = put_tank(25000.0, 25010.0, 90.0, 16.0);
+    uint32_t half = put_tank(25000.0, 25500.0, 90.0, 16.0);
+    (void)state;
+    steps_pedals(&f, row, 0.0, 0.0, GEAR_AUTOMATIC);
+    steps_pedals(&f, half, 0.0, 0.5, GEAR_AUTOMATIC);
+    double before[2] = {steps_speed(&f, row), steps_speed(&f, half)};
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(near(before[0] - steps_speed(&f, row), 0.5 * kind->acceleration_mps2, 1e-9));
+    assert_true(near(before[1] - steps_speed(&f, half), 1.25 * kind->acceleration_mps2, 1e-9));
+}
+
+static void test_reverse_gear_goes_backwards_by_the_throttle(void **state)
+{
+    double full = steps_kind(&f, "tank")->max_speed_mps;
+    uint32_t row = put_tank(25000.0, 25010.0, 90.0, 8.0);
+    (void)state;
+    steps_pedals(&f, row, 1.0, 0.0, GEAR_REVERSE); /* brakes first */
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(near(steps_rows(&f).vx[row], 3.0, 0.1));
+    fixture_run(&f, (uint32_t)(8.0 * HZ));
+    assert_true(near(steps_rows(&f).vx[row], -0.4 * full, 1e-9));
+    steps_pedals(&f, row, -1.0, 0.0, GEAR_REVERSE);
+    fixture_run(&f, (uint32_t)(8.0 * HZ));
+    assert_true(steps_speed(&f, row) == 0.0);
+}
+
+static void test_in_neutral_it_rolls_and_the_slope_pulls(void **state)
+{
+    uint32_t level = put_tank(25000.0, 25010.0, 90.0, 5.0);
+    (void)state;
+    steps_pedals(&f, level, 1.0, 0.0, GEAR_NEUTRAL);
+    double before = steps_speed(&f, level);
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(near(before - steps_speed(&f, level), 0.03 * GRAVITY_MPS2, 1e-6));
+    fixture_close(&f);
+    fixture_open(&f, "");
+    steps_plane(&f, 0.2, 0.0); /* rises to the east */
+    uint32_t rolls = put_tank(25000.0, 25010.0, 90.0, 0.0);
+    uint32_t held = put_tank(25000.0, 25500.0, 90.0, 0.0);
+    steps_pedals(&f, rolls, 0.0, 0.0, GEAR_NEUTRAL);
+    steps_pedals(&f, held, 0.0, 1.0, GEAR_NEUTRAL);
+    fixture_run(&f, (uint32_t)(2.0 * HZ));
+    double pull = GRAVITY_MPS2 * (maths_sin(maths_atan2(0.2, 1.0)) - 0.03);
+    assert_true(near(steps_rows(&f).vx[rolls], -pull * (2.0 * HZ + 2.0) / HZ, 0.05));
+    assert_true(steps_speed(&f, held) == 0.0);
+    fixture_run(&f, (uint32_t)(60.0 * HZ));
+    assert_true(steps_rows(&f).vx[rolls] >= -steps_kind(&f, "tank")->max_speed_mps - 1e-9);
+}
+
+static void test_low_gear_is_slow_and_strong(void **state)
+{
+    double full = steps_kind(&f, "tank")->max_speed_mps;
+    (void)state;
+    for (double slope_deg = 0.0; slope_deg < 45.0; slope_deg += 9.0) {
+        double slope = slope_deg * RAD_PER_DEG;
+        fixture_close(&f);
+        fixture_open(&f, "");
+        steps_plane(&f, maths_sin(slope) / maths_cos(slope), 0.0);
+        uint32_t row = put_tank(25000.0, 25010.0, 90.0, 0.0);
+        steps_pedals(&f, row, 1.0, 0.0, GEAR_LOW);
+        fixture_run(&f, (uint32_t)(6.0 * HZ));
+        struct entities e = steps_rows(&f);
+        double speed = sqrt(e.vx[row] * e.vx[row] + e.vz[row] * e.vz[row]);
+        assert_true(near(speed, slope_deg < 37.0 ? 0.35 * full : 0.0, 1e-9)); /* 31 x 1.2 */
+    }
+}
+
+static void test_no_control_makes_a_number_that_is_none_or_passes_a_limit(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "tank");
+    uint64_t random = fixture_seed(41);
+    uint32_t row = put_tank(25000.0, 25010.0, 90.0, 0.0);
+    (void)state;
+    steps_ground(&f, bumpy, NULL);
+    for (int n = 0; n < 3000; n++) {
+        double before = steps_speed(&f, row), heading = steps_rows(&f).heading[row];
+        struct command command = {.type = COMMAND_DRIVE, .entity = steps_rows(&f).id[row]};
+        for (int v = 0; v < 5; v++)
+            command.value[v] = floor(fixture_uniform(&random, -2.0, 3.0)) * 0.5;
+        command.value[5] = floor(fixture_uniform(&random, 0.0, 3.0)) * 0.5;
+        command.force = (uint16_t)(fixture_random(&random) % GEAR_COUNT);
+        assert_int_equal(steps_command(&f, command).result, COMMAND_DONE);
+        struct entities e = steps_rows(&f);
+        double level = sqrt(e.vx[row] * e.vx[row] + e.vz[row] * e.vz[row]);
+        assert_true(isfinite(e.x[row]) && isfinite(e.y[row]) && isfinite(e.z[row]));
+        assert_true(level <= kind->max_speed_mps + 1e-9 && isfinite(before));
+        assert_true(fabs(maths_wrap_half(e.heading[row] - heading)) <=
+                    kind->turn_rate_rps / HZ + 1e-12);
+    }
 }
 
 static void test_it_reverses_at_two_fifths(void **state)
@@ -367,6 +461,11 @@ int main(void)
         TEST(test_it_can_back_away_from_the_shore),
         TEST(test_the_worlds_edge_stops_it),
         TEST(test_it_gains_speed_at_its_acceleration_and_brakes_twice_as_hard),
+        TEST(test_a_throttle_let_go_slows_it_by_its_engine),
+        TEST(test_reverse_gear_goes_backwards_by_the_throttle),
+        TEST(test_in_neutral_it_rolls_and_the_slope_pulls),
+        TEST(test_low_gear_is_slow_and_strong),
+        TEST(test_no_control_makes_a_number_that_is_none_or_passes_a_limit),
         TEST(test_it_reverses_at_two_fifths),
         TEST(test_it_turns_at_its_rate_when_it_rolls_and_slower_at_rest),
         TEST(test_a_sideways_slide_is_braked_by_its_tyres),

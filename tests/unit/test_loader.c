@@ -167,7 +167,7 @@ static void test_vehicle_entry(void **state)
     assert_int_equal(s.groups[0].count, 3);
     assert_int_equal(s.groups[0].force, FORCE_BLUE);
     assert_int_equal(s.groups[0].behaviour, BEHAVIOUR_PATROL);
-    assert_int_equal(s.groups[0].fire_at_will, 1);
+    assert_int_equal(s.groups[0].flags, ENTITY_FLAG_FIRE_AT_WILL);
     assert_false(s.groups[0].placed || s.groups[0].turned || s.groups[0].moving ||
                  s.groups[0].floating);
     assert_true(s.areas[s.groups[0].area].x1 == 3.5 && s.areas[s.groups[0].area].z1 == 4.0);

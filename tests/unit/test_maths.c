@@ -223,9 +223,27 @@ static void test_bits_are_the_same_everywhere(void **state)
     assert_int_equal(hash, 0x53c226a114a7d65f);
 }
 
+/* Both slopes at once are two arc tangents, to the bit. */
+static void test_slopes_are_arc_tangents(void **state)
+{
+    const double most[] = {1e-300, 1e-6, 0.3, 0.9, 30.0};
+    uint64_t random = fixture_seed(9);
+    (void)state;
+    for (int i = 0; i < 200000; i++) {
+        double steep = most[i % 5], angle[2];
+        double run[] = {fixture_uniform(&random, 0.5, 20.0), fixture_uniform(&random, 0.5, 20.0)};
+        double rise[] = {run[0] * fixture_uniform(&random, -steep, steep),
+                         i % 11 ? run[1] * fixture_uniform(&random, -0.5, 0.5) : 0.0};
+        maths_slopes(rise, run, angle);
+        assert_true(angle[0] == maths_atan2(rise[0], run[0]));
+        assert_true(angle[1] == maths_atan2(rise[1], run[1]));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_slopes_are_arc_tangents),
         cmocka_unit_test(test_sine_and_cosine_within_2e_16_near_zero),
         cmocka_unit_test(test_sine_and_cosine_within_1e_10_up_to_a_million),
         cmocka_unit_test(test_sine_and_cosine_at_quarter_turns),

@@ -37,6 +37,8 @@ struct refusal {
 
 #define VEHICLE(entry) "vehicles = (\n{ kind = \"tank\"; " entry " } );"
 
+#define STEPS(list) "scripts = ( { name = \"a\"; steps = (\n" list " ); } );"
+
 static const struct refusal refusals[] = {
     /* Unknown keys. */
     {"world = {\n sede = 7; };", 2,
@@ -176,7 +178,8 @@ static const struct refusal refusals[] = {
     {VEHICLE("force = \"green\";"), 2,
      "vehicles[0].force = \"green\": unknown; allowed: neutral, blue, red"},
     {VEHICLE("behaviour = \"attack\";"), 2,
-     "vehicles[0].behaviour = \"attack\": unknown; allowed: idle, hold, patrol, route"},
+     "vehicles[0].behaviour = \"attack\": unknown; allowed: idle, hold, patrol, route, follow, "
+     "script"},
     /* Kinds. */
     {"vehicles = ( { kind = \"tonk\"; } );", 1,
      "vehicles[0].kind = \"tonk\": unknown kind; allowed: attack-tomato, carrier, hamburger, "
@@ -197,7 +200,8 @@ static const struct refusal refusals[] = {
      "burst, missile, rocket, shell"},
     /* Keys that do not go together. */
     {VEHICLE("at = [1, 2]; count = 2;"), 2,
-     "vehicles[0].count = 2: stands beside at, which places one; allowed: 1"},
+     "vehicles[0].count = 2: stands beside at, which places one; allowed: 1, or a "
+     "formation"},
     {"world = { capacity = 20; };\nvehicles = ( { kind = \"tank\"; count = 15; },\n"
      "{ kind = \"jeep\"; count = 6; } );",
      3, "vehicles[1].count = 6: makes 21 vehicles in all; allowed: up to world.capacity, 20"},
@@ -208,6 +212,79 @@ static const struct refusal refusals[] = {
     {VEHICLE("name = \"0123456789abcdef\"; count = 2;"), 2,
      "vehicles[0].name = \"0123456789abcdef\": is too long for several vehicles, whose names end "
      "in \"-1\" and so on; allowed: up to 15 characters"},
+    {VEHICLE("roads = true;"), 2,
+     "vehicles[0].roads = true: has no route to lay along them; right would be: route = ( [x, z], "
+     "[x, z] )"},
+    {"vehicles = ( { kind = \"ship\"; roads = true; route = ( [1, 2], [3, 4] ); } );", 1,
+     "vehicles[0].roads = true: is not for a ship; allowed: false, or a kind of land or air"},
+    /* Scripts. */
+    {VEHICLE("script = \"x\";"), 2,
+     "vehicles[0].script = \"x\": is no script's name; allowed: a name of scripts"},
+    {VEHICLE("behaviour = \"script\";"), 2,
+     "vehicles[0].behaviour = \"script\": has no script; right would be: script = \"NAME\", of one "
+     "of scripts"},
+    {"scripts = ( { name = \"a\"; } );", 1,
+     "scripts[0].file: a script has either steps or a file of waypoints; allowed: one of steps and "
+     "file"},
+    {"scripts = ( { name = \"a\"; steps = ( ); } );", 1,
+     "scripts[0]: has no steps; right would be: steps = ( { go = [x, z]; }, ... )"},
+    {"scripts = ( { name = \"a\"; steps = ( { stop = true; } ); },\n{ name = \"a\"; steps = ( { "
+     "stop "
+     "= true; } ); } );",
+     2, "scripts[1].name = \"a\": is another script's name too; allowed: each name once"},
+    {STEPS("{ go = [1, 2]; },\n{ }"), 3,
+     "scripts[0].steps[1].go: is missing, and so is all else that a step can do; right would be: "
+     "..."},
+    {STEPS("{ go = [1, 2]; wait_s = 2; }"), 2,
+     "scripts[0].steps[0].wait_s = 2: stands beside go; allowed: one of them in a step"},
+    {STEPS("{ arrive = [1, 2]; }"), 2,
+     "scripts[0].steps[0].at_s: is missing; arrive needs the time to be there"},
+    {STEPS("{ at_s = 5; stop = true; },\n{ at_s = 4; stop = true; }"), 3,
+     "scripts[0].steps[1].at_s = 4: is before the time of an earlier step; allowed: from 5 on"},
+    {STEPS("{ at_s = 5; after_s = 2; stop = true; }"), 2,
+     "scripts[0].steps[0].after_s = 2: stands beside at_s; allowed: one of them"},
+    {STEPS("{ go = [1, 50001]; }"), 2,
+     "scripts[0].steps[0].go = [1, 50001]: out of range; allowed: [x, z], each 0..50000"},
+    {STEPS("{ stop = false; }"), 2,
+     "scripts[0].steps[0].stop = false: does nothing; allowed: true"},
+    {STEPS("{ steer = 0.5; stop = true; }"), 2,
+     "scripts[0].steps[0].steer = 0.5: does not say for how long; right would be: ..."},
+    {STEPS("{ wait_s = 1; speed_mps = 5; }"), 2,
+     "scripts[0].steps[0].speed_mps = 5: is for go alone; right would be: without it"},
+    {STEPS("{ behaviour = \"attack\"; }"), 2,
+     "scripts[0].steps[0].behaviour = \"attack\": unknown; allowed: idle, hold, patrol, route, "
+     "withdraw"},
+    {STEPS("{ jump = true; }"), 2, "scripts[0].steps[0].jump = true: unknown key; ..."},
+    {"bases = ( { force = \"red\"; at = [1, 2]; },\n{ force = \"red\"; at = [1, 2]; } );", 2,
+     "bases[1].force = \"red\": has a base already; allowed: one a force"},
+    {VEHICLE("engage = \"some\";"), 2,
+     "vehicles[0].engage = \"some\": unknown; allowed: free, return, hold"},
+    {VEHICLE("engage = \"hold\";\nfire_at_will = true;"), 3,
+     "vehicles[0].fire_at_will = true: contradicts engage; allowed: false here, or engage alone"},
+    {VEHICLE("engage = \"free\"; fire_at_will = false;"), 2,
+     "vehicles[0].fire_at_will = false: contradicts engage; allowed: true here, or engage alone"},
+    {VEHICLE("formation = \"square\";"), 2,
+     "vehicles[0].formation = \"square\": unknown; allowed: column, line, wedge, echelon-left, "
+     "echelon-right"},
+    {VEHICLE("formation = \"line\"; spacing_m = 0.5;"), 2,
+     "vehicles[0].spacing_m = 0.5: out of range; allowed: 1..5000"},
+    {VEHICLE("spacing_m = 20;"), 2,
+     "vehicles[0].spacing_m = 20: is that of a formation; right would be: formation beside it"},
+    {VEHICLE("behaviour = \"follow\";"), 2,
+     "vehicles[0].behaviour = \"follow\": has nobody to follow; right would be: an entry right "
+     "behind one that has a formation"},
+    {VEHICLE("formation = \"line\"; }, { kind = \"jeep\"; }, { kind = \"jeep\"; behaviour = "
+             "\"follow\";"),
+     2,
+     "vehicles[2].behaviour = \"follow\": has nobody to follow; right would be: an entry right "
+     "behind one that has a formation"},
+    {VEHICLE("formation = \"line\"; },\n{ kind = \"jeep\"; force = \"red\"; behaviour = "
+             "\"follow\";"),
+     3,
+     "vehicles[1].force = \"red\": is not its leader's; right would be: the force of the entry "
+     "before"},
+    {VEHICLE("formation = \"line\"; },\n{ kind = \"jeep\"; at = [1, 2]; behaviour = \"follow\";"),
+     3, "vehicles[1].at = [1, 2]: is the leader's, whom it follows; right would be: without it"},
     {VEHICLE("name = \"A\"; }, { kind = \"jeep\"; name = \"A\";"), 2,
      "vehicles[1].name = A: is another vehicle's name too; allowed: each name once"},
     {VEHICLE("name = \"A\"; count = 12; }, { kind = \"jeep\"; name = \"A-12\";"), 2,

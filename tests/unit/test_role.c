@@ -48,6 +48,26 @@ static void test_empty_histogram_says_0(void **state)
     assert_int_equal(histogram_quantile(&histogram, 1.0), 0);
 }
 
+/* What came between two looks alone; a look that saw less than the one before it gives nothing. */
+static void test_histogram_since(void **state)
+{
+    static struct histogram before, now, since;
+    (void)state;
+    histogram_add(&before, 1000);
+    histogram_add(&before, 9000000);
+    now = before;
+    histogram_add(&now, 2000);
+    histogram_add(&now, 2000);
+    histogram_add(&now, 50000);
+    histogram_since(&since, &now, &before);
+    assert_int_equal(since.count, 3);
+    assert_true(fabs((double)histogram_quantile(&since, 0.5) - 2000.0) < 140.0);
+    assert_true(fabs((double)since.max_ns - 50000.0) < 3500.0);
+    histogram_since(&since, &before, &now);
+    assert_int_equal(since.count, 0);
+    assert_int_equal(histogram_quantile(&since, 0.5), 0);
+}
+
 /* One entry: every quantile is that entry, to 7 % from 64 ns to 18 min. */
 static void test_one_time_comes_back_within_7_percent(void **state)
 {
@@ -124,6 +144,7 @@ int main(void)
         cmocka_unit_test(test_every_role_is_found_by_its_name),
         cmocka_unit_test(test_what_is_no_role_is_none),
         cmocka_unit_test(test_empty_histogram_says_0),
+        cmocka_unit_test(test_histogram_since),
         cmocka_unit_test(test_one_time_comes_back_within_7_percent),
         cmocka_unit_test(test_times_out_of_range_are_kept_in_the_end_buckets),
         cmocka_unit_test(test_quantiles_are_those_of_the_sorted_times),

@@ -158,11 +158,10 @@ static const struct {
     const struct key_table *table;
     const char *prefix;
 } documented[] = {
-    {&schema_scenario, ""},
-    {&schema_vehicle, "vehicles[]."},
-    {&schema_object, "objects[]."},
-    {&schema_fire, "fires[]."},
-    {&schema_kind, ""},
+    {&schema_scenario, ""},         {&schema_vehicle, "vehicles[]."},
+    {&schema_object, "objects[]."}, {&schema_script, "scripts[]."},
+    {&schema_step, "steps[]."},     {&schema_base, "bases[]."},
+    {&schema_fire, "fires[]."},     {&schema_kind, ""},
 };
 
 static void test_document_has_every_key(void **state)

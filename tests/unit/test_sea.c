@@ -100,6 +100,25 @@ static void test_the_rudder_bites_with_the_ships_way(void **state)
     assert_true(turned > 0.0 && turned < 1.0 * rate);
 }
 
+static void test_a_ship_drifts_long_and_goes_astern(void **state)
+{
+    uint32_t drifts = put_ship(23000.0, 25010.0, 10.0), stops = put_ship(23000.0, 26010.0, 10.0);
+    uint32_t back = put_ship(24000.0, 27010.0, 0.0);
+    const struct kind *kind = steps_kind(&f, "ship");
+    (void)state;
+    steps_pedals(&f, drifts, 0.0, 0.0, GEAR_NEUTRAL);
+    steps_pedals(&f, stops, 0.0, 1.0, GEAR_AUTOMATIC);
+    steps_pedals(&f, back, 1.0, 0.0, GEAR_REVERSE);
+    double before[2] = {steps_speed(&f, drifts), steps_speed(&f, stops)};
+    fixture_run(&f, (uint32_t)(4.0 * HZ));
+    double drag = 0.35 * kind->acceleration_mps2, screws = 2.0 * kind->acceleration_mps2;
+    assert_true(fabs(before[0] - steps_speed(&f, drifts) - 4.0 * drag) < 1e-9);
+    assert_true(fabs(before[1] - steps_speed(&f, stops) - 4.0 * screws) < 1e-9);
+    fixture_run(&f, (uint32_t)(30.0 * HZ));
+    assert_true(fabs(steps_rows(&f).vx[back] + 0.5 * kind->max_speed_mps) < 1e-9);
+    assert_true(steps_speed(&f, stops) == 0.0);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -108,6 +127,7 @@ int main(void)
         TEST(test_the_shore_stops_a_ship_by_its_bow),
         TEST(test_a_ship_lies_level_and_is_slow_to_gain_speed),
         TEST(test_the_rudder_bites_with_the_ships_way),
+        TEST(test_a_ship_drifts_long_and_goes_astern),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,9 @@
  * they do. How browsers and hostile clients fare is tested by tests/system/test_video.sh. */
 #include "renderer/output/stream.h"
 
+#include "http/listen.h"
+#include "ipc/clock.h"
+
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <setjmp.h>
@@ -29,8 +32,9 @@ static int set_up(void **state)
 {
     (void)state;
     picture_pool_init(&pool);
-    stream = stream_open(STREAM_ADDRESS, 0, "world", &reason);
-    return stream != NULL && stream_start(stream, &reason) == 0 && image_init(&image, 64, 48) == 0
+    stream = stream_open("world", NULL, &reason);
+    return stream != NULL && stream_listen(stream, HTTP_LISTEN_ADDRESS, 0, &reason) == 0 &&
+                   stream_start(stream, &reason) == 0 && image_init(&image, 64, 48) == 0
                ? 0
                : -1;
 }
@@ -160,6 +164,95 @@ static void test_more_than_may_watch_are_told(void **state)
         close(fd[i]);
 }
 
+/* --- pictures that are asked for; the test is the drawing thread --- */
+
+static struct stream_wish wishes[WANTED_MAX];
+
+/* The row of a vehicle's picture that somebody waits for. */
+static uint32_t wait_for_wish(uint32_t vehicle)
+{
+    for (int tries = 0; tries < 1000; tries++) {
+        stream_wishes(stream, wishes);
+        for (uint32_t i = 0; i < WANTED_MAX; i++)
+            if (wishes[i].waiting && wishes[i].key.vehicle == vehicle)
+                return i;
+        stream_sleep(stream, clock_now_ns() + 10000000u);
+    }
+    fail_msg("nobody waits for vehicle %u", vehicle);
+    return 0;
+}
+
+static void grant(uint32_t row, uint64_t frame)
+{
+    struct picture *picture = picture_make(&pool, &image, "asked", "");
+    assert_non_null(picture);
+    picture->frame = frame;
+    stream_grant(stream, row, wishes[row].generation, picture);
+    picture_release(picture);
+}
+
+static void test_a_picture_is_drawn_for_who_waits(void **state)
+{
+    (void)state;
+    assert_int_equal(stream_wishes(stream, wishes), 0);
+    int one = ask("/picture.jpg?view=inside&vehicle=17&size=100x80&bar=0");
+    uint32_t row = wait_for_wish(17);
+    assert_int_equal(wishes[row].key.view, VIEW_INSIDE);
+    assert_int_equal(wishes[row].key.width, 100);
+    assert_false(wishes[row].key.bar);
+    assert_true(wishes[row].again);
+    grant(row, 5);
+    wait_for(one, "X-Picture: 1\r\nX-Frame: 5\r\n");
+    close(one);
+    /* The next is another; who asks for the same shares it. */
+    one = ask("/picture.jpg?view=inside&vehicle=17&size=100x80&bar=0&after=1");
+    int two = ask("/picture.jpg?view=inside&vehicle=17&size=100x80&bar=0&after=1");
+    assert_int_equal(wait_for_wish(17), row);
+    assert_false(wishes[row].again);
+    grant(row, 6);
+    wait_for(one, "X-Picture: 2\r\n");
+    wait_for(two, "X-Picture: 2\r\n");
+    assert_int_equal(stream_wishes(stream, wishes), 0);
+    close(one);
+    close(two);
+}
+
+static void test_who_waits_for_what_is_not_there_is_told(void **state)
+{
+    (void)state;
+    int fd = ask("/picture.jpg?vehicle=17");
+    uint32_t row = wait_for_wish(17);
+    stream_grant(stream, row, wishes[row].generation + 1, NULL); /* another's answer */
+    assert_int_equal(wait_for_wish(17), row);
+    stream_grant(stream, row, wishes[row].generation, NULL);
+    wait_for(fd, "there is no vehicle 17, or no more\n");
+    assert_non_null(memmem(answer, sizeof answer, "404 Not Found", 13));
+    close(fd);
+    assert_non_null(strstr(fetch("/picture.jpg?vehicle=a"), "400 Bad Request"));
+    assert_non_null(strstr(answer, "vehicle=a: is a vehicle's number, as 17\n"));
+    assert_non_null(strstr(fetch("/map.jpg?x=1"), "404 Not Found")); /* no painter */
+}
+
+static void test_a_ninth_picture_is_refused(void **state)
+{
+    char path[64];
+    int fd[WANTED_MAX];
+    (void)state;
+    for (uint32_t i = 0; i < WANTED_MAX; i++) {
+        snprintf(path, sizeof path, "/picture.jpg?vehicle=%u", i + 1);
+        fd[i] = ask(path);
+        wait_for_wish(i + 1);
+    }
+    assert_non_null(strstr(fetch("/picture.jpg?vehicle=9"), "503 Service Unavailable"));
+    assert_non_null(strstr(answer, "8 different pictures are drawn already"));
+    assert_int_equal(stream_wishes(stream, wishes), WANTED_MAX);
+    for (uint32_t i = 0; i < WANTED_MAX; i++) {
+        grant(i, i);
+        wait_for(fd[i], "200 OK");
+        close(fd[i]);
+    }
+}
+
 /* tear_down ends it in the midst of this. */
 static void test_it_ends_with_clients_in_every_state(void **state)
 {
@@ -172,6 +265,8 @@ static void test_it_ends_with_clients_in_every_state(void **state)
             close(ask("/map.mjpeg"));
         if (frame % 10 == 3)
             (void)ask("/map.jpg");
+        if (frame % 10 == 4)
+            (void)ask("/picture.jpg");
     }
 }
 
@@ -179,12 +274,14 @@ static void test_what_cannot_be_listened_on_is_said(void **state)
 {
     unsigned port = (unsigned)strtoul(strrchr(stream_url(stream), ':') + 1, NULL, 10);
     (void)state;
-    assert_null(stream_open(STREAM_ADDRESS, (uint16_t)port, "world", &reason));
+    struct stream *other = stream_open("world", NULL, &reason);
+    assert_int_equal(stream_listen(other, HTTP_LISTEN_ADDRESS, (uint16_t)port, &reason), -1);
     assert_non_null(strstr(reason.text, "it is in use; name another"));
-    assert_null(stream_open("localhost", 0, "world", &reason));
+    assert_int_equal(stream_listen(other, "localhost", 0, &reason), -1);
     assert_non_null(strstr(reason.text, "must be an address"));
-    assert_null(stream_open("192.0.2.1", 0, "world", &reason));
+    assert_int_equal(stream_listen(other, "192.0.2.1", 0, &reason), -1);
     assert_non_null(strstr(reason.text, "cannot listen on 192.0.2.1"));
+    stream_close(other);
 }
 
 #define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
@@ -196,6 +293,9 @@ int main(void)
         TEST(test_watchers_share_one_encoding),
         TEST(test_there_is_what_was_shown),
         TEST(test_more_than_may_watch_are_told),
+        TEST(test_a_picture_is_drawn_for_who_waits),
+        TEST(test_who_waits_for_what_is_not_there_is_told),
+        TEST(test_a_ninth_picture_is_refused),
         TEST(test_it_ends_with_clients_in_every_state),
         TEST(test_what_cannot_be_listened_on_is_said),
     };

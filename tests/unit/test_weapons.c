@@ -34,6 +34,8 @@ static uint32_t put(const char *kind, double x, double z, struct vec3 velocity)
 static enum command_result fire(uint32_t shooter, uint32_t target)
 {
     struct entities e = steps_rows(&f);
+    if (target != SLOT_NONE)
+        steps_lay(&f, shooter, target);
     return (enum command_result)steps_command(
                &f, (struct command){.type = COMMAND_FIRE,
                                     .entity = e.id[shooter],

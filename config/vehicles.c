@@ -1,0 +1,226 @@
+/* The list of vehicles. */
+#include "config/entry.h"
+#include "config/lists.h"
+#include "config/schema.h"
+#include "config/scripts.h"
+#include "world/square.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Leaves room for "-1048576", the largest count. */
+#define SHARED_NAME_MAX 15
+
+static int check_vehicle(const struct entry *entry, const struct vehicle_entry *vehicle,
+                         uint64_t total)
+{
+    bool placed = entry_given(entry, VEHICLE_AT);
+
+    if (placed && vehicle->count != 1 && !entry_given(entry, VEHICLE_FORMATION))
+        return entry_refuse(entry, VEHICLE_COUNT,
+                            "stands beside at, which places one; allowed: 1, or a formation");
+    total += vehicle->count;
+    if (total > entry->scenario->params.capacity)
+        return entry_refuse(entry, VEHICLE_COUNT,
+                            "makes %llu vehicles in all; allowed: up to world.capacity, %u",
+                            (unsigned long long)total, entry->scenario->params.capacity);
+    if (vehicle->count > 1 && strlen(vehicle->name) > SHARED_NAME_MAX)
+        return entry_refuse(
+            entry, VEHICLE_NAME,
+            "is too long for several vehicles, whose names end in \"-1\" and so on; "
+            "allowed: up to %d characters",
+            SHARED_NAME_MAX);
+    return 0;
+}
+
+/* What it fires at, by its one key or the older one, which may say the same. */
+static int choose_engagement(const struct entry *entry, const struct vehicle_entry *vehicle,
+                             struct scenario_group *group)
+{
+    bool engage = entry_given(entry, VEHICLE_ENGAGE);
+    bool at_will = engage ? vehicle->engage == ENTITY_FLAG_FIRE_AT_WILL : vehicle->fire_at_will;
+
+    if (entry_given(entry, VEHICLE_FIRE_AT_WILL) && at_will != (vehicle->fire_at_will != 0))
+        return entry_refuse(entry, VEHICLE_FIRE_AT_WILL,
+                            "contradicts engage; allowed: %s here, or engage alone",
+                            at_will ? "true" : "false");
+    group->flags =
+        (uint8_t)((engage ? vehicle->engage : 0) | (at_will ? ENTITY_FLAG_FIRE_AT_WILL : 0) |
+                  (vehicle->stand ? ENTITY_FLAG_STAND : 0));
+    return 0;
+}
+
+/* A formation is led by its entry's first vehicle; who follows stands in the entries behind it. */
+static int choose_formation(const struct entry *entry, const struct vehicle_entry *vehicle,
+                            struct scenario_group *group)
+{
+    bool follows = vehicle->behaviour == BEHAVIOUR_FOLLOW;
+    bool formation = entry_given(entry, VEHICLE_FORMATION);
+
+    if (follows && (entry->scenario->group_count == 0 || !group[-1].formed))
+        return entry_refuse(entry, VEHICLE_BEHAVIOUR,
+                            "has nobody to follow; right would be: an entry right behind one that "
+                            "has a formation");
+    if (follows && (formation || entry_given(entry, VEHICLE_AT)))
+        return entry_refuse(entry, formation ? VEHICLE_FORMATION : VEHICLE_AT,
+                            "is the leader's, whom it follows; right would be: without it");
+    if (follows && group[-1].force != vehicle->force)
+        return entry_refuse(entry, VEHICLE_FORCE,
+                            "is not its leader's; right would be: the force of the entry before");
+    if (entry_given(entry, VEHICLE_SPACING) && !formation)
+        return entry_refuse(entry, VEHICLE_SPACING,
+                            "is that of a formation; right would be: formation beside it");
+    group->formed = formation || follows;
+    group->shape = vehicle->formation;
+    group->spacing_m = vehicle->spacing_m;
+    return 0;
+}
+
+/* patrol roams, a placed vehicle waits, one with a route follows it - unless the entry says. */
+static int choose_behaviour(const struct entry *entry, struct vehicle_entry *vehicle)
+{
+    bool route = entry_given(entry, VEHICLE_ROUTE), script = entry_given(entry, VEHICLE_SCRIPT);
+
+    if (!entry_given(entry, VEHICLE_BEHAVIOUR))
+        vehicle->behaviour = script                           ? BEHAVIOUR_SCRIPT
+                             : route                          ? BEHAVIOUR_ROUTE
+                             : entry_given(entry, VEHICLE_AT) ? BEHAVIOUR_IDLE
+                                                              : BEHAVIOUR_PATROL;
+    if (vehicle->behaviour == BEHAVIOUR_ROUTE && !route)
+        return entry_refuse(entry, VEHICLE_BEHAVIOUR,
+                            "has no route; right would be: route = ( [x, z], "
+                            "[x, z] )");
+    if (vehicle->roads && !route)
+        return entry_refuse(entry, VEHICLE_ROADS,
+                            "has no route to lay along them; right would be: route = ( [x, z], "
+                            "[x, z] )");
+    if (vehicle->behaviour == BEHAVIOUR_SCRIPT && !script)
+        return entry_refuse(entry, VEHICLE_BEHAVIOUR,
+                            "has no script; right would be: script = \"NAME\", of one of scripts");
+    if (vehicle->behaviour != BEHAVIOUR_SCRIPT && script)
+        return entry_refuse(entry, VEHICLE_SCRIPT, "is only followed with behaviour = \"script\"");
+    if (vehicle->behaviour != BEHAVIOUR_ROUTE && !script && route)
+        return entry_refuse(entry, VEHICLE_ROUTE, "is only followed with behaviour = \"route\"");
+    if (script && scripts_find(entry->scenario, vehicle->script) == UINT32_MAX)
+        return entry_refuse(entry, VEHICLE_SCRIPT,
+                            "is no script's name; allowed: a name of scripts");
+    return 0;
+}
+
+/* The entry's route is appended to the scenario's, whose space was counted before. */
+static uint32_t add_route(struct scenario *scenario, const config_setting_t *points)
+{
+    struct route *route = &scenario->routes[scenario->route_count];
+
+    route->first = scenario->route_point_count;
+    route->count = (uint32_t)config_setting_length(points);
+    for (uint32_t i = 0; i < route->count; i++) {
+        double point[2] = {0, 0};
+
+        keys_point(config_setting_get_elem(points, i), point);
+        scenario->route_points[scenario->route_point_count++] =
+            (struct route_point){point[0], point[1]};
+    }
+    return scenario->route_count++;
+}
+
+static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
+{
+    struct scenario *scenario = entry->scenario;
+    struct scenario_group *group = &scenario->groups[scenario->group_count];
+    uint32_t total = scenario->params.initial_entities;
+
+    if (choose_behaviour(entry, vehicle) != 0 || check_vehicle(entry, vehicle, total) != 0 ||
+        choose_engagement(entry, vehicle, group) != 0 ||
+        choose_formation(entry, vehicle, group) != 0)
+        return -1;
+    group->kind = entry_kind(entry, VEHICLE_KIND, vehicle->kind, DOMAINS_VEHICLE);
+    if (group->kind == KIND_NONE)
+        return -1;
+    if (vehicle->roads && scenario->kinds[group->kind].domain == DOMAIN_SEA)
+        return entry_refuse(entry, VEHICLE_ROADS,
+                            "is not for a %s; allowed: false, or a kind of land or air",
+                            vehicle->kind);
+    memcpy(group->name, vehicle->name, sizeof(group->name));
+    group->force = (uint8_t)vehicle->force;
+    group->behaviour = (uint8_t)vehicle->behaviour;
+    group->script =
+        entry_given(entry, VEHICLE_SCRIPT) ? scripts_find(scenario, vehicle->script) : UINT32_MAX;
+    group->roads = (uint8_t)vehicle->roads;
+    group->line = (int)config_setting_source_line(entry->setting);
+    group->placed = entry_given(entry, VEHICLE_AT);
+    group->turned = entry_given(entry, VEHICLE_HEADING);
+    group->moving = entry_given(entry, VEHICLE_SPEED);
+    group->floating = entry_given(entry, VEHICLE_ALTITUDE);
+    group->count = vehicle->count;
+    group->x = vehicle->at[0];
+    group->z = vehicle->at[1];
+    group->altitude_m = vehicle->altitude_m;
+    group->heading_rad =
+        vehicle->heading_rad < 0 ? vehicle->heading_rad + TWO_PI : vehicle->heading_rad;
+    group->speed_mps = vehicle->speed_mps;
+    group->area = 0;
+    if (entry_given(entry, VEHICLE_AREA)) {
+        const double *area = vehicle->area;
+
+        group->area = scenario->area_count++;
+        scenario->areas[group->area] = (struct area){area[0], area[1], area[2], area[3]};
+    }
+    group->route = vehicle->route != NULL ? add_route(scenario, vehicle->route) : UINT32_MAX;
+    scenario->params.initial_entities += vehicle->count;
+    scenario->group_count++;
+    return 0;
+}
+
+/* Upper bound of the points of all routes, so that one allocation holds them. */
+static uint32_t count_points(const config_setting_t *list)
+{
+    uint64_t points = 0;
+
+    for (int i = 0; list != NULL && i < config_setting_length(list); i++) {
+        const config_setting_t *entry = config_setting_get_elem(list, (unsigned)i);
+        const config_setting_t *route =
+            entry->type == CONFIG_TYPE_GROUP ? config_setting_get_member(entry, "route") : NULL;
+
+        if (route != NULL && config_setting_length(route) > 0)
+            points += (uint64_t)config_setting_length(route);
+    }
+    return points > ROUTE_POINTS_MAX ? UINT32_MAX : (uint32_t)points;
+}
+
+int lists_vehicles(struct scenario *scenario, const config_setting_t *list, const char *file,
+                   struct loader_message *message)
+{
+    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
+    int length = list != NULL ? entry_count(list, file, SCHEMA_GROUPS_MAX, message) : 0;
+    uint32_t points = length > 0 ? count_points(list) : 0;
+
+    if (length < 0)
+        return -1;
+    if (points > ROUTE_POINTS_MAX) {
+        const struct key_place place = {file, (int)config_setting_source_line(list)};
+
+        return keys_refuse(message, place, "vehicles", NULL,
+                           "routes have too many points; allowed: up to %u in all",
+                           ROUTE_POINTS_MAX);
+    }
+    uint32_t count = (uint32_t)length;
+    scenario->groups = entry_allocate(count, sizeof(*scenario->groups), file, message);
+    scenario->areas = entry_allocate(count + 1, sizeof(*scenario->areas), file, message);
+    scenario->routes = entry_allocate(count, sizeof(*scenario->routes), file, message);
+    scenario->route_points = entry_allocate(points, sizeof(*scenario->route_points), file, message);
+    if (scenario->groups == NULL || scenario->areas == NULL || scenario->routes == NULL ||
+        scenario->route_points == NULL)
+        return -1;
+    scenario->areas[scenario->area_count++] = (struct area){0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M};
+    scenario->params.initial_entities = 0;
+    for (int i = 0; i < length; i++) {
+        struct vehicle_entry vehicle;
+
+        memset(&vehicle, 0, sizeof(vehicle));
+        if (entry_read(&entry, &schema_vehicle, i, list, &vehicle) != 0 ||
+            add_vehicle(&entry, &vehicle) != 0)
+            return -1;
+    }
+    return 0;
+}

@@ -1,0 +1,159 @@
+/* Lines of numbers with commas between, each an arrival. */
+#include "config/waypoints.h"
+
+#include "config/keys.h"
+#include "world/square.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COLUMNS_MAX 4
+#define ROW_MAX     256
+
+static const char *const columns[COLUMNS_MAX] = {"time_s", "x", "z", "altitude_m"};
+
+/* What a column may hold. */
+static const double highest[COLUMNS_MAX] = {1e7, WORLD_SIDE_M, WORLD_SIDE_M, 20000.0};
+
+/* A file on its way into steps. */
+struct reading {
+    const struct source *source;
+    struct loader_message *message;
+    struct key_place place; /* of the line at hand */
+    const char *next;       /* the line after it */
+    char line[ROW_MAX];
+    int columns; /* of the header */
+};
+
+uint32_t waypoints_lines(const char *text)
+{
+    uint32_t lines = 0;
+
+    for (const char *at = text; *at != '\0'; lines++) {
+        at += strspn(at, "\r\n");
+        at += strcspn(at, "\r\n");
+    }
+    return lines;
+}
+
+/* The next line that is not empty, without blanks at its end: 1; 0 at the file's end; -1 with the
+ * message. */
+static int next_line(struct reading *reading)
+{
+    while (*reading->next != '\0') {
+        size_t length = strcspn(reading->next, "\n");
+        const char *line = reading->next;
+
+        reading->place.line++;
+        reading->next += length + (line[length] == '\n');
+        while (length > 0 && strchr(" \t\r", line[length - 1]) != NULL)
+            length--;
+        if (length >= ROW_MAX)
+            return keys_refuse(reading->message, reading->place, NULL, NULL,
+                               "has %zu characters; allowed: up to %d", length, ROW_MAX - 1);
+        if (length == 0)
+            continue;
+        memcpy(reading->line, line, length);
+        reading->line[length] = '\0';
+        return 1;
+    }
+    return 0;
+}
+
+static int read_header(struct reading *reading)
+{
+    int found = next_line(reading);
+
+    if (found < 0)
+        return -1;
+    if (found > 0 && strcmp(reading->line, "time_s,x,z") == 0)
+        reading->columns = 3;
+    else if (found > 0 && strcmp(reading->line, "time_s,x,z,altitude_m") == 0)
+        reading->columns = 4;
+    else
+        return keys_refuse(reading->message, reading->place, found > 0 ? reading->line : NULL, NULL,
+                           "is not the header; right would be: " WAYPOINTS_HEADER);
+    return 0;
+}
+
+/* The value of one column, which begins at *at and ends before the next. */
+static int read_value(struct reading *reading, int column, const char **at, double *value)
+{
+    size_t length = strcspn(*at, ",");
+    char text[ROW_MAX], *end = NULL;
+
+    snprintf(text, sizeof(text), "%.*s", (int)length, *at);
+    *value = strtod(text, &end);
+    if (end == text || end[strspn(end, " ")] != '\0' || !isfinite(*value))
+        return keys_refuse(reading->message, reading->place, columns[column], text,
+                           "is not a number; allowed: 0..%.0f", highest[column]);
+    if (!(*value >= 0.0 && *value <= highest[column]))
+        return keys_refuse(reading->message, reading->place, columns[column], text,
+                           "out of range; allowed: 0..%.0f", highest[column]);
+    *at += length;
+    return 0;
+}
+
+static int read_line(struct reading *reading, double values[COLUMNS_MAX])
+{
+    const char *at = reading->line;
+
+    for (int column = 0; column < reading->columns; column++) {
+        if (column > 0 && *at != ',')
+            return keys_refuse(reading->message, reading->place, reading->line, NULL,
+                               "has %d numbers; right would be: %d, as in the header", column,
+                               reading->columns);
+        at += column > 0;
+        if (read_value(reading, column, &at, &values[column]) != 0)
+            return -1;
+    }
+    if (*at != '\0')
+        return keys_refuse(reading->message, reading->place, reading->line, NULL,
+                           "has more than %d numbers; right would be: as many as in the header",
+                           reading->columns);
+    return 0;
+}
+
+static int refuse_time(const struct reading *reading, double time_s, double before_s)
+{
+    char text[32];
+
+    snprintf(text, sizeof(text), "%.15g", time_s);
+    return keys_refuse(reading->message, reading->place, columns[0], text,
+                       "is not after the line before; allowed: above %.15g", before_s);
+}
+
+int waypoints_read(const struct source *source, struct scenario_step *steps,
+                   struct loader_message *message)
+{
+    struct reading reading = {
+        .source = source, .message = message, .place = {source->path, 0}, .next = source->text};
+    double values[COLUMNS_MAX] = {0}, before_s = -1.0;
+    int count = 0, found;
+
+    if (strlen(source->text) != source->bytes)
+        return keys_refuse(message, reading.place, NULL, NULL, "is not text: it has a NUL byte");
+    if (read_header(&reading) != 0)
+        return -1;
+    while ((found = next_line(&reading)) > 0) {
+        if (read_line(&reading, values) != 0)
+            return -1;
+        if (!(values[0] > before_s))
+            return refuse_time(&reading, values[0], before_s);
+        before_s = values[0];
+        steps[count++] = (struct scenario_step){
+            .step = {.at_s = values[0],
+                     .x = values[1],
+                     .z = values[2],
+                     .altitude_m = reading.columns > 3 ? values[3] : STEP_SAME_ALTITUDE,
+                     .type = STEP_ARRIVE},
+            .line = reading.place.line};
+    }
+    if (found == 0 && count == 0)
+        return keys_refuse(message, reading.place, NULL, NULL,
+                           "has no waypoint; right would be: a line of " WAYPOINTS_HEADER
+                           " behind the header");
+    return found < 0 ? -1 : count;
+}

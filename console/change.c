@@ -1,0 +1,105 @@
+/* What may be posted. */
+#include "console/change.h"
+
+#include "console/gate.h"
+#include "console/roles.h"
+#include "ipc/clock.h"
+
+#include <microhttpd.h>
+#include <stddef.h>
+#include <string.h>
+
+/* From the desk's thread: the server goes on with the request, and finds the answer. */
+static void on_ready(struct ticket *ticket)
+{
+    struct request *request =
+        (struct request *)(void *)((char *)ticket - offsetof(struct request, ticket));
+    MHD_resume_connection(request->connection);
+}
+
+static bool join(struct request *request, struct player *player, struct answer *answer)
+{
+    char name[PLAYERS_NAME_MAX];
+    uint8_t key[SECRET_BYTES];
+    struct text *text = &answer->text;
+    uint64_t source = caller_source(), now_ns = clock_now_ns();
+    (void)player;
+    if (!body_join(name, request->body, request->body_bytes, answer))
+        return true;
+    if (source == 0 || !secret_random(key)) {
+        answer_error(answer, ANSWER_AWAY, "try again", "the system gives no random numbers");
+        return true;
+    }
+    const struct player *joined =
+        players_join(&request->console->players, name, key, source, now_ns);
+    if (!joined) {
+        answer_error(answer, ANSWER_TOO_MANY, "wait until one has left, or look on",
+                     "there are %u players, more cannot be", PLAYERS_MAX);
+        return true;
+    }
+    text_begin(text, '{');
+    text_key_whole(text, "player", joined->number);
+    text_key_word(text, "name", joined->name);
+    text_key_word(text, "key", joined->key);
+    text_end(text, '}');
+    return true;
+}
+
+static bool command(struct request *request, struct player *player, struct answer *answer)
+{
+    struct console *console = request->console;
+    struct ticket *ticket = &request->ticket;
+    const char *key = request_header(request, "X-Jolon-Player");
+    if (key && !player) {
+        answer_error(answer, ANSWER_UNAUTHORIZED, "POST /api/join again",
+                     "no player has this key; who is not heard of for two minutes has left");
+        return true;
+    }
+    if (console->ending || !console->watch.there) {
+        answer_error(answer, ANSWER_AWAY, "wait until it is there", "%s",
+                     console->ending ? "the console ends" : console->watch.why.text);
+        return true;
+    }
+    if (!body_order(&ticket->order, &ticket->cancel, request->body, request->body_bytes, answer))
+        return true;
+    ticket->ready = on_ready;
+    return !desk_put(&console->desk, ticket, player, clock_now_ns(), answer);
+}
+
+static bool process(struct request *request, struct player *player, struct answer *answer)
+{
+    char role[BODY_ROLE_MAX];
+    bool restart;
+    (void)player;
+    if (body_process(&restart, role, request->body, request->body_bytes, answer))
+        roles_end(&request->console->watch, role, restart, answer);
+    return true;
+}
+
+static const struct {
+    const char *path;
+    bool (*change)(struct request *request, struct player *player, struct answer *answer);
+} changes[] = {{"/api/join", join}, {"/api/command", command}, {"/api/process", process}};
+
+#define CHANGES (sizeof changes / sizeof changes[0])
+
+bool change_find(const char *path)
+{
+    for (size_t i = 0; i < CHANGES; i++) {
+        if (strcmp(path, changes[i].path) == 0)
+            return true;
+    }
+    return false;
+}
+
+bool change_world(struct request *request, const char *path, struct answer *answer)
+{
+    uint64_t now_ns = clock_now_ns();
+    struct player *player = gate_player(request, now_ns);
+    size_t i = 0;
+    if (!gate_open_to_change(request, player, now_ns, answer))
+        return true;
+    while (strcmp(path, changes[i].path) != 0)
+        i++;
+    return changes[i].change(request, player, answer);
+}

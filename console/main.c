@@ -1,0 +1,95 @@
+/* jolon-console: the page in a browser, and the server behind it. It reads the world as any reader
+ * does, holds no role and writes nothing of the world's memory; what its players want goes to the
+ * reporter as commands of the topics, as anybody's does. It may come, go and be killed. */
+#include "console/options.h"
+#include "console/server.h"
+#include "ipc/clock.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+#define NICENESS 5
+
+/* Longest wait between two looks at the world. */
+#define TURN_NS (50 * (uint64_t)NS_PER_MS)
+
+static struct console console = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+static int choose_token(const struct options *options, struct reason *reason)
+{
+    uint8_t bytes[SECRET_BYTES];
+    if (options->token_file)
+        return secret_file(console.token, options->token_file, reason);
+    if (!secret_random(bytes))
+        return reason_set(reason, "the system gives no random numbers");
+    secret_text(console.token, bytes);
+    return 0;
+}
+
+static void greet(const struct options *options)
+{
+    printf("%s#token=%s\n", console.listener.url, console.token);
+    (void)fflush(stdout);
+    log_info("world \"%s\": open the address above; without its end (#...) one may look and "
+             "change nothing",
+             options->world);
+    if (!console.listener.local)
+        log_warn("everybody who reaches %s may look, and what is sent can be read on the way, the "
+                 "token too: use it in a network of your own",
+                 options->address);
+}
+
+static void turn(uint64_t now_ns, uint64_t *swept_ns)
+{
+    pthread_mutex_lock(&console.lock);
+    if (watch_turn(&console.watch, now_ns)) {
+        desk_world_changed(&console.desk, &console.players);
+        if (console.watch.there)
+            log_info("world \"%s\" is there", console.watch.name);
+        else
+            log_info("%s; waiting for it", console.watch.why.text);
+    }
+    desk_turn(&console.desk, &console.players, &console.watch, now_ns);
+    if (now_ns - *swept_ns >= NS_PER_S) {
+        crowd_sweep(&console.crowd, now_ns);
+        *swept_ns = now_ns;
+    }
+    pthread_mutex_unlock(&console.lock);
+}
+
+int main(int argc, char **argv)
+{
+    struct options options;
+    struct reason reason;
+    uint64_t swept_ns = 0;
+    log_open("console");
+    options_parse(&options, argc, argv);
+    process_close_inherited();
+    process_die_with_parent(options.parent);
+    process_signals();
+    if (nice(NICENESS) == -1)
+        log_warn("runs at normal priority: nice %d not allowed", NICENESS);
+    const struct http_listen_options where = {.address_option = "--address",
+                                              .port_option = "--port",
+                                              .address = options.address,
+                                              .port = options.port};
+    watch_open(&console.watch, options.world);
+    if (choose_token(&options, &reason) != 0 ||
+        http_listen(&console.listener, &where, &reason) != 0 ||
+        desk_open(&console.desk, &options.link, options.world, &reason) != 0 ||
+        pictures_open(&console.pictures, options.world, &reason) != 0 ||
+        server_start(&console, &reason) != 0)
+        die_refused("%s", reason.text);
+    greet(&options);
+    while (!process_stopping()) {
+        uint64_t now_ns = clock_now_ns();
+        turn(now_ns, &swept_ns);
+        desk_wait(&console.desk, now_ns + TURN_NS);
+    }
+    server_end(&console);
+    watch_close(&console.watch);
+    dds_link_close(&console.desk.link, EXIT_OK);
+    return EXIT_OK;
+}

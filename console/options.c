@@ -1,0 +1,68 @@
+/* jolon-console's arguments. */
+#include "console/options.h"
+
+#include "http/listen.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+
+#include <getopt.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const char usage[] =
+    "usage: jolon-console [options]\n"
+    "  -w, --world NAME    (default \"default\")\n"
+    "  --port N            where browsers find it (default 8080; 0: any that is free)\n"
+    "  --address ADDRESS   (default 127.0.0.1: nobody but this machine reaches it)\n"
+    "  --token-file FILE   who knows what it holds may change the world; made when it is not\n"
+    "                      there (default: a new token each time, which is printed)\n"
+    "  --parent PID        ends when that process does\n"
+    "  --dds-config FILE, --interface ADDRESS, --domain N  as jolon-reporter\n"
+    "It prints the address to open. Ctrl-C ends it; the world goes on.\n";
+
+void options_parse(struct options *options, int argc, char **argv)
+{
+    static const struct option known[] = {
+        {"world", required_argument, NULL, 'w'},   {"port", required_argument, NULL, 'p'},
+        {"address", required_argument, NULL, 'a'}, {"token-file", required_argument, NULL, 't'},
+        {"parent", required_argument, NULL, 'P'},  DDS_LINK_LONG_OPTIONS,
+        {"help", no_argument, NULL, 'h'},          {NULL, 0, NULL, 0}};
+    int option;
+    *options =
+        (struct options){.world = "default", .address = HTTP_LISTEN_ADDRESS, .port = OPTIONS_PORT};
+    opterr = 0; /* we say it, in one line */
+    while ((option = getopt_long(argc, argv, "w:h", known, NULL)) != -1) {
+        if (dds_link_option(&options->link, option, optarg))
+            continue;
+        switch (option) {
+        case 'w':
+            options->world = optarg;
+            break;
+        case 'p':
+            options->port = (uint16_t)process_whole("port", optarg, 0, UINT16_MAX);
+            break;
+        case 'a':
+            options->address = optarg;
+            break;
+        case 't':
+            options->token_file = optarg;
+            break;
+        case 'P':
+            options->parent = (int)process_whole("parent", optarg, 1, INT_MAX);
+            break;
+        case 'h':
+            (void)fputs(usage, stdout);
+            exit(EXIT_OK);
+        default:
+            die_usage("%s: no such option, or its value is missing; jolon-console --help lists "
+                      "them",
+                      argv[optind - 1]);
+        }
+    }
+    if (optind < argc)
+        die_usage("'%s': no such argument; jolon-console --help lists the options", argv[optind]);
+    if (!segment_name_ok(options->world))
+        die_usage("--world %s: no name for a world: 1 to %d of a-z A-Z 0-9 _ -", options->world,
+                  SEGMENT_NAME_MAX - 1);
+}

@@ -1,0 +1,128 @@
+/**
+ * Who sits at this page: the vehicle in view, the vehicle they drive, and what they may ask for.
+ * Tells 'change' when one of these is another.
+ */
+
+import { Refusal } from './api.js';
+
+export class Session extends EventTarget {
+  /**
+   * @param {import('./api.js').Api} api
+   * @param {import('./notices.js').Notices} notices
+   */
+  constructor(api, notices) {
+    super();
+    this.api = api;
+    this.notices = notices;
+    /** The vehicle whose picture and statistics show; 0: none. */
+    this.selected = 0;
+    /** The vehicle that this page drives; 0: none. */
+    this.driven = 0;
+    /** The name of the player; '' until joined. */
+    this.player = '';
+  }
+
+  get mayChange() {
+    return this.api.mayChange;
+  }
+
+  changed() {
+    this.dispatchEvent(new Event('change'));
+  }
+
+  select(id) {
+    if (id === this.selected) return;
+    this.selected = id;
+    this.changed();
+  }
+
+  /** @param {string} name @returns {Promise<boolean>} whether there is a player now */
+  async join(name) {
+    try {
+      this.api.key = '';
+      const answer = await this.api.post('join', { name });
+      this.api.key = answer.key;
+      this.player = answer.name ?? name;
+      this.changed();
+      return true;
+    } catch (error) {
+      this.tell(error);
+      return false;
+    }
+  }
+
+  /**
+   * Asks the world to do something, and says so when it is refused.
+   * @param {object} body of /api/command
+   * @returns {Promise<any>} the answer; null when it was refused
+   */
+  async command(body) {
+    try {
+      if (!this.player && !(await this.join('player'))) return null;
+      return await this.order(body);
+    } catch (error) {
+      this.tell(error);
+      return null;
+    }
+  }
+
+  /**
+   * The same without a word when it is refused. Who was away for long is not known any more, and
+   * joins again under the same name.
+   * @param {object} body of /api/command
+   * @throws {Refusal}
+   */
+  async order(body) {
+    try {
+      return await this.api.post('command', body);
+    } catch (error) {
+      const forgotten = error instanceof Refusal && error.status === 401 && this.api.key !== '';
+      if (!forgotten || !(await this.join(this.player))) throw error;
+      return this.api.post('command', body);
+    }
+  }
+
+  /** Becomes a vehicle; the server gives back the one before it. */
+  async take(id) {
+    if (!this.mayChange || !id || id === this.driven) return;
+    const answer = await this.command({ do: 'drive', vehicle: id, throttle: 0, steer: 0 });
+    if (!answer) return;
+    this.driven = id;
+    this.selected = id;
+    this.changed();
+  }
+
+  /** Gives the driven vehicle back to its agent. */
+  async release() {
+    const left = this.driven;
+    if (!left) return;
+    this.lose();
+    await this.command({ do: 'release', vehicle: left });
+  }
+
+  /** Another world: nobody of it is known. */
+  reset() {
+    this.driven = 0;
+    this.selected = 0;
+    this.changed();
+  }
+
+  /** It is not ours any more. */
+  lose() {
+    this.driven = 0;
+    this.changed();
+  }
+
+  /** @param {number} [target] 0: where the gun points */
+  async fire(target = 0) {
+    const vehicle = this.driven || this.selected;
+    if (!this.mayChange || !vehicle) return;
+    await this.command(target ? { do: 'fire', vehicle, target } : { do: 'fire', vehicle });
+  }
+
+  /** Says what went wrong, in the words of the answer. */
+  tell(error) {
+    if (!(error instanceof Refusal)) throw error;
+    this.notices.say(error.text, 'bad');
+  }
+}

@@ -1,0 +1,183 @@
+/* Attaching, letting go, copying. */
+#include "console/watch.h"
+
+#include "ipc/clock.h"
+#include "ipc/frame.h"
+#include "ipc/log.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+#define STALLED_NS NS_PER_S
+
+void watch_open(struct watch *watch, const char *name)
+{
+    *watch = (struct watch){.name = name};
+    reason_set(&watch->why, "world \"%s\" is not there yet", name);
+}
+
+static void let_go(struct watch *watch)
+{
+    if (!watch->there)
+        return;
+    snapshot_free(&watch->snapshot);
+    segment_detach(&watch->view);
+    watch->there = watch->copied = false;
+    watch->rate_count = watch->rate_next = 0;
+}
+
+void watch_close(struct watch *watch)
+{
+    let_go(watch);
+}
+
+/* The object that the name leads to now; false when it leads nowhere. */
+static bool find_object(const struct watch *watch, struct stat *status)
+{
+    char path[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    segment_paths(watch->name, path, lock);
+    return stat(path, status) == 0;
+}
+
+static void note_turrets(struct watch *watch)
+{
+    const struct world *world = &watch->view.world;
+    memset(watch->turret, 0, sizeof watch->turret);
+    for (uint32_t i = 0; i < world->counts.kinds && i < KIND_COUNT_MAX; i++) {
+        const struct model *model = &world->models[world->kinds[i].model];
+        if (world->kinds[i].domain == DOMAIN_MUNITION || world->kinds[i].domain == DOMAIN_FIXED)
+            continue;
+        for (uint32_t t = 0; t < model->triangle_count && !watch->turret[i]; t++)
+            watch->turret[i] =
+                world->model_triangles[model->first_triangle + t].part == PART_TURRET;
+    }
+}
+
+/* The object may be another one before and after: then it is for the next look. */
+static bool attach(struct watch *watch)
+{
+    struct stat before, after;
+    if (!find_object(watch, &before)) {
+        reason_set(&watch->why, "world \"%s\" is not there", watch->name);
+        return false;
+    }
+    if (segment_attach(&watch->view, watch->name, ROLE_NONE, &watch->why) != 0)
+        return false;
+    if (!find_object(watch, &after) || before.st_ino != after.st_ino ||
+        before.st_dev != after.st_dev || snapshot_init(&watch->snapshot, &watch->view) != 0) {
+        segment_detach(&watch->view);
+        reason_set(&watch->why, "world \"%s\" is being made, or there is no memory for a copy",
+                   watch->name);
+        return false;
+    }
+    watch->device = after.st_dev;
+    watch->inode = after.st_ino;
+    watch->there = true;
+    note_turrets(watch);
+    return true;
+}
+
+static bool look(struct watch *watch)
+{
+    struct stat status;
+    if (watch->there && find_object(watch, &status) && status.st_ino == watch->inode &&
+        status.st_dev == watch->device)
+        return false;
+    bool was_there = watch->there;
+    let_go(watch);
+    return attach(watch) || was_there;
+}
+
+static void sample_rate(struct watch *watch, uint64_t now_ns)
+{
+    uint32_t last = (watch->rate_next + WATCH_RATE_SAMPLES - 1) % WATCH_RATE_SAMPLES;
+    if (watch->rate_count > 0 && now_ns - watch->rate[last].at_ns < WATCH_COPY_NS)
+        return;
+    watch->rate[watch->rate_next].at_ns = now_ns;
+    watch->rate[watch->rate_next].commit = segment_load(&watch->view.commit->commit);
+    watch->rate_next = (watch->rate_next + 1) % WATCH_RATE_SAMPLES;
+    if (watch->rate_count < WATCH_RATE_SAMPLES)
+        watch->rate_count++;
+}
+
+static void note_time(struct watch *watch)
+{
+    struct state_head head;
+    if (snapshot_head(&head, &watch->view) != 0)
+        return; /* the time before is near enough */
+    watch->time_s = world_time_s(&watch->view.world, &head);
+    watch->scale = head.time_scale;
+}
+
+bool watch_turn(struct watch *watch, uint64_t now_ns)
+{
+    bool changed = false;
+    if (watch->looked_ns == 0 || now_ns - watch->looked_ns >= WATCH_LOOK_NS) {
+        watch->looked_ns = now_ns;
+        changed = look(watch);
+    }
+    if (watch->there) {
+        sample_rate(watch, now_ns);
+        note_time(watch);
+    }
+    return changed;
+}
+
+int watch_copy(struct watch *watch, uint64_t now_ns)
+{
+    if (!watch->there)
+        return -1;
+    uint64_t pause_ns = watch->spent_ns * WATCH_SHARE;
+    pause_ns = pause_ns > WATCH_COPY_NS ? pause_ns : WATCH_COPY_NS;
+    if (watch->copied && now_ns - watch->copied_ns < pause_ns)
+        return 0;
+    int result = snapshot_take(&watch->snapshot, &watch->view);
+    uint64_t done_ns = clock_now_ns();
+    watch->spent_ns = done_ns - now_ns;
+    watch->copied_ns = now_ns;
+    if (result == 0)
+        watch->copied = true;
+    /* The one before is whole and still serves; a world that stays damaged says so itself. */
+    if (!watch->copied)
+        reason_set(&watch->why, "world \"%s\": no frame of it can be read whole", watch->name);
+    return watch->copied ? 0 : -1;
+}
+
+/* The oldest sample that there is. */
+static uint32_t oldest(const struct watch *watch)
+{
+    return watch->rate_count < WATCH_RATE_SAMPLES ? 0 : watch->rate_next;
+}
+
+double watch_rate_hz(const struct watch *watch)
+{
+    if (watch->rate_count < 2)
+        return 0.0;
+    uint32_t first = oldest(watch);
+    uint32_t last = (watch->rate_next + WATCH_RATE_SAMPLES - 1) % WATCH_RATE_SAMPLES;
+    uint64_t ns = watch->rate[last].at_ns - watch->rate[first].at_ns;
+    return ns ? (double)(watch->rate[last].commit - watch->rate[first].commit) * NS_PER_S /
+                    (double)ns
+              : 0.0;
+}
+
+const char *watch_state(const struct watch *watch, const struct state_head *head)
+{
+    const struct view *view = &watch->view;
+    if (frame_finished(view))
+        return "finished";
+    if (segment_holder(watch->name, ROLE_MOVER) == 0)
+        return "stopped";
+    if (head->paused)
+        return "paused";
+    uint32_t first = oldest(watch);
+    return watch->rate_count == WATCH_RATE_SAMPLES &&
+                   watch->rate[first].commit == segment_load(&view->commit->commit)
+               ? "stalled"
+               : "running";
+}
+
+uint32_t watch_row(const struct watch *watch, uint32_t id)
+{
+    return id ? entities_find(&watch->snapshot.entities, watch->snapshot.head.used, id) : SLOT_NONE;
+}

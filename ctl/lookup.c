@@ -1,0 +1,70 @@
+/* WorldInfo and EntityNames, once. */
+#include "ctl/lookup.h"
+
+#include "ipc/clock.h"
+#include "ipc/process.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool open_readers(struct lookup *lookup)
+{
+    struct reason reason;
+    if (names_open(&lookup->names, lookup->link, &reason) != 0)
+        return false;
+    lookup->reading = true;
+    lookup->world = dds_topics_reader(lookup->link, TOPIC_WORLD, &reason);
+    const dds_entity_t readers[] = {lookup->world, lookup->names.reader};
+    lookup->waitset = dds_topics_waitset(lookup->link, readers, 2, &reason);
+    return lookup->world >= 0 && lookup->waitset >= 0;
+}
+
+static void add(char *list, size_t bytes, const char *name)
+{
+    size_t used = strlen(list);
+    (void)snprintf(list + used, bytes - used, "%s%s", used ? ", " : "", name);
+}
+
+static void take_world(struct lookup *lookup)
+{
+    void *sample = NULL;
+    dds_sample_info_t info;
+    if (dds_take(lookup->world, &sample, &info, 1, 1) <= 0)
+        return;
+    const jolon_WorldInfo *world = sample;
+    if (info.valid_data) {
+        lookup->hz = world->hz;
+        lookup->vehicles[0] = lookup->munitions[0] = '\0';
+        for (uint32_t i = 0; i < world->kinds._length; i++) {
+            const jolon_KindInfo *kind = &world->kinds._buffer[i];
+            if (kind->domain == jolon_DOMAIN_MUNITION)
+                add(lookup->munitions, sizeof lookup->munitions, kind->name);
+            else if (kind->domain != jolon_DOMAIN_FIXED)
+                add(lookup->vehicles, sizeof lookup->vehicles, kind->name);
+        }
+    }
+    (void)dds_return_loan(lookup->world, &sample, 1);
+}
+
+bool lookup_wait(struct lookup *lookup, uint64_t until_ns)
+{
+    if (!lookup->reading && !open_readers(lookup))
+        return false;
+    while (!process_stopping()) {
+        take_world(lookup);
+        names_take(&lookup->names);
+        uint64_t now_ns = clock_now_ns();
+        if (lookup->names.told && lookup->hz > 0.0)
+            return true;
+        if (now_ns >= until_ns)
+            return false;
+        dds_topics_wait(lookup->waitset, until_ns - now_ns);
+    }
+    return false;
+}
+
+void lookup_close(struct lookup *lookup)
+{
+    if (lookup->reading)
+        names_close(&lookup->names);
+}

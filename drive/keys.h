@@ -1,0 +1,36 @@
+/* Keys of a terminal. Bytes become keys, keys become intents by one table, which is also the help.
+ *
+ * Plain terminals send a byte for a press and the same again while the key is held; nothing when it
+ * is let go. Terminals that know the Kitty keyboard protocol tell presses, repeats and releases:
+ * we ask for it, and the answer, or the first such key, says that they do. */
+#ifndef JOLON_DRIVE_KEYS_H
+#define JOLON_DRIVE_KEYS_H
+
+#include "drive/input.h"
+
+#include <stddef.h>
+
+/* Asks for the protocol: keys without ambiguity, with their releases, all of them; then, what it
+ * is. Takes it back. */
+#define KEYS_ASK  "\033[>11u\033[?u"
+#define KEYS_BACK "\033[<u"
+
+/* Keys that are no character: arrows. */
+enum keys_code { KEYS_UP = 0x110000, KEYS_DOWN, KEYS_RIGHT, KEYS_LEFT };
+
+/* An escape sequence that does not end within this is none. */
+#define KEYS_SEQUENCE_MAX 32u
+
+struct keys {
+    char sequence[KEYS_SEQUENCE_MAX]; /* begun and not yet ended */
+    uint32_t length;
+    bool lifts; /* the terminal tells releases */
+};
+
+/* Takes bytes as they came, in any pieces. Pure. */
+void keys_decode(struct keys *keys, const char *bytes, size_t count, struct intents *queue);
+
+/* Line n of the help, from 0: "w s", "throttle up, down"; false after the last. */
+bool keys_help(uint32_t n, const char **keys, const char **meaning);
+
+#endif

@@ -1,0 +1,150 @@
+/* jolon-drive: sit down and drive. Takes a vehicle of a world, from a terminal and from what else
+ * is in one's hands, and shows what it does. */
+#include "drive/inputs.h"
+#include "drive/news.h"
+#include "drive/options.h"
+#include "drive/panel.h"
+#include "drive/screen.h"
+#include "drive/terminal.h"
+#include "ipc/clock.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+#include "topics/tell.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#define LEAVE_NS (1 * (uint64_t)NS_PER_S)
+
+struct drive {
+    struct options options;
+    struct dds_link link;
+    struct mirror mirror;
+    struct tail tail;
+    struct caller caller;
+    struct inputs inputs;
+    struct session session;
+    struct news news;
+    uint64_t draw_ns; /* when to show all again */
+    uint32_t notices; /* of session, printed so far */
+    uint64_t news_printed;
+    bool silent; /* the last line said so */
+};
+
+static bool print_line(const char *text)
+{
+    return puts(text) >= 0 && fflush(stdout) == 0;
+}
+
+/* What is new since the last time, and a line when one is due. False: nobody reads any more. */
+static bool show_plain(struct drive *drive, uint64_t now_ns)
+{
+    char line[PANEL_LINE];
+    bool good = true;
+    const struct news *news = &drive->news;
+    if (drive->notices != drive->session.notices && !drive->session.refused) {
+        drive->notices = drive->session.notices;
+        (void)snprintf(line, sizeof line, "# %s", drive->session.notice);
+        good = print_line(line);
+    }
+    for (; good && drive->news_printed < news->count; drive->news_printed++) {
+        (void)snprintf(line, sizeof line, "! %s", news->line[drive->news_printed % NEWS_KEPT]);
+        good = print_line(line);
+    }
+    if (now_ns < drive->draw_ns)
+        return good;
+    drive->draw_ns = now_ns + (uint64_t)(NS_PER_S / drive->options.rate_hz);
+    bool silent = !mirror_live(&drive->mirror, now_ns), said = drive->silent;
+    drive->silent = silent;
+    if (silent && said)
+        return good;
+    if (silent)
+        tell_silence(stpcpy(line, "# "), sizeof line - 2, &drive->mirror, now_ns);
+    else
+        panel_line(line, &drive->session);
+    return good && print_line(line);
+}
+
+static bool show(struct drive *drive, bool touched, uint64_t now_ns)
+{
+    if (drive->options.plain)
+        return show_plain(drive, now_ns);
+    if (touched || now_ns >= drive->draw_ns) {
+        screen_draw(&drive->session, &drive->news, drive->inputs.said, now_ns);
+        drive->draw_ns = now_ns + (uint64_t)(NS_PER_S / drive->options.rate_hz);
+    }
+    return true;
+}
+
+/* Keys of a pipe wait for the vehicle; a person's never wait. When the pipe ends, that is quitting.
+ */
+static bool keys_wanted(const struct drive *drive)
+{
+    return !drive->options.plain || drive->session.state >= SESSION_DRIVING ||
+           drive->session.state == SESSION_WATCHING || isatty(STDIN_FILENO);
+}
+
+/* The hands first, and out with it: only then what came in meanwhile, and the picture of it. */
+static void run(struct drive *drive)
+{
+    struct session *session = &drive->session;
+    uint64_t due_ns = 0;
+    bool good = true;
+    while (!process_stopping() && !session->ended && good) {
+        struct intents intents;
+        inputs_read(&drive->inputs, keys_wanted(drive), due_ns, &intents);
+        uint64_t now_ns = clock_now_ns();
+        for (uint32_t i = 0; i < intents.count; i++)
+            session_take(session, &intents.intent[i], now_ns);
+        if (drive->inputs.news)
+            session_say(session, now_ns, "in use: %s", drive->inputs.said);
+        drive->inputs.news = false;
+        due_ns = session_turn(session, now_ns);
+        mirror_take(&drive->mirror);
+        (void)tail_turn(&drive->tail, news_take, &drive->news);
+        good = show(drive, intents.count > 0, clock_now_ns());
+        session->ended |= drive->inputs.keys_ended && session->fire == 0;
+    }
+}
+
+static void open_all(struct drive *drive)
+{
+    struct reason reason;
+    const struct options *options = &drive->options;
+    if (inputs_open(&drive->inputs, options->input, options->device, &reason) != 0 ||
+        dds_link_open(&drive->link, &options->link, options->world, &reason) != 0 ||
+        mirror_open(&drive->mirror, &drive->link, options->world, &reason) != 0 ||
+        tail_open(&drive->tail, &drive->link, news_format, &reason) != 0 ||
+        caller_open(&drive->caller, &drive->link, &reason) != 0)
+        die_refused("%s", reason.text);
+    session_open(&drive->session, &drive->mirror, &drive->caller, options->wanted, clock_now_ns());
+    drive->news.session = &drive->session;
+    if (!options->plain && screen_open(&reason) != 0)
+        die_refused("%s", reason.text);
+    terminal_take(!options->plain);
+}
+
+int main(int argc, char **argv)
+{
+    static struct drive drive;
+    log_open("drive");
+    options_parse(&drive.options, argc, argv);
+    drive.options.link.quiet = !drive.options.plain;
+    process_signals();
+    open_all(&drive);
+    run(&drive);
+    session_leave(&drive.session, clock_now_ns() + LEAVE_NS);
+    if (!drive.options.plain)
+        screen_close();
+    terminal_back();
+    int code = drive.session.refused ? EXIT_REFUSED : EXIT_OK;
+    if (drive.session.refused)
+        (void)fprintf(stderr, "jolon-drive: %s\n", drive.session.notice);
+    inputs_close(&drive.inputs);
+    tail_close(&drive.tail);
+    mirror_close(&drive.mirror);
+    (void)fflush(stdout);
+    dds_link_close(&drive.link, code);
+    return code;
+}

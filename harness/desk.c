@@ -1,0 +1,161 @@
+/* Orders on their way. */
+#include "harness/desk.h"
+
+#include "ipc/clock.h"
+#include "topics/put_json.h"
+#include "world/world.h"
+
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <string.h>
+
+bool desk_room(const struct desk *desk)
+{
+    return desk->count < DESK_MAX;
+}
+
+/* What an order is about: everything, one vehicle, or nothing that is there yet (0). */
+#define ABOUT_ALL UINT64_MAX
+
+static uint64_t about(const struct order *order)
+{
+    switch (order->command.type) {
+    case jolon_COMMAND_DRIVE:
+    case jolon_COMMAND_RELEASE:
+    case jolon_COMMAND_FIRE:
+    case jolon_COMMAND_REMOVE:
+        return order->command.entity;
+    case jolon_COMMAND_SPAWN:
+        return 0;
+    default:
+        return ABOUT_ALL;
+    }
+}
+
+/* reply NULL: there was none, and result says why. */
+static void tell(struct desk *desk, const struct desk_item *item, const char *result,
+                 const jolon_CommandReply *reply, uint32_t round)
+{
+    const struct order *order = &item->mission.order;
+    if (!item->id[0])
+        return;
+    cJSON *object = cJSON_CreateObject();
+    (void)cJSON_AddRawToObject(object, "answer", item->id);
+    put_word(object, "result", result);
+    if (order->rounds > 1)
+        put_whole(object, "round", round + 1);
+    if (reply) {
+        const char *advice = order_advice(order, reply->result);
+        put_whole(object, "frame", reply->frame);
+        put_whole(object, "entity", reply->entity);
+        if (*advice)
+            put_word(object, "next", advice + strspn(advice, "; "));
+    }
+    char *line = cJSON_PrintUnformatted(object);
+    output_line(desk->output, OUTPUT_ANSWER, line);
+    cJSON_free(line);
+    cJSON_Delete(object);
+}
+
+static void drop(struct desk *desk, uint32_t i)
+{
+    desk->count--;
+    memmove(&desk->item[i], &desk->item[i + 1], (desk->count - i) * sizeof *desk->item);
+}
+
+static void replace_drive(struct desk *desk, uint32_t vehicle)
+{
+    for (uint32_t i = desk->count; i-- > 0;) {
+        struct desk_item *item = &desk->item[i];
+        uint64_t what = about(&item->mission.order);
+        if (what != vehicle && what != ABOUT_ALL)
+            continue;
+        if (item->mission.order.command.type != jolon_COMMAND_DRIVE)
+            return;
+        mission_forget(&item->mission, desk->caller);
+        tell(desk, item, "replaced", NULL, 0);
+        drop(desk, i);
+        return;
+    }
+}
+
+void desk_add(struct desk *desk, const char *id, const struct order *order)
+{
+    struct desk_item *item;
+    if (order->command.type == jolon_COMMAND_DRIVE)
+        replace_drive(desk, order->command.entity);
+    item = &desk->item[desk->count++];
+    *item = (struct desk_item){.mission.order = *order};
+    (void)snprintf(item->id, sizeof item->id, "%s", id);
+}
+
+static bool may_begin(const struct desk *desk, uint32_t i)
+{
+    uint64_t what = about(&desk->item[i].mission.order);
+    for (uint32_t before = 0; before < i; before++) {
+        uint64_t other = about(&desk->item[before].mission.order);
+        if (what == ABOUT_ALL || other == ABOUT_ALL || (what != 0 && what == other))
+            return false;
+    }
+    return true;
+}
+
+static void take_answers(struct desk *desk, struct desk_item *item, uint64_t now_ns)
+{
+    jolon_CommandReply reply;
+    uint32_t round;
+    const struct order *order = &item->mission.order;
+    while (mission_answer(&item->mission, desk->caller, &reply, &round)) {
+        item->until_ns = now_ns + desk->timeout_ns;
+        leases_answer(desk->leases, order, &reply, now_ns);
+        tell(desk, item, command_result_name((enum command_result)reply.result), &reply, round);
+    }
+    if (!item->mission.waiting)
+        item->until_ns = now_ns + desk->timeout_ns; /* until the next round nobody is silent */
+}
+
+void desk_turn(struct desk *desk, uint64_t now_ns)
+{
+    for (uint32_t i = 0; i < desk->count;) {
+        struct desk_item *item = &desk->item[i];
+        if (!item->begun && may_begin(desk, i)) {
+            struct order order = item->mission.order;
+            leases_begin(desk->leases, desk->caller, &order);
+            mission_begin(&item->mission, &order, now_ns);
+            item->until_ns = now_ns + desk->timeout_ns;
+            item->begun = true;
+        }
+        if (item->begun) {
+            mission_send(&item->mission, desk->caller, now_ns);
+            take_answers(desk, item, now_ns);
+        }
+        bool late = item->begun && now_ns >= item->until_ns;
+        if (late) {
+            mission_forget(&item->mission, desk->caller);
+            tell(desk, item, "no reply", NULL, item->mission.answered);
+            desk->unanswered = true;
+        }
+        if (late || (item->begun && mission_over(&item->mission)))
+            drop(desk, i);
+        else
+            i++;
+    }
+    for (uint32_t i = 0; i < desk->count; i++) {
+        if (desk->item[i].begun)
+            leases_hold_off(desk->leases, &desk->item[i].mission.order);
+    }
+}
+
+uint64_t desk_due_ns(const struct desk *desk)
+{
+    uint64_t due_ns = UINT64_MAX;
+    for (uint32_t i = 0; i < desk->count; i++) {
+        const struct desk_item *item = &desk->item[i];
+        if (!item->begun)
+            continue;
+        uint64_t next_ns = mission_due_ns(&item->mission);
+        next_ns = next_ns < item->until_ns ? next_ns : item->until_ns;
+        due_ns = next_ns < due_ns ? next_ns : due_ns;
+    }
+    return due_ns;
+}

@@ -1,0 +1,16 @@
+/* The command line of jolon-harness. */
+#ifndef JOLON_HARNESS_OPTIONS_H
+#define JOLON_HARNESS_OPTIONS_H
+
+#include "topics/dds_link.h"
+
+struct options {
+    const char *world;
+    double timeout_s; /* until a command without a reply is given up */
+    struct dds_link_options link;
+};
+
+/* Fills options. Ends the program: with help (0), or with what is wrong in one line (2). */
+void options_parse(struct options *options, int argc, char **argv);
+
+#endif

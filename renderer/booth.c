@@ -1,0 +1,155 @@
+/* Drawing what is asked for. */
+#include "renderer/booth.h"
+
+#include "ipc/clock.h"
+#include "ipc/log.h"
+#include "renderer/scene/tiles.h"
+#include "renderer/studio.h"
+
+#include <string.h>
+
+#define INTERVAL_NS    ((uint64_t)((double)NS_PER_S / BOOTH_FPS))
+#define PAINTINGS      8u       /* tiles of ground that one of these paints, 1 ms each ... */
+#define PAINTINGS_MOST 32u      /* ... and the first of a view */
+#define RATE_SHARE     0.1      /* of the latest interval in the rate that is shown */
+#define RATE_PAUSE_NS  NS_PER_S /* after so long it is measured anew */
+
+void booth_open(struct studio *studio)
+{
+    memset(&studio->booth, 0, sizeof studio->booth);
+    governor_init(&studio->booth.governor, studio->options.hold ? BOOTH_HOLD_FPS : 0.0);
+}
+
+static void clear_row(struct booth_row *row)
+{
+    if (row->chart.text != NULL)
+        chart_close(&row->chart);
+    image_free(&row->image);
+    *row = (struct booth_row){.generation = 0};
+}
+
+void booth_close(struct studio *studio)
+{
+    for (uint32_t i = 0; i < WANTED_MAX; i++)
+        clear_row(&studio->booth.row[i]);
+}
+
+static uint64_t due_of(const struct booth *booth, uint32_t i)
+{
+    const struct booth_row *row = &booth->row[i];
+    if (!booth->wishes[i].waiting)
+        return UINT64_MAX;
+    return row->generation == booth->wishes[i].generation ? row->begun_ns + INTERVAL_NS : 0;
+}
+
+uint64_t booth_due_ns(struct studio *studio)
+{
+    struct booth *booth = &studio->booth;
+    uint64_t due_ns = UINT64_MAX;
+    if (studio->outlets == NULL || studio->outlets->stream == NULL)
+        return due_ns;
+    booth->waiting = stream_wishes(studio->outlets->stream, booth->wishes);
+    for (uint32_t i = 0; i < WANTED_MAX; i++) {
+        /* What nobody asks for any more gives its memory back. */
+        if (booth->wishes[i].generation == 0 && booth->row[i].generation != 0)
+            clear_row(&booth->row[i]);
+        due_ns = due_of(booth, i) < due_ns ? due_of(booth, i) : due_ns;
+    }
+    return due_ns;
+}
+
+/* -1 when there is no memory: nothing is drawn, and who waits hears so in time. */
+static int begin_row(struct studio *studio, struct booth_row *row, const struct stream_wish *wish)
+{
+    const struct wanted_key *key = &wish->key;
+    clear_row(row);
+    if (image_init(&row->image, key->width, key->height) != 0)
+        return -1;
+    if (key->bar)
+        chart_open_beside(&row->chart, &studio->chart, key->width, key->height);
+    row->generation = wish->generation;
+    row->ahead_s = -1.0;
+    row->shot =
+        (struct shot){.wish = {.mode = key->view, .vehicle = key->vehicle},
+                      .aim_wish = {.view = key->view, .field_rad = studio->options.field_rad}};
+    return 0;
+}
+
+static void note_rate(struct booth_row *row, uint64_t now_ns)
+{
+    if (row->begun_ns == 0 || now_ns - row->begun_ns > RATE_PAUSE_NS) {
+        row->rate = 0.0;
+    } else {
+        double rate = (double)NS_PER_S / (double)(now_ns - row->begun_ns);
+        row->rate += (row->rate == 0.0 ? 1.0 : RATE_SHARE) * (rate - row->rate);
+    }
+    row->begun_ns = now_ns;
+}
+
+/* All that wait count as if they took as long as this one. */
+static void govern(struct booth *booth, uint64_t begun_ns)
+{
+    struct governor *governor = &booth->governor;
+    uint64_t now_ns = clock_now_ns();
+    double took_s = (double)(now_ns - begun_ns) / 1e9 * booth->waiting;
+    int change = governor_note(governor, took_s, (double)now_ns / 1e9);
+    const struct governor_level *level = &governor_levels[governor->level];
+    if (change != 0)
+        log_info("pictures that are asked for take %.1f of %.1f ms: draws %s of them, %.0f %% of "
+                 "the detail at %u %% of the size",
+                 1e3 * governor->judged_s, 1e3 * governor->interval_s, change < 0 ? "less" : "more",
+                 100.0 * level->detail, 25 * level->quarters);
+}
+
+static int draw_row(struct studio *studio, uint32_t i, struct reason *reason)
+{
+    struct booth *booth = &studio->booth;
+    struct booth_row *row = &booth->row[i];
+    bool first = row->begun_ns == 0;
+    uint64_t begun_ns = clock_now_ns();
+    note_rate(row, begun_ns);
+    struct moment moment = studio_present(studio, false);
+    bool paused = moment.head->paused != 0;
+    bool same = row->frame == moment.head->frame && row->ahead_s == moment.ahead_s;
+    bool whole = same && paused; /* what stands still is drawn once more, with everything */
+    if (same && !booth->wishes[i].again && (row->whole || !paused))
+        return 0;
+    row->shot.slot = studio_find(studio, &moment, row->shot.wish.vehicle);
+    if (row->shot.wish.vehicle != 0 && row->shot.slot == SLOT_NONE) {
+        outlets_grant(studio->outlets, i, row->generation, NULL, 0, 0.0);
+        return 0;
+    }
+    const struct governor_level *level = &governor_levels[whole ? 0 : booth->governor.level];
+    studio->scene.detail = (float)level->detail;
+    studio->scene.paintings = whole ? TILES_ALL : first ? PAINTINGS_MOST : PAINTINGS;
+    gear_note(&studio->gear, &moment);
+    const struct studio_sheet sheet = {.image = &row->image,
+                                       .chart = row->chart.text != NULL ? &row->chart : NULL,
+                                       .rate = row->rate};
+    if (studio_shoot(studio, &row->shot, &moment, level, &sheet, reason) != 0)
+        return -1;
+    row->frame = moment.head->frame;
+    row->ahead_s = moment.ahead_s;
+    row->whole = whole;
+    outlets_grant(studio->outlets, i, row->generation, &row->image, moment.head->frame,
+                  moment_time_s(&moment));
+    pulse_stage(studio->pulse);
+    if (!whole && !first)
+        govern(booth, begun_ns);
+    return 0;
+}
+
+int booth_draw(struct studio *studio, struct reason *reason)
+{
+    struct booth *booth = &studio->booth;
+    uint32_t next = 0;
+    for (uint32_t i = 1; i < WANTED_MAX; i++)
+        if (due_of(booth, i) < due_of(booth, next))
+            next = i;
+    if (due_of(booth, next) > clock_now_ns())
+        return 0;
+    if (booth->row[next].generation != booth->wishes[next].generation &&
+        begin_row(studio, &booth->row[next], &booth->wishes[next]) != 0)
+        return 0;
+    return draw_row(studio, next, reason);
+}

@@ -1,0 +1,51 @@
+/* The table of pictures that clients of the stream ask for: which view, of whom, how large. Pure;
+ * the caller has the lock that guards it (renderer/output/stream_inside.h).
+ *
+ * Two sides use it. The clients' threads make rows and note when somebody asked; the drawing thread
+ * reads them, and notes that a vehicle is gone. A row stays while somebody has asked for it lately:
+ * with it stay the number of its pictures and what its camera remembers. */
+#ifndef JOLON_RENDERER_WANTED_H
+#define JOLON_RENDERER_WANTED_H
+
+#include "world/world.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define WANTED_MAX     8u
+#define WANTED_NONE    UINT32_MAX
+#define WANTED_KEEP_NS 2000000000ull /* a row that nobody asks for stays so long */
+
+struct wanted_key {
+    enum view_mode view; /* not VIEW_MAP, not VIEW_FREE */
+    uint32_t vehicle;    /* id; 0: whom the renderer follows */
+    uint32_t width, height;
+    bool bar; /* statistics bar and small map */
+};
+
+struct wanted {
+    /* By the clients' threads. */
+    struct wanted_key key;
+    uint64_t generation; /* no two rows ever have the same; 0: free */
+    uint64_t asked_ns;   /* CLOCK_MONOTONIC when somebody last asked */
+    uint32_t holders;    /* requests that are not answered yet */
+    /* By the drawing thread, but for the beginning. */
+    bool gone; /* there is no such vehicle */
+};
+
+struct wanted_table {
+    struct wanted row[WANTED_MAX];
+    uint64_t generations;
+};
+
+/* Is anybody waiting for it, or was lately? */
+bool wanted_lives(const struct wanted *row, uint64_t now_ns);
+
+/* The row of this key, asked for now; a new one if there is none, in the place of one that nobody
+ * has asked for lately. WANTED_NONE when all are in use. */
+uint32_t wanted_ask(struct wanted_table *table, const struct wanted_key *key, uint64_t now_ns);
+
+/* Gives a row up now, unless somebody waits. */
+void wanted_forget(struct wanted *row);
+
+#endif

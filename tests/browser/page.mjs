@@ -1,0 +1,83 @@
+/** What the tests of the page share: a browser, TAP lines, and what the world itself says. */
+
+import { execFileSync } from 'node:child_process';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+
+const { BROWSER, MODULES, JOLON_BIN, WORLD, SHOTS } = process.env;
+const { chromium } = createRequire(`${MODULES}/`)('playwright-core');
+
+/** The page's own complaints. A refused answer is one too, but what it says is the page's to show. */
+export const complaints = [];
+
+let number = 0;
+export let failures = 0;
+
+/** @param {string} name @param {() => Promise<any>} deed throws, or gives false, when it fails */
+export async function check(name, deed) {
+  number++;
+  try {
+    const answer = await deed();
+    if (answer === false) throw new Error('it is not so');
+    console.log(`ok ${number} - ${name}`);
+  } catch (error) {
+    failures++;
+    console.log(`not ok ${number} - ${name}`);
+    console.log(String(error.stack).split('\n').slice(0, 12).map((line) => `# ${line}`).join('\n'));
+  }
+}
+
+/** Waits until a deed gives something true. */
+export async function eventually(deed, what, limit_ms = 15000) {
+  const end = Date.now() + limit_ms;
+  let last;
+  while (Date.now() < end) {
+    last = await deed();
+    if (last) return last;
+    await new Promise((resolve) => setTimeout(resolve, 60));
+  }
+  throw new Error(`not within ${limit_ms / 1000} s: ${what}`);
+}
+
+export async function openBrowser() {
+  const args = ['--disable-gpu', '--disable-dev-shm-usage', ...(process.getuid() === 0 ? ['--no-sandbox'] : [])];
+  return chromium.launch({ executablePath: BROWSER, args });
+}
+
+/** A page of a person of its own. */
+export async function openPage(browser, url, width, height, options = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(15000);
+  page.on('pageerror', (error) => complaints.push(error.stack));
+  page.on('console', (message) => {
+    const refused = /^Failed to load resource: the server responded with a status of \d+/.test(message.text());
+    if (['error', 'warning'].includes(message.type()) && !refused) complaints.push(message.text());
+  });
+  page.on('response', (response) => {
+    if (response.status() === 429) complaints.push(`too often: ${response.url()}`);
+  });
+  await page.goto(url);
+  return page;
+}
+
+export async function shot(page, name) {
+  await page.screenshot({ path: path.join(SHOTS, `${name}.png`), timeout: 30000 });
+}
+
+export function jolon(...words) {
+  return execFileSync(path.join(JOLON_BIN, 'jolon'), words, { encoding: 'utf8' });
+}
+
+/** Every entity of the world's table, by name. */
+export function dump() {
+  const text = execFileSync(path.join(JOLON_BIN, 'jolon-world'), ['dump', '--world', WORLD, '--json'],
+    { encoding: 'utf8', maxBuffer: 1 << 26 });
+  const all = text.trim().split('\n').map((line) => JSON.parse(line));
+  return new Map(all.map((entity) => [entity.name || String(entity.id), entity]));
+}
+
+/** The text of an element. */
+export function text(page, selector) {
+  return page.locator(selector).textContent();
+}

@@ -1,0 +1,42 @@
+/* Orders as JSON, as jolon harness and jolon console take them from anybody. */
+#include "tests/fuzz/support.h"
+
+#include "ipc/log.h"
+#include "topics/order_json.h"
+
+#include <math.h>
+#include <string.h>
+
+static void check(struct order *order)
+{
+    struct reason reason;
+    const struct names none = {.told = true};
+    const jolon_Command *c = &order->command;
+    CHECK(order->verb && (order->given & ~order->verb->allowed) == 0 &&
+          (order->verb->needed & ~order->given) == 0);
+    CHECK(memchr(c->kind, '\0', sizeof c->kind) &&
+          memchr(order->vehicle, '\0', sizeof order->vehicle) &&
+          memchr(order->target, '\0', sizeof order->target));
+    CHECK(c->force <= jolon_FORCE_RED && c->behaviour <= jolon_BEHAVIOUR_PATROL &&
+          c->gear <= jolon_GEAR_LOW);
+    CHECK(c->throttle >= -1.0F && c->throttle <= 1.0F && c->brake >= 0.0F && c->brake <= 1.0F);
+    CHECK(isfinite(c->x_m) && isfinite(c->z_m) && isfinite(c->altitude_m) &&
+          isfinite(c->heading_rad) && isfinite(c->speed_mps) && isfinite(c->scale));
+    CHECK(order->rounds >= 1 && order->rounds <= ORDER_ROUNDS_MAX);
+    CHECK(order_needs_names(order) == (order_resolve(order, &none, 60.0, &reason) != 0));
+    jolon_Command round = order_round(order, 7, order->rounds - 1);
+    CHECK(round.x_m >= 0.0 && round.x_m <= 50000.0 && round.z_m >= 0.0 && round.z_m <= 50000.0);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    struct order order;
+    struct reason reason = {.text = ""};
+    cJSON *object = cJSON_ParseWithLength((const char *)data, size);
+    if (order_from_json(&order, object, &reason) == 0)
+        check(&order);
+    else
+        CHECK(reason.text[0] && strlen(reason.text) < sizeof reason.text - 1);
+    cJSON_Delete(object);
+    return 0;
+}

@@ -1,0 +1,270 @@
+/* lag: how long it takes from a key, or a push of a SpaceMouse, to the moved vehicle.
+ *
+ * It runs jolon-drive on a terminal of its own (a pty) and stands in for its user: it waits until
+ * nothing changes, and a random part of a frame; notes the last committed frame and the time;
+ * writes the key's byte; and looks at every frame that is committed from then on until the
+ * vehicle's throttle has changed in one. The difference of the two frames is the lag. A frame that
+ * it misses counts as the later one that it saw. Of a SpaceMouse it is the daemon: a socket that
+ * SPNAV_SOCKET names, where it writes motions; the column is the steering. */
+#include "ipc/clock.h"
+#include "ipc/frame.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <getopt.h>
+#include <poll.h>
+#include <pty.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define PRESSES_MAX  10000
+#define FRAMES_MAX   64 /* a lag that is longer counts as this */
+#define LIMIT_NS     (2 * (uint64_t)NS_PER_S)
+#define START_NS     (10 * (uint64_t)NS_PER_S)
+#define STILL_FRAMES 8 /* without a change: nothing is under way any more */
+#define FULL_PUSH    300
+#define LOST_MAX     5
+
+struct lag {
+    const char *world, *program, *vehicle;
+    bool spacemouse;
+    uint32_t presses;
+    struct view view;
+    uint32_t row;
+    pid_t pid;
+    int terminal; /* the pty's other side */
+    int listener, device;
+    char folder[32], path[64];
+    uint64_t random;
+    uint32_t frames[PRESSES_MAX];
+    double ms[PRESSES_MAX];
+    uint32_t lost;
+};
+
+static void parse(struct lag *lag, int argc, char **argv)
+{
+    static const struct option known[] = {{"world", required_argument, NULL, 'w'},
+                                          {"input", required_argument, NULL, 'i'},
+                                          {"presses", required_argument, NULL, 'n'},
+                                          {"seed", required_argument, NULL, 's'},
+                                          {NULL, 0, NULL, 0}};
+    int option;
+    *lag = (struct lag){.world = "default", .presses = 100, .random = 1, .device = -1};
+    while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
+        if (option == 'w')
+            lag->world = optarg;
+        else if (option == 'i' && strcmp(optarg, "spacemouse") == 0)
+            lag->spacemouse = true;
+        else if (option == 'n')
+            lag->presses = (uint32_t)process_whole("presses", optarg, 1, PRESSES_MAX);
+        else if (option == 's')
+            lag->random = process_whole("seed", optarg, 1, UINT32_MAX);
+        else if (option != 'i' || strcmp(optarg, "keys") != 0)
+            die_usage("usage: lag [--world NAME] [--input keys|spacemouse] [--presses N] "
+                      "[--seed N] JOLON-DRIVE ID");
+    }
+    if (argc - optind != 2)
+        die_usage("lag: wants the program jolon-drive and a vehicle's id");
+    lag->program = argv[optind];
+    lag->vehicle = argv[optind + 1];
+}
+
+static uint32_t random_below(struct lag *lag, uint32_t end)
+{
+    lag->random = lag->random * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(lag->random >> 33) % end;
+}
+
+static void listen_as_daemon(struct lag *lag)
+{
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    (void)snprintf(lag->folder, sizeof lag->folder, "/tmp/jolon-lag-XXXXXX");
+    if (!mkdtemp(lag->folder))
+        die_refused("%s: %s", lag->folder, strerror(errno));
+    (void)snprintf(lag->path, sizeof lag->path, "%s/spnav", lag->folder);
+    (void)stpncpy(address.sun_path, lag->path, sizeof address.sun_path - 1);
+    lag->listener = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (lag->listener < 0 ||
+        bind(lag->listener, (const struct sockaddr *)&address, sizeof address) != 0 ||
+        listen(lag->listener, 1) != 0 || setenv("SPNAV_SOCKET", lag->path, 1) != 0)
+        die_refused("%s: %s", lag->path, strerror(errno));
+}
+
+static void start(struct lag *lag)
+{
+    struct winsize size = {.ws_row = 24, .ws_col = 80};
+    if (lag->spacemouse)
+        listen_as_daemon(lag);
+    lag->pid = forkpty(&lag->terminal, NULL, NULL, &size);
+    if (lag->pid == 0) {
+        (void)setenv("TERM", "xterm", 1);
+        (void)execl(lag->program, lag->program, "--world", lag->world, "--input",
+                    lag->spacemouse ? "spacemouse" : "keys", lag->vehicle, (char *)NULL);
+        _exit(127);
+    }
+    if (lag->pid < 0 || fcntl(lag->terminal, F_SETFL, O_NONBLOCK) != 0)
+        die_refused("a terminal: %s", strerror(errno));
+    if (lag->spacemouse) {
+        struct pollfd wait = {.fd = lag->listener, .events = POLLIN};
+        if (poll(&wait, 1, 5000) == 1)
+            lag->device = accept4(lag->listener, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
+        if (lag->device < 0)
+            die_refused("%s does not look for a SpaceMouse", lag->program);
+    }
+}
+
+/* What it shows is read, so that it never waits for us. */
+static void drain(const struct lag *lag)
+{
+    char bytes[4096];
+    while (read(lag->terminal, bytes, sizeof bytes) > 0) {
+    }
+    while (lag->device >= 0 && read(lag->device, bytes, sizeof bytes) > 0) {
+    }
+}
+
+/* The column of a frame that is committed; *commit says which one it was. */
+static float look(const struct lag *lag, uint64_t *commit)
+{
+    float value;
+    do {
+        *commit = segment_load(&lag->view.commit->commit);
+        const struct entities *e = &lag->view.w[*commit & 1].entities;
+        value = lag->spacemouse ? e->steer[lag->row] : e->throttle[lag->row];
+        atomic_thread_fence(memory_order_acquire);
+    } while (segment_load(&lag->view.commit->commit) != *commit);
+    return value;
+}
+
+/* Until nothing changes for some frames; false when that does not come. */
+static bool settle(const struct lag *lag)
+{
+    uint64_t commit, until_ns = clock_now_ns() + LIMIT_NS;
+    float last = look(lag, &commit);
+    for (uint32_t still = 0; still < STILL_FRAMES;) {
+        uint64_t now_ns = clock_now_ns();
+        if (now_ns > until_ns)
+            return false;
+        (void)frame_wait(&lag->view, commit, now_ns + LIMIT_NS);
+        drain(lag);
+        float value = look(lag, &commit);
+        still = value == last ? still + 1 : 0;
+        last = value;
+    }
+    return true;
+}
+
+static void push(const struct lag *lag, bool out)
+{
+    const int motion[8] = {0, 0, 0, 0, 0, out ? FULL_PUSH : 0, 0, 16};
+    ssize_t written = lag->spacemouse ? write(lag->device, motion, sizeof motion)
+                                      : write(lag->terminal, out ? "w" : "x", 1);
+    if (written <= 0)
+        die_refused("nobody is at the wheel: %s", strerror(errno));
+}
+
+/* One press; false when nothing came of it. */
+static bool press(struct lag *lag, uint32_t which)
+{
+    uint64_t commit;
+    if (!settle(lag))
+        return false;
+    clock_sleep_until_ns(clock_now_ns() + random_below(lag, 20000000));
+    drain(lag);
+    float before = look(lag, &commit);
+    uint64_t at = commit, pressed_ns = clock_now_ns();
+    push(lag, (which & 1) == 0);
+    while (clock_now_ns() - pressed_ns < LIMIT_NS) {
+        (void)frame_wait(&lag->view, commit, pressed_ns + LIMIT_NS);
+        float value = look(lag, &commit);
+        if (value != before) {
+            uint64_t frames = commit - at;
+            lag->ms[which] = (double)(clock_now_ns() - pressed_ns) / NS_PER_MS;
+            lag->frames[which] = frames < FRAMES_MAX ? (uint32_t)frames : FRAMES_MAX;
+            return true;
+        }
+    }
+    return false;
+}
+
+static int by_frames(const void *a, const void *b)
+{
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return x < y ? -1 : x > y;
+}
+
+static int by_ms(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+static void report(struct lag *lag, uint32_t count)
+{
+    uint32_t p99 = count - 1 - count / 100;
+    qsort(lag->frames, count, sizeof *lag->frames, by_frames);
+    qsort(lag->ms, count, sizeof *lag->ms, by_ms);
+    printf("input %s presses %u lost %u frames median %u p99 %u worst %u "
+           "ms median %.1f p99 %.1f worst %.1f\n",
+           lag->spacemouse ? "spacemouse" : "keys", count, lag->lost, lag->frames[count / 2],
+           lag->frames[p99], lag->frames[count - 1], lag->ms[count / 2], lag->ms[p99],
+           lag->ms[count - 1]);
+}
+
+static void finish(const struct lag *lag)
+{
+    (void)kill(lag->pid, SIGTERM);
+    for (int i = 0; i < 300 && waitpid(lag->pid, NULL, WNOHANG) == 0; i++) {
+        drain(lag);
+        clock_sleep_until_ns(clock_now_ns() + 10 * (uint64_t)NS_PER_MS);
+    }
+    if (lag->spacemouse) {
+        (void)unlink(lag->path);
+        (void)rmdir(lag->folder);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    static struct lag lag;
+    struct reason reason;
+    uint64_t commit;
+    log_open("lag");
+    parse(&lag, argc, argv);
+    if (segment_attach(&lag.view, lag.world, ROLE_NONE, &reason) != 0)
+        die_refused("%s", reason.text);
+    uint32_t id = (uint32_t)strtoul(lag.vehicle, NULL, 10);
+    (void)look(&lag, &commit);
+    const struct state *state = &lag.view.w[commit & 1];
+    lag.row = entities_find(&state->entities, state->head->used, id);
+    if (lag.row == SLOT_NONE)
+        die_refused("no vehicle %s in world %s", lag.vehicle, lag.world);
+    start(&lag);
+    uint64_t until_ns = clock_now_ns() + START_NS;
+    while (clock_now_ns() < until_ns &&
+           lag.view.w[commit & 1].entities.behaviour[lag.row] != BEHAVIOUR_DRIVEN) {
+        drain(&lag);
+        clock_sleep_until_ns(clock_now_ns() + 20 * (uint64_t)NS_PER_MS);
+    }
+    uint32_t count = 0;
+    uint32_t in_a_row = 0; /* without effect: it cannot be driven any more */
+    for (uint32_t i = 0; i < lag.presses && in_a_row < LOST_MAX && !process_stopping(); i++) {
+        in_a_row = press(&lag, count) ? 0 : in_a_row + 1;
+        count += in_a_row == 0;
+        lag.lost += in_a_row > 0;
+    }
+    finish(&lag);
+    segment_detach(&lag.view);
+    if (count == 0 || in_a_row == LOST_MAX)
+        die_refused("the last of %u presses came to nothing: is the vehicle destroyed?", count);
+    report(&lag, count);
+    return EXIT_OK;
+}

@@ -1,0 +1,297 @@
+"""Clients of a console, good and hostile: console.py URL WORLD. A line "ok WHAT" or "not ok WHAT" for each check.
+SEED chooses other hostile bytes."""
+import http.client
+import json
+import os
+import random
+import socket
+import sys
+import threading
+import time
+
+address, token = sys.argv[1].split("#token=")
+host = address.rstrip("/").split("//")[1]
+name, port = host.split(":")
+seed = int(os.environ.get("SEED", random.randrange(1 << 31)))
+print(f"# SEED={seed}")
+
+
+def ask(path, body=None, key=None, method=None, **headers):
+    """Status and what the JSON says."""
+    link = http.client.HTTPConnection(name, int(port), timeout=10)
+    if body is not None:
+        headers = {"Content-Type": "application/json", "Authorization": "Bearer " + token, **headers}
+        body = body if isinstance(body, bytes) else json.dumps(body).encode()
+    if key:
+        headers["X-Jolon-Player"] = key
+    headers = {name.replace("_", "-"): value for name, value in headers.items() if value is not None}
+    link.request(method or ("GET" if body is None else "POST"), path, body, headers)
+    answer = link.getresponse()
+    data = answer.read()
+    link.close()
+    is_json = answer.getheader("Content-Type") == "application/json"
+    return answer.status, json.loads(data) if is_json and data else data
+
+
+def order(key=None, **body):
+    return ask("/api/command", body, key)
+
+
+def state(query="most=0", key=None):
+    return ask("/api/state?" + query, key=key)[1]
+
+
+def check(what, good, why=""):
+    print(("ok " if good else "not ok ") + what + ("" if good else f" # {why}"), flush=True)
+
+
+def eventually(condition, seconds=10):
+    end = time.time() + seconds
+    while time.time() < end:
+        if condition():
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def renderer():
+    return next(role for role in ask("/api/processes")[1] if role["role"] == "renderer")
+
+
+def reading():
+    status, page = ask("/")
+    check("the page is served", status == 200 and b"<html" in page)
+    status, world = ask("/api/world")
+    check("the world is described", status == 200 and world["world"] == sys.argv[2] and
+          any(kind["name"] == "tank" and kind["turret"] for kind in world["kinds"]), world)
+    now = state("most=100")
+    check("the state has entities and counts the others", 50 <= len(now["entities"]) <= 100 and
+          now["left_out"] == now["vehicles"] + now["munitions"] - len(now["entities"]), now["left_out"])
+    x, z = now["entities"][0][6:8]
+    near = state(f"area={x - 50},{z - 50},{x + 50},{z + 50}")
+    check("an area holds what is in it",
+          0 < len(near["entities"]) and all(abs(e[6] - x) < 51 and abs(e[7] - z) < 51 for e in near["entities"]))
+    rows = ask("/api/list?kind=tank&force=blue&sort=name&most=500")[1]
+    names = [row["name"] for row in rows["rows"]]
+    check("the list is filtered and sorted", rows["total"] == len(names) > 5 and
+          names == sorted(names, key=lambda n: (n == "", n)) and all(row["force"] == "blue" for row in rows["rows"]))
+    page = ask("/api/list?kind=tank&force=blue&sort=name&from=3&most=2")[1]["rows"]
+    check("pages of it fit", [row["name"] for row in page] == names[3:5], page)
+    found = ask("/api/list?search=" + names[2].upper())[1]["rows"]
+    check("a name is found in any letters", names[2] in [row["name"] for row in found], names[2])
+    wrong = ["/api/state?most=x", "/api/state?area=1,2,3", "/api/state?me=-1", "/api/list?sort=colour",
+             "/api/list?force=green", "/api/list?kind=tnak", "/api/list?from=10001", "/api/events?types=birth",
+             "/api/events?after=-1", "/api/picture?view=a/b"]
+    answers = [ask(path) for path in wrong]
+    check("wrong questions are refused in words", all(status == 400 and text["error"] and text["next"]
+                                                      for status, text in answers), answers)
+    check("what is not there is 404", ask("/etc/passwd")[0] == 404 and ask("/../main.c")[0] == 404)
+
+
+def playing():
+    status, ann = ask("/api/join", {"name": "Ann"})
+    check("a player joins", status == 200 and len(ann["key"]) == 32, ann)
+    key, other = ann["key"], ask("/api/join", {"name": "Bob"})[1]["key"]
+    tanks = [row["id"] for row in ask("/api/list?kind=tank&sort=damage&most=9")[1]["rows"]]
+    tank = tanks[0]
+    before = state(f"most=0&me={tank}")["me"]
+    status, taken = order(key, do="drive", vehicle=tank, throttle=1, steer=0.2)
+    check("takes a tank, and hears the frame", status == 200 and taken["frame"] > 0, taken)
+    check("drives it", eventually(lambda: abs((now := state(f"most=0&me={tank}", key)["me"])["x"] - before["x"]) +
+                                  abs(now["z"] - before["z"]) > 2 and now["driver"] == "you"))
+    status, said = order(other, do="drive", vehicle=tank)
+    check("nobody else can, and hears who has it", status == 409 and "Ann" in said["error"], said)
+    check("nor fire it", order(other, do="fire", vehicle=tank)[0] == 409)
+    check("others see that somebody drives", state(f"most=0&me={tank}", other)["me"]["driver"] == "another")
+    ask("/api/state?most=0", key=key)
+    place = ask("/api/events?most=1&types=fire")[1]["next"]
+    fired = []
+
+    def fire():  # its agent may have fired just now: it loads
+        fired[:] = order(key, do="fire")
+        return fired[0] == 200
+
+    eventually(fire, 15)
+    fires = lambda: [e for e in ask(f"/api/events?after={place}&most=500&types=fire")[1]["events"] if tank in e["ids"]]
+    check("fires, and the event is seen in words",
+          fired[0] == 200 and eventually(fires) and f"tank {tank} fired" in fires()[0]["text"], fired)
+    ask("/api/state?most=0", key=key)
+    status, said = order(key, do="drive", vehicle=tanks[1], throttle=1)
+    check("changes its vehicle", status == 200 and
+          eventually(lambda: state(f"most=0&me={tank}", key)["me"]["driver"] == ""), said)
+    begun = time.time()
+    gone = eventually(lambda: state(f"most=0&me={tanks[1]}")["me"]["driver"] == "", 5)
+    check("who goes away loses it within two seconds", gone and time.time() - begun < 2.5, time.time() - begun)
+    check("and is told", "heard" in state(key=key)["you"]["lost"])
+    check("who drives nothing cannot fire or release",
+          order(key, do="fire")[0] == 409 and order(key, do="release")[0] == 409)
+    order(key, do="drive", vehicle=tank)
+    check("releases it", order(key, do="release")[0] == 200 and
+          eventually(lambda: state(f"most=0&me={tank}")["me"]["driver"] == ""))
+    named = next(row for row in ask("/api/list?kind=tank&force=blue&sort=damage&most=9")[1]["rows"] if row["name"])
+    status, taken = order(key, do="drive", vehicle=named["name"])
+    check("takes one by its name", status == 200 and taken["entity"] == named["id"], taken)
+    order(key, do="release")
+    status, said = order(key, do="drive", vehicle="Nobody")
+    check("and hears that nobody is called so", status == 409 and "the nearest is" in said["error"], said)
+
+
+def ruling():
+    status, paused = order(do="pause")
+    check("pauses", status == 200 and eventually(lambda: state()["paused"]))
+    frame = state()["frame"]
+    order(do="step", frames=5)
+    check("steps", eventually(lambda: state()["frame"] >= frame + 5))
+    check("resumes", order(do="resume")[0] == 200 and order(do="step")[0] == 409)
+    check("scales time", order(do="scale", scale=2)[0] == 200 and
+          eventually(lambda: state()["scale"] == 2) and order(do="scale", scale=1)[0] == 200)
+    status, made = order(do="spawn", kind="tank", force="red", x=25000, z=24000)
+    check("spawns", status == 200 and state(f"most=0&me={made['entity']}")["frame"] and
+          eventually(lambda: "me" in state(f"most=0&me={made['entity']}")), made)
+    check("removes, once", order(do="remove", vehicle=made["entity"])[0] == 200 and
+          order(do="remove", vehicle=made["entity"])[0] == 409)
+    status, said = order(do="spawn", kind="tnak", x=1, z=1)
+    check("names the kinds there are", status == 409 and "tank" in said["next"], said)
+    place = ask("/api/events?most=1&types=fire")[1]["next"]
+    status, mission = order(do="mission", munition="artillery", x=1000, z=1000, rounds=3, every_s=0.1, radius_m=50, seed=7)
+    sky = lambda: [e for e in ask(f"/api/events?after={place}&most=500&types=fire")[1]["events"] if "the sky" in e["text"]]
+    check("a fire mission falls", status == 200 and mission["mission"] and mission["seed"] == 7 and eventually(lambda: len(sky()) >= 3), sky())
+    mission = order(do="mission", munition="artillery", x=1000, z=1000, rounds=900, every_s=1)[1]["mission"]
+    check("and is cancelled", order(do="cancel", mission=mission)[0] == 200 and not state()["missions"] and
+          order(do="cancel", mission=mission)[0] == 409)
+
+
+def killing():
+    pid = renderer()["pid"]
+    status, said = ask("/api/process", {"do": "kill", "role": "renderer"})
+    check("kills the renderer", status == 200 and said["pid"] == pid, said)
+    check("and sees it return", eventually(lambda: renderer()["pid"] not in (0, pid), 20), renderer())
+    status, said = ask("/api/process", {"do": "restart", "role": "mover"})
+    frame = state()["frame"]
+    check("restarts the mover, and the world goes on", status == 200 and eventually(lambda: state()["frame"] > frame + 10))
+    check("no other role", ask("/api/process", {"do": "kill", "role": "init"})[0] == 400)
+
+
+def pictures():
+    picture = lambda: ask("/api/picture?view=chase&size=320x180")
+    if not eventually(lambda: picture()[0] == 200, 15):
+        check("pictures are passed on", False, picture())
+        return
+    status, data = picture()
+    check("pictures are passed on", data[:2] == b"\xff\xd8")
+    pid = renderer()["pid"]
+    ask("/api/process", {"do": "kill", "role": "renderer"})
+    end = time.time() + 1
+    seen = set()
+    while time.time() < end:  # the next renderer may listen before anybody missed the last
+        seen.add(picture()[0])
+        time.sleep(0.003)
+    check("while it is dead the answer says so, or waits for the next", seen <= {200, 503}, seen)
+    check("and when it is back there are pictures", eventually(lambda: picture()[0] == 200, 20) and
+          renderer()["pid"] != pid)
+    check("a map too", ask("/api/map?x=25000&z=25000&metres=4000&size=256x256")[0] == 200)
+
+
+def refusals():
+    before = state()["tally"]["commands"]
+    good = {"do": "pause"}
+    wrong = {
+        "no token": (401, ask("/api/command", good, Authorization=None)),
+        "another token": (401, ask("/api/command", good, Authorization="Bearer " + "0" * 32)),
+        "a longer token": (401, ask("/api/command", good, Authorization="Bearer " + token + "0")),
+        "no Bearer": (401, ask("/api/command", good, Authorization=token)),
+        "another key": (401, ask("/api/command", good, key="0" * 32)),
+        "another Host": (403, ask("/api/command", good, Host="evil.example")),
+        "another Host to read": (403, ask("/api/state", Host="evil.example:80")),
+        "another Origin": (403, ask("/api/command", good, Origin="http://evil.example")),
+        "no Origin's own": (403, ask("/api/command", good, Origin="null")),
+        "another port's Origin": (403, ask("/api/command", good, Origin="http://127.0.0.1:1")),
+        "a cross-site page": (403, ask("/api/command", good, Sec_Fetch_Site="cross-site")),
+        "a form": (415, ask("/api/command", good, Content_Type="text/plain")),
+        "a large body": (413, ask("/api/command", b'{"do":"pause"' + b" " * 5000 + b"}")),
+        "no JSON": (400, ask("/api/command", b"do=pause")),
+        "no order": (400, ask("/api/command", {"do": "quit"})),
+        "a wrong value": (400, ask("/api/command", {"do": "scale", "scale": 1e9})),
+        "a drive of nobody's": (403, ask("/api/command", {"do": "drive", "vehicle": 1})),
+        "reading by POST": (405, ask("/api/state", {})),
+        "an order by GET": (405, ask("/api/command")),
+        "another method": (405, ask("/api/command", good, method="PUT")),
+    }
+    for what, (status, answer) in wrong.items():
+        check(f"refused: {what}", answer[0] == status and answer[1]["error"] and answer[1]["next"], answer)
+    check("joining wants the token too", ask("/api/join", {"name": "Eve"}, Authorization=None)[0] == 401)
+    check("and so does killing", ask("/api/process", {"do": "kill", "role": "mover"}, Authorization=None)[0] == 401)
+    answers = [ask("/api/command", {"do": "cancel", "mission": 9})[0] for _ in range(120)]
+    check("a flood of orders is refused", 429 in answers, set(answers))
+    check("nothing of this reached the world", state()["tally"]["commands"] == before)
+
+
+def send_bytes(data):
+    try:
+        with socket.create_connection((name, int(port)), timeout=3) as link:
+            link.sendall(data)
+            link.recv(4096)
+    except OSError:
+        pass
+
+
+def hostile():
+    rng = random.Random(seed)
+    before = state()
+    late, frame = before["late_frames"], before["frame"]
+    worst = [0.0]
+    served = [0]
+    stop = threading.Event()
+
+    def watch():
+        while not stop.is_set():
+            begun = time.time()
+            try:
+                served[0] += ask("/api/state?most=10")[0] == 200
+            except OSError:
+                pass
+            worst[0] = max(worst[0], time.time() - begun)
+            time.sleep(0.02)
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    slow = []
+    for _ in range(400):  # slow: a head that never ends
+        link = socket.create_connection((name, int(port)), timeout=3)
+        link.sendall(b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nX: ")
+        slow.append(link)
+    send_bytes(b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nX: " + b"x" * 100000 + b"\r\n\r\n")
+    send_bytes(b"GET /" + b"y" * 100000 + b" HTTP/1.1\r\n\r\n")
+    send_bytes(b"POST /api/command HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 99999999999\r\n\r\n" + b"z" * 100000)
+    send_bytes(b"POST /api/command HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: -1\r\n\r\n{}")
+    send_bytes(b"POST /api/command HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\nfffffffffffffffff\r\n")
+    good = (b"POST /api/command HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nAuthorization: Bearer " +
+            token.encode() + b'\r\nContent-Length: 13\r\n\r\n{"do":"pausf"')
+    for _ in range(int(os.environ.get("FUZZ", 500))):
+        data = bytearray(good)
+        for _ in range(rng.randrange(1, 8)):
+            at = rng.randrange(len(data))
+            if rng.random() < 0.5:
+                data[at] = rng.randrange(256)
+            else:
+                del data[at:at + rng.randrange(1, 20)]
+        try:
+            with socket.create_connection((name, int(port)), timeout=3) as link:
+                link.sendall(bytes(data) if rng.random() < 0.8 else rng.randbytes(rng.randrange(1, 400)))
+        except OSError:
+            pass
+    for link in slow:
+        link.close()
+    stop.set()
+    watcher.join()
+    now = state()
+    check("hostile clients keep nobody from being served", served[0] > 20 and worst[0] < 2.0, (served[0], worst[0]))
+    # A few come of the machine, which all these clients load too.
+    frames = now["frame"] - frame
+    check("nor make many frames late", now["late_frames"] - late <= 3 + frames // 50, now["late_frames"] - late)
+    print(f"# {served[0]} answers meanwhile, the slowest after {1e3 * worst[0]:.0f} ms; "
+          f"{now['late_frames'] - late} late frames")
+
+
+for part in (reading, playing, ruling, killing, pictures, refusals, hostile):
+    part()

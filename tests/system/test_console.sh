@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# The console over real processes: what it tells, what can be ordered through it, what it refuses, and that
+# hostile clients stop nobody. SEED=n and FUZZ=n choose other hostile bytes, and how many.
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+. "$here/lib.sh"
+
+console() { # options...
+    "$bin/jolon-console" -w "$name" --port 0 "$@" >"$folder/url" 2>"$folder/log" &
+    console_pid=$!
+    eventually test -s "$folder/url"
+}
+api() { python3 - "$(cut -d'#' -f1 "$folder/url")api/$1" <<'P'
+import sys, urllib.error, urllib.request
+try:
+    print(urllib.request.urlopen(sys.argv[1], timeout=5).status)
+except urllib.error.HTTPError as error:
+    print(error.code)
+P
+}
+is() { [ "$(api "${2:-state?most=0}")" = "$1" ]; }
+
+# --- before there is a world ------------------------------------------------------------------------
+check "it starts without a world" console --token-file "$folder/token"
+check "and says that there is none" is 503
+check "the token is the file's, which others cannot read" \
+    equal "$(sed 's/.*token=//' url) $(stat -c %a token)" "$(cat token) 600"
+refuses "a port in use is told in a line" 1 'it is in use; name another' \
+    "$bin/jolon-console" -w "$name" --port "$(sed 's/.*:\([0-9]*\).*/\1/' url)"
+refuses "and an address that is none" 1 'must be an address' "$bin/jolon-console" --port 0 --address nowhere
+refuses "and wrong usage" 2 'port' "$bin/jolon-console" --port 65536
+
+# --- with one ---------------------------------------------------------------------------------------
+check "a set starts" "$jolon" start -w "$name" --out "$folder/out"
+check "the console finds it" eventually is 200
+while read -r line; do
+    case $line in
+    "ok "*) ok "${line#ok }" ;;
+    "not ok "*) not_ok "${line#not ok }" ;;
+    *) echo "$line" ;;
+    esac
+done < <(python3 "$here/console.py" "$(cat url)" "$name" 2>&1 || echo "not ok console.py ended early")
+
+# --- what dies, and comes back ----------------------------------------------------------------------
+check "the console lives" kill -0 $console_pid
+check "the world ends" "$jolon" stop -w "$name"
+check "and the console waits" eventually is 503
+check "another begins" "$jolon" start -w "$name" --without renderer --out "$folder/out2"
+check "and it is found" eventually is 200
+check "where nobody draws the answer says so" is 503 "picture?view=chase&size=320x180"
+kill -INT $console_pid
+wait $console_pid
+check "Ctrl-C ends it cleanly" equal $? 0
+check "with nothing wrong in its log" eval '! grep -E "warn|ERROR|failed" log'
+"$jolon" stop -w "$name" >/dev/null
+check "nothing is left" nothing_left "$name"
+done_testing

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Two companies meet (row 9): who fights and who flees, and every change of mind says why.
+. "$(dirname "$0")/lib.sh"
+
+cat >meeting.cfg <<'SCENARIO'
+world = { seed = 9; };
+terrain = { source = "flat"; };
+vehicles = (
+  { kind = "tank"; count = 10; force = "blue"; fire_at_will = true; area = [24000.0, 26500.0, 25000.0, 26900.0];
+    route = ( [24500.0, 23000.0], [24500.0, 26500.0] ); },
+  { kind = "jeep"; count = 6; force = "blue"; area = [24000.0, 26000.0, 25000.0, 26400.0];
+    route = ( [24500.0, 23000.0], [24500.0, 26500.0] ); },
+  { kind = "truck"; count = 6; force = "blue"; area = [24000.0, 25000.0, 25000.0, 25400.0];
+    route = ( [24500.0, 24500.0], [24500.0, 27500.0] ); },
+  { kind = "tank"; count = 14; force = "red"; fire_at_will = true; area = [24000.0, 22100.0, 25000.0, 22500.0];
+    route = ( [24500.0, 26000.0], [24500.0, 22500.0] ); },
+  { kind = "helicopter"; count = 2; force = "red"; fire_at_will = true; area = [24000.0, 21100.0, 25000.0, 21500.0];
+    route = ( [24500.0, 26000.0], [24500.0, 21500.0] ); } );
+SCENARIO
+
+check "two companies meet" "$jolon" run -w "$name" --pace max --frames 7200 --json --without renderer \
+    --without reporter --out "$folder/out" --events "$folder/events" meeting.cfg
+cat >minds.py <<'P'
+import json, sys
+events = [json.loads(line) for line in open("events")]
+minds = [e for e in events if e["type"] == "agent"]
+what = sys.argv[1]
+if what == "chain":  # nobody changes his behaviour without an event
+    now = {}
+    for e in minds:
+        assert now.get(e["id"], "route") == e["from"], (e, now.get(e["id"]))
+        assert e["from"] != e["to"] and e["because"], e
+        now[e["id"]] = e["to"]
+    assert len(now) > 20, len(now)
+elif what == "shot":  # within two frames of a shot at it (and it still has a mind) something changed
+    fires = [e for e in events if e["type"] == "fire"]
+    assert fires, "nobody fired"
+    first = min(e["frame"] for e in minds if e["because"] == "fired upon")
+    assert any(first - 2 <= e["frame"] <= first for e in fires), first
+else:
+    kind, came, because = sys.argv[1:]
+    assert any(e["kind"] == kind and e["to"] == came and e["because"] == because for e in minds), minds[:20]
+P
+check "every change of mind follows the one before it" python3 minds.py chain
+check "who changes its mind when fired upon was fired upon just then" python3 minds.py shot
+check "tanks attack whom they see" python3 minds.py tank attack "enemy seen"
+check "helicopters too" python3 minds.py helicopter attack "enemy seen"
+check "trucks flee when fired upon" python3 minds.py truck flee "fired upon"
+check "tanks go on when the target is gone" python3 minds.py tank route "target gone"
+check "who fled goes on when it is over" python3 minds.py jeep route "time over"
+done_testing

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# A scenario as a rehearsed event (row 16): vehicles are where their scripts say at the times they
+# say, and the play ends with the same digest however often, on however many threads, and when the
+# mover is killed in the middle of it.
+. "$(dirname "$0")/lib.sh"
+
+frames=6900
+play() { # AS [options]
+    local as=$1
+    shift
+    "$jolon" run -w "$name" --without renderer --without reporter --pace max --json --frames $frames --out "$folder/out" \
+        --events "$folder/$as.events" "$@" rehearsal >"$folder/$as.json" 2>"$folder/err" || sed 's/^/# /' "$folder/err"
+}
+digest() { json digest <"$folder/$1.json"; }
+
+play one --threads 1
+play three --threads 3
+play again --threads 1
+check "the play again ends with the same digest" equal "$(digest one)" "$(digest again)"
+check "one thread and three end with one digest" equal "$(digest one)" "$(digest three)"
+
+# Ten seconds by the clock, so that there is a middle to be killed in.
+play short --frames 600
+play killed --frames 600 --pace real &
+run=$!
+sleep 5
+check "the mover is killed in the middle" "$jolon" kill -w "$name" mover
+wait $run
+check "it came back" equal "$(json restarts <killed.json)" 1
+check "a play whose mover was killed ends with the same digest" equal "$(digest short)" "$(digest killed)"
+
+# Arrivals of the convoy's leader: by its file of waypoints, at 60 Hz.
+check "the convoy is at each waypoint at its time" python3 - "$folder/one.events" "$bin/../../config/scenarios/rehearsal-convoy.csv" <<'P'
+import json, sys
+arrived = [e for e in map(json.loads, open(sys.argv[1]))
+           if e["type"] == "agent" and e["id"] == 1 and e["because"] == "arrived"]
+times = [float(line.split(",")[0]) for line in open(sys.argv[2]).readlines()[1:]]
+times = [t for t in times if t * 60 <= 6900]
+frames = [e["frame"] for e in arrived]
+print(frames[:8], [t * 60 for t in times[:8]])
+sys.exit(not (len(frames) >= len(times) - 1 and
+              all(min(abs(f - max(t * 60, 1)) for f in frames) <= 2 for t in times)))
+P
+done_testing

@@ -1,0 +1,146 @@
+/* Formations: everybody in his place on a winding route, gaps closed, somebody always leads. */
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#define HZ    20
+#define COUNT 6u
+#define ORDERS                                                                                     \
+    "world = { seed = 1; capacity = 64; hz = 20.0; };"                                             \
+    "vehicles = ( { kind = \"%s\"; count = 6; formation = \"%s\"; spacing_m = 40.0;"               \
+    " at = [25000.0, 25000.0]; heading_deg = 90.0; %s } );"
+#define WINDING                                                                                    \
+    "route = ( [25000.0, 25000.0], [25600.0, 25000.0], [26000.0, 25300.0], [26500.0, 25100.0],"    \
+    " [27200.0, 25200.0], [27400.0, 25900.0], [26000.0, 26400.0] );"
+
+static struct fixture f;
+
+static void open_with(const char *kind, const char *shape, const char *orders)
+{
+    char text[1024];
+    snprintf(text, sizeof text, ORDERS, kind, shape, orders);
+    fixture_open(&f, text);
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+/* How far row is from its place [m]. */
+static double error_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    double dx = e.goal_x[row] - e.x[row], dz = e.goal_z[row] - e.z[row];
+    return sqrt(dx * dx + dz * dz);
+}
+
+static double apart(uint32_t a, uint32_t b)
+{
+    struct entities e = steps_rows(&f);
+    return vec3_length(vec3_sub(entities_position(&e, a), entities_position(&e, b)));
+}
+
+static void test_everybody_keeps_his_place_on_a_winding_route(void **state)
+{
+    static const char *const shapes[] = {"column", "line", "wedge", "echelon-left",
+                                         "echelon-right"};
+    (void)state;
+    for (int n = 0; n < 5; n++) {
+        double sum = 0.0, most = 0.0;
+        int samples = 0;
+        open_with("tank", shapes[n], WINDING);
+        for (int second = 0; second < 180; second++) {
+            fixture_run(&f, HZ);
+            for (uint32_t row = 1; row < COUNT && second > 20; row++) {
+                assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_FOLLOW);
+                most = maths_max(most, error_of(row));
+                sum += error_of(row);
+                samples++;
+            }
+        }
+        print_message("%s: %.1f m off on average, %.1f m at most\n", shapes[n], sum / samples,
+                      most);
+        assert_true(sum / samples < (n == 0 ? 6.0 : 25.0)); /* wings swing wide in bends */
+        assert_true(most < (n == 0 ? 40.0 : 160.0));
+        assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+        fixture_close(&f);
+    }
+    open_with("tank", "column", WINDING);
+}
+
+static void test_a_gap_is_closed_and_a_lost_leader_replaced(void **state)
+{
+    (void)state;
+    open_with("tank", "column", WINDING);
+    fixture_run(&f, 30 * HZ);
+    steps_command(&f, (struct command){.type = COMMAND_REMOVE, .entity = 4});
+    fixture_run(&f, 30 * HZ);
+    assert_true(apart(2, 4) < 50.0);
+    steps_command(&f, (struct command){.type = COMMAND_REMOVE, .entity = 1});
+    fixture_run(&f, 2);
+    struct entities e = steps_rows(&f);
+    assert_int_equal(e.behaviour[1], BEHAVIOUR_ROUTE);
+    assert_int_equal(e.behaviour[2], BEHAVIOUR_FOLLOW);
+    uint32_t changes = fixture_event_count(&f, EVENT_AGENT);
+    assert_int_equal(fixture_event(&f, EVENT_AGENT, changes - 1)->agent.because,
+                     REASON_LEADER_LOST);
+    fixture_run(&f, 30 * HZ);
+    assert_true(apart(1, 2) < 50.0 && apart(2, 4) < 50.0 && apart(4, 5) < 50.0);
+    assert_true(steps_speed(&f, 5) > 5.0); /* on its way */
+}
+
+static void test_it_stops_with_its_leader_and_does_not_circle(void **state)
+{
+    (void)state;
+    open_with("truck", "wedge", WINDING);
+    fixture_run(&f, 30 * HZ);
+    steps_pedals(&f, 0, 0.0, 1.0, GEAR_AUTOMATIC); /* a player takes the leader and brakes */
+    fixture_run(&f, 40 * HZ);
+    for (uint32_t row = 0; row < COUNT; row++) {
+        assert_true(steps_speed(&f, row) < 0.5);
+        assert_true(row == 0 || error_of(row) < 30.0);
+    }
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    steps_drive(&f, 0, 0.5, 0.0, 0.0); /* and they follow him on */
+    fixture_run(&f, 30 * HZ);
+    for (uint32_t row = 1; row < COUNT; row++)
+        assert_true(steps_speed(&f, row) > 5.0 && error_of(row) < 30.0);
+}
+
+static void test_two_columns_meet_on_one_road_and_pass(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };"
+                     "vehicles = ( { kind = \"truck\"; count = 5; formation = \"column\";"
+                     " spacing_m = 40.0; at = [25000.0, 25000.0]; heading_deg = 90.0;"
+                     " route = ( [25000.0, 25000.0], [27000.0, 25000.0] ); },"
+                     " { kind = \"truck\"; count = 5; formation = \"column\"; spacing_m = 40.0;"
+                     " at = [27000.0, 25000.0]; heading_deg = 270.0;"
+                     " route = ( [27000.0, 25000.0], [25000.0, 25000.0] ); } );");
+    fixture_run(&f, 85 * HZ);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    struct entities e = steps_rows(&f);
+    for (uint32_t row = 0; row < 5; row++)
+        assert_true(e.x[row] > 26000.0 && e.x[row + 5] < 26000.0);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_teardown(function, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_everybody_keeps_his_place_on_a_winding_route),
+        TEST(test_a_gap_is_closed_and_a_lost_leader_replaced),
+        TEST(test_it_stops_with_its_leader_and_does_not_circle),
+        TEST(test_two_columns_meet_on_one_road_and_pass),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,134 @@
+/* The index of who is where, against looking at everybody. */
+#include "mover/near.h"
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define ROWS_MAX 6000u
+
+static struct entities rows;
+static void *memory;
+static struct near near;
+static bool met[ROWS_MAX];
+
+static int open_table(void **state)
+{
+    (void)state;
+    memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(ROWS_MAX));
+    assert_non_null(memory);
+    memset(memory, 0, entities_bytes(ROWS_MAX));
+    entities_bind(&rows, ROWS_MAX, memory);
+    return near_init(&near, ROWS_MAX);
+}
+
+static int close_table(void **state)
+{
+    (void)state;
+    near_free(&near);
+    free(memory);
+    return 0;
+}
+
+static void put(uint32_t row, double x, double z, enum force force)
+{
+    rows.x[row] = x;
+    rows.z[row] = z;
+    rows.id[row] = row + 1;
+    rows.force[row] = (uint8_t)force;
+    rows.state[row] = ENTITY_ACTIVE;
+    rows.behaviour[row] = BEHAVIOUR_PATROL;
+}
+
+/* Everybody of all sorts, some of them where squares and the world end. */
+static void scatter(uint64_t *random, uint32_t count, double side_m)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        double x = fixture_uniform(random, 0.0, side_m), z = fixture_uniform(random, 0.0, side_m);
+        if (i % 7 == 0)
+            x = 781.25 * (double)(fixture_random(random) % 65);
+        put(i, x, i % 11 == 0 ? WORLD_SIDE_M : z, (enum force)(fixture_random(random) % 3));
+        uint64_t sort = fixture_random(random) % 8;
+        rows.state[i] = (uint8_t)(sort == 0   ? ENTITY_FREE
+                                  : sort == 1 ? ENTITY_WRECK
+                                              : ENTITY_ACTIVE);
+        if (sort == 2)
+            rows.behaviour[i] = BEHAVIOUR_FLIGHT;
+    }
+}
+
+static bool belongs(uint32_t i, uint32_t layers, double x, double z, double radius)
+{
+    double dx = (double)(float)rows.x[i] - x, dz = (double)(float)rows.z[i] - z;
+    if (rows.state[i] == ENTITY_FREE || rows.behaviour[i] == BEHAVIOUR_FLIGHT ||
+        dx * dx + dz * dz > radius * radius)
+        return false;
+    return rows.state[i] == ENTITY_WRECK ? (layers & NEAR_LAYER(NEAR_WRECKS)) != 0
+                                         : (layers >> rows.force[i] & 1u) != 0;
+}
+
+static void agrees(uint32_t count, uint32_t layers, double x, double z, double radius)
+{
+    const struct near_entry *entry;
+    memset(met, 0, sizeof met);
+    struct near_walk walk = near_begin(&near, layers, x, z, radius);
+    while ((entry = near_next(&walk))) {
+        assert_true(entry->row < count && !met[entry->row]);
+        met[entry->row] = true;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        assert_int_equal(met[i], belongs(i, layers, x, z, radius));
+}
+
+static void test_a_walk_meets_exactly_who_is_within_the_radius(void **state)
+{
+    uint64_t random = fixture_seed(9);
+    (void)state;
+    for (int trial = 0; trial < 60; trial++) {
+        uint32_t count = (uint32_t)(fixture_random(&random) % ROWS_MAX);
+        scatter(&random, count, trial % 2 ? WORLD_SIDE_M : 3000.0);
+        near_build(&near, &rows, count);
+        for (int n = 0; n < 6; n++)
+            agrees(count, (uint32_t)(fixture_random(&random) % (NEAR_ALL + 1)),
+                   fixture_uniform(&random, -100.0, 6000.0), fixture_uniform(&random, 0.0, 6000.0),
+                   fixture_uniform(&random, 0.0, n % 2 ? 60.0 : 9000.0));
+    }
+}
+
+static void test_an_empty_world_and_an_empty_layer_meet_nobody(void **state)
+{
+    (void)state;
+    near_build(&near, &rows, 0);
+    agrees(0, NEAR_ALL, 25000.0, 25000.0, 1e6);
+    put(0, 25000.0, 25000.0, FORCE_BLUE);
+    near_build(&near, &rows, 1);
+    agrees(1, NEAR_THE_LIVING, 25000.0, 25000.0, 0.0);
+    agrees(1, near_enemies(FORCE_BLUE), 25000.0, 25000.0, 1e6);
+    agrees(1, near_enemies(FORCE_NEUTRAL), 25000.0, 25000.0, 1e6);
+    assert_int_equal(near.count[FORCE_BLUE], 1);
+}
+
+static void test_the_neutral_are_nobodys_enemies(void **state)
+{
+    (void)state;
+    assert_int_equal(near_enemies(FORCE_BLUE), NEAR_LAYER(FORCE_RED));
+    assert_int_equal(near_enemies(FORCE_RED), NEAR_LAYER(FORCE_BLUE));
+    assert_int_equal(near_enemies(FORCE_NEUTRAL), 0);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_table, close_table)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_walk_meets_exactly_who_is_within_the_radius),
+        TEST(test_an_empty_world_and_an_empty_layer_meet_nobody),
+        TEST(test_the_neutral_are_nobodys_enemies),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
