@@ -177,9 +177,7 @@ void ctl_parse(struct ctl_request *request, int argc, char **argv)
                       argv[optind - 1]);
         }
     }
-    if (!segment_name_ok(request->world))
-        die_usage("--world %s: no name for a world: 1 to %d of a-z A-Z 0-9 _ -", request->world,
-                  SEGMENT_NAME_MAX - 1);
+    dds_link_check_world(request->world);
     request->lines = argc - optind == 1 && strcmp(argv[optind], "-") == 0;
     if (request->lines && (words.given || words.at))
         die_usage("-: the options of a command stand in its line");

@@ -47,9 +47,7 @@ static void check(struct options *options, int argc, char **argv)
     if (options->device && options->input != INPUTS_AUTO && options->input != INPUTS_GAMEPAD)
         die_usage("--device %s: is a gamepad's; not together with another --input",
                   options->device);
-    if (!segment_name_ok(options->world))
-        die_usage("--world %s: no name for a world: 1 to %d of a-z A-Z 0-9 _ -", options->world,
-                  SEGMENT_NAME_MAX - 1);
+    dds_link_check_world(options->world);
     options->plain = options->plain || !isatty(STDOUT_FILENO) || !isatty(STDIN_FILENO);
     if (options->rate_hz <= 0.0)
         options->rate_hz = options->plain ? LINES_HZ : SCREEN_HZ;

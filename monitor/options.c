@@ -79,9 +79,7 @@ void options_parse(struct options *options, int argc, char **argv)
     }
     if (optind < argc)
         die_usage("'%s': no such argument; jolon-monitor --help lists the options", argv[optind]);
-    if (!segment_name_ok(options->world))
-        die_usage("--world %s: no name for a world: 1 to %d of a-z A-Z 0-9 _ -", options->world,
-                  SEGMENT_NAME_MAX - 1);
+    dds_link_check_world(options->world);
     if (options->filter && (!options->json || options->events))
         die_usage("--vehicles and --filter: only with --json");
     if (options->events && (options->once || options->lines))

@@ -106,6 +106,13 @@ static int join_partition(struct dds_link *link, const char *world, struct reaso
     return 0;
 }
 
+void dds_link_check_world(const char *name)
+{
+    if (!segment_name_ok(name))
+        die_usage("--world %s: no name for a world: 1 to %d of a-z A-Z 0-9 _ -", name,
+                  SEGMENT_NAME_MAX - 1);
+}
+
 int dds_link_open(struct dds_link *link, const struct dds_link_options *options, const char *world,
                   struct reason *reason)
 {

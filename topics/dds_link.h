@@ -36,6 +36,10 @@ struct dds_link {
 /* True when option was one of them. */
 bool dds_link_option(struct dds_link_options *options, int option, const char *argument);
 
+/* Ends the program, with one line that says what would be right, when no world can have the name
+ * that --world gave. */
+void dds_link_check_world(const char *name);
+
 /* Opens the link; 0, or -1 with the reason: no such interface, a wrong configuration, no socket.
  * Blocks for some milliseconds. */
 int dds_link_open(struct dds_link *link, const struct dds_link_options *options, const char *world,
