@@ -3,7 +3,8 @@
  *
  * Two sides use it. The clients' threads make rows and note when somebody asked; the drawing thread
  * reads them, and notes that a vehicle is gone. A row stays while somebody has asked for it lately:
- * with it stay the number of its pictures and what its camera remembers. */
+ * with it stay the number of its pictures and what its camera remembers. One that was asked for
+ * just once gives way to another: who looks once keeps nobody from watching. */
 #ifndef JOLON_RENDERER_WANTED_H
 #define JOLON_RENDERER_WANTED_H
 
@@ -29,6 +30,7 @@ struct wanted {
     uint64_t generation; /* no two rows ever have the same; 0: free */
     uint64_t asked_ns;   /* CLOCK_MONOTONIC when somebody last asked */
     uint32_t holders;    /* requests that are not answered yet */
+    bool watched;        /* asked for more than once */
     /* By the drawing thread, but for the beginning. */
     bool gone; /* there is no such vehicle */
 };
@@ -42,7 +44,8 @@ struct wanted_table {
 bool wanted_lives(const struct wanted *row, uint64_t now_ns);
 
 /* The row of this key, asked for now; a new one if there is none, in the place of one that nobody
- * has asked for lately. WANTED_NONE when all are in use. */
+ * has asked for lately, or else of the one that has been answered for longest of those that are not
+ * watched. WANTED_NONE when there is neither. */
 uint32_t wanted_ask(struct wanted_table *table, const struct wanted_key *key, uint64_t now_ns);
 
 /* Gives a row up now, unless somebody waits. */

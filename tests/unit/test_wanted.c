@@ -48,18 +48,42 @@ static void test_the_same_picture_is_one_row(void **state)
     assert_int_equal(table.generations, 6);
 }
 
+/* Vehicles 0 to WANTED_MAX - 1, each asked for twice. */
+static void fill_with_watched(void)
+{
+    for (uint32_t i = 0; i < 2 * WANTED_MAX; i++)
+        assert_int_not_equal(ask(i % WANTED_MAX, SECOND + i), WANTED_NONE);
+}
+
 static void test_a_full_table_says_so_until_a_row_is_given_up(void **state)
 {
     (void)state;
-    for (uint32_t i = 0; i < WANTED_MAX; i++)
-        assert_int_not_equal(ask(i, SECOND + i), WANTED_NONE);
+    fill_with_watched();
     assert_int_equal(ask(99, 2 * SECOND), WANTED_NONE);
     assert_int_not_equal(ask(3, 2 * SECOND), WANTED_NONE);
     /* The first is given up just after WANTED_KEEP_NS, and the one asked for again is not. */
-    assert_int_equal(ask(99, SECOND + WANTED_KEEP_NS - 1), WANTED_NONE);
-    assert_int_equal(ask(99, SECOND + WANTED_KEEP_NS), 0);
+    assert_int_equal(ask(99, SECOND + WANTED_MAX + WANTED_KEEP_NS - 1), WANTED_NONE);
+    assert_int_equal(ask(99, SECOND + WANTED_MAX + WANTED_KEEP_NS), 0);
     assert_int_equal(table.row[0].key.vehicle, 99);
-    assert_true(wanted_lives(&table.row[3], SECOND + WANTED_KEEP_NS + WANTED_MAX));
+    assert_true(wanted_lives(&table.row[3], SECOND + WANTED_KEEP_NS + 2 * WANTED_MAX));
+}
+
+static void test_who_looks_once_keeps_nobody_out(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < WANTED_MAX; i++)
+        ask(i, SECOND + i);
+    table.row[0].holders = 1;
+    ask(1, 2 * SECOND); /* now it is watched */
+    /* Who is waited for and who is watched stay; of the others the oldest goes. */
+    for (uint32_t i = 2; i < WANTED_MAX; i++)
+        assert_int_equal(ask(100 + i, 2 * SECOND + i), i);
+    assert_int_equal(table.row[0].key.vehicle, 0);
+    assert_int_equal(table.row[1].key.vehicle, 1);
+    assert_int_equal(ask(200, 2 * SECOND + WANTED_MAX), 2);
+    /* One that nobody has asked for lately goes before it. */
+    table.row[0].holders = 0;
+    assert_int_equal(ask(201, 2 * SECOND + WANTED_KEEP_NS - 1), 0);
 }
 
 static void test_who_waits_keeps_the_row(void **state)
@@ -100,6 +124,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_the_same_picture_is_one_row, set_up),
         cmocka_unit_test_setup(test_a_full_table_says_so_until_a_row_is_given_up, set_up),
+        cmocka_unit_test_setup(test_who_looks_once_keeps_nobody_out, set_up),
         cmocka_unit_test_setup(test_who_waits_keeps_the_row, set_up),
         cmocka_unit_test_setup(test_a_row_that_comes_back_is_another, set_up),
         cmocka_unit_test_setup(test_a_row_is_forgotten_when_nobody_waits, set_up),
