@@ -114,7 +114,7 @@ static void open_all(struct drive *drive)
     const struct options *options = &drive->options;
     if (inputs_open(&drive->inputs, options->input, options->device, &reason) != 0 ||
         dds_link_open(&drive->link, &options->link, options->world, &reason) != 0 ||
-        mirror_open(&drive->mirror, &drive->link, options->world, &reason) != 0 ||
+        mirror_open(&drive->mirror, &drive->link, options->world, true, &reason) != 0 ||
         tail_open(&drive->tail, &drive->link, news_format, &reason) != 0 ||
         caller_open(&drive->caller, &drive->link, &reason) != 0)
         die_refused("%s", reason.text);

@@ -42,7 +42,7 @@ int session_open(struct session *session, struct reason *reason)
     if (session->bell < 0)
         return reason_set(reason, "eventfd: %s", strerror(errno));
     if (dds_link_open(&session->link, &options->link, options->world, reason) != 0 ||
-        mirror_open(&session->mirror, &session->link, options->world, reason) != 0 ||
+        mirror_open(&session->mirror, &session->link, options->world, true, reason) != 0 ||
         caller_open(&session->caller, &session->link, reason) != 0 ||
         listen_to(session, session->mirror.reader, MIRROR_READERS, reason) != 0 ||
         listen_to(session, &session->mirror.names.reader, 1, reason) != 0 ||

@@ -77,12 +77,14 @@ int main(int argc, char **argv)
     bool screen = !options.once && !options.lines && !options.json && !options.events &&
                   isatty(STDOUT_FILENO);
     options.link.quiet = screen;
+    options.link.part = DDS_ONLOOKER;
     if (options.rate_hz <= 0.0)
         options.rate_hz = screen ? OPTIONS_SCREEN_HZ : OPTIONS_LINES_HZ;
     process_signals();
     step_back();
     if (dds_link_open(&link, &options.link, options.world, &reason) != 0 ||
-        (!options.events && mirror_open(&mirror, &link, options.world, &reason) != 0) ||
+        (!options.events &&
+         mirror_open(&mirror, &link, options.world, screen || options.json, &reason) != 0) ||
         ((options.events || screen) &&
          tail_open(&tail, &link, screen ? tell_event : event_json, &reason) != 0))
         die_refused("%s", reason.text);

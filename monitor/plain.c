@@ -18,6 +18,9 @@
 /* What a world that is there takes at most to be heard. */
 #define FIRST_NS (500 * (uint64_t)NS_PER_MS)
 
+/* At most between two looks at whether it should end. */
+#define REST_NS (250 * (uint64_t)NS_PER_MS)
+
 bool plain_flush(void)
 {
     return fflush(stdout) == 0 && !ferror(stdout);
@@ -78,18 +81,21 @@ int plain_once(struct mirror *mirror, const struct options *options)
     return plain_flush() ? EXIT_OK : EXIT_REFUSED;
 }
 
-/* A line each time it is due; while there is no world, one when it goes and then seldom. */
+/* A line each time it is due; while there is no world, one when it goes and then seldom. It wakes
+ * for that alone: what came meanwhile waits, the newest of each. */
 int plain_lines(struct mirror *mirror, const struct options *options)
 {
     char line[LINES_MAX];
     uint64_t due_ns = clock_now_ns() + FIRST_NS;
     uint64_t notice_ns = 0;
     while (!process_stopping()) {
-        mirror_wait(mirror, due_ns);
-        mirror_take(mirror);
         uint64_t now_ns = clock_now_ns();
-        if (now_ns < due_ns)
+        if (now_ns < due_ns) {
+            clock_sleep_until_ns(now_ns + REST_NS < due_ns ? now_ns + REST_NS : due_ns);
             continue;
+        }
+        mirror_take(mirror);
+        now_ns = clock_now_ns();
         due_ns = now_ns + (uint64_t)(NS_PER_S / options->rate_hz);
         bool live = mirror_live(mirror, now_ns);
         if (!live && now_ns < notice_ns)

@@ -127,6 +127,7 @@ int main(int argc, char **argv)
     if (sandbox_begin(&sandbox, ROLE_REPORTER, options.sandbox_off, &reason) != 0 ||
         segment_attach(&reporter.view, options.world, ROLE_REPORTER, &reason) != 0)
         die_refused("%s", reason.text);
+    options.link.part = DDS_HOST;
     if (dds_link_open(&reporter.link, &options.link, options.world, &reason) != 0 ||
         open_topics(&reporter, &reason) != 0 || sandbox_enter(&sandbox, &reason) != 0) {
         segment_detach(&reporter.view);

@@ -18,10 +18,11 @@ static const char builtin[] = "<CycloneDDS>\n"
                               "      <Interfaces>\n"
                               "        <NetworkInterface address=\"%s\"%s/>\n"
                               "      </Interfaces>\n"
-                              "      <AllowMulticast>spdp</AllowMulticast>\n"
+                              "      <AllowMulticast>%s</AllowMulticast>\n"
                               "    </General>\n"
                               "    <Discovery>\n"
-                              "      <ParticipantIndex>none</ParticipantIndex>\n"
+                              "      <ParticipantIndex>%s</ParticipantIndex>\n"
+                              "%s"
                               "      <LeaseDuration>2 s</LeaseDuration>\n"
                               "      <SPDPInterval>1 s</SPDPInterval>\n"
                               "    </Discovery>\n"
@@ -31,15 +32,28 @@ static const char builtin[] = "<CycloneDDS>\n"
                               "  </Domain>\n"
                               "</CycloneDDS>\n";
 
-int dds_config_builtin(char *text, size_t bytes, const char *address, struct reason *reason)
+/* The ports of the first DDS_HOSTS participants with an index. */
+static const char hosts[] = "      <MaxAutoParticipantIndex>%u</MaxAutoParticipantIndex>\n";
+static const char peers[] = "      <Peers><Peer address=\"" DDS_LOOPBACK "\"/></Peers>\n"
+                            "      <MaxAutoParticipantIndex>%u</MaxAutoParticipantIndex>\n";
+
+int dds_config_builtin(char *text, size_t bytes, const char *address, enum dds_part part,
+                       struct reason *reason)
 {
     struct in_addr parsed;
+    char more[sizeof peers + 16] = "";
     if (inet_pton(AF_INET, address, &parsed) != 1)
         return reason_set(reason, "interface address '%s': not an IPv4 address like %s", address,
                           DDS_LOOPBACK);
     /* The kernel does not mark lo as able to multicast, though it is. */
     bool loopback = (ntohl(parsed.s_addr) >> 24) == 127;
-    int length = snprintf(text, bytes, builtin, address, loopback ? " multicast=\"true\"" : "");
+    if (!loopback)
+        part = DDS_PEER;
+    if (part != DDS_PEER)
+        (void)snprintf(more, sizeof more, part == DDS_HOST ? hosts : peers, DDS_HOSTS - 1);
+    int length =
+        snprintf(text, bytes, builtin, address, loopback ? " multicast=\"true\"" : "",
+                 part == DDS_ONLOOKER ? "false" : "spdp", part == DDS_HOST ? "auto" : "none", more);
     if (length < 0 || (size_t)length >= bytes)
         return reason_set(reason, "DDS configuration: longer than %zu bytes", bytes - 1);
     return 0;

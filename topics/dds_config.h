@@ -9,10 +9,21 @@
 #define DDS_CONFIG_MAX 65536u /* bytes of a configuration file, with a NUL */
 #define DDS_LOOPBACK   "127.0.0.1"
 
+/* Everybody who discovers by multicast discovers everybody, which costs some milliseconds a pair:
+ * a hundred onlookers would keep two cores busy for half a minute with one another. On loopback
+ * they look for hosts alone, at the ports where these are. */
+enum dds_part {
+    DDS_PEER,
+    DDS_HOST,     /* one that onlookers find: of the first DDS_HOSTS of a domain */
+    DDS_ONLOOKER, /* it only reads, and nobody need know of it but hosts */
+};
+#define DDS_HOSTS 64u
+
 /* Writes the built-in configuration for one IPv4 address of this machine into text; for
- * DDS_LOOPBACK it is config/cyclonedds.xml to the byte. -1 with the reason when address is not a
- * dotted IPv4 address or text is too small. */
-int dds_config_builtin(char *text, size_t bytes, const char *address, struct reason *reason);
+ * DDS_LOOPBACK and DDS_PEER it is config/cyclonedds.xml to the byte. -1 with the reason when
+ * address is not a dotted IPv4 address or text is too small. */
+int dds_config_builtin(char *text, size_t bytes, const char *address, enum dds_part part,
+                       struct reason *reason);
 
 /* Reads a configuration file into text; -1 with the reason when it cannot be read, is too long, or
  * does not begin with an XML element. */

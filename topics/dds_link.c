@@ -88,7 +88,7 @@ static int configure(char *text, size_t bytes, const struct dds_link_options *op
     if (dds_config_interface(address, sizeof address,
                              options->interface ? options->interface : DDS_LOOPBACK, reason) != 0)
         return -1;
-    return dds_config_builtin(text, bytes, address, reason);
+    return dds_config_builtin(text, bytes, address, options->part, reason);
 }
 
 /* Publisher and subscriber carry the partition: every reader and writer made in them is in it. */
@@ -125,6 +125,13 @@ int dds_link_open(struct dds_link *link, const struct dds_link_options *options,
     said.last[0] = '\0';
     dds_set_log_sink(take_log, NULL);
     link->domain = dds_create_domain(options->domain, config);
+    if (link->domain < 0 && strstr(said.last, "participant index")) {
+        (void)reason_set(reason,
+                         "DDS domain %u: it has %u worlds with reporters on this machine, and has "
+                         "room for no more; name another, as --domain %u",
+                         options->domain, DDS_HOSTS, options->domain ? 0 : 1);
+        goto err_config;
+    }
     if (link->domain < 0) {
         (void)refuse(reason, options->config ? options->config : "domain", link->domain);
         goto err_config;

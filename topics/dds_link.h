@@ -6,6 +6,7 @@
 #define JOLON_TOPICS_DDS_LINK_H
 
 #include "ipc/segment.h"
+#include "topics/dds_config.h"
 
 #include <dds/dds.h>
 #include <stdbool.h>
@@ -15,6 +16,7 @@ struct dds_link_options {
     const char *interface; /* an IPv4 address or an interface's name, NULL: loopback */
     uint32_t domain;       /* 0..230 */
     bool quiet;            /* Cyclone DDS's warnings are not logged */
+    enum dds_part part;
 };
 
 #define DDS_LINK_DOMAIN_MAX 230u

@@ -8,19 +8,20 @@
 #include <string.h>
 
 int mirror_open(struct mirror *mirror, const struct dds_link *link, const char *world,
-                struct reason *reason)
+                bool entities, struct reason *reason)
 {
     static const enum dds_topic topics[MIRROR_READERS] = {TOPIC_WORLD, TOPIC_PROCESS, TOPIC_FRAME,
                                                           TOPIC_ENTITIES};
-    *mirror = (struct mirror){.name = world};
-    for (int i = 0; i < MIRROR_READERS; i++) {
+    *mirror =
+        (struct mirror){.name = world, .readers = entities ? MIRROR_READERS : MIRROR_ENTITIES};
+    for (int i = 0; i < mirror->readers; i++) {
         mirror->reader[i] = dds_topics_reader(link, topics[i], reason);
         if (mirror->reader[i] < 0)
             return -1;
     }
     if (names_open(&mirror->names, link, reason) != 0)
         return -1;
-    mirror->waitset = dds_topics_waitset(link, mirror->reader, MIRROR_READERS, reason);
+    mirror->waitset = dds_topics_waitset(link, mirror->reader, (size_t)mirror->readers, reason);
     return mirror->waitset < 0 ? -1 : 0;
 }
 
@@ -111,7 +112,7 @@ void mirror_take(struct mirror *mirror)
 {
     static void (*const take[MIRROR_READERS])(struct mirror *, const void *) = {
         take_world, take_process, take_frame, take_entities};
-    for (int i = 0; i < MIRROR_READERS; i++) {
+    for (int i = 0; i < mirror->readers; i++) {
         void *sample = NULL;
         dds_sample_info_t info;
         while (dds_take(mirror->reader[i], &sample, &info, 1, 1) > 0) {
@@ -138,7 +139,8 @@ bool mirror_live(const struct mirror *mirror, uint64_t now_ns)
 
 bool mirror_whole(const struct mirror *mirror)
 {
-    return mirror->has_world && mirror->frame_ns && mirror->role_count && mirror->has_batch;
+    return mirror->has_world && mirror->frame_ns && mirror->role_count &&
+           (mirror->has_batch || mirror->readers <= MIRROR_ENTITIES);
 }
 
 const jolon_Entity *mirror_entity(const struct mirror *mirror, uint32_t id)

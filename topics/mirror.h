@@ -22,6 +22,7 @@ enum mirror_reader { MIRROR_WORLD, MIRROR_PROCESS, MIRROR_FRAME, MIRROR_ENTITIES
 
 struct mirror {
     dds_entity_t reader[MIRROR_READERS];
+    int readers; /* the first of them; the entities' is the last */
     dds_entity_t waitset;
     const char *name; /* of the world, as asked for */
 
@@ -46,9 +47,10 @@ struct mirror {
     bool has_batch;
 };
 
-/* Makes the readers; -1 with the reason. */
+/* Makes the readers, that of the entities, which are most of what comes, only where they are
+ * wanted; -1 with the reason. */
 int mirror_open(struct mirror *mirror, const struct dds_link *link, const char *world,
-                struct reason *reason);
+                bool entities, struct reason *reason);
 void mirror_close(struct mirror *mirror);
 
 /* Takes what has come. Does not block. */
@@ -60,7 +62,7 @@ void mirror_wait(const struct mirror *mirror, uint64_t until_ns);
 /* Does the world speak now? */
 bool mirror_live(const struct mirror *mirror, uint64_t now_ns);
 
-/* Is there one of everything: world, frame, processes, entities? */
+/* Is there one of everything that is read: world, frame, processes, entities? */
 bool mirror_whole(const struct mirror *mirror);
 
 /* The entity of the last whole batch with this id, NULL when it is gone. */

@@ -30,7 +30,7 @@ static void test_installed_file_is_the_built_in_text(void **state)
 {
     static char file[DDS_CONFIG_MAX];
     (void)state;
-    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, &reason), 0);
+    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_PEER, &reason), 0);
     assert_int_equal(dds_config_file(file, sizeof file, "config/cyclonedds.xml", &reason), 0);
     assert_string_equal(text, file);
 }
@@ -38,12 +38,32 @@ static void test_installed_file_is_the_built_in_text(void **state)
 static void test_another_interface(void **state)
 {
     (void)state;
-    assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", &reason), 0);
+    assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", DDS_PEER, &reason), 0);
     assert_non_null(strstr(text, "address=\"10.1.2.3\"/>"));
     /* What is put into XML is an address and nothing else. */
-    assert_int_equal(dds_config_builtin(text, sizeof text, "1.2.3.4\"/><x", &reason), -1);
+    assert_int_equal(dds_config_builtin(text, sizeof text, "1.2.3.4\"/><x", DDS_PEER, &reason), -1);
     assert_non_null(strstr(reason.text, "not an IPv4 address"));
-    assert_int_equal(dds_config_builtin(text, 10, DDS_LOOPBACK, &reason), -1);
+    assert_int_equal(dds_config_builtin(text, 10, DDS_LOOPBACK, DDS_PEER, &reason), -1);
+}
+
+/* Who only looks on asks at the ports where hosts are, and nobody hears it but they. */
+static void test_onlookers_and_hosts(void **state)
+{
+    (void)state;
+    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_ONLOOKER, &reason), 0);
+    assert_non_null(strstr(text, "<AllowMulticast>false</AllowMulticast>"));
+    assert_non_null(strstr(text, "<ParticipantIndex>none</ParticipantIndex>"));
+    assert_non_null(strstr(text, "<Peer address=\"127.0.0.1\"/>"));
+    assert_non_null(strstr(text, "<MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>"));
+    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_HOST, &reason), 0);
+    assert_non_null(strstr(text, "<AllowMulticast>spdp</AllowMulticast>"));
+    assert_non_null(strstr(text, "<ParticipantIndex>auto</ParticipantIndex>"));
+    assert_non_null(strstr(text, "<MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>"));
+    assert_null(strstr(text, "Peer"));
+    /* From other machines' hosts it hears by multicast alone. */
+    assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", DDS_ONLOOKER, &reason), 0);
+    assert_non_null(strstr(text, "<AllowMulticast>spdp</AllowMulticast>"));
+    assert_null(strstr(text, "Peer"));
 }
 
 static void test_interfaces(void **state)
@@ -90,6 +110,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_installed_file_is_the_built_in_text),
         cmocka_unit_test(test_another_interface),
+        cmocka_unit_test(test_onlookers_and_hosts),
         cmocka_unit_test(test_interfaces),
         cmocka_unit_test(test_files_refused),
     };
