@@ -246,8 +246,9 @@ static bool controls(const struct reading *r, const struct script_step *step, st
     return false;
 }
 
-/* Asks for a shot until it has been fired, or could not be for too long. */
-static bool fire(const struct reading *r, const struct script_step *step)
+/* Asks for a shot until it has been fired, or could not be for too long. Who has no turret aims
+ * with the hull, and turns it there. */
+static bool fire(const struct reading *r, const struct script_step *step, struct wish *wish)
 {
     struct entities *m = r->move->m;
     const struct entities *w = &r->move->committed->entities;
@@ -270,6 +271,10 @@ static bool fire(const struct reading *r, const struct script_step *step)
     m->trigger[i] |= step->type == STEP_FIRE ? TRIGGER_FIRE : TRIGGER_FIRE_AT;
     m->goal_x[i] = step->type == STEP_FIRE ? m->goal_x[i] : step->x;
     m->goal_z[i] = step->type == STEP_FIRE ? m->goal_z[i] : step->z;
+    if (!(r->kind->turret_rate_rps > 0.0))
+        wish->heading_rad = step->type == STEP_FIRE
+                                ? maths_heading(w->x[target] - m->x[i], w->z[target] - m->z[i])
+                                : maths_heading(step->x - m->x[i], step->z - m->z[i]);
     return tick >= m->until_tick[i];
 }
 
@@ -319,7 +324,7 @@ static bool do_step(const struct reading *r, struct wish *wish)
         return wait(r, step);
     case STEP_FIRE:
     case STEP_FIRE_AT:
-        return fire(r, step);
+        return fire(r, step, wish);
     case STEP_CONTROLS:
         return controls(r, step, wish);
     case STEP_ALTITUDE:

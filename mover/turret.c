@@ -80,14 +80,25 @@ static bool has_target(const struct move *move, uint32_t i)
     return m->target_id[i] != 0 && entities_alive(w, m->target_slot[i], m->target_id[i]);
 }
 
-/* The solution on its target, in the body's own axes. */
+/* Towards its goal, a point on the ground. */
+static struct vec3 lead_goal(const struct move *move, uint32_t i, const struct kind *munition)
+{
+    const struct entities *m = move->m;
+    struct vec3 goal = {m->goal_x[i], pose_ground(move, m->goal_x[i], m->goal_z[i]), m->goal_z[i]};
+    return turret_lead_point(turret_muzzle(move, m, i), munition, goal);
+}
+
+/* The solution on its target, or on the point that it is to fire at, in the body's own axes. */
 static void solve(const struct move *move, uint32_t i, const struct kind *kind, double *turret,
                   double *gun)
 {
     const struct entities *m = move->m, *w = &move->committed->entities;
+    const struct kind *munition = &move->world->kinds[kind->munition];
     struct mat3 body = pose_matrix(m, i);
-    struct vec3 lead = turret_lead(move, turret_muzzle(move, m, i),
-                                   &move->world->kinds[kind->munition], w, m->target_slot[i]);
+    struct vec3 lead =
+        m->trigger[i] & TRIGGER_FIRE_AT
+            ? lead_goal(move, i, munition)
+            : turret_lead(move, turret_muzzle(move, m, i), munition, w, m->target_slot[i]);
     lead = rotation_back(&body, lead);
     double level = sqrt(lead.x * lead.x + lead.z * lead.z);
     *turret = maths_atan2(lead.z, lead.x);
@@ -125,6 +136,11 @@ static void by_agent(const struct move *move, uint32_t i, const struct kind *kin
 {
     struct entities *m = move->m;
     double turret, gun;
+    if (m->trigger[i] & TRIGGER_FIRE_AT) {
+        solve(move, i, kind, &turret, &gun);
+        lay(move, i, kind, turret, gun);
+        return;
+    }
     if (m->target_id[i] == 0) {
         m->traverse[i] = m->elevate[i] = 0.0f;
         if (m->turret[i] != 0.0f || m->gun[i] != 0.0f)
@@ -163,20 +179,29 @@ void turret_turn(const struct move *move, uint32_t i)
     }
 }
 
+static double laid_rad(const struct kind *kind)
+{
+    return kind->turret_rate_rps > 0.0 ? LAID_RAD : HULL_LAID_RAD;
+}
+
+static double angle_between(struct vec3 a, struct vec3 b)
+{
+    return maths_atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b));
+}
+
 bool turret_bears(const struct move *move, const struct entities *rows, uint32_t i, uint32_t target)
 {
     const struct kind *kind = &move->world->kinds[rows->kind[i]];
     const struct kind *munition = &move->world->kinds[kind->munition];
-    struct vec3 muzzle = turret_muzzle(move, rows, i), barrel = turret_barrel(rows, i), to;
-    double most = kind->turret_rate_rps > 0.0 ? LAID_RAD : HULL_LAID_RAD;
+    struct vec3 muzzle = turret_muzzle(move, rows, i), to;
+    double most = laid_rad(kind);
     if (munition->guidance == GUIDANCE_HOMING) {
         most = munition->seeker_rad;
         to = vec3_sub(entities_position(&move->committed->entities, target), muzzle);
     } else {
         to = turret_lead(move, muzzle, munition, &move->committed->entities, target);
     }
-    double across = vec3_length(vec3_cross(barrel, to)), along = vec3_dot(barrel, to);
-    return fabs(maths_atan2(across, along)) <= most;
+    return angle_between(turret_barrel(rows, i), to) <= most;
 }
 
 /* Would the round pass a friend, or somebody who has no part in it, on its way to the target? */
@@ -208,6 +233,10 @@ void turret_hold_fire(const struct move *move, uint32_t i)
     struct entities *m = move->m;
     const struct entities *w = &move->committed->entities;
     const struct kind *kind = &move->world->kinds[m->kind[i]];
+    if (m->trigger[i] & TRIGGER_FIRE_AT && kind->munition != KIND_NONE &&
+        angle_between(turret_barrel(m, i),
+                      lead_goal(move, i, &move->world->kinds[kind->munition])) > laid_rad(kind))
+        m->trigger[i] &= (uint8_t)~TRIGGER_FIRE_AT;
     if (!(m->trigger[i] & TRIGGER_FIRE))
         return;
     if (kind->munition != KIND_NONE && m->rounds[i] > 0 && has_target(move, i) &&

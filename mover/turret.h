@@ -12,7 +12,7 @@
 void turret_turn(const struct move *move, uint32_t i);
 
 /* Takes TRIGGER_FIRE from row i again unless it can: a target in range, a round and the gun ready,
- * the gun bearing, no friend in front of it. */
+ * the gun bearing, no friend in front of it; and TRIGGER_FIRE_AT unless the gun bears. */
 void turret_hold_fire(const struct move *move, uint32_t i);
 
 /* Where the rounds of row i of e leave from [m, world], and its barrel's direction (unit). */

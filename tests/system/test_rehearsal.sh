@@ -4,7 +4,7 @@
 # mover is killed in the middle of it.
 . "$(dirname "$0")/lib.sh"
 
-frames=6900
+frames=7200
 play() { # AS [options]
     local as=$1
     shift
@@ -28,6 +28,15 @@ check "the mover is killed in the middle" "$jolon" kill -w "$name" mover
 wait $run
 check "it came back" equal "$(json restarts <killed.json)" 1
 check "a play whose mover was killed ends with the same digest" equal "$(digest short)" "$(digest killed)"
+
+# The shots of the play, by whom and on whom: two at trucks, one at the road, two at the tanks.
+check "tanks and helicopters fire their shots" python3 - "$folder/one.events" <<'P'
+import json, sys
+shots = [(e["shooter"]["kind"], e["target"]["kind"]) for e in map(json.loads, open(sys.argv[1]))
+         if e["type"] == "fire" and e["shooter"]["id"]]
+print(shots)
+sys.exit(shots != [("tank", "truck")] * 2 + [("tank", "none")] + [("helicopter", "tank")] * 2)
+P
 
 # Arrivals of the convoy's leader: by its file of waypoints, at 60 Hz.
 check "the convoy is at each waypoint at its time" python3 - "$folder/one.events" "$bin/../../config/scenarios/rehearsal-convoy.csv" <<'P'

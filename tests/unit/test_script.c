@@ -193,6 +193,21 @@ static void test_shots_are_fired_at_vehicles_and_points(void **state)
     fixture_close(&f);
 }
 
+/* Without a turret the hull aims: it turns there from wherever it looks. */
+static void test_who_aims_with_the_hull_turns_it(void **state)
+{
+    (void)state;
+    open_script("helicopter", "",
+                "{ altitude_m = 40.0; }, { face_deg = 200.0; }, { fire = \"T\"; }, "
+                "{ fire_at = [25400.0, 25000.0]; }, { stop = true; }");
+    run_s(40.0);
+    assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 2);
+    assert_int_equal(fixture_event(&f, EVENT_FIRE, 0)->fire.target.id, 2);
+    assert_int_equal(fixture_event(&f, EVENT_FIRE, 1)->fire.target.id, 0);
+    assert_true(fabs(now()->heading[0] - HALF_PI) < 0.1);
+    fixture_close(&f);
+}
+
 static void test_controls_are_held_for_their_time(void **state)
 {
     (void)state;
@@ -330,6 +345,7 @@ int main(void)
         cmocka_unit_test(test_a_wait_lasts_as_long_as_it_says),
         cmocka_unit_test(test_a_time_cuts_off_what_is_before),
         cmocka_unit_test(test_shots_are_fired_at_vehicles_and_points),
+        cmocka_unit_test(test_who_aims_with_the_hull_turns_it),
         cmocka_unit_test(test_controls_are_held_for_their_time),
         cmocka_unit_test(test_aircraft_keep_the_height_of_their_steps),
         cmocka_unit_test(test_a_step_gives_it_back_to_its_agent),
