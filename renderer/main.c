@@ -63,6 +63,18 @@ static int confine(struct sandbox *sandbox, struct outlets *outlets, const struc
     return sandbox_files(sandbox, &outlets->output.folder, 1, reason);
 }
 
+/* Whom it follows, where that is said by name: names are the world's, and never change. */
+static void find_followed(struct options *options, const struct view *view)
+{
+    if (options->follow_name == NULL)
+        return;
+    options->follow = world_entity_named(&view->world, options->follow_name);
+    if (options->follow == 0)
+        die_refused("vehicle \"%s\": world \"%s\" has none of that name; jolon world dump -w %s "
+                    "lists them, and a number is good too",
+                    options->follow_name, view->name, view->name);
+}
+
 /* One picture of the present frame, without a role. */
 static int snap(struct studio *studio, struct reason *reason)
 {
@@ -95,6 +107,7 @@ int main(int argc, char **argv)
         process_die_with_parent(options.parent_pid);
     if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &reason) != 0)
         die_refused("%s", reason.text);
+    find_followed(&options, &view);
     survey_open(&survey, &view.world);
     options.outlets.painter = survey_painter(&survey);
     if (!snapping && confine(&sandbox, &outlets, &options, &reason) != 0)

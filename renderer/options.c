@@ -37,7 +37,9 @@ static const char usage_text[] =
     "                      chase, map, inside, orbit, free, overhead; both: chase,map; VIEW:ID is\n"
     "                      that of another vehicle (default: the scenario's renderer.view)\n"
     "      --size WxH      64 to 4096 pixels each (default: the scenario's)\n"
-    "      --follow ID     the vehicle to follow, --vehicle ID likewise; 0 picks a lively one\n"
+    "      --follow VEHICLE\n"
+    "                      whom to follow, by id or name, --vehicle likewise; 0 picks a lively "
+    "one\n"
     "                      (default: the scenario's, until it is destroyed)\n"
     "      --field DEG     of view, from left to right of a 16:9 picture: 10 to 120 (default 60)\n"
     "      --eye X,Z[,HEIGHT]\n"
@@ -296,7 +298,9 @@ static void take(struct options *options, int letter, const char *value)
         options->height = size.height;
         break;
     case 'F':
-        options->follow = (uint32_t)process_whole("follow", value, 0, UINT32_MAX);
+        options->follow_name = value[strspn(value, "0123456789")] != '\0' ? value : NULL;
+        if (options->follow_name == NULL)
+            options->follow = (uint32_t)process_whole("follow", value, 0, UINT32_MAX);
         options->follow_given = true;
         break;
     case 'p':

@@ -16,6 +16,14 @@ const char *world_entity_name(const struct world *world, uint32_t id)
     return id > 0 && id <= world->counts.names ? world->names[id - 1].text : "";
 }
 
+uint32_t world_entity_named(const struct world *world, const char *name)
+{
+    for (uint32_t id = 1; id <= world->counts.names && name[0] != '\0'; id++)
+        if (strncmp(world->names[id - 1].text, name, sizeof world->names[0].text) == 0)
+            return id;
+    return 0;
+}
+
 /* Rows are hashed column by column; a column's hash is chained into the whole. */
 static uint64_t hash_columns(uint64_t hash, const struct entities *e, uint32_t used)
 {

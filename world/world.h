@@ -291,6 +291,9 @@ double world_time_s(const struct world *world, const struct state_head *head);
 /* Name of the entity with this id if the scenario gave it one, else "". */
 const char *world_entity_name(const struct world *world, uint32_t id);
 
+/* Id of the entity that the scenario gave this name, 0 when there is none. */
+uint32_t world_entity_named(const struct world *world, const char *name);
+
 /* Indices of the fixed objects that reach into a square. */
 static inline uint32_t world_reach(const struct world *world, uint32_t square,
                                    const uint32_t **objects)

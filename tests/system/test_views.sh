@@ -75,6 +75,10 @@ else
 fi
 check "a device that is not there is refused" bash -c "'$jolon' snap -w $name --device voodoo gl.png 2>&1 |
     grep -q -e 'device voodoo: .*--list-devices' -e 'no OpenGL'"
+check "a vehicle by its name" snap --vehicle East east.png
+check "which is that one" equal "$(field east.png name)" East
+check "a name that nobody has is refused" bash -c "'$jolon' snap -w $name --vehicle Nobody x.png 2>&1 |
+    grep -q 'vehicle \"Nobody\": world .* has none of that name'"
 check "a place is a view too" snap --eye 24950,25000,5 --look 90,-10 place.png
 check "the free one" equal "$(field place.png view)" free
 check "several views are several files" snap --view chase,overhead:2,map three.png
