@@ -6,6 +6,7 @@
 #include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "sandbox/sandbox.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -62,6 +63,7 @@ static void turn(uint64_t now_ns, uint64_t *swept_ns)
 int main(int argc, char **argv)
 {
     struct options options;
+    struct sandbox sandbox;
     struct reason reason;
     uint64_t swept_ns = 0;
     log_open("console");
@@ -77,12 +79,16 @@ int main(int argc, char **argv)
                                               .port = options.port};
     watch_open(&console.watch, options.world);
     if (choose_token(&options, &reason) != 0 ||
+        sandbox_begin(&sandbox, ROLE_NONE, options.sandbox_off, &reason) != 0 ||
+        sandbox_files(&sandbox, NULL, 0, &reason) != 0 ||
         http_listen(&console.listener, &where, &reason) != 0 ||
         desk_open(&console.desk, &options.link, options.world, &reason) != 0 ||
         pictures_open(&console.pictures, options.world, &reason) != 0 ||
         server_start(&console, &reason) != 0)
         die_refused("%s", reason.text);
-    greet(&options);
+    greet(&options); /* the first word to a terminal asks what it is: not in the sandbox */
+    if (sandbox_enter(&sandbox, &reason) != 0)
+        die_refused("%s", reason.text);
     while (!process_stopping()) {
         uint64_t now_ns = clock_now_ns();
         turn(now_ns, &swept_ns);

@@ -18,16 +18,21 @@ static const char usage[] =
     "  --token-file FILE   who knows what it holds may change the world; made when it is not\n"
     "                      there (default: a new token each time, which is printed)\n"
     "  --parent PID        ends when that process does\n"
+    "  --no-sandbox        it keeps all that its user may do\n"
     "  --dds-config FILE, --interface ADDRESS, --domain N  as jolon-reporter\n"
     "It prints the address to open. Ctrl-C ends it; the world goes on.\n";
 
 void options_parse(struct options *options, int argc, char **argv)
 {
-    static const struct option known[] = {
-        {"world", required_argument, NULL, 'w'},   {"port", required_argument, NULL, 'p'},
-        {"address", required_argument, NULL, 'a'}, {"token-file", required_argument, NULL, 't'},
-        {"parent", required_argument, NULL, 'P'},  DDS_LINK_LONG_OPTIONS,
-        {"help", no_argument, NULL, 'h'},          {NULL, 0, NULL, 0}};
+    static const struct option known[] = {{"world", required_argument, NULL, 'w'},
+                                          {"port", required_argument, NULL, 'p'},
+                                          {"address", required_argument, NULL, 'a'},
+                                          {"token-file", required_argument, NULL, 't'},
+                                          {"parent", required_argument, NULL, 'P'},
+                                          DDS_LINK_LONG_OPTIONS,
+                                          {"no-sandbox", no_argument, NULL, 'S'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {NULL, 0, NULL, 0}};
     int option;
     *options =
         (struct options){.world = "default", .address = HTTP_LISTEN_ADDRESS, .port = OPTIONS_PORT};
@@ -50,6 +55,9 @@ void options_parse(struct options *options, int argc, char **argv)
             break;
         case 'P':
             options->parent = (int)process_whole("parent", optarg, 1, INT_MAX);
+            break;
+        case 'S':
+            options->sandbox_off = true;
             break;
         case 'h':
             (void)fputs(usage, stdout);

@@ -4,6 +4,7 @@
 
 #include "topics/dds_link.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #define OPTIONS_PORT 8080u
@@ -14,6 +15,7 @@ struct options {
     uint16_t port;
     const char *token_file; /* NULL: a new token */
     int parent;             /* process id, 0: none */
+    bool sandbox_off;
     struct dds_link_options link;
 };
 

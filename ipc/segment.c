@@ -201,7 +201,7 @@ int segment_publish(struct view *view, struct reason *reason)
     CRASH_POINT("magic");
     own->magic = SEGMENT_MAGIC;
     CRASH_POINT("lock file");
-    int fd = segment_open_lock(lock, O_CREAT, reason);
+    int fd = segment_open_lock(lock, O_RDWR | O_CREAT, reason);
     if (fd < 0)
         return -1;
     close(fd);

@@ -35,7 +35,7 @@ int segment_lock(struct view *view, const char *path, bool later, struct reason 
 {
     for (int tries = 0; tries < 10; tries++) {
         struct stat held, named;
-        int fd = segment_open_lock(path, 0, reason);
+        int fd = segment_open_lock(path, view->role == ROLE_NONE ? O_RDONLY : O_RDWR, reason);
         if (fd < 0)
             return -1;
         if (!later && try_lock(view, fd, path, reason) != 0) {

@@ -48,7 +48,7 @@ void segment_temporary(const char *name, char path[SEGMENT_PATH_MAX])
 int segment_open_lock(const char *path, int flags, struct reason *reason)
 {
     struct stat status;
-    int fd = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | flags, 0600);
+    int fd = open(path, O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | flags, 0600);
     if (fd < 0) {
         int error = errno;
         reason_set(reason, "%s: cannot open: %s", path, strerror(error));
@@ -87,7 +87,7 @@ static bool byte_held(int fd, enum role role)
 /* 1, 0, or -1 with the reason when it cannot be told; without a lock file nobody holds a role. */
 static int lock_held(const char *path, enum role role, struct reason *reason)
 {
-    int fd = segment_open_lock(path, 0, reason);
+    int fd = segment_open_lock(path, O_RDONLY, reason);
     if (fd < 0)
         return errno == ENOENT ? 0 : -1;
     int held = byte_held(fd, role);
@@ -164,7 +164,7 @@ int segment_wait_free(const char *name, enum role last, uint64_t until_ns, struc
 int segment_remove_lock(const char *path, struct reason *reason)
 {
     int result = 0;
-    int fd = segment_open_lock(path, 0, reason);
+    int fd = segment_open_lock(path, O_RDWR, reason);
     if (fd < 0)
         return errno == ENOENT ? 0 : -1;
     CRASH_POINT("removed lock file");

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <glob.h>
 #include <linux/landlock.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -31,6 +32,9 @@ static const char *const driver_paths[] = {"/usr",       "/lib*", "/etc",  "/opt
                                            "/nix/store", "/sys",  "/proc", "/run/opengl-driver"};
 static const char *const device_paths[] = {"/dev/dri",     "/dev/nvidia*", "/dev/null",
                                            "/dev/urandom", "/dev/random",  "/dev/zero"};
+
+/* Worlds, and what the C library and DDS ask of the machine when they start. */
+static const char *const visitor_paths[] = {"/dev/shm", "/usr", "/lib*", "/etc", "/sys", "/proc"};
 
 static uint64_t known(long version)
 {
@@ -74,7 +78,7 @@ static int allow_paths(int ruleset, const char *const *paths, size_t count, uint
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-int files_confine(const int *folders, size_t count, bool drivers)
+int files_confine(enum role role, const int *folders, size_t count)
 {
     long version = syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION);
     if (version < 0)
@@ -86,8 +90,11 @@ int files_confine(const int *folders, size_t count, bool drivers)
     int result = 0;
     for (size_t i = 0; i < count && result == 0; i++)
         result = allow(ruleset, folders[i], ACCESS_FOLDER & known(version));
+    bool drivers = role >= ROLE_RENDERER && role <= ROLE_RENDERER_4;
     if (drivers && result == 0)
         result = allow_paths(ruleset, driver_paths, COUNT(driver_paths), ACCESS_READ);
+    if (role == ROLE_NONE && result == 0)
+        result = allow_paths(ruleset, visitor_paths, COUNT(visitor_paths), ACCESS_READ);
     if (drivers && result == 0)
         result = allow_paths(ruleset, device_paths, COUNT(device_paths), ACCESS_DEVICE);
     if (result == 0 && syscall(SYS_landlock_restrict_self, ruleset, 0) != 0)

@@ -2,12 +2,13 @@
 #ifndef JOLON_SANDBOX_FILES_H
 #define JOLON_SANDBOX_FILES_H
 
-#include <stdbool.h>
+#include "ipc/role.h"
+
 #include <stddef.h>
 
 /* Confines the calling thread, and those that it starts, to the folders (read, write, make and
- * remove) and, with drivers, to what graphics drivers read. 0; a negative errno, -ENOSYS or
- * -EOPNOTSUPP where the kernel has no Landlock. */
-int files_confine(const int *folders, size_t count, bool drivers);
+ * remove), of a renderer also to what graphics drivers read, and of ROLE_NONE, the console, to
+ * reading worlds. 0; a negative errno, -ENOSYS or -EOPNOTSUPP where the kernel has no Landlock. */
+int files_confine(enum role role, const int *folders, size_t count);
 
 #endif

@@ -165,6 +165,24 @@ static const struct rule serving[] = {
     {SCMP_SYS(getsockopt), 2, {{1, SCMP_CMP_EQ, SOL_SOCKET, 0}, {2, SCMP_CMP_EQ, SO_PEERCRED, 0}}},
 };
 
+/* What a console does beside its network: it looks at worlds that come and go, asks the renderer's
+ * socket for pictures, and kills a role when somebody presses the button for it. */
+static const struct rule visiting[] = {
+    ANY(openat), /* to read alone, and not everything: sandbox/files.c */
+    ANY(access),
+    ANY(newfstatat),
+    ANY(getuid),
+    ANY(geteuid),
+    ANY(poll),
+    ANY(shutdown),
+    ANY(getrandom), /* players' keys */
+    ANY(pidfd_open),
+    WITH(pidfd_send_signal, 1, SIGTERM),
+    WITH(pidfd_send_signal, 1, SIGKILL),
+    WITH(socket, 0, AF_UNIX),
+    {SCMP_SYS(mmap), 1, {BITS(2, PROT_WRITE | PROT_EXEC, 0)}},
+};
+
 /* The C library tries clone3 first, whose flags a filter cannot see; told that there is none, it
  * takes clone. */
 static const struct rule absent[] = {ANY(clone3)};
@@ -196,13 +214,16 @@ static const struct list renderer_lists[] = {EVERY_ROLE,
                                              LIST(wishes, SCMP_ACT_ERRNO(EPERM)),
                                              END};
 static const struct list reporter_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(networking), END};
+static const struct list console_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(networking),
+                                            ALLOW(visiting), END};
 static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(files), END};
 
-static const struct list *const role_lists[ROLE_COUNT] = {
+static const struct list *const role_lists[ROLE_COUNT + 1] = {
     [ROLE_MOVER] = frame_lists,         [ROLE_COLLIDER] = frame_lists,
     [ROLE_REPORTER] = reporter_lists,   [ROLE_RECORDER] = recorder_lists,
     [ROLE_RENDERER] = renderer_lists,   [ROLE_RENDERER_2] = renderer_lists,
     [ROLE_RENDERER_3] = renderer_lists, [ROLE_RENDERER_4] = renderer_lists,
+    [ROLE_NONE] = console_lists,
 };
 
 static int add_lists(scmp_filter_ctx filter, const struct list *list)
@@ -270,7 +291,7 @@ static void load(void *context)
 int filter_load(enum role role)
 {
     struct loading loading = {role, -ENOMEM};
-    if (role >= ROLE_COUNT)
+    if (role > ROLE_NONE)
         return -EINVAL;
     return memory_guarded(load, &loading) ? loading.result : -ENOMEM;
 }

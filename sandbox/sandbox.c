@@ -91,8 +91,7 @@ int sandbox_files(const struct sandbox *sandbox, const int *folders, size_t coun
 {
     if (!sandbox->on)
         return 0;
-    bool drivers = sandbox->role >= ROLE_RENDERER && sandbox->role <= ROLE_RENDERER_4;
-    int result = files_confine(folders, count, drivers);
+    int result = files_confine(sandbox->role, folders, count);
     if (result == -ENOSYS || result == -EOPNOTSUPP) {
         log_info("this kernel has no Landlock: any file of its user's is open to it");
         return 0;

@@ -25,13 +25,14 @@ struct sandbox {
     bool on; /* false: every further step does nothing, which sandbox_begin has said in the log */
 };
 
-/* off: the user's --no-sandbox. Sanitizers, valgrind and crash points need system calls of their
- * own: there the sandbox is off too. */
+/* ROLE_NONE is the console, which has no role. off: the user's --no-sandbox. Sanitizers, valgrind
+ * and crash points need system calls of their own: there the sandbox is off too. */
 int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reason *reason);
 
 /* From here on files are made, written and removed only beneath these folders (descriptors, which
- * may be closed afterwards), and read only there and, by a renderer, where drivers and fonts are.
- * On a kernel without Landlock it says so in the log and does nothing. */
+ * may be closed afterwards), and read only there and, by a renderer, where drivers and fonts are,
+ * by the console where worlds are. On a kernel without Landlock it says so in the log and does
+ * nothing. */
 int sandbox_files(const struct sandbox *sandbox, const int *folders, size_t count,
                   struct reason *reason);
 

@@ -32,6 +32,9 @@ refuses "and wrong usage" 2 'port' "$bin/jolon-console" --port 65536
 # --- with one ---------------------------------------------------------------------------------------
 check "a set starts" "$jolon" start -w "$name" --out "$folder/out"
 check "the console finds it" eventually is 200
+if [ -z "${JOLON_SANITIZER-}" ]; then
+    check "every thread of it has its filter" equal "$(awk '$1 == "Seccomp:" { print $2 }' /proc/$console_pid/task/*/status | sort -u)" 2
+fi
 while read -r line; do
     case $line in
     "ok "*) ok "${line#ok }" ;;

@@ -43,11 +43,12 @@ enum {
     M = 1 << ROLE_MOVER,
     C = 1 << ROLE_COLLIDER,
     P = 1 << ROLE_REPORTER,
-    D = 1 << ROLE_RECORDER
+    D = 1 << ROLE_RECORDER,
+    W = 1 << ROLE_NONE /* the console */
 };
 #define R    (1 << ROLE_RENDERER | 1 << ROLE_RENDERER_2 | 1 << ROLE_RENDERER_3 | 1 << ROLE_RENDERER_4)
 #define NONE 0
-#define ALL  (M | C | P | D | R)
+#define ALL  (M | C | P | D | R | W)
 
 static char folder[] = "/tmp/jolon-sandbox-XXXXXX";
 static char said[512]; /* by the last child, on standard error */
@@ -164,8 +165,8 @@ static void handle(int signal_number)
  * said where signals are blocked: by a thread that makes another. */
 #define ATTEMPTS(X)                                                                                \
     X("open", NONE, syscall(SYS_open, "/etc/passwd", O_RDONLY))                                    \
-    X("openat", R | D, open("/etc/passwd", O_RDONLY | O_CLOEXEC))                                  \
-    X("openat", R | D, open("/dev/shm", O_RDONLY | O_CLOEXEC))                                     \
+    X("openat", R | D | W, open("/etc/passwd", O_RDONLY | O_CLOEXEC))                              \
+    X("openat", R | D | W, open("/dev/shm", O_RDONLY | O_CLOEXEC))                                 \
     X("unlink", R | D, unlink("/tmp/jolon-no-such-file"))                                          \
     X("rename", R | D, rename("/tmp/jolon-no-such-file", "/tmp/jolon-no-other"))                   \
     X("mkdir", R, mkdir("/etc/passwd", 0700))                                                      \
@@ -176,37 +177,37 @@ static void handle(int signal_number)
     X("chown", NONE, syscall(SYS_chown, "/tmp/jolon-no-such-file", 0, 0))                          \
     X("truncate", NONE, syscall(SYS_truncate, "/tmp/jolon-no-such-file", 0))                       \
     X("getdents64", R | D, syscall(SYS_getdents64, -1, NULL, 0))                                   \
-    X("read", P | R | D, hear(-1))                                                                 \
-    X("write", P | R | D, say(-1))                                                                 \
+    X("read", W | P | R | D, hear(-1))                                                             \
+    X("write", W | P | R | D, say(-1))                                                             \
     X("dup", NONE, syscall(SYS_dup, 2))                                                            \
     X("dup2", NONE, syscall(SYS_dup2, 2, 9))                                                       \
     X("fcntl", NONE, fcntl(2, F_SETFL, 0))                                                         \
     X("fcntl", R, fcntl(-1, F_DUPFD_CLOEXEC, 0))                                                   \
-    X("socket", P, socket(AF_INET, SOCK_DGRAM, 0))                                                 \
-    X("socket", P, socket(AF_INET6, SOCK_STREAM, 0))                                               \
-    X("socket", NONE, socket(AF_UNIX, SOCK_STREAM, 0))                                             \
+    X("socket", W | P, socket(AF_INET, SOCK_DGRAM, 0))                                             \
+    X("socket", W | P, socket(AF_INET6, SOCK_STREAM, 0))                                           \
+    X("socket", W, socket(AF_UNIX, SOCK_STREAM, 0))                                                \
     X("socket", NONE, socket(AF_NETLINK, SOCK_RAW, 0))                                             \
     X("socket", NONE, socket(AF_PACKET, SOCK_RAW, 0))                                              \
-    X("connect", P, connect(-1, NULL, 0))                                                          \
-    X("bind", P, bind(-1, NULL, 0))                                                                \
-    X("listen", P, listen(-1, 1))                                                                  \
+    X("connect", W | P, connect(-1, NULL, 0))                                                      \
+    X("bind", W | P, bind(-1, NULL, 0))                                                            \
+    X("listen", W | P, listen(-1, 1))                                                              \
     X("accept", NONE, syscall(SYS_accept, -1, NULL, NULL))                                         \
-    X("accept4", P | R, accept4(-1, NULL, NULL, 0))                                                \
-    X("sendto", P | R, sendto(-1, "", 0, 0, NULL, 0))                                              \
-    X("sendmsg", P | R, sendmsg(-1, NULL, 0))                                                      \
-    X("recvfrom", P | R, recvfrom(-1, NULL, 0, 0, NULL, NULL))                                     \
-    X("shutdown", R, shutdown(-1, SHUT_WR))                                                        \
-    X("setsockopt", P | R, setsockopt(-1, IPPROTO_TCP, TCP_NODELAY, NULL, 0))                      \
-    X("getsockopt", P | R, getsockopt(-1, SOL_SOCKET, SO_PEERCRED, NULL, NULL))                    \
-    X("getsockopt", P, getsockopt(-1, SOL_SOCKET, SO_ERROR, NULL, NULL))                           \
-    X("setsockopt", P, setsockopt(-1, SOL_SOCKET, SO_BINDTODEVICE, NULL, 0))                       \
-    X("sysinfo", P | R, syscall(SYS_sysinfo, said))                                                \
+    X("accept4", W | P | R, accept4(-1, NULL, NULL, 0))                                            \
+    X("sendto", W | P | R, sendto(-1, "", 0, 0, NULL, 0))                                          \
+    X("sendmsg", W | P | R, sendmsg(-1, NULL, 0))                                                  \
+    X("recvfrom", W | P | R, recvfrom(-1, NULL, 0, 0, NULL, NULL))                                 \
+    X("shutdown", R | W, shutdown(-1, SHUT_WR))                                                    \
+    X("setsockopt", W | P | R, setsockopt(-1, IPPROTO_TCP, TCP_NODELAY, NULL, 0))                  \
+    X("getsockopt", W | P | R, getsockopt(-1, SOL_SOCKET, SO_PEERCRED, NULL, NULL))                \
+    X("getsockopt", W | P, getsockopt(-1, SOL_SOCKET, SO_ERROR, NULL, NULL))                       \
+    X("setsockopt", W | P, setsockopt(-1, SOL_SOCKET, SO_BINDTODEVICE, NULL, 0))                   \
+    X("sysinfo", W | P | R, syscall(SYS_sysinfo, said))                                            \
     X("execve", NONE, run_program())                                                               \
     X("execveat", NONE, run_descriptor())                                                          \
     X("fork", NONE, new_process_fork())                                                            \
     X("clone", NONE, new_process())                                                                \
     X("clone3", ALL, new_process_clone3())                                                         \
-    X("", P | R, new_thread())                                                                     \
+    X("", W | P | R, new_thread())                                                                 \
     X("ptrace", NONE, ptrace(PTRACE_TRACEME, 0, NULL, NULL))                                       \
     X("process_vm_readv", NONE, syscall(SYS_process_vm_readv, 1, NULL, 0, NULL, 0, 0))             \
     X("process_vm_writev", NONE, syscall(SYS_process_vm_writev, 1, NULL, 0, NULL, 0, 0))           \
@@ -215,15 +216,19 @@ static void handle(int signal_number)
     X("tgkill", NONE, syscall(SYS_tgkill, getpid(), getpid(), SIGKILL))                            \
     X("tkill", NONE, syscall(SYS_tkill, 1, 0))                                                     \
     X("rt_sigqueueinfo", NONE, syscall(SYS_rt_sigqueueinfo, 1, SIGTERM, NULL))                     \
-    X("pidfd_open", NONE, syscall(SYS_pidfd_open, 1, 0))                                           \
+    X("pidfd_open", W, syscall(SYS_pidfd_open, 1, 0))                                              \
+    X("pidfd_send_signal", W, syscall(SYS_pidfd_send_signal, -1, SIGKILL, NULL, 0))                \
+    X("pidfd_send_signal", NONE, syscall(SYS_pidfd_send_signal, -1, SIGSTOP, NULL, 0))             \
+    X("mmap", R, map(PROT_READ | PROT_WRITE, MAP_SHARED, 2))                                       \
+    X("getrandom", W, syscall(SYS_getrandom, said, 1, 0))                                          \
     X("rt_sigaction", NONE, handle(SIGSYS))                                                        \
     X("rt_sigaction", NONE, handle(SIGSEGV))                                                       \
     X("rt_sigaction", ALL, handle(SIGABRT))                                                        \
-    X("rt_sigaction", P, handle(SIGALRM))                                                          \
+    X("rt_sigaction", W | P, handle(SIGALRM))                                                      \
     X("mmap", R, map(PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1))                      \
-    X("mmap", R, map(PROT_READ, MAP_SHARED, 2))                                                    \
-    X("mmap", R, map(PROT_READ, MAP_PRIVATE, 2))                                                   \
-    X("mmap", R, map(PROT_READ, MAP_SHARED | MAP_ANONYMOUS, -1))                                   \
+    X("mmap", R | W, map(PROT_READ, MAP_SHARED, 2))                                                \
+    X("mmap", R | W, map(PROT_READ, MAP_PRIVATE, 2))                                               \
+    X("mmap", R | W, map(PROT_READ, MAP_SHARED | MAP_ANONYMOUS, -1))                               \
     X("mprotect", R, make_executable())                                                            \
     X("pkey_mprotect", NONE, syscall(SYS_pkey_mprotect, NULL, 4096, PROT_EXEC, -1))                \
     X("remap_file_pages", NONE, syscall(SYS_remap_file_pages, NULL, 0, 0, 0, 0))                   \
@@ -231,7 +236,7 @@ static void handle(int signal_number)
     X("shmget", NONE, syscall(SYS_shmget, 0, 4096, 0600))                                          \
     X("personality", NONE, syscall(SYS_personality, 0x0400000))                                    \
     X("prctl", NONE, prctl(PR_SET_DUMPABLE, 1))                                                    \
-    X("prctl", P | R, prctl(PR_SET_NAME, "name"))                                                  \
+    X("prctl", W | P | R, prctl(PR_SET_NAME, "name"))                                              \
     X("setuid", NONE, syscall(SYS_setuid, 0))                                                      \
     X("capset", NONE, syscall(SYS_capset, NULL, NULL))                                             \
     X("seccomp", NONE, syscall(SYS_seccomp, 1, 0, NULL))                                           \
@@ -322,6 +327,11 @@ static int try_it(void *context)
     return result;
 }
 
+static const char *name_of(int role)
+{
+    return role == ROLE_NONE ? "console" : role_name((enum role)role);
+}
+
 static void check_trial(int role, int number)
 {
     struct trial trial = {role, number};
@@ -330,22 +340,21 @@ static void check_trial(int role, int number)
     int result = run(try_it, &trial);
     if (result != (allowed ? 0 : -SIGSYS))
         fail_msg("%s by the %s: %d, should be %s; it said: %s", attempts[number].action,
-                 role_name((enum role)role), result, allowed ? "allowed" : "forbidden", said);
+                 name_of(role), result, allowed ? "allowed" : "forbidden", said);
     if (allowed || attempts[number].call[0] == '\0')
         return;
-    snprintf(wanted, sizeof wanted, "jolon-%s: the sandbox forbids system call ",
-             role_name((enum role)role));
+    snprintf(wanted, sizeof wanted, "jolon-%s: the sandbox forbids system call ", name_of(role));
     const char *name = strchr(said, '(');
     if (strncmp(said, wanted, strlen(wanted)) != 0 || !name ||
         strncmp(name + 1, attempts[number].call, strlen(attempts[number].call)) != 0)
-        fail_msg("%s by the %s: said \"%s\", not (%s)", attempts[number].action,
-                 role_name((enum role)role), said, attempts[number].call);
+        fail_msg("%s by the %s: said \"%s\", not (%s)", attempts[number].action, name_of(role),
+                 said, attempts[number].call);
 }
 
 static void test_each_role_may_do_what_it_needs_and_nothing_else(void **state)
 {
     (void)state;
-    for (int role = 0; role < ROLE_COUNT; role++) {
+    for (int role = 0; role <= ROLE_NONE; role++) {
         for (int i = 0; i < ATTEMPT_COUNT; i++)
             check_trial(role, i);
     }
@@ -557,13 +566,47 @@ static void test_files_only_beneath_the_folder(void **state)
     }
 }
 
-/* --- the world's memory taken away
- * --------------------------------------------------------------*/
-
+/* A world of its own, and who attaches to it. */
 struct loss {
     enum role role;
     char name[SEGMENT_NAME_MAX], shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
 };
+
+/* The console reads worlds, and writes and makes nothing anywhere. */
+static int look_at_worlds(void *context)
+{
+    const char *shm = context;
+    struct sandbox sandbox;
+    if (sandbox_begin(&sandbox, ROLE_NONE, false, &reason) != 0 ||
+        sandbox_files(&sandbox, NULL, 0, &reason) != 0 || sandbox_enter(&sandbox, &reason) != 0)
+        return NOT_ENTERED;
+    if (open(shm, O_RDONLY | O_CLOEXEC) < 0)
+        return 1;
+    if (open(shm, O_RDWR | O_CLOEXEC) >= 0 || errno != EACCES)
+        return 2;
+    if (open("/dev/shm/jolon-none", O_RDWR | O_CREAT | O_CLOEXEC, 0600) >= 0 || errno != EACCES)
+        return 3;
+    if (open(folder, O_RDONLY | O_CLOEXEC) >= 0 || errno != EACCES)
+        return 4;
+    return 0;
+}
+
+static void test_a_console_only_reads_worlds(void **state)
+{
+    struct loss world;
+    (void)state;
+    if (syscall(SYS_landlock_create_ruleset, NULL, 0, 1) < 0)
+        skip(); /* this kernel has no Landlock; the console says so */
+    named_world_make(world.name, "vehicles = ();");
+    segment_paths(world.name, world.shm, world.lock);
+    int result = run(look_at_worlds, world.shm);
+    named_world_remove(world.name);
+    if (result != 0)
+        fail_msg("%d: %s", result, said);
+}
+
+/* --- the world's memory taken away
+ * --------------------------------------------------------------*/
 
 static int lose_memory(void *context)
 {
@@ -673,6 +716,7 @@ int main(void)
         cmocka_unit_test(test_crashes_stay_what_they_are),
         cmocka_unit_test(test_a_wait_goes_on_after_stop_and_continue),
         cmocka_unit_test(test_files_only_beneath_the_folder),
+        cmocka_unit_test(test_a_console_only_reads_worlds),
         cmocka_unit_test(test_memory_that_goes_away_is_said_inside),
         cmocka_unit_test(test_no_sandbox_is_said_loudly),
         cmocka_unit_test(test_a_kernel_that_refuses_is_said_and_never_passed_over),
