@@ -3,6 +3,7 @@
 
 #include "ipc/crash.h"
 #include "ipc/plain.h"
+#include "world/checksum.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -232,7 +233,8 @@ done:
     return result;
 }
 
-/* What the parts say must be what the header says, by which they were placed, and whole. */
+/* What the parts say must be what the header says, by which they were placed, and whole. An image
+ * has no hashes of the rows: they are made here. */
 static int check_state(const struct view *view, const struct image *image, struct reason *reason)
 {
     const struct image_header *header = &image->header;
@@ -241,6 +243,7 @@ static int check_state(const struct view *view, const struct image *image, struc
     if (head->event_end != header->event_end || head->used != header->used ||
         head->crater_count != header->craters || head->dent_count != header->dents)
         return reason_set(reason, "%s: its frame does not fit its header", image->path);
+    table_hash(state_table(&view->w[header->frame & 1]), head->used, NULL, NULL);
     if (segment_check_state(view, header->frame, &what) != 0)
         return reason_set(reason, "%s: %s", image->path, what.text);
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {
@@ -252,6 +255,7 @@ static int check_state(const struct view *view, const struct image *image, struc
         return 0;
     if (moved->used != header->moved_used || moved->intent_count != header->intents)
         return reason_set(reason, "%s: its moved table does not fit its header", image->path);
+    table_hash(moved_table(&view->m), moved->used, NULL, NULL);
     if (segment_check_moved(view, header->frame + 1, &what) != 0)
         return reason_set(reason, "%s: %s", image->path, what.text);
     return 0;

@@ -19,7 +19,7 @@
 /* A record's tag: a row, or a fixed object, and what is asked so often that it must be at hand. */
 #define BIN_ROW    (CAPACITY_MAX - 1u)
 #define BIN_RESTS  0x00100000u /* its way has no length */
-#define BIN_ROUND  0x00200000u /* a munition: detect_apart decides */
+#define BIN_ROUND  0x00200000u /* a munition: detect_kin decides */
 #define BIN_AIR    0x00400000u /* an aircraft: detect_tests_fixed decides */
 #define BIN_LONG   0x00800000u /* a long way: narrower in each strip than its box is */
 #define BIN_WIDE   0x01000000u /* wider than BIN_WIDE_STEPS, or long */

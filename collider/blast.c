@@ -44,10 +44,11 @@ static double distance_to(struct vec3 from, struct vec3 centre, double radius_m)
 static int blast_row(struct respond *respond, const struct charge *charge, double radius,
                      uint32_t row)
 {
-    struct entities *e = &respond->next->entities;
+    const struct entities *e = &respond->next->entities;
     const struct path *path = &respond->path[row];
     if (e->state[row] != ENTITY_ACTIVE || e->behaviour[row] == BEHAVIOUR_FLIGHT)
         return 0;
+    motion_draw(respond->motion, row);
     struct vec3 at = path_at(path, maths_max(charge->time, path->since));
     double distance = distance_to(charge->point, at, respond->world->kinds[e->kind[row]].radius_m);
     /* A direct hit was answered where it struck; to the blast it is merely near. */
@@ -57,8 +58,10 @@ static int blast_row(struct respond *respond, const struct charge *charge, doubl
     bool known = entities_alive(e, owner, charge->owner_id);
     bool friend = known && e->force[owner] != FORCE_NEUTRAL && e->force[owner] == e->force[row];
     if (joules > 0.0 && known && owner != row && !friend) {
-        e->threat_slot[row] = charge->owner_slot;
-        e->threat_id[row] = charge->owner_id;
+        struct entities *change =
+            respond_change(respond, row, COLUMN_BIT(threat_slot) | COLUMN_BIT(threat_id));
+        change->threat_slot[row] = charge->owner_slot;
+        change->threat_id[row] = charge->owner_id;
     }
     return harm_row(respond, row, joules, charge->time);
 }
@@ -196,7 +199,7 @@ static struct event_party party_struck(const struct respond *respond, uint32_t s
 
 int blast_munition(struct respond *respond, uint32_t row, uint32_t struck, double time)
 {
-    struct entities *e = &respond->next->entities;
+    const struct entities *e = &respond->next->entities;
     struct state_head *head = respond->next->head;
     const struct kind *kind = &respond->world->kinds[e->kind[row]];
     struct vec3 point = path_at(&respond->path[row], time);
@@ -223,7 +226,7 @@ int blast_munition(struct respond *respond, uint32_t row, uint32_t struck, doubl
     }
     if (what == STRUCK_GROUND && kind->craters)
         dig(respond, point, kind->explosive_kg);
-    entities_clear(e, row);
+    entities_clear(respond_change(respond, row, COLUMNS_ALL), row);
     head->munitions--;
     contacts_drop(respond->contacts, row);
     return charge.explosive_kg > 0.0 ? blast_charge(respond, &charge) : 0;

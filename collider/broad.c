@@ -1,7 +1,7 @@
 /* The broad phase over strips. */
 #include "collider/broad.h"
 
-#include "world/clones.h"
+#include "collider/rows.h"
 #include "world/entity.h"
 
 #include <errno.h>
@@ -9,11 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BLOCK          64
-#define ROWS_A_PIECE   4096
+#define ROWS_A_PIECE   (2 * BROAD_ROWS_TAKEN)
 #define STRIPS_A_PIECE 4
 #define ALONE_MOST     8192 /* rows that one thread has done before others would have woken */
-#define LONG_M         64.0 /* a way's extent in x from which it is clipped to its strips */
 
 int broad_init(struct broad *broad, const struct world *world, struct workers *workers)
 {
@@ -42,176 +40,26 @@ void broad_free(struct broad *broad)
 
 struct job {
     struct broad *broad;
-    const struct detect_input *input;
+    struct rows rows;
     struct strips strips;
     double grow[KIND_COUNT_MAX];
     uint32_t flags[KIND_COUNT_MAX]; /* of the tag */
+    broad_take *take;               /* NULL: rows are there */
+    void *context;
     _Atomic int failed;
 };
 
-/* --- rows into strips --------------------------------------------------------------------------*/
-
-/* A block of rows on their way into the strips: each property in a row of its own, so that the
- * compiler makes vectors of the loops. What they do is what detect_box and bins.h's functions do.
- */
-struct block {
-    _Alignas(64) double grow[BLOCK];
-    float min_x[BLOCK], max_x[BLOCK], min_z[BLOCK], max_z[BLOCK];
-    int32_t west[BLOCK], east[BLOCK], north[BLOCK], south[BLOCK]; /* the same [steps] */
-    uint32_t tag[BLOCK];
-    uint32_t strip[BLOCK]; /* STRIP_COUNT: several */
-    struct bin_record record[BLOCK];
-    /* Fewer rows than a block are copied here first. */
-    struct path path[BLOCK];
-    struct sweep_box box[BLOCK];
-};
-
-static uint64_t bits_of(double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-static bool rests(const struct path *path)
-{
-    uint64_t any = bits_of(path->along.x) | bits_of(path->along.y) | bits_of(path->along.z);
-    return any << 1 == 0 && !path->turns; /* 0.0 or -0.0 each */
-}
-
-static void name_rows(const struct job *job, struct block *restrict block,
-                      const struct path *restrict path, uint32_t first, uint32_t count)
-{
-    const struct entities *e = job->input->entities;
-    const uint8_t *state = e->state + first, *behaviour = e->behaviour + first;
-    const uint16_t *kinds = e->kind + first;
-    for (uint32_t k = 0; k < count; k++) {
-        uint32_t kind = state[k] != ENTITY_FREE ? kinds[k] : 0;
-        block->grow[k] = job->grow[kind];
-        block->tag[k] = (first + k) | job->flags[kind] | (rests(&path[k]) ? BIN_RESTS : 0) |
-                        (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0);
-    }
-}
-
-static void box_rows(struct block *restrict block, const struct path *restrict path,
-                     struct sweep_box *restrict box)
-{
-    for (uint32_t k = 0; k < BLOCK; k++) {
-        const struct path *way = &path[k];
-        __builtin_prefetch(&way[2 * BLOCK], 0, 2);
-        double left = 1.0 - way->since, grow = block->grow[k], low[2], high[2];
-        double at[2] = {way->at.x, way->at.y}, along[2] = {way->along.x, way->along.y};
-        for (int axis = 0; axis < 2; axis++) {
-            double to = at[axis] + along[axis] * left;
-            low[axis] = maths_min(at[axis], to) - grow;
-            high[axis] = maths_max(at[axis], to) + grow;
-        }
-        double z = way->at.z, to_z = z + way->along.z * left;
-        block->min_x[k] = box[k].min_x = (float)low[0];
-        block->max_x[k] = box[k].max_x = (float)high[0];
-        block->min_z[k] = box[k].min_z = (float)(maths_min(z, to_z) - grow);
-        block->max_z[k] = box[k].max_z = (float)(maths_max(z, to_z) + grow);
-        box[k].min_y = (float)low[1];
-        box[k].max_y = (float)high[1];
-    }
-}
-
-/* bin_steps of each. In two loops: of one, gcc makes branches. */
-static void scale(float *restrict metres, int32_t *restrict steps)
-{
-    for (uint32_t k = 0; k < BLOCK; k++)
-        metres[k] = bin_scaled(metres[k]);
-    for (uint32_t k = 0; k < BLOCK; k++)
-        steps[k] = (int32_t)metres[k];
-}
-
-static void make_records(struct block *restrict block)
-{
-    for (size_t k = 0; k < BLOCK; k++) {
-        uint32_t north = (uint32_t)block->north[k];
-        uint32_t strip = north / BIN_STRIP_STEPS, edge = strip * BIN_STRIP_STEPS;
-        uint32_t south = (uint32_t)block->south[k] - edge;
-        int32_t width = block->east[k] - block->west[k];
-        block->record[k].min_x = block->west[k];
-        block->record[k].max_x = block->east[k];
-        block->record[k].z = (north - edge) | south << 16;
-        block->record[k].tag = block->tag[k] | (width > BIN_WIDE_STEPS ? BIN_WIDE : 0);
-        block->strip[k] = south < BIN_STRIP_STEPS ? strip : STRIP_COUNT;
-    }
-}
-
-static int add_spanning(const struct job *job, struct bins *bins, uint32_t tag)
-{
-    uint32_t row = tag & BIN_ROW;
-    const struct path *path = &job->input->path[row];
-    const struct sweep_box *box = &job->broad->box[row];
-    bool is_long = fabs(path->along.x) > LONG_M;
-    double grow = job->grow[job->input->entities->kind[row]];
-    struct bin_record record = {.min_x = bin_steps(box->min_x),
-                                .max_x = bin_steps(box->max_x),
-                                .tag = tag | BIN_SPANS | (is_long ? BIN_LONG | BIN_WIDE : 0)};
-    uint32_t last = bin_strip(box->max_z);
-    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
-        if (is_long) {
-            struct strip_span span = strip_span(path, box, grow, strip);
-            record.min_x = span.min_x;
-            record.max_x = span.max_x;
-        }
-        record.z = bin_z(box->min_z, box->max_z, strip);
-        if (bins_add(bins, strip, record) != 0)
-            return -1;
-    }
-    return 0;
-}
-
-static int add_rows(const struct job *job, struct bins *bins, const struct block *block,
-                    uint32_t first, uint32_t count)
-{
-    const uint8_t *state = job->input->entities->state + first;
-    for (uint32_t k = 0; k < count; k++) {
-        if (state[k] == ENTITY_FREE)
-            continue;
-        if ((block->strip[k] < STRIP_COUNT ? bins_add(bins, block->strip[k], block->record[k])
-                                           : add_spanning(job, bins, block->record[k].tag)) != 0)
-            return -1;
-    }
-    return 0;
-}
-
-static int bin_block(const struct job *job, struct block *block, struct bins *bins, uint32_t first,
-                     uint32_t count)
-{
-    const struct path *path = job->input->path + first;
-    struct sweep_box *box = job->broad->box + first;
-    if (count < BLOCK) {
-        memcpy(block->path, path, count * sizeof *path);
-        path = block->path;
-        box = block->box;
-    }
-    name_rows(job, block, path, first, count);
-    box_rows(block, path, box);
-    if (count < BLOCK)
-        memcpy(job->broad->box + first, box, count * sizeof *box);
-    scale(block->min_x, block->west);
-    scale(block->max_x, block->east);
-    scale(block->min_z, block->north);
-    scale(block->max_z, block->south);
-    make_records(block);
-    return add_rows(job, bins, block, first, count);
-}
-
-VECTOR_CLONES static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
+static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
-    struct block block = {0};
-    struct bins *bins = &job->broad->lane[worker].bins;
-    for (uint32_t row = first; row < end; row += BLOCK) {
-        if (bin_block(job, &block, bins, row, end - row < BLOCK ? end - row : BLOCK) != 0)
+    for (uint32_t row = first; row < end; row += BROAD_ROWS_TAKEN) {
+        uint32_t past = end - row < BROAD_ROWS_TAKEN ? end : row + BROAD_ROWS_TAKEN;
+        if (job->take)
+            job->take(job->context, row, past);
+        if (rows_bin(&job->rows, &job->broad->lane[worker], row, past) != 0)
             atomic_store(&job->failed, 1);
     }
 }
-
-/* --- strips ------------------------------------------------------------------------------------*/
 
 static void meet_strips(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
@@ -223,16 +71,20 @@ static void meet_strips(void *context, uint32_t first, uint32_t end, uint32_t wo
     }
 }
 
-int broad_pairs(struct broad *broad, const struct detect_input *input)
+int broad_pairs_moved(struct broad *broad, const struct detect_input *input, struct motion *motion,
+                      broad_take *take, void *context)
 {
-    struct job job = {.broad = broad, .input = input};
+    struct job job = {.broad = broad, .take = take, .context = context};
     struct workers *workers = input->rows > ALONE_MOST ? broad->workers : NULL;
     const struct world *world = input->world;
     for (uint32_t i = 0; i < world->counts.kinds; i++) {
         job.grow[i] = detect_grow(world, &world->kinds[i]);
         job.flags[i] = world->kinds[i].domain == DOMAIN_AIR ? BIN_AIR : 0;
     }
+    job.rows = (struct rows){
+        .input = input, .motion = motion, .box = broad->box, .grow = job.grow, .flags = job.flags};
     job.strips = (struct strips){.input = input,
+                                 .motion = motion,
                                  .standing = &broad->standing,
                                  .box = broad->box,
                                  .grow = job.grow,
@@ -240,6 +92,7 @@ int broad_pairs(struct broad *broad, const struct detect_input *input)
                                  .lanes = broad->lanes};
     for (uint32_t i = 0; i < broad->lanes; i++) {
         bins_clear(&broad->lane[i].bins);
+        broad->lane[i].fliers.count = 0;
         broad->lane[i].pairs = broad->list[i];
         broad->lane[i].pairs.count = 0;
     }
@@ -254,6 +107,11 @@ int broad_pairs(struct broad *broad, const struct detect_input *input)
         return -1;
     }
     return 0;
+}
+
+int broad_pairs(struct broad *broad, const struct detect_input *input)
+{
+    return broad_pairs_moved(broad, input, NULL, NULL, NULL);
 }
 
 /* --- queries -----------------------------------------------------------------------------------*/

@@ -8,6 +8,7 @@
 #define JOLON_COLLIDER_BROAD_H
 
 #include "collider/detect.h"
+#include "collider/motion.h"
 #include "collider/standing.h"
 #include "collider/strip.h"
 #include "world/workers.h"
@@ -37,6 +38,19 @@ void broad_free(struct broad *broad);
  * is already down. The set of pairs does not depend on the threads; their order may. 0, or -1 with
  * errno ENOMEM. */
 int broad_pairs(struct broad *broad, const struct detect_input *input);
+
+/* Fills rows first .. end - 1 of what detection looks at; first is a multiple of
+ * BROAD_ROWS_TAKEN. */
+typedef void broad_take(void *context, uint32_t first, uint32_t end);
+
+#define BROAD_ROWS_TAKEN 1024 /* at a time: they fit a processor's own cache */
+
+/* The same, of ways that are motion's and not drawn yet: drawn are then those of fliers and of who
+ * is in several strips. Whoever else is in a pair, or found by a query, is the caller's to draw.
+ * take is called once for all rows before they are looked at, a few at a time and on any thread;
+ * NULL: they are there. */
+int broad_pairs_moved(struct broad *broad, const struct detect_input *input, struct motion *motion,
+                      broad_take *take, void *context);
 
 /* After broad_pairs: adds every row whose box (broad->box) meets this one, as pair.a, each once,
  * ascending; pair.b is 0. A row on a long way counts where it passes. 0, or -1 with errno ENOMEM.

@@ -5,7 +5,8 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-#define PAIRS_A_PIECE 256
+#define PAIRS_A_PIECE  16
+#define FLIERS_A_PIECE 128
 
 /* Makes room for one more of size bytes; 0, or -1 with errno ENOMEM. */
 static int grow(void **array, uint32_t *capacity, uint32_t count, size_t size)
@@ -203,32 +204,38 @@ static bool sweep_pair(const struct contacts *contacts, const struct contact_inp
 struct job {
     struct contacts *contacts;
     const struct contact_input *input;
+    uint64_t tick;
     _Atomic int failed;
 };
+
+static int note(struct contacts *contacts, uint32_t worker, const struct contact *contact)
+{
+    struct contact *room = list_room(&contacts->found[worker]);
+    if (!room)
+        return -1;
+    *room = *contact;
+    return 0;
+}
 
 static void find_some(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
     struct contact contact;
     for (uint32_t i = first; i < end; i++) {
-        if (!sweep_pair(job->contacts, job->input, i, 0.0, &contact))
-            continue;
-        struct contact *room = list_room(&job->contacts->found[worker]);
-        if (!room) {
+        if (sweep_pair(job->contacts, job->input, i, 0.0, &contact) &&
+            note(job->contacts, worker, &contact) != 0)
             atomic_store(&job->failed, 1);
-            return;
-        }
-        *room = contact;
     }
 }
 
-int contacts_find(struct contacts *contacts, const struct contact_input *input)
+/* What is found of count things goes into the heap. */
+static int find_all(struct job *job, workers_function *find, uint32_t count, uint32_t grain)
 {
-    struct job job = {.contacts = contacts, .input = input};
+    struct contacts *contacts = job->contacts;
     for (int i = 0; i < WORKERS_MAX; i++)
         contacts->found[i].count = 0;
-    workers_run(contacts->workers, find_some, &job, contacts->pair_count, PAIRS_A_PIECE);
-    if (atomic_load(&job.failed)) {
+    workers_run(contacts->workers, find, job, count, grain);
+    if (atomic_load(&job->failed)) {
         errno = ENOMEM;
         return -1;
     }
@@ -241,24 +248,78 @@ int contacts_find(struct contacts *contacts, const struct contact_input *input)
     return 0;
 }
 
+int contacts_find(struct contacts *contacts, const struct contact_input *input)
+{
+    struct job job = {.contacts = contacts, .input = input};
+    return find_all(&job, find_some, contacts->pair_count, PAIRS_A_PIECE);
+}
+
+static struct contact end_of(const struct contacts *contacts, uint32_t row, uint32_t what,
+                             double toi)
+{
+    return (struct contact){
+        .touch.toi = toi, .a = row, .b = what, .version_a = contacts->version[row]};
+}
+
 int contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, double toi)
 {
-    const struct contact contact = {
-        .touch.toi = toi, .a = row, .b = what, .version_a = contacts->version[row]};
+    const struct contact contact = end_of(contacts, row, what, toi);
     return push(contacts, &contact);
 }
 
 int contacts_ground(struct contacts *contacts, const struct contact_input *input, uint32_t row)
 {
-    const struct detect_input *detect = &input->detect;
-    const struct entities *e = detect->entities;
+    const struct entities *e = input->detect.entities;
     double toi;
     bool flies = e->behaviour[row] == BEHAVIOUR_FLIGHT ||
-                 detect->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+                 input->detect.world->kinds[e->kind[row]].domain == DOMAIN_AIR;
     if (!flies || e->state[row] != ENTITY_ACTIVE ||
-        !sweep_ground(&detect->world->terrain, detect->craters, &detect->path[row], &toi))
+        !detect_ground(&input->detect, &input->detect.path[row], &toi))
         return 0;
     return contacts_add_end(contacts, row, CONTACT_GROUND, toi);
+}
+
+static int find_end(const struct job *job, uint32_t row, uint32_t worker)
+{
+    const struct entities *e = job->input->detect.entities;
+    struct contact contact;
+    double toi;
+    const struct detect_input *detect = &job->input->detect;
+    if (detect_ground(detect, &detect->path[row], &toi)) {
+        contact = end_of(job->contacts, row, CONTACT_GROUND, toi);
+        if (note(job->contacts, worker, &contact) != 0)
+            return -1;
+    }
+    if (e->behaviour[row] != BEHAVIOUR_FLIGHT || job->tick < e->until_tick[row])
+        return 0;
+    contact = end_of(job->contacts, row, CONTACT_AIR, 1.0);
+    return note(job->contacts, worker, &contact);
+}
+
+/* Fliers first .. end - 1 of all lanes' together. */
+static void find_some_ends(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    struct job *job = context;
+    const struct broad *broad = job->input->broad;
+    uint32_t before = 0;
+    for (uint32_t lane = 0; lane < broad->lanes; lane++) {
+        const struct pair_list *fliers = &broad->lane[lane].fliers;
+        uint32_t i = first > before ? first - before : 0;
+        for (; i < fliers->count && before + i < end; i++) {
+            if (find_end(job, fliers->pair[i].a, worker) != 0)
+                atomic_store(&job->failed, 1);
+        }
+        before += fliers->count;
+    }
+}
+
+int contacts_find_ends(struct contacts *contacts, const struct contact_input *input, uint64_t tick)
+{
+    struct job job = {.contacts = contacts, .input = input, .tick = tick};
+    uint32_t count = 0;
+    for (uint32_t lane = 0; lane < input->broad->lanes; lane++)
+        count += input->broad->lane[lane].fliers.count;
+    return find_all(&job, find_some_ends, count, FLIERS_A_PIECE);
 }
 
 const struct contact *contacts_peek(struct contacts *contacts)
@@ -308,8 +369,11 @@ static int meet(struct contacts *contacts, const struct contact_input *input, ui
 {
     bool fixed = other & PAIR_FIXED;
     struct pair pair = {fixed || row < other ? row : other, fixed || row < other ? other : row};
-    if (other == row || paired(contacts, &pair) ||
-        (!fixed && detect_apart(&input->detect, pair.a, pair.b)))
+    if (other == row || paired(contacts, &pair))
+        return 0;
+    if (!fixed)
+        motion_draw(input->motion, other);
+    if (!fixed && detect_apart(&input->detect, pair.a, pair.b))
         return 0;
     return reserve_pairs(contacts, contacts->pair_count + 1) == 0 ? add_pair(contacts, pair) : -1;
 }

@@ -59,7 +59,7 @@ struct contacts {
 /* What contact finding reads. */
 struct contact_input {
     struct detect_input detect;
-    const struct motion *motion;
+    struct motion *motion;
     struct broad *broad; /* boxes of strayed rows are written */
     uint32_t meets;      /* how often a pair may meet in a frame */
     bool through_fixed;  /* see narrow_touch */
@@ -77,6 +77,10 @@ void contacts_end(struct contacts *contacts);
 
 /* Finds every contact of the frame's pairs, on all workers. 0, or -1 with errno ENOMEM. */
 int contacts_find(struct contacts *contacts, const struct contact_input *input);
+
+/* Finds where broad->fliers meet the ground, and the rounds whose life ends with
+ * the frame unless something earlier ends it, on all workers. 0, or -1 with errno ENOMEM. */
+int contacts_find_ends(struct contacts *contacts, const struct contact_input *input, uint64_t tick);
 
 /* Finds where a round or an aircraft on its present way meets the ground. 0, or -1 with errno
  * ENOMEM. */

@@ -49,13 +49,20 @@ struct sweep_box detect_box(const struct detect_input *input, uint32_t row)
     return detect_way_box(&input->path[row], detect_grow(input->world, kind));
 }
 
+bool detect_ground(const struct detect_input *input, const struct path *path, double *toi)
+{
+    if (input->crest && crest_below(input->crest, input->craters, path->at, path_at(path, 1.0)))
+        return false;
+    return sweep_ground(&input->world->terrain, input->craters, path, toi);
+}
+
 /* The way, lowered by the threshold, does not reach the ground. */
 static bool above_threshold(const struct detect_input *input, const struct path *path)
 {
     struct path lowered = *path;
     double toi;
     lowered.at.y -= input->world->params->collision.threshold_height_m;
-    return !sweep_ground(&input->world->terrain, input->craters, &lowered, &toi);
+    return !detect_ground(input, &lowered, &toi);
 }
 
 bool detect_tests_fixed(const struct detect_input *input, uint32_t row)
@@ -66,16 +73,20 @@ bool detect_tests_fixed(const struct detect_input *input, uint32_t row)
            !(kind->domain == DOMAIN_AIR && above_threshold(input, path));
 }
 
-bool detect_apart(const struct detect_input *input, uint32_t a, uint32_t b)
+bool detect_kin(const struct entities *e, uint32_t a, uint32_t b)
 {
-    const struct entities *e = input->entities;
     bool round_a = e->behaviour[a] == BEHAVIOUR_FLIGHT,
          round_b = e->behaviour[b] == BEHAVIOUR_FLIGHT;
     if (round_a && e->owner_slot[a] == b && e->owner_id[a] == e->id[b])
         return true;
     if (round_b && e->owner_slot[b] == a && e->owner_id[b] == e->id[a])
         return true;
-    if (round_a && round_b && e->owner_id[a] != 0 && e->owner_id[a] == e->owner_id[b])
+    return round_a && round_b && e->owner_id[a] != 0 && e->owner_id[a] == e->owner_id[b];
+}
+
+bool detect_apart(const struct detect_input *input, uint32_t a, uint32_t b)
+{
+    if (detect_kin(input->entities, a, b))
         return true;
     return detect_rests(&input->path[a]) && detect_rests(&input->path[b]);
 }

@@ -13,6 +13,7 @@
 #ifndef JOLON_COLLIDER_DETECT_H
 #define JOLON_COLLIDER_DETECT_H
 
+#include "collider/crest.h"
 #include "collider/sweep.h"
 #include "world/world.h"
 
@@ -51,6 +52,7 @@ struct detect_input {
     const struct path *path;         /* [rows] */
     const uint8_t *fixed_damage;
     const struct crater_index *craters;
+    const struct crest *crest; /* NULL: every way is held against the ground itself */
     uint32_t rows;
 };
 
@@ -90,6 +92,9 @@ static inline bool detect_there(const struct detect_input *input, uint32_t row)
     return input->entities->state[row] != ENTITY_FREE;
 }
 
+/* detect.c: does the way reach the ground? Then *toi is when. */
+bool detect_ground(const struct detect_input *input, const struct path *path, double *toi);
+
 /* Does the row test fixed objects? Not when it rests, nor as an aircraft above the threshold height
  * all the way (thesis row 17). */
 bool detect_tests_fixed(const struct detect_input *input, uint32_t row);
@@ -100,8 +105,10 @@ static inline bool detect_stands(const struct detect_input *input, uint32_t obje
     return input->fixed_damage[object] < DAMAGE_HIGH;
 }
 
-/* Can these two rows never collide? A round and who fired it, two rounds of one shooter, two that
- * rest. */
+/* A round and who fired it, or two rounds of one shooter? They never collide. */
+bool detect_kin(const struct entities *entities, uint32_t a, uint32_t b);
+
+/* Can these two rows never collide? Kin, and two that rest. */
 bool detect_apart(const struct detect_input *input, uint32_t a, uint32_t b);
 
 /* The methods beside broad.c. Each adds every pair that it finds once, in any order; workspace is

@@ -7,6 +7,10 @@
 #define SHARE_MED  0.3
 #define SHARE_LOW  0.1
 
+#define HARM_COLUMNS                                                                               \
+    (COLUMN_BIT(harm_j) | COLUMN_BIT(damage) | COLUMN_BIT(changed_tick) | COLUMN_BIT(state) |      \
+     COLUMN_BIT(behaviour) | COLUMN_BIT(order))
+
 static enum damage level(double share)
 {
     if (share >= 1.0)
@@ -20,10 +24,10 @@ static enum damage level(double share)
 
 int harm_destroy(struct respond *respond, uint32_t row, double time)
 {
-    struct entities *e = &respond->next->entities;
-    const struct kind *kind = &respond->world->kinds[e->kind[row]];
-    if (e->state[row] != ENTITY_ACTIVE)
+    const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
+    if (respond->next->entities.state[row] != ENTITY_ACTIVE)
         return 0;
+    struct entities *e = respond_change(respond, row, HARM_COLUMNS);
     e->state[row] = ENTITY_WRECK;
     e->behaviour[row] = e->order[row] = BEHAVIOUR_IDLE;
     e->damage[row] = DAMAGE_DESTROYED;
@@ -38,10 +42,10 @@ int harm_destroy(struct respond *respond, uint32_t row, double time)
 
 int harm_row(struct respond *respond, uint32_t row, double joules, double time)
 {
-    struct entities *e = &respond->next->entities;
-    const struct kind *kind = &respond->world->kinds[e->kind[row]];
-    if (e->state[row] != ENTITY_ACTIVE || !(joules > 0.0))
+    const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
+    if (respond->next->entities.state[row] != ENTITY_ACTIVE || !(joules > 0.0))
         return 0;
+    struct entities *e = respond_change(respond, row, HARM_COLUMNS);
     e->harm_j[row] += joules;
     enum damage damage = level(e->harm_j[row] / kind->resistance_j);
     if (damage == DAMAGE_DESTROYED)

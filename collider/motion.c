@@ -4,14 +4,16 @@
 #include "collider/detect.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 int motion_init(struct motion *motion, const struct world *world)
 {
     uint32_t capacity = world->params->capacity;
     *motion = (struct motion){.world = world};
     motion->path = malloc(capacity * sizeof *motion->path);
+    motion->drawn = calloc(capacity, sizeof *motion->drawn);
     motion->change = calloc(capacity, sizeof *motion->change);
-    if (!motion->path || !motion->change) {
+    if (!motion->path || !motion->drawn || !motion->change) {
         motion_free(motion);
         return -1;
     }
@@ -21,6 +23,7 @@ int motion_init(struct motion *motion, const struct world *world)
 void motion_free(struct motion *motion)
 {
     free(motion->path);
+    free(motion->drawn);
     free(motion->changed);
     free(motion->change);
     free(motion->row);
@@ -32,28 +35,26 @@ void motion_begin(struct motion *motion, const struct state *committed, const st
     for (uint32_t i = 0; i < motion->changes; i++)
         motion->change[motion->row[i]] = 0;
     motion->changes = 0;
+    memset(motion->drawn, 0, motion->world->params->capacity * sizeof *motion->drawn);
     motion->committed = committed;
     motion->next = next;
 }
 
-/* Did the mover turn the row? */
-static bool turned(const struct motion *motion, uint32_t row)
-{
-    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
-    return motion_old(motion, row) &&
-           (w->heading[row] != n->heading[row] || w->pitch[row] != n->pitch[row] ||
-            w->roll[row] != n->roll[row]);
-}
-
-void motion_take(struct motion *motion, uint32_t row)
+struct path motion_way(const struct motion *motion, uint32_t row)
 {
     struct vec3 to = entities_position(&motion->next->entities, row);
     struct vec3 from =
         motion_old(motion, row) ? entities_position(&motion->committed->entities, row) : to;
     struct path path = {.at = from, .along = vec3_sub(to, from)};
-    if (motion->world->params->collision.shape == SHAPE_MODEL && detect_rests(&path))
-        path.turns = turned(motion, row);
-    motion->path[row] = path;
+    if (detect_rests(&path))
+        path.turns = motion_turns(motion, row);
+    return path;
+}
+
+void motion_take(struct motion *motion, uint32_t row)
+{
+    motion->path[row] = motion_way(motion, row);
+    motion->drawn[row] = 1;
 }
 
 static struct quat pose(const struct entities *e, uint32_t row)
@@ -67,7 +68,7 @@ struct turning motion_turning(const struct motion *motion, uint32_t row)
         return motion->changed[motion->change[row] - 1];
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
     struct quat to = pose(n, row);
-    if (!turned(motion, row))
+    if (!motion_old_turns(motion, row))
         return (struct turning){.from = to, .to = to};
     return (struct turning){.from = pose(w, row), .to = to};
 }

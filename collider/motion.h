@@ -19,7 +19,8 @@ struct motion {
     const struct world *world;
     const struct state *committed;
     const struct state *next;
-    struct path *path;       /* [capacity] */
+    struct path *path;       /* [capacity] of rows whose way is drawn */
+    uint8_t *drawn;          /* [capacity] 1: it is */
     struct turning *changed; /* turnings that answers gave */
     uint32_t changes, change_capacity;
     uint32_t *change; /* [capacity] index + 1 into changed; 0: turns as the mover has it */
@@ -30,18 +31,44 @@ struct motion {
 int motion_init(struct motion *motion, const struct world *world);
 void motion_free(struct motion *motion);
 
-/* Begins a frame: motion_take for every row comes next. */
+/* Begins a frame: no way is drawn. */
 void motion_begin(struct motion *motion, const struct state *committed, const struct state *next);
 
 /* Draws the row's way: from where the committed world has it to where next has it. One that is new
- * this frame has not moved yet. Rows may be taken by any thread. */
+ * this frame has not moved yet. Rows may be taken by any thread. Few rows come near anything: a way
+ * is drawn before anybody asks for it and before next's row changes, and most never are. */
 void motion_take(struct motion *motion, uint32_t row);
+
+/* The same way, not kept. */
+struct path motion_way(const struct motion *motion, uint32_t row);
+
+/* Sees to it that the row's way is drawn. */
+static inline void motion_draw(struct motion *motion, uint32_t row)
+{
+    if (!motion->drawn[row])
+        motion_take(motion, row);
+}
 
 /* Does the row hold the same entity as in the committed frame? */
 static inline bool motion_old(const struct motion *motion, uint32_t row)
 {
     return row < motion->committed->head->used &&
            motion->committed->entities.id[row] == motion->next->entities.id[row];
+}
+
+/* Has the mover turned the row? */
+static inline bool motion_old_turns(const struct motion *motion, uint32_t row)
+{
+    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    return motion_old(motion, row) &&
+           (w->heading[row] != n->heading[row] || w->pitch[row] != n->pitch[row] ||
+            w->roll[row] != n->roll[row]);
+}
+
+/* Does a row whose way has no length move, since its shape turns? */
+static inline bool motion_turns(const struct motion *motion, uint32_t row)
+{
+    return motion->world->params->collision.shape == SHAPE_MODEL && motion_old_turns(motion, row);
 }
 
 struct turning motion_turning(const struct motion *motion, uint32_t row);

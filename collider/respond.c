@@ -23,7 +23,8 @@ void respond_end(struct respond *respond)
 /* Tells the agent which way leads away from what it ran into. */
 static void bump(struct respond *respond, uint32_t row, double away_x, double away_z)
 {
-    struct entities *e = &respond->next->entities;
+    struct entities *e =
+        respond_change(respond, row, COLUMN_BIT(bumped) | COLUMN_BIT(bump_heading));
     e->bumped[row] = 1;
     e->bump_heading[row] = (float)maths_heading(away_x, away_z);
 }
@@ -129,11 +130,13 @@ static bool touched(const struct respond *respond, uint32_t row, uint32_t mark)
 
 static void remember(struct respond *respond, const struct impact *impact)
 {
-    struct entities *e = &respond->next->entities;
+    const uint64_t columns = COLUMN_BIT(touch_body) | COLUMN_BIT(touch_tick);
+    struct entities *e = respond_change(respond, impact->a, columns);
     uint32_t tick = (uint32_t)respond->next->head->tick;
     e->touch_body[impact->a] = body_mark(respond, impact->b);
     e->touch_tick[impact->a] = tick;
     if (!(impact->b & PAIR_FIXED)) {
+        e = respond_change(respond, impact->b, columns);
         e->touch_body[impact->b] = body_mark(respond, impact->a);
         e->touch_tick[impact->b] = tick;
     }
@@ -250,7 +253,7 @@ static int collide(struct respond *respond, const struct contact *contact)
 /* An aircraft meets the ground. */
 static int crash(struct respond *respond, const struct contact *contact)
 {
-    struct entities *e = &respond->next->entities;
+    const struct entities *e = &respond->next->entities;
     uint32_t row = contact->a;
     double time = contact->touch.toi;
     struct vec3 velocity = entities_velocity(e, row);

@@ -8,6 +8,7 @@
 #include "collider/motion.h"
 #include "collider/sink.h"
 #include "collider/solve.h"
+#include "world/checksum.h"
 
 /* A charge that goes off in this frame. */
 struct charge {
@@ -32,7 +33,17 @@ struct respond {
     uint32_t charges, charge_capacity;
     struct pair_list near; /* what a blast reaches */
     struct island *island; /* island.h */
+    uint64_t *changed;     /* [CHECKSUM_PIECES] columns of next's pieces that answers changed */
 };
+
+/* The rows, for an answer that changes these columns (COLUMN_BIT) of one: every write to next's
+ * rows goes by this, so that what was changed is hashed again at the step's end. */
+static inline struct entities *respond_change(struct respond *respond, uint32_t row,
+                                              uint64_t columns)
+{
+    respond->changed[row / CHECKSUM_ROWS] |= columns;
+    return &respond->next->entities;
+}
 
 /* Frees what the frame's answers took. */
 void respond_end(struct respond *respond);

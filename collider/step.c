@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROWS_A_PIECE 4096
+#define PIECES_A_WORKER 2u /* at a time */
 
 int collider_init(struct collider *collider, const struct world *world,
                   const struct crater *craters, struct workers *workers)
@@ -15,6 +15,7 @@ int collider_init(struct collider *collider, const struct world *world,
     *collider =
         (struct collider){.world = world, .workers = workers, .fixed_hash_frame = UINT64_MAX};
     if (crater_index_init(&collider->craters, craters) != 0 ||
+        crest_init(&collider->crest, &world->terrain) != 0 ||
         motion_init(&collider->motion, world) != 0 ||
         broad_init(&collider->broad, world, workers) != 0 ||
         contacts_init(&collider->contacts, capacity, workers) != 0 ||
@@ -28,6 +29,7 @@ int collider_init(struct collider *collider, const struct world *world,
 void collider_free(struct collider *collider)
 {
     crater_index_free(&collider->craters);
+    crest_free(&collider->crest);
     motion_free(&collider->motion);
     broad_free(&collider->broad);
     contacts_free(&collider->contacts);
@@ -39,18 +41,43 @@ void collider_free(struct collider *collider)
 
 struct stage {
     struct collider *collider;
-    const struct moved *moved;
-    struct state *next;
+    struct table moved, next;
+    uint32_t used;
+    uint32_t known; /* pieces of next that are what this process left */
 };
 
-/* Copies the moved rows and draws their ways. */
-static void take_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
+_Static_assert(BROAD_ROWS_TAKEN % CHECKSUM_ROWS == 0, "rows are taken by whole pieces");
+
+static void take_pieces(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct stage *stage = context;
     (void)worker;
-    entities_copy(&stage->next->entities, &stage->moved->entities, first, end - first);
-    for (uint32_t i = first; i < end; i++)
-        motion_take(&stage->collider->motion, i);
+    for (uint32_t piece = first; piece < end; piece++) {
+        table_take(stage->next, stage->moved, piece, stage->used, piece < stage->known);
+        stage->collider->changed[piece] = stage->known > 0 ? 0 : COLUMNS_ALL;
+    }
+}
+
+/* Copies moved rows when they are about to be looked at. */
+static void take_rows(void *context, uint32_t first, uint32_t end)
+{
+    take_pieces(context, first / CHECKSUM_ROWS, piece_count(end), 0);
+}
+
+/* Copies all moved rows. */
+static void take_all(struct stage *stage)
+{
+    workers_run(stage->collider->workers, take_pieces, stage, piece_count(stage->used),
+                PIECES_A_WORKER);
+}
+
+/* How many pieces of next still hold what this process left there two frames ago. */
+static uint32_t known_pieces(const struct collider *collider, const struct moved *moved,
+                             const struct state *next)
+{
+    uint64_t frame = moved->head->frame, left = collider->left[frame & 1];
+    bool own = left != 0 && next->head->checksum == left && next->head->frame + 2 == frame;
+    return own ? piece_count(next->head->used) : 0;
 }
 
 static void put_intents(struct sink *sink, const struct moved *moved)
@@ -63,45 +90,53 @@ static void put_intents(struct sink *sink, const struct moved *moved)
     }
 }
 
-/* Rounds and aircraft that reach the ground; rounds whose life ends with the frame, unless
- * something earlier ends it. */
-static int find_ends(struct collider *collider, const struct respond *respond)
+static void draw_pairs(struct motion *motion, const struct pair_list *list)
 {
-    const struct state *next = respond->next;
-    const struct entities *e = &next->entities;
-    for (uint32_t i = 0; i < next->head->used; i++) {
-        if (contacts_ground(&collider->contacts, &respond->input, i) != 0)
-            return -1;
-        if (e->state[i] == ENTITY_ACTIVE && e->behaviour[i] == BEHAVIOUR_FLIGHT &&
-            next->head->tick >= e->until_tick[i] &&
-            contacts_add_end(&collider->contacts, i, CONTACT_AIR, 1.0) != 0)
-            return -1;
+    for (uint32_t i = 0; i < list->count; i++) {
+        motion_draw(motion, list->pair[i].a);
+        if (!(list->pair[i].b & PAIR_FIXED))
+            motion_draw(motion, list->pair[i].b);
     }
-    return 0;
 }
 
-/* The frame's pairs by the method chosen. The broad phase runs with every method: blasts and
- * changed ways look up what is near in it. */
-static int find_pairs(struct collider *collider, const struct detect_input *input)
+/* The default: rows are copied on the way, while they are at hand, and only the ways of who comes
+ * near something are drawn. */
+static int find_pairs_swept(struct stage *stage, const struct detect_input *input)
 {
+    struct collider *collider = stage->collider;
+    if (broad_pairs_moved(&collider->broad, input, &collider->motion, take_rows, stage) != 0)
+        return -1;
+    for (int i = 0; i < WORKERS_MAX; i++)
+        draw_pairs(&collider->motion, &collider->broad.list[i]);
+    return contacts_begin(&collider->contacts, collider->broad.list, WORKERS_MAX);
+}
+
+/* Copies the moved rows and finds the frame's pairs by the method chosen. The broad phase runs with
+ * every method: blasts and changed ways look up what is near in it. */
+static int find_pairs(struct stage *stage, const struct detect_input *input)
+{
+    struct collider *collider = stage->collider;
     detect_method *method =
         detect_method_of((enum method)collider->world->params->collision.method);
-    if (broad_pairs(&collider->broad, input) != 0)
-        return -1;
     if (!method)
-        return contacts_begin(&collider->contacts, collider->broad.list, WORKERS_MAX);
+        return find_pairs_swept(stage, input);
+    take_all(stage);
+    for (uint32_t i = 0; i < input->rows; i++)
+        motion_take(&collider->motion, i);
     collider->pairs.count = 0;
-    if (method(input, &collider->workspace, &collider->pairs) != 0)
+    if (broad_pairs(&collider->broad, input) != 0 ||
+        method(input, &collider->workspace, &collider->pairs) != 0)
         return -1;
     return contacts_begin(&collider->contacts, &collider->pairs, 1);
 }
 
-static int collide_all(struct collider *collider, struct respond *respond)
+static int collide_all(struct stage *stage, struct respond *respond)
 {
+    struct collider *collider = stage->collider;
     struct contact contact;
-    if (find_pairs(collider, &respond->input.detect) != 0 ||
+    if (find_pairs(stage, &respond->input.detect) != 0 ||
         contacts_find(&collider->contacts, &respond->input) != 0 ||
-        find_ends(collider, respond) != 0)
+        contacts_find_ends(&collider->contacts, &respond->input, respond->next->head->tick) != 0)
         return -1;
     while (contacts_next(&collider->contacts, &respond->input, &contact)) {
         if (respond_contact(respond, &contact) != 0)
@@ -129,17 +164,18 @@ static uint64_t fixed_hash(struct collider *collider, const struct state *commit
     return collider->fixed_hash;
 }
 
-/* The checksum of the frame that is now whole. What it added to the lists is not kept: a frame that
- * is computed again may add something else. */
+/* The checksum of the frame that is now whole: what answers changed is hashed again. What the frame
+ * added to the lists is not kept: one that is computed again may add something else. */
 static uint64_t checksum(struct collider *collider, const struct state *committed,
                          const struct state *next)
 {
-    struct row_hashes rows;
+    uint32_t used = next->head->used;
     list_hashes_extend(&collider->lists, committed);
     struct list_hashes lists = collider->lists;
     list_hashes_extend(&lists, next);
-    row_hashes_all(&rows, &next->entities, next->head->used, collider->workers);
-    return state_checksum_of(next, &rows, fixed_hash(collider, committed, next), &lists);
+    table_hash(state_table(next), used, collider->changed, collider->workers);
+    return state_checksum_of(next, rows_hash(next->hashes, used),
+                             fixed_hash(collider, committed, next), &lists);
 }
 
 struct respond collider_respond(struct collider *collider, struct state *next)
@@ -157,6 +193,7 @@ struct respond collider_respond(struct collider *collider, struct state *next)
                              .path = collider->motion.path,
                              .fixed_damage = next->fixed_damage,
                              .craters = &collider->craters,
+                             .crest = &collider->crest,
                              .rows = next->head->used},
                   .motion = &collider->motion,
                   .broad = &collider->broad,
@@ -165,6 +202,7 @@ struct respond collider_respond(struct collider *collider, struct state *next)
         .next = next,
         .path = collider->motion.path,
         .island = &collider->island,
+        .changed = collider->changed,
     };
 }
 
@@ -172,14 +210,15 @@ int collider_step(struct collider *collider, const struct state *committed,
                   const struct moved *moved, struct state *next, const struct event_ring *ring)
 {
     const struct world *world = collider->world;
-    struct stage stage = {collider, moved, next};
+    struct stage stage = {collider, moved_table(moved), state_table(next), moved->head->used,
+                          known_pieces(collider, moved, next)};
+    uint64_t *left = &collider->left[moved->head->frame & 1];
     int result = 0;
     if (crater_index_update(&collider->craters, committed->head->crater_count) != 0)
         return -1;
     begin_head(next->head, moved->head);
     memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
     motion_begin(&collider->motion, committed, next);
-    workers_run(collider->workers, take_rows, &stage, moved->head->used, ROWS_A_PIECE);
 
     struct respond respond = collider_respond(collider, next);
     respond.sink = (struct sink){.slot = ring->slot,
@@ -191,12 +230,14 @@ int collider_step(struct collider *collider, const struct state *committed,
                                  .tally = &next->head->tally};
     put_intents(&respond.sink, moved);
     if (next->head->advanced) {
-        result = collide_all(collider, &respond);
+        result = collide_all(&stage, &respond);
         contacts_end(&collider->contacts);
+    } else {
+        take_all(&stage);
     }
     respond_end(&respond);
     next->head->event_end = respond.sink.first + respond.sink.count;
     next->head->event_digest = sink_digest(&respond.sink, committed->head->event_digest);
-    next->head->checksum = checksum(collider, committed, next);
+    *left = next->head->checksum = checksum(collider, committed, next);
     return result;
 }

@@ -8,6 +8,7 @@
 
 #include "collider/broad.h"
 #include "collider/contact.h"
+#include "collider/crest.h"
 #include "collider/detect.h"
 #include "collider/island.h"
 #include "collider/motion.h"
@@ -19,7 +20,8 @@
 struct collider {
     const struct world *world;
     struct crater_index craters; /* cache of the committed craters */
-    struct workers *workers;     /* NULL: alone */
+    struct crest crest;
+    struct workers *workers; /* NULL: alone */
     struct broad broad;
     struct contacts contacts;
     struct motion motion;
@@ -28,7 +30,9 @@ struct collider {
     struct pair_list pairs;             /* its pairs */
     /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: of none yet */
     uint64_t fixed_hash, fixed_hash_frame;
-    struct list_hashes lists; /* of the committed craters and dents */
+    struct list_hashes lists;          /* of the committed craters and dents */
+    uint64_t left[2];                  /* checksums of the buffers that it left; 0: none */
+    uint64_t changed[CHECKSUM_PIECES]; /* columns that answers changed in this frame */
 };
 
 /* Where the frame's events go: the ring from the committed end on. */

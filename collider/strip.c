@@ -33,6 +33,7 @@ void strip_lane_free(struct strip_lane *lane)
     free(lane->bucket);
     free(lane->candidate);
     free(lane->pairs.pair);
+    free(lane->fliers.pair);
     memset(lane, 0, sizeof *lane);
 }
 
@@ -159,7 +160,7 @@ static int take_moving(const struct strips *strips, struct strip_lane *lane, str
     uint32_t a = p < q ? p : q, b = p < q ? q : p;
     if (!detect_boxes_meet(&strips->box[a], &strips->box[b]) ||
         (tags.a & tags.b & BIN_SPANS && met_before(strips, tags.a, tags.b, strip)) ||
-        ((tags.a | tags.b) & BIN_ROUND && detect_apart(strips->input, a, b)))
+        ((tags.a | tags.b) & BIN_ROUND && detect_kin(strips->input->entities, a, b)))
         return 0;
     return pair_list_add(&lane->pairs, a, b);
 }
@@ -185,8 +186,12 @@ static int take_fixed(const struct strips *strips, struct strip_lane *lane, uint
     if (tag & BIN_RESTS || !detect_stands(input, index) ||
         !detect_box_meets_fixed(input, &strips->box[row], object) ||
         (tag & record->tag & BIN_SPANS &&
-         met_object_before(strips, tag, record, standing_strip(input->world, object), strip)) ||
-        (tag & BIN_AIR && !detect_tests_fixed(input, row)))
+         met_object_before(strips, tag, record, standing_strip(input->world, object), strip)))
+        return 0;
+    /* No other strip looks at it, or it is drawn. */
+    if (tag & BIN_AIR && strips->motion)
+        motion_draw(strips->motion, row);
+    if (tag & BIN_AIR && !detect_tests_fixed(input, row))
         return 0;
     return pair_list_add(&lane->pairs, row, index | PAIR_FIXED);
 }

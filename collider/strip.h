@@ -5,6 +5,7 @@
 
 #include "collider/bins.h"
 #include "collider/detect.h"
+#include "collider/motion.h"
 #include "collider/standing.h"
 
 #include <stdint.h>
@@ -24,12 +25,14 @@ struct strip_lane {
     uint32_t shift;         /* a bucket is 2^shift steps wide */
     struct pair *candidate; /* tags of records that meet, a strip's worth */
     uint32_t candidates, candidate_capacity;
-    struct pair_list pairs; /* the result */
+    struct pair_list pairs;  /* the result */
+    struct pair_list fliers; /* rows, in a, that may end in this frame */
 };
 
 /* What the strips of a frame share. */
 struct strips {
     const struct detect_input *input;
+    struct motion *motion; /* draws the ways; NULL: they are in input->path */
     const struct standing *standing;
     const struct sweep_box *box; /* [rows] */
     const double *grow;          /* [kinds] from a row's way to its box */

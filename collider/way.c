@@ -7,6 +7,11 @@
 /* A wreck this near the ground lies on it [m]. */
 #define LIES_M 0.05
 
+#define WAY_COLUMNS                                                                                \
+    (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(vx) | COLUMN_BIT(vy) |             \
+     COLUMN_BIT(vz) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) | COLUMN_BIT(roll))
+#define SPIN_COLUMNS (COLUMN_BIT(spin_x) | COLUMN_BIT(spin_y) | COLUMN_BIT(spin_z))
+
 bool respond_grounded(const struct respond *respond, uint32_t row)
 {
     const struct entities *e = &respond->next->entities;
@@ -61,7 +66,7 @@ static struct path within_world(struct path path)
 static int take_way(struct respond *respond, uint32_t row, const struct path *path,
                     const struct turning *turning, struct vec3 velocity)
 {
-    struct entities *e = &respond->next->entities;
+    struct entities *e = respond_change(respond, row, WAY_COLUMNS);
     struct path way = within_world(*path);
     if (motion_change(respond->motion, row, &way, turning) != 0)
         return -1;
@@ -101,7 +106,7 @@ int respond_slow(struct respond *respond, uint32_t row, double time, double shar
 int respond_leave(struct respond *respond, uint32_t row, double time, struct vec3 at,
                   struct vec3 velocity, struct vec3 spin_rps, bool stays)
 {
-    struct entities *e = &respond->next->entities;
+    struct entities *e = respond_change(respond, row, SPIN_COLUMNS);
     double dt_s = respond->world->params->dt_s;
     struct quat turned = motion_turned(respond->motion, row, time);
     const struct turning turning = {

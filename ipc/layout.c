@@ -3,6 +3,7 @@
 
 #include "ipc/door.h"
 #include "ipc/segment.h"
+#include "world/checksum.h"
 #include "world/square.h"
 
 #include <errno.h>
@@ -62,9 +63,9 @@ const char *region_name(enum region region)
     return region < REGION_COUNT && region_names[region] ? region_names[region] : "?";
 }
 
-static size_t state_bytes(const struct segment_header *h)
+size_t layout_table_bytes(uint32_t capacity)
 {
-    return LAYOUT_HEAD_BYTES + entities_bytes(h->capacity) + h->counts.fixed;
+    return LAYOUT_HEAD_BYTES + entities_bytes(capacity) + piece_hashes_bytes(capacity);
 }
 
 static bool power_of_two(uint32_t value)
@@ -124,13 +125,12 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_NAMES] = n->names * sizeof(struct entity_name);
     b[REGION_RECIPE] = n->recipe;
     b[REGION_COMMIT] = sizeof(struct commit_words);
-    b[REGION_WORLD_A] = b[REGION_WORLD_B] = state_bytes(h);
+    b[REGION_WORLD_A] = b[REGION_WORLD_B] = layout_table_bytes(h->capacity) + h->counts.fixed;
     b[REGION_CRATERS] = h->crater_slots * sizeof(struct crater);
     b[REGION_DENTS] = h->dent_slots * sizeof(struct dent);
     b[REGION_EVENTS] = h->event_slots * sizeof(struct event);
     b[REGION_MOVED_WORD] = sizeof(struct moved_word);
-    b[REGION_MOVED] = LAYOUT_HEAD_BYTES + entities_bytes(h->capacity) +
-                      h->intents_per_frame * sizeof(struct event);
+    b[REGION_MOVED] = layout_table_bytes(h->capacity) + h->intents_per_frame * sizeof(struct event);
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         b[REGION_COMMANDS + i] =
             sizeof(struct command_ring_words) + h->command_slots * sizeof(struct command);
@@ -171,6 +171,7 @@ uint64_t layout_hash(void)
         offsetof(struct kind, mass_kg),
         entities_bytes(1),
         entities_bytes(CAPACITY_MAX),
+        CHECKSUM_ROWS,
         REGION_COUNT,
         ROLE_COUNT,
         sizeof(struct model_vertex),

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 #define SEGMENT_MAGIC   0x314e4f4c4f4a0a1au /* "\x1a\nJOLON1": also no text file's first bytes */
-#define SEGMENT_VERSION 2u
+#define SEGMENT_VERSION 3u
 
 /* A table's head has this much room before its columns begin. */
 #define LAYOUT_HEAD_BYTES 512u
@@ -46,13 +46,13 @@ enum region {
     REGION_NAMES,
     REGION_RECIPE,
     REGION_COMMIT,  /* struct commit_words: collider; the regions before it never change */
-    REGION_WORLD_A, /* head, columns, fixed damage: collider */
+    REGION_WORLD_A, /* head, columns, their hashes, fixed damage: collider */
     REGION_WORLD_B,
     REGION_CRATERS,    /* collider */
     REGION_DENTS,      /* collider */
     REGION_EVENTS,     /* collider */
     REGION_MOVED_WORD, /* struct moved_word: mover */
-    REGION_MOVED,      /* head, columns, intents: mover */
+    REGION_MOVED,      /* head, columns, their hashes, intents: mover */
     REGION_COMMANDS,   /* a struct command_ring_words and its slots, one for each ring */
     REGION_COMMANDS_LAST = REGION_COMMANDS + COMMAND_RING_COUNT - 1,
     REGION_DOORS, /* doorbell semaphores: every role */
@@ -82,6 +82,9 @@ struct layout {
     size_t bytes[REGION_COUNT];
     size_t total;
 };
+
+/* Bytes of a table: head, columns, and the columns' hashes (world/checksum.h). */
+size_t layout_table_bytes(uint32_t capacity);
 
 /* Fills layout from the header's counts and sizes. 0; -1 with errno EOVERFLOW when a size is
  * beyond its bound (a header from elsewhere). */

@@ -20,12 +20,19 @@ _Static_assert(sizeof(_Atomic uint64_t) == 8, "frame words are plain 64-bit word
 
 /* --- views over memory -------------------------------------------------------------------------*/
 
+static struct piece_hashes *hashes_at(unsigned char *base, uint32_t capacity)
+{
+    return (struct piece_hashes *)(void *)(base + LAYOUT_HEAD_BYTES + entities_bytes(capacity));
+}
+
 static void bind_state(const struct view *view, struct state *state, int region)
 {
     unsigned char *base = segment_part(view, region);
+    uint32_t capacity = view->header->capacity;
     state->head = (struct state_head *)(void *)base;
-    entities_bind(&state->entities, view->header->capacity, base + LAYOUT_HEAD_BYTES);
-    state->fixed_damage = base + LAYOUT_HEAD_BYTES + entities_bytes(view->header->capacity);
+    entities_bind(&state->entities, capacity, base + LAYOUT_HEAD_BYTES);
+    state->hashes = hashes_at(base, capacity);
+    state->fixed_damage = base + layout_table_bytes(capacity);
     state->craters = segment_part(view, REGION_CRATERS);
     state->dents = segment_part(view, REGION_DENTS);
 }
@@ -67,8 +74,8 @@ void segment_bind(struct view *view)
     unsigned char *moved = segment_part(view, REGION_MOVED);
     view->m.head = (struct state_head *)(void *)moved;
     entities_bind(&view->m.entities, header->capacity, moved + LAYOUT_HEAD_BYTES);
-    view->m.intents =
-        (struct event *)(void *)(moved + LAYOUT_HEAD_BYTES + entities_bytes(header->capacity));
+    view->m.hashes = hashes_at(moved, header->capacity);
+    view->m.intents = (struct event *)(void *)(moved + layout_table_bytes(header->capacity));
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         view->commands[i] = segment_part(view, REGION_COMMANDS + i);
     view->doors = segment_part(view, REGION_DOORS);

@@ -43,13 +43,12 @@ void snapshot_free(struct snapshot *snapshot)
 static bool copy_good(struct snapshot *snapshot, const struct view *view, uint64_t frame)
 {
     struct state copy = snapshot_state(snapshot, view);
-    struct row_hashes rows;
     struct reason reason;
     if (snapshot->head.frame != frame || segment_check_head(view, &snapshot->head, &reason) != 0)
         return false;
-    row_hashes_all(&rows, &copy.entities, copy.head->used, NULL);
     list_hashes_extend(&snapshot->lists, &copy);
-    return state_checksum_of(&copy, &rows, state_fixed_hash(&copy, view->header->counts.fixed),
+    return state_checksum_of(&copy, rows_hash_again(&copy.entities, copy.head->used),
+                             state_fixed_hash(&copy, view->header->counts.fixed),
                              &snapshot->lists) == snapshot->head.checksum;
 }
 

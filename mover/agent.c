@@ -12,8 +12,7 @@
 
 #define CRUISE_SHARE  0.75 /* of full speed, on patrol and route */
 #define BACK_OFF_M    80.0
-#define REVERSE_SHARE 0.4  /* of its speed, backwards */
-#define AIM_HZ        20.0 /* how often a loaded gun is laid, and tried */
+#define REVERSE_SHARE 0.4 /* of its speed, backwards */
 
 static uint32_t after(const struct move *move, double seconds)
 {
@@ -205,12 +204,6 @@ static void wish_behaviour(const struct move *move, uint32_t i, struct wish *wis
 
 /* --- its controls ------------------------------------------------------------------------------*/
 
-/* Scripts and drivers have the controls for themselves, in every frame. */
-static bool holds_controls(const struct entities *m, uint32_t i)
-{
-    return m->behaviour[i] != BEHAVIOUR_DRIVEN && m->behaviour[i] != BEHAVIOUR_SCRIPT;
-}
-
 /* So that it has turned as it wishes by its next thought. */
 static void set_controls(const struct move *move, uint32_t i, const struct kind *kind,
                          const struct wish *wish)
@@ -222,22 +215,16 @@ static void set_controls(const struct move *move, uint32_t i, const struct kind 
     m->throttle[i] = (float)(wish->speed_mps / maths_max(kind->max_speed_mps, 1e-9));
 }
 
-static void hold_controls(const struct move *move, uint32_t i, const struct kind *kind,
-                          struct wish *wish)
+void agent_hold(const struct move *move, uint32_t i, struct wish *wish)
 {
     const struct entities *m = move->m;
+    const struct kind *kind = &move->world->kinds[m->kind[i]];
     double turn = kind->turn_rate_rps * move->dt_s;
     *wish = (struct wish){
         .heading_rad = m->heading[i] + (double)m->steer[i] * turn,
         .speed_mps = (double)m->throttle[i] * kind->max_speed_mps,
         .altitude_m = kind->cruise_altitude_m,
     };
-}
-
-static bool aims(const struct move *move, uint32_t i)
-{
-    uint32_t frames = (uint32_t)maths_max(1.0, move->world->params->hz / AIM_HZ);
-    return ((uint32_t)move->tick + move->m->id[i]) % frames == 0;
 }
 
 static void think(const struct move *move, uint32_t i, const struct kind *kind, struct wish *wish)
@@ -255,25 +242,26 @@ static void think(const struct move *move, uint32_t i, const struct kind *kind, 
     avoid_steer(move, i, wish);
 }
 
-bool agent_think(const struct move *move, uint32_t i, struct wish *wish)
+void agent_think(const struct move *move, uint32_t i, struct wish *wish)
 {
-    struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
-    if (m->behaviour[i] == BEHAVIOUR_HOLD) {
-        m->bumped[i] = 0;
-        m->threat_slot[i] = m->threat_id[i] = 0;
-        return false;
-    }
-    if (!holds_controls(m, i) || move_thinks(move, i) || percept_event(move, i)) {
-        think(move, i, kind, wish);
-        if (!holds_controls(m, i))
-            return true;
+    const struct kind *kind = &move->world->kinds[move->m->kind[i]];
+    think(move, i, kind, wish);
+    if (!agent_at_once((enum behaviour)move->m->behaviour[i]))
         set_controls(move, i, kind, wish);
+}
+
+void agent_alone(const struct move *move, uint32_t i, struct wish *wish)
+{
+    const struct entities *m = move->m;
+    if (agent_at_once((enum behaviour)m->behaviour[i]) || move_thinks(move, i) ||
+        percept_event(move, i)) {
+        agent_think(move, i, wish);
+        if (agent_at_once((enum behaviour)m->behaviour[i]))
+            return;
     }
-    hold_controls(move, i, kind, wish);
-    if (aims(move, i) && fight_ready(move, i))
+    agent_hold(move, i, wish);
+    if (((uint32_t)move->tick + m->id[i]) % move->aim == 0 && fight_ready(move, i))
         m->trigger[i] |= TRIGGER_FIRE;
-    return true;
 }
 
 void agent_blocked(const struct move *move, uint32_t i)

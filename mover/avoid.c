@@ -1,6 +1,9 @@
 /* Avoiding: a fan of directions, how far each is free, and the best of them. */
 #include "mover/avoid.h"
 
+#include "mover/easy.h"
+
+#include "mover/company.h"
 #include "world/reach.h"
 #include "world/square.h"
 
@@ -24,6 +27,7 @@
 #define STRAYS         0.05 /* over distance: what bodies stray from the course that they have now */
 #define GIVEN_WAY_S    2.5  /* until when it counts on who must give way to do so */
 #define CROSSING       0.94 /* cosine of 20 degrees: courses that differ by less do not cross */
+#define ROUNDED_MPS    1e-4 /* more than the index rounds velocities */
 #define CLIMB_AHEAD_S  6.0  /* how far ahead aircraft see that they must climb */
 
 /* The fan [rad] off the wished heading, and its sines and cosines; the last is the present heading,
@@ -72,6 +76,9 @@ static const double fan_cosine[FAN] = {1.0,
 
 struct look {
     const struct kind *kind;
+    int step; /* 1: looks along all of the fan; PRESENT: along the wished and the present heading */
+    double sine, cosine; /* of the wished heading */
+    double way;          /* 1, backwards -1 */
     double wish_mps, present_mps;
     double speed_mps; /* along the fan: that it comes to within a second */
     double horizon_m;
@@ -112,6 +119,34 @@ static bool does_no_harm(const struct kind *vehicle, const struct kind *fixed)
            fixed->resistance_j * fixed->rigidity < HARMLESS_SHARE * vehicle->resistance_j;
 }
 
+static double gap_of(const struct kind *kind)
+{
+    return kind->domain == DOMAIN_AIR ? AIR_GAP_M : GAP_M;
+}
+
+/* How far it looks ahead at a speed [m]. */
+static double horizon_of(const struct kind *kind, double speed)
+{
+    double brake = BRAKES * kind->acceleration_mps2;
+    double horizon =
+        maths_max(speed * speed / (2.0 * brake), TURNS_AHEAD * speed / kind->turn_rate_rps);
+    return maths_min(FARTHEST_M,
+                     horizon + speed * REACT_S + HORIZON_M + 2.0 * (0.5 * kind->length_m));
+}
+
+/* And for others: they come to meet it. */
+static double around_of(double horizon_m)
+{
+    return maths_min(FARTHEST_M, 2.0 * horizon_m);
+}
+
+static double slope_of(const struct kind *kind)
+{
+    double sine, cosine;
+    maths_sincos(kind->max_slope_rad, &sine, &cosine);
+    return sine / maths_max(cosine, 1e-9);
+}
+
 void avoid_init(struct avoid *avoid, const struct world *world)
 {
     *avoid = (struct avoid){.reach_m = {0.0}};
@@ -123,40 +158,61 @@ void avoid_init(struct avoid *avoid, const struct world *world)
             if (world->kinds[o].domain == DOMAIN_FIXED && does_no_harm(kind, &world->kinds[o]))
                 avoid->harmless[k] |= UINT64_C(1) << o;
         }
+        if (kind->domain < DOMAIN_MUNITION) {
+            avoid->reach_m[k] =
+                0.5 * sqrt(kind->length_m * kind->length_m + kind->width_m * kind->width_m);
+            avoid->high_m[k] = (float)(0.5 * kind->height_m + AVOID_ROUNDED_M);
+            avoid->gap_m[k] = (float)(gap_of(kind) + AVOID_ROUNDED_M);
+            avoid->around_m[k] = around_of(horizon_of(kind, kind->max_speed_mps));
+            avoid->slope[k] = slope_of(kind);
+        }
+    }
+    for (uint32_t square = 0; square < SQUARE_COUNT; square++) {
+        if (world->reach_start[square + 1] > world->reach_start[square])
+            avoid->stands[square / 64] |= UINT64_C(1) << square % 64;
     }
 }
 
 /* --- the fan -----------------------------------------------------------------------------------*/
 
-static struct look begin(const struct move *move, uint32_t i, const struct wish *wish)
+static void direct(struct look *look, int k)
+{
+    look->x[k] = look->way * (look->sine * fan_cosine[k] + look->cosine * fan_sine[k]);
+    look->z[k] = look->way * (look->sine * fan_sine[k] - look->cosine * fan_cosine[k]);
+    look->free_m[k] = look->horizon_m;
+}
+
+static void begin(struct look *look, const struct move *move, uint32_t i, const struct wish *wish)
 {
     const struct entities *m = move->m;
     const struct kind *kind = &move->world->kinds[m->kind[i]];
-    double brake = BRAKES * kind->acceleration_mps2, speed = fabs(wish->speed_mps), sine, cosine;
-    double way = wish->speed_mps < 0.0 ? -1.0 : 1.0, forward, rightward;
-    struct look look = {.kind = kind,
-                        .wish_mps = speed,
-                        .half_width = 0.5 * kind->width_m,
-                        .half_length = 0.5 * kind->length_m,
-                        .gap = kind->domain == DOMAIN_AIR ? AIR_GAP_M : GAP_M};
-    look.horizon_m =
-        maths_max(speed * speed / (2.0 * brake), TURNS_AHEAD * speed / kind->turn_rate_rps);
-    look.horizon_m = maths_min(FARTHEST_M, look.horizon_m + speed * REACT_S + HORIZON_M +
-                                               2.0 * look.half_length);
-    maths_sincos(wish->heading_rad, &sine, &cosine);
-    for (int k = 0; k < FAN; k++) {
-        look.x[k] = way * (sine * fan_cosine[k] + cosine * fan_sine[k]);
-        look.z[k] = way * (sine * fan_sine[k] - cosine * fan_cosine[k]);
-        look.free_m[k] = look.horizon_m;
-    }
+    double speed = fabs(wish->speed_mps), sine, cosine, forward, rightward;
+    look->kind = kind;
+    look->step = PRESENT;
+    look->way = wish->speed_mps < 0.0 ? -1.0 : 1.0;
+    look->wish_mps = speed;
+    look->half_width = 0.5 * kind->width_m;
+    look->half_length = 0.5 * kind->length_m;
+    look->gap = gap_of(kind);
+    look->horizon_m = horizon_of(kind, speed);
+    maths_sincos(wish->heading_rad, &look->sine, &look->cosine);
+    direct(look, 0);
     maths_sincos(m->heading[i], &sine, &cosine);
-    pose_speeds(m, i, &forward, &rightward);
-    look.x[PRESENT] = way * sine;
-    look.z[PRESENT] = -way * cosine;
-    look.present_mps = maths_max(1.0, way * forward);
-    look.speed_mps = maths_min(speed, look.present_mps + kind->acceleration_mps2);
-    look.free_m[PRESENT] = look.horizon_m;
-    return look;
+    pose_along(m, i, sine, cosine, &forward, &rightward);
+    look->x[PRESENT] = look->way * sine;
+    look->z[PRESENT] = -look->way * cosine;
+    look->present_mps = maths_max(1.0, look->way * forward);
+    look->speed_mps = maths_min(speed, look->present_mps + kind->acceleration_mps2);
+    look->free_m[PRESENT] = look->horizon_m;
+}
+
+/* All of the fan, for what is in the way of the wished direction: mostly nothing is. */
+static void open_fan(struct look *look)
+{
+    look->step = 1;
+    for (int k = 0; k < FAN; k++)
+        direct(look, k);
+    look->free_m[PRESENT] = look->horizon_m;
 }
 
 /* Something that stands at (dx, dz) from here, reach_m about its middle. */
@@ -164,7 +220,7 @@ static void stands(struct look *look, double dx, double dz, double reach_m)
 {
     double beside = reach_m + look->half_width + look->gap;
     double ahead = reach_m + look->half_length + look->gap;
-    for (int k = 0; k <= FAN; k++) {
+    for (int k = 0; k <= FAN; k += look->step) {
         double along = dx * look->x[k] + dz * look->z[k];
         double across = fabs(dx * look->z[k] - dz * look->x[k]);
         if (along > 0.0 && across < beside + STRAYS * along)
@@ -186,13 +242,31 @@ static bool gives_way(const struct look *look, double dx, double dz, double vx, 
     return same > -CROSSING * speed && to_right < 0.0;
 }
 
+/* Can it meet something that goes on at (vx, vz) before the horizon, if it goes along direction k?
+ * On the safe side by more than what the index rounds, and without a division. */
+static bool may_meet(const struct look *look, int k, double dx, double dz, double vx, double vz,
+                     double reach_m)
+{
+    double speed = k == PRESENT ? look->present_mps : look->speed_mps;
+    double ux = speed * look->x[k] - vx, uz = speed * look->z[k] - vz;
+    double square = ux * ux + uz * uz, closing = sqrt(square);
+    double rounded = ROUNDED_MPS * (fabs(dx) + fabs(dz));
+    double along = dx * ux + dz * uz, across = fabs(dx * uz - dz * ux); /* times closing */
+    double beside =
+        reach_m + look->gap + AVOID_ROUNDED_M + maths_max(look->half_width, look->half_length);
+    double ahead = reach_m + look->half_length + look->gap + AVOID_ROUNDED_M;
+    return along > -rounded && across < beside * closing + STRAYS * along + rounded &&
+           speed * (along - ahead * closing - rounded) <
+               look->horizon_m * (square + ROUNDED_MPS * (closing + 1.0));
+}
+
 /* Something that goes on at (vx, vz): as far as it comes itself until they meet. */
 static void goes(struct look *look, double dx, double dz, double vx, double vz, double reach_m)
 {
     double beside = reach_m + look->half_width + look->gap;
     double ahead = reach_m + look->half_length + look->gap;
     bool other_gives_way = gives_way(look, dx, dz, vx, vz);
-    for (int k = 0; k <= FAN; k++) {
+    for (int k = 0; k <= FAN; k += look->step) {
         double speed = k == PRESENT ? look->present_mps : look->speed_mps;
         double ux = speed * look->x[k] - vx, uz = speed * look->z[k] - vz;
         double closing = sqrt(ux * ux + uz * uz);
@@ -245,43 +319,76 @@ static void see_fixed(const struct move *move, uint32_t i, struct look *look)
     struct square_box box =
         square_box_of(m->x[i] - most, m->z[i] - most, m->x[i] + most, m->z[i] + most);
     for (int32_t row = box.z0; row <= box.z1; row++)
-        for (int32_t column = box.x0; column <= box.x1; column++)
-            see_square(move, i, look, square_index(column, row));
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            uint32_t square = square_index(column, row);
+            if (move->avoid->stands[square / 64] >> square % 64 & 1u)
+                see_square(move, i, look, square);
+        }
+}
+
+static void see_vehicle(const struct move *move, uint32_t i, struct look *look,
+                        const struct near_entry *at)
+{
+    const struct entities *m = move->m, *w = &move->committed->entities;
+    double apart = 0.5 * (look->kind->height_m + move->world->kinds[at->kind].height_m) + look->gap;
+    double reach = move->avoid->reach_m[at->kind];
+    double dx = (double)at->x - m->x[i], dz = (double)at->z - m->z[i];
+    double vx = (double)at->vx, vz = (double)at->vz;
+    uint32_t j = at->row;
+    if (j == i || fabs((double)at->y - m->y[i]) > apart + AVOID_ROUNDED_M)
+        return;
+    if (look->step == PRESENT && !may_meet(look, 0, dx, dz, vx, vz, reach) &&
+        !may_meet(look, PRESENT, dx, dz, vx, vz, reach))
+        return;
+    if (fabs(w->y[j] - m->y[i]) <= apart)
+        goes(look, w->x[j] - m->x[i], w->z[j] - m->z[i], w->vx[j], w->vz[j], reach);
 }
 
 static void see_vehicles(const struct move *move, uint32_t i, struct look *look)
 {
-    const struct entities *m = move->m, *w = &move->committed->entities;
+    const struct entities *m = move->m;
     const struct near_entry *entry;
-    double most = maths_min(FARTHEST_M, 2.0 * look->horizon_m); /* they come to meet it */
-    struct near_walk walk = near_begin(move->near, NEAR_ALL, m->x[i], m->z[i], most);
-    while ((entry = near_next(&walk)) != NULL) {
-        uint32_t j = entry->row;
-        const struct kind *other = &move->world->kinds[w->kind[j]];
-        double apart = 0.5 * (look->kind->height_m + other->height_m) + look->gap;
-        if (j == i || fabs(w->y[j] - m->y[i]) > apart)
-            continue;
-        double reach =
-            0.5 * sqrt(other->length_m * other->length_m + other->width_m * other->width_m);
-        goes(look, w->x[j] - m->x[i], w->z[j] - m->z[i], w->vx[j], w->vz[j], reach);
+    double most = around_of(look->horizon_m);
+    const struct company_list *list = &move->company->list[i];
+    if (list->count != COMPANY_NONE && most <= move->avoid->around_m[m->kind[i]]) {
+        entry = &move->company->entries[list->first];
+        for (const struct near_entry *end = entry + list->count; entry < end; entry++) {
+            if (near_within(entry, m->x[i], m->z[i], most * most))
+                see_vehicle(move, i, look, entry);
+        }
+        return;
     }
+    struct near_walk walk = near_begin(move->near, NEAR_ALL, m->x[i], m->z[i], most);
+    while ((entry = near_next(&walk)) != NULL)
+        see_vehicle(move, i, look, entry);
 }
 
-/* How far the ground lets it go that way: two soundings. */
+static bool in_world(double x, double z)
+{
+    return x > 0.0 && z > 0.0 && x < WORLD_SIDE_M && z < WORLD_SIDE_M;
+}
+
+/* How far the ground lets it go that way: two soundings, where it is not known to be easy. */
 static double ground_free(const struct move *move, uint32_t i, const struct look *look, int k)
 {
     const struct entities *m = move->m;
     double before_m = 0.0, before_y = m->y[i];
+    double end_x = m->x[i] + look->horizon_m * look->x[k];
+    double end_z = m->z[i] + look->horizon_m * look->z[k];
+    if (look->kind->domain == DOMAIN_LAND && in_world(end_x, end_z) &&
+        easy_between(move->easy, move->scars, m->x[i], m->z[i], end_x, end_z,
+                     move->avoid->slope[m->kind[i]]))
+        return look->horizon_m;
     for (int n = 1; n <= 2; n++) {
         double way = 0.5 * n * look->horizon_m;
         double x = m->x[i] + way * look->x[k], z = m->z[i] + way * look->z[k];
-        bool edge = !(x > 0.0 && z > 0.0 && x < WORLD_SIDE_M && z < WORLD_SIDE_M);
-        if (edge || cover_is_water(terrain_cover(&move->world->terrain, x, z)) !=
-                        (look->kind->domain == DOMAIN_SEA))
+        if (!in_world(x, z) || cover_is_water(terrain_cover(&move->world->terrain, x, z)) !=
+                                   (look->kind->domain == DOMAIN_SEA))
             return before_m;
         if (look->kind->domain == DOMAIN_LAND) {
             double y = pose_ground(move, x, z);
-            if (maths_atan2(y - before_y, way - before_m) >= look->kind->max_slope_rad)
+            if (y > before_y &&
+                maths_atan2(y - before_y, way - before_m) >= look->kind->max_slope_rad)
                 return before_m;
             before_y = y;
         }
@@ -326,23 +433,46 @@ static double climbing_ease(const struct move *move, uint32_t i, const struct lo
     return climb > most ? 1.0 - most / climb : 0.0;
 }
 
+/* --- it looks ----------------------------------------------------------------------------------*/
+
+static void see(const struct move *move, uint32_t i, struct look *look, bool low)
+{
+    see_vehicles(move, i, look);
+    if (low)
+        see_fixed(move, i, look);
+}
+
+/* Which direction it takes when something is in the way of the wished one. */
+static int choose(const struct move *move, uint32_t i, struct look *look, bool low)
+{
+    double dodge = (double)move->m->dodge[i];
+    open_fan(look);
+    see(move, i, look, low);
+    int way = best(look, dodge);
+    for (int tries = 0; tries < FAN && look->kind->domain != DOMAIN_AIR; tries++) {
+        double free_m = ground_free(move, i, look, way);
+        if (free_m >= look->free_m[way])
+            break;
+        look->free_m[way] = free_m;
+        way = best(look, dodge);
+    }
+    return way;
+}
+
+/* First along the wished direction alone: where that is free no other is better. */
 static void look_ahead(const struct move *move, uint32_t i, const struct wish *wish)
 {
     struct entities *m = move->m;
-    struct look look = begin(move, i, wish);
+    struct look look;
+    begin(&look, move, i, wish);
     bool flies = look.kind->domain == DOMAIN_AIR;
+    bool low = !flies || m->y[i] - pose_ground(move, m->x[i], m->z[i]) < LOW_FLIGHT_M;
     double ease = flies ? climbing_ease(move, i, &look, wish) : 0.0;
-    see_vehicles(move, i, &look);
-    if (!flies || m->y[i] - pose_ground(move, m->x[i], m->z[i]) < LOW_FLIGHT_M)
-        see_fixed(move, i, &look);
-    int way = wish->speed_mps < 0.0 ? PRESENT : best(&look, (double)m->dodge[i]);
-    for (int tries = 0; tries < FAN && !flies && way != PRESENT; tries++) {
-        double free_m = ground_free(move, i, &look, way);
-        if (free_m >= look.free_m[way])
-            break;
-        look.free_m[way] = free_m;
-        way = best(&look, (double)m->dodge[i]);
-    }
+    int way = wish->speed_mps < 0.0 ? PRESENT : 0;
+    see(move, i, &look, low);
+    if (way == 0 && (look.free_m[0] < look.horizon_m ||
+                     (!flies && ground_free(move, i, &look, 0) < look.horizon_m)))
+        way = choose(move, i, &look, low);
     double free_m = look.free_m[way];
     if (look.x[way] * look.x[PRESENT] + look.z[way] * look.z[PRESENT] < fan_cosine[1])
         free_m = maths_min(free_m, look.free_m[PRESENT]); /* it is not turned there yet */

@@ -10,15 +10,27 @@
 #define JOLON_MOVER_AVOID_H
 
 #include "mover/move.h"
+#include "world/square.h"
+
+#define AVOID_ROUNDED_M 0.01 /* more than the index rounds positions */
 
 /* What follows from the kinds alone. */
 struct avoid {
-    /* Of fixed kinds [m]: how far from its middle, at the height of vehicles on the ground, it is
-     * in the way: a tree's trunk, not its crown. */
+    /* [m] How far from its middle one of a kind is in the way; fixed ones at the height of vehicles
+     * on the ground: a tree's trunk, not its crown. */
     double reach_m[KIND_COUNT_MAX];
     /* Of vehicle kinds: a bit for each fixed kind that does it no harm, by the collider's measure.
      */
     uint64_t harmless[KIND_COUNT_MAX];
+    /* Likewise: the tangent of the slope that is too steep for it. */
+    double slope[KIND_COUNT_MAX];
+    /* Of vehicle kinds [m], rounded up: half its height, and what it keeps clear above and below.
+     */
+    float high_m[KIND_COUNT_MAX], gap_m[KIND_COUNT_MAX];
+    /* Likewise [m]: how far about it one at full speed looks for others. */
+    double around_m[KIND_COUNT_MAX];
+    /* A bit for each gridsquare that a fixed object reaches into: most have none. */
+    uint64_t stands[SQUARE_COUNT / 64];
 };
 
 void avoid_init(struct avoid *avoid, const struct world *world);

@@ -12,6 +12,12 @@
 #define TIME_SCALE_MIN   0.01
 #define TIME_SCALE_MAX   100.0
 
+/* What driving and letting go change. */
+#define DRIVEN_COLUMNS                                                                             \
+    (COLUMN_BIT(throttle) | COLUMN_BIT(steer) | COLUMN_BIT(climb) | COLUMN_BIT(brake) |            \
+     COLUMN_BIT(traverse) | COLUMN_BIT(elevate) | COLUMN_BIT(flags) | COLUMN_BIT(driver) |         \
+     COLUMN_BIT(until_tick))
+
 static bool within(double value, double low, double high)
 {
     return value >= low && value <= high;
@@ -36,6 +42,7 @@ static enum command_result set_behaviour(struct serial *serial, uint32_t row, ui
             (struct event_agent){serial_party(serial, row), from, behaviour, REASON_COMMAND};
         serial->moved->head->tally.agent_changes++;
     }
+    serial_changes(serial, row, COLUMN_BIT(behaviour) | COLUMN_BIT(trigger));
     m->behaviour[row] = behaviour;
     m->trigger[row] = 0;
     return COMMAND_DONE;
@@ -67,6 +74,7 @@ static enum command_result drive(struct serial *serial, const struct command *co
     if (!within(v[5], 0.0, 1.0) || command->force >= GEAR_COUNT ||
         command->amount > COMMAND_LEASE_MAX)
         return COMMAND_OUT_OF_RANGE;
+    serial_changes(serial, row, DRIVEN_COLUMNS);
     m->throttle[row] = (float)v[0];
     m->steer[row] = (float)v[1];
     m->climb[row] = (float)v[2];
@@ -90,6 +98,7 @@ static enum command_result release(struct serial *serial, const struct command *
         return COMMAND_CANNOT;
     if (command->amount == 0 && taken(serial, row, command))
         return COMMAND_TAKEN;
+    serial_changes(serial, row, DRIVEN_COLUMNS);
     move_let_go(m, row);
     m->until_tick[row] = (uint32_t)serial->move->tick; /* no longer its driver's */
     return set_behaviour(serial, row, m->order[row]);
@@ -129,7 +138,7 @@ static enum command_result fire(struct serial *serial, const struct command *com
     if (target != SLOT_NONE) { /* the gunner lays his gun on it, if it is not yet */
         m->target_slot[row] = target;
         m->target_id[row] = m->id[target];
-        serial_changes(serial, row);
+        serial_changes(serial, row, COLUMN_BIT(target_slot) | COLUMN_BIT(target_id));
         if (target >= serial->move->committed->head->used ||
             !turret_bears(serial->move, m, row, target))
             return COMMAND_CANNOT;

@@ -9,6 +9,7 @@
 #define SIDE_RAD       1.7  /* off its target, when it flies to another side */
 #define NEARLY_M       50.0 /* beyond its range it gets ready to fire */
 #define BREAK_OFF      0.2  /* of its range: a jet's pass is over */
+#define AIM_HZ         20.0 /* how often a loaded gun is laid, and tried */
 
 /* Its target as it knows it: where it last saw it. */
 struct aim {
@@ -76,6 +77,11 @@ void fight_wish(const struct move *move, uint32_t i, const struct doctrine_table
         stand_off(kind, &aim, table->stand_off, wish);
         break;
     }
+}
+
+uint32_t fight_aim(const struct params *params)
+{
+    return (uint32_t)maths_max(1.0, params->hz / AIM_HZ);
 }
 
 bool fight_ready(const struct move *move, uint32_t i)

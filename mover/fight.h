@@ -9,6 +9,9 @@
 void fight_wish(const struct move *move, uint32_t i, const struct doctrine_table *table,
                 struct wish *wish);
 
+/* Frames between two shots that an agent with a loaded gun tries. */
+uint32_t fight_aim(const struct params *params);
+
 /* Is it about to fire: in an attack, its target in sight and about within range, its gun loaded?
  * Costs next to nothing; whether the gun bears is turret.h's. */
 bool fight_ready(const struct move *move, uint32_t i);

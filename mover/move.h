@@ -8,6 +8,11 @@
 #include "world/world.h"
 
 struct avoid;
+struct company;
+struct easy;
+struct scars;
+struct footing;
+union lanes;
 
 struct move {
     const struct world *world;
@@ -15,18 +20,24 @@ struct move {
     const struct near *near;       /* of the committed world */
     const struct outlook *outlook; /* likewise */
     const struct avoid *avoid;
+    const struct company *company; /* of this frame */
     const struct state *committed;
+    const struct scars *scars; /* likewise */
+    const struct easy *easy;
     struct entities *m;
-    uint64_t tick;  /* that this frame reaches */
-    uint32_t think; /* [frame] between two thoughts of one agent */
-    uint32_t turn;  /* [frame] between two of its looks, a whole number of thoughts */
+    struct footing_patch *patches;       /* [capacity] row i's is its own as its row is */
+    struct footing_patch *patches_ahead; /* [capacity] likewise: where an aircraft soon will be */
+    uint64_t tick;                       /* that this frame reaches */
+    uint32_t think;                      /* [frame] between two thoughts of one agent */
+    uint32_t turn; /* [frame] between two of its looks, a whole number of thoughts */
+    uint32_t aim;  /* [frame] between two shots that it tries */
     double dt_s;
 };
 
 /* Is it row i's turn to think? */
 static inline bool move_thinks(const struct move *move, uint32_t i)
 {
-    return ((uint32_t)move->tick + move->m->id[i]) % move->think == 0;
+    return near_divides(move->near->thoughts, (uint32_t)move->tick + move->m->id[i]);
 }
 
 /* What an agent, or a player, wants of a vehicle this frame. */
@@ -49,14 +60,9 @@ struct wish {
 #define TRIGGER_FIRE_AT      2u /* at its goal, a point on the ground */
 #define TRIGGER_REASON_SHIFT 2u /* enum agent_reason + 1 above it: its behaviour changed */
 
-/* land.c, sea.c, air.c: true when the way is blocked (water, land, slope, the world's edge). */
-bool move_land(const struct move *move, uint32_t i, const struct wish *wish);
+/* sea.c (land.h and air.h have the others): true when the way is blocked: land, the world's edge.
+ */
 bool move_sea(const struct move *move, uint32_t i, const struct wish *wish);
-bool move_air(const struct move *move, uint32_t i, const struct wish *wish);
-
-/* hold.c: keeps velocity whatever comes; wrecks slide and fall to rest, and turn by their spin. */
-void move_hold(const struct move *move, uint32_t i);
-void move_wreck(const struct move *move, uint32_t i);
 
 /* flight.c: munitions. */
 void move_flight(const struct move *move, uint32_t i);
@@ -79,15 +85,30 @@ static inline bool spin_row(const struct move *move, uint32_t i)
 void driven_wish(const struct move *move, uint32_t i, struct wish *wish);
 void move_let_go(const struct entities *m, uint32_t i);
 
-/* agent.c: row i's wish: thought of anew when it is its turn or something happened to it, else as
- * it holds its controls. True when the row moves by the wish. */
-bool agent_think(const struct move *move, uint32_t i, struct wish *wish);
+/* agent.c: row i's agent thinks and sets its controls, where they are its own. The wish is a
+ * script's or a driver's. */
+void agent_think(const struct move *move, uint32_t i, struct wish *wish);
+
+/* Row i moves by a wish of its own: on a script or driven, or on its way back to a script. Thinks
+ * and tries to fire, if it is its turn. */
+void agent_alone(const struct move *move, uint32_t i, struct wish *wish);
+
+/* What row i's controls, as its agent set them, ask of its body. */
+void agent_hold(const struct move *move, uint32_t i, struct wish *wish);
+
+/* Do scripts and drivers have the controls for themselves, and so think in every frame? */
+static inline bool agent_at_once(enum behaviour behaviour)
+{
+    return behaviour == BEHAVIOUR_DRIVEN || behaviour == BEHAVIOUR_SCRIPT;
+}
 
 /* The agent hears that its way is blocked. */
 void agent_blocked(const struct move *move, uint32_t i);
 
 /* pose.c: shared by the motions. */
 double pose_ground(const struct move *move, double x, double z);
+void pose_ground_lanes(const struct move *move, struct footing *footing, const union lanes *x,
+                       const union lanes *z, union lanes *ground);
 /* Height over a body's position to aim at [m]: the middle of what can be hit. */
 double pose_aim_height(const struct move *move, uint16_t kind);
 /* Heading turned towards wanted by at most rate_rps * dt. */
@@ -99,9 +120,6 @@ void pose_steer(const struct move *move, uint32_t i, const struct wish *wish, do
  */
 double pose_slowing(const struct kind *kind, const struct wish *wish, double forward,
                     double drag_mps2);
-/* Pitch and roll [rad] of a body of the kind's length and width on the ground; sine and cosine of
- * its heading. */
-void pose_on_ground(const struct move *move, uint32_t i, double sine, double cosine);
 /* Speed [m/s] along the heading, and to its right; and the same by the heading's sine and cosine.
  */
 void pose_speeds(const struct entities *m, uint32_t i, double *forward, double *rightward);

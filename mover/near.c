@@ -1,10 +1,13 @@
-/* The index of who is where: a counting sort a frame. */
+/* The index of who is where: a counting sort a frame, in two passes of which all threads do a part.
+ */
 #include "mover/near.h"
 
+#include "world/checksum.h"
 #include "world/square.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 /* Cells along an edge: 781 m, 391 m or 195 m each. More cells than vehicles only cost. */
 #define SIDE_FEW  64u
@@ -13,16 +16,39 @@
 #define FEW_ROWS  4096u
 #define MORE_ROWS 131072u
 
-#define NOWHERE UINT32_MAX
+#define PIECE_ROWS 2048u /* of a piece: they fit a second-level cache */
+#define HUGE_PAGE  (UINT64_C(2) << 20)
+
+static uint32_t pieces_of(uint32_t rows)
+{
+    return (rows + PIECE_ROWS - 1) / PIECE_ROWS;
+}
+
+/* Walks come to any part of it at any time: in large pages, where there are, it costs fewer misses
+ * of the table of pages. */
+static void *large(size_t bytes)
+{
+    if (bytes < HUGE_PAGE)
+        return malloc(bytes);
+    bytes = (bytes + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
+    void *memory = aligned_alloc(HUGE_PAGE, bytes);
+    if (memory)
+        madvise(memory, bytes, MADV_HUGEPAGE); /* or else not */
+    return memory;
+}
 
 int near_init(struct near *near, uint32_t capacity)
 {
-    *near = (struct near){.side = SIDE_FEW, .cell_m = WORLD_SIDE_M / SIDE_FEW};
-    near->capacity = capacity;
-    near->start = calloc(NEAR_LAYERS * SIDE_MANY * SIDE_MANY + 2, sizeof *near->start);
-    near->place = calloc(capacity, sizeof *near->place);
-    near->entries = calloc(capacity, sizeof *near->entries);
-    if (near->start && near->place && near->entries)
+    *near = (struct near){.capacity = capacity};
+    near->start = calloc(NEAR_LAYERS * SIDE_MANY * SIDE_MANY + 1, sizeof *near->start);
+    near->entries = large(capacity * sizeof *near->entries);
+    near->sorted = malloc(capacity * sizeof *near->sorted);
+    near->slot = malloc(capacity * sizeof *near->slot);
+    near->first = calloc(pieces_of(capacity) * (SIDE_MANY + 1), sizeof *near->first);
+    near->band = calloc(SIDE_MANY + 1, sizeof *near->band);
+    near->layers = calloc(SIDE_MANY, sizeof *near->layers);
+    if (near->start && near->entries && near->sorted && near->slot && near->first && near->band &&
+        near->layers)
         return 0;
     near_free(near);
     return -1;
@@ -31,63 +57,150 @@ int near_init(struct near *near, uint32_t capacity)
 void near_free(struct near *near)
 {
     free(near->start);
-    free(near->place);
     free(near->entries);
+    free(near->sorted);
+    free(near->slot);
+    free(near->first);
+    free(near->band);
+    free(near->layers);
     *near = (struct near){0};
 }
 
 static int32_t cell_axis(const struct near *near, double metres)
 {
-    double cells = metres / near->cell_m;
+    double cells = metres * near->cells_per_m;
     if (!(cells > 0.0))
         return 0;
     return cells >= (double)near->side ? (int32_t)near->side - 1 : (int32_t)cells;
 }
 
-/* Which cell of which layer a row belongs to. */
-static uint32_t place_of(const struct near *near, const struct entities *w, uint32_t i)
+/* --- rows by rows of cells ---------------------------------------------------------------------*/
+
+/* Which row of cells a row belongs to; side: to none. */
+static uint32_t band_of(const struct near *near, const struct entities *w, uint32_t i)
 {
-    uint32_t layer = w->force[i] < FORCE_COUNT ? w->force[i] : FORCE_NEUTRAL;
     if (w->state[i] == ENTITY_FREE || w->behaviour[i] == BEHAVIOUR_FLIGHT)
-        return NOWHERE;
-    if (w->state[i] == ENTITY_WRECK)
-        layer = NEAR_WRECKS;
+        return near->side;
     /* By the position as the entry has it, so that a walk's box holds it. */
-    uint32_t row = (uint32_t)cell_axis(near, (double)(float)w->z[i]);
-    uint32_t column = (uint32_t)cell_axis(near, (double)(float)w->x[i]);
-    return (layer * near->side + row) * near->side + column;
+    return (uint32_t)cell_axis(near, (double)(float)w->z[i]);
 }
 
-void near_build(struct near *near, const struct entities *committed, uint32_t used)
+static uint16_t slot_of(const struct near *near, const struct entities *w, uint32_t i)
 {
-    const struct entities *w = committed;
-    near->side = used <= FEW_ROWS ? SIDE_FEW : used <= MORE_ROWS ? SIDE_MORE : SIDE_MANY;
-    near->cell_m = WORLD_SIDE_M / (double)near->side;
-    uint32_t cells = near->side * near->side, places = NEAR_LAYERS * cells;
-    /* Counted two further on: after the sums start[p + 1] is where place p begins, and filling it
-     * moves that to where it ends, which is where p + 1 begins. */
-    uint32_t *next = near->start + 1;
-    memset(near->start, 0, (places + 2) * sizeof *near->start);
-    for (uint32_t i = 0; i < used; i++) {
-        near->place[i] = place_of(near, w, i);
-        if (near->place[i] != NOWHERE)
-            next[near->place[i] + 1]++;
-    }
-    for (uint32_t p = 0; p < places; p++)
-        next[p + 1] += next[p];
-    for (uint32_t i = 0; i < used; i++) {
-        if (near->place[i] != NOWHERE)
-            near->entries[next[near->place[i]]++] =
-                (struct near_entry){(float)w->x[i], (float)w->z[i], i};
-    }
-    for (uint32_t layer = 0; layer < NEAR_LAYERS; layer++)
-        near->count[layer] = near->start[(layer + 1) * cells] - near->start[layer * cells];
+    uint32_t layer = w->force[i] < FORCE_COUNT ? w->force[i] : FORCE_NEUTRAL;
+    if (w->state[i] == ENTITY_WRECK)
+        layer = NEAR_WRECKS;
+    return (uint16_t)((uint32_t)cell_axis(near, (double)(float)w->x[i]) * NEAR_LAYERS + layer);
 }
+
+static struct near_entry entry_of(const struct near *near, const struct entities *w, uint32_t i)
+{
+    bool due = near_divides(near->thoughts, near->tick + w->id[i]) && w->state[i] == ENTITY_ACTIVE;
+    return (struct near_entry){.x = (float)w->x[i],
+                               .z = (float)w->z[i],
+                               .y = (float)w->y[i],
+                               .vx = (float)w->vx[i],
+                               .vz = (float)w->vz[i],
+                               .row = i & (CAPACITY_MAX - 1u),
+                               .kind = w->kind[i] & NEAR_KINDS,
+                               .due = due};
+}
+
+static void sort_piece(struct near *near, uint32_t piece)
+{
+    const struct entities *w = near->committed;
+    uint32_t begin = piece * PIECE_ROWS;
+    uint32_t end = begin + PIECE_ROWS < near->used ? begin + PIECE_ROWS : near->used;
+    uint32_t *first = near->first + piece * (SIDE_MANY + 1), next[SIDE_MANY + 2] = {0};
+    uint16_t band[PIECE_ROWS];
+    for (uint32_t i = begin; i < end; i++) {
+        band[i - begin] = (uint16_t)band_of(near, w, i);
+        next[band[i - begin] + 1]++;
+    }
+    for (uint32_t b = 0; b <= near->side; b++) {
+        first[b] = begin + next[b];
+        next[b + 1] += next[b];
+    }
+    for (uint32_t i = begin; i < end; i++) {
+        if (band[i - begin] == near->side)
+            continue;
+        uint32_t at = begin + next[band[i - begin]]++;
+        near->sorted[at] = entry_of(near, w, i);
+        near->slot[at] = slot_of(near, w, i);
+    }
+}
+
+static void sort_pieces(void *context, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    for (uint32_t piece = begin; piece < end; piece++)
+        sort_piece(context, piece);
+}
+
+/* --- a row of cells ----------------------------------------------------------------------------*/
+
+static void fill_band(struct near *near, uint32_t band)
+{
+    uint32_t slots = near->side * NEAR_LAYERS, pieces = pieces_of(near->used), layers = 0;
+    uint32_t next[SIDE_MANY * NEAR_LAYERS + 1] = {0};
+    uint32_t *start = near->start + band * slots;
+    for (uint32_t p = 0; p < pieces; p++) {
+        const uint32_t *first = near->first + p * (SIDE_MANY + 1) + band;
+        for (uint32_t n = first[0]; n < first[1]; n++)
+            next[near->slot[n] + 1u]++;
+    }
+    next[0] = near->band[band];
+    for (uint32_t s = 0; s < slots; s++) {
+        start[s] = next[s];
+        layers |= (next[s + 1] > 0 ? 1u : 0u) << s % NEAR_LAYERS;
+        next[s + 1] += next[s];
+    }
+    near->layers[band] = layers;
+    for (uint32_t p = 0; p < pieces; p++) {
+        const uint32_t *first = near->first + p * (SIDE_MANY + 1) + band;
+        for (uint32_t n = first[0]; n < first[1]; n++)
+            near->entries[next[near->slot[n]]++] = near->sorted[n];
+    }
+}
+
+static void fill_bands(void *context, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    for (uint32_t band = begin; band < end; band++)
+        fill_band(context, band);
+}
+
+void near_build(struct near *near, const struct entities *committed, uint32_t used, uint32_t tick,
+                uint32_t think, struct workers *workers)
+{
+    near->side = used <= FEW_ROWS ? SIDE_FEW : used <= MORE_ROWS ? SIDE_MORE : SIDE_MANY;
+    near->cells_per_m = (double)near->side / WORLD_SIDE_M;
+    near->committed = committed;
+    near->used = used;
+    near->tick = tick;
+    near->thoughts = near_divisor(think);
+    near->present = 0;
+    workers_run(workers, sort_pieces, near, pieces_of(used), 1);
+    memset(near->band, 0, (SIDE_MANY + 1) * sizeof *near->band);
+    for (uint32_t p = 0; p < pieces_of(used); p++) {
+        const uint32_t *first = near->first + p * (SIDE_MANY + 1);
+        for (uint32_t b = 0; b < near->side; b++)
+            near->band[b + 1] += first[b + 1] - first[b];
+    }
+    for (uint32_t b = 0; b < near->side; b++)
+        near->band[b + 1] += near->band[b];
+    workers_run(workers, fill_bands, near, near->side, 1);
+    near->start[near->side * near->side * NEAR_LAYERS] = near->band[near->side];
+    for (uint32_t b = 0; b < near->side; b++)
+        near->present |= near->layers[b];
+}
+
+/* --- walks -------------------------------------------------------------------------------------*/
 
 struct near_walk near_begin(const struct near *near, uint32_t layers, double x, double z,
                             double radius_m)
 {
-    return (struct near_walk){
+    struct near_walk walk = {
         .near = near,
         .x = x,
         .z = z,
@@ -96,24 +209,47 @@ struct near_walk near_begin(const struct near *near, uint32_t layers, double x, 
         .x1 = cell_axis(near, x + radius_m),
         .z0 = cell_axis(near, z - radius_m),
         .z1 = cell_axis(near, z + radius_m),
-        .row = cell_axis(near, z - radius_m),
-        .layers = layers,
+        .left = layers & near->present,
     };
+    walk.row = walk.z1 + 1;
+    walk.column = walk.x0;
+    if (walk.left == near->present && walk.left != 0) { /* it need not tell them apart */
+        walk.all = true;
+        walk.left = 0;
+        walk.row = walk.z0;
+    }
+    return walk;
+}
+
+/* The lowest of the layers that are left, and those that follow it without a gap. */
+static bool next_layers(struct near_walk *walk)
+{
+    if (walk->left == 0)
+        return false;
+    walk->low = (uint32_t)__builtin_ctz(walk->left);
+    walk->high = walk->low + (uint32_t)__builtin_ctz(~(walk->left >> walk->low));
+    walk->left &= ~((1u << walk->high) - 1u);
+    walk->row = walk->z0;
+    return true;
 }
 
 bool near_turn(struct near_walk *walk)
 {
     const struct near *near = walk->near;
-    for (; walk->layer < NEAR_LAYERS; walk->layer++, walk->row = walk->z0) {
-        if (!(walk->layers & NEAR_LAYER(walk->layer)) || near->count[walk->layer] == 0)
-            continue;
-        while (walk->row <= walk->z1) {
-            uint32_t first = (walk->layer * near->side + (uint32_t)walk->row++) * near->side;
-            walk->at = near->entries + near->start[first + (uint32_t)walk->x0];
-            walk->end = near->entries + near->start[first + (uint32_t)walk->x1 + 1];
-            if (walk->at < walk->end)
-                return true;
+    do {
+        for (; walk->row <= walk->z1; walk->row++, walk->column = walk->x0) {
+            uint32_t first = (uint32_t)walk->row * near->side;
+            while (walk->column <= walk->x1) {
+                const uint32_t *cell = near->start + (first + (uint32_t)walk->column) * NEAR_LAYERS;
+                uint32_t cells = walk->all ? (uint32_t)(walk->x1 - walk->x0) + 1 : 1;
+                walk->column += (int32_t)cells;
+                walk->at = near->entries + cell[walk->all ? 0 : walk->low];
+                walk->end =
+                    near->entries + (walk->all ? cell[cells * NEAR_LAYERS] : cell[walk->high]);
+                if (walk->at < walk->end)
+                    return true;
+            }
         }
-    }
+    } while (next_layers(walk));
     return false;
 }

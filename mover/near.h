@@ -1,12 +1,14 @@
 /* Near: which vehicles are near a point, from an index over the committed world's rows.
  *
- * Built anew each frame by a counting sort into square cells of the map, the living apart by force
- * and the wrecks apart from them, so that looking for enemies passes over nobody else. Within a
- * cell rows ascend. The order in which near_next() gives them follows from the world alone: not
- * from the number of threads, nor from what was asked before. Read by all threads at once. */
+ * Built anew each frame by a counting sort into square cells of the map: cell by cell, and within a
+ * cell first the living by force, then the wrecks, so that looking for enemies passes over nobody
+ * else and looking at everybody reads on and on. Of one sort in one cell rows ascend. The order in
+ * which near_next() gives them follows from the world alone: not from the number of threads, nor
+ * from what was asked before. Read by all threads at once. */
 #ifndef JOLON_MOVER_NEAR_H
 #define JOLON_MOVER_NEAR_H
 
+#include "world/workers.h"
 #include "world/world.h"
 
 #include <stdbool.h>
@@ -19,27 +21,56 @@
 #define NEAR_THE_LIVING (NEAR_LAYER(FORCE_COUNT) - 1u)
 #define NEAR_ALL        (NEAR_LAYER(NEAR_LAYERS) - 1u)
 
+#define NEAR_KINDS 0x7ffu
 struct near_entry {
-    float x, z; /* [m] to 2 mm; who needs it better reads the row */
-    uint32_t row;
+    float x, z;      /* [m] to 2 mm; who needs it better reads the row */
+    float y, vx, vz; /* [m, m/s] */
+    uint32_t row : 20;
+    uint32_t kind : 11;
+    uint32_t due : 1; /* its agent thinks in this frame */
 };
 
+_Static_assert(CAPACITY_MAX <= 1u << 20 && KIND_COUNT_MAX <= NEAR_KINDS, "an entry holds both");
+
+/* A step of so many frames, for near_divides(). */
+static inline uint64_t near_divisor(uint32_t frames)
+{
+    return UINT64_MAX / frames + 1;
+}
+
+/* number % frames == 0 without a division (Lemire, Kaser, Kurz 2019). */
+static inline bool near_divides(uint64_t divisor, uint32_t number)
+{
+    return number * divisor <= divisor - 1;
+}
+
 struct near {
-    uint32_t side;     /* cells along an edge of the map */
-    double cell_m;     /* length of a cell */
-    uint32_t capacity; /* of entries */
-    uint32_t *start;   /* [NEAR_LAYERS * side * side + 1] into entries, by layer, row of cells */
-    uint32_t *place;   /* [capacity] while it is built: the cell of a row */
+    uint32_t side;      /* cells along an edge of the map */
+    double cells_per_m; /* along it */
+    uint32_t capacity;  /* of entries */
+    uint32_t *start;    /* [side * side * NEAR_LAYERS + 1] into entries: by row of cells, column,
+                           layer */
     struct near_entry *entries;
-    uint32_t count[NEAR_LAYERS]; /* entries of each layer */
+    uint32_t present; /* the layers that have an entry */
+    /* While it is built: each piece of rows for itself by rows of cells, then each row of cells. */
+    const struct entities *committed;
+    uint32_t used, tick;
+    uint64_t thoughts;         /* near_divisor() of a thought's frames */
+    struct near_entry *sorted; /* [capacity] */
+    uint16_t *slot;            /* [capacity] of sorted: column and layer within a row of cells */
+    uint32_t *first;           /* [pieces][side + 1] into a piece's part of sorted */
+    uint32_t *band;            /* [side + 1] into entries: where each row of cells begins */
+    uint32_t *layers;          /* [side] the layers that a row of cells has */
 };
 
 /* For tables of up to capacity rows. 0, or -1 with errno ENOMEM. */
 int near_init(struct near *near, uint32_t capacity);
 void near_free(struct near *near);
 
-/* Indexes rows 0 .. used - 1: active vehicles by force, wrecks. */
-void near_build(struct near *near, const struct entities *committed, uint32_t used);
+/* Indexes rows 0 .. used - 1: active vehicles by force, wrecks; those are due whose id and tick add
+ * up to a whole number of thoughts. workers may be NULL. */
+void near_build(struct near *near, const struct entities *committed, uint32_t used, uint32_t tick,
+                uint32_t think, struct workers *workers);
 
 /* The layers of a force's enemies; neither has the neutral any nor is it one. */
 static inline uint32_t near_enemies(enum force force)
@@ -58,15 +89,23 @@ static inline uint32_t near_enemies(enum force force)
  */
 struct near_walk {
     const struct near *near;
-    const struct near_entry *at, *end; /* of the present row of cells */
+    const struct near_entry *at, *end; /* of the present span */
     double x, z, square;               /* radius squared */
     int32_t x0, x1, z0, z1;            /* cells, inclusive */
-    int32_t row;                       /* of cells: that comes next */
-    uint32_t layer, layers;
+    int32_t row, column;               /* of the cell that comes next */
+    bool all;                          /* layers; else low .. high - 1 at a time */
+    uint32_t low, high, left;          /* left: layers that come after them */
 };
 
 struct near_walk near_begin(const struct near *near, uint32_t layers, double x, double z,
                             double radius_m);
+
+/* Is an entry within the radius of a point that is squared here? */
+static inline bool near_within(const struct near_entry *entry, double x, double z, double square)
+{
+    double dx = (double)entry->x - x, dz = (double)entry->z - z;
+    return dx * dx + dz * dz <= square;
+}
 
 /* The next span of entries; false at the end. */
 bool near_turn(struct near_walk *walk);
@@ -76,8 +115,7 @@ static inline const struct near_entry *near_next(struct near_walk *walk)
 {
     do {
         for (; walk->at < walk->end; walk->at++) {
-            double dx = (double)walk->at->x - walk->x, dz = (double)walk->at->z - walk->z;
-            if (dx * dx + dz * dz <= walk->square)
+            if (near_within(walk->at, walk->x, walk->z, walk->square))
                 return walk->at++;
         }
     } while (near_turn(walk));

@@ -6,9 +6,9 @@
 #include "world/random.h"
 
 #define THINK_HZ         10.0   /* how often each agent thinks */
-#define THOUGHTS_A_FRAME 4096u  /* of all agents together, about */
+#define THOUGHTS_A_FRAME 3072u  /* of all agents together, about */
 #define LOOK_S           1.0    /* between two looks of an agent */
-#define LOOKS_A_FRAME    1024u  /* of all agents together, about */
+#define LOOKS_A_FRAME    768u   /* of all agents together, about */
 #define CANDIDATES       8u     /* the nearest enemies that a look considers */
 #define LINES            3u     /* of sight, that it spends on them */
 #define SEEN_LOOKS       2u     /* for so many looks it knows where its target is */
@@ -69,15 +69,28 @@ struct vec3 percept_middle(const struct move *move, uint32_t i)
     return at;
 }
 
-/* Is the direction (dx, dz) within its view, about where its turret points? */
-static bool in_view(const struct move *move, uint32_t i, double dx, double dz)
+/* Its view: all around, or about where its turret points. */
+struct sector {
+    bool around;
+    double sine, cosine, edge; /* of its middle; cosine of half its width */
+};
+
+static struct sector sector_of(const struct move *move, uint32_t i)
 {
     const struct entities *w = &move->committed->entities;
-    double view = move->world->kinds[w->kind[i]].view_rad, sine, cosine;
-    if (view >= TWO_PI - 1e-9)
-        return true;
-    maths_sincos(w->heading[i] + (double)w->turret[i], &sine, &cosine);
-    return dx * sine - dz * cosine >= maths_cos(0.5 * view) * sqrt(dx * dx + dz * dz);
+    double wide = move->world->kinds[w->kind[i]].view_rad;
+    struct sector view = {.around = wide >= TWO_PI - 1e-9};
+    if (!view.around) {
+        maths_sincos(w->heading[i] + (double)w->turret[i], &view.sine, &view.cosine);
+        view.edge = maths_cos(0.5 * wide);
+    }
+    return view;
+}
+
+static bool in_view(const struct sector *view, double dx, double dz)
+{
+    return view->around ||
+           dx * view->sine - dz * view->cosine >= view->edge * sqrt(dx * dx + dz * dz);
 }
 
 bool percept_sees(const struct move *move, uint32_t i, uint32_t other)
@@ -85,7 +98,10 @@ bool percept_sees(const struct move *move, uint32_t i, uint32_t other)
     const struct entities *w = &move->committed->entities;
     double dx = w->x[other] - w->x[i], dz = w->z[other] - w->z[i];
     double sight = move->world->kinds[w->kind[i]].sight_m;
-    return dx * dx + dz * dz < sight * sight && in_view(move, i, dx, dz) &&
+    if (!(dx * dx + dz * dz < sight * sight))
+        return false;
+    struct sector view = sector_of(move, i);
+    return in_view(&view, dx, dz) &&
            outlook_clear(move->outlook, percept_eye(move, i), percept_middle(move, other));
 }
 
@@ -111,7 +127,8 @@ static void consider(struct candidates *c, uint32_t row, double square)
     c->row[n] = row;
 }
 
-static void gather(const struct move *move, uint32_t i, double radius, struct candidates *c)
+static void gather(const struct move *move, uint32_t i, const struct sector *view, double radius,
+                   struct candidates *c)
 {
     const struct entities *w = &move->committed->entities;
     const struct near_entry *entry;
@@ -120,7 +137,7 @@ static void gather(const struct move *move, uint32_t i, double radius, struct ca
     c->count = 0;
     while ((entry = near_next(&walk))) {
         double dx = (double)entry->x - walk.x, dz = (double)entry->z - walk.z;
-        if (in_view(move, i, dx, dz))
+        if (in_view(view, dx, dz))
             consider(c, entry->row, dx * dx + dz * dz);
     }
 }
@@ -130,9 +147,13 @@ static void gather(const struct move *move, uint32_t i, double radius, struct ca
 static uint32_t look_out(const struct move *move, uint32_t i)
 {
     double sight = move->world->kinds[move->m->kind[i]].sight_m;
+    enum force force = (enum force)move->committed->entities.force[i];
     struct candidates c = {0};
+    if (!(near_enemies(force) & move->near->present))
+        return SLOT_NONE;
+    struct sector view = sector_of(move, i);
     for (double radius = 0.25 * sight;; radius = maths_min(2.0 * radius, sight)) {
-        gather(move, i, radius, &c);
+        gather(move, i, &view, radius, &c);
         if (c.count == CANDIDATES || radius >= sight)
             break;
     }

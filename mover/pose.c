@@ -1,6 +1,8 @@
 /* Parts of motion that the domains share. */
 #include "mover/move.h"
 
+#include "mover/scars.h"
+#include "world/footing.h"
 #include "world/square.h"
 
 /* Of a sphere's radius: clear of the ground, well within it. */
@@ -9,6 +11,17 @@
 double pose_ground(const struct move *move, double x, double z)
 {
     return terrain_height(&move->world->terrain, move->craters, x, z);
+}
+
+void pose_ground_lanes(const struct move *move, struct footing *footing, const union lanes *x,
+                       const union lanes *z, union lanes *ground)
+{
+    footing_find(&move->world->terrain, footing, x, z);
+    footing_heights(&move->world->terrain, footing, x, z, ground);
+    for (int l = 0; move->craters->count > 0 && l < LANE_COUNT; l++) {
+        if (scars_at(move->scars, x->lane[l], z->lane[l]) & SCARS_CRATER)
+            ground->lane[l] += crater_offset(move->craters, x->lane[l], z->lane[l]);
+    }
 }
 
 double pose_aim_height(const struct move *move, uint16_t kind)
@@ -41,26 +54,6 @@ double pose_slowing(const struct kind *kind, const struct wish *wish, double for
     if (!wish->driven || wish->speed_mps * forward < 0.0)
         return hardest;
     return drag_mps2 + wish->brake * maths_max(0.0, hardest - drag_mps2);
-}
-
-void pose_on_ground(const struct move *move, uint32_t i, double sine, double cosine)
-{
-    struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
-    double half_length = maths_max(kind->length_m * 0.5, 0.5);
-    double half_width = maths_max(kind->width_m * 0.5, 0.5);
-    double length_x = sine * half_length, length_z = cosine * half_length;
-    double width_x = cosine * half_width, width_z = sine * half_width;
-    double px = m->x[i], pz = m->z[i];
-    const double x[] = {px + length_x, px - length_x, px + width_x, px - width_x};
-    const double z[] = {pz - length_z, pz + length_z, pz + width_z, pz - width_z};
-    double height[TERRAIN_POINTS]; /* front, back, right, left */
-    terrain_heights(&move->world->terrain, move->craters, x, z, height);
-    double angle[2];
-    maths_slopes((const double[]){height[0] - height[1], height[3] - height[2]},
-                 (const double[]){2.0 * half_length, 2.0 * half_width}, angle);
-    m->pitch[i] = angle[0];
-    m->roll[i] = angle[1];
 }
 
 void pose_along(const struct entities *m, uint32_t i, double sine, double cosine, double *forward,

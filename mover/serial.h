@@ -12,11 +12,11 @@ struct serial {
     struct moved_pieces *pieces;
 };
 
-/* Whoever makes a row, or changes one that has moved, says so: its piece is hashed again at the
- * step's end. */
-static inline void serial_changes(struct serial *serial, uint32_t row)
+/* Whoever makes a row, or changes one beside moving it, says which columns (COLUMN_BIT): they are
+ * hashed again. */
+static inline void serial_changes(struct serial *serial, uint32_t row, uint64_t columns)
 {
-    serial->pieces->changed[row / CHECKSUM_ROWS] = true;
+    serial->pieces->changed[row / CHECKSUM_ROWS] |= columns;
 }
 
 /* spawn.c: a free row made into an active entity of this kind at rest, SLOT_NONE when the table is

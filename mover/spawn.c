@@ -32,7 +32,7 @@ uint32_t spawn_entity(struct serial *serial, uint16_t kind_index, uint8_t force)
         head->tally.spawns_refused++;
         return SLOT_NONE;
     }
-    serial_changes(serial, row);
+    serial_changes(serial, row, COLUMNS_ALL);
     head->used = row < head->used ? head->used : row + 1;
     head->alloc_next = (row + 1) % m->capacity;
     entities_clear(m, row);
@@ -62,6 +62,7 @@ void spawn_remove(struct serial *serial, uint32_t row)
         head->munitions--;
     else
         head->vehicles--;
+    serial_changes(serial, row, COLUMNS_ALL);
     entities_clear(m, row);
 }
 

@@ -4,8 +4,11 @@
 #define JOLON_MOVER_STEP_H
 
 #include "mover/avoid.h"
+#include "mover/company.h"
 #include "mover/near.h"
 #include "mover/outlook.h"
+#include "mover/easy.h"
+#include "mover/scars.h"
 #include "world/checksum.h"
 #include "world/workers.h"
 #include "world/world.h"
@@ -17,20 +20,26 @@ struct command_source {
     uint64_t end;
 };
 
-/* The moved table's pieces as their rows are left behind, and which of them changed since. */
+/* Columns of the moved table's pieces that changed since they were hashed. */
 struct moved_pieces {
-    struct row_hashes hashes;
-    bool changed[CHECKSUM_PIECES];
+    uint64_t changed[CHECKSUM_PIECES];
 };
 
 struct mover {
     const struct world *world;
-    struct crater_index craters; /* cache of the committed craters */
-    struct near near;            /* of the committed vehicles; of this frame */
-    struct outlook outlook;      /* over the committed ground; of this frame */
-    struct avoid avoid;          /* of the kinds */
-    struct workers *workers;     /* NULL: alone */
-    struct moved_pieces pieces;  /* of this frame */
+    struct crater_index craters;   /* cache of the committed craters */
+    struct near near;              /* of the committed vehicles; of this frame */
+    struct outlook outlook;        /* over the committed ground; of this frame */
+    struct company company;        /* likewise */
+    struct avoid avoid;            /* of the kinds */
+    struct scars scars;            /* cache of the committed craters and damage */
+    struct easy easy;              /* cache of the ground's slopes and water */
+    struct footing_patch *patches; /* [capacity + STAND_AHEAD] cache of the ground about each row */
+    struct footing_patch *patches_ahead; /* [capacity] where aircraft soon will be */
+    struct workers *workers;             /* NULL: alone */
+    struct moved_pieces pieces;          /* of this frame */
+    struct piece_hashes blank;           /* of a piece that is all zero */
+    uint64_t left;                       /* checksum of the moved table that it left; 0: none */
 };
 
 /* craters: the world's list. 0, or -1 with errno ENOMEM. workers may be NULL and stays the

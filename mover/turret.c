@@ -53,13 +53,19 @@ static struct mat3 pose_matrix(const struct entities *e, uint32_t i)
     return rotation_matrix(rotation_of(e->heading[i], e->pitch[i], e->roll[i]));
 }
 
-struct vec3 turret_barrel(const struct entities *e, uint32_t i)
+/* Where the gun points in a body that is turned so. */
+static struct vec3 barrel_of(const struct entities *e, uint32_t i, const struct mat3 *body)
 {
     double sine, cosine, sine_up, cosine_up;
-    struct mat3 body = pose_matrix(e, i);
     maths_sincos((double)e->turret[i], &sine, &cosine);
     maths_sincos((double)e->gun[i], &sine_up, &cosine_up);
-    return rotation_apply(&body, (struct vec3){cosine * cosine_up, sine_up, sine * cosine_up});
+    return rotation_apply(body, (struct vec3){cosine * cosine_up, sine_up, sine * cosine_up});
+}
+
+struct vec3 turret_barrel(const struct entities *e, uint32_t i)
+{
+    struct mat3 body = pose_matrix(e, i);
+    return barrel_of(e, i, &body);
 }
 
 /* Both at once to these angles, by no more than their rates and within the gun's limits. */
@@ -89,17 +95,17 @@ static struct vec3 lead_goal(const struct move *move, uint32_t i, const struct k
 }
 
 /* The solution on its target, or on the point that it is to fire at, in the body's own axes. */
-static void solve(const struct move *move, uint32_t i, const struct kind *kind, double *turret,
-                  double *gun)
+static void solve(const struct move *move, uint32_t i, const struct kind *kind,
+                  struct turret_solution *solution, double *turret, double *gun)
 {
     const struct entities *m = move->m, *w = &move->committed->entities;
     const struct kind *munition = &move->world->kinds[kind->munition];
-    struct mat3 body = pose_matrix(m, i);
-    struct vec3 lead =
-        m->trigger[i] & TRIGGER_FIRE_AT
-            ? lead_goal(move, i, munition)
-            : turret_lead(move, turret_muzzle(move, m, i), munition, w, m->target_slot[i]);
-    lead = rotation_back(&body, lead);
+    solution->body = pose_matrix(m, i);
+    solution->lead = m->trigger[i] & TRIGGER_FIRE_AT ? lead_goal(move, i, munition)
+                                                     : turret_lead(move, turret_muzzle(move, m, i),
+                                                                   munition, w, m->target_slot[i]);
+    solution->found = true;
+    struct vec3 lead = rotation_back(&solution->body, solution->lead);
     double level = sqrt(lead.x * lead.x + lead.z * lead.z);
     *turret = maths_atan2(lead.z, lead.x);
     *gun = maths_atan2(lead.y, level);
@@ -132,12 +138,13 @@ static void set_rates(const struct move *move, uint32_t i, const struct kind *ki
 
 /* Its crew lays it: exactly when it is about to fire or has nothing to aim at, else by rates that
  * they think of in their turn. */
-static void by_agent(const struct move *move, uint32_t i, const struct kind *kind)
+static void by_agent(const struct move *move, uint32_t i, const struct kind *kind,
+                     struct turret_solution *solution)
 {
     struct entities *m = move->m;
     double turret, gun;
     if (m->trigger[i] & TRIGGER_FIRE_AT) {
-        solve(move, i, kind, &turret, &gun);
+        solve(move, i, kind, solution, &turret, &gun);
         lay(move, i, kind, turret, gun);
         return;
     }
@@ -149,7 +156,7 @@ static void by_agent(const struct move *move, uint32_t i, const struct kind *kin
     }
     bool fires = (m->trigger[i] & TRIGGER_FIRE) != 0;
     if ((fires || move_thinks(move, i)) && has_target(move, i)) {
-        solve(move, i, kind, &turret, &gun);
+        solve(move, i, kind, solution, &turret, &gun);
         set_rates(move, i, kind, turret, gun);
         if (fires) {
             lay(move, i, kind, turret, gun);
@@ -160,21 +167,22 @@ static void by_agent(const struct move *move, uint32_t i, const struct kind *kin
         lay_by_rates(move, i, kind);
 }
 
-void turret_turn(const struct move *move, uint32_t i)
+void turret_turn(const struct move *move, uint32_t i, struct turret_solution *solution)
 {
     struct entities *m = move->m;
     const struct kind *kind = &move->world->kinds[m->kind[i]];
+    solution->found = false;
     if (kind->munition == KIND_NONE)
         return;
     if (m->behaviour[i] != BEHAVIOUR_DRIVEN) {
-        by_agent(move, i, kind);
+        by_agent(move, i, kind, solution);
     } else if (m->traverse[i] != 0.0f ||
                m->elevate[i] != 0.0f) { /* by hand: of no target any more */
         m->target_slot[i] = m->target_id[i] = 0;
         lay_by_rates(move, i, kind);
     } else if (has_target(move, i)) {
         double turret, gun;
-        solve(move, i, kind, &turret, &gun);
+        solve(move, i, kind, solution, &turret, &gun);
         lay(move, i, kind, turret, gun);
     }
 }
@@ -189,7 +197,9 @@ static double angle_between(struct vec3 a, struct vec3 b)
     return maths_atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b));
 }
 
-bool turret_bears(const struct move *move, const struct entities *rows, uint32_t i, uint32_t target)
+/* As turret_bears() says, of a gun that points along barrel. Its solution, or NULL. */
+static bool bears(const struct move *move, const struct entities *rows, uint32_t i, uint32_t target,
+                  struct vec3 barrel, const struct turret_solution *solution)
 {
     const struct kind *kind = &move->world->kinds[rows->kind[i]];
     const struct kind *munition = &move->world->kinds[kind->munition];
@@ -199,17 +209,23 @@ bool turret_bears(const struct move *move, const struct entities *rows, uint32_t
         most = munition->seeker_rad;
         to = vec3_sub(entities_position(&move->committed->entities, target), muzzle);
     } else {
-        to = turret_lead(move, muzzle, munition, &move->committed->entities, target);
+        to = solution ? solution->lead
+                      : turret_lead(move, muzzle, munition, &move->committed->entities, target);
     }
-    return angle_between(turret_barrel(rows, i), to) <= most;
+    return angle_between(barrel, to) <= most;
+}
+
+bool turret_bears(const struct move *move, const struct entities *rows, uint32_t i, uint32_t target)
+{
+    return bears(move, rows, i, target, turret_barrel(rows, i), NULL);
 }
 
 /* Would the round pass a friend, or somebody who has no part in it, on its way to the target? */
-static bool friend_ahead(const struct move *move, uint32_t i, uint32_t target)
+static bool friend_ahead(const struct move *move, uint32_t i, uint32_t target, struct vec3 barrel)
 {
     const struct entities *m = move->m, *w = &move->committed->entities;
     uint32_t layers = NEAR_LAYER(m->force[i]) | NEAR_LAYER(FORCE_NEUTRAL);
-    struct vec3 muzzle = turret_muzzle(move, m, i), barrel = turret_barrel(m, i);
+    struct vec3 muzzle = turret_muzzle(move, m, i);
     double reach =
         maths_min(FRIEND_AHEAD_M,
                   vec3_length(vec3_sub(entities_position(w, target), entities_position(m, i))));
@@ -228,11 +244,12 @@ static bool friend_ahead(const struct move *move, uint32_t i, uint32_t target)
     return false;
 }
 
-void turret_hold_fire(const struct move *move, uint32_t i)
+void turret_hold_fire(const struct move *move, uint32_t i, const struct turret_solution *solution)
 {
     struct entities *m = move->m;
     const struct entities *w = &move->committed->entities;
     const struct kind *kind = &move->world->kinds[m->kind[i]];
+    bool at_target = solution->found && !(m->trigger[i] & TRIGGER_FIRE_AT);
     if (m->trigger[i] & TRIGGER_FIRE_AT && kind->munition != KIND_NONE &&
         angle_between(turret_barrel(m, i),
                       lead_goal(move, i, &move->world->kinds[kind->munition])) > laid_rad(kind))
@@ -243,8 +260,11 @@ void turret_hold_fire(const struct move *move, uint32_t i)
         move->tick >= m->reload_tick[i] && !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE)) {
         uint32_t target = m->target_slot[i];
         struct vec3 to = vec3_sub(entities_position(w, target), entities_position(m, i));
-        if (vec3_length(to) < kind->range_m && turret_bears(move, m, i, target) &&
-            !friend_ahead(move, i, target))
+        struct vec3 barrel =
+            solution->found ? barrel_of(m, i, &solution->body) : turret_barrel(m, i);
+        if (vec3_length(to) < kind->range_m &&
+            bears(move, m, i, target, barrel, at_target ? solution : NULL) &&
+            !friend_ahead(move, i, target, barrel))
             return;
     }
     m->trigger[i] &= (uint8_t)~TRIGGER_FIRE;

@@ -7,13 +7,22 @@
 #define JOLON_MOVER_TURRET_H
 
 #include "mover/move.h"
+#include "world/rotation.h"
+
+/* What a gun was laid by in this frame, for whoever asks after it. */
+struct turret_solution {
+    bool found;
+    struct mat3 body; /* body to world */
+    struct vec3 lead; /* unit: where the gun must point */
+};
 
 /* Turns turret and gun of row i for the frame; after it has moved. */
-void turret_turn(const struct move *move, uint32_t i);
+void turret_turn(const struct move *move, uint32_t i, struct turret_solution *solution);
 
 /* Takes TRIGGER_FIRE from row i again unless it can: a target in range, a round and the gun ready,
- * the gun bearing, no friend in front of it; and TRIGGER_FIRE_AT unless the gun bears. */
-void turret_hold_fire(const struct move *move, uint32_t i);
+ * the gun bearing, no friend in front of it; and TRIGGER_FIRE_AT unless the gun bears. What
+ * turret_turn() left in this frame. */
+void turret_hold_fire(const struct move *move, uint32_t i, const struct turret_solution *solution);
 
 /* Where the rounds of row i of e leave from [m, world], and its barrel's direction (unit). */
 struct vec3 turret_muzzle(const struct move *move, const struct entities *e, uint32_t i);

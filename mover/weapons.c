@@ -78,7 +78,7 @@ static bool launch(struct serial *serial, uint32_t shooter, uint32_t target,
     m->owner_slot[row] = shooter;
     m->owner_id[row] = m->id[shooter];
     m->rounds[shooter]--;
-    serial_changes(serial, shooter);
+    serial_changes(serial, shooter, COLUMN_BIT(rounds) | COLUMN_BIT(reload_tick));
     m->reload_tick[shooter] =
         (uint32_t)(serial->move->tick + (uint64_t)(kind->reload_s / serial->move->dt_s));
 
@@ -95,7 +95,7 @@ static bool launch(struct serial *serial, uint32_t shooter, uint32_t target,
         m->target_id[row] = m->id[target];
         m->threat_slot[target] = shooter;
         m->threat_id[target] = m->id[shooter];
-        serial_changes(serial, target);
+        serial_changes(serial, target, COLUMN_BIT(threat_slot) | COLUMN_BIT(threat_id));
     }
     return true;
 }

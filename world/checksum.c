@@ -1,52 +1,177 @@
-/* Checksums by pieces of rows and by entries of lists. */
+/* Checksums by pieces and columns of rows and by entries of lists. */
 #include "world/checksum.h"
 
 #include "world/hash.h"
 
 #include <stddef.h>
+#include <string.h>
 
-static uint32_t pieces_of(uint32_t used)
+#define PIECES_A_WORKER 2u /* at a time */
+
+/* --- pieces ------------------------------------------------------------------------------------*/
+
+uint32_t piece_count(uint32_t rows)
 {
-    return (used + CHECKSUM_ROWS - 1) / CHECKSUM_ROWS;
+    return (rows + CHECKSUM_ROWS - 1) / CHECKSUM_ROWS;
 }
 
-/* Column by column; a column's hash is chained into the whole. */
-void row_hashes_piece(struct row_hashes *hashes, const struct entities *e, uint32_t piece,
-                      uint32_t used)
+size_t piece_hashes_bytes(uint32_t capacity)
+{
+    size_t bytes = piece_count(capacity) * sizeof(struct piece_hashes);
+    return (bytes + COLUMN_ALIGN - 1) / COLUMN_ALIGN * COLUMN_ALIGN;
+}
+
+static uint32_t piece_rows(uint32_t piece, uint32_t used)
 {
     uint32_t first = piece * CHECKSUM_ROWS;
-    uint32_t count = used - first < CHECKSUM_ROWS ? used - first : CHECKSUM_ROWS;
-    uint64_t hash = 0;
-#define X(type, name) hash = XXH3_64bits_withSeed(e->name + first, count * sizeof(type), hash);
-    ENTITY_COLUMNS(X)
-#undef X
-    hashes->piece[piece] = hash;
+    return used - first < CHECKSUM_ROWS ? used - first : CHECKSUM_ROWS;
 }
 
-struct all_rows {
-    struct row_hashes *hashes;
-    const struct entities *entities;
+static const uint8_t cell_bytes[ENTITY_COLUMN_COUNT] = {
+#define X(type, name) sizeof(type),
+    ENTITY_COLUMNS(X)
+#undef X
+};
+
+/* Where a piece begins in each column. */
+struct cells {
+    void *column[ENTITY_COLUMN_COUNT];
+};
+
+static struct cells cells_of(const struct entities *e, uint32_t piece)
+{
+    uint32_t first = piece * CHECKSUM_ROWS;
+    return (struct cells){{
+#define X(type, name) e->name + first,
+        ENTITY_COLUMNS(X)
+#undef X
+    }};
+}
+
+static void hash_columns(const struct entities *e, uint32_t piece, uint32_t used, uint64_t columns,
+                         struct piece_hashes *hashes)
+{
+    const struct cells cells = cells_of(e, piece);
+    uint32_t rows = piece_rows(piece, used);
+    for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++) {
+        if (columns >> c & 1)
+            hashes->column[c] = XXH3_64bits(cells.column[c], (size_t)rows * cell_bytes[c]);
+    }
+}
+
+void table_hash_piece(struct table table, uint32_t piece, uint32_t used, uint64_t columns)
+{
+    hash_columns(table.entities, piece, used, columns, &table.hashes[piece]);
+}
+
+struct hashing {
+    struct table table;
     uint32_t used;
+    const uint64_t *columns;
 };
 
 static void hash_pieces(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
-    const struct all_rows *all = context;
+    const struct hashing *job = context;
     (void)worker;
-    for (uint32_t piece = first; piece < end; piece++)
-        row_hashes_piece(all->hashes, all->entities, piece, all->used);
+    for (uint32_t piece = first; piece < end; piece++) {
+        uint64_t columns = job->columns ? job->columns[piece] : COLUMNS_ALL;
+        if (columns != 0)
+            table_hash_piece(job->table, piece, job->used, columns);
+    }
 }
 
-void row_hashes_all(struct row_hashes *hashes, const struct entities *entities, uint32_t used,
-                    struct workers *workers)
+void table_hash(struct table table, uint32_t used, const uint64_t *columns, struct workers *workers)
 {
-    struct all_rows all = {hashes, entities, used};
-    workers_run(workers, hash_pieces, &all, pieces_of(used), 1);
+    struct hashing job = {table, used, columns};
+    workers_run(workers, hash_pieces, &job, piece_count(used), PIECES_A_WORKER);
 }
 
-static uint64_t rows_hash(const struct row_hashes *rows, uint32_t used, uint64_t seed)
+void piece_hashes_blank(struct piece_hashes *blank)
 {
-    return XXH3_64bits_withSeed(rows->piece, pieces_of(used) * sizeof rows->piece[0], seed);
+    static const uint64_t zeros[CHECKSUM_ROWS];
+    for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++)
+        blank->column[c] = XXH3_64bits(zeros, (size_t)CHECKSUM_ROWS * cell_bytes[c]);
+}
+
+uint64_t table_blank(struct table table, uint32_t piece, uint32_t used,
+                     const struct piece_hashes *blank)
+{
+    uint64_t columns = 0;
+    if (piece_rows(piece, used) < CHECKSUM_ROWS)
+        return 0;
+    for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++)
+        columns |= (uint64_t)(table.hashes[piece].column[c] == blank->column[c]) << c;
+    return columns;
+}
+
+/* Of one column: what is not zero in any of the rows, all in one number. */
+static uint64_t gather(const void *column, uint8_t bytes, const uint32_t *rows, uint32_t count)
+{
+    uint64_t all = 0;
+    for (uint32_t n = 0; n < count; n++) {
+        if (bytes == 8)
+            all |= ((const uint64_t *)column)[rows[n]];
+        else if (bytes == 4)
+            all |= ((const uint32_t *)column)[rows[n]];
+        else if (bytes == 2)
+            all |= ((const uint16_t *)column)[rows[n]];
+        else
+            all |= ((const uint8_t *)column)[rows[n]];
+    }
+    return all;
+}
+
+uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, uint32_t count)
+{
+    const struct cells cells = cells_of(table.entities, 0);
+    for (uint64_t left = columns; left != 0; left &= left - 1) {
+        int c = __builtin_ctzll(left);
+        if (gather(cells.column[c], cell_bytes[c], rows, count) != 0)
+            columns &= ~((uint64_t)1 << c);
+    }
+    return columns;
+}
+
+void table_take(struct table to, struct table from, uint32_t piece, uint32_t used, bool known)
+{
+    const struct cells into = cells_of(to.entities, piece);
+    const struct cells source = cells_of(from.entities, piece);
+    struct piece_hashes *has = &to.hashes[piece];
+    const struct piece_hashes *wants = &from.hashes[piece];
+    uint32_t rows = piece_rows(piece, used);
+    for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++) {
+        if (!known || has->column[c] != wants->column[c])
+            memcpy(into.column[c], source.column[c], (size_t)rows * cell_bytes[c]);
+    }
+    *has = *wants;
+}
+
+/* --- checksums ---------------------------------------------------------------------------------*/
+
+/* Each piece's hashes are chained into the whole. */
+static uint64_t add_piece(uint64_t hash, const struct piece_hashes *hashes)
+{
+    return XXH3_64bits_withSeed(hashes, sizeof *hashes, hash);
+}
+
+uint64_t rows_hash(const struct piece_hashes *hashes, uint32_t used)
+{
+    uint64_t hash = 0;
+    for (uint32_t piece = 0; piece < piece_count(used); piece++)
+        hash = add_piece(hash, &hashes[piece]);
+    return hash;
+}
+
+uint64_t rows_hash_again(const struct entities *entities, uint32_t used)
+{
+    uint64_t hash = 0;
+    for (uint32_t piece = 0; piece < piece_count(used); piece++) {
+        struct piece_hashes hashes;
+        hash_columns(entities, piece, used, COLUMNS_ALL, &hashes);
+        hash = add_piece(hash, &hashes);
+    }
+    return hash;
 }
 
 void list_hashes_extend(struct list_hashes *hashes, const struct state *state)
@@ -67,37 +192,62 @@ uint64_t state_fixed_hash(const struct state *state, uint32_t fixed_count)
     return XXH3_64bits(state->fixed_damage, fixed_count);
 }
 
-uint64_t state_checksum_of(const struct state *state, const struct row_hashes *rows,
-                           uint64_t fixed_hash, const struct list_hashes *lists)
+uint64_t state_checksum_of(const struct state *state, uint64_t rows, uint64_t fixed_hash,
+                           const struct list_hashes *lists)
 {
-    const uint64_t rest[] = {fixed_hash, lists->crater_hash, lists->dent_hash};
+    const uint64_t rest[] = {rows, fixed_hash, lists->crater_hash, lists->dent_hash};
     struct state_head head = *state->head;
     head.checksum = 0;
-    return XXH3_64bits_withSeed(&head, sizeof head,
-                                rows_hash(rows, head.used, XXH3_64bits(rest, sizeof rest)));
+    return XXH3_64bits_withSeed(&head, sizeof head, XXH3_64bits(rest, sizeof rest));
+}
+
+/* With this hash of the rows. */
+static uint64_t checksum_with(const struct state *state, uint64_t rows, uint32_t fixed_count)
+{
+    struct list_hashes lists = {0};
+    list_hashes_extend(&lists, state);
+    return state_checksum_of(state, rows, state_fixed_hash(state, fixed_count), &lists);
 }
 
 uint64_t state_checksum(const struct state *state, uint32_t fixed_count)
 {
-    struct row_hashes rows;
-    struct list_hashes lists = {0};
-    row_hashes_all(&rows, &state->entities, state->head->used, NULL);
-    list_hashes_extend(&lists, state);
-    return state_checksum_of(state, &rows, state_fixed_hash(state, fixed_count), &lists);
+    return checksum_with(state, rows_hash_again(&state->entities, state->head->used), fixed_count);
 }
 
-uint64_t moved_checksum_of(const struct moved *moved, const struct row_hashes *rows)
+void state_seal(struct state *state, uint32_t fixed_count)
+{
+    uint32_t used = state->head->used;
+    table_hash(state_table(state), used, NULL, NULL);
+    state->head->checksum = checksum_with(state, rows_hash(state->hashes, used), fixed_count);
+}
+
+bool state_whole(const struct state *state, uint32_t fixed_count)
+{
+    uint32_t used = state->head->used;
+    uint64_t rows = rows_hash_again(&state->entities, used);
+    return rows == rows_hash(state->hashes, used) &&
+           checksum_with(state, rows, fixed_count) == state->head->checksum;
+}
+
+uint64_t moved_checksum_of(const struct moved *moved, uint64_t rows)
 {
     struct state_head head = *moved->head;
     head.checksum = 0;
     head.mover_ns = 0; /* written after it */
-    uint64_t hash = XXH3_64bits(moved->intents, head.intent_count * sizeof *moved->intents);
-    return XXH3_64bits_withSeed(&head, sizeof head, rows_hash(rows, head.used, hash));
+    const uint64_t rest[] = {
+        rows, XXH3_64bits(moved->intents, head.intent_count * sizeof *moved->intents)};
+    return XXH3_64bits_withSeed(&head, sizeof head, XXH3_64bits(rest, sizeof rest));
 }
 
 uint64_t moved_checksum(const struct moved *moved)
 {
-    struct row_hashes rows;
-    row_hashes_all(&rows, &moved->entities, moved->head->used, NULL);
-    return moved_checksum_of(moved, &rows);
+    return moved_checksum_of(moved, rows_hash_again(&moved->entities, moved->head->used));
+}
+
+bool moved_whole(const struct moved *moved)
+{
+    uint32_t used = moved->head->used;
+    uint64_t rows = rows_hash_again(&moved->entities, used);
+    return rows == rows_hash(moved->hashes, used) &&
+           moved_checksum_of(moved, rows) == moved->head->checksum;
 }

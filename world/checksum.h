@@ -1,28 +1,72 @@
 /* Checksums of what one process leaves in shared memory for another: a world buffer, and the moved
  * table. They are looked at by whoever takes over, not in every frame.
  *
- * Rows are hashed in pieces of fixed size, so that threads can share the work and the result does
- * not depend on how many there are; lists that only grow are hashed entry by entry, so that a frame
- * costs what it added. Pure; any thread. */
+ * Rows are hashed by piece and column. The hashes stay beside the rows, and the head's checksum
+ * covers them: so who writes a table hashes again only what he changed, and copies from another
+ * table only what differs (table_take). Pieces have a fixed size, so that threads can share the
+ * work and the result does not depend on how many there are; lists that only grow are hashed entry
+ * by entry, so that a frame costs what it added. Pure; any thread. */
 #ifndef JOLON_WORLD_CHECKSUM_H
 #define JOLON_WORLD_CHECKSUM_H
 
 #include "world/workers.h"
 #include "world/world.h"
 
-#define CHECKSUM_ROWS   2048u /* of a piece: they fit a second-level cache */
+#define CHECKSUM_ROWS   1024u /* of a piece; docs/decisions/019 has what others cost */
 #define CHECKSUM_PIECES (CAPACITY_MAX / CHECKSUM_ROWS)
 
-/* Hash of each piece of the first used rows; what lies behind them means nothing. */
-struct row_hashes {
-    uint64_t piece[CHECKSUM_PIECES];
+/* XXH3-64 of each column of one piece. */
+struct piece_hashes {
+    uint64_t column[ENTITY_COLUMN_COUNT];
 };
 
-/* Hashes one piece, or all of them on the workers (NULL: alone). */
-void row_hashes_piece(struct row_hashes *hashes, const struct entities *entities, uint32_t piece,
-                      uint32_t used);
-void row_hashes_all(struct row_hashes *hashes, const struct entities *entities, uint32_t used,
-                    struct workers *workers);
+/* Pieces of so many rows; the last one may be short. */
+uint32_t piece_count(uint32_t rows);
+
+/* Bytes of a table's hashes, up to the next boundary of COLUMN_ALIGN. */
+size_t piece_hashes_bytes(uint32_t capacity);
+
+/* --- a table: rows and the hashes beside them --------------------------------------------------*/
+
+struct table {
+    const struct entities *entities;
+    struct piece_hashes *hashes;
+};
+
+static inline struct table state_table(const struct state *state)
+{
+    return (struct table){&state->entities, state->hashes};
+}
+
+static inline struct table moved_table(const struct moved *moved)
+{
+    return (struct table){&moved->entities, moved->hashes};
+}
+
+/* Hashes these columns of one piece of the first used rows; what lies behind them means nothing. */
+void table_hash_piece(struct table table, uint32_t piece, uint32_t used, uint64_t columns);
+
+/* ... of each piece (columns NULL: all of them), on the workers (NULL: alone). */
+void table_hash(struct table table, uint32_t used, const uint64_t *columns,
+                struct workers *workers);
+
+/* Hashes of a whole piece that is all zero. */
+void piece_hashes_blank(struct piece_hashes *blank);
+
+/* Columns of a whole piece that its hashes say are all zero (a short piece: none); blank: as above.
+ * A column that is not has the hash of one that is once in 2^64. */
+uint64_t table_blank(struct table table, uint32_t piece, uint32_t used,
+                     const struct piece_hashes *blank);
+
+/* Which of these columns are zero in each of these rows. */
+uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, uint32_t count);
+
+/* Makes a piece of `to` the same as that of `from`, rows and hashes. known: to's hashes are those
+ * of what its rows hold, as this process itself left them; then only columns whose hashes differ
+ * are copied. Two columns that differ have the same hash once in 2^64. */
+void table_take(struct table to, struct table from, uint32_t piece, uint32_t used, bool known);
+
+/* --- checksums ---------------------------------------------------------------------------------*/
 
 /* Running hashes of the lists that only grow; all zero before the first entry. */
 struct list_hashes {
@@ -33,19 +77,31 @@ struct list_hashes {
 /* Takes in what the state's lists have more, up to its counts; begins anew when they have less. */
 void list_hashes_extend(struct list_hashes *hashes, const struct state *state);
 
-/* The state's own checksum as the collider stores it: head (its checksum as 0), rows, damage of the
- * fixed objects, craters and dents up to their counts, which must be within their lists. */
+/* Hash of a table's piece_hashes: of those that it has, or of those that its rows should have. */
+uint64_t rows_hash(const struct piece_hashes *hashes, uint32_t used);
+uint64_t rows_hash_again(const struct entities *entities, uint32_t used);
+
+/* The state's own checksum: head (its checksum as 0), rows, damage of the fixed objects, craters
+ * and dents up to their counts, which must be within their lists. Of what the rows hold, whatever
+ * the hashes beside them say. */
 uint64_t state_checksum(const struct state *state, uint32_t fixed_count);
 
-/* The same of parts, for a writer that knows what has not changed: rows of the state, fixed damage
- * as state_fixed_hash() has it, and the lists up to the state's counts. */
+/* The same of parts, for who knows some of them: hash of the rows, fixed damage as
+ * state_fixed_hash() has it, and the lists up to the state's counts. */
 uint64_t state_fixed_hash(const struct state *state, uint32_t fixed_count);
-uint64_t state_checksum_of(const struct state *state, const struct row_hashes *rows,
-                           uint64_t fixed_hash, const struct list_hashes *lists);
+uint64_t state_checksum_of(const struct state *state, uint64_t rows, uint64_t fixed_hash,
+                           const struct list_hashes *lists);
+
+/* Writes hashes and checksum of a state that was made otherwise than by the collider. */
+void state_seal(struct state *state, uint32_t fixed_count);
+
+/* Is all of it as its writer left it: what its checksum covers, and the hashes beside the rows? */
+bool state_whole(const struct state *state, uint32_t fixed_count);
 
 /* The moved table's checksum as the mover stores it: head (its checksum and mover_ns as 0), rows,
  * intents up to their count, which must be within their list. */
 uint64_t moved_checksum(const struct moved *moved);
-uint64_t moved_checksum_of(const struct moved *moved, const struct row_hashes *rows);
+uint64_t moved_checksum_of(const struct moved *moved, uint64_t rows);
+bool moved_whole(const struct moved *moved);
 
 #endif

@@ -49,6 +49,7 @@ int crater_index_update(struct crater_index *index, uint32_t count)
         memset(index->head, 0, SQUARE_COUNT * sizeof *index->head);
         index->link_count = 0;
         index->count = 0;
+        index->rim_m = 0.0;
     }
     while (index->count < count) {
         struct square_box box = reach_of(&index->craters[index->count]);
@@ -62,6 +63,8 @@ int crater_index_update(struct crater_index *index, uint32_t count)
                 *head = ++index->link_count;
             }
         }
+        index->rim_m = maths_max(index->rim_m,
+                                 (double)index->craters[index->count].depth_m * CRATER_RIM_HEIGHT);
         index->count++;
     }
     return 0;

@@ -33,6 +33,7 @@ struct crater_index {
     uint32_t *head; /* [SQUARE_COUNT] link + 1, 0 for none */
     struct crater_link *links;
     uint32_t link_count, link_capacity;
+    double rim_m; /* the highest rim that any of them raises the ground by */
 };
 
 /* 0, or -1 with errno ENOMEM. The list must outlive the index. */

@@ -103,6 +103,20 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
     X(uint8_t, flags)   /* ENTITY_FLAG_* */                                                        \
     X(uint8_t, trigger) /* mover's own: wants to fire this frame */
 
+/* clang-format off */
+enum entity_column {
+#define X(type, name) COLUMN_##name,
+    ENTITY_COLUMNS(X)
+#undef X
+    ENTITY_COLUMN_COUNT
+};
+/* clang-format on */
+
+/* Sets of columns. */
+#define COLUMN_BIT(name) ((uint64_t)1 << COLUMN_##name)
+#define COLUMNS_ALL      (UINT64_MAX >> (64 - ENTITY_COLUMN_COUNT))
+_Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
+
 #define ENTITY_FLAG_FIRE_AT_WILL 1u /* engages enemies that it sees, not only who fires at it */
 #define ENTITY_FLAG_HOLD_FIRE    2u /* fires at nobody, whatever happens to it */
 #define ENTITY_FLAG_STAND        4u /* never flees or withdraws */

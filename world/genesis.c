@@ -225,7 +225,7 @@ static void fill_state(const struct genesis *genesis, struct state *state)
         vehicles += genesis->first.state[i] != ENTITY_FREE;
     head->vehicles = vehicles;
     memset(state->fixed_damage, DAMAGE_NONE, genesis->counts.fixed);
-    head->checksum = state_checksum(state, genesis->counts.fixed);
+    state_seal(state, genesis->counts.fixed);
 }
 
 void genesis_fill(const struct genesis *genesis, struct world *world, struct state state[2])

@@ -2,6 +2,9 @@
  * Polynomials: fdlibm (Sun Microsystems 1993), kernels k_sin.c, k_cos.c and s_atan.c. */
 #include "world/maths.h"
 
+#include "world/clones.h"
+#include "world/lanes.h"
+
 #include <stdint.h>
 #include <string.h>
 
@@ -9,26 +12,62 @@
 #define PIO2_HIGH 1.57079632673412561417e+00
 #define PIO2_LOW  6.07710050650619224932e-11
 
-static double kernel_sin(double x)
-{
-    double z = x * x;
-    double r = 8.33333333332248946124e-03 +
-               z * (-1.98412698298579493134e-04 +
-                    z * (2.75573137070700676789e-06 +
-                         z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
-    return x + z * x * (-1.66666666666666324348e-01 + z * r);
-}
+/* Kernels, for a number and for four: the same operations in the same order. */
 
-static double kernel_cos(double x)
+/* Sine and cosine for |x| <= pi/4. */
+#define KERNEL_SINCOS(type, name)                                                                  \
+    static inline void name(const type *x, type *sine, type *cosine)                               \
+    {                                                                                              \
+        type z = *x * *x;                                                                          \
+        type r = 8.33333333332248946124e-03 +                                                      \
+                 z * (-1.98412698298579493134e-04 +                                                \
+                      z * (2.75573137070700676789e-06 +                                            \
+                           z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));   \
+        *sine = *x + z * *x * (-1.66666666666666324348e-01 + z * r);                               \
+        r = z * (4.16666666666666019037e-02 +                                                      \
+                 z * (-1.38888888888741095749e-03 +                                                \
+                      z * (2.48015872894767294178e-05 +                                            \
+                           z * (-2.75573143513906633035e-07 +                                      \
+                                z * (2.08757232129817482790e-09 +                                  \
+                                     z * -1.13596475577881948265e-11)))));                         \
+        *cosine = 1.0 - (0.5 * z - z * r);                                                         \
+    }
+
+/* Arc tangent for 0 <= x <= 7/16; odd to the bit, so for those below 0 as well. */
+#define KERNEL_ATAN(type, name)                                                                    \
+    static inline void name(const type *x, type *angle)                                            \
+    {                                                                                              \
+        type z = *x * *x;                                                                          \
+        type w = z * z;                                                                            \
+        type even = z * (ATAN_0 +                                                                  \
+                         w * (ATAN_2 + w * (ATAN_4 + w * (ATAN_6 + w * (ATAN_8 + w * ATAN_10))))); \
+        type odd = w * (ATAN_1 + w * (ATAN_3 + w * (ATAN_5 + w * (ATAN_7 + w * ATAN_9))));         \
+        *angle = *x - *x * (even + odd);                                                           \
+    }
+
+#define ATAN_LIMIT 0.4375
+#define ATAN_0     3.33333333333329318027e-01
+#define ATAN_1     (-1.99999999998764832476e-01)
+#define ATAN_2     1.42857142725034663711e-01
+#define ATAN_3     (-1.11111104054623557880e-01)
+#define ATAN_4     9.09088713343650656196e-02
+#define ATAN_5     (-7.69187620504482999495e-02)
+#define ATAN_6     6.66107313738753120669e-02
+#define ATAN_7     (-5.83357013379057348645e-02)
+#define ATAN_8     4.97687799461593236017e-02
+#define ATAN_9     (-3.65315727442169155270e-02)
+#define ATAN_10    1.62858201153657823623e-02
+
+KERNEL_SINCOS(double, kernel_sincos)
+KERNEL_SINCOS(four, kernel_sincos_four)
+KERNEL_ATAN(double, kernel_atan_of)
+KERNEL_ATAN(four, kernel_atan_four)
+
+static double kernel_atan(double x)
 {
-    double z = x * x;
-    double r =
-        z * (4.16666666666666019037e-02 +
-             z * (-1.38888888888741095749e-03 +
-                  z * (2.48015872894767294178e-05 +
-                       z * (-2.75573143513906633035e-07 +
-                            z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
-    return 1.0 - (0.5 * z - z * r);
+    double angle;
+    kernel_atan_of(&x, &angle);
+    return angle;
 }
 
 void maths_sincos(double angle_rad, double *sine, double *cosine)
@@ -38,7 +77,8 @@ void maths_sincos(double angle_rad, double *sine, double *cosine)
     double n = (double)quadrant;
     double x = (angle_rad - n * PIO2_HIGH) - n * PIO2_LOW;
     /* By tables, not branches: which quadrant a heading is in no processor can guess. */
-    const double kernel[2] = {kernel_sin(x), kernel_cos(x)};
+    double kernel[2];
+    kernel_sincos(&x, &kernel[0], &kernel[1]);
     static const double sign[4] = {1.0, 1.0, -1.0, -1.0};
     *sine = kernel[quadrant & 1] * sign[quadrant & 3];
     *cosine = kernel[~quadrant & 1] * sign[(quadrant + 1) & 3];
@@ -58,36 +98,12 @@ double maths_cos(double angle_rad)
     return cosine;
 }
 
-/* Coefficients of the arc tangent. */
-#define ATAN_0  3.33333333333329318027e-01
-#define ATAN_1  (-1.99999999998764832476e-01)
-#define ATAN_2  1.42857142725034663711e-01
-#define ATAN_3  (-1.11111104054623557880e-01)
-#define ATAN_4  9.09088713343650656196e-02
-#define ATAN_5  (-7.69187620504482999495e-02)
-#define ATAN_6  6.66107313738753120669e-02
-#define ATAN_7  (-5.83357013379057348645e-02)
-#define ATAN_8  4.97687799461593236017e-02
-#define ATAN_9  (-3.65315727442169155270e-02)
-#define ATAN_10 1.62858201153657823623e-02
-
-/* Arc tangent for 0 <= x <= 7/16. */
-static double kernel_atan(double x)
-{
-    double z = x * x;
-    double w = z * z;
-    double even =
-        z * (ATAN_0 + w * (ATAN_2 + w * (ATAN_4 + w * (ATAN_6 + w * (ATAN_8 + w * ATAN_10)))));
-    double odd = w * (ATAN_1 + w * (ATAN_3 + w * (ATAN_5 + w * (ATAN_7 + w * ATAN_9))));
-    return x - x * (even + odd);
-}
-
 /* Arc tangent of y / x for 0 <= y <= x, x > 0. */
 static double atan_octant(double y, double x)
 {
     const double atan_half = 4.63647609000806093515e-01;
     double t = y / x;
-    if (t <= 0.4375)
+    if (t <= ATAN_LIMIT)
         return kernel_atan(t);
     if (t < 0.6875) /* atan(1/2) + atan((2t - 1) / (2 + t)) */
         return t >= 0.5 ? atan_half + kernel_atan((2.0 * t - 1.0) / (2.0 + t))
@@ -109,24 +125,36 @@ double maths_atan2(double y, double x)
     return angle * sign[y < 0.0];
 }
 
-typedef double two __attribute__((vector_size(2 * sizeof(double))));
-
-void maths_slopes(const double rise[2], const double run[2], double angle_rad[2])
+VECTOR_CLONES
+void maths_sincos_lanes(const union lanes *angle_rad, union lanes *sine, union lanes *cosine)
 {
-    two t = (two){rise[0], rise[1]} / (two){run[0], run[1]};
-    if (!(fabs(t[0]) <= 0.4375 && fabs(t[1]) <= 0.4375)) { /* steeper than vehicles climb */
-        angle_rad[0] = maths_atan2(rise[0], run[0]);
-        angle_rad[1] = maths_atan2(rise[1], run[1]);
-        return;
+    for (int h = 0; h < LANE_FOURS; h++) {
+        four angle = angle_rad->four[h];
+        four turns = angle * (2.0 / PI);
+        four half = LANES_CHOOSE(turns < 0.0, LANES_EVERY(-0.5), LANES_EVERY(0.5));
+        four_cells quadrant = __builtin_convertvector(turns + half, four_cells);
+        four n = __builtin_convertvector(quadrant, four);
+        four x = (angle - n * PIO2_HIGH) - n * PIO2_LOW, s, c;
+        kernel_sincos_four(&x, &s, &c);
+        four_masks q = __builtin_convertvector(quadrant, four_masks);
+        four_masks odd = -(q & 1);
+        sine->four[h] = (four)((four_masks)LANES_CHOOSE(odd, c, s) ^ (q & 2) << 62);
+        cosine->four[h] = (four)((four_masks)LANES_CHOOSE(odd, s, c) ^ ((q + 1) & 2) << 62);
     }
-    /* kernel_atan(), which is odd to the bit. */
-    two z = t * t, w = z * z;
-    two even =
-        z * (ATAN_0 + w * (ATAN_2 + w * (ATAN_4 + w * (ATAN_6 + w * (ATAN_8 + w * ATAN_10)))));
-    two odd = w * (ATAN_1 + w * (ATAN_3 + w * (ATAN_5 + w * (ATAN_7 + w * ATAN_9))));
-    two angle = t - t * (even + odd);
-    angle_rad[0] = angle[0];
-    angle_rad[1] = angle[1];
+}
+
+VECTOR_CLONES
+void maths_slopes_lanes(const union lanes *rise, const union lanes *run, union lanes *angle_rad)
+{
+    for (int h = 0; h < LANE_FOURS; h++) {
+        four slope = rise->four[h] / run->four[h];
+        kernel_atan_four(&slope, &angle_rad->four[h]);
+        four_masks gentle = LANES_ABS(slope) <= ATAN_LIMIT;
+        for (int i = 0; LANES_ANY(~gentle) && i < 4; i++) {
+            if (!gentle[i]) /* steeper than vehicles climb */
+                angle_rad->four[h][i] = maths_atan2(rise->four[h][i], run->four[h][i]);
+        }
+    }
 }
 
 double maths_cbrt(double value)

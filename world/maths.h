@@ -15,6 +15,8 @@
 #define DEG_PER_RAD (180.0 / PI)
 #define RAD_PER_DEG (PI / 180.0)
 
+union lanes;
+
 struct vec3 {
     double x, y, z;
 };
@@ -28,8 +30,11 @@ double maths_cos(double angle_rad);
 /* Angle of the vector (x, y) from the x axis, -pi..pi; 0 for (0, 0). Error below 5e-16. */
 double maths_atan2(double y, double x);
 
-/* Angles of two slopes, to the bit what maths_atan2(rise, run) gives of each; run > 0. */
-void maths_slopes(const double rise[2], const double run[2], double angle_rad[2]);
+/* To the bit maths_sincos() of each. */
+void maths_sincos_lanes(const union lanes *angle_rad, union lanes *sine, union lanes *cosine);
+
+/* Angles of slopes: to the bit what maths_atan2(rise, run) gives of each; run > 0. */
+void maths_slopes_lanes(const union lanes *rise, const union lanes *run, union lanes *angle_rad);
 
 /* Cube root of a normal value > 0 (0 for others) by Newton's method on an exponent guess; relative
  * error below 1e-15. */

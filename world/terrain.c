@@ -1,8 +1,6 @@
 /* Heights, normals and cover of the ground. */
 #include "world/terrain.h"
 
-#include "world/clones.h"
-
 #include <stddef.h>
 
 /* The cell's column or row and how far into it, 0..1; outside the square the edge. Without
@@ -37,16 +35,6 @@ double terrain_base_height(const struct terrain *terrain, double x, double z)
     return base_height(terrain, x, z);
 }
 
-void terrain_prefetch(const struct terrain *terrain, double x, double z)
-{
-    double u, v;
-    size_t post = (size_t)cell_of(terrain, z, &v) * terrain->side + cell_of(terrain, x, &u);
-    __builtin_prefetch(terrain->posts + post);
-    __builtin_prefetch(terrain->posts + post + terrain->side);
-    __builtin_prefetch(terrain->cover + post);
-    __builtin_prefetch(terrain->cover + post + terrain->side);
-}
-
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
                       double z)
 {
@@ -54,48 +42,11 @@ double terrain_height(const struct terrain *terrain, const struct crater_index *
     return craters ? height + crater_offset(craters, x, z) : height;
 }
 
-/* Four points at once: the same operations in the same order as base_height() does them. */
-typedef double four __attribute__((vector_size(4 * sizeof(double))));
-typedef int64_t four_masks __attribute__((vector_size(4 * sizeof(int64_t))));
-typedef int32_t four_cells __attribute__((vector_size(4 * sizeof(int32_t))));
-
-#define CHOOSE(mask, yes, no) ((four)(((mask) & (four_masks)(yes)) | (~(mask) & (four_masks)(no))))
-#define EVERY(value)          ((four){(value), (value), (value), (value)})
-
-VECTOR_CLONES
-void terrain_heights(const struct terrain *terrain, const struct crater_index *craters,
-                     const double x[TERRAIN_POINTS], const double z[TERRAIN_POINTS],
-                     double height[TERRAIN_POINTS])
+struct terrain_posts terrain_posts(const struct terrain *terrain, double from_m, double metres)
 {
-    const four spacing = EVERY(terrain->spacing_m), none = EVERY(0.0);
-    const four last = EVERY((double)(terrain->side - 2)), end = last + 1.0;
-    four u = (four){x[0], x[1], x[2], x[3]} / spacing, v = (four){z[0], z[1], z[2], z[3]} / spacing;
-    u = CHOOSE(u > none, u, none);
-    v = CHOOSE(v > none, v, none);
-    u = CHOOSE(u < end, u, end);
-    v = CHOOSE(v < end, v, end);
-    four_cells column = __builtin_convertvector(CHOOSE(u < last, u, last), four_cells);
-    four_cells row = __builtin_convertvector(CHOOSE(v < last, v, last), four_cells);
-    u -= __builtin_convertvector(column, four);
-    v -= __builtin_convertvector(row, four);
-    four_masks north_east = u >= v;
-    double nw[TERRAIN_POINTS], se[TERRAIN_POINTS], third[TERRAIN_POINTS];
-    for (int i = 0; i < TERRAIN_POINTS; i++) {
-        const float *post =
-            terrain->posts + (size_t)(uint32_t)row[i] * terrain->side + (uint32_t)column[i];
-        nw[i] = (double)post[0];
-        se[i] = (double)post[terrain->side + 1];
-        third[i] = (double)post[north_east[i] ? 1 : terrain->side];
-    }
-    four corner = {third[0], third[1], third[2], third[3]};
-    four from = {nw[0], nw[1], nw[2], nw[3]}, to = {se[0], se[1], se[2], se[3]};
-    four first = corner - from, second = to - corner;
-    four heights =
-        from + CHOOSE(north_east, first, second) * u + CHOOSE(north_east, second, first) * v;
-    for (int i = 0; i < TERRAIN_POINTS; i++)
-        height[i] = heights[i];
-    for (int i = 0; craters && craters->count > 0 && i < TERRAIN_POINTS; i++)
-        height[i] += crater_offset(craters, x[i], z[i]);
+    uint32_t most = terrain->side - 1, first = (uint32_t)(from_m / terrain->spacing_m);
+    uint32_t last = (uint32_t)((from_m + metres) / terrain->spacing_m) + 1;
+    return (struct terrain_posts){first < most ? first : most, last < most ? last : most};
 }
 
 struct vec3 terrain_normal(const struct terrain *terrain, const struct crater_index *craters,

@@ -40,15 +40,11 @@ double terrain_base_height(const struct terrain *terrain, double x, double z);
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
                       double z);
 
-/* The same at the points that a body stands on. */
-#define TERRAIN_POINTS 4
-void terrain_heights(const struct terrain *terrain, const struct crater_index *craters,
-                     const double x[TERRAIN_POINTS], const double z[TERRAIN_POINTS],
-                     double height[TERRAIN_POINTS]);
-
-/* Asks for the memory that heights and cover at (x, z) will need. A vehicle's ground is rarely in a
- * cache: asked for some rows ahead, the waits overlap. */
-void terrain_prefetch(const struct terrain *terrain, double x, double z);
+/* The first and last posts along one axis whose cells reach into so many metres from a place on. */
+struct terrain_posts {
+    uint32_t first, last;
+};
+struct terrain_posts terrain_posts(const struct terrain *terrain, double from_m, double metres);
 
 /* Unit normal of the ground with its craters, from heights one metre apart. */
 struct vec3 terrain_normal(const struct terrain *terrain, const struct crater_index *craters,

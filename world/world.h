@@ -270,11 +270,14 @@ struct state_head {
     uint64_t checksum; /* state_checksum(), moved_checksum() */
 };
 
+struct piece_hashes;
+
 /* One buffer of the world. fixed_damage and the crater list belong to W only. */
 struct state {
     struct state_head *head;
     struct entities entities;
-    uint8_t *fixed_damage;  /* [counts.fixed] enum damage */
+    struct piece_hashes *hashes; /* of the rows (checksum.h); a reader's copy has none: NULL */
+    uint8_t *fixed_damage;       /* [counts.fixed] enum damage */
     struct crater *craters; /* shared by both buffers, append-only: committed by crater_count */
     struct dent *dents;     /* likewise, by dent_count */
 };
@@ -283,6 +286,7 @@ struct state {
 struct moved {
     struct state_head *head;
     struct entities entities;
+    struct piece_hashes *hashes; /* as in struct state */
     struct event *intents; /* [params.intents_per_frame]; sequence, frame, index not yet set */
 };
 

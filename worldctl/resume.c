@@ -31,7 +31,7 @@ static void forget_quit(struct view *view, uint64_t frame)
 {
     struct state *state = &view->w[frame & 1];
     state->head->quit = 0;
-    state->head->checksum = state_checksum(state, view->header->counts.fixed);
+    state_seal(state, view->header->counts.fixed);
 }
 
 /* The world's own: how to make it again from the image, and what was changed. */

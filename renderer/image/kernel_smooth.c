@@ -219,11 +219,14 @@ static void smooth_row(struct edges *edges, struct image *to, const struct image
         if (last - column < 32)
             bits &= (1u << (last - column)) - 1u;
         for (uint32_t begin = column; bits != 0; begin += LANES, bits >>= LANES) {
-            /* What is right of the eight must be within the picture. */
-            uint32_t most = last - LANES, at = begin < most ? begin : most;
-            if ((bits & 255u) == 0)
+            /* What is left and right of the eight must be within the picture. */
+            uint32_t most = last - LANES, at = begin < most ? begin : most, eight = bits & 255u;
+            if (eight == 0)
                 continue;
-            find(edges, from, row, (int32_t)at, vec_mask((bits & 255u) << (begin - at)));
+            if (at == 0)
+                find(edges, from, row, 1, vec_mask(eight >> 1));
+            else
+                find(edges, from, row, (int32_t)at, vec_mask(eight << (begin - at)));
             if (edges->count >= LANES)
                 smooth(edges, to, from);
         }

@@ -2,6 +2,7 @@
 #include "tests/support/steps.h"
 
 #include "mover/turret.h"
+#include "world/footing.h"
 #include "world/rotation.h"
 
 #include <stdarg.h>
@@ -30,6 +31,15 @@ struct params *steps_params(const struct fixture *fixture)
     return writable(fixture->view.world.params);
 }
 
+/* The mover remembers the ground that its rows stand on. */
+static void forget_ground(const struct fixture *fixture)
+{
+    const struct mover *mover = &fixture->player.mover;
+    uint32_t capacity = mover->world->params->capacity;
+    memset(mover->patches, 0, capacity * sizeof *mover->patches);
+    memset(mover->patches_ahead, 0, capacity * sizeof *mover->patches_ahead);
+}
+
 void steps_ground(const struct fixture *fixture, steps_height *height, const void *context)
 {
     const struct terrain *terrain = &fixture->view.world.terrain;
@@ -39,6 +49,7 @@ void steps_ground(const struct fixture *fixture, steps_height *height, const voi
             posts[(size_t)row * terrain->side + column] = (float)height(
                 (double)column * terrain->spacing_m, (double)row * terrain->spacing_m, context);
     }
+    forget_ground(fixture);
 }
 
 struct plane {
@@ -68,6 +79,7 @@ void steps_cover(const struct fixture *fixture, enum cover cover, double x0, dou
                 posts[(size_t)row * terrain->side + column] = (uint8_t)cover;
         }
     }
+    forget_ground(fixture);
 }
 
 double steps_ground_at(const struct fixture *fixture, double x, double z)
@@ -171,6 +183,10 @@ void steps_serial(struct fixture *fixture, struct move *move, struct serial *ser
         .near = &fixture->player.mover.near,
         .outlook = &fixture->player.mover.outlook,
         .avoid = &fixture->player.mover.avoid,
+        .scars = &fixture->player.mover.scars,
+        .easy = &fixture->player.mover.easy,
+        .patches = fixture->player.mover.patches,
+        .patches_ahead = fixture->player.mover.patches_ahead,
         .committed = committed,
         .m = &view->m.entities,
         .tick = committed->head->tick + 1,

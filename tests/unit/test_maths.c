@@ -2,6 +2,7 @@
 #include "world/maths.h"
 
 #include "tests/support/fixture.h"
+#include "world/lanes.h"
 
 #include <float.h>
 #include <setjmp.h>
@@ -223,27 +224,52 @@ static void test_bits_are_the_same_everywhere(void **state)
     assert_int_equal(hash, 0x53c226a114a7d65f);
 }
 
-/* Both slopes at once are two arc tangents, to the bit. */
-static void test_slopes_are_arc_tangents(void **state)
+/* Eight at once are eight times one, to the bit. */
+static void test_lanes_are_sines_and_cosines(void **state)
 {
-    const double most[] = {1e-300, 1e-6, 0.3, 0.9, 30.0};
     uint64_t random = fixture_seed(9);
     (void)state;
-    for (int i = 0; i < 200000; i++) {
-        double steep = most[i % 5], angle[2];
-        double run[] = {fixture_uniform(&random, 0.5, 20.0), fixture_uniform(&random, 0.5, 20.0)};
-        double rise[] = {run[0] * fixture_uniform(&random, -steep, steep),
-                         i % 11 ? run[1] * fixture_uniform(&random, -0.5, 0.5) : 0.0};
-        maths_slopes(rise, run, angle);
-        assert_true(angle[0] == maths_atan2(rise[0], run[0]));
-        assert_true(angle[1] == maths_atan2(rise[1], run[1]));
+    for (int i = 0; i < 50000; i++) {
+        union lanes angle, sine, cosine;
+        double most = i % 3 ? TWO_PI : 1e6;
+        for (int l = 0; l < LANE_COUNT; l++)
+            angle.lane[l] = fixture_uniform(&random, i % 2 ? -most : 0.0, most);
+        if (i % 5 == 0)
+            angle.lane[i % LANE_COUNT] = HALF_PI * (i % 9);
+        maths_sincos_lanes(&angle, &sine, &cosine);
+        for (int l = 0; l < LANE_COUNT; l++) {
+            double s, c;
+            maths_sincos(angle.lane[l], &s, &c);
+            assert_true(sine.lane[l] == s && cosine.lane[l] == c);
+        }
+    }
+}
+
+static void test_lanes_of_slopes_are_arc_tangents(void **state)
+{
+    const double most[] = {1e-300, 1e-6, 0.3, 0.9, 30.0};
+    uint64_t random = fixture_seed(10);
+    (void)state;
+    for (int i = 0; i < 50000; i++) {
+        union lanes rise, run, angle;
+        for (int l = 0; l < LANE_COUNT; l++) {
+            double steep = most[(i + (i % 7 == 0) * l) % 5];
+            run.lane[l] = fixture_uniform(&random, 0.5, 20.0);
+            rise.lane[l] = run.lane[l] * fixture_uniform(&random, -steep, steep);
+        }
+        if (i % 11 == 0)
+            rise.lane[i % LANE_COUNT] = 0.0;
+        maths_slopes_lanes(&rise, &run, &angle);
+        for (int l = 0; l < LANE_COUNT; l++)
+            assert_true(angle.lane[l] == maths_atan2(rise.lane[l], run.lane[l]));
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_slopes_are_arc_tangents),
+        cmocka_unit_test(test_lanes_are_sines_and_cosines),
+        cmocka_unit_test(test_lanes_of_slopes_are_arc_tangents),
         cmocka_unit_test(test_sine_and_cosine_within_2e_16_near_zero),
         cmocka_unit_test(test_sine_and_cosine_within_1e_10_up_to_a_million),
         cmocka_unit_test(test_sine_and_cosine_at_quarter_turns),

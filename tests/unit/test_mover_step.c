@@ -6,6 +6,7 @@
 #include <setjmp.h>
 #include <stdatomic.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -179,6 +180,165 @@ static void test_the_dead_do_not_fire(void **state)
     fixture_close(&f);
 }
 
+/* --- pieces in which there is nothing of a sort ------------------------------------------------*/
+
+#define SOMEBODY 1500u /* in the second piece; the third is short */
+
+/* A table that the mover knows nothing of has no piece of which it is sure. */
+static void assert_sure_or_not_the_same(struct fixture *f)
+{
+    steps_move(f);
+    uint64_t sure = steps_moved_hash(f);
+    assert_true(moved_whole(&f->view.m));
+    soil(f);
+    steps_move(f);
+    assert_true(steps_moved_hash(f) == sure);
+    assert_true(moved_whole(&f->view.m));
+}
+
+static void go_on(struct fixture *f)
+{
+    for (int frame = 0; frame < 3; frame++) {
+        assert_sure_or_not_the_same(f);
+        fixture_run(f, 1);
+    }
+}
+
+static void open_crowd(struct fixture *f, const char *behaviour)
+{
+    char text[512];
+    snprintf(text, sizeof text,
+             "world = { seed = 4; capacity = 4096; };\n"
+             "vehicles = ( { kind = \"tank\"; count = 2100; behaviour = \"%s\";\n"
+             "    area = [10000.0, 10000.0, 40000.0, 40000.0]; },\n"
+             "  { kind = \"truck\"; route = ( [1000.0, 2000.0], [2000.0, 2000.0] ); } );\n",
+             behaviour);
+    fixture_open(f, text);
+    fixture_run(f, 2);
+    struct state now = fixture_state(f);
+    for (uint32_t i = 0; i < 2048; i++) /* or else nothing is left out */
+        assert_true(now.entities.spin_y[i] == 0.0 && now.entities.target_id[i] == 0 &&
+                    now.entities.turret[i] == 0.0f && now.entities.traverse[i] == 0.0f);
+}
+
+/* As the collider would leave it, or a mover before. */
+enum news { SPIN, TURRET, GUN, TARGET, BUMP, SHOT, EDGE, HURT, TUMBLE, NEWS_COUNT };
+
+static void give(const struct fixture *f, enum news news)
+{
+    struct state now = fixture_state(f);
+    struct entities *e = &now.entities;
+    switch (news) {
+    case SPIN:
+        e->spin_y[SOMEBODY] = 0.5;
+        break;
+    case TUMBLE: /* about one axis, and soon about all */
+        e->kind[SOMEBODY] = fixture_kind(f, "helicopter");
+        e->y[SOMEBODY] = 3000.0;
+        e->pitch[SOMEBODY] = 0.4;
+        e->spin_y[SOMEBODY] = 1.5;
+        break;
+    case TURRET:
+        e->turret[SOMEBODY] = 0.3f;
+        break;
+    case GUN:
+        e->gun[SOMEBODY] = 0.1f;
+        break;
+    case TARGET:
+        e->target_slot[SOMEBODY] = 7;
+        e->target_id[SOMEBODY] = e->id[7];
+        e->traverse[SOMEBODY] = 0.5f;
+        break;
+    case BUMP:
+        e->bumped[SOMEBODY] = 1;
+        break;
+    case SHOT:
+        e->threat_slot[SOMEBODY] = 7;
+        e->threat_id[SOMEBODY] = e->id[7];
+        break;
+    case EDGE: /* it goes over to its route's next point at once */
+        if (e->behaviour[SOMEBODY] == BEHAVIOUR_HOLD)
+            break;
+        e->behaviour[SOMEBODY] = e->order[SOMEBODY] = BEHAVIOUR_ROUTE;
+        e->order_arg[SOMEBODY] = e->order_arg[2100]; /* the truck's */
+        e->x[SOMEBODY] = 0.0;
+        e->heading[SOMEBODY] = 1.5 * PI;
+        e->throttle[SOMEBODY] = 1.0f;
+        break;
+    default:
+        e->damage[SOMEBODY] = DAMAGE_MED;
+        e->changed_tick[SOMEBODY] = (uint32_t)now.head->tick;
+        break;
+    }
+    state_seal(&now, f->view.world.counts.fixed);
+}
+
+static void test_one_row_has_what_its_piece_lacked(void **state)
+{
+    static const char *const behaviours[] = {"patrol", "hold"};
+    (void)state;
+    for (int b = 0; b < 2; b++) {
+        struct fixture f;
+        open_crowd(&f, behaviours[b]);
+        for (enum news news = SPIN; news < NEWS_COUNT; news++) {
+            give(&f, news);
+            assert_sure_or_not_the_same(&f);
+            const struct entities *m = &f.view.m.entities;
+            if (news == SPIN)
+                assert_true(m->spin_y[SOMEBODY] < 0.5);
+            if (news == TURRET)
+                assert_true(m->turret[SOMEBODY] < 0.3f);
+            fixture_run(&f, 1);
+            go_on(&f);
+        }
+        fixture_close(&f);
+    }
+}
+
+static void test_commands_reach_a_piece_that_lacked_what_they_change(void **state)
+{
+    struct fixture f;
+    (void)state;
+    open_crowd(&f, "patrol");
+    uint32_t id = fixture_state(&f).entities.id[SOMEBODY];
+    steps_send(&f, RING_CONSOLE,
+               (struct command){.type = COMMAND_DRIVE,
+                                .source = 7,
+                                .entity = id,
+                                .value = {0.5, 0.0, 0.0, 1.0, 1.0, 0.0}});
+    go_on(&f);
+    assert_true(steps_rows(&f).turret[SOMEBODY] > 0.0f);
+    steps_send(&f, RING_CONSOLE,
+               (struct command){.type = COMMAND_RELEASE, .source = 7, .entity = id});
+    go_on(&f);
+    steps_lay(&f, 2099, SOMEBODY);
+    struct state now = fixture_state(&f);
+    state_seal(&now, f.view.world.counts.fixed);
+    steps_send(
+        &f, RING_CONSOLE,
+        (struct command){.type = COMMAND_FIRE, .entity = now.entities.id[2099], .target = id});
+    assert_sure_or_not_the_same(&f);
+    assert_int_equal(f.view.m.head->tally.fires, 1);
+    assert_int_equal(f.view.m.entities.threat_id[SOMEBODY], 0); /* it has noticed */
+    go_on(&f);
+    steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_REMOVE, .entity = id});
+    go_on(&f);
+    now = fixture_state(&f);
+    assert_int_equal(now.entities.state[SOMEBODY], ENTITY_FREE);
+    now.head->alloc_next = SOMEBODY;
+    state_seal(&now, f.view.world.counts.fixed);
+    fixture_run(&f, 1);
+    steps_send(&f, RING_CONSOLE,
+               (struct command){.type = COMMAND_SPAWN,
+                                .kind = fixture_kind(&f, "jeep"),
+                                .amount = BEHAVIOUR_HOLD,
+                                .value = {25000.0, 25000.0, 0.0, 0.0, 10.0}});
+    assert_sure_or_not_the_same(&f);
+    assert_true(f.view.m.entities.z[SOMEBODY] == 25000.0); /* it moves from the next frame */
+    go_on(&f);
+    fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -190,6 +350,8 @@ int main(void)
         cmocka_unit_test(test_scenario_fires_come_at_their_tick_in_the_files_order),
         cmocka_unit_test(test_a_paused_world_holds_its_fires_back),
         cmocka_unit_test(test_the_dead_do_not_fire),
+        cmocka_unit_test(test_one_row_has_what_its_piece_lacked),
+        cmocka_unit_test(test_commands_reach_a_piece_that_lacked_what_they_change),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,7 +93,7 @@ static void test_a_walk_meets_exactly_who_is_within_the_radius(void **state)
     for (int trial = 0; trial < 60; trial++) {
         uint32_t count = (uint32_t)(fixture_random(&random) % ROWS_MAX);
         scatter(&random, count, trial % 2 ? WORLD_SIDE_M : 3000.0);
-        near_build(&near, &rows, count);
+        near_build(&near, &rows, count, 0, 1, NULL);
         for (int n = 0; n < 6; n++)
             agrees(count, (uint32_t)(fixture_random(&random) % (NEAR_ALL + 1)),
                    fixture_uniform(&random, -100.0, 6000.0), fixture_uniform(&random, 0.0, 6000.0),
@@ -101,17 +101,77 @@ static void test_a_walk_meets_exactly_who_is_within_the_radius(void **state)
     }
 }
 
+/* All that a walk gives, in its order. */
+static uint32_t walk_all(uint32_t layers, struct near_entry *met_in_order)
+{
+    const struct near_entry *entry;
+    uint32_t count = 0;
+    struct near_walk walk = near_begin(&near, layers, 25000.0, 25000.0, 1e6);
+    while ((entry = near_next(&walk)))
+        met_in_order[count++] = *entry;
+    return count;
+}
+
+static uint32_t cell_of(const struct near_entry *entry)
+{
+    uint32_t column = (uint32_t)((double)entry->x * near.cells_per_m);
+    uint32_t row = (uint32_t)((double)entry->z * near.cells_per_m);
+    row = row < near.side ? row : near.side - 1;
+    return row * near.side + (column < near.side ? column : near.side - 1);
+}
+
+static void test_rows_ascend_in_a_cell_on_any_number_of_threads(void **state)
+{
+    static struct near_entry one[ROWS_MAX], other[ROWS_MAX];
+    uint64_t random = fixture_seed(4);
+    (void)state;
+    scatter(&random, ROWS_MAX, 9000.0);
+    near_build(&near, &rows, ROWS_MAX, 0, 1, NULL);
+    for (uint32_t layers = 1; layers <= NEAR_ALL; layers++) {
+        near_build(&near, &rows, ROWS_MAX, 0, 1, NULL);
+        uint32_t count = walk_all(layers, one);
+        for (uint32_t n = 1; n < count && layers == NEAR_LAYER(FORCE_RED); n++)
+            assert_true(cell_of(&one[n - 1]) < cell_of(&one[n]) ||
+                        (cell_of(&one[n - 1]) == cell_of(&one[n]) && one[n - 1].row < one[n].row));
+        for (uint32_t threads = 2; threads <= 3; threads++) {
+            struct workers *workers = workers_create(threads);
+            assert_non_null(workers);
+            near_build(&near, &rows, ROWS_MAX, 0, 1, workers);
+            assert_int_equal(walk_all(layers, other), count);
+            for (uint32_t n = 0; n < count; n++)
+                assert_int_equal(one[n].row, other[n].row);
+            workers_destroy(workers);
+        }
+    }
+}
+
+static void test_those_are_due_whose_turn_it_is(void **state)
+{
+    static struct near_entry all[ROWS_MAX];
+    uint64_t random = fixture_seed(8);
+    (void)state;
+    scatter(&random, 1000, 9000.0);
+    for (uint32_t think = 1; think < 40; think += 6) {
+        uint32_t tick = (uint32_t)fixture_random(&random);
+        near_build(&near, &rows, 1000, tick, think, NULL);
+        uint32_t count = walk_all(NEAR_ALL, all);
+        for (uint32_t n = 0; n < count; n++)
+            assert_int_equal(all[n].due, rows.state[all[n].row] == ENTITY_ACTIVE &&
+                                             (tick + rows.id[all[n].row]) % think == 0);
+    }
+}
+
 static void test_an_empty_world_and_an_empty_layer_meet_nobody(void **state)
 {
     (void)state;
-    near_build(&near, &rows, 0);
+    near_build(&near, &rows, 0, 0, 1, NULL);
     agrees(0, NEAR_ALL, 25000.0, 25000.0, 1e6);
     put(0, 25000.0, 25000.0, FORCE_BLUE);
-    near_build(&near, &rows, 1);
+    near_build(&near, &rows, 1, 0, 1, NULL);
     agrees(1, NEAR_THE_LIVING, 25000.0, 25000.0, 0.0);
     agrees(1, near_enemies(FORCE_BLUE), 25000.0, 25000.0, 1e6);
     agrees(1, near_enemies(FORCE_NEUTRAL), 25000.0, 25000.0, 1e6);
-    assert_int_equal(near.count[FORCE_BLUE], 1);
+    assert_int_equal(near.present, NEAR_LAYER(FORCE_BLUE));
 }
 
 static void test_the_neutral_are_nobodys_enemies(void **state)
@@ -127,6 +187,8 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_table, close_table)
     const struct CMUnitTest tests[] = {
         TEST(test_a_walk_meets_exactly_who_is_within_the_radius),
+        TEST(test_rows_ascend_in_a_cell_on_any_number_of_threads),
+        TEST(test_those_are_due_whose_turn_it_is),
         TEST(test_an_empty_world_and_an_empty_layer_meet_nobody),
         TEST(test_the_neutral_are_nobodys_enemies),
     };

@@ -275,9 +275,9 @@ static void test_a_turn_is_a_second_or_longer_in_a_crowd(void **state)
 {
     (void)state;
     assert_int_equal(percept_think(steps_params(&f), 100), 2);
-    assert_int_equal(percept_think(steps_params(&f), 1024 * 50), 12);
+    assert_int_equal(percept_think(steps_params(&f), 3072 * 12), 12);
     assert_int_equal(percept_turn(steps_params(&f), 100), 20);
-    assert_int_equal(percept_turn(steps_params(&f), 1024 * 50), 48);
+    assert_int_equal(percept_turn(steps_params(&f), 768 * 50), 48);
 }
 
 int main(void)

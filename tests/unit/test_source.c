@@ -172,7 +172,7 @@ static bool parses(const char *begin, const char *part, size_t times, const char
 {
     static char text[65536];
     struct source source = {.path = "a.cfg", .text = text};
-    config_t config;
+    config_t config = {0};
     size_t used = (size_t)snprintf(text, sizeof(text), "%s", begin);
 
     for (size_t i = 0; i < times; i++) {
@@ -181,7 +181,6 @@ static bool parses(const char *begin, const char *part, size_t times, const char
                               : (size_t)snprintf(text + used, sizeof(text) - used, "%c", *c);
     }
     source.bytes = used + (size_t)snprintf(text + used, sizeof(text) - used, "%s", end);
-    config_init(&config);
     int result = source_parse(&source, &config, &message);
     config_destroy(&config);
     return result == 0;

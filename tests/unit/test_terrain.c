@@ -192,41 +192,6 @@ static void test_craters_change_height_and_normal(void **state)
     crater_index_free(&craters);
 }
 
-/* Many points at once are the same ground, to the bit: within it, on posts and edges, outside. */
-static void test_four_points_are_four_times_one(void **state)
-{
-    const struct crater craters[] = {{25000.0, 25000.0, 900.0f, 30.0f, 1},
-                                     {25500.0, 25300.0, 700.0f, 20.0f, 1}};
-    struct crater_index index;
-    uint64_t random = fixture_seed(8);
-    (void)state;
-    roughen(&random);
-    assert_int_equal(crater_index_init(&index, craters), 0);
-    for (int i = 0; i < 40000; i++) {
-        double x[TERRAIN_POINTS], z[TERRAIN_POINTS], all[TERRAIN_POINTS];
-        bool dug = i % 2 == 1;
-        assert_int_equal(crater_index_update(&index, dug ? 2 : 0), 0);
-        for (int p = 0; p < TERRAIN_POINTS; p++) {
-            x[p] = fixture_uniform(&random, dug ? 23000.0 : -500.0, dug ? 27000.0 : 50500.0);
-            z[p] = fixture_uniform(&random, dug ? 23000.0 : -500.0, dug ? 27000.0 : 50500.0);
-            if (i % 3 == 0)
-                x[p] = SPACING * floor(x[p] / SPACING);
-            if (i % 5 == 0)
-                z[p] = x[p];
-        }
-        if (i % 7 == 0)
-            x[i % TERRAIN_POINTS] = NAN;
-        terrain_heights(&terrain, &index, x, z, all);
-        for (int p = 0; p < TERRAIN_POINTS; p++)
-            assert_true(all[p] == terrain_height(&terrain, &index, x[p], z[p]) ||
-                        (isnan(x[p]) && isnan(all[p])));
-        terrain_heights(&terrain, NULL, x, z, all);
-        for (int p = 0; p < TERRAIN_POINTS; p++)
-            assert_true(all[p] == height(x[p], z[p]));
-    }
-    crater_index_free(&index);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -234,7 +199,6 @@ int main(void)
         cmocka_unit_test(test_two_flat_triangles_a_cell_split_from_north_west_to_south_east),
         cmocka_unit_test(test_continuous_across_edges_and_diagonals),
         cmocka_unit_test(test_outside_the_edges_height_goes_on),
-        cmocka_unit_test(test_four_points_are_four_times_one),
         cmocka_unit_test(test_normal_of_level_and_tilted_ground),
         cmocka_unit_test(test_normal_is_a_unit_vector_upwards_everywhere),
         cmocka_unit_test(test_cover_is_the_nearest_posts),

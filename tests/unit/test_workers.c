@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -113,6 +114,54 @@ static void test_work_is_shared_by_threads(void **state)
     workers_destroy(workers);
 }
 
+static void rest_us(long us)
+{
+    nanosleep(&(struct timespec){.tv_nsec = us * 1000}, NULL);
+}
+
+/* Whether they still look for the next job, sleep, or are about to. */
+static void test_helpers_come_after_any_rest(void **state)
+{
+    (void)state;
+    struct workers *workers = workers_create(2);
+    for (long i = 0; i < 150; i += 3) {
+        _Atomic uint32_t met = 0;
+        rest_us(i);
+        workers_run(workers, meet, &met, 2, 1);
+        assert_int_equal(met, 2);
+    }
+    workers_destroy(workers);
+}
+
+struct delay {
+    _Atomic uint32_t met;
+    long us;
+    uint32_t done; /* by the helper */
+};
+
+static void meet_and_take_long(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    struct delay *delay = context;
+    meet(&delay->met, first, end, worker);
+    if (worker == 0)
+        return;
+    rest_us(delay->us);
+    delay->done = 1;
+}
+
+static void test_the_caller_waits_for_who_is_in(void **state)
+{
+    (void)state;
+    struct workers *workers = workers_create(2);
+    for (long us = 0; us < 1000; us += 100) {
+        struct delay delay = {.us = us};
+        workers_run(workers, meet_and_take_long, &delay, 2, 1);
+        assert_int_equal(delay.met, 2);
+        assert_int_equal(delay.done, 1);
+    }
+    workers_destroy(workers);
+}
+
 static void test_thousands_of_jobs_follow_each_other(void **state)
 {
     (void)state;
@@ -151,6 +200,8 @@ int main(void)
         cmocka_unit_test(test_nothing_to_do_calls_nothing),
         cmocka_unit_test(test_without_workers_the_caller_does_it),
         cmocka_unit_test(test_work_is_shared_by_threads),
+        cmocka_unit_test(test_helpers_come_after_any_rest),
+        cmocka_unit_test(test_the_caller_waits_for_who_is_in),
         cmocka_unit_test(test_thousands_of_jobs_follow_each_other),
         cmocka_unit_test(test_idle_workers_end),
         cmocka_unit_test(test_thread_counts_out_of_range_are_refused),
