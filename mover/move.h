@@ -120,9 +120,7 @@ void pose_steer(const struct move *move, uint32_t i, const struct wish *wish, do
  */
 double pose_slowing(const struct kind *kind, const struct wish *wish, double forward,
                     double drag_mps2);
-/* Speed [m/s] along the heading, and to its right; and the same by the heading's sine and cosine.
- */
-void pose_speeds(const struct entities *m, uint32_t i, double *forward, double *rightward);
+/* Speed [m/s] along the heading, and to its right, by the heading's sine and cosine. */
 void pose_along(const struct entities *m, uint32_t i, double sine, double cosine, double *forward,
                 double *rightward);
 /* Value moved towards wanted by at most step. */

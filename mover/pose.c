@@ -63,13 +63,6 @@ void pose_along(const struct entities *m, uint32_t i, double sine, double cosine
     *rightward = m->vx[i] * cosine + m->vz[i] * sine;
 }
 
-void pose_speeds(const struct entities *m, uint32_t i, double *forward, double *rightward)
-{
-    double sine, cosine;
-    maths_sincos(m->heading[i], &sine, &cosine);
-    pose_along(m, i, sine, cosine, forward, rightward);
-}
-
 double pose_approach(double value, double wanted, double step)
 {
     return value + maths_clamp(wanted - value, -step, step);

@@ -29,8 +29,6 @@ WORDS(behaviour_name, behaviour, "idle", "hold", "patrol", "route", "attack", "f
       "driven", "flight", "follow", "script", "withdraw", "resupply")
 WORDS(formation_shape_name, formation_shape, "column", "line", "wedge", "echelon-left",
       "echelon-right")
-WORDS(step_type_name, step_type, "go", "arrive", "face", "stop", "wait", "fire", "fire_at",
-      "controls", "altitude", "behaviour")
 WORDS(gear_name, gearing, "automatic", "reverse", "neutral", "low")
 WORDS(force_name, force, "neutral", "blue", "red")
 WORDS(event_type_name, event_type, "none", "collision", "fire", "detonation", "crater", "agent",

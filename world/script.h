@@ -52,6 +52,4 @@ struct script {
 _Static_assert(sizeof(struct script_step) == 80, "shared layout");
 _Static_assert(sizeof(struct script) == 48, "shared layout");
 
-const char *step_type_name(enum step_type type);
-
 #endif

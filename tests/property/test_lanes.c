@@ -100,13 +100,20 @@ static void stand_on_ground(const struct move *move, uint32_t i)
     m->roll[i] = maths_atan2(left - right, 2.0 * half_width);
 }
 
+static void speeds_of(const struct entities *m, uint32_t i, double *forward, double *rightward)
+{
+    double sine, cosine;
+    maths_sincos(m->heading[i], &sine, &cosine);
+    pose_along(m, i, sine, cosine, forward, rightward);
+}
+
 static bool drive_one(const struct move *move, uint32_t i, const struct wish *wish)
 {
     struct entities *m = move->m;
     const struct kind *kind = &move->world->kinds[m->kind[i]];
     double forward, rightward, sine, cosine;
     bool blocked = false;
-    pose_speeds(m, i, &forward, &rightward);
+    speeds_of(m, i, &forward, &rightward);
     double agility = maths_clamp(0.35 + (1.0 - 0.35) * fabs(forward) / 4.0, 0.0, 1.0);
     pose_steer(move, i, wish, kind->turn_rate_rps * agility);
     maths_sincos(m->heading[i], &sine, &cosine);
@@ -158,7 +165,7 @@ static bool fly_one(const struct move *move, uint32_t i, const struct wish *wish
     double ground =
         maths_max(pose_ground(move, m->x[i], m->z[i]),
                   pose_ground(move, m->x[i] + m->vx[i] * 3.0, m->z[i] + m->vz[i] * 3.0));
-    pose_speeds(m, i, &forward, &rightward);
+    speeds_of(m, i, &forward, &rightward);
     pose_steer(move, i, wish, kind->turn_rate_rps);
     maths_sincos(m->heading[i], &sine, &cosine);
 
