@@ -296,7 +296,8 @@ $(BUILD)/tests/unit/test_console_body: TEST_LIBS += $(DDS_LIBS)
 $(BUILD)/tests/unit/test_console_parts: $(call objects,$(addprefix console/,answer.c crowd.c fetch.c \
         pictures.c players.c secret.c text.c)) $(HTTP)
 $(BUILD)/tests/unit/test_sandbox: $(SANDBOX)
-$(BUILD)/tests/unit/test_sandbox: TEST_LIBS += $(SANDBOX_LIBS)
+$(BUILD)/tests/unit/test_sandbox: TEST_LIBS += $(SANDBOX_LIBS) $(DDS_LIBS)
+$(OBJ)/tests/unit/test_sandbox.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
 # Preloaded by system tests; it stands in the way of functions that the headers say much about.
 FAILING := $(BUILD)/tests/faults/failing.so
 $(FAILING): tests/faults/failing.c $(BUILD)/flags | $(TEST_STAMP)

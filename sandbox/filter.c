@@ -98,6 +98,7 @@ static const struct rule standing_by[] = {
 static const struct rule threads[] = {
     {SCMP_SYS(clone), 1, {BITS(0, CLONE_THREAD, CLONE_THREAD)}},
     WITH(prctl, 0, PR_SET_NAME),
+    WITH(prctl, 0, PR_GET_NAME), /* Cyclone DDS names the thread in whatever it logs */
     ANY(sched_getaffinity),
 };
 
@@ -138,9 +139,9 @@ static const struct rule networking[] = {
     ANY(setsockopt),
     ANY(getsockopt),
     ANY(getsockname),
-    ANY(sysinfo), /* DDS sorts 32 readers or more, and sorting asks how much memory there is */
     ANY(pselect6),
-    ANY(sysinfo), /* sorting a peer's many types, the C library asks how much memory there is */
+    ANY(sysinfo), /* sorting many readers, or a peer's types: sorting asks how much memory there is
+                   */
     ANY(read),
     ANY(bind),
     ANY(connect),

@@ -14,6 +14,8 @@
 #define CALLS_MAX  512 /* numbers above have no name here */
 #define NAME_BYTES 32
 
+#define KERNEL_SET_BYTES 8 /* of a set of signals, as the kernel has it: a bit for each of 64 */
+
 static char names[CALLS_MAX][NAME_BYTES];
 static char beginning[96];
 
@@ -53,6 +55,30 @@ static void on_trap(int signal_number, siginfo_t *info, void *context)
     ssize_t written = write(STDERR_FILENO, line, length);
     (void)written; /* nowhere left to complain */
     syscall(SYS_tgkill, getpid(), (pid_t)syscall(SYS_gettid), signal_number);
+}
+
+/* Threads of libraries begin with every signal blocked, and the kernel ends a process that blocks
+ * the trap's signal without calling its handler. So nobody blocks it: these two stand in front of
+ * the C library's functions, for this program and the shared libraries that it uses. */
+int pthread_sigmask(int how, const sigset_t *wanted, sigset_t *before)
+{
+    sigset_t set;
+    if (wanted) {
+        set = *wanted;
+        if (how != SIG_UNBLOCK)
+            sigdelset(&set, SIGSYS);
+        wanted = &set;
+    }
+    return syscall(SYS_rt_sigprocmask, how, wanted, before, (size_t)KERNEL_SET_BYTES) == 0 ? 0
+                                                                                           : errno;
+}
+
+int sigprocmask(int how, const sigset_t *wanted, sigset_t *before)
+{
+    int error = pthread_sigmask(how, wanted, before);
+    if (error != 0)
+        errno = error;
+    return error == 0 ? 0 : -1;
 }
 
 static void look_up_names(void)

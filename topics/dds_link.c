@@ -5,6 +5,7 @@
 #include "ipc/log.h"
 #include "topics/dds_config.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <netinet/in.h>
 #include <pthread.h>
@@ -25,18 +26,26 @@ static struct {
 
 static volatile sig_atomic_t close_exit_code;
 
+/* Up to the end of its line. The text may come from any datagram, in no particular encoding. */
+static void keep_text(const char *message)
+{
+    size_t length = strcspn(message, "\n");
+    if (length >= sizeof said.last)
+        length = sizeof said.last - 1;
+    for (size_t i = 0; i < length; i++)
+        said.last[i] = isprint((unsigned char)message[i]) ? message[i] : '?';
+    said.last[length] = '\0';
+}
+
 static void take_log(void *unused, const dds_log_data_t *data)
 {
     (void)unused;
     if (!(data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_WARNING)))
         return;
     (void)pthread_mutex_lock(&said.lock);
-    size_t length = strcspn(data->message, "\n");
-    if (length >= sizeof said.last)
-        length = sizeof said.last - 1;
-    memcpy(said.last, data->message, length);
-    said.last[length] = '\0';
-    if (!said.quiet && log_due(&said.logged_ns, NS_PER_S))
+    keep_text(data->message);
+    /* Cyclone DDS aborts after a fatal message. */
+    if (!said.quiet && (data->priority & DDS_LC_FATAL || log_due(&said.logged_ns, NS_PER_S)))
         log_warn("dds: %s", said.last);
     (void)pthread_mutex_unlock(&said.lock);
 }

@@ -8,6 +8,7 @@
 #include "tests/support/named_world.h"
 #include "world/workers.h"
 
+#include <dds/ddsrt/threads.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <netinet/in.h>
@@ -237,6 +238,7 @@ static void handle(int signal_number)
     X("personality", NONE, syscall(SYS_personality, 0x0400000))                                    \
     X("prctl", NONE, prctl(PR_SET_DUMPABLE, 1))                                                    \
     X("prctl", W | P | R, prctl(PR_SET_NAME, "name"))                                              \
+    X("prctl", W | P | R, prctl(PR_GET_NAME, said))                                                \
     X("setuid", NONE, syscall(SYS_setuid, 0))                                                      \
     X("capset", NONE, syscall(SYS_capset, NULL, NULL))                                             \
     X("seccomp", NONE, syscall(SYS_seccomp, 1, 0, NULL))                                           \
@@ -393,13 +395,19 @@ static void test_a_thread_made_before_is_confined_too(void **state)
     assert_int_equal(run(confine_older_thread, NULL), -SIGSYS);
 }
 
-static int loosen(void *context)
+/* The ways to block every signal: the C library's functions, and none of them. */
+static int block_and_open(void *context)
 {
+    const int *way = context;
     sigset_t all;
-    (void)context;
     int result = enter(ROLE_MOVER);
     sigfillset(&all);
-    sigprocmask(SIG_BLOCK, &all, NULL); /* blocked, the trap ends the process without a word */
+    if (*way == 0)
+        sigprocmask(SIG_BLOCK, &all, NULL);
+    else if (*way == 1)
+        pthread_sigmask(SIG_SETMASK, &all, NULL);
+    else
+        syscall(SYS_rt_sigprocmask, SIG_BLOCK, &all, NULL, 8);
     attempt(0);
     return result;
 }
@@ -407,7 +415,42 @@ static int loosen(void *context)
 static void test_blocking_the_signal_does_not_help(void **state)
 {
     (void)state;
-    assert_int_equal(run(loosen, NULL), -SIGSYS);
+    for (int way = 0; way < 3; way++) {
+        assert_int_equal(run(block_and_open, &way), -SIGSYS);
+        if (!strstr(said, "forbids system call") != (way == 2))
+            fail_msg("way %d to block all signals: it said \"%s\"", way, said);
+    }
+}
+
+static uint32_t open_in_dds_thread(void *argument)
+{
+    (void)open_when_entered(argument);
+    return 0;
+}
+
+/* Cyclone DDS blocks every signal in the threads that it makes. */
+static int make_dds_thread(void *context)
+{
+    struct sandbox sandbox;
+    ddsrt_thread_t thread;
+    ddsrt_threadattr_t attributes;
+    (void)context;
+    ddsrt_threadattr_init(&attributes);
+    if (sandbox_begin(&sandbox, ROLE_REPORTER, false, &reason) != 0 ||
+        ddsrt_thread_create(&thread, "dds", &attributes, open_in_dds_thread, NULL) != 0 ||
+        sandbox_enter(&sandbox, &reason) != 0)
+        return NOT_ENTERED;
+    entered = 1;
+    ddsrt_thread_join(thread, NULL);
+    return 1;
+}
+
+static void test_a_thread_of_dds_says_why_it_ends(void **state)
+{
+    (void)state;
+    assert_int_equal(run(make_dds_thread, NULL), -SIGSYS);
+    if (!strstr(said, "jolon-reporter: the sandbox forbids system call 2 (open)\n"))
+        fail_msg("it said \"%s\"", said);
 }
 
 static void allocate_row(void *context, uint32_t first, uint32_t end, uint32_t worker)
@@ -712,6 +755,7 @@ int main(void)
         cmocka_unit_test(test_each_role_may_do_what_it_needs_and_nothing_else),
         cmocka_unit_test(test_a_thread_made_before_is_confined_too),
         cmocka_unit_test(test_blocking_the_signal_does_not_help),
+        cmocka_unit_test(test_a_thread_of_dds_says_why_it_ends),
         cmocka_unit_test(test_workers_allocate_and_end_inside),
         cmocka_unit_test(test_crashes_stay_what_they_are),
         cmocka_unit_test(test_a_wait_goes_on_after_stop_and_continue),
