@@ -274,6 +274,7 @@ $(OBJ)/tests/unit/test_desk.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
 $(OBJ)/tests/unit/test_desk.o: $(IDL)/status.h
 $(BUILD)/tests/unit/test_judge $(BUILD)/tests/unit/test_watch: $(KEEPER)
 $(BUILD)/tests/crash/test_crash: $(call objects,$(CRASH_SRC))
+$(BUILD)/tests/property/test_workload: $(call objects,bench/engine_jolon.c bench/workload.c)
 $(GOLDEN_TESTS): $(call objects,bench/scene.c bench/world.c) $(PICTURE)
 $(GOLDEN_TESTS): TEST_LIBS += $(RENDER_LIBS) $(call pc,libs,libpng)
 $(BUILD)/tests/unit/test_output: $(call objects,$(addprefix renderer/,image/image.c output/output.c image/png.c))

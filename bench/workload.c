@@ -117,8 +117,20 @@ static void move_axis(double *at, double *speed)
         *speed = -*speed;
 }
 
-void workload_step(struct workload *workload, const struct engine_touches *touches)
+static int by_bodies(const void *p, const void *q)
 {
+    const struct engine_touch *a = p, *b = q;
+    if (a->a != b->a)
+        return a->a < b->a ? -1 : 1;
+    return (a->b > b->b) - (a->b < b->b);
+}
+
+void workload_step(struct workload *workload, struct engine_touches *touches)
+{
+    /* A body that touches two others ends up at a speed that depends on which of the two is
+     * answered first. */
+    if (touches->count > 0)
+        qsort(touches->touch, touches->count, sizeof *touches->touch, by_bodies);
     for (size_t i = 0; i < touches->count; i++)
         bounce(workload, touches->touch[i]);
     for (uint32_t i = 0; i < workload->scene.bodies; i++) {
