@@ -3,6 +3,7 @@
 
 #include "collider/rows.h"
 #include "world/entity.h"
+#include "world/sort.h"
 
 #include <errno.h>
 #include <stdatomic.h>
@@ -116,12 +117,6 @@ int broad_pairs(struct broad *broad, const struct detect_input *input)
 
 /* --- queries -----------------------------------------------------------------------------------*/
 
-static int by_row(const void *p, const void *q)
-{
-    const struct pair *a = p, *b = q;
-    return a->a != b->a ? (a->a < b->a ? -1 : 1) : (a->b > b->b) - (a->b < b->b);
-}
-
 /* Puts what was added since in order, each once. */
 static void order_found(struct pair_list *found, uint32_t since)
 {
@@ -129,9 +124,9 @@ static void order_found(struct pair_list *found, uint32_t since)
     uint32_t count = found->count - since, kept = 0;
     if (count == 0)
         return;
-    qsort(pair, count, sizeof *pair, by_row);
+    sort_words(pair, count);
     for (uint32_t i = 0; i < count; i++) {
-        if (kept == 0 || by_row(&pair[kept - 1], &pair[i]) != 0)
+        if (kept == 0 || pair[kept - 1].a != pair[i].a || pair[kept - 1].b != pair[i].b)
             pair[kept++] = pair[i];
     }
     found->count = since + kept;

@@ -10,12 +10,13 @@
 #include "collider/detect.h"
 
 #include "world/random.h"
+#include "world/sort.h"
 
 #include <string.h>
 
 #define NOBODY UINT32_MAX
 
-enum { BLOCK_STARTS, BLOCK_ENDS, BLOCK_SORT, BLOCK_NODE };
+enum { BLOCK_STARTS, BLOCK_ENDS, BLOCK_NODE };
 
 /* Where along x the plane meets a body, or leaves a node, as bits that ascend with it. */
 struct mark {
@@ -47,23 +48,6 @@ static uint32_t ascending_bits(float value)
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
     return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
-}
-
-/* Stable radix sort by key, in four passes of 8 bits: the result is in mark again. */
-static void sort_marks(struct mark *mark, struct mark *other, uint32_t count)
-{
-    for (uint32_t shift = 0; shift < 32; shift += 8) {
-        uint32_t start[257] = {0};
-        for (uint32_t i = 0; i < count; i++)
-            start[(mark[i].key >> shift & 255u) + 1]++;
-        for (int digit = 0; digit < 256; digit++)
-            start[digit + 1] += start[digit];
-        for (uint32_t i = 0; i < count; i++)
-            other[start[mark[i].key >> shift & 255u]++] = mark[i];
-        struct mark *swap = mark;
-        mark = other;
-        other = swap;
-    }
 }
 
 /* --- what the plane cuts -----------------------------------------------------------------------*/
@@ -202,13 +186,12 @@ static int pass(struct sweep *sweep, const struct mark *starts, const struct mar
 
 /* Puts the bodies in the order in which the plane meets them (starts) and leaves them (ends, by
  * their nodes). */
-static void put_in_order(struct sweep *sweep, struct mark *starts, struct mark *ends,
-                         struct mark *other)
+static void put_in_order(struct sweep *sweep, struct mark *starts, struct mark *ends)
 {
     uint32_t count = sweep->bodies.count;
     for (uint32_t i = 0; i < count; i++)
         starts[i] = (struct mark){ascending_bits(sweep->bodies.box[i].min_x), i};
-    sort_marks(starts, other, count);
+    sort_words(starts, count);
     for (uint32_t i = 0; i < count; i++) {
         const struct sweep_box *box = &sweep->bodies.box[starts[i].what];
         sweep->node[i] = (struct node){.min_z = box->min_z,
@@ -218,7 +201,7 @@ static void put_in_order(struct sweep *sweep, struct mark *starts, struct mark *
                                        .body = starts[i].what};
         ends[i] = (struct mark){ascending_bits(box->max_x), i};
     }
-    sort_marks(ends, other, count);
+    sort_words(ends, count);
 }
 
 int hopcroft_pairs(const struct detect_input *input, struct detect_workspace **workspace,
@@ -230,10 +213,9 @@ int hopcroft_pairs(const struct detect_input *input, struct detect_workspace **w
     uint32_t count = sweep.bodies.count;
     struct mark *starts = detect_block(workspace, BLOCK_STARTS, count, sizeof *starts);
     struct mark *ends = detect_block(workspace, BLOCK_ENDS, count, sizeof *ends);
-    struct mark *other = detect_block(workspace, BLOCK_SORT, count, sizeof *other);
     sweep.node = detect_block(workspace, BLOCK_NODE, count, sizeof *sweep.node);
-    if (!starts || !ends || !other || !sweep.node)
+    if (!starts || !ends || !sweep.node)
         return -1;
-    put_in_order(&sweep, starts, ends, other);
+    put_in_order(&sweep, starts, ends);
     return pass(&sweep, starts, ends);
 }

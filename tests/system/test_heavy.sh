@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# What is heaviest for the collider, with the sandbox on: the run ends as one without a sandbox does.
+. "$(dirname "$0")/lib.sh"
+
+# run_both NAME FRAMES: the scenario in NAME.cfg, with the sandbox and without.
+run_both() {
+    local way options
+    for way in on off; do
+        options=(--without renderer --without reporter --out "out-$way" --frames "$2" --json)
+        [ $way = on ] || options+=(--no-sandbox)
+        "$jolon" run -w "$name" "${options[@]}" "$1.cfg" >"$way.json" 2>"$way.err"
+        check "$1: ends with 0, the sandbox $way" equal $? 0
+    done
+    check "$1: the same digest" equal "$(json digest <on.json)" "$(json digest <off.json)"
+    check "$1: the same events" equal "$(json event_digest <on.json)" "$(json event_digest <off.json)"
+    check "$1: nobody died" equal "$(json restarts <on.json)" 0
+    check "$1: nothing was forbidden" bash -c "! grep -h 'sandbox forbids' on.err out-on/jolon.log"
+}
+
+world() {
+    echo 'world = { name = "heavy"; seed = 7; capacity = 256; pace = "max"; };'
+    echo 'terrain = { source = "flat"; height_m = 100.0; };'
+}
+
+# grid KIND STEP SIDE: objects on a square, STEP metres apart.
+grid() {
+    awk -v kind="$1" -v step="$2" -v side="$3" 'BEGIN {
+        print "objects = ("
+        for (i = 0; i < side * side; i++)
+            printf "%s{ kind = \"%s\"; at = [%.1f, %.1f]; }\n", i ? "," : "", kind,
+                   25000 + step * (i % side), 25000 + step * int(i / side)
+        print ");" }'
+}
+
+{ world; grid tree 5 31; echo 'fires = ( { at_s = 0.2; munition = "bomb"; point = [25075.0, 25075.0]; } );'; } >forest.cfg
+run_both forest 90
+check "forest: the bomb went off" equal "$(json detonations <on.json)" 1
+
+{ world; grid bush 2.5 41; cat <<'TEXT'; } >bushes.cfg
+vehicles = ( { kind = "tank"; at = [25050.0, 25110.0]; heading_deg = 0.0; speed_mps = 15.0; behaviour = "hold"; } );
+fires = ( { at_s = 0.2; munition = "bomb"; point = [25050.0, 25050.0]; } );
+TEXT
+run_both bushes 90
+check "bushes: the bomb went off" equal "$(json detonations <on.json)" 1
+
+# Every tank turns and drives off, in all the others.
+{ world; awk 'BEGIN {
+    print "vehicles = ("
+    for (i = 0; i < 100; i++)
+        printf "%s{ kind = \"tank\"; at = [25000.0, 25000.0]; heading_deg = %.1f; speed_mps = 10.0; behaviour = \"hold\"; }\n",
+               i ? "," : "", i * 3.6
+    print ");" }'; } >spot.cfg
+run_both spot 30
+check "spot: they collide" test "$(json collisions <on.json)" -gt 1000
+check "nothing is left" nothing_left "$name"
+done_testing
