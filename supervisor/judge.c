@@ -4,26 +4,34 @@
 #include "ipc/clock.h"
 #include "ipc/log.h"
 
-#define STATUS_KILLED (128 + 9)
-#define FREE_RESTARTS 8u /* kills from outside that cost no wait */
-#define DELAY_STEP_NS (50 * (uint64_t)NS_PER_MS)
-#define LONG_LIFE_NS  (5 * (uint64_t)NS_PER_S) /* of a role that makes no frames */
-#define DELAY_MAX_NS  ((uint64_t)NS_PER_S)
+#define STATUS_KILLED  (128 + 9)
+#define FREE_RESTARTS  8u /* kills from outside that cost no wait */
+#define FIRST_PAUSE_NS (50 * (uint64_t)NS_PER_MS)
+#define LONG_LIFE_NS   (5 * (uint64_t)NS_PER_S) /* of a role that makes no frames */
 
 bool judge_makes_frames(enum role role)
 {
     return role == ROLE_MOVER || role == ROLE_COLLIDER;
 }
 
-static uint64_t delay_after(uint32_t deaths, uint32_t free)
+bool judge_refused(int status)
 {
-    uint64_t delay = deaths > free ? (deaths - free) * DELAY_STEP_NS : 0;
-    return delay < DELAY_MAX_NS ? delay : DELAY_MAX_NS;
+    return status == EXIT_REFUSED || status == EXIT_USAGE;
 }
 
-static enum verdict give_up(enum role role)
+/* The deaths up to free cost no pause; from then on the pause doubles with each. */
+static uint64_t pause_after(enum role role, uint32_t deaths, uint32_t free)
 {
-    return judge_makes_frames(role) ? VERDICT_GIVE_UP : VERDICT_WITHOUT;
+    uint64_t most = judge_makes_frames(role) ? JUDGE_FRAME_PAUSE_MAX_NS : JUDGE_PAUSE_MAX_NS;
+    uint64_t pause = deaths > free ? FIRST_PAUSE_NS : 0;
+    for (uint32_t i = free + 1; i < deaths && pause < most; i++)
+        pause *= 2;
+    return pause < most ? pause : most;
+}
+
+static enum verdict give_up_after(enum role role, uint32_t deaths, uint32_t most)
+{
+    return judge_makes_frames(role) && deaths >= most ? VERDICT_GIVE_UP : VERDICT_RESTART;
 }
 
 /* A kill from outside, or a request to stop that was not ours, says nothing about the frame, and
@@ -31,11 +39,13 @@ static enum verdict give_up(enum role role)
 static enum verdict killed(struct history *history, const struct death *death, uint64_t *delay_ns)
 {
     history->quick_kills++;
-    *delay_ns = delay_after(history->quick_kills, FREE_RESTARTS);
-    return history->quick_kills < JUDGE_QUICK_KILLS ? VERDICT_RESTART : give_up(death->role);
+    *delay_ns = pause_after(death->role, history->quick_kills, FREE_RESTARTS);
+    return give_up_after(death->role, history->quick_kills, JUDGE_QUICK_KILLS);
 }
 
-static enum verdict crashed(struct history *history, const struct death *death, uint64_t *delay_ns)
+/* It crashed, or it makes no frames and refused: what it refused may be put right meanwhile, as a
+ * port that another has, or a full disk. */
+static enum verdict failed(struct history *history, const struct death *death, uint64_t *delay_ns)
 {
     if (judge_makes_frames(death->role)) {
         if (history->crash_frame != death->frame)
@@ -45,8 +55,8 @@ static enum verdict crashed(struct history *history, const struct death *death, 
             return VERDICT_POISON;
     }
     history->quick_crashes++;
-    *delay_ns = delay_after(history->quick_crashes, 1);
-    return history->quick_crashes < JUDGE_QUICK_CRASHES ? VERDICT_RESTART : give_up(death->role);
+    *delay_ns = pause_after(death->role, history->quick_crashes, 1);
+    return give_up_after(death->role, history->quick_crashes, JUDGE_QUICK_CRASHES);
 }
 
 /* What it got done wipes out what went before. */
@@ -58,7 +68,7 @@ static void forgive(struct history *history, const struct death *death)
         history->stood_by = 0;
     if (makes_frames ? frames : death->was_ready)
         history->quick_kills = 0;
-    if (makes_frames ? frames : death->lived_ns > LONG_LIFE_NS)
+    if (makes_frames ? frames : death->was_ready && death->lived_ns > LONG_LIFE_NS)
         history->quick_crashes = 0;
 }
 
@@ -68,13 +78,13 @@ enum verdict judge_death(struct history *history, const struct death *death, uin
     if (death->status == EXIT_OK && judge_makes_frames(death->role) && death->finished)
         return VERDICT_FINISHED;
     if (death->stood_by) { /* no frame was lost by it, and none stands for its want */
-        *delay_ns = delay_after(++history->stood_by, FREE_RESTARTS);
+        *delay_ns = pause_after(death->role, ++history->stood_by, FREE_RESTARTS);
         return VERDICT_RESTART;
     }
-    if (death->status == EXIT_REFUSED || death->status == EXIT_USAGE)
-        return judge_makes_frames(death->role) ? VERDICT_REFUSED : VERDICT_WITHOUT;
+    if (judge_refused(death->status) && judge_makes_frames(death->role))
+        return VERDICT_REFUSED;
     forgive(history, death);
     if (death->status == EXIT_OK || (death->status == STATUS_KILLED && !death->hung))
         return killed(history, death, delay_ns);
-    return crashed(history, death, delay_ns);
+    return failed(history, death, delay_ns);
 }

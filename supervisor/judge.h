@@ -1,5 +1,7 @@
-/* What a death means: start again, go on without, end, or give up. Pure: a history and a death in,
- * a verdict out. */
+/* What a death means: start again, end, or give up. Pure: a history and a death in, a verdict out.
+ *
+ * Only the mover and the collider can end a set. Every other role is started again for ever, after
+ * pauses that double up to JUDGE_PAUSE_MAX_NS while it gets nothing done. */
 #ifndef JOLON_SUPERVISOR_JUDGE_H
 #define JOLON_SUPERVISOR_JUDGE_H
 
@@ -10,10 +12,13 @@
 
 /* Crashes of a frame role on one frame after which that frame is poison. */
 #define JUDGE_SAME_FRAME_DEATHS 3u
-/* Crashes in a row, without getting a frame done, after which a role is given up. */
+/* Crashes of a frame role in a row, without getting a frame done, after which the set gives up. */
 #define JUDGE_QUICK_CRASHES 5u
 /* The same for kills from outside: somebody's whim, or a machine that has no memory left. */
 #define JUDGE_QUICK_KILLS 60u
+/* Longest pause before a role that makes no frames is started again, and before one that does. */
+#define JUDGE_PAUSE_MAX_NS       5000000000u
+#define JUDGE_FRAME_PAUSE_MAX_NS 1000000000u
 
 struct death {
     enum role role;
@@ -29,7 +34,7 @@ struct death {
 
 /* Of one role; begin with zeros. */
 struct history {
-    uint32_t quick_crashes, quick_kills; /* in a row */
+    uint32_t quick_crashes, quick_kills; /* in a row; refusals count as crashes */
     uint32_t stood_by;                   /* deaths in a row of who only stood by */
     uint32_t same_frame;                 /* crashes on crash_frame */
     uint64_t crash_frame;
@@ -37,7 +42,6 @@ struct history {
 
 enum verdict {
     VERDICT_RESTART,
-    VERDICT_WITHOUT,  /* the rest goes on */
     VERDICT_FINISHED, /* it ended because the run did */
     VERDICT_REFUSED,  /* a frame role ended with exit code 1 or 2: it said why */
     VERDICT_POISON,   /* this frame always kills the role */
@@ -49,5 +53,8 @@ enum verdict judge_death(struct history *history, const struct death *death, uin
 
 /* Is this role one of the two that make frames? */
 bool judge_makes_frames(enum role role);
+
+/* Is this the exit status of a process that said what it refused? */
+bool judge_refused(int status);
 
 #endif

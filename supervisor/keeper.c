@@ -1,9 +1,10 @@
 /* jolon-keeper: keeps the processes of a world going until its run is over. The script jolon turns
  * into it once the world is made, with the set's lock held; nobody else starts it.
  *
- * One thread, one loop: children's deaths and requests to stop come as signals that it waits for,
- * and between them it looks after the hearts. It restarts a child only after the kernel has
- * reported its death, and its own death takes them all along (they ask the kernel for that). */
+ * One thread, one loop: children's deaths and requests come as signals that it waits for, and
+ * between them it looks after the hearts. SIGTERM, SIGINT and SIGHUP end the set; SIGCONT ends
+ * every pause before a restart. It restarts a child only after the kernel has reported its death,
+ * and its own death takes them all along (they ask the kernel for that). */
 #include "ipc/clock.h"
 #include "ipc/frame.h"
 #include "ipc/log.h"
@@ -90,7 +91,7 @@ static void last_words(const struct keeper *keeper, enum role role, char *text, 
 /* A frame role found the world damaged: it is taken back to its last whole frame, once a frame. */
 static void repair(struct keeper *keeper, enum role role)
 {
-    char text[1200];
+    char text[SET_WORDS_MAX];
     const char *const repair_verb[] = {"jolon-world", "repair", "--world", keeper->plan->world,
                                        NULL};
     uint64_t frame = set_frame(&keeper->set);
@@ -110,11 +111,22 @@ static void repair(struct keeper *keeper, enum role role)
              keeper->repaired_frame);
 }
 
+/* Says once what a role refuses, however often it is tried again, and anew when that changes. */
+static void tell_refusal(struct keeper *keeper, struct post *post)
+{
+    char text[SET_WORDS_MAX];
+    last_words(keeper, post->role, text, sizeof text);
+    if (strcmp(text, post->refused) != 0)
+        set_note(&keeper->set, "goes on without the %s and keeps trying: %s", role_name(post->role),
+                 text);
+    snprintf(post->refused, sizeof post->refused, "%s", text);
+}
+
 static void take_death(struct keeper *keeper, struct post *post, struct child *child, int status)
 {
     const struct child *heir = set_holder(&keeper->set, post->role);
     struct child dead = *child;
-    char text[1200];
+    char text[SET_WORDS_MAX];
     uint64_t delay = 0;
     struct death death = {.role = post->role,
                           .status = status,
@@ -134,15 +146,14 @@ static void take_death(struct keeper *keeper, struct post *post, struct child *c
             delay = HEIR_NS;
         post->spawn_at_ns = clock_now_ns() + delay;
         set_spawn(&keeper->set, clock_now_ns());
+        if (judge_refused(status) && !death.stood_by) {
+            tell_refusal(keeper, post);
+            break;
+        }
+        if (dead.was_ready)
+            post->refused[0] = '\0';
         set_note(&keeper->set, "%s (pid %d) ended with status %d at frame %" PRIu64,
                  role_name(post->role), dead.pid, status, death.frame);
-        break;
-    case VERDICT_WITHOUT:
-        post->wanted = 0;
-        last_words(keeper, post->role, text, sizeof text);
-        if (status != EXIT_REFUSED && status != EXIT_USAGE)
-            snprintf(text, sizeof text, "it died again and again, last with status %d", status);
-        set_note(&keeper->set, "goes on without the %s: %s", role_name(post->role), text);
         break;
     case VERDICT_FINISHED:
         keeper->over |= post->role == ROLE_MOVER; /* the collider's end comes before */
@@ -191,7 +202,9 @@ static void turn(struct keeper *keeper)
 {
     const struct timespec tick = {.tv_nsec = (long)WATCH_TICK_NS};
     int signal_number = sigtimedwait(&keeper->signals, NULL, &tick);
-    if (signal_number > 0 && signal_number != SIGCHLD)
+    if (signal_number == SIGCONT)
+        set_hurry(&keeper->set);
+    else if (signal_number > 0 && signal_number != SIGCHLD)
         keeper->over = true;
     take_children(keeper);
     if (keeper->over)
@@ -201,6 +214,13 @@ static void turn(struct keeper *keeper)
     set_spawn(&keeper->set, now);
     if (!keeper->plan->background && !keeper->plan->json)
         progress_turn(&keeper->progress, &keeper->set.view);
+}
+
+/* Is the role still to be waited for? Not when it is left out, refused, or dies again and again. */
+static bool starts(const struct post *post)
+{
+    return post->wanted > 0 && post->refused[0] == '\0' &&
+           post->history.quick_crashes < JUDGE_QUICK_CRASHES;
 }
 
 /* One role after the other, the mover last: frames begin when everybody is there to see them. */
@@ -219,7 +239,7 @@ static void start_set(struct keeper *keeper)
         uint64_t until = clock_now_ns() + READY_NS;
         post->wanted = wanted[order[i]];
         set_spawn(set, clock_now_ns());
-        while (!keeper->over && post->wanted > 0 && !set_ready(set, order[i])) {
+        while (!keeper->over && !set_ready(set, order[i]) && starts(post)) {
             turn(keeper);
             if (clock_now_ns() > until) {
                 set_note(set, "the %s is not ready after %.0f s; goes on meanwhile",
@@ -250,7 +270,12 @@ static void stop_set(struct keeper *keeper)
     static const enum role order[] = {ROLE_MOVER, ROLE_COLLIDER, ROLE_RECORDER, ROLE_RENDERER,
                                       ROLE_REPORTER};
     for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
-        if (set_stop(&keeper->set, order[i]) == EXIT_OK || order[i] != ROLE_RECORDER)
+        if (order[i] != ROLE_RECORDER) {
+            (void)set_stop(&keeper->set, order[i]);
+            continue;
+        }
+        if (keeper->plan->left_out[ROLE_RECORDER] ||
+            set_finish(&keeper->set, ROLE_RECORDER) == EXIT_OK)
             continue;
         set_note(&keeper->set, "the recorder could not write all: see its last lines in %s",
                  keeper->plan->log);
@@ -301,6 +326,7 @@ int main(int argc, char **argv)
     sigaddset(&keeper.signals, SIGINT);
     sigaddset(&keeper.signals, SIGTERM);
     sigaddset(&keeper.signals, SIGHUP);
+    sigaddset(&keeper.signals, SIGCONT);
     sigprocmask(SIG_BLOCK, &keeper.signals, NULL);
     /* What we inherited, the lock above all, is not our children's. */
     close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);

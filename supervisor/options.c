@@ -6,27 +6,33 @@
 
 #include <getopt.h>
 
-static const struct option known[] = {{"world", required_argument, NULL, 'w'},
-                                      {"out", required_argument, NULL, 'o'},
-                                      {"log", required_argument, NULL, 'l'},
-                                      {"ready", required_argument, NULL, 'r'},
-                                      {"commands", required_argument, NULL, 'm'},
-                                      {"events", required_argument, NULL, 'e'},
-                                      {"checkpoint", required_argument, NULL, 'c'},
-                                      {"every", required_argument, NULL, 'n'},
-                                      {"threads", required_argument, NULL, 't'},
-                                      {"without", required_argument, NULL, 'x'},
-                                      {"hang-ms", required_argument, NULL, 'H'},
-                                      {"fps", required_argument, NULL, 'd'},
-                                      {"video", required_argument, NULL, 'd'},
-                                      {"video-view", required_argument, NULL, 'd'},
-                                      {"video-fps", required_argument, NULL, 'd'},
-                                      {"stream", required_argument, NULL, 'd'},
-                                      {"stream-address", required_argument, NULL, 'd'},
-                                      {"background", no_argument, NULL, 'b'},
-                                      {"json", no_argument, NULL, 'j'},
-                                      {"no-sandbox", no_argument, NULL, 's'},
-                                      {NULL, 0, NULL, 0}};
+#define PASSED 1000 /* with the role added: an option of that role's */
+
+static const struct option known[] = {
+    {"world", required_argument, NULL, 'w'},
+    {"out", required_argument, NULL, 'o'},
+    {"log", required_argument, NULL, 'l'},
+    {"ready", required_argument, NULL, 'r'},
+    {"commands", required_argument, NULL, 'm'},
+    {"events", required_argument, NULL, 'e'},
+    {"checkpoint", required_argument, NULL, 'c'},
+    {"every", required_argument, NULL, 'n'},
+    {"threads", required_argument, NULL, 't'},
+    {"without", required_argument, NULL, 'x'},
+    {"hang-ms", required_argument, NULL, 'H'},
+    {"fps", required_argument, NULL, PASSED + ROLE_RENDERER},
+    {"video", required_argument, NULL, PASSED + ROLE_RENDERER},
+    {"video-view", required_argument, NULL, PASSED + ROLE_RENDERER},
+    {"video-fps", required_argument, NULL, PASSED + ROLE_RENDERER},
+    {"stream", required_argument, NULL, PASSED + ROLE_RENDERER},
+    {"stream-address", required_argument, NULL, PASSED + ROLE_RENDERER},
+    {"interface", required_argument, NULL, PASSED + ROLE_REPORTER},
+    {"domain", required_argument, NULL, PASSED + ROLE_REPORTER},
+    {"dds-config", required_argument, NULL, PASSED + ROLE_REPORTER},
+    {"background", no_argument, NULL, 'b'},
+    {"json", no_argument, NULL, 'j'},
+    {"no-sandbox", no_argument, NULL, 's'},
+    {NULL, 0, NULL, 0}};
 
 static void leave_out(struct plan *plan, const char *name)
 {
@@ -36,13 +42,13 @@ static void leave_out(struct plan *plan, const char *name)
     plan->left_out[role] = true;
 }
 
-/* The renderer reads it itself, and says what is wrong with it. */
-static void pass_on(struct plan *plan, const char *option, const char *value)
+/* The role reads it itself, and says what is wrong with it. */
+static void pass_on(struct passed *passed, const char *option, const char *value)
 {
-    if (plan->drawings + 2 > PLAN_DRAWING_MAX)
-        die_usage("%s %s: too many options of the renderer", option, value);
-    plan->drawing[plan->drawings++] = option;
-    plan->drawing[plan->drawings++] = value;
+    if (passed->count + 2 > PLAN_PASSED_MAX)
+        die_usage("%s %s: too many options of one role", option, value);
+    passed->argument[passed->count++] = option;
+    passed->argument[passed->count++] = value;
 }
 
 struct plan options_plan(int argc, char **argv)
@@ -65,8 +71,8 @@ struct plan options_plan(int argc, char **argv)
             *text = optarg;
         else if (option == 'x')
             leave_out(&plan, optarg);
-        else if (option == 'd')
-            pass_on(&plan, argv[optind - 2], optarg);
+        else if (option >= PASSED)
+            pass_on(&plan.passed[option - PASSED], argv[optind - 2], optarg);
         else if (option == 'H')
             plan.hang_ms = process_whole("hang-ms", optarg, 20, 3600000);
         else if (option == 'b')

@@ -21,6 +21,7 @@
 #define ARGUMENTS_MAX 40
 #define STOP_NS       (5 * (uint64_t)NS_PER_S) /* a child that takes longer to end is killed */
 #define POLL_NS       (5 * (uint64_t)NS_PER_MS)
+#define FINISH_NS     (10 * (uint64_t)NS_PER_S) /* for a role's last work to be begun */
 
 int set_open(struct set *set, const struct plan *plan, struct reason *reason)
 {
@@ -94,8 +95,6 @@ static void role_arguments(struct command_line *line, const struct plan *plan, e
         break;
     case ROLE_RENDERER:
         add(line, "--out", plan->out);
-        for (int i = 0; i < plan->drawings; i++)
-            add(line, NULL, plan->drawing[i]);
         break;
     case ROLE_RECORDER:
         add(line, "--commands", plan->commands);
@@ -109,6 +108,8 @@ static void role_arguments(struct command_line *line, const struct plan *plan, e
     default:
         break;
     }
+    for (int i = 0; i < plan->passed[role].count; i++)
+        add(line, NULL, plan->passed[role].argument[i]);
 }
 
 /* The child's part: a session of its own, so that Ctrl-C reaches it through us, in our order; and
@@ -174,6 +175,12 @@ void set_spawn(struct set *set, uint64_t now_ns)
                 post->spawn_at_ns = now_ns + NS_PER_S;
         }
     }
+}
+
+void set_hurry(struct set *set)
+{
+    for (int i = 0; i < ROLE_COUNT; i++)
+        set->post[i].spawn_at_ns = 0;
 }
 
 struct child *set_holder(struct set *set, enum role role)
@@ -270,6 +277,39 @@ int set_stop(struct set *set, enum role role)
             status = end(child, SIGKILL, UINT64_MAX);
         }
     }
+    return status;
+}
+
+/* Starts the role's process if there is none, and waits until it is up, so that it hears a request
+ * to stop. Its exit status when it died first, -1 when it did not. */
+static int await_ready(struct set *set, struct post *post, uint64_t until_ns)
+{
+    struct child *child = &post->child[0];
+    int status = -1;
+    post->wanted = 1;
+    post->spawn_at_ns = 0;
+    while (status < 0 && clock_now_ns() < until_ns && !set_ready(set, post->role)) {
+        uint64_t next = clock_now_ns() + POLL_NS;
+        set_spawn(set, clock_now_ns());
+        if (child->pid != 0)
+            status = end(child, 0, next); /* no signal: only looks whether it lives */
+        else
+            clock_sleep_until_ns(next);
+    }
+    return status;
+}
+
+int set_finish(struct set *set, enum role role)
+{
+    struct post *post = &set->post[role];
+    uint64_t until = clock_now_ns() + FINISH_NS;
+    int status;
+    do {
+        status = await_ready(set, post, until);
+        if (post->child[0].pid != 0)
+            status = set_stop(set, role);
+        post->wanted = 0;
+    } while (status != EXIT_OK && !judge_refused(status) && clock_now_ns() < until);
     return status;
 }
 

@@ -9,16 +9,22 @@
 #include "ipc/segment.h"
 #include "supervisor/judge.h"
 
-#define SET_CHILDREN     2
-#define PLAN_DRAWING_MAX 16
+#define SET_CHILDREN    2
+#define PLAN_PASSED_MAX 16
+#define SET_WORDS_MAX   1200 /* of what a role refuses */
+
+/* Options that are passed on to a role as they are, each followed by its value. */
+struct passed {
+    const char *argument[PLAN_PASSED_MAX];
+    int count;
+};
 
 /* What the set is started with; strings are the command line's. */
 struct plan {
     const char *world, *out, *log, *ready;
     const char *commands, *events, *checkpoint, *every;
     const char *threads;
-    const char *drawing[PLAN_DRAWING_MAX]; /* the renderer's options and their values */
-    int drawings;
+    struct passed passed[ROLE_COUNT];
     uint64_t hang_ms;
     bool left_out[ROLE_COUNT];
     bool background, json, sandbox_off;
@@ -38,8 +44,10 @@ struct child {
 struct post {
     enum role role;
     struct child child[SET_CHILDREN];
-    int wanted;           /* children: 0 when the set goes on without the role */
+    int wanted;           /* children: 0 when the set has no such role */
     uint64_t spawn_at_ns; /* not before */
+    char
+        refused[SET_WORDS_MAX]; /* what was said of its last refusal, "": it has been ready since */
     struct history history;
     uint64_t quiet_ns; /* when it was silent for half of what it may, and its processor time then */
     uint64_t quiet_used_ns;
@@ -59,6 +67,9 @@ int set_open(struct set *set, const struct plan *plan, struct reason *reason);
 /* Starts what is wanted, due and not there. A process that cannot be started is tried again. */
 void set_spawn(struct set *set, uint64_t now_ns);
 
+/* Ends every pause: what is wanted and not there is started at the next set_spawn(). */
+void set_hurry(struct set *set);
+
 /* Is the role's slot held and ready, by a child of this set? */
 bool set_ready(struct set *set, enum role role);
 
@@ -74,6 +85,11 @@ struct child *set_holder(struct set *set, enum role role);
 /* Ends a role's processes: SIGTERM, after some seconds SIGKILL, and waits for their deaths. The
  * holder's exit status as a shell has it; 0 when there was none. */
 int set_stop(struct set *set, enum role role);
+
+/* Ends a role as set_stop() does, so that it has done its last work: one that is not there, or that
+ * is killed before it has ended by itself, is started again for that, for some seconds. Its exit
+ * status: EXIT_OK when its work is done. Blocks. */
+int set_finish(struct set *set, enum role role);
 
 /* SIGKILL to a role's processes, and waits for their deaths. */
 void set_kill(struct set *set, enum role role);

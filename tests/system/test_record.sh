@@ -54,6 +54,33 @@ check "the log of events is the same to the byte" cmp events again
 check "summary and log agree" grep -q "digest $(json digest <played), of events $(json event_digest <played)" out/jolon.log
 check "the image is a frame of it" eval 'compare image out/commands.log | grep -q "equal up to frame"'
 
+# --- a recorder that is killed around the end of a run -----------------------------------------------
+# The keeper sleeps while the recorder is killed and the run ends; awake, it learns of both at once,
+# and what it starts to write the log's end is killed a few times more.
+cat >small.cfg <<'X'
+world = { capacity = 64; }; terrain = { source = "flat"; }; objects = { source = "none"; };
+vehicles = ( { kind = "tank"; name = "T"; at = [1000.0, 1000.0]; } );
+X
+recorder() { "$bin/jolon-world" pid --world "$name" recorder 2>/dev/null; }
+over() { [ "$(frame)" = 30 ]; }
+killed_at_the_end() { # KILLS after the run's end
+    local run keeper n
+    "$jolon" run -w "$name" --frames 30 --without renderer --without reporter --out ends small.cfg >told 2>&1 &
+    run=$!
+    eventually recorder
+    keeper=$(cat "/dev/shm/jolon.$UID.$name.lock")
+    eventually at_frame 1
+    kill -STOP "$keeper"
+    kill -KILL "$(recorder)"
+    eventually over
+    kill -CONT "$keeper"
+    for n in $(seq "$1"); do kill -KILL "$(recorder)" 2>/dev/null; done
+    wait $run && [ "$(end_of ends/commands.log type) $(end_of ends/commands.log frame)" = "end 30" ]
+}
+for n in 0 0 1 2 5 10; do
+    check "the log ends with the run when its recorder was killed, and $n times more" killed_at_the_end "$n"
+done
+
 # --- what is refused ----------------------------------------------------------------------------------
 refused() { # PATTERN COMMAND...: exit 1, one line
     local pattern=$1

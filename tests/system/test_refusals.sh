@@ -57,7 +57,7 @@ env __EGL_VENDOR_LIBRARY_DIRS=/nonexistent LIBGL_DRIVERS_PATH=/nonexistent \
     "$jolon" run -w "$name" --frames 30 --pace max --without reporter --set renderer.backend=gl --out out --json \
     good.cfg >told 2>err
 check "without the GL asked for the run ends well" equal "$(json frame <told)" 30
-check "and one line says what is missing" grep -q 'goes on without the renderer: .*OpenGL' err
+check "and one line says what is missing" grep -q 'goes on without the renderer and keeps trying: .*OpenGL' err
 env __EGL_VENDOR_LIBRARY_DIRS=/nonexistent LIBGL_DRIVERS_PATH=/nonexistent \
     "$jolon" run -w "$name" --frames 30 --pace max --without reporter --out out good.cfg >told 2>&1
 check "without any GL there are pictures all the same" [ -s out/chase.png ]

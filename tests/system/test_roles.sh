@@ -30,6 +30,26 @@ check "a stopped mover is killed and replaced (hang)" bash -c "
     for i in \$(seq 100); do sleep 0.1; now=\$('$bin/jolon-world' pid --world $name mover 2>/dev/null)
         [ -n \"\$now\" ] && [ \"\$now\" != \"\$before\" ] && exit 0; done; exit 1"
 check "the world moves on after a hang" moves_on
+
+# Only the mover and the collider can end a set: another role that always dies comes back, after
+# pauses that grow, and at once when somebody asks for it.
+crash() { local before; before=$(pid "$1") && kill -SEGV "$before" && eventually gone "$before"; }
+restart_quickly() { # ROLE: within a second
+    local from
+    from=$(date +%s%N)
+    "$jolon" restart -w "$name" "$1" && [ $(($(date +%s%N) - from)) -lt 1000000000 ]
+}
+for i in $(seq 12); do
+    before=$(pid reporter)
+    check "reporter killed for the $i. time" crash reporter
+    check "jolon restart brings it back within a second" restart_quickly reporter
+done
+before=$(pid reporter)
+check "it dies once more" crash reporter
+check "and comes back by itself" eventually replaced reporter "$before"
+"$jolon" restart -w "$name" nobody 2>second
+check "restart of what is no role is refused" equal $? 2
+
 standing_by() { # pid of the process that waits for a role, of a set whose keeper is $2
     local child
     for child in $(pgrep -P "$2" "jolon-$1"); do
@@ -81,6 +101,25 @@ check "stop" "$jolon" stop -w "$name"
 check "and nothing is left" nothing_left "$name"
 "$jolon" stop -w "$name" 2>second
 check "stopping nothing is refused" equal $? 1
+
+# The reporter's network is the set's to keep; what the set was started without does not come back.
+check "start with a network" start --domain 7 --without renderer
+before=$(pid reporter)
+check "kill the reporter" "$jolon" kill -w "$name" reporter
+check "it comes back" eventually replaced reporter "$before"
+check "to the same network" grep -qzx -- 7 "/proc/$(pid reporter)/cmdline"
+"$jolon" restart -w "$name" renderer 2>second
+check "what the set is without is not restarted" equal $? 1
+check "and that is said" grep -q 'was started --without renderer' second
+check "stop" "$jolon" stop -w "$name"
+"$jolon" restart -w "$name" reporter 2>second
+check "nor is anything without a set" grep -q 'no set runs world' second
+# What a role refuses is tried again, and said once.
+check "start with a network that is not there" start --interface 203.0.113.7 --without renderer
+tried() { [ "$(grep -c '^jolon-reporter: .*203.0.113.7' out/jolon.log)" -ge 4 ]; }
+check "the reporter is tried again" eventually tried
+check "and its words are told once" equal "$(grep -c 'supervisor: goes on without the reporter' out/jolon.log)" 1
+check "stop" "$jolon" stop -w "$name"
 
 mkdir elsewhere
 check "it starts from any folder" bash -c "cd elsewhere && '$jolon' run -w $name --frames 5 --pace max --without renderer"

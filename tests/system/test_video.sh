@@ -161,12 +161,12 @@ P
 check "two watch while one never reads, and what is malformed is refused" python3 watch.py "$port" 12
 refuses_port() {
     "$jolon" run -w "${name}b" --frames 10 --out other --stream "$port" "${small[@]}" duel >refused 2>&1
-    grep "goes on without the renderer: renderer refused: --stream $port: cannot listen .* in use" refused
+    grep "goes on without the renderer and keeps trying: renderer refused: --stream $port: cannot listen .* in use" refused
 }
 check "a port that is in use is refused in a clear line" refuses_port
 refuses_view() {
     "$jolon" run -w "${name}b" --frames 10 --out other --video no.mkv --video-view chase "${small[@]}" duel >refused 2>&1
-    grep "goes on without the renderer: renderer refused: --video-view chase: is not drawn; there is map" refused
+    grep "goes on without the renderer and keeps trying: renderer refused: --video-view chase: is not drawn; there is map" refused
 }
 check "so is a video of a view that is not drawn" refuses_view
 sleep 1.5 # what comes later than a second before the kill may be lost

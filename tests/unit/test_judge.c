@@ -43,13 +43,13 @@ static void test_who_was_asked_to_stop_by_others_comes_back(void **state)
     assert_int_equal(judge(&history, quick(ROLE_RENDERER, EXIT_OK)), VERDICT_RESTART);
 }
 
-static void test_refusals_end_frames_and_leave_out_the_rest(void **state)
+static void test_only_a_frame_role_that_refuses_ends_the_set(void **state)
 {
     struct history history = {0};
     (void)state;
     assert_int_equal(judge(&history, quick(ROLE_COLLIDER, EXIT_REFUSED)), VERDICT_REFUSED);
-    assert_int_equal(judge(&history, quick(ROLE_RENDERER, EXIT_REFUSED)), VERDICT_WITHOUT);
-    assert_int_equal(judge(&history, quick(ROLE_REPORTER, EXIT_USAGE)), VERDICT_WITHOUT);
+    assert_int_equal(judge(&history, quick(ROLE_RENDERER, EXIT_REFUSED)), VERDICT_RESTART);
+    assert_int_equal(judge(&history, quick(ROLE_REPORTER, EXIT_USAGE)), VERDICT_RESTART);
 }
 
 static void test_three_crashes_on_a_frame_poison_it(void **state)
@@ -117,19 +117,42 @@ static void test_work_done_wipes_out_kills(void **state)
         assert_int_equal(judge(&history, renderer), VERDICT_RESTART);
 }
 
-static void test_who_always_crashes_is_left_out(void **state)
+/* A role that makes no frames, however it ends and as often as it does: the pause doubles, is never
+ * longer than the most, and the set goes on. */
+static void test_the_others_come_back_for_ever(void **state)
+{
+    static const enum role roles[] = {ROLE_REPORTER, ROLE_RECORDER, ROLE_RENDERER};
+    static const int statuses[] = {SEGV, EXIT_REFUSED, EXIT_USAGE, KILLED, EXIT_OK};
+    (void)state;
+    for (size_t i = 0; i < sizeof roles / sizeof roles[0]; i++) {
+        for (size_t k = 0; k < sizeof statuses / sizeof statuses[0]; k++) {
+            struct history history = {0};
+            struct death death = quick(roles[i], statuses[k]);
+            uint64_t delay = 0, before = 0;
+            for (uint32_t deaths = 0; deaths < 100000; deaths++) {
+                death.frame += 10;
+                assert_int_equal(judge_death(&history, &death, &delay), VERDICT_RESTART);
+                assert_true(delay <= JUDGE_PAUSE_MAX_NS && delay <= 5 * (uint64_t)NS_PER_S);
+                assert_true(before == 0 || delay == 2 * before || delay == JUDGE_PAUSE_MAX_NS);
+                before = delay;
+            }
+            assert_int_equal(delay, JUDGE_PAUSE_MAX_NS);
+        }
+    }
+}
+
+/* Up for a moment each time is no success, but costs nothing the first time. */
+static void test_the_first_crash_costs_no_pause(void **state)
 {
     struct history history = {0};
-    uint64_t delay = 0;
     struct death death = quick(ROLE_RENDERER, SEGV);
+    uint64_t delay;
     (void)state;
-    death.was_ready = true; /* up for a moment each time, while frames go on */
-    for (uint32_t i = 1; i < JUDGE_QUICK_CRASHES; i++) {
-        death.frame += 10;
+    death.was_ready = true;
+    for (uint32_t i = 1; i < 5; i++) {
         assert_int_equal(judge_death(&history, &death, &delay), VERDICT_RESTART);
         assert_int_equal(delay > 0, i > 1);
     }
-    assert_int_equal(judge(&history, death), VERDICT_WITHOUT);
 }
 
 /* Whoever stands by and cannot start, or always dies, does not end a set that goes on. */
@@ -152,10 +175,17 @@ static void test_a_long_life_wipes_out_crashes(void **state)
 {
     struct history history = {0};
     struct death death = quick(ROLE_REPORTER, SEGV);
+    uint64_t delay;
     (void)state;
     death.lived_ns = 60 * (uint64_t)NS_PER_S;
-    for (uint32_t i = 0; i < 10 * JUDGE_QUICK_CRASHES; i++)
-        assert_int_equal(judge(&history, death), VERDICT_RESTART);
+    death.was_ready = true;
+    for (uint32_t i = 0; i < 100; i++) {
+        assert_int_equal(judge_death(&history, &death, &delay), VERDICT_RESTART);
+        assert_int_equal(delay, 0);
+    }
+    death.was_ready = false; /* it only took long to fail */
+    (void)judge_death(&history, &death, &delay);
+    assert_true(delay > 0);
 }
 
 int main(void)
@@ -163,13 +193,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_end_of_the_run_is_no_death),
         cmocka_unit_test(test_who_was_asked_to_stop_by_others_comes_back),
-        cmocka_unit_test(test_refusals_end_frames_and_leave_out_the_rest),
+        cmocka_unit_test(test_only_a_frame_role_that_refuses_ends_the_set),
         cmocka_unit_test(test_three_crashes_on_a_frame_poison_it),
         cmocka_unit_test(test_three_hangs_on_a_frame_poison_it),
         cmocka_unit_test(test_crashes_on_several_frames_poison_none),
         cmocka_unit_test(test_kills_from_outside_are_no_crashes),
         cmocka_unit_test(test_work_done_wipes_out_kills),
-        cmocka_unit_test(test_who_always_crashes_is_left_out),
+        cmocka_unit_test(test_the_others_come_back_for_ever),
+        cmocka_unit_test(test_the_first_crash_costs_no_pause),
         cmocka_unit_test(test_who_only_stood_by_ends_nothing),
         cmocka_unit_test(test_a_long_life_wipes_out_crashes),
     };
