@@ -9,6 +9,19 @@
 #include <errno.h>
 #include <string.h>
 
+/* The frames, until the process is asked to stop or the run is over. */
+static void collide_frames(struct collider *collider, struct view *view)
+{
+    const struct event_ring ring = {view->events, view->header->event_slots};
+    struct frame frame;
+    while (frame_collider_begin(&frame, view) == 0) {
+        if (collider_step(collider, &view->w[(frame.number - 1) & 1], &view->m,
+                          &view->w[frame.number & 1], &ring) != 0)
+            die_refused("out of memory for the frame's contacts");
+        frame_collider_end(&frame, view);
+    }
+}
+
 int main(int argc, char **argv)
 {
     struct stage_options options = process_stage_options(argc, argv, "jolon-collider");
@@ -16,7 +29,6 @@ int main(int argc, char **argv)
     struct view view;
     struct reason reason;
     struct collider collider;
-    struct frame frame;
 
     log_open("collider");
     process_close_inherited();
@@ -29,19 +41,13 @@ int main(int argc, char **argv)
     struct workers *workers = workers_create(options.threads);
     if (!workers || collider_init(&collider, &view.world, view.w[0].craters, workers) != 0)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
-    const struct event_ring ring = {view.events, view.header->event_slots};
     if (sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
-    if (segment_take(&view) != 0 || (options.stand_by && frame_finished(&view)))
-        return EXIT_OK; /* asked to stop, or the run ended, while another had the role */
-    segment_ready(&view);
-    log_info("collides world \"%s\" on %u thread(s)", view.name, options.threads);
-
-    while (frame_collider_begin(&frame, &view) == 0) {
-        if (collider_step(&collider, &view.w[(frame.number - 1) & 1], &view.m,
-                          &view.w[frame.number & 1], &ring) != 0)
-            die_refused("out of memory for the frame's contacts");
-        frame_collider_end(&frame, &view);
+    /* It may have been asked to stop, or the run may have ended, while another had the role. */
+    if (segment_take(&view) == 0 && !(options.stand_by && frame_finished(&view))) {
+        segment_ready(&view);
+        log_info("collides world \"%s\" on %u thread(s)", view.name, options.threads);
+        collide_frames(&collider, &view);
     }
 
     collider_free(&collider);

@@ -9,15 +9,28 @@
 #include <string.h>
 #include <sys/prctl.h>
 
+/* The frames, until the process is asked to stop or the run is over. */
+static void move_frames(struct mover *mover, struct view *view)
+{
+    struct command_source sources[COMMAND_RING_COUNT];
+    struct frame frame;
+    while (frame_mover_begin(&frame, view) == 0) {
+        for (int i = 0; i < COMMAND_RING_COUNT; i++)
+            sources[i] = (struct command_source){
+                view->commands[i]->slot, view->header->command_slots, frame.command_head[i]};
+        if (mover_step(mover, &view->w[(frame.number - 1) & 1], &view->m, sources) != 0)
+            die_refused("out of memory for the index of craters");
+        frame_mover_end(&frame, view);
+    }
+}
+
 int main(int argc, char **argv)
 {
     struct stage_options options = process_stage_options(argc, argv, "jolon-mover");
-    struct command_source sources[COMMAND_RING_COUNT];
     struct sandbox sandbox;
     struct view view;
     struct reason reason;
     struct mover mover;
-    struct frame frame;
 
     log_open("mover");
     process_close_inherited();
@@ -33,18 +46,11 @@ int main(int argc, char **argv)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
     if (sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
-    if (segment_take(&view) != 0 || (options.stand_by && frame_finished(&view)))
-        return EXIT_OK; /* asked to stop, or the run ended, while another had the role */
-    segment_ready(&view);
-    log_info("moves world \"%s\" on %u thread(s)", view.name, options.threads);
-
-    while (frame_mover_begin(&frame, &view) == 0) {
-        for (int i = 0; i < COMMAND_RING_COUNT; i++)
-            sources[i] = (struct command_source){view.commands[i]->slot, view.header->command_slots,
-                                                 frame.command_head[i]};
-        if (mover_step(&mover, &view.w[(frame.number - 1) & 1], &view.m, sources) != 0)
-            die_refused("out of memory for the index of craters");
-        frame_mover_end(&frame, &view);
+    /* It may have been asked to stop, or the run may have ended, while another had the role. */
+    if (segment_take(&view) == 0 && !(options.stand_by && frame_finished(&view))) {
+        segment_ready(&view);
+        log_info("moves world \"%s\" on %u thread(s)", view.name, options.threads);
+        move_frames(&mover, &view);
     }
 
     mover_free(&mover);

@@ -99,6 +99,7 @@ check "the next start goes on" start
 check "from the frame that was" later "$((at - 1))"
 check "stop" "$jolon" stop -w "$name"
 check "and nothing is left" nothing_left "$name"
+check "no role leaks memory at a clean stop (built with SAN=address)" eval '! grep LeakSanitizer out/jolon.log'
 "$jolon" stop -w "$name" 2>second
 check "stopping nothing is refused" equal $? 1
 
