@@ -14,6 +14,9 @@ struct bench_options {
     bool json, peers, agents;
 };
 
+/* An option that is not there, or without its value: ends the process (exit 2). */
+_Noreturn void bench_refuse(const char *option);
+
 /* --vehicles N, --threads T, --frames F, --peers, --json, --agents; wrong usage ends the process
  * (exit 2). */
 struct bench_options bench_options(int argc, char **argv, struct bench_options defaults);

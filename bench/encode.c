@@ -174,7 +174,7 @@ static struct options read_options(int argc, char **argv)
         else if (letter == 'j')
             o.json = true;
         else
-            die_usage("try jolon-bench help");
+            bench_refuse(argv[optind - 1]);
     }
     if (optind < argc)
         die_usage("%s: one argument too many; try jolon-bench help", argv[optind]);

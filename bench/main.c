@@ -9,6 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+_Noreturn void bench_refuse(const char *option)
+{
+    die_usage("%s: no such option, or its value is missing; try jolon-bench help", option);
+}
+
 struct bench_options bench_options(int argc, char **argv, struct bench_options chosen)
 {
     static const struct option options[] = {{"vehicles", required_argument, NULL, 'v'},
@@ -40,7 +45,7 @@ struct bench_options bench_options(int argc, char **argv, struct bench_options c
             chosen.agents = true;
             break;
         default:
-            die_usage("try jolon-bench help");
+            bench_refuse(argv[optind - 1]);
         }
     }
     if (optind < argc)
@@ -89,14 +94,28 @@ static const struct {
 
 #define BENCHES (sizeof benches / sizeof benches[0])
 
+static bool asks_help(int argc, char **argv)
+{
+    for (int i = 0; i < argc; i++) {
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)
+            return true;
+    }
+    return false;
+}
+
 int main(int argc, char **argv)
 {
     log_open("bench");
+    opterr = 0; /* we say it, in one line */
     for (size_t i = 0; argc > 1 && i < BENCHES; i++) {
-        if (strcmp(argv[1], benches[i].name) == 0)
+        if (strcmp(argv[1], benches[i].name) != 0)
+            continue;
+        if (!asks_help(argc - 1, argv + 1))
             return benches[i].run(argc - 1, argv + 1);
+        printf("usage: jolon-bench %s %s\n", benches[i].name, benches[i].usage);
+        return EXIT_OK;
     }
-    if (argc > 1 && strcmp(argv[1], "help") != 0)
+    if (argc > 1 && strcmp(argv[1], "help") != 0 && !asks_help(2, argv))
         die_usage("%s: no such benchmark; try jolon-bench help", argv[1]);
     FILE *to = argc > 1 ? stdout : stderr;
     fprintf(to, "usage: jolon-bench BENCHMARK ...\n");

@@ -156,7 +156,7 @@ static struct options read_options(int argc, char **argv)
         else if (letter == 'z')
             o.size = process_size("size", optarg, BENCH_SIDE_MIN, BENCH_SIDE_MAX);
         else
-            die_usage("try jolon-bench help");
+            bench_refuse(argv[optind - 1]);
     }
     if (optind != argc - 1)
         die_usage("models: needs one FILE; try jolon-bench help");

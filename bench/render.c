@@ -227,7 +227,7 @@ static struct options read_options(int argc, char **argv)
             o.gl = true;
             break;
         default:
-            die_usage("try jolon-bench help");
+            bench_refuse(argv[optind - 1]);
         }
     }
     if (optind < argc)

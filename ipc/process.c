@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -46,8 +47,17 @@ void process_guard_removes(const char *shm, const char *lock)
     snprintf(gone[1], sizeof gone[1], "%s", lock);
 }
 
+static void check_stack(void)
+{
+    struct rlimit stack;
+    if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < PROCESS_STACK_BYTES)
+        die_refused("the stack is limited to %llu KB, and %u KB are needed: ulimit -s 8192",
+                    (unsigned long long)stack.rlim_cur / 1024, PROCESS_STACK_BYTES / 1024);
+}
+
 void process_guard(void)
 {
+    check_stack();
     struct sigaction bus = {.sa_sigaction = on_bus_error,
                             .sa_flags = SA_SIGINFO | (int)SA_RESETHAND};
     sigemptyset(&bus.sa_mask);

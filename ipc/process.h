@@ -8,16 +8,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#define PROCESS_STACK_BYTES (1024u * 1024u) /* roles have been seen to die with 128 KB */
+
 /* Set by SIGTERM, SIGINT and SIGHUP; loops end when it is true. */
 bool process_stopping(void);
 
 /* Installs the handlers, process_guard()'s too; SIGPIPE is ignored. */
 void process_signals(void);
 
-/* When the world's object is made shorter under a process that has it mapped, it says so in one
- * line and ends with exit 1, instead of dying of the bus error without a word. The process that
- * owns the world names the object and its lock by process_guard_removes(): they are removed then,
- * for there is no other clean-up. */
+/* Every program's first step. A stack that is limited to less than PROCESS_STACK_BYTES, which is
+ * that of each thread too, ends the process with the reason (exit 1): else it would die in its work
+ * like of a fault in it. And when the world's object is made shorter under a process that has it
+ * mapped, it says so in one line and ends with exit 1, instead of dying of the bus error without a
+ * word. The process that owns the world names the object and its lock by process_guard_removes():
+ * they are removed then, for there is no other clean-up. */
 void process_guard(void);
 void process_guard_removes(const char *shm, const char *lock);
 

@@ -111,7 +111,7 @@ static int reserve(int fd, const char *path, size_t bytes, struct reason *reason
         return reason_set(reason,
                           "shared memory is full: the world needs %.1f MB and " SEGMENT_DIR
                           " has %.1f MB free; lower world.capacity, or remove old worlds with "
-                          "`jolon clean`",
+                          "`jolon clean -w NAME`",
                           (double)bytes / 1e6, free_mb);
     return reason_set(reason, "%s: cannot reserve %zu bytes: %s", path, bytes, strerror(error));
 }

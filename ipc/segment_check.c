@@ -267,7 +267,7 @@ static int check_build(const struct segment_header *header, const char *path, st
     else
         reason_set(reason,
                    "%s: layout: made by another build of Jolon; stop it with that build, or remove "
-                   "it with `jolon clean`",
+                   "it with `jolon clean -w NAME`",
                    path);
     reason->foreign = true;
     return -1;

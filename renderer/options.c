@@ -268,7 +268,8 @@ static void take_live_defaults(struct options *options)
     wish->role = options->role;
 }
 
-static void take(struct options *options, int letter, const char *value)
+/* said: the argument as it was given */
+static void take(struct options *options, int letter, const char *value, const char *said)
 {
     struct process_size size;
     if (take_drawing(options, letter, value) || take_outlet(options, letter, value))
@@ -313,9 +314,7 @@ static void take(struct options *options, int letter, const char *value)
         fputs(usage_text, stdout);
         exit(EXIT_OK);
     default:
-        /* getopt has said which option it does not know. */
-        fputs(usage_text, stderr);
-        exit(EXIT_USAGE);
+        die_usage("%s: no such option, or its value is missing; see --help", said);
     }
 }
 
@@ -349,8 +348,9 @@ void options_read(struct options *options, int argc, char **argv)
                                             .stream_port = -1,
                                             .stream_address = HTTP_LISTEN_ADDRESS}};
     int letter;
-    while ((letter = getopt_long(argc, argv, "w:", long_options, NULL)) != -1)
-        take(options, letter, optarg);
+    opterr = 0; /* we say it, in one line */
+    while ((letter = getopt_long(argc, argv, "w:h", long_options, NULL)) != -1)
+        take(options, letter, optarg, argv[optind - 1]);
     if (optind < argc)
         die_usage("%s: not an option; see --help", argv[optind]);
     if (options->stand.given && options->views.count == 0)

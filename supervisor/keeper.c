@@ -38,6 +38,7 @@ struct keeper {
     sigset_t signals;
     bool over; /* the run has ended, or the set gives up */
     bool gave_up;
+    bool starting; /* not everybody is up yet */
     int code;
     uint64_t repaired_frame; /* the last repair was at this frame, UINT64_MAX: there was none */
     uint64_t begun_ns;
@@ -141,6 +142,11 @@ static void take_death(struct keeper *keeper, struct post *post, struct child *c
     *child = (struct child){0};
     switch (judge_death(&post->history, &death, &delay)) {
     case VERDICT_RESTART:
+        if (keeper->starting && post->role == ROLE_RECORDER && judge_refused(status)) {
+            last_words(keeper, post->role, text, sizeof text);
+            give_up(keeper, EXIT_REFUSED, text); /* nobody asked for a run without a record */
+            break;
+        }
         /* Who stands by takes over now: another one to stand by has time until that is done. */
         if (delay == 0 && set_kept(post))
             delay = HEIR_NS;
@@ -340,8 +346,12 @@ int main(int argc, char **argv)
         die_refused("%s", reason.text);
     keeper.begun_ns = keeper.watch.last_ns = keeper.watch.since_ns = clock_now_ns();
     keeper.progress = progress_begin();
+    uint64_t begun_frame = set_frame(&keeper.set);
+    keeper.starting = true;
     start_set(&keeper);
-    say_ready(plan.ready);
+    keeper.starting = false;
+    if (!keeper.gave_up)
+        say_ready(plan.ready);
     while (!keeper.over)
         turn(&keeper);
     stop_set(&keeper);
@@ -349,7 +359,10 @@ int main(int argc, char **argv)
         progress_end(&keeper.progress, &keeper.set.view);
     if (!keeper.gave_up)
         summarise(&keeper);
-    if (segment_remove(plan.world, false, &reason) != 0)
+    /* A set that could not start loses no world that another one left. */
+    if (keeper.gave_up && begun_frame > 0 && set_frame(&keeper.set) == begun_frame)
+        set_note(&keeper.set, "world \"%s\" stays at frame %" PRIu64, plan.world, begun_frame);
+    else if (segment_remove(plan.world, false, &reason) != 0)
         set_note(&keeper.set, "%s", reason.text); /* somebody has a role still, by that lock */
     else
         unlink(lock);

@@ -5,6 +5,12 @@
 #include "ipc/process.h"
 
 #include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const char usage[] =
+    "usage: jolon-keeper --out DIR --log FILE --commands FILE --hang-ms N [options]\n"
+    "The keeper of a world's processes; jolon run and jolon start turn into it.\n";
 
 #define PASSED 1000 /* with the role added: an option of that role's */
 
@@ -32,6 +38,7 @@ static const struct option known[] = {
     {"background", no_argument, NULL, 'b'},
     {"json", no_argument, NULL, 'j'},
     {"no-sandbox", no_argument, NULL, 's'},
+    {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0}};
 
 static void leave_out(struct plan *plan, const char *name)
@@ -56,7 +63,7 @@ struct plan options_plan(int argc, char **argv)
     struct plan plan = {.world = "default", .threads = "1"};
     int option;
     opterr = 0; /* we say it, in one line */
-    while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
+    while ((option = getopt_long(argc, argv, "w:h", known, NULL)) != -1) {
         const char **text = option == 'w'   ? &plan.world
                             : option == 'o' ? &plan.out
                             : option == 'l' ? &plan.log
@@ -81,7 +88,10 @@ struct plan options_plan(int argc, char **argv)
             plan.json = true;
         else if (option == 's')
             plan.sandbox_off = true;
-        else
+        else if (option == 'h') {
+            (void)fputs(usage, stdout);
+            exit(EXIT_OK);
+        } else
             die_usage("%s: no such option; jolon-keeper is started by jolon", argv[optind - 1]);
     }
     if (!plan.out || !plan.log || !plan.commands || plan.hang_ms == 0 || optind < argc)

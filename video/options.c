@@ -44,7 +44,7 @@ struct video_options video_options_read(int argc, char **argv)
     char *passed[ARGUMENTS_MAX + 4] = {argv[0], out, view};
     int count = 3;
     for (int i = 1; i < argc; i++)
-        if (strcmp(argv[i], "--help") == 0) {
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
             fputs(usage_text, stdout);
             exit(EXIT_OK);
         }

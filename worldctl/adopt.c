@@ -25,7 +25,8 @@ static void not_usable(const struct reason *reason, const struct image_header *i
     if (!reason->damaged)
         die_refused("%s", reason->text);
     if (!image)
-        die_refused("%s; `jolon clean` removes it, -w NAME makes another", reason->text);
+        die_refused("%s; `jolon clean -w` with its name removes it, another -w NAME makes another",
+                    reason->text);
     log_warn("%s; goes on from the image", reason->text);
 }
 

@@ -20,15 +20,31 @@ void arguments_set(struct arguments *arguments, const char *text)
     arguments->set[arguments->sets++] = text;
 }
 
-static const struct option known[] = {
-    {"world", required_argument, NULL, 'w'},   {"terrain", required_argument, NULL, 't'},
-    {"events", required_argument, NULL, 'e'},  {"frames", required_argument, NULL, 'n'},
-    {"threads", required_argument, NULL, 'T'}, {"set", required_argument, NULL, 's'},
-    {"from", required_argument, NULL, 'F'},    {"wall", required_argument, NULL, 'W'},
-    {"seconds", required_argument, NULL, 'S'}, {"json", no_argument, NULL, 'j'},
-    {"follow", no_argument, NULL, 'f'},        {"fixed", no_argument, NULL, 'x'},
-    {"force", no_argument, NULL, '!'},         {"adopt", no_argument, NULL, 'a'},
-    {"inputs", no_argument, NULL, 'I'},        {NULL, 0, NULL, 0}};
+static const struct option known[] = {{"world", required_argument, NULL, 'w'},
+                                      {"terrain", required_argument, NULL, 't'},
+                                      {"events", required_argument, NULL, 'e'},
+                                      {"frames", required_argument, NULL, 'n'},
+                                      {"threads", required_argument, NULL, 'T'},
+                                      {"set", required_argument, NULL, 's'},
+                                      {"from", required_argument, NULL, 'F'},
+                                      {"wall", required_argument, NULL, 'W'},
+                                      {"seconds", required_argument, NULL, 'S'},
+                                      {"json", no_argument, NULL, 'j'},
+                                      {"follow", no_argument, NULL, 'f'},
+                                      {"fixed", no_argument, NULL, 'x'},
+                                      {"force", no_argument, NULL, '!'},
+                                      {"adopt", no_argument, NULL, 'a'},
+                                      {"inputs", no_argument, NULL, 'I'},
+                                      {"help", no_argument, NULL, 'h'},
+                                      {NULL, 0, NULL, 0}};
+
+static const char *option_name(int letter)
+{
+    const struct option *option = known;
+    while (option->val != letter)
+        option++;
+    return option->name;
+}
 
 /* Options without a value; false for any other. */
 static bool take_flag(struct arguments *arguments, int option)
@@ -84,37 +100,48 @@ static void take_value(struct arguments *arguments, int option, const char *valu
     }
 }
 
-static struct arguments read_plain(int argc, char **argv, bool two)
+/* Ends the process when the verb does not take that option. */
+static void check_option(const char *verb, const char *name, const struct accepted *accepted)
+{
+    size_t length = strlen(name);
+    for (const char *at = accepted->options; *at != '\0'; at = strchr(at, ' ') + 1) {
+        if (strncmp(at, name, length) == 0 && at[length] == ' ')
+            return;
+    }
+    die_usage("%s: does not take --%s; try jolon-world %s --help", verb, name, verb);
+}
+
+static void take_plain(struct arguments *arguments, int count, char **plain, const char *verb,
+                       const struct accepted *accepted)
+{
+    if (count > accepted->plain)
+        die_usage("%s: \"%s\" is one argument too many; try jolon-world %s --help", verb,
+                  plain[accepted->plain], verb);
+    if (count > 0)
+        arguments->path = plain[0];
+    if (count > 1)
+        arguments->other = plain[1];
+}
+
+struct arguments arguments_read(int argc, char **argv, const struct accepted *accepted)
 {
     struct arguments arguments = {.world = "default", .threads = 1};
     int option;
     opterr = 0; /* we say it, in one line */
-    while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
+    while ((option = getopt_long(argc, argv, "w:h", known, NULL)) != -1) {
         if (option == '?' || option == ':')
-            die_usage("%s: no such option, or its value is missing; try jolon-world help",
-                      argv[optind - 1]);
+            die_usage("%s: no such option, or its value is missing; try jolon-world %s --help",
+                      argv[optind - 1], argv[0]);
+        if (option == 'h') {
+            arguments.help = true;
+            return arguments;
+        }
+        check_option(argv[0], option_name(option), accepted);
         if (!take_flag(&arguments, option))
             take_value(&arguments, option, optarg);
     }
-    if (optind < argc)
-        arguments.path = argv[optind++];
-    if (two && optind < argc)
-        arguments.other = argv[optind++];
-    if (optind < argc)
-        die_usage("%s: one argument too many; try jolon-world help", argv[optind]);
-    if (two && !arguments.other)
-        die_usage("%s: wants two arguments; try jolon-world help", argv[0]);
+    take_plain(&arguments, argc - optind, argv + optind, argv[0], accepted);
     return arguments;
-}
-
-struct arguments arguments_read(int argc, char **argv)
-{
-    return read_plain(argc, argv, false);
-}
-
-struct arguments arguments_read_two(int argc, char **argv)
-{
-    return read_plain(argc, argv, true);
 }
 
 void arguments_seconds(const struct arguments *arguments, struct params *params)

@@ -12,7 +12,7 @@
 
 struct arguments {
     const char *world; /* "default" */
-    bool json, follow, fixed, force, adopt, inputs;
+    bool json, follow, fixed, force, adopt, inputs, help;
     const char *terrain, *events, *path; /* NULL when not given; path is the one plain argument */
     const char *other;                   /* the second one, of verbs that take two */
     const char *from; /* a frame or an image's file, as the verb means it; NULL when not given */
@@ -23,11 +23,15 @@ struct arguments {
     int sets;
 };
 
-/* Reads a verb's arguments; wrong ones end the process with what would be right (exit 2). */
-struct arguments arguments_read(int argc, char **argv);
+/* What a verb takes. */
+struct accepted {
+    const char *options; /* names of options, each with a space after it: "world json " */
+    int plain;           /* plain arguments at most */
+};
 
-/* The same for a verb that takes two plain arguments and needs both. */
-struct arguments arguments_read_two(int argc, char **argv);
+/* Reads a verb's arguments (argv[0] is the verb); what it does not take ends the process with what
+ * would be right (exit 2). With --help or -h among them nothing is said, and help is true. */
+struct arguments arguments_read(int argc, char **argv, const struct accepted *accepted);
 
 /* Adds one --set; wrong usage ends the process (exit 2). */
 void arguments_set(struct arguments *arguments, const char *text);

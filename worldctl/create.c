@@ -10,33 +10,32 @@
 
 #include <stdio.h>
 
-int verb_create(int argc, char **argv)
+int verb_create(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct scenario scenario;
     struct genesis genesis;
     struct view view;
     struct reason reason;
-    if (!segment_name_ok(arguments.world))
-        die_refused("\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -", arguments.world,
+    if (!segment_name_ok(arguments->world))
+        die_refused("\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -", arguments->world,
                     SEGMENT_NAME_MAX - 1);
-    if (arguments.from)
-        return resume_world(&arguments);
-    load_scenario(&arguments, &scenario);
-    if (arguments.adopt && adopt_world(arguments.world, &scenario.params, NULL)) {
+    if (arguments->from)
+        return resume_world(arguments);
+    load_scenario(arguments, &scenario);
+    if (arguments->adopt && adopt_world(arguments->world, &scenario.params, NULL)) {
         scenario_free(&scenario);
         return EXIT_OK;
     }
     load_generate(&scenario, &genesis);
     struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
-    if (segment_begin(&view, arguments.world, &header, &reason) != 0)
+    if (segment_begin(&view, arguments->world, &header, &reason) != 0)
         die_refused("%s", reason.text);
     segment_fill(&view, &genesis);
     if (segment_publish(&view, &reason) != 0) {
         segment_abandon(&view);
         die_refused("%s", reason.text);
     }
-    printf("world \"%s\": %u vehicles, %u fixed objects, %.1f MB\n", arguments.world, genesis.used,
+    printf("world \"%s\": %u vehicles, %u fixed objects, %.1f MB\n", arguments->world, genesis.used,
            genesis.counts.fixed, (double)view.layout.total / 1e6);
     segment_detach(&view);
     genesis_free(&genesis);
@@ -44,15 +43,14 @@ int verb_create(int argc, char **argv)
     return EXIT_OK;
 }
 
-int verb_check(int argc, char **argv)
+int verb_check(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct view view;
     struct reason reason;
-    if (arguments.path || arguments.sets > 0) {
+    if (arguments->path || arguments->sets > 0) {
         struct scenario scenario;
         struct genesis genesis;
-        load_scenario(&arguments, &scenario);
+        load_scenario(arguments, &scenario);
         load_generate(&scenario, &genesis);
         printf("%s: good: %u vehicles, %u fixed objects, seed %llu, hash %016llx\n",
                scenario.params.scenario, genesis.used, genesis.counts.fixed,
@@ -63,41 +61,39 @@ int verb_check(int argc, char **argv)
         return EXIT_OK;
     }
     struct snapshot snapshot;
-    arguments_snapshot(&arguments, &view, &snapshot);
+    arguments_snapshot(arguments, &view, &snapshot);
     if (segment_verify(&view, &reason) != 0)
-        die_refused("world \"%s\": %s", arguments.world, reason.text);
-    printf("world \"%s\": good at frame %llu\n", arguments.world,
+        die_refused("world \"%s\": %s", arguments->world, reason.text);
+    printf("world \"%s\": good at frame %llu\n", arguments->world,
            (unsigned long long)snapshot.head.frame);
     snapshot_free(&snapshot);
     segment_detach(&view);
     return EXIT_OK;
 }
 
-int verb_repair(int argc, char **argv)
+int verb_repair(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct reason report;
-    if (segment_repair(arguments.world, &report) < 0)
+    if (segment_repair(arguments->world, &report) < 0)
         die_refused("%s", report.text);
     printf("%s\n", report.text);
     return EXIT_OK;
 }
 
-int verb_list(int argc, char **argv)
+int verb_list(const struct arguments *arguments)
 {
     char names[256][SEGMENT_NAME_MAX];
-    arguments_read(argc, argv);
+    (void)arguments;
     int count = segment_list(names, 256);
     for (int i = 0; i < count; i++)
         printf("%s\n", names[i]);
     return EXIT_OK;
 }
 
-int verb_remove(int argc, char **argv)
+int verb_remove(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct reason reason;
-    if (segment_remove(arguments.world, arguments.force, &reason) != 0)
+    if (segment_remove(arguments->world, arguments->force, &reason) != 0)
         die_refused("%s", reason.text);
     return EXIT_OK;
 }

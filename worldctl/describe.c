@@ -93,13 +93,12 @@ static void info_json(const struct view *view, const struct dispersion *d)
     json_print(object);
 }
 
-int verb_info(int argc, char **argv)
+int verb_info(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct view view;
-    arguments_attach(&arguments, &view);
+    arguments_attach(arguments, &view);
     struct dispersion d = disperse(&view.world);
-    if (arguments.json)
+    if (arguments->json)
         info_json(&view, &d);
     else
         info_text(&view, &d);
@@ -153,15 +152,14 @@ static int snapshot_head_or_refuse(const struct view *view, struct state_head *h
     die_refused("world \"%s\" is damaged: its last frame cannot be read", view->name);
 }
 
-int verb_status(int argc, char **argv)
+int verb_status(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct view view;
     struct state_head head;
-    arguments_attach(&arguments, &view);
+    arguments_attach(arguments, &view);
     snapshot_head_or_refuse(&view, &head);
     double time_s = world_time_s(&view.world, &head);
-    if (arguments.json) {
+    if (arguments->json) {
         cJSON *object = cJSON_CreateObject();
         json_text(object, "world", view.name);
         json_text(object, "state", state_of(&view, &head));
@@ -184,9 +182,9 @@ int verb_status(int argc, char **argv)
         return EXIT_OK;
     }
     printf("world \"%s\" is %s at frame %" PRIu64 ", %.2f s; %u vehicles, %u munitions, %" PRIu64
-           " events\n",
+           " events; scenario %s\n",
            view.name, state_of(&view, &head), head.frame, time_s, head.vehicles, head.munitions,
-           head.event_end);
+           head.event_end, view.world.params->scenario);
     for (int role = 0; role < ROLE_COUNT; role++) {
         const struct role_slot *slot = view.slot[role];
         uint64_t starts = atomic_load(&slot->starts);
@@ -208,15 +206,14 @@ int verb_status(int argc, char **argv)
 
 /* --- digest and summary ------------------------------------------------------------------------*/
 
-int verb_digest(int argc, char **argv)
+int verb_digest(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct view view;
     struct snapshot snapshot;
-    arguments_snapshot(&arguments, &view, &snapshot);
+    arguments_snapshot(arguments, &view, &snapshot);
     struct state state = snapshot_state(&snapshot, &view);
     uint64_t digest = world_digest(&view.world, &state);
-    if (arguments.json) {
+    if (arguments->json) {
         cJSON *object = cJSON_CreateObject();
         json_whole(object, "frame", snapshot.head.frame);
         json_hex(object, "digest", digest);
@@ -310,18 +307,17 @@ static void summary_text(const struct view *view, const struct state_head *head,
     printf("  digest %016" PRIx64 ", of events %016" PRIx64 "\n", digest, head->event_digest);
 }
 
-int verb_summary(int argc, char **argv)
+int verb_summary(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct view view;
     struct snapshot snapshot;
-    arguments_snapshot(&arguments, &view, &snapshot);
+    arguments_snapshot(arguments, &view, &snapshot);
     struct state state = snapshot_state(&snapshot, &view);
     uint64_t digest = world_digest(&view.world, &state);
-    if (arguments.json)
-        summary_json(&view, &snapshot.head, digest, arguments.wall_s);
+    if (arguments->json)
+        summary_json(&view, &snapshot.head, digest, arguments->wall_s);
     else
-        summary_text(&view, &snapshot.head, digest, arguments.wall_s);
+        summary_text(&view, &snapshot.head, digest, arguments->wall_s);
     snapshot_free(&snapshot);
     segment_detach(&view);
     return EXIT_OK;

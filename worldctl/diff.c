@@ -124,14 +124,16 @@ static int diff(const struct arguments *arguments, struct side *a, struct side *
     return EXIT_OK;
 }
 
-int verb_diff(int argc, char **argv)
+int verb_diff(const struct arguments *arguments)
 {
     static struct side a, b;
-    struct arguments arguments = arguments_read_two(argc, argv);
+    if (!arguments->other)
+        die_usage(
+            "diff: wants two logs of commands, images or worlds; try jolon-world diff --help");
     process_signals();
-    side_open(&a, arguments.path, arguments.threads);
-    side_open(&b, arguments.other, arguments.threads);
-    int code = diff(&arguments, &a, &b);
+    side_open(&a, arguments->path, arguments->threads);
+    side_open(&b, arguments->other, arguments->threads);
+    int code = diff(arguments, &a, &b);
     side_close(&a);
     side_close(&b);
     return code;

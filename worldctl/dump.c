@@ -113,18 +113,17 @@ static void dump_terrain(const struct arguments *arguments, const struct view *v
     crater_index_free(&craters);
 }
 
-int verb_dump(int argc, char **argv)
+int verb_dump(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct view view;
     struct snapshot snapshot;
-    arguments_snapshot(&arguments, &view, &snapshot);
-    if (arguments.terrain)
-        dump_terrain(&arguments, &view, &snapshot);
-    else if (arguments.fixed)
-        dump_fixed(&arguments, &view, &snapshot);
+    arguments_snapshot(arguments, &view, &snapshot);
+    if (arguments->terrain)
+        dump_terrain(arguments, &view, &snapshot);
+    else if (arguments->fixed)
+        dump_fixed(arguments, &view, &snapshot);
     else
-        dump_entities(&arguments, &view, &snapshot);
+        dump_entities(arguments, &view, &snapshot);
     snapshot_free(&snapshot);
     segment_detach(&view);
     return EXIT_OK;

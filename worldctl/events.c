@@ -38,32 +38,31 @@ static void print_gap(const struct arguments *arguments, uint64_t gap)
         printf("... %" PRIu64 " events lost: the ring had gone round\n", gap);
 }
 
-int verb_events(int argc, char **argv)
+int verb_events(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     static struct event events[BATCH];
-    uint64_t from = arguments.from ? process_whole("from", arguments.from, 0, UINT64_MAX) : 0;
+    uint64_t from = arguments->from ? process_whole("from", arguments->from, 0, UINT64_MAX) : 0;
     struct event_cursor cursor = {0};
     struct view view;
-    arguments_attach(&arguments, &view);
+    arguments_attach(arguments, &view);
     process_signals();
     for (;;) {
         uint64_t seen = atomic_load(&view.commit->commit);
         uint32_t count = events_read(&view, &cursor, events, BATCH);
         if (cursor.gap > 0)
-            print_gap(&arguments, cursor.gap);
+            print_gap(arguments, cursor.gap);
         cursor.gap = 0;
         for (uint32_t i = 0; i < count; i++) {
             if (events[i].frame < from)
                 continue;
-            if (arguments.json)
+            if (arguments->json)
                 json_print(json_event(&view.world, &events[i]));
             else
                 print_plain(&view.world, &events[i]);
         }
         if (count > 0)
             continue;
-        if (!arguments.follow || process_stopping() || frame_finished(&view) || ferror(stdout))
+        if (!arguments->follow || process_stopping() || frame_finished(&view) || ferror(stdout))
             break;
         fflush(stdout);
         frame_wait(&view, seen, clock_now_ns() + WAIT_NS);

@@ -100,31 +100,30 @@ static struct replayed judge(const struct tape *tape, const struct player *playe
     return outcome;
 }
 
-int verb_replay(int argc, char **argv)
+int verb_replay(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct tape tape;
     struct view view;
     struct player player;
     struct event_log events;
-    if (!arguments.path)
+    if (!arguments->path)
         die_usage("replay: wants a log of commands; try jolon-world help");
     process_signals();
-    remake_tape(&tape, arguments.path);
-    uint64_t last = last_frame(&arguments, &tape);
+    remake_tape(&tape, arguments->path);
+    uint64_t last = last_frame(arguments, &tape);
     remake_world(&view, &tape);
-    if (player_init(&player, &view, arguments.threads) != 0)
-        die_refused("cannot start %u threads: %s", arguments.threads, strerror(errno));
-    if (arguments.events)
-        event_log_open(&events, &view, arguments.events);
-    bool met = play(&tape, &player, last, arguments.events ? &events : NULL);
-    if (arguments.events && event_log_close(&events, &view) != 0)
-        die_refused("--events %s: cannot write all of it", arguments.events);
+    if (player_init(&player, &view, arguments->threads) != 0)
+        die_refused("cannot start %u threads: %s", arguments->threads, strerror(errno));
+    if (arguments->events)
+        event_log_open(&events, &view, arguments->events);
+    bool met = play(&tape, &player, last, arguments->events ? &events : NULL);
+    if (arguments->events && event_log_close(&events, &view) != 0)
+        die_refused("--events %s: cannot write all of it", arguments->events);
     if (tape.gap && player_frame(&player) == tape.known_frame)
         log_warn("%s: commands are lost after frame %" PRIu64 ": replayed to there", tape.path,
                  tape.known_frame);
     struct replayed outcome = judge(&tape, &player, met);
-    tell(&arguments, &tape, &outcome);
+    tell(arguments, &tape, &outcome);
     player_free(&player);
     segment_abandon(&view);
     tape_close(&tape);

@@ -55,16 +55,15 @@ static void run(struct player *player, bool moved)
         die_refused("out of memory for the frame's contacts");
 }
 
-int verb_replay_frame(int argc, char **argv)
+int verb_replay_frame(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     static struct image image;
     struct view view;
     struct player player;
-    if (!arguments.path)
+    if (!arguments->path)
         die_usage("replay-frame: wants the DUMP to run, as `save --inputs` or a set that gave up "
                   "wrote it");
-    load(&arguments, &image, &view);
+    load(arguments, &image, &view);
     if (player_init(&player, &view, 1) != 0)
         die_refused("out of memory to run a frame");
     bool moved = atomic_load(&view.moved_word->moved) == image.header.frame + 1;

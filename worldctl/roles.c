@@ -26,25 +26,23 @@ static enum role role_argument(const struct arguments *arguments)
               names);
 }
 
-int verb_pid(int argc, char **argv)
+int verb_pid(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
-    enum role role = role_argument(&arguments);
+    enum role role = role_argument(arguments);
     struct view view;
-    arguments_attach(&arguments, &view);
-    int pid = segment_holder_alive(arguments.world, role, clock_now_ns() + PID_NS);
+    arguments_attach(arguments, &view);
+    int pid = segment_holder_alive(arguments->world, role, clock_now_ns() + PID_NS);
     if (pid == 0)
-        die_refused("the %s of world \"%s\" is not running", role_name(role), arguments.world);
+        die_refused("the %s of world \"%s\" is not running", role_name(role), arguments->world);
     printf("%d\n", pid);
     segment_detach(&view);
     return EXIT_OK;
 }
 
-int verb_frame(int argc, char **argv)
+int verb_frame(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct view view;
-    arguments_attach(&arguments, &view);
+    arguments_attach(arguments, &view);
     printf("%" PRIu64 "\n", (uint64_t)atomic_load(&view.commit->commit));
     segment_detach(&view);
     return EXIT_OK;

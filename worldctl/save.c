@@ -25,26 +25,25 @@ static void take(const struct arguments *arguments, const struct view *view,
         arguments->world);
 }
 
-int verb_save(int argc, char **argv)
+int verb_save(const struct arguments *arguments)
 {
-    struct arguments arguments = arguments_read(argc, argv);
     struct image_place place;
     struct image_written written;
     struct capture capture;
     struct view view;
     struct reason reason;
-    if (!arguments.path)
+    if (!arguments->path)
         die_usage("save: wants the FILE to write, for example save world.image");
     signal(SIGXFSZ, SIG_IGN); /* a file at its limit is one that cannot be written */
-    arguments_attach(&arguments, &view);
-    if (image_place_open(&place, arguments.path, &reason) != 0)
+    arguments_attach(arguments, &view);
+    if (image_place_open(&place, arguments->path, &reason) != 0)
         die_refused("%s", reason.text);
-    take(&arguments, &view, &capture);
+    take(arguments, &view, &capture);
     uint64_t began = clock_now_ns();
     if (image_write(&place, &view, &capture, &written, &reason) != 0)
         die_refused("%s", reason.text);
     printf("%s: world \"%s\" at frame %" PRIu64 "%s: %.1f MB, %.1f MB unpacked, %.0f ms\n",
-           arguments.path, arguments.world, capture.snapshot.head.frame,
+           arguments->path, arguments->world, capture.snapshot.head.frame,
            capture.inputs ? " and the inputs of the next" : "", (double)written.bytes / 1e6,
            (double)written.content_bytes / 1e6, (double)(clock_now_ns() - began) / 1e6);
     capture_free(&capture);

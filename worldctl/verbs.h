@@ -1,24 +1,27 @@
-/* jolon-world: one function a verb. Each gets its own arguments (argv[0] is the verb), prints its
- * result to standard output and returns an exit code; wrong usage and refusals end the process. */
+/* jolon-world: one function a verb. Each gets its arguments, of which it has those that main.c's
+ * table says, prints its result to standard output and returns an exit code; wrong usage and
+ * refusals end the process. */
 #ifndef JOLON_WORLDCTL_VERBS_H
 #define JOLON_WORLDCTL_VERBS_H
 
-int verb_create(int argc, char **argv);
-int verb_repair(int argc, char **argv);
-int verb_check(int argc, char **argv);
-int verb_info(int argc, char **argv);
-int verb_status(int argc, char **argv);
-int verb_summary(int argc, char **argv);
-int verb_digest(int argc, char **argv);
-int verb_dump(int argc, char **argv);
-int verb_events(int argc, char **argv);
-int verb_list(int argc, char **argv);
-int verb_remove(int argc, char **argv);
-int verb_pid(int argc, char **argv);
-int verb_frame(int argc, char **argv);
-int verb_save(int argc, char **argv);
-int verb_replay_frame(int argc, char **argv);
-int verb_replay(int argc, char **argv);
-int verb_diff(int argc, char **argv);
+struct arguments;
+
+int verb_create(const struct arguments *arguments);
+int verb_repair(const struct arguments *arguments);
+int verb_check(const struct arguments *arguments);
+int verb_info(const struct arguments *arguments);
+int verb_status(const struct arguments *arguments);
+int verb_summary(const struct arguments *arguments);
+int verb_digest(const struct arguments *arguments);
+int verb_dump(const struct arguments *arguments);
+int verb_events(const struct arguments *arguments);
+int verb_list(const struct arguments *arguments);
+int verb_remove(const struct arguments *arguments);
+int verb_pid(const struct arguments *arguments);
+int verb_frame(const struct arguments *arguments);
+int verb_save(const struct arguments *arguments);
+int verb_replay_frame(const struct arguments *arguments);
+int verb_replay(const struct arguments *arguments);
+int verb_diff(const struct arguments *arguments);
 
 #endif

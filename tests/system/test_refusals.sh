@@ -40,6 +40,40 @@ refuses "status of no world" 1 'there is no world' "$jolon" status -w "$name"
 refuses "digest of no world" 1 'there is no world' "$jolon" world digest -w "$name"
 refuses "a role without a world" 1 'there is no world' "$bin/jolon-mover" --world "$name"
 
+# The limits of the shell, said in words.
+small_stack() { (ulimit -s 64 && run good.cfg); }
+refuses "a stack too small for the roles" 1 'stack is limited to 64 KB' small_stack
+small_files() {
+    (ulimit -f 10 && "$jolon" "$1" -w "$name" --frames 2 --out out good.cfg) >told 2>err
+    [ $? = 1 ] && [ "$(wc -l <err)" = 1 ] && grep -qi 'file' err || { cat told err; return 1; }
+}
+check "files limited to 10 KB: run says so" small_files run
+check "files limited to 10 KB: start says so" small_files start
+"$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+
+# What cannot be recorded is not run, unless that was asked for.
+mkdir fifo && mkfifo fifo/commands.log
+unrecorded() { # VERB ...
+    timeout 30 "$jolon" "$1" -w "$name" --frames 200 --pace max --without renderer --without reporter "${@:2}" good.cfg >told 2>err
+    [ $? = 1 ] && grep -q 'recorder refused: .*must be a plain file' err && nothing_left "$name" || { cat told err; return 1; }
+}
+check "a FIFO where the record should be is refused" unrecorded run --out fifo
+check "in the background too" unrecorded start --out fifo
+mkfifo events.fifo
+check "a FIFO for the events is refused" unrecorded run --out out --events events.fifo
+
+# Two sets, one folder.
+"$jolon" start -w "$name" --out one --without renderer --without reporter good.cfg >told
+check "start says where it writes" grep -q 'logs in one[, ]' told
+second() { ! "$jolon" "$1" -w "$name-2" --frames 2 --out ./one good.cfg >told 2>err && grep -q 'another set writes there' err && [ "$(wc -l <err)" = 1 ]; }
+check "another set's folder is refused" second run
+check "in the background too" second start
+check "nothing is left of the second" nothing_left "$name-2"
+check "the first runs on" "$jolon" stop -w "$name"
+check "and is recorded to its end" eval 'tail -n 1 one/commands.log | grep -q end'
+"$jolon" run -w "$name" --frames 2 --pace max --without renderer --without reporter good.cfg >told 2>err
+check "without --out a world has a folder of its own" [ -s "jolon-out-$name/commands.log" ]
+
 # A full /dev/shm: one of 8 MB in a mount namespace of our own.
 if unshare -m true 2>/dev/null; then
     full() {
