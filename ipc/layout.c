@@ -10,8 +10,6 @@
 #include <string.h>
 #include <xxhash.h>
 
-#define PAGE 4096u
-
 /* Bounds that a header from elsewhere cannot pass; each is far above what a world needs. */
 #define POSTS_SIDE_MAX 4097u
 #define PART_MAX       (1u << 26)
@@ -140,7 +138,7 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     size_t at = 0;
     for (int i = 0; i < REGION_COUNT; i++) {
         layout->offset[i] = at;
-        at += (b[i] + PAGE - 1) / PAGE * PAGE;
+        at += (b[i] + REGION_ALIGN - 1) / REGION_ALIGN * REGION_ALIGN;
     }
     layout->total = at;
     return 0;

@@ -1,8 +1,8 @@
 /* Layout of a world's segment: which regions there are, how large, where, and who may write them.
  *
  * Offsets follow from struct params and struct counts alone, so every process computes them anew
- * from the checked header and trusts none from memory. Regions begin on page borders, so that a
- * process maps for writing what its role writes and nothing else. */
+ * from the checked header and trusts none from memory. Regions begin on page borders of every
+ * kernel, so that a process maps for writing what its role writes and nothing else. */
 #ifndef JOLON_IPC_LAYOUT_H
 #define JOLON_IPC_LAYOUT_H
 
@@ -14,7 +14,11 @@
 #include <stdint.h>
 
 #define SEGMENT_MAGIC   0x314e4f4c4f4a0a1au /* "\x1a\nJOLON1": also no text file's first bytes */
-#define SEGMENT_VERSION 3u
+#define SEGMENT_VERSION 4u
+
+/* Every region begins at a multiple of this [byte]. A mapping begins on a page border, and pages
+ * are 4, 16 or 64 KiB, as the kernel was built (aarch64 has all three). */
+#define REGION_ALIGN 65536u
 
 /* A table's head has this much room before its columns begin. */
 #define LAYOUT_HEAD_BYTES 512u

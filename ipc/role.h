@@ -1,7 +1,7 @@
 /* Roles: the one table of process kinds, their locks and their slots.
  *
  * A role is held by one live process at a time: it owns one byte of the world's lock file through
- * an open-file-description lock, which the kernel drops when the process dies. A slot is a page
+ * an open-file-description lock, which the kernel drops when the process dies. A slot is a region
  * of the segment that only the holder writes: who it is, that it lives, what its stages take. */
 #ifndef JOLON_IPC_ROLE_H
 #define JOLON_IPC_ROLE_H
@@ -69,7 +69,7 @@ struct role_slot {
     struct histogram whole;       /* collider: mover's and collider's work of one frame */
 };
 
-_Static_assert(sizeof(struct role_slot) <= 8192, "a slot is two pages");
 #define ROLE_SLOT_BYTES 8192u
+_Static_assert(sizeof(struct role_slot) <= ROLE_SLOT_BYTES, "a slot has room in its region");
 
 #endif

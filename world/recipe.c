@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROOM_BYTES 4096u /* a region's page */
+#define ROOM_BYTES 4096u /* a recipe's room is a multiple of this */
 
 int recipe_add(struct recipe *recipe, const char *key, const char *value)
 {

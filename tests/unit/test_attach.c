@@ -148,6 +148,19 @@ static void test_counts_out_of_range(void **state)
     check_refused("counts");
 }
 
+/* Kernels have pages of 4, 16 or 64 KiB, and a mapping begins at a page. */
+static void test_regions_begin_where_any_kernel_can_map(void **state)
+{
+    static const size_t largest_page = 65536;
+    (void)state;
+    for (int region = 0; region < REGION_COUNT; region++) {
+        if (layout.offset[region] % largest_page != 0)
+            fail_msg("%s begins at byte %zu", region_name((enum region)region),
+                     layout.offset[region]);
+    }
+    assert_int_equal(layout.total % largest_page, 0);
+}
+
 static void test_counts_that_do_not_fit_the_size(void **state)
 {
     struct segment_header h = header;
@@ -395,6 +408,7 @@ int main(void)
         TEST(test_wrong_magic),
         TEST(test_wrong_version),
         TEST(test_other_layout),
+        TEST(test_regions_begin_where_any_kernel_can_map),
         TEST(test_counts_out_of_range),
         TEST(test_counts_that_do_not_fit_the_size),
         TEST(test_header_damaged_in_many_bits),
