@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The same run to the bit whoever compiled it: gcc and clang, with and without optimisation, on one
-# thread, two and four. What moves, collides and makes worlds is built anew for each, below build/.
+# The same run to the bit whoever compiled it: gcc and clang, without optimisation, with it, and with
+# all that this processor can do; on one thread, two and four. What moves, collides and makes worlds
+# is built anew for each, below build/.
 . "$(dirname "$0")/lib.sh"
 source_dir=$(cd "$(dirname "$bin")/.." && pwd)
 until [ -e "$source_dir/Makefile" ] || [ "$source_dir" = / ]; do source_dir=$(dirname "$source_dir"); done
@@ -12,37 +13,14 @@ if [ -n "${JOLON_SANITIZER-}" ]; then
     done_testing
 fi
 
-# Whatever can happen, close together: shots, blasts, craters, rams, falling trees, wrecks that spin.
-cat >busy.cfg <<'C'
-world = { seed = 11; capacity = 2048; };
-terrain = { source = "generated"; spacing_m = 125.0; };
-objects = { source = "table1"; };
-vehicles = (
-    { kind = "tank"; count = 60; force = "blue"; fire_at_will = true; area = [28200.0, 19800.0, 28500.0, 20200.0]; },
-    { kind = "tank"; count = 60; force = "red"; fire_at_will = true; area = [28300.0, 19800.0, 28600.0, 20200.0]; },
-    { kind = "jeep"; count = 90; behaviour = "hold"; speed_mps = 12.0; area = [28300.0, 19800.0, 28550.0, 20100.0]; },
-    { kind = "truck"; count = 60; force = "red"; area = [28250.0, 19850.0, 28550.0, 20150.0]; },
-    { kind = "attack-tomato"; count = 30; force = "red"; fire_at_will = true; area = [28200.0, 19800.0, 28600.0, 20200.0]; },
-    { kind = "helicopter"; count = 20; force = "blue"; fire_at_will = true; area = [28200.0, 19800.0, 28500.0, 20200.0]; },
-    { kind = "wishbone"; count = 20; force = "red"; fire_at_will = true; area = [28200.0, 19800.0, 28500.0, 20200.0]; },
-    { kind = "jet"; force = "blue"; behaviour = "hold"; at = [28000.0, 20000.0]; altitude_m = 90.0; heading_deg = 90.0; speed_mps = 200.0; },
-    { kind = "jet"; force = "red"; behaviour = "hold"; at = [28600.0, 20003.0]; altitude_m = 90.0; heading_deg = 270.0; speed_mps = 180.0; },
-    { kind = "tank"; behaviour = "hold"; at = [28200.0, 20000.0]; heading_deg = 35.0; speed_mps = 14.0; },
-    { kind = "truck"; behaviour = "hold"; at = [28230.0, 19985.0]; heading_deg = 300.0; speed_mps = 20.0; }
-);
-fires = (
-    { at_s = 0.2; munition = "artillery"; point = [28400.0, 20000.0]; },
-    { at_s = 0.5; munition = "artillery"; point = [28405.0, 20005.0]; },
-    { at_s = 1.0; munition = "bomb"; point = [28500.0, 20100.0]; }
-);
-C
+busy=$source_dir/tests/system/busy.cfg # everything that can happen, close together
 
 # run AS BIN [options]: AS.json is the summary.
 run() {
     local as=$1 with=$2
     shift 2
     "$with/jolon" run -w "$name" --without renderer --without reporter --pace max --frames 300 --json \
-        --out "$folder/out" "$@" busy.cfg >"$as.json" 2>"$as.err" || sed 's/^/# /' "$as.err"
+        --out "$folder/$as" "$@" "$busy" >"$as.json" 2>"$as.err" || sed 's/^/# /' "$as.err"
 }
 
 # The digests of what is in AS.json: of the world, and of everything that happened.
@@ -60,29 +38,61 @@ for threads in 2 4; do
 done
 
 have() { command -v "$1" >/dev/null; }
+
+# fused_seen COMPILER: tests/fused names an instruction that rounds once in place of twice.
+fused_seen() {
+    local machine=''
+    [ "$(uname -m)" = x86_64 ] && machine=-mfma
+    mkdir -p fused/world fused/mover fused/collider
+    echo 'double f(double a, double b, double c) { return a * b + c; }' >fused.c
+    for part in world mover collider; do
+        "$1" -O2 $machine -ffp-contract=fast -c -o fused/$part/f.o fused.c || return 1
+    done
+    ! "$source_dir/tests/fused" fused
+}
+check "an instruction that rounds once is seen" fused_seen gcc
+check "the build has none" "$source_dir/tests/fused" "$bin/../obj"
+
 echo clang-14 >list
 have clang-14 || "$source_dir/supervisor/install-packages" list >install.log 2>&1 || sed 's/^/# /' install.log
+# build TREE COMPILER OPT PROGRAM...: into TREE, below the sources.
+build() {
+    local tree=$1 compiler=$2 level=$3 programs=()
+    shift 3
+    for program; do programs+=("$tree/bin/$program"); done
+    env -u MAKEFLAGS -u MFLAGS make -s -C "$source_dir" -j"$(nproc)" BUILD="$tree" CC="$compiler" OPT="$level" \
+        "${programs[@]}" >make.log 2>&1 || { tail -n 15 make.log && return 1; }
+}
+
 for compiler in gcc clang-14; do
+    if ! have $compiler; then
+        skip "$compiler: the same" "there is no $compiler, and it cannot be installed"
+        continue
+    fi
     for level in -O0 -O2; do
         what="$compiler $level"
-        if ! have $compiler; then
-            skip "$what: the same" "there is no $compiler, and it cannot be installed"
+        case $(cat "$bin/../flags") in
+        "$compiler -std=c17 $level "*)
+            ok "$what: it is what runs above"
             continue
-        fi
+            ;;
+        esac
         tree=build/compilers/$compiler$level
-        programs=()
-        for program in jolon-world jolon-mover jolon-collider jolon-recorder jolon-keeper jolon; do programs+=("$tree/bin/$program"); done
-        if ! env -u MAKEFLAGS -u MFLAGS make -s -C "$source_dir" -j"$(nproc)" BUILD=$tree CC=$compiler \
-            OPT=$level "${programs[@]}" >make.log 2>&1; then
-            not_ok "$what builds"
-            tail -n 15 make.log | sed 's/^/# /'
-            continue
-        fi
+        check "$what builds" build $tree $compiler $level jolon-world jolon-mover jolon-collider jolon-recorder \
+            jolon-keeper jolon
         run variant "$source_dir/$tree/bin" --threads 2
         check "$what: the same" equal "$(digests variant)" "$first"
         run variant "$source_dir/$tree/bin" --set collision.response=figure8
         check "$what, figure 8: the same" equal "$(digests variant)" "$figure8"
     done
+    # The steps in one process do for this one: making the world, moving, colliding.
+    what="$compiler -O3 -march=native"
+    tree=build/compilers/$compiler-native
+    check "$what builds" build $tree $compiler "-O3 -march=native" jolon-world
+    for log in first figure8; do
+        check "$what, $log: the same" "$source_dir/$tree/bin/jolon-world" replay --threads 2 "$folder/$log/commands.log"
+    done
+    check "$what: nothing rounds once" "$source_dir/tests/fused" "$source_dir/$tree/obj"
 done
 check "it leaves no shared memory" nothing_left "$name"
 done_testing
