@@ -152,7 +152,7 @@ DDS_CFLAGS    = $(call pc,cflags,CycloneDDS) -I$(IDL)
 # Devices' libraries are opened by drive/library.c when one is there; this is for their headers.
 DEVICE_CFLAGS = $(call pc,cflags,libevdev spnav)
 DDS_LIBS      = $(call pc,libs,CycloneDDS)
-RENDER_CFLAGS = $(call pc,cflags,epoxy egl libdeflate libjpeg libmicrohttpd freetype2 libavformat libavcodec libavutil)
+RENDER_CFLAGS = $(call pc,cflags,epoxy egl libdeflate libjpeg freetype2 libavformat libavcodec libavutil)
 # Not egl: libepoxy opens it when there is one, and a machine without it is told so. Nor libav:
 # renderer/output/libav.c opens it when there is video to be made.
 RENDER_LIBS   = $(call pc,libs,epoxy libdeflate libjpeg libmicrohttpd freetype2)
@@ -228,6 +228,7 @@ $(OBJ)/topics/%.o $(OBJ)/ctl/%.o $(OBJ)/harness/%.o $(OBJ)/console/%.o $(OBJ)/re
 $(OBJ)/tests/once/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
 $(OBJ)/drive/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(DEVICE_CFLAGS)
 $(OBJ)/renderer/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS)
+$(OBJ)/http/%.o: CFLAGS_EXTRA = $(call pc,cflags,libmicrohttpd)
 # Painting is loops over rows, which the compiler makes vectors of. None of this changes a result.
 $(call objects,$(addprefix renderer/scene/,paint.c country.c grain_rows.c)): CFLAGS_EXTRA = \
         $(RENDER_CFLAGS) -O3 -fno-math-errno -fno-trapping-math
@@ -302,8 +303,10 @@ $(BUILD)/tests/unit/test_jpeg: $(call objects,$(addprefix renderer/image/,image.
 $(BUILD)/tests/unit/test_jpeg: TEST_LIBS += $(call pc,libs,libjpeg)
 $(BUILD)/tests/unit/test_console_body: $(call objects,$(addprefix console/,body.c answer.c text.c players.c secret.c)) $(TOPICS) $(TOPICS_JSON)
 $(BUILD)/tests/unit/test_console_body: TEST_LIBS += $(DDS_LIBS)
-$(BUILD)/tests/unit/test_console_parts: $(call objects,$(addprefix console/,answer.c crowd.c fetch.c \
+$(BUILD)/tests/unit/test_console_parts: $(call objects,$(addprefix console/,answer.c fetch.c \
         pictures.c players.c secret.c text.c)) $(HTTP)
+$(BUILD)/tests/unit/test_console_parts: TEST_LIBS += $(call pc,libs,libmicrohttpd)
+$(BUILD)/tests/unit/test_connection_limit: $(OBJ)/http/connection_limit.o
 $(BUILD)/tests/unit/test_sandbox: $(SANDBOX)
 $(BUILD)/tests/unit/test_sandbox: TEST_LIBS += $(SANDBOX_LIBS) $(DDS_LIBS)
 $(OBJ)/tests/unit/test_sandbox.o: CFLAGS_EXTRA = $(DDS_CFLAGS)

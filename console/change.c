@@ -5,7 +5,6 @@
 #include "console/roles.h"
 #include "ipc/clock.h"
 
-#include <microhttpd.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -14,7 +13,7 @@ static void on_ready(struct ticket *ticket)
 {
     struct request *request =
         (struct request *)(void *)((char *)ticket - offsetof(struct request, ticket));
-    MHD_resume_connection(request->connection);
+    http_wake(request->http);
 }
 
 static bool join(struct request *request, struct player *player, struct answer *answer)
@@ -24,7 +23,7 @@ static bool join(struct request *request, struct player *player, struct answer *
     struct text *text = &answer->text;
     uint64_t source = caller_source(), now_ns = clock_now_ns();
     (void)player;
-    if (!body_join(name, request->body, request->body_bytes, answer))
+    if (!body_join(name, request->http->body, request->http->body_bytes, answer))
         return true;
     if (source == 0 || !secret_random(key)) {
         answer_error(answer, ANSWER_AWAY, "try again", "the system gives no random numbers");
@@ -49,7 +48,7 @@ static bool command(struct request *request, struct player *player, struct answe
 {
     struct console *console = request->console;
     struct ticket *ticket = &request->ticket;
-    const char *key = request_header(request, "X-Jolon-Player");
+    const char *key = http_header(request->http, "X-Jolon-Player");
     if (key && !player) {
         answer_error(answer, ANSWER_UNAUTHORIZED, "POST /api/join again",
                      "no player has this key; who is not heard of for two minutes has left");
@@ -60,7 +59,8 @@ static bool command(struct request *request, struct player *player, struct answe
                      console->ending ? "the console ends" : console->watch.why.text);
         return true;
     }
-    if (!body_order(&ticket->order, &ticket->cancel, request->body, request->body_bytes, answer))
+    if (!body_order(&ticket->order, &ticket->cancel, request->http->body, request->http->body_bytes,
+                    answer))
         return true;
     ticket->ready = on_ready;
     return !desk_put(&console->desk, ticket, player, clock_now_ns(), answer);
@@ -71,7 +71,7 @@ static bool process(struct request *request, struct player *player, struct answe
     char role[BODY_ROLE_MAX];
     bool restart;
     (void)player;
-    if (body_process(&restart, role, request->body, request->body_bytes, answer))
+    if (body_process(&restart, role, request->http->body, request->http->body_bytes, answer))
         roles_end(&request->console->watch, role, restart, answer);
     return true;
 }

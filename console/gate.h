@@ -7,7 +7,7 @@
 /* The player whose key the request has, who is heard of with that; NULL: none. */
 struct player *gate_player(struct request *request, uint64_t now_ns);
 
-/* May anything be asked for: by a name of this server, not by another site's page, not too often?
+/* May anything be asked for: not by another site's page, not too often?
  * False with the answer. */
 bool gate_open(struct request *request, const struct player *player, uint64_t now_ns,
                struct answer *answer);

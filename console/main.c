@@ -42,7 +42,7 @@ static void greet(const struct options *options)
                  options->address);
 }
 
-static void turn(uint64_t now_ns, uint64_t *swept_ns)
+static void turn(uint64_t now_ns)
 {
     pthread_mutex_lock(&console.lock);
     if (watch_turn(&console.watch, now_ns)) {
@@ -53,11 +53,8 @@ static void turn(uint64_t now_ns, uint64_t *swept_ns)
             log_info("%s; waiting for it", console.watch.why.text);
     }
     desk_turn(&console.desk, &console.players, &console.watch, now_ns);
-    if (now_ns - *swept_ns >= NS_PER_S) {
-        crowd_sweep(&console.crowd, now_ns);
-        *swept_ns = now_ns;
-    }
     pthread_mutex_unlock(&console.lock);
+    http_server_sweep(console.http, now_ns);
 }
 
 int main(int argc, char **argv)
@@ -65,7 +62,6 @@ int main(int argc, char **argv)
     struct options options;
     struct sandbox sandbox;
     struct reason reason;
-    uint64_t swept_ns = 0;
     log_open("console");
     options_parse(&options, argc, argv);
     process_close_inherited();
@@ -91,7 +87,7 @@ int main(int argc, char **argv)
         die_refused("%s", reason.text);
     while (!process_stopping()) {
         uint64_t now_ns = clock_now_ns();
-        turn(now_ns, &swept_ns);
+        turn(now_ns);
         desk_wait(&console.desk, now_ns + TURN_NS);
     }
     server_end(&console);

@@ -8,19 +8,12 @@
 
 #define REQUEST_BODY 4096u /* [byte] of a body at most */
 
-struct MHD_Connection;
-
+/* The request's own room in the server (http/server.h). */
 struct request {
     struct console *console;
-    struct MHD_Connection *connection;
-    struct seat *seat;    /* NULL: there was no room */
+    struct http_request *http;
     struct ticket ticket; /* of its order; its answer comes when that is done */
     struct gaze gaze;     /* of the picture that it wants */
-    char body[REQUEST_BODY];
-    size_t body_bytes; /* beyond REQUEST_BODY: it was longer, and is not whole */
 };
-
-/* A header's value, NULL when the request has none. */
-const char *request_header(const struct request *request, const char *name);
 
 #endif

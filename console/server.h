@@ -1,29 +1,22 @@
-/* The server: people's browsers, by libmicrohttpd, in one thread of its own. It answers from the
+/* The server: people's browsers, in the thread of http/server.h. It answers from the
  * world's copy at once; a command's answer waits, without the thread, for what became of it. Every
  * request is checked before anything is done: docs/console.md, "Security". */
 #ifndef JOLON_CONSOLE_SERVER_H
 #define JOLON_CONSOLE_SERVER_H
 
-#include "console/crowd.h"
 #include "console/desk.h"
 #include "console/pictures.h"
 #include "console/players.h"
 #include "console/secret.h"
 #include "console/watch.h"
-#include "http/listen.h"
+#include "http/server.h"
 
 #include <pthread.h>
-
-#define SERVER_ADDRESSES 256u /* whose rates are told apart */
-
-struct MHD_Daemon;
 
 struct console {
     pthread_mutex_t lock; /* of all below but what never changes */
     struct watch watch;
     struct players players;
-    struct crowd crowd;
-    struct rate address_rate[SERVER_ADDRESSES];
     struct rate write_rate; /* of those who change the world without a player's name */
     struct desk desk;
     struct pictures pictures; /* has a lock of its own */
@@ -31,7 +24,7 @@ struct console {
     /* What never changes once the server runs. */
     char token[SECRET_MAX];
     struct http_listener listener;
-    struct MHD_Daemon *daemon;
+    struct http_server *http;
 };
 
 /* Starts to serve on the listener, which becomes the server's. 0, or -1 with the reason. */

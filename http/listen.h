@@ -12,6 +12,7 @@
 struct http_listener {
     int fd;       /* non-blocking, listening; the owner's to close */
     bool local;   /* only this machine can reach it */
+    bool ours;    /* a Unix socket, for processes of this user (geteuid()) alone */
     char url[96]; /* "http://ADDRESS:PORT/" */
 };
 

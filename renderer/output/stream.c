@@ -1,7 +1,6 @@
 /* The stream's views and the thread that encodes them. */
 #include "renderer/output/stream.h"
 
-#include "http/listen.h"
 #include "ipc/clock.h"
 #include "ipc/log.h"
 #include "renderer/image/jpeg.h"
@@ -83,16 +82,17 @@ void stream_put(struct stream *stream, struct picture *picture)
 
 struct stream_jpeg *stream_hold(struct stream_jpeg *jpeg)
 {
-    jpeg->holders++;
+    atomic_fetch_add(&jpeg->holders, 1);
     return jpeg;
 }
 
-void stream_release(struct stream_jpeg *jpeg)
+void stream_release(void *jpeg)
 {
-    if (jpeg == NULL || --jpeg->holders > 0)
+    struct stream_jpeg *released = jpeg;
+    if (released == NULL || atomic_fetch_sub(&released->holders, 1) > 1)
         return;
-    free(jpeg->bytes);
-    free(jpeg);
+    free(released->bytes);
+    free(released);
 }
 
 /* --- encoding ----------------------------------------------------------------------------------*/
@@ -191,6 +191,7 @@ static void *serve(void *argument)
     pthread_mutex_lock(&stream->lock);
     while (!stream->ending) {
         bool done = serve_views(stream);
+        stream_http_sweep(stream);
         if (!serve_wanted(stream) && !done)
             wait_shortly(stream);
     }
@@ -224,23 +225,21 @@ static void end_threads(struct stream *stream, bool painting)
         pthread_join(stream->painting, NULL);
 }
 
-/* 0, or -1 with errno, and no thread. */
-static int start_threads(struct stream *stream)
+/* 0, or -1 with the reason, and no thread. */
+static int start_threads(struct stream *stream, struct reason *reason)
 {
-    if ((errno = pthread_create(&stream->encoding, NULL, serve, stream)) != 0)
-        return -1;
-    if ((errno = pthread_create(&stream->painting, NULL, stream_paint, stream)) != 0) {
-        int cause = errno;
+    int cause = pthread_create(&stream->encoding, NULL, serve, stream);
+    if (cause != 0)
+        return reason_set(reason, "cannot start the stream: %s", strerror(cause));
+    cause = pthread_create(&stream->painting, NULL, stream_paint, stream);
+    if (cause != 0) {
         end_threads(stream, false);
-        errno = cause;
-        return -1;
+        return reason_set(reason, "cannot start the stream: %s", strerror(cause));
     }
-    if (stream_http_start(stream) == 0)
+    if (stream_http_start(stream, reason) == 0)
         return 0;
-    int cause = errno;
     end_threads(stream, true);
     stream_http_end(stream);
-    errno = cause;
     return -1;
 }
 
@@ -252,11 +251,10 @@ int stream_start(struct stream *stream, struct reason *reason)
     sigfillset(&all);
     sigdelset(&all, SIGSYS); /* what the sandbox forbids is to be told */
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    int result = start_threads(stream);
-    int cause = errno;
+    int result = start_threads(stream, reason);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     stream->started = result == 0;
-    return result == 0 ? 0 : reason_set(reason, "cannot start the stream: %s", strerror(cause));
+    return result;
 }
 
 static void let_go(struct stream_view *view)
@@ -284,7 +282,7 @@ void stream_close(struct stream *stream)
     for (uint32_t i = 0; i < STREAM_MAPS; i++)
         let_go(&stream->map[i].view);
     for (uint32_t i = 0; i < stream->doors; i++)
-        if (stream->door[i].listener >= 0)
-            close(stream->door[i].listener);
+        if (stream->door[i].listener.fd >= 0)
+            close(stream->door[i].listener.fd);
     free(stream);
 }

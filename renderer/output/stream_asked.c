@@ -5,7 +5,6 @@
 #include "ipc/clock.h"
 #include "renderer/output/outlet.h"
 
-#include <microhttpd.h>
 #include <stdio.h>
 #include <sys/resource.h>
 
@@ -23,45 +22,37 @@ struct reading {
     bool failed;
 };
 
-static enum MHD_Result take_argument(void *context, enum MHD_ValueKind kind, const char *key,
-                                     const char *value)
+static bool take_argument(void *context, const char *key, const char *value)
 {
     struct reading *reading = context;
-    (void)kind;
     int result = reading->picture != NULL
                      ? query_picture_take(reading->picture, key, value, &reading->reason)
                      : query_map_take(reading->map, key, value, &reading->reason);
     reading->failed = result != 0;
-    return result == 0 ? MHD_YES : MHD_NO;
+    return result == 0;
 }
 
 /* false: the reply says what is wrong. */
 static bool read_query(const struct stream_client *client, struct reading *reading,
-                       struct stream_reply *reply)
+                       struct http_reply *reply)
 {
     char words[sizeof reading->reason.text + 2];
-    MHD_get_connection_values(client->connection, MHD_GET_ARGUMENT_KIND, take_argument, reading);
+    http_arguments(client->request, take_argument, reading);
     if (!reading->failed)
         return true;
     snprintf(words, sizeof words, "%s\n", reading->reason.text);
-    *reply = stream_refuse(MHD_HTTP_BAD_REQUEST, words);
+    stream_refuse(reply, 400, words);
     return false;
 }
 
-static struct stream_reply reply_jpeg(const struct stream_view *view)
+static void reply_numbered(struct http_reply *reply, const struct stream_view *view)
 {
-    struct stream_reply reply =
-        stream_reply_bytes(view->jpeg->bytes, view->jpeg->count, "image/jpeg");
-    char number[32];
-    if (reply.response == NULL || view->number == 0)
-        return reply;
-    snprintf(number, sizeof number, "%llu", (unsigned long long)view->number);
-    MHD_add_response_header(reply.response, "X-Picture", number);
-    snprintf(number, sizeof number, "%llu", (unsigned long long)view->jpeg->frame);
-    MHD_add_response_header(reply.response, "X-Frame", number);
-    snprintf(number, sizeof number, "%.4f", view->jpeg->time_s);
-    MHD_add_response_header(reply.response, "X-Time", number);
-    return reply;
+    stream_reply_jpeg(reply, view->jpeg);
+    if (view->number == 0)
+        return;
+    http_reply_add(reply, "X-Picture", "%llu", (unsigned long long)view->number);
+    http_reply_add(reply, "X-Frame", "%llu", (unsigned long long)view->jpeg->frame);
+    http_reply_add(reply, "X-Time", "%.4f", view->jpeg->time_s);
 }
 
 /* What the last key's clients left there is of no use to the next one's. */
@@ -104,7 +95,7 @@ static bool is_enough(const struct stream_view *view, const struct query_picture
 }
 
 /* The row is let go with the answer: who is slow to read it keeps nobody from another's. */
-static struct stream_reply answer_picture(struct stream_client *client)
+static bool answer_picture(struct stream_client *client, struct http_reply *reply)
 {
     const struct stream_view *view = client->view;
     struct wanted *row = client->wanted;
@@ -113,32 +104,34 @@ static struct stream_reply answer_picture(struct stream_client *client)
     if (row->gone) {
         snprintf(words, sizeof words, "there is no vehicle %u, or no more\n", row->key.vehicle);
         wanted_forget(row);
-        return stream_refuse(MHD_HTTP_NOT_FOUND, words);
+        stream_refuse(reply, 404, words);
+    } else if (view->jpeg == NULL) {
+        stream_refuse(reply, 503, "no picture within a second; ask again\n");
+    } else {
+        reply_numbered(reply, view);
     }
-    if (view->jpeg == NULL)
-        return stream_refuse(MHD_HTTP_SERVICE_UNAVAILABLE,
-                             "no picture within a second; ask again\n");
-    return reply_jpeg(view);
+    return true;
 }
 
-struct stream_reply stream_asked_picture(struct stream_client *client)
+bool stream_asked_picture(struct stream_client *client, struct http_reply *reply)
 {
     struct stream *stream = client->stream;
     struct query_picture query;
     struct reading reading = {.picture = &query};
-    struct stream_reply reply;
     uint64_t now_ns = clock_now_ns();
     if (client->wanted != NULL) /* it has waited */
-        return answer_picture(client);
+        return answer_picture(client, reply);
     query_picture_begin(&query);
-    if (!read_query(client, &reading, &reply))
-        return reply;
-    if (!hold_wanted(client, &query.key, now_ns))
-        return stream_refuse(MHD_HTTP_SERVICE_UNAVAILABLE,
-                             "8 different pictures are drawn already, and no more at a time; ask "
-                             "for one of those, or again in 2 s\n");
+    if (!read_query(client, &reading, reply))
+        return true;
+    if (!hold_wanted(client, &query.key, now_ns)) {
+        stream_refuse(reply, 503,
+                      "8 different pictures are drawn already, and no more at a time; ask for one "
+                      "of those, or again in 2 s\n");
+        return true;
+    }
     if (is_enough(client->view, &query, now_ns) || stream->ending)
-        return answer_picture(client);
+        return answer_picture(client, reply);
     uint32_t row = (uint32_t)(client->wanted - stream->wanted.row);
     stream->again[row] |= !query.after_given || client->view->number != query.after;
     stream->asks++;
@@ -177,35 +170,37 @@ static struct stream_map *find_map(struct stream *stream, const struct query_map
     return found;
 }
 
-static struct stream_reply answer_map(struct stream_client *client)
+static bool answer_map(struct stream_client *client, struct http_reply *reply)
 {
     stream_asked_end(client);
     if (client->view->jpeg == NULL)
-        return stream_refuse(MHD_HTTP_SERVICE_UNAVAILABLE, "the map is not ready; ask again\n");
-    return reply_jpeg(client->view);
+        stream_refuse(reply, 503, "the map is not ready; ask again\n");
+    else
+        reply_numbered(reply, client->view);
+    return true;
 }
 
-struct stream_reply stream_asked_map(struct stream_client *client)
+bool stream_asked_map(struct stream_client *client, struct http_reply *reply)
 {
     struct stream *stream = client->stream;
     struct query_map query;
     struct reading reading = {.map = &query};
-    struct stream_reply reply;
     if (client->map != NULL) /* it has waited */
-        return answer_map(client);
+        return answer_map(client, reply);
     query_map_begin(&query);
-    if (!read_query(client, &reading, &reply))
-        return reply;
+    if (!read_query(client, &reading, reply))
+        return true;
     struct stream_map *map = find_map(stream, &query);
-    if (map == NULL)
-        return stream_refuse(MHD_HTTP_SERVICE_UNAVAILABLE,
-                             "16 maps are being painted already; ask again\n");
+    if (map == NULL) {
+        stream_refuse(reply, 503, "16 maps are being painted already; ask again\n");
+        return true;
+    }
     map->asked_ns = clock_now_ns();
     map->holders++;
     client->map = map;
     client->view = &map->view;
     if (map->view.jpeg != NULL || stream->ending)
-        return answer_map(client);
+        return answer_map(client, reply);
     map->wanted = true;
     client->until_ns = map->asked_ns + MAP_WAIT_NS;
     pthread_cond_signal(&stream->paint);

@@ -1,7 +1,6 @@
 /* Where the stream listens. */
 #include "renderer/output/stream_inside.h"
 
-#include "http/listen.h"
 #include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/pictures.h"
@@ -17,11 +16,10 @@
 #define TRIES      20           /* for a name whose last owner is just dying ... */
 #define TRY_NS     10000000u    /* ... so long apart */
 
-static void add_door(struct stream *stream, int listener, bool local, bool ours)
+static void add_door(struct stream *stream, const struct http_listener *listener)
 {
     CHECK(stream->doors < STREAM_DOORS);
-    stream->door[stream->doors++] = (struct stream_door){
-        .stream = stream, .listener = listener, .local = local, .ours = ours, .user = geteuid()};
+    stream->door[stream->doors++] = (struct stream_door){.listener = *listener};
 }
 
 int stream_listen(struct stream *stream, const char *address, uint16_t port, struct reason *reason)
@@ -37,7 +35,7 @@ int stream_listen(struct stream *stream, const char *address, uint16_t port, str
     snprintf(stream->url, sizeof stream->url, "%s", listener.url);
     if (!listener.local)
         log_warn("the stream is open to whoever reaches %s: it has no password", address);
-    add_door(stream, listener.fd, listener.local, false);
+    add_door(stream, &listener);
     return 0;
 }
 
@@ -70,6 +68,7 @@ int stream_listen_here(struct stream *stream, enum role role, struct reason *rea
     if (fd < 0)
         return reason_set(reason, "cannot listen on the socket @%s: %s", address.sun_path + 1,
                           errno == EADDRINUSE ? "another process has that name" : strerror(errno));
-    add_door(stream, fd, true, true);
+    const struct http_listener listener = {.fd = fd, .local = true, .ours = true};
+    add_door(stream, &listener);
     return 0;
 }

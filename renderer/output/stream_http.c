@@ -1,20 +1,13 @@
-/* The stream's clients, by libmicrohttpd: one thread for all of a door, in which every function
- * here runs but those that start, end and wake it. */
+/* The stream's clients. Every function here runs in the thread of a door's server (http/server.h)
+ * but those that start, end, sweep and wake. */
 #include "renderer/output/stream_inside.h"
 
-#include "http/host.h"
-#include "ipc/log.h"
-#include "ipc/pictures.h"
+#include "ipc/clock.h"
 
-#include <microhttpd.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/socket.h>
 
-#define PATIENCE_S    10    /* with a client that neither reads nor asks */
-#define MEMORY_BYTES  16384 /* of a connection: its request, and what is sent */
-#define PART_BYTES    65536 /* of a picture at a time */
 #define PAGE_BYTES    8192
 #define REQUEST_BYTES 64 /* of a path that can name something here */
 #define BOUNDARY      "picture"
@@ -24,16 +17,20 @@
 static const char between[] = "\r\n--" BOUNDARY "\r\n";
 #define BETWEEN_BYTES (sizeof between - 1)
 
+static const struct http_header headers[] = {
+    {"Content-Security-Policy", "default-src 'none'; img-src 'self'; style-src 'unsafe-inline'"},
+    {NULL, NULL},
+};
+
 /* --- waiting -----------------------------------------------------------------------------------*/
 
-/* Under the lock, in one of the connection's own callbacks. */
+/* Under the lock. */
 static void wait_here(struct stream_client *client)
 {
     struct stream *stream = client->stream;
-    client->suspended = true;
     client->next = stream->waiting;
     stream->waiting = client;
-    MHD_suspend_connection(client->connection);
+    http_wait(client->request);
 }
 
 /* Takes the client out of those that wait. */
@@ -41,9 +38,8 @@ static void go_on(struct stream_client **at)
 {
     struct stream_client *client = *at;
     *at = client->next;
-    client->suspended = false;
     client->view->askers -= client->asked ? 1 : 0;
-    MHD_resume_connection(client->connection);
+    http_wake(client->request);
 }
 
 void stream_http_wake(struct stream *stream, const struct stream_view *view)
@@ -74,55 +70,40 @@ uint64_t stream_http_expire(struct stream *stream, uint64_t now_ns)
     return next_ns;
 }
 
-struct stream_reply stream_wait_here(struct stream_client *client)
+bool stream_wait_here(struct stream_client *client)
 {
     client->asked = true;
     client->view->askers++;
     pthread_cond_signal(&client->stream->come);
     wait_here(client);
-    return (struct stream_reply){.waits = true};
+    return false;
 }
 
 /* --- answers -----------------------------------------------------------------------------------*/
 
-static enum MHD_Result send_reply(struct MHD_Connection *connection,
-                                  const struct stream_reply *reply)
+void stream_reply_jpeg(struct http_reply *reply, struct stream_jpeg *jpeg)
 {
-    struct MHD_Response *response = reply->response;
-    if (response == NULL)
-        return reply->waits ? MHD_YES : MHD_NO;
-    MHD_add_response_header(response, MHD_HTTP_HEADER_CONTENT_TYPE, reply->type);
-    MHD_add_response_header(response, MHD_HTTP_HEADER_CACHE_CONTROL, "no-store");
-    MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
-    MHD_add_response_header(response, "Content-Security-Policy",
-                            "default-src 'none'; img-src 'self'; style-src 'unsafe-inline'");
-    if (reply->status == MHD_HTTP_METHOD_NOT_ALLOWED)
-        MHD_add_response_header(response, MHD_HTTP_HEADER_ALLOW, "GET, HEAD");
-    enum MHD_Result result = MHD_queue_response(connection, reply->status, response);
-    MHD_destroy_response(response);
-    return result;
+    *reply = (struct http_reply){.status = 200,
+                                 .type = "image/jpeg",
+                                 .bytes = jpeg->bytes,
+                                 .count = jpeg->count,
+                                 .release = stream_release,
+                                 .owner = stream_hold(jpeg)};
 }
 
-struct stream_reply stream_reply_bytes(const void *bytes, size_t count, const char *type)
+void stream_refuse(struct http_reply *reply, unsigned status, const char *text)
 {
-    union {
-        const void *bytes;
-        void *copied; /* it is not written to */
-    } body = {bytes};
-    return (struct stream_reply){
-        .response = MHD_create_response_from_buffer(count, body.copied, MHD_RESPMEM_MUST_COPY),
-        .status = MHD_HTTP_OK,
-        .type = type};
+    http_reply_text(reply, status, "text/plain; charset=utf-8", text);
 }
 
-struct stream_reply stream_refuse(unsigned status, const char *text)
+static void refuse(struct http_reply *reply, unsigned status, const char *what, const char *next)
 {
-    struct stream_reply reply = stream_reply_bytes(text, strlen(text), "text/plain; charset=utf-8");
-    reply.status = status;
-    return reply;
+    char line[256];
+    snprintf(line, sizeof line, "%s: %s\n", what, next);
+    stream_refuse(reply, status, line);
 }
 
-static struct stream_reply reply_page(const struct stream *stream)
+static void reply_page(const struct stream *stream, struct http_reply *reply)
 {
     char page[PAGE_BYTES];
     int used = snprintf(
@@ -142,14 +123,17 @@ static struct stream_reply reply_page(const struct stream *stream)
                          name, name, name, name);
     }
     snprintf(page + used, sizeof page - (size_t)used, "</body></html>\n");
-    return stream_reply_bytes(page, strlen(page), "text/html; charset=utf-8");
+    http_reply_text(reply, 200, "text/html; charset=utf-8", page);
 }
 
-static struct stream_reply reply_status(const struct stream *stream)
+static void reply_status(const struct stream *stream, struct http_reply *reply)
 {
     char page[PAGE_BYTES];
+    uint32_t watchers = 0;
+    for (uint32_t i = 0; i < stream->views; i++)
+        watchers += stream->view[i].watchers;
     int used = snprintf(page, sizeof page, "{\"world\":\"%s\",\"watchers\":%u,\"views\":[",
-                        stream->world, stream->watchers);
+                        stream->world, watchers);
     for (uint32_t i = 0; i < stream->views; i++) {
         const struct stream_view *view = &stream->view[i];
         const struct stream_jpeg none = {0}, *jpeg = view->jpeg != NULL ? view->jpeg : &none;
@@ -163,22 +147,23 @@ static struct stream_reply reply_status(const struct stream *stream)
                          (unsigned long long)view->skipped);
     }
     snprintf(page + used, sizeof page - (size_t)used, "]}\n");
-    return stream_reply_bytes(page, strlen(page), "application/json");
+    http_reply_text(reply, 200, "application/json", page);
 }
 
 /* --- one picture -------------------------------------------------------------------------------*/
 
-/* Under the lock. The newest one: when it is not encoded yet, the first call waits for that, and
- * libmicrohttpd calls again. */
-static struct stream_reply reply_picture(struct stream_client *client)
+/* Under the lock. The newest one: when it is not encoded yet, the first call waits for that. */
+static bool reply_picture(struct stream_client *client, struct http_reply *reply)
 {
     struct stream_view *view = client->view;
     struct stream *stream = client->stream;
     if (!client->asked && (view->fresh != NULL || view->jpeg == NULL) && !stream->ending)
         return stream_wait_here(client);
     if (view->jpeg == NULL)
-        return stream_refuse(MHD_HTTP_SERVICE_UNAVAILABLE, "no picture yet\n");
-    return stream_reply_bytes(view->jpeg->bytes, view->jpeg->count, "image/jpeg");
+        stream_refuse(reply, 503, "no picture yet\n");
+    else
+        stream_reply_jpeg(reply, view->jpeg);
+    return true;
 }
 
 /* --- all of them -------------------------------------------------------------------------------*/
@@ -228,16 +213,14 @@ static size_t copy_part(const struct stream_client *client, char *to, size_t roo
     return copied;
 }
 
-/* Called when the client's socket takes more. */
-static ssize_t give(void *context, uint64_t position, char *to, size_t room)
+static ssize_t give(struct http_request *request, char *to, size_t room)
 {
-    struct stream_client *client = context;
+    struct stream_client *client = request->own;
     struct stream *stream = client->stream;
     ssize_t given = 0;
-    (void)position;
     pthread_mutex_lock(&stream->lock);
     if (stream->ending) {
-        given = MHD_CONTENT_READER_END_OF_STREAM;
+        given = -1;
     } else if (client->jpeg == NULL && !take_next(client)) {
         wait_here(client);
     } else {
@@ -253,21 +236,49 @@ static ssize_t give(void *context, uint64_t position, char *to, size_t room)
     return given;
 }
 
-/* Under the lock. */
-static struct stream_reply reply_stream(struct stream_client *client)
+/* Under the lock. The place of client, NULL: a free one; else NULL. */
+static struct stream_client **find_place(struct stream *stream, const struct stream_client *client)
 {
-    struct stream *stream = client->stream;
-    if (stream->watchers >= STREAM_WATCHERS)
-        return stream_refuse(MHD_HTTP_SERVICE_UNAVAILABLE, "too many watch already\n");
-    struct MHD_Response *response =
-        MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, PART_BYTES, give, client, NULL);
-    if (response == NULL)
-        return (struct stream_reply){.waits = false};
-    client->watching = true;
-    stream->watchers++;
+    for (uint32_t i = 0; i < STREAM_WATCHERS; i++)
+        if (stream->watcher[i] == client)
+            return &stream->watcher[i];
+    return NULL;
+}
+
+/* Under the lock. */
+static void stop_watching(struct stream_client **place)
+{
+    (*place)->view->watchers--;
+    *place = NULL;
+}
+
+/* Under the lock. A free place, or that of a client that does not read: its connection is shut.
+ * NULL: there is neither. */
+static struct stream_client **make_place(struct stream *stream)
+{
+    struct stream_client **place = find_place(stream, NULL);
+    uint64_t now_ns = clock_now_ns();
+    for (uint32_t i = 0; i < STREAM_WATCHERS && place == NULL; i++) {
+        if (!http_drop_stalled(stream->watcher[i]->request, now_ns))
+            continue;
+        place = &stream->watcher[i];
+        stop_watching(place);
+    }
+    return place;
+}
+
+/* Under the lock. */
+static void reply_stream(struct stream_client *client, struct http_reply *reply)
+{
+    struct stream_client **place = make_place(client->stream);
+    if (place == NULL) {
+        stream_refuse(reply, 503, "too many watch already\n");
+        return;
+    }
+    *place = client;
     client->view->watchers++;
-    pthread_cond_signal(&stream->come);
-    return (struct stream_reply){.response = response, .status = MHD_HTTP_OK, .type = MULTIPART};
+    pthread_cond_signal(&client->stream->come);
+    *reply = (struct http_reply){.status = 200, .type = MULTIPART, .give = give};
 }
 
 /* --- requests ----------------------------------------------------------------------------------*/
@@ -281,119 +292,86 @@ static bool ends_with(const char *path, size_t length, const char *ending, size_
     return true;
 }
 
-/* Under the lock. */
-static struct stream_reply reply_path(struct stream_client *client, const char *path)
+/* Under the lock. False: it waits. */
+static bool reply_path(struct stream_client *client, const char *path, struct http_reply *reply)
 {
     struct stream *stream = client->stream;
     size_t stem = 0, length = strnlen(path, REQUEST_BYTES);
-    if (strcmp(path, "/") == 0)
-        return reply_page(stream);
-    if (strcmp(path, "/status.json") == 0)
-        return reply_status(stream);
     if (strcmp(path, "/picture.jpg") == 0)
-        return stream_asked_picture(client);
+        return stream_asked_picture(client, reply);
     if (strcmp(path, "/map.jpg") == 0 && stream->painter.paint != NULL &&
-        (client->map != NULL ||
-         MHD_get_connection_values(client->connection, MHD_GET_ARGUMENT_KIND, NULL, NULL) > 0))
-        return stream_asked_map(client);
+        (client->map != NULL || http_arguments(client->request, NULL, NULL) > 0))
+        return stream_asked_map(client, reply);
     bool live = length < REQUEST_BYTES && ends_with(path, length, ".mjpeg", &stem);
     bool still = length < REQUEST_BYTES && ends_with(path, length, ".jpg", &stem);
     if (live || still)
         client->view = stream_find(stream, path + 1, stem - 1);
-    if (client->view == NULL)
-        return stream_refuse(MHD_HTTP_NOT_FOUND, "there is /, /VIEW.mjpeg, /VIEW.jpg, "
-                                                 "/picture.jpg?view=&vehicle=&size=, "
-                                                 "/map.jpg?x=&z=&metres=&size=, /status.json\n");
-    return live ? reply_stream(client) : reply_picture(client);
+    if (client->view != NULL && still)
+        return reply_picture(client, reply);
+    if (client->view != NULL)
+        reply_stream(client, reply);
+    else if (strcmp(path, "/") == 0)
+        reply_page(stream, reply);
+    else if (strcmp(path, "/status.json") == 0)
+        reply_status(stream, reply);
+    else
+        stream_refuse(reply, 404,
+                      "there is /, /VIEW.mjpeg, /VIEW.jpg, /picture.jpg?view=&vehicle=&size=, "
+                      "/map.jpg?x=&z=&metres=&size=, /status.json\n");
+    return true;
 }
 
-static struct stream_client *new_client(struct stream *stream, struct MHD_Connection *connection)
+static bool on_request(void *context, struct http_request *request, struct http_reply *reply)
 {
-    struct stream_client *client = calloc(1, sizeof *client);
-    if (client != NULL)
-        *client = (struct stream_client){.stream = stream, .connection = connection};
-    return client;
-}
-
-static enum MHD_Result on_request(void *context, struct MHD_Connection *connection,
-                                  const char *path, const char *method, const char *version,
-                                  const char *body, size_t *body_bytes, void **kept)
-{
-    const struct stream_door *door = context;
-    struct stream *stream = door->stream;
-    (void)version;
-    (void)body;
-    (void)body_bytes;
-    struct stream_reply reply;
-    const char *host =
-        MHD_lookup_connection_value(connection, MHD_HEADER_KIND, MHD_HTTP_HEADER_HOST);
-    if (strcmp(method, MHD_HTTP_METHOD_GET) != 0 && strcmp(method, MHD_HTTP_METHOD_HEAD) != 0) {
-        reply = stream_refuse(MHD_HTTP_METHOD_NOT_ALLOWED, "pictures can only be looked at\n");
-    } else if (door->local && !door->ours && host != NULL && !http_host_local(host)) {
-        reply = stream_refuse(MHD_HTTP_FORBIDDEN, "ask by a name of this machine\n");
-    } else if (*kept == NULL) {
-        /* An answer to the first call would close the connection after it; there is another. */
-        *kept = new_client(stream, connection);
-        return *kept != NULL ? MHD_YES : MHD_NO;
-    } else {
-        pthread_mutex_lock(&stream->lock);
-        reply = reply_path(*kept, path);
-        pthread_mutex_unlock(&stream->lock);
+    struct stream *stream = context;
+    struct stream_client *client = request->own;
+    client->stream = stream;
+    client->request = request;
+    if (strcmp(request->method, "GET") != 0 && strcmp(request->method, "HEAD") != 0) {
+        stream_refuse(reply, 405, "pictures can only be looked at\n");
+        http_reply_add(reply, "Allow", "GET, HEAD");
+        return true;
     }
-    return send_reply(connection, &reply);
-}
-
-static void on_end(void *context, struct MHD_Connection *connection, void **kept,
-                   enum MHD_RequestTerminationCode why)
-{
-    const struct stream_door *door = context;
-    struct stream *stream = door->stream;
-    struct stream_client *client = *kept;
-    (void)connection;
-    (void)why;
-    if (client == NULL)
-        return;
+    if (!request->woken && !http_may_ask(request, false, clock_now_ns())) {
+        stream_refuse(reply, 429, "too many requests: wait a second, then ask less often\n");
+        return true;
+    }
     pthread_mutex_lock(&stream->lock);
-    CHECK(!client->suspended);
-    stream_asked_end(client);
-    if (client->watching) {
-        stream->watchers--;
-        client->view->watchers--;
-    }
-    stream_release(client->jpeg);
+    bool replied = reply_path(client, request->path, reply);
     pthread_mutex_unlock(&stream->lock);
-    free(client);
-    *kept = NULL;
+    return replied;
 }
 
-/* Any user may connect to an abstract socket: those of others are sent away at once, so that they
- * take nobody's place. */
-static void on_connection(void *context, struct MHD_Connection *connection, void **kept,
-                          enum MHD_ConnectionNotificationCode what)
+static void on_end(void *context, struct http_request *request)
 {
-    const struct stream_door *door = context;
-    (void)kept;
-    if (what != MHD_CONNECTION_NOTIFY_STARTED || !door->ours)
-        return;
-    const union MHD_ConnectionInfo *info =
-        MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
-    if (info != NULL && !pictures_peer_is(info->connect_fd, door->user))
-        shutdown(info->connect_fd, SHUT_RDWR);
+    struct stream *stream = context;
+    struct stream_client *client = request->own;
+    pthread_mutex_lock(&stream->lock);
+    struct stream_client **place = find_place(stream, client);
+    stream_asked_end(client);
+    if (place != NULL)
+        stop_watching(place);
+    pthread_mutex_unlock(&stream->lock);
+    stream_release(client->jpeg);
 }
 
-int stream_http_start(struct stream *stream)
+/* --- starting and ending -----------------------------------------------------------------------*/
+
+int stream_http_start(struct stream *stream, struct reason *reason)
 {
+    const struct http_handler handler = {.context = stream,
+                                         .own_bytes = sizeof(struct stream_client),
+                                         .headers = headers,
+                                         .answer = on_request,
+                                         .refuse = refuse,
+                                         .end = on_end};
     for (uint32_t i = 0; i < stream->doors; i++) {
-        struct stream_door *door = &stream->door[i];
-        door->daemon = MHD_start_daemon(
-            MHD_USE_POLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, on_request,
-            door, MHD_OPTION_LISTEN_SOCKET, door->listener, MHD_OPTION_CONNECTION_LIMIT,
-            STREAM_CLIENTS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)PATIENCE_S,
-            MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)MEMORY_BYTES, MHD_OPTION_NOTIFY_COMPLETED,
-            on_end, door, MHD_OPTION_NOTIFY_CONNECTION, on_connection, door, MHD_OPTION_END);
-        if (door->daemon == NULL)
+        struct http_server *server = http_server_start(&stream->door[i].listener, &handler, reason);
+        if (server == NULL)
             return -1;
-        door->listener = -1; /* the daemon's to close */
+        pthread_mutex_lock(&stream->lock);
+        stream->door[i].server = server;
+        pthread_mutex_unlock(&stream->lock);
     }
     return 0;
 }
@@ -405,8 +383,14 @@ void stream_http_end(struct stream *stream)
     stream_http_wake(stream, NULL);
     pthread_mutex_unlock(&stream->lock);
     for (uint32_t i = 0; i < stream->doors; i++) {
-        if (stream->door[i].daemon != NULL)
-            MHD_stop_daemon(stream->door[i].daemon);
-        stream->door[i].daemon = NULL;
+        http_server_stop(stream->door[i].server);
+        stream->door[i].server = NULL;
     }
+}
+
+void stream_http_sweep(struct stream *stream)
+{
+    for (uint32_t i = 0; i < stream->doors; i++)
+        if (stream->door[i].server != NULL)
+            http_server_sweep(stream->door[i].server, clock_now_ns());
 }

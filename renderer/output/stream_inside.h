@@ -5,30 +5,28 @@
 #ifndef JOLON_RENDERER_STREAM_INSIDE_H
 #define JOLON_RENDERER_STREAM_INSIDE_H
 
+#include "http/server.h"
 #include "renderer/output/query.h"
 #include "renderer/output/stream.h"
 #include "renderer/output/wanted.h"
 
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <sys/types.h>
 
 #define STREAM_VIEWS_MAX 16u
 #define STREAM_WATCHERS  16u /* clients that watch at the same time */
-#define STREAM_CLIENTS   32u /* connections of a door: so that who is too much is told */
 #define STREAM_DOORS     2u
 #define STREAM_MAPS      16u /* maps that are kept, or under way */
 
-struct MHD_Connection;
-struct MHD_Daemon;
-
-/* An encoded picture; under the stream's lock but for the bytes, which nobody changes. */
+/* An encoded picture, which nobody changes. */
 struct stream_jpeg {
+    _Atomic uint32_t holders;
     uint8_t *bytes;
     size_t count;
-    uint32_t holders, width, height;
+    uint32_t width, height;
     uint64_t frame;
     double time_s;
 };
@@ -43,14 +41,10 @@ struct stream_view {
     uint64_t drawn, encoded, skipped; /* pictures put; JPEGs made; those that clients passed over */
 };
 
-/* Where clients come in. Each has a thread of libmicrohttpd's. */
+/* Where clients come in. */
 struct stream_door {
-    struct stream *stream;
-    struct MHD_Daemon *daemon;
-    int listener; /* the daemon's, once that runs */
-    bool local;   /* an address that only this machine can reach */
-    bool ours;    /* a Unix socket, for processes of ... */
-    uid_t user;   /* ... this user */
+    struct http_listener listener;
+    struct http_server *server;
 };
 
 /* A map that was asked for: its ground never changes, so it is kept until others take its place. */
@@ -63,17 +57,16 @@ struct stream_map {
     struct stream_view view;
 };
 
-/* A client that waits for a picture: its connection is suspended until there is one. */
+/* A request, in its own room in the server (http/server.h). It may wait for a picture. */
 struct stream_client {
-    struct stream *stream;
+    struct stream *stream; /* NULL: nothing was asked yet */
     struct stream_view *view;
     struct wanted *wanted;  /* the row that the request holds; NULL: none */
     struct stream_map *map; /* likewise */
     uint64_t until_ns;      /* waits no longer; 0: as long as it takes */
-    struct MHD_Connection *connection;
+    struct http_request *request;
     struct stream_client *next; /* of those that wait */
-    bool suspended;             /* in the list */
-    bool watching, asked;       /* counted in the view's watchers, askers */
+    bool asked;                 /* counted in the view's askers */
     struct stream_jpeg *jpeg;   /* being sent */
     char head[192];             /* before it */
     size_t head_bytes, sent;
@@ -99,29 +92,25 @@ struct stream {
     bool again[WANTED_MAX]; /* somebody waits for a picture even if it would be the same */
     struct stream_map map[STREAM_MAPS];
     struct stream_view view[STREAM_VIEWS_MAX];
-    uint32_t views, watchers;
+    uint32_t views;
+    struct stream_client *watcher[STREAM_WATCHERS]; /* NULL: the place is free */
     struct stream_client *waiting;
 };
 
-/* Starts and ends libmicrohttpd at every door. 0, or -1 with errno. The second wants `ending` set,
- * so that nobody waits again. */
-int stream_http_start(struct stream *stream);
+/* Starts and ends the server of every door. 0, or -1 with the reason. The second wants `ending`
+ * set, so that nobody waits again. */
+int stream_http_start(struct stream *stream, struct reason *reason);
 void stream_http_end(struct stream *stream);
 
-/* What a client is to get; made under the lock, and sent without it, as libmicrohttpd has locks of
- * its own. */
-struct stream_reply {
-    struct MHD_Response *response; /* NULL: none, the client waits or there is no memory */
-    unsigned status;
-    const char *type;
-    bool waits;
-};
-
-struct stream_reply stream_reply_bytes(const void *bytes, size_t count, const char *type);
-struct stream_reply stream_refuse(unsigned status, const char *text);
+/* Replies: a line of plain text; a picture, which they hold. */
+void stream_refuse(struct http_reply *reply, unsigned status, const char *text);
+void stream_reply_jpeg(struct http_reply *reply, struct stream_jpeg *jpeg);
 
 /* --- under the lock ----------------------------------------------------------------------------
  */
+
+/* Gives up connections that are out of time. */
+void stream_http_sweep(struct stream *stream);
 
 /* Lets go on who waits for this view, NULL: for any. */
 void stream_http_wake(struct stream *stream, const struct stream_view *view);
@@ -129,19 +118,20 @@ void stream_http_wake(struct stream *stream, const struct stream_view *view);
 /* Lets go on who has waited long enough; when the next will have [ns], UINT64_MAX for none. */
 uint64_t stream_http_expire(struct stream *stream, uint64_t now_ns);
 
-/* Keeps a request waiting for its view's next picture; in the connection's own callback. */
-struct stream_reply stream_wait_here(struct stream_client *client);
+/* Keeps a request waiting for its view's next picture. False: there is no reply yet. */
+bool stream_wait_here(struct stream_client *client);
 
 struct stream_view *stream_find(struct stream *stream, const char *name, size_t length);
+/* Also without the lock; the second: NULL is nothing, else a struct stream_jpeg. */
 struct stream_jpeg *stream_hold(struct stream_jpeg *jpeg);
-void stream_release(struct stream_jpeg *jpeg);
+void stream_release(void *jpeg);
 /* NULL when there is no memory. Without the lock. */
 struct stream_jpeg *stream_encode(const struct image *image, uint64_t frame, double time_s);
 
-/* Answers to "/picture.jpg?..." and "/map.jpg?...", and what of them a request still holds at its
- * end. */
-struct stream_reply stream_asked_picture(struct stream_client *client);
-struct stream_reply stream_asked_map(struct stream_client *client);
+/* Answers to "/picture.jpg?..." and "/map.jpg?...", false: it waits; and what of them a request
+ * still holds at its end. */
+bool stream_asked_picture(struct stream_client *client, struct http_reply *reply);
+bool stream_asked_map(struct stream_client *client, struct http_reply *reply);
 void stream_asked_end(struct stream_client *client);
 
 /* The thread that paints maps; argument: the stream. */

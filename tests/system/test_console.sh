@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The console over real processes: what it tells, what can be ordered through it, what it refuses, and that
-# hostile clients stop nobody. SEED=n and FUZZ=n choose other hostile bytes, and how many.
+# hostile clients of it and of the live stream stop nobody. SEED=n and FUZZ=n choose other hostile bytes, and how many.
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 . "$here/lib.sh"
 
@@ -17,6 +17,15 @@ except urllib.error.HTTPError as error:
     print(error.code)
 P
 }
+checks() { # SCRIPT ARGUMENTS...: each line that it prints is a check
+    while read -r line; do
+        case $line in
+        "ok "*) ok "${line#ok }" ;;
+        "not ok "*) not_ok "${line#not ok }" ;;
+        *) echo "$line" ;;
+        esac
+    done < <(python3 "$here/$1" "${@:2}" 2>&1 || echo "not ok $1 ended early")
+}
 is() { [ "$(api "${2:-state?most=0}")" = "$1" ]; }
 
 # --- before there is a world ------------------------------------------------------------------------
@@ -30,18 +39,22 @@ refuses "and an address that is none" 1 'must be an address' "$bin/jolon-console
 refuses "and wrong usage" 2 'port' "$bin/jolon-console" --port 65536
 
 # --- with one ---------------------------------------------------------------------------------------
-check "a set starts" "$jolon" start -w "$name" --out "$folder/out"
+port=$(python3 -c '
+import socket
+s = socket.socket()
+s.bind(("127.0.0.1", 0))
+print(s.getsockname()[1])')
+check "a set starts" "$jolon" start -w "$name" --out "$folder/out" --stream "$port"
 check "the console finds it" eventually is 200
 if [ -z "${JOLON_SANITIZER-}" ]; then
     check "every thread of it has its filter" equal "$(awk '$1 == "Seccomp:" { print $2 }' /proc/$console_pid/task/*/status | sort -u)" 2
 fi
-while read -r line; do
-    case $line in
-    "ok "*) ok "${line#ok }" ;;
-    "not ok "*) not_ok "${line#not ok }" ;;
-    *) echo "$line" ;;
-    esac
-done < <(python3 "$here/console.py" "$(cat url)" "$name" 2>&1 || echo "not ok console.py ended early")
+checks console.py "$(cat url)" "$name"
+renderer_pid() { "$bin/jolon-world" pid --world "$name" renderer; }
+renderer_before=$(renderer_pid)
+checks hostile.py "$(cat url)" "http://127.0.0.1:$port/" chase
+check "the renderer is the same process as before" equal "$(renderer_pid)" "$renderer_before"
+check "the sandbox forbade nothing" bash -c "! grep -h 'the sandbox forbids' log out/jolon.log"
 
 # --- what dies, and comes back ----------------------------------------------------------------------
 check "the console lives" kill -0 $console_pid

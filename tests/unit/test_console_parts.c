@@ -1,6 +1,5 @@
-/* The console's small parts: JSON as it is written, secrets, rates, connections, players, who may
+/* The console's small parts: JSON as it is written, secrets, rates, players, who may
  * ask by which name, and answers of a renderer. */
-#include "console/crowd.h"
 #include "console/fetch.h"
 #include "console/players.h"
 #include "console/secret.h"
@@ -137,7 +136,7 @@ static void test_a_token_file_is_made_kept_and_checked(void **state)
     assert_int_equal(secret_file(token, "/tmp", &reason), -1);
 }
 
-/* --- rates and connections ---------------------------------------------------------------------*/
+/* --- rates -------------------------------------------------------------------------------------*/
 
 static void test_a_rate_grants_a_burst_and_then_its_pace(void **state)
 {
@@ -155,50 +154,6 @@ static void test_a_rate_grants_a_burst_and_then_its_pace(void **state)
     for (int i = 0; i < 100; i++)
         granted += rate_take(&rate, 10, 20, now_ns + 3600 * SECOND);
     assert_int_equal(granted, 20);
-}
-
-/* Is the socket shut? Its peer then reads an end. */
-static bool is_shut(int peer)
-{
-    char byte;
-    return recv(peer, &byte, 1, MSG_DONTWAIT) == 0;
-}
-
-static void test_who_asked_longest_ago_goes(void **state)
-{
-    static struct crowd crowd;
-    int pair[3][2];
-    struct seat *seat[3];
-    (void)state;
-    crowd = (struct crowd){0};
-    for (int i = 0; i < 3; i++) {
-        assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, pair[i]), 0);
-        seat[i] = crowd_come(&crowd, pair[i][0], SECOND + (unsigned)i);
-    }
-    crowd_begin(seat[0], 2 * SECOND); /* the oldest has asked since */
-    crowd_done(seat[0], 2 * SECOND);
-    while (crowd.taken < CROWD_SEATS)
-        assert_non_null(crowd_come(&crowd, -1, 3 * SECOND));
-    assert_false(is_shut(pair[1][1]));
-    assert_non_null(crowd_come(&crowd, -1, 3 * SECOND));
-    assert_true(is_shut(pair[1][1]));
-    assert_false(is_shut(pair[0][1]));
-    assert_false(is_shut(pair[2][1]));
-    crowd_begin(seat[2], 3 * SECOND); /* is answered just now: stays */
-    assert_non_null(crowd_come(&crowd, -1, 3 * SECOND));
-    assert_true(is_shut(pair[0][1]));
-    assert_false(is_shut(pair[2][1]));
-    while (crowd.taken < CROWD_ROOM)
-        assert_non_null(crowd_come(&crowd, -1, 3 * SECOND));
-    assert_null(crowd_come(&crowd, -1, 3 * SECOND));
-    crowd_sweep(&crowd, 3 * SECOND + CROWD_BUSY_NS);
-    assert_false(is_shut(pair[2][1]));
-    crowd_sweep(&crowd, 3 * SECOND + CROWD_BUSY_NS + 1);
-    assert_true(is_shut(pair[2][1]));
-    for (int i = 0; i < 3; i++) {
-        close(pair[i][0]);
-        close(pair[i][1]);
-    }
 }
 
 /* --- players -----------------------------------------------------------------------------------*/
@@ -313,7 +268,6 @@ int main(void)
         cmocka_unit_test(test_secrets_are_equal_or_not),
         cmocka_unit_test(test_a_token_file_is_made_kept_and_checked),
         cmocka_unit_test(test_a_rate_grants_a_burst_and_then_its_pace),
-        cmocka_unit_test(test_who_asked_longest_ago_goes),
         cmocka_unit_test(test_players_are_known_by_their_keys),
         cmocka_unit_test(test_only_names_of_this_machine_are_ours),
         cmocka_unit_test(test_a_renderers_answer_is_read),
