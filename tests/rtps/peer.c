@@ -1,0 +1,153 @@
+/* peer: another participant of a world's DDS domain, for tests of what one can do to the others.
+ *
+ *     peer -w WORLD [--dds-config FILE] [--domain N] capture FILE
+ *         reads every topic and writes commands that change nothing, for two seconds; FILE has
+ *         every datagram that it sent (tests/rtps/sent.h)
+ *     peer ... command
+ *         sends one such command again and again: "answered" or, after five seconds, "unanswered"
+ *     peer ... read
+ *         waits for the status of a frame: "heard" or, after five seconds, "unheard" */
+#include "ipc/clock.h"
+#include "ipc/log.h"
+#include "tests/rtps/sent.h"
+#include "topics/dds_topics.h"
+
+#include "status.h"
+
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CAPTURE_NS ((uint64_t)2 * NS_PER_S)
+#define PATIENCE   ((uint64_t)5 * NS_PER_S)
+#define REPEAT_NS  ((uint64_t)100 * NS_PER_MS)
+
+struct peer {
+    struct dds_link link;
+    const char *world;
+    dds_entity_t reader[TOPIC_COUNT];
+    dds_entity_t commands;
+    dds_entity_t waitset;
+    uint64_t source, sequence;
+    bool heard[TOPIC_COUNT]; /* a sample of the topic; of the replies, one to this peer */
+};
+
+static void open_ends(struct peer *peer)
+{
+    struct reason reason;
+    peer->source = clock_now_ns() | 1;
+    for (int i = 0; i < TOPIC_COUNT; i++) {
+        peer->reader[i] = dds_topics_reader(&peer->link, (enum dds_topic)i, &reason);
+        if (peer->reader[i] < 0)
+            die_refused("%s", reason.text);
+    }
+    peer->commands = dds_topics_writer(&peer->link, TOPIC_COMMAND, &reason);
+    peer->waitset = dds_topics_waitset(&peer->link, peer->reader, TOPIC_COUNT, &reason);
+    if (peer->commands < 0 || peer->waitset < 0)
+        die_refused("%s", reason.text);
+}
+
+/* To release a vehicle that there cannot be. */
+static void send_command(struct peer *peer, uint64_t sequence)
+{
+    jolon_Command command = {.source = peer->source,
+                             .sequence = sequence,
+                             .type = jolon_COMMAND_RELEASE,
+                             .entity = UINT32_MAX,
+                             .throttle = 0.5F,
+                             .x_m = 25000.0,
+                             .z_m = 25000.0};
+    (void)stpncpy(command.kind, "tank", sizeof command.kind - 1);
+    (void)dds_write(peer->commands, &command);
+}
+
+static void take(struct peer *peer)
+{
+    for (int i = 0; i < TOPIC_COUNT; i++) {
+        void *sample = NULL;
+        dds_sample_info_t info;
+        while (dds_take(peer->reader[i], &sample, &info, 1, 1) > 0) {
+            if (info.valid_data &&
+                (i != TOPIC_REPLY || ((const jolon_CommandReply *)sample)->source == peer->source))
+                peer->heard[i] = true;
+            (void)dds_return_loan(peer->reader[i], &sample, 1);
+            sample = NULL;
+        }
+    }
+}
+
+/* Reads until the topic has been heard of, at most so long; further commands on the way, the same
+ * one or another each time. */
+static void run(struct peer *peer, uint64_t length_ns, int wanted, bool repeat)
+{
+    uint64_t begun_ns = clock_now_ns(), due_ns = begun_ns;
+    while (clock_now_ns() - begun_ns < length_ns && (wanted < 0 || !peer->heard[wanted])) {
+        if (clock_now_ns() >= due_ns) {
+            send_command(peer, repeat ? 1 : ++peer->sequence);
+            due_ns += REPEAT_NS;
+        }
+        dds_topics_wait(peer->waitset, REPEAT_NS / 4);
+        take(peer);
+    }
+}
+
+static void capture(struct peer *peer, const char *path)
+{
+    FILE *file = fopen(path, "wbe");
+    if (!file)
+        die_refused("%s: cannot write", path);
+    sent_keep(file);
+    open_ends(peer);
+    run(peer, CAPTURE_NS, -1, false);
+    dds_link_close(&peer->link, EXIT_REFUSED);
+    sent_keep(NULL);
+    if (fclose(file) != 0)
+        die_refused("%s: cannot write", path);
+}
+
+static void say(bool yes, const char *word, const char *otherwise)
+{
+    (void)puts(yes ? word : otherwise);
+}
+
+int main(int argc, char **argv)
+{
+    static const struct option known[] = {
+        {"world", required_argument, NULL, 'w'}, DDS_LINK_LONG_OPTIONS, {NULL, 0, NULL, 0}};
+    static struct peer peer;
+    struct dds_link_options options = {.part = DDS_PEER};
+    struct reason reason;
+    int option;
+    log_open("peer");
+    peer.world = "default";
+    while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
+        if (option == 'w')
+            peer.world = optarg;
+        else if (!dds_link_option(&options, option, optarg))
+            die_usage("tests/rtps/peer.c says how to call it");
+    }
+    const char *verb = optind < argc ? argv[optind] : "";
+    const char *value = optind + 1 < argc ? argv[optind + 1] : NULL;
+    bool captures = strcmp(verb, "capture") == 0;
+    if (captures != (value != NULL))
+        die_usage("tests/rtps/peer.c says how to call it");
+    if (dds_link_open(&peer.link, &options, peer.world, &reason) != 0)
+        die_refused("%s", reason.text);
+    if (captures) {
+        capture(&peer, value);
+        return EXIT_OK;
+    }
+    if (strcmp(verb, "command") == 0) {
+        open_ends(&peer);
+        run(&peer, PATIENCE, TOPIC_REPLY, true);
+        say(peer.heard[TOPIC_REPLY], "answered", "unanswered");
+    } else if (strcmp(verb, "read") == 0) {
+        open_ends(&peer);
+        run(&peer, PATIENCE, TOPIC_FRAME, true);
+        say(peer.heard[TOPIC_FRAME], "heard", "unheard");
+    } else {
+        die_usage("'%s': capture, command or read", verb);
+    }
+    dds_link_close(&peer.link, EXIT_REFUSED);
+    return EXIT_OK;
+}

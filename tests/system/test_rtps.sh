@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Datagrams from anybody against a sandboxed reporter: one that Cyclone DDS complains of, mutated
+# ones of captured discovery and data, participants that come and go.
+# PACKETS=n and SEED=n choose others, RATE=n more a second.
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/lib.sh"
+peer=$bin/../tests/rtps/peer
+rtps=$here/../rtps
+packets=${PACKETS:-20000}
+seed=${SEED:-$RANDOM}
+rate=${RATE:-8000}
+export PYTHONDONTWRITEBYTECODE=1
+domain=$((100 + $$ % 100)) # of its own: nobody else's reporter is to hear what is multicast here
+[ -e "$peer" ] || { skip "hostile datagrams" "make test builds what they are captured from"; done_testing; }
+
+check "a set starts" "$jolon" start -w "$name" --domain $domain --without renderer --out out
+reporter() { "$bin/jolon-world" pid --world "$name" reporter; }
+key() { "$bin/jolon-world" summary --json --world "$name" | json "$1"; }
+answers() { timeout 20 "$bin/jolon-monitor" -w "$name" --domain $domain --once --json >told && [ "$(json world <told)" = "$name" ]; }
+check "the reporter answers" answers
+first=$(reporter)
+
+# --- one datagram -------------------------------------------------------------------------------------
+PYTHONPATH=$rtps python3 - "$bin" "$name" <<'P'
+import socket, sys
+from rtps import Reporter
+reporter = Reporter(*sys.argv[1:])
+assert reporter.find(10)
+for port in reporter.ports:
+    socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(
+        b"RTPS\x02\x01\x01\x10" + b"A" * 12 + b"\x15\x05\x2c\x01" + b"\0" * 8, ("127.0.0.1", port))
+P
+check "what it complains of is in the log" eventually grep -q 'reporter warning .*dds: malformed packet' out/jolon.log
+check "and it goes on" equal "$(reporter)" "$first"
+
+# --- type information ---------------------------------------------------------------------------------
+check "a peer's datagrams are captured" "$peer" -w "$name" --domain $domain capture captured
+"$peer" -w "no-$name" --domain $domain command >unfiltered 2>&1 &
+victim=$!
+python3 "$rtps/deadly.py" --capture captured --pid $victim
+{ wait $victim; } 2>/dev/null
+echo "# a participant that does not hide type information ends with $?"
+python3 "$rtps/deadly.py" --capture captured --pid "$first"
+check "type information that ends Cyclone DDS does not end the reporter" equal "$(reporter)" "$first"
+
+# --- participants that have left ----------------------------------------------------------------------
+python3 "$rtps/leave.py" --bin "$bin" --world "$name" --capture captured --participants 40 >left
+check "forty participants come and are answered" equal "$(json heard <left)" 40
+check "and are not told of anything once they have left" [ "$(json after <left)" -le 4 ]
+
+# --- mutated datagrams --------------------------------------------------------------------------------
+late() { # of so many seconds, in late.NAME
+    local before
+    before=$(key late_frames)
+    "${@:2}"
+    echo $(($(key late_frames) - before)) >"late.$1"
+}
+seconds=$((packets / rate))
+late quiet sleep $((seconds < 5 ? seconds : 5))
+echo "# SEED=$seed"
+late fuzz python3 "$rtps/fuzz.py" --bin "$bin" --world "$name" --capture captured --packets "$packets" --rate "$rate" \
+    --seed "$seed" >fuzzed
+restarts=$(json restarts <fuzzed)
+check "$packets mutated datagrams are survived" [ "$(json packets <fuzzed)" = "$packets" ]
+echo "# figures: $packets mutated datagrams (SEED=$seed), $restarts deaths of the reporter, $(cat late.fuzz) late frames, $(cat late.quiet) without"
+check "the reporter answers after them" answers
+check "its commands too" equal "$("$peer" -w "$name" --domain $domain command)" answered
+check "it did not die of them" equal "$restarts" 0
+check "no frame was late because of them" [ "$(cat late.fuzz)" -le $(($(cat late.quiet) + seconds * 60 / 100 + 1)) ]
+check "the sandbox forbade nothing" bash -c "! grep 'the sandbox forbids' out/jolon.log"
+check "the set stops" "$jolon" stop -w "$name"
+check "nothing is left" nothing_left "$name"
+done_testing
