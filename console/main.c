@@ -1,9 +1,11 @@
 /* jolon-console: the page in a browser, and the server behind it. It reads the world as any reader
- * does, holds no role and writes nothing of the world's memory; what its players want goes to the
- * reporter as commands of the topics, as anybody's does. It may come, go and be killed. */
+ * does and writes nothing of the world's memory, but for the slot of its role when it is the
+ * console of the world's set. What its players want goes to the reporter as commands of the topics,
+ * as anybody's does. It may come, go and be killed. */
 #include "console/options.h"
 #include "console/server.h"
 #include "ipc/clock.h"
+#include "ipc/frame.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
 #include "sandbox/sandbox.h"
@@ -29,9 +31,13 @@ static int choose_token(const struct options *options, struct reason *reason)
     return 0;
 }
 
+/* The set's console speaks into the set's log, where the token has no place. */
 static void greet(const struct options *options)
 {
-    printf("%s#token=%s\n", console.listener.url, console.token);
+    if (options->role)
+        log_info("serves %s", console.listener.url);
+    else
+        printf("%s#token=%s\n", console.listener.url, console.token);
     (void)fflush(stdout);
     log_info("world \"%s\": open the address above; without its end (#...) one may look and "
              "change nothing",
@@ -40,6 +46,14 @@ static void greet(const struct options *options)
         log_warn("everybody who reaches %s may look, and what is sent can be read on the way, the "
                  "token too: use it in a network of your own",
                  options->address);
+}
+
+/* The keeper looks after who has the role: it has to hear that this process lives. */
+static void beat(struct view *set)
+{
+    frame_beat(set);
+    atomic_store_explicit(&set->slot[ROLE_CONSOLE]->frame, atomic_load(&set->commit->commit),
+                          memory_order_relaxed);
 }
 
 static void turn(uint64_t now_ns)
@@ -61,6 +75,7 @@ int main(int argc, char **argv)
 {
     struct options options;
     struct sandbox sandbox;
+    struct view set = {0}; /* attached in the role, if this is the set's console */
     struct reason reason;
     log_open("console");
     options_parse(&options, argc, argv);
@@ -75,7 +90,8 @@ int main(int argc, char **argv)
                                               .port = options.port};
     watch_open(&console.watch, options.world);
     if (choose_token(&options, &reason) != 0 ||
-        sandbox_begin(&sandbox, ROLE_NONE, options.sandbox_off, &reason) != 0 ||
+        (options.role && segment_attach(&set, options.world, ROLE_CONSOLE, &reason) != 0) ||
+        sandbox_begin(&sandbox, ROLE_CONSOLE, options.sandbox_off, &reason) != 0 ||
         sandbox_files(&sandbox, NULL, 0, &reason) != 0 ||
         http_listen(&console.listener, &where, &reason) != 0 ||
         desk_open(&console.desk, &options.link, options.world, &reason) != 0 ||
@@ -85,13 +101,18 @@ int main(int argc, char **argv)
     greet(&options); /* the first word to a terminal asks what it is: not in the sandbox */
     if (sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
+    if (options.role)
+        segment_ready(&set);
     while (!process_stopping()) {
         uint64_t now_ns = clock_now_ns();
+        if (options.role)
+            beat(&set);
         turn(now_ns);
         desk_wait(&console.desk, now_ns + TURN_NS);
     }
     server_end(&console);
     watch_close(&console.watch);
+    segment_detach(&set);
     dds_link_close(&console.desk.link, EXIT_OK);
     return EXIT_OK;
 }

@@ -18,6 +18,7 @@ static const char usage[] =
     "  --token-file FILE   who knows what it holds may change the world; made when it is not\n"
     "                      there (default: a new token each time, which is printed)\n"
     "  --parent PID        ends when that process does\n"
+    "  --role              it is the console of the world's set, as jolon run --console starts it\n"
     "  --no-sandbox        it keeps all that its user may do\n"
     "  --dds-config FILE, --interface ADDRESS, --domain N  as jolon-reporter\n"
     "It prints the address to open. Ctrl-C ends it; the world goes on.\n";
@@ -29,6 +30,7 @@ void options_parse(struct options *options, int argc, char **argv)
                                           {"address", required_argument, NULL, 'a'},
                                           {"token-file", required_argument, NULL, 't'},
                                           {"parent", required_argument, NULL, 'P'},
+                                          {"role", no_argument, NULL, 'r'},
                                           DDS_LINK_LONG_OPTIONS,
                                           {"no-sandbox", no_argument, NULL, 'S'},
                                           {"help", no_argument, NULL, 'h'},
@@ -55,6 +57,9 @@ void options_parse(struct options *options, int argc, char **argv)
             break;
         case 'P':
             options->parent = (int)process_whole("parent", optarg, 1, INT_MAX);
+            break;
+        case 'r':
+            options->role = true;
             break;
         case 'S':
             options->sandbox_off = true;

@@ -15,6 +15,7 @@ struct options {
     uint16_t port;
     const char *token_file; /* NULL: a new token */
     int parent;             /* process id, 0: none */
+    bool role;              /* it is its set's console: has the role's lock and slot */
     bool sandbox_off;
     struct dds_link_options link;
 };

@@ -61,9 +61,10 @@ void roles_end(const struct watch *watch, const char *name, bool restart, struct
 {
     enum role role = role_find(name);
     if (role == ROLE_NONE) {
-        answer_error(answer, ANSWER_BAD,
-                     "there are mover, collider, reporter, recorder, renderer, renderer-2 ...",
-                     "\"%.16s\" is no role", name);
+        answer_error(
+            answer, ANSWER_BAD,
+            "there are mover, collider, reporter, recorder, renderer, renderer-2 ..., console",
+            "\"%.16s\" is no role", name);
         return;
     }
     int pid = segment_holder(watch->name, role);

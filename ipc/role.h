@@ -18,11 +18,12 @@ enum role {
     ROLE_RENDERER_2, /* more renderers side by side, each its own slot */
     ROLE_RENDERER_3,
     ROLE_RENDERER_4,
+    ROLE_CONSOLE, /* the set's own; consoles that people start beside it are readers */
     ROLE_COUNT,
     ROLE_NONE = ROLE_COUNT /* a reader: no slot, no lock, any number of them */
 };
 
-/* "mover", ..., "renderer", "renderer-2", ...; "?" out of range. */
+/* "mover", ..., "renderer", "renderer-2", ..., "console"; "?" out of range. */
 const char *role_name(enum role role);
 
 /* The role called name, ROLE_NONE when there is none. */

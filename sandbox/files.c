@@ -93,7 +93,7 @@ int files_confine(enum role role, const int *folders, size_t count)
     bool drivers = role >= ROLE_RENDERER && role <= ROLE_RENDERER_4;
     if (drivers && result == 0)
         result = allow_paths(ruleset, driver_paths, COUNT(driver_paths), ACCESS_READ);
-    if (role == ROLE_NONE && result == 0)
+    if (role == ROLE_CONSOLE && result == 0)
         result = allow_paths(ruleset, visitor_paths, COUNT(visitor_paths), ACCESS_READ);
     if (drivers && result == 0)
         result = allow_paths(ruleset, device_paths, COUNT(device_paths), ACCESS_DEVICE);

@@ -7,8 +7,8 @@
 #include <stddef.h>
 
 /* Confines the calling thread, and those that it starts, to the folders (read, write, make and
- * remove), of a renderer also to what graphics drivers read, and of ROLE_NONE, the console, to
- * reading worlds. 0; a negative errno, -ENOSYS or -EOPNOTSUPP where the kernel has no Landlock. */
+ * remove), of a renderer also to what graphics drivers read, and of the console to reading
+ * worlds. 0; a negative errno, -ENOSYS or -EOPNOTSUPP where the kernel has no Landlock. */
 int files_confine(enum role role, const int *folders, size_t count);
 
 #endif

@@ -219,12 +219,12 @@ static const struct list console_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(ne
                                             ALLOW(visiting), END};
 static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(files), END};
 
-static const struct list *const role_lists[ROLE_COUNT + 1] = {
+static const struct list *const role_lists[ROLE_COUNT] = {
     [ROLE_MOVER] = frame_lists,         [ROLE_COLLIDER] = frame_lists,
     [ROLE_REPORTER] = reporter_lists,   [ROLE_RECORDER] = recorder_lists,
     [ROLE_RENDERER] = renderer_lists,   [ROLE_RENDERER_2] = renderer_lists,
     [ROLE_RENDERER_3] = renderer_lists, [ROLE_RENDERER_4] = renderer_lists,
-    [ROLE_NONE] = console_lists,
+    [ROLE_CONSOLE] = console_lists,
 };
 
 static int add_lists(scmp_filter_ctx filter, const struct list *list)
@@ -292,7 +292,7 @@ static void load(void *context)
 int filter_load(enum role role)
 {
     struct loading loading = {role, -ENOMEM};
-    if (role > ROLE_NONE)
+    if (role >= ROLE_COUNT)
         return -EINVAL;
     return memory_guarded(load, &loading) ? loading.result : -ENOMEM;
 }

@@ -4,7 +4,7 @@
 
 #include "ipc/role.h"
 
-/* Loads the role's filter (of ROLE_NONE: the console's) into every thread of the process, for good.
+/* Loads the role's filter into every thread of the process, for good.
  * 0, or a negative errno. */
 int filter_load(enum role role);
 

@@ -25,8 +25,9 @@ struct sandbox {
     bool on; /* false: every further step does nothing, which sandbox_begin has said in the log */
 };
 
-/* ROLE_NONE is the console, which has no role. off: the user's --no-sandbox. Sanitizers, valgrind
- * and crash points need system calls of their own: there the sandbox is off too. */
+/* ROLE_CONSOLE is every console, also one that is not its set's. off: the user's --no-sandbox.
+ * Sanitizers, valgrind and crash points need system calls of their own: there the sandbox is off
+ * too. */
 int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reason *reason);
 
 /* From here on files are made, written and removed only beneath these folders (descriptors, which

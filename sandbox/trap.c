@@ -96,7 +96,7 @@ int trap_install(enum role role)
     struct sigaction action = {.sa_sigaction = on_trap, .sa_flags = SA_SIGINFO | (int)SA_RESETHAND};
     look_up_names();
     snprintf(beginning, sizeof beginning, "jolon-%s: the sandbox forbids system call ",
-             role == ROLE_NONE ? "console" : role_name(role));
+             role_name(role));
     sigemptyset(&action.sa_mask);
     return sigaction(SIGSYS, &action, NULL) == 0 ? 0 : -errno;
 }

@@ -232,8 +232,8 @@ static bool starts(const struct post *post)
 /* One role after the other, the mover last: frames begin when everybody is there to see them. */
 static void start_set(struct keeper *keeper)
 {
-    static const enum role order[] = {ROLE_COLLIDER, ROLE_RECORDER, ROLE_REPORTER, ROLE_RENDERER,
-                                      ROLE_MOVER};
+    static const enum role order[] = {ROLE_COLLIDER, ROLE_RECORDER, ROLE_REPORTER,
+                                      ROLE_RENDERER, ROLE_CONSOLE,  ROLE_MOVER};
     struct set *set = &keeper->set;
     int wanted[ROLE_COUNT];
     for (int i = 0; i < ROLE_COUNT; i++) {
@@ -273,8 +273,8 @@ static void say_ready(const char *path)
 static void stop_set(struct keeper *keeper)
 {
     /* Nothing new first, then those who report the rest. */
-    static const enum role order[] = {ROLE_MOVER, ROLE_COLLIDER, ROLE_RECORDER, ROLE_RENDERER,
-                                      ROLE_REPORTER};
+    static const enum role order[] = {ROLE_MOVER,   ROLE_COLLIDER, ROLE_RECORDER,
+                                      ROLE_CONSOLE, ROLE_RENDERER, ROLE_REPORTER};
     for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
         if (order[i] != ROLE_RECORDER) {
             (void)set_stop(&keeper->set, order[i]);

@@ -35,6 +35,9 @@ static const struct option known[] = {
     {"interface", required_argument, NULL, PASSED + ROLE_REPORTER},
     {"domain", required_argument, NULL, PASSED + ROLE_REPORTER},
     {"dds-config", required_argument, NULL, PASSED + ROLE_REPORTER},
+    {"console", required_argument, NULL, 'C'},
+    {"console-address", required_argument, NULL, 'A'},
+    {"console-token", required_argument, NULL, 'K'},
     {"background", no_argument, NULL, 'b'},
     {"json", no_argument, NULL, 'j'},
     {"no-sandbox", no_argument, NULL, 's'},
@@ -58,6 +61,20 @@ static void pass_on(struct passed *passed, const char *option, const char *value
     passed->argument[passed->count++] = value;
 }
 
+/* The console's own options, by their names there; --console is what asks for one at all. */
+static bool console_option(struct plan *plan, int option, const char *value)
+{
+    const char *name = option == 'C'   ? "--port"
+                       : option == 'A' ? "--address"
+                       : option == 'K' ? "--token-file"
+                                       : NULL;
+    if (!name)
+        return false;
+    plan->console |= option == 'C';
+    pass_on(&plan->passed[ROLE_CONSOLE], name, value);
+    return true;
+}
+
 struct plan options_plan(int argc, char **argv)
 {
     struct plan plan = {.world = "default", .threads = "1"};
@@ -74,6 +91,8 @@ struct plan options_plan(int argc, char **argv)
                             : option == 'n' ? &plan.every
                             : option == 't' ? &plan.threads
                                             : NULL;
+        if (console_option(&plan, option, optarg))
+            continue;
         if (text)
             *text = optarg;
         else if (option == 'x')

@@ -37,7 +37,7 @@ int set_open(struct set *set, const struct plan *plan, struct reason *reason)
     for (int i = 0; i < ROLE_COUNT; i++) {
         struct post *post = &set->post[i];
         post->role = (enum role)i;
-        post->wanted = i <= ROLE_RENDERER && !plan->left_out[i];
+        post->wanted = i == ROLE_CONSOLE ? plan->console : i <= ROLE_RENDERER && !plan->left_out[i];
     }
     return segment_attach(&set->view, plan->world, ROLE_NONE, reason);
 }
@@ -95,6 +95,9 @@ static void role_arguments(struct command_line *line, const struct plan *plan, e
         break;
     case ROLE_RENDERER:
         add(line, "--out", plan->out);
+        break;
+    case ROLE_CONSOLE:
+        add(line, "--role", NULL);
         break;
     case ROLE_RECORDER:
         add(line, "--commands", plan->commands);

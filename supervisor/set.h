@@ -28,6 +28,7 @@ struct plan {
     uint64_t hang_ms;
     bool left_out[ROLE_COUNT];
     bool background, json, sandbox_off;
+    bool console; /* the set has one */
 };
 
 /* A child process. */

@@ -12,6 +12,8 @@ later() { [ "$(frame)" -gt "$1" ]; }
 replaced() { local now; now=$(pid "$1") && [ -n "$now" ] && [ "$now" != "$2" ]; }
 gone() { ! kill -0 "$1" 2>/dev/null; }
 
+port=$((20000 + $$ % 20000))
+
 check "start ends when the set is up" start --events "$folder/events"
 check "status says running" equal "$(status | json state)" running
 check "the world moves on" moves_on
@@ -111,10 +113,48 @@ check "it comes back" eventually replaced reporter "$before"
 check "to the same network" grep -qzx -- 7 "/proc/$(pid reporter)/cmdline"
 "$jolon" restart -w "$name" renderer 2>second
 check "what the set is without is not restarted" equal $? 1
-check "and that is said" grep -q 'was started --without renderer' second
+check "and that is said" grep -q 'was started without the renderer' second
 check "stop" "$jolon" stop -w "$name"
 "$jolon" restart -w "$name" reporter 2>second
 check "nor is anything without a set" grep -q 'no set runs world' second
+# The console is a role of the set when it is asked for, and a page goes on working over its death.
+"$jolon" start -w "$name" --without renderer --out out --console "$port" >told
+check "start with a console" equal $? 0
+address=$(grep -o 'http://127[^)]*' told)
+# A page joins: who has the token may.
+joins() { python3 - "${1%%#*}" "${1##*=}" <<'P'
+import json, sys, urllib.request
+request = urllib.request.Request(sys.argv[1] + "api/join", b'{"name": "Ann"}',
+    {"Authorization": "Bearer " + sys.argv[2], "Content-Type": "application/json"})
+assert json.load(urllib.request.urlopen(request, timeout=5))["key"]
+P
+}
+check "the address that is printed is the console's" joins "$address"
+check "its token is in no log" eval '! grep -rq "${address##*=}" out/jolon.log'
+check "nor readable for others" equal "$(stat -c %a out/console.token)" 600
+check "status knows it" eval 'status | grep -q "\"role\":\"console\",.*\"state\":\"ready\""'
+before=$(pid console)
+check "kill console" "$jolon" kill -w "$name" console
+check "it comes back" eventually replaced console "$before"
+check "and takes the same token" eventually joins "$address"
+check "restart console" "$jolon" restart -w "$name" console
+check "and the page goes on" eventually joins "$address"
+before=$(pid console)
+kill -STOP "$before"
+check "one that hangs is replaced" eventually replaced console "$before"
+"$jolon" console -w "$name" --port 0 >hand 2>&1 &
+check "one more by hand beside it" eventually eval 'joins "$(head -n 1 hand)"'
+kill %+ && wait %+
+keeper=$(cat "/dev/shm/jolon.$UID.$name.lock")
+kill -KILL "$keeper"
+eventually gone "$keeper"
+check "the keeper is killed and the world gone on with" "$jolon" start -w "$name" --without renderer --out out --console "$port"
+check "the page goes on" eventually joins "$address"
+check "stop" "$jolon" stop -w "$name"
+"$jolon" start -w "$name" --without renderer --out out --console "$port" >/dev/null
+check "another world has another token" eval '! joins "$address"'
+check "stop" "$jolon" stop -w "$name"
+
 # What a role refuses is tried again, and said once.
 check "start with a network that is not there" start --interface 203.0.113.7 --without renderer
 tried() { [ "$(grep -c '^jolon-reporter: .*203.0.113.7' out/jolon.log)" -ge 4 ]; }
