@@ -37,7 +37,7 @@ WARN := -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wsign-conversion
 # Both are looked up in a recipe, when the compiler has been installed.
 COMPILER = $(eval COMPILER := $(shell $(CC) -dumpmachine; $(CC) -dumpfullversion -dumpversion))$(COMPILER)
 NO_FUSING = $(if $(filter 11.% 12.0.% 12.1.% 12.2.%,$(COMPILER)),$(if $(filter x86_64-%,$(COMPILER)),\
-        -mno-fma -mno-fma4 -mno-avx512f,$(if $(findstring -m,$(CC) $(OPT)),-fno-tree-vectorize)))
+        -mno-fma -mno-fma4 -mno-avx512f,$(if $(filter -m%,$(CC) $(OPT)),-fno-tree-vectorize)))
 CFLAGS_ALL = -std=c17 $(OPT) -g -fno-common -ffp-contract=off $(NO_FUSING) -fno-strict-overflow -pthread \
         -D_GNU_SOURCE -I. $(WARN)
 # For the one file of C++: what both languages know.

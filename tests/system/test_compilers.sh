@@ -43,9 +43,9 @@ have() { command -v "$1" >/dev/null; }
 fused_seen() {
     local machine=''
     [ "$(uname -m)" = x86_64 ] && machine=-mfma
-    mkdir -p fused/world fused/mover fused/collider
+    mkdir -p fused/{world,mover,collider,config}
     echo 'double f(double a, double b, double c) { return a * b + c; }' >fused.c
-    for part in world mover collider; do
+    for part in world mover collider config; do
         "$1" -O2 $machine -ffp-contract=fast -c -o fused/$part/f.o fused.c || return 1
     done
     ! "$source_dir/tests/fused" fused
