@@ -140,6 +140,9 @@ PICTURE  := $(call objects,$(wildcard renderer/*/*.c http/*.c)) $(KERNELS)
 STATUS   := $(OBJ)/idl/status.o
 # What servers of HTTP have in common.
 HTTP     := $(call objects,$(HTTP_SRC))
+# The live stream without the renderer.
+STREAM   := $(call objects,$(addprefix renderer/,image/image.c image/jpeg.c \
+        $(addprefix output/,picture.c query.c stream.c stream_asked.c stream_door.c stream_http.c wanted.c)))
 # The page that the console serves, compiled in.
 PAGE_FILES := $(sort $(wildcard $(addprefix console/page/*.,html css js svg png ico webmanifest)))
 PAGE     := $(OBJ)/console/page_files.o
@@ -293,9 +296,7 @@ $(BUILD)/tests/unit/test_output: TEST_LIBS += $(call pc,libs,libdeflate)
 $(BUILD)/tests/unit/test_png: $(call objects,$(addprefix renderer/image/,image.c png.c))
 $(BUILD)/tests/unit/test_png: TEST_LIBS += $(call pc,libs,libdeflate libpng)
 $(BUILD)/tests/unit/test_outlet: $(call objects,$(addprefix renderer/,image/image.c output/outlet.c output/picture.c))
-$(BUILD)/tests/unit/test_stream: $(call objects,$(addprefix renderer/,image/image.c image/jpeg.c \
-        $(addprefix output/,picture.c query.c stream.c stream_asked.c stream_door.c \
-        stream_http.c wanted.c))) $(HTTP)
+$(BUILD)/tests/unit/test_stream: $(STREAM) $(HTTP)
 $(BUILD)/tests/unit/test_stream: TEST_LIBS += $(call pc,libs,libjpeg libmicrohttpd)
 $(BUILD)/tests/unit/test_query: $(OBJ)/renderer/output/query.o
 $(BUILD)/tests/unit/test_wanted: $(OBJ)/renderer/output/wanted.o
@@ -398,6 +399,11 @@ $(BIN)/fuzz_ctl: $(call objects,ctl/parse.c) $(TOPICS)
 $(BIN)/fuzz_ctl: FUZZ_LINK = $(call FUZZ_WRAP,exit) $(DDS_LIBS)
 $(BIN)/fuzz_order: $(TOPICS) $(TOPICS_JSON)
 $(BIN)/fuzz_order: FUZZ_LINK = $(DDS_LIBS) $(JSON_LIBS)
+$(BIN)/fuzz_console $(BIN)/fuzz_stream: $(OBJ)/tests/fuzz/http_client.o $(HTTP)
+$(BIN)/fuzz_console: $(call objects,$(filter-out %/main.c %/options.c,$(CONSOLE_SRC))) $(PAGE) $(TOPICS) $(TOPICS_JSON)
+$(BIN)/fuzz_console: FUZZ_LINK = $(call pc,libs,libmicrohttpd) $(DDS_LIBS) $(JSON_LIBS)
+$(BIN)/fuzz_stream: $(STREAM)
+$(BIN)/fuzz_stream: FUZZ_LINK = $(call pc,libs,libmicrohttpd libjpeg)
 $(BIN)/fuzz_image: $(ARCHIVE)
 $(BIN)/fuzz_image: FUZZ_LINK = $(ARCHIVE_LIBS)
 $(BIN)/fuzz_log: $(LOGS) $(REPLAY)

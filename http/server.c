@@ -5,7 +5,7 @@
 #include "http/host.h"
 #include "ipc/clock.h"
 #include "ipc/log.h"
-#include "ipc/pictures.h"
+#include "ipc/local_socket.h"
 
 #include <errno.h>
 #include <microhttpd.h>
@@ -53,13 +53,9 @@ struct exchange {
     max_align_t own[];
 };
 
-static struct exchange *exchange_of(const struct http_request *request)
+static struct exchange *exchange_of(struct http_request *request)
 {
-    union {
-        const struct http_request *request;
-        struct exchange *exchange; /* it is no constant */
-    } it = {request};
-    return it.exchange;
+    return (struct exchange *)(void *)request;
 }
 
 static void note(struct exchange *exchange, enum connection_state state)
@@ -71,12 +67,12 @@ static void note(struct exchange *exchange, enum connection_state state)
 
 /* --- for handlers ------------------------------------------------------------------------------*/
 
-const char *http_header(const struct http_request *request, const char *name)
+const char *http_header(struct http_request *request, const char *name)
 {
     return MHD_lookup_connection_value(exchange_of(request)->connection, MHD_HEADER_KIND, name);
 }
 
-const char *http_argument(const struct http_request *request, const char *key)
+const char *http_argument(struct http_request *request, const char *key)
 {
     return MHD_lookup_connection_value(exchange_of(request)->connection, MHD_GET_ARGUMENT_KIND,
                                        key);
@@ -95,7 +91,7 @@ static enum MHD_Result take_argument(void *context, enum MHD_ValueKind kind, con
     return taking->take(taking->context, key, value) ? MHD_YES : MHD_NO;
 }
 
-int http_arguments(const struct http_request *request,
+int http_arguments(struct http_request *request,
                    bool (*take)(void *context, const char *key, const char *value), void *context)
 {
     struct taking taking = {take, context};
@@ -136,14 +132,14 @@ static struct rate *address_rate(const struct exchange *exchange)
     const union MHD_ConnectionInfo *info =
         MHD_get_connection_info(exchange->connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
     const struct sockaddr *address = info ? info->client_addr : NULL;
+    const uint8_t *bytes = (const uint8_t *)address;
     uint32_t hash = 2166136261u;
-    const uint8_t *bytes = NULL;
     size_t count = 0;
     if (address && address->sa_family == AF_INET) {
-        bytes = (const uint8_t *)&((const struct sockaddr_in *)(const void *)address)->sin_addr;
+        bytes += offsetof(struct sockaddr_in, sin_addr);
         count = sizeof(struct in_addr);
     } else if (address && address->sa_family == AF_INET6) {
-        bytes = (const uint8_t *)&((const struct sockaddr_in6 *)(const void *)address)->sin6_addr;
+        bytes += offsetof(struct sockaddr_in6, sin6_addr);
         count = 8; /* the network: a client has many addresses in it */
     }
     for (size_t i = 0; i < count; i++)
@@ -234,7 +230,7 @@ static enum MHD_Result send_reply(struct exchange *exchange)
 /* On loopback the server answers to this machine's own names, else also to any address in numbers:
  * no page elsewhere has one of those for a name. A Unix socket has no name that a page could use.
  */
-static bool host_ok(const struct exchange *exchange)
+static bool host_ok(struct exchange *exchange)
 {
     const char *host = http_header(&exchange->request, MHD_HTTP_HEADER_HOST);
     return exchange->server->ours ||
@@ -323,8 +319,7 @@ static void on_end(void *context, struct MHD_Connection *connection, void **kept
     *kept = NULL;
 }
 
-/* Any user may connect to an abstract socket: another user's connection is shut at once and takes
- * no seat. */
+/* A connection of another user to a socket of ours is shut at once and takes no seat. */
 static void on_connection(void *context, struct MHD_Connection *connection, void **seat,
                           enum MHD_ConnectionNotificationCode what)
 {
@@ -333,7 +328,7 @@ static void on_connection(void *context, struct MHD_Connection *connection, void
         MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
     pthread_mutex_lock(&server->lock);
     if (what == MHD_CONNECTION_NOTIFY_STARTED) {
-        *seat = !server->ours || pictures_peer_is(info->connect_fd, server->user)
+        *seat = !server->ours || local_socket_peer_is(info->connect_fd, server->user)
                     ? connection_come(&server->limit, info->connect_fd, clock_now_ns())
                     : NULL;
         if (!*seat)

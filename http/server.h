@@ -77,12 +77,12 @@ void http_server_sweep(struct http_server *server, uint64_t now_ns);
  */
 
 /* The value of a header, or of a key of the address (?KEY=VALUE); NULL when there is none. */
-const char *http_header(const struct http_request *request, const char *name);
-const char *http_argument(const struct http_request *request, const char *key);
+const char *http_header(struct http_request *request, const char *name);
+const char *http_argument(struct http_request *request, const char *key);
 
 /* How many keys the address has; take, unless NULL, gets each until it returns false. A key without
  * a value has NULL. */
-int http_arguments(const struct http_request *request,
+int http_arguments(struct http_request *request,
                    bool (*take)(void *context, const char *key, const char *value), void *context);
 
 /* Is it within the requests a second of its connection, and, unless apart or on loopback, of its

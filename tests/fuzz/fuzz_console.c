@@ -1,0 +1,56 @@
+/* Requests to a console: libmicrohttpd's parser, names, rates, routes, keys of the address, bodies.
+ * Commands end at the desk, where the harness answers them. */
+#include "tests/fuzz/http_client.h"
+#include "tests/fuzz/support.h"
+
+#include "console/request.h"
+#include "ipc/log.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static struct console console = {.lock = PTHREAD_MUTEX_INITIALIZER,
+                                 .token = "0123456789abcdef0123456789abcdef"};
+
+static void answer_tickets(void)
+{
+    pthread_mutex_lock(&console.lock);
+    while (console.desk.ticket) {
+        struct ticket *ticket = console.desk.ticket;
+        console.desk.ticket = ticket->next;
+        console.desk.tickets--;
+        answer_error(&ticket->answer, ANSWER_NO_REPLY, "look", "no reply came");
+        ticket->done = true;
+        ticket->ready(ticket);
+    }
+    pthread_mutex_unlock(&console.lock);
+}
+
+static void start(void)
+{
+    static char name[32];
+    struct reason reason;
+    (void)snprintf(name, sizeof name, "fuzz-%d", (int)getpid());
+    watch_open(&console.watch, name);
+    support_world(&console.watch.view);
+    CHECK(snapshot_init(&console.watch.snapshot, &console.watch.view) == 0);
+    console.watch.there = true;
+    console.listener = http_client_listener();
+    CHECK(pictures_open(&console.pictures, name, &reason) == 0);
+    CHECK(server_start(&console, &reason) == 0);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (!console.http)
+        start();
+    /* Each input is the first of its second, and finds nobody. */
+    pthread_mutex_lock(&console.lock);
+    console.write_rate = (struct rate){0};
+    console.players = (struct players){.joined = 0};
+    pthread_mutex_unlock(&console.lock);
+    http_client_send(data, size, answer_tickets);
+    http_client_get("/api/state?most=1", answer_tickets);
+    return 0;
+}

@@ -1,0 +1,71 @@
+/* Requests to a live stream: libmicrohttpd's parser, names, routes, and the keys of pictures and
+ * maps. The harness draws what is asked for. */
+#include "tests/fuzz/http_client.h"
+#include "tests/fuzz/support.h"
+
+#include "ipc/log.h"
+#include "renderer/output/stream_inside.h"
+
+#include <string.h>
+
+static struct stream *stream;
+static struct picture_pool pool;
+static struct image image;
+static uint64_t frame;
+
+static int paint(void *self, const struct query_map *map, struct image *to)
+{
+    (void)self;
+    CHECK(map->width == to->width && map->height == to->height);
+    memset(to->pixels, 0, (size_t)to->width * to->height * sizeof *to->pixels);
+    return 0;
+}
+
+static struct picture *draw(void)
+{
+    struct picture *picture = picture_make(&pool, &image, "chase", "");
+    CHECK(picture != NULL);
+    picture->frame = ++frame;
+    return picture;
+}
+
+/* Every other wish is for a vehicle that is gone. */
+static void draw_wishes(void)
+{
+    struct stream_wish wishes[WANTED_MAX];
+    if (stream_wishes(stream, wishes) == 0)
+        return;
+    for (uint32_t i = 0; i < WANTED_MAX; i++) {
+        if (!wishes[i].waiting)
+            continue;
+        CHECK(wishes[i].key.width >= QUERY_SIDE_MIN && wishes[i].key.width <= QUERY_WIDTH_MAX &&
+              wishes[i].key.height <= QUERY_HEIGHT_MAX);
+        struct picture *picture = wishes[i].key.vehicle % 2 == 0 ? draw() : NULL;
+        stream_grant(stream, i, wishes[i].generation, picture);
+        picture_release(picture);
+    }
+}
+
+static void start(void)
+{
+    const struct stream_painter painter = {.self = NULL, .paint = paint};
+    struct reason reason;
+    picture_pool_init(&pool);
+    CHECK(image_init(&image, 64, 48) == 0);
+    stream = stream_open("fuzz", &painter, &reason);
+    CHECK(stream != NULL);
+    stream->door[stream->doors++].listener = http_client_listener();
+    CHECK(stream_start(stream, &reason) == 0);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (stream == NULL)
+        start();
+    struct picture *picture = draw();
+    stream_put(stream, picture);
+    picture_release(picture);
+    http_client_send(data, size, draw_wishes);
+    http_client_get("/chase.jpg", draw_wishes);
+    return 0;
+}
