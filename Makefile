@@ -461,7 +461,7 @@ COMPLETIONS = $(DESTDIR)$(PREFIX)/share/bash-completion/completions
 install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)
 	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
-	cp -R config/kinds config/models config/scenarios config/cyclonedds.xml $(SHARE)
+	cp -R config/kinds config/models config/scenarios config/cyclonedds.xml config/dds-security $(SHARE)
 	install -d $(MAN1) $(COMPLETIONS)
 	install -m 644 man/*.1 $(MAN1)
 	ln -sf jolon-run.1 $(MAN1)/jolon-start.1

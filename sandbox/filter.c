@@ -140,8 +140,9 @@ static const struct rule networking[] = {
     ANY(getsockopt),
     ANY(getsockname),
     ANY(pselect6),
-    ANY(sysinfo), /* sorting many readers, or a peer's types: sorting asks how much memory there is
-                   */
+    ANY(sysinfo),   /* DDS sorts readers and types, and sorting asks how much memory there is */
+    ANY(uname),     /* DDS Security: the host's name, in what a participant says of itself again */
+    ANY(getrandom), /* its nonces and keys */
     ANY(read),
     ANY(bind),
     ANY(connect),

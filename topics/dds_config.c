@@ -84,6 +84,30 @@ int dds_config_file(char *text, size_t bytes, const char *path, struct reason *r
     return 0;
 }
 
+/* Is there an element of this name, outside of comments? Cyclone DDS takes names in any case. */
+static bool has_element(const char *text, const char *name)
+{
+    size_t length = strlen(name);
+    while ((text = strchr(text, '<')) != NULL) {
+        if (strncmp(text, "<!--", 4) == 0) {
+            text = strstr(text + 4, "-->");
+            if (!text)
+                return false;
+        } else if (strncasecmp(text + 1, name, length) == 0 &&
+                   strchr(" \t\r\n>", text[1 + length])) {
+            return text[1 + length] != '\0';
+        }
+        text++;
+    }
+    return false;
+}
+
+bool dds_config_secure(const char *text)
+{
+    bool security = has_element(text, "DDSSecurity") || has_element(text, "Security");
+    return security && has_element(text, "IdentityCertificate") && has_element(text, "Governance");
+}
+
 /* "lo 127.0.0.1, eth0 10.0.0.5" */
 static void list_interfaces(char *text, size_t bytes, const struct ifaddrs *list)
 {

@@ -4,6 +4,7 @@
 
 #include "ipc/segment.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #define DDS_CONFIG_MAX 65536u /* bytes of a configuration file, with a NUL */
@@ -28,6 +29,10 @@ int dds_config_builtin(char *text, size_t bytes, const char *address, enum dds_p
 /* Reads a configuration file into text; -1 with the reason when it cannot be read, is too long, or
  * does not begin with an XML element. */
 int dds_config_file(char *text, size_t bytes, const char *path, struct reason *reason);
+
+/* Does a configuration turn DDS Security on: an identity, and rules of the domain? What the rules
+ * say is not looked at. */
+bool dds_config_secure(const char *text);
 
 /* Finds the IPv4 address (dotted, into address) of an interface given by its address or its name;
  * -1 with the reason, which lists what there is, when no interface that is up has it. */

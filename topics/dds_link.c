@@ -134,6 +134,7 @@ int dds_link_open(struct dds_link *link, const struct dds_link_options *options,
     said.quiet = true; /* until it is open: what is said goes into the reason */
     said.last[0] = '\0';
     dds_set_log_sink(take_log, NULL);
+    link->secure = dds_config_secure(config);
     /* Without peers in so many words all are found by multicast, or are told because they came. */
     dds_datagrams_begin(!strcasestr(config, "<Peer"));
     link->domain = dds_create_domain(options->domain, config);

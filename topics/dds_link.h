@@ -33,6 +33,7 @@ struct dds_link_options {
 
 struct dds_link {
     dds_entity_t domain, participant, publisher, subscriber;
+    bool secure; /* by DDS Security: nobody is heard whose certificate does not allow it */
 };
 
 /* True when option was one of them. */

@@ -105,6 +105,35 @@ static void test_files_refused(void **state)
     (void)unlink(path);
 }
 
+static void test_security_is_seen(void **state)
+{
+    static const struct {
+        const char *text;
+        bool secure;
+    } cases[] = {
+        {"<CycloneDDS><Domain><DDSSecurity><Authentication><IdentityCertificate>file:a"
+         "</IdentityCertificate></Authentication><AccessControl><Governance>file:b</Governance>"
+         "</AccessControl></DDSSecurity></Domain></CycloneDDS>",
+         true},
+        {"<security ><identitycertificate\n><governance>", true},
+        {"<DDSSecurity><IdentityCertificate>", false},
+        {"<DDSSecurity><IdentityCertificate><Governance/>", false},
+        {"<DDSSecurityNot><IdentityCertificate><Governance>", false},
+        {"<!-- <DDSSecurity> --><IdentityCertificate><Governance>", false},
+        {"<!-- <DDSSecurity><IdentityCertificate><Governance>", false},
+        {"<!-- a --><DDSSecurity><!-- > --><IdentityCertificate><Governance>", true},
+        {"<DDSSecurity><IdentityCertificate><Governance", false},
+        {"", false},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        if (dds_config_secure(cases[i].text) != cases[i].secure)
+            fail_msg("%s: should be %s", cases[i].text, cases[i].secure ? "secure" : "not secure");
+    }
+    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_HOST, &reason), 0);
+    assert_false(dds_config_secure(text));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -113,6 +142,7 @@ int main(void)
         cmocka_unit_test(test_onlookers_and_hosts),
         cmocka_unit_test(test_interfaces),
         cmocka_unit_test(test_files_refused),
+        cmocka_unit_test(test_security_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -221,7 +221,8 @@ static void handle(int signal_number)
     X("pidfd_send_signal", W, syscall(SYS_pidfd_send_signal, -1, SIGKILL, NULL, 0))                \
     X("pidfd_send_signal", NONE, syscall(SYS_pidfd_send_signal, -1, SIGSTOP, NULL, 0))             \
     X("mmap", R, map(PROT_READ | PROT_WRITE, MAP_SHARED, 2))                                       \
-    X("getrandom", W, syscall(SYS_getrandom, said, 1, 0))                                          \
+    X("uname", W | P, syscall(SYS_uname, said))                                                    \
+    X("getrandom", W | P, syscall(SYS_getrandom, said, 1, 0))                                      \
     X("rt_sigaction", NONE, handle(SIGSYS))                                                        \
     X("rt_sigaction", NONE, handle(SIGSEGV))                                                       \
     X("rt_sigaction", ALL, handle(SIGABRT))                                                        \

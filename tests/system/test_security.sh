@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# DDS Security in the real sandbox: who has a certificate that allows it reads or commands a world;
+# who has another's, or none, is not heard and hears nothing.
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/lib.sh"
+peer=$bin/../tests/rtps/peer
+keys=$here/../../config/dds-security/make-keys
+domain=$((100 + $$ % 100))
+[ -e "$peer" ] || { skip "DDS Security" "make test builds who tries it"; done_testing; }
+
+refuses_keys() { # pattern, arguments
+    ! "$keys" "${@:2}" 2>err && grep -Eq "$1" err
+}
+check "certificates are made" "$keys" keys reporter:world operator:alice viewer:bob
+check "and those of somebody else" "$keys" others operator:alice
+check "keys are their owner's alone" equal "$(stat -c %a keys/*.key keys/world.xml | sort -u)" 600
+check "a kind that there is not is refused" refuses_keys 'reporter:NAME' keys king:carl
+check "and a name that would be a path" refuses_keys 'a name is of' keys viewer:../x
+sed 's/viewer/operator/; s/topic>WorldInfo</topic>Command</' keys/bob-permissions.p7s >forged.p7s
+sed "s|bob-permissions.p7s|../forged.p7s|" keys/bob.xml >forged.xml
+
+start() { # --remote-commands: where DDS does not carry commands without
+    local more=()
+    ! "$bin/jolon-reporter" --help | grep -q remote-commands || more=(--remote-commands)
+    "$jolon" start -w "$name" --domain $domain --dds-config keys/world.xml "${more[@]}" --without renderer --out out
+}
+check "a set with DDS Security starts" start
+try() { # what, with which configuration: one word, into WHAT.CONFIGURATION
+    "$peer" -w "$name" --domain $domain ${2:+--dds-config "$2"} "$1" >"$1.$(basename "${2:-none}" .xml)$3" 2>&1
+}
+for verb in read command; do
+    try $verb keys/alice.xml . &
+    try $verb keys/bob.xml . &
+    try $verb '' . &
+    try $verb others/alice.xml .other &
+done
+try read forged.xml . &
+wait
+said() { equal "$(tail -n 1 "$1")" "$2"; }
+check "an operator reads the status" said read.alice. heard
+check "and is answered" said command.alice. answered
+check "a viewer reads the status" said read.bob. heard
+check "and may not command" grep -q 'Not Allowed By Security' command.bob.
+check "without a certificate nothing is heard" said read.none. unheard
+check "and no command" said command.none. unanswered
+check "with another authority's certificate nothing is heard" said read.alice.other unheard
+check "and no command" said command.alice.other unanswered
+check "permissions that somebody changed are not taken" grep -q 'DDS participant: ' read.forged.
+check "our monitor takes the configuration too" "$bin/jolon-monitor" -w "$name" --domain $domain --dds-config keys/bob.xml --once
+check "the sandbox forbade nothing" bash -c "! grep 'the sandbox forbids' out/jolon.log"
+check "the reporter was not restarted" equal "$("$jolon" status -w "$name" --json | python3 -c '
+import json, sys
+print([role["restarts"] for role in json.load(sys.stdin)["roles"] if role["role"] == "reporter"])')" "[0]"
+check "the set stops" "$jolon" stop -w "$name"
+check "nothing is left" nothing_left "$name"
+done_testing
