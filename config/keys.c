@@ -1,6 +1,8 @@
 /* Keys: finding, checking, storing and refusing values by the tables of config/schema.c. */
 #include "config/keys.h"
 
+#include "world/utf8.h"
+
 #include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
@@ -70,6 +72,7 @@ int keys_refuse(struct loader_message *message, struct key_place place, const ch
     vsnprintf(text, sizeof(text), format, arguments);
     va_end(arguments);
     append_escaped(message->text, sizeof(message->text), text);
+    (void)utf8_mend(message->text);
     return -1;
 }
 

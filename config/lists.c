@@ -175,6 +175,10 @@ static int check_fire(const struct entry *entry, const struct fire_entry *fire,
         return entry_refuse(entry, FIRE_TARGET,
                             "a shot goes to a target or to a point; allowed: one of "
                             "target and point");
+    if (entry_given(entry, FIRE_TARGET) && shooter == NULL)
+        return entry_refuse(entry, FIRE_TARGET,
+                            "has no shooter, and what falls out of the sky falls on a point; right "
+                            "would be: a shooter beside it, or a point");
     if (entry_given(entry, FIRE_MUNITION)) {
         *munition = entry_kind(entry, FIRE_MUNITION, fire->munition, DOMAIN_BIT(DOMAIN_MUNITION));
         return *munition == KIND_NONE ? -1 : 0;

@@ -1,6 +1,8 @@
 /* Errors in words, and numbers of an address. */
 #include "console/answer.h"
 
+#include "world/utf8.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
@@ -15,7 +17,7 @@ void answer_error(struct answer *answer, enum answer_status status, const char *
     char what[512];
     va_list arguments;
     va_start(arguments, format);
-    (void)vsnprintf(what, sizeof what, format, arguments);
+    (void)utf8_format(what, sizeof what, format, arguments);
     va_end(arguments);
     text_free(&answer->text);
     answer->status = status;

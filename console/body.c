@@ -105,8 +105,9 @@ bool body_join(char name[PLAYERS_NAME_MAX], const char *body, size_t bytes, stru
     if (good)
         memcpy(name, given, strlen(given) + 1);
     else
-        answer_error(answer, ANSWER_BAD, "send {\"name\": \"Ann\"}",
-                     "a player's name is 1 to %u bytes of text", PLAYERS_NAME_MAX - 1);
+        answer_error(answer, ANSWER_BAD, "choose another, as Ann",
+                     "a player's name has 1 to %u characters that can be seen",
+                     PLAYERS_NAME_CHARACTERS);
     cJSON_Delete(object);
     return good;
 }

@@ -2,42 +2,22 @@
 #include "console/players.h"
 
 #include "console/secret.h"
+#include "world/utf8.h"
 
 #include <string.h>
 
 _Static_assert(PLAYERS_KEY_BYTES == SECRET_BYTES, "a key is a secret");
 
-/* Bytes of the UTF-8 character at c, 0 when it is none. Overlong forms and surrogates are none. */
-static size_t character_bytes(const unsigned char *c)
-{
-    size_t bytes = c[0] < 0x80 ? 1 : c[0] < 0xc2 ? 0 : c[0] < 0xe0 ? 2 : c[0] < 0xf0 ? 3 : 4;
-    if (c[0] > 0xf4)
-        return 0;
-    for (size_t i = 1; i < bytes; i++) {
-        if ((c[i] & 0xc0) != 0x80)
-            return 0;
-    }
-    if ((c[0] == 0xe0 && c[1] < 0xa0) || (c[0] == 0xed && c[1] > 0x9f) ||
-        (c[0] == 0xf0 && c[1] < 0x90) || (c[0] == 0xf4 && c[1] > 0x8f))
-        return 0;
-    return bytes;
-}
-
 bool players_name_ok(const char *name)
 {
-    const unsigned char *c = (const unsigned char *)name;
+    uint32_t code, characters = 0;
     bool blank = true;
-    if (strlen(name) >= PLAYERS_NAME_MAX)
-        return false;
-    while (*c) {
-        size_t bytes = character_bytes(c);
-        bool control = *c < 0x20 || *c == 0x7f || (*c == 0xc2 && c[1] < 0xa0);
-        /* Marks that turn the direction of writing would make one name look like another. */
-        bool mark = bytes == 3 && c[0] == 0xe2 && (c[1] == 0x80 || c[1] == 0x81) && c[2] >= 0x8b;
-        if (bytes == 0 || control || mark)
+    while (*name) {
+        size_t bytes = utf8_read(name, &code);
+        if (bytes == 0 || !utf8_visible(code) || ++characters > PLAYERS_NAME_CHARACTERS)
             return false;
-        blank = blank && *c == ' ';
-        c += bytes;
+        blank = blank && *name == ' ';
+        name += bytes;
     }
     return !blank;
 }

@@ -8,10 +8,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define PLAYERS_MAX       32u
-#define PLAYERS_NAME_MAX  33u /* [byte] with the NUL */
-#define PLAYERS_KEY_BYTES 16u
-#define PLAYERS_KEY_MAX   (2 * PLAYERS_KEY_BYTES + 1)
+#define PLAYERS_MAX             32u
+#define PLAYERS_NAME_CHARACTERS 32u
+#define PLAYERS_NAME_MAX        (4 * PLAYERS_NAME_CHARACTERS + 1) /* [byte] with the NUL */
+#define PLAYERS_KEY_BYTES       16u
+#define PLAYERS_KEY_MAX         (2 * PLAYERS_KEY_BYTES + 1)
 
 /* Nothing heard for so long: the hold on its vehicle is not renewed; the vehicle goes back to its
  * agent; the player is forgotten. */
@@ -47,7 +48,7 @@ struct players {
     uint32_t joined; /* ever */
 };
 
-/* Is this a name to show: 1 to 32 bytes of whole UTF-8 without control characters, not blank? */
+/* Is this a name to show: 1 to 32 characters of UTF-8, all of them visible, and not only spaces? */
 bool players_name_ok(const char *name);
 
 /* A new player; NULL when there are PLAYERS_MAX. key: random bytes. */

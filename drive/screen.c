@@ -5,6 +5,7 @@
 #include "drive/keys.h"
 #include "drive/panel.h"
 #include "drive/terminal.h"
+#include "ipc/process.h"
 #include "ipc/clock.h"
 #include "topics/tell.h"
 
@@ -29,7 +30,7 @@ int screen_open(struct reason *reason)
         return reason_set(reason, "TERM=%s: no terminal that curses knows; --plain works on any",
                           getenv("TERM") ? getenv("TERM") : "");
     (void)curs_set(0);
-    if (has_colors() && start_color() == OK) {
+    if (process_colours() && has_colors() && start_color() == OK) {
         (void)use_default_colors();
         (void)init_pair(PAIR_BLUE, COLOR_CYAN, -1);
         (void)init_pair(PAIR_RED, COLOR_YELLOW, -1);

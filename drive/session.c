@@ -4,6 +4,7 @@
 #include "drive/choose.h"
 #include "ipc/clock.h"
 #include "world/command.h"
+#include "world/utf8.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -30,7 +31,7 @@ void session_say(struct session *session, uint64_t now_ns, const char *format, .
 {
     va_list arguments;
     va_start(arguments, format);
-    (void)vsnprintf(session->notice, sizeof session->notice, format, arguments);
+    (void)utf8_format(session->notice, sizeof session->notice, format, arguments);
     va_end(arguments);
     session->notice_ns = now_ns;
     session->notices++;

@@ -3,6 +3,7 @@
 
 #include "topics/order_json.h"
 #include "topics/put_json.h"
+#include "world/utf8.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -30,16 +31,13 @@ void line_refuse_length(struct session *session)
 /* Is it UTF-8 without control characters but blanks? What we echo must be, too. */
 static bool is_text(const char *line, size_t bytes)
 {
-    for (size_t i = 0; i < bytes;) {
-        unsigned char first = (unsigned char)line[i++];
-        int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc2 ? 1 : 0;
-        if ((first < ' ' && first != '\t' && first != '\r') || (first >= 0x80 && !more) ||
-            first > 0xf4)
+    const char *end = line + bytes;
+    while (line < end) {
+        uint32_t code;
+        size_t length = utf8_read(line, &code);
+        if (length == 0 || (code < ' ' && code != '\t' && code != '\r'))
             return false;
-        for (; more > 0; more--, i++) {
-            if (i >= bytes || ((unsigned char)line[i] & 0xc0) != 0x80)
-                return false;
-        }
+        line += length;
     }
     return true;
 }

@@ -3,6 +3,7 @@
 
 #include "ipc/clock.h"
 #include "ipc/crash.h"
+#include "world/utf8.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -26,13 +27,12 @@ void log_frame(uint64_t frame)
     log_frame_number = frame;
 }
 
-/* One write, so that lines of several processes do not mix; control bytes become '?'. */
+/* One write, so that lines of several processes do not mix; control bytes become '?'. The line has
+ * room for one more byte. */
 static void put_line(char *line, int length)
 {
     if (length < 0)
         return;
-    if (length > LINE_MAX_BYTES - 2)
-        length = LINE_MAX_BYTES - 2;
     for (int i = 0; i < length; i++) {
         if ((unsigned char)line[i] < 0x20 || line[i] == 0x7f)
             line[i] = '?';
@@ -52,7 +52,7 @@ __attribute__((format(printf, 2, 0))) static void entry(const char *level, const
                           (unsigned long long)(now % NS_PER_S / 1000), log_role, level,
                           (unsigned long long)log_frame_number);
     if (length > 0 && length < (int)sizeof line)
-        length += vsnprintf(line + length, sizeof line - (size_t)length, format, args);
+        length += (int)utf8_format(line + length, sizeof line - 1 - (size_t)length, format, args);
     put_line(line, length);
 }
 
@@ -87,7 +87,7 @@ __attribute__((format(printf, 1, 0))) static void last_words(const char *format,
     int length = snprintf(line, sizeof line, "jolon: ");
     if (strcmp(log_role, "jolon") != 0)
         length = snprintf(line, sizeof line, "jolon-%s: ", log_role);
-    length += vsnprintf(line + length, sizeof line - (size_t)length, format, args);
+    length += (int)utf8_format(line + length, sizeof line - 1 - (size_t)length, format, args);
     put_line(line, length);
 }
 

@@ -82,6 +82,12 @@ void process_signals(void)
     process_guard();
 }
 
+bool process_colours(void)
+{
+    const char *no_color = getenv("NO_COLOR");
+    return no_color == NULL || no_color[0] == '\0';
+}
+
 void process_close_inherited(void)
 {
     (void)close_range(STDERR_FILENO + 1, ~0u, 0); /* a kernel without it leaves them open */

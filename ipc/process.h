@@ -25,6 +25,9 @@ void process_signals(void);
 void process_guard(void);
 void process_guard_removes(const char *shm, const char *lock);
 
+/* May a terminal be coloured: is NO_COLOR not set, or empty? */
+bool process_colours(void);
+
 /* Closes every descriptor beyond standard error: what a parent left open is not the role's. To be
  * called before any is opened. */
 void process_close_inherited(void);

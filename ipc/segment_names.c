@@ -4,6 +4,7 @@
 #include "ipc/leftovers.h"
 #include "ipc/process.h"
 #include "ipc/segment_own.h"
+#include "world/utf8.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -19,7 +20,7 @@ int reason_set(struct reason *reason, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    vsnprintf(reason->text, sizeof reason->text, format, args);
+    (void)utf8_format(reason->text, sizeof reason->text, format, args);
     va_end(args);
     reason->foreign = reason->damaged = false;
     return -1;

@@ -1,6 +1,7 @@
 /* The terminal: curses, its keys, and the frame around the pages. */
 #include "monitor/screen.h"
 
+#include "ipc/process.h"
 #include "ipc/segment.h"
 #include "monitor/lines.h"
 #include "monitor/pages.h"
@@ -30,7 +31,7 @@ int screen_open(struct screen *screen, struct reason *reason)
     (void)nodelay(stdscr, TRUE);
     (void)keypad(stdscr, TRUE);
     (void)curs_set(0);
-    if (has_colors() && start_color() == OK) {
+    if (process_colours() && has_colors() && start_color() == OK) {
         (void)use_default_colors();
         (void)init_pair(PAIR_BLUE, COLOR_BLUE, -1);
         (void)init_pair(PAIR_RED, COLOR_RED, -1);

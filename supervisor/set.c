@@ -4,6 +4,7 @@
 #include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "world/utf8.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -61,7 +62,7 @@ void set_note(const struct set *set, const char *format, ...)
     time_t now = time(NULL);
     struct tm local;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    (void)utf8_format(text, sizeof text, format, args);
     va_end(args);
     localtime_r(&now, &local);
     strftime(stamp, sizeof stamp, "%H:%M:%S", &local);

@@ -1,14 +1,15 @@
 /* One line of text, cut to its room. */
 #include "world/complaint.h"
 
+#include "world/utf8.h"
+
 #include <stdarg.h>
-#include <stdio.h>
 
 int complaint_say(const struct complaint *to, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    vsnprintf(to->text, to->bytes, format, args);
+    (void)utf8_format(to->text, to->bytes, format, args);
     va_end(args);
     return -1;
 }

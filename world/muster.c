@@ -15,6 +15,8 @@
 #define NEAR_TRIES  8    /* a place near another: each time twice as far around it */
 #define NEAR_ROAD_M 10.0 /* to begin with, on a road */
 
+#define PLACING_STEP 256u /* vehicles from one word about them to the next */
+
 /* A group on its way into the table. */
 struct rank {
     const struct scenario_group *group;
@@ -229,14 +231,36 @@ static int no_stand(const struct muster *muster, uint32_t number)
                          area->z0, area->x1, area->z1);
 }
 
+/* May the group's kind stand where the scenario puts it? As for the command spawn: a ship needs
+ * water, and what drives needs land. */
+static int check_ground(const struct muster *muster)
+{
+    const struct scenario *scenario = muster->genesis->scenario;
+    const struct scenario_group *group = muster->rank.group;
+    const struct kind *kind = &scenario->kinds[group->kind];
+    bool sails = kind->domain == DOMAIN_SEA;
+    if (!group->placed || place_carries(&muster->place.terrain, kind, group->x, group->z))
+        return 0;
+    return complaint_say(
+        muster->to,
+        "%s:%d: vehicles.at = [%.15g, %.15g]: a %s would stand %s; right would be: a "
+        "place %s",
+        scenario->params.scenario, group->line, group->x, group->z, kind->name,
+        sails ? "on dry land" : "in the water", sails ? "on water" : "on land");
+}
+
 static int build_group(struct muster *muster, const struct scenario_group *group)
 {
     struct genesis *genesis = muster->genesis;
     const struct scenario *scenario = genesis->scenario;
     form(muster, group);
+    if (check_ground(muster) != 0)
+        return -1;
     for (uint32_t i = 0; i < group->count; i++) {
         uint32_t slot = genesis->used;
         struct stand stand;
+        if (scenario->placing && slot % PLACING_STEP == 0)
+            scenario->placing(slot, scenario->params.initial_entities);
         if (slot >= scenario->params.capacity)
             return complaint_say(muster->to,
                                  "vehicles: more than world.capacity = %u; raise it (at most %u) "

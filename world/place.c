@@ -5,6 +5,7 @@
 #include "world/reach.h"
 #include "world/square.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #define TRIES       1000
@@ -22,7 +23,7 @@ int place_init(struct place *place, const struct terrain *terrain, const struct 
                             .reach_start = reach_start,
                             .reach = reach,
                             .seed = seed};
-    place->head = calloc(SQUARE_COUNT, sizeof *place->head);
+    place->head = calloc((size_t)PLACE_CELLS * PLACE_CELLS, sizeof *place->head);
     return place->head ? 0 : -1;
 }
 
@@ -31,6 +32,12 @@ void place_free(struct place *place)
     free(place->head);
     free(place->taken);
     *place = (struct place){0};
+}
+
+bool place_carries(const struct terrain *terrain, const struct kind *kind, double x, double z)
+{
+    return kind->domain == DOMAIN_AIR ||
+           (kind->domain == DOMAIN_SEA) == cover_is_water(terrain_cover(terrain, x, z));
 }
 
 static bool ground_suits(const struct place *place, const struct kind *kind, double x, double z)
@@ -55,13 +62,19 @@ static bool ground_suits(const struct place *place, const struct kind *kind, dou
     }
 }
 
+/* The row or column of cells in which a coordinate is. */
+static uint32_t cell_at(double m)
+{
+    double cell = floor(m / PLACE_CELL_M);
+    return cell < 0.0 ? 0 : cell < PLACE_CELLS ? (uint32_t)cell : PLACE_CELLS - 1;
+}
+
 static bool clear_of_vehicles(const struct place *place, double x, double z, double reach_m)
 {
     double reach = reach_m + place->largest_m + CLEARANCE_M;
-    struct square_box box = square_box_of(x - reach, z - reach, x + reach, z + reach);
-    for (int32_t row = box.z0; row <= box.z1; row++) {
-        for (int32_t column = box.x0; column <= box.x1; column++) {
-            uint32_t next = place->head[square_index(column, row)];
+    for (uint32_t row = cell_at(z - reach); row <= cell_at(z + reach); row++) {
+        for (uint32_t column = cell_at(x - reach); column <= cell_at(x + reach); column++) {
+            uint32_t next = place->head[row * PLACE_CELLS + column];
             while (next != 0) {
                 const struct place_taken *other = &place->taken[next - 1];
                 double dx = other->x - x, dz = other->z - z;
@@ -94,6 +107,14 @@ static bool clear_of_objects(const struct place *place, double x, double z, doub
     return true;
 }
 
+/* The vehicles come first: in a crowd it is they who refuse most points. */
+static bool free_and_fit(const struct place *place, const struct kind *kind, double x, double z,
+                         double reach_m)
+{
+    return clear_of_vehicles(place, x, z, reach_m) && ground_suits(place, kind, x, z) &&
+           (kind->domain == DOMAIN_AIR || clear_of_objects(place, x, z, reach_m));
+}
+
 /* Narrows a range to keep off the world's edge, unless nothing would be left of it. */
 static void leave_edge(double *low, double *high)
 {
@@ -108,9 +129,7 @@ bool place_suits(const struct place *place, const struct kind *kind, double x, d
 {
     double reach = reach_of_kind(kind);
     return x >= EDGE_M && z >= EDGE_M && x <= WORLD_SIDE_M - EDGE_M && z <= WORLD_SIDE_M - EDGE_M &&
-           ground_suits(place, kind, x, z) &&
-           (kind->domain == DOMAIN_AIR || clear_of_objects(place, x, z, reach)) &&
-           clear_of_vehicles(place, x, z, reach);
+           free_and_fit(place, kind, x, z, reach);
 }
 
 int place_find(struct place *place, const struct area *area, const struct kind *kind, uint32_t slot,
@@ -123,9 +142,7 @@ int place_find(struct place *place, const struct area *area, const struct kind *
     for (uint64_t i = 0; i < TRIES; i++) {
         *x = random_between(place->seed, i, slot, RANDOM_PLACE_X, x0, x1);
         *z = random_between(place->seed, i, slot, RANDOM_PLACE_Z, z0, z1);
-        if (ground_suits(place, kind, *x, *z) &&
-            (kind->domain == DOMAIN_AIR || clear_of_objects(place, *x, *z, reach)) &&
-            clear_of_vehicles(place, *x, *z, reach))
+        if (free_and_fit(place, kind, *x, *z, reach))
             return 0;
     }
     return -1;
@@ -141,7 +158,7 @@ int place_take(struct place *place, double x, double z, double reach_m)
         place->taken = taken;
         place->capacity = capacity;
     }
-    uint32_t *head = &place->head[square_of(x, z)];
+    uint32_t *head = &place->head[cell_at(z) * PLACE_CELLS + cell_at(x)];
     place->taken[place->count] = (struct place_taken){x, z, reach_m, *head};
     *head = ++place->count;
     place->largest_m = maths_max(place->largest_m, reach_m);

@@ -11,9 +11,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* What is taken is found by cells finer than gridsquares: a crowd of a million in one part of the
+ * map has thousands in a gridsquare, and at most some fifteen in a cell. */
+#define PLACE_CELL_M 25.0
+#define PLACE_CELLS  ((uint32_t)(WORLD_SIDE_M / PLACE_CELL_M))
+
 struct place_taken {
     double x, z, reach_m;
-    uint32_t next; /* index + 1 in the same square, 0 ends */
+    uint32_t next; /* index + 1 in the same cell, 0 ends */
 };
 
 struct place {
@@ -22,7 +27,7 @@ struct place {
     const struct kind *kinds; /* of the fixed objects */
     const uint32_t *reach_start, *reach;
     uint64_t seed;
-    uint32_t *head; /* [SQUARE_COUNT] taken + 1 */
+    uint32_t *head; /* [PLACE_CELLS * PLACE_CELLS] taken + 1 */
     struct place_taken *taken;
     uint32_t count, capacity;
     double largest_m; /* reach taken so far */
@@ -33,6 +38,10 @@ int place_init(struct place *place, const struct terrain *terrain, const struct 
                const struct kind *kinds, const uint32_t *reach_start, const uint32_t *reach,
                uint64_t seed);
 void place_free(struct place *place);
+
+/* Is this what the kind goes on: water for ships, dry land for what drives? Aircraft go anywhere.
+ */
+bool place_carries(const struct terrain *terrain, const struct kind *kind, double x, double z);
 
 /* May a vehicle of this kind stand here? */
 bool place_suits(const struct place *place, const struct kind *kind, double x, double z);

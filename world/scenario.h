@@ -107,6 +107,8 @@ struct scenario {
     struct route_point *route_points;
     uint32_t route_point_count;
     struct recipe recipe;
+    /* Told now and then how many vehicles have their place, of how many; NULL: nobody is. */
+    void (*placing)(uint32_t placed, uint32_t of);
 };
 
 void scenario_free(struct scenario *scenario);

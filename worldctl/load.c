@@ -2,12 +2,14 @@
 #include "worldctl/load.h"
 
 #include "config/loader.h"
+#include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 void load_recipe_seconds(const struct arguments *arguments, struct recipe *recipe)
 {
@@ -15,6 +17,20 @@ void load_recipe_seconds(const struct arguments *arguments, struct recipe *recip
     snprintf(text, sizeof text, "%.17g", arguments->seconds);
     if (arguments->seconds > 0.0 && recipe_add(recipe, "seconds", text) != 0)
         die_refused("--seconds %s: no room in the recipe: %s", text, strerror(errno));
+}
+
+/* On a terminal, ten times a second, from the second on that placing takes. */
+static uint64_t placing_begun_ns, placing_told_ns;
+
+static void tell_placing(uint32_t placed, uint32_t of)
+{
+    uint64_t now_ns = clock_now_ns();
+    if (placing_begun_ns == 0)
+        placing_begun_ns = now_ns;
+    if (now_ns - placing_begun_ns < NS_PER_S || now_ns - placing_told_ns < NS_PER_S / 10)
+        return;
+    placing_told_ns = now_ns;
+    (void)fprintf(stderr, "\r%u of %u vehicles have a place", placed, of);
 }
 
 void load_scenario(const struct arguments *arguments, struct scenario *scenario)
@@ -27,6 +43,8 @@ void load_scenario(const struct arguments *arguments, struct scenario *scenario)
     if (loader_scenario(scenario, data_dir, arguments->path, arguments->set, arguments->sets,
                         &message) != 0)
         die_refused("%s", message.text);
+    if (isatty(STDERR_FILENO))
+        scenario->placing = tell_placing;
     arguments_seconds(arguments, &scenario->params);
     load_recipe_seconds(arguments, &scenario->recipe);
 }
@@ -34,6 +52,9 @@ void load_scenario(const struct arguments *arguments, struct scenario *scenario)
 void load_generate(const struct scenario *scenario, struct genesis *genesis)
 {
     char text[512];
-    if (genesis_build(genesis, scenario, text, sizeof text) != 0)
+    int built = genesis_build(genesis, scenario, text, sizeof text);
+    if (placing_told_ns > 0)
+        (void)fputs("\r\033[K", stderr);
+    if (built != 0)
         die_refused("%s: %s", scenario->params.scenario, text);
 }

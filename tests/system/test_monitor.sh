@@ -29,6 +29,15 @@ refuses_usage() { "$jolon" monitor -w "$name" --filter red; [ $? = 2 ]; }
 check "a filter is for JSON" refuses_usage
 timeout 3 "$jolon" monitor -w "$name" >lines 2>&1
 check "without a terminal it writes lines" [ "$(wc -l <lines)" -ge 2 ]
+screen() { TERM=xterm-256color timeout 3 script -qec "'$jolon' monitor -w $name" /dev/null </dev/null >screen 2>&1; grep -a -q "$name" screen; }
+coloured() { grep -a -Eq $'\e\\[(3[0-9]|38;5;[0-9]+)m' screen; }
+if command -v script >/dev/null; then
+    check "on a terminal it shows a screen, in colours" eval 'screen && coloured'
+    check "with NO_COLOR without them" eval 'NO_COLOR=1 screen && ! coloured'
+    check "with an empty NO_COLOR in colours" eval 'NO_COLOR= screen && coloured'
+else
+    skip "colours on a terminal" "no script here"
+fi
 for _ in 1 2 3 4 5; do "$jolon" monitor -w "$name" >/dev/null 2>&1 & monitors+=($!); done
 sleep 0.5
 kill -KILL "${monitors[@]}"

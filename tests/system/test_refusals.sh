@@ -27,6 +27,8 @@ scenario 'terrain = { source = "flat"; }; vehicles = ( { kind = "ship"; count = 
 refuses "no place for a ship on land" 1 'no place for ship' run bad.cfg
 scenario 'terrain = { source = "flat"; }; fires = ( { at_s = 1.0; shooter = "Nobody"; point = [1.0, 1.0]; } );'
 refuses "unknown shooter" 1 'Nobody' run bad.cfg
+scenario 'vehicles = ( { kind = "tank"; at = [1500.0, 29000.0]; } );'
+refuses "a tank in the sea" 1 'a tank would stand in the water; right would be: a place on land' run bad.cfg
 refuses "missing file" 1 'no-such-file\.cfg' run ./no-such-file.cfg
 refuses "a folder is no scenario" 1 'out' run ./out
 refuses "unknown override" 1 'world\.sped' run --set world.sped=3 good.cfg
@@ -73,6 +75,18 @@ check "the first runs on" "$jolon" stop -w "$name"
 check "and is recorded to its end" eval 'tail -n 1 one/commands.log | grep -q end'
 "$jolon" run -w "$name" --frames 2 --pace max --without renderer --without reporter good.cfg >told 2>err
 check "without --out a world has a folder of its own" [ -s "jolon-out-$name/commands.log" ]
+
+# What takes long shows on a terminal that it goes on.
+cat >many.cfg <<'C'
+world = { capacity = 1048576; }; terrain = { source = "flat"; };
+vehicles = ( { kind = "tank"; count = 1048576; area = [1000.0, 1000.0, 16000.0, 16000.0]; } );
+C
+placing() { timeout 60 script -qec "'$bin/jolon-world' check many.cfg" /dev/null </dev/null | grep -a -m 1 -q 'of 1048576 vehicles have a place'; }
+if command -v script >/dev/null; then
+    check "a long check shows how far it is" placing
+else
+    skip "a long check shows how far it is" "no script here"
+fi
 
 # A full /dev/shm: one of 8 MB in a mount namespace of our own.
 if unshare -m true 2>/dev/null; then

@@ -180,6 +180,13 @@ static void test_names_are_text_to_be_shown(void **state)
     assert_true(joins("{\"name\":\"J\xc3\xbcrgen <b>\"}"));
     assert_true(joins("{\"name\":\"12345678901234567890123456789012\"}"));
     assert_false(joins("{\"name\":\"123456789012345678901234567890123\"}"));
+    char accents[64] = "{\"name\":\"";
+    for (int i = 0; i < 20; i++)
+        strcat(accents, "\xc3\xa9");
+    assert_true(joins(strcat(accents, "\"}")));
+    assert_false(joins("{\"name\":\"\xc2\xa0\"}"));
+    assert_false(joins("{\"name\":\"Ann\xd8\x9c\"}"));
+    assert_false(joins("{\"name\":\"Ann\xe2\x80\x8b\"}"));
     assert_false(joins("{\"name\":\"\"}"));
     assert_false(joins("{\"name\":\"  \"}"));
     assert_false(joins("{\"name\":7}"));

@@ -68,8 +68,8 @@ static void test_vehicle_at_a_place_starts_as_it_was_told(void **state)
 static void test_every_kind_of_vehicle_spawns_by_name(void **state)
 {
     static const char *const land_and_air[] = {
-        "tank",     "jet",      "helicopter", "carrier",       "jeep", "truck",
-        "helo-cow", "wishbone", "hamburger",  "attack-tomato", "ship"};
+        "tank",  "jet",      "helicopter", "carrier",   "jeep",
+        "truck", "helo-cow", "wishbone",   "hamburger", "attack-tomato"};
     (void)state;
     for (size_t i = 0; i < sizeof land_and_air / sizeof land_and_air[0]; i++) {
         char text[128];
@@ -302,11 +302,14 @@ static void test_no_place_is_refused_with_kind_number_and_area(void **state)
 {
     static const char *const ship[] = {"ship", "number 1 of 2", "[1000, 2000, 3000, 4000]",
                                        "wrong ground"};
+    static const char *const ashore[] = {
+        "vehicles.at = [1000, 2000]: a ship would stand on dry land", "a place on water"};
     static const char *const crowd[] = {"tank", "of 60", "crowded"};
     (void)state;
     check_refusal("vehicles = ( { kind = \"ship\"; count = 2; area = [1000.0, 2000.0, 3000.0, "
                   "4000.0]; } );",
                   ship, 4);
+    check_refusal("vehicles = ( { kind = \"ship\"; at = [1000.0, 2000.0]; } );", ashore, 2);
     check_refusal("vehicles = ( { kind = \"tank\"; count = 60; area = [1000.0, 2000.0, 1020.0, "
                   "2020.0]; } );",
                   crowd, 3);

@@ -231,6 +231,18 @@ static void test_area_along_the_edge_holds_its_vehicles(void **state)
         check_all(&jet, &strips[i], 100, anywhere);
 }
 
+/* A place that somebody names is taken as it is, but for the ground itself. */
+static void test_ships_are_for_water_and_what_drives_for_land(void **state)
+{
+    (void)state;
+    assert_true(place_carries(&terrain, &ship, 5000.0, 20000.0));
+    assert_false(place_carries(&terrain, &ship, 30000.0, 20000.0));
+    assert_false(place_carries(&terrain, &tank, 5000.0, 20000.0));
+    assert_true(place_carries(&terrain, &tank, 30000.0, 20000.0));
+    assert_true(place_carries(&terrain, &tank, 45000.0, 20000.0)); /* however steep */
+    assert_true(place_carries(&terrain, &jet, 5000.0, 20000.0));
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, make_ground, drop_ground)
 
 int main(void)
@@ -247,6 +259,7 @@ int main(void)
         TEST(test_same_seed_same_places),
         TEST(test_nobody_starts_at_the_worlds_edge),
         TEST(test_area_along_the_edge_holds_its_vehicles),
+        TEST(test_ships_are_for_water_and_what_drives_for_land),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -217,6 +217,12 @@ static const struct refusal refusals[] = {
      "[x, z] )"},
     {"vehicles = ( { kind = \"ship\"; roads = true; route = ( [1, 2], [3, 4] ); } );", 1,
      "vehicles[0].roads = true: is not for a ship; allowed: false, or a kind of land or air"},
+    {"vehicles = ( { kind = \"tank\"; name = \"T\"; } );\n"
+     "fires = ( { at_s = 1; munition = \"bomb\"; target = \"T\"; } );",
+     2,
+     "fires[0].target = \"T\": has no shooter, and what falls out of the sky falls on a point; "
+     "right "
+     "would be: a shooter beside it, or a point"},
     /* Scripts. */
     {VEHICLE("script = \"x\";"), 2,
      "vehicles[0].script = \"x\": is no script's name; allowed: a name of scripts"},

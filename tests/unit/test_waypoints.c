@@ -89,10 +89,12 @@ static void test_what_a_kind_cannot_do_is_refused(void **state)
                   "vehicles = ( { kind = \"tank\"; script = \"a\"; } );",
                   "script \"a\": 1000 m in 10 s is more than the 16.67 m/s of a tank; right would "
                   "be: there at 60.0 s or later");
-    check_genesis("scripts = ( { name = \"a\"; steps = ( { go = [1000, 1000]; } ); } );\n"
-                  "vehicles = ( { kind = \"ship\"; at = [3000, 3000]; script = \"a\"; } );",
-                  "script \"a\": [1000, 1000] is land, where no ship goes; right would be: a point "
-                  "on water");
+    check_genesis(
+        "terrain = { source = \"generated\"; }; objects = { source = \"none\"; };\n"
+        "scripts = ( { name = \"a\"; steps = ( { go = [25000, 25000]; } ); } );\n"
+        "vehicles = ( { kind = \"ship\"; at = [1500, 29000]; script = \"a\"; } );",
+        "script \"a\": [25000, 25000] is land, where no ship goes; right would be: a point "
+        "on water");
     check_genesis("scripts = ( { name = \"a\"; steps = ( { fire = \"X\"; } ); } );\n"
                   "vehicles = ( { kind = \"tank\"; script = \"a\"; } );",
                   "script \"a\": fire = \"X\": no vehicle has that name");
