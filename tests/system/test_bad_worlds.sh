@@ -119,13 +119,13 @@ flip 12
 refused "a flipped bit of the header is named" 'header\.header_bytes is damaged: it is [0-9]+ and was [0-9]+' world check --world "$name"
 refused "adoption refuses it" 'header\.header_bytes' create --adopt
 flip 12
-flip $((4096 + 48))
+flip $((65536 + 48))
 refused "a flipped bit of the parameters is named" 'params\.scenario is damaged' world status --world "$name"
-flip $((4096 + 48))
-flip $((4096 * 2 + 100))
+flip $((65536 + 48))
+flip $((65536 * 2 + 100))
 refused "a flipped bit of the kinds is named" 'kinds' world check --world "$name"
 refused "and not repaired" 'kinds' world repair --world "$name"
-flip $((4096 * 2 + 100))
+flip $((65536 * 2 + 100))
 check "put back, it is good" world check --world "$name"
 
 # --- objects that are no world --------------------------------------------------------------------
