@@ -93,6 +93,10 @@ static void *jolon_open(const struct engine_scene *scene, uint32_t threads)
     self->workers = workers_create(threads);
     if (!self->workers || broad_init(&self->broad, &self->world, self->workers) != 0)
         die_refused("cannot begin: %s", strerror(errno));
+    for (int i = 0; i < WORKERS_MAX; i++) {
+        if (pair_list_init(&self->touching[i], detect_pairs_most(&self->world)) != 0)
+            die_refused("cannot begin: %s", strerror(errno));
+    }
     return self;
 }
 
@@ -102,7 +106,7 @@ static void jolon_close(void *handle)
     broad_free(&self->broad);
     workers_destroy(self->workers);
     for (int i = 0; i < WORKERS_MAX; i++)
-        free(self->touching[i].pair);
+        pair_list_free(&self->touching[i]);
     free(self->path);
     munmap(self->rows, self->rows_bytes);
     free(self->damage);
@@ -143,17 +147,15 @@ static void test_pairs(void *context, uint32_t first, uint32_t end, uint32_t wor
             other = self->path[now.b];
             reach += ENGINE_RADIUS_M;
         }
-        if (sweep_spheres(&self->path[now.a], &other, reach, 0.0, &toi) &&
-            pair_list_add(&self->touching[worker], now.a, now.b) != 0)
-            die_refused("out of memory");
+        if (sweep_spheres(&self->path[now.a], &other, reach, 0.0, &toi))
+            pair_list_add(&self->touching[worker], now.a, now.b);
     }
 }
 
 static void jolon_detect(void *handle, struct engine_touches *touches)
 {
     struct jolon *self = handle;
-    if (broad_pairs(&self->broad, &self->input) != 0)
-        die_refused("out of memory");
+    broad_pairs(&self->broad, &self->input);
     for (int i = 0; i < WORKERS_MAX; i++) {
         self->list = &self->broad.list[i];
         workers_run(self->workers, test_pairs, self, self->list->count, PAIRS_A_PIECE);

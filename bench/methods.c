@@ -130,9 +130,10 @@ static const struct pair_list *find(struct finder *finder, const struct field *f
 {
     detect_method *method = detect_method_of(finder->method);
     finder->pairs.count = 0;
-    if ((method ? method(&field->input, &finder->workspace, &finder->pairs)
-                : broad_pairs(&finder->broad, &field->input)) != 0)
-        die_refused("out of memory");
+    if (method)
+        method(&field->input, finder->workspace, &finder->pairs);
+    else
+        broad_pairs(&finder->broad, &field->input);
     return method ? &finder->pairs : &finder->broad.list[0];
 }
 
@@ -215,14 +216,16 @@ static void measure_size(struct finder finders[METHOD_COUNT], uint32_t bodies, b
         struct finder *finder = &finders[method];
         if (too_long(finder))
             continue;
-        if (method == METHOD_SWEPT) {
-            if (broad_init(&finder->broad, &field.world, NULL) != 0)
-                die_refused("out of memory");
-            contacts = count_touching(&field, find(finder, &field));
-        }
-        measure(finder, &field, contacts, json);
+        finder->workspace = detect_workspace_create(&field.world);
+        if (!finder->workspace || broad_init(&finder->broad, &field.world, NULL) != 0 ||
+            pair_list_init(&finder->pairs, detect_pairs_most(&field.world)) != 0)
+            die_refused("out of memory");
         if (method == METHOD_SWEPT)
-            broad_free(&finder->broad);
+            contacts = count_touching(&field, find(finder, &field));
+        measure(finder, &field, contacts, json);
+        broad_free(&finder->broad);
+        pair_list_free(&finder->pairs);
+        detect_workspace_free(finder->workspace);
         fflush(stdout);
     }
     free_field(&field);
@@ -239,9 +242,5 @@ int bench_methods(int argc, char **argv)
         finders[method].method = (enum method)method;
     for (uint32_t bodies = FEWEST; bodies <= options.vehicles; bodies *= TIMES)
         measure_size(finders, bodies, options.json);
-    for (int method = 0; method < METHOD_COUNT; method++) {
-        free(finders[method].pairs.pair);
-        detect_workspace_free(finders[method].workspace);
-    }
     return EXIT_OK;
 }

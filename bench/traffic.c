@@ -72,8 +72,7 @@ int bench_traffic(int argc, char **argv)
         die_refused("cannot begin: %s", strerror(errno));
     for (uint32_t i = 0; i < options.frames; i++) {
         uint64_t from = view.w[i & 1].head->event_end;
-        if (player_move(&player, NULL) != 0 || player_collide(&player) != 0)
-            die_refused("out of memory");
+        player_step(&player, NULL);
         take(&view, &view.w[(i + 1) & 1], from, &traffic);
     }
     player_free(&player);

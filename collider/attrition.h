@@ -5,8 +5,9 @@
 
 #include "collider/respond.h"
 
-/* Both are destroyed and stay where they are. 0, or -1 with errno ENOMEM. Fixed objects had no part
- * in it: a platform that meets one goes on as if it were not there. */
-int attrition_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome);
+/* Both are destroyed and stay where they are. Fixed objects had no part in it: a platform that
+ * meets one goes on as if it were not there. */
+void attrition_moving(struct respond *respond, const struct impact *impact,
+                      struct outcome *outcome);
 
 #endif

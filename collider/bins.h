@@ -2,8 +2,8 @@
  * 400 squares, 125 m from north to south and the world's 50 km from west to east.
  *
  * Every worker fills bins of its own, so that none waits; a strip is the sum of its workers' bins.
- * Records lie in chunks of 1 KB that are taken one after the other and kept from frame to frame, so
- * the memory follows the bodies. */
+ * Records lie in chunks of 1 KB that are taken one after the other, so the memory that is touched
+ * follows the bodies. */
 #ifndef JOLON_COLLIDER_BINS_H
 #define JOLON_COLLIDER_BINS_H
 
@@ -55,40 +55,33 @@ struct bin_chunk {
     struct bin_record record[BIN_CHUNK_RECORDS];
 };
 
-_Static_assert(sizeof(struct bin_chunk) == BIN_CHUNK_BYTES, "chunks fill their slab");
-
-struct bin_slab {
-    struct bin_chunk *chunk; /* [chunks] */
-    uint32_t chunks;
-};
+_Static_assert(sizeof(struct bin_chunk) == BIN_CHUNK_BYTES, "chunks lie on borders of their size");
 
 /* One worker's bins. */
 struct bins {
     struct bin_record *next[STRIP_COUNT]; /* where the next record goes; on a multiple of
                                              BIN_CHUNK_BYTES there is no room for it */
-    struct bin_slab *slab;                /* [slabs] kept from frame to frame */
-    uint32_t slabs, slab_now, chunk_now;  /* where the next chunk comes from */
+    struct bin_chunk *chunk;              /* [capacity] kept from frame to frame */
+    uint32_t chunks, capacity;            /* how many the frame has taken so far */
 };
 
-/* bins must be zero at first. Empties the bins and keeps their memory. */
-void bins_clear(struct bins *bins);
+/* For this many rows, each in every strip. 0, or -1 with errno ENOMEM. */
+int bins_init(struct bins *bins, uint32_t rows);
 void bins_free(struct bins *bins);
 
-/* A new chunk for the strip: where its first record goes, NULL with errno ENOMEM. */
+/* Empties the bins and keeps their memory. */
+void bins_clear(struct bins *bins);
+
+/* A new chunk for the strip: where its first record goes. */
 struct bin_record *bins_chunk(struct bins *bins, uint32_t strip);
 
-/* 0, or -1 with errno ENOMEM. */
-static inline int bins_add(struct bins *bins, uint32_t strip, struct bin_record record)
+static inline void bins_add(struct bins *bins, uint32_t strip, struct bin_record record)
 {
     struct bin_record *at = bins->next[strip];
-    if (((uintptr_t)at & (BIN_CHUNK_BYTES - 1)) == 0) {
+    if (((uintptr_t)at & (BIN_CHUNK_BYTES - 1)) == 0)
         at = bins_chunk(bins, strip);
-        if (!at)
-            return -1;
-    }
     *at = record;
     bins->next[strip] = at + 1;
-    return 0;
 }
 
 /* The strip's newest chunk and how many records it holds; those before it are full. NULL: none. */

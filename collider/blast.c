@@ -1,9 +1,10 @@
 /* Detonations: blast over what is near, craters in the ground, chains of what explodes in turn. */
 #include "collider/respond.h"
 
+#include "ipc/log.h"
+#include "world/reserve.h"
+
 #include <errno.h>
-#include <stdlib.h>
-#include <string.h>
 
 #define TNT_J_PER_KG    4.184e6
 #define BLAST_RADIUS_M  8.0  /* of one kilogram; grows with the cube root (Hopkinson scaling) */
@@ -11,18 +12,30 @@
 #define CRATER_RADIUS_M 1.1  /* of one kilogram on soil; grows with the cube root */
 #define CRATER_DEPTH    0.4  /* over the radius */
 
-int blast_charge(struct respond *respond, const struct charge *charge)
+int charges_init(struct charges *charges, const struct world *world)
 {
-    if (respond->charges == respond->charge_capacity) {
-        uint32_t capacity = respond->charge_capacity * 2 + 64;
-        struct charge *more = realloc(respond->charge, capacity * sizeof *more);
-        if (!more)
-            return -1;
-        respond->charge = more;
-        respond->charge_capacity = capacity;
-    }
-    respond->charge[respond->charges++] = *charge;
-    return 0;
+    /* Each row explodes once in a frame: as a round, or as what a blast destroys. */
+    *charges = (struct charges){.capacity = world->params->capacity};
+    charges->charge = reserve_take(charges->capacity, sizeof *charges->charge);
+    if (charges->charge && pair_list_init(&charges->near, broad_found_most(world)) == 0)
+        return 0;
+    charges_free(charges);
+    errno = ENOMEM;
+    return -1;
+}
+
+void charges_free(struct charges *charges)
+{
+    reserve_free(charges->charge);
+    pair_list_free(&charges->near);
+    *charges = (struct charges){0};
+}
+
+void blast_charge(struct respond *respond, const struct charge *charge)
+{
+    struct charges *charges = respond->charges;
+    CHECK(charges->count < charges->capacity);
+    charges->charge[charges->count++] = *charge;
 }
 
 /* Energy that a body takes whose surface is at this distance: falls to nothing at the blast's
@@ -41,13 +54,13 @@ static double distance_to(struct vec3 from, struct vec3 centre, double radius_m)
     return maths_max(0.0, vec3_length(vec3_sub(centre, from)) - radius_m);
 }
 
-static int blast_row(struct respond *respond, const struct charge *charge, double radius,
-                     uint32_t row)
+static void blast_row(struct respond *respond, const struct charge *charge, double radius,
+                      uint32_t row)
 {
     const struct entities *e = &respond->next->entities;
     const struct path *path = &respond->path[row];
     if (e->state[row] != ENTITY_ACTIVE || e->behaviour[row] == BEHAVIOUR_FLIGHT)
-        return 0;
+        return;
     motion_draw(respond->motion, row);
     struct vec3 at = path_at(path, maths_max(charge->time, path->since));
     double distance = distance_to(charge->point, at, respond->world->kinds[e->kind[row]].radius_m);
@@ -63,7 +76,7 @@ static int blast_row(struct respond *respond, const struct charge *charge, doubl
         change->threat_slot[row] = charge->owner_slot;
         change->threat_id[row] = charge->owner_id;
     }
-    return harm_row(respond, row, joules, charge->time);
+    harm_row(respond, row, joules, charge->time);
 }
 
 static void blast_fixed(struct respond *respond, const struct charge *charge, double radius,
@@ -86,51 +99,43 @@ static bool listed(const struct pair_list *list, uint32_t row)
 
 /* The rows that may be within the blast: what the broad phase knows there, and those that have left
  * the boxes that it knows. */
-static int find_rows(struct respond *respond, const struct sweep_box *box)
+static void find_rows(const struct respond *respond, const struct sweep_box *box)
 {
     const struct contacts *contacts = respond->contacts;
-    if (broad_query(respond->broad, &respond->input.detect, box, &respond->near) != 0)
-        return -1;
+    struct pair_list *near = &respond->charges->near;
+    broad_query(respond->broad, &respond->input.detect, box, near);
     for (uint32_t i = 0; i < contacts->stray_count; i++) {
         uint32_t row = contacts->strayed[i];
-        if (detect_boxes_meet(box, &respond->broad->box[row]) && !listed(&respond->near, row) &&
-            pair_list_add(&respond->near, row, 0) != 0)
-            return -1;
+        if (detect_boxes_meet(box, &respond->broad->box[row]) && !listed(near, row))
+            pair_list_add(near, row, 0);
     }
-    return 0;
 }
 
-static int blast_one(struct respond *respond, const struct charge *charge)
+static void blast_one(struct respond *respond, const struct charge *charge)
 {
     double radius = BLAST_RADIUS_M * maths_cbrt(charge->explosive_kg);
     const struct path still = {.at = charge->point};
     struct sweep_box box = detect_way_box(&still, radius + BOX_SLACK_M);
-    struct pair_list *near = &respond->near;
+    struct pair_list *near = &respond->charges->near;
     near->count = 0;
-    if (find_rows(respond, &box) != 0)
-        return -1;
-    for (uint32_t i = 0; i < near->count; i++) {
-        if (blast_row(respond, charge, radius, near->pair[i].a) != 0)
-            return -1;
-    }
+    find_rows(respond, &box);
+    for (uint32_t i = 0; i < near->count; i++)
+        blast_row(respond, charge, radius, near->pair[i].a);
     near->count = 0;
-    if (broad_query_fixed(respond->broad, &respond->input.detect, &box, near) != 0)
-        return -1;
+    broad_query_fixed(respond->broad, &respond->input.detect, &box, near);
     for (uint32_t i = 0; i < near->count; i++)
         blast_fixed(respond, charge, radius, near->pair[i].b & ~PAIR_FIXED);
-    return 0;
 }
 
-int blast_all(struct respond *respond)
+void blast_all(struct respond *respond)
 {
+    struct charges *charges = respond->charges;
     /* Blasts may add charges: each body explodes once, so this ends. */
-    for (uint32_t i = 0; i < respond->charges; i++) {
-        struct charge charge = respond->charge[i];
-        if (blast_one(respond, &charge) != 0)
-            return -1;
+    for (uint32_t i = 0; i < charges->count; i++) {
+        struct charge charge = charges->charge[i];
+        blast_one(respond, &charge);
     }
-    respond->charges = 0;
-    return 0;
+    charges->count = 0;
 }
 
 static void dig(struct respond *respond, struct vec3 point, double explosive_kg)
@@ -166,8 +171,8 @@ static enum struck struck_of(const struct respond *respond, uint32_t struck, str
 }
 
 /* A direct hit: the charge's whole energy and the round's own. */
-static int hit(struct respond *respond, uint32_t round, uint32_t struck, enum struck what,
-               double time)
+static void hit(struct respond *respond, uint32_t round, uint32_t struck, enum struck what,
+                double time)
 {
     const struct entities *e = &respond->next->entities;
     const struct kind *kind = &respond->world->kinds[e->kind[round]];
@@ -177,10 +182,9 @@ static int hit(struct respond *respond, uint32_t round, uint32_t struck, enum st
     double joules =
         TNT_J_PER_KG * kind->explosive_kg + 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
     if (what == STRUCK_VEHICLE)
-        return harm_row(respond, struck, joules, time);
+        harm_row(respond, struck, joules, time);
     if (what == STRUCK_FIXED)
         harm_fixed(respond, struck & ~PAIR_FIXED, joules);
-    return 0;
 }
 
 static struct event_party party_struck(const struct respond *respond, uint32_t struck,
@@ -197,7 +201,7 @@ static struct event_party party_struck(const struct respond *respond, uint32_t s
     return (struct event_party){0, KIND_NONE, 0, DAMAGE_NONE};
 }
 
-int blast_munition(struct respond *respond, uint32_t row, uint32_t struck, double time)
+void blast_munition(struct respond *respond, uint32_t row, uint32_t struck, double time)
 {
     const struct entities *e = &respond->next->entities;
     struct state_head *head = respond->next->head;
@@ -213,8 +217,7 @@ int blast_munition(struct respond *respond, uint32_t row, uint32_t struck, doubl
     struct event_party munition = {e->id[row], e->kind[row], 0, DAMAGE_DESTROYED};
 
     head->tally.detonations++;
-    if (hit(respond, row, struck, what, time) != 0)
-        return -1;
+    hit(respond, row, struck, what, time);
     if (event) {
         event->detonation.munition = munition;
         event->detonation.struck_party = party_struck(respond, struck, what);
@@ -229,5 +232,6 @@ int blast_munition(struct respond *respond, uint32_t row, uint32_t struck, doubl
     entities_clear(respond_change(respond, row, COLUMNS_ALL), row);
     head->munitions--;
     contacts_drop(respond->contacts, row);
-    return charge.explosive_kg > 0.0 ? blast_charge(respond, &charge) : 0;
+    if (charge.explosive_kg > 0.0)
+        blast_charge(respond, &charge);
 }

@@ -24,8 +24,8 @@ static void dent(struct respond *respond, uint32_t row, const struct impact *imp
     vec3_to_floats(entry->direction, rotation_back(&turn, inwards));
 }
 
-int blow_row(struct respond *respond, uint32_t row, const struct impact *impact, double side,
-             double joules, const struct spring_blow *spring)
+void blow_row(struct respond *respond, uint32_t row, const struct impact *impact, double side,
+              double joules, const struct spring_blow *spring)
 {
     const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
     struct crush crush = crush_of(kind, joules);
@@ -35,5 +35,5 @@ int blow_row(struct respond *respond, uint32_t row, const struct impact *impact,
     }
     if (crush.plastic_m + crush.elastic_m >= CRUSH_DENT_LEAST_M)
         dent(respond, row, impact, vec3_scale(impact->normal, side), &crush);
-    return harm_row(respond, row, crush.harm_j, impact->time);
+    harm_row(respond, row, crush.harm_j, impact->time);
 }

@@ -6,9 +6,7 @@
 #include "world/sort.h"
 
 #include <errno.h>
-#include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define ROWS_A_PIECE   (2 * BROAD_ROWS_TAKEN)
 #define STRIPS_A_PIECE 4
@@ -17,22 +15,23 @@
 int broad_init(struct broad *broad, const struct world *world, struct workers *workers)
 {
     *broad = (struct broad){.world = world, .workers = workers, .lanes = workers_threads(workers)};
-    broad->box = malloc(world->params->capacity * sizeof *broad->box);
+    uint32_t rows = world->params->capacity, pairs = detect_pairs_most(world);
+    broad->box = malloc(rows * sizeof *broad->box);
     broad->lane = calloc(broad->lanes, sizeof *broad->lane);
-    if (!broad->box || !broad->lane || standing_init(&broad->standing, world) != 0) {
-        broad_free(broad);
-        errno = ENOMEM;
-        return -1;
-    }
-    return 0;
+    bool taken = broad->box && broad->lane && standing_init(&broad->standing, world) == 0;
+    for (uint32_t i = 0; taken && i < broad->lanes; i++)
+        taken = strip_lane_init(&broad->lane[i], rows, pairs) == 0;
+    if (taken)
+        return 0;
+    broad_free(broad);
+    errno = ENOMEM;
+    return -1;
 }
 
 void broad_free(struct broad *broad)
 {
     for (uint32_t i = 0; broad->lane && i < broad->lanes; i++)
         strip_lane_free(&broad->lane[i]);
-    for (int i = 0; i < WORKERS_MAX; i++)
-        free(broad->list[i].pair);
     standing_free(&broad->standing);
     free(broad->lane);
     free(broad->box);
@@ -47,7 +46,6 @@ struct job {
     uint32_t flags[KIND_COUNT_MAX]; /* of the tag */
     broad_take *take;               /* NULL: rows are there */
     void *context;
-    _Atomic int failed;
 };
 
 static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
@@ -57,8 +55,7 @@ static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worke
         uint32_t past = end - row < BROAD_ROWS_TAKEN ? end : row + BROAD_ROWS_TAKEN;
         if (job->take)
             job->take(job->context, row, past);
-        if (rows_bin(&job->rows, &job->broad->lane[worker], row, past) != 0)
-            atomic_store(&job->failed, 1);
+        rows_bin(&job->rows, &job->broad->lane[worker], row, past);
     }
 }
 
@@ -66,14 +63,12 @@ static void meet_strips(void *context, uint32_t first, uint32_t end, uint32_t wo
 {
     struct job *job = context;
     struct strip_lane *lane = &job->broad->lane[worker];
-    for (uint32_t strip = first; strip < end; strip++) {
-        if (strip_pairs(&job->strips, lane, strip) != 0)
-            atomic_store(&job->failed, 1);
-    }
+    for (uint32_t strip = first; strip < end; strip++)
+        strip_pairs(&job->strips, lane, strip);
 }
 
-int broad_pairs_moved(struct broad *broad, const struct detect_input *input, struct motion *motion,
-                      broad_take *take, void *context)
+void broad_pairs_moved(struct broad *broad, const struct detect_input *input, struct motion *motion,
+                       broad_take *take, void *context)
 {
     struct job job = {.broad = broad, .take = take, .context = context};
     struct workers *workers = input->rows > ALONE_MOST ? broad->workers : NULL;
@@ -94,25 +89,17 @@ int broad_pairs_moved(struct broad *broad, const struct detect_input *input, str
     for (uint32_t i = 0; i < broad->lanes; i++) {
         bins_clear(&broad->lane[i].bins);
         broad->lane[i].fliers.count = 0;
-        broad->lane[i].pairs = broad->list[i];
         broad->lane[i].pairs.count = 0;
     }
     workers_run(workers, bin_rows, &job, input->rows, ROWS_A_PIECE);
     workers_run(workers, meet_strips, &job, STRIP_COUNT, STRIPS_A_PIECE);
-    for (uint32_t i = 0; i < broad->lanes; i++) {
+    for (uint32_t i = 0; i < broad->lanes; i++)
         broad->list[i] = broad->lane[i].pairs;
-        broad->lane[i].pairs = (struct pair_list){0};
-    }
-    if (atomic_load(&job.failed)) {
-        errno = ENOMEM;
-        return -1;
-    }
-    return 0;
 }
 
-int broad_pairs(struct broad *broad, const struct detect_input *input)
+void broad_pairs(struct broad *broad, const struct detect_input *input)
 {
-    return broad_pairs_moved(broad, input, NULL, NULL, NULL);
+    broad_pairs_moved(broad, input, NULL, NULL, NULL);
 }
 
 /* --- queries -----------------------------------------------------------------------------------*/
@@ -132,6 +119,19 @@ static void order_found(struct pair_list *found, uint32_t since)
     found->count = since + kept;
 }
 
+/* Rows in several strips are found in each: a full list is ordered, each once. */
+static void add_found(struct pair_list *found, uint32_t since, uint32_t a, uint32_t b)
+{
+    if (found->count == found->capacity)
+        order_found(found, since);
+    pair_list_add(found, a, b);
+}
+
+uint64_t broad_found_most(const struct world *world)
+{
+    return 2 * ((uint64_t)world->params->capacity + world->counts.fixed) + 2;
+}
+
 static struct bin_record record_of(const struct sweep_box *box, uint32_t strip)
 {
     return (struct bin_record){.min_x = bin_steps(box->min_x),
@@ -139,8 +139,8 @@ static struct bin_record record_of(const struct sweep_box *box, uint32_t strip)
                                .z = bin_z(box->min_z, box->max_z, strip)};
 }
 
-static int query_strip(const struct broad *broad, const struct bins *bins, uint32_t strip,
-                       const struct sweep_box *box, struct pair_list *found)
+static void query_strip(const struct broad *broad, const struct bins *bins, uint32_t strip,
+                        const struct sweep_box *box, struct pair_list *found, uint32_t since)
 {
     struct bin_record one = record_of(box, strip);
     uint32_t count;
@@ -148,31 +148,26 @@ static int query_strip(const struct broad *broad, const struct bins *bins, uint3
     for (; chunk; chunk = chunk->before, count = BIN_CHUNK_RECORDS) {
         for (uint32_t i = 0; i < count; i++) {
             uint32_t row = chunk->record[i].tag & BIN_ROW;
-            if (bin_meet(&one, &chunk->record[i]) && detect_boxes_meet(box, &broad->box[row]) &&
-                pair_list_add(found, row, 0) != 0)
-                return -1;
+            if (bin_meet(&one, &chunk->record[i]) && detect_boxes_meet(box, &broad->box[row]))
+                add_found(found, since, row, 0);
         }
     }
-    return 0;
 }
 
-int broad_query(const struct broad *broad, const struct detect_input *input,
-                const struct sweep_box *box, struct pair_list *found)
+void broad_query(const struct broad *broad, const struct detect_input *input,
+                 const struct sweep_box *box, struct pair_list *found)
 {
     uint32_t since = found->count, last = bin_strip(box->max_z);
     (void)input;
     for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
-        for (uint32_t i = 0; i < broad->lanes; i++) {
-            if (query_strip(broad, &broad->lane[i].bins, strip, box, found) != 0)
-                return -1;
-        }
+        for (uint32_t i = 0; i < broad->lanes; i++)
+            query_strip(broad, &broad->lane[i].bins, strip, box, found, since);
     }
     order_found(found, since);
-    return 0;
 }
 
-int broad_query_fixed(const struct broad *broad, const struct detect_input *input,
-                      const struct sweep_box *box, struct pair_list *found)
+void broad_query_fixed(const struct broad *broad, const struct detect_input *input,
+                       const struct sweep_box *box, struct pair_list *found)
 {
     uint32_t since = found->count, last = bin_strip(box->max_z);
     for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
@@ -181,11 +176,9 @@ int broad_query_fixed(const struct broad *broad, const struct detect_input *inpu
         for (; object->min_x <= one.max_x; object++) {
             uint32_t index = object->tag & BIN_OBJECT;
             if (bin_meet(&one, object) &&
-                detect_box_meets_fixed(input, box, &input->world->fixed[index]) &&
-                pair_list_add(found, 0, index | PAIR_FIXED) != 0)
-                return -1;
+                detect_box_meets_fixed(input, box, &input->world->fixed[index]))
+                add_found(found, since, 0, index | PAIR_FIXED);
         }
     }
     order_found(found, since);
-    return 0;
 }

@@ -35,9 +35,8 @@ void broad_free(struct broad *broad);
 /* Fills the lists with every pair whose swept boxes overlap, each once; of bodies that cross
  * several strips on a long way, only those that are near each other in one of them. Pairs that can
  * never collide are left out: a munition and its shooter, two wrecks at rest, a fixed object that
- * is already down. The set of pairs does not depend on the threads; their order may. 0, or -1 with
- * errno ENOMEM. */
-int broad_pairs(struct broad *broad, const struct detect_input *input);
+ * is already down. The set of pairs does not depend on the threads; their order may. */
+void broad_pairs(struct broad *broad, const struct detect_input *input);
 
 /* Fills rows first .. end - 1 of what detection looks at; first is a multiple of
  * BROAD_ROWS_TAKEN. */
@@ -49,18 +48,21 @@ typedef void broad_take(void *context, uint32_t first, uint32_t end);
  * is in several strips. Whoever else is in a pair, or found by a query, is the caller's to draw.
  * take is called once for all rows before they are looked at, a few at a time and on any thread;
  * NULL: they are there. */
-int broad_pairs_moved(struct broad *broad, const struct detect_input *input, struct motion *motion,
-                      broad_take *take, void *context);
+void broad_pairs_moved(struct broad *broad, const struct detect_input *input, struct motion *motion,
+                       broad_take *take, void *context);
+
+/* How long a list must be that both queries are added to, one after the other, behind one pair. */
+uint64_t broad_found_most(const struct world *world);
 
 /* After broad_pairs: adds every row whose box (broad->box) meets this one, as pair.a, each once,
- * ascending; pair.b is 0. A row on a long way counts where it passes. 0, or -1 with errno ENOMEM.
- */
-int broad_query(const struct broad *broad, const struct detect_input *input,
-                const struct sweep_box *box, struct pair_list *found);
+ * ascending; pair.b is 0. A row on a long way counts where it passes. found has room for
+ * broad_found_most() pairs. */
+void broad_query(const struct broad *broad, const struct detect_input *input,
+                 const struct sweep_box *box, struct pair_list *found);
 
 /* Adds every fixed object, standing or down, whose box meets this one, as pair.b with PAIR_FIXED,
- * each once, ascending; pair.a is 0. 0, or -1 with errno ENOMEM. */
-int broad_query_fixed(const struct broad *broad, const struct detect_input *input,
-                      const struct sweep_box *box, struct pair_list *found);
+ * each once, ascending; pair.a is 0. */
+void broad_query_fixed(const struct broad *broad, const struct detect_input *input,
+                       const struct sweep_box *box, struct pair_list *found);
 
 #endif

@@ -1,6 +1,9 @@
 /* The frame's contacts in a heap, and their renewal. */
 #include "collider/contact.h"
 
+#include "ipc/log.h"
+#include "world/reserve.h"
+
 #include <errno.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -8,113 +11,86 @@
 #define PAIRS_A_PIECE  16
 #define FLIERS_A_PIECE 128
 
-/* Makes room for one more of size bytes; 0, or -1 with errno ENOMEM. */
-static int grow(void **array, uint32_t *capacity, uint32_t count, size_t size)
+/* Ends of a row's way: the ground, and the air. */
+#define ENDS_A_ROW 2u
+
+/* Each pair has at most one contact that holds, and each row two ends. */
+static uint32_t holding_most(const struct contacts *contacts, uint32_t pairs)
 {
-    if (count < *capacity)
-        return 0;
-    uint32_t more = count + count / 2 + 1024;
-    void *larger = realloc(*array, more * size);
-    if (!larger)
-        return -1;
-    *array = larger;
-    *capacity = more;
-    return 0;
+    return pairs + ENDS_A_ROW * contacts->rows;
 }
 
-int contacts_init(struct contacts *contacts, uint32_t world_capacity, struct workers *workers)
+int contacts_init(struct contacts *contacts, const struct world *world, struct workers *workers)
 {
-    *contacts = (struct contacts){.workers = workers};
-    contacts->head = calloc(world_capacity, sizeof *contacts->head);
-    contacts->version = calloc(world_capacity, sizeof *contacts->version);
-    if (!contacts->head || !contacts->version) {
-        contacts_free(contacts);
-        return -1;
-    }
-    return 0;
+    uint32_t rows = world->params->capacity, pairs = detect_pairs_most(world);
+    *contacts = (struct contacts){.workers = workers, .rows = rows, .pair_capacity = pairs};
+    contacts->heap.capacity = 2 * holding_most(contacts, pairs);
+    contacts->heap.contact = reserve_take(contacts->heap.capacity, sizeof *contacts->heap.contact);
+    contacts->pair = reserve_take(pairs, sizeof *contacts->pair);
+    contacts->met = reserve_take(pairs, sizeof *contacts->met);
+    contacts->swept = reserve_take(pairs, sizeof *contacts->swept);
+    contacts->link = reserve_take(2 * (uint64_t)pairs, sizeof *contacts->link);
+    contacts->head = calloc(rows, sizeof *contacts->head);
+    contacts->version = calloc(rows, sizeof *contacts->version);
+    contacts->strayed = reserve_take(rows, sizeof *contacts->strayed);
+    contacts->strays = calloc(rows, sizeof *contacts->strays);
+    if (contacts->heap.contact && contacts->pair && contacts->met && contacts->swept &&
+        contacts->link && contacts->head && contacts->version && contacts->strayed &&
+        contacts->strays && pair_list_init(&contacts->near, broad_found_most(world)) == 0)
+        return 0;
+    contacts_free(contacts);
+    errno = ENOMEM;
+    return -1;
 }
 
 void contacts_free(struct contacts *contacts)
 {
-    free(contacts->heap.contact);
-    for (int i = 0; i < WORKERS_MAX; i++)
-        free(contacts->found[i].contact);
-    free(contacts->pair);
-    free(contacts->met);
-    free(contacts->swept);
-    free(contacts->link);
+    reserve_free(contacts->heap.contact);
+    reserve_free(contacts->pair);
+    reserve_free(contacts->met);
+    reserve_free(contacts->swept);
+    reserve_free(contacts->link);
     free(contacts->head);
     free(contacts->version);
-    free(contacts->strayed);
-    free(contacts->near.pair);
+    reserve_free(contacts->strayed);
+    free(contacts->strays);
+    pair_list_free(&contacts->near);
     *contacts = (struct contacts){0};
 }
 
 /* --- pairs -------------------------------------------------------------------------------------*/
 
-static int reserve_pairs(struct contacts *contacts, uint32_t count)
+static void link_row(struct contacts *contacts, uint32_t row, uint32_t pair)
 {
-    if (count <= contacts->pair_capacity)
-        return 0;
-    uint32_t capacity = count + count / 2 + 1024;
-    struct pair *pair = realloc(contacts->pair, capacity * sizeof *pair);
-    if (!pair)
-        return -1;
-    contacts->pair = pair;
-    uint8_t *met = realloc(contacts->met, capacity);
-    if (!met)
-        return -1;
-    contacts->met = met;
-    uint32_t *swept = realloc(contacts->swept, capacity * sizeof *swept);
-    if (!swept)
-        return -1;
-    contacts->swept = swept;
-    contacts->pair_capacity = capacity;
-    return 0;
-}
-
-static int link_row(struct contacts *contacts, uint32_t row, uint32_t pair)
-{
-    void *link = contacts->link;
-    if (grow(&link, &contacts->link_capacity, contacts->link_count, sizeof *contacts->link) != 0)
-        return -1;
-    contacts->link = link;
     contacts->link[contacts->link_count] = (struct contact_link){pair, contacts->head[row]};
     contacts->head[row] = ++contacts->link_count;
-    return 0;
 }
 
-/* Takes in a pair for which reserve_pairs has made room. */
-static int add_pair(struct contacts *contacts, struct pair pair)
+static void add_pair(struct contacts *contacts, struct pair pair)
 {
+    CHECK(contacts->pair_count < contacts->pair_capacity);
     uint32_t index = contacts->pair_count++;
     contacts->pair[index] = pair;
     contacts->met[index] = 0;
     contacts->swept[index] = 0;
-    if (link_row(contacts, pair.a, index) != 0)
-        return -1;
-    return pair.b & PAIR_FIXED ? 0 : link_row(contacts, pair.b, index);
+    link_row(contacts, pair.a, index);
+    if (!(pair.b & PAIR_FIXED))
+        link_row(contacts, pair.b, index);
 }
 
-int contacts_begin(struct contacts *contacts, const struct pair_list *lists, uint32_t list_count)
+void contacts_begin(struct contacts *contacts, const struct pair_list *lists, uint32_t list_count)
 {
-    uint32_t total = 0;
-    for (uint32_t i = 0; i < list_count; i++)
-        total += lists[i].count;
+    for (uint32_t i = 0; i < contacts->stray_count; i++)
+        contacts->strays[contacts->strayed[i]] = 0;
     contacts->heap.count = 0;
     contacts->link_count = 0;
     contacts->pair_count = 0;
     contacts->stray_count = 0;
     contacts->change = 0;
-    if (reserve_pairs(contacts, total) != 0)
-        return -1;
     for (uint32_t i = 0; i < list_count; i++) {
-        for (uint32_t n = 0; n < lists[i].count; n++) {
-            if (add_pair(contacts, lists[i].pair[n]) != 0)
-                return -1;
-        }
+        for (uint32_t n = 0; n < lists[i].count; n++)
+            add_pair(contacts, lists[i].pair[n]);
     }
-    return 0;
 }
 
 void contacts_end(struct contacts *contacts)
@@ -139,44 +115,65 @@ static bool earlier(const struct contact *p, const struct contact *q)
     return p->b < q->b;
 }
 
-static struct contact *list_room(struct contact_list *list)
+/* Was it computed from the ways that its bodies still have? */
+static bool holds(const struct contacts *contacts, const struct contact *contact)
 {
-    void *contact = list->contact;
-    if (grow(&contact, &list->capacity, list->count, sizeof *list->contact) != 0)
-        return NULL;
-    list->contact = contact;
-    return &list->contact[list->count++];
+    return contact->version_a == contacts->version[contact->a] &&
+           (contact->b >= PAIR_FIXED || contact->version_b == contacts->version[contact->b]);
 }
 
-static int push(struct contacts *contacts, const struct contact *contact)
+/* Puts a contact where place i or one below it is free. */
+static void sink_from(struct contact *heap, uint32_t count, uint32_t i, struct contact contact)
 {
-    if (!list_room(&contacts->heap))
-        return -1;
+    for (uint32_t child = 2 * i + 1; child < count; child = 2 * i + 1) {
+        if (child + 1 < count && earlier(&heap[child + 1], &heap[child]))
+            child++;
+        if (!earlier(&heap[child], &contact))
+            break;
+        heap[i] = heap[child];
+        i = child;
+    }
+    heap[i] = contact;
+}
+
+/* Contacts in any order become a heap. */
+static void order_heap(struct contact_list *heap)
+{
+    for (uint32_t i = heap->count / 2; i > 0; i--)
+        sink_from(heap->contact, heap->count, i - 1, heap->contact[i - 1]);
+}
+
+static void drop_void(struct contacts *contacts)
+{
+    struct contact_list *heap = &contacts->heap;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < heap->count; i++) {
+        if (holds(contacts, &heap->contact[i]))
+            heap->contact[kept++] = heap->contact[i];
+    }
+    heap->count = kept;
+    order_heap(heap);
+}
+
+static void push(struct contacts *contacts, const struct contact *contact)
+{
+    if (contacts->heap.count >= 2 * holding_most(contacts, contacts->pair_count))
+        drop_void(contacts);
+    CHECK(contacts->heap.count < contacts->heap.capacity);
     struct contact *heap = contacts->heap.contact;
-    uint32_t i = contacts->heap.count - 1;
+    uint32_t i = contacts->heap.count++;
     while (i > 0 && earlier(contact, &heap[(i - 1) / 2])) {
         heap[i] = heap[(i - 1) / 2];
         i = (i - 1) / 2;
     }
     heap[i] = *contact;
-    return 0;
 }
 
 static void pop(struct contacts *contacts)
 {
-    struct contact *heap = contacts->heap.contact;
-    uint32_t count = --contacts->heap.count;
-    struct contact last = heap[count];
-    uint32_t i = 0;
-    for (uint32_t child = 1; child < count; child = 2 * i + 1) {
-        if (child + 1 < count && earlier(&heap[child + 1], &heap[child]))
-            child++;
-        if (!earlier(&heap[child], &last))
-            break;
-        heap[i] = heap[child];
-        i = child;
-    }
-    heap[i] = last;
+    struct contact_list *heap = &contacts->heap;
+    heap->count--;
+    sink_from(heap->contact, heap->count, 0, heap->contact[heap->count]);
 }
 
 /* --- finding -----------------------------------------------------------------------------------*/
@@ -205,53 +202,42 @@ struct job {
     struct contacts *contacts;
     const struct contact_input *input;
     uint64_t tick;
-    _Atomic int failed;
+    _Atomic uint32_t found; /* contacts in the heap's array, in no order */
 };
 
-static int note(struct contacts *contacts, uint32_t worker, const struct contact *contact)
+static void note(struct job *job, const struct contact *contact)
 {
-    struct contact *room = list_room(&contacts->found[worker]);
-    if (!room)
-        return -1;
-    *room = *contact;
-    return 0;
+    struct contact_list *heap = &job->contacts->heap;
+    uint32_t place = atomic_fetch_add_explicit(&job->found, 1, memory_order_relaxed);
+    CHECK(place < heap->capacity);
+    heap->contact[place] = *contact;
 }
 
 static void find_some(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
     struct contact contact;
+    (void)worker;
     for (uint32_t i = first; i < end; i++) {
-        if (sweep_pair(job->contacts, job->input, i, 0.0, &contact) &&
-            note(job->contacts, worker, &contact) != 0)
-            atomic_store(&job->failed, 1);
+        if (sweep_pair(job->contacts, job->input, i, 0.0, &contact))
+            note(job, &contact);
     }
 }
 
 /* What is found of count things goes into the heap. */
-static int find_all(struct job *job, workers_function *find, uint32_t count, uint32_t grain)
+static void find_all(struct job *job, workers_function *find, uint32_t count, uint32_t grain)
 {
     struct contacts *contacts = job->contacts;
-    for (int i = 0; i < WORKERS_MAX; i++)
-        contacts->found[i].count = 0;
+    job->found = contacts->heap.count;
     workers_run(contacts->workers, find, job, count, grain);
-    if (atomic_load(&job->failed)) {
-        errno = ENOMEM;
-        return -1;
-    }
-    for (int i = 0; i < WORKERS_MAX; i++) {
-        for (uint32_t n = 0; n < contacts->found[i].count; n++) {
-            if (push(contacts, &contacts->found[i].contact[n]) != 0)
-                return -1;
-        }
-    }
-    return 0;
+    contacts->heap.count = job->found;
+    order_heap(&contacts->heap);
 }
 
-int contacts_find(struct contacts *contacts, const struct contact_input *input)
+void contacts_find(struct contacts *contacts, const struct contact_input *input)
 {
     struct job job = {.contacts = contacts, .input = input};
-    return find_all(&job, find_some, contacts->pair_count, PAIRS_A_PIECE);
+    find_all(&job, find_some, contacts->pair_count, PAIRS_A_PIECE);
 }
 
 static struct contact end_of(const struct contacts *contacts, uint32_t row, uint32_t what,
@@ -261,25 +247,24 @@ static struct contact end_of(const struct contacts *contacts, uint32_t row, uint
         .touch.toi = toi, .a = row, .b = what, .version_a = contacts->version[row]};
 }
 
-int contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, double toi)
+void contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, double toi)
 {
     const struct contact contact = end_of(contacts, row, what, toi);
-    return push(contacts, &contact);
+    push(contacts, &contact);
 }
 
-int contacts_ground(struct contacts *contacts, const struct contact_input *input, uint32_t row)
+void contacts_ground(struct contacts *contacts, const struct contact_input *input, uint32_t row)
 {
     const struct entities *e = input->detect.entities;
     double toi;
     bool flies = e->behaviour[row] == BEHAVIOUR_FLIGHT ||
                  input->detect.world->kinds[e->kind[row]].domain == DOMAIN_AIR;
-    if (!flies || e->state[row] != ENTITY_ACTIVE ||
-        !detect_ground(&input->detect, &input->detect.path[row], &toi))
-        return 0;
-    return contacts_add_end(contacts, row, CONTACT_GROUND, toi);
+    if (flies && e->state[row] == ENTITY_ACTIVE &&
+        detect_ground(&input->detect, &input->detect.path[row], &toi))
+        contacts_add_end(contacts, row, CONTACT_GROUND, toi);
 }
 
-static int find_end(const struct job *job, uint32_t row, uint32_t worker)
+static void find_end(struct job *job, uint32_t row)
 {
     const struct entities *e = job->input->detect.entities;
     struct contact contact;
@@ -287,13 +272,12 @@ static int find_end(const struct job *job, uint32_t row, uint32_t worker)
     const struct detect_input *detect = &job->input->detect;
     if (detect_ground(detect, &detect->path[row], &toi)) {
         contact = end_of(job->contacts, row, CONTACT_GROUND, toi);
-        if (note(job->contacts, worker, &contact) != 0)
-            return -1;
+        note(job, &contact);
     }
     if (e->behaviour[row] != BEHAVIOUR_FLIGHT || job->tick < e->until_tick[row])
-        return 0;
+        return;
     contact = end_of(job->contacts, row, CONTACT_AIR, 1.0);
-    return note(job->contacts, worker, &contact);
+    note(job, &contact);
 }
 
 /* Fliers first .. end - 1 of all lanes' together. */
@@ -302,33 +286,30 @@ static void find_some_ends(void *context, uint32_t first, uint32_t end, uint32_t
     struct job *job = context;
     const struct broad *broad = job->input->broad;
     uint32_t before = 0;
+    (void)worker;
     for (uint32_t lane = 0; lane < broad->lanes; lane++) {
         const struct pair_list *fliers = &broad->lane[lane].fliers;
         uint32_t i = first > before ? first - before : 0;
-        for (; i < fliers->count && before + i < end; i++) {
-            if (find_end(job, fliers->pair[i].a, worker) != 0)
-                atomic_store(&job->failed, 1);
-        }
+        for (; i < fliers->count && before + i < end; i++)
+            find_end(job, fliers->pair[i].a);
         before += fliers->count;
     }
 }
 
-int contacts_find_ends(struct contacts *contacts, const struct contact_input *input, uint64_t tick)
+void contacts_find_ends(struct contacts *contacts, const struct contact_input *input, uint64_t tick)
 {
     struct job job = {.contacts = contacts, .input = input, .tick = tick};
     uint32_t count = 0;
     for (uint32_t lane = 0; lane < input->broad->lanes; lane++)
         count += input->broad->lane[lane].fliers.count;
-    return find_all(&job, find_some_ends, count, FLIERS_A_PIECE);
+    find_all(&job, find_some_ends, count, FLIERS_A_PIECE);
 }
 
 const struct contact *contacts_peek(struct contacts *contacts)
 {
     while (contacts->heap.count > 0) {
         const struct contact *first = &contacts->heap.contact[0];
-        bool body = first->b < PAIR_FIXED;
-        if (first->version_a == contacts->version[first->a] &&
-            (!body || first->version_b == contacts->version[first->b]))
+        if (holds(contacts, first))
             return first;
         pop(contacts);
     }
@@ -364,18 +345,17 @@ static bool paired(const struct contacts *contacts, const struct pair *pair)
     return false;
 }
 
-static int meet(struct contacts *contacts, const struct contact_input *input, uint32_t row,
-                uint32_t other)
+static void meet(struct contacts *contacts, const struct contact_input *input, uint32_t row,
+                 uint32_t other)
 {
     bool fixed = other & PAIR_FIXED;
     struct pair pair = {fixed || row < other ? row : other, fixed || row < other ? other : row};
     if (other == row || paired(contacts, &pair))
-        return 0;
+        return;
     if (!fixed)
         motion_draw(input->motion, other);
-    if (!fixed && detect_apart(&input->detect, pair.a, pair.b))
-        return 0;
-    return reserve_pairs(contacts, contacts->pair_count + 1) == 0 ? add_pair(contacts, pair) : -1;
+    if (fixed || !detect_apart(&input->detect, pair.a, pair.b))
+        add_pair(contacts, pair);
 }
 
 static bool box_within(const struct sweep_box *inner, const struct sweep_box *outer)
@@ -396,42 +376,34 @@ static struct sweep_box box_union(const struct sweep_box *a, const struct sweep_
 
 /* Pairs the row with whatever its new way comes near: what the broad phase knows, and the rows that
  * have left the boxes that it knows. */
-static int look_around(struct contacts *contacts, const struct contact_input *input, uint32_t row)
+static void look_around(struct contacts *contacts, const struct contact_input *input, uint32_t row)
 {
     struct sweep_box *known = &input->broad->box[row];
     struct sweep_box box = detect_box(&input->detect, row);
     bool strays = !box_within(&box, known);
     contacts->near.count = 0;
-    if (broad_query(input->broad, &input->detect, &box, &contacts->near) != 0)
-        return -1;
+    broad_query(input->broad, &input->detect, &box, &contacts->near);
     uint32_t rows = contacts->near.count;
-    if (broad_query_fixed(input->broad, &input->detect, &box, &contacts->near) != 0)
-        return -1;
+    broad_query_fixed(input->broad, &input->detect, &box, &contacts->near);
     for (uint32_t i = 0; i < contacts->near.count; i++) {
         const struct pair *near = &contacts->near.pair[i];
-        if (meet(contacts, input, row, i < rows ? near->a : near->b) != 0)
-            return -1;
+        meet(contacts, input, row, i < rows ? near->a : near->b);
     }
     for (uint32_t i = 0; i < contacts->stray_count; i++) {
-        if (detect_boxes_meet(&box, &input->broad->box[contacts->strayed[i]]) &&
-            meet(contacts, input, row, contacts->strayed[i]) != 0)
-            return -1;
+        if (detect_boxes_meet(&box, &input->broad->box[contacts->strayed[i]]))
+            meet(contacts, input, row, contacts->strayed[i]);
     }
     if (!strays)
-        return 0;
-    void *strayed = contacts->strayed;
-    if (grow(&strayed, &contacts->stray_capacity, contacts->stray_count,
-             sizeof *contacts->strayed) != 0)
-        return -1;
-    contacts->strayed = strayed;
-    contacts->strayed[contacts->stray_count++] = row;
+        return;
+    if (!contacts->strays[row])
+        contacts->strayed[contacts->stray_count++] = row;
+    contacts->strays[row] = 1;
     *known = box_union(known, &box);
-    return 0;
 }
 
 /* Sweeps the row's pairs, but for those that this change has swept from the other side. */
-static int sweep_row(struct contacts *contacts, const struct contact_input *input, uint32_t row,
-                     double time)
+static void sweep_row(struct contacts *contacts, const struct contact_input *input, uint32_t row,
+                      double time)
 {
     struct contact contact;
     for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
@@ -439,25 +411,24 @@ static int sweep_row(struct contacts *contacts, const struct contact_input *inpu
         if (contacts->swept[pair] == contacts->change)
             continue;
         contacts->swept[pair] = contacts->change;
-        if (sweep_pair(contacts, input, pair, time, &contact) && push(contacts, &contact) != 0)
-            return -1;
+        if (sweep_pair(contacts, input, pair, time, &contact))
+            push(contacts, &contact);
     }
-    return contacts_ground(contacts, input, row);
+    contacts_ground(contacts, input, row);
 }
 
-int contacts_change(struct contacts *contacts, const struct contact_input *input,
-                    const uint32_t *rows, uint32_t count, double time)
+void contacts_change(struct contacts *contacts, const struct contact_input *input,
+                     const uint32_t *rows, uint32_t count, double time)
 {
     enum method method = (enum method)input->detect.world->params->collision.method;
     contacts->change++;
     for (uint32_t i = 0; i < count; i++)
         contacts->version[rows[i]]++;
     for (uint32_t i = 0; i < count; i++) {
-        if ((!detect_discrete(method) && look_around(contacts, input, rows[i]) != 0) ||
-            sweep_row(contacts, input, rows[i], time) != 0)
-            return -1;
+        if (!detect_discrete(method))
+            look_around(contacts, input, rows[i]);
+        sweep_row(contacts, input, rows[i], time);
     }
-    return 0;
 }
 
 void contacts_drop(struct contacts *contacts, uint32_t row)

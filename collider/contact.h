@@ -40,19 +40,21 @@ struct contact_list {
 
 struct contacts {
     struct workers *workers;
-    struct contact_list heap;               /* binary heap, earliest first */
-    struct contact_list found[WORKERS_MAX]; /* one a worker, before they go into the heap */
-    struct pair *pair;                      /* all of the frame */
-    uint8_t *met;                           /* [pair] how often this pair has met in this frame */
-    uint32_t *swept;                        /* [pair] with which change last, 0: with none */
-    uint32_t change;                        /* changes so far in this frame */
+    struct contact_list heap; /* binary heap, earliest first; void ones are dropped as they come
+                                 up, or when they are half of all */
+    struct pair *pair;        /* all of the frame */
+    uint8_t *met;             /* [pair] how often this pair has met in this frame */
+    uint32_t *swept;          /* [pair] with which change last, 0: with none */
+    uint32_t change;          /* changes so far in this frame */
     uint32_t pair_count, pair_capacity;
-    struct contact_link *link; /* pairs of each row */
-    uint32_t link_count, link_capacity;
+    struct contact_link *link; /* pairs of each row; two for each pair at most */
+    uint32_t link_count;
+    uint32_t rows;     /* capacity of the world */
     uint32_t *head;    /* [capacity of the world] link + 1; only rows with pairs are set */
     uint32_t *version; /* [capacity of the world] of each row's way; only equality counts */
     uint32_t *strayed; /* rows whose way has left the box that the broad phase knows */
-    uint32_t stray_count, stray_capacity;
+    uint8_t *strays;   /* [capacity of the world] 1: it is among them */
+    uint32_t stray_count;
     struct pair_list near; /* what a query found */
 };
 
@@ -66,28 +68,28 @@ struct contact_input {
 };
 
 /* 0, or -1 with errno ENOMEM. workers may be NULL and stays the caller's. */
-int contacts_init(struct contacts *contacts, uint32_t world_capacity, struct workers *workers);
+int contacts_init(struct contacts *contacts, const struct world *world, struct workers *workers);
 void contacts_free(struct contacts *contacts);
 
-/* Begins a frame with these lists of pairs. 0, or -1 with errno ENOMEM. */
-int contacts_begin(struct contacts *contacts, const struct pair_list *lists, uint32_t list_count);
+/* Begins a frame with these lists of pairs. */
+void contacts_begin(struct contacts *contacts, const struct pair_list *lists, uint32_t list_count);
 
 /* Clears what begin marked. */
 void contacts_end(struct contacts *contacts);
 
-/* Finds every contact of the frame's pairs, on all workers. 0, or -1 with errno ENOMEM. */
-int contacts_find(struct contacts *contacts, const struct contact_input *input);
+/* Finds every contact of the frame's pairs, on all workers. */
+void contacts_find(struct contacts *contacts, const struct contact_input *input);
 
 /* Finds where broad->fliers meet the ground, and the rounds whose life ends with
- * the frame unless something earlier ends it, on all workers. 0, or -1 with errno ENOMEM. */
-int contacts_find_ends(struct contacts *contacts, const struct contact_input *input, uint64_t tick);
+ * the frame unless something earlier ends it, on all workers. */
+void contacts_find_ends(struct contacts *contacts, const struct contact_input *input,
+                        uint64_t tick);
 
-/* Finds where a round or an aircraft on its present way meets the ground. 0, or -1 with errno
- * ENOMEM. */
-int contacts_ground(struct contacts *contacts, const struct contact_input *input, uint32_t row);
+/* Finds where a round or an aircraft on its present way meets the ground. */
+void contacts_ground(struct contacts *contacts, const struct contact_input *input, uint32_t row);
 
-/* A contact of a row with ground or air. 0, or -1 with errno ENOMEM. */
-int contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, double toi);
+/* A contact of a row with ground or air; of one way of the row one with each. */
+void contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, double toi);
 
 /* The earliest contact that still holds, left in its place; NULL when there is none. */
 const struct contact *contacts_peek(struct contacts *contacts);
@@ -102,9 +104,9 @@ void contacts_settle(struct contacts *contacts, const struct contact *contact);
 
 /* The rows' ways have changed at this time: their contacts so far are void, what their new ways
  * could meet is looked up, and they are swept again against all of that, the ground too; each pair
- * once. 0, or -1 with errno ENOMEM. */
-int contacts_change(struct contacts *contacts, const struct contact_input *input,
-                    const uint32_t *rows, uint32_t count, double time);
+ * once. */
+void contacts_change(struct contacts *contacts, const struct contact_input *input,
+                     const uint32_t *rows, uint32_t count, double time);
 
 /* The row's contacts are void; none are found again, since its state is ENTITY_FREE now. */
 void contacts_drop(struct contacts *contacts, uint32_t row);

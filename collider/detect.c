@@ -1,23 +1,38 @@
 /* What the methods of detection share: boxes, and who can never collide. */
 #include "collider/detect.h"
 
+#include "ipc/log.h"
+#include "world/reserve.h"
 #include "world/square.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-int pair_list_add(struct pair_list *list, uint32_t a, uint32_t b)
+uint32_t detect_pairs_most(const struct world *world)
 {
-    if (list->count == list->capacity) {
-        uint32_t capacity = list->capacity * 2 + 1024;
-        struct pair *pair = realloc(list->pair, capacity * sizeof *pair);
-        if (!pair)
-            return -1;
-        list->pair = pair;
-        list->capacity = capacity;
-    }
+    uint64_t rows = world->params->capacity;
+    uint64_t most = rows * (rows - 1) / 2 + rows * world->counts.fixed;
+    return most < PAIRS_MAX ? (uint32_t)most : PAIRS_MAX;
+}
+
+int pair_list_init(struct pair_list *list, uint64_t most)
+{
+    *list = (struct pair_list){.capacity = most < UINT32_MAX ? (uint32_t)most : UINT32_MAX};
+    list->pair = reserve_take(list->capacity, sizeof *list->pair);
+    return list->pair ? 0 : -1;
+}
+
+void pair_list_free(struct pair_list *list)
+{
+    reserve_free(list->pair);
+    *list = (struct pair_list){0};
+}
+
+void pair_list_add(struct pair_list *list, uint32_t a, uint32_t b)
+{
+    CHECK(list->count < list->capacity);
     list->pair[list->count++] = (struct pair){a, b};
-    return 0;
 }
 
 static double kind_reach(const struct world *world, const struct kind *kind)
@@ -130,29 +145,37 @@ detect_method *detect_method_of(enum method method)
 
 struct detect_workspace {
     void *block[DETECT_BLOCKS];
-    size_t bytes[DETECT_BLOCKS];
+    size_t bytes; /* of each */
 };
 
-void *detect_block(struct detect_workspace **workspace, uint32_t block, size_t count, size_t size)
+struct detect_workspace *detect_workspace_create(const struct world *world)
 {
-    if (!*workspace)
-        *workspace = calloc(1, sizeof **workspace);
-    if (!*workspace)
+    struct detect_workspace *workspace = calloc(1, sizeof *workspace);
+    uint64_t bodies = (uint64_t)world->params->capacity + world->counts.fixed;
+    if (!workspace)
         return NULL;
-    struct detect_workspace *w = *workspace;
-    size_t bytes = count * size;
-    if (w->block[block] && bytes <= w->bytes[block])
-        return w->block[block];
-    free(w->block[block]);
-    w->bytes[block] = bytes + bytes / 2 + 64;
-    w->block[block] = malloc(w->bytes[block]);
-    return w->block[block];
+    workspace->bytes = (size_t)bodies * DETECT_BODY_BYTES + SQUARE_COUNT;
+    for (int i = 0; i < DETECT_BLOCKS; i++) {
+        workspace->block[i] = reserve_take(workspace->bytes, 1);
+        if (!workspace->block[i]) {
+            detect_workspace_free(workspace);
+            errno = ENOMEM;
+            return NULL;
+        }
+    }
+    return workspace;
+}
+
+void *detect_block(struct detect_workspace *workspace, uint32_t block, size_t count, size_t size)
+{
+    CHECK(count <= workspace->bytes / size);
+    return workspace->block[block];
 }
 
 void detect_workspace_free(struct detect_workspace *workspace)
 {
     for (int i = 0; workspace && i < DETECT_BLOCKS; i++)
-        free(workspace->block[i]);
+        reserve_free(workspace->block[i]);
     free(workspace);
 }
 
@@ -185,8 +208,8 @@ static bool squares_marked(uint8_t *marked, const struct sweep_box *box, bool ma
     return false;
 }
 
-int detect_bodies(const struct detect_input *input, struct detect_workspace **workspace,
-                  struct detect_bodies *bodies)
+void detect_bodies(const struct detect_input *input, struct detect_workspace *workspace,
+                   struct detect_bodies *bodies)
 {
     const struct world *world = input->world;
     size_t most = (size_t)input->rows + world->counts.fixed;
@@ -195,8 +218,6 @@ int detect_bodies(const struct detect_input *input, struct detect_workspace **wo
     uint8_t *tests_fixed = detect_block(workspace, DETECT_BODIES + 2, input->rows, 1);
     uint8_t *marked = detect_block(workspace, DETECT_BODIES + 3, SQUARE_COUNT, 1);
     uint32_t count = 0, moving;
-    if (!what || !box || !tests_fixed || !marked)
-        return -1;
     memset(marked, 0, SQUARE_COUNT);
     for (uint32_t row = 0; row < input->rows; row++) {
         if (!detect_there(input, row))
@@ -215,11 +236,10 @@ int detect_bodies(const struct detect_input *input, struct detect_workspace **wo
             what[count++] = object | PAIR_FIXED;
     }
     *bodies = (struct detect_bodies){count, moving, what, box, tests_fixed};
-    return 0;
 }
 
-int detect_meet(const struct detect_input *input, const struct detect_bodies *bodies, uint32_t i,
-                uint32_t j, struct pair_list *pairs)
+void detect_meet(const struct detect_input *input, const struct detect_bodies *bodies, uint32_t i,
+                 uint32_t j, struct pair_list *pairs)
 {
     uint32_t first = i < j ? i : j, second = i < j ? j : i;
     uint32_t a = bodies->what[first], b = bodies->what[second];
@@ -231,5 +251,6 @@ int detect_meet(const struct detect_input *input, const struct detect_bodies *bo
         meet = bodies->tests_fixed[first] &&
                detect_box_meets_fixed(input, &bodies->box[first],
                                       &input->world->fixed[b & ~PAIR_FIXED]);
-    return meet ? pair_list_add(pairs, a, b) : 0;
+    if (meet)
+        pair_list_add(pairs, a, b);
 }

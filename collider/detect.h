@@ -34,8 +34,20 @@ struct pair_list {
     uint32_t count, capacity;
 };
 
-/* 0, or -1 with errno ENOMEM. */
-int pair_list_add(struct pair_list *list, uint32_t a, uint32_t b);
+/* More pairs than this are not found in one frame: it would take minutes, and a role that works on
+ * one frame for so long is ended before (supervisor/watch.h). Numbers of links and of contacts stay
+ * below 2^32. */
+#define PAIRS_MAX (1u << 29)
+
+/* The most pairs that a frame of this world can have. */
+uint32_t detect_pairs_most(const struct world *world);
+
+/* Takes the memory of at most this many pairs. 0, or -1 with errno ENOMEM. */
+int pair_list_init(struct pair_list *list, uint64_t most);
+void pair_list_free(struct pair_list *list);
+
+/* A full list is a bug: it ends the process. */
+void pair_list_add(struct pair_list *list, uint32_t a, uint32_t b);
 
 /* Half a float's step at 50 km is 2 mm; 1 cm keeps every box outside [m]. */
 #define BOX_SLACK_M 0.01
@@ -112,23 +124,26 @@ bool detect_kin(const struct entities *entities, uint32_t a, uint32_t b);
 bool detect_apart(const struct detect_input *input, uint32_t a, uint32_t b);
 
 /* The methods beside broad.c. Each adds every pair that it finds once, in any order; workspace is
- * its own memory, kept from frame to frame (NULL at first) and freed with detect_workspace_free. 0,
- * or -1 with errno ENOMEM. */
+ * its own memory. */
 struct detect_workspace;
-typedef int detect_method(const struct detect_input *input, struct detect_workspace **workspace,
-                          struct pair_list *pairs);
+typedef void detect_method(const struct detect_input *input, struct detect_workspace *workspace,
+                           struct pair_list *pairs);
 detect_method brute_pairs, hopcroft_pairs, occupancy_pairs, npsnet2_pairs, mps_pairs;
+
+/* What any method needs in this world. NULL with errno ENOMEM. */
+struct detect_workspace *detect_workspace_create(const struct world *world);
 void detect_workspace_free(struct detect_workspace *workspace);
 
 /* The function of a method; NULL for METHOD_SWEPT. */
 detect_method *detect_method_of(enum method method);
 
 /* For the methods: room for count items of size bytes in the workspace's block with this number, of
- * DETECT_BLOCKS; DETECT_BODIES and up are detect_bodies'. What a block held is lost when it grows.
- * NULL with errno ENOMEM. */
-#define DETECT_BLOCKS 13
-#define DETECT_BODIES 9
-void *detect_block(struct detect_workspace **workspace, uint32_t block, size_t count, size_t size);
+ * DETECT_BLOCKS; DETECT_BODIES and up are detect_bodies'. At most DETECT_BODY_BYTES for each body
+ * and SQUARE_COUNT more. */
+#define DETECT_BLOCKS     13
+#define DETECT_BODIES     9
+#define DETECT_BODY_BYTES 1024u
+void *detect_block(struct detect_workspace *workspace, uint32_t block, size_t count, size_t size);
 
 /* All that can be met in the frame, numbered through: first the rows that are there, then the fixed
  * objects that stand in gridsquares which a row that tests them touches. */
@@ -139,15 +154,14 @@ struct detect_bodies {
     const uint8_t *tests_fixed;  /* [moving] */
 };
 
-/* Lists them in the workspace, for as long as detect_bodies is not called again. 0, or -1 with
- * errno ENOMEM. */
-int detect_bodies(const struct detect_input *input, struct detect_workspace **workspace,
-                  struct detect_bodies *bodies);
+/* Lists them in the workspace, for as long as detect_bodies is not called again. */
+void detect_bodies(const struct detect_input *input, struct detect_workspace *workspace,
+                   struct detect_bodies *bodies);
 
 /* Adds the pair of two bodies if they can meet, by the same predicates as brute.c. Two fixed ones
- * cannot. 0, or -1 with errno ENOMEM. */
-int detect_meet(const struct detect_input *input, const struct detect_bodies *bodies, uint32_t i,
-                uint32_t j, struct pair_list *pairs);
+ * cannot. */
+void detect_meet(const struct detect_input *input, const struct detect_bodies *bodies, uint32_t i,
+                 uint32_t j, struct pair_list *pairs);
 
 /* Does this method decide by itself at the frame's end (npsnet2, mps)? The others' pairs are
  * candidates. */

@@ -43,15 +43,17 @@ static double energy_of(const struct kind *kind, struct vec3 velocity)
     return 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
 }
 
-int figure8_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome)
+void figure8_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome)
 {
     const struct entities *e = &respond->next->entities;
     const struct kind *ka = kind_of(respond, impact->a), *kb = kind_of(respond, impact->b);
     struct vec3 va = entities_velocity(e, impact->a), vb = entities_velocity(e, impact->b);
     double before = energy_of(ka, va) + energy_of(kb, vb);
     if (severe(ka, kb, impact->angle_rad)) {
-        if (fast(respond, ka, vec3_length(va)) || fast(respond, kb, vec3_length(vb)))
-            return attrition_moving(respond, impact, outcome); /* "Kill both" */
+        if (fast(respond, ka, vec3_length(va)) || fast(respond, kb, vec3_length(vb))) {
+            attrition_moving(respond, impact, outcome); /* "Kill both" */
+            return;
+        }
         outcome->response = RESPONSE_STOP;
         va = vb = (struct vec3){0.0, 0.0, 0.0};
     } else {
@@ -60,14 +62,12 @@ int figure8_moving(struct respond *respond, const struct impact *impact, struct 
         vb = bounced(vb, vec3_scale(impact->normal, -1.0), kb->bounce_keep);
     }
     double lost = before - energy_of(ka, va) - energy_of(kb, vb);
-    if (respond_stay(respond, impact->a, impact->time, va) != 0 ||
-        respond_stay(respond, impact->b, impact->time, vb) != 0)
-        return -1;
+    respond_stay(respond, impact->a, impact->time, va);
+    respond_stay(respond, impact->b, impact->time, vb);
     /* The larger mass hurts the smaller more (row 30). */
     double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
-    if (blow_row(respond, impact->a, impact, -1.0, lost * share_a, NULL) != 0)
-        return -1;
-    return blow_row(respond, impact->b, impact, 1.0, lost * (1.0 - share_a), NULL);
+    blow_row(respond, impact->a, impact, -1.0, lost * share_a, NULL);
+    blow_row(respond, impact->b, impact, 1.0, lost * (1.0 - share_a), NULL);
 }
 
 static void damage_object(struct respond *respond, uint32_t object, double mass_kg, double joules)
@@ -78,7 +78,7 @@ static void damage_object(struct respond *respond, uint32_t object, double mass_
         harm_fixed(respond, object, joules);
 }
 
-int figure8_fixed(struct respond *respond, const struct impact *impact, struct outcome *outcome)
+void figure8_fixed(struct respond *respond, const struct impact *impact, struct outcome *outcome)
 {
     const struct world *world = respond->world;
     const struct collision_params *limits = &world->params->collision;
@@ -90,14 +90,12 @@ int figure8_fixed(struct respond *respond, const struct impact *impact, struct o
     damage_object(respond, object, mass_kg, energy);
     if (fixed_kg >= limits->large_fixed_kg && speed > limits->fast_fixed_mps) {
         outcome->response = RESPONSE_DESTROYED;
-        if (respond_stay(respond, impact->a, impact->time, (struct vec3){0.0, 0.0, 0.0}) != 0)
-            return -1;
-        return harm_destroy(respond, impact->a, impact->time);
+        respond_stay(respond, impact->a, impact->time, (struct vec3){0.0, 0.0, 0.0});
+        harm_destroy(respond, impact->a, impact->time);
+        return;
     }
     outcome->response = RESPONSE_SLOW;
-    if (respond_slow(respond, impact->a, impact->time, mass_kg / (mass_kg + fixed_kg)) != 0 ||
-        respond_swept(respond, &impact->a, 1, impact->time) != 0)
-        return -1;
-    return blow_row(respond, impact->a, impact, -1.0, energy * fixed_kg / (mass_kg + fixed_kg),
-                    NULL);
+    respond_slow(respond, impact->a, impact->time, mass_kg / (mass_kg + fixed_kg));
+    respond_swept(respond, &impact->a, 1, impact->time);
+    blow_row(respond, impact->a, impact, -1.0, energy * fixed_kg / (mass_kg + fixed_kg), NULL);
 }

@@ -22,11 +22,11 @@ static enum damage level(double share)
     return share >= SHARE_LOW ? DAMAGE_LOW : DAMAGE_NONE;
 }
 
-int harm_destroy(struct respond *respond, uint32_t row, double time)
+void harm_destroy(struct respond *respond, uint32_t row, double time)
 {
     const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
     if (respond->next->entities.state[row] != ENTITY_ACTIVE)
-        return 0;
+        return;
     struct entities *e = respond_change(respond, row, HARM_COLUMNS);
     e->state[row] = ENTITY_WRECK;
     e->behaviour[row] = e->order[row] = BEHAVIOUR_IDLE;
@@ -37,24 +37,24 @@ int harm_destroy(struct respond *respond, uint32_t row, double time)
     struct charge charge = {.point = path_at(&respond->path[row], time),
                             .time = time,
                             .explosive_kg = kind->explosive_kg};
-    return kind->explosive_kg > 0.0 ? blast_charge(respond, &charge) : 0;
+    if (kind->explosive_kg > 0.0)
+        blast_charge(respond, &charge);
 }
 
-int harm_row(struct respond *respond, uint32_t row, double joules, double time)
+void harm_row(struct respond *respond, uint32_t row, double joules, double time)
 {
     const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
     if (respond->next->entities.state[row] != ENTITY_ACTIVE || !(joules > 0.0))
-        return 0;
+        return;
     struct entities *e = respond_change(respond, row, HARM_COLUMNS);
     e->harm_j[row] += joules;
     enum damage damage = level(e->harm_j[row] / kind->resistance_j);
-    if (damage == DAMAGE_DESTROYED)
-        return harm_destroy(respond, row, time);
-    if (damage > e->damage[row]) {
+    if (damage == DAMAGE_DESTROYED) {
+        harm_destroy(respond, row, time);
+    } else if (damage > e->damage[row]) {
         e->damage[row] = (uint8_t)damage;
         e->changed_tick[row] = (uint32_t)respond->next->head->tick;
     }
-    return 0;
 }
 
 /* It never heals; the hardest blow counts. */

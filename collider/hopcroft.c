@@ -136,19 +136,17 @@ static uint32_t extract(const struct sweep *sweep, uint32_t root, uint32_t i)
 }
 
 /* Everything in the tree that overlaps node i in z may meet it. */
-static int meet(const struct sweep *sweep, uint32_t root, uint32_t i)
+static void meet(const struct sweep *sweep, uint32_t root, uint32_t i)
 {
     if (root == NOBODY || sweep->node[root].last_z < sweep->node[i].min_z)
-        return 0;
+        return;
     const struct node *node = &sweep->node[i], *other = &sweep->node[root];
-    if (meet(sweep, other->left, i) != 0)
-        return -1;
+    meet(sweep, other->left, i);
     if (other->min_z > node->max_z)
-        return 0; /* and so are all to its right */
-    if (other->max_z >= node->min_z &&
-        detect_meet(sweep->input, &sweep->bodies, other->body, node->body, sweep->pairs) != 0)
-        return -1;
-    return meet(sweep, other->right, i);
+        return; /* and so are all to its right */
+    if (other->max_z >= node->min_z)
+        detect_meet(sweep->input, &sweep->bodies, other->body, node->body, sweep->pairs);
+    meet(sweep, other->right, i);
 }
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
@@ -159,18 +157,18 @@ static uint32_t *root_of(struct sweep *sweep, uint32_t i)
 }
 
 /* The plane reaches node i. */
-static int reach(struct sweep *sweep, uint32_t i)
+static void reach(struct sweep *sweep, uint32_t i)
 {
     uint32_t body = sweep->node[i].body;
     bool asks_fixed = body < sweep->bodies.moving && sweep->bodies.tests_fixed[body];
-    if (meet(sweep, sweep->moving, i) != 0 || (asks_fixed && meet(sweep, sweep->fixed, i) != 0))
-        return -1;
+    meet(sweep, sweep->moving, i);
+    if (asks_fixed)
+        meet(sweep, sweep->fixed, i);
     uint32_t *root = root_of(sweep, i);
     *root = insert(sweep, *root, i);
-    return 0;
 }
 
-static int pass(struct sweep *sweep, const struct mark *starts, const struct mark *ends)
+static void pass(struct sweep *sweep, const struct mark *starts, const struct mark *ends)
 {
     for (uint32_t i = 0, left = 0; i < sweep->bodies.count; i++) {
         while (ends[left].key < starts[i].key) {
@@ -178,10 +176,8 @@ static int pass(struct sweep *sweep, const struct mark *starts, const struct mar
             *root = extract(sweep, *root, ends[left].what);
             left++;
         }
-        if (reach(sweep, i) != 0)
-            return -1;
+        reach(sweep, i);
     }
-    return 0;
 }
 
 /* Puts the bodies in the order in which the plane meets them (starts) and leaves them (ends, by
@@ -204,18 +200,15 @@ static void put_in_order(struct sweep *sweep, struct mark *starts, struct mark *
     sort_words(ends, count);
 }
 
-int hopcroft_pairs(const struct detect_input *input, struct detect_workspace **workspace,
-                   struct pair_list *pairs)
+void hopcroft_pairs(const struct detect_input *input, struct detect_workspace *workspace,
+                    struct pair_list *pairs)
 {
     struct sweep sweep = {.input = input, .moving = NOBODY, .fixed = NOBODY, .pairs = pairs};
-    if (detect_bodies(input, workspace, &sweep.bodies) != 0)
-        return -1;
+    detect_bodies(input, workspace, &sweep.bodies);
     uint32_t count = sweep.bodies.count;
     struct mark *starts = detect_block(workspace, BLOCK_STARTS, count, sizeof *starts);
     struct mark *ends = detect_block(workspace, BLOCK_ENDS, count, sizeof *ends);
     sweep.node = detect_block(workspace, BLOCK_NODE, count, sizeof *sweep.node);
-    if (!starts || !ends || !sweep.node)
-        return -1;
     put_in_order(&sweep, starts, ends);
-    return pass(&sweep, starts, ends);
+    pass(&sweep, starts, ends);
 }

@@ -23,19 +23,19 @@ static const struct kind *other_kind(const struct respond *respond, uint32_t bod
 /* --- objects that give way ---------------------------------------------------------------------*/
 
 /* A bush bends: it takes its share of the momentum. */
-static int bend(struct respond *respond, struct island_meeting *meeting, const struct kind *fixed)
+static void bend(struct respond *respond, struct island_meeting *meeting, const struct kind *fixed)
 {
     const struct impact *impact = &meeting->impact;
     double mass_kg = kind_of(respond, impact->a)->mass_kg;
     double keeps = mass_kg / (mass_kg + fixed->mass_kg);
     meeting->outcome.response = RESPONSE_SLOW;
     meeting->outcome.impulse_ns = mass_kg * impact->closing_mps * (1.0 - keeps);
-    return respond_slow(respond, impact->a, impact->time, keeps);
+    respond_slow(respond, impact->a, impact->time, keeps);
 }
 
 /* It breaks: that costs its resistance, the rest of the energy goes on. */
-static int break_through(struct respond *respond, struct island_meeting *meeting,
-                         const struct kind *fixed, double yields_j)
+static void break_through(struct respond *respond, struct island_meeting *meeting,
+                          const struct kind *fixed, double yields_j)
 {
     const struct impact *impact = &meeting->impact;
     double mass_kg = kind_of(respond, impact->a)->mass_kg;
@@ -44,32 +44,28 @@ static int break_through(struct respond *respond, struct island_meeting *meeting
     double share = sqrt(maths_max(0.0, 1.0 - yields_j / whole));
     meeting->outcome.response = RESPONSE_SLOW;
     meeting->outcome.impulse_ns = mass_kg * speed * (1.0 - share);
-    if (respond_slow(respond, impact->a, impact->time, share) != 0)
-        return -1;
-    return blow_row(respond, impact->a, impact, -1.0, yields_j * fixed->rigidity, NULL);
+    respond_slow(respond, impact->a, impact->time, share);
+    blow_row(respond, impact->a, impact, -1.0, yields_j * fixed->rigidity, NULL);
 }
 
-int impulse_gives_way(struct respond *respond, struct island_meeting *meeting, bool *gives_way)
+bool impulse_gives_way(struct respond *respond, struct island_meeting *meeting)
 {
     const struct impact *impact = &meeting->impact;
     const struct kind *fixed = fixed_kind_of(respond, impact->b);
     double mass_kg = kind_of(respond, impact->a)->mass_kg;
     double energy = 0.5 * mass_kg * impact->closing_mps * impact->closing_mps;
-    int result;
-    *gives_way = false;
     if (fixed->rigidity < YIELDING_RIGIDITY) {
-        result = bend(respond, meeting, fixed);
+        bend(respond, meeting, fixed);
     } else {
         double yields_j = fixed->resistance_j * harm_high_share(respond, fixed);
         if (meeting->leans || harm_fixed(respond, impact->b & ~PAIR_FIXED, energy) < DAMAGE_HIGH ||
             energy < yields_j)
-            return 0;
-        result = break_through(respond, meeting, fixed, yields_j);
+            return false;
+        break_through(respond, meeting, fixed, yields_j);
     }
-    *gives_way = true;
-    if (result == 0 && !meeting->leans)
+    if (!meeting->leans)
         respond_tell(respond, &meeting->report, impact, &meeting->outcome);
-    return result;
+    return true;
 }
 
 /* --- contacts for the solver -------------------------------------------------------------------*/
@@ -163,29 +159,24 @@ void impulse_solve(struct respond *respond, uint32_t first, uint32_t bodies)
 
 /* --- afterwards --------------------------------------------------------------------------------*/
 
-int impulse_harm(struct respond *respond, struct island_meeting *meeting,
-                 const struct solve_contact *contact)
+void impulse_harm(struct respond *respond, struct island_meeting *meeting,
+                  const struct solve_contact *contact)
 {
     const struct impact *impact = &meeting->impact;
     const struct kind *ka = kind_of(respond, impact->a);
     const struct spring_blow *spring = meeting->blow.depth_m > 0.0 ? &meeting->blow : NULL;
     if (meeting->leans)
-        return 0;
+        return;
     meeting->outcome.impulse_ns = vec3_length(contact->impulse);
     meeting->outcome.response = contact->restitution > 0.0 ? RESPONSE_BOUNCE : RESPONSE_STOP;
     if (impact->b & PAIR_FIXED) {
         const struct kind *fixed = fixed_kind_of(respond, impact->b);
-        if (blow_row(respond, impact->a, impact, -1.0, contact->lost_j * fixed->rigidity, spring) !=
-            0)
-            return -1;
+        blow_row(respond, impact->a, impact, -1.0, contact->lost_j * fixed->rigidity, spring);
     } else { /* the larger mass hurts the smaller more (row 30) */
         const struct kind *kb = kind_of(respond, impact->b);
         double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
-        if (blow_row(respond, impact->a, impact, -1.0, contact->lost_j * share_a, spring) != 0 ||
-            blow_row(respond, impact->b, impact, 1.0, contact->lost_j * (1.0 - share_a), spring) !=
-                0)
-            return -1;
+        blow_row(respond, impact->a, impact, -1.0, contact->lost_j * share_a, spring);
+        blow_row(respond, impact->b, impact, 1.0, contact->lost_j * (1.0 - share_a), spring);
     }
     respond_tell(respond, &meeting->report, impact, &meeting->outcome);
-    return 0;
 }

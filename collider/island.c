@@ -1,62 +1,49 @@
 /* From contacts of one moment to islands, through the solver, to the bodies' new ways. */
 #include "collider/island.h"
 
+#include "ipc/log.h"
 #include "world/inertia.h"
+#include "world/reserve.h"
 
+#include <errno.h>
 #include <stdlib.h>
 
 /* Less is no overlap but rounding, 50 km from the origin [m]. */
 #define ROUNDING_M 1e-9
 
-int island_init(struct island *island, uint32_t world_capacity)
+int island_init(struct island *island, const struct world *world)
 {
-    *island = (struct island){.body_of = calloc(world_capacity, sizeof *island->body_of)};
-    return island->body_of ? 0 : -1;
+    uint32_t rows = world->params->capacity, most = detect_pairs_most(world);
+    uint64_t solved = (uint64_t)rows + most; /* a fixed object is a body of its own each time */
+    *island = (struct island){.meeting_capacity = most};
+    island->meeting = reserve_take((uint64_t)most + 1, sizeof *island->meeting);
+    island->body = reserve_take(rows, sizeof *island->body);
+    island->row = reserve_take(rows, sizeof *island->row);
+    island->body_of = calloc(rows, sizeof *island->body_of);
+    island->solve = reserve_take(solved, sizeof *island->solve);
+    island->solve_of = reserve_take(solved, sizeof *island->solve_of);
+    island->contact = reserve_take(most, sizeof *island->contact);
+    if (island->meeting && island->body && island->row && island->body_of && island->solve &&
+        island->solve_of && island->contact)
+        return 0;
+    island_free(island);
+    errno = ENOMEM;
+    return -1;
 }
 
 void island_free(struct island *island)
 {
-    free(island->meeting);
-    free(island->body);
-    free(island->row);
+    reserve_free(island->meeting);
+    reserve_free(island->body);
+    reserve_free(island->row);
     free(island->body_of);
-    free(island->solve);
-    free(island->solve_of);
-    free(island->contact);
+    reserve_free(island->solve);
+    reserve_free(island->solve_of);
+    reserve_free(island->contact);
     *island = (struct island){0};
 }
 
 /* --- the moment's meetings ---------------------------------------------------------------------*/
-
-static int reserve_meeting(struct island *island)
-{
-    if (island->meetings < island->meeting_capacity)
-        return 0;
-    uint32_t capacity = island->meeting_capacity * 2 + 64;
-    struct island_meeting *meeting = realloc(island->meeting, capacity * sizeof *meeting);
-    if (!meeting)
-        return -1;
-    island->meeting = meeting;
-    island->meeting_capacity = capacity;
-    return 0;
-}
-
-static int reserve_bodies(struct island *island)
-{
-    if (island->bodies + 2 <= island->body_capacity)
-        return 0;
-    uint32_t capacity = island->body_capacity * 2 + 64;
-    struct island_body *body = realloc(island->body, capacity * sizeof *body);
-    if (!body)
-        return -1;
-    island->body = body;
-    uint32_t *row = realloc(island->row, capacity * sizeof *row);
-    if (!row)
-        return -1;
-    island->row = row;
-    island->body_capacity = capacity;
-    return 0;
-}
 
 static uint32_t body_for(struct island *island, uint32_t row)
 {
@@ -87,26 +74,21 @@ static void join(struct island *island, uint32_t p, uint32_t q)
 }
 
 /* Takes in one contact: a lean, a fixed object that gives way, or a meeting for the solver. */
-static int take(struct respond *respond, const struct contact *contact)
+static void take(struct respond *respond, const struct contact *contact)
 {
     struct island *island = respond->island;
-    bool gives_way = false;
-    if (reserve_meeting(island) != 0 || reserve_bodies(island) != 0)
-        return -1;
     struct island_meeting *meeting = &island->meeting[island->meetings];
     *meeting = (struct island_meeting){
         .contact = *contact, .impact = respond_impact(respond, contact), .body_b = BODY_FIXED};
     if (respond_passes(respond, &meeting->impact))
-        return 0;
+        return;
     meeting->leans = respond_leans(respond, &meeting->impact);
     if (!meeting->leans)
         meeting->report = respond_report(respond, &meeting->impact);
     meeting->body_a = body_for(island, contact->a); /* it is swept with the others in any case */
-    if (contact->b & PAIR_FIXED && impulse_gives_way(respond, meeting, &gives_way) != 0)
-        return -1;
-    if (gives_way) {
+    if (contact->b & PAIR_FIXED && impulse_gives_way(respond, meeting)) {
         contacts_settle(respond->contacts, contact);
-        return 0;
+        return;
     }
     island->body[meeting->body_a].stays |= contact->last;
     if (!(contact->b & PAIR_FIXED)) {
@@ -114,8 +96,8 @@ static int take(struct respond *respond, const struct contact *contact)
         island->body[meeting->body_b].stays |= contact->last;
         join(island, meeting->body_a, meeting->body_b);
     }
+    CHECK(island->meetings < island->meeting_capacity);
     island->meetings++;
-    return 0;
 }
 
 /* Is the next contact one of the same moment that impulses answer? Rounds and the ground are not.
@@ -128,21 +110,18 @@ static bool same_moment(const struct respond *respond, const struct contact *nex
            (next->b & PAIR_FIXED || behaviour[next->b] != BEHAVIOUR_FLIGHT);
 }
 
-static int gather(struct respond *respond, const struct contact *first)
+static void gather(struct respond *respond, const struct contact *first)
 {
     struct contact contact = *first;
-    if (take(respond, &contact) != 0)
-        return -1;
+    take(respond, &contact);
     while (same_moment(respond, contacts_peek(respond->contacts), first->touch.toi)) {
         contacts_next(respond->contacts, &respond->input, &contact);
         contact.touch.toi = first->touch.toi;
         if (contact.b & PAIR_FIXED &&
             !detect_stands(&respond->input.detect, contact.b & ~PAIR_FIXED))
             continue;
-        if (take(respond, &contact) != 0)
-            return -1;
+        take(respond, &contact);
     }
-    return 0;
 }
 
 static void chain(struct island *island)
@@ -158,31 +137,6 @@ static void chain(struct island *island)
 }
 
 /* --- into the solver ---------------------------------------------------------------------------*/
-
-static int reserve_solve(struct island *island, uint32_t meetings)
-{
-    if (meetings > island->contact_capacity) {
-        struct solve_contact *contact =
-            realloc(island->contact, 2 * meetings * sizeof *island->contact);
-        if (!contact)
-            return -1;
-        island->contact = contact;
-        island->contact_capacity = 2 * meetings;
-    }
-    uint32_t bodies = 2 * meetings;
-    if (bodies <= island->solve_capacity)
-        return 0;
-    struct solve_body *solve = realloc(island->solve, 2 * bodies * sizeof *solve);
-    if (!solve)
-        return -1;
-    island->solve = solve;
-    uint32_t *solve_of = realloc(island->solve_of, 2 * bodies * sizeof *solve_of);
-    if (!solve_of)
-        return -1;
-    island->solve_of = solve_of;
-    island->solve_capacity = 2 * bodies;
-    return 0;
-}
 
 static struct solve_body solve_body_of(const struct respond *respond, struct island_body *body,
                                        double time)
@@ -255,18 +209,18 @@ static void part(const struct respond *respond, const struct island_meeting *mee
     body_b->shift = vec3_add(body_b->shift, vec3_scale(n, way * lb / (la + lb)));
 }
 
-static int leave(struct respond *respond, const struct solve_body *solve,
-                 const struct island_body *body, double time)
+static void leave(struct respond *respond, const struct solve_body *solve,
+                  const struct island_body *body, double time)
 {
     uint32_t row = body->row;
     struct vec3 velocity = vec3_sub(solve->velocity, vec3_cross(solve->spin, body->arm));
     if (body->grounded)
         velocity.y = 0.0; /* the mover puts it on the slope again */
     struct vec3 at = vec3_add(path_at(&respond->path[row], time), body->shift);
-    return respond_leave(respond, row, time, at, velocity, solve->spin, body->stays);
+    respond_leave(respond, row, time, at, velocity, solve->spin, body->stays);
 }
 
-static int solve_group(struct respond *respond, uint32_t first, double time)
+static void solve_group(struct respond *respond, uint32_t first, double time)
 {
     struct island *island = respond->island;
     uint32_t bodies = 0, contacts = 0;
@@ -290,34 +244,26 @@ static int solve_group(struct respond *respond, uint32_t first, double time)
             contacts_settle(respond->contacts, &meeting->contact); /* it would be found again */
     }
     for (uint32_t i = 0; i < bodies; i++) {
-        if (island->solve_of[i] != BODY_FIXED &&
-            leave(respond, &island->solve[i], &island->body[island->solve_of[i]], time) != 0)
-            return -1;
+        if (island->solve_of[i] != BODY_FIXED)
+            leave(respond, &island->solve[i], &island->body[island->solve_of[i]], time);
     }
     contacts = 0;
-    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
-        if (impulse_harm(respond, &island->meeting[i - 1], &island->contact[contacts++]) != 0)
-            return -1;
-    }
-    return 0;
+    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next)
+        impulse_harm(respond, &island->meeting[i - 1], &island->contact[contacts++]);
 }
 
-int island_answer(struct respond *respond, const struct contact *contact)
+void island_answer(struct respond *respond, const struct contact *contact)
 {
     struct island *island = respond->island;
     double time = contact->touch.toi;
-    int result = 0;
     island->meetings = island->bodies = 0;
-    if (gather(respond, contact) != 0 || reserve_solve(island, island->meetings) != 0)
-        result = -1;
+    gather(respond, contact);
     chain(island);
-    for (uint32_t i = 0; i < island->bodies && result == 0; i++) {
+    for (uint32_t i = 0; i < island->bodies; i++) {
         if (island->body[i].first != 0)
-            result = solve_group(respond, island->body[i].first, time);
+            solve_group(respond, island->body[i].first, time);
     }
-    if (result == 0)
-        result = respond_swept(respond, island->row, island->bodies, time);
+    respond_swept(respond, island->row, island->bodies, time);
     for (uint32_t i = 0; i < island->bodies; i++)
         island->body_of[island->row[i]] = 0;
-    return result;
 }

@@ -35,26 +35,25 @@ struct island_body {
 /* The collider's own memory, kept from frame to frame. */
 struct island {
     struct island_meeting *meeting;
-    uint32_t meetings, meeting_capacity;
+    uint32_t meetings, meeting_capacity; /* each pair meets once in a moment */
     struct island_body *body;
     uint32_t *row; /* [bodies] theirs */
-    uint32_t bodies, body_capacity;
+    uint32_t bodies;
     uint32_t *body_of; /* [capacity of the world] body + 1 of a row in this moment, else 0 */
     struct solve_body *solve;
     uint32_t *solve_of; /* body of each */
     struct solve_contact *contact;
-    uint32_t solve_capacity, contact_capacity;
 };
 
 /* 0, or -1 with errno ENOMEM. */
-int island_init(struct island *island, uint32_t world_capacity);
+int island_init(struct island *island, const struct world *world);
 void island_free(struct island *island);
 
 /* impulse.c: what becomes of single contacts. */
 
-/* Does the fixed object bend aside or break, so that the row goes on, slowed? Then it is answered;
- * -1 with errno ENOMEM. */
-int impulse_gives_way(struct respond *respond, struct island_meeting *meeting, bool *gives_way);
+/* Does the fixed object bend aside or break, so that the row goes on, slowed? Then it is answered.
+ */
+bool impulse_gives_way(struct respond *respond, struct island_meeting *meeting);
 
 /* The solver's contact: normal, restitution, friction. bodies are those of the contact. */
 struct solve_contact impulse_contact(const struct respond *respond,
@@ -65,8 +64,8 @@ struct solve_contact impulse_contact(const struct respond *respond,
  * is the group's first meeting + 1. */
 void impulse_solve(struct respond *respond, uint32_t first, uint32_t bodies);
 
-/* What the lost energy does to both sides, and the outcome. 0, or -1 with errno ENOMEM. */
-int impulse_harm(struct respond *respond, struct island_meeting *meeting,
-                 const struct solve_contact *contact);
+/* What the lost energy does to both sides, and the outcome. */
+void impulse_harm(struct respond *respond, struct island_meeting *meeting,
+                  const struct solve_contact *contact);
 
 #endif

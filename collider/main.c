@@ -15,9 +15,8 @@ static void collide_frames(struct collider *collider, struct view *view)
     const struct event_ring ring = {view->events, view->header->event_slots};
     struct frame frame;
     while (frame_collider_begin(&frame, view) == 0) {
-        if (collider_step(collider, &view->w[(frame.number - 1) & 1], &view->m,
-                          &view->w[frame.number & 1], &ring) != 0)
-            die_refused("out of memory for the frame's contacts");
+        collider_step(collider, &view->w[(frame.number - 1) & 1], &view->m,
+                      &view->w[frame.number & 1], &ring);
         frame_collider_end(&frame, view);
     }
 }
@@ -39,8 +38,10 @@ int main(int argc, char **argv)
                                                                &reason) != 0)
         die_refused("%s", reason.text);
     struct workers *workers = workers_create(options.threads);
-    if (!workers || collider_init(&collider, &view.world, view.w[0].craters, workers) != 0)
+    if (!workers)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
+    if (collider_init(&collider, &view.world, view.w[0].craters, workers) != 0)
+        process_refuse_memory(view.world.params->capacity);
     if (sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
     /* It may have been asked to stop, or the run may have ended, while another had the role. */

@@ -2,6 +2,7 @@
 #include "collider/motion.h"
 
 #include "collider/detect.h"
+#include "world/reserve.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,9 @@ int motion_init(struct motion *motion, const struct world *world)
     motion->path = malloc(capacity * sizeof *motion->path);
     motion->drawn = calloc(capacity, sizeof *motion->drawn);
     motion->change = calloc(capacity, sizeof *motion->change);
-    if (!motion->path || !motion->drawn || !motion->change) {
+    motion->changed = reserve_take(capacity, sizeof *motion->changed);
+    motion->row = reserve_take(capacity, sizeof *motion->row);
+    if (!motion->path || !motion->drawn || !motion->change || !motion->changed || !motion->row) {
         motion_free(motion);
         return -1;
     }
@@ -24,9 +27,9 @@ void motion_free(struct motion *motion)
 {
     free(motion->path);
     free(motion->drawn);
-    free(motion->changed);
+    reserve_free(motion->changed);
     free(motion->change);
-    free(motion->row);
+    reserve_free(motion->row);
     *motion = (struct motion){0};
 }
 
@@ -82,35 +85,15 @@ struct quat motion_turned(const struct motion *motion, uint32_t row, double time
                       : turning.to;
 }
 
-static int reserve(struct motion *motion)
-{
-    if (motion->changes < motion->change_capacity)
-        return 0;
-    uint32_t capacity = motion->change_capacity * 2 + 256;
-    struct turning *changed = realloc(motion->changed, capacity * sizeof *changed);
-    if (!changed)
-        return -1;
-    motion->changed = changed;
-    uint32_t *row = realloc(motion->row, capacity * sizeof *row);
-    if (!row)
-        return -1;
-    motion->row = row;
-    motion->change_capacity = capacity;
-    return 0;
-}
-
-int motion_change(struct motion *motion, uint32_t row, const struct path *path,
-                  const struct turning *turning)
+void motion_change(struct motion *motion, uint32_t row, const struct path *path,
+                   const struct turning *turning)
 {
     if (motion->change[row] == 0) {
-        if (reserve(motion) != 0)
-            return -1;
         motion->row[motion->changes] = row;
         motion->change[row] = ++motion->changes;
     }
     motion->changed[motion->change[row] - 1] = *turning;
     motion->path[row] = *path;
-    return 0;
 }
 
 static struct swept_body shape_of(const struct world *world, uint16_t kind, double scale)

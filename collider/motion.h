@@ -22,7 +22,7 @@ struct motion {
     struct path *path;       /* [capacity] of rows whose way is drawn */
     uint8_t *drawn;          /* [capacity] 1: it is */
     struct turning *changed; /* turnings that answers gave */
-    uint32_t changes, change_capacity;
+    uint32_t changes;
     uint32_t *change; /* [capacity] index + 1 into changed; 0: turns as the mover has it */
     uint32_t *row;    /* [changes] whose it is */
 };
@@ -76,9 +76,9 @@ struct turning motion_turning(const struct motion *motion, uint32_t row);
 /* How the row is turned at a time in [path.since, 1]. */
 struct quat motion_turned(const struct motion *motion, uint32_t row, double time);
 
-/* Gives the row another turning, with its path. 0, or -1 with errno ENOMEM. */
-int motion_change(struct motion *motion, uint32_t row, const struct path *path,
-                  const struct turning *turning);
+/* Gives the row another turning, with its path. */
+void motion_change(struct motion *motion, uint32_t row, const struct path *path,
+                   const struct turning *turning);
 
 /* The row, and a fixed object, as the narrow phase takes them. */
 struct swept_body motion_body(const struct motion *motion, uint32_t row);

@@ -20,22 +20,17 @@ static uint32_t list_platforms(const struct detect_input *input, struct spot *sp
     return count;
 }
 
-int mps_pairs(const struct detect_input *input, struct detect_workspace **workspace,
-              struct pair_list *pairs)
+void mps_pairs(const struct detect_input *input, struct detect_workspace *workspace,
+               struct pair_list *pairs)
 {
     struct spot *spot = detect_block(workspace, 0, input->rows, sizeof *spot);
     double near = input->world->params->collision.mps_near_m;
-    if (!spot)
-        return -1;
     uint32_t count = list_platforms(input, spot);
     for (uint32_t a = 0; a < count; a++) {
         for (uint32_t b = a + 1; b < count; b++) {
             double dx = spot[b].x - spot[a].x, dz = spot[b].z - spot[a].z;
-            if (dx * dx + dz * dz <= near * near &&
-                !detect_apart(input, spot[a].row, spot[b].row) &&
-                pair_list_add(pairs, spot[a].row, spot[b].row) != 0)
-                return -1;
+            if (dx * dx + dz * dz <= near * near && !detect_apart(input, spot[a].row, spot[b].row))
+                pair_list_add(pairs, spot[a].row, spot[b].row);
         }
     }
-    return 0;
 }

@@ -98,15 +98,14 @@ static bool below_threshold(const struct detect_input *input, struct vec3 at)
                       input->world->params->collision.threshold_height_m;
 }
 
-/* Adds the objects of the row's gridsquare that it hits, and counts them. */
-static int hit_fixed(const struct detect_input *input, uint32_t row, struct pair_list *pairs,
-                     uint32_t *hits)
+/* Adds the objects of the row's gridsquare that it hits. How many they are. */
+static uint32_t hit_fixed(const struct detect_input *input, uint32_t row, struct pair_list *pairs)
 {
     const struct world *world = input->world;
     struct body body = body_of_row(input, row);
     uint32_t square = square_of(body.at.x, body.at.z);
     const uint32_t *objects;
-    *hits = 0;
+    uint32_t hits = 0;
     if (world->counts.fixed == 0 || !below_threshold(input, body.at))
         return 0;
     uint32_t count = world_reach(world, square, &objects);
@@ -116,11 +115,10 @@ static int hit_fixed(const struct detect_input *input, uint32_t row, struct pair
         if (square_of(object->x, object->z) != square || !detect_stands(input, objects[n]) ||
             !spheres_overlap(&body, &other) || !polygons_touch(input, row, objects[n] | PAIR_FIXED))
             continue;
-        if (pair_list_add(pairs, row, objects[n] | PAIR_FIXED) != 0)
-            return -1;
-        ++*hits;
+        pair_list_add(pairs, row, objects[n] | PAIR_FIXED);
+        hits++;
     }
-    return 0;
+    return hits;
 }
 
 /* --- against moving objects --------------------------------------------------------------------*/
@@ -131,18 +129,16 @@ struct vehicle {
     bool looks; /* it has moved and hit nothing fixed: it is checked against all others */
 };
 
-/* Every row that is there, and what it hits that is fixed. SIZE_MAX: no memory. */
+/* Every row that is there, and what it hits that is fixed. */
 static size_t list_vehicles(const struct detect_input *input, struct vehicle *vehicle,
                             struct pair_list *pairs)
 {
     size_t count = 0;
     for (uint32_t i = 0; i < input->rows; i++) {
         bool moves = !detect_rests(&input->path[i]);
-        uint32_t hits = 0;
         if (!detect_there(input, i))
             continue;
-        if (moves && hit_fixed(input, i, pairs, &hits) != 0)
-            return SIZE_MAX;
+        uint32_t hits = moves ? hit_fixed(input, i, pairs) : 0;
         vehicle[count++] = (struct vehicle){body_of_row(input, i), i, moves && hits == 0};
     }
     return count;
@@ -156,23 +152,19 @@ static bool found(const struct detect_input *input, const struct vehicle *a,
             (b->looks && polygons_touch(input, b->row, a->row)));
 }
 
-int npsnet2_pairs(const struct detect_input *input, struct detect_workspace **workspace,
-                  struct pair_list *pairs)
+void npsnet2_pairs(const struct detect_input *input, struct detect_workspace *workspace,
+                   struct pair_list *pairs)
 {
     enum nearness nearness = (enum nearness)input->world->params->collision.nearness;
     struct vehicle *vehicle = detect_block(workspace, 0, input->rows, sizeof *vehicle);
-    size_t count = vehicle ? list_vehicles(input, vehicle, pairs) : SIZE_MAX;
-    if (count == SIZE_MAX)
-        return -1;
+    size_t count = list_vehicles(input, vehicle, pairs);
     for (size_t a = 0; a < count; a++) {
         for (size_t b = a + 1; b < count; b++) {
             if (near(nearness, vehicle[a].body.at, vehicle[b].body.at) &&
-                found(input, &vehicle[a], &vehicle[b]) &&
-                pair_list_add(pairs, vehicle[a].row, vehicle[b].row) != 0)
-                return -1;
+                found(input, &vehicle[a], &vehicle[b]))
+                pair_list_add(pairs, vehicle[a].row, vehicle[b].row);
         }
     }
-    return 0;
 }
 
 struct npsnet2_level1 npsnet2_level1(const struct detect_input *input)

@@ -147,67 +147,56 @@ static bool first_shared(const struct space *space, uint32_t i, uint32_t j, uint
 }
 
 /* The body asks who holds the cell and, if it is of its own level, claims it. */
-static int visit_cell(struct space *space, uint32_t body, uint64_t cell, uint32_t level,
-                      struct pair_list *pairs)
+static void visit_cell(struct space *space, uint32_t body, uint64_t cell, uint32_t level,
+                       struct pair_list *pairs)
 {
     uint32_t *head = &space->head[random_mix(cell) & space->mask];
     for (uint32_t n = *head; n != NOBODY; n = space->claim[n].next) {
         const struct claim *claim = &space->claim[n];
-        if (claim->cell == cell && first_shared(space, body, claim->body, cell, level) &&
-            detect_meet(space->input, &space->bodies, body, claim->body, pairs) != 0)
-            return -1;
+        if (claim->cell == cell && first_shared(space, body, claim->body, cell, level))
+            detect_meet(space->input, &space->bodies, body, claim->body, pairs);
     }
     if (level == space->level[body]) {
         space->claim[space->claims] = (struct claim){cell, body, *head};
         *head = space->claims++;
     }
-    return 0;
 }
 
-static int visit_level(struct space *space, uint32_t body, uint32_t level, struct pair_list *pairs)
+static void visit_level(struct space *space, uint32_t body, uint32_t level, struct pair_list *pairs)
 {
     struct cells cells = cells_of(&space->bodies.box[body], level);
     for (int32_t x = cells.x0; x <= cells.x1; x++) {
         for (int32_t y = cells.y0; y <= cells.y1; y++) {
-            for (int32_t z = cells.z0; z <= cells.z1; z++) {
-                if (visit_cell(space, body, pack(level, x, y, z), level, pairs) != 0)
-                    return -1;
-            }
+            for (int32_t z = cells.z0; z <= cells.z1; z++)
+                visit_cell(space, body, pack(level, x, y, z), level, pairs);
         }
     }
-    return 0;
 }
 
-static int claim_all(struct space *space, struct pair_list *pairs)
+static void claim_all(struct space *space, struct pair_list *pairs)
 {
     for (uint32_t n = 0; n < space->bodies.count; n++) {
         uint32_t body = space->order[n];
         for (uint32_t level = space->level[body]; level < LEVELS; level++) {
-            if (space->used[level] && visit_level(space, body, level, pairs) != 0)
-                return -1;
+            if (space->used[level])
+                visit_level(space, body, level, pairs);
         }
     }
-    return 0;
 }
 
-int occupancy_pairs(const struct detect_input *input, struct detect_workspace **workspace,
-                    struct pair_list *pairs)
+void occupancy_pairs(const struct detect_input *input, struct detect_workspace *workspace,
+                     struct pair_list *pairs)
 {
     struct space space = {.input = input};
-    if (detect_bodies(input, workspace, &space.bodies) != 0)
-        return -1;
+    detect_bodies(input, workspace, &space.bodies);
     space.level = detect_block(workspace, BLOCK_LEVEL, space.bodies.count, sizeof *space.level);
     space.order = detect_block(workspace, BLOCK_ORDER, space.bodies.count, sizeof *space.order);
-    if (!space.level || !space.order)
-        return -1;
     uint32_t claims = choose_levels(&space);
     while (space.mask < claims)
         space.mask = 2 * space.mask + 1;
     space.claim = detect_block(workspace, BLOCK_CLAIM, claims, sizeof *space.claim);
     space.head = detect_block(workspace, BLOCK_HEAD, (size_t)space.mask + 1, sizeof *space.head);
-    if (!space.claim || !space.head)
-        return -1;
     memset(space.head, 0xff, ((size_t)space.mask + 1) * sizeof *space.head);
     put_in_order(&space);
-    return claim_all(&space, pairs);
+    claim_all(&space, pairs);
 }

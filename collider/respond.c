@@ -3,8 +3,6 @@
 
 #include "collider/attrition.h"
 
-#include <stdlib.h>
-
 /* Bodies that touched within this time and close no faster than this lean on each other, or rub
  * along: that is one long contact, told of when it began. An engine adds far less within the time;
  * less here tells of a vehicle that drives along another again and again. */
@@ -13,12 +11,6 @@
 
 /* A normal with less of it on the level is too steep to push what the ground holds. */
 #define LEVEL_MIN 0.2
-
-void respond_end(struct respond *respond)
-{
-    free(respond->charge);
-    free(respond->near.pair);
-}
 
 /* Tells the agent which way leads away from what it ran into. */
 static void bump(struct respond *respond, uint32_t row, double away_x, double away_z)
@@ -82,18 +74,14 @@ struct impact respond_impact(const struct respond *respond, const struct contact
     return impact;
 }
 
-static int answer(struct respond *respond, const struct impact *impact, struct outcome *outcome)
+static void answer(struct respond *respond, const struct impact *impact, struct outcome *outcome)
 {
     bool fixed = impact->b & PAIR_FIXED;
-    switch ((enum response_model)respond->world->params->collision.response) {
-    case MODEL_FIGURE8:
-        return fixed ? figure8_fixed(respond, impact, outcome)
-                     : figure8_moving(respond, impact, outcome);
-    case MODEL_MPS:
-        return fixed ? 0 : attrition_moving(respond, impact, outcome);
-    default:
-        return 0;
-    }
+    enum response_model model = (enum response_model)respond->world->params->collision.response;
+    if (model == MODEL_FIGURE8)
+        (fixed ? figure8_fixed : figure8_moving)(respond, impact, outcome);
+    else if (model == MODEL_MPS && !fixed)
+        attrition_moving(respond, impact, outcome);
 }
 
 static struct event_party party_of(const struct respond *respond, uint32_t body)
@@ -204,7 +192,7 @@ void respond_tell(struct respond *respond, const struct report *report, const st
 
 /* Leaning bodies only stop pressing: what each brings along the normal is taken out, shared so that
  * momentum stays. */
-static int lean(struct respond *respond, const struct impact *impact)
+static void lean(struct respond *respond, const struct impact *impact)
 {
     const struct entities *e = &respond->next->entities;
     const struct kind *kinds = respond->world->kinds;
@@ -220,12 +208,11 @@ static int lean(struct respond *respond, const struct impact *impact)
         uint32_t row = side[i].row;
         struct vec3 push = vec3_scale(impact->normal, side[i].push * impact->closing_mps);
         const struct vec3 spin = respond_spin(respond, row);
-        if (respond_leave(respond, row, impact->time, path_at(&respond->path[row], impact->time),
-                          vec3_add(entities_velocity(e, row), push), spin, false) != 0)
-            return -1;
+        respond_leave(respond, row, impact->time, path_at(&respond->path[row], impact->time),
+                      vec3_add(entities_velocity(e, row), push), spin, false);
     }
     const uint32_t rows[2] = {impact->a, impact->b};
-    return respond_swept(respond, rows, fixed ? 1 : 2, impact->time);
+    respond_swept(respond, rows, fixed ? 1 : 2, impact->time);
 }
 
 /* Does the model do anything about this collision? */
@@ -235,23 +222,24 @@ static bool answered(const struct respond *respond, const struct impact *impact)
     return model != MODEL_NONE && !(model == MODEL_MPS && impact->b & PAIR_FIXED);
 }
 
-static int collide(struct respond *respond, const struct contact *contact)
+static void collide(struct respond *respond, const struct contact *contact)
 {
     struct impact impact = respond_impact(respond, contact);
     struct outcome outcome = {RESPONSE_NONE, 0.0};
     if (respond_passes(respond, &impact))
-        return 0;
-    if (respond_leans(respond, &impact))
-        return answered(respond, &impact) ? lean(respond, &impact) : 0;
+        return;
+    if (respond_leans(respond, &impact)) {
+        if (answered(respond, &impact))
+            lean(respond, &impact);
+        return;
+    }
     struct report report = respond_report(respond, &impact);
-    if (answer(respond, &impact, &outcome) != 0)
-        return -1;
+    answer(respond, &impact, &outcome);
     respond_tell(respond, &report, &impact, &outcome);
-    return 0;
 }
 
 /* An aircraft meets the ground. */
-static int crash(struct respond *respond, const struct contact *contact)
+static void crash(struct respond *respond, const struct contact *contact)
 {
     const struct entities *e = &respond->next->entities;
     uint32_t row = contact->a;
@@ -264,9 +252,8 @@ static int crash(struct respond *respond, const struct contact *contact)
     respond->next->head->tally.collisions++;
     struct vec3 slide = vec3_sub(velocity, vec3_scale(normal, vec3_dot(velocity, normal)));
     /* A wreck first: what still flies would meet the ground again where it stays. */
-    if (harm_destroy(respond, row, time) != 0 ||
-        respond_stay(respond, row, time, vec3_scale(slide, 0.3)) != 0)
-        return -1;
+    harm_destroy(respond, row, time);
+    respond_stay(respond, row, time, vec3_scale(slide, 0.3));
     if (event) {
         event->collision.a = party_of(respond, row);
         event->collision.b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
@@ -279,7 +266,6 @@ static int crash(struct respond *respond, const struct contact *contact)
         event->collision.closing_mps = (float)maths_max(0.0, -vec3_dot(velocity, normal));
         event->collision.response = RESPONSE_DESTROYED;
     }
-    return 0;
 }
 
 static bool is_round(const struct respond *respond, uint32_t body)
@@ -293,26 +279,26 @@ static bool by_impulse(const struct respond *respond)
     return model == MODEL_IMPULSE || model == MODEL_SPRING;
 }
 
-int respond_contact(struct respond *respond, const struct contact *contact)
+void respond_contact(struct respond *respond, const struct contact *contact)
 {
     bool round_a = is_round(respond, contact->a), round_b = is_round(respond, contact->b);
     double time = contact->touch.toi;
     if (contact->b >= PAIR_FIXED && contact->b < CONTACT_AIR &&
         !detect_stands(&respond->input.detect, contact->b & ~PAIR_FIXED))
-        return 0; /* it fell earlier in this frame */
-    int result;
+        return; /* it fell earlier in this frame */
     if (round_a && round_b) {
-        result = blast_munition(respond, contact->a, CONTACT_AIR, time);
-        if (result == 0)
-            result = blast_munition(respond, contact->b, CONTACT_AIR, time);
+        blast_munition(respond, contact->a, CONTACT_AIR, time);
+        blast_munition(respond, contact->b, CONTACT_AIR, time);
     } else if (round_a) {
-        result = blast_munition(respond, contact->a, contact->b, time);
+        blast_munition(respond, contact->a, contact->b, time);
     } else if (round_b) {
-        result = blast_munition(respond, contact->b, contact->a, time);
+        blast_munition(respond, contact->b, contact->a, time);
     } else if (contact->b >= CONTACT_AIR) {
-        result = crash(respond, contact);
+        crash(respond, contact);
+    } else if (by_impulse(respond)) {
+        island_answer(respond, contact);
     } else {
-        result = by_impulse(respond) ? island_answer(respond, contact) : collide(respond, contact);
+        collide(respond, contact);
     }
-    return result == 0 ? blast_all(respond) : -1;
+    blast_all(respond);
 }

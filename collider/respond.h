@@ -18,6 +18,18 @@ struct charge {
     uint32_t owner_slot, owner_id; /* who fired it; 0 for nobody */
 };
 
+/* Charges that wait, more of them as blasts destroy what explodes in turn; the collider's own
+ * memory. */
+struct charges {
+    struct charge *charge;
+    uint32_t count, capacity;
+    struct pair_list near; /* what a blast reaches */
+};
+
+/* blast.c. 0, or -1 with errno ENOMEM. */
+int charges_init(struct charges *charges, const struct world *world);
+void charges_free(struct charges *charges);
+
 struct island;
 
 struct respond {
@@ -29,9 +41,7 @@ struct respond {
     struct state *next;
     struct path *path; /* motion's */
     struct sink sink;
-    struct charge *charge; /* waiting; grows as blasts destroy what explodes in turn */
-    uint32_t charges, charge_capacity;
-    struct pair_list near; /* what a blast reaches */
+    struct charges *charges;
     struct island *island; /* island.h */
     uint64_t *changed;     /* [CHECKSUM_PIECES] columns of next's pieces that answers changed */
 };
@@ -44,9 +54,6 @@ static inline struct entities *respond_change(struct respond *respond, uint32_t 
     respond->changed[row / CHECKSUM_ROWS] |= columns;
     return &respond->next->entities;
 }
-
-/* Frees what the frame's answers took. */
-void respond_end(struct respond *respond);
 
 /* What a collision's answer works with. */
 struct impact {
@@ -74,8 +81,8 @@ struct report {
 /* --- respond.c: who met whom -------------------------------------------------------------------*/
 
 /* Answers the earliest contact, and with it those of the same moment that it must be solved
- * together with. 0, or -1 with errno ENOMEM. */
-int respond_contact(struct respond *respond, const struct contact *contact);
+ * together with. */
+void respond_contact(struct respond *respond, const struct contact *contact);
 
 struct impact respond_impact(const struct respond *respond, const struct contact *contact);
 
@@ -91,21 +98,21 @@ struct report respond_report(struct respond *respond, const struct impact *impac
 void respond_tell(struct respond *respond, const struct report *report, const struct impact *impact,
                   const struct outcome *outcome);
 
-/* --- way.c: another way from a time on; 0, or -1 with errno ENOMEM -----------------------------*/
+/* --- way.c: another way from a time on ---------------------------------------------------------*/
 
 /* Stays where it is for the rest of the frame and leaves with this velocity. */
-int respond_stay(struct respond *respond, uint32_t row, double time, struct vec3 velocity);
+void respond_stay(struct respond *respond, uint32_t row, double time, struct vec3 velocity);
 
 /* Goes on along its way at a share of its speed. respond_swept must follow. */
-int respond_slow(struct respond *respond, uint32_t row, double time, double share);
+void respond_slow(struct respond *respond, uint32_t row, double time, double share);
 
 /* Goes on from `at` with this velocity and spin (respond_spin's: the driver's steering in it does
  * not become the row's own), or stays there for the rest of the frame and takes
  * them with it. respond_swept must follow, for every row that leaves at this time, once all of them
  * have left. */
-int respond_leave(struct respond *respond, uint32_t row, double time, struct vec3 at,
-                  struct vec3 velocity, struct vec3 spin_rps, bool stays);
-int respond_swept(struct respond *respond, const uint32_t *rows, uint32_t count, double time);
+void respond_leave(struct respond *respond, uint32_t row, double time, struct vec3 at,
+                   struct vec3 velocity, struct vec3 spin_rps, bool stays);
+void respond_swept(struct respond *respond, const uint32_t *rows, uint32_t count, double time);
 
 /* How the row turns [rad/s, world axes]: what collisions gave it; on the ground what its driver
  * steers, too. */
@@ -116,13 +123,12 @@ bool respond_grounded(const struct respond *respond, uint32_t row);
 
 /* --- island.c: impulses, all contacts of one moment together -----------------------------------*/
 
-/* contact was just taken; takes those of the same moment that are answered by impulses too. 0, or
- * -1 with errno ENOMEM. */
-int island_answer(struct respond *respond, const struct contact *contact);
+/* contact was just taken; takes those of the same moment that are answered by impulses too. */
+void island_answer(struct respond *respond, const struct contact *contact);
 
 /* --- harm.c: energy becomes damage. harm_row destroys at the kind's resistance_j. --------------*/
-int harm_row(struct respond *respond, uint32_t row, double joules, double time);
-int harm_destroy(struct respond *respond, uint32_t row, double time);
+void harm_row(struct respond *respond, uint32_t row, double joules, double time);
+void harm_destroy(struct respond *respond, uint32_t row, double time);
 enum damage harm_fixed(struct respond *respond, uint32_t object, double joules);
 /* Energy over a fixed kind's resistance_j from which its damage is high. */
 double harm_high_share(const struct respond *respond, const struct kind *kind);
@@ -130,18 +136,18 @@ double harm_high_share(const struct respond *respond, const struct kind *kind);
 /* --- blow.c: harm and a dent -------------------------------------------------------------------*/
 
 /* The row takes this energy, struck at the impact's point; side 1: inwards is along the normal, -1:
- * against it. spring: by which it was struck, else NULL. 0, or -1 with errno ENOMEM. */
+ * against it. spring: by which it was struck, else NULL. */
 struct spring_blow;
-int blow_row(struct respond *respond, uint32_t row, const struct impact *impact, double side,
-             double joules, const struct spring_blow *spring);
+void blow_row(struct respond *respond, uint32_t row, const struct impact *impact, double side,
+              double joules, const struct spring_blow *spring);
 
 /* --- figure8.c: the thesis's own answers -------------------------------------------------------*/
-int figure8_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome);
-int figure8_fixed(struct respond *respond, const struct impact *impact, struct outcome *outcome);
+void figure8_moving(struct respond *respond, const struct impact *impact, struct outcome *outcome);
+void figure8_fixed(struct respond *respond, const struct impact *impact, struct outcome *outcome);
 
 /* --- blast.c: a munition ends, and what explodes with it ---------------------------------------*/
-int blast_munition(struct respond *respond, uint32_t row, uint32_t struck, double time);
-int blast_charge(struct respond *respond, const struct charge *charge);
-int blast_all(struct respond *respond);
+void blast_munition(struct respond *respond, uint32_t row, uint32_t struck, double time);
+void blast_charge(struct respond *respond, const struct charge *charge);
+void blast_all(struct respond *respond);
 
 #endif

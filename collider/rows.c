@@ -199,7 +199,7 @@ static bool bound_rows(struct block *block, const struct ends *ends, bool moved,
 
 /* --- into strips -------------------------------------------------------------------------------*/
 
-static int add_spanning(const struct rows *rows, struct bins *bins, struct bin_record record)
+static void add_spanning(const struct rows *rows, struct bins *bins, struct bin_record record)
 {
     uint32_t row = record.tag & BIN_ROW;
     const struct sweep_box *box = &rows->box[row];
@@ -222,15 +222,13 @@ static int add_spanning(const struct rows *rows, struct bins *bins, struct bin_r
             record.max_x = span.max_x;
         }
         record.z = bin_z(box->min_z, box->max_z, strip);
-        if (bins_add(bins, strip, record) != 0)
-            return -1;
+        bins_add(bins, strip, record);
     }
-    return 0;
 }
 
 /* Who cannot reach the ground, and is no round, has no end to be looked for. */
-static int add_flier(const struct rows *rows, struct strip_lane *lane, const struct ends *ends,
-                     uint32_t k, uint32_t tag)
+static void add_flier(const struct rows *rows, struct strip_lane *lane, const struct ends *ends,
+                      uint32_t k, uint32_t tag)
 {
     const struct detect_input *input = rows->input;
     uint32_t row = tag & BIN_ROW;
@@ -238,14 +236,14 @@ static int add_flier(const struct rows *rows, struct strip_lane *lane, const str
     struct vec3 to = {ends->to[0][k], ends->to[1][k], ends->to[2][k]};
     if (input->entities->state[row] != ENTITY_ACTIVE ||
         (!(tag & BIN_ROUND) && input->crest && crest_below(input->crest, input->craters, at, to)))
-        return 0;
+        return;
     if (rows->motion)
         motion_draw(rows->motion, row);
-    return pair_list_add(&lane->fliers, row, 0);
+    pair_list_add(&lane->fliers, row, 0);
 }
 
-static int add_rows(const struct rows *rows, struct strip_lane *lane, const struct block *block,
-                    const struct ends *ends, uint32_t first, uint32_t count)
+static void add_rows(const struct rows *rows, struct strip_lane *lane, const struct block *block,
+                     const struct ends *ends, uint32_t first, uint32_t count)
 {
     const struct entities *e = rows->input->entities;
     const uint8_t *state = e->state + first, *behaviour = e->behaviour + first;
@@ -254,16 +252,17 @@ static int add_rows(const struct rows *rows, struct strip_lane *lane, const stru
         if (state[k] == ENTITY_FREE)
             continue;
         record.tag |= block->rests[k] | (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0);
-        if ((block->strip[k] < STRIP_COUNT ? bins_add(&lane->bins, block->strip[k], record)
-                                           : add_spanning(rows, &lane->bins, record)) != 0 ||
-            (record.tag & (BIN_ROUND | BIN_AIR) && add_flier(rows, lane, ends, k, record.tag) != 0))
-            return -1;
+        if (block->strip[k] < STRIP_COUNT)
+            bins_add(&lane->bins, block->strip[k], record);
+        else
+            add_spanning(rows, &lane->bins, record);
+        if (record.tag & (BIN_ROUND | BIN_AIR))
+            add_flier(rows, lane, ends, k, record.tag);
     }
-    return 0;
 }
 
-static int bin_block(const struct rows *rows, struct block *block, struct strip_lane *lane,
-                     uint32_t first, uint32_t count)
+static void bin_block(const struct rows *rows, struct block *block, struct strip_lane *lane,
+                      uint32_t first, uint32_t count)
 {
     struct sweep_box *box = rows->box + first, *to = count < BLOCK ? block->box : box;
     struct ends ends;
@@ -278,16 +277,13 @@ static int bin_block(const struct rows *rows, struct block *block, struct strip_
     }
     if (count < BLOCK)
         memcpy(box, block->box, count * sizeof *box);
-    return add_rows(rows, lane, block, &ends, first, count);
+    add_rows(rows, lane, block, &ends, first, count);
 }
 
-VECTOR_CLONES int rows_bin(const struct rows *rows, struct strip_lane *lane, uint32_t first,
-                           uint32_t end)
+VECTOR_CLONES void rows_bin(const struct rows *rows, struct strip_lane *lane, uint32_t first,
+                            uint32_t end)
 {
     struct block block = {0};
-    for (uint32_t row = first; row < end; row += BLOCK) {
-        if (bin_block(rows, &block, lane, row, end - row < BLOCK ? end - row : BLOCK) != 0)
-            return -1;
-    }
-    return 0;
+    for (uint32_t row = first; row < end; row += BLOCK)
+        bin_block(rows, &block, lane, row, end - row < BLOCK ? end - row : BLOCK);
 }

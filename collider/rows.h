@@ -20,7 +20,7 @@ struct rows {
 
 /* Fills the boxes of rows first .. end - 1, adds their records to the lane's bins and who may reach
  * the ground, rounds and aircraft, to its fliers. Without motion every way must be drawn; with it
- * those of fliers are drawn here, and of who is in several strips. 0, or -1 with errno ENOMEM. */
-int rows_bin(const struct rows *rows, struct strip_lane *lane, uint32_t first, uint32_t end);
+ * those of fliers are drawn here, and of who is in several strips. */
+void rows_bin(const struct rows *rows, struct strip_lane *lane, uint32_t first, uint32_t end);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include "collider/respond.h"
 
-#include <stdlib.h>
+#include <errno.h>
 #include <string.h>
 
 #define PIECES_A_WORKER 2u /* at a time */
@@ -11,16 +11,19 @@
 int collider_init(struct collider *collider, const struct world *world,
                   const struct crater *craters, struct workers *workers)
 {
-    uint32_t capacity = world->params->capacity;
     *collider =
         (struct collider){.world = world, .workers = workers, .fixed_hash_frame = UINT64_MAX};
     if (crater_index_init(&collider->craters, craters) != 0 ||
         crest_init(&collider->crest, &world->terrain) != 0 ||
         motion_init(&collider->motion, world) != 0 ||
         broad_init(&collider->broad, world, workers) != 0 ||
-        contacts_init(&collider->contacts, capacity, workers) != 0 ||
-        island_init(&collider->island, capacity) != 0) {
+        contacts_init(&collider->contacts, world, workers) != 0 ||
+        island_init(&collider->island, world) != 0 ||
+        charges_init(&collider->charges, world) != 0 ||
+        pair_list_init(&collider->pairs, detect_pairs_most(world)) != 0 ||
+        !(collider->workspace = detect_workspace_create(world))) {
         collider_free(collider);
+        errno = ENOMEM;
         return -1;
     }
     return 0;
@@ -34,8 +37,9 @@ void collider_free(struct collider *collider)
     broad_free(&collider->broad);
     contacts_free(&collider->contacts);
     island_free(&collider->island);
+    charges_free(&collider->charges);
     detect_workspace_free(collider->workspace);
-    free(collider->pairs.pair);
+    pair_list_free(&collider->pairs);
     *collider = (struct collider){0};
 }
 
@@ -101,48 +105,44 @@ static void draw_pairs(struct motion *motion, const struct pair_list *list)
 
 /* The default: rows are copied on the way, while they are at hand, and only the ways of who comes
  * near something are drawn. */
-static int find_pairs_swept(struct stage *stage, const struct detect_input *input)
+static void find_pairs_swept(struct stage *stage, const struct detect_input *input)
 {
     struct collider *collider = stage->collider;
-    if (broad_pairs_moved(&collider->broad, input, &collider->motion, take_rows, stage) != 0)
-        return -1;
+    broad_pairs_moved(&collider->broad, input, &collider->motion, take_rows, stage);
     for (int i = 0; i < WORKERS_MAX; i++)
         draw_pairs(&collider->motion, &collider->broad.list[i]);
-    return contacts_begin(&collider->contacts, collider->broad.list, WORKERS_MAX);
+    contacts_begin(&collider->contacts, collider->broad.list, WORKERS_MAX);
 }
 
 /* Copies the moved rows and finds the frame's pairs by the method chosen. The broad phase runs with
  * every method: blasts and changed ways look up what is near in it. */
-static int find_pairs(struct stage *stage, const struct detect_input *input)
+static void find_pairs(struct stage *stage, const struct detect_input *input)
 {
     struct collider *collider = stage->collider;
     detect_method *method =
         detect_method_of((enum method)collider->world->params->collision.method);
-    if (!method)
-        return find_pairs_swept(stage, input);
+    if (!method) {
+        find_pairs_swept(stage, input);
+        return;
+    }
     take_all(stage);
     for (uint32_t i = 0; i < input->rows; i++)
         motion_take(&collider->motion, i);
     collider->pairs.count = 0;
-    if (broad_pairs(&collider->broad, input) != 0 ||
-        method(input, &collider->workspace, &collider->pairs) != 0)
-        return -1;
-    return contacts_begin(&collider->contacts, &collider->pairs, 1);
+    broad_pairs(&collider->broad, input);
+    method(input, collider->workspace, &collider->pairs);
+    contacts_begin(&collider->contacts, &collider->pairs, 1);
 }
 
-static int collide_all(struct stage *stage, struct respond *respond)
+static void collide_all(struct stage *stage, struct respond *respond)
 {
     struct collider *collider = stage->collider;
     struct contact contact;
-    if (find_pairs(stage, &respond->input.detect) != 0 ||
-        contacts_find(&collider->contacts, &respond->input) != 0 ||
-        contacts_find_ends(&collider->contacts, &respond->input, respond->next->head->tick) != 0)
-        return -1;
-    while (contacts_next(&collider->contacts, &respond->input, &contact)) {
-        if (respond_contact(respond, &contact) != 0)
-            return -1;
-    }
-    return 0;
+    find_pairs(stage, &respond->input.detect);
+    contacts_find(&collider->contacts, &respond->input);
+    contacts_find_ends(&collider->contacts, &respond->input, respond->next->head->tick);
+    while (contacts_next(&collider->contacts, &respond->input, &contact))
+        respond_contact(respond, &contact);
 }
 
 static void begin_head(struct state_head *head, const struct state_head *moved)
@@ -201,21 +201,20 @@ struct respond collider_respond(struct collider *collider, struct state *next)
                   .through_fixed = !impulses},
         .next = next,
         .path = collider->motion.path,
+        .charges = &collider->charges,
         .island = &collider->island,
         .changed = collider->changed,
     };
 }
 
-int collider_step(struct collider *collider, const struct state *committed,
-                  const struct moved *moved, struct state *next, const struct event_ring *ring)
+void collider_step(struct collider *collider, const struct state *committed,
+                   const struct moved *moved, struct state *next, const struct event_ring *ring)
 {
     const struct world *world = collider->world;
     struct stage stage = {collider, moved_table(moved), state_table(next), moved->head->used,
                           known_pieces(collider, moved, next)};
     uint64_t *left = &collider->left[moved->head->frame & 1];
-    int result = 0;
-    if (crater_index_update(&collider->craters, committed->head->crater_count) != 0)
-        return -1;
+    crater_index_update(&collider->craters, committed->head->crater_count);
     begin_head(next->head, moved->head);
     memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
     motion_begin(&collider->motion, committed, next);
@@ -230,14 +229,12 @@ int collider_step(struct collider *collider, const struct state *committed,
                                  .tally = &next->head->tally};
     put_intents(&respond.sink, moved);
     if (next->head->advanced) {
-        result = collide_all(&stage, &respond);
+        collide_all(&stage, &respond);
         contacts_end(&collider->contacts);
     } else {
         take_all(&stage);
     }
-    respond_end(&respond);
     next->head->event_end = respond.sink.first + respond.sink.count;
     next->head->event_digest = sink_digest(&respond.sink, committed->head->event_digest);
     *left = next->head->checksum = checksum(collider, committed, next);
-    return result;
 }

@@ -26,6 +26,7 @@ struct collider {
     struct contacts contacts;
     struct motion motion;
     struct island island;
+    struct charges charges;
     struct detect_workspace *workspace; /* of a method beside the broad phase */
     struct pair_list pairs;             /* its pairs */
     /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: of none yet */
@@ -47,10 +48,10 @@ int collider_init(struct collider *collider, const struct world *world,
                   const struct crater *craters, struct workers *workers);
 void collider_free(struct collider *collider);
 
-/* Fills next and the ring; reads committed and moved, writes neither. 0, or -1 with errno ENOMEM
- * (next is then not to be committed). */
-int collider_step(struct collider *collider, const struct state *committed,
-                  const struct moved *moved, struct state *next, const struct event_ring *ring);
+/* Fills next and the ring; reads committed and moved, writes neither. It takes no memory and asks
+ * the kernel for nothing but to wake the workers. */
+void collider_step(struct collider *collider, const struct state *committed,
+                   const struct moved *moved, struct state *next, const struct event_ring *ring);
 
 /* What answers work with, over the frame that motion_begin was given; the sink is the caller's to
  * set. Part of collider_step, and for tests. */

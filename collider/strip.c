@@ -4,9 +4,10 @@
  * bucket of its east edge, and the comparison looks at both sides. */
 #include "collider/strip.h"
 
+#include "ipc/log.h"
 #include "world/clones.h"
+#include "world/reserve.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #define SORT_LEAST     6u  /* below it every pair is compared */
@@ -20,74 +21,43 @@
 
 /* --- memory ------------------------------------------------------------------------------------*/
 
+int strip_lane_init(struct strip_lane *lane, uint32_t rows, uint32_t pairs)
+{
+    uint64_t padded = (uint64_t)rows + PADDING;
+    *lane = (struct strip_lane){.capacity = rows};
+    if (bins_init(&lane->bins, rows) != 0 || pair_list_init(&lane->pairs, pairs) != 0 ||
+        pair_list_init(&lane->fliers, rows) != 0)
+        return -1;
+    lane->record = reserve_take(padded, sizeof *lane->record);
+    lane->sorted = reserve_take(padded, sizeof *lane->sorted);
+    lane->min_x = reserve_take(padded, sizeof *lane->min_x);
+    lane->max_x = reserve_take(padded, sizeof *lane->max_x);
+    lane->low_z = reserve_take(padded, sizeof *lane->low_z);
+    lane->high_z = reserve_take(padded, sizeof *lane->high_z);
+    lane->tag = reserve_take(padded, sizeof *lane->tag);
+    lane->bucket = reserve_take(1u << BUCKET_BITS, sizeof *lane->bucket);
+    lane->candidate = reserve_take(STRIP_CANDIDATES, sizeof *lane->candidate);
+    return lane->record && lane->sorted && lane->min_x && lane->max_x && lane->low_z &&
+                   lane->high_z && lane->tag && lane->bucket && lane->candidate
+               ? 0
+               : -1;
+}
+
 void strip_lane_free(struct strip_lane *lane)
 {
     bins_free(&lane->bins);
-    free(lane->record);
-    free(lane->sorted);
-    free(lane->min_x);
-    free(lane->max_x);
-    free(lane->low_z);
-    free(lane->high_z);
-    free(lane->tag);
-    free(lane->bucket);
-    free(lane->candidate);
-    free(lane->pairs.pair);
-    free(lane->fliers.pair);
+    reserve_free(lane->record);
+    reserve_free(lane->sorted);
+    reserve_free(lane->min_x);
+    reserve_free(lane->max_x);
+    reserve_free(lane->low_z);
+    reserve_free(lane->high_z);
+    reserve_free(lane->tag);
+    reserve_free(lane->bucket);
+    reserve_free(lane->candidate);
+    pair_list_free(&lane->pairs);
+    pair_list_free(&lane->fliers);
     memset(lane, 0, sizeof *lane);
-}
-
-static void *grown(void *old, size_t count, size_t size, int *failed)
-{
-    void *more = realloc(old, count * size);
-    if (!more)
-        *failed = 1;
-    return more ? more : old;
-}
-
-static int reserve_records(struct strip_lane *lane, uint32_t count)
-{
-    if (count <= lane->capacity)
-        return 0;
-    size_t capacity = (size_t)count + count / 2 + 64, padded = capacity + PADDING;
-    int failed = 0;
-    lane->record = grown(lane->record, capacity, sizeof *lane->record, &failed);
-    lane->sorted = grown(lane->sorted, padded, sizeof *lane->sorted, &failed);
-    lane->min_x = grown(lane->min_x, padded, sizeof *lane->min_x, &failed);
-    lane->max_x = grown(lane->max_x, padded, sizeof *lane->max_x, &failed);
-    lane->low_z = grown(lane->low_z, padded, sizeof *lane->low_z, &failed);
-    lane->high_z = grown(lane->high_z, padded, sizeof *lane->high_z, &failed);
-    lane->tag = grown(lane->tag, padded, sizeof *lane->tag, &failed);
-    if (failed)
-        return -1;
-    lane->capacity = (uint32_t)capacity;
-    return 0;
-}
-
-static int reserve_buckets(struct strip_lane *lane, uint32_t count)
-{
-    if (count > lane->bucket_capacity) {
-        uint32_t *bucket = realloc(lane->bucket, count * sizeof *bucket);
-        if (!bucket)
-            return -1;
-        lane->bucket = bucket;
-        lane->bucket_capacity = count;
-    }
-    return 0;
-}
-
-static int add_candidate(struct strip_lane *lane, uint32_t a, uint32_t b)
-{
-    if (lane->candidates == lane->candidate_capacity) {
-        uint32_t capacity = lane->candidate_capacity * 2 + 256;
-        struct pair *candidate = realloc(lane->candidate, capacity * sizeof *candidate);
-        if (!candidate)
-            return -1;
-        lane->candidate = candidate;
-        lane->candidate_capacity = capacity;
-    }
-    lane->candidate[lane->candidates++] = (struct pair){a, b};
-    return 0;
 }
 
 /* --- long ways ---------------------------------------------------------------------------------*/
@@ -153,16 +123,16 @@ static bool met_before(const struct strips *strips, uint32_t a, uint32_t b, uint
     return false;
 }
 
-static int take_moving(const struct strips *strips, struct strip_lane *lane, struct pair tags,
-                       uint32_t strip)
+static void take_moving(const struct strips *strips, struct strip_lane *lane, struct pair tags,
+                        uint32_t strip)
 {
     uint32_t p = tags.a & BIN_ROW, q = tags.b & BIN_ROW;
     uint32_t a = p < q ? p : q, b = p < q ? q : p;
     if (!detect_boxes_meet(&strips->box[a], &strips->box[b]) ||
         (tags.a & tags.b & BIN_SPANS && met_before(strips, tags.a, tags.b, strip)) ||
         ((tags.a | tags.b) & BIN_ROUND && detect_kin(strips->input->entities, a, b)))
-        return 0;
-    return pair_list_add(&lane->pairs, a, b);
+        return;
+    pair_list_add(&lane->pairs, a, b);
 }
 
 static bool met_object_before(const struct strips *strips, uint32_t tag,
@@ -177,8 +147,8 @@ static bool met_object_before(const struct strips *strips, uint32_t tag,
     return false;
 }
 
-static int take_fixed(const struct strips *strips, struct strip_lane *lane, uint32_t tag,
-                      const struct bin_record *record, uint32_t strip)
+static void take_fixed(const struct strips *strips, struct strip_lane *lane, uint32_t tag,
+                       const struct bin_record *record, uint32_t strip)
 {
     const struct detect_input *input = strips->input;
     uint32_t row = tag & BIN_ROW, index = record->tag & BIN_OBJECT;
@@ -187,17 +157,18 @@ static int take_fixed(const struct strips *strips, struct strip_lane *lane, uint
         !detect_box_meets_fixed(input, &strips->box[row], object) ||
         (tag & record->tag & BIN_SPANS &&
          met_object_before(strips, tag, record, standing_strip(input->world, object), strip)))
-        return 0;
+        return;
     /* No other strip looks at it, or it is drawn. */
     if (tag & BIN_AIR && strips->motion)
         motion_draw(strips->motion, row);
     if (tag & BIN_AIR && !detect_tests_fixed(input, row))
-        return 0;
-    return pair_list_add(&lane->pairs, row, index | PAIR_FIXED);
+        return;
+    pair_list_add(&lane->pairs, row, index | PAIR_FIXED);
 }
 
-static int take_candidates(const struct strips *strips, struct strip_lane *lane, uint32_t strip)
+static void take_candidates(struct strip_lane *lane)
 {
+    const struct strips *strips = lane->strips;
     const struct pair *candidate = lane->candidate;
     uint32_t count = lane->candidates;
     for (uint32_t i = 0; i < count; i++) {
@@ -205,11 +176,9 @@ static int take_candidates(const struct strips *strips, struct strip_lane *lane,
             __builtin_prefetch(&strips->box[candidate[i + PREFETCH_PAIRS].a & BIN_ROW]);
             __builtin_prefetch(&strips->box[candidate[i + PREFETCH_PAIRS].b & BIN_ROW]);
         }
-        if (take_moving(strips, lane, candidate[i], strip) != 0)
-            return -1;
+        take_moving(strips, lane, candidate[i], lane->strip);
     }
     lane->candidates = 0;
-    return 0;
 }
 
 /* --- gathering and sorting ---------------------------------------------------------------------*/
@@ -220,7 +189,7 @@ static void prefetch_chunk(const struct bin_chunk *chunk)
         __builtin_prefetch((const char *)chunk + line);
 }
 
-static int gather(const struct strips *strips, struct strip_lane *lane, uint32_t strip)
+static void gather(const struct strips *strips, struct strip_lane *lane, uint32_t strip)
 {
     uint32_t total = 0;
     for (uint32_t i = 0; i < strips->lanes; i++) {
@@ -228,24 +197,21 @@ static int gather(const struct strips *strips, struct strip_lane *lane, uint32_t
         const struct bin_chunk *chunk = bins_last(&strips->lane[i].bins, strip, &count);
         for (; chunk; chunk = chunk->before, count = BIN_CHUNK_RECORDS) {
             prefetch_chunk(chunk->before_that);
-            if (reserve_records(lane, total + count) != 0)
-                return -1;
+            CHECK(count <= lane->capacity - total);
             memcpy(lane->record + total, chunk->record, count * sizeof *chunk->record);
             total += count;
         }
     }
     lane->count = total;
-    return 0;
 }
 
 /* At least as many buckets as records over all of the world. */
-static int set_buckets(struct strip_lane *lane)
+static void set_buckets(struct strip_lane *lane)
 {
     uint32_t bits = 5;
     while (1u << bits < lane->count && bits < BUCKET_BITS)
         bits++;
     lane->shift = BIN_BITS - bits;
-    return reserve_buckets(lane, 1u << bits);
 }
 
 /* Takes the records apart, each word in a row. All four are taken, for else gcc makes no vectors.
@@ -262,11 +228,10 @@ static void spread(const uint32_t *restrict word, int32_t *restrict min_x, int32
     }
 }
 
-static int sort_records(struct strip_lane *lane)
+static void sort_records(struct strip_lane *lane)
 {
     uint32_t count = lane->count, end = 0, tags = 0;
-    if (set_buckets(lane) != 0)
-        return -1;
+    set_buckets(lane);
     uint32_t *bucket = lane->bucket, shift = lane->shift, buckets = 1u << (BIN_BITS - shift);
     const struct bin_record *record = lane->record;
     memset(bucket, 0, buckets * sizeof *bucket);
@@ -287,7 +252,6 @@ static int sort_records(struct strip_lane *lane)
     for (uint32_t i = 0; i < count + BLOCK; i += BLOCK)
         spread((const void *)&lane->sorted[i], lane->min_x + i, lane->max_x + i, lane->low_z + i,
                lane->high_z + i, lane->tag + i);
-    return 0;
 }
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
@@ -335,14 +299,16 @@ static uint32_t list_hits(const uint8_t *hit, uint8_t *place)
     return count;
 }
 
-static int found(struct strip_lane *lane, uint32_t a, uint32_t b)
+static void found(struct strip_lane *lane, uint32_t a, uint32_t b)
 {
     if (a & b & BIN_RESTS)
-        return 0;
-    return add_candidate(lane, a, b);
+        return;
+    if (lane->candidates == STRIP_CANDIDATES)
+        take_candidates(lane);
+    lane->candidate[lane->candidates++] = (struct pair){a, b};
 }
 
-static int sweep_far(struct strip_lane *lane, uint32_t i)
+static void sweep_far(struct strip_lane *lane, uint32_t i)
 {
     uint8_t hit[BLOCK], place[BLOCK];
     const struct bin_record *one = &lane->sorted[i];
@@ -350,16 +316,13 @@ static int sweep_far(struct strip_lane *lane, uint32_t i)
     for (uint32_t j = i + NEAR + 1; j < last; j += BLOCK) {
         compare_with(lane->min_x + j, lane->max_x + j, lane->low_z + j, lane->high_z + j, one, hit);
         uint32_t hits = list_hits(hit, place);
-        for (uint32_t n = 0; n < hits; n++) {
-            if (found(lane, one->tag, lane->tag[j + place[n]]) != 0)
-                return -1;
-        }
+        for (uint32_t n = 0; n < hits; n++)
+            found(lane, one->tag, lane->tag[j + place[n]]);
     }
-    return 0;
 }
 
 /* Compares each of a block with its neighbours to the east. */
-static int sweep_block(struct strip_lane *lane, uint32_t i)
+static void sweep_block(struct strip_lane *lane, uint32_t i)
 {
     uint8_t hit[BLOCK], place[BLOCK];
     for (uint32_t offset = 1; offset <= NEAR; offset++) {
@@ -368,46 +331,38 @@ static int sweep_block(struct strip_lane *lane, uint32_t i)
         uint32_t hits = list_hits(hit, place);
         for (uint32_t n = 0; n < hits; n++) {
             const uint32_t *tag = lane->tag + i + place[n];
-            if (found(lane, tag[0], tag[offset]) != 0)
-                return -1;
+            found(lane, tag[0], tag[offset]);
         }
     }
     compare_buckets(lane->min_x + i, lane->max_x + i, lane->shift, hit);
     uint32_t hits = list_hits(hit, place);
-    for (uint32_t n = 0; n < hits; n++) {
-        if (sweep_far(lane, i + place[n]) != 0)
-            return -1;
-    }
-    return 0;
+    for (uint32_t n = 0; n < hits; n++)
+        sweep_far(lane, i + place[n]);
 }
 
-static int sweep_sorted(struct strip_lane *lane)
+static void sweep_sorted(struct strip_lane *lane)
 {
-    for (uint32_t i = 0; i < lane->count; i += BLOCK) {
-        if (sweep_block(lane, i) != 0)
-            return -1;
-    }
-    return 0;
+    for (uint32_t i = 0; i < lane->count; i += BLOCK)
+        sweep_block(lane, i);
 }
 
-static int sweep_few(struct strip_lane *lane)
+static void sweep_few(struct strip_lane *lane)
 {
     const struct bin_record *record = lane->record;
     for (uint32_t i = 0; i + 1 < lane->count; i++) {
         for (uint32_t j = i + 1; j < lane->count; j++) {
-            if (bin_meet(&record[i], &record[j]) && found(lane, record[i].tag, record[j].tag) != 0)
-                return -1;
+            if (bin_meet(&record[i], &record[j]))
+                found(lane, record[i].tag, record[j].tag);
         }
     }
-    return 0;
 }
 
 /* --- fixed objects -----------------------------------------------------------------------------*/
 
 /* Looks for the objects that one record meets: a few at a time and without branches, since none is
  * met as a rule, but how many are passed on the way east is anyone's guess. */
-static int look_around(const struct strips *strips, struct strip_lane *lane,
-                       const struct bin_record *one, uint32_t strip)
+static void look_around(const struct strips *strips, struct strip_lane *lane,
+                        const struct bin_record *one, uint32_t strip)
 {
     const struct bin_record *object = standing_from(strips->standing, strip, one->min_x);
     for (; object->min_x <= one->max_x; object += STANDING_AHEAD) {
@@ -416,16 +371,14 @@ static int look_around(const struct strips *strips, struct strip_lane *lane,
             met |= (uint32_t)bin_meet(one, &object[i]) << i;
         for (; met != 0; met &= met - 1) {
             const struct bin_record *hit = &object[__builtin_ctz(met)];
-            if (take_fixed(strips, lane, one->tag, hit, strip) != 0)
-                return -1;
+            take_fixed(strips, lane, one->tag, hit, strip);
         }
     }
-    return 0;
 }
 
 /* Looks for the sorted records that one object meets, but for wide ones. */
-static int look_from(const struct strips *strips, struct strip_lane *lane,
-                     const struct bin_record *object, uint32_t strip)
+static void look_from(const struct strips *strips, struct strip_lane *lane,
+                      const struct bin_record *object, uint32_t strip)
 {
     uint8_t hit[BLOCK], place[BLOCK];
     int32_t west = object->min_x - BIN_WIDE_STEPS;
@@ -437,48 +390,44 @@ static int look_from(const struct strips *strips, struct strip_lane *lane,
         uint32_t hits = list_hits(hit, place);
         for (uint32_t n = 0; n < hits; n++) {
             uint32_t tag = lane->tag[i + place[n]];
-            if (!(tag & BIN_WIDE) && take_fixed(strips, lane, tag, object, strip) != 0)
-                return -1;
+            if (!(tag & BIN_WIDE))
+                take_fixed(strips, lane, tag, object, strip);
         }
     }
-    return 0;
 }
 
-static int meet_fixed(const struct strips *strips, struct strip_lane *lane, uint32_t strip)
+static void meet_fixed(const struct strips *strips, struct strip_lane *lane, uint32_t strip)
 {
     const struct standing *standing = strips->standing;
     uint32_t first = standing->start[strip], end = standing->start[strip + 1] - STANDING_AHEAD;
     bool crowded = lane->count >= SORT_LEAST && lane->count > end - first;
     if (first == end)
-        return 0;
-    for (uint32_t i = first; crowded && i < end; i++) {
-        if (look_from(strips, lane, &standing->record[i], strip) != 0)
-            return -1;
-    }
+        return;
+    for (uint32_t i = first; crowded && i < end; i++)
+        look_from(strips, lane, &standing->record[i], strip);
     if (crowded && !(lane->tags & BIN_WIDE))
-        return 0;
+        return;
     for (uint32_t i = 0; i < lane->count; i++) {
         const struct bin_record *one = &lane->record[i];
-        if ((!crowded || one->tag & BIN_WIDE) && !(one->tag & BIN_RESTS) &&
-            look_around(strips, lane, one, strip) != 0)
-            return -1;
+        if ((!crowded || one->tag & BIN_WIDE) && !(one->tag & BIN_RESTS))
+            look_around(strips, lane, one, strip);
     }
-    return 0;
 }
 
-VECTOR_CLONES int strip_pairs(const struct strips *strips, struct strip_lane *lane, uint32_t strip)
+VECTOR_CLONES void strip_pairs(const struct strips *strips, struct strip_lane *lane, uint32_t strip)
 {
-    if (gather(strips, lane, strip) != 0)
-        return -1;
+    lane->strips = strips;
+    lane->strip = strip;
+    gather(strips, lane, strip);
     if (lane->count == 0)
-        return 0;
+        return;
     if (lane->count < SORT_LEAST) {
-        if (sweep_few(lane) != 0)
-            return -1;
-    } else if (sort_records(lane) != 0 || sweep_sorted(lane) != 0) {
-        return -1;
+        sweep_few(lane);
+    } else {
+        sort_records(lane);
+        sweep_sorted(lane);
     }
-    if (take_candidates(strips, lane, strip) != 0)
-        return -1;
-    return strips->input->world->counts.fixed > 0 ? meet_fixed(strips, lane, strip) : 0;
+    take_candidates(lane);
+    if (strips->input->world->counts.fixed > 0)
+        meet_fixed(strips, lane, strip);
 }

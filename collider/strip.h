@@ -10,8 +10,14 @@
 
 #include <stdint.h>
 
+struct strips;
+
+#define STRIP_CANDIDATES 4096u
+
 /* What a worker works with; kept from frame to frame. */
 struct strip_lane {
+    const struct strips *strips; /* of the frame ... */
+    uint32_t strip;              /* ... and the one that is worked on */
     struct bins bins;
     struct bin_record *record; /* [capacity] the strip's, as gathered */
     struct bin_record *sorted; /* [capacity] bucket by bucket from west to east, and padding */
@@ -20,11 +26,10 @@ struct strip_lane {
     uint32_t *tag;
     uint32_t tags; /* of all together */
     uint32_t count, capacity;
-    uint32_t *bucket; /* [bucket_capacity] where the bucket's records end */
-    uint32_t bucket_capacity;
+    uint32_t *bucket;       /* where the bucket's records end */
     uint32_t shift;         /* a bucket is 2^shift steps wide */
-    struct pair *candidate; /* tags of records that meet, a strip's worth */
-    uint32_t candidates, candidate_capacity;
+    struct pair *candidate; /* [STRIP_CANDIDATES] tags of records that meet */
+    uint32_t candidates;
     struct pair_list pairs;  /* the result */
     struct pair_list fliers; /* rows, in a, that may end in this frame */
 };
@@ -40,6 +45,8 @@ struct strips {
     uint32_t lanes;
 };
 
+/* For this many rows and pairs. 0, or -1 with errno ENOMEM; to be freed in either case. */
+int strip_lane_init(struct strip_lane *lane, uint32_t rows, uint32_t pairs);
 void strip_lane_free(struct strip_lane *lane);
 
 /* The part of a row's box in which it can be while it is in the strip, from west to east: the whole
@@ -50,8 +57,7 @@ struct strip_span {
 struct strip_span strip_span(const struct path *path, const struct sweep_box *box, double grow,
                              uint32_t strip);
 
-/* Adds to the lane's pairs what meets in this strip and in none before it. 0, or -1 with errno
- * ENOMEM. */
-int strip_pairs(const struct strips *strips, struct strip_lane *lane, uint32_t strip);
+/* Adds to the lane's pairs what meets in this strip and in none before it. */
+void strip_pairs(const struct strips *strips, struct strip_lane *lane, uint32_t strip);
 
 #endif

@@ -63,35 +63,32 @@ static struct path within_world(struct path path)
 }
 
 /* Gives the row this way and what follows from it for the frame's end. */
-static int take_way(struct respond *respond, uint32_t row, const struct path *path,
-                    const struct turning *turning, struct vec3 velocity)
+static void take_way(struct respond *respond, uint32_t row, const struct path *path,
+                     const struct turning *turning, struct vec3 velocity)
 {
     struct entities *e = respond_change(respond, row, WAY_COLUMNS);
     struct path way = within_world(*path);
-    if (motion_change(respond->motion, row, &way, turning) != 0)
-        return -1;
+    motion_change(respond->motion, row, &way, turning);
     entities_set_position(e, row, path_at(&way, 1.0));
     entities_set_velocity(e, row, velocity);
     rotation_angles(turning->to, &e->heading[row], &e->pitch[row], &e->roll[row]);
-    return 0;
 }
 
-int respond_swept(struct respond *respond, const uint32_t *rows, uint32_t count, double time)
+void respond_swept(struct respond *respond, const uint32_t *rows, uint32_t count, double time)
 {
-    return contacts_change(respond->contacts, &respond->input, rows, count, time);
+    contacts_change(respond->contacts, &respond->input, rows, count, time);
 }
 
-int respond_stay(struct respond *respond, uint32_t row, double time, struct vec3 velocity)
+void respond_stay(struct respond *respond, uint32_t row, double time, struct vec3 velocity)
 {
     struct quat turned = motion_turned(respond->motion, row, time);
     const struct turning turning = {.from = turned, .to = turned};
     const struct path path = {.at = path_at(&respond->path[row], time), .since = time};
-    if (take_way(respond, row, &path, &turning, velocity) != 0)
-        return -1;
-    return respond_swept(respond, &row, 1, time);
+    take_way(respond, row, &path, &turning, velocity);
+    respond_swept(respond, &row, 1, time);
 }
 
-int respond_slow(struct respond *respond, uint32_t row, double time, double share)
+void respond_slow(struct respond *respond, uint32_t row, double time, double share)
 {
     const struct entities *e = &respond->next->entities;
     const struct path *before = &respond->path[row];
@@ -100,11 +97,11 @@ int respond_slow(struct respond *respond, uint32_t row, double time, double shar
                                     .driven_rps = driven(respond, row)};
     const struct path path = {
         .at = path_at(before, time), .along = vec3_scale(before->along, share), .since = time};
-    return take_way(respond, row, &path, &turning, vec3_scale(entities_velocity(e, row), share));
+    take_way(respond, row, &path, &turning, vec3_scale(entities_velocity(e, row), share));
 }
 
-int respond_leave(struct respond *respond, uint32_t row, double time, struct vec3 at,
-                  struct vec3 velocity, struct vec3 spin_rps, bool stays)
+void respond_leave(struct respond *respond, uint32_t row, double time, struct vec3 at,
+                   struct vec3 velocity, struct vec3 spin_rps, bool stays)
 {
     struct entities *e = respond_change(respond, row, SPIN_COLUMNS);
     double dt_s = respond->world->params->dt_s;
@@ -124,5 +121,5 @@ int respond_leave(struct respond *respond, uint32_t row, double time, struct vec
     e->spin_x[row] = spin_rps.x;
     e->spin_y[row] = spin_rps.y - turning.driven_rps;
     e->spin_z[row] = spin_rps.z;
-    return take_way(respond, row, &path, &turning, velocity);
+    take_way(respond, row, &path, &turning, velocity);
 }

@@ -86,7 +86,8 @@ static bool plausible(const struct segment_header *h)
     }
     return h->capacity >= 1 && h->capacity <= CAPACITY_MAX && n->posts_side >= 2 &&
            n->posts_side <= POSTS_SIDE_MAX && power_of_two(h->event_slots) &&
-           power_of_two(h->command_slots) && h->command_slots <= (1u << 20);
+           power_of_two(h->command_slots) && h->command_slots <= (1u << 20) &&
+           h->crater_slots <= CRATER_SLOTS_MAX;
 }
 
 int layout_compute(struct layout *layout, const struct segment_header *h)

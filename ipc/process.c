@@ -154,6 +154,14 @@ double process_number(const char *option, const char *text, double low, double h
     return value;
 }
 
+void process_refuse_memory(uint32_t capacity)
+{
+    die_refused("cannot take the memory of the steps of a world of capacity %u: %s; allow more "
+                "address space (ulimit -v; vm.overcommit_memory must not be 2) or lower "
+                "world.capacity",
+                capacity, strerror(errno));
+}
+
 struct stage_options process_stage_options(int argc, char **argv, const char *program)
 {
     static const struct option options[] = {{"world", required_argument, NULL, 'w'},

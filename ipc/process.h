@@ -66,6 +66,11 @@ struct stage_options {
  * process (exit 2) and --help prints usage and ends it (exit 0). */
 struct stage_options process_stage_options(int argc, char **argv, const char *program);
 
+/* Ends a role that cannot take the memory of its steps, of a world of this capacity; errno says
+ * why.
+ */
+_Noreturn void process_refuse_memory(uint32_t capacity);
+
 /* Finds config/, from the place of the running program: the build tree's or the installed one. */
 int process_data_dir(char *path, size_t bytes);
 

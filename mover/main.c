@@ -18,8 +18,7 @@ static void move_frames(struct mover *mover, struct view *view)
         for (int i = 0; i < COMMAND_RING_COUNT; i++)
             sources[i] = (struct command_source){
                 view->commands[i]->slot, view->header->command_slots, frame.command_head[i]};
-        if (mover_step(mover, &view->w[(frame.number - 1) & 1], &view->m, sources) != 0)
-            die_refused("out of memory for the index of craters");
+        mover_step(mover, &view->w[(frame.number - 1) & 1], &view->m, sources);
         frame_mover_end(&frame, view);
     }
 }
@@ -42,8 +41,10 @@ int main(int argc, char **argv)
                                                                &reason) != 0)
         die_refused("%s", reason.text);
     struct workers *workers = workers_create(options.threads);
-    if (!workers || mover_init(&mover, &view.world, view.w[0].craters, workers) != 0)
+    if (!workers)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
+    if (mover_init(&mover, &view.world, view.w[0].craters, workers) != 0)
+        process_refuse_memory(view.world.params->capacity);
     if (sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
     /* It may have been asked to stop, or the run may have ended, while another had the role. */

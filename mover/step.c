@@ -372,8 +372,8 @@ static uint64_t checksum(struct mover *mover, const struct moved *moved)
     return moved_checksum_of(moved, rows_hash(moved->hashes, used));
 }
 
-int mover_step(struct mover *mover, const struct state *committed, struct moved *moved,
-               const struct command_source sources[COMMAND_RING_COUNT])
+void mover_step(struct mover *mover, const struct state *committed, struct moved *moved,
+                const struct command_source sources[COMMAND_RING_COUNT])
 {
     struct state_head *head = moved->head;
     struct move move = {
@@ -404,8 +404,7 @@ int mover_step(struct mover *mover, const struct state *committed, struct moved 
                         .blank = &mover->blank,
                         .known = is_own(mover, committed, moved)};
     uint32_t used = committed->head->used;
-    if (crater_index_update(&mover->craters, committed->head->crater_count) != 0)
-        return -1;
+    crater_index_update(&mover->craters, committed->head->crater_count);
     begin_head(moved, committed->head);
     workers_run(mover->workers, take_pieces, &rows, piece_count(used), PIECES_A_WORKER);
     commands_apply(&serial, sources);
@@ -424,5 +423,4 @@ int mover_step(struct mover *mover, const struct state *committed, struct moved 
         pull_triggers(&serial);
     }
     mover->left = head->checksum = checksum(mover, moved);
-    return 0;
 }

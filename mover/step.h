@@ -48,8 +48,9 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
                struct workers *workers);
 void mover_free(struct mover *mover);
 
-/* Fills moved from the committed state and the commands. 0, or -1 with errno ENOMEM. */
-int mover_step(struct mover *mover, const struct state *committed, struct moved *moved,
-               const struct command_source sources[COMMAND_RING_COUNT]);
+/* Fills moved from the committed state and the commands. It takes no memory and asks the kernel for
+ * nothing but to wake the workers. */
+void mover_step(struct mover *mover, const struct state *committed, struct moved *moved,
+                const struct command_source sources[COMMAND_RING_COUNT]);
 
 #endif

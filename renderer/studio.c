@@ -286,8 +286,7 @@ int studio_look(struct studio *studio, struct reason *reason)
         return 0;
     }
     struct moment moment = studio_moment(studio, studio->latest);
-    if (crater_index_update(&studio->craters, moment.head->crater_count) != 0)
-        return reason_set(reason, "no memory for %u craters", moment.head->crater_count);
+    crater_index_update(&studio->craters, moment.head->crater_count);
     dents_update(&studio->dents, moment.head->dent_count);
     studio->seen = moment.head->frame;
     log_frame(studio->seen);

@@ -45,35 +45,30 @@ uint64_t player_frame(const struct player *player)
     return atomic_load(&player->view->commit->commit);
 }
 
-int player_move(struct player *player, const struct command_source *sources)
+void player_move(struct player *player, const struct command_source *sources)
 {
     struct view *view = player->view;
     struct command_source own[COMMAND_RING_COUNT];
     uint64_t commit = player_frame(player);
     player_sources(view, own);
-    if (mover_step(&player->mover, &view->w[commit & 1], &view->m, sources ? sources : own) != 0)
-        return -1;
+    mover_step(&player->mover, &view->w[commit & 1], &view->m, sources ? sources : own);
     atomic_store(&view->moved_word->moved, commit + 1);
-    return 0;
 }
 
-int player_collide(struct player *player)
+void player_collide(struct player *player)
 {
     struct view *view = player->view;
     const struct event_ring ring = {view->events, view->header->event_slots};
     uint64_t commit = player_frame(player);
     atomic_store(&view->commit->writing, commit + 1);
-    if (collider_step(&player->collider, &view->w[commit & 1], &view->m, &view->w[(commit + 1) & 1],
-                      &ring) != 0)
-        return -1;
+    collider_step(&player->collider, &view->w[commit & 1], &view->m, &view->w[(commit + 1) & 1],
+                  &ring);
     atomic_store(&view->commit->commit, commit + 1);
-    return 0;
 }
 
-int player_step(struct player *player, const struct command_source *sources)
+void player_step(struct player *player, const struct command_source *sources)
 {
-    if (atomic_load(&player->view->moved_word->moved) == player_frame(player) &&
-        player_move(player, sources) != 0)
-        return -1;
-    return player_collide(player);
+    if (atomic_load(&player->view->moved_word->moved) == player_frame(player))
+        player_move(player, sources);
+    player_collide(player);
 }

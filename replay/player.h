@@ -27,13 +27,12 @@ void player_free(struct player *player);
 void player_sources(const struct view *view, struct command_source sources[COMMAND_RING_COUNT]);
 
 /* The frame after the committed one: moved with the commands of sources (NULL: player_sources()),
- * which a moved table that holds that frame already makes superfluous; collided; committed. 0; -1
- * with errno ENOMEM, the frame not committed. */
-int player_step(struct player *player, const struct command_source *sources);
+ * which a moved table that holds that frame already makes superfluous; collided; committed. */
+void player_step(struct player *player, const struct command_source *sources);
 
 /* The two halves of it: the moved table anew, whatever it holds; the commit of what it holds. */
-int player_move(struct player *player, const struct command_source *sources);
-int player_collide(struct player *player);
+void player_move(struct player *player, const struct command_source *sources);
+void player_collide(struct player *player);
 
 /* The last committed frame. */
 uint64_t player_frame(const struct player *player);

@@ -2,6 +2,7 @@
 #include "world/crater.h"
 
 #include "world/maths.h"
+#include "world/reserve.h"
 #include "world/square.h"
 
 #include <errno.h>
@@ -13,37 +14,29 @@ int crater_index_init(struct crater_index *index, const struct crater *craters)
 {
     *index = (struct crater_index){.craters = craters};
     index->head = calloc(SQUARE_COUNT, sizeof *index->head);
-    return index->head ? 0 : -1;
+    index->links = reserve_take(CRATER_SLOTS_MAX * CRATER_SQUARES, sizeof *index->links);
+    if (index->head && index->links)
+        return 0;
+    crater_index_free(index);
+    errno = ENOMEM;
+    return -1;
 }
 
 void crater_index_free(struct crater_index *index)
 {
     free(index->head);
-    free(index->links);
+    reserve_free(index->links);
     *index = (struct crater_index){0};
 }
 
 static struct square_box reach_of(const struct crater *crater)
 {
-    double reach = (double)crater->radius_m * CRATER_RIM;
+    double reach = maths_min((double)crater->radius_m, CRATER_RADIUS_MAX) * CRATER_RIM;
     return square_box_of(crater->x - reach, crater->z - reach, crater->x + reach,
                          crater->z + reach);
 }
 
-static int reserve_links(struct crater_index *index, uint32_t more)
-{
-    if (index->link_count + more <= index->link_capacity)
-        return 0;
-    uint32_t capacity = (index->link_count + more) * 2 + 64;
-    struct crater_link *links = realloc(index->links, capacity * sizeof *links);
-    if (!links)
-        return -1;
-    index->links = links;
-    index->link_capacity = capacity;
-    return 0;
-}
-
-int crater_index_update(struct crater_index *index, uint32_t count)
+void crater_index_update(struct crater_index *index, uint32_t count)
 {
     if (count < index->count) {
         memset(index->head, 0, SQUARE_COUNT * sizeof *index->head);
@@ -53,9 +46,6 @@ int crater_index_update(struct crater_index *index, uint32_t count)
     }
     while (index->count < count) {
         struct square_box box = reach_of(&index->craters[index->count]);
-        uint32_t squares = (uint32_t)((box.x1 - box.x0 + 1) * (box.z1 - box.z0 + 1));
-        if (reserve_links(index, squares) != 0)
-            return -1;
         for (int32_t row = box.z0; row <= box.z1; row++) {
             for (int32_t column = box.x0; column <= box.x1; column++) {
                 uint32_t *head = &index->head[square_index(column, row)];
@@ -67,7 +57,6 @@ int crater_index_update(struct crater_index *index, uint32_t count)
                                  (double)index->craters[index->count].depth_m * CRATER_RIM_HEIGHT);
         index->count++;
     }
-    return 0;
 }
 
 /* A paraboloid bowl, then a rim that rises and falls off to CRATER_RIM radii. */

@@ -22,6 +22,13 @@ _Static_assert(sizeof(struct crater) == 32, "shared layout");
 #define CRATER_RIM        1.5
 #define CRATER_RIM_HEIGHT 0.2
 
+/* [m] More than the bowl of the largest charge that a kind can have (collider/blast.c): nothing is
+ * wider. So a crater reaches into CRATER_SQUARES gridsquares at most. */
+#define CRATER_RADIUS_MAX 60.0
+#define CRATER_SQUARES    9u
+
+#define CRATER_SLOTS_MAX (1u << 20)
+
 struct crater_link {
     uint32_t crater; /* index into the list */
     uint32_t next;   /* link + 1, 0 ends */
@@ -29,10 +36,10 @@ struct crater_link {
 
 struct crater_index {
     const struct crater *craters;
-    uint32_t count; /* craters indexed so far */
-    uint32_t *head; /* [SQUARE_COUNT] link + 1, 0 for none */
-    struct crater_link *links;
-    uint32_t link_count, link_capacity;
+    uint32_t count;            /* craters indexed so far */
+    uint32_t *head;            /* [SQUARE_COUNT] link + 1, 0 for none */
+    struct crater_link *links; /* CRATER_SQUARES for each of CRATER_SLOTS_MAX craters */
+    uint32_t link_count;
     double rim_m; /* the highest rim that any of them raises the ground by */
 };
 
@@ -40,9 +47,9 @@ struct crater_index {
 int crater_index_init(struct crater_index *index, const struct crater *craters);
 void crater_index_free(struct crater_index *index);
 
-/* Takes the list's entries up to count in; 0, or -1 with errno ENOMEM (and nothing half done).
- * A count below what was indexed (another world's past) rebuilds from the start. */
-int crater_index_update(struct crater_index *index, uint32_t count);
+/* Takes the list's entries up to count in, at most CRATER_SLOTS_MAX. A count below what was indexed
+ * (another world's past) rebuilds from the start. It takes no memory. */
+void crater_index_update(struct crater_index *index, uint32_t count);
 
 /* What the craters add to the ground at (x, z) [m]: the deepest bowl, else the highest rim, else
  * 0. Does not depend on the order of the craters. */

@@ -98,9 +98,9 @@ static void dump_terrain(const struct arguments *arguments, const struct view *v
     if (!(step > 0.0) || !(x1 >= x0) || !(z1 >= z0) || (x1 - x0) / step * ((z1 - z0) / step) > 1e8)
         die_usage("--terrain %s: X0 <= X1, Z0 <= Z1, 0 < STEP, at most 1e8 points",
                   arguments->terrain);
-    if (crater_index_init(&craters, view->w[0].craters) != 0 ||
-        crater_index_update(&craters, snapshot->head.crater_count) != 0)
+    if (crater_index_init(&craters, view->w[0].craters) != 0)
         die_refused("out of memory for the index of craters");
+    crater_index_update(&craters, snapshot->head.crater_count);
     printf("x,z,height_m,cover\n");
     for (uint64_t row = 0; z0 + (double)row * step <= z1; row++) {
         for (uint64_t column = 0; x0 + (double)column * step <= x1; column++) {

@@ -83,8 +83,7 @@ bool side_step(struct side *side)
 {
     struct reason reason;
     if (side->kind == SIDE_IMAGE) {
-        if (player_step(&side->player, NULL) != 0)
-            die_refused("out of memory for frame %llu", (unsigned long long)side_number(side) + 1);
+        player_step(&side->player, NULL);
         return true;
     }
     enum tape_step step = tape_step(&side->tape, &side->player, &reason);

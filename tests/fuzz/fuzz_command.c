@@ -98,7 +98,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     if (sources[0].end == 0)
         return 0;
-    CHECK(mover_step(&mover, &view.w[0], &view.m, sources) == 0);
+    mover_step(&mover, &view.w[0], &view.m, sources);
     check_moved();
     return 0;
 }

@@ -277,8 +277,8 @@ static void scar(uint64_t *random, bool scarred)
                                          (float)fixture_uniform(random, 1.0, 12.0), 1.5f, 1};
     for (uint32_t n = 0; n < f.view.world.counts.fixed; n++)
         now.fixed_damage[n] = scarred && fixture_random(random) % 4 ? DAMAGE_HIGH : DAMAGE_LOW;
-    assert_int_equal(crater_index_update(&mover->craters, 0), 0);
-    assert_int_equal(crater_index_update(&mover->craters, now.head->crater_count), 0);
+    crater_index_update(&mover->craters, 0);
+    crater_index_update(&mover->craters, now.head->crater_count);
     mover->scars.craters = UINT32_MAX; /* they are another world's */
     scars_update(&mover->scars, &f.view.world, &now);
 }

@@ -148,7 +148,7 @@ static void test_over_the_lips_of_craters(void **state)
                                      .z = 24950.0 + 46.0 * (double)(n / 4),
                                      .radius_m = (float)fixture_uniform(&random, 2.0, 15.0),
                                      .depth_m = (float)fixture_uniform(&random, 1.0, 5.0)};
-    assert_int_equal(crater_index_update(&f.player.mover.craters, 12), 0);
+    crater_index_update(&f.player.mover.craters, 12);
     f.view.w[0].head->crater_count = 12; /* for steps_ground_at */
     agree(&random, 25000.0, 25000.0, 60.0, 0.9, 300, 5);
 }

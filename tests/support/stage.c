@@ -26,8 +26,7 @@ static int run_mover(struct view *view)
         for (int i = 0; i < COMMAND_RING_COUNT; i++)
             sources[i] = (struct command_source){
                 view->commands[i]->slot, view->header->command_slots, frame.command_head[i]};
-        if (mover_step(&mover, &view->w[(frame.number - 1) & 1], &view->m, sources) != 0)
-            return 99;
+        mover_step(&mover, &view->w[(frame.number - 1) & 1], &view->m, sources);
         frame_mover_end(&frame, view);
     }
     mover_free(&mover);
@@ -42,9 +41,8 @@ static int run_collider(struct view *view)
     if (collider_init(&collider, &view->world, view->w[0].craters, NULL) != 0)
         return 99;
     while (frame_collider_begin(&frame, view) == 0) {
-        if (collider_step(&collider, &view->w[(frame.number - 1) & 1], &view->m,
-                          &view->w[frame.number & 1], &ring) != 0)
-            return 99;
+        collider_step(&collider, &view->w[(frame.number - 1) & 1], &view->m,
+                      &view->w[frame.number & 1], &ring);
         frame_collider_end(&frame, view);
     }
     collider_free(&collider);

@@ -221,16 +221,14 @@ void steps_respond(struct fixture *fixture, struct respond *respond)
                                   .tick = next->head->tick,
                                   .most = view->world.params->events_per_frame,
                                   .tally = &next->head->tally};
-    assert_int_equal(broad_pairs(&collider->broad, &respond->input.detect), 0);
-    assert_int_equal(contacts_begin(&collider->contacts, collider->broad.list, WORKERS_MAX), 0);
+    broad_pairs(&collider->broad, &respond->input.detect);
+    contacts_begin(&collider->contacts, collider->broad.list, WORKERS_MAX);
 }
 
 void steps_respond_end(struct respond *respond)
 {
     contacts_end(respond->contacts);
-    respond_end(respond);
-    respond->charge = NULL;
-    respond->near = (struct pair_list){0};
+    respond->charges->count = 0;
 }
 
 /* --- purity ------------------------------------------------------------------------------------*/
@@ -271,8 +269,6 @@ void steps_move(struct fixture *fixture)
     struct view *view = &fixture->view;
     struct command_source sources[COMMAND_RING_COUNT];
     player_sources(view, sources);
-    assert_int_equal(mover_step(&fixture->player.mover,
-                                &view->w[atomic_load(&view->commit->commit) & 1], &view->m,
-                                sources),
-                     0);
+    mover_step(&fixture->player.mover, &view->w[atomic_load(&view->commit->commit) & 1], &view->m,
+               sources);
 }

@@ -51,7 +51,7 @@ static void test_rows_33_47_a_blow_harms_and_dents(void **state)
 {
     (void)state;
     struct crush crush = crush_of(steps_kind(&f, "helicopter"), 4e5);
-    assert_int_equal(blow_row(&respond, row, &impact, -1.0, 4e5, NULL), 0);
+    blow_row(&respond, row, &impact, -1.0, 4e5, NULL);
     assert_true(respond.next->entities.harm_j[row] == crush.harm_j);
     assert_int_equal(respond.next->entities.damage[row], DAMAGE_MED);
     assert_int_equal(dent(0)->id, row + 1);
@@ -60,7 +60,7 @@ static void test_rows_33_47_a_blow_harms_and_dents(void **state)
     /* On its own axes: x forward, y up; inwards is backwards. */
     assert_true(fabsf(dent(0)->point[0] - 6.0f) < 1e-3f && fabsf(dent(0)->point[1] - 1.0f) < 1e-3f);
     assert_true(dent(0)->direction[0] < -0.999f);
-    assert_int_equal(blow_row(&respond, row, &impact, 1.0, 4e5, NULL), 0);
+    blow_row(&respond, row, &impact, 1.0, 4e5, NULL);
     assert_true(dent(1)->direction[0] > 0.999f); /* struck as the second of the two */
 }
 
@@ -68,7 +68,7 @@ static void test_a_spring_dents_each_skin_by_half_its_way(void **state)
 {
     (void)state;
     const struct spring_blow spring = {.depth_m = 0.5, .left_m = 0.2};
-    assert_int_equal(blow_row(&respond, row, &impact, -1.0, 1.0, &spring), 0);
+    blow_row(&respond, row, &impact, -1.0, 1.0, &spring);
     assert_true(fabsf(dent(0)->plastic_m - 0.1f) < 1e-6f);
     assert_true(fabsf(dent(0)->elastic_m - 0.15f) < 1e-6f);
 }
@@ -76,8 +76,8 @@ static void test_a_spring_dents_each_skin_by_half_its_way(void **state)
 static void test_no_energy_does_nothing(void **state)
 {
     (void)state;
-    assert_int_equal(blow_row(&respond, row, &impact, -1.0, 0.0, NULL), 0);
-    assert_int_equal(blow_row(&respond, row, &impact, -1.0, 10.0, NULL), 0);
+    blow_row(&respond, row, &impact, -1.0, 0.0, NULL);
+    blow_row(&respond, row, &impact, -1.0, 10.0, NULL);
     assert_int_equal(respond.next->head->dent_count, 0);
     assert_true(respond.next->entities.harm_j[row] <= 10.0);
 }
@@ -86,10 +86,10 @@ static void test_no_energy_does_nothing(void **state)
 static void test_a_wreck_is_dented_and_not_harmed(void **state)
 {
     (void)state;
-    assert_int_equal(blow_row(&respond, row, &impact, -1.0, 9e6, NULL), 0);
+    blow_row(&respond, row, &impact, -1.0, 9e6, NULL);
     assert_int_equal(respond.next->entities.state[row], ENTITY_WRECK);
     double harm = respond.next->entities.harm_j[row];
-    assert_int_equal(blow_row(&respond, row, &impact, -1.0, 9e6, NULL), 0);
+    blow_row(&respond, row, &impact, -1.0, 9e6, NULL);
     assert_true(respond.next->entities.harm_j[row] == harm);
     assert_int_equal(respond.next->head->tally.destroyed, 1);
     assert_int_equal(dent(1)->id, row + 1);

@@ -47,7 +47,7 @@ static uint32_t found(uint32_t a, uint32_t b, uint32_t *all)
                                        .rows = now.head->used};
     uint32_t times = 0;
     *all = 0;
-    assert_int_equal(broad_pairs(&f.player.collider.broad, &input), 0);
+    broad_pairs(&f.player.collider.broad, &input);
     for (int list = 0; list < WORKERS_MAX; list++) {
         for (uint32_t n = 0; n < f.player.collider.broad.list[list].count; n++) {
             struct pair pair = f.player.collider.broad.list[list].pair[n];

@@ -290,9 +290,8 @@ static void collide_again(struct fixture *f)
     struct view *view = &f->view;
     const struct event_ring ring = {view->events, view->header->event_slots};
     uint64_t commit = atomic_load(&view->commit->commit);
-    assert_int_equal(collider_step(&f->player.collider, &view->w[commit & 1], &view->m,
-                                   &view->w[(commit + 1) & 1], &ring),
-                     0);
+    collider_step(&f->player.collider, &view->w[commit & 1], &view->m, &view->w[(commit + 1) & 1],
+                  &ring);
 }
 
 /* What a collider that died in mid-frame left: half a buffer, half a frame's events and craters. */

@@ -18,7 +18,7 @@
 static void index_of(struct crater_index *index, const struct crater *craters, uint32_t count)
 {
     assert_int_equal(crater_index_init(index, craters), 0);
-    assert_int_equal(crater_index_update(index, count), 0);
+    crater_index_update(index, count);
     assert_int_equal(index->count, count);
 }
 
@@ -174,10 +174,10 @@ static void test_index_grows_with_the_list_and_goes_back_with_it(void **state)
         craters[i] = random_crater(&random);
     index_of(&index, craters, 1);
     for (uint32_t count = 1; count <= MANY; count += 7)
-        assert_int_equal(crater_index_update(&index, count), 0);
+        crater_index_update(&index, count);
     for (int round = 0; round < 20; round++) {
         uint32_t count = (uint32_t)(fixture_random(&random) % (MANY + 1));
-        assert_int_equal(crater_index_update(&index, count), 0);
+        crater_index_update(&index, count);
         assert_int_equal(index.count, count);
         index_of(&fresh, craters, count);
         for (int i = 0; i < 500; i++) {
@@ -213,7 +213,7 @@ static void test_entries_past_the_count_do_not_count(void **state)
     (void)state;
     index_of(&index, craters, 1);
     assert_true(crater_offset(&index, 2000.0, 1000.0) == 0.0);
-    assert_int_equal(crater_index_update(&index, 2), 0);
+    crater_index_update(&index, 2);
     assert_true(crater_offset(&index, 2000.0, 1000.0) == -4.0);
     crater_index_free(&index);
 }

