@@ -404,6 +404,8 @@ $(BIN)/fuzz_console: $(call objects,$(filter-out %/main.c %/options.c,$(CONSOLE_
 $(BIN)/fuzz_console: FUZZ_LINK = $(call pc,libs,libmicrohttpd) $(DDS_LIBS) $(JSON_LIBS)
 $(BIN)/fuzz_stream: $(STREAM)
 $(BIN)/fuzz_stream: FUZZ_LINK = $(call pc,libs,libmicrohttpd libjpeg)
+$(BIN)/fuzz_filter: $(call objects,monitor/table.c) $(TOPICS)
+$(BIN)/fuzz_filter: FUZZ_LINK = $(DDS_LIBS)
 $(BIN)/fuzz_image: $(ARCHIVE)
 $(BIN)/fuzz_image: FUZZ_LINK = $(ARCHIVE_LIBS)
 $(BIN)/fuzz_log: $(LOGS) $(REPLAY)

@@ -132,8 +132,9 @@ bool table_suits(const struct mirror *mirror, const jolon_Entity *entity, const 
     bool flight = entity->behaviour == jolon_BEHAVIOUR_FLIGHT, asked = false;
     while (*filter) {
         size_t length = strcspn(filter, " ");
-        if (length > 0 && length < TABLE_FILTER_MAX && !word_suits(mirror, entity, filter, length))
-            return false;
+        if (length >= TABLE_FILTER_MAX ||
+            (length > 0 && !word_suits(mirror, entity, filter, length)))
+            return false; /* nothing has so long a name */
         asked |= length == 6 && strncasecmp(filter, "flight", length) == 0;
         filter += length;
         filter += strspn(filter, " ");

@@ -414,6 +414,11 @@ const char *order_advice(const struct order *order, jolon_CommandResult result)
         return order->command.type == jolon_COMMAND_RELEASE
                    ? "; release it anyway, or wait until its driver lets go"
                    : "; wait until its driver lets go, or take it from him: release anyway";
+    case jolon_RESULT_OUT_OF_RANGE:
+        return order->command.type == jolon_COMMAND_SPAWN
+                   ? "; a ship needs water, what drives needs land, and all of them a place on the "
+                     "map"
+                   : "";
     case jolon_RESULT_TABLE_FULL:
         return "; remove something, or give the scenario a larger world.capacity";
     case jolon_RESULT_CANNOT:

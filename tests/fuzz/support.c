@@ -137,7 +137,7 @@ void support_world(struct view *view)
 
 /* --- what must hold ----------------------------------------------------------------------------*/
 
-void support_check_message(const struct loader_message *message)
+void support_check_line(const struct loader_message *message)
 {
     size_t length = strnlen(message->text, sizeof message->text);
     CHECK(length > 0 && length < sizeof message->text);
@@ -145,6 +145,11 @@ void support_check_message(const struct loader_message *message)
         unsigned char c = (unsigned char)message->text[i];
         CHECK(c >= 0x20 && c != 0x7f);
     }
+}
+
+void support_check_message(const struct loader_message *message)
+{
+    support_check_line(message);
     /* The parser's own words when it tries to read another file. */
     const char *what = message->text + strcspn(message->text, ":");
     CHECK(*what == ':');

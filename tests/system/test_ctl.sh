@@ -37,6 +37,7 @@ check "JSON says the frame too" eval \
     '[ "$($ctl --json spawn jeep --at 100,100 | json frame)" -gt 0 ]'
 
 # --- what is wrong ------------------------------------------------------------------------------------
+check "a ship on dry land" denies 1 'value out of range .*a ship needs water' spawn ship --at 24000,24000
 check "a name that nobody has" denies 1 "no vehicle has that name; the nearest is West" drive Wset
 check "a verb that there is not" denies 2 "did you mean release" relase 1
 check "a number out of its range" denies 2 "--throttle '2': not a number from -1 to 1" drive 1 --throttle 2
