@@ -222,8 +222,8 @@ $(BIN)/jolon-monitor: $(call objects,$(MONITOR_SRC)) $(TOPICS) $(TOPICS_JSON) $(
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-bench: $(call objects,$(BENCH_SRC)) $(patsubst %.cpp,$(OBJ)/%.o,$(BENCH_CPP)) $(PICTURE) $(REPLAY) $(LOGS) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(RENDER_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS) -lstdc++)
-$(BIN)/jolon-keeper: $(call objects,$(KEEPER_SRC)) $(IPC) $(WORLD)
-	$(call link,$(BASE_LIBS))
+$(BIN)/jolon-keeper: $(call objects,$(KEEPER_SRC)) $(SANDBOX) $(IPC) $(WORLD)
+	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon: supervisor/jolon
 	@mkdir -p $(@D); install -m 755 $< $@
 
@@ -286,7 +286,8 @@ $(BUILD)/tests/%: $(OBJ)/tests/%.o $(SUPPORT) $(REPLAY) $(LOGS) $(ARCHIVE) $(CON
 # What the topics say.
 $(OBJ)/tests/unit/test_desk.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
 $(OBJ)/tests/unit/test_desk.o: $(IDL)/status.h
-$(BUILD)/tests/unit/test_judge $(BUILD)/tests/unit/test_watch: $(KEEPER)
+$(BUILD)/tests/unit/test_judge $(BUILD)/tests/unit/test_watch: $(KEEPER) $(SANDBOX)
+$(BUILD)/tests/unit/test_judge $(BUILD)/tests/unit/test_watch: TEST_LIBS += $(SANDBOX_LIBS)
 $(BUILD)/tests/crash/test_crash: $(call objects,$(CRASH_SRC))
 $(BUILD)/tests/property/test_workload: $(call objects,bench/engine_jolon.c bench/workload.c)
 $(GOLDEN_TESTS): $(call objects,bench/scene.c bench/world.c) $(PICTURE)

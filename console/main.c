@@ -34,14 +34,15 @@ static int choose_token(const struct options *options, struct reason *reason)
 /* The set's console speaks into the set's log, where the token has no place. */
 static void greet(const struct options *options)
 {
-    if (options->role)
+    if (options->role) {
         log_info("serves %s", console.listener.url);
-    else
+    } else {
         printf("%s#token=%s\n", console.listener.url, console.token);
-    (void)fflush(stdout);
-    log_info("world \"%s\": open the address above; without its end (#...) one may look and "
-             "change nothing",
-             options->world);
+        (void)fflush(stdout);
+        log_info("world \"%s\": open the address above; without its end (#...) one may look and "
+                 "change nothing",
+                 options->world);
+    }
     if (!console.listener.local)
         log_warn("everybody who reaches %s may look, and what is sent can be read on the way, the "
                  "token too: use it in a network of your own",

@@ -18,6 +18,15 @@
 #define LANDLOCK_ACCESS_FS_TRUNCATE (1ull << 14)
 #endif
 
+#ifndef LANDLOCK_SCOPE_SIGNAL
+#define LANDLOCK_SCOPE_SIGNAL (1ull << 1)
+#endif
+
+/* What a kernel is told that a ruleset is about; older ones know the beginning of it. */
+struct handled {
+    uint64_t files, network, scoped;
+};
+
 #define ACCESS_FIRST                                                                               \
     (LANDLOCK_ACCESS_FS_MAKE_SYM | (LANDLOCK_ACCESS_FS_MAKE_SYM - 1)) /* all of version 1 */
 #define ACCESS_READ   ((uint64_t)(LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR))
@@ -25,6 +34,8 @@
 #define ACCESS_FOLDER                                                                              \
     (ACCESS_READ | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_FILE |                \
      LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_TRUNCATE)
+/* Beneath a folder of the set: its sockets too, and renames from one folder into another. */
+#define ACCESS_KEPT (ACCESS_FOLDER | LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_REFER)
 
 /* Where distributions keep drivers, their settings and fonts; and what drivers ask of the machine.
  * Of /proc, Landlock itself leaves out what belongs to processes that are not confined. */
@@ -78,15 +89,36 @@ static int allow_paths(int ruleset, const char *const *paths, size_t count, uint
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-int files_confine(enum role role, const int *folders, size_t count)
+/* The version of the kernel's Landlock, or a negative errno. */
+static long landlock_version(void)
 {
     long version = syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION);
-    if (version < 0)
-        return -errno;
-    const struct landlock_ruleset_attr handled = {.handled_access_fs = known(version)};
-    int ruleset = (int)syscall(SYS_landlock_create_ruleset, &handled, sizeof handled, 0);
+    return version < 0 ? -errno : version;
+}
+
+static int new_ruleset(long version, uint64_t scoped)
+{
+    const struct handled handled = {.files = known(version), .scoped = scoped};
+    size_t size = version >= 6 ? sizeof handled : sizeof handled.files;
+    int ruleset = (int)syscall(SYS_landlock_create_ruleset, &handled, size, 0);
+    return ruleset < 0 ? -errno : ruleset;
+}
+
+/* Puts the calling thread under the ruleset, which is closed. result: of the rules before. */
+static int restrict_self(int ruleset, int result)
+{
+    if (result == 0 && syscall(SYS_landlock_restrict_self, ruleset, 0) != 0)
+        result = -errno;
+    close(ruleset);
+    return result;
+}
+
+int files_confine(enum role role, const int *folders, size_t count)
+{
+    long version = landlock_version();
+    int ruleset = version < 0 ? (int)version : new_ruleset(version, 0);
     if (ruleset < 0)
-        return -errno;
+        return ruleset;
     int result = 0;
     for (size_t i = 0; i < count && result == 0; i++)
         result = allow(ruleset, folders[i], ACCESS_FOLDER & known(version));
@@ -97,8 +129,26 @@ int files_confine(enum role role, const int *folders, size_t count)
         result = allow_paths(ruleset, visitor_paths, COUNT(visitor_paths), ACCESS_READ);
     if (drivers && result == 0)
         result = allow_paths(ruleset, device_paths, COUNT(device_paths), ACCESS_DEVICE);
-    if (result == 0 && syscall(SYS_landlock_restrict_self, ruleset, 0) != 0)
-        result = -errno;
-    close(ruleset);
-    return result;
+    return restrict_self(ruleset, result);
+}
+
+int files_confine_keeper(const char *const *folders, size_t count)
+{
+    static const char *const everything[] = {"/"};
+    long version = landlock_version();
+    int ruleset =
+        version < 0 ? (int)version : new_ruleset(version, version >= 6 ? LANDLOCK_SCOPE_SIGNAL : 0);
+    if (ruleset < 0)
+        return ruleset;
+    int result = allow_paths(ruleset, everything, 1, ACCESS_READ | LANDLOCK_ACCESS_FS_EXECUTE);
+    for (size_t i = 0; i < count && result == 0; i++) {
+        int fd = open(folders[i], O_PATH | O_DIRECTORY | O_CLOEXEC);
+        if (fd < 0)
+            continue; /* nobody can write there anyway */
+        result = allow(ruleset, fd, ACCESS_KEPT & known(version));
+        close(fd);
+    }
+    if (result == 0)
+        result = allow_paths(ruleset, device_paths, COUNT(device_paths), ACCESS_DEVICE);
+    return restrict_self(ruleset, result);
 }

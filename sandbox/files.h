@@ -11,4 +11,9 @@
  * worlds. 0; a negative errno, -ENOSYS or -EOPNOTSUPP where the kernel has no Landlock. */
 int files_confine(enum role role, const int *folders, size_t count);
 
+/* Confines the keeper, and with it every process that it starts: files are written only beneath the
+ * folders and on the devices that drivers use, everything is read and run. Where the kernel knows
+ * how (Landlock 6), signals reach only the keeper's own processes. The same results. */
+int files_confine_keeper(const char *const *folders, size_t count);
+
 #endif

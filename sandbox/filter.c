@@ -1,5 +1,5 @@
-/* The lists. Each rule is one system call, some only with certain arguments; what no rule is about
- * is trapped. */
+/* The lists. Each rule is one system call, some only with certain arguments. What no rule is about
+ * is trapped, by the roles; the keeper may do it. */
 #include "sandbox/filter.h"
 
 #include "world/guarded.h"
@@ -10,7 +10,9 @@
 #include <sched.h>
 #include <seccomp.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdint.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -197,6 +199,82 @@ static const struct rule wishes[] = {
     ANY(setpriority),
 };
 
+/* What neither the keeper needs nor any process that it starts, which inherits this. These look
+ * into other processes, ... */
+static const struct rule intruding[] = {
+    ANY(ptrace),      ANY(process_vm_readv),   ANY(process_vm_writev),
+    ANY(pidfd_getfd), ANY(perf_event_open),    ANY(userfaultfd),
+    ANY(kcmp),        WITH(ioctl, 1, TIOCSTI), /* types into the terminal */
+};
+
+/* ... these become another user, or change whose a file is, ... */
+static const struct rule becoming[] = {
+    ANY(setuid),    ANY(setgid),   ANY(setreuid), ANY(setregid),  ANY(setresuid),
+    ANY(setresgid), ANY(setfsuid), ANY(setfsgid), ANY(setgroups), ANY(chown),
+    ANY(fchown),    ANY(lchown),   ANY(fchownat),
+};
+
+/* ... these change what the system looks like, or make a system of one's own, ... */
+static const struct rule mounting[] = {
+    ANY(mount),
+    ANY(umount2),
+    ANY(pivot_root),
+    ANY(move_mount),
+    ANY(open_tree),
+    ANY(fsopen),
+    ANY(fsconfig),
+    ANY(fsmount),
+    ANY(fspick),
+    ANY(mount_setattr),
+    ANY(chroot),
+    ANY(unshare),
+    ANY(setns),
+    ANY(mknod),
+    ANY(mknodat),
+    {SCMP_SYS(clone), 1, {BITS(0, CLONE_NEWNS, CLONE_NEWNS)}},
+    {SCMP_SYS(clone), 1, {BITS(0, CLONE_NEWUSER, CLONE_NEWUSER)}},
+    {SCMP_SYS(clone), 1, {BITS(0, CLONE_NEWPID, CLONE_NEWPID)}},
+    {SCMP_SYS(clone), 1, {BITS(0, CLONE_NEWNET, CLONE_NEWNET)}},
+    {SCMP_SYS(clone), 1, {BITS(0, CLONE_NEWIPC, CLONE_NEWIPC)}},
+    {SCMP_SYS(clone), 1, {BITS(0, CLONE_NEWUTS, CLONE_NEWUTS)}},
+    {SCMP_SYS(clone), 1, {BITS(0, CLONE_NEWCGROUP, CLONE_NEWCGROUP)}},
+};
+
+/* ... and these are the kernel's administration, or large parts of it with a history of holes. */
+static const struct rule administering[] = {
+    ANY(bpf),
+    ANY(io_uring_setup),
+    ANY(io_uring_enter),
+    ANY(io_uring_register),
+    ANY(keyctl),
+    ANY(add_key),
+    ANY(request_key),
+    ANY(kexec_load),
+    ANY(kexec_file_load),
+    ANY(init_module),
+    ANY(finit_module),
+    ANY(delete_module),
+    ANY(reboot),
+    ANY(swapon),
+    ANY(swapoff),
+    ANY(acct),
+    ANY(quotactl),
+    ANY(settimeofday),
+    ANY(clock_settime),
+    ANY(clock_adjtime),
+    ANY(adjtimex),
+    ANY(sethostname),
+    ANY(setdomainname),
+    ANY(syslog),
+    ANY(vhangup),
+    ANY(iopl),
+    ANY(ioperm),
+    ANY(modify_ldt),
+    ANY(personality),
+    ANY(name_to_handle_at),
+    ANY(open_by_handle_at),
+};
+
 #define LIST(rules, action)                                                                        \
     {                                                                                              \
         rules, sizeof(rules) / sizeof(rules)[0], action                                            \
@@ -220,12 +298,22 @@ static const struct list console_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(ne
                                             ALLOW(visiting), END};
 static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(files), END};
 
-static const struct list *const role_lists[ROLE_COUNT] = {
-    [ROLE_MOVER] = frame_lists,         [ROLE_COLLIDER] = frame_lists,
-    [ROLE_REPORTER] = reporter_lists,   [ROLE_RECORDER] = recorder_lists,
-    [ROLE_RENDERER] = renderer_lists,   [ROLE_RENDERER_2] = renderer_lists,
-    [ROLE_RENDERER_3] = renderer_lists, [ROLE_RENDERER_4] = renderer_lists,
-    [ROLE_CONSOLE] = console_lists,
+/* Refused with EPERM and no trap: libraries of a role that starts may try what they can do without.
+ */
+#define DENY(rules) LIST(rules, SCMP_ACT_ERRNO(EPERM))
+static const struct list keeper_lists[] = {DENY(intruding),
+                                           DENY(becoming),
+                                           DENY(mounting),
+                                           DENY(administering),
+                                           LIST(absent, SCMP_ACT_ERRNO(ENOSYS)),
+                                           END};
+
+static const struct list *const role_lists[ROLE_COUNT + 1] = {
+    [ROLE_NONE] = keeper_lists,         [ROLE_MOVER] = frame_lists,
+    [ROLE_COLLIDER] = frame_lists,      [ROLE_REPORTER] = reporter_lists,
+    [ROLE_RECORDER] = recorder_lists,   [ROLE_RENDERER] = renderer_lists,
+    [ROLE_RENDERER_2] = renderer_lists, [ROLE_RENDERER_3] = renderer_lists,
+    [ROLE_RENDERER_4] = renderer_lists, [ROLE_CONSOLE] = console_lists,
 };
 
 static int add_lists(scmp_filter_ctx filter, const struct list *list)
@@ -276,13 +364,14 @@ struct loading {
 static void load(void *context)
 {
     struct loading *loading = context;
-    scmp_filter_ctx filter = seccomp_init(SCMP_ACT_TRAP);
+    bool keeper = loading->role == ROLE_NONE;
+    scmp_filter_ctx filter = seccomp_init(keeper ? SCMP_ACT_ALLOW : SCMP_ACT_TRAP);
     if (!filter)
         return;
     int result = set_attributes(filter);
     if (result == 0)
         result = add_lists(filter, role_lists[loading->role]);
-    if (result == 0)
+    if (result == 0 && !keeper)
         result = add_own_signals(filter);
     if (result == 0)
         result = seccomp_load(filter);
@@ -293,7 +382,7 @@ static void load(void *context)
 int filter_load(enum role role)
 {
     struct loading loading = {role, -ENOMEM};
-    if (role >= ROLE_COUNT)
+    if (role > ROLE_NONE)
         return -EINVAL;
     return memory_guarded(load, &loading) ? loading.result : -ENOMEM;
 }

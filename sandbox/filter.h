@@ -4,8 +4,8 @@
 
 #include "ipc/role.h"
 
-/* Loads the role's filter into every thread of the process, for good.
- * 0, or a negative errno. */
+/* Loads the role's filter, or of ROLE_NONE the keeper's, into every thread of the process, for
+ * good. 0, or a negative errno. */
 int filter_load(enum role role);
 
 #endif

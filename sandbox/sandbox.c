@@ -60,6 +60,25 @@ static int drop_capabilities(void)
     return (int)syscall(SYS_capset, &header, none);
 }
 
+static int drop_privileges(struct reason *reason)
+{
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
+        return refused(reason, "no new privileges", errno);
+    if (drop_capabilities() != 0)
+        return refused(reason, "dropping capabilities", errno);
+    return 0;
+}
+
+/* Of a step into Landlock, which old kernels do not have. */
+static int files_done(int result, struct reason *reason)
+{
+    if (result == -ENOSYS || result == -EOPNOTSUPP) {
+        log_info("this kernel has no Landlock: any file of its user's is open to it");
+        return 0;
+    }
+    return result == 0 ? 0 : refused(reason, "Landlock", -result);
+}
+
 int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reason *reason)
 {
     *sandbox = (struct sandbox){.role = role};
@@ -75,10 +94,8 @@ int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reas
                            : "valgrind");
         return 0;
     }
-    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
-        return refused(reason, "no new privileges", errno);
-    if (drop_capabilities() != 0)
-        return refused(reason, "dropping capabilities", errno);
+    if (drop_privileges(reason) != 0)
+        return -1;
     /* All threads allocate from one arena: with further ones the C library opens files, now and
      * then, to count processors and to ask how memory is promised. */
     (void)mallopt(M_ARENA_MAX, 1);
@@ -91,12 +108,7 @@ int sandbox_files(const struct sandbox *sandbox, const int *folders, size_t coun
 {
     if (!sandbox->on)
         return 0;
-    int result = files_confine(sandbox->role, folders, count);
-    if (result == -ENOSYS || result == -EOPNOTSUPP) {
-        log_info("this kernel has no Landlock: any file of its user's is open to it");
-        return 0;
-    }
-    return result == 0 ? 0 : refused(reason, "Landlock", -result);
+    return files_done(files_confine(sandbox->role, folders, count), reason);
 }
 
 int sandbox_enter(const struct sandbox *sandbox, struct reason *reason)
@@ -106,5 +118,16 @@ int sandbox_enter(const struct sandbox *sandbox, struct reason *reason)
     int result = trap_install(sandbox->role);
     if (result == 0)
         result = filter_load(sandbox->role);
+    return result == 0 ? 0 : refused(reason, "seccomp", -result);
+}
+
+int sandbox_keeper(const char *const *folders, size_t count, struct reason *reason)
+{
+    if (SANITIZED || CRASHES)
+        return 0;
+    if (drop_privileges(reason) != 0 ||
+        files_done(files_confine_keeper(folders, count), reason) != 0)
+        return -1;
+    int result = filter_load(ROLE_NONE);
     return result == 0 ? 0 : refused(reason, "seccomp", -result);
 }

@@ -39,4 +39,12 @@ int sandbox_files(const struct sandbox *sandbox, const int *folders, size_t coun
 
 int sandbox_enter(const struct sandbox *sandbox, struct reason *reason);
 
+/* The keeper's sandbox, in one step, before it starts its first process. It is passed on to every
+ * process that the keeper starts, beneath that process's own. So it forbids what none of them
+ * needs: new privileges and capabilities, writing anywhere but beneath the folders (paths), and
+ * system calls into other processes, to other users, to mounts and to the kernel's administration,
+ * which fail with EPERM. Running programs is allowed. 0, or -1 with the reason. Builds with
+ * sanitizers or crash points have no sandbox: 0. */
+int sandbox_keeper(const char *const *folders, size_t count, struct reason *reason);
+
 #endif

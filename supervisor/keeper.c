@@ -9,6 +9,7 @@
 #include "ipc/frame.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "supervisor/confine.h"
 #include "supervisor/options.h"
 #include "supervisor/progress.h"
 #include "supervisor/set.h"
@@ -261,9 +262,14 @@ static void start_set(struct keeper *keeper)
     }
 }
 
-static void say_ready(const char *path)
+/* The pipe in which the script waits; opened before the keeper may write in few places alone. */
+static int open_ready(const char *path)
 {
-    int fd = path ? open(path, O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC) : -1;
+    return path ? open(path, O_RDWR | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC) : -1;
+}
+
+static void say_ready(int fd)
+{
     if (fd < 0)
         return;
     (void)!write(fd, "ready\n", 6);
@@ -340,9 +346,11 @@ int main(int argc, char **argv)
     process_signals();
     segment_paths(plan.world, shm, lock);
     process_guard_removes(shm, lock);
+    int ready = open_ready(plan.ready);
     /* The children of a set that was killed die with it, but not in no time. */
     if (set_open(&keeper.set, &plan, &reason) != 0 ||
-        segment_wait_free(plan.world, ROLE_RENDERER, clock_now_ns() + LEFT_NS, &reason) != 0)
+        segment_wait_free(plan.world, ROLE_RENDERER, clock_now_ns() + LEFT_NS, &reason) != 0 ||
+        confine_keeper(&plan, &reason) != 0)
         die_refused("%s", reason.text);
     keeper.begun_ns = keeper.watch.last_ns = keeper.watch.since_ns = clock_now_ns();
     keeper.progress = progress_begin();
@@ -351,7 +359,7 @@ int main(int argc, char **argv)
     start_set(&keeper);
     keeper.starting = false;
     if (!keeper.gave_up)
-        say_ready(plan.ready);
+        say_ready(ready);
     while (!keeper.over)
         turn(&keeper);
     stop_set(&keeper);
