@@ -3,6 +3,7 @@
 
 #include "ipc/log.h"
 #include "world/reserve.h"
+#include "world/work_done.h"
 
 #include <errno.h>
 
@@ -134,6 +135,7 @@ void blast_all(struct respond *respond)
     for (uint32_t i = 0; i < charges->count; i++) {
         struct charge charge = charges->charge[i];
         blast_one(respond, &charge);
+        work_done();
     }
     charges->count = 0;
 }

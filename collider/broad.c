@@ -4,6 +4,7 @@
 #include "collider/rows.h"
 #include "world/entity.h"
 #include "world/sort.h"
+#include "world/work_done.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -56,6 +57,7 @@ static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worke
         if (job->take)
             job->take(job->context, row, past);
         rows_bin(&job->rows, &job->broad->lane[worker], row, past);
+        work_done();
     }
 }
 

@@ -1,6 +1,8 @@
 /* Every body with every other: slow, and right by inspection. The oracle of the other methods. */
 #include "collider/detect.h"
 
+#include "world/work_done.h"
+
 static void meet_rows(const struct detect_input *input, const struct sweep_box *box, uint32_t a,
                       struct pair_list *pairs)
 {
@@ -35,6 +37,7 @@ void brute_pairs(const struct detect_input *input, struct detect_workspace *work
         if (detect_there(input, i)) {
             meet_rows(input, box, i, pairs);
             meet_fixed(input, box, i, pairs);
+            work_done();
         }
     }
 }

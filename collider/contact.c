@@ -3,6 +3,7 @@
 
 #include "ipc/log.h"
 #include "world/reserve.h"
+#include "world/work_done.h"
 
 #include <errno.h>
 #include <stdatomic.h>
@@ -221,6 +222,8 @@ static void find_some(void *context, uint32_t first, uint32_t end, uint32_t work
     for (uint32_t i = first; i < end; i++) {
         if (sweep_pair(job->contacts, job->input, i, 0.0, &contact))
             note(job, &contact);
+        if (i % PAIRS_A_PIECE == 0)
+            work_done();
     }
 }
 
@@ -428,6 +431,7 @@ void contacts_change(struct contacts *contacts, const struct contact_input *inpu
         if (!detect_discrete(method))
             look_around(contacts, input, rows[i]);
         sweep_row(contacts, input, rows[i], time);
+        work_done();
     }
 }
 

@@ -11,6 +11,7 @@
 
 #include "world/random.h"
 #include "world/sort.h"
+#include "world/work_done.h"
 
 #include <string.h>
 
@@ -177,6 +178,7 @@ static void pass(struct sweep *sweep, const struct mark *starts, const struct ma
             left++;
         }
         reach(sweep, i);
+        work_done();
     }
 }
 

@@ -6,6 +6,8 @@
 #include "ipc/process.h"
 #include "sandbox/sandbox.h"
 
+#include "world/work_done.h"
+
 #include <errno.h>
 #include <string.h>
 
@@ -37,6 +39,7 @@ int main(int argc, char **argv)
         (options.stand_by ? segment_stand_by : segment_attach)(&view, options.world, ROLE_COLLIDER,
                                                                &reason) != 0)
         die_refused("%s", reason.text);
+    work_done_into(&view.slot[view.role]->work);
     struct workers *workers = workers_create(options.threads);
     if (!workers)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));

@@ -3,6 +3,8 @@
  * trees are looked at, and only where the frame ends. */
 #include "collider/detect.h"
 
+#include "world/work_done.h"
+
 /* A platform's place on the map. */
 struct spot {
     double x, z;
@@ -27,6 +29,7 @@ void mps_pairs(const struct detect_input *input, struct detect_workspace *worksp
     double near = input->world->params->collision.mps_near_m;
     uint32_t count = list_platforms(input, spot);
     for (uint32_t a = 0; a < count; a++) {
+        work_done();
         for (uint32_t b = a + 1; b < count; b++) {
             double dx = spot[b].x - spot[a].x, dz = spot[b].z - spot[a].z;
             if (dx * dx + dz * dz <= near * near && !detect_apart(input, spot[a].row, spot[b].row))

@@ -12,6 +12,7 @@
 #include "collider/ray.h"
 #include "world/inertia.h"
 #include "world/square.h"
+#include "world/work_done.h"
 
 struct body {
     struct vec3 at;
@@ -159,6 +160,7 @@ void npsnet2_pairs(const struct detect_input *input, struct detect_workspace *wo
     struct vehicle *vehicle = detect_block(workspace, 0, input->rows, sizeof *vehicle);
     size_t count = list_vehicles(input, vehicle, pairs);
     for (size_t a = 0; a < count; a++) {
+        work_done();
         for (size_t b = a + 1; b < count; b++) {
             if (near(nearness, vehicle[a].body.at, vehicle[b].body.at) &&
                 found(input, &vehicle[a], &vehicle[b]))

@@ -9,6 +9,7 @@
 #include "collider/detect.h"
 
 #include "world/random.h"
+#include "world/work_done.h"
 
 #include <string.h>
 
@@ -177,6 +178,7 @@ static void claim_all(struct space *space, struct pair_list *pairs)
 {
     for (uint32_t n = 0; n < space->bodies.count; n++) {
         uint32_t body = space->order[n];
+        work_done();
         for (uint32_t level = space->level[body]; level < LEVELS; level++) {
             if (space->used[level])
                 visit_level(space, body, level, pairs);

@@ -1,6 +1,8 @@
 /* Simultaneous impulses: contacts on axes of their own, sweeps, and the guard over energy. */
 #include "collider/solve.h"
 
+#include "world/work_done.h"
+
 #include <stdbool.h>
 
 /* A sweep that changes no velocity by more than this share of the fastest closing speed is the
@@ -272,6 +274,7 @@ static bool sweep_all(const struct island *island, uint32_t sweeps, uint32_t upd
     double size_before = 0.0, least = island->runaway_mps, least_before = least;
     for (uint32_t n = 1;; n++) {
         double change = sweep(island);
+        work_done();
         if (change <= island->settled_mps || island->count == 1)
             return true;
         if (n == sweeps || (uint64_t)n * island->count >= updates)

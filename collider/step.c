@@ -2,6 +2,7 @@
 #include "collider/step.h"
 
 #include "collider/respond.h"
+#include "world/work_done.h"
 
 #include <errno.h>
 #include <string.h>
@@ -141,8 +142,10 @@ static void collide_all(struct stage *stage, struct respond *respond)
     find_pairs(stage, &respond->input.detect);
     contacts_find(&collider->contacts, &respond->input);
     contacts_find_ends(&collider->contacts, &respond->input, respond->next->head->tick);
-    while (contacts_next(&collider->contacts, &respond->input, &contact))
+    while (contacts_next(&collider->contacts, &respond->input, &contact)) {
         respond_contact(respond, &contact);
+        work_done();
+    }
 }
 
 static void begin_head(struct state_head *head, const struct state_head *moved)

@@ -7,6 +7,7 @@
 #include "ipc/log.h"
 #include "world/clones.h"
 #include "world/reserve.h"
+#include "world/work_done.h"
 
 #include <string.h>
 
@@ -179,6 +180,7 @@ static void take_candidates(struct strip_lane *lane)
         take_moving(strips, lane, candidate[i], lane->strip);
     }
     lane->candidates = 0;
+    work_done();
 }
 
 /* --- gathering and sorting ---------------------------------------------------------------------*/

@@ -5,6 +5,8 @@
 #include "sandbox/sandbox.h"
 #include "mover/step.h"
 
+#include "world/work_done.h"
+
 #include <errno.h>
 #include <string.h>
 #include <sys/prctl.h>
@@ -40,6 +42,7 @@ int main(int argc, char **argv)
         (options.stand_by ? segment_stand_by : segment_attach)(&view, options.world, ROLE_MOVER,
                                                                &reason) != 0)
         die_refused("%s", reason.text);
+    work_done_into(&view.slot[view.role]->work);
     struct workers *workers = workers_create(options.threads);
     if (!workers)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));

@@ -52,6 +52,9 @@ struct post {
     struct history history;
     uint64_t quiet_ns; /* when it was silent for half of what it may, and its processor time then */
     uint64_t quiet_used_ns;
+    uint64_t work, work_ns; /* what its slot's work was, and when it was last seen to change */
+    uint64_t long_frames;   /* how often it was silent for longer than it may, but got on */
+    uint64_t long_since_ns; /* the beat before the last of them */
 };
 
 struct set {

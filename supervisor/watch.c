@@ -6,6 +6,7 @@
 #include "ipc/process.h"
 
 #include <dirent.h>
+#include <inttypes.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,6 +93,42 @@ static void judge_stopped(const struct set *set, struct post *post, const struct
     }
 }
 
+/* Notes how far the role is; true when it has got on within this time. */
+static bool gets_on(struct post *post, uint64_t work, uint64_t now, uint64_t within_ns)
+{
+    if (work != post->work) {
+        post->work = work;
+        post->work_ns = now;
+    }
+    return now <= post->work_ns + within_ns;
+}
+
+static void note_long_frame(const struct set *set, struct post *post, const struct child *child,
+                            uint64_t from, uint64_t now)
+{
+    if (post->long_since_ns == from)
+        return;
+    post->long_since_ns = from;
+    post->long_frames++;
+    set_note(set,
+             "%s (pid %d) works on one frame for %.0f ms and gets on: leaving it alone "
+             "(long frame %" PRIu64 ")",
+             role_name(post->role), child->pid, (double)(now - from) / 1e6, post->long_frames);
+}
+
+/* It has been silent for longer than it may. */
+static void judge_silent(const struct set *set, struct post *post, struct child *child,
+                         uint64_t from, uint64_t now, bool working)
+{
+    if (starved(post, child->pid, now - post->quiet_ns))
+        return;
+    if (working && now <= from + WATCH_FRAME_MAX_NS)
+        note_long_frame(set, post, child, from, now);
+    else
+        kill_hung(set, post->role, child, working ? "has worked on one frame" : "has not beaten",
+                  now - from);
+}
+
 static void judge_heart(struct set *set, struct post *post, const struct watch *watch, uint64_t now)
 {
     const struct role_slot *slot = set->view.slot[post->role];
@@ -104,6 +141,7 @@ static void judge_heart(struct set *set, struct post *post, const struct watch *
         return;
     uint64_t from = most(beat, watch->since_ns);
     uint64_t allowed = allowed_ns(set, post->role);
+    bool working = gets_on(post, atomic_load(&slot->work), now, allowed);
     if (now <= from + allowed / 2)
         return;
     /* What the machine gives it is measured over the second half: who beats costs no look at it. */
@@ -114,8 +152,8 @@ static void judge_heart(struct set *set, struct post *post, const struct watch *
             post->quiet_used_ns = 0;
         return;
     }
-    if (now > from + allowed && !starved(post, child->pid, now - post->quiet_ns))
-        kill_hung(set, post->role, child, "has not beaten", now - from);
+    if (now > from + allowed)
+        judge_silent(set, post, child, from, now, working);
 }
 
 void watch_turn(struct watch *watch, struct set *set, uint64_t now_ns)

@@ -1,14 +1,20 @@
 /* The watch: finds processes of the set that hang and kills them.
  *
  * A role hangs when its heart stands still for longer than it may: stopped by a signal, blocked, or
- * running in circles. One that wants to run and is not let is starved by the machine, and no
- * replacement would do better. A watcher that itself stood still judges nobody by that time. */
+ * running in circles. A role that wants to run and is not let is starved by the machine, and no
+ * replacement would do better. A watcher that itself stood still judges nobody by that time.
+ *
+ * Mover and collider beat between frames and count their work within them (world/work_done.h). One
+ * whose heart stands still while its work goes on has a long frame, which a replacement would have
+ * to begin anew: the watch says so once and leaves it alone, but for no longer than
+ * WATCH_FRAME_MAX_NS, since a loop without an end may count, too. */
 #ifndef JOLON_SUPERVISOR_WATCH_H
 #define JOLON_SUPERVISOR_WATCH_H
 
 #include "supervisor/set.h"
 
-#define WATCH_TICK_NS (10 * (uint64_t)NS_PER_MS) /* how often to look */
+#define WATCH_TICK_NS      (10 * (uint64_t)NS_PER_MS) /* how often to look */
+#define WATCH_FRAME_MAX_NS (300 * (uint64_t)NS_PER_S) /* one frame's work, of the clock */
 
 struct watch {
     uint64_t last_ns;  /* of the look before */

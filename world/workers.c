@@ -5,6 +5,8 @@
  * woke when all was done. */
 #include "world/workers.h"
 
+#include "world/work_done.h"
+
 #include <errno.h>
 #include <pthread.h>
 #include <sched.h>
@@ -56,6 +58,7 @@ static void work(struct workers *workers, uint32_t worker)
         uint32_t left = workers->count - first;
         workers->function(workers->context, first,
                           first + (left < workers->grain ? left : workers->grain), worker);
+        work_done();
     }
 }
 

@@ -52,5 +52,16 @@ check "bushes: the bomb went off" equal "$(json detonations <on.json)" 1
     print ");" }'; } >spot.cfg
 run_both spot 30
 check "spot: they collide" test "$(json collisions <on.json)" -gt 1000
+
+# Tanks that stand in each other are all pushed at once: a frame that takes many times as long as those before it. The
+# watchdog must leave alone who works on it.
+{ world; awk 'BEGIN {
+    print "vehicles = ( { kind = \"jeep\"; at = [24990.0, 25000.0]; heading_deg = 90.0; speed_mps = 20.0; behaviour = \"hold\"; }"
+    for (i = 0; i < 60; i++) printf ", { kind = \"tank\"; at = [25000.0, 25000.0]; heading_deg = %.1f; }\n", i * 6
+    print ");" }'; } >pushed.cfg
+"$jolon" run -w "$name" --without renderer --without reporter --out long --frames 20 --json pushed.cfg >long.json 2>long.err
+check "a long frame ends no run" equal $? 0
+check "and kills nobody" equal "$(json restarts <long.json)" 0
+check "though it takes far longer than silence may" test "$(json collider_ms.max <long.json | cut -d. -f1)" -gt 300
 check "nothing is left" nothing_left "$name"
 done_testing

@@ -215,9 +215,54 @@ static void test_long_frames_give_more_time(void **state)
     fixture_close(&scene.fixture);
 }
 
+/* Looks every tick while the slot's work goes up, until the child is found hanging. */
+static uint64_t look_while_it_works(struct scene *scene, const struct child *child, uint64_t ms)
+{
+    uint64_t begun = scene->now_ns;
+    while (!child->hung && scene->now_ns < begun + ms * MS) {
+        atomic_fetch_add(&scene->set.view.slot[ROLE_COLLIDER]->work, 1);
+        look(scene, child, WATCH_TICK_NS / MS);
+    }
+    return (scene->now_ns - begun) / MS;
+}
+
+static void test_who_gets_on_with_a_long_frame_is_left_alone_and_said_once(void **state)
+{
+    struct scene scene;
+    (void)state;
+    open_scene(&scene);
+    struct child *child = take_role(&scene, ROLE_COLLIDER, block);
+    look_while_it_works(&scene, child, 3000);
+    assert_false(child->hung);
+    assert_int_equal(scene.set.post[ROLE_COLLIDER].long_frames, 1);
+    atomic_store(&scene.set.view.slot[ROLE_COLLIDER]->beat_ns, scene.now_ns);
+    look_while_it_works(&scene, child, 3000); /* the next one is long, too */
+    assert_int_equal(scene.set.post[ROLE_COLLIDER].long_frames, 2);
+    uint64_t took = look(&scene, child, 10000); /* and then it hangs in it */
+    assert_true(child->hung);
+    assert_in_range(took, 90, 130);
+    child_kill(child->pid);
+    fixture_close(&scene.fixture);
+}
+
+static void test_a_frame_without_an_end_ends(void **state)
+{
+    struct scene scene;
+    (void)state;
+    open_scene(&scene);
+    struct child *child = take_role(&scene, ROLE_COLLIDER, block);
+    uint64_t took = look_while_it_works(&scene, child, 400000);
+    assert_true(child->hung);
+    assert_in_range(took, WATCH_FRAME_MAX_NS / MS, WATCH_FRAME_MAX_NS / MS + 50);
+    child_kill(child->pid);
+    fixture_close(&scene.fixture);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_who_gets_on_with_a_long_frame_is_left_alone_and_said_once),
+        cmocka_unit_test(test_a_frame_without_an_end_ends),
         cmocka_unit_test(test_who_runs_in_circles_is_killed),
         cmocka_unit_test(test_who_is_not_let_run_is_left_alone),
         cmocka_unit_test(test_who_blocks_is_killed_within_the_limit),
