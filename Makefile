@@ -347,6 +347,10 @@ $(BUILD)/tests/unit/test_order: $(TOPICS) $(TOPICS_JSON)
 $(BUILD)/tests/unit/test_order: TEST_LIBS += $(DDS_LIBS)
 $(OBJ)/tests/unit/test_order.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
 $(OBJ)/tests/unit/test_order.o: $(IDL)/status.h
+$(BUILD)/tests/unit/test_samples: $(TOPICS)
+$(BUILD)/tests/unit/test_samples: TEST_LIBS += $(DDS_LIBS)
+$(OBJ)/tests/unit/test_samples.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
+$(OBJ)/tests/unit/test_samples.o: $(IDL)/status.h
 $(BUILD)/tests/unit/test_rtps_filter: $(OBJ)/topics/rtps_filter.o
 $(BUILD)/tests/unit/test_dds_datagrams: $(call objects,topics/dds_datagrams.c topics/rtps_filter.c)
 $(BUILD)/tests/unit/test_compare: $(call objects,worldctl/compare.c)

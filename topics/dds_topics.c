@@ -83,16 +83,45 @@ dds_entity_t dds_topics_writer(const struct dds_link *link, enum dds_topic topic
     return make_end(link, topic, true, reason);
 }
 
+static dds_return_t attach(dds_entity_t waitset, dds_entity_t reader)
+{
+    dds_return_t code = dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
+    return code < 0 ? code : dds_waitset_attach(waitset, reader, reader);
+}
+
+bool dds_topics_orphaned(dds_entity_t reader, dds_instance_handle_t writer)
+{
+    dds_instance_handle_t there[16];
+    dds_return_t count = dds_get_matched_publications(reader, there, 16);
+    for (int i = 0; i < count && i < 16; i++) {
+        if (there[i] == writer)
+            return false;
+    }
+    return count > 0 && count <= 16; /* of so many it may be another */
+}
+
+void dds_topics_ask_again(const struct dds_link *link, enum dds_topic topic, dds_entity_t waitset,
+                          dds_entity_t *reader)
+{
+    struct reason reason;
+    dds_entity_t again = dds_topics_reader(link, topic, &reason);
+    if (again < 0)
+        return;
+    if (waitset) {
+        (void)dds_waitset_detach(waitset, *reader);
+        (void)attach(waitset, again);
+    }
+    (void)dds_delete(*reader);
+    *reader = again;
+}
+
 dds_entity_t dds_topics_waitset(const struct dds_link *link, const dds_entity_t *readers,
                                 size_t count, struct reason *reason)
 {
     dds_entity_t waitset = dds_create_waitset(link->participant);
     dds_return_t code = waitset;
-    for (size_t i = 0; i < count && code >= 0; i++) {
-        code = dds_set_status_mask(readers[i], DDS_DATA_AVAILABLE_STATUS);
-        if (code >= 0)
-            code = dds_waitset_attach(waitset, readers[i], readers[i]);
-    }
+    for (size_t i = 0; i < count && code >= 0; i++)
+        code = attach(waitset, readers[i]);
     if (code < 0)
         return reason_set(reason, "DDS wait set: %s", dds_strretcode(code));
     return waitset;

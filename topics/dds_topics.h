@@ -34,6 +34,14 @@ dds_entity_t dds_topics_writer(const struct dds_link *link, enum dds_topic topic
 dds_entity_t dds_topics_waitset(const struct dds_link *link, const dds_entity_t *readers,
                                 size_t count, struct reason *reason);
 
+/* Has the writer of a sample left the reader, and another is there? */
+bool dds_topics_orphaned(dds_entity_t reader, dds_instance_handle_t writer);
+
+/* Puts a new reader in place of one, also in its wait set if that is not 0: it gets again what
+ * writers keep for late readers. If there can be none the old one stays. */
+void dds_topics_ask_again(const struct dds_link *link, enum dds_topic topic, dds_entity_t waitset,
+                          dds_entity_t *reader);
+
 /* Waits for new samples or the timeout. */
 void dds_topics_wait(dds_entity_t waitset, uint64_t timeout_ns);
 

@@ -2,18 +2,21 @@
 #include "topics/mirror.h"
 
 #include "ipc/clock.h"
+#include "ipc/log.h"
 #include "ipc/role.h"
+#include "topics/samples.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+static const enum dds_topic topics[MIRROR_READERS] = {TOPIC_WORLD, TOPIC_PROCESS, TOPIC_FRAME,
+                                                      TOPIC_ENTITIES};
+
 int mirror_open(struct mirror *mirror, const struct dds_link *link, const char *world,
                 bool entities, struct reason *reason)
 {
-    static const enum dds_topic topics[MIRROR_READERS] = {TOPIC_WORLD, TOPIC_PROCESS, TOPIC_FRAME,
-                                                          TOPIC_ENTITIES};
-    *mirror =
-        (struct mirror){.name = world, .readers = entities ? MIRROR_READERS : MIRROR_ENTITIES};
+    *mirror = (struct mirror){
+        .link = link, .name = world, .readers = entities ? MIRROR_READERS : MIRROR_ENTITIES};
     for (int i = 0; i < mirror->readers; i++) {
         mirror->reader[i] = dds_topics_reader(link, topics[i], reason);
         if (mirror->reader[i] < 0)
@@ -36,18 +39,14 @@ void mirror_close(struct mirror *mirror)
 static void take_world(struct mirror *mirror, const void *sample)
 {
     const jolon_WorldInfo *world = sample;
-    uint32_t kinds = world->kinds._length;
-    if (kinds > MIRROR_KINDS_MAX)
-        kinds = MIRROR_KINDS_MAX;
     if (mirror->has_world && mirror->world.run != world->run) {
         mirror->role_count = 0; /* another world under the same name */
         mirror->has_batch = false;
         mirror->frame_ns = 0;
     }
     mirror->world = *world;
-    memcpy(mirror->kinds, world->kinds._buffer, kinds * sizeof *mirror->kinds);
+    memcpy(mirror->kinds, world->kinds._buffer, world->kinds._length * sizeof *mirror->kinds);
     mirror->world.kinds._buffer = mirror->kinds;
-    mirror->world.kinds._length = kinds;
     mirror->has_world = true;
 }
 
@@ -74,32 +73,48 @@ static void take_frame(struct mirror *mirror, const void *sample)
     mirror->frame_ns = clock_now_ns();
 }
 
+/* Makes room for so many more; false without memory. */
+static bool grow(struct mirror_batch *batch, uint32_t count)
+{
+    if (count <= batch->room - batch->count)
+        return true;
+    uint32_t room = batch->count + count;
+    jolon_Entity *entity = realloc(batch->entity, room * sizeof *entity);
+    if (!entity)
+        return false;
+    batch->entity = entity;
+    batch->room = room;
+    return true;
+}
+
 static void take_entities(struct mirror *mirror, const void *sample)
 {
     const jolon_EntityBatch *from = sample;
     struct mirror_batch *coming = &mirror->coming;
     uint32_t count = from->entities._length;
+    if (from->parts > MIRROR_PARTS_MAX)
+        return;
     if (from->frame != coming->frame || from->run != coming->run || coming->parts_left == 0) {
         coming->frame = from->frame;
         coming->run = from->run;
         coming->parts_left = from->parts;
         coming->count = 0;
+        memset(coming->part, 0, sizeof coming->part);
     }
-    if (count > coming->room - coming->count) {
-        uint32_t room = coming->count + count;
-        jolon_Entity *entity = realloc(coming->entity, room * sizeof *entity);
-        if (!entity) {
-            coming->parts_left = 0; /* this frame's entities are not shown */
-            return;
-        }
-        coming->entity = entity;
-        coming->room = room;
+    if (from->part >= MIRROR_PARTS_MAX || coming->part[from->part])
+        return;
+    /* Parts that do not belong together, or no memory: this frame's entities are not shown. */
+    if (count > from->total - (coming->count < from->total ? coming->count : from->total) ||
+        !grow(coming, count)) {
+        coming->parts_left = 0;
+        return;
     }
+    coming->part[from->part] = true;
     if (count)
         memcpy(coming->entity + coming->count, from->entities._buffer,
                count * sizeof *coming->entity);
     coming->count += count;
-    if (coming->parts_left && --coming->parts_left == 0) {
+    if (--coming->parts_left == 0) {
         struct mirror_batch whole = *coming;
         *coming = mirror->batch;
         coming->parts_left = 0;
@@ -108,20 +123,29 @@ static void take_entities(struct mirror *mirror, const void *sample)
     }
 }
 
+/* What is written once came from somebody who has left, and another is there: ask again for what
+ * that one wrote. */
+static void look_after_world(struct mirror *mirror)
+{
+    if (!mirror->has_world || !log_due(&mirror->looked_ns, MIRROR_LOOK_NS) ||
+        !dds_topics_orphaned(mirror->reader[MIRROR_WORLD], mirror->world_writer))
+        return;
+    dds_topics_ask_again(mirror->link, TOPIC_WORLD, mirror->waitset, &mirror->reader[MIRROR_WORLD]);
+}
+
 void mirror_take(struct mirror *mirror)
 {
     static void (*const take[MIRROR_READERS])(struct mirror *, const void *) = {
         take_world, take_process, take_frame, take_entities};
     for (int i = 0; i < mirror->readers; i++) {
-        void *sample = NULL;
-        dds_sample_info_t info;
-        while (dds_take(mirror->reader[i], &sample, &info, 1, 1) > 0) {
-            if (info.valid_data)
-                take[i](mirror, sample);
-            (void)dds_return_loan(mirror->reader[i], &sample, 1);
-            sample = NULL;
+        struct samples from = {.reader = mirror->reader[i], .topic = topics[i]};
+        while (samples_next(&from)) {
+            take[i](mirror, from.sample);
+            if (i == MIRROR_WORLD)
+                mirror->world_writer = from.writer;
         }
     }
+    look_after_world(mirror);
     names_take(&mirror->names);
 }
 

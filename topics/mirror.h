@@ -14,13 +14,18 @@
 
 #define MIRROR_ROLES_MAX 16u
 #define MIRROR_KINDS_MAX 64u
+#define MIRROR_PARTS_MAX 1024u /* of a batch; a reporter's largest has 128 */
 
 /* No FrameStatus for this long: the reporter is gone or stopped. Ten come a second. */
 #define MIRROR_SILENCE_NS 1500000000u
 
+/* How often the mirror looks whether whoever described the world is still there. */
+#define MIRROR_LOOK_NS 1000000000u
+
 enum mirror_reader { MIRROR_WORLD, MIRROR_PROCESS, MIRROR_FRAME, MIRROR_ENTITIES, MIRROR_READERS };
 
 struct mirror {
+    const struct dds_link *link; /* the caller's */
     dds_entity_t reader[MIRROR_READERS];
     int readers; /* the first of them; the entities' is the last */
     dds_entity_t waitset;
@@ -30,6 +35,8 @@ struct mirror {
     jolon_WorldInfo world; /* its sequence points into kinds */
     jolon_KindInfo kinds[MIRROR_KINDS_MAX];
     struct names names; /* of its vehicles */
+    dds_instance_handle_t world_writer;
+    uint64_t looked_ns;
 
     uint64_t frame_ns; /* CLOCK_MONOTONIC when frame came, 0: none yet */
     jolon_FrameStatus frame;
@@ -43,12 +50,13 @@ struct mirror {
         uint32_t count, room;
         uint64_t run, frame;
         uint32_t parts_left;
+        bool part[MIRROR_PARTS_MAX]; /* it is in */
     } batch, coming;
     bool has_batch;
 };
 
-/* Makes the readers, that of the entities, which are most of what comes, only where they are
- * wanted; -1 with the reason. */
+/* Makes the readers on the link, which must outlive the mirror, that of the entities, which are
+ * most of what comes, only where they are wanted; -1 with the reason. */
 int mirror_open(struct mirror *mirror, const struct dds_link *link, const char *world,
                 bool entities, struct reason *reason);
 void mirror_close(struct mirror *mirror);

@@ -1,12 +1,16 @@
 /* The topic of names into a list. */
 #include "topics/names.h"
 
+#include "ipc/clock.h"
+#include "ipc/log.h"
+#include "topics/samples.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 int names_open(struct names *names, const struct dds_link *link, struct reason *reason)
 {
-    *names = (struct names){.reader = dds_topics_reader(link, TOPIC_NAMES, reason)};
+    *names = (struct names){.link = link, .reader = dds_topics_reader(link, TOPIC_NAMES, reason)};
     return names->reader < 0 ? -1 : 0;
 }
 
@@ -35,14 +39,15 @@ bool names_learn(struct names *names, const jolon_EntityNames *told)
 
 void names_take(struct names *names)
 {
-    void *sample = NULL;
-    dds_sample_info_t info;
-    while (dds_take(names->reader, &sample, &info, 1, 1) > 0) {
-        if (info.valid_data)
-            (void)names_learn(names, sample); /* without memory nobody has a name */
-        (void)dds_return_loan(names->reader, &sample, 1);
-        sample = NULL;
+    struct samples from = {.reader = names->reader, .topic = TOPIC_NAMES};
+    while (samples_next(&from)) {
+        (void)names_learn(names, from.sample); /* without memory nobody has a name */
+        names->writer = from.writer;
     }
+    /* They are written once: of whoever has left they are asked for again. */
+    if (names->told && log_due(&names->looked_ns, NS_PER_S) &&
+        dds_topics_orphaned(names->reader, names->writer))
+        dds_topics_ask_again(names->link, TOPIC_NAMES, 0, &names->reader);
 }
 
 const char *names_of(const struct names *names, uint32_t id)

@@ -11,14 +11,17 @@
 #include <stdbool.h>
 
 struct names {
+    const struct dds_link *link; /* the caller's */
     dds_entity_t reader;
+    dds_instance_handle_t writer;
+    uint64_t looked_ns;
     bool told; /* the names are here; there may be none */
     uint64_t run;
     uint32_t count;
     jolon_EntityName *entry; /* [count], by rising id */
 };
 
-/* Makes the reader; -1 with the reason. */
+/* Makes the reader on the link, which must outlive the names; -1 with the reason. */
 int names_open(struct names *names, const struct dds_link *link, struct reason *reason);
 void names_close(struct names *names);
 

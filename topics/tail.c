@@ -2,6 +2,7 @@
 #include "topics/tail.h"
 
 #include "ipc/clock.h"
+#include "topics/samples.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,9 @@ int tail_open(struct tail *tail, const struct dds_link *link, tail_format *forma
               struct reason *reason)
 {
     *tail = (struct tail){.format = format, .settled_ns = clock_now_ns() + TAIL_FIRST_NS};
+    tail->seen = calloc(TAIL_SEEN, sizeof *tail->seen);
+    if (!tail->seen)
+        return reason_set(reason, "out of memory for the numbers of events");
     for (uint32_t i = 0; i < TAIL_TOPICS; i++) {
         tail->reader[i] = dds_topics_reader(link, (enum dds_topic)(TOPIC_COLLISION + i), reason);
         if (tail->reader[i] < 0)
@@ -31,19 +35,34 @@ void tail_close(struct tail *tail)
     for (uint32_t i = 0; i < tail->count; i++)
         free(tail->entry[i].line);
     free(tail->entry);
+    free(tail->seen);
     tail->entry = NULL;
+    tail->seen = NULL;
     tail->count = tail->room = 0;
 }
 
-/* False for a repeat. */
+static struct tail_seen *place_of(struct tail *tail, uint64_t sequence)
+{
+    return &tail->seen[sequence % TAIL_SEEN];
+}
+
+static bool seen(struct tail *tail, const jolon_EventHeader *header)
+{
+    const struct tail_seen *place = place_of(tail, header->sequence);
+    return place->any && place->run == header->run && place->sequence == header->sequence;
+}
+
+/* False for a repeat. What came is known by its number, not by its being below the highest: a
+ * number that nobody reaches would silence the topic for good. */
 static bool is_new(struct tail *tail, uint32_t topic, const jolon_EventHeader *header)
 {
     bool same_run = tail->last[topic].any && tail->last[topic].run == header->run;
-    if (same_run && header->sequence <= tail->last[topic].sequence)
+    if (seen(tail, header))
         return false;
     if (same_run && header->previous > tail->last[topic].sequence &&
         header->previous < header->sequence)
         tail->missed++; /* at least one; how many the topic does not say */
+    *place_of(tail, header->sequence) = (struct tail_seen){header->run, header->sequence, true};
     tail->last[topic].any = true;
     tail->last[topic].run = header->run;
     tail->last[topic].sequence = header->sequence;
@@ -81,14 +100,10 @@ static bool take(struct tail *tail, uint64_t now_ns)
 {
     bool kept = true;
     for (uint32_t i = 0; i < TAIL_TOPICS; i++) {
-        void *sample = NULL;
-        dds_sample_info_t info;
-        while (kept && dds_take(tail->reader[i], &sample, &info, 1, 1) > 0) {
-            if (info.valid_data)
-                kept = keep(tail, i, sample, now_ns);
-            (void)dds_return_loan(tail->reader[i], &sample, 1);
-            sample = NULL;
-        }
+        struct samples from = {.reader = tail->reader[i],
+                               .topic = (enum dds_topic)(TOPIC_COLLISION + i)};
+        while (samples_next(&from))
+            kept = kept && keep(tail, i, from.sample, now_ns);
     }
     return kept;
 }

@@ -1,7 +1,7 @@
 /* The tail of events: each once and in order, out of five topics that deliver at least once.
  *
  * Topics run side by side, so an event waits TAIL_HOLD_NS for earlier ones before it is handed
- * on. A restarted reporter sends some again: they are dropped by their sequence. What a topic says
+ * on. A restarted reporter sends some again: they are dropped by their number. What a topic says
  * went before and never came is counted as missed. */
 #ifndef JOLON_TOPICS_TAIL_H
 #define JOLON_TOPICS_TAIL_H
@@ -17,6 +17,10 @@
 #define TAIL_FIRST_NS 700000000u /* at the start: each topic's history comes at its own pace */
 #define TAIL_LINE_MAX 1024u
 
+/* Repeats are known among so many numbers in a row: a restarted reporter sends at most the events
+ * of its last second again, and 4096. */
+#define TAIL_SEEN 65536u
+
 /* Writes an event as one line, without its newline, into line. */
 typedef void tail_format(char line[TAIL_LINE_MAX], enum dds_topic topic, const void *event);
 
@@ -29,6 +33,11 @@ struct tail_entry {
     char *line;
 };
 
+struct tail_seen {
+    uint64_t run, sequence;
+    bool any;
+};
+
 struct tail {
     dds_entity_t reader[TAIL_TOPICS];
     dds_entity_t waitset;
@@ -39,6 +48,7 @@ struct tail {
         uint64_t run, sequence;
         bool any;
     } last[TAIL_TOPICS];
+    struct tail_seen *seen;   /* [TAIL_SEEN], by number */
     struct tail_entry *entry; /* [count], not yet handed on */
     uint32_t count, room;
     uint64_t missed;

@@ -6,9 +6,13 @@
  *     peer ... command
  *         sends one such command again and again: "answered" or, after three seconds, "unanswered"
  *     peer ... read
- *         waits for the status of a frame: "heard" or, after three seconds, "unheard" */
+ *         waits for the status of a frame: "heard" or, after three seconds, "unheard"
+ *     peer ... hostile SEED
+ *         writes samples on every topic of the world's status that no reporter would write, for
+ *         three seconds (tests/rtps/hostile.h) */
 #include "ipc/clock.h"
 #include "ipc/log.h"
+#include "tests/rtps/hostile.h"
 #include "tests/rtps/sent.h"
 #include "topics/dds_topics.h"
 
@@ -19,6 +23,7 @@
 #include <string.h>
 
 #define CAPTURE_NS  ((uint64_t)2 * NS_PER_S)
+#define HOSTILE_NS  ((uint64_t)3 * NS_PER_S)
 #define PATIENCE_NS ((uint64_t)3 * NS_PER_S)
 #define REPEAT_NS   ((uint64_t)100 * NS_PER_MS)
 
@@ -131,16 +136,20 @@ int main(int argc, char **argv)
     }
     const char *verb = optind < argc ? argv[optind] : "";
     const char *value = optind + 1 < argc ? argv[optind + 1] : NULL;
-    bool captures = strcmp(verb, "capture") == 0;
-    if (captures != (value != NULL))
+    bool captures = strcmp(verb, "capture") == 0, hostile = strcmp(verb, "hostile") == 0;
+    if ((captures || hostile) != (value != NULL))
         die_usage("tests/rtps/peer.c says how to call it");
+    if (hostile)
+        options.part = DDS_HOST; /* monitors find nobody else */
     if (dds_link_open(&peer.link, &options, peer.world, &reason) != 0)
         die_refused("%s", reason.text);
     if (captures) {
         capture(&peer, value);
         return EXIT_OK;
     }
-    if (strcmp(verb, "command") == 0) {
+    if (hostile) {
+        hostile_write(&peer.link, strtoull(value, NULL, 10), HOSTILE_NS);
+    } else if (strcmp(verb, "command") == 0) {
         open_reader(&peer, TOPIC_REPLY);
         open_writer(&peer);
         run(&peer, PATIENCE_NS, TOPIC_REPLY, true);
@@ -150,7 +159,7 @@ int main(int argc, char **argv)
         run(&peer, PATIENCE_NS, TOPIC_FRAME, true);
         say(peer.heard[TOPIC_FRAME], "heard", "unheard");
     } else {
-        die_usage("'%s': capture, command or read", verb);
+        die_usage("'%s': capture, command, read or hostile", verb);
     }
     dds_link_close(&peer.link, EXIT_REFUSED);
     return EXIT_OK;
