@@ -72,22 +72,28 @@ static void keep_poison(struct keeper *keeper, enum role role, int status)
     give_up(keeper, EXIT_GAVE_UP, text);
 }
 
-/* The role's own last line in the log, for what it refused. */
-static void last_words(const struct keeper *keeper, enum role role, char *text, size_t size)
+/* The role's own last line in a text, which is closed afterwards, for what it refused. */
+static void last_words(const struct keeper *keeper, FILE *said, enum role role, char *text,
+                       size_t size)
 {
     char prefix[48], line[1024];
     int length = snprintf(prefix, sizeof prefix, "jolon-%s: ", role_name(role));
     snprintf(text, size, "%s refused; %s says why", role_name(role), keeper->plan->log);
-    FILE *log = fopen(keeper->plan->log, "re");
-    if (log && fseek(log, -LAST_WORDS_BYTES, SEEK_END) != 0)
-        rewind(log); /* it is shorter */
-    while (log && fgets(line, sizeof line, log)) {
+    while (said && fgets(line, sizeof line, said)) {
         line[strcspn(line, "\n")] = '\0';
         if (strncmp(line, prefix, (size_t)length) == 0)
             snprintf(text, size, "%s refused: %s", role_name(role), line + length);
     }
-    if (log)
-        fclose(log);
+    if (said)
+        fclose(said);
+}
+
+static FILE *end_of_log(const struct keeper *keeper)
+{
+    FILE *log = fopen(keeper->plan->log, "re");
+    if (log && fseek(log, -LAST_WORDS_BYTES, SEEK_END) != 0)
+        rewind(log); /* it is shorter */
+    return log;
 }
 
 /* A frame role found the world damaged: it is taken back to its last whole frame, once a frame. */
@@ -97,7 +103,7 @@ static void repair(struct keeper *keeper, enum role role)
     const char *const repair_verb[] = {"jolon-world", "repair", "--world", keeper->plan->world,
                                        NULL};
     uint64_t frame = set_frame(&keeper->set);
-    last_words(keeper, role, text, sizeof text);
+    last_words(keeper, end_of_log(keeper), role, text, sizeof text);
     set_kill(&keeper->set, ROLE_MOVER);
     set_kill(&keeper->set, ROLE_COLLIDER);
     /* They may have read what was damaged: they begin anew as well. */
@@ -117,8 +123,13 @@ static void repair(struct keeper *keeper, enum role role)
 static void tell_refusal(struct keeper *keeper, struct post *post)
 {
     char text[SET_WORDS_MAX];
-    last_words(keeper, post->role, text, sizeof text);
-    if (strcmp(text, post->refused) != 0)
+    struct words *words = &post->words;
+    words_take(words, keeper->set.log_fd, false);
+    FILE *said = words->used > 0 ? fmemopen(words->text, words->used, "r") : end_of_log(keeper);
+    last_words(keeper, said, post->role, text, sizeof text);
+    bool news = strcmp(text, post->refused) != 0;
+    words_end(words, keeper->set.log_fd, news);
+    if (news)
         set_note(&keeper->set, "goes on without the %s and keeps trying: %s", role_name(post->role),
                  text);
     snprintf(post->refused, sizeof post->refused, "%s", text);
@@ -144,7 +155,7 @@ static void take_death(struct keeper *keeper, struct post *post, struct child *c
     switch (judge_death(&post->history, &death, &delay)) {
     case VERDICT_RESTART:
         if (keeper->starting && post->role == ROLE_RECORDER && judge_refused(status)) {
-            last_words(keeper, post->role, text, sizeof text);
+            last_words(keeper, end_of_log(keeper), post->role, text, sizeof text);
             give_up(keeper, EXIT_REFUSED, text); /* nobody asked for a run without a record */
             break;
         }
@@ -152,13 +163,14 @@ static void take_death(struct keeper *keeper, struct post *post, struct child *c
         if (delay == 0 && set_kept(post))
             delay = HEIR_NS;
         post->spawn_at_ns = clock_now_ns() + delay;
-        set_spawn(&keeper->set, clock_now_ns());
-        if (judge_refused(status) && !death.stood_by) {
+        bool refused = judge_refused(status) && !death.stood_by;
+        if (refused)
             tell_refusal(keeper, post);
-            break;
-        }
-        if (dead.was_ready)
+        else if (dead.was_ready)
             post->refused[0] = '\0';
+        set_spawn(&keeper->set, clock_now_ns());
+        if (refused)
+            break;
         set_note(&keeper->set, "%s (pid %d) ended with status %d at frame %" PRIu64,
                  role_name(post->role), dead.pid, status, death.frame);
         break;
@@ -214,6 +226,7 @@ static void turn(struct keeper *keeper)
     else if (signal_number > 0 && signal_number != SIGCHLD)
         keeper->over = true;
     take_children(keeper);
+    set_listen(&keeper->set);
     if (keeper->over)
         return;
     uint64_t now = clock_now_ns();

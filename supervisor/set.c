@@ -118,8 +118,7 @@ static void role_arguments(struct command_line *line, const struct plan *plan, e
 
 /* The child's part: a session of its own, so that Ctrl-C reaches it through us, in our order; and
  * signals as a program expects them. */
-_Noreturn static void become(const struct set *set, const char *path, const char *const *arguments,
-                             bool to_log)
+_Noreturn static void become(const char *path, const char *const *arguments, int output)
 {
     sigset_t none;
     sigemptyset(&none);
@@ -127,23 +126,24 @@ _Noreturn static void become(const struct set *set, const char *path, const char
         signal(number, SIG_DFL);
     sigprocmask(SIG_SETMASK, &none, NULL);
     setsid();
-    if (!to_log || (dup2(set->log_fd, STDOUT_FILENO) >= 0 && dup2(set->log_fd, STDERR_FILENO) >= 0))
+    if (output < 0 || (dup2(output, STDOUT_FILENO) >= 0 && dup2(output, STDERR_FILENO) >= 0))
         /* execv's argv is not const for historical reasons alone. */
         execv(path, (char *const *)(uintptr_t)arguments);
     dprintf(STDERR_FILENO, "%s: cannot be started: %s\n", arguments[0], strerror(errno));
     _exit(EXIT_REFUSED);
 }
 
-/* Starts a program; 0 when there can be no process now. Not by posix_spawn, which waits for the
+/* Starts a program, whose words go to output (-1: where ours go); 0 when there can be no process
+ * now. Not by posix_spawn, which waits for the
  * child to get as far as exec: on a busy machine nobody would be watched meanwhile. */
 static int start(const struct set *set, const char *program, const char *const *arguments,
-                 bool to_log)
+                 int output)
 {
     char path[300];
     snprintf(path, sizeof path, "%s/%s", set->folder, program);
     pid_t pid = fork();
     if (pid == 0)
-        become(set, path, arguments, to_log);
+        become(path, arguments, output);
     if (pid < 0)
         set_note(set, "%s: cannot be started: %s", program, strerror(errno));
     return pid > 0 ? (int)pid : 0;
@@ -163,9 +163,14 @@ static void spawn(struct set *set, struct post *post, struct child *child, bool 
         add(&line, "--stand-by", NULL);
     if (set->plan->sandbox_off)
         add(&line, "--no-sandbox", NULL);
-    *child = (struct child){.pid = start(set, program, line.argument, true),
+    words_end(&post->words, set->log_fd, true);
+    int held_back = post->refused[0] != '\0' ? words_open(&post->words) : -1;
+    int output = held_back >= 0 ? held_back : set->log_fd;
+    *child = (struct child){.pid = start(set, program, line.argument, output),
                             .spawned_ns = clock_now_ns(),
                             .frame_at_start = set_frame(set)};
+    if (held_back >= 0)
+        close(held_back);
 }
 
 void set_spawn(struct set *set, uint64_t now_ns)
@@ -185,6 +190,12 @@ void set_hurry(struct set *set)
 {
     for (int i = 0; i < ROLE_COUNT; i++)
         set->post[i].spawn_at_ns = 0;
+}
+
+void set_listen(struct set *set)
+{
+    for (int i = 0; i < ROLE_COUNT; i++)
+        words_take(&set->post[i].words, set->log_fd, set_ready(set, (enum role)i));
 }
 
 struct child *set_holder(struct set *set, enum role role)
@@ -281,6 +292,7 @@ int set_stop(struct set *set, enum role role)
             status = end(child, SIGKILL, UINT64_MAX);
         }
     }
+    words_end(&post->words, set->log_fd, true);
     return status;
 }
 
@@ -314,13 +326,14 @@ int set_finish(struct set *set, enum role role)
             status = set_stop(set, role);
         post->wanted = 0;
     } while (status != EXIT_OK && !judge_refused(status) && clock_now_ns() < until);
+    words_end(&post->words, set->log_fd, true);
     return status;
 }
 
 int set_run(const struct set *set, const char *program, const char *const *arguments, bool to_log)
 {
     int status = 0;
-    int pid = start(set, program, arguments, to_log);
+    int pid = start(set, program, arguments, to_log ? set->log_fd : -1);
     if (pid == 0)
         return EXIT_REFUSED;
     while (waitpid(pid, &status, 0) < 0 && errno == EINTR)

@@ -8,6 +8,7 @@
 
 #include "ipc/segment.h"
 #include "supervisor/judge.h"
+#include "supervisor/words.h"
 
 #define SET_CHILDREN    2
 #define PLAN_PASSED_MAX 16
@@ -45,10 +46,10 @@ struct child {
 struct post {
     enum role role;
     struct child child[SET_CHILDREN];
-    int wanted;           /* children: 0 when the set has no such role */
-    uint64_t spawn_at_ns; /* not before */
-    char
-        refused[SET_WORDS_MAX]; /* what was said of its last refusal, "": it has been ready since */
+    int wanted;                  /* children: 0 when the set has no such role */
+    uint64_t spawn_at_ns;        /* not before */
+    char refused[SET_WORDS_MAX]; /* its last refusal; "": it has been ready since */
+    struct words words;          /* of one that is tried again after a refusal */
     struct history history;
     uint64_t quiet_ns; /* when it was silent for half of what it may, and its processor time then */
     uint64_t quiet_used_ns;
@@ -73,6 +74,9 @@ void set_spawn(struct set *set, uint64_t now_ns);
 
 /* Ends every pause: what is wanted and not there is started at the next set_spawn(). */
 void set_hurry(struct set *set);
+
+/* Passes on what roles say that are up again after a refusal. */
+void set_listen(struct set *set);
 
 /* Is the role's slot held and ready, by a child of this set? */
 bool set_ready(struct set *set, enum role role);

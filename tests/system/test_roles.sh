@@ -155,11 +155,19 @@ check "stop" "$jolon" stop -w "$name"
 check "another world has another token" eval '! joins "$address"'
 check "stop" "$jolon" stop -w "$name"
 
-# What a role refuses is tried again, and said once.
-check "start with a network that is not there" start --interface 203.0.113.7 --without renderer
-tried() { [ "$(grep -c '^jolon-reporter: .*203.0.113.7' out/jolon.log)" -ge 4 ]; }
-check "the reporter is tried again" eventually tried
-check "and its words are told once" equal "$(grep -c 'supervisor: goes on without the reporter' out/jolon.log)" 1
+# What a role refuses is tried again until the cause is gone, and said once.
+python3 -c 'import socket, sys, time
+s = socket.create_server(("127.0.0.1", int(sys.argv[1])))
+time.sleep(60)' "$port" &
+holder=$!
+eventually eval 'exec 9<>"/dev/tcp/127.0.0.1/$port"'
+check "start with a port that is in use" start --without renderer --console "$port"
+sleep 1 # five tries and more
+check "what the console refuses is in the log once" equal "$(grep -c '^jolon-console: .*in use' out/jolon.log)" 1
+check "and told once" equal "$(grep -c 'goes on without the console and keeps trying: .*in use' out/jolon.log)" 1
+kill "$holder" && wait "$holder" 2>/dev/null
+check "when the port is free the console is there" eventually pid console
+check "and what it says is in the log" eventually grep -q 'console info.* serves' out/jolon.log
 check "stop" "$jolon" stop -w "$name"
 
 mkdir elsewhere
