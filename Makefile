@@ -409,6 +409,9 @@ $(BIN)/fuzz_console: $(call objects,$(filter-out %/main.c %/options.c,$(CONSOLE_
 $(BIN)/fuzz_console: FUZZ_LINK = $(call pc,libs,libmicrohttpd) $(DDS_LIBS) $(JSON_LIBS)
 $(BIN)/fuzz_stream: $(STREAM)
 $(BIN)/fuzz_stream: FUZZ_LINK = $(call pc,libs,libmicrohttpd libjpeg)
+$(BIN)/fuzz_rtps: $(OBJ)/topics/rtps_filter.o
+$(BIN)/fuzz_samples: $(call objects,$(addprefix monitor/,json.c lines.c map.c spark.c table.c)) $(TOPICS) $(TOPICS_JSON)
+$(BIN)/fuzz_samples: FUZZ_LINK = $(DDS_LIBS) $(JSON_LIBS)
 $(BIN)/fuzz_filter: $(call objects,monitor/table.c) $(TOPICS)
 $(BIN)/fuzz_filter: FUZZ_LINK = $(DDS_LIBS)
 $(BIN)/fuzz_image: $(ARCHIVE)
@@ -421,6 +424,7 @@ $(call objects,$(FUZZ_SRC) $(wildcard tests/unit/test_console_*.c)): $(IDL)/stat
 # SECONDS: of each harness.
 fuzz: | $(TEST_STAMP)
 	@tests/fuzz/run --seconds $(if $(filter file,$(origin SECONDS)),30,$(SECONDS))
+	@$(MAKE) --no-print-directory rtps PACKETS=$$((8000 * $(if $(filter file,$(origin SECONDS)),30,$(SECONDS))))
 
 # --- running ------------------------------------------------------------------------------------
 # `make SECONDS=n`: bash has a variable of that name, but a make variable is only ours.

@@ -3,6 +3,7 @@
 
 #include "ipc/role.h"
 #include "world/entity.h"
+#include "world/utf8.h"
 
 #include "status.h"
 
@@ -11,6 +12,7 @@
 
 /* Far beyond what any world has, and far within what arithmetic on it can hold. */
 #define NUMBER_MAX 1e15
+#define SIDE_MIN_M 1.0
 
 static bool number(double value)
 {
@@ -22,34 +24,15 @@ static bool amount(double value)
     return value >= 0.0 && value <= NUMBER_MAX;
 }
 
-/* Bytes of the character that begins here; 0: none, or one that controls a terminal. */
-static size_t character(const unsigned char *text)
-{
-    size_t length = text[0] < 0x80 ? 1 : text[0] < 0xe0 ? 2 : text[0] < 0xf0 ? 3 : 4;
-    uint32_t code = length == 1 ? text[0] : text[0] & (0xffu >> (length + 1));
-    static const uint32_t least[] = {0, 0x20, 0xa0, 0x800, 0x10000};
-    if ((text[0] >= 0x80 && text[0] < 0xc2) || text[0] > 0xf4)
-        return 0;
-    for (size_t i = 1; i < length; i++) {
-        if ((text[i] & 0xc0) != 0x80)
-            return 0;
-        code = code << 6 | (text[i] & 0x3fu);
-    }
-    /* Overlong, a surrogate, beyond the last, DEL, or what turns the line's direction. */
-    bool bad = code < least[length] || (code >= 0xd800 && code < 0xe000) || code > 0x10ffff ||
-               code == 0x7f || code == 0x61c || (code >= 0x200b && code < 0x2010) ||
-               (code >= 0x2028 && code < 0x2030) || (code >= 0x2066 && code < 0x206a);
-    return bad ? 0 : length;
-}
-
 static void clean(char *text)
 {
     while (*text) {
-        size_t length = character((const unsigned char *)text);
-        if (length == 0)
-            *text++ = '?';
+        uint32_t code;
+        size_t bytes = utf8_read(text, &code);
+        if (bytes > 0 && utf8_visible(code))
+            text += bytes;
         else
-            text += length;
+            *text++ = '?';
     }
 }
 
@@ -60,7 +43,7 @@ static bool times(const jolon_Times *value)
 
 static bool good_world(jolon_WorldInfo *world)
 {
-    bool good = world->hz > 0.0 && amount(world->hz) && world->side_m > 0.0 &&
+    bool good = world->hz > 0.0 && amount(world->hz) && world->side_m >= SIDE_MIN_M &&
                 amount(world->side_m) && world->kinds._length <= 64;
     for (uint32_t i = 0; good && i < jolon_MAP_CELLS; i++)
         good = number((double)world->height_m[i]);

@@ -8,8 +8,9 @@ the place of a participant that comes new: its captured datagrams, under a prefi
 the reporter's present one, are sent in order, mutated but for some, to the ports that the reporter
 has open. What is sent follows from the seed alone, but for the reporter's prefix and ports.
 
-Prints one JSON object: packets, seconds, restarts (deaths of the reporter that were seen). --keep
-writes the last datagrams before each death there, a file a death, as FILE is made.
+Prints one JSON object: packets, seconds, restarts (deaths of the reporter that were seen), dropped
+(datagrams that found the last reporter's sockets full). --keep writes the last datagrams before each
+death there, a file a death, as FILE is made.
 """
 import argparse
 import collections
@@ -173,7 +174,7 @@ def main():
         print(json.dumps({"packets": options.packets, "gone": True}))
         sys.exit(1)
     print(json.dumps({"packets": options.packets, "seconds": round(time.monotonic() - begun, 1),
-                      "restarts": reporter.restarts}))
+                      "restarts": reporter.restarts, "dropped": reporter.dropped()}))
 
 
 main()

@@ -86,6 +86,12 @@ class Reporter:
             time.sleep(0.02)
         return False
 
+    def dropped(self):
+        """Datagrams that found its sockets full."""
+        with open("/proc/net/udp", encoding="ascii") as table:
+            rows = [line.split() for line in table][1:]
+        return sum(int(row[12]) for row in rows if int(row[1].split(":")[1], 16) in self.ports)
+
     @staticmethod
     def open_ports(pid):
         """Of every address: the one that it sends from is bound to its interface."""

@@ -62,7 +62,7 @@ late fuzz python3 "$rtps/fuzz.py" --bin "$bin" --world "$name" --capture capture
     --seed "$seed" >fuzzed
 restarts=$(json restarts <fuzzed)
 check "$packets mutated datagrams are survived" [ "$(json packets <fuzzed)" = "$packets" ]
-echo "# figures: $packets mutated datagrams (SEED=$seed), $restarts deaths of the reporter, $(cat late.fuzz) late frames, $(cat late.quiet) without"
+echo "# figures: $packets mutated datagrams (SEED=$seed), $(json dropped <fuzzed) not taken, $restarts deaths of the reporter, $(cat late.fuzz) late frames, $(cat late.quiet) without"
 check "the reporter answers after them" answers
 check "its commands too" equal "$("$peer" -w "$name" --domain $domain command)" answered
 check "it did not die of them" equal "$restarts" 0

@@ -81,7 +81,7 @@ static void test_worlds(void **state)
     world.height_m[jolon_MAP_CELLS - 1] = NAN;
     assert_false(samples_good(TOPIC_WORLD, &world));
     world.height_m[jolon_MAP_CELLS - 1] = 0.0F;
-    world.side_m = 0.0;
+    world.side_m = 1e-320;
     assert_false(samples_good(TOPIC_WORLD, &world));
     world.side_m = 50000.0;
     kind.domain = (jolon_Domain)(jolon_DOMAIN_FIXED + 1);

@@ -1,0 +1,183 @@
+/* Samples of a world's status of any bytes: what samples_good() lets pass is shown in every way. */
+#include "tests/fuzz/support.h"
+
+#include "ipc/clock.h"
+#include "ipc/log.h"
+#include "monitor/json.h"
+#include "monitor/lines.h"
+#include "monitor/map.h"
+#include "monitor/spark.h"
+#include "monitor/table.h"
+#include "topics/event_json.h"
+#include "topics/samples.h"
+#include "topics/tell.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ENTITIES 4u
+
+static struct {
+    const uint8_t *at;
+    size_t left;
+} input;
+
+static void fill(void *bytes, size_t count)
+{
+    size_t have = count < input.left ? count : input.left;
+    memset(bytes, 0, count);
+    memcpy(bytes, input.at, have);
+    input.at += have;
+    input.left -= have;
+}
+
+/* What the decoder sees to: texts end, and a truth is one of two. */
+#define END(text)    ((text)[sizeof(text) - 1] = '\0')
+#define TRUTH(value) (*(uint8_t *)&(value) &= 1)
+
+static void end_party(jolon_Party *party)
+{
+    END(party->kind);
+    TRUTH(party->fixed);
+}
+
+static void show_event(enum dds_topic topic)
+{
+    static union {
+        jolon_CollisionEvent collision;
+        jolon_FireEvent fire;
+        jolon_DetonationEvent detonation;
+        jolon_AgentEvent agent;
+        jolon_CraterEvent crater;
+    } event;
+    char line[TAIL_LINE_MAX];
+    fill(&event, sizeof event);
+    if (topic == TOPIC_COLLISION) {
+        end_party(&event.collision.a);
+        end_party(&event.collision.b);
+    } else if (topic == TOPIC_FIRE) {
+        end_party(&event.fire.shooter);
+        end_party(&event.fire.target);
+        end_party(&event.fire.munition);
+    } else if (topic == TOPIC_DETONATION) {
+        end_party(&event.detonation.munition);
+        end_party(&event.detonation.victim);
+    } else if (topic == TOPIC_AGENT) {
+        end_party(&event.agent.agent);
+    }
+    if (!samples_good(topic, &event))
+        return;
+    tell_event(line, topic, &event);
+    event_json(line, topic, &event);
+    cJSON *object = cJSON_Parse(line);
+    CHECK(object);
+    cJSON_Delete(object);
+}
+
+static void show_map(const struct mirror *mirror)
+{
+    static struct map map;
+    const jolon_WorldInfo *world = &mirror->world;
+    const struct map_ground ground = {world->height_m, world->water, jolon_MAP_SIDE, world->side_m};
+    const struct map_area area = {0.5 * world->side_m, 0.5 * world->side_m, world->side_m};
+    map_begin(&map, 5, 20, &area, &ground);
+    for (uint32_t i = 0; i < mirror->batch.count; i++)
+        map_mark(&map, mirror->batch.entity[i].x_m, mirror->batch.entity[i].z_m, MAP_BLUE);
+}
+
+static void show(const struct mirror *mirror)
+{
+    char line[LINES_MAX], row[TABLE_LINE_MAX], bars[SPARK_TEXT_MAX];
+    struct spark spark = {.count = 0};
+    uint64_t now_ns = mirror->frame_ns + 1;
+    lines_status(line, mirror, now_ns);
+    lines_world(line, mirror, now_ns);
+    lines_frame(line, mirror);
+    lines_counts(line, mirror);
+    for (uint32_t i = 0; i < mirror->role_count; i++)
+        lines_process(line, &mirror->role[i]);
+    for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++)
+        table_line(row, mirror, &mirror->batch.entity[i]);
+    spark_add(&spark, mirror->frame.recent.max_ms);
+    spark_text(bars, &spark, 4, mirror->frame.hz > 0.0 ? 1000.0 / mirror->frame.hz : 0.0, true);
+    if (mirror->has_world)
+        show_map(mirror);
+    char *text = json_status(mirror, "", now_ns);
+    cJSON *object = cJSON_Parse(text);
+    CHECK(object);
+    cJSON_Delete(object);
+    cJSON_free(text);
+}
+
+/* The ground is the same everywhere but for one cell: bytes are for the rest. */
+static bool take_world(struct mirror *mirror)
+{
+    jolon_WorldInfo *world = &mirror->world;
+    fill(&world->hz, sizeof world->hz);
+    fill(&world->side_m, sizeof world->side_m);
+    fill(world->ground, sizeof world->ground);
+    fill(&world->height_m[7], sizeof world->height_m[7]);
+    fill(mirror->kinds, 2 * sizeof *mirror->kinds);
+    END(world->ground);
+    END(mirror->kinds[0].name);
+    END(mirror->kinds[1].name);
+    world->kinds._buffer = mirror->kinds;
+    world->kinds._length = 2;
+    return samples_good(TOPIC_WORLD, world);
+}
+
+static bool take_entities(struct mirror *mirror)
+{
+    static jolon_Entity entity[ENTITIES];
+    jolon_EntityBatch batch;
+    uint8_t count;
+    fill(&batch, offsetof(jolon_EntityBatch, entities));
+    fill(&count, sizeof count);
+    fill(entity, sizeof entity);
+    batch.entities._buffer = entity;
+    batch.entities._length = count % (ENTITIES + 1);
+    mirror->batch.entity = entity;
+    mirror->batch.count = batch.entities._length;
+    return samples_good(TOPIC_ENTITIES, &batch);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static struct mirror mirror;
+    static jolon_EntityName name[ENTITIES];
+    jolon_EntityNames names = {.names = {._buffer = name}};
+    uint8_t what;
+    memset(&mirror, 0, sizeof mirror);
+    mirror.name = "fuzz";
+    mirror.frame_ns = 1;
+    input.at = data;
+    input.left = size;
+    fill(&what, sizeof what);
+    if (what >= 128) {
+        show_event((enum dds_topic)(TOPIC_COLLISION + what % TAIL_TOPICS));
+        return 0;
+    }
+    fill(&mirror.frame, sizeof mirror.frame);
+    TRUTH(mirror.frame.paused);
+    if (!samples_good(TOPIC_FRAME, &mirror.frame))
+        mirror.frame = (jolon_FrameStatus){.hz = 60.0};
+    fill(&mirror.role[0], sizeof mirror.role[0]);
+    END(mirror.role[0].role);
+    mirror.role_count = samples_good(TOPIC_PROCESS, &mirror.role[0]);
+    mirror.has_batch = what & 1 && take_entities(&mirror);
+    if (!mirror.has_batch)
+        mirror.batch.count = 0;
+    fill(name, sizeof name);
+    for (uint32_t i = 0; i < ENTITIES; i++)
+        END(name[i].name);
+    names.names._length = what / 2 % (ENTITIES + 1);
+    if (samples_good(TOPIC_NAMES, &names))
+        (void)names_learn(&mirror.names, &names);
+    mirror.has_world = what & 64 && take_world(&mirror);
+    if (mirror.has_world || !(what & 64))
+        show(&mirror);
+    names_close(&mirror.names);
+    return 0;
+}
