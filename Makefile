@@ -85,6 +85,7 @@ DRIVE_SRC    := $(wildcard drive/*.c)
 HTTP_SRC     := $(wildcard http/*.c)
 CONSOLE_SRC  := $(wildcard console/*.c)
 HARNESS_SRC  := $(wildcard harness/*.c)
+INTAKE_SRC   := $(wildcard intake/*.c)
 REPORTER_SRC := $(wildcard reporter/*.c)
 MONITOR_SRC  := $(wildcard monitor/*.c)
 RECORDER_SRC := $(wildcard recorder/*.c)
@@ -148,6 +149,8 @@ PAGE_FILES := $(sort $(wildcard $(addprefix console/page/*.,html css js svg png 
 PAGE     := $(OBJ)/console/page_files.o
 # A link to a world over DDS: what it says, and commands to it.
 TOPICS   := $(call objects,$(filter-out %_json.c,$(TOPICS_SRC))) $(STATUS)
+# What of it commands a world on this machine: without DDS.
+COMMANDS := $(call objects,$(addprefix topics/,caller.c command_socket.c mission.c names.c order.c))
 # What of it reads and writes JSON, for those who do.
 TOPICS_JSON := $(call objects,$(filter %_json.c,$(TOPICS_SRC)))
 
@@ -175,10 +178,10 @@ TEST_LIBS     = $(call pc,libs,cmocka)
 BASE_LIBS     = $(HASH_LIBS) -lm
 
 PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-renderer \
-        $(BIN)/jolon-video $(BIN)/jolon-reporter $(BIN)/jolon-recorder $(BIN)/jolon-ctl $(BIN)/jolon-drive $(BIN)/jolon-harness $(BIN)/jolon-console $(BIN)/jolon-monitor \
+        $(BIN)/jolon-video $(BIN)/jolon-intake $(BIN)/jolon-reporter $(BIN)/jolon-recorder $(BIN)/jolon-ctl $(BIN)/jolon-drive $(BIN)/jolon-harness $(BIN)/jolon-console $(BIN)/jolon-monitor \
         $(BIN)/jolon-bench $(BIN)/jolon-keeper $(BIN)/jolon
 # Of the build with crash points: what their tests run.
-CRASH_PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-recorder \
+CRASH_PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-intake $(BIN)/jolon-recorder \
         $(BIN)/jolon-keeper $(BIN)/jolon $(BUILD)/tests/crash/test_crash
 UNIT_TESTS     := $(patsubst tests/unit/%.c,$(BUILD)/tests/unit/%,$(UNIT_SRC))
 GOLDEN_TESTS   := $(BUILD)/tests/golden/test_golden
@@ -206,6 +209,8 @@ $(BIN)/jolon-renderer: $(call objects,$(RENDERER_SRC)) $(HTTP) $(KERNELS) $(SAND
 	$(call link,$(RENDER_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-video: $(call objects,$(VIDEO_SRC) $(filter-out %/main.c,$(RENDERER_SRC))) $(HTTP) $(KERNELS) $(REPLAYED) $(REPLAY) $(LOGS) $(ARCHIVE) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(RENDER_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-intake: $(call objects,$(INTAKE_SRC)) $(SANDBOX) $(IPC) $(WORLD)
+	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-reporter: $(call objects,$(REPORTER_SRC)) $(TOPICS) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-recorder: $(call objects,$(RECORDER_SRC) worldctl/json.c) $(ARCHIVE) $(SANDBOX) $(IPC) $(WORLD)
@@ -214,8 +219,8 @@ $(BIN)/jolon-ctl: $(call objects,$(CTL_SRC)) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-drive: $(call objects,$(DRIVE_SRC)) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-console: $(call objects,$(CONSOLE_SRC)) $(PAGE) $(HTTP) $(TOPICS) $(TOPICS_JSON) $(SANDBOX) $(IPC) $(WORLD)
-	$(call link,$(call pc,libs,libmicrohttpd) $(DDS_LIBS) $(JSON_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-console: $(call objects,$(CONSOLE_SRC)) $(PAGE) $(HTTP) $(COMMANDS) $(OBJ)/topics/order_json.o $(SANDBOX) $(IPC) $(WORLD)
+	$(call link,$(call pc,libs,libmicrohttpd) $(JSON_LIBS) $(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-harness: $(call objects,$(HARNESS_SRC)) $(TOPICS) $(TOPICS_JSON) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-monitor: $(call objects,$(MONITOR_SRC)) $(TOPICS) $(TOPICS_JSON) $(IPC) $(WORLD)
@@ -229,7 +234,7 @@ $(BIN)/jolon: supervisor/jolon
 
 # --- objects ------------------------------------------------------------------------------------
 # Flags reach an object through its folder: only these folders see these libraries.
-$(OBJ)/topics/%.o $(OBJ)/ctl/%.o $(OBJ)/harness/%.o $(OBJ)/console/%.o $(OBJ)/reporter/%.o $(OBJ)/monitor/%.o $(OBJ)/tests/storm/%.o \
+$(OBJ)/topics/%.o $(OBJ)/ctl/%.o $(OBJ)/harness/%.o $(OBJ)/console/%.o $(OBJ)/intake/%.o $(OBJ)/reporter/%.o $(OBJ)/monitor/%.o $(OBJ)/tests/storm/%.o \
 $(OBJ)/tests/once/%.o $(OBJ)/tests/rtps/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
 $(OBJ)/drive/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(DEVICE_CFLAGS)
 $(OBJ)/renderer/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS)
@@ -242,7 +247,7 @@ $(OBJ)/video/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS) $(JSON_CFLAGS)
 $(call objects,$(KERNEL_SRC)) $(KERNELS): CFLAGS_EXTRA = $(RENDER_CFLAGS) -Wno-psabi
 $(OBJ)/worldctl/%.o $(OBJ)/recorder/%.o $(OBJ)/replay/%.o $(OBJ)/tests/%.o \
 $(OBJ)/bench/%.o: CFLAGS_EXTRA = $(JSON_CFLAGS)
-$(call objects,$(TOPICS_SRC) $(CTL_SRC) $(DRIVE_SRC) $(HARNESS_SRC) $(CONSOLE_SRC) $(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC) $(PEER_SRC)): $(IDL)/status.h
+$(call objects,$(TOPICS_SRC) $(CTL_SRC) $(DRIVE_SRC) $(HARNESS_SRC) $(CONSOLE_SRC) $(INTAKE_SRC) $(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC) $(PEER_SRC)): $(IDL)/status.h
 
 $(OBJ)/%.o: %.c $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CC $<"
@@ -284,8 +289,8 @@ $(BUILD)/tests/%: $(OBJ)/tests/%.o $(SUPPORT) $(REPLAY) $(LOGS) $(ARCHIVE) $(CON
 	$(call link,$(TEST_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
 
 # What the topics say.
-$(OBJ)/tests/unit/test_desk.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
-$(OBJ)/tests/unit/test_desk.o: $(IDL)/status.h
+$(call objects,$(addprefix tests/unit/test_,admission.c desk.c)): CFLAGS_EXTRA = $(DDS_CFLAGS)
+$(call objects,$(addprefix tests/unit/test_,admission.c desk.c)): $(IDL)/status.h
 $(BUILD)/tests/unit/test_judge $(BUILD)/tests/unit/test_watch: $(KEEPER) $(SANDBOX)
 $(BUILD)/tests/unit/test_judge $(BUILD)/tests/unit/test_watch: TEST_LIBS += $(SANDBOX_LIBS)
 $(BUILD)/tests/crash/test_crash: $(call objects,$(CRASH_SRC))
@@ -305,8 +310,7 @@ $(BUILD)/tests/unit/test_video: $(call objects,$(addprefix renderer/,image/image
 $(BUILD)/tests/unit/test_yuv: $(call objects,$(addprefix renderer/image/,image.c yuv.c))
 $(BUILD)/tests/unit/test_jpeg: $(call objects,$(addprefix renderer/image/,image.c jpeg.c))
 $(BUILD)/tests/unit/test_jpeg: TEST_LIBS += $(call pc,libs,libjpeg)
-$(BUILD)/tests/unit/test_console_body: $(call objects,$(addprefix console/,body.c answer.c text.c players.c secret.c)) $(TOPICS) $(TOPICS_JSON)
-$(BUILD)/tests/unit/test_console_body: TEST_LIBS += $(DDS_LIBS)
+$(BUILD)/tests/unit/test_console_body: $(call objects,$(addprefix console/,body.c answer.c text.c players.c secret.c)) $(COMMANDS) $(OBJ)/topics/order_json.o
 $(BUILD)/tests/unit/test_console_parts: $(call objects,$(addprefix console/,answer.c fetch.c \
         pictures.c players.c secret.c text.c)) $(HTTP)
 $(BUILD)/tests/unit/test_console_parts: TEST_LIBS += $(call pc,libs,libmicrohttpd)
@@ -355,8 +359,8 @@ $(BUILD)/tests/unit/test_rtps_filter: $(OBJ)/topics/rtps_filter.o
 $(BUILD)/tests/unit/test_dds_datagrams: $(call objects,topics/dds_datagrams.c topics/rtps_filter.c)
 $(BUILD)/tests/unit/test_compare: $(call objects,worldctl/compare.c)
 
-$(STORM): $(call objects,$(STORM_SRC) worldctl/json.c) $(TOPICS) $(IPC) $(WORLD)
-	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
+$(STORM): $(call objects,$(STORM_SRC) worldctl/json.c) $(COMMANDS) $(IPC) $(WORLD)
+	$(call link,$(JSON_LIBS) $(BASE_LIBS))
 $(LISTENER): $(call objects,$(LISTENER_SRC)) $(TOPICS) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(BASE_LIBS))
 # It has no filter of its own.
@@ -398,7 +402,7 @@ $(BIN)/fuzz_%: $(OBJ)/tests/fuzz/fuzz_%.o $(OBJ)/tests/fuzz/support.o $(CONFIG) 
 FUZZ_WRAP = -Wl,$(subst $(space),$(comma),$(patsubst %,--wrap=%,$(1)))
 $(BIN)/fuzz_scenario $(BIN)/fuzz_kind: $(OBJ)/tests/fuzz/one_model.o
 $(BIN)/fuzz_scenario $(BIN)/fuzz_kind: FUZZ_LINK = $(call FUZZ_WRAP,aiImportFileEx aiReleaseImport)
-$(BIN)/fuzz_command: $(call objects,reporter/check.c $(filter-out %/main.c,$(MOVER_SRC)))
+$(BIN)/fuzz_command: $(call objects,intake/command_check.c $(filter-out %/main.c,$(MOVER_SRC)))
 $(BIN)/fuzz_ctl $(BIN)/fuzz_log: $(OBJ)/tests/fuzz/ending.o
 $(BIN)/fuzz_ctl: $(call objects,ctl/parse.c) $(TOPICS)
 $(BIN)/fuzz_ctl: FUZZ_LINK = $(call FUZZ_WRAP,exit) $(DDS_LIBS)

@@ -4,23 +4,21 @@
 #include "console/reply.h"
 #include "ipc/clock.h"
 
+#include <errno.h>
 #include <math.h>
+#include <poll.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/eventfd.h>
+#include <time.h>
+#include <unistd.h>
 
-int desk_open(struct desk *desk, const struct dds_link_options *link, const char *world,
-              struct reason *reason)
+int desk_open(struct desk *desk, const char *world, struct reason *reason)
 {
-    *desk = (struct desk){0};
-    if (dds_link_open(&desk->link, link, world, reason) != 0 ||
-        names_open(&desk->names, &desk->link, reason) != 0 ||
-        caller_open(&desk->caller, &desk->link, reason) != 0)
-        return -1;
-    desk->guard = dds_create_guardcondition(desk->link.participant);
-    if (desk->guard < 0 ||
-        dds_waitset_attach(desk->caller.waitset, desk->guard, (dds_attach_t)desk->guard) < 0)
-        return reason_set(reason, "DDS: cannot make a guard condition");
-    return 0;
+    *desk = (struct desk){.bell = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
+    if (desk->bell < 0)
+        return reason_set(reason, "eventfd: %s", strerror(errno));
+    return caller_open(&desk->caller, command_socket_open(&desk->socket, world), reason);
 }
 
 /* --- tickets -----------------------------------------------------------------------------------*/
@@ -41,6 +39,8 @@ void desk_close(struct desk *desk)
         finish(desk, &desk->ticket);
     }
     names_close(&desk->names);
+    command_socket_close(&desk->socket);
+    close(desk->bell);
 }
 
 static bool is_drive(const struct order *order)
@@ -166,7 +166,7 @@ bool desk_put(struct desk *desk, struct ticket *ticket, struct player *player, u
         at = &(*at)->next;
     *at = ticket;
     desk->tickets++;
-    (void)dds_set_guardcondition(desk->guard, true);
+    (void)eventfd_write(desk->bell, 1);
     return true;
 }
 
@@ -407,9 +407,9 @@ static void turn_mission(struct desk *desk, struct desk_mission *mission, const 
 void desk_turn(struct desk *desk, struct players *players, const struct watch *watch,
                uint64_t now_ns)
 {
-    (void)dds_set_guardcondition(desk->guard, false);
+    eventfd_t rung;
+    (void)eventfd_read(desk->bell, &rung);
     caller_turn(&desk->caller);
-    names_take(&desk->names);
     for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
         if (players->player[i].number)
             turn_player(desk, &players->player[i], players, watch, now_ns);
@@ -421,8 +421,11 @@ void desk_turn(struct desk *desk, struct players *players, const struct watch *w
     }
 }
 
-void desk_world_changed(struct desk *desk, struct players *players)
+void desk_world_changed(struct desk *desk, struct players *players, const struct watch *watch)
 {
+    names_close(&desk->names); /* without memory no vehicle has a name */
+    if (watch->there)
+        (void)names_read_world(&desk->names, &watch->view.world, watch->view.header->made);
     for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
         struct player *player = &players->player[i];
         if (!player->number)
@@ -440,6 +443,11 @@ void desk_world_changed(struct desk *desk, struct players *players)
 
 void desk_wait(struct desk *desk, uint64_t until_ns)
 {
+    struct pollfd wakes[] = {{.fd = desk->bell, .events = POLLIN},
+                             {.fd = caller_descriptor(&desk->caller), .events = POLLIN}};
     uint64_t now_ns = clock_now_ns();
-    dds_topics_wait(desk->caller.waitset, until_ns > now_ns ? until_ns - now_ns : 0);
+    uint64_t left_ns = until_ns > now_ns ? until_ns - now_ns : 0;
+    struct timespec left = {.tv_sec = (time_t)(left_ns / NS_PER_S),
+                            .tv_nsec = (long)(left_ns % NS_PER_S)};
+    (void)ppoll(wakes, 2, &left, NULL);
 }

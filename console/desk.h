@@ -1,6 +1,6 @@
-/* The desk: orders go out as commands of the topics, and what became of them comes back. Requests
- * leave tickets from the server's thread; the desk's own thread sends, repeats and answers, so that
- * each order is done once whatever dies meanwhile.
+/* The desk: orders go out as commands, over the world's command socket, and replies come back.
+ * Requests leave tickets from the server's thread; the desk's own thread sends, repeats and
+ * answers, so that each order is done once whatever dies meanwhile.
  *
  * Who drives is held for DESK_LEASE_S of simulation, renewed while the player's page goes on asking
  * (console/players.h): a page that goes away, a console that dies, loses its vehicle in two
@@ -11,6 +11,7 @@
 #include "console/body.h"
 #include "console/watch.h"
 #include "topics/caller.h"
+#include "topics/command_socket.h"
 #include "topics/mission.h"
 
 #define DESK_TICKETS  128u /* orders that wait, in all */
@@ -40,10 +41,10 @@ struct desk_mission {
 };
 
 struct desk {
-    struct dds_link link;
+    struct command_socket socket; /* of the caller */
     struct caller caller;
     struct names names;
-    dds_entity_t guard;    /* wakes the desk's thread */
+    int bell;              /* an eventfd that wakes the desk's thread */
     struct ticket *ticket; /* those that wait, the oldest first */
     uint32_t tickets;
     struct desk_mission mission[DESK_MISSIONS];
@@ -51,8 +52,7 @@ struct desk {
 };
 
 /* 0, or -1 with the reason. */
-int desk_open(struct desk *desk, const struct dds_link_options *link, const char *world,
-              struct reason *reason);
+int desk_open(struct desk *desk, const char *world, struct reason *reason);
 /* Answers those that wait, too. */
 void desk_close(struct desk *desk);
 
@@ -65,8 +65,8 @@ bool desk_put(struct desk *desk, struct ticket *ticket, struct player *player, u
 void desk_turn(struct desk *desk, struct players *players, const struct watch *watch,
                uint64_t now_ns);
 
-/* The world is another one: nobody drives in it. */
-void desk_world_changed(struct desk *desk, struct players *players);
+/* The world is another one, or gone: nobody drives in it. Reads the names of its vehicles. */
+void desk_world_changed(struct desk *desk, struct players *players, const struct watch *watch);
 
 /* Waits for a ticket, a reply, or until_ns (CLOCK_MONOTONIC). */
 void desk_wait(struct desk *desk, uint64_t until_ns);

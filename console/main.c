@@ -1,7 +1,7 @@
 /* jolon-console: the page in a browser, and the server behind it. It reads the world as any reader
  * does and writes nothing of the world's memory, but for the slot of its role when it is the
- * console of the world's set. What its players want goes to the reporter as commands of the topics,
- * as anybody's does. It may come, go and be killed. */
+ * console of the world's set. What its players want goes to the intake over the command socket, as
+ * every client's commands do. It may come, go and be killed. */
 #include "console/options.h"
 #include "console/server.h"
 #include "ipc/clock.h"
@@ -61,7 +61,7 @@ static void turn(uint64_t now_ns)
 {
     pthread_mutex_lock(&console.lock);
     if (watch_turn(&console.watch, now_ns)) {
-        desk_world_changed(&console.desk, &console.players);
+        desk_world_changed(&console.desk, &console.players, &console.watch);
         if (console.watch.there)
             log_info("world \"%s\" is there", console.watch.name);
         else
@@ -95,7 +95,7 @@ int main(int argc, char **argv)
         sandbox_begin(&sandbox, ROLE_CONSOLE, options.sandbox_off, &reason) != 0 ||
         sandbox_files(&sandbox, NULL, 0, &reason) != 0 ||
         http_listen(&console.listener, &where, &reason) != 0 ||
-        desk_open(&console.desk, &options.link, options.world, &reason) != 0 ||
+        desk_open(&console.desk, options.world, &reason) != 0 ||
         pictures_open(&console.pictures, options.world, &reason) != 0 ||
         server_start(&console, &reason) != 0)
         die_refused("%s", reason.text);
@@ -114,6 +114,5 @@ int main(int argc, char **argv)
     server_end(&console);
     watch_close(&console.watch);
     segment_detach(&set);
-    dds_link_close(&console.desk.link, EXIT_OK);
     return EXIT_OK;
 }

@@ -4,6 +4,7 @@
 #include "http/listen.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "ipc/segment.h"
 
 #include <getopt.h>
 #include <limits.h>
@@ -20,7 +21,6 @@ static const char usage[] =
     "  --parent PID        ends when that process does\n"
     "  --role              it is the console of the world's set, as jolon run --console starts it\n"
     "  --no-sandbox        it keeps all that its user may do\n"
-    "  --dds-config FILE, --interface ADDRESS, --domain N  as jolon-reporter\n"
     "It prints the address to open. Ctrl-C ends it; the world goes on.\n";
 
 void options_parse(struct options *options, int argc, char **argv)
@@ -31,7 +31,6 @@ void options_parse(struct options *options, int argc, char **argv)
                                           {"token-file", required_argument, NULL, 't'},
                                           {"parent", required_argument, NULL, 'P'},
                                           {"role", no_argument, NULL, 'r'},
-                                          DDS_LINK_LONG_OPTIONS,
                                           {"no-sandbox", no_argument, NULL, 'S'},
                                           {"help", no_argument, NULL, 'h'},
                                           {NULL, 0, NULL, 0}};
@@ -40,8 +39,6 @@ void options_parse(struct options *options, int argc, char **argv)
         (struct options){.world = "default", .address = HTTP_LISTEN_ADDRESS, .port = OPTIONS_PORT};
     opterr = 0; /* we say it, in one line */
     while ((option = getopt_long(argc, argv, "w:h", known, NULL)) != -1) {
-        if (dds_link_option(&options->link, option, optarg))
-            continue;
         switch (option) {
         case 'w':
             options->world = optarg;
@@ -75,5 +72,7 @@ void options_parse(struct options *options, int argc, char **argv)
     }
     if (optind < argc)
         die_usage("'%s': no such argument; jolon-console --help lists the options", argv[optind]);
-    dds_link_check_world(options->world);
+    if (!segment_name_ok(options->world))
+        die_usage("--world %s: no name for a world: 1 to %d of a-z A-Z 0-9 _ -", options->world,
+                  SEGMENT_NAME_MAX - 1);
 }

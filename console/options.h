@@ -2,8 +2,6 @@
 #ifndef JOLON_CONSOLE_OPTIONS_H
 #define JOLON_CONSOLE_OPTIONS_H
 
-#include "topics/dds_link.h"
-
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -17,7 +15,6 @@ struct options {
     int parent;             /* process id, 0: none */
     bool role;              /* it is its set's console: has the role's lock and slot */
     bool sandbox_off;
-    struct dds_link_options link;
 };
 
 /* Fills options. Ends the program: with help on standard output (0), or with one line that says

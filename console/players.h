@@ -3,7 +3,7 @@
 #ifndef JOLON_CONSOLE_PLAYERS_H
 #define JOLON_CONSOLE_PLAYERS_H
 
-#include "http/rate.h"
+#include "ipc/rate.h"
 
 #include <stdbool.h>
 #include <stdint.h>

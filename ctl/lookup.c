@@ -10,11 +10,11 @@
 static bool open_readers(struct lookup *lookup)
 {
     struct reason reason;
-    if (names_open(&lookup->names, lookup->link, &reason) != 0)
+    if (names_reader_open(&lookup->names_reader, lookup->link, &reason) != 0)
         return false;
-    lookup->reading = true;
     lookup->world = dds_topics_reader(lookup->link, TOPIC_WORLD, &reason);
-    const dds_entity_t readers[] = {lookup->world, lookup->names.reader};
+    lookup->reading = true;
+    const dds_entity_t readers[] = {lookup->world, lookup->names_reader.reader};
     lookup->waitset = dds_topics_waitset(lookup->link, readers, 2, &reason);
     return lookup->world >= 0 && lookup->waitset >= 0;
 }
@@ -23,6 +23,24 @@ static void add(char *list, size_t bytes, const char *name)
 {
     size_t used = strlen(list);
     (void)snprintf(list + used, bytes - used, "%s%s", used ? ", " : "", name);
+}
+
+static void add_kind(struct lookup *lookup, const char *name, int domain)
+{
+    if (domain == DOMAIN_MUNITION)
+        add(lookup->munitions, sizeof lookup->munitions, name);
+    else if (domain != DOMAIN_FIXED)
+        add(lookup->vehicles, sizeof lookup->vehicles, name);
+}
+
+static bool read_view(struct lookup *lookup)
+{
+    const struct world *world = &lookup->view->world;
+    lookup->hz = world->params->hz;
+    for (uint32_t i = 0; i < world->counts.kinds; i++)
+        add_kind(lookup, world->kinds[i].name, world->kinds[i].domain);
+    lookup->reading = names_read_world(&lookup->names, world, lookup->view->header->made);
+    return lookup->reading;
 }
 
 static void take_world(struct lookup *lookup)
@@ -37,10 +55,7 @@ static void take_world(struct lookup *lookup)
         lookup->vehicles[0] = lookup->munitions[0] = '\0';
         for (uint32_t i = 0; i < world->kinds._length; i++) {
             const jolon_KindInfo *kind = &world->kinds._buffer[i];
-            if (kind->domain == jolon_DOMAIN_MUNITION)
-                add(lookup->munitions, sizeof lookup->munitions, kind->name);
-            else if (kind->domain != jolon_DOMAIN_FIXED)
-                add(lookup->vehicles, sizeof lookup->vehicles, kind->name);
+            add_kind(lookup, kind->name, (int)kind->domain);
         }
     }
     (void)dds_return_loan(lookup->world, &sample, 1);
@@ -48,11 +63,13 @@ static void take_world(struct lookup *lookup)
 
 bool lookup_wait(struct lookup *lookup, uint64_t until_ns)
 {
+    if (lookup->view)
+        return lookup->reading || read_view(lookup);
     if (!lookup->reading && !open_readers(lookup))
         return false;
     while (!process_stopping()) {
         take_world(lookup);
-        names_take(&lookup->names);
+        names_reader_take(&lookup->names_reader, &lookup->names);
         uint64_t now_ns = clock_now_ns();
         if (lookup->names.told && lookup->hz > 0.0)
             return true;

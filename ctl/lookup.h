@@ -1,19 +1,21 @@
 /* What jolon-ctl asks of the world before it sends an order: who is called how, how many frames
- * there are a second, which kinds there are. Each topic is read when it is first needed. */
+ * there are a second, which kinds there are. Of a world on this machine it reads the shared memory,
+ * of another the topics, when they are first needed. */
 #ifndef JOLON_CTL_LOOKUP_H
 #define JOLON_CTL_LOOKUP_H
 
-#include "topics/names.h"
-
-#include "status.h"
+#include "ipc/segment.h"
+#include "topics/names_reader.h"
 
 #include <stdbool.h>
 
 struct lookup {
-    const struct dds_link *link;
-    bool reading;
+    const struct view *view;     /* of a world on this machine, NULL: ... */
+    const struct dds_link *link; /* ... the world is at the other end of this */
+    bool reading;                /* the names and what follows are being read, or are here */
     struct names names;
     dds_entity_t world, waitset;
+    struct names_reader names_reader;
     double hz;                          /* 0: not known yet */
     char vehicles[512], munitions[512]; /* "tank, jeep", kinds that can be spawned, fired */
 };

@@ -37,6 +37,18 @@ static int obey_lines(struct ctl *ctl)
     return worst;
 }
 
+/* Nothing of the world is locked: it may be removed meanwhile. */
+static int open_world(struct ctl *ctl, struct reason *reason)
+{
+    const struct ctl_request *request = &ctl->request;
+    if (request->remote) {
+        ctl->lookup.link = &ctl->link;
+        return dds_link_open(&ctl->link, &request->link, request->world, reason);
+    }
+    ctl->lookup.view = &ctl->view;
+    return segment_attach(&ctl->view, request->world, ROLE_NONE, reason);
+}
+
 int main(int argc, char **argv)
 {
     static struct ctl ctl;
@@ -44,13 +56,17 @@ int main(int argc, char **argv)
     log_open("ctl");
     ctl_parse(&ctl.request, argc, argv);
     process_signals();
-    ctl.lookup.link = &ctl.link;
-    if (dds_link_open(&ctl.link, &ctl.request.link, ctl.request.world, &reason) != 0 ||
-        caller_open(&ctl.caller, &ctl.link, &reason) != 0)
+    if (open_world(&ctl, &reason) != 0 ||
+        command_route_open(&ctl.route, &ctl.caller, ctl.request.remote, &ctl.link,
+                           ctl.request.world, &reason) != 0)
         die_refused("%s", reason.text);
     int code = ctl.request.lines ? obey_lines(&ctl) : obey(&ctl, &ctl.request.order, 0);
     (void)fflush(stdout);
     lookup_close(&ctl.lookup);
-    dds_link_close(&ctl.link, code == EXIT_OK ? EXIT_OK : EXIT_REFUSED);
-    return code == EXIT_OK ? EXIT_OK : EXIT_REFUSED;
+    code = code == EXIT_OK ? EXIT_OK : EXIT_REFUSED;
+    if (ctl.request.remote)
+        dds_link_close(&ctl.link, code);
+    else
+        segment_detach(&ctl.view);
+    return code;
 }

@@ -18,9 +18,13 @@ static void say_silence(const struct ctl *ctl, const struct order *order)
     const struct ctl_request *request = &ctl->request;
     if (!caller_heard(&ctl->caller))
         (void)fprintf(stderr,
-                      "jolon-ctl: world '%s': nobody takes commands for it; is it running, with "
-                      "its reporter? `jolon status -w %s` shows it\n",
-                      request->world, request->world);
+                      "jolon-ctl: world '%s': nobody takes commands for it%s; `jolon status -w "
+                      "%s` shows whether it runs\n",
+                      request->world,
+                      request->remote ? " over DDS, which a set does that was started with "
+                                        "--remote-commands"
+                                      : "",
+                      request->world);
     else
         (void)fprintf(stderr,
                       "jolon-ctl: world '%s': no reply to %s within %g s; `jolon status -w %s` "
@@ -65,10 +69,9 @@ static bool carry_out(struct ctl *ctl, struct say_place *place)
             until_ns = limit(ctl); /* the time until the next round is nobody's silence */
         if (mission_over(mission) || process_stopping() || now_ns >= until_ns)
             break;
-        uint64_t wake_ns = caller_due_ns(&ctl->caller), due_ns = mission_due_ns(mission);
-        wake_ns = due_ns < wake_ns ? due_ns : wake_ns;
-        wake_ns = wake_ns < until_ns ? wake_ns : until_ns;
-        dds_topics_wait(ctl->caller.waitset, wake_ns > now_ns ? wake_ns - now_ns : 0);
+        uint64_t due_ns = mission_due_ns(mission);
+        uint64_t wake_ns = due_ns < until_ns ? due_ns : until_ns;
+        caller_wait(&ctl->caller, wake_ns);
     }
     return mission_over(mission);
 }

@@ -4,12 +4,15 @@
 
 #include "ctl/lookup.h"
 #include "ctl/parse.h"
+#include "topics/command_route.h"
 #include "topics/mission.h"
 
 struct ctl {
     struct ctl_request request;
-    struct dds_link link;
+    struct dds_link link; /* open when the request is remote */
+    struct view view;     /* else */
     struct caller caller;
+    struct command_route route; /* of the caller */
     struct lookup lookup;
     struct mission mission;
 };

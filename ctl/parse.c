@@ -3,6 +3,7 @@
 
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "topics/command_route.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -35,13 +36,18 @@ static const char usage[] =
     "  -w, --world NAME       (default \"default\")\n"
     "  --json                 the reply as one JSON object\n"
     "  --timeout SECONDS      how long to wait for a reply (default 5)\n"
-    "  --dds-config FILE, --interface ADDRESS, --domain N  as jolon-reporter\n"
+    "  --remote               over DDS, to a set elsewhere that takes such commands; else to your\n"
+    "                         own world on this machine\n"
+    "  --dds-config FILE, --interface ADDRESS, --domain N  with --remote: as jolon-reporter\n"
     "exit: 0 done, 1 refused or no reply, 2 usage\n";
 
-static const struct option own[] = {
-    {"world", required_argument, NULL, 'w'},   {"json", no_argument, NULL, 'j'},
-    {"timeout", required_argument, NULL, 't'}, {"help", no_argument, NULL, 'h'},
-    {"at", required_argument, NULL, 'a'},      DDS_LINK_LONG_OPTIONS};
+static const struct option own[] = {{"world", required_argument, NULL, 'w'},
+                                    {"json", no_argument, NULL, 'j'},
+                                    {"timeout", required_argument, NULL, 't'},
+                                    {"help", no_argument, NULL, 'h'},
+                                    {"at", required_argument, NULL, 'a'},
+                                    DDS_LINK_LONG_OPTIONS,
+                                    COMMAND_ROUTE_LONG_OPTION};
 
 #define OWN_COUNT  (sizeof own / sizeof own[0])
 #define FIELD_BASE 2000 /* getopt's value of an order's argument is this and its number */
@@ -153,15 +159,23 @@ void ctl_parse(struct ctl_request *request, int argc, char **argv)
 {
     struct words words = {0};
     struct reason reason;
+    const char *linked = NULL;
     int option;
     *request = (struct ctl_request){.world = "default", .timeout_s = TIMEOUT_S};
     opterr = 0; /* we say it, in one line */
     while ((option = getopt_long(argc, argv, "w:h", known_options(), NULL)) != -1) {
-        if (take_word(&words, option, optarg) || dds_link_option(&request->link, option, optarg))
+        if (take_word(&words, option, optarg))
             continue;
+        if (dds_link_option(&request->link, option, optarg)) {
+            linked = argv[optind - 1];
+            continue;
+        }
         switch (option) {
         case 'w':
             request->world = optarg;
+            break;
+        case COMMAND_ROUTE_OPTION:
+            request->remote = true;
             break;
         case 'j':
             request->json = true;
@@ -178,6 +192,10 @@ void ctl_parse(struct ctl_request *request, int argc, char **argv)
         }
     }
     dds_link_check_world(request->world);
+    if (linked && !request->remote)
+        die_usage("%s: --dds-config, --interface and --domain are for commands over DDS; add "
+                  "--remote, or leave them out",
+                  linked);
     request->lines = argc - optind == 1 && strcmp(argv[optind], "-") == 0;
     if (request->lines && (words.given || words.at))
         die_usage("-: the options of a command stand in its line");

@@ -2,6 +2,7 @@
 #ifndef JOLON_CTL_PARSE_H
 #define JOLON_CTL_PARSE_H
 
+#include "topics/dds_link.h"
 #include "topics/order.h"
 
 #include <stdbool.h>
@@ -12,7 +13,8 @@ struct ctl_request {
     const char *world;
     double timeout_s;
     bool json;
-    bool lines; /* orders come from standard input, one a line */
+    bool lines;  /* orders come from standard input, one a line */
+    bool remote; /* over DDS, by link; else to a world of this user, and link is not used */
     struct dds_link_options link;
     struct order order;
 };

@@ -9,6 +9,7 @@
 #include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "topics/command_route.h"
 #include "topics/tell.h"
 
 #include <stdio.h>
@@ -23,6 +24,7 @@ struct drive {
     struct mirror mirror;
     struct tail tail;
     struct caller caller;
+    struct command_route route; /* of the caller */
     struct inputs inputs;
     struct session session;
     struct news news;
@@ -116,7 +118,8 @@ static void open_all(struct drive *drive)
         dds_link_open(&drive->link, &options->link, options->world, &reason) != 0 ||
         mirror_open(&drive->mirror, &drive->link, options->world, true, &reason) != 0 ||
         tail_open(&drive->tail, &drive->link, news_format, &reason) != 0 ||
-        caller_open(&drive->caller, &drive->link, &reason) != 0)
+        command_route_open(&drive->route, &drive->caller, options->remote, &drive->link,
+                           options->world, &reason) != 0)
         die_refused("%s", reason.text);
     session_open(&drive->session, &drive->mirror, &drive->caller, options->wanted, clock_now_ns());
     drive->news.session = &drive->session;

@@ -3,6 +3,7 @@
 
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "topics/command_route.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -25,6 +26,8 @@ static const char usage[] =
     "  --plain                no screen: lines on standard output; keys may come from a pipe\n"
     "  --rate HZ              how often the screen (default 10) or the line (default 1) is made\n"
     "  --dds-config FILE, --interface ADDRESS, --domain N  as jolon-reporter\n"
+    "  --remote               commands go over DDS, to a set elsewhere that takes such\n"
+    "                         commands; else to your own world on this machine\n"
     "exit: 0 quit, 1 refused: no such vehicle, no such device, 2 usage\n";
 
 static enum inputs_choice parse_input(const char *text)
@@ -55,11 +58,15 @@ static void check(struct options *options, int argc, char **argv)
 
 void options_parse(struct options *options, int argc, char **argv)
 {
-    static const struct option known[] = {
-        {"world", required_argument, NULL, 'w'},  {"input", required_argument, NULL, 'i'},
-        {"device", required_argument, NULL, 'd'}, {"plain", no_argument, NULL, 'p'},
-        {"rate", required_argument, NULL, 'r'},   DDS_LINK_LONG_OPTIONS,
-        {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0}};
+    static const struct option known[] = {{"world", required_argument, NULL, 'w'},
+                                          {"input", required_argument, NULL, 'i'},
+                                          {"device", required_argument, NULL, 'd'},
+                                          {"plain", no_argument, NULL, 'p'},
+                                          {"rate", required_argument, NULL, 'r'},
+                                          DDS_LINK_LONG_OPTIONS,
+                                          COMMAND_ROUTE_LONG_OPTION,
+                                          {"help", no_argument, NULL, 'h'},
+                                          {NULL, 0, NULL, 0}};
     int option;
     *options = (struct options){.world = "default"};
     opterr = 0; /* we say it, in one line */
@@ -81,6 +88,9 @@ void options_parse(struct options *options, int argc, char **argv)
             break;
         case 'r':
             options->rate_hz = process_number("rate", optarg, RATE_MIN_HZ, RATE_MAX_HZ);
+            break;
+        case COMMAND_ROUTE_OPTION:
+            options->remote = true;
             break;
         case 'h':
             (void)fputs(usage, stdout);

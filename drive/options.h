@@ -15,6 +15,7 @@ struct options {
     bool plain;
     double rate_hz; /* of the screen, or of the lines */
     struct dds_link_options link;
+    bool remote; /* commands go over DDS */
 };
 
 /* Wrong usage ends the process (exit 2), --help prints usage and ends it (exit 0). */

@@ -500,8 +500,7 @@ void session_leave(struct session *session, uint64_t until_ns)
         uint64_t now_ns = clock_now_ns();
         if (now_ns >= until_ns)
             return;
-        dds_topics_wait(session->caller->waitset,
-                        until_ns - now_ns < IDLE_NS ? until_ns - now_ns : IDLE_NS);
+        caller_wait(session->caller, until_ns - now_ns < IDLE_NS ? until_ns : now_ns + IDLE_NS);
         caller_turn(session->caller);
     }
 }

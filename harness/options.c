@@ -3,6 +3,7 @@
 
 #include "ipc/log.h"
 #include "ipc/process.h"
+#include "topics/command_route.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -23,6 +24,8 @@ static const char usage[] =
     "  -w, --world NAME       (default \"default\")\n"
     "  --timeout SECONDS      how long to wait for the world, and for a reply (default 30)\n"
     "  --dds-config FILE, --interface ADDRESS, --domain N  as jolon-reporter\n"
+    "  --remote               commands go over DDS, to a set elsewhere that takes such\n"
+    "                         commands; else to your own world on this machine\n"
     "exit: 0 everything was answered, 1 no world, no reply, or nobody reads, 2 usage\n";
 
 void options_parse(struct options *options, int argc, char **argv)
@@ -31,6 +34,7 @@ void options_parse(struct options *options, int argc, char **argv)
                                           {"timeout", required_argument, NULL, 't'},
                                           {"help", no_argument, NULL, 'h'},
                                           DDS_LINK_LONG_OPTIONS,
+                                          COMMAND_ROUTE_LONG_OPTION,
                                           {NULL, 0, NULL, 0}};
     int option;
     *options = (struct options){.world = "default", .timeout_s = TIMEOUT_S};
@@ -44,6 +48,9 @@ void options_parse(struct options *options, int argc, char **argv)
             break;
         case 't':
             options->timeout_s = process_number("timeout", optarg, TIMEOUT_MIN_S, TIMEOUT_MAX_S);
+            break;
+        case COMMAND_ROUTE_OPTION:
+            options->remote = true;
             break;
         case 'h':
             (void)fputs(usage, stdout);

@@ -8,6 +8,7 @@ struct options {
     const char *world;
     double timeout_s; /* until a command without a reply is given up */
     struct dds_link_options link;
+    bool remote; /* commands go over DDS */
 };
 
 /* Fills options. Ends the program: with help (0), or with what is wrong in one line (2). */

@@ -43,10 +43,10 @@ int session_open(struct session *session, struct reason *reason)
         return reason_set(reason, "eventfd: %s", strerror(errno));
     if (dds_link_open(&session->link, &options->link, options->world, reason) != 0 ||
         mirror_open(&session->mirror, &session->link, options->world, true, reason) != 0 ||
-        caller_open(&session->caller, &session->link, reason) != 0 ||
+        command_route_open(&session->route, &session->caller, options->remote, &session->link,
+                           options->world, reason) != 0 ||
         listen_to(session, session->mirror.reader, MIRROR_READERS, reason) != 0 ||
-        listen_to(session, &session->mirror.names.reader, 1, reason) != 0 ||
-        listen_to(session, &session->caller.replies, 1, reason) != 0)
+        listen_to(session, &session->mirror.names_reader.reader, 1, reason) != 0)
         return -1;
     session->leases.mirror = &session->mirror;
     session->leases.output = &session->output;
@@ -178,13 +178,14 @@ void session_rest(struct session *session)
         {.fd = session->bell, .events = POLLIN},
         {.fd = reads ? STDIN_FILENO : -1, .events = POLLIN},
         {.fd = session->output.used ? STDOUT_FILENO : -1, .events = POLLOUT},
+        {.fd = caller_descriptor(&session->caller), .events = POLLIN},
     };
     wake_ns = least(wake_ns, caller_due_ns(&session->caller));
     wake_ns = least(wake_ns, desk_due_ns(&session->desk));
     wake_ns = least(wake_ns, leases_due_ns(&session->leases));
     wake_ns = least(wake_ns, wants_due_ns(&session->wants));
     uint64_t wait_ns = wake_ns > now_ns ? wake_ns - now_ns : 0;
-    if (poll(watched, 3, (int)((wait_ns + NS_PER_MS - 1) / NS_PER_MS)) <= 0)
+    if (poll(watched, 4, (int)((wait_ns + NS_PER_MS - 1) / NS_PER_MS)) <= 0)
         return;
     if (watched[1].revents)
         input_read(&session->input);

@@ -6,6 +6,7 @@
 #include "harness/input.h"
 #include "harness/options.h"
 #include "harness/wants.h"
+#include "topics/command_route.h"
 
 struct session {
     struct options options;
@@ -14,6 +15,7 @@ struct session {
     struct tail tail;
     bool tailing; /* the tail is open: events were wanted once */
     struct caller caller;
+    struct command_route route; /* of the caller */
     struct input input;
     struct output output;
     struct leases leases;

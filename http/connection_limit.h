@@ -5,7 +5,7 @@
 #ifndef JOLON_HTTP_CONNECTION_LIMIT_H
 #define JOLON_HTTP_CONNECTION_LIMIT_H
 
-#include "http/rate.h"
+#include "ipc/rate.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -216,8 +216,8 @@ bool layout_writable(enum role role, enum region region)
         return region == REGION_MOVED_WORD || region == REGION_MOVED || region == REGION_DOORS;
     case ROLE_COLLIDER:
         return (region >= REGION_COMMIT && region <= REGION_EVENTS) || region == REGION_DOORS;
-    case ROLE_REPORTER:
-        return region == REGION_COMMANDS + RING_REPORTER || region == REGION_DOORS;
+    case ROLE_INTAKE:
+        return region == REGION_COMMANDS + RING_CLIENTS || region == REGION_DOORS;
     case ROLE_RECORDER:
         return region == REGION_COMMANDS + RING_RECORDER || region == REGION_DOORS;
     case ROLE_RENDERER:

@@ -7,10 +7,10 @@
 
 static const char *const role_names[ROLE_COUNT] = {
     [ROLE_MOVER] = "mover",           [ROLE_COLLIDER] = "collider",
-    [ROLE_REPORTER] = "reporter",     [ROLE_RECORDER] = "recorder",
-    [ROLE_RENDERER] = "renderer",     [ROLE_RENDERER_2] = "renderer-2",
-    [ROLE_RENDERER_3] = "renderer-3", [ROLE_RENDERER_4] = "renderer-4",
-    [ROLE_CONSOLE] = "console",
+    [ROLE_INTAKE] = "intake",         [ROLE_REPORTER] = "reporter",
+    [ROLE_RECORDER] = "recorder",     [ROLE_RENDERER] = "renderer",
+    [ROLE_RENDERER_2] = "renderer-2", [ROLE_RENDERER_3] = "renderer-3",
+    [ROLE_RENDERER_4] = "renderer-4", [ROLE_CONSOLE] = "console",
 };
 
 const char *role_name(enum role role)

@@ -12,6 +12,7 @@
 enum role {
     ROLE_MOVER,
     ROLE_COLLIDER,
+    ROLE_INTAKE,
     ROLE_REPORTER,
     ROLE_RECORDER,
     ROLE_RENDERER,

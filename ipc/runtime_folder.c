@@ -265,8 +265,8 @@ int runtime_folder_open(struct reason *reason)
 {
     pthread_mutex_lock(&kept_lock);
     int fd = keep(reason);
-    if (fd == 0 && (fd = openat(kept.fd, ".", O_PATH | O_DIRECTORY | O_CLOEXEC)) < 0)
-        reason_set(reason, "%s: cannot open: %s", kept.path, strerror(errno));
+    if (fd == 0 && (fd = fcntl(kept.fd, F_DUPFD_CLOEXEC, 0)) < 0)
+        reason_set(reason, "%s: cannot duplicate its descriptor: %s", kept.path, strerror(errno));
     pthread_mutex_unlock(&kept_lock);
     return fd;
 }

@@ -146,6 +146,21 @@ static enum command_result fire(struct serial *serial, const struct command *com
     return weapons_fire(serial, row, target, KIND_NONE) ? COMMAND_DONE : COMMAND_TABLE_FULL;
 }
 
+/* Do as many vehicles as may stand within COMMAND_SPOT_M of this place already? Bodies that are
+ * spawned into one another cost the collider the square of their number. */
+static bool crowded(const struct serial *serial, struct vec3 place)
+{
+    const struct entities *m = &serial->moved->entities;
+    uint32_t near = 0;
+    for (uint32_t row = 0; row < serial->moved->head->used && near < COMMAND_SPOT_VEHICLES; row++) {
+        if (m->state[row] == ENTITY_FREE || m->behaviour[row] == BEHAVIOUR_FLIGHT)
+            continue;
+        struct vec3 away = vec3_sub(entities_position(m, row), place);
+        near += vec3_dot(away, away) < COMMAND_SPOT_M * COMMAND_SPOT_M;
+    }
+    return near == COMMAND_SPOT_VEHICLES;
+}
+
 static enum command_result spawn(struct serial *serial, const struct command *command,
                                  uint32_t *made)
 {
@@ -163,14 +178,16 @@ static enum command_result spawn(struct serial *serial, const struct command *co
     bool water = cover_is_water(terrain_cover(&world->terrain, v[0], v[1]));
     if (kind->domain != DOMAIN_AIR && (kind->domain == DOMAIN_SEA) != water)
         return COMMAND_OUT_OF_RANGE;
+    struct vec3 position = {v[0], pose_ground(serial->move, v[0], v[1]), v[1]};
+    if (kind->domain == DOMAIN_AIR)
+        position.y += v[2] > 0.0 ? v[2] : kind->cruise_altitude_m;
+    if (crowded(serial, position))
+        return COMMAND_CANNOT;
     uint32_t row = spawn_entity(serial, command->kind, (uint8_t)command->force);
     if (row == SLOT_NONE)
         return COMMAND_TABLE_FULL;
     double sine, cosine;
     maths_sincos(v[3], &sine, &cosine);
-    struct vec3 position = {v[0], pose_ground(serial->move, v[0], v[1]), v[1]};
-    if (kind->domain == DOMAIN_AIR)
-        position.y += v[2] > 0.0 ? v[2] : kind->cruise_altitude_m;
     entities_set_position(m, row, position);
     entities_set_velocity(m, row, (struct vec3){v[4] * sine, 0.0, -v[4] * cosine});
     m->heading[row] = maths_wrap_turn(v[3]);

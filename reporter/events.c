@@ -44,7 +44,7 @@ int events_open(struct events *events, const struct view *view, const struct dds
     events->publish_from = head.event_end > EVENTS_AGAIN ? head.event_end - EVENTS_AGAIN : 0;
     events->publish_from_frame = before > again ? before - again : 0;
     events->gaps = atomic_load_explicit(&slot->gaps, memory_order_relaxed);
-    /* From the ring's oldest: older answers fill the book. What went before is nobody's gap. */
+    /* From the ring's oldest. What went before it is nobody's gap. */
     uint64_t slots = view->header->event_slots;
     events->cursor.next = head.event_end > slots ? head.event_end - slots : 0;
     events->cursor.next -= events_read(view, &events->cursor, events->event, 1);
@@ -203,8 +203,7 @@ static void count_gap(struct events *events)
     events->cursor.gap = 0;
 }
 
-bool events_publish(struct events *events, const struct view *view, struct orders *orders,
-                    uint64_t until_ns)
+bool events_publish(struct events *events, const struct view *view, uint64_t until_ns)
 {
     uint64_t commit = atomic_load_explicit(&view->commit->commit, memory_order_acquire);
     while (clock_now_ns() < until_ns) {
@@ -218,22 +217,14 @@ bool events_publish(struct events *events, const struct view *view, struct order
             const struct event *event = &events->event[i];
             bool publish = event->sequence >= events->publish_from ||
                            event->frame >= events->publish_from_frame;
-            if (event->type == EVENT_COMMAND) {
-                orders_answer(orders, event, publish);
-            } else if (event->type >= EVENT_COLLISION && event->type <= EVENT_AGENT &&
-                       !publish_one(events, &view->world, event, publish)) {
+            if (event->type >= EVENT_COLLISION && event->type <= EVENT_AGENT &&
+                !publish_one(events, &view->world, event, publish)) {
                 events->cursor.next = event->sequence;
                 return false;
             }
         }
     }
     return false;
-}
-
-bool events_over(const struct events *events, const struct view *view)
-{
-    return frame_finished(view) &&
-           events->frame == atomic_load_explicit(&view->commit->commit, memory_order_acquire);
 }
 
 void events_flush(const struct events *events, uint64_t until_ns)

@@ -1,5 +1,4 @@
-/* Events: the event ring, in order and with none left out, onto the event topics; answers to
- * commands among them go to the orders.
+/* Events: the event ring, in order and with none left out, onto the event topics.
  *
  * At least once: a new reporter goes back to what its predecessor may not have delivered, and at
  * least EVENTS_AGAIN events, so that late subscribers of its own find some history. */
@@ -7,7 +6,7 @@
 #define JOLON_REPORTER_EVENTS_H
 
 #include "ipc/snapshot.h"
-#include "reporter/orders.h"
+#include "topics/dds_topics.h"
 
 #define EVENTS_AGAIN   4096u
 #define EVENTS_AGAIN_S 1.0 /* [s of simulation] before the predecessor's last frame */
@@ -18,7 +17,7 @@ struct events {
     dds_entity_t writer[EVENTS_TOPICS];
     uint64_t previous[EVENTS_TOPICS]; /* sequence last seen for the topic; UINT64_MAX: none */
     struct event_cursor cursor;
-    uint64_t publish_from;       /* events before this sequence are read for the book alone */
+    uint64_t publish_from;       /* events before this sequence only say what was last on a topic */
     uint64_t publish_from_frame; /* ... unless their frame is at least this */
     uint64_t run;
     uint64_t frame; /* the last frame of which every event was published */
@@ -33,11 +32,7 @@ int events_open(struct events *events, const struct view *view, const struct dds
 
 /* Publishes committed events until there are no more or the clock reaches until_ns. True when none
  * was left. What DDS does not take stays for the next call. */
-bool events_publish(struct events *events, const struct view *view, struct orders *orders,
-                    uint64_t until_ns);
-
-/* Is the run over, with every event of its last frame published? */
-bool events_over(const struct events *events, const struct view *view);
+bool events_publish(struct events *events, const struct view *view, uint64_t until_ns);
 
 /* Waits until the subscribers have what was published, or until until_ns. */
 void events_flush(const struct events *events, uint64_t until_ns);

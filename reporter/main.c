@@ -1,5 +1,6 @@
-/* jolon-reporter: the only process of a world with DDS. It publishes the status topics and takes
- * commands into the command ring. The frame loop never waits for it, nor for whoever subscribes. */
+/* jolon-reporter: the only process of a world with DDS. It publishes the status topics and, where
+ * it was told to, passes on the commands of other machines. The frame loop waits neither for it nor
+ * for its subscribers. */
 #include "ipc/clock.h"
 #include "ipc/frame.h"
 #include "ipc/log.h"
@@ -7,7 +8,7 @@
 #include "reporter/batch.h"
 #include "reporter/events.h"
 #include "reporter/options.h"
-#include "reporter/orders.h"
+#include "reporter/remote_commands.h"
 #include "reporter/report.h"
 #include "sandbox/sandbox.h"
 
@@ -33,7 +34,8 @@ struct reporter {
     struct dds_link link;
     struct report report;
     struct events events;
-    struct orders orders;
+    struct remote_commands remote;
+    bool takes_commands;
     struct batch batch;
     dds_entity_t waitset;
     uint64_t frame_due_ns;
@@ -47,10 +49,13 @@ static int open_topics(struct reporter *reporter, struct reason *reason)
         report_world(&reporter->report, view, reason) != 0 ||
         report_names(&reporter->report, view, reason) != 0 ||
         events_open(&reporter->events, view, link, reporter->report.run, reason) != 0 ||
-        batch_open(&reporter->batch, view, link, reporter->report.run, reason) != 0 ||
-        orders_open(&reporter->orders, view, link, reason) != 0)
+        batch_open(&reporter->batch, view, link, reporter->report.run, reason) != 0)
         return -1;
-    reporter->waitset = dds_topics_waitset(link, &reporter->orders.reader, 1, reason);
+    if (reporter->takes_commands &&
+        remote_commands_open(&reporter->remote, view->name, link, reason) != 0)
+        return -1;
+    reporter->waitset =
+        dds_topics_waitset(link, &reporter->remote.reader, reporter->takes_commands, reason);
     return reporter->waitset < 0 ? -1 : 0;
 }
 
@@ -72,10 +77,9 @@ static bool turn(struct reporter *reporter)
     struct role_slot *slot = reporter->view.slot[ROLE_REPORTER];
     uint64_t begun_ns = clock_now_ns();
     frame_beat(&reporter->view);
-    orders_take(&reporter->orders, &reporter->view,
-                events_over(&reporter->events, &reporter->view));
-    bool more = !events_publish(&reporter->events, &reporter->view, &reporter->orders,
-                                begun_ns + EVENTS_LIMIT_NS);
+    if (reporter->takes_commands)
+        remote_commands_turn(&reporter->remote, begun_ns);
+    bool more = !events_publish(&reporter->events, &reporter->view, begun_ns + EVENTS_LIMIT_NS);
     tell_status(reporter, begun_ns);
     more |= batch_publish(&reporter->batch, &reporter->view, clock_now_ns());
     uint64_t stage_ns = clock_now_ns() - begun_ns;
@@ -90,12 +94,8 @@ static bool turn(struct reporter *reporter)
 /* Until the next turn, or until a command comes. */
 static void rest(const struct reporter *reporter)
 {
-    /* Commands that must stay in DDS would end the wait at once. */
-    if (reporter->orders.holding)
-        clock_sleep_until_ns(clock_now_ns() + WAIT_COMMAND_NS);
-    else
-        dds_topics_wait(reporter->waitset,
-                        orders_waiting(&reporter->orders) ? WAIT_COMMAND_NS : WAIT_NS);
+    bool busy = reporter->takes_commands && remote_commands_busy(&reporter->remote, clock_now_ns());
+    dds_topics_wait(reporter->waitset, busy ? WAIT_COMMAND_NS : WAIT_NS);
 }
 
 /* What is committed goes out before the process ends, within bounds. */
@@ -103,8 +103,7 @@ static void last_words(struct reporter *reporter)
 {
     uint64_t now_ns = clock_now_ns();
     atomic_store(&reporter->view.slot[ROLE_REPORTER]->state, ROLE_STOPPING);
-    (void)events_publish(&reporter->events, &reporter->view, &reporter->orders,
-                         now_ns + LAST_EVENTS_NS);
+    (void)events_publish(&reporter->events, &reporter->view, now_ns + LAST_EVENTS_NS);
     report_processes(&reporter->report, &reporter->view, now_ns);
     report_frame(&reporter->report, &reporter->view, now_ns);
     events_flush(&reporter->events, clock_now_ns() + LAST_ACKS_NS);
@@ -128,6 +127,7 @@ int main(int argc, char **argv)
         segment_attach(&reporter.view, options.world, ROLE_REPORTER, &reason) != 0)
         die_refused("%s", reason.text);
     options.link.part = DDS_HOST;
+    reporter.takes_commands = options.remote_commands;
     if (dds_link_open(&reporter.link, &options.link, options.world, &reason) != 0 ||
         open_topics(&reporter, &reason) != 0 || sandbox_enter(&sandbox, &reason) != 0) {
         segment_detach(&reporter.view);

@@ -15,14 +15,20 @@ static const char usage[] =
     "  --no-sandbox         give up no privileges\n"
     "  --dds-config FILE    a Cyclone DDS configuration instead of the built-in one\n"
     "  --interface ADDRESS  publish on this interface (address or name) instead of loopback\n"
-    "  --domain N           DDS domain, 0 to 230 (default 0)\n";
+    "  --domain N           DDS domain, 0 to 230 (default 0)\n"
+    "  --remote-commands    take commands over DDS too; without DDS Security, which only a\n"
+    "                       configuration file turns on, anybody who reaches the interface\n"
+    "                       commands the world\n";
 
 void options_parse(struct options *options, int argc, char **argv)
 {
-    static const struct option known[] = {
-        {"world", required_argument, NULL, 'w'}, {"parent", required_argument, NULL, 'p'},
-        {"no-sandbox", no_argument, NULL, 'n'},  DDS_LINK_LONG_OPTIONS,
-        {"help", no_argument, NULL, 'h'},        {NULL, 0, NULL, 0}};
+    static const struct option known[] = {{"world", required_argument, NULL, 'w'},
+                                          {"parent", required_argument, NULL, 'p'},
+                                          {"no-sandbox", no_argument, NULL, 'n'},
+                                          DDS_LINK_LONG_OPTIONS,
+                                          {"help", no_argument, NULL, 'h'},
+                                          {"remote-commands", no_argument, NULL, 'r'},
+                                          {NULL, 0, NULL, 0}};
     int option;
     *options = (struct options){.world = "default"};
     opterr = 0; /* we say it, in one line */
@@ -38,6 +44,9 @@ void options_parse(struct options *options, int argc, char **argv)
             break;
         case 'n':
             options->sandbox_off = true;
+            break;
+        case 'r':
+            options->remote_commands = true;
             break;
         case 'h':
             (void)fputs(usage, stdout);

@@ -8,6 +8,7 @@ struct options {
     const char *world;
     int parent; /* process id, 0: none */
     bool sandbox_off;
+    bool remote_commands; /* commands are taken over DDS too */
     struct dds_link_options link;
 };
 

@@ -4,6 +4,7 @@
 #include "ipc/clock.h"
 #include "ipc/frame.h"
 #include "ipc/snapshot.h"
+#include "topics/names.h"
 #include "world/square.h"
 
 #include <errno.h>
@@ -105,25 +106,14 @@ int report_world(struct report *report, const struct view *view, struct reason *
 
 int report_names(const struct report *report, const struct view *view, struct reason *reason)
 {
-    const struct world *world = &view->world;
-    uint32_t named = 0;
-    for (uint32_t id = 1; id <= world->counts.names && named < jolon_NAMES_MAX; id++)
-        named += world_entity_name(world, id)[0] != '\0';
-    jolon_EntityName *name = calloc(named + 1, sizeof *name); /* not none: NULL is an error */
-    if (!name)
+    struct names names = {0};
+    if (!names_read_world(&names, &view->world, report->run))
         return reason_set(reason, "entity names: %s", strerror(errno));
     jolon_EntityNames wire = {.run = report->run};
-    for (uint32_t id = 1; wire.names._length < named; id++) {
-        if (!world_entity_name(world, id)[0])
-            continue;
-        jolon_EntityName *to = &name[wire.names._length++];
-        to->id = id;
-        copy_text(to->name, sizeof to->name, world_entity_name(world, id));
-    }
-    wire.names._buffer = name;
-    wire.names._maximum = named;
+    wire.names._buffer = names.entry;
+    wire.names._length = wire.names._maximum = names.count;
     dds_return_t code = dds_write(report->names, &wire);
-    free(name);
+    names_close(&names);
     return code < 0 ? reason_set(reason, "entity names: %s", dds_strretcode(code)) : 0;
 }
 

@@ -169,15 +169,35 @@ static const struct rule serving[] = {
     {SCMP_SYS(getsockopt), 2, {{1, SCMP_CMP_EQ, SOL_SOCKET, 0}, {2, SCMP_CMP_EQ, SO_PEERCRED, 0}}},
 };
 
-/* What a console does beside its network: it looks at worlds that come and go, asks the renderer's
- * socket for pictures, and kills a role when somebody presses the button for it. */
+/* Waiting for sockets and for what wakes a thread. */
+static const struct rule polling[] = {
+    ANY(poll),
+    ANY(ppoll),
+};
+
+/* A client of the command socket, which connects again when the intake was restarted. */
+static const struct rule commanding[] = {
+    WITH(socket, 0, AF_UNIX),
+    ANY(geteuid),
+    WITH(fcntl, 1, F_DUPFD_CLOEXEC), /* of the runtime folder */
+    {SCMP_SYS(getsockopt), 2, {{1, SCMP_CMP_EQ, SOL_SOCKET, 0}, {2, SCMP_CMP_EQ, SO_PEERCRED, 0}}},
+    ANY(fstat),
+    WITH(newfstatat, 3, AT_EMPTY_PATH), /* what fstat() is in the C library */
+    ANY(connect),
+    ANY(sendto),
+    ANY(recvfrom),
+};
+
+/* What a console does beside serving pages: it looks at worlds that come and go, asks the
+ * renderer's socket for pictures, and kills a role when somebody presses the button for it. */
 static const struct rule visiting[] = {
-    ANY(openat), /* to read alone, and not everything: sandbox/files.c */
+    ANY(read), /* the eventfd of the desk, the pipe of the server's thread */
+    ANY(write),
+    WITH(fcntl, 1, F_OFD_GETLK), /* whether a silent role is dead */
+    ANY(openat),                 /* to read alone, and not everything: sandbox/files.c */
     ANY(access),
     ANY(newfstatat),
     ANY(getuid),
-    ANY(geteuid),
-    ANY(poll),
     ANY(shutdown),
     ANY(getrandom), /* players' keys */
     ANY(pidfd_open),
@@ -293,9 +313,12 @@ static const struct list renderer_lists[] = {EVERY_ROLE,
                                              ALLOW(serving),
                                              LIST(wishes, SCMP_ACT_ERRNO(EPERM)),
                                              END};
-static const struct list reporter_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(networking), END};
-static const struct list console_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(networking),
-                                            ALLOW(visiting), END};
+static const struct list intake_lists[] = {EVERY_ROLE, ALLOW(serving), ALLOW(polling), END};
+static const struct list reporter_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(networking),
+                                             ALLOW(commanding), END};
+static const struct list console_lists[] = {
+    EVERY_ROLE, ALLOW(threads), ALLOW(serving), ALLOW(polling), ALLOW(commanding), ALLOW(visiting),
+    END};
 static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(files), END};
 
 /* Refused with EPERM and no trap: libraries of a role that starts may try what they can do without.
@@ -310,10 +333,11 @@ static const struct list keeper_lists[] = {DENY(intruding),
 
 static const struct list *const role_lists[ROLE_COUNT + 1] = {
     [ROLE_NONE] = keeper_lists,         [ROLE_MOVER] = frame_lists,
-    [ROLE_COLLIDER] = frame_lists,      [ROLE_REPORTER] = reporter_lists,
-    [ROLE_RECORDER] = recorder_lists,   [ROLE_RENDERER] = renderer_lists,
-    [ROLE_RENDERER_2] = renderer_lists, [ROLE_RENDERER_3] = renderer_lists,
-    [ROLE_RENDERER_4] = renderer_lists, [ROLE_CONSOLE] = console_lists,
+    [ROLE_COLLIDER] = frame_lists,      [ROLE_INTAKE] = intake_lists,
+    [ROLE_REPORTER] = reporter_lists,   [ROLE_RECORDER] = recorder_lists,
+    [ROLE_RENDERER] = renderer_lists,   [ROLE_RENDERER_2] = renderer_lists,
+    [ROLE_RENDERER_3] = renderer_lists, [ROLE_RENDERER_4] = renderer_lists,
+    [ROLE_CONSOLE] = console_lists,
 };
 
 static int add_lists(scmp_filter_ctx filter, const struct list *list)

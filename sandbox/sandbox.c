@@ -13,6 +13,7 @@
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -99,6 +100,8 @@ int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reas
     /* All threads allocate from one arena: with further ones the C library opens files, now and
      * then, to count processors and to ask how memory is promised. */
     (void)mallopt(M_ARENA_MAX, 1);
+    /* The first date, also one of a library's, would read the file of the time zone. */
+    tzset();
     sandbox->on = true;
     return 0;
 }

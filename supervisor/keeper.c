@@ -108,6 +108,7 @@ static void repair(struct keeper *keeper, enum role role)
     set_kill(&keeper->set, ROLE_COLLIDER);
     /* They may have read what was damaged: they begin anew as well. */
     set_kill(&keeper->set, ROLE_RECORDER);
+    set_kill(&keeper->set, ROLE_INTAKE);
     set_kill(&keeper->set, ROLE_REPORTER);
     if (frame == keeper->repaired_frame || !strstr(text, "damaged") ||
         set_run(&keeper->set, "jolon-world", repair_verb, true) != EXIT_OK) {
@@ -246,7 +247,7 @@ static bool starts(const struct post *post)
 /* One role after the other, the mover last: frames begin when everybody is there to see them. */
 static void start_set(struct keeper *keeper)
 {
-    static const enum role order[] = {ROLE_COLLIDER, ROLE_RECORDER, ROLE_REPORTER,
+    static const enum role order[] = {ROLE_COLLIDER, ROLE_RECORDER, ROLE_INTAKE, ROLE_REPORTER,
                                       ROLE_RENDERER, ROLE_CONSOLE,  ROLE_MOVER};
     struct set *set = &keeper->set;
     int wanted[ROLE_COUNT];
@@ -292,7 +293,7 @@ static void say_ready(int fd)
 static void stop_set(struct keeper *keeper)
 {
     /* Nothing new first, then those who report the rest. */
-    static const enum role order[] = {ROLE_MOVER,   ROLE_COLLIDER, ROLE_RECORDER,
+    static const enum role order[] = {ROLE_MOVER,   ROLE_COLLIDER, ROLE_INTAKE,  ROLE_RECORDER,
                                       ROLE_CONSOLE, ROLE_RENDERER, ROLE_REPORTER};
     for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
         if (order[i] != ROLE_RECORDER) {

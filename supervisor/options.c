@@ -35,6 +35,7 @@ static const struct option known[] = {
     {"interface", required_argument, NULL, PASSED + ROLE_REPORTER},
     {"domain", required_argument, NULL, PASSED + ROLE_REPORTER},
     {"dds-config", required_argument, NULL, PASSED + ROLE_REPORTER},
+    {"remote-commands", no_argument, NULL, PASSED + ROLE_REPORTER},
     {"console", required_argument, NULL, 'C'},
     {"console-address", required_argument, NULL, 'A'},
     {"console-token", required_argument, NULL, 'K'},
@@ -47,18 +48,19 @@ static const struct option known[] = {
 static void leave_out(struct plan *plan, const char *name)
 {
     enum role role = role_find(name);
-    if (role == ROLE_NONE || judge_makes_frames(role))
+    if (role == ROLE_NONE || role == ROLE_INTAKE || judge_makes_frames(role))
         die_usage("--without %s: there are renderer, reporter, recorder", name);
     plan->left_out[role] = true;
 }
 
-/* The role reads it itself, and says what is wrong with it. */
+/* The role reads it itself, and says what is wrong with it. value NULL: it has none. */
 static void pass_on(struct passed *passed, const char *option, const char *value)
 {
     if (passed->count + 2 > PLAN_PASSED_MAX)
-        die_usage("%s %s: too many options of one role", option, value);
+        die_usage("%s: too many options of one role", option);
     passed->argument[passed->count++] = option;
-    passed->argument[passed->count++] = value;
+    if (value)
+        passed->argument[passed->count++] = value;
 }
 
 /* The console's own options, by their names there; --console is what asks for one at all. */
@@ -98,7 +100,7 @@ struct plan options_plan(int argc, char **argv)
         else if (option == 'x')
             leave_out(&plan, optarg);
         else if (option >= PASSED)
-            pass_on(&plan.passed[option - PASSED], argv[optind - 2], optarg);
+            pass_on(&plan.passed[option - PASSED], argv[optind - (optarg ? 2 : 1)], optarg);
         else if (option == 'H')
             plan.hang_ms = process_whole("hang-ms", optarg, 20, 3600000);
         else if (option == 'b')

@@ -14,7 +14,8 @@
 #define PLAN_PASSED_MAX 16
 #define SET_WORDS_MAX   1200 /* of what a role refuses */
 
-/* Options that are passed on to a role as they are, each followed by its value. */
+/* Options that are passed on to a role as they are, each followed by its value if it
+ * has one. */
 struct passed {
     const char *argument[PLAN_PASSED_MAX];
     int count;

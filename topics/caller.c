@@ -4,17 +4,14 @@
 #include "ipc/clock.h"
 #include "ipc/process.h"
 
+#include <poll.h>
 #include <string.h>
 #include <sys/random.h>
+#include <time.h>
 
-int caller_open(struct caller *caller, const struct dds_link *link, struct reason *reason)
+int caller_open(struct caller *caller, struct command_link link, struct reason *reason)
 {
-    *caller = (struct caller){0};
-    /* The reader first: the reply may come as soon as the command is out. */
-    if ((caller->replies = dds_topics_reader(link, TOPIC_REPLY, reason)) < 0 ||
-        (caller->waitset = dds_topics_waitset(link, &caller->replies, 1, reason)) < 0 ||
-        (caller->commands = dds_topics_writer(link, TOPIC_COMMAND, reason)) < 0)
-        return -1;
+    *caller = (struct caller){.link = link};
     caller->source = caller_source();
     return caller->source ? 0 : reason_set(reason, "the system gives no random numbers");
 }
@@ -67,24 +64,21 @@ uint64_t caller_send(struct caller *caller, const jolon_Command *command)
         return 0;
     call.command.sequence = ++caller->sequence;
     call.repeat_ns = clock_now_ns() + CALLER_REPEAT_NS;
-    (void)dds_write(caller->commands, &call.command); /* what does not get out is repeated */
+    caller->link.transport->send(caller->link.self,
+                                 &call.command); /* what does not get out is repeated */
     caller->call[caller->count++] = call;
     return call.command.sequence;
 }
 
 static void take_replies(struct caller *caller)
 {
-    void *sample = NULL;
-    dds_sample_info_t info;
-    while (dds_take(caller->replies, &sample, &info, 1, 1) > 0) {
-        const jolon_CommandReply *reply = sample;
-        struct caller_call *call = info.valid_data ? find(caller, reply->sequence) : NULL;
-        if (call && call->command.source == reply->source) {
-            call->reply = *reply;
+    jolon_CommandReply reply;
+    while (caller->link.transport->receive(caller->link.self, &reply)) {
+        struct caller_call *call = find(caller, reply.sequence);
+        if (call && call->command.source == reply.source) {
+            call->reply = reply;
             call->answered = true;
         }
-        (void)dds_return_loan(caller->replies, &sample, 1);
-        sample = NULL;
     }
 }
 
@@ -96,7 +90,7 @@ void caller_turn(struct caller *caller)
         struct caller_call *call = &caller->call[i];
         if (call->answered || now_ns < call->repeat_ns)
             continue;
-        (void)dds_write(caller->commands, &call->command);
+        caller->link.transport->send(caller->link.self, &call->command);
         call->repeat_ns = now_ns + CALLER_REPEAT_NS;
     }
 }
@@ -137,11 +131,9 @@ bool caller_call(struct caller *caller, const jolon_Command *command, uint64_t u
         caller_turn(caller);
         if (caller_answered(caller, sequence, reply))
             return true;
-        uint64_t now_ns = clock_now_ns(), due_ns = caller_due_ns(caller);
-        if (now_ns >= until_ns || process_stopping())
+        if (clock_now_ns() >= until_ns || process_stopping())
             break;
-        uint64_t wake_ns = due_ns < until_ns ? due_ns : until_ns;
-        dds_topics_wait(caller->waitset, wake_ns > now_ns ? wake_ns - now_ns : 0);
+        caller_wait(caller, until_ns);
     }
     caller_forget(caller, sequence);
     return false;
@@ -149,7 +141,21 @@ bool caller_call(struct caller *caller, const jolon_Command *command, uint64_t u
 
 bool caller_heard(const struct caller *caller)
 {
-    dds_publication_matched_status_t matched = {0};
-    return dds_get_publication_matched_status(caller->commands, &matched) >= 0 &&
-           matched.current_count > 0;
+    return caller->link.transport->heard(caller->link.self);
+}
+
+int caller_descriptor(const struct caller *caller)
+{
+    return caller->link.transport->descriptor(caller->link.self);
+}
+
+void caller_wait(const struct caller *caller, uint64_t until_ns)
+{
+    struct pollfd reply = {.fd = caller_descriptor(caller), .events = POLLIN};
+    uint64_t due_ns = caller_due_ns(caller), now_ns = clock_now_ns();
+    uint64_t wake_ns = due_ns < until_ns ? due_ns : until_ns;
+    uint64_t left_ns = wake_ns > now_ns ? wake_ns - now_ns : 0;
+    struct timespec left = {.tv_sec = (time_t)(left_ns / NS_PER_S),
+                            .tv_nsec = (long)(left_ns % NS_PER_S)};
+    (void)ppoll(&reply, 1, &left, NULL);
 }

@@ -6,20 +6,18 @@
 #ifndef JOLON_TOPICS_CALLER_H
 #define JOLON_TOPICS_CALLER_H
 
-#include "topics/dds_topics.h"
+#include "ipc/segment.h"
+#include "topics/command_link.h"
 
-#include "status.h"
-
-#include <stdbool.h>
+#include <stdint.h>
 
 #define CALLER_WAITING_MAX 256u
 #define CALLER_REPEAT_NS   150000000u
 
 struct caller {
-    dds_entity_t replies, commands;
-    dds_entity_t waitset; /* wakes when a reply is there */
-    uint64_t source;      /* its own: random, not 0 */
-    uint64_t sequence;    /* of the last command sent */
+    struct command_link link;
+    uint64_t source;   /* its own: random, not 0 */
+    uint64_t sequence; /* of the last command sent */
     uint32_t count;
     struct caller_call {
         jolon_Command command;
@@ -29,9 +27,8 @@ struct caller {
     } call[CALLER_WAITING_MAX]; /* [count] sent and not yet forgotten, the oldest first */
 };
 
-/* Makes the reader and the writer in an open link, and chooses a source. 0, or -1 with the reason.
- */
-int caller_open(struct caller *caller, const struct dds_link *link, struct reason *reason);
+/* Takes an open link, and chooses a source. 0, or -1 with the reason. */
+int caller_open(struct caller *caller, struct command_link link, struct reason *reason);
 
 /* A random source that no other sender has: 53 bits, which programs that know only doubles keep. 0
  * when there are no random numbers. */
@@ -61,5 +58,11 @@ bool caller_call(struct caller *caller, const jolon_Command *command, uint64_t u
 
 /* Does anybody take commands for this world? */
 bool caller_heard(const struct caller *caller);
+
+/* A descriptor that is readable when caller_turn() may have a reply to take, -1: none now. */
+int caller_descriptor(const struct caller *caller);
+
+/* Waits for a reply, until until_ns (CLOCK_MONOTONIC), or until the next repetition is due. */
+void caller_wait(const struct caller *caller, uint64_t until_ns);
 
 #endif

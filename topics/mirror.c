@@ -22,7 +22,7 @@ int mirror_open(struct mirror *mirror, const struct dds_link *link, const char *
         if (mirror->reader[i] < 0)
             return -1;
     }
-    if (names_open(&mirror->names, link, reason) != 0)
+    if (names_reader_open(&mirror->names_reader, link, reason) != 0)
         return -1;
     mirror->waitset = dds_topics_waitset(link, mirror->reader, (size_t)mirror->readers, reason);
     return mirror->waitset < 0 ? -1 : 0;
@@ -146,7 +146,7 @@ void mirror_take(struct mirror *mirror)
         }
     }
     look_after_world(mirror);
-    names_take(&mirror->names);
+    names_reader_take(&mirror->names_reader, &mirror->names);
 }
 
 void mirror_wait(const struct mirror *mirror, uint64_t until_ns)

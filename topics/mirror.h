@@ -6,7 +6,7 @@
 #define JOLON_TOPICS_MIRROR_H
 
 #include "topics/dds_topics.h"
-#include "topics/names.h"
+#include "topics/names_reader.h"
 
 #include "status.h"
 
@@ -29,6 +29,7 @@ struct mirror {
     dds_entity_t reader[MIRROR_READERS];
     int readers; /* the first of them; the entities' is the last */
     dds_entity_t waitset;
+    struct names_reader names_reader;
     const char *name; /* of the world, as asked for */
 
     bool has_world;

@@ -1,24 +1,15 @@
-/* The topic of names into a list. */
+/* A list of names. */
 #include "topics/names.h"
 
-#include "ipc/clock.h"
-#include "ipc/log.h"
-#include "topics/samples.h"
+#include "world/world.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-int names_open(struct names *names, const struct dds_link *link, struct reason *reason)
-{
-    *names = (struct names){.link = link, .reader = dds_topics_reader(link, TOPIC_NAMES, reason)};
-    return names->reader < 0 ? -1 : 0;
-}
-
 void names_close(struct names *names)
 {
     free(names->entry);
-    names->entry = NULL;
-    names->count = 0;
+    *names = (struct names){0};
 }
 
 bool names_learn(struct names *names, const jolon_EntityNames *told)
@@ -37,17 +28,26 @@ bool names_learn(struct names *names, const jolon_EntityNames *told)
     return true;
 }
 
-void names_take(struct names *names)
+bool names_read_world(struct names *names, const struct world *world, uint64_t run)
 {
-    struct samples from = {.reader = names->reader, .topic = TOPIC_NAMES};
-    while (samples_next(&from)) {
-        (void)names_learn(names, from.sample); /* without memory nobody has a name */
-        names->writer = from.writer;
+    uint32_t named = 0;
+    for (uint32_t id = 1; id <= world->counts.names && named < jolon_NAMES_MAX; id++)
+        named += world_entity_name(world, id)[0] != '\0';
+    jolon_EntityName *entry = calloc(named + 1, sizeof *entry);
+    if (!entry)
+        return false;
+    names_close(names);
+    for (uint32_t id = 1; names->count < named; id++) {
+        if (!world_entity_name(world, id)[0])
+            continue;
+        jolon_EntityName *to = &entry[names->count++];
+        to->id = id;
+        (void)stpncpy(to->name, world_entity_name(world, id), sizeof to->name - 1);
     }
-    /* They are written once: of whoever has left they are asked for again. */
-    if (names->told && log_due(&names->looked_ns, NS_PER_S) &&
-        dds_topics_orphaned(names->reader, names->writer))
-        dds_topics_ask_again(names->link, TOPIC_NAMES, 0, &names->reader);
+    names->entry = entry;
+    names->run = run;
+    names->told = true;
+    return true;
 }
 
 const char *names_of(const struct names *names, uint32_t id)

@@ -4,32 +4,29 @@
 #ifndef JOLON_TOPICS_NAMES_H
 #define JOLON_TOPICS_NAMES_H
 
-#include "topics/dds_topics.h"
-
 #include "status.h"
 
 #include <stdbool.h>
+#include <stdint.h>
+
+struct world;
 
 struct names {
-    const struct dds_link *link; /* the caller's */
-    dds_entity_t reader;
-    dds_instance_handle_t writer;
-    uint64_t looked_ns;
     bool told; /* the names are here; there may be none */
     uint64_t run;
     uint32_t count;
     jolon_EntityName *entry; /* [count], by rising id */
 };
 
-/* Makes the reader on the link, which must outlive the names; -1 with the reason. */
-int names_open(struct names *names, const struct dds_link *link, struct reason *reason);
+/* Frees the names; begin with zeros. */
 void names_close(struct names *names);
-
-/* Takes the names if they came, or came anew for another world. Does not block. */
-void names_take(struct names *names);
 
 /* Takes these names for those of the world, in place of what there was; false: no memory. */
 bool names_learn(struct names *names, const jolon_EntityNames *told);
+
+/* Reads the names of a mapped world, of which `run` is the creation's number (header->made). Of
+ * more than jolon_NAMES_MAX it takes the first. false: no memory. */
+bool names_read_world(struct names *names, const struct world *world, uint64_t run);
 
 /* The name of an entity, "" when it has none. */
 const char *names_of(const struct names *names, uint32_t id);

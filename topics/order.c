@@ -432,6 +432,8 @@ const char *order_advice(const struct order *order, jolon_CommandResult result)
                    "no rounds, or is a wreck";
         case jolon_COMMAND_DRIVE:
             return "; it is a wreck: take another";
+        case jolon_COMMAND_SPAWN:
+            return "; too many vehicles stand on that spot already: name a place 10 m away";
         default:
             return "";
         }

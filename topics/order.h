@@ -13,6 +13,7 @@
 #ifndef JOLON_TOPICS_ORDER_H
 #define JOLON_TOPICS_ORDER_H
 
+#include "ipc/segment.h"
 #include "topics/names.h"
 
 #include "status.h"

@@ -8,7 +8,7 @@
 
 /* The command rings, each with one writing process. */
 enum command_ring {
-    RING_REPORTER,
+    RING_CLIENTS, /* of all who command over the command socket */
     RING_GATEWAY,
     RING_CONSOLE,
     RING_RECORDER, /* pauses and resumes, where recorder.when_full says so */
@@ -40,7 +40,7 @@ enum command_result {
     COMMAND_NO_SUCH_KIND,
     COMMAND_OUT_OF_RANGE,
     COMMAND_TABLE_FULL,
-    COMMAND_CANNOT,  /* no rounds, destroyed, still reloading, not paused */
+    COMMAND_CANNOT,  /* no rounds, destroyed, still reloading, not paused; the spot is crowded */
     COMMAND_UNKNOWN, /* not a type */
     COMMAND_TAKEN,   /* another source drives it */
     COMMAND_RESULT_COUNT
@@ -64,6 +64,10 @@ _Static_assert(sizeof(struct command) == 128, "two cache lines a slot");
 
 /* Frames of simulation for which a DRIVE can hold a vehicle, at most. */
 #define COMMAND_LEASE_MAX 1000000u
+
+/* A vehicle is not spawned where so many stand already within so many metres. */
+#define COMMAND_SPOT_VEHICLES 8u
+#define COMMAND_SPOT_M        10.0
 
 const char *command_ring_name(enum command_ring ring);
 const char *command_type_name(enum command_type type);

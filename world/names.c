@@ -38,7 +38,7 @@ WORDS(struck_name, struck, "vehicle", "fixed", "ground", "water", "air")
 WORDS(agent_reason_name, agent_reason, "fired upon", "target gone", "out of rounds", "time over",
       "collision", "enemy seen", "command", "out of fuel", "lost sight", "hurt", "outnumbered",
       "low fuel", "supplied", "arrived", "leader lost", "script", "lease over")
-WORDS(command_ring_name, command_ring, "reporter", "gateway", "console", "recorder")
+WORDS(command_ring_name, command_ring, "clients", "gateway", "console", "recorder")
 WORDS(command_type_name, command_type, "none", "pause", "resume", "step", "scale", "drive",
       "release", "fire", "spawn", "remove", "quit")
 WORDS(command_result_name, command_result, "done", "no such entity", "no such kind",

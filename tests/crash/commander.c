@@ -30,7 +30,7 @@ static void settle(const struct view *view, uint64_t taken)
 {
     struct state_head head;
     while (!frame_finished(view)) {
-        if (snapshot_head(&head, view) == 0 && head.command_cursor[RING_REPORTER] >= taken &&
+        if (snapshot_head(&head, view) == 0 && head.command_cursor[RING_CLIENTS] >= taken &&
             head.paused && head.steps_left == 0)
             return;
         clock_sleep_until_ns(clock_now_ns() + LOOK_NS);
@@ -42,14 +42,14 @@ int commander_main(const char *world)
     struct view view;
     struct reason reason;
     log_open("commander");
-    if (segment_attach(&view, world, ROLE_REPORTER, &reason) != 0)
+    if (segment_attach(&view, world, ROLE_INTAKE, &reason) != 0)
         die_refused("%s", reason.text);
     segment_ready(&view);
     for (uint64_t i = 0; i < COMMANDS; i++) {
         struct command command = list[i];
         command.source = SOURCE;
         command.source_sequence = i + 1;
-        if (command_put(&view, RING_REPORTER, &command) != 0 && errno != EEXIST)
+        if (command_put(&view, RING_CLIENTS, &command) != 0 && errno != EEXIST)
             die_refused("command %llu: %s", (unsigned long long)i, strerror(errno));
         settle(&view, i + 1);
     }

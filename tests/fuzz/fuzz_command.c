@@ -6,7 +6,7 @@
 #include "ipc/log.h"
 #include "ipc/segment.h"
 #include "mover/step.h"
-#include "reporter/check.h"
+#include "intake/command_check.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -51,7 +51,7 @@ static bool take_wire(struct command *command, const uint8_t *data)
     bytes[offsetof(jolon_Command, anyway)] &= 1; /* the DDS library lets no other boolean in */
     memcpy(&wire, bytes, sizeof wire);
     wire.kind[sizeof wire.kind - 1] = '\0'; /* as it leaves a bounded string */
-    enum command_result result = check_command(command, &wire, &view.world);
+    enum command_result result = command_check(command, &wire, &view.world);
     CHECK(result < COMMAND_RESULT_COUNT);
     if (result == COMMAND_DONE)
         check_checked(command);

@@ -151,15 +151,15 @@ static void test_events_read_too_slowly_are_counted(void **state)
 /* Puts every command twice: the second time it must be known. */
 static int put_commands(void *context)
 {
-    struct view sender = bare_view_as(&view, ROLE_REPORTER);
+    struct view sender = bare_view_as(&view, ROLE_INTAKE);
     (void)context;
     for (uint64_t i = 1; i <= COMMANDS; i++) {
         struct command command = {.source = 9, .source_sequence = i, .amount = (uint32_t)(i * 3)};
-        while (command_put(&sender, RING_REPORTER, &command) != 0) {
+        while (command_put(&sender, RING_CLIENTS, &command) != 0) {
             if (errno != ENOBUFS)
                 return 1;
         }
-        if (command_put(&sender, RING_REPORTER, &command) == 0 || errno != EEXIST)
+        if (command_put(&sender, RING_CLIENTS, &command) == 0 || errno != EEXIST)
             return 2;
     }
     return 0;
@@ -169,7 +169,7 @@ static void test_commands_arrive_once_and_in_order(void **state)
 {
     uint64_t random = seed + 2, taken = 0;
     struct view collider = bare_view_as(&view, ROLE_COLLIDER);
-    const struct command_ring_words *ring = view.commands[RING_REPORTER];
+    const struct command_ring_words *ring = view.commands[RING_CLIENTS];
     (void)state;
     pid_t sender = child_start(put_commands, NULL);
     while (taken < COMMANDS) {
@@ -182,7 +182,7 @@ static void test_commands_arrive_once_and_in_order(void **state)
             assert_int_equal(command->source_sequence, taken + 1);
             assert_int_equal(command->amount, (taken + 1) * 3);
         }
-        next->head->command_cursor[RING_REPORTER] = taken;
+        next->head->command_cursor[RING_CLIENTS] = taken;
         bare_view_end(&collider);
     }
     assert_int_equal(child_wait(sender), 0);

@@ -69,9 +69,9 @@ static void fill_command(struct command *command, uint64_t number)
 static int take_commands(const struct view *mover, const struct frame *frame)
 {
     struct state_head *head = mover->m.head;
-    uint64_t *cursor = &head->command_cursor[RING_REPORTER];
-    for (; *cursor < frame->command_head[RING_REPORTER]; ++*cursor) {
-        struct command taken = mover->commands[RING_REPORTER]->slot[*cursor & (COMMAND_SLOTS - 1)];
+    uint64_t *cursor = &head->command_cursor[RING_CLIENTS];
+    for (; *cursor < frame->command_head[RING_CLIENTS]; ++*cursor) {
+        struct command taken = mover->commands[RING_CLIENTS]->slot[*cursor & (COMMAND_SLOTS - 1)];
         struct command expected;
         fill_command(&expected, *cursor + 1);
         expected.sequence = *cursor;
@@ -123,13 +123,13 @@ static int collide_frames(void *context)
 
 static int put_commands(void *context)
 {
-    struct view sender = bare_view_as(&view, ROLE_REPORTER);
+    struct view sender = bare_view_as(&view, ROLE_INTAKE);
     struct command command;
     uint64_t number = 0;
     (void)context;
     while (!atomic_load(&shared->stop)) {
         fill_command(&command, number + 1);
-        if (command_put(&sender, RING_REPORTER, &command) == 0)
+        if (command_put(&sender, RING_CLIENTS, &command) == 0)
             atomic_store(&shared->commands, ++number);
         else if (errno != ENOBUFS)
             return BAD_COMMAND;

@@ -1,37 +1,36 @@
-/* Commands over DDS. */
+/* Commands over the command socket. */
 #include "tests/storm/sender.h"
 
 #include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
-#include "topics/dds_topics.h"
-
-#include "status.h"
+#include "topics/caller.h"
+#include "topics/command_socket.h"
 
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define REPEAT_NS  (150 * (uint64_t)NS_PER_MS)
 #define LAST_NS    ((uint64_t)30 * NS_PER_S)
+#define WAIT_NS    (150 * (uint64_t)NS_PER_MS)
 #define PAUSE_NS   (20 * (uint64_t)NS_PER_MS)
 #define SPAWNS_MAX 200 /* the world's capacity is not what is tested */
 
 struct sender {
     const struct storm_options *options;
-    struct dds_link link;
-    dds_entity_t replies, commands, waitset;
+    struct command_socket socket;
+    struct caller caller;
     pthread_t thread;
     _Atomic bool end;
     _Atomic uint64_t end_ns; /* when to give up on the last */
     struct chance chance;
-    uint64_t source, sent, answered, spawns;
+    uint64_t sent, answered, spawns;
     uint32_t spawned; /* the last one's id, 0: none */
 };
 
 static jolon_Command draw(struct sender *sender)
 {
-    jolon_Command command = {.source = sender->source, .sequence = sender->sent + 1};
+    jolon_Command command = {0};
     uint64_t kind = chance_below(&sender->chance, 4);
     command.x_m = 24900.0 + 200.0 * chance_unit(&sender->chance);
     command.z_m = 24900.0 + 200.0 * chance_unit(&sender->chance);
@@ -56,35 +55,19 @@ static jolon_Command draw(struct sender *sender)
     return command;
 }
 
-static bool take_reply(struct sender *sender, const jolon_Command *command)
-{
-    bool found = false;
-    void *sample = NULL;
-    dds_sample_info_t info;
-    while (dds_take(sender->replies, &sample, &info, 1, 1) > 0) {
-        const jolon_CommandReply *reply = sample;
-        found |= info.valid_data && reply->source == command->source &&
-                 reply->sequence == command->sequence;
-        (void)dds_return_loan(sender->replies, &sample, 1);
-        sample = NULL;
-    }
-    return found;
-}
-
+/* The caller repeats the command until its reply comes. */
 static bool exchange(struct sender *sender, const jolon_Command *command)
 {
-    uint64_t repeat_ns = 0;
+    jolon_CommandReply reply;
+    uint64_t sequence = caller_send(&sender->caller, command);
     for (;;) {
-        uint64_t now_ns = clock_now_ns();
-        if (take_reply(sender, command))
+        caller_turn(&sender->caller);
+        if (caller_answered(&sender->caller, sequence, &reply))
             return true;
+        uint64_t now_ns = clock_now_ns();
         if (process_stopping() || (atomic_load(&sender->end) && now_ns > sender->end_ns))
             return false;
-        if (now_ns >= repeat_ns) {
-            (void)dds_write(sender->commands, command);
-            repeat_ns = now_ns + REPEAT_NS;
-        }
-        dds_topics_wait(sender->waitset, repeat_ns - now_ns);
+        caller_wait(&sender->caller, now_ns + WAIT_NS);
     }
 }
 
@@ -104,7 +87,6 @@ static void *send_all(void *argument)
 
 struct sender *sender_start(const struct storm_options *options, struct reason *reason)
 {
-    const struct dds_link_options link = {.quiet = true};
     struct sender *sender = calloc(1, sizeof *sender);
     if (!sender) {
         reason_set(reason, "out of memory");
@@ -112,17 +94,10 @@ struct sender *sender_start(const struct storm_options *options, struct reason *
     }
     sender->options = options;
     sender->chance.state = options->seed ^ 0x5eed;
-    sender->source = 1 + (chance_next(&sender->chance) >> 12);
-    if (dds_link_open(&sender->link, &link, options->world, reason) != 0) {
-        free(sender);
-        return NULL;
-    }
-    if ((sender->replies = dds_topics_reader(&sender->link, TOPIC_REPLY, reason)) < 0 ||
-        (sender->waitset = dds_topics_waitset(&sender->link, &sender->replies, 1, reason)) < 0 ||
-        (sender->commands = dds_topics_writer(&sender->link, TOPIC_COMMAND, reason)) < 0 ||
+    if (caller_open(&sender->caller, command_socket_open(&sender->socket, options->world),
+                    reason) != 0 ||
         pthread_create(&sender->thread, NULL, send_all, sender) != 0) {
-        dds_link_close(&sender->link, EXIT_REFUSED);
-        free(sender);
+        sender_free(sender);
         return NULL;
     }
     return sender;
@@ -137,7 +112,7 @@ void sender_stop(struct sender *sender)
 
 uint64_t sender_source(const struct sender *sender)
 {
-    return sender->source;
+    return sender->caller.source;
 }
 
 uint64_t sender_sent(const struct sender *sender)
@@ -150,8 +125,8 @@ uint64_t sender_answered(const struct sender *sender)
     return sender->answered;
 }
 
-void sender_free(struct sender *sender, int exit_code)
+void sender_free(struct sender *sender)
 {
-    dds_link_close(&sender->link, exit_code);
+    command_socket_close(&sender->socket);
     free(sender);
 }

@@ -1,5 +1,5 @@
-/* Sends commands over DDS while the storm goes on, one after the other, each repeated under its key
- * until it is answered. A thread of its own. */
+/* Sends commands over the command socket while the storm goes on, one after the other, each
+ * repeated under its key until it is answered. A thread of its own. */
 #ifndef JOLON_TESTS_STORM_SENDER_H
 #define JOLON_TESTS_STORM_SENDER_H
 
@@ -17,7 +17,6 @@ uint64_t sender_source(const struct sender *sender); /* key of all its commands 
 uint64_t sender_sent(const struct sender *sender);   /* 1 .. sent */
 uint64_t sender_answered(const struct sender *sender);
 
-/* To be called last: where Cyclone DDS hangs in closing, it ends the process with the code. */
-void sender_free(struct sender *sender, int exit_code);
+void sender_free(struct sender *sender);
 
 #endif

@@ -259,6 +259,6 @@ int main(int argc, char **argv)
     clean_up(&storm);
     fflush(stdout);
     if (storm.sender)
-        sender_free(storm.sender, code);
+        sender_free(storm.sender);
     return code;
 }

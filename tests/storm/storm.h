@@ -6,7 +6,7 @@
  *   victim.c    what is done to whom, and when
  *   watcher.c   the commits as they come, and how long each recovery took
  *   witness.c   snapshots taken all the time, and zombies
- *   sender.c    commands over DDS, each repeated until it is answered
+ *   sender.c    commands over the command socket, each repeated until it is answered
  *   accounts.c  the event log and the digest against the undisturbed run
  *   report.c    the table
  *

@@ -114,9 +114,9 @@ static enum deed draw_deed(struct victims *victims)
 
 static uint32_t draw_role(struct victims *victims)
 {
-    static const uint32_t roles[] = {ROLE_MOVER,    ROLE_MOVER,    ROLE_MOVER,
-                                     ROLE_COLLIDER, ROLE_COLLIDER, ROLE_COLLIDER,
-                                     ROLE_RECORDER, ROLE_REPORTER, ROLE_RENDERER};
+    static const uint32_t roles[] = {ROLE_MOVER,    ROLE_MOVER,    ROLE_MOVER,    ROLE_COLLIDER,
+                                     ROLE_COLLIDER, ROLE_COLLIDER, ROLE_RECORDER, ROLE_INTAKE,
+                                     ROLE_INTAKE,   ROLE_REPORTER, ROLE_RENDERER};
     for (;;) {
         uint32_t role = roles[chance_below(&victims->chance, sizeof roles / sizeof *roles)];
         if (atomic_load(&victims->band->view.slot[role]->starts) > 0)

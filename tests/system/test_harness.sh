@@ -19,7 +19,7 @@ vehicles = (
     { name = "Probe";  kind = "jeep"; force = "red"; behaviour = "hold"; at = [26150.0, 25900.0]; }
 );
 C
-check "a set starts" "$jolon" start -w "$name" --without renderer --without recorder \
+check "a set starts" "$jolon" start -w "$name" --without renderer --without recorder --remote-commands \
     --out "$folder/out" "$folder/field.cfg"
 
 # --- both programs drive while processes die ---------------------------------------------------------
@@ -28,7 +28,7 @@ escorting=$!
 python3 "$top/examples/sentry.py" --jolon "$jolon" -w "$name" --seconds 9 --side 25 Sentry >sentry.out 2>&1 &
 watching=$!
 sleep 1
-for role in reporter mover reporter; do
+for role in intake mover reporter; do
     "$jolon" kill -w "$name" "$role" >/dev/null
     sleep 0.7
 done
@@ -64,12 +64,12 @@ for i in $(seq $spawns); do
     sleep 0.05
 done | $harness >spawned &
 spawning=$!
-for role in reporter mover reporter reporter; do
+for role in intake mover intake intake; do
     sleep 0.6
     "$jolon" kill -w "$name" "$role" >/dev/null
 done
 wait $spawning
-check "every spawn is answered, through the kills of reporter and mover" equal $? 0
+check "every spawn is answered, through the kills of intake and mover" equal $? 0
 cat >"$folder/once" <<'P'
 import json, sys
 lines = [json.loads(line) for line in open("spawned")]

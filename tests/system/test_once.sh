@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Exactly once over DDS: the reporter and a subscriber that keeps what it heard are killed again and
+# Exactly once: the reporter, the intake and a subscriber that keeps what it heard are killed again and
 # again, and in the end the subscriber has every event of the run once; commands sent meanwhile are
 # each done once. ROUNDS=n kills, SPAWNS=n commands and SEED=n choose others.
 scenario=$(cd "$(dirname "$0")/../storm" && pwd)/crowd.cfg
@@ -33,17 +33,18 @@ deafen() { { kill -KILL $listening; wait $listening; } 2>/dev/null; }
 listen
 seq 22000 25 $((22000 + 25 * (spawns - 1))) | xargs -P 2 -I{} $ctl spawn jeep --at {},24000 >replies &
 sender=$!
-reporters=0 listeners=0
+reporters=0 listeners=0 intakes=0
 for _ in $(seq "$rounds"); do
     sleep "0.$((RANDOM % 9))$((RANDOM % 10))"
     case $((RANDOM % 4)) in
     0) deafen; listeners=$((listeners + 1)); listen ;;
     1) deafen; "$jolon" kill -w "$name" reporter && reporters=$((reporters + 1))
         listeners=$((listeners + 1)); listen ;;
+    2) "$jolon" kill -w "$name" intake && intakes=$((intakes + 1)) ;;
     *) "$jolon" kill -w "$name" reporter && reporters=$((reporters + 1)) ;;
     esac >/dev/null 2>&1
 done
-echo "# killed: the reporter $reporters times, the subscriber $listeners times"
+echo "# killed: the reporter $reporters times, the intake $intakes, the subscriber $listeners times"
 wait $sender
 check "every command was answered" equal "$?" 0
 check "each spawned its own" equal "$(awk '{ print $3 }' replies | sort -u | wc -l)" "$spawns"

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# The topics over real processes: status, events, commands, and what happens to them when the
-# reporter is killed, a subscriber stops, or there is no network. SPAWNS=n chooses another storm.
+# The topics and commands over real processes: status, events, commands over the local socket and over
+# DDS, and what happens to them when the reporter or the intake is killed, a subscriber stops, or there
+# is no network. SPAWNS=n chooses another storm.
 . "$(dirname "$0")/lib.sh"
 spawns=${SPAWNS:-60}
 monitor="$bin/jolon-monitor -w $name"
 ctl="$bin/jolon-ctl -w $name"
 
-check "a set starts" "$jolon" start -w "$name" --without renderer --out "$folder/out"
+check "a set starts" "$jolon" start -w "$name" --without renderer --remote-commands --out "$folder/out"
 status() { $monitor --once --json; }
 key() { status | json "$1"; }
 
@@ -23,9 +24,11 @@ refuses_here() { # a world that is not there; lib's refuses wants no world of ou
 check "a world that is not there is refused in a line" \
     refuses_here "$bin/jolon-monitor" -w "no-$name" --once --json
 check "and so is its command" refuses_here "$bin/jolon-ctl" -w "no-$name" --timeout 1 pause
-check "an interface that is not there is refused" refuses_here $ctl --interface 203.0.113.9 pause
+check "an interface that is not there is refused" refuses_here $ctl --remote --interface 203.0.113.9 pause
+$ctl --domain 3 pause 2>stderr
+check "a network without --remote is wrong usage" equal "$? $(grep -c -- "add --remote" stderr)" "2 1"
 check "CYCLONEDDS_URI of the environment changes nothing" \
-    env CYCLONEDDS_URI=file:///nonexistent $ctl scale 1
+    env CYCLONEDDS_URI=file:///nonexistent $ctl --remote scale 1
 
 # --- commands ---------------------------------------------------------------------------------------
 check "pause" eval '$ctl pause | grep -Eq "^paused at frame [0-9]+$"'
@@ -45,20 +48,27 @@ check "another kind is refused with those there are" \
 "$bin/jolon-ctl" -w "$name" step 0 2>stderr
 check "wrong usage is 2" equal "$? $(wc -l <stderr)" "2 1"
 
-# --- a storm of commands while the reporter dies again and again -------------------------------------
+# --- a storm of commands, every other one over DDS, while intake and reporter die again and again -----
 # shellcheck disable=SC2034 # for eval
 vehicles=$(key vehicles)
-storm() { seq "$spawns" | xargs -P 8 -I{} $ctl --timeout 30 spawn tank --at 25000,{}0 >replies; }
+storm() {
+    for i in $(seq "$spawns"); do
+        [ $((i % 2)) = 0 ] && echo "--remote $i" || echo "--json $i"
+    done | xargs -P 8 -L 1 bash -c "$ctl --timeout 30 \$0 spawn tank --at 25000,\${1}0" >replies
+}
 storm &
 storm_pid=$!
 kills=0
 while kill -0 $storm_pid 2>/dev/null; do
     sleep "0.$((RANDOM % 4 + 3))"
-    "$jolon" kill -w "$name" reporter >/dev/null 2>&1 && kills=$((kills + 1))
+    for role in intake reporter; do
+        "$jolon" kill -w "$name" $role >/dev/null 2>&1 && kills=$((kills + 1))
+    done
 done
 wait $storm_pid
 check "every command of $spawns was answered ($kills kills)" equal "$?" 0
-check "each spawned its own" equal "$(awk '{ print $3 }' replies | sort -u | wc -l)" "$spawns"
+check "each spawned its own" equal \
+    "$(sed -E 's/.*"entity":([0-9]+).*/x x \1/' replies | awk '{ print $3 }' | sort -u | wc -l)" "$spawns"
 $ctl --timeout 30 pause >/dev/null
 check "none was lost or done twice" \
     eventually eval '[ "$(key vehicles)" = $((vehicles + spawns)) ]'
@@ -91,10 +101,10 @@ if unshare -n true 2>/dev/null; then
         ip link set lo up || exit 1
         $bin/jolon-world create --world ${name}n >/dev/null || exit 1
         $bin/jolon-mover --world ${name}n & $bin/jolon-collider --world ${name}n &
-        $bin/jolon-reporter --world ${name}n &
+        $bin/jolon-reporter --world ${name}n & $bin/jolon-intake --world ${name}n &
         $bin/jolon-monitor -w ${name}n --once --json && $bin/jolon-ctl -w ${name}n quit
         code=\$?
-        kill %3; wait
+        kill %3 %4; wait
         $bin/jolon-world remove --world ${name}n
         exit \$code"
 else

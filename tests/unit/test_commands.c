@@ -405,25 +405,25 @@ static void test_each_command_is_applied_exactly_once_in_its_rings_order(void **
 {
     (void)state;
     for (uint32_t n = 0; n < 700; n++)
-        steps_send(&f, RING_REPORTER,
+        steps_send(&f, RING_CLIENTS,
                    (struct command){.type = COMMAND_NONE, .source = 1, .source_sequence = n + 1});
     for (uint32_t n = 0; n < 40; n++)
         steps_send(&f, RING_GATEWAY,
                    (struct command){.type = COMMAND_NONE, .source = 2, .source_sequence = n + 1});
     fixture_run(&f, 1);
     struct state now = fixture_state(&f);
-    assert_int_equal(now.head->command_cursor[RING_REPORTER], A_FRAME);
+    assert_int_equal(now.head->command_cursor[RING_CLIENTS], A_FRAME);
     assert_int_equal(now.head->command_cursor[RING_GATEWAY], 40);
     assert_int_equal(now.head->tally.commands, A_FRAME + 40);
     fixture_run(&f, 5);
-    assert_int_equal(fixture_state(&f).head->command_cursor[RING_REPORTER], 700);
+    assert_int_equal(fixture_state(&f).head->command_cursor[RING_CLIENTS], 700);
     assert_int_equal(fixture_event_count(&f, EVENT_COMMAND), 740);
     uint64_t next[3] = {0, 1, 1};
     for (uint32_t n = 0; n < 740; n++) {
         const struct event *event = fixture_event(&f, EVENT_COMMAND, n);
         assert_int_equal(event->command.sequence, next[event->command.source]++);
         assert_int_equal(event->command.ring,
-                         event->command.source == 1 ? RING_REPORTER : RING_GATEWAY);
+                         event->command.source == 1 ? RING_CLIENTS : RING_GATEWAY);
     }
 }
 

@@ -315,8 +315,8 @@ static void send(const struct view *view, enum command_type type, uint32_t amoun
     struct view reporter = *view;
     struct command command = {
         .source = 1, .source_sequence = ++sequence, .type = type, .amount = amount};
-    reporter.role = ROLE_REPORTER;
-    assert_int_equal(command_put(&reporter, RING_REPORTER, &command), 0);
+    reporter.role = ROLE_INTAKE;
+    assert_int_equal(command_put(&reporter, RING_CLIENTS, &command), 0);
 }
 
 /* Waits until the committed head says so. */
@@ -399,7 +399,7 @@ static void test_command_is_applied_once_though_the_mover_is_killed(void **state
     assert_int_equal(child_wait(mover), 0);
     assert_int_equal(child_wait(collider), 0);
     assert_int_equal(fixture_state(&f).head->tally.commands, 41);
-    assert_int_equal(fixture_state(&f).head->command_cursor[RING_REPORTER], 41);
+    assert_int_equal(fixture_state(&f).head->command_cursor[RING_CLIENTS], 41);
     assert_int_equal(fixture_event_count(&f, EVENT_COMMAND), 41);
     for (uint32_t i = 0; i < 41; i++)
         assert_int_equal(fixture_event(&f, EVENT_COMMAND, i)->command.sequence,

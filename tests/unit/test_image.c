@@ -105,14 +105,14 @@ static void test_keys_of_commands_are_remembered(void **state)
     (void)state;
     fixture_open(&f, battle);
     struct command command = {.type = COMMAND_PAUSE, .source = 9, .source_sequence = 1};
-    assert_int_equal(command_put(&f.view, RING_REPORTER, &command), 0);
+    assert_int_equal(command_put(&f.view, RING_CLIENTS, &command), 0);
     fixture_run(&f, 3);
     image_file_save(&f.view, path, false);
     image_file_load(&again, path);
-    assert_int_equal(command_put(&again, RING_REPORTER, &command), -1);
+    assert_int_equal(command_put(&again, RING_CLIENTS, &command), -1);
     assert_int_equal(errno, EEXIST);
     command.source_sequence = 2;
-    assert_int_equal(command_put(&again, RING_REPORTER, &command), 0);
+    assert_int_equal(command_put(&again, RING_CLIENTS, &command), 0);
     segment_abandon(&again);
     fixture_close(&f);
 }

@@ -364,7 +364,7 @@ static void test_flipped_bits_of_the_words(void **state)
 static void send(uint64_t first, uint64_t end)
 {
     struct view sender;
-    if (segment_attach(&sender, name, ROLE_REPORTER, &reason) != 0)
+    if (segment_attach(&sender, name, ROLE_INTAKE, &reason) != 0)
         fail_msg("%s", reason.text);
     for (uint64_t i = first; i < end; i++) {
         struct command command = {
@@ -373,7 +373,7 @@ static void send(uint64_t first, uint64_t end)
             .type = COMMAND_FIRE,
             .kind = kind_find(look.world.kinds, look.world.counts.kinds, "artillery"),
             .value = {25100.0, 25100.0}};
-        assert_int_equal(command_put(&sender, RING_REPORTER, &command), 0);
+        assert_int_equal(command_put(&sender, RING_CLIENTS, &command), 0);
     }
     segment_detach(&sender);
 }

@@ -43,13 +43,14 @@
 enum {
     M = 1 << ROLE_MOVER,
     C = 1 << ROLE_COLLIDER,
+    I = 1 << ROLE_INTAKE,
     P = 1 << ROLE_REPORTER,
     D = 1 << ROLE_RECORDER,
     W = 1 << ROLE_CONSOLE
 };
 #define R    (1 << ROLE_RENDERER | 1 << ROLE_RENDERER_2 | 1 << ROLE_RENDERER_3 | 1 << ROLE_RENDERER_4)
 #define NONE 0
-#define ALL  (M | C | P | D | R | W)
+#define ALL  (M | C | I | P | D | R | W)
 
 static char folder[] = "/tmp/jolon-sandbox-XXXXXX";
 static char said[512]; /* by the last child, on standard error */
@@ -183,26 +184,26 @@ static void handle(int signal_number)
     X("dup", NONE, syscall(SYS_dup, 2))                                                            \
     X("dup2", NONE, syscall(SYS_dup2, 2, 9))                                                       \
     X("fcntl", NONE, fcntl(2, F_SETFL, 0))                                                         \
-    X("fcntl", R, fcntl(-1, F_DUPFD_CLOEXEC, 0))                                                   \
-    X("socket", W | P, socket(AF_INET, SOCK_DGRAM, 0))                                             \
-    X("socket", W | P, socket(AF_INET6, SOCK_STREAM, 0))                                           \
-    X("socket", W, socket(AF_UNIX, SOCK_STREAM, 0))                                                \
+    X("fcntl", W | P | R, fcntl(-1, F_DUPFD_CLOEXEC, 0))                                           \
+    X("socket", P, socket(AF_INET, SOCK_DGRAM, 0))                                                 \
+    X("socket", P, socket(AF_INET6, SOCK_STREAM, 0))                                               \
+    X("socket", W | P, socket(AF_UNIX, SOCK_STREAM, 0))                                            \
     X("socket", NONE, socket(AF_NETLINK, SOCK_RAW, 0))                                             \
     X("socket", NONE, socket(AF_PACKET, SOCK_RAW, 0))                                              \
     X("connect", W | P, connect(-1, NULL, 0))                                                      \
-    X("bind", W | P, bind(-1, NULL, 0))                                                            \
-    X("listen", W | P, listen(-1, 1))                                                              \
+    X("bind", P, bind(-1, NULL, 0))                                                                \
+    X("listen", P, listen(-1, 1))                                                                  \
     X("accept", NONE, syscall(SYS_accept, -1, NULL, NULL))                                         \
-    X("accept4", W | P | R, accept4(-1, NULL, NULL, 0))                                            \
-    X("sendto", W | P | R, sendto(-1, "", 0, 0, NULL, 0))                                          \
-    X("sendmsg", W | P | R, sendmsg(-1, NULL, 0))                                                  \
-    X("recvfrom", W | P | R, recvfrom(-1, NULL, 0, 0, NULL, NULL))                                 \
-    X("shutdown", R | W, shutdown(-1, SHUT_WR))                                                    \
-    X("setsockopt", W | P | R, setsockopt(-1, IPPROTO_TCP, TCP_NODELAY, NULL, 0))                  \
-    X("getsockopt", W | P | R, getsockopt(-1, SOL_SOCKET, SO_PEERCRED, NULL, NULL))                \
-    X("getsockopt", W | P, getsockopt(-1, SOL_SOCKET, SO_ERROR, NULL, NULL))                       \
-    X("setsockopt", W | P, setsockopt(-1, SOL_SOCKET, SO_BINDTODEVICE, NULL, 0))                   \
-    X("sysinfo", W | P | R, syscall(SYS_sysinfo, said))                                            \
+    X("accept4", W | P | R | I, accept4(-1, NULL, NULL, 0))                                        \
+    X("sendto", W | P | R | I, sendto(-1, "", 0, 0, NULL, 0))                                      \
+    X("sendmsg", W | P | R | I, sendmsg(-1, NULL, 0))                                              \
+    X("recvfrom", W | P | R | I, recvfrom(-1, NULL, 0, 0, NULL, NULL))                             \
+    X("shutdown", W | R | I, shutdown(-1, SHUT_WR))                                                \
+    X("setsockopt", W | P | R | I, setsockopt(-1, IPPROTO_TCP, TCP_NODELAY, NULL, 0))              \
+    X("getsockopt", W | P | R | I, getsockopt(-1, SOL_SOCKET, SO_PEERCRED, NULL, NULL))            \
+    X("getsockopt", P, getsockopt(-1, SOL_SOCKET, SO_ERROR, NULL, NULL))                           \
+    X("setsockopt", P, setsockopt(-1, SOL_SOCKET, SO_BINDTODEVICE, NULL, 0))                       \
+    X("sysinfo", P | R, syscall(SYS_sysinfo, said))                                                \
     X("execve", NONE, run_program())                                                               \
     X("execveat", NONE, run_descriptor())                                                          \
     X("fork", NONE, new_process_fork())                                                            \
@@ -221,12 +222,12 @@ static void handle(int signal_number)
     X("pidfd_send_signal", W, syscall(SYS_pidfd_send_signal, -1, SIGKILL, NULL, 0))                \
     X("pidfd_send_signal", NONE, syscall(SYS_pidfd_send_signal, -1, SIGSTOP, NULL, 0))             \
     X("mmap", R, map(PROT_READ | PROT_WRITE, MAP_SHARED, 2))                                       \
-    X("uname", W | P, syscall(SYS_uname, said))                                                    \
+    X("uname", P, syscall(SYS_uname, said))                                                    \
     X("getrandom", W | P, syscall(SYS_getrandom, said, 1, 0))                                      \
     X("rt_sigaction", NONE, handle(SIGSYS))                                                        \
     X("rt_sigaction", NONE, handle(SIGSEGV))                                                       \
     X("rt_sigaction", ALL, handle(SIGABRT))                                                        \
-    X("rt_sigaction", W | P, handle(SIGALRM))                                                      \
+    X("rt_sigaction", P, handle(SIGALRM))                                                          \
     X("mmap", R, map(PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1))                      \
     X("mmap", R | W, map(PROT_READ, MAP_SHARED, 2))                                                \
     X("mmap", R | W, map(PROT_READ, MAP_PRIVATE, 2))                                               \

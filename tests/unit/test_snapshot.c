@@ -284,46 +284,46 @@ static void test_commands_keep_their_order_and_content(void **state)
         assert_int_equal(slot->amount, i * 7);
         take(RING_GATEWAY, 1);
     }
-    assert_int_equal(atomic_load(&view.commands[RING_REPORTER]->head), 0);
+    assert_int_equal(atomic_load(&view.commands[RING_CLIENTS]->head), 0);
 }
 
 static void test_full_ring_is_enobufs_until_a_commit_takes_some(void **state)
 {
     (void)state;
     for (uint64_t i = 1; i <= COMMANDS; i++)
-        assert_int_equal(put(RING_REPORTER, 1, i), 0);
-    assert_int_equal(put(RING_REPORTER, 1, COMMANDS + 1), -1);
+        assert_int_equal(put(RING_CLIENTS, 1, i), 0);
+    assert_int_equal(put(RING_CLIENTS, 1, COMMANDS + 1), -1);
     assert_int_equal(errno, ENOBUFS);
     assert_int_equal(put(RING_CONSOLE, 1, 1), 0); /* each ring has its own room */
-    take(RING_REPORTER, 3);
+    take(RING_CLIENTS, 3);
     for (uint64_t i = 1; i <= 3; i++)
-        assert_int_equal(put(RING_REPORTER, 1, COMMANDS + i), 0);
-    assert_int_equal(put(RING_REPORTER, 1, COMMANDS + 4), -1);
+        assert_int_equal(put(RING_CLIENTS, 1, COMMANDS + i), 0);
+    assert_int_equal(put(RING_CLIENTS, 1, COMMANDS + 4), -1);
     assert_int_equal(errno, ENOBUFS);
-    assert_int_equal(atomic_load(&view.commands[RING_REPORTER]->head), COMMANDS + 3);
+    assert_int_equal(atomic_load(&view.commands[RING_CLIENTS]->head), COMMANDS + 3);
 }
 
 static void test_repeat_is_eexist_also_after_it_was_taken(void **state)
 {
     (void)state;
-    assert_int_equal(put(RING_REPORTER, 1, 1), 0);
-    assert_int_equal(put(RING_REPORTER, 1, 1), -1);
+    assert_int_equal(put(RING_CLIENTS, 1, 1), 0);
+    assert_int_equal(put(RING_CLIENTS, 1, 1), -1);
     assert_int_equal(errno, EEXIST);
-    take(RING_REPORTER, 1);
-    assert_int_equal(put(RING_REPORTER, 1, 1), -1);
+    take(RING_CLIENTS, 1);
+    assert_int_equal(put(RING_CLIENTS, 1, 1), -1);
     assert_int_equal(errno, EEXIST);
-    assert_int_equal(put(RING_REPORTER, 2, 1), 0); /* another source counts for itself */
-    assert_int_equal(put(RING_REPORTER, 1, 2), 0);
-    assert_int_equal(atomic_load(&view.commands[RING_REPORTER]->head), 3);
+    assert_int_equal(put(RING_CLIENTS, 2, 1), 0); /* another source counts for itself */
+    assert_int_equal(put(RING_CLIENTS, 1, 2), 0);
+    assert_int_equal(atomic_load(&view.commands[RING_CLIENTS]->head), 3);
 }
 
 static void test_repeat_in_a_full_ring_is_eexist(void **state)
 {
     (void)state;
     for (uint64_t i = 1; i <= COMMANDS; i++)
-        assert_int_equal(put(RING_REPORTER, 1, i), 0);
+        assert_int_equal(put(RING_CLIENTS, 1, i), 0);
     for (uint64_t i = 1; i <= COMMANDS; i++) { /* the oldest too: it still waits to be taken */
-        assert_int_equal(put(RING_REPORTER, 1, i), -1);
+        assert_int_equal(put(RING_CLIENTS, 1, i), -1);
         assert_int_equal(errno, EEXIST);
     }
 }
@@ -333,21 +333,21 @@ static void test_command_that_was_never_finished_can_be_put_again(void **state)
 {
     (void)state;
     for (uint64_t i = 1; i <= COMMANDS; i++)
-        assert_int_equal(put(RING_REPORTER, 1, i), 0);
-    take(RING_REPORTER, COMMANDS);
-    struct command *left = &view.commands[RING_REPORTER]->slot[0];
+        assert_int_equal(put(RING_CLIENTS, 1, i), 0);
+    take(RING_CLIENTS, COMMANDS);
+    struct command *left = &view.commands[RING_CLIENTS]->slot[0];
     left->source = 1;
     left->source_sequence = COMMANDS + 1;
     left->sequence = COMMANDS;
-    assert_int_equal(put(RING_REPORTER, 1, COMMANDS + 1), 0);
-    assert_int_equal(atomic_load(&view.commands[RING_REPORTER]->head), COMMANDS + 1);
+    assert_int_equal(put(RING_CLIENTS, 1, COMMANDS + 1), 0);
+    assert_int_equal(atomic_load(&view.commands[RING_CLIENTS]->head), COMMANDS + 1);
 }
 
 static void test_putting_a_command_rings_the_movers_bell(void **state)
 {
     int value = -1;
     (void)state;
-    assert_int_equal(put(RING_REPORTER, 1, 1), 0);
+    assert_int_equal(put(RING_CLIENTS, 1, 1), 0);
     assert_int_equal(sem_getvalue(&view.doors->role[ROLE_MOVER].bell, &value), 0);
     assert_int_equal(value, 1);
 }

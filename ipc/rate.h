@@ -1,6 +1,6 @@
 /* How often somebody may ask: so many a second, and a burst of so many after a rest. Pure. */
-#ifndef JOLON_HTTP_RATE_H
-#define JOLON_HTTP_RATE_H
+#ifndef JOLON_IPC_RATE_H
+#define JOLON_IPC_RATE_H
 
 #include <stdbool.h>
 #include <stdint.h>

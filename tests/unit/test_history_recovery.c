@@ -1,11 +1,11 @@
 /* What a reporter knows of commands that its predecessor took: everything, or one is done twice. */
-#include "reporter/recall.h"
+#include "intake/history_recovery.h"
 
 #include "ipc/snapshot.h"
 #include "tests/support/bare_view.h"
 
-#include "reporter/book.c" /* the unit tests are not linked with the processes */
-#include "reporter/recall.c"
+#include "intake/command_history.c" /* the unit tests are not linked with the processes */
+#include "intake/history_recovery.c"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@
 #define SOURCE 77u
 
 static struct view view, collider, reporter;
-static struct book book;
+static struct command_history history;
 
 static int make_view(void **state)
 {
@@ -27,8 +27,8 @@ static int make_view(void **state)
     (void)state;
     bare_view_make(&view, &sizes);
     collider = bare_view_as(&view, ROLE_COLLIDER);
-    reporter = bare_view_as(&view, ROLE_REPORTER);
-    book_clear(&book);
+    reporter = bare_view_as(&view, ROLE_INTAKE);
+    command_history_clear(&history, 1991);
     return 0;
 }
 
@@ -44,7 +44,7 @@ static void put(uint64_t first, uint64_t last)
     for (uint64_t i = first; i <= last; i++) {
         const struct command command = {
             .source = SOURCE, .source_sequence = i, .type = COMMAND_PAUSE};
-        assert_int_equal(command_put(&reporter, RING_REPORTER, &command), 0);
+        assert_int_equal(command_put(&reporter, RING_CLIENTS, &command), 0);
     }
 }
 
@@ -53,8 +53,8 @@ static void apply(uint32_t count)
 {
     struct state_head *head = bare_view_begin(&collider)->head;
     for (uint32_t i = 0; i < count; i++) {
-        uint64_t at = head->command_cursor[RING_REPORTER]++;
-        const struct command *command = &view.commands[RING_REPORTER]->slot[at & (SLOTS - 1)];
+        uint64_t at = head->command_cursor[RING_CLIENTS]++;
+        const struct command *command = &view.commands[RING_CLIENTS]->slot[at & (SLOTS - 1)];
         view.events[head->event_end & 63] =
             (struct event){.sequence = head->event_end,
                            .frame = head->frame,
@@ -64,18 +64,18 @@ static void apply(uint32_t count)
                                        .sequence = command->source_sequence,
                                        .type = command->type,
                                        .result = COMMAND_CANNOT,
-                                       .ring = RING_REPORTER}};
+                                       .ring = RING_CLIENTS}};
         head->event_end++;
     }
     bare_view_end(&collider);
 }
 
-static struct book_entry check(uint64_t sequence, bool answered)
+static struct history_entry check(uint64_t sequence, bool answered)
 {
-    const struct book_entry *entry = book_find(&book, SOURCE, sequence);
+    const struct history_entry *entry = command_history_find(&history, SOURCE, sequence);
     if (!entry)
         fail_msg("command %llu is not known", (unsigned long long)sequence);
-    struct book_entry found = entry ? *entry : (struct book_entry){0};
+    struct history_entry found = entry ? *entry : (struct history_entry){0};
     assert_int_equal(found.answered, answered);
     return found;
 }
@@ -83,8 +83,8 @@ static struct book_entry check(uint64_t sequence, bool answered)
 static void test_a_world_without_commands_recalls_none(void **state)
 {
     (void)state;
-    assert_int_equal(recall(&book, &view, RING_REPORTER), 0);
-    assert_int_equal(book.oldest, 0);
+    assert_int_equal(history_recover(&history, &view, RING_CLIENTS), 0);
+    assert_int_equal(history.oldest, 0);
 }
 
 static void test_answers_and_waiting_commands_are_known(void **state)
@@ -93,11 +93,11 @@ static void test_answers_and_waiting_commands_are_known(void **state)
     put(1, SLOTS);
     apply(SLOTS - 2);
     put(SLOTS + 1, 2 * SLOTS - 2); /* the ring has forgotten 1 .. SLOTS - 2 */
-    assert_int_equal(recall(&book, &view, RING_REPORTER), 0);
+    assert_int_equal(history_recover(&history, &view, RING_CLIENTS), 0);
     for (uint64_t i = 1; i <= 2 * SLOTS - 2; i++)
         check(i, i <= SLOTS - 2);
-    assert_int_equal(book.waiting, SLOTS);
-    struct book_entry entry = check(1, true);
+    assert_int_equal(history.waiting, SLOTS);
+    struct history_entry entry = check(1, true);
     assert_int_equal(entry.result, COMMAND_CANNOT);
     assert_int_equal(entry.frame, 1);
 }
@@ -107,7 +107,7 @@ static void test_a_command_applied_since_is_known(void **state)
 {
     (void)state;
     put(1, SLOTS);
-    assert_int_equal(recall(&book, &view, RING_REPORTER), 0);
+    assert_int_equal(history_recover(&history, &view, RING_CLIENTS), 0);
     apply(1);
     put(SLOTS + 1, SLOTS + 1);
     check(1, false);
@@ -118,11 +118,11 @@ static void test_a_slot_that_a_kill_left_is_not_taken(void **state)
     (void)state;
     put(1, 2);
     apply(2);
-    view.commands[RING_REPORTER]->slot[2] =
+    view.commands[RING_CLIENTS]->slot[2] =
         (struct command){.source = SOURCE, .source_sequence = 3, .type = COMMAND_PAUSE};
-    assert_int_equal(recall(&book, &view, RING_REPORTER), 0);
-    assert_null(book_find(&book, SOURCE, 3));
-    assert_int_equal(book.waiting, 0);
+    assert_int_equal(history_recover(&history, &view, RING_CLIENTS), 0);
+    assert_null(command_history_find(&history, SOURCE, 3));
+    assert_int_equal(history.waiting, 0);
 }
 
 static void test_other_rings_answers_are_theirs(void **state)
@@ -130,8 +130,8 @@ static void test_other_rings_answers_are_theirs(void **state)
     (void)state;
     put(1, 1);
     apply(1);
-    assert_int_equal(recall(&book, &view, RING_CONSOLE), 0);
-    assert_null(book_find(&book, SOURCE, 1));
+    assert_int_equal(history_recover(&history, &view, RING_CONSOLE), 0);
+    assert_null(command_history_find(&history, SOURCE, 1));
 }
 
 static void test_a_damaged_world_is_refused(void **state)
@@ -139,7 +139,7 @@ static void test_a_damaged_world_is_refused(void **state)
     (void)state;
     apply(0);
     view.w[1].head->frame = 7;
-    assert_int_equal(recall(&book, &view, RING_REPORTER), -1);
+    assert_int_equal(history_recover(&history, &view, RING_CLIENTS), -1);
     assert_int_equal(errno, EBADMSG);
 }
 

@@ -1,5 +1,5 @@
 /* The check of commands from outside: key, type, names, numbers and their ranges. */
-#include "reporter/check.h"
+#include "intake/command_check.h"
 
 #include "world/square.h"
 
@@ -78,8 +78,9 @@ static enum command_result check_spawn(struct command *command, const jolon_Comm
     bool as_it_flies = !(wire->altitude_m < -1.0) && !(wire->altitude_m > -1.0);
     if (!on_the_map(wire) || wire->behaviour > jolon_BEHAVIOUR_PATROL ||
         wire->force > jolon_FORCE_RED ||
-        !(within(wire->altitude_m, 0.0, CHECK_ALTITUDE_MAX) || as_it_flies) ||
-        !within(wire->heading_rad, -1e3, 1e3) || !within(wire->speed_mps, 0.0, CHECK_SPEED_MAX))
+        !(within(wire->altitude_m, 0.0, COMMAND_CHECK_ALTITUDE_MAX) || as_it_flies) ||
+        !within(wire->heading_rad, -1e3, 1e3) ||
+        !within(wire->speed_mps, 0.0, COMMAND_CHECK_SPEED_MAX))
         return COMMAND_OUT_OF_RANGE;
     double cruise_m = kind->domain == DOMAIN_AIR ? kind->cruise_altitude_m : 0.0;
     command->force = (uint16_t)wire->force;
@@ -92,7 +93,7 @@ static enum command_result check_spawn(struct command *command, const jolon_Comm
     return COMMAND_DONE;
 }
 
-enum command_result check_command(struct command *command, const jolon_Command *wire,
+enum command_result command_check(struct command *command, const jolon_Command *wire,
                                   const struct world *world)
 {
     *command = (struct command){
@@ -111,11 +112,13 @@ enum command_result check_command(struct command *command, const jolon_Command *
         return COMMAND_DONE;
     case jolon_COMMAND_STEP:
         command->amount = wire->frames;
-        return within(wire->frames, 1.0, CHECK_FRAMES_MAX) ? COMMAND_DONE : COMMAND_OUT_OF_RANGE;
+        return within(wire->frames, 1.0, COMMAND_CHECK_FRAMES_MAX) ? COMMAND_DONE
+                                                                   : COMMAND_OUT_OF_RANGE;
     case jolon_COMMAND_SCALE:
         command->value[0] = wire->scale;
-        return within(wire->scale, CHECK_SCALE_MIN, CHECK_SCALE_MAX) ? COMMAND_DONE
-                                                                     : COMMAND_OUT_OF_RANGE;
+        return within(wire->scale, COMMAND_CHECK_SCALE_MIN, COMMAND_CHECK_SCALE_MAX)
+                   ? COMMAND_DONE
+                   : COMMAND_OUT_OF_RANGE;
     case jolon_COMMAND_DRIVE:
         return check_drive(command, wire);
     case jolon_COMMAND_RELEASE:

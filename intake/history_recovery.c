@@ -1,5 +1,5 @@
-/* The book of a predecessor, from what it left in the world. */
-#include "reporter/recall.h"
+/* The history of a predecessor, from what it left in the world. */
+#include "intake/history_recovery.h"
 
 #include "ipc/snapshot.h"
 
@@ -17,8 +17,8 @@ static int whole_head(struct state_head *head, const struct view *view)
 }
 
 /* Answers of events up to end. */
-static int note_answers(struct book *book, const struct view *view, enum command_ring ring,
-                        uint64_t end)
+static int note_answers(struct command_history *history, const struct view *view,
+                        enum command_ring ring, uint64_t end)
 {
     struct event events[BATCH];
     struct event_cursor cursor = {0};
@@ -30,26 +30,28 @@ static int note_answers(struct book *book, const struct view *view, enum command
         for (uint32_t i = 0; i < count; i++) {
             const struct event_command *answer = &events[i].command;
             if (events[i].type == EVENT_COMMAND && answer->ring == ring && answer->source)
-                (void)book_answer(book, answer->source, answer->sequence, answer->type,
-                                  answer->result, answer->entity, events[i].frame);
+                (void)command_history_answer(history, answer->source, answer->sequence,
+                                             answer->type, answer->result, answer->entity,
+                                             events[i].frame);
         }
     }
     return 0;
 }
 
-int recall(struct book *book, const struct view *view, enum command_ring ring)
+int history_recover(struct command_history *history, const struct view *view,
+                    enum command_ring ring)
 {
     const struct command_ring_words *words = view->commands[ring];
     uint64_t slots = view->header->command_slots;
     struct state_head head;
-    if (whole_head(&head, view) != 0 || note_answers(book, view, ring, head.event_end) != 0)
+    if (whole_head(&head, view) != 0 || note_answers(history, view, ring, head.event_end) != 0)
         return -1;
     /* Every command before that head's cursor has its answer before its event end; the others are
      * in the ring, which nobody else writes. */
     uint64_t end = atomic_load_explicit(&words->head, memory_order_relaxed);
     for (uint64_t i = head.command_cursor[ring]; i < end; i++) {
         const struct command *command = &words->slot[i & (slots - 1)];
-        book_wait(book, command->source, command->source_sequence, command->type);
+        command_history_wait(history, command->source, command->source_sequence, command->type, 0);
     }
     return 0;
 }
