@@ -8,7 +8,7 @@ peer=$bin/../tests/rtps/peer
 domain=$((100 + $$ % 100))
 seed=${SEED:-$RANDOM}
 echo "# SEED=$seed"
-monitor=("$bin/jolon-monitor" -w "$name" --domain $domain)
+monitor=("$bin/jolon-monitor" -w "$name" --domain "$domain")
 
 check "a set starts" "$jolon" start -w "$name" --domain $domain --without renderer --out out
 check "it is heard" "${monitor[@]}" --once --json
