@@ -3,6 +3,7 @@
 
 #include "ipc/clock.h"
 #include "ipc/pictures.h"
+#include "ipc/segment.h"
 
 #include <errno.h>
 #include <poll.h>
@@ -10,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #define ROOM_FIRST 65536u
@@ -66,15 +68,10 @@ bool fetch_read(struct picture_copy *copy)
 
 static int connect_renderer(const char *world)
 {
-    struct sockaddr_un address;
-    socklen_t length = pictures_address(&address, world, ROLE_RENDERER);
-    int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (fd >= 0 && connect(fd, (const struct sockaddr *)&address, length) == 0 &&
-        pictures_peer_is(fd, geteuid()))
-        return fd;
-    if (fd >= 0)
-        close(fd);
-    return -1;
+    char suffix[LOCAL_SOCKET_SUFFIX_MAX];
+    struct reason reason;
+    pictures_suffix(suffix, ROLE_RENDERER);
+    return local_socket_connect(world, suffix, SOCK_STREAM | SOCK_NONBLOCK, &reason);
 }
 
 static bool wait_for(int fd, short what, uint64_t until_ns)

@@ -78,6 +78,7 @@ int main(int argc, char **argv)
     struct sandbox sandbox;
     struct view set = {0}; /* attached in the role, if this is the set's console */
     struct reason reason;
+    char folder[RUNTIME_FOLDER_MAX];
     log_open("console");
     options_parse(&options, argc, argv);
     process_close_inherited();
@@ -90,7 +91,7 @@ int main(int argc, char **argv)
                                               .address = options.address,
                                               .port = options.port};
     watch_open(&console.watch, options.world);
-    if (choose_token(&options, &reason) != 0 ||
+    if (runtime_folder(folder, &reason) != 0 || choose_token(&options, &reason) != 0 ||
         (options.role && segment_attach(&set, options.world, ROLE_CONSOLE, &reason) != 0) ||
         sandbox_begin(&sandbox, ROLE_CONSOLE, options.sandbox_off, &reason) != 0 ||
         sandbox_files(&sandbox, NULL, 0, &reason) != 0 ||

@@ -6,7 +6,6 @@
 #include "ipc/log.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 #define STALLED_NS NS_PER_S
 
@@ -31,12 +30,17 @@ void watch_close(struct watch *watch)
     let_go(watch);
 }
 
-/* The object that the name leads to now; false when it leads nowhere. */
-static bool find_object(const struct watch *watch, struct stat *status)
+/* The object that the name leads to now; false with the reason when it leads nowhere. */
+static bool find_object(const struct watch *watch, char object[SEGMENT_PATH_MAX],
+                        struct reason *why)
 {
-    char path[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
-    segment_paths(watch->name, path, lock);
-    return stat(path, status) == 0;
+    struct segment_paths paths;
+    if (segment_paths(&paths, watch->name, why) != 0)
+        return false;
+    memcpy(object, paths.object, sizeof paths.object);
+    if (object[0] == '\0')
+        reason_set(why, "world \"%s\" is not there", watch->name);
+    return object[0] != '\0';
 }
 
 static void note_turrets(struct watch *watch)
@@ -56,22 +60,18 @@ static void note_turrets(struct watch *watch)
 /* The object may be another one before and after: then it is for the next look. */
 static bool attach(struct watch *watch)
 {
-    struct stat before, after;
-    if (!find_object(watch, &before)) {
-        reason_set(&watch->why, "world \"%s\" is not there", watch->name);
+    char before[SEGMENT_PATH_MAX];
+    if (!find_object(watch, before, &watch->why))
         return false;
-    }
     if (segment_attach(&watch->view, watch->name, ROLE_NONE, &watch->why) != 0)
         return false;
-    if (!find_object(watch, &after) || before.st_ino != after.st_ino ||
-        before.st_dev != after.st_dev || snapshot_init(&watch->snapshot, &watch->view) != 0) {
+    if (!find_object(watch, watch->object, &watch->why) || strcmp(before, watch->object) != 0 ||
+        snapshot_init(&watch->snapshot, &watch->view) != 0) {
         segment_detach(&watch->view);
         reason_set(&watch->why, "world \"%s\" is being made, or there is no memory for a copy",
                    watch->name);
         return false;
     }
-    watch->device = after.st_dev;
-    watch->inode = after.st_ino;
     watch->there = true;
     note_turrets(watch);
     return true;
@@ -79,9 +79,9 @@ static bool attach(struct watch *watch)
 
 static bool look(struct watch *watch)
 {
-    struct stat status;
-    if (watch->there && find_object(watch, &status) && status.st_ino == watch->inode &&
-        status.st_dev == watch->device)
+    char object[SEGMENT_PATH_MAX];
+    struct reason why;
+    if (watch->there && find_object(watch, object, &why) && strcmp(object, watch->object) == 0)
         return false;
     bool was_there = watch->there;
     let_go(watch);

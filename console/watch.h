@@ -9,7 +9,6 @@
 #include "ipc/snapshot.h"
 
 #include <stdbool.h>
-#include <sys/types.h>
 
 #define WATCH_COPY_NS      100000000u
 #define WATCH_LOOK_NS      250000000u /* is the world still there, or back? */
@@ -21,9 +20,8 @@ struct watch {
     bool there;        /* what follows is attached */
     struct reason why; /* there is none */
     struct view view;
-    dev_t device; /* of the object that is mapped */
-    ino_t inode;
-    bool turret[KIND_COUNT_MAX]; /* has the kind one? */
+    char object[SEGMENT_PATH_MAX]; /* the one that is mapped */
+    bool turret[KIND_COUNT_MAX];   /* has the kind one? */
     uint64_t looked_ns;
     double time_s, scale; /* of the simulation, at the last turn */
     struct snapshot snapshot;

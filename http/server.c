@@ -4,8 +4,8 @@
 #include "http/connection_limit.h"
 #include "http/host.h"
 #include "ipc/clock.h"
-#include "ipc/log.h"
 #include "ipc/local_socket.h"
+#include "ipc/log.h"
 
 #include <errno.h>
 #include <microhttpd.h>

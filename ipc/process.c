@@ -23,7 +23,7 @@ static void on_stop(int signal_number)
     stopping = 1;
 }
 
-static char gone[2][SEGMENT_PATH_MAX]; /* what goes with the world's memory; "": nothing */
+static struct segment_paths gone; /* what goes with the world's memory; "": nothing */
 
 /* A page that the object no longer has: somebody made it shorter under us. A bus error of any other
  * kind is a crash like any other: the instruction runs again, without a handler, and ends the
@@ -34,17 +34,17 @@ static void on_bus_error(int signal_number, siginfo_t *info, void *context)
     (void)context;
     if (info->si_code != BUS_ADRERR)
         return;
-    for (int i = 0; i < 2; i++) {
-        if (gone[i][0] != '\0')
-            unlink(gone[i]);
+    const char *const paths[] = {gone.object, gone.name, gone.lock};
+    for (int i = 0; i < 3; i++) {
+        if (paths[i][0] != '\0')
+            unlink(paths[i]);
     }
     die_at_once("the world's memory went away: its object in /dev/shm was made shorter");
 }
 
-void process_guard_removes(const char *shm, const char *lock)
+void process_guard_removes(const struct segment_paths *paths)
 {
-    snprintf(gone[0], sizeof gone[0], "%s", shm);
-    snprintf(gone[1], sizeof gone[1], "%s", lock);
+    gone = *paths;
 }
 
 static void check_stack(void)
@@ -60,8 +60,21 @@ void process_guard(void)
     check_stack();
     struct sigaction bus = {.sa_sigaction = on_bus_error,
                             .sa_flags = SA_SIGINFO | (int)SA_RESETHAND};
+    struct sigaction ignore = {.sa_handler = SIG_IGN};
     sigemptyset(&bus.sa_mask);
+    sigemptyset(&ignore.sa_mask);
     sigaction(SIGBUS, &bus, NULL);
+    sigaction(SIGXFSZ, &ignore, NULL);
+}
+
+void process_hold_stop(void)
+{
+    sigset_t stop;
+    sigemptyset(&stop);
+    sigaddset(&stop, SIGTERM);
+    sigaddset(&stop, SIGINT);
+    sigaddset(&stop, SIGHUP);
+    sigprocmask(SIG_BLOCK, &stop, NULL);
 }
 
 bool process_stopping(void)

@@ -25,14 +25,9 @@ struct search {
     struct reason *reason;
 };
 
-/* What this process found first. */
+/* What this process found first; "" before. */
 static pthread_mutex_t kept_lock = PTHREAD_MUTEX_INITIALIZER;
-static struct {
-    int fd;
-    dev_t device;
-    ino_t inode;
-    char path[RUNTIME_FOLDER_MAX];
-} kept = {.fd = -1};
+static char kept[RUNTIME_FOLDER_MAX];
 
 static enum found refused(struct search *search, int error, const char *right)
 {
@@ -223,50 +218,30 @@ static enum found find(struct search *search)
     return found;
 }
 
-/* Somebody may have closed all descriptors since, and the number may be another file's. */
-static bool kept_is_good(void)
+int runtime_folder_open(struct reason *reason)
 {
-    struct stat status;
-    return kept.fd >= 0 && fstat(kept.fd, &status) == 0 && status.st_dev == kept.device &&
-           status.st_ino == kept.inode;
-}
-
-/* kept_lock is held. */
-static int keep(struct reason *reason)
-{
-    struct stat status;
     struct search search = {.fd = -1, .reason = reason};
-    if (kept_is_good())
-        return 0;
+    pthread_mutex_lock(&kept_lock);
+    memcpy(search.path, kept, sizeof kept);
+    pthread_mutex_unlock(&kept_lock);
+    if (search.path[0] != '\0')
+        return open_checked(&search, AT_FDCWD, search.path) == FOUND ? search.fd : -1;
     if (find(&search) != FOUND)
         return -1;
-    if (fstat(search.fd, &status) != 0) {
-        close(search.fd);
-        return reason_set(reason, "%s: %s", search.path, strerror(errno));
-    }
-    kept.fd = search.fd;
-    kept.device = status.st_dev;
-    kept.inode = status.st_ino;
-    memcpy(kept.path, search.path, sizeof kept.path);
-    return 0;
+    pthread_mutex_lock(&kept_lock);
+    memcpy(kept, search.path, sizeof kept);
+    pthread_mutex_unlock(&kept_lock);
+    return search.fd;
 }
 
 int runtime_folder(char path[RUNTIME_FOLDER_MAX], struct reason *reason)
 {
+    int fd = runtime_folder_open(reason);
+    if (fd < 0)
+        return -1;
+    close(fd);
     pthread_mutex_lock(&kept_lock);
-    int result = keep(reason);
-    if (result == 0)
-        memcpy(path, kept.path, RUNTIME_FOLDER_MAX);
+    memcpy(path, kept, sizeof kept);
     pthread_mutex_unlock(&kept_lock);
-    return result;
-}
-
-int runtime_folder_open(struct reason *reason)
-{
-    pthread_mutex_lock(&kept_lock);
-    int fd = keep(reason);
-    if (fd == 0 && (fd = fcntl(kept.fd, F_DUPFD_CLOEXEC, 0)) < 0)
-        reason_set(reason, "%s: cannot duplicate its descriptor: %s", kept.path, strerror(errno));
-    pthread_mutex_unlock(&kept_lock);
-    return fd;
+    return 0;
 }

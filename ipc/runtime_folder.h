@@ -23,12 +23,13 @@ struct reason;
 #define RUNTIME_FOLDER_MAX 192 /* the longest path, with the NUL */
 
 /* Finds this user's runtime folder, and makes it when it is missing. 0, or -1 with the reason. The
- * process keeps the folder that it has found first. Any thread may call this. */
+ * process keeps the path that it has found first, and no descriptor; each call checks the folder
+ * again. Any thread may call this. After the first call it asks the kernel for openat(), fstat()
+ * and close() only, so that it works within a sandbox. */
 int runtime_folder(char path[RUNTIME_FOLDER_MAX], struct reason *reason);
 
 /* The same as a descriptor (O_PATH | O_DIRECTORY | O_CLOEXEC) that the caller closes, for openat()
- * and the like. After the first call in a process this asks the kernel for fstat() and openat()
- * only, so that it works within a sandbox. -1 with the reason. */
+ * and the like. -1 with the reason. */
 int runtime_folder_open(struct reason *reason);
 
 #endif

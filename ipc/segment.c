@@ -8,10 +8,10 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/random.h>
+#include <sys/resource.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -96,24 +96,29 @@ struct segment_header segment_header_for(const struct params *params, const stru
                                    .dent_slots = params->dent_slots};
 }
 
-static int reserve(int fd, const char *path, size_t bytes, struct reason *reason)
+static int reserve(int fd, size_t bytes, struct reason *reason)
 {
     CRASH_POINT("space");
     int error = posix_fallocate(fd, 0, (off_t)bytes);
     if (error == 0)
         return 0;
     struct statvfs space;
+    struct rlimit limit;
     double free_mb = 0.0;
     if (fstatvfs(fd, &space) == 0)
         free_mb = (double)space.f_bavail * (double)space.f_frsize / 1e6;
-    unlink(path);
     if (error == ENOSPC)
         return reason_set(reason,
                           "shared memory is full: the world needs %.1f MB and " SEGMENT_DIR
                           " has %.1f MB free; lower world.capacity, or remove old worlds with "
                           "`jolon clean -w NAME`",
                           (double)bytes / 1e6, free_mb);
-    return reason_set(reason, "%s: cannot reserve %zu bytes: %s", path, bytes, strerror(error));
+    if (error == EFBIG && getrlimit(RLIMIT_FSIZE, &limit) == 0)
+        return reason_set(reason,
+                          "the world needs %.1f MB, and no file of this process may be larger than "
+                          "%.3f MB; raise that with `ulimit -f`, or lower world.capacity",
+                          (double)bytes / 1e6, (double)limit.rlim_cur / 1e6);
+    return reason_set(reason, SEGMENT_DIR ": cannot reserve %zu bytes: %s", bytes, strerror(error));
 }
 
 /* The new segment's memory: header written, static regions still to be filled. */
@@ -138,7 +143,7 @@ static int prepare(struct view *view, const struct segment_header *header)
 
 int segment_private(struct view *view, const struct segment_header *header, struct reason *reason)
 {
-    *view = (struct view){.role = ROLE_NONE, .lock_fd = -1};
+    *view = (struct view){.role = ROLE_NONE, .lock_fd = -1, .made_fd = -1};
     if (layout_compute(&view->layout, header) != 0)
         return reason_set(reason, "the world's counts are out of range");
     view->base =
@@ -150,37 +155,37 @@ int segment_private(struct view *view, const struct segment_header *header, stru
     return prepare(view, header) == 0 ? 0 : reason_set(reason, "doorbells: %s", strerror(errno));
 }
 
+/* The object has no name until it is whole: when the process dies, the kernel frees it. */
 int segment_begin(struct view *view, const char *name, const struct segment_header *header,
                   struct reason *reason)
 {
-    char path[SEGMENT_PATH_MAX];
     if (segment_view_named(view, name, ROLE_NONE, reason) != 0)
         return -1;
     if (layout_compute(&view->layout, header) != 0)
         return reason_set(reason, "the world's counts are out of range");
-    segment_sweep(name);
-    segment_temporary(name, path);
-    CRASH_POINT("temporary object");
-    int fd = open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-    if (fd < 0)
-        return reason_set(reason, "%s: cannot create: %s", path, strerror(errno));
-    if (reserve(fd, path, view->layout.total, reason) != 0) {
-        close(fd);
-        return -1;
-    }
-    view->base = mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
-    close(fd);
+    CRASH_POINT("object without a name");
+    view->made_fd = open(SEGMENT_DIR, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (view->made_fd < 0)
+        return reason_set(reason, SEGMENT_DIR ": cannot create: %s", strerror(errno));
+    if (reserve(view->made_fd, view->layout.total, reason) != 0)
+        goto err_made;
+    view->base =
+        mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, view->made_fd, 0);
     if (view->base == MAP_FAILED) {
         view->base = NULL;
-        unlink(path);
-        return reason_set(reason, "%s: cannot map %zu bytes: %s", path, view->layout.total,
-                          strerror(errno));
+        reason_set(reason, "cannot map the world's %.1f MB: %s; lower world.capacity",
+                   (double)view->layout.total / 1e6, strerror(errno));
+        goto err_made;
     }
-    if (prepare(view, header) != 0) {
-        segment_abandon(view);
-        return reason_set(reason, "%s: cannot make the doorbells: %s", path, strerror(errno));
-    }
-    return 0;
+    if (prepare(view, header) == 0)
+        return 0;
+    reason_set(reason, "cannot make the doorbells: %s", strerror(errno));
+    segment_abandon(view);
+    return -1;
+err_made:
+    close(view->made_fd);
+    view->made_fd = -1;
+    return -1;
 }
 
 void segment_fill(struct view *view, const struct genesis *genesis)
@@ -196,10 +201,7 @@ void segment_fill(struct view *view, const struct genesis *genesis)
 
 int segment_publish(struct view *view, struct reason *reason)
 {
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX], temporary[SEGMENT_PATH_MAX];
     struct segment_header *own = view->base;
-    segment_paths(view->name, shm, lock);
-    segment_temporary(view->name, temporary);
     CRASH_POINT("static hash");
     segment_hash_static(view);
     CRASH_POINT("head hash");
@@ -207,23 +209,10 @@ int segment_publish(struct view *view, struct reason *reason)
     atomic_thread_fence(memory_order_release);
     CRASH_POINT("magic");
     own->magic = SEGMENT_MAGIC;
-    CRASH_POINT("lock file");
-    int fd = segment_open_lock(lock, O_RDWR | O_CREAT, reason);
-    if (fd < 0)
+    if (segment_give_names(view->name, view->made_fd, reason) != 0)
         return -1;
-    close(fd);
-    CRASH_POINT("name");
-    if (renameat2(AT_FDCWD, temporary, AT_FDCWD, shm, RENAME_NOREPLACE) != 0) {
-        if (errno == EEXIST)
-            return reason_set(reason,
-                              "world \"%s\" exists already; `jolon status -w %s` shows it, `jolon "
-                              "stop -w %s` ends it, -w NAME makes another",
-                              view->name, view->name, view->name);
-        int error = errno;
-        segment_remove_lock(lock, reason); /* no world: it would stay for nothing */
-        return reason_set(reason, "%s: cannot rename to %s: %s", temporary, shm, strerror(error));
-    }
-    CRASH_POINT("after the name");
+    close(view->made_fd);
+    view->made_fd = -1;
     return 0;
 }
 
@@ -233,10 +222,7 @@ void segment_abandon(struct view *view)
         return;
     munmap(view->base, view->layout.total);
     view->base = NULL;
-    if (view->name[0] != '\0') {
-        char path[SEGMENT_PATH_MAX];
-        segment_temporary(view->name, path);
-        CRASH_POINT("abandoned temporary");
-        unlink(path);
-    }
+    if (view->made_fd >= 0)
+        close(view->made_fd);
+    view->made_fd = -1;
 }

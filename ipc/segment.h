@@ -1,14 +1,16 @@
 /* The segment: a world in POSIX shared memory, its creation and its mapping.
  *
- * Object "/jolon.UID.NAME", mode 0600; beside it in the same file system the lock file
- * "jolon.UID.NAME.lock", which holds the roles' locks and is never removed while the world
- * lives. */
+ * The object is "/dev/shm/jolon.UID.NAME.X", mode 0600, where X is 32 random hexadecimal digits: so
+ * nobody can take its name before it. The world's name is a symbolic link NAME to it in the runtime
+ * folder (ipc/runtime_folder.h), which nobody else can enter. Beside the link lies NAME.lock, which
+ * holds the roles' locks and is never removed while the world lives. */
 #ifndef JOLON_IPC_SEGMENT_H
 #define JOLON_IPC_SEGMENT_H
 
 #include "ipc/door.h"
 #include "ipc/layout.h"
 #include "ipc/role.h"
+#include "ipc/runtime_folder.h"
 #include "world/genesis.h"
 #include "world/world.h"
 
@@ -17,7 +19,7 @@
 #include <stdint.h>
 
 #define SEGMENT_NAME_MAX 32 /* of a world, with the NUL */
-#define SEGMENT_PATH_MAX 96
+#define SEGMENT_PATH_MAX (RUNTIME_FOLDER_MAX + 64)
 
 struct commit_words {                      /* only writer: collider */
     _Alignas(64) _Atomic uint64_t commit;  /* last committed frame */
@@ -48,6 +50,7 @@ struct view {
     char name[SEGMENT_NAME_MAX];
     enum role role;
     int lock_fd;  /* of the role's lock; -1 for a reader */
+    int made_fd;  /* of an object that has no name yet; -1 for any other */
     bool holds;   /* the role's lock is ours */
     bool checked; /* a stage has checked the frame that it found against its checksum */
     void *base;
@@ -75,18 +78,27 @@ struct reason {
 int reason_set(struct reason *reason, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Is this a name a world may have: 1..31 of a-z A-Z 0-9 _ - ? */
+/* Is this a name a world may have: 1..31 of a-z A-Z 0-9 _ - ? The second says so: 0, or -1 with the
+ * reason. */
 bool segment_name_ok(const char *name);
+int segment_name_check(const char *name, struct reason *reason);
 
-/* Paths as seen in the file system (for the lock file, and to list worlds). */
-void segment_paths(const char *name, char shm[SEGMENT_PATH_MAX], char lock[SEGMENT_PATH_MAX]);
+/* Where a world is in the file system. */
+struct segment_paths {
+    char name[SEGMENT_PATH_MAX];   /* the link in the runtime folder */
+    char lock[SEGMENT_PATH_MAX];   /* the lock file beside it */
+    char object[SEGMENT_PATH_MAX]; /* in /dev/shm; "" when the name leads to no world */
+};
+
+/* Looks where a world's name leads now. 0, also when it leads to no world. -1 with the reason when
+ * it is no name, when there is no runtime folder, or when something else lies under the name. */
+int segment_paths(struct segment_paths *paths, const char *name, struct reason *reason);
 
 /* Creation, in one process that nobody else can see yet:
- *   segment_begin   makes a temporary object with space for every region of header, mapped
+ *   segment_begin   makes an object without a name, with space for every region of header, mapped
  *                   writable; fill the static regions and frame 0 through view
- *   segment_publish hashes, writes the magic and moves it to its name; fails with EEXIST when the
- *                   world exists
- *   segment_abandon frees what begin made.
+ *   segment_publish hashes, writes the magic and gives it its names; refuses when the world exists
+ *   segment_abandon frees what begin made. The kernel does so too, when the process ends.
  * 0, or -1 with the reason. header gives counts and sizes; the rest of it is filled here. */
 int segment_begin(struct view *view, const char *name, const struct segment_header *header,
                   struct reason *reason);
@@ -153,9 +165,14 @@ int segment_check_moved(const struct view *view, uint64_t frame, struct reason *
  * entities. */
 int segment_repair(const char *name, struct reason *report);
 
-/* Removes the world's object, and its lock file unless a supervisor holds that. Refuses while a
- * role is held, unless force. 0, or -1 with the reason. */
+/* Removes the world's object, its name and its sockets, and its lock file unless a supervisor holds
+ * that. A name that leads to no world is removed too. Refuses while a role is held, unless force.
+ * 0, or -1 with the reason. segment_remove_own() is for the supervisor that holds the lock file: it
+ * removes that too. segment_sweep() leaves a world as it is, and removes only what lies around a
+ * name that leads to none. */
 int segment_remove(const char *name, bool force, struct reason *reason);
+int segment_remove_own(const char *name, struct reason *reason);
+int segment_sweep(const char *name, struct reason *reason);
 
 /* Has the role a live holder? For a view that holds a role itself; opens nothing. */
 bool segment_held(const struct view *view, enum role role);
@@ -173,7 +190,14 @@ int segment_holder_alive(const char *name, enum role role, uint64_t until_ns);
  */
 int segment_wait_free(const char *name, enum role last, uint64_t until_ns, struct reason *reason);
 
-/* Names of this user's worlds, at most max; how many there are. */
-int segment_list(char names[][SEGMENT_NAME_MAX], int max);
+/* Names in this user's runtime folder: of worlds, or, with all, of whatever is left of one too.
+ * Writes at most max of them and returns how many it wrote; -1 with the reason. */
+int segment_list(char names[][SEGMENT_NAME_MAX], int max, bool all, struct reason *reason);
+
+/* Objects and lock files of this user in /dev/shm to which no name in the runtime folder leads: of
+ * an earlier version, of another runtime folder, or of one that is gone. Nobody can tell which, so
+ * they are only listed. At most max names of files; how many it wrote. */
+#define SEGMENT_LOST_MAX 128
+int segment_list_lost(char files[][SEGMENT_LOST_MAX], int max);
 
 #endif

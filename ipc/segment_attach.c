@@ -79,25 +79,34 @@ static void *map_readable(int fd, size_t bytes)
     return base;
 }
 
-int segment_map(struct view *view, const char *path, segment_writable *writable,
-                struct reason *reason)
+/* Of that name there is none. */
+static int absent(const struct view *view, struct reason *reason)
 {
+    reason_set(
+        reason,
+        "there is no world \"%s\"; `jolon worlds` lists those there are, `jolon start` makes "
+        "one",
+        view->name);
+    reason->foreign = true;
+    return -1;
+}
+
+int segment_map(struct view *view, segment_writable *writable, struct reason *reason)
+{
+    struct segment_paths paths;
+    const char *path = paths.object;
     size_t bytes = 0;
     int result = -1;
+    if (segment_paths(&paths, view->name, reason) != 0)
+        return -1;
+    if (path[0] == '\0')
+        return absent(view, reason);
     /* O_NONBLOCK: a pipe of that name must not make us wait for its other end. */
     int mode = writable ? O_RDWR : O_RDONLY;
     int fd = open(path, mode | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
-    if (fd < 0) {
-        if (errno == ENOENT) {
-            reason_set(reason,
-                       "there is no world \"%s\"; `jolon worlds` lists those there are, `jolon "
-                       "start` makes one",
-                       view->name);
-            reason->foreign = true;
-            return -1;
-        }
-        return reason_set(reason, "%s: cannot open: %s", path, strerror(errno));
-    }
+    if (fd < 0)
+        return errno == ENOENT ? absent(view, reason)
+                               : reason_set(reason, "%s: cannot open: %s", path, strerror(errno));
     if (segment_check_object(fd, path, &bytes, reason) != 0)
         goto err_open;
     view->base = map_readable(fd, bytes);
@@ -158,10 +167,9 @@ static int unlocked(struct view *view, struct reason *reason)
 
 int segment_view_named(struct view *view, const char *name, enum role role, struct reason *reason)
 {
-    *view = (struct view){.role = role, .lock_fd = -1};
-    if (!segment_name_ok(name))
-        return reason_set(reason, "\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -", name,
-                          SEGMENT_NAME_MAX - 1);
+    *view = (struct view){.role = role, .lock_fd = -1, .made_fd = -1};
+    if (segment_name_check(name, reason) != 0)
+        return -1;
     snprintf(view->name, sizeof view->name, "%s", name);
     return 0;
 }
@@ -169,13 +177,14 @@ int segment_view_named(struct view *view, const char *name, enum role role, stru
 static int attach(struct view *view, const char *name, enum role role, bool later,
                   struct reason *reason)
 {
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
-    if (segment_view_named(view, name, role, reason) != 0)
+    struct segment_paths paths;
+    if (segment_view_named(view, name, role, reason) != 0 ||
+        segment_paths(&paths, name, reason) != 0)
         return -1;
-    segment_paths(name, shm, lock);
-    if (access(shm, F_OK) == 0 && role != ROLE_NONE && segment_lock(view, lock, later, reason) != 0)
+    if (paths.object[0] != '\0' && role != ROLE_NONE &&
+        segment_lock(view, paths.lock, later, reason) != 0)
         return -1;
-    if (segment_map(view, shm, role == ROLE_NONE ? NULL : layout_writable, reason) != 0 ||
+    if (segment_map(view, role == ROLE_NONE ? NULL : layout_writable, reason) != 0 ||
         (role != ROLE_NONE && view->lock_fd < 0 && unlocked(view, reason) != 0)) {
         if (view->lock_fd >= 0)
             close(view->lock_fd);

@@ -18,22 +18,25 @@ static inline void *segment_part(const struct view *view, int region)
 void segment_bind(struct view *view);
 
 /* segment_attach.c: a view of this name and role with nothing mapped; takes the role's lock into
- * lock_fd, or only opens its file for later; maps the object, for writing where writable says so
- * (NULL: nowhere), and points the tables into it. 0, or -1 with the reason. */
+ * lock_fd, or only opens its file for later; maps the object that the name leads to, for writing
+ * where writable says so (NULL: nowhere), and points the tables into it. 0, or -1 with the reason.
+ */
 typedef bool segment_writable(enum role role, enum region region);
 int segment_view_named(struct view *view, const char *name, enum role role, struct reason *reason);
 int segment_lock(struct view *view, const char *path, bool later, struct reason *reason);
-int segment_map(struct view *view, const char *path, segment_writable *writable,
-                struct reason *reason);
+int segment_map(struct view *view, segment_writable *writable, struct reason *reason);
 
-/* segment_names.c: the path under which a world is made; removal of what dead makers of it left;
- * the lock file's descriptor (flags: 0 or O_CREAT), -1 with errno and the reason; removal of the
- * lock file, unless somebody holds it whole by flock(2): a supervisor, which removes it at its end.
- */
-void segment_temporary(const char *name, char path[SEGMENT_PATH_MAX]);
-void segment_sweep(const char *name);
+/* segment_names.c: gives the object behind fd a name in /dev/shm and the world's name to it.
+ * Refuses when the world exists. 0, or -1 with the reason. */
+int segment_give_names(const char *name, int fd, struct reason *reason);
+
+/* segment_locks.c: the lock file's descriptor (flags: O_RDONLY or O_RDWR, and O_CREAT), -1 with
+ * errno and the reason; the same with the byte of it that keeps creation and removal of the name
+ * apart, as long as it is open; the first of the roles 0 .. last that is held, ROLE_NONE when none
+ * is, -1 with the reason. */
 int segment_open_lock(const char *path, int flags, struct reason *reason);
-int segment_remove_lock(const char *path, struct reason *reason);
+int segment_lock_name(const char *path, struct reason *reason);
+int segment_first_held(const char *path, enum role last, struct reason *reason);
 
 /* The role's byte of the lock file, as fcntl() takes it. */
 struct flock segment_role_byte(enum role role);

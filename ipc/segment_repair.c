@@ -149,21 +149,21 @@ static bool words_alone(enum role role, enum region region)
 int segment_repair(const char *name, struct reason *report)
 {
     static const enum role writers[] = {ROLE_MOVER, ROLE_COLLIDER};
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    struct segment_paths paths;
     struct view view;
     int held[2] = {-1, -1};
     int result = -1;
-    if (segment_view_named(&view, name, ROLE_NONE, report) != 0)
+    if (segment_view_named(&view, name, ROLE_NONE, report) != 0 ||
+        segment_paths(&paths, name, report) != 0)
         return -1;
-    segment_paths(name, shm, lock);
-    bool there = access(shm, F_OK) == 0; /* else its absence is the reason, not the lock's */
+    bool there = paths.object[0] != '\0'; /* else its absence is the reason, not the lock's */
     for (int i = 0; i < 2 && there; i++) {
         view.role = writers[i];
-        if (segment_lock(&view, lock, false, report) != 0)
+        if (segment_lock(&view, paths.lock, false, report) != 0)
             goto err_lock;
         held[i] = view.lock_fd;
     }
-    if (segment_map(&view, shm, words_alone, report) != 0)
+    if (segment_map(&view, words_alone, report) != 0)
         goto err_lock;
     result = repair(&view, report);
     report->damaged = result < 0;

@@ -1,6 +1,9 @@
 /* Landlock's rules, by the system calls themselves: the C library has no functions for them. */
 #include "sandbox/files.h"
 
+#include "ipc/runtime_folder.h"
+#include "ipc/segment.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <glob.h>
@@ -44,7 +47,7 @@ static const char *const driver_paths[] = {"/usr",       "/lib*", "/etc",  "/opt
 static const char *const device_paths[] = {"/dev/dri",     "/dev/nvidia*", "/dev/null",
                                            "/dev/urandom", "/dev/random",  "/dev/zero"};
 
-/* Worlds, and what the C library and DDS ask of the machine when they start. */
+/* Worlds' objects, and what the C library and DDS ask of the machine when they start. */
 static const char *const visitor_paths[] = {"/dev/shm", "/usr", "/lib*", "/etc", "/sys", "/proc"};
 
 static uint64_t known(long version)
@@ -89,6 +92,19 @@ static int allow_paths(int ruleset, const char *const *paths, size_t count, uint
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+/* What a visitor reads: beside the paths above the worlds' names and locks. */
+static int allow_worlds(int ruleset)
+{
+    struct reason reason;
+    int folder = runtime_folder_open(&reason);
+    int result = allow_paths(ruleset, visitor_paths, COUNT(visitor_paths), ACCESS_READ);
+    if (folder < 0 || result != 0)
+        return result;
+    result = allow(ruleset, folder, ACCESS_READ);
+    close(folder);
+    return result;
+}
+
 /* The version of the kernel's Landlock, or a negative errno. */
 static long landlock_version(void)
 {
@@ -126,7 +142,7 @@ int files_confine(enum role role, const int *folders, size_t count)
     if (drivers && result == 0)
         result = allow_paths(ruleset, driver_paths, COUNT(driver_paths), ACCESS_READ);
     if (role == ROLE_CONSOLE && result == 0)
-        result = allow_paths(ruleset, visitor_paths, COUNT(visitor_paths), ACCESS_READ);
+        result = allow_worlds(ruleset);
     if (drivers && result == 0)
         result = allow_paths(ruleset, device_paths, COUNT(device_paths), ACCESS_DEVICE);
     return restrict_self(ruleset, result);

@@ -179,7 +179,8 @@ static const struct rule polling[] = {
 static const struct rule commanding[] = {
     WITH(socket, 0, AF_UNIX),
     ANY(geteuid),
-    WITH(fcntl, 1, F_DUPFD_CLOEXEC), /* of the runtime folder */
+    /* The runtime folder, as runtime_folder_open() does it: nothing can be read through that. */
+    WITH(openat, 2, O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC),
     {SCMP_SYS(getsockopt), 2, {{1, SCMP_CMP_EQ, SOL_SOCKET, 0}, {2, SCMP_CMP_EQ, SO_PEERCRED, 0}}},
     ANY(fstat),
     WITH(newfstatat, 3, AT_EMPTY_PATH), /* what fstat() is in the C library */
@@ -196,6 +197,8 @@ static const struct rule visiting[] = {
     WITH(fcntl, 1, F_OFD_GETLK), /* whether a silent role is dead */
     ANY(openat),                 /* to read alone, and not everything: sandbox/files.c */
     ANY(access),
+    ANY(readlink),
+    ANY(readlinkat),
     ANY(newfstatat),
     ANY(getuid),
     ANY(shutdown),

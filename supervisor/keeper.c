@@ -345,7 +345,7 @@ int main(int argc, char **argv)
     struct plan plan = options_plan(argc, argv);
     struct keeper keeper = {.plan = &plan, .repaired_frame = UINT64_MAX};
     struct reason reason;
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    struct segment_paths paths;
     log_open("keeper");
     sigemptyset(&keeper.signals);
     sigaddset(&keeper.signals, SIGCHLD);
@@ -358,8 +358,9 @@ int main(int argc, char **argv)
     close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
     /* The script ignored these while it turned into us; blocked, they would be dropped. */
     process_signals();
-    segment_paths(plan.world, shm, lock);
-    process_guard_removes(shm, lock);
+    if (segment_paths(&paths, plan.world, &reason) != 0)
+        die_refused("%s", reason.text);
+    process_guard_removes(&paths);
     int ready = open_ready(plan.ready);
     /* The children of a set that was killed die with it, but not in no time. */
     if (set_open(&keeper.set, &plan, &reason) != 0 ||
@@ -384,9 +385,7 @@ int main(int argc, char **argv)
     /* A set that could not start loses no world that another one left. */
     if (keeper.gave_up && begun_frame > 0 && set_frame(&keeper.set) == begun_frame)
         set_note(&keeper.set, "world \"%s\" stays at frame %" PRIu64, plan.world, begun_frame);
-    else if (segment_remove(plan.world, false, &reason) != 0)
+    else if (segment_remove_own(plan.world, &reason) != 0)
         set_note(&keeper.set, "%s", reason.text); /* somebody has a role still, by that lock */
-    else
-        unlink(lock);
     return keeper.code;
 }

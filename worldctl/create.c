@@ -1,7 +1,8 @@
-/* Verbs that make, check and remove worlds. */
+/* Verbs that make, check and repair worlds. */
 #include "worldctl/verbs.h"
 
 #include "ipc/log.h"
+#include "ipc/process.h"
 #include "world/genesis.h"
 #include "worldctl/adopt.h"
 #include "worldctl/arguments.h"
@@ -16,9 +17,8 @@ int verb_create(const struct arguments *arguments)
     struct genesis genesis;
     struct view view;
     struct reason reason;
-    if (!segment_name_ok(arguments->world))
-        die_refused("\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -", arguments->world,
-                    SEGMENT_NAME_MAX - 1);
+    if (segment_name_check(arguments->world, &reason) != 0)
+        die_refused("%s", reason.text);
     if (arguments->from)
         return resume_world(arguments);
     load_scenario(arguments, &scenario);
@@ -31,6 +31,7 @@ int verb_create(const struct arguments *arguments)
     if (segment_begin(&view, arguments->world, &header, &reason) != 0)
         die_refused("%s", reason.text);
     segment_fill(&view, &genesis);
+    process_hold_stop();
     if (segment_publish(&view, &reason) != 0) {
         segment_abandon(&view);
         die_refused("%s", reason.text);
@@ -77,23 +78,5 @@ int verb_repair(const struct arguments *arguments)
     if (segment_repair(arguments->world, &report) < 0)
         die_refused("%s", report.text);
     printf("%s\n", report.text);
-    return EXIT_OK;
-}
-
-int verb_list(const struct arguments *arguments)
-{
-    char names[256][SEGMENT_NAME_MAX];
-    (void)arguments;
-    int count = segment_list(names, 256);
-    for (int i = 0; i < count; i++)
-        printf("%s\n", names[i]);
-    return EXIT_OK;
-}
-
-int verb_remove(const struct arguments *arguments)
-{
-    struct reason reason;
-    if (segment_remove(arguments->world, arguments->force, &reason) != 0)
-        die_refused("%s", reason.text);
     return EXIT_OK;
 }

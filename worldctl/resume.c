@@ -4,6 +4,7 @@
 #include "archive/image.h"
 #include "config/loader.h"
 #include "ipc/log.h"
+#include "ipc/process.h"
 #include "world/checksum.h"
 #include "worldctl/adopt.h"
 #include "worldctl/load.h"
@@ -88,8 +89,9 @@ static void make(const struct arguments *arguments, const struct image *image)
     struct segment_header header = image_segment(image);
     if (segment_begin(&view, arguments->world, &header, &reason) != 0)
         die_refused("%s", reason.text);
-    if (resume_fill(&view, arguments, image, &reason) != 0 ||
-        segment_publish(&view, &reason) != 0) {
+    int result = resume_fill(&view, arguments, image, &reason);
+    process_hold_stop();
+    if (result != 0 || segment_publish(&view, &reason) != 0) {
         segment_abandon(&view);
         die_refused("%s", reason.text);
     }

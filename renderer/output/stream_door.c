@@ -1,7 +1,6 @@
 /* Where the stream listens. */
 #include "renderer/output/stream_inside.h"
 
-#include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/pictures.h"
 
@@ -13,8 +12,6 @@
 
 #define BACKLOG    64
 #define SEND_BYTES (256 * 1024) /* of a client's socket: more only makes what it sees older */
-#define TRIES      20           /* for a name whose last owner is just dying ... */
-#define TRY_NS     10000000u    /* ... so long apart */
 
 static void add_door(struct stream *stream, const struct http_listener *listener)
 {
@@ -39,36 +36,23 @@ int stream_listen(struct stream *stream, const char *address, uint16_t port, str
     return 0;
 }
 
-/* A listening socket of that name; -1 with errno. */
-static int bind_here(const struct sockaddr_un *address, socklen_t length)
-{
-    const int bytes = SEND_BYTES;
-    int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (fd < 0)
-        return -1;
-    if (setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes) == 0 &&
-        bind(fd, (const struct sockaddr *)address, length) == 0 && listen(fd, BACKLOG) == 0)
-        return fd;
-    int cause = errno;
-    close(fd);
-    errno = cause;
-    return -1;
-}
-
-/* The kernel gives a dead process's role away a moment before its sockets are gone. */
+/* The renderer holds its role: a socket of that name is a dead renderer's. */
 int stream_listen_here(struct stream *stream, enum role role, struct reason *reason)
 {
-    struct sockaddr_un address;
-    socklen_t length = pictures_address(&address, stream->world, role);
-    int fd = bind_here(&address, length);
-    for (int i = 0; i < TRIES && fd < 0 && errno == EADDRINUSE; i++) {
-        clock_sleep_until_ns(clock_now_ns() + TRY_NS);
-        fd = bind_here(&address, length);
-    }
+    const int bytes = SEND_BYTES;
+    char suffix[LOCAL_SOCKET_SUFFIX_MAX];
+    pictures_suffix(suffix, role);
+    int fd =
+        local_socket_listen(stream->world, suffix, SOCK_STREAM | SOCK_NONBLOCK, BACKLOG, reason);
     if (fd < 0)
-        return reason_set(reason, "cannot listen on the socket @%s: %s", address.sun_path + 1,
-                          errno == EADDRINUSE ? "another process has that name" : strerror(errno));
+        return -1;
     const struct http_listener listener = {.fd = fd, .local = true, .ours = true};
+    if (setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes) != 0) {
+        reason_set(reason, "%s: cannot set the size of the socket's buffer: %s", suffix,
+                   strerror(errno));
+        close(fd);
+        return -1;
+    }
     add_door(stream, &listener);
     return 0;
 }

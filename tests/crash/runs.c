@@ -1,6 +1,7 @@
 /* Kinds of runs: the roles' own, and what is done to a world before they come or after. */
 #include "tests/crash/runs.h"
 
+#include "ipc/local_socket.h"
 #include "tests/support/child.h"
 #include "tests/support/named_world.h"
 
@@ -12,6 +13,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,7 +40,7 @@ void run_roles(struct ending *ending, const struct plan *plan, const struct deat
 }
 
 /* Runs a program, again if it dies as told; it must end with the exit code, and there must be so
- * many files in shared memory then. */
+ * many files of worlds then: an object, its name and its lock are three. */
 static bool run_program(struct ending *ending, const char *const argv[], const struct death *death,
                         const char *count, int code, int files)
 {
@@ -71,17 +73,27 @@ static int nothing(void *context)
     return 0;
 }
 
-/* What a creator left that was killed; its process is no more. */
-static void plant_temporary(const char *world)
+/* What a writer of the image left that was killed; its process is no more. */
+static void plant_torn_image(void)
 {
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX], path[SEGMENT_PATH_MAX + 32];
+    char path[sizeof image_path + 32];
     pid_t pid = child_start(nothing, NULL);
     child_wait(pid);
-    segment_paths(world, shm, lock);
-    snprintf(path, sizeof path, "%s.new-%d", shm, (int)pid);
+    snprintf(path, sizeof path, "%s.new-%d", image_path, (int)pid);
     int fd = open(path, O_WRONLY | O_CREAT | O_EXCL, 0600);
     assert_true(fd >= 0);
     close(fd);
+}
+
+/* What a creator left that was killed between the name and the object. */
+static void plant_name(const char *world)
+{
+    struct segment_paths paths;
+    struct reason reason;
+    char object[SEGMENT_PATH_MAX];
+    assert_int_equal(segment_paths(&paths, world, &reason), 0);
+    snprintf(object, sizeof object, "/dev/shm/jolon.%u.%s.%032x", (unsigned)getuid(), world, 1);
+    assert_int_equal(symlink(object, paths.name), 0);
 }
 
 void run_created(struct ending *ending, const struct plan *plan, const struct death *death,
@@ -91,8 +103,8 @@ void run_created(struct ending *ending, const struct plan *plan, const struct de
     named_world_name(name);
     const char *const argv[] = {"jolon-world", "create",      "--world", name,
                                 "--adopt",     scenario_path, NULL};
-    plant_temporary(name);
-    if (run_program(ending, argv, death, count, 0, 2))
+    plant_name(name);
+    if (run_program(ending, argv, death, count, 0, 3))
         go_on(ending, plan, name);
 }
 
@@ -102,7 +114,7 @@ void run_refused(struct ending *ending, const struct plan *plan, const struct de
     char name[SEGMENT_NAME_MAX];
     plan_publish(plan, name);
     const char *const argv[] = {"jolon-world", "create", "--world", name, scenario_path, NULL};
-    if (run_program(ending, argv, death, count, 1, 2))
+    if (run_program(ending, argv, death, count, 1, 3))
         go_on(ending, plan, name);
 }
 
@@ -111,7 +123,11 @@ void run_removed(struct ending *ending, const struct plan *plan, const struct de
 {
     char name[SEGMENT_NAME_MAX];
     plan_publish(plan, name);
+    struct reason reason;
     const char *const argv[] = {"jolon-world", "remove", "--world", name, NULL};
+    int socket = local_socket_listen(name, "pictures", SOCK_STREAM, 1, &reason);
+    assert_true(socket >= 0);
+    close(socket);
     run_program(ending, argv, death, count, 0, 0);
 }
 
@@ -136,7 +152,8 @@ void run_saved(struct ending *ending, const struct plan *plan, const struct deat
     const char *const create[] = {"jolon-world", "create",   "--world", name,
                                   "--from",      image_path, NULL};
     unlink(image_path);
-    if (!run_program(ending, save, death, count, 0, 2))
+    plant_torn_image();
+    if (!run_program(ending, save, death, count, 0, 3))
         return;
     bool dead = ending->died;
     if (image_torn()) {
@@ -144,7 +161,7 @@ void run_saved(struct ending *ending, const struct plan *plan, const struct deat
         return;
     }
     assert_int_equal(segment_remove(name, false, &reason), 0);
-    if (run_program(ending, create, NULL, NULL, 0, 2))
+    if (run_program(ending, create, NULL, NULL, 0, 3))
         go_on(ending, plan, name);
     ending->died = dead;
 }
@@ -156,22 +173,22 @@ void run_from(struct ending *ending, const struct plan *plan, const struct death
     named_world_name(name);
     const char *const argv[] = {"jolon-world", "create", "--world",  name,
                                 "--adopt",     "--from", image_path, NULL};
-    if (run_program(ending, argv, death, count, 0, 2))
+    if (run_program(ending, argv, death, count, 0, 3))
         go_on(ending, plan, name);
 }
 
 /* Spoils the first column of a table. */
 static void spoil(const char *world, enum region region)
 {
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    struct segment_paths paths;
     struct view view;
     struct reason reason;
     uint8_t byte;
     assert_int_equal(segment_attach(&view, world, ROLE_NONE, &reason), 0);
     off_t at = (off_t)(view.layout.offset[region] + LAYOUT_HEAD_BYTES);
     segment_detach(&view);
-    segment_paths(world, shm, lock);
-    int fd = open(shm, O_RDWR);
+    named_world_paths(&paths, world);
+    int fd = open(paths.object, O_RDWR);
     assert_int_equal(pread(fd, &byte, 1, at), 1);
     byte ^= 1;
     assert_int_equal(pwrite(fd, &byte, 1, at), 1);
@@ -190,6 +207,6 @@ void run_repaired(struct ending *ending, const struct plan *plan, const struct d
     assert_string_equal(ending->refused, "");
     spoil(name, ending->frame & 1 ? REGION_WORLD_B : REGION_WORLD_A);
     spoil(name, REGION_MOVED);
-    if (run_program(ending, argv, death, count, 0, 2))
+    if (run_program(ending, argv, death, count, 0, 3))
         go_on(ending, plan, name);
 }

@@ -214,7 +214,7 @@ static void test_creation(void **state)
 {
     (void)state;
     drive(run_created, &free_plan, "world", true);
-    drive(run_refused, &free_plan, "world", false);
+    drive(run_refused, &free_plan, "world", true);
 }
 
 static void test_images(void **state)
@@ -233,7 +233,7 @@ static void test_repair(void **state)
 static void test_removal(void **state)
 {
     (void)state;
-    drive(run_removed, &free_plan, "world", false);
+    drive(run_removed, &free_plan, "world", true);
 }
 
 /* Of every point of every program, whether anybody came there or not. */

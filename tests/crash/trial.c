@@ -373,7 +373,7 @@ void trial_run(struct ending *ending, const struct plan *plan, const char *world
         snprintf(ending->refused, sizeof ending->refused, "%.*s", 200, reason.text);
     int left = named_world_leftovers();
     if (left != 0)
-        snprintf(ending->refused, sizeof ending->refused, "%d files are left in /dev/shm", left);
+        snprintf(ending->refused, sizeof ending->refused, "%d files of worlds are left", left);
 }
 
 const char *ending_differs(const struct ending *ending, const struct ending *calm)

@@ -36,12 +36,14 @@ struct object {
 static struct object good;
 
 static char name[SEGMENT_NAME_MAX];
-static char object_path[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+static struct segment_paths paths;
+static char object_path[SEGMENT_PATH_MAX];
 
 static void remove_files(void)
 {
     unlink(object_path);
-    unlink(lock);
+    unlink(paths.name);
+    unlink(paths.lock);
 }
 
 static void make_good(void)
@@ -54,11 +56,15 @@ static void make_good(void)
 
 static void open_files(void)
 {
+    struct reason reason;
     make_good();
     snprintf(name, sizeof name, "fuzz-%d", (int)getpid());
-    segment_paths(name, object_path, lock);
+    CHECK(segment_paths(&paths, name, &reason) == 0);
+    snprintf(object_path, sizeof object_path, "/dev/shm/jolon.%u.%s.%032x", (unsigned)getuid(),
+             name, (unsigned)getpid());
+    CHECK(symlink(object_path, paths.name) == 0);
     (void)atexit(remove_files);
-    int fd = open(lock, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
+    int fd = open(paths.lock, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
     CHECK(fd >= 0);
     close(fd);
 }

@@ -163,10 +163,12 @@ int band_run(const char *const *arguments, char *text, size_t bytes, unsigned li
 /* Pid that the world's lock file holds, 0 when it holds none. */
 static int supervisor_of(const char *world)
 {
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    struct segment_paths paths;
+    struct reason reason;
     int pid = 0;
-    segment_paths(world, shm, lock);
-    FILE *file = fopen(lock, "r");
+    if (segment_paths(&paths, world, &reason) != 0)
+        return 0;
+    FILE *file = fopen(paths.lock, "r");
     if (!file)
         return 0;
     if (fscanf(file, "%d", &pid) != 1)
@@ -313,20 +315,26 @@ int band_processes_left(void)
     }
 }
 
-int band_files_left(const struct storm_options *options)
+/* Files of a folder that are called name, or name and more after a point. */
+static int files_of(const char *folder, const char *name)
 {
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    size_t length = strlen(name);
     int count = 0;
-    segment_paths(options->world, shm, lock);
-    const char *name = strrchr(shm, '/') + 1;
-    DIR *directory = opendir("/dev/shm");
+    DIR *directory = opendir(folder);
     if (!directory)
         return 0;
-    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
-        size_t length = strlen(name);
+    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory))
         count += strncmp(entry->d_name, name, length) == 0 &&
                  (entry->d_name[length] == '\0' || entry->d_name[length] == '.');
-    }
     closedir(directory);
     return count;
+}
+
+int band_files_left(const struct storm_options *options)
+{
+    char folder[RUNTIME_FOLDER_MAX], object[64];
+    struct reason reason;
+    snprintf(object, sizeof object, "jolon.%u.%s", (unsigned)getuid(), options->world);
+    return files_of("/dev/shm", object) +
+           (runtime_folder(folder, &reason) == 0 ? files_of(folder, options->world) : 0);
 }

@@ -46,7 +46,8 @@ void band_count_descriptors(struct band *band);
 /* Waits for what became ours because its parent died. */
 void band_reap(void);
 
-/* Processes that are still there after the set's end, and files of its world in /dev/shm. */
+/* Processes that are still there after the set's end, and files of its world in /dev/shm and
+ * in the runtime folder. */
 int band_processes_left(void);
 int band_files_left(const struct storm_options *options);
 

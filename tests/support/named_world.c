@@ -43,6 +43,14 @@ void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text)
     fixture_close(&f);
 }
 
+void named_world_paths(struct segment_paths *paths, const char *name)
+{
+    struct reason reason;
+    if (segment_paths(paths, name, &reason) != 0)
+        fail_msg("%s", reason.text);
+    assert_string_not_equal(paths->object, "");
+}
+
 void named_world_remove(const char *name)
 {
     struct reason reason;
@@ -50,17 +58,14 @@ void named_world_remove(const char *name)
         fail_msg("%s", reason.text);
 }
 
-/* Counts this test's files, and removes them. */
-static int go_through(bool remove)
+/* Counts the files of a folder whose names begin so, and removes them. */
+static int go_through(const char *folder, const char *prefix, bool remove)
 {
-    char prefix[64];
     int count = 0;
-    int length =
-        snprintf(prefix, sizeof prefix, "jolon.%u.test-%d-", (unsigned)getuid(), (int)getpid());
-    DIR *directory = opendir("/dev/shm");
+    DIR *directory = opendir(folder);
     assert_non_null(directory);
     for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
-        if (strncmp(entry->d_name, prefix, (size_t)length) != 0)
+        if (strncmp(entry->d_name, prefix, strlen(prefix)) != 0)
             continue;
         count++;
         if (remove)
@@ -70,14 +75,26 @@ static int go_through(bool remove)
     return count;
 }
 
+static int go_through_both(bool remove)
+{
+    char prefix[64], folder[RUNTIME_FOLDER_MAX];
+    struct reason reason;
+    if (runtime_folder(folder, &reason) != 0)
+        fail_msg("%s", reason.text);
+    snprintf(prefix, sizeof prefix, "test-%d-", (int)getpid());
+    int count = go_through(folder, prefix, remove);
+    snprintf(prefix, sizeof prefix, "jolon.%u.test-%d-", (unsigned)getuid(), (int)getpid());
+    return count + go_through("/dev/shm", prefix, remove);
+}
+
 int named_world_leftovers(void)
 {
-    return go_through(false);
+    return go_through_both(false);
 }
 
 void named_world_clear(void)
 {
-    go_through(true);
+    go_through_both(true);
 }
 
 int named_world_check_left(void **state)
@@ -85,6 +102,6 @@ int named_world_check_left(void **state)
     (void)state;
     int left = named_world_leftovers();
     if (left != 0)
-        print_error("%d files are left in /dev/shm\n", left);
+        print_error("%d files of worlds are left\n", left);
     return left == 0 ? 0 : -1;
 }

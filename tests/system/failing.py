@@ -10,7 +10,9 @@ import time
 bin_dir, name = os.environ["BIN"], os.environ["NAME"]
 samples = int(os.environ["SAMPLES"])
 rng = random.Random(int(os.environ["SEED"]))
-shm = f"/dev/shm/jolon.{os.getuid()}.{name}"
+names = os.environ["JOLON_RUNTIME_DIR"]
+os.makedirs(names, 0o700, exist_ok=True)
+shm = f"/dev/shm/jolon.{os.getuid()}.{name}.{0:032x}"
 number = 0
 
 HANGS = 1000  # in place of an exit code
@@ -24,8 +26,12 @@ world = lambda verb, *args: program("world", verb, "--world", name, *args)
 
 
 def leftovers():
-    prefix = os.path.basename(shm)
-    return sorted(entry for entry in os.listdir("/dev/shm") if entry.startswith(prefix))
+    """Files of the world: its object, its name, its lock."""
+    prefix = shm[: shm.rindex(".")]
+    objects = (f"/dev/shm/{entry}" for entry in os.listdir("/dev/shm"))
+    return sorted(path for path in objects if path.startswith(prefix)) + sorted(
+        f"{names}/{entry}" for entry in os.listdir(names) if entry.split(".")[0] == name
+    )
 
 
 def said(stderr):
@@ -35,15 +41,17 @@ def said(stderr):
 
 def remove():
     for entry in leftovers():
-        os.remove(f"/dev/shm/{entry}")
+        os.remove(entry)
 
 
 def restore():
     """The world as it was made, for the next try."""
+    remove()
     shutil.copyfile("pristine", shm)
     os.chmod(shm, 0o600)
-    open(shm + ".lock", "a").close()
-    os.chmod(shm + ".lock", 0o600)
+    os.symlink(shm, f"{names}/{name}")
+    open(f"{names}/{name}.lock", "a").close()
+    os.chmod(f"{names}/{name}.lock", 0o600)
 
 
 class Case:
@@ -160,7 +168,7 @@ check("create", Case(create, before=remove, keeps_world=False), everything)
 
 remove()
 subprocess.run(create, check=True, stdout=subprocess.DEVNULL)
-shutil.copyfile(shm, "pristine")
+shutil.copyfile(f"{names}/{name}", "pristine")
 collider, mover = program("collider", "--world", name), program("mover", "--world", name)
 threads = ["--threads", "3"]
 check("mover", Case(mover + threads, peer=collider), stage)
@@ -170,7 +178,7 @@ restore()
 peer = subprocess.Popen(collider, stderr=subprocess.DEVNULL)
 subprocess.run(mover, check=True, stderr=subprocess.DEVNULL)
 peer.wait()
-shutil.copyfile(shm, "pristine")
+shutil.copyfile(f"{names}/{name}", "pristine")
 for verb in (["check"], ["repair"], ["info", "--json"], ["digest"], ["dump"], ["dump", "--json"],
              ["dump", "--fixed", "--json"], ["events"], ["events", "--json"]):
     check(" ".join(verb), Case(world(*verb)), attaching)

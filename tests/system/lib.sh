@@ -6,6 +6,8 @@ jolon=$bin/jolon
 name=t$$
 folder=$(mktemp -d)
 cd "$folder" || exit 1
+# Names, locks and sockets of this test alone.
+export JOLON_RUNTIME_DIR=$folder/runtime
 number=0
 failures=0
 
@@ -38,7 +40,7 @@ refuses() {
         ok "$what"
     else
         not_ok "$what"
-        echo "# exit $got, wanted $status and $pattern; $(ls /dev/shm | tr '\n' ' ')"
+        echo "# exit $got, wanted $status and $pattern; $(ls /dev/shm "$JOLON_RUNTIME_DIR" | tr '\n' ' ')"
         sed 's/^/# /' "$folder/stderr"
     fi
 }
@@ -51,7 +53,11 @@ for key in sys.argv[1].split("."):
     value = value[int(key)] if isinstance(value, list) else value[key]
 print(value)' "$1"; }
 
-nothing_left() { ! ls /dev/shm | grep -q "^jolon\.$UID\.$1"; }
+# Nothing of worlds whose names begin so.
+nothing_left() { ! ls /dev/shm "$JOLON_RUNTIME_DIR" | grep -q "^\(jolon\.$UID\.\)\?$1"; }
+
+# Where a world's name, lock or object is: path_of name|lock|object [WORLD]
+path_of() { "$bin/jolon-world" paths --world "${2-$name}" "$1"; }
 
 # Waits up to 10 s for a condition.
 eventually() {
@@ -68,7 +74,6 @@ done_testing() { echo "1..$number"; [ $failures = 0 ]; exit; }
 at_end() {
     "$jolon" stop -w "$name" >/dev/null 2>&1
     "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
-    rm -f "/dev/shm/jolon.$UID.$name.lock"
     cd / && rm -rf "$folder"
 }
 trap at_end EXIT

@@ -3,7 +3,6 @@
 # each, and either the world goes on as if nothing had been or it is refused; nothing is left.
 . "$(dirname "$0")/lib.sh"
 
-shm=/dev/shm/jolon.$UID.$name
 cat >good.cfg <<'C'
 world = { seed = 3; capacity = 256; pace = "max"; };
 terrain = { source = "flat"; spacing_m = 125.0; };
@@ -14,7 +13,10 @@ vehicles = ( { kind = "tank"; count = 12; force = "blue"; fire_at_will = true; a
 fires = ( { at_s = 0.5; munition = "artillery"; point = [25100.0, 25100.0]; } );
 C
 world() { "$bin/jolon-world" "$@"; }
-create() { world create --world "$name" "$@" good.cfg; }
+create() { # leaves the object's path in $shm
+    world create --world "$name" "$@" good.cfg || return
+    shm=$(path_of object)
+}
 remove() { world remove --world "$name"; }
 
 # Runs the world's mover and collider to the end of the run, or until the mover refuses.
@@ -100,6 +102,7 @@ remove
 run=$!
 far() { [ "$(world frame --world "$name")" -ge 60 ]; }
 eventually far
+shm=$(path_of object)
 kill -KILL $run
 wait $run 2>/dev/null
 unheld() { ! world pid --world "$name" mover && ! world pid --world "$name" collider; }
@@ -159,24 +162,31 @@ remove
 # What no build of Jolon can go on with makes room: it was never finished, or is another build's.
 head -c 100000 /dev/zero >"$shm"
 chmod 600 "$shm"
+ln -s "$shm" "$JOLON_RUNTIME_DIR/$name"
 check "an object without the magic makes room" create --adopt
 remove
 for kind in mkdir mkfifo 'ln -s /nonexistent'; do
-    $kind "$shm.lock"
+    $kind "$(path_of lock)"
     refused "a lock that is no file ($kind)" '\.lock: (cannot open|is no plain file)' create
-    [ "$kind" = mkdir ] && rmdir "$shm.lock" || rm "$shm.lock"
+    [ "$kind" = mkdir ] && rmdir "$(path_of lock)" || rm "$(path_of lock)"
     check "leaves nothing" nothing_left "$name"
 done
-: >"$shm.new-999999999" # of a creator that was killed
-create >/dev/null
-check "what a killed creator left is swept" [ ! -e "$shm.new-999999999" ]
+for kind in mkdir touch 'ln -s /etc/passwd'; do
+    $kind "$JOLON_RUNTIME_DIR/$name"
+    refused "a name that is no link to an object ($kind)" 'is no link to a world.s object.*remove it' create
+    [ "$kind" = mkdir ] && rmdir "$JOLON_RUNTIME_DIR/$name" || rm "$JOLON_RUNTIME_DIR/$name"
+    check "leaves nothing" nothing_left "$name"
+done
+ln -s "/dev/shm/jolon.$UID.$name.00000000000000000000000000000000" "$JOLON_RUNTIME_DIR/$name"
+check "a name that a killed creator left is taken" create
 remove
+check "nothing is left" nothing_left "$name"
 
 # --- memory that goes away ------------------------------------------------------------------------
 "$jolon" run -w "$name" --set world.pace=real --without renderer --without reporter --out out good.cfg >stdout 2>told &
 run=$!
 eventually far
-truncate -s 0 "$shm"
+truncate -s 0 "$(path_of object)"
 wait $run
 status=$?
 check "a set whose memory is taken away gives up" [ $status = 1 ] || [ $status = 3 ]

@@ -6,7 +6,7 @@ tool=$folder/asks.py
 cat >"$tool" <<'EOF'
 import os, socket, sys, threading, time
 
-SOCKET = "\0jolon.%d.%s.pictures" % (os.getuid(), sys.argv[1])
+SOCKET = "%s/%s.pictures" % (os.environ["JOLON_RUNTIME_DIR"], sys.argv[1])
 
 
 def connect():

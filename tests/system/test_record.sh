@@ -68,7 +68,7 @@ killed_at_the_end() { # KILLS after the run's end
     "$jolon" run -w "$name" --frames 30 --without renderer --without reporter --out ends small.cfg >told 2>&1 &
     run=$!
     eventually recorder
-    keeper=$(cat "/dev/shm/jolon.$UID.$name.lock")
+    keeper=$(cat "$(path_of lock)")
     eventually at_frame 1
     kill -STOP "$keeper"
     kill -KILL "$(recorder)"
@@ -182,7 +182,7 @@ CFG
     has_events() { [ "$(happened)" -gt "$1" ]; }
     end_swarm() {
         ctl --timeout 30 quit >/dev/null
-        eventually eval '! [ -e "/dev/shm/jolon.$UID.$name" ]'
+        eventually eval '[ -z "$(path_of object)" ]'
     }
 
     mount -t tmpfs -o size=64k,mode=700 tmpfs disk

@@ -58,7 +58,7 @@ standing_by() { # pid of the process that waits for a role, of a set whose keepe
         [ "$child" = "$(pid "$1")" ] || echo "$child"
     done
 }
-keeper=$(cat "/dev/shm/jolon.$UID.$name.lock")
+keeper=$(cat "$(path_of lock)")
 stands_by() { [ "$(standing_by "$1" "$keeper" | wc -l)" = 1 ]; }
 for role in mover collider; do
     check "somebody stands by for the $role" eventually stands_by $role
@@ -92,7 +92,7 @@ check "a second set is refused with 1" equal $? 1
 check "and says why" grep -q "is run already by pid" second
 check "worlds lists it" bash -c "'$jolon' worlds | grep -q '\"$name\" is running'"
 
-supervisor=$(cat "/dev/shm/jolon.$UID.$name.lock")
+supervisor=$(cat "$(path_of lock)")
 mover=$(pid mover)
 kill -KILL "$supervisor"
 check "a killed supervisor takes its roles along" eventually gone "$mover"
@@ -145,7 +145,7 @@ check "one that hangs is replaced" eventually replaced console "$before"
 "$jolon" console -w "$name" --port 0 >hand 2>&1 &
 check "one more by hand beside it" eventually eval 'joins "$(head -n 1 hand)"'
 kill %+ && wait %+
-keeper=$(cat "/dev/shm/jolon.$UID.$name.lock")
+keeper=$(cat "$(path_of lock)")
 kill -KILL "$keeper"
 eventually gone "$keeper"
 check "the keeper is killed and the world gone on with" "$jolon" start -w "$name" --without renderer --out out --console "$port"

@@ -36,13 +36,13 @@ for role in "${roles[@]}"; do
     done
     check "$role: nothing inherited is open" bash -c "! readlink /proc/$of/fd/* | grep -q hostname"
 done
-of=$(cat "/dev/shm/jolon.$UID.$name.lock")
+of=$(cat "$(path_of lock)")
 check "keeper: it has its filter" equal "$(fields "$of" Seccomp)" 2
 check "keeper: no new privileges" equal "$(fields "$of" NoNewPrivs)" 1
 check "keeper: no capabilities" equal "$(fields "$of" CapEff)$(fields "$of" CapPrm)" 00000000000000000000000000000000
 for role in mover collider; do
     check "$role holds its lock and nothing else" equal "$(descriptors "$(pid $role)" | grep -v '^[012] ')" \
-        "3 /dev/shm/jolon.$UID.$name.lock"
+        "3 $(path_of lock)"
 done
 if [ "$UID" = 0 ]; then
     check "nor could a program that it became get any back" equal "$(fields "$(pid mover)" CapBnd)" 0000000000000000

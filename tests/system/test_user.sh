@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # A set that root starts for another user: all of it is that user's, and nothing of it runs as root.
 . "$(dirname "$0")/lib.sh"
+unset JOLON_RUNTIME_DIR # each user has one of their own
 
 if [ "$UID" != 0 ] || ! command -v useradd >/dev/null; then
     skip "a set of another user" "only root can run one"

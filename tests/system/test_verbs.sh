@@ -8,7 +8,7 @@ cat >one.cfg <<'C'
 terrain = { source = "flat"; };
 vehicles = ( { kind = "tank"; at = [100.0, 100.0]; } );
 C
-make_world() { "$bin/jolon-world" create --world "$1" one.cfg >/dev/null; : >"/dev/shm/jolon.$UID.$1.lock"; }
+make_world() { "$bin/jolon-world" create --world "$1" one.cfg >/dev/null; }
 worlds() { "$bin/jolon-world" list | grep "^$name" | sort | tr '\n' ' '; }
 
 # Two worlds that nobody runs, and one that is run.
@@ -74,10 +74,10 @@ check "--world=NAME" meant status "--world=$name-a"
 check "worlds -w NAME is that one alone" eval '[ "$("$jolon" worlds -w "$name-a" | cut -d\" -f2)" = "$name-a" ]'
 
 # --- clean --------------------------------------------------------------------------------------------
-touch "/dev/shm/jolon.$UID.$name-c.lock"
+touch "$JOLON_RUNTIME_DIR/$name-c.lock"
 kept() { "$jolon" clean >told 2>&1 && grep "kept world \"$name-$1\"" told | grep -q 'stopped at frame 0, .*scenario one.cfg'; }
 check "clean keeps a world that nobody runs, and says what it is" kept a
-check "clean removes what is left without a world" [ ! -e "/dev/shm/jolon.$UID.$name-c.lock" ]
+check "clean removes what is left without a world" [ ! -e "$JOLON_RUNTIME_DIR/$name-c.lock" ]
 check "and nothing else" equal "$(worlds)" "$name $name-a $name-b "
 check "clean -w removes that world" "$jolon" clean -w "$name-a"
 check "and no other" equal "$(worlds)" "$name $name-b "

@@ -27,7 +27,8 @@
     "{ kind = \"truck\"; route = ( [1000.0, 2000.0], [2000.0, 2000.0] ); } );"                     \
     "fires = ( { at_s = 1.0; munition = \"artillery\"; point = [5000.0, 5000.0]; } );"
 
-static char name[SEGMENT_NAME_MAX], shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+static char name[SEGMENT_NAME_MAX];
+static struct segment_paths paths;
 static struct reason reason;
 static struct segment_header header; /* as published */
 static struct layout layout;
@@ -37,7 +38,7 @@ static int make_world(void **state)
     struct view view;
     (void)state;
     named_world_make(name, SCENARIO);
-    segment_paths(name, shm, lock);
+    named_world_paths(&paths, name);
     if (segment_attach(&view, name, ROLE_NONE, &reason) != 0)
         return -1;
     header = *view.header;
@@ -55,7 +56,7 @@ static int remove_world(void **state)
 
 static void patch(const void *bytes, size_t count, size_t offset)
 {
-    int fd = open(shm, O_RDWR | O_CLOEXEC);
+    int fd = open(paths.object, O_RDWR | O_CLOEXEC);
     assert_true(fd >= 0);
     assert_int_equal(pwrite(fd, bytes, count, (off_t)offset), count);
     close(fd);
@@ -211,7 +212,7 @@ static void test_wrong_sizes(void **state)
                             layout.total + 4096};
     (void)state;
     for (size_t i = sizeof sizes / sizeof sizes[0]; i-- > 0;) { /* the header goes last */
-        assert_int_equal(truncate(shm, (off_t)sizes[i]), 0);
+        assert_int_equal(truncate(paths.object, (off_t)sizes[i]), 0);
         check_refused("size");
         assert_true(reason.damaged);
     }
@@ -220,12 +221,12 @@ static void test_wrong_sizes(void **state)
 static void test_wrong_mode(void **state)
 {
     (void)state;
-    assert_int_equal(chmod(shm, 0644), 0);
+    assert_int_equal(chmod(paths.object, 0644), 0);
     check_refused("mode 644");
-    assert_int_equal(chmod(shm, 0660), 0);
+    assert_int_equal(chmod(paths.object, 0660), 0);
     check_refused("mode 660");
     assert_false(reason.damaged); /* the world within may be good */
-    assert_int_equal(chmod(shm, 0600), 0);
+    assert_int_equal(chmod(paths.object, 0600), 0);
     check_attaches();
 }
 
@@ -234,9 +235,9 @@ static void test_wrong_owner(void **state)
     (void)state;
     if (geteuid() != 0)
         skip(); /* only root can give a file away */
-    assert_int_equal(chown(shm, 12345, (gid_t)-1), 0);
+    assert_int_equal(chown(paths.object, 12345, (gid_t)-1), 0);
     check_refused("belongs to user 12345");
-    assert_int_equal(chown(shm, 0, (gid_t)-1), 0);
+    assert_int_equal(chown(paths.object, 0, (gid_t)-1), 0);
     check_attaches();
 }
 
@@ -244,12 +245,12 @@ static void test_symbolic_link(void **state)
 {
     char elsewhere[SEGMENT_PATH_MAX + 8];
     (void)state;
-    snprintf(elsewhere, sizeof elsewhere, "%s.moved", shm);
-    assert_int_equal(rename(shm, elsewhere), 0);
-    assert_int_equal(symlink(elsewhere, shm), 0);
+    snprintf(elsewhere, sizeof elsewhere, "%s.moved", paths.object);
+    assert_int_equal(rename(paths.object, elsewhere), 0);
+    assert_int_equal(symlink(elsewhere, paths.object), 0);
     check_refused("cannot open");
-    assert_int_equal(unlink(shm), 0);
-    assert_int_equal(rename(elsewhere, shm), 0);
+    assert_int_equal(unlink(paths.object), 0);
+    assert_int_equal(rename(elsewhere, paths.object), 0);
     check_attaches();
 }
 
@@ -258,25 +259,25 @@ static void test_symbolic_link_for_the_lock(void **state)
     char elsewhere[SEGMENT_PATH_MAX + 8];
     struct view view;
     (void)state;
-    snprintf(elsewhere, sizeof elsewhere, "%s.moved", lock);
-    assert_int_equal(rename(lock, elsewhere), 0);
-    assert_int_equal(symlink(elsewhere, lock), 0);
+    snprintf(elsewhere, sizeof elsewhere, "%s.moved", paths.lock);
+    assert_int_equal(rename(paths.lock, elsewhere), 0);
+    assert_int_equal(symlink(elsewhere, paths.lock), 0);
     assert_int_equal(segment_attach(&view, name, ROLE_MOVER, &reason), -1);
     assert_non_null(strstr(reason.text, "cannot open"));
-    assert_int_equal(unlink(lock), 0);
-    assert_int_equal(rename(elsewhere, lock), 0);
+    assert_int_equal(unlink(paths.lock), 0);
+    assert_int_equal(rename(elsewhere, paths.lock), 0);
     check_attaches();
 }
 
 static void test_what_is_no_file(void **state)
 {
     (void)state;
-    assert_int_equal(unlink(shm), 0);
-    assert_int_equal(mkdir(shm, 0700), 0);
+    assert_int_equal(unlink(paths.object), 0);
+    assert_int_equal(mkdir(paths.object, 0700), 0);
     struct view view;
     assert_int_equal(segment_attach(&view, name, ROLE_NONE, &reason), -1);
     assert_non_null(strstr(reason.text, "no shared-memory object"));
-    assert_int_equal(rmdir(shm), 0);
+    assert_int_equal(rmdir(paths.object), 0);
 }
 
 static int attach_reader(void *context)
@@ -291,14 +292,14 @@ static void test_pipe_does_not_block(void **state)
 {
     int status = 0;
     (void)state;
-    assert_int_equal(unlink(shm), 0);
-    assert_int_equal(mkfifo(shm, 0600), 0);
+    assert_int_equal(unlink(paths.object), 0);
+    assert_int_equal(mkfifo(paths.object, 0600), 0);
     pid_t child = child_start(attach_reader, NULL);
     usleep(300000);
     int blocked = waitpid(child, &status, WNOHANG) == 0;
     if (blocked)
         child_kill(child);
-    assert_int_equal(unlink(shm), 0);
+    assert_int_equal(unlink(paths.object), 0);
     assert_false(blocked);
     assert_int_equal(status, 0);
 }
@@ -312,7 +313,7 @@ static void test_damaged_static_regions_are_found_by_verify(void **state)
         struct view view;
         if (bytes == 0)
             continue;
-        int fd = open(shm, O_RDWR | O_CLOEXEC);
+        int fd = open(paths.object, O_RDWR | O_CLOEXEC);
         assert_int_equal(pread(fd, &byte, 1, (off_t)at), 1);
         close(fd);
         byte ^= 4;

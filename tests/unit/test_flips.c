@@ -34,16 +34,16 @@ static struct reason reason;
 
 static int make_world(void **state)
 {
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    struct segment_paths paths;
     struct view view;
     (void)state;
     named_world_make(file.name, SCENARIO);
-    segment_paths(file.name, shm, lock);
+    named_world_paths(&paths, file.name);
     if (segment_attach(&view, file.name, ROLE_NONE, &reason) != 0)
         return -1;
     file.layout = view.layout;
     segment_detach(&view);
-    int fd = open(shm, O_RDWR | O_CLOEXEC);
+    int fd = open(paths.object, O_RDWR | O_CLOEXEC);
     file.memory = mmap(NULL, file.layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     close(fd);
     return file.memory == MAP_FAILED ? -1 : 0;

@@ -118,13 +118,13 @@ static unsigned char *memory; /* the whole object, writable as no process of a s
 
 static int make_world(void **state)
 {
-    char shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    struct segment_paths paths;
     (void)state;
     named_world_make(name, SCENARIO);
-    segment_paths(name, shm, lock);
+    named_world_paths(&paths, name);
     if (segment_attach(&look, name, ROLE_NONE, &reason) != 0)
         return -1;
-    int fd = open(shm, O_RDWR | O_CLOEXEC);
+    int fd = open(paths.object, O_RDWR | O_CLOEXEC);
     memory = mmap(NULL, look.layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     close(fd);
     return memory == MAP_FAILED ? -1 : 0;

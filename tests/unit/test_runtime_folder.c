@@ -217,25 +217,26 @@ static void test_long_paths_are_refused_with_their_length(void **state)
     finds((struct names){.own = path}, path);
 }
 
-static int closes_everything(void *context)
+static int changes_the_folder(void *context)
 {
-    char before[RUNTIME_FOLDER_MAX];
+    char path[RUNTIME_FOLDER_MAX];
     struct reason reason;
-    struct stat status;
     setenv("JOLON_RUNTIME_DIR", context, 1);
-    if (runtime_folder(before, &reason) != 0)
+    if (runtime_folder(path, &reason) != 0)
         return 1;
-    close_range(3, ~0u, 0);
-    for (int fd = 3; fd < 8; fd++) /* the kept number is another file's now */
-        (void)!open("/dev/null", O_RDONLY);
-    int fd = runtime_folder_open(&reason);
-    return fd >= 0 && fstat(fd, &status) == 0 && S_ISDIR(status.st_mode) ? 0 : 2;
+    setenv("JOLON_RUNTIME_DIR", "/nowhere", 1); /* it stays with what it has found */
+    if (runtime_folder(path, &reason) != 0 || strcmp(path, context) != 0)
+        return 2;
+    if (chmod(path, 0755) != 0 || runtime_folder(path, &reason) == 0 ||
+        runtime_folder_open(&reason) >= 0)
+        return 3;
+    return strstr(reason.text, "0755") ? 0 : 4;
 }
 
-static void test_kept_descriptor_is_looked_at(void **state)
+static void test_found_folder_is_kept_and_checked_again(void **state)
 {
     (void)state;
-    assert_int_equal(child_run(closes_everything, place("kept", 0700)), 0);
+    assert_int_equal(child_run(changes_the_folder, place("kept", 0700)), 0);
 }
 
 int main(void)
@@ -249,7 +250,7 @@ int main(void)
         cmocka_unit_test(test_nowhere_names_all_places),
         cmocka_unit_test(test_wrong_folders_are_refused),
         cmocka_unit_test(test_long_paths_are_refused_with_their_length),
-        cmocka_unit_test(test_kept_descriptor_is_looked_at),
+        cmocka_unit_test(test_found_folder_is_kept_and_checked_again),
     };
     return cmocka_run_group_tests(tests, make_here, drop_here);
 }

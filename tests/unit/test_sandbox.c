@@ -184,7 +184,9 @@ static void handle(int signal_number)
     X("dup", NONE, syscall(SYS_dup, 2))                                                            \
     X("dup2", NONE, syscall(SYS_dup2, 2, 9))                                                       \
     X("fcntl", NONE, fcntl(2, F_SETFL, 0))                                                         \
-    X("fcntl", W | P | R, fcntl(-1, F_DUPFD_CLOEXEC, 0))                                           \
+    X("openat", R | D | W | P, open("/", O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC))           \
+    X("readlink", W, readlink("/", said, 1))                                                       \
+    X("fcntl", R, fcntl(-1, F_DUPFD_CLOEXEC, 0))                                                   \
     X("socket", P, socket(AF_INET, SOCK_DGRAM, 0))                                                 \
     X("socket", P, socket(AF_INET6, SOCK_STREAM, 0))                                               \
     X("socket", W | P, socket(AF_UNIX, SOCK_STREAM, 0))                                            \
@@ -222,7 +224,7 @@ static void handle(int signal_number)
     X("pidfd_send_signal", W, syscall(SYS_pidfd_send_signal, -1, SIGKILL, NULL, 0))                \
     X("pidfd_send_signal", NONE, syscall(SYS_pidfd_send_signal, -1, SIGSTOP, NULL, 0))             \
     X("mmap", R, map(PROT_READ | PROT_WRITE, MAP_SHARED, 2))                                       \
-    X("uname", P, syscall(SYS_uname, said))                                                    \
+    X("uname", P, syscall(SYS_uname, said))                                                        \
     X("getrandom", W | P, syscall(SYS_getrandom, said, 1, 0))                                      \
     X("rt_sigaction", NONE, handle(SIGSYS))                                                        \
     X("rt_sigaction", NONE, handle(SIGSEGV))                                                       \
@@ -610,7 +612,8 @@ static void test_files_only_beneath_the_folder(void **state)
 /* A world of its own, and who attaches to it. */
 struct loss {
     enum role role;
-    char name[SEGMENT_NAME_MAX], shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+    char name[SEGMENT_NAME_MAX];
+    struct segment_paths paths;
 };
 
 /* The console reads worlds, and writes and makes nothing anywhere. */
@@ -639,8 +642,8 @@ static void test_a_console_only_reads_worlds(void **state)
     if (syscall(SYS_landlock_create_ruleset, NULL, 0, 1) < 0)
         skip(); /* this kernel has no Landlock; the console says so */
     named_world_make(world.name, "vehicles = ();");
-    segment_paths(world.name, world.shm, world.lock);
-    int result = run(look_at_worlds, world.shm);
+    named_world_paths(&world.paths, world.name);
+    int result = run(look_at_worlds, world.paths.object);
     named_world_remove(world.name);
     if (result != 0)
         fail_msg("%d: %s", result, said);
@@ -806,8 +809,8 @@ static int lose_memory(void *context)
     struct view view;
     process_guard();
     if (segment_attach(&view, loss->name, loss->role, &reason) != 0 ||
-        sandbox_begin(&sandbox, loss->role, false, &reason) != 0 || truncate(loss->shm, 0) != 0 ||
-        sandbox_enter(&sandbox, &reason) != 0)
+        sandbox_begin(&sandbox, loss->role, false, &reason) != 0 ||
+        truncate(loss->paths.object, 0) != 0 || sandbox_enter(&sandbox, &reason) != 0)
         return NOT_ENTERED;
     const volatile uint64_t *frame = &view.w[0].head->frame;
     return *frame == UINT64_MAX ? 2 : 3;
@@ -819,7 +822,7 @@ static void test_memory_that_goes_away_is_said_inside(void **state)
     for (int role = 0; role < ROLE_COUNT; role++) {
         struct loss loss = {.role = (enum role)role};
         named_world_make(loss.name, "vehicles = ();");
-        segment_paths(loss.name, loss.shm, loss.lock);
+        named_world_paths(&loss.paths, loss.name);
         int result = run(lose_memory, &loss);
         named_world_remove(loss.name);
         if (result != EXIT_REFUSED || !strstr(said, "memory went away"))

@@ -1,6 +1,7 @@
-/* Segments: made, attached to in roles, left, removed; one live holder a role. */
+/* Segments: made, named, attached to in roles, left, removed; one live holder a role. */
 #include "ipc/segment.h"
 
+#include "ipc/local_socket.h"
 #include "tests/support/child.h"
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
@@ -14,21 +15,24 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
 #define SCENARIO "vehicles = ( { kind = \"tank\"; name = \"T\"; count = 3; } );"
 
-static char name[SEGMENT_NAME_MAX], shm[SEGMENT_PATH_MAX], lock[SEGMENT_PATH_MAX];
+static char name[SEGMENT_NAME_MAX];
+static struct segment_paths paths;
 static struct reason reason;
 
 static int make_world(void **state)
 {
     (void)state;
     named_world_make(name, SCENARIO);
-    segment_paths(name, shm, lock);
+    named_world_paths(&paths, name);
     return 0;
 }
 
@@ -50,6 +54,32 @@ static void attach(struct view *view, enum role role)
         fail_msg("%s", reason.text);
 }
 
+static void begin(struct view *view, struct fixture *f)
+{
+    fixture_open(f, SCENARIO);
+    struct segment_header header = segment_header_for(&f->scenario.params, &f->genesis.counts);
+    assert_int_equal(segment_begin(view, name, &header, &reason), 0);
+    segment_fill(view, &f->genesis);
+}
+
+static void make_again(void)
+{
+    struct fixture f;
+    fixture_open(&f, SCENARIO);
+    named_world_publish(name, &f.scenario, &f.genesis);
+    fixture_close(&f);
+}
+
+/* Is the test's world among the names? */
+static bool has(char names[][SEGMENT_NAME_MAX], int count)
+{
+    int found = 0;
+    for (int i = 0; i < count; i++)
+        found += strcmp(names[i], name) == 0;
+    assert_true(found <= 1);
+    return found == 1;
+}
+
 static void attach_refused(const char *world, enum role role, const char *word)
 {
     struct view view;
@@ -64,17 +94,17 @@ static void attach_refused(const char *world, enum role role, const char *word)
 
 static void test_world_is_not_there_before_it_is_published(void **state)
 {
-    char unborn[SEGMENT_NAME_MAX], unborn_shm[SEGMENT_PATH_MAX], unborn_lock[SEGMENT_PATH_MAX];
+    char unborn[SEGMENT_NAME_MAX];
     struct fixture f;
     struct view made, seen;
     (void)state;
     named_world_name(unborn);
-    segment_paths(unborn, unborn_shm, unborn_lock);
+    int before = named_world_leftovers();
     fixture_open(&f, SCENARIO);
     struct segment_header header = segment_header_for(&f.scenario.params, &f.genesis.counts);
     assert_int_equal(segment_begin(&made, unborn, &header, &reason), 0);
     segment_fill(&made, &f.genesis);
-    assert_false(exists(unborn_shm));
+    assert_int_equal(named_world_leftovers(), before); /* a kill here leaves nothing */
     attach_refused(unborn, ROLE_NONE, "there is no world");
     assert_int_equal(segment_publish(&made, &reason), 0);
     segment_detach(&made);
@@ -89,11 +119,11 @@ static void test_object_and_lock_are_their_owners_alone(void **state)
 {
     struct stat status;
     (void)state;
-    assert_int_equal(stat(shm, &status), 0);
+    assert_int_equal(stat(paths.object, &status), 0);
     assert_int_equal(status.st_mode & 07777, 0600);
     assert_int_equal(status.st_uid, geteuid());
     assert_true(status.st_blocks * 512 >= status.st_size); /* reserved: no SIGBUS later */
-    assert_int_equal(stat(lock, &status), 0);
+    assert_int_equal(stat(paths.lock, &status), 0);
     assert_int_equal(status.st_mode & 07777, 0600);
 }
 
@@ -112,7 +142,6 @@ static void test_abandoned_world_leaves_nothing(void **state)
     int before = named_world_leftovers();
     named_world_name(unborn);
     assert_int_equal(segment_begin(&view, unborn, &header, &reason), 0);
-    assert_int_equal(named_world_leftovers(), before + 1);
     segment_abandon(&view);
     assert_null(view.base);
     segment_abandon(&view); /* once more does nothing */
@@ -182,68 +211,153 @@ static void test_counts_out_of_range_make_no_world(void **state)
     assert_int_equal(named_world_leftovers(), before);
 }
 
-/* --- temporaries of dead creators --------------------------------------------------------------*/
+/* --- names -------------------------------------------------------------------------------------*/
 
-static int return_0(void *context)
+static void test_name_leads_to_an_object_that_nobody_can_guess(void **state)
 {
-    (void)context;
-    return 0;
+    struct segment_paths again;
+    char prefix[128];
+    (void)state;
+    snprintf(prefix, sizeof prefix, "/dev/shm/jolon.%u.%s.", (unsigned)getuid(), name);
+    assert_memory_equal(paths.object, prefix, strlen(prefix));
+    assert_int_equal(strspn(paths.object + strlen(prefix), "0123456789abcdef"), 32);
+    assert_int_equal(strlen(paths.object + strlen(prefix)), 32);
+    named_world_remove(name);
+    make_again();
+    named_world_paths(&again, name);
+    assert_string_not_equal(again.object, paths.object);
+    assert_string_equal(again.name, paths.name);
 }
 
-static int sleep_long(void *context)
+/* What a creator leaves that is killed between the name and the object. */
+static void test_name_that_leads_nowhere_is_taken(void **state)
 {
-    (void)context;
-    sleep(60);
-    return 0;
+    struct segment_paths left;
+    static char names[512][SEGMENT_NAME_MAX];
+    (void)state;
+    assert_int_equal(unlink(paths.object), 0);
+    attach_refused(name, ROLE_NONE, "there is no world");
+    attach_refused(name, ROLE_MOVER, "there is no world");
+    assert_int_equal(segment_paths(&left, name, &reason), 0);
+    assert_string_equal(left.object, "");
+    assert_false(has(names, segment_list(names, 512, false, &reason)));
+    assert_true(has(names, segment_list(names, 512, true, &reason)));
+    make_again();
+    assert_true(has(names, segment_list(names, 512, false, &reason)));
 }
 
-static void touch_temporary(char path[SEGMENT_PATH_MAX + 32], pid_t creator)
+static void test_name_whose_object_is_gone_while_a_role_runs_is_not_taken(void **state)
 {
-    snprintf(path, SEGMENT_PATH_MAX + 32, "%s.new-%d", shm, (int)creator);
-    int fd = open(path, O_CREAT | O_RDWR, 0600);
-    assert_true(fd >= 0);
-    close(fd);
-}
-
-static void test_temporaries_of_dead_creators_are_swept(void **state)
-{
-    char dead_path[SEGMENT_PATH_MAX + 32], live_path[SEGMENT_PATH_MAX + 32];
+    struct view holder, second;
     struct fixture f;
+    (void)state;
+    attach(&holder, ROLE_COLLIDER);
+    assert_int_equal(unlink(paths.object), 0);
+    begin(&second, &f);
+    assert_int_equal(segment_publish(&second, &reason), -1);
+    assert_non_null(strstr(reason.text, "its collider still runs"));
+    segment_abandon(&second);
+    fixture_close(&f);
+    segment_detach(&holder);
+    make_again();
+}
+
+static void test_sweep_takes_what_is_left_and_no_world(void **state)
+{
     struct view view;
     (void)state;
-    pid_t dead = child_start(return_0, NULL), live = child_start(sleep_long, NULL);
-    child_wait(dead);
-    touch_temporary(dead_path, dead);
-    touch_temporary(live_path, live);
+    assert_int_equal(segment_sweep(name, &reason), 0);
+    attach(&view, ROLE_NONE);
+    segment_detach(&view);
+    assert_int_equal(unlink(paths.object), 0);
+    assert_int_equal(segment_sweep(name, &reason), 0);
+    assert_int_equal(named_world_leftovers(), 0);
+}
+
+/* Files of the user's under a world's name are the user's. */
+static void test_what_is_no_link_to_an_object_is_refused(void **state)
+{
+    static const char *const targets[] = {"/dev/shm/jolon.", "/etc/passwd", "elsewhere"};
+    char target[SEGMENT_PATH_MAX + 8];
+    (void)state;
+    for (size_t i = 0; i < sizeof targets / sizeof targets[0] + 2; i++) {
+        assert_int_equal(unlink(paths.name), 0);
+        if (i < 3)
+            snprintf(target, sizeof target, "%s", targets[i]);
+        else /* too long; of another name */
+            snprintf(target, sizeof target, i == 3 ? "%s0" : "%s", paths.object);
+        if (i == 4)
+            target[strlen(target) - 34] = 'X';
+        assert_int_equal(symlink(target, paths.name), 0);
+        attach_refused(name, ROLE_NONE, "is no link to a world's object");
+        assert_int_equal(segment_remove(name, true, &reason), -1);
+        assert_non_null(strstr(reason.text, paths.name));
+    }
+    assert_int_equal(unlink(paths.name), 0);
+    assert_int_equal(mkdir(paths.name, 0700), 0);
+    attach_refused(name, ROLE_NONE, "is no link to a world's object");
+    assert_int_equal(rmdir(paths.name), 0);
+    assert_int_equal(symlink(paths.object, paths.name), 0);
+}
+
+static int create_once(void *context)
+{
+    struct view view;
+    struct fixture *f = context;
+    struct segment_header header = segment_header_for(&f->scenario.params, &f->genesis.counts);
+    if (segment_begin(&view, name, &header, &reason) != 0)
+        return 2;
+    segment_fill(&view, &f->genesis);
+    int result = segment_publish(&view, &reason);
+    if (result == 0)
+        segment_detach(&view);
+    else if (!strstr(reason.text, "exists already"))
+        result = 3;
+    return result == -1 ? 1 : result;
+}
+
+/* One of those that make the same name at once succeeds, whatever lies there before. */
+static void test_creators_of_one_name_race(void **state)
+{
+    pid_t creators[8];
+    struct fixture f;
+    (void)state;
     fixture_open(&f, SCENARIO);
-    struct segment_header header = segment_header_for(&f.scenario.params, &f.genesis.counts);
-    assert_int_equal(segment_begin(&view, name, &header, &reason), 0);
-    segment_abandon(&view);
-    assert_false(exists(dead_path));
-    assert_true(exists(live_path)); /* its creator is still at work */
-    child_kill(live);
-    assert_int_equal(segment_begin(&view, name, &header, &reason), 0);
-    segment_abandon(&view);
-    assert_false(exists(live_path));
+    for (int round = 0; round < 6; round++) {
+        int made = 0;
+        if (round % 2 == 0) /* the name leads nowhere; else there is nothing */
+            assert_int_equal(unlink(paths.object), 0);
+        else
+            named_world_remove(name);
+        for (int i = 0; i < 8; i++)
+            creators[i] = child_start(create_once, &f);
+        for (int i = 0; i < 8; i++) {
+            int status = child_wait(creators[i]);
+            assert_true(WIFEXITED(status) && WEXITSTATUS(status) <= 1);
+            made += WEXITSTATUS(status) == 0;
+        }
+        assert_int_equal(made, 1);
+        named_world_paths(&paths, name);
+        assert_int_equal(named_world_leftovers(), 3);
+    }
     fixture_close(&f);
 }
 
-/* Pids come again, in containers nearly always: a creator's own leftover is a dead one's. */
-static void test_temporary_of_a_dead_creator_with_our_pid_is_swept(void **state)
+static void test_files_that_no_name_leads_to_are_listed(void **state)
 {
-    char path[SEGMENT_PATH_MAX + 32];
-    struct fixture f;
-    struct view view;
+    static char files[1024][SEGMENT_LOST_MAX];
+    char old[SEGMENT_PATH_MAX];
+    int found = 0;
     (void)state;
-    touch_temporary(path, getpid());
-    fixture_open(&f, SCENARIO);
-    struct segment_header header = segment_header_for(&f.scenario.params, &f.genesis.counts);
-    int result = segment_begin(&view, name, &header, &reason);
-    segment_abandon(&view);
-    fixture_close(&f);
-    unlink(path);
-    if (result != 0)
-        fail_msg("%s", reason.text);
+    snprintf(old, sizeof old, "/dev/shm/jolon.%u.%s", (unsigned)getuid(), name);
+    close(open(old, O_CREAT | O_RDWR, 0600)); /* as an earlier version named its objects */
+    int count = segment_list_lost(files, 1024);
+    for (int i = 0; i < count; i++) {
+        assert_string_not_equal(files[i], strrchr(paths.object, '/') + 1);
+        found += strcmp(files[i], strrchr(old, '/') + 1) == 0;
+    }
+    assert_int_equal(found, 1);
+    assert_int_equal(unlink(old), 0);
 }
 
 /* --- roles -------------------------------------------------------------------------------------*/
@@ -398,11 +512,11 @@ static void test_removal_is_refused_while_a_role_is_held(void **state)
     attach(&view, ROLE_REPORTER);
     assert_int_equal(segment_remove(name, false, &reason), -1);
     assert_non_null(strstr(reason.text, "reporter"));
-    assert_true(exists(shm) && exists(lock));
+    assert_true(exists(paths.object) && exists(paths.lock));
     segment_detach(&view);
     attach(&view, ROLE_NONE); /* a reader hinders nobody */
     assert_int_equal(segment_remove(name, false, &reason), 0);
-    assert_false(exists(shm) || exists(lock));
+    assert_false(exists(paths.object) || exists(paths.lock));
     assert_int_equal(view.w[0].head->used, 3); /* and goes on reading what it has mapped */
     segment_detach(&view);
 }
@@ -413,22 +527,22 @@ static void test_removal_by_force(void **state)
     (void)state;
     attach(&view, ROLE_MOVER);
     assert_int_equal(segment_remove(name, true, &reason), 0);
-    assert_false(exists(shm) || exists(lock));
+    assert_false(exists(paths.object) || exists(paths.lock));
     segment_detach(&view);
 }
 
 static void test_lock_file_stays_while_a_supervisor_holds_it(void **state)
 {
     (void)state;
-    int fd = open(lock, O_RDWR | O_CLOEXEC);
+    int fd = open(paths.lock, O_RDWR | O_CLOEXEC);
     assert_true(fd >= 0);
     assert_int_equal(flock(fd, LOCK_EX), 0);
     assert_int_equal(segment_remove(name, false, &reason), 0);
-    assert_false(exists(shm));
-    assert_true(exists(lock));
+    assert_false(exists(paths.object));
+    assert_true(exists(paths.lock));
     close(fd);
     assert_int_equal(segment_remove(name, false, &reason), 0); /* what is gone is no mistake */
-    assert_false(exists(lock));
+    assert_false(exists(paths.lock));
 }
 
 static void test_removed_name_can_be_made_again(void **state)
@@ -453,21 +567,35 @@ static void test_removed_name_can_be_made_again(void **state)
     segment_detach(&new);
 }
 
+static void test_removal_takes_the_sockets_along(void **state)
+{
+    (void)state;
+    close(local_socket_listen(name, "pictures", SOCK_STREAM, 1, &reason));
+    close(local_socket_listen(name, "commands", SOCK_SEQPACKET, 1, &reason));
+    assert_int_equal(named_world_leftovers(), 5);
+    assert_int_equal(segment_remove(name, false, &reason), 0);
+    assert_int_equal(named_world_leftovers(), 0);
+}
+
+static void test_supervisor_removes_its_own_lock_file(void **state)
+{
+    (void)state;
+    int fd = open(paths.lock, O_RDWR | O_CLOEXEC);
+    assert_int_equal(flock(fd, LOCK_EX), 0);
+    assert_int_equal(segment_remove_own(name, &reason), 0);
+    assert_int_equal(named_world_leftovers(), 0);
+    close(fd);
+}
+
 static void test_list_has_worlds_and_nothing_else(void **state)
 {
     static char names[512][SEGMENT_NAME_MAX];
-    char temporary[SEGMENT_PATH_MAX + 32];
-    int found = 0;
     (void)state;
-    touch_temporary(temporary, getpid());
-    int count = segment_list(names, 512);
-    for (int i = 0; i < count; i++) {
+    int count = segment_list(names, 512, false, &reason);
+    for (int i = 0; i < count; i++)
         assert_true(segment_name_ok(names[i]));
-        found += strcmp(names[i], name) == 0;
-    }
-    unlink(temporary);
-    assert_int_equal(found, 1);
-    assert_true(segment_list(names, 0) >= 0); /* writes nothing */
+    assert_true(has(names, count));
+    assert_int_equal(segment_list(names, 0, false, &reason), 0); /* writes nothing */
 }
 
 /* --- private worlds ----------------------------------------------------------------------------*/
@@ -502,8 +630,13 @@ int main(void)
         TEST(test_second_world_of_the_name_is_refused),
         cmocka_unit_test(test_names_that_a_world_may_have),
         cmocka_unit_test(test_counts_out_of_range_make_no_world),
-        TEST(test_temporaries_of_dead_creators_are_swept),
-        TEST(test_temporary_of_a_dead_creator_with_our_pid_is_swept),
+        TEST(test_name_leads_to_an_object_that_nobody_can_guess),
+        TEST(test_name_that_leads_nowhere_is_taken),
+        TEST(test_name_whose_object_is_gone_while_a_role_runs_is_not_taken),
+        TEST(test_sweep_takes_what_is_left_and_no_world),
+        TEST(test_what_is_no_link_to_an_object_is_refused),
+        TEST(test_creators_of_one_name_race),
+        TEST(test_files_that_no_name_leads_to_are_listed),
         TEST(test_reader_sees_the_world_and_takes_no_slot),
         TEST(test_slot_says_who_holds_the_role_and_how_far_it_is),
         TEST(test_second_holder_of_a_role_is_refused_by_name_and_pid),
@@ -514,6 +647,8 @@ int main(void)
         TEST(test_removal_by_force),
         TEST(test_lock_file_stays_while_a_supervisor_holds_it),
         TEST(test_removed_name_can_be_made_again),
+        TEST(test_removal_takes_the_sockets_along),
+        TEST(test_supervisor_removes_its_own_lock_file),
         TEST(test_list_has_worlds_and_nothing_else),
         cmocka_unit_test(test_private_world_is_shared_with_children_and_has_no_name),
     };
