@@ -403,6 +403,7 @@ FUZZ_WRAP = -Wl,$(subst $(space),$(comma),$(patsubst %,--wrap=%,$(1)))
 $(BIN)/fuzz_scenario $(BIN)/fuzz_kind: $(OBJ)/tests/fuzz/one_model.o
 $(BIN)/fuzz_scenario $(BIN)/fuzz_kind: FUZZ_LINK = $(call FUZZ_WRAP,aiImportFileEx aiReleaseImport)
 $(BIN)/fuzz_command: $(call objects,intake/command_check.c $(filter-out %/main.c,$(MOVER_SRC)))
+$(BIN)/fuzz_collider: $(STEPS)
 $(BIN)/fuzz_ctl $(BIN)/fuzz_log: $(OBJ)/tests/fuzz/ending.o
 $(BIN)/fuzz_ctl: $(call objects,ctl/parse.c) $(TOPICS)
 $(BIN)/fuzz_ctl: FUZZ_LINK = $(call FUZZ_WRAP,exit) $(DDS_LIBS)
