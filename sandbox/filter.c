@@ -85,11 +85,24 @@ static const struct rule computing[] = {
     /* Memory of its own, that nothing can be executed in. */
     ANY(brk),
     ANY(munmap),
-    ANY(mremap),
     ANY(madvise),
     {SCMP_SYS(mmap), 2, {BITS(2, PROT_EXEC, 0), BITS(3, MAP_WHICH, MAP_MEMORY_ONLY)}},
+};
+
+/* What grows takes as well. Mover and collider have all their memory before they enter: they only
+ * give it back, and the C library takes a little for its last words. */
+static const struct rule growing[] = {
+    ANY(mremap),
     {SCMP_SYS(mprotect), 1, {BITS(2, PROT_EXEC, 0)}},
 };
+
+/* What the address sanitizer does beside the process's own work, and to write its report. */
+#ifdef SANDBOX_SANITIZED
+static const struct rule sanitizing[] = {
+    ANY(openat), ANY(read),     ANY(lseek),       ANY(readlink),    ANY(fstat),     ANY(newfstatat),
+    ANY(mremap), ANY(mprotect), ANY(sched_yield), ANY(sigaltstack), ANY(prlimit64),
+};
+#endif
 
 /* A stand-by waits for the role's lock until its holder is dead. */
 static const struct rule standing_by[] = {
@@ -308,21 +321,27 @@ static const struct rule administering[] = {
         NULL, 0, 0                                                                                 \
     }
 #define EVERY_ROLE ALLOW(computing), LIST(absent, SCMP_ACT_ERRNO(ENOSYS))
+#ifdef SANDBOX_SANITIZED
+static const struct list frame_lists[] = {EVERY_ROLE, ALLOW(standing_by), ALLOW(sanitizing), END};
+#else
 static const struct list frame_lists[] = {EVERY_ROLE, ALLOW(standing_by), END};
+#endif
 static const struct list renderer_lists[] = {EVERY_ROLE,
+                                             ALLOW(growing),
                                              ALLOW(threads),
                                              ALLOW(files),
                                              ALLOW(drawing),
                                              ALLOW(serving),
                                              LIST(wishes, SCMP_ACT_ERRNO(EPERM)),
                                              END};
-static const struct list intake_lists[] = {EVERY_ROLE, ALLOW(serving), ALLOW(polling), END};
-static const struct list reporter_lists[] = {EVERY_ROLE, ALLOW(threads), ALLOW(networking),
-                                             ALLOW(commanding), END};
+static const struct list intake_lists[] = {EVERY_ROLE, ALLOW(growing), ALLOW(serving),
+                                           ALLOW(polling), END};
+static const struct list reporter_lists[] = {EVERY_ROLE,        ALLOW(growing),    ALLOW(threads),
+                                             ALLOW(networking), ALLOW(commanding), END};
 static const struct list console_lists[] = {
-    EVERY_ROLE, ALLOW(threads), ALLOW(serving), ALLOW(polling), ALLOW(commanding), ALLOW(visiting),
-    END};
-static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(files), END};
+    EVERY_ROLE,     ALLOW(growing),    ALLOW(threads),  ALLOW(serving),
+    ALLOW(polling), ALLOW(commanding), ALLOW(visiting), END};
+static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(growing), ALLOW(files), END};
 
 /* Refused with EPERM and no trap: libraries of a role that starts may try what they can do without.
  */

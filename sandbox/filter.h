@@ -4,6 +4,16 @@
 
 #include "ipc/role.h"
 
+/* Built with the address sanitizer: mover and collider are confined all the same, with a list of
+ * what it does beside their work. */
+#if defined(__SANITIZE_ADDRESS__)
+#define SANDBOX_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SANDBOX_SANITIZED
+#endif
+#endif
+
 /* Loads the role's filter, or of ROLE_NONE the keeper's, into every thread of the process, for
  * good. 0, or a negative errno. */
 int filter_load(enum role role);

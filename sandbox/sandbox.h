@@ -26,8 +26,8 @@ struct sandbox {
 };
 
 /* ROLE_CONSOLE is every console, also one that is not its set's. off: the user's --no-sandbox.
- * Sanitizers, valgrind and crash points need system calls of their own: there the sandbox is off
- * too. */
+ * Sanitizers and crash points need system calls of their own: there the sandbox is off, too, but
+ * for mover and collider with the sanitizers of addresses and of undefined behaviour. */
 int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reason *reason);
 
 /* From here on files are made, written and removed only beneath these folders (descriptors, which

@@ -124,6 +124,12 @@ static void make_executable(void)
     mprotect(at, 4096, PROT_READ | PROT_EXEC);
 }
 
+static void write_protect(void)
+{
+    void *at = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    mprotect(at, 4096, PROT_READ);
+}
+
 static void use_memory(void)
 {
     for (size_t bytes = 1; bytes < 64u << 20; bytes *= 3) {
@@ -234,6 +240,7 @@ static void handle(int signal_number)
     X("mmap", R | W, map(PROT_READ, MAP_SHARED, 2))                                                \
     X("mmap", R | W, map(PROT_READ, MAP_PRIVATE, 2))                                               \
     X("mmap", R | W, map(PROT_READ, MAP_SHARED | MAP_ANONYMOUS, -1))                               \
+    X("mprotect", W | P | I | R | D, write_protect())                                              \
     X("mprotect", R, make_executable())                                                            \
     X("pkey_mprotect", NONE, syscall(SYS_pkey_mprotect, NULL, 4096, PROT_EXEC, -1))                \
     X("remap_file_pages", NONE, syscall(SYS_remap_file_pages, NULL, 0, 0, 0, 0))                   \
@@ -262,7 +269,7 @@ static void handle(int signal_number)
     X("sched_setaffinity", R, waived(syscall(SYS_sched_setaffinity, 0, 0, NULL)))                  \
     X("prlimit64", NONE, syscall(SYS_prlimit64, 0, 0, NULL, NULL))                                 \
     X("", ALL, say(STDERR_FILENO))                                                                 \
-    X("", ALL, use_memory())                                                                       \
+    X("mremap", W | P | I | R | D, use_memory())                                                   \
     X("", ALL, sleep_shortly())                                                                    \
     X("", ALL, close(0))
 
@@ -845,6 +852,23 @@ static int go_without(void *context)
     return prctl(PR_GET_NO_NEW_PRIVS, 0, 0, 0, 0) != before;
 }
 
+static int enter_in_a_strange_environment(void *context)
+{
+    (void)context;
+    setenv("LD_PRELOAD", "/usr/libexec/valgrind/vgpreload_core-amd64-linux.so", 1);
+    setenv("JOLON_NO_SANDBOX", "1", 1);
+    if (enter(ROLE_MOVER) != 0)
+        return NOT_ENTERED;
+    attempt(0);
+    return 0;
+}
+
+static void test_the_environment_cannot_switch_it_off(void **state)
+{
+    (void)state;
+    assert_int_equal(run(enter_in_a_strange_environment, NULL), -SIGSYS);
+}
+
 static void test_no_sandbox_is_said_loudly(void **state)
 {
     (void)state;
@@ -891,12 +915,12 @@ static int remove_folder(void **state)
     return rmdir(folder);
 }
 
-/* Sanitizers and valgrind have no sandbox, and nothing to test but that. */
+/* Roles of sanitized builds have none, but for mover and collider (tests/system/test_heavy.sh). */
 static int is_there(void *context)
 {
     struct sandbox sandbox;
     (void)context;
-    return sandbox_begin(&sandbox, ROLE_MOVER, false, &reason) == 0 && sandbox.on;
+    return sandbox_begin(&sandbox, ROLE_RECORDER, false, &reason) == 0 && sandbox.on;
 }
 
 int main(void)
@@ -916,6 +940,7 @@ int main(void)
         cmocka_unit_test(test_the_keeper_writes_only_beneath_its_folders),
         cmocka_unit_test(test_every_role_enters_its_sandbox_beneath_the_keepers),
         cmocka_unit_test(test_memory_that_goes_away_is_said_inside),
+        cmocka_unit_test(test_the_environment_cannot_switch_it_off),
         cmocka_unit_test(test_no_sandbox_is_said_loudly),
         cmocka_unit_test(test_a_kernel_that_refuses_is_said_and_never_passed_over),
     };
