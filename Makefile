@@ -102,6 +102,7 @@ STORM_SRC    := $(wildcard tests/storm/*.c)
 LISTENER_SRC := tests/once/listener.c
 PEER_SRC     := $(wildcard tests/rtps/*.c)
 LAG_SRC      := tests/lag/lag.c
+FLOOD_SRC    := tests/flood/flood.c
 EXAMPLES_SRC := examples/escort.c
 FILM_SRC     := tests/film/film.c
 GOLDEN_SRC   := $(wildcard tests/golden/*.c)
@@ -191,6 +192,7 @@ STORM          := $(BUILD)/tests/storm/storm
 LISTENER       := $(BUILD)/tests/once/listener
 PEER           := $(BUILD)/tests/rtps/peer
 LAG            := $(BUILD)/tests/lag/lag
+FLOOD          := $(BUILD)/tests/flood/flood
 FILM           := $(BUILD)/tests/film/film
 
 .PHONY: all run test tests check examples figures game rtps storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
@@ -235,7 +237,7 @@ $(BIN)/jolon: supervisor/jolon
 # --- objects ------------------------------------------------------------------------------------
 # Flags reach an object through its folder: only these folders see these libraries.
 $(OBJ)/topics/%.o $(OBJ)/ctl/%.o $(OBJ)/harness/%.o $(OBJ)/console/%.o $(OBJ)/intake/%.o $(OBJ)/reporter/%.o $(OBJ)/monitor/%.o $(OBJ)/tests/storm/%.o \
-$(OBJ)/tests/once/%.o $(OBJ)/tests/rtps/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
+$(OBJ)/tests/once/%.o $(OBJ)/tests/flood/%.o $(OBJ)/tests/rtps/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(JSON_CFLAGS)
 $(OBJ)/drive/%.o: CFLAGS_EXTRA = $(DDS_CFLAGS) $(DEVICE_CFLAGS)
 $(OBJ)/renderer/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS)
 $(OBJ)/http/%.o: CFLAGS_EXTRA = $(call pc,cflags,libmicrohttpd)
@@ -247,7 +249,7 @@ $(OBJ)/video/%.o: CFLAGS_EXTRA = $(RENDER_CFLAGS) $(JSON_CFLAGS)
 $(call objects,$(KERNEL_SRC)) $(KERNELS): CFLAGS_EXTRA = $(RENDER_CFLAGS) -Wno-psabi
 $(OBJ)/worldctl/%.o $(OBJ)/recorder/%.o $(OBJ)/replay/%.o $(OBJ)/tests/%.o \
 $(OBJ)/bench/%.o: CFLAGS_EXTRA = $(JSON_CFLAGS)
-$(call objects,$(TOPICS_SRC) $(CTL_SRC) $(DRIVE_SRC) $(HARNESS_SRC) $(CONSOLE_SRC) $(INTAKE_SRC) $(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC) $(PEER_SRC)): $(IDL)/status.h
+$(call objects,$(TOPICS_SRC) $(CTL_SRC) $(DRIVE_SRC) $(HARNESS_SRC) $(CONSOLE_SRC) $(INTAKE_SRC) $(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC) $(FLOOD_SRC) $(PEER_SRC)): $(IDL)/status.h
 
 $(OBJ)/%.o: %.c $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CC $<"
@@ -261,7 +263,7 @@ $(OBJ)/%.o: %.cpp $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CXX $<"
 	@$(CXX) -std=c++17 $(CXXFLAGS_ALL) $(PEER_CFLAGS) -MMD -MP -c -o $@ $<
 
-TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(PEER_SRC) $(LAG_SRC) $(FILM_SRC) $(GOLDEN_SRC) $(FUZZ_SRC)
+TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(PEER_SRC) $(LAG_SRC) $(FLOOD_SRC) $(FILM_SRC) $(GOLDEN_SRC) $(FUZZ_SRC)
 $(call objects,$(TEST_SRC)): | $(TEST_STAMP)
 
 # Again when a file comes or goes, too.
@@ -367,6 +369,8 @@ $(LISTENER): $(call objects,$(LISTENER_SRC)) $(TOPICS) $(IPC) $(WORLD)
 $(PEER): $(call objects,$(PEER_SRC)) $(filter-out %/dds_datagrams.o %/rtps_filter.o,$(TOPICS)) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(BASE_LIBS))
 
+$(FLOOD): $(call objects,$(FLOOD_SRC)) $(COMMANDS) $(IPC) $(WORLD)
+	$(call link,$(BASE_LIBS))
 $(LAG): $(call objects,$(LAG_SRC)) $(IPC) $(WORLD)
 	$(call link,$(BASE_LIBS))
 # They are built as their readers build them: the types, DDS and nothing of ours.
@@ -385,7 +389,7 @@ check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 
 # Crash points are tried unsanitized: a sanitizer has its own handler for faults.
 # All that is tried, built: `make -j tests` first, and `make test` only runs it.
-tests: all $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FILM) $(EXAMPLES) $(if $(SAN),,crash)
+tests: all $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(FILM) $(EXAMPLES) $(if $(SAN),,crash)
 test: tests
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property golden system $(if $(SAN),,crash)
 

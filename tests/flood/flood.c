@@ -1,0 +1,170 @@
+/* flood: sends as many commands as one connection takes, while another client drives a vehicle, and
+ * tells how many frames the driver waited for each answer.
+ *
+ *     flood --world NAME --seconds S --vehicle ID [--spawn] [--idle CONNECTIONS]
+ *
+ * --spawn floods with spawns of tanks on one spot instead of drives; --idle opens so many more
+ * connections that send nothing. Prints one JSON object:
+ * {"sent_per_s", "answers", "frames_p50", "frames_p99", "frames_max", "unanswered"}. */
+#include "ipc/clock.h"
+#include "ipc/local_socket.h"
+#include "ipc/log.h"
+#include "ipc/process.h"
+#include "topics/caller.h"
+#include "topics/command_packet.h"
+#include "topics/command_socket.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define ANSWERS_MAX  100000u
+#define PAUSE_NS     (20 * (uint64_t)NS_PER_MS) /* between two drives */
+#define ANSWER_NS    (3 * (uint64_t)NS_PER_S)
+#define TRIES        32 /* in which a flooder writes before it looks at the time */
+#define WANTED_PER_S 150000u
+
+struct flood {
+    const char *world;
+    double seconds;
+    uint32_t vehicle;
+    uint32_t idle;
+    bool spawn;
+    _Atomic uint64_t *sent; /* shared with the flooder: commands that it tried to send */
+    uint32_t frames[ANSWERS_MAX];
+    uint32_t answers, unanswered;
+};
+
+static struct flood parse(int argc, char **argv)
+{
+    static const struct option known[] = {
+        {"world", required_argument, NULL, 'w'},   {"seconds", required_argument, NULL, 's'},
+        {"vehicle", required_argument, NULL, 'v'}, {"idle", required_argument, NULL, 'i'},
+        {"spawn", no_argument, NULL, 'p'},         {NULL, 0, NULL, 0}};
+    struct flood flood = {.world = "default", .seconds = 2.0, .vehicle = 1};
+    int option;
+    while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
+        switch (option) {
+        case 'w':
+            flood.world = optarg;
+            break;
+        case 's':
+            flood.seconds = process_number("seconds", optarg, 0.1, 3600.0);
+            break;
+        case 'v':
+            flood.vehicle = (uint32_t)process_whole("vehicle", optarg, 1, UINT32_MAX);
+            break;
+        case 'i':
+            flood.idle = (uint32_t)process_whole("idle", optarg, 0, 1000);
+            break;
+        case 'p':
+            flood.spawn = true;
+            break;
+        default:
+            die_usage("flood: no such option");
+        }
+    }
+    return flood;
+}
+
+static int connect_to(const struct flood *flood)
+{
+    struct reason reason;
+    int fd = local_socket_connect(flood->world, COMMAND_SOCKET_SUFFIX,
+                                  SOCK_SEQPACKET | SOCK_NONBLOCK, &reason);
+    if (fd < 0)
+        die_refused("%s", reason.text);
+    return fd;
+}
+
+/* Writes without end and never reads an answer, at most WANTED_PER_S commands a second. */
+_Noreturn static void flood_it(const struct flood *flood)
+{
+    struct command_packet packet = {
+        .magic = COMMAND_PACKET_MAGIC,
+        .version = COMMAND_PACKET_VERSION,
+        .command = {.source = 4711,
+                    .type = flood->spawn ? jolon_COMMAND_SPAWN : jolon_COMMAND_DRIVE,
+                    .entity = 2,
+                    .x_m = 20000.0,
+                    .z_m = 30000.0,
+                    .altitude_m = -1.0}};
+    (void)stpcpy(packet.command.kind, "tank");
+    int fd = connect_to(flood);
+    uint64_t begun_ns = clock_now_ns(), sent = 0;
+    for (;;) {
+        for (int i = 0; i < TRIES; i++) {
+            packet.command.sequence++;
+            (void)send(fd, &packet, sizeof packet, MSG_DONTWAIT | MSG_NOSIGNAL);
+        }
+        sent += TRIES;
+        atomic_store(flood->sent, sent);
+        clock_sleep_until_ns(begun_ns + sent * NS_PER_S / WANTED_PER_S);
+    }
+}
+
+/* Drives the vehicle, one command at a time, and notes the frames until each answer. */
+static void drive(struct flood *flood, const struct view *view, struct caller *caller,
+                  uint64_t until_ns)
+{
+    while (clock_now_ns() < until_ns && flood->answers < ANSWERS_MAX) {
+        const jolon_Command command = {
+            .type = jolon_COMMAND_DRIVE, .entity = flood->vehicle, .throttle = 0.5F};
+        jolon_CommandReply reply;
+        uint64_t before = segment_load(&view->commit->commit);
+        if (caller_call(caller, &command, clock_now_ns() + ANSWER_NS, &reply) &&
+            reply.result == jolon_RESULT_DONE)
+            flood->frames[flood->answers++] = (uint32_t)(reply.frame - before);
+        else
+            flood->unanswered++;
+        clock_sleep_until_ns(clock_now_ns() + PAUSE_NS);
+    }
+}
+
+static int rising(const void *a, const void *b)
+{
+    const uint32_t *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+int main(int argc, char **argv)
+{
+    static struct flood flood;
+    static struct view view;
+    static struct caller caller;
+    struct command_socket socket;
+    struct reason reason;
+    log_open("flood");
+    flood = parse(argc, argv);
+    process_signals();
+    flood.sent =
+        mmap(NULL, sizeof *flood.sent, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (flood.sent == MAP_FAILED || segment_attach(&view, flood.world, ROLE_NONE, &reason) != 0 ||
+        caller_open(&caller, command_socket_open(&socket, flood.world), &reason) != 0)
+        die_refused("cannot begin");
+    for (uint32_t i = 0; i < flood.idle; i++)
+        (void)connect_to(&flood);
+    uint64_t begun_ns = clock_now_ns();
+    pid_t flooder = fork();
+    if (flooder == 0)
+        flood_it(&flood);
+    drive(&flood, &view, &caller, begun_ns + (uint64_t)(flood.seconds * NS_PER_S));
+    double seconds = (double)(clock_now_ns() - begun_ns) / NS_PER_S;
+    double sent_per_s = (double)atomic_load(flood.sent) / seconds;
+    kill(flooder, SIGKILL);
+    (void)waitpid(flooder, NULL, 0);
+    qsort(flood.frames, flood.answers, sizeof *flood.frames, rising);
+    uint32_t last = flood.answers ? flood.answers - 1 : 0;
+    printf("{\"sent_per_s\":%.0f,\"answers\":%u,\"frames_p50\":%u,\"frames_p99\":%u,"
+           "\"frames_max\":%u,\"unanswered\":%u}\n",
+           sent_per_s, flood.answers, flood.frames[last / 2], flood.frames[last * 99 / 100],
+           flood.frames[last], flood.unanswered);
+    return flood.answers > 0 ? EXIT_OK : EXIT_REFUSED;
+}
