@@ -67,9 +67,10 @@ struct role_slot {
     _Atomic uint64_t gaps;        /* consumers: events lost to a ring that went round */
     _Atomic uint32_t detail_pct;  /* renderers: what is drawn of all detail; 0: others ... */
     _Atomic uint32_t size_pct;    /* ... and the size it is drawn at, of the picture's */
-    _Atomic uint64_t work;  /* mover and collider: goes up as a step gets on, also within it */
-    struct histogram stage; /* the role's own work a frame */
-    struct histogram whole; /* collider: mover's and collider's work of one frame */
+    _Atomic uint64_t work;      /* mover and collider: goes up as a step gets on, also within it */
+    _Atomic uint32_t unguarded; /* reporter: 1: anybody on its network commands the world */
+    struct histogram stage;     /* the role's own work a frame */
+    struct histogram whole;     /* collider: mover's and collider's work of one frame */
 };
 
 #define ROLE_SLOT_BYTES 8192u

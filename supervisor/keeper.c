@@ -373,8 +373,10 @@ int main(int argc, char **argv)
     keeper.starting = true;
     start_set(&keeper);
     keeper.starting = false;
-    if (!keeper.gave_up)
+    if (!keeper.gave_up) {
+        warn_of_strangers(&keeper.set);
         say_ready(ready);
+    }
     while (!keeper.over)
         turn(&keeper);
     stop_set(&keeper);

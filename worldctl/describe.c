@@ -152,6 +152,12 @@ static int snapshot_head_or_refuse(const struct view *view, struct state_head *h
     die_refused("world \"%s\" is damaged: its last frame cannot be read", view->name);
 }
 
+static bool unguarded(const struct view *view)
+{
+    return segment_holder(view->name, ROLE_REPORTER) != 0 &&
+           atomic_load(&view->slot[ROLE_REPORTER]->unguarded) != 0;
+}
+
 int verb_status(const struct arguments *arguments)
 {
     struct view view;
@@ -172,6 +178,7 @@ int verb_status(const struct arguments *arguments)
         json_whole(object, "vehicles", head.vehicles);
         json_whole(object, "munitions", head.munitions);
         json_whole(object, "events", head.event_end);
+        json_bool(object, "unguarded", unguarded(&view));
         cJSON *roles = json_array(object, "roles");
         for (int role = 0; role < ROLE_COUNT; role++) {
             if (atomic_load(&view.slot[role]->starts) > 0)
@@ -200,6 +207,9 @@ int verb_status(const struct arguments *arguments)
                    atomic_load(&slot->size_pct));
         printf("\n");
     }
+    if (unguarded(&view))
+        printf("WARNING: the reporter takes commands from everybody who reaches its network "
+               "(--remote-commands without DDS Security)\n");
     segment_detach(&view);
     return EXIT_OK;
 }

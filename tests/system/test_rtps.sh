@@ -13,7 +13,7 @@ export PYTHONDONTWRITEBYTECODE=1
 domain=$((100 + $$ % 100)) # of its own: nobody else's reporter is to hear what is multicast here
 [ -e "$peer" ] || { skip "hostile datagrams" "make test builds what they are captured from"; done_testing; }
 
-check "a set starts" "$jolon" start -w "$name" --domain $domain --without renderer --out out
+check "a set starts" "$jolon" start -w "$name" --remote-commands --domain $domain --without renderer --out out
 reporter() { "$bin/jolon-world" pid --world "$name" reporter; }
 key() { "$bin/jolon-world" summary --json --world "$name" | json "$1"; }
 answers() { timeout 20 "$bin/jolon-monitor" -w "$name" --domain $domain --once --json >told && [ "$(json world <told)" = "$name" ]; }

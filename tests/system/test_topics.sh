@@ -7,7 +7,10 @@ spawns=${SPAWNS:-60}
 monitor="$bin/jolon-monitor -w $name"
 ctl="$bin/jolon-ctl -w $name"
 
-check "a set starts" "$jolon" start -w "$name" --without renderer --remote-commands --out "$folder/out"
+check "a set starts" eval '"$jolon" start -w "$name" --without renderer --remote-commands --out "$folder/out" 2>"$folder/warned"'
+check "remote commands without security are warned of at the start" grep -q "WARNING.*everybody who reaches" "$folder/warned"
+check "and in the log" grep -q "WITHOUT DDS Security" "$folder/out/jolon.log"
+check "and by jolon status" eval '"$jolon" status -w "$name" | grep -q "^WARNING: .*--remote-commands"'
 status() { $monitor --once --json; }
 key() { status | json "$1"; }
 
