@@ -282,6 +282,14 @@ static int open_ready(const char *path)
     return path ? open(path, O_RDWR | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC) : -1;
 }
 
+/* Somebody who did not read the manual shall not be able to say that he was not told. */
+static void warn_of_strangers(const struct set *set)
+{
+    if (atomic_load(&set->view.slot[ROLE_REPORTER]->unguarded) != 0)
+        set_note(set, "WARNING: the reporter takes commands from everybody who reaches its network "
+                      "(--remote-commands without DDS Security; docs/topics.md, \"Security\")");
+}
+
 static void say_ready(int fd)
 {
     if (fd < 0)
