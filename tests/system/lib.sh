@@ -73,7 +73,10 @@ done_testing() { echo "1..$number"; [ $failures = 0 ]; exit; }
 
 at_end() {
     "$jolon" stop -w "$name" >/dev/null 2>&1
-    "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+    local world
+    for world in "$name" $("$bin/jolon-world" list all 2>/dev/null); do
+        [[ $world != "$name"* ]] || "$bin/jolon-world" remove --world "$world" >/dev/null 2>&1
+    done
     cd / && rm -rf "$folder"
 }
 trap at_end EXIT

@@ -36,7 +36,7 @@ refuses "source not in this version" 1 'dem' run --set terrain.source=dem good.c
 refuses "unknown option" 2 '--frobnicate' run --frobnicate
 refuses "two scenarios" 2 'more than one' run good.cfg good.cfg
 refuses "a bad world name" 2 'a-z' "$jolon" run -w 'no/good'
-refuses "leaving out the mover" 2 'nothing moves' run --without mover
+refuses "leaving out the mover" 2 'no world runs without it' run --without mover
 refuses "an output folder that cannot be" 1 '/proc/x' run --out /proc/x good.cfg
 refuses "status of no world" 1 'there is no world' "$jolon" status -w "$name"
 refuses "digest of no world" 1 'there is no world' "$jolon" world digest -w "$name"
@@ -51,6 +51,31 @@ small_files() {
 }
 check "files limited to 10 KB: run says so" small_files run
 check "files limited to 10 KB: start says so" small_files start
+no_memory() { (ulimit -v 45000 && "$bin/jolon-world" create --world "$name" good.cfg); }
+refuses "no memory for the world" 1 'memory' no_memory
+small_world() { (ulimit -f 10 && "$bin/jolon-world" create --world "$name" good.cfg); }
+refuses "files limited to 10 KB: the world says so" 1 'needs [0-9.]+ MB, and no file .*ulimit -f' small_world
+
+# Told to stop while the world is made: nothing is left. The programs with crash points stop there.
+crash=${bin%/bin}/crash/bin
+if [ -x "$crash/jolon-keeper" ]; then
+    for point in "space" "parameters" "page of a new world"; do
+        JOLON_CRASH="world:$point:1:15" "$crash/jolon-world" create --world "$name" good.cfg >told 2>&1
+        check "jolon-world told to stop at \"$point\" ends" equal $? 143
+        check "and leaves nothing" nothing_left "$name"
+    done
+    JOLON_CRASH="world:parameters:1:19" "$crash/jolon" run -w "$name" --out out good.cfg >told 2>err &
+    run=$!
+    halted() { grep -qs '^State:.T' "/proc/$(pgrep -P $run jolon-world)/status"; }
+    check "jolon-world halts while it makes the world" eventually halted
+    kill -TERM $run
+    wait $run
+    check "jolon run told to stop then ends with 1" equal $? 1
+    check "and says so in one line" eval 'grep -q "stopped before world .* ran" err && [ "$(wc -l <err)" = 1 ]'
+    check "and leaves nothing" nothing_left "$name"
+else
+    skip "told to stop while the world is made" "no programs with crash points: make crash"
+fi
 "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
 
 # What cannot be recorded is not run, unless that was asked for.

@@ -1,0 +1,174 @@
+#!/usr/bin/env bash
+# A second user of the machine tries every name, object, lock, socket and folder of the first one's
+# world, before the world is made and while it runs: nothing changes, and nothing is denied.
+. "$(dirname "$0")/lib.sh"
+unset JOLON_RUNTIME_DIR # each user has one of their own
+
+if [ "$UID" != 0 ] || ! command -v useradd >/dev/null; then
+    skip "a second user" "only root can add one"
+    done_testing
+fi
+
+first=jolon-first-$$ second=jolon-second-$$
+tree=$(mktemp -d) # of programs: neither may read where they were built
+at_end_users() {
+    as "$first" "$theirs" stop -w "$name" >/dev/null 2>&1
+    as "$first" "$world" remove --force --world "$name" >/dev/null 2>&1
+    rm -f "/dev/shm/jolon.$first_uid.$name" "/dev/shm/jolon.$first_uid.$name.lock"
+    pkill -u "$second_uid"
+    userdel "$first"
+    userdel "$second"
+    rm -rf "$tree"
+    at_end
+}
+mkdir -p "$tree/build"
+cp -r "$bin" "$tree/build/bin"
+for config in "$bin/../../config" "$bin/../../../config"; do
+    [ ! -d "$config" ] || cp -r "$config" "$tree/config"
+done
+chmod -R go+rX "$tree"
+theirs=$tree/build/bin/jolon world=$tree/build/bin/jolon-world
+for user in "$first" "$second"; do
+    useradd --system --create-home --home-dir "$tree/$user" --shell /usr/sbin/nologin "$user" 2>/dev/null
+    chmod 700 "$tree/$user"
+done
+first_uid=$(id -u "$first") second_uid=$(id -u "$second")
+cd "$tree" || exit 1
+
+# as USER COMMAND...: in the user's home, with nothing of this environment.
+as() {
+    local user=$1
+    shift
+    (cd "$tree/$user" && exec setpriv --reuid "$user" --regid "$user" --clear-groups --inh-caps=-all \
+        env -i PATH="$PATH" HOME="$tree/$user" ${variables[@]+"${variables[@]}"} "$@")
+}
+variables=()
+trap at_end_users EXIT
+
+# --- before the world is made: who takes its names --------------------------------------------------
+# Where an earlier version had the world, its lock file and the renderer's socket.
+as "$second" touch "/dev/shm/jolon.$first_uid.$name" "/dev/shm/jolon.$first_uid.$name.lock"
+as "$second" python3 - "$first_uid" "$name" <<'P' &
+import socket, sys, time
+holders = []
+for suffix in ("pictures", "commands"):
+    holders.append(socket.socket(socket.AF_UNIX))
+    holders[-1].bind(f"\0jolon.{sys.argv[1]}.{sys.argv[2]}.{suffix}")
+    holders[-1].listen()
+time.sleep(120)
+P
+start() { as "$first" "$theirs" start -w "$name" --hz 60 --set renderer.width=160 --set renderer.height=90 --out out duel; }
+check "the first user's world starts all the same" start
+runs() { as "$first" "$theirs" status -w "$name" | grep -q 'is running'; }
+check "and runs" eventually runs
+runtime=$(dirname "$(as "$first" "$world" paths --world "$name" name)")
+object=$(as "$first" "$world" paths --world "$name" object)
+check "its object's name is in the listing of /dev/shm, for everybody" eval 'as "$second" ls /dev/shm | grep -q "${object##*/}"'
+
+# A picture by the renderer's socket, as its user.
+picture() {
+    as "$first" timeout 20 python3 - "$runtime/$name.pictures" <<'P'
+import socket, sys, time
+for _ in range(100):
+    try:
+        with socket.socket(socket.AF_UNIX) as s:
+            s.connect(sys.argv[1])
+            s.sendall(b"GET /picture.jpg?size=64x64 HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+            if s.recv(64).startswith(b"HTTP/1.1 200"):
+                sys.exit(0)
+    except OSError:
+        pass
+    time.sleep(0.1)
+sys.exit(1)
+P
+}
+check "its renderer gives pictures" picture
+
+# --- names, folders, objects ------------------------------------------------------------------------
+pids=$(pgrep -u "$first_uid" | sort | tr '\n' ' ')
+state() { # what the second user could change
+    as "$first" ls -la "$runtime"
+    stat -c '%n %u %a %s' "$object" "$runtime"
+    as "$first" "$theirs" status -w "$name" --json | python3 -c '
+import json, sys
+status = json.load(sys.stdin)
+print(status["state"], [(role["role"], role["pid"], role["restarts"]) for role in status["roles"]])'
+}
+state >before
+
+# tries WHAT COMMAND...: the second user's command fails.
+tries() {
+    local what=$1
+    shift
+    if as "$second" "$@" >tried 2>&1; then
+        not_ok "$what"
+        tail -n 3 tried | sed 's/^/# /'
+    else
+        ok "$what"
+    fi
+}
+in_python() { tries "$1" python3 -c "import os, socket, sys
+$2" "${@:3}"; }
+
+tries "cannot list the runtime folder" ls "$runtime"
+tries "nor make a name in it" ln -s /etc/passwd "$runtime/another"
+tries "nor remove one" rm -f "$runtime/$name"
+tries "nor take a lock" flock -n "$runtime/$name.lock" true
+tries "nor move the folder away" mv "$runtime" "$runtime.moved"
+for suffix in pictures commands; do
+    in_python "nor connect to its socket $suffix" "socket.socket(socket.AF_UNIX).connect(sys.argv[1])" "$runtime/$name.$suffix"
+done
+for mode in O_RDONLY O_WRONLY O_RDWR O_RDWR\|os.O_TRUNC; do
+    in_python "cannot open the object ($mode)" "os.open(sys.argv[1], os.$mode)" "$object"
+done
+tries "nor truncate it" truncate -s 0 "$object"
+tries "nor remove it" rm -f "$object"
+tries "nor rename it" mv -f "$object" "/dev/shm/jolon.$second_uid.mine"
+tries "nor put another in its place" cp /etc/hostname "$object"
+tries "nor change its mode" chmod 666 "$object"
+tries "nor link to it" ln "$object" "/dev/shm/jolon.$second_uid.linked"
+for pid in $pids; do
+    tries "nor signal $(cat "/proc/$pid/comm")" kill -STOP "$pid"
+    tries "nor read its memory" head -c 1 "/proc/$pid/mem"
+    tries "nor see its descriptors" ls "/proc/$pid/fd/"
+done
+
+# --- every verb, with the second user's own folder and with the first one's --------------------------
+own=$(as "$second" "$world" paths --world "$name" name)
+check "the second user's names lie elsewhere" [ "${own%/*}" != "$runtime" ]
+as "$second" ln -s "$object" "$own"
+verbs=(status stop "kill mover" "restart reporter" "snap x.png" "events" "clean" "world info" "world check" "world repair"
+    "world digest" "world dump" "world save x.image" "world remove --force" "world summary" "world frame" "world pid mover")
+for verb in "${verbs[@]}"; do
+    # shellcheck disable=SC2086 # several words
+    tries "a name of its own that leads to the first one's object: $verb" "$theirs" $verb -w "$name"
+done
+as "$second" rm "$own"
+verbs=("${verbs[@]/#world remove*/world repair}") # to remove what is not there is no mistake
+for verb in "${verbs[@]}"; do
+    # shellcheck disable=SC2086 # several words
+    tries "finds no such world: $verb" "$theirs" $verb -w "$name"
+done
+variables=("JOLON_RUNTIME_DIR=$runtime")
+for verb in "world remove --force" "${verbs[@]}"; do
+    # shellcheck disable=SC2086 # several words
+    tries "may not use the first one's folder: $verb" "$theirs" $verb -w "$name"
+done
+check "and is told what is wrong" grep -q 'cannot be the runtime folder: .*JOLON_RUNTIME_DIR' tried
+variables=("XDG_RUNTIME_DIR=${runtime%/*}" "HOME=$tree/$first")
+check "a session's folder of another user is passed over" equal "$(as "$second" "$world" paths --world "$name" name)" "$own"
+variables=()
+check "cleaning everything reaches nothing of another user" as "$second" "$theirs" clean --all
+check "a world of the same name is the second user's own" as "$second" "$theirs" run -w "$name" --frames 5 --pace max \
+    --without renderer --out out duel
+pkill -u "$second_uid"
+wait 2>/dev/null
+
+# --- nothing has changed ------------------------------------------------------------------------------
+state >after
+check "all that the first user has is as it was" cmp before after
+check "the world still runs" runs
+check "its renderer still gives pictures" picture
+check "it stops as any" as "$first" "$theirs" stop -w "$name"
+check "and leaves nothing" eval '! ls "$runtime" | grep -q . && ! ls "$object"'
+done_testing
