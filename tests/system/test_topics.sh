@@ -53,7 +53,7 @@ check "wrong usage is 2" equal "$? $(wc -l <stderr)" "2 1"
 
 # --- a storm of commands, every other one over DDS, while intake and reporter die again and again -----
 # shellcheck disable=SC2034 # for eval
-vehicles=$(key vehicles)
+vehicles=$("$jolon" status -w "$name" --json | json vehicles) # the topics may be a tenth of a second old
 storm() {
     for i in $(seq "$spawns"); do
         [ $((i % 2)) = 0 ] && echo "--remote $i" || echo "--json $i"
@@ -73,6 +73,7 @@ check "every command of $spawns was answered ($kills kills)" equal "$?" 0
 check "each spawned its own" equal \
     "$(sed -E 's/.*"entity":([0-9]+).*/x x \1/' replies | awk '{ print $3 }' | sort -u | wc -l)" "$spawns"
 $ctl --timeout 30 pause >/dev/null
+echo "# vehicles before $vehicles, now $("$jolon" status -w "$name" --json | json vehicles), by the topics $(key vehicles)"
 check "none was lost or done twice" \
     eventually eval '[ "$(key vehicles)" = $((vehicles + spawns)) ]'
 
