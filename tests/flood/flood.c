@@ -2,6 +2,7 @@
  * tells how many frames the driver waited for each answer.
  *
  *     flood --world NAME --seconds S --vehicle ID [--spawn] [--idle CONNECTIONS]
+ *     flood --packet         prints how many bytes a command's packet has
  *
  * --spawn floods with spawns of tanks on one spot instead of drives; --idle opens so many more
  * connections that send nothing. Prints one JSON object:
@@ -67,6 +68,9 @@ static struct flood parse(int argc, char **argv)
         case 'p':
             flood.spawn = true;
             break;
+        case 'P':
+            printf("%zu\n", sizeof(struct command_packet));
+            exit(EXIT_OK);
         default:
             die_usage("flood: no such option");
         }

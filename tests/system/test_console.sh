@@ -48,6 +48,13 @@ check "a set starts" "$jolon" start -w "$name" --out "$folder/out" --stream "$po
 check "the console finds it" eventually is 200
 if [ -z "${JOLON_SANITIZER-}" ]; then
     check "every thread of it has its filter" equal "$(awk '$1 == "Seccomp:" { print $2 }' /proc/$console_pid/task/*/status | sort -u)" 2
+    no_udp() { # the sockets that it has open, by inode, among those of UDP
+        local inode
+        for inode in $(readlink /proc/$console_pid/fd/* | sed -n 's/^socket:\[\(.*\)\]$/\1/p'); do
+            ! awk '{ print $10 }' /proc/net/udp /proc/net/udp6 | grep -qx "$inode" || return 1
+        done
+    }
+    check "no datagram reaches it: it has no UDP socket" no_udp
 fi
 checks console.py "$(cat url)" "$name"
 renderer_pid() { "$bin/jolon-world" pid --world "$name" renderer; }

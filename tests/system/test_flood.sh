@@ -32,6 +32,42 @@ check "the next one is told why" eval "[ $? = 1 ] && grep -q 'too many vehicles 
 check "one process with 300 connections keeps nobody out" eval \
     "$flood --idle 300 >told && [ \$(json unanswered <told) = 0 ]"
 
+# Bytes that are no command, and commands whose every field is chance: the intake lives on.
+cat >"$folder/garbage" <<'P'
+import os, random, socket, struct, sys
+path, seed = sys.argv[1], int(sys.argv[2])
+chance = random.Random(seed)
+sent = 0
+while sent < 6000:
+    s = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    s.connect(path)
+    s.settimeout(5)
+    for _ in range(chance.randrange(1, 40)):
+        header = struct.pack("<II", 0x444d434a, 1)
+        size = chance.choice((0, 1, 7, 8, 64, 175, 176, 177, 200, 4096, 60000, int(sys.argv[3])))
+        body = bytearray(chance.randbytes(max(size - 8, 0)))
+        if size == int(sys.argv[3]) and chance.random() < 0.9:
+            body[16:20] = struct.pack("<I", chance.randrange(13))      # the type
+            if chance.random() < 0.5:                                  # numbers, most of them good ones
+                for at in range(20, len(body) - 7, 8):
+                    body[at:at + 8] = struct.pack("<d", chance.choice((0.0, 0.5, 1.0, -1.0, float("nan"), 1e308)))
+        try:
+            s.send((header if chance.random() < 0.95 else b"") + bytes(body))
+        except OSError:
+            break  # hung up on, as it should be
+        sent += 1
+    s.close()
+P
+seed=${SEED:=$((RANDOM))}
+echo "# SEED=$seed"
+size=$("$bin/../tests/flood/flood" --packet)
+path=$(dirname "$("$bin/jolon-world" paths --world "$name" lock)")/$name.commands
+intake=$("$bin/jolon-world" pid --world "$name" intake)
+check "6,000 damaged packets are sent to the command socket" timeout 60 \
+    python3 "$folder/garbage" "$path" "$seed" "$size"
+check "the intake has not died of them" equal "$("$bin/jolon-world" pid --world "$name" intake)" "$intake"
+check "and takes commands" "$bin/jolon-ctl" -w "$name" resume
+
 # Operators' commands find their place while a flood goes on.
 $flood --spawn --seconds 4 >/dev/null &
 sleep 0.5

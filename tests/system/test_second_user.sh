@@ -164,6 +164,18 @@ check "a world of the same name is the second user's own" as "$second" "$theirs"
 pkill -u "$second_uid"
 wait 2>/dev/null
 
+# --- commands, and the topics -------------------------------------------------------------------------
+for command in pause resume "step 1" "scale 2" "drive 1" "release 1 --anyway" "fire 1" "remove 1" quit \
+    "spawn tank --at 25000,25000" "fire --munition shell --at 25000,25000"; do
+    # shellcheck disable=SC2086 # several words
+    tries "cannot command it: $command" "$theirs" ctl -w "$name" --timeout 1 $command
+done
+for command in pause "spawn tank --at 25000,25000" quit; do
+    # shellcheck disable=SC2086 # several words
+    tries "nor over DDS: $command" "$theirs" ctl -w "$name" --remote --timeout 2 $command
+done
+check "the first user can" eval 'as "$first" "$theirs" ctl -w "$name" pause && as "$first" "$theirs" ctl -w "$name" resume'
+
 # --- nothing has changed ------------------------------------------------------------------------------
 state >after
 check "all that the first user has is as it was" cmp before after
