@@ -24,8 +24,8 @@ void workload_close(struct workload *workload);
 /* Everything back to where it began. */
 void workload_rewind(struct workload *workload);
 
-/* Puts the touches in the order of their bodies, bounces what comes nearer, then moves all bodies by
- * a step. */
+/* Puts the touches in the order of their bodies, bounces what comes nearer, then moves all bodies
+ * by a step. */
 void workload_step(struct workload *workload, struct engine_touches *touches);
 
 #endif

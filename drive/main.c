@@ -3,17 +3,15 @@
 #include "drive/inputs.h"
 #include "drive/news.h"
 #include "drive/options.h"
-#include "drive/panel.h"
+#include "drive/plain_output.h"
 #include "drive/screen.h"
 #include "drive/terminal.h"
 #include "ipc/clock.h"
 #include "ipc/log.h"
 #include "ipc/process.h"
 #include "topics/command_route.h"
-#include "topics/tell.h"
 
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 #define LEAVE_NS (1 * (uint64_t)NS_PER_S)
@@ -28,53 +26,19 @@ struct drive {
     struct inputs inputs;
     struct session session;
     struct news news;
-    uint64_t draw_ns; /* when to show all again */
-    uint32_t notices; /* of session, printed so far */
-    uint64_t news_printed;
-    bool silent; /* the last line said so */
+    struct plain_output plain;
+    uint64_t period_ns; /* between two pictures of the screen */
+    uint64_t draw_ns;   /* when the next picture is due */
 };
 
-static bool print_line(const char *text)
-{
-    return puts(text) >= 0 && fflush(stdout) == 0;
-}
-
-/* What is new since the last time, and a line when one is due. False: nobody reads any more. */
-static bool show_plain(struct drive *drive, uint64_t now_ns)
-{
-    char line[PANEL_LINE];
-    bool good = true;
-    const struct news *news = &drive->news;
-    if (drive->notices != drive->session.notices && !drive->session.refused) {
-        drive->notices = drive->session.notices;
-        (void)snprintf(line, sizeof line, "# %s", drive->session.notice);
-        good = print_line(line);
-    }
-    for (; good && drive->news_printed < news->count; drive->news_printed++) {
-        (void)snprintf(line, sizeof line, "! %s", news->line[drive->news_printed % NEWS_KEPT]);
-        good = print_line(line);
-    }
-    if (now_ns < drive->draw_ns)
-        return good;
-    drive->draw_ns = now_ns + (uint64_t)(NS_PER_S / drive->options.rate_hz);
-    bool silent = !mirror_live(&drive->mirror, now_ns), said = drive->silent;
-    drive->silent = silent;
-    if (silent && said)
-        return good;
-    if (silent)
-        tell_silence(stpcpy(line, "# "), sizeof line - 2, &drive->mirror, now_ns);
-    else
-        panel_line(line, &drive->session);
-    return good && print_line(line);
-}
-
+/* Returns false when nobody reads any more. */
 static bool show(struct drive *drive, bool touched, uint64_t now_ns)
 {
     if (drive->options.plain)
-        return show_plain(drive, now_ns);
+        return plain_output_show(&drive->plain, &drive->session, &drive->news, now_ns);
     if (touched || now_ns >= drive->draw_ns) {
         screen_draw(&drive->session, &drive->news, drive->inputs.said, now_ns);
-        drive->draw_ns = now_ns + (uint64_t)(NS_PER_S / drive->options.rate_hz);
+        drive->draw_ns = now_ns + drive->period_ns;
     }
     return true;
 }
@@ -123,6 +87,8 @@ static void open_all(struct drive *drive)
         die_refused("%s", reason.text);
     session_open(&drive->session, &drive->mirror, &drive->caller, options->wanted, clock_now_ns());
     drive->news.session = &drive->session;
+    drive->period_ns = (uint64_t)(NS_PER_S / options->rate_hz);
+    drive->plain.period_ns = drive->period_ns;
     if (!options->plain && screen_open(&reason) != 0)
         die_refused("%s", reason.text);
     terminal_take(!options->plain);

@@ -109,21 +109,6 @@ static void last_words(struct reporter *reporter)
     events_flush(&reporter->events, clock_now_ns() + LAST_ACKS_NS);
 }
 
-/* Remote commands without DDS Security: nobody shall be able to say that he was not told. */
-static void warn_of_strangers(const struct reporter *reporter)
-{
-    bool unguarded = reporter->takes_commands && !reporter->link.secure;
-    atomic_store_explicit(&reporter->view.slot[ROLE_REPORTER]->unguarded, unguarded,
-                          memory_order_relaxed);
-    if (!unguarded)
-        return;
-    log_warn("************************************************************************");
-    log_warn("* --remote-commands WITHOUT DDS Security: everybody who reaches this   *");
-    log_warn("* machine's DDS ports commands the world: pauses, fills and empties it. *");
-    log_warn("* docs/topics.md, \"Security\", says how to let in only whom you know.   *");
-    log_warn("************************************************************************");
-}
-
 int main(int argc, char **argv)
 {
     static struct reporter reporter;
@@ -148,7 +133,7 @@ int main(int argc, char **argv)
         segment_detach(&reporter.view);
         die_refused("%s", reason.text);
     }
-    warn_of_strangers(&reporter);
+    remote_commands_tell(&reporter.view, reporter.takes_commands && !reporter.link.secure);
     segment_ready(&reporter.view);
 
     while (!process_stopping()) {

@@ -2,6 +2,7 @@
 #include "reporter/remote_commands.h"
 
 #include "ipc/clock.h"
+#include "ipc/log.h"
 #include "ipc/runtime_folder.h"
 
 #include <unistd.h>
@@ -83,4 +84,16 @@ bool remote_commands_busy(const struct remote_commands *remote, uint64_t now_ns)
             return true;
     }
     return false;
+}
+
+void remote_commands_tell(struct view *view, bool unguarded)
+{
+    atomic_store_explicit(&view->slot[ROLE_REPORTER]->unguarded, unguarded, memory_order_relaxed);
+    if (!unguarded)
+        return;
+    log_warn("************************************************************************");
+    log_warn("* --remote-commands WITHOUT DDS Security: everybody who reaches this   *");
+    log_warn("* machine's DDS ports commands the world: pauses, fills and empties it. *");
+    log_warn("* docs/topics.md, \"Security\", says how to let in only whom you know.   *");
+    log_warn("************************************************************************");
 }

@@ -33,4 +33,8 @@ void remote_commands_turn(struct remote_commands *remote, uint64_t now_ns);
 /* True when a sender was heard lately, so that replies are to be expected. */
 bool remote_commands_busy(const struct remote_commands *remote, uint64_t now_ns);
 
+/* Notes in the reporter's slot whether the world takes remote commands without DDS Security. If it
+ * does, the log warns of it. */
+void remote_commands_tell(struct view *view, bool unguarded);
+
 #endif

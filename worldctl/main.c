@@ -64,8 +64,8 @@ static const struct verb verbs[] = {
     {"list",
      verb_list,
      {"", 1},
-     "[worlds | all | lost]     this user's worlds; all: what is left of dead ones too; lost: files "
-     "in /dev/shm that no name leads to"},
+     "[worlds | all | lost]     this user's worlds; all: what is left of dead ones too; lost: "
+     "files in /dev/shm that no name leads to"},
     {"paths",
      verb_paths,
      {"world ", 1},
