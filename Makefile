@@ -114,7 +114,8 @@ IPC      := $(call objects,$(IPC_SRC))
 ARCHIVE  := $(call objects,$(ARCHIVE_SRC))
 SANDBOX  := $(call objects,$(SANDBOX_SRC))
 CONFIG   := $(call objects,$(CONFIG_SRC))
-SUPPORT  := $(call objects,$(SUPPORT_SRC))
+CONFINED := $(OBJ)/tests/support/confined.o
+SUPPORT  := $(filter-out $(CONFINED),$(call objects,$(SUPPORT_SRC)))
 # The steps without their main, for tests and benchmarks.
 STEPS    := $(call objects,$(filter-out %/main.c,$(MOVER_SRC) $(COLLIDER_SRC)))
 # What reads and writes logs, without the recorder itself.
@@ -317,8 +318,9 @@ $(BUILD)/tests/unit/test_console_parts: $(call objects,$(addprefix console/,answ
         pictures.c players.c secret.c text.c)) $(HTTP)
 $(BUILD)/tests/unit/test_console_parts: TEST_LIBS += $(call pc,libs,libmicrohttpd)
 $(BUILD)/tests/unit/test_connection_limit: $(OBJ)/http/connection_limit.o
-$(BUILD)/tests/unit/test_sandbox: $(SANDBOX)
-$(BUILD)/tests/unit/test_sandbox: TEST_LIBS += $(SANDBOX_LIBS) $(DDS_LIBS)
+SANDBOX_TESTS := $(addprefix $(BUILD)/tests/unit/test_,sandbox sandbox_files sandbox_keeper)
+$(SANDBOX_TESTS): $(CONFINED) $(SANDBOX)
+$(SANDBOX_TESTS): TEST_LIBS += $(SANDBOX_LIBS) $(DDS_LIBS)
 $(OBJ)/tests/unit/test_sandbox.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
 # Preloaded by system tests; it stands in the way of functions that the headers say much about.
 FAILING := $(BUILD)/tests/faults/failing.so
