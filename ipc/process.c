@@ -23,7 +23,9 @@ static void on_stop(int signal_number)
     stopping = 1;
 }
 
-static struct segment_paths gone; /* what goes with the world's memory; "": nothing */
+/* What goes with the world's memory; "": nothing. */
+#define GOES_COUNT 5
+static char goes[GOES_COUNT][SEGMENT_PATH_MAX + 16];
 
 /* A page that the object no longer has: somebody made it shorter under us. A bus error of any other
  * kind is a crash like any other: the instruction runs again, without a handler, and ends the
@@ -34,17 +36,20 @@ static void on_bus_error(int signal_number, siginfo_t *info, void *context)
     (void)context;
     if (info->si_code != BUS_ADRERR)
         return;
-    const char *const paths[] = {gone.object, gone.name, gone.lock};
-    for (int i = 0; i < 3; i++) {
-        if (paths[i][0] != '\0')
-            unlink(paths[i]);
+    for (int i = 0; i < GOES_COUNT; i++) {
+        if (goes[i][0] != '\0')
+            unlink(goes[i]);
     }
     die_at_once("the world's memory went away: its object in /dev/shm was made shorter");
 }
 
 void process_guard_removes(const struct segment_paths *paths)
 {
-    gone = *paths;
+    snprintf(goes[0], sizeof goes[0], "%s", paths->object);
+    snprintf(goes[1], sizeof goes[1], "%s", paths->name);
+    snprintf(goes[2], sizeof goes[2], "%s", paths->lock);
+    snprintf(goes[3], sizeof goes[3], "%s.commands", paths->name);
+    snprintf(goes[4], sizeof goes[4], "%s.pictures", paths->name);
 }
 
 static void check_stack(void)

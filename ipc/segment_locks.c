@@ -133,22 +133,21 @@ static int open_or_make(const char *path, bool *made, struct reason *reason)
 
 /* Creation and removal hold the byte for moments, so it is asked for until it is free. The file may
  * be removed and made again between open and lock: then it is opened again. */
-int segment_lock_name(const char *path, struct reason *reason)
+int segment_lock_name(const char *path, bool *made, struct reason *reason)
 {
     uint64_t until = clock_now_ns() + NAME_NS;
     for (;;) {
         struct stat held, named;
         struct flock byte = {
             .l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = NAME_BYTE, .l_len = 1};
-        bool made;
-        int fd = open_or_make(path, &made, reason);
+        int fd = open_or_make(path, made, reason);
         if (fd < 0)
             return -1;
         bool ours = fcntl(fd, F_OFD_SETLK, &byte) == 0;
         if (!ours && errno != EAGAIN && errno != EACCES) {
             reason_set(reason, "%s: cannot lock: %s", path, strerror(errno));
             close(fd);
-            if (made)
+            if (*made)
                 unlink(path);
             return -1;
         }

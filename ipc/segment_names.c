@@ -161,12 +161,15 @@ int segment_give_names(const char *name, int fd, struct reason *reason)
     if (segment_paths(&paths, name, reason) != 0)
         return -1;
     CRASH_POINT("lock file");
-    int lock = segment_lock_name(paths.lock, reason);
+    bool made;
+    int lock = segment_lock_name(paths.lock, &made, reason);
     if (lock < 0)
         return -1;
     int result = -1;
     if (segment_paths(&paths, name, reason) == 0 && free_name(&paths, name, reason) == 0)
         result = link_names(name, fd, &paths, reason);
+    if (result != 0 && made)
+        unlink(paths.lock); /* the sweep could not, when no file can be opened */
     close(lock);
     if (result != 0) {
         struct reason second;
@@ -235,7 +238,8 @@ static int remove_what(const char *name, enum what what, struct reason *reason)
     if (segment_paths(&paths, name, reason) != 0 ||
         (what != WORLD_BY_FORCE && refuse_if_held(&paths, name, reason) != 0))
         return -1;
-    int fd = segment_lock_name(paths.lock, reason);
+    bool made;
+    int fd = segment_lock_name(paths.lock, &made, reason);
     if (fd < 0)
         return -1;
     int result = segment_paths(&paths, name, reason);
@@ -329,7 +333,7 @@ int segment_list_lost(char files[][SEGMENT_LOST_MAX], int max)
             strlen(entry->d_name) < SEGMENT_LOST_MAX && !named_here(entry->d_name) &&
             fstatat(dirfd(directory), entry->d_name, &status, AT_SYMLINK_NOFOLLOW) == 0 &&
             status.st_uid == getuid())
-            snprintf(files[count++], SEGMENT_LOST_MAX, "%s", entry->d_name);
+            snprintf(files[count++], SEGMENT_LOST_MAX, "%.*s", SEGMENT_LOST_MAX - 1, entry->d_name);
     }
     closedir(directory);
     return count;

@@ -45,10 +45,13 @@ struct flood {
 
 static struct flood parse(int argc, char **argv)
 {
-    static const struct option known[] = {
-        {"world", required_argument, NULL, 'w'},   {"seconds", required_argument, NULL, 's'},
-        {"vehicle", required_argument, NULL, 'v'}, {"idle", required_argument, NULL, 'i'},
-        {"spawn", no_argument, NULL, 'p'},         {NULL, 0, NULL, 0}};
+    static const struct option known[] = {{"world", required_argument, NULL, 'w'},
+                                          {"seconds", required_argument, NULL, 's'},
+                                          {"vehicle", required_argument, NULL, 'v'},
+                                          {"idle", required_argument, NULL, 'i'},
+                                          {"spawn", no_argument, NULL, 'p'},
+                                          {"packet", no_argument, NULL, 'P'},
+                                          {NULL, 0, NULL, 0}};
     struct flood flood = {.world = "default", .seconds = 2.0, .vehicle = 1};
     int option;
     while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
@@ -83,7 +86,7 @@ static int connect_to(const struct flood *flood)
     struct reason reason;
     int fd = local_socket_connect(flood->world, COMMAND_SOCKET_SUFFIX,
                                   SOCK_SEQPACKET | SOCK_NONBLOCK, &reason);
-    if (fd < 0)
+    if (fd < 0 && errno != EAGAIN) /* the backlog is full */
         die_refused("%s", reason.text);
     return fd;
 }

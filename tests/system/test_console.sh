@@ -2,6 +2,7 @@
 # The console over real processes: what it tells, what can be ordered through it, what it refuses, and that
 # hostile clients of it and of the live stream stop nobody. SEED=n and FUZZ=n choose other hostile bytes, and how many.
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+# Runs alone: it measures time.
 . "$here/lib.sh"
 
 console() { # options...

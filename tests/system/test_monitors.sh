@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # A hundred monitors at once, one of them stopped, and the simulation keeps its time: its late frames
 # beside those of a run without any. MONITORS=n and FRAMES=n choose others.
+# Runs alone: it measures time.
 . "$(dirname "$0")/lib.sh"
 monitors=${MONITORS:-100}
 frames=${FRAMES:-480}

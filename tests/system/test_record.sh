@@ -18,7 +18,7 @@ at_frame() { [ "$(frame)" -ge "$1" ]; }
 check "a run starts" start --events events
 (
     for n in $(seq $((kills * 2))); do
-        ctl --timeout 30 spawn tank --at "25000,$((24000 + n)).125" >spawned || exit 1
+        ctl --timeout 30 spawn tank --at "25000,$((24000 + 12 * n)).125" >spawned || exit 1
         ctl --timeout 30 drive "$(awk '{ print $3 }' spawned)" --throttle 0.3 --steer -0.1 || exit 1
     done
 ) >/dev/null 2>&1 &

@@ -3,6 +3,7 @@
 # ones of captured discovery and data, participants that come and go.
 # PACKETS=n and SEED=n choose others, RATE=n more a second.
 here=$(cd "$(dirname "$0")" && pwd)
+# Runs alone: it measures time.
 . "$here/lib.sh"
 peer=$bin/../tests/rtps/peer
 rtps=$here/../rtps
