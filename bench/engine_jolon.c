@@ -94,7 +94,7 @@ static void *jolon_open(const struct engine_scene *scene, uint32_t threads)
     if (!self->workers || broad_init(&self->broad, &self->world, self->workers) != 0)
         die_refused("cannot begin: %s", strerror(errno));
     for (int i = 0; i < WORKERS_MAX; i++) {
-        if (pair_list_init(&self->touching[i], detect_pairs_most(&self->world)) != 0)
+        if (pair_list_init(&self->touching[i], detect_pairs_first(&self->world)) != 0)
             die_refused("cannot begin: %s", strerror(errno));
     }
     return self;

@@ -218,7 +218,7 @@ static void measure_size(struct finder finders[METHOD_COUNT], uint32_t bodies, b
             continue;
         finder->workspace = detect_workspace_create(&field.world);
         if (!finder->workspace || broad_init(&finder->broad, &field.world, NULL) != 0 ||
-            pair_list_init(&finder->pairs, detect_pairs_most(&field.world)) != 0)
+            pair_list_init(&finder->pairs, detect_pairs_first(&field.world)) != 0)
             die_refused("out of memory");
         if (method == METHOD_SWEPT)
             contacts = count_touching(&field, find(finder, &field));

@@ -57,22 +57,30 @@ struct bin_chunk {
 
 _Static_assert(sizeof(struct bin_chunk) == BIN_CHUNK_BYTES, "chunks lie on borders of their size");
 
+#define BIN_SLABS        24 /* from one chunk on, enough for CAPACITY_MAX rows in all strips */
+#define BIN_STRIPS_A_ROW 8u
+
 /* One worker's bins. */
 struct bins {
     struct bin_record *next[STRIP_COUNT]; /* where the next record goes; on a multiple of
                                              BIN_CHUNK_BYTES there is no room for it */
-    struct bin_chunk *chunk;              /* [capacity] kept from frame to frame */
-    uint32_t chunks, capacity;            /* how many the frame has taken so far */
+    /* Chunks lie in slabs that are kept from frame to frame: slab i has first << i of them. Chunks
+     * point at each other, so a frame that needs more gets another slab, and nothing moves. */
+    struct bin_chunk *slab[BIN_SLABS]; /* NULL: no frame has needed it */
+    uint32_t first;
+    uint32_t at, chunks; /* the frame takes from this slab, and has taken so many of it */
 };
 
-/* For this many rows, each in every strip. 0, or -1 with errno ENOMEM. */
+/* Set aside are chunks for this many rows in BIN_STRIPS_A_ROW strips each. 0, or -1 with errno
+ * ENOMEM. */
 int bins_init(struct bins *bins, uint32_t rows);
 void bins_free(struct bins *bins);
 
 /* Empties the bins and keeps their memory. */
 void bins_clear(struct bins *bins);
 
-/* A new chunk for the strip: where its first record goes. */
+/* A new chunk for the strip: where its first record goes. A kernel that refuses another slab ends
+ * the process. */
 struct bin_record *bins_chunk(struct bins *bins, uint32_t strip);
 
 static inline void bins_add(struct bins *bins, uint32_t strip, struct bin_record record)

@@ -16,7 +16,7 @@
 int broad_init(struct broad *broad, const struct world *world, struct workers *workers)
 {
     *broad = (struct broad){.world = world, .workers = workers, .lanes = workers_threads(workers)};
-    uint32_t rows = world->params->capacity, pairs = detect_pairs_most(world);
+    uint32_t rows = world->params->capacity, pairs = detect_pairs_first(world);
     broad->box = malloc(rows * sizeof *broad->box);
     broad->lane = calloc(broad->lanes, sizeof *broad->lane);
     bool taken = broad->box && broad->lane && standing_init(&broad->standing, world) == 0;

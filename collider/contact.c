@@ -1,6 +1,7 @@
 /* The frame's contacts in a heap, and their renewal. */
 #include "collider/contact.h"
 
+#include "collider/array.h"
 #include "ipc/log.h"
 #include "world/reserve.h"
 #include "world/work_done.h"
@@ -15,6 +16,9 @@
 /* Ends of a row's way: the ground, and the air. */
 #define ENDS_A_ROW 2u
 
+/* More contacts never wait: each pair and each row's end, and as many void ones. */
+#define HEAP_MAX (2u * (PAIRS_MAX + ENDS_A_ROW * CAPACITY_MAX))
+
 /* Each pair has at most one contact that holds, and each row two ends. */
 static uint32_t holding_most(const struct contacts *contacts, uint32_t pairs)
 {
@@ -23,7 +27,7 @@ static uint32_t holding_most(const struct contacts *contacts, uint32_t pairs)
 
 int contacts_init(struct contacts *contacts, const struct world *world, struct workers *workers)
 {
-    uint32_t rows = world->params->capacity, pairs = detect_pairs_most(world);
+    uint32_t rows = world->params->capacity, pairs = detect_pairs_first(world);
     *contacts = (struct contacts){.workers = workers, .rows = rows, .pair_capacity = pairs};
     contacts->heap.capacity = 2 * holding_most(contacts, pairs);
     contacts->heap.contact = reserve_take(contacts->heap.capacity, sizeof *contacts->heap.contact);
@@ -67,9 +71,22 @@ static void link_row(struct contacts *contacts, uint32_t row, uint32_t pair)
     contacts->head[row] = ++contacts->link_count;
 }
 
+static void more_pairs(struct contacts *contacts)
+{
+    uint32_t held = contacts->pair_count, more = 2 * contacts->pair_capacity + 1;
+    CHECK(held < PAIRS_MAX);
+    contacts->pair = array_grow(contacts->pair, held, more, sizeof *contacts->pair);
+    contacts->met = array_grow(contacts->met, held, more, sizeof *contacts->met);
+    contacts->swept = array_grow(contacts->swept, held, more, sizeof *contacts->swept);
+    contacts->link = array_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
+                                sizeof *contacts->link);
+    contacts->pair_capacity = more;
+}
+
 static void add_pair(struct contacts *contacts, struct pair pair)
 {
-    CHECK(contacts->pair_count < contacts->pair_capacity);
+    if (contacts->pair_count == contacts->pair_capacity)
+        more_pairs(contacts);
     uint32_t index = contacts->pair_count++;
     contacts->pair[index] = pair;
     contacts->met[index] = 0;
@@ -156,11 +173,22 @@ static void drop_void(struct contacts *contacts)
     order_heap(heap);
 }
 
+/* Sees to it that the heap's array has room for this many contacts more. */
+static void make_room(struct contact_list *heap, uint32_t more)
+{
+    uint64_t needed = (uint64_t)heap->count + more;
+    if (needed <= heap->capacity)
+        return;
+    CHECK(needed <= HEAP_MAX);
+    heap->contact = array_grow(heap->contact, heap->count, 2 * needed, sizeof *heap->contact);
+    heap->capacity = (uint32_t)(2 * needed);
+}
+
 static void push(struct contacts *contacts, const struct contact *contact)
 {
     if (contacts->heap.count >= 2 * holding_most(contacts, contacts->pair_count))
         drop_void(contacts);
-    CHECK(contacts->heap.count < contacts->heap.capacity);
+    make_room(&contacts->heap, 1);
     struct contact *heap = contacts->heap.contact;
     uint32_t i = contacts->heap.count++;
     while (i > 0 && earlier(contact, &heap[(i - 1) / 2])) {
@@ -227,10 +255,12 @@ static void find_some(void *context, uint32_t first, uint32_t end, uint32_t work
     }
 }
 
-/* What is found of count things goes into the heap. */
-static void find_all(struct job *job, workers_function *find, uint32_t count, uint32_t grain)
+/* What is found of count things, at most `each` of one, goes into the heap. */
+static void find_all(struct job *job, workers_function *find, uint32_t count, uint32_t each,
+                     uint32_t grain)
 {
     struct contacts *contacts = job->contacts;
+    make_room(&contacts->heap, count * each);
     job->found = contacts->heap.count;
     workers_run(contacts->workers, find, job, count, grain);
     contacts->heap.count = job->found;
@@ -240,7 +270,7 @@ static void find_all(struct job *job, workers_function *find, uint32_t count, ui
 void contacts_find(struct contacts *contacts, const struct contact_input *input)
 {
     struct job job = {.contacts = contacts, .input = input};
-    find_all(&job, find_some, contacts->pair_count, PAIRS_A_PIECE);
+    find_all(&job, find_some, contacts->pair_count, 1, PAIRS_A_PIECE);
 }
 
 static struct contact end_of(const struct contacts *contacts, uint32_t row, uint32_t what,
@@ -305,7 +335,7 @@ void contacts_find_ends(struct contacts *contacts, const struct contact_input *i
     uint32_t count = 0;
     for (uint32_t lane = 0; lane < input->broad->lanes; lane++)
         count += input->broad->lane[lane].fliers.count;
-    find_all(&job, find_some_ends, count, FLIERS_A_PIECE);
+    find_all(&job, find_some_ends, count, ENDS_A_ROW, FLIERS_A_PIECE);
 }
 
 const struct contact *contacts_peek(struct contacts *contacts)

@@ -47,7 +47,7 @@ struct contacts {
     uint32_t *swept;          /* [pair] with which change last, 0: with none */
     uint32_t change;          /* changes so far in this frame */
     uint32_t pair_count, pair_capacity;
-    struct contact_link *link; /* pairs of each row; two for each pair at most */
+    struct contact_link *link; /* pairs of each row; two for each of pair_capacity */
     uint32_t link_count;
     uint32_t rows;     /* capacity of the world */
     uint32_t *head;    /* [capacity of the world] link + 1; only rows with pairs are set */
@@ -91,7 +91,8 @@ void contacts_ground(struct contacts *contacts, const struct contact_input *inpu
 /* A contact of a row with ground or air; of one way of the row one with each. */
 void contacts_add_end(struct contacts *contacts, uint32_t row, uint32_t what, double toi);
 
-/* The earliest contact that still holds, left in its place; NULL when there is none. */
+/* The earliest contact that still holds, left in its place until the heap changes; NULL when there
+ * is none. */
 const struct contact *contacts_peek(struct contacts *contacts);
 
 /* Takes it; false when there is none. */

@@ -1,6 +1,7 @@
 /* What the methods of detection share: boxes, and who can never collide. */
 #include "collider/detect.h"
 
+#include "collider/array.h"
 #include "ipc/log.h"
 #include "world/reserve.h"
 #include "world/square.h"
@@ -9,16 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-uint32_t detect_pairs_most(const struct world *world)
+uint32_t detect_pairs_first(const struct world *world)
 {
-    uint64_t rows = world->params->capacity;
+    uint64_t rows = world->params->capacity, first = PAIRS_FIRST + PAIRS_A_ROW * rows;
     uint64_t most = rows * (rows - 1) / 2 + rows * world->counts.fixed;
-    return most < PAIRS_MAX ? (uint32_t)most : PAIRS_MAX;
+    return (uint32_t)(most < first ? most : first);
 }
 
-int pair_list_init(struct pair_list *list, uint64_t most)
+int pair_list_init(struct pair_list *list, uint64_t count)
 {
-    *list = (struct pair_list){.capacity = most < UINT32_MAX ? (uint32_t)most : UINT32_MAX};
+    *list = (struct pair_list){.capacity = count < PAIRS_MAX ? (uint32_t)count : PAIRS_MAX};
     list->pair = reserve_take(list->capacity, sizeof *list->pair);
     return list->pair ? 0 : -1;
 }
@@ -29,9 +30,18 @@ void pair_list_free(struct pair_list *list)
     *list = (struct pair_list){0};
 }
 
+static void grow_list(struct pair_list *list)
+{
+    CHECK(list->count < PAIRS_MAX);
+    uint32_t more = 2 * list->capacity + 1;
+    list->pair = array_grow(list->pair, list->count, more, sizeof *list->pair);
+    list->capacity = more;
+}
+
 void pair_list_add(struct pair_list *list, uint32_t a, uint32_t b)
 {
-    CHECK(list->count < list->capacity);
+    if (list->count == list->capacity)
+        grow_list(list);
     list->pair[list->count++] = (struct pair){a, b};
 }
 
@@ -145,7 +155,7 @@ detect_method *detect_method_of(enum method method)
 
 struct detect_workspace {
     void *block[DETECT_BLOCKS];
-    size_t bytes; /* of each */
+    size_t bytes[DETECT_BLOCKS];
 };
 
 struct detect_workspace *detect_workspace_create(const struct world *world)
@@ -154,9 +164,9 @@ struct detect_workspace *detect_workspace_create(const struct world *world)
     uint64_t bodies = (uint64_t)world->params->capacity + world->counts.fixed;
     if (!workspace)
         return NULL;
-    workspace->bytes = (size_t)bodies * DETECT_BODY_BYTES + SQUARE_COUNT;
     for (int i = 0; i < DETECT_BLOCKS; i++) {
-        workspace->block[i] = reserve_take(workspace->bytes, 1);
+        workspace->bytes[i] = (size_t)bodies * DETECT_BODY_BYTES + SQUARE_COUNT;
+        workspace->block[i] = reserve_take(workspace->bytes[i], 1);
         if (!workspace->block[i]) {
             detect_workspace_free(workspace);
             errno = ENOMEM;
@@ -168,7 +178,11 @@ struct detect_workspace *detect_workspace_create(const struct world *world)
 
 void *detect_block(struct detect_workspace *workspace, uint32_t block, size_t count, size_t size)
 {
-    CHECK(count <= workspace->bytes / size);
+    if (count > workspace->bytes[block] / size) {
+        workspace->bytes[block] = 2 * count * size;
+        workspace->block[block] =
+            array_grow(workspace->block[block], 0, workspace->bytes[block], 1);
+    }
     return workspace->block[block];
 }
 

@@ -39,14 +39,17 @@ struct pair_list {
  * below 2^32. */
 #define PAIRS_MAX (1u << 29)
 
-/* The most pairs that a frame of this world can have. */
-uint32_t detect_pairs_most(const struct world *world);
+/* How many pairs are set aside for a frame of this world: PAIRS_FIRST and PAIRS_A_ROW for each of
+ * its rows, but no more than the world can have. A frame with more makes arrays grow. */
+#define PAIRS_FIRST (1u << 18)
+#define PAIRS_A_ROW 1u
+uint32_t detect_pairs_first(const struct world *world);
 
-/* Takes the memory of at most this many pairs. 0, or -1 with errno ENOMEM. */
-int pair_list_init(struct pair_list *list, uint64_t most);
+/* Takes the address space of this many pairs. 0, or -1 with errno ENOMEM. */
+int pair_list_init(struct pair_list *list, uint64_t count);
 void pair_list_free(struct pair_list *list);
 
-/* A full list is a bug: it ends the process. */
+/* A full list grows. PAIRS_MAX pairs end the process. */
 void pair_list_add(struct pair_list *list, uint32_t a, uint32_t b);
 
 /* Half a float's step at 50 km is 2 mm; 1 cm keeps every box outside [m]. */
@@ -138,11 +141,12 @@ void detect_workspace_free(struct detect_workspace *workspace);
 detect_method *detect_method_of(enum method method);
 
 /* For the methods: room for count items of size bytes in the workspace's block with this number, of
- * DETECT_BLOCKS; DETECT_BODIES and up are detect_bodies'. At most DETECT_BODY_BYTES for each body
- * and SQUARE_COUNT more. */
+ * DETECT_BLOCKS; DETECT_BODIES and up are detect_bodies'. What the block held may be lost. Set
+ * aside are DETECT_BODY_BYTES for each body and SQUARE_COUNT more; a block that needs more grows.
+ */
 #define DETECT_BLOCKS     13
 #define DETECT_BODIES     9
-#define DETECT_BODY_BYTES 1024u
+#define DETECT_BODY_BYTES 64u
 void *detect_block(struct detect_workspace *workspace, uint32_t block, size_t count, size_t size);
 
 /* All that can be met in the frame, numbered through: first the rows that are there, then the fixed

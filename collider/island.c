@@ -1,7 +1,7 @@
 /* From contacts of one moment to islands, through the solver, to the bodies' new ways. */
 #include "collider/island.h"
 
-#include "ipc/log.h"
+#include "collider/array.h"
 #include "world/inertia.h"
 #include "world/reserve.h"
 
@@ -13,10 +13,10 @@
 
 int island_init(struct island *island, const struct world *world)
 {
-    uint32_t rows = world->params->capacity, most = detect_pairs_most(world);
-    uint64_t solved = (uint64_t)rows + most; /* a fixed object is a body of its own each time */
-    *island = (struct island){.meeting_capacity = most};
-    island->meeting = reserve_take((uint64_t)most + 1, sizeof *island->meeting);
+    uint32_t rows = world->params->capacity, most = detect_pairs_first(world);
+    uint64_t solved = (uint64_t)rows + most;
+    *island = (struct island){.meeting_capacity = most, .rows = rows};
+    island->meeting = reserve_take(most, sizeof *island->meeting);
     island->body = reserve_take(rows, sizeof *island->body);
     island->row = reserve_take(rows, sizeof *island->row);
     island->body_of = calloc(rows, sizeof *island->body_of);
@@ -73,10 +73,24 @@ static void join(struct island *island, uint32_t p, uint32_t q)
     island->body[a > b ? a : b].parent = a > b ? b : a;
 }
 
+/* Nothing is in the solver while meetings are gathered: there is nothing to copy. */
+static void more_meetings(struct island *island)
+{
+    uint32_t more = 2 * island->meeting_capacity + 1;
+    uint64_t solved = (uint64_t)island->rows + more;
+    island->meeting = array_grow(island->meeting, island->meetings, more, sizeof *island->meeting);
+    island->solve = array_grow(island->solve, 0, solved, sizeof *island->solve);
+    island->solve_of = array_grow(island->solve_of, 0, solved, sizeof *island->solve_of);
+    island->contact = array_grow(island->contact, 0, more, sizeof *island->contact);
+    island->meeting_capacity = more;
+}
+
 /* Takes in one contact: a lean, a fixed object that gives way, or a meeting for the solver. */
 static void take(struct respond *respond, const struct contact *contact)
 {
     struct island *island = respond->island;
+    if (island->meetings == island->meeting_capacity)
+        more_meetings(island);
     struct island_meeting *meeting = &island->meeting[island->meetings];
     *meeting = (struct island_meeting){
         .contact = *contact, .impact = respond_impact(respond, contact), .body_b = BODY_FIXED};
@@ -96,7 +110,6 @@ static void take(struct respond *respond, const struct contact *contact)
         island->body[meeting->body_b].stays |= contact->last;
         join(island, meeting->body_a, meeting->body_b);
     }
-    CHECK(island->meetings < island->meeting_capacity);
     island->meetings++;
 }
 

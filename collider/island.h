@@ -40,9 +40,11 @@ struct island {
     uint32_t *row; /* [bodies] theirs */
     uint32_t bodies;
     uint32_t *body_of; /* [capacity of the world] body + 1 of a row in this moment, else 0 */
-    struct solve_body *solve;
-    uint32_t *solve_of; /* body of each */
-    struct solve_contact *contact;
+    /* A fixed object is a body of its own each time. */
+    struct solve_body *solve;      /* [capacity of the world + meeting_capacity] */
+    uint32_t *solve_of;            /* body of each */
+    struct solve_contact *contact; /* [meeting_capacity] */
+    uint32_t rows;                 /* capacity of the world */
 };
 
 /* 0, or -1 with errno ENOMEM. */

@@ -1,5 +1,6 @@
 /* jolon-collider: finds and answers every collision of a frame and commits it. Writes both world
  * buffers, the craters and the event ring. */
+#include "collider/array.h"
 #include "collider/step.h"
 #include "ipc/frame.h"
 #include "ipc/log.h"
@@ -9,17 +10,32 @@
 #include "world/work_done.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <string.h>
+
+/* Says when the frame has needed more memory than was set aside, which costs it time. */
+static void tell_growth(uint64_t *told)
+{
+    uint64_t growths = array_growths();
+    if (growths == *told)
+        return;
+    log_info("%" PRIu64 " array(s) of a step had to grow beyond what is set aside: "
+             "this frame took longer for it",
+             growths - *told);
+    *told = growths;
+}
 
 /* The frames, until the process is asked to stop or the run is over. */
 static void collide_frames(struct collider *collider, struct view *view)
 {
     const struct event_ring ring = {view->events, view->header->event_slots};
     struct frame frame;
+    uint64_t told = 0;
     while (frame_collider_begin(&frame, view) == 0) {
         collider_step(collider, &view->w[(frame.number - 1) & 1], &view->m,
                       &view->w[frame.number & 1], &ring);
         frame_collider_end(&frame, view);
+        tell_growth(&told);
     }
 }
 

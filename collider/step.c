@@ -21,7 +21,7 @@ int collider_init(struct collider *collider, const struct world *world,
         contacts_init(&collider->contacts, world, workers) != 0 ||
         island_init(&collider->island, world) != 0 ||
         charges_init(&collider->charges, world) != 0 ||
-        pair_list_init(&collider->pairs, detect_pairs_most(world)) != 0 ||
+        pair_list_init(&collider->pairs, detect_pairs_first(world)) != 0 ||
         !(collider->workspace = detect_workspace_create(world))) {
         collider_free(collider);
         errno = ENOMEM;

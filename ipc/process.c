@@ -175,8 +175,8 @@ double process_number(const char *option, const char *text, double low, double h
 void process_refuse_memory(uint32_t capacity)
 {
     die_refused("cannot take the memory of the steps of a world of capacity %u: %s; allow more "
-                "address space (ulimit -v; vm.overcommit_memory must not be 2) or lower "
-                "world.capacity",
+                "address space (ulimit -v; vm.overcommit_ratio where vm.overcommit_memory is 2) "
+                "or lower world.capacity",
                 capacity, strerror(errno));
 }
 

@@ -2,6 +2,7 @@
 #include "world/reserve.h"
 
 #include <errno.h>
+#include <string.h>
 #include <sys/mman.h>
 
 /* A large page of memory for an array that holds a few items would cost more than the items. */
@@ -35,6 +36,16 @@ void *reserve_take(uint64_t count, size_t size)
     char *memory = mapping + (over > 0 ? 2 * (size_t)RESERVE_ALIGN - over : RESERVE_ALIGN);
     *of(memory) = (struct reservation){mapping, bytes};
     return memory;
+}
+
+void *reserve_grow(void *memory, uint64_t held, uint64_t count, size_t size)
+{
+    void *larger = reserve_take(count, size);
+    if (!larger)
+        return NULL;
+    memcpy(larger, memory, (size_t)held * size);
+    reserve_free(memory);
+    return larger;
 }
 
 void reserve_free(void *memory)

@@ -376,7 +376,7 @@ static int by_pair(const void *p, const void *q)
 static struct pair_list all_pairs(const struct broad *broad)
 {
     struct pair_list all;
-    assert_int_equal(pair_list_init(&all, detect_pairs_most(broad->world)), 0);
+    assert_int_equal(pair_list_init(&all, detect_pairs_first(broad->world)), 0);
     for (int list = 0; list < WORKERS_MAX; list++) {
         for (uint32_t n = 0; n < broad->list[list].count; n++)
             pair_list_add(&all, broad->list[list].pair[n].a, broad->list[list].pair[n].b);

@@ -183,8 +183,8 @@ static void begin_lists(struct lists *lists, const struct small_world *w, uint32
     world.counts.fixed = fixed;
     *lists = (struct lists){.workspace = detect_workspace_create(&world)};
     assert_non_null(lists->workspace);
-    assert_int_equal(pair_list_init(&lists->wanted, detect_pairs_most(&world)), 0);
-    assert_int_equal(pair_list_init(&lists->found, detect_pairs_most(&world)), 0);
+    assert_int_equal(pair_list_init(&lists->wanted, detect_pairs_first(&world)), 0);
+    assert_int_equal(pair_list_init(&lists->found, detect_pairs_first(&world)), 0);
 }
 
 static void run(detect_method *method, struct small_world *w, struct detect_workspace *workspace,

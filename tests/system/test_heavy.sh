@@ -63,5 +63,24 @@ check "spot: they collide" test "$(json collisions <on.json)" -gt 1000
 check "a long frame ends no run" equal $? 0
 check "and kills nobody" equal "$(json restarts <long.json)" 0
 check "though it takes far longer than silence may" test "$(json collider_ms.max <long.json | cut -d. -f1)" -gt 300
+# 4,000 jeeps side by side, 28 m a frame: each box reaches into a hundred others, and the frame has more pairs
+# than are set aside (collider/detect.h). The arrays grow within the step, under the sandbox.
+{ echo 'world = { name = "abreast"; seed = 7; capacity = 4096; pace = "max"; hz = 1.0; };'
+    echo 'terrain = { source = "flat"; height_m = 100.0; };'
+    echo 'collision = { shape = "sphere"; };'
+    awk 'BEGIN {
+    print "vehicles = ("
+    for (i = 0; i < 4000; i++)
+        printf "%s{ kind = \"jeep\"; at = [%.1f, %.1f]; heading_deg = 45.0; speed_mps = 28.0; behaviour = \"hold\"; }\n",
+               i ? "," : "", 25000 + 3.5 * (i % 64), 25000 + 3.5 * int(i / 64)
+    print ");" }'; } >abreast.cfg
+run_both abreast 3
+check "abreast: arrays grew" grep -q 'had to grow' out-on/jolon.log
+
+# Whoever limits address space is no obstacle to the default world.
+(ulimit -v 8000000 && "$jolon" run -w "$name" --out limited --frames 60 --json >limited.json 2>limited.err)
+check "8 GB of address space a process are enough for the default world" equal $? 0
+check "and it comes to its end" equal "$(json frame <limited.json)" 60
+check "and nobody died" equal "$(json restarts <limited.json)" 0
 check "nothing is left" nothing_left "$name"
 done_testing

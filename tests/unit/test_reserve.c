@@ -61,6 +61,31 @@ static void test_a_few_items_cost_a_page(void **state)
     reserve_free(NULL);
 }
 
+static void test_a_larger_array_keeps_what_it_held(void **state)
+{
+    uint64_t before = resident();
+    uint32_t *array = reserve_take(1000, sizeof *array);
+    (void)state;
+    assert_non_null(array);
+    for (uint32_t i = 0; i < 1000; i++)
+        array[i] = i + 1;
+    for (uint64_t count = 2000; count <= UINT64_C(1) << 34; count *= 64) {
+        array = reserve_grow(array, 900, count, sizeof *array);
+        assert_non_null(array);
+        assert_int_equal((uintptr_t)array % RESERVE_ALIGN, 0);
+        for (uint32_t i = 0; i < 900; i++)
+            assert_int_equal(array[i], i + 1);
+        assert_int_equal(array[900], 0);
+        array[count - 1] = 9;
+    }
+    errno = 0;
+    assert_null(reserve_grow(array, 900, UINT64_C(1) << 50, sizeof *array));
+    assert_int_equal(errno, ENOMEM);
+    assert_int_equal(array[899], 900);
+    assert_true(resident() < before + 4 * MEGABYTE);
+    reserve_free(array);
+}
+
 static void test_what_no_process_can_have_is_refused(void **state)
 {
     (void)state;
@@ -93,6 +118,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_far_more_than_the_machine_has_costs_what_is_touched),
         cmocka_unit_test(test_a_few_items_cost_a_page),
+        cmocka_unit_test(test_a_larger_array_keeps_what_it_held),
         cmocka_unit_test(test_what_no_process_can_have_is_refused),
         cmocka_unit_test(test_a_limit_on_address_space_refuses_at_once),
     };
