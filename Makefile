@@ -97,7 +97,8 @@ PROPERTY_SRC := $(wildcard tests/property/test_*.c)
 CRASH_SRC    := $(wildcard tests/crash/*.c)
 MAP_STAGE    := tests/support/map_stage.c
 SOFT_STAGE   := tests/support/soft_stage.c
-SUPPORT_SRC  := $(filter-out $(MAP_STAGE) $(SOFT_STAGE),$(wildcard tests/support/*.c))
+CONFINED     := tests/support/confined.c
+SUPPORT_SRC  := $(filter-out $(MAP_STAGE) $(SOFT_STAGE) $(CONFINED),$(wildcard tests/support/*.c))
 STORM_SRC    := $(wildcard tests/storm/*.c)
 LISTENER_SRC := tests/once/listener.c
 PEER_SRC     := $(wildcard tests/rtps/*.c)
@@ -114,8 +115,7 @@ IPC      := $(call objects,$(IPC_SRC))
 ARCHIVE  := $(call objects,$(ARCHIVE_SRC))
 SANDBOX  := $(call objects,$(SANDBOX_SRC))
 CONFIG   := $(call objects,$(CONFIG_SRC))
-CONFINED := $(OBJ)/tests/support/confined.o
-SUPPORT  := $(filter-out $(CONFINED),$(call objects,$(SUPPORT_SRC)))
+SUPPORT  := $(call objects,$(SUPPORT_SRC))
 # The steps without their main, for tests and benchmarks.
 STEPS    := $(call objects,$(filter-out %/main.c,$(MOVER_SRC) $(COLLIDER_SRC)))
 # What reads and writes logs, without the recorder itself.
@@ -264,7 +264,7 @@ $(OBJ)/%.o: %.cpp $(BUILD)/flags | $(STAMP)
 	@mkdir -p $(@D); echo "  CXX $<"
 	@$(CXX) -std=c++17 $(CXXFLAGS_ALL) $(PEER_CFLAGS) -MMD -MP -c -o $@ $<
 
-TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(PEER_SRC) $(LAG_SRC) $(FLOOD_SRC) $(FILM_SRC) $(GOLDEN_SRC) $(FUZZ_SRC)
+TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE) $(CONFINED) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(PEER_SRC) $(LAG_SRC) $(FLOOD_SRC) $(FILM_SRC) $(GOLDEN_SRC) $(FUZZ_SRC)
 $(call objects,$(TEST_SRC)): | $(TEST_STAMP)
 
 # Again when a file comes or goes, too.
@@ -319,8 +319,9 @@ $(BUILD)/tests/unit/test_console_parts: $(call objects,$(addprefix console/,answ
 $(BUILD)/tests/unit/test_console_parts: TEST_LIBS += $(call pc,libs,libmicrohttpd)
 $(BUILD)/tests/unit/test_connection_limit: $(OBJ)/http/connection_limit.o
 SANDBOX_TESTS := $(addprefix $(BUILD)/tests/unit/test_,sandbox sandbox_files sandbox_keeper)
-$(SANDBOX_TESTS): $(CONFINED) $(SANDBOX)
-$(SANDBOX_TESTS): TEST_LIBS += $(SANDBOX_LIBS) $(DDS_LIBS)
+$(SANDBOX_TESTS): $(call objects,$(CONFINED)) $(SANDBOX)
+$(SANDBOX_TESTS): TEST_LIBS += $(SANDBOX_LIBS)
+$(BUILD)/tests/unit/test_sandbox: TEST_LIBS += $(DDS_LIBS)
 $(OBJ)/tests/unit/test_sandbox.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
 # Preloaded by system tests; it stands in the way of functions that the headers say much about.
 FAILING := $(BUILD)/tests/faults/failing.so
