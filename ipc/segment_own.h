@@ -30,10 +30,11 @@ int segment_map(struct view *view, segment_writable *writable, struct reason *re
  * Refuses when the world exists. 0, or -1 with the reason. */
 int segment_give_names(const char *name, int fd, struct reason *reason);
 
-/* segment_locks.c: the lock file's descriptor (flags: O_RDONLY or O_RDWR, and O_CREAT), -1 with
- * errno and the reason; the same with the byte of it that keeps creation and removal of the name
- * apart, as long as it is open (made: the file was not there before); the first of the roles 0 .. last that is held, ROLE_NONE when none
- * is, -1 with the reason. */
+/* segment_locks.c. Each returns -1 with the reason when it fails; the first two set errno as well.
+ * segment_open_lock: the lock file's descriptor (flags: O_RDONLY or O_RDWR, and O_CREAT).
+ * segment_lock_name: the same with the byte of it that keeps creation and removal of the name
+ * apart, as long as it is open (made: the file was not there before).
+ * segment_first_held: the first of the roles 0 .. last that is held, ROLE_NONE when none is. */
 int segment_open_lock(const char *path, int flags, struct reason *reason);
 int segment_lock_name(const char *path, bool *made, struct reason *reason);
 int segment_first_held(const char *path, enum role last, struct reason *reason);
