@@ -37,7 +37,7 @@ struct reporter {
     struct remote_commands remote;
     bool takes_commands;
     struct batch batch;
-    dds_entity_t waitset;
+    dds_entity_t waitset; /* of the commands, when it takes some */
     uint64_t frame_due_ns;
 };
 
@@ -54,8 +54,9 @@ static int open_topics(struct reporter *reporter, struct reason *reason)
     if (reporter->takes_commands &&
         remote_commands_open(&reporter->remote, view->name, link, reason) != 0)
         return -1;
-    reporter->waitset =
-        dds_topics_waitset(link, &reporter->remote.reader, reporter->takes_commands, reason);
+    if (!reporter->takes_commands)
+        return 0;
+    reporter->waitset = dds_topics_waitset(link, &reporter->remote.reader, 1, reason);
     return reporter->waitset < 0 ? -1 : 0;
 }
 
@@ -94,8 +95,13 @@ static bool turn(struct reporter *reporter)
 /* Until the next turn, or until a command comes. */
 static void rest(const struct reporter *reporter)
 {
-    bool busy = reporter->takes_commands && remote_commands_busy(&reporter->remote, clock_now_ns());
-    dds_topics_wait(reporter->waitset, busy ? WAIT_COMMAND_NS : WAIT_NS);
+    uint64_t now_ns = clock_now_ns();
+    if (!reporter->takes_commands) /* a wait set of nothing would not wait */
+        clock_sleep_until_ns(now_ns + WAIT_NS);
+    else
+        dds_topics_wait(reporter->waitset, remote_commands_busy(&reporter->remote, now_ns)
+                                               ? WAIT_COMMAND_NS
+                                               : WAIT_NS);
 }
 
 /* What is committed goes out before the process ends, within bounds. */
