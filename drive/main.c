@@ -74,11 +74,24 @@ static void run(struct drive *drive)
     }
 }
 
+/* A world of one's own that is not there will not come by itself; one elsewhere may. */
+static int look_for_world(const struct options *options, struct reason *reason)
+{
+    struct view view;
+    if (options->remote)
+        return 0;
+    if (segment_attach(&view, options->world, ROLE_NONE, reason) != 0)
+        return -1;
+    segment_detach(&view);
+    return 0;
+}
+
 static void open_all(struct drive *drive)
 {
     struct reason reason;
     const struct options *options = &drive->options;
-    if (inputs_open(&drive->inputs, options->input, options->device, &reason) != 0 ||
+    if (look_for_world(options, &reason) != 0 ||
+        inputs_open(&drive->inputs, options->input, options->device, &reason) != 0 ||
         dds_link_open(&drive->link, &options->link, options->world, &reason) != 0 ||
         mirror_open(&drive->mirror, &drive->link, options->world, true, &reason) != 0 ||
         tail_open(&drive->tail, &drive->link, news_format, &reason) != 0 ||

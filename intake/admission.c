@@ -38,25 +38,35 @@ bool admission_is_operators(const jolon_Command *command)
     }
 }
 
+bool admission_is_costly(const jolon_Command *command)
+{
+    return command->type == jolon_COMMAND_SPAWN ||
+           (command->type == jolon_COMMAND_FIRE && command->entity == 0);
+}
+
 /* Takes what the command costs from the budgets; false, with nothing taken, when one is empty. */
 static bool pay(struct admission *admission, struct admission_source *source,
-                const jolon_Command *command, uint64_t now_ns)
+                const jolon_Command *command, bool strained, uint64_t now_ns)
 {
-    struct rate commands = source->commands, spawns = source->spawns, all = admission->spawns;
+    struct rate commands = source->commands, costly = source->costly, all = admission->costly;
+    struct rate few = admission->strained;
     if (!rate_take(&commands, ADMISSION_COMMANDS_PER_S, ADMISSION_COMMANDS_BURST, now_ns))
         return false;
-    if (command->type == jolon_COMMAND_SPAWN &&
-        (!rate_take(&spawns, ADMISSION_SPAWNS_PER_S, ADMISSION_SPAWNS_BURST, now_ns) ||
-         !rate_take(&all, ADMISSION_ALL_SPAWNS_PER_S, ADMISSION_ALL_SPAWNS_BURST, now_ns)))
+    if (admission_is_costly(command) &&
+        (!rate_take(&costly, ADMISSION_COSTLY_PER_S, ADMISSION_COSTLY_BURST, now_ns) ||
+         !rate_take(&all, ADMISSION_ALL_COSTLY_PER_S, ADMISSION_ALL_COSTLY_BURST, now_ns) ||
+         (strained &&
+          !rate_take(&few, ADMISSION_STRAINED_PER_S, ADMISSION_STRAINED_BURST, now_ns))))
         return false;
     source->commands = commands;
-    source->spawns = spawns;
-    admission->spawns = all;
+    source->costly = costly;
+    admission->costly = all;
+    admission->strained = few;
     return true;
 }
 
 /* One round over the sources, from the one whose turn it is. */
-static bool take_of(struct admission *admission, bool operators, uint64_t now_ns,
+static bool take_of(struct admission *admission, bool operators, bool strained, uint64_t now_ns,
                     jolon_Command *command, uint64_t *client)
 {
     for (uint32_t i = 0; i < ADMISSION_SOURCES; i++) {
@@ -64,7 +74,7 @@ static bool take_of(struct admission *admission, bool operators, uint64_t now_ns
         struct admission_source *source = &admission->source[at];
         const jolon_Command *head = &source->queue[source->first];
         if (!source->count || (operators && !admission_is_operators(head)) ||
-            !pay(admission, source, head, now_ns))
+            !pay(admission, source, head, strained, now_ns))
             continue;
         *command = *head;
         *client = source->client;
@@ -76,12 +86,16 @@ static bool take_of(struct admission *admission, bool operators, uint64_t now_ns
     return false;
 }
 
-bool admission_take(struct admission *admission, uint64_t untaken, uint64_t now_ns,
-                    jolon_Command *command, uint64_t *client)
+bool admission_take(struct admission *admission, const struct admission_world *world,
+                    uint64_t now_ns, jolon_Command *command, uint64_t *client)
 {
-    if (untaken < ADMISSION_RING_ROOM_OPERATOR && take_of(admission, true, now_ns, command, client))
+    uint64_t untaken = world->untaken;
+    bool strained = world->strained;
+    if (untaken < ADMISSION_RING_ROOM_OPERATOR &&
+        take_of(admission, true, strained, now_ns, command, client))
         return true;
-    return untaken < ADMISSION_RING_ROOM && take_of(admission, false, now_ns, command, client);
+    return untaken < ADMISSION_RING_ROOM &&
+           take_of(admission, false, strained, now_ns, command, client);
 }
 
 bool admission_waiting(const struct admission *admission)

@@ -3,7 +3,9 @@
  * Each source (a client's connection) has a queue and budgets of its own. Sources take turns, one
  * command each, so that a source that floods delays only itself. Commands of operators (pause,
  * resume, step, scale, remove, quit) go before others and have ring slots that are kept for them.
- * Spawns have a budget a source and one for all sources together.
+ * Costly commands (spawns, and munitions out of the sky) put bodies into the world, whose frames
+ * cost more for everybody. They have a budget a source, one for all sources together, and a small
+ * one for all while the world's frames take more than ADMISSION_STRAIN_SHARE of their time.
  *
  * What exceeds a budget waits in its source's queue; when that is full, the caller reads no more of
  * that source, and the client's own writes block. Nothing is dropped here.
@@ -25,10 +27,15 @@
 /* Budgets, a second and in one burst. The measure: a program that drives 50 vehicles at 60 Hz. */
 #define ADMISSION_COMMANDS_PER_S   3000u
 #define ADMISSION_COMMANDS_BURST   300u
-#define ADMISSION_SPAWNS_PER_S     100u /* of one source */
-#define ADMISSION_SPAWNS_BURST     100u
-#define ADMISSION_ALL_SPAWNS_PER_S 200u /* of all sources */
-#define ADMISSION_ALL_SPAWNS_BURST 200u
+#define ADMISSION_COSTLY_PER_S     50u /* of one source */
+#define ADMISSION_COSTLY_BURST     20u
+#define ADMISSION_ALL_COSTLY_PER_S 100u /* of all sources */
+#define ADMISSION_ALL_COSTLY_BURST 40u
+#define ADMISSION_STRAINED_PER_S   8u /* of all sources, in a strained world */
+#define ADMISSION_STRAINED_BURST   8u
+
+/* The world is strained when the work of a frame takes more than this share of the frame's time. */
+#define ADMISSION_STRAIN_SHARE 0.5
 
 /* Commands that may lie in the ring untaken. The mover takes 256 a frame, so what is admitted is
  * applied in the next frame. */
@@ -37,15 +44,16 @@
 
 struct admission_source {
     uint64_t client; /* its key (client_sockets.h), 0: the place is free */
-    struct rate commands, spawns;
+    struct rate commands, costly;
     uint32_t first, count; /* of the queue */
     jolon_Command queue[ADMISSION_QUEUE];
 };
 
 struct admission {
     struct admission_source source[ADMISSION_SOURCES];
-    struct rate spawns; /* of all sources */
-    uint32_t next;      /* the source whose turn comes first */
+    struct rate costly; /* of all sources */
+    struct rate strained;
+    uint32_t next; /* the source whose turn comes first */
 };
 
 /* Gives place i to a client, with an empty queue and full budgets; takes it back. */
@@ -58,15 +66,23 @@ bool admission_room(const struct admission *admission, uint32_t i);
 /* Puts a command at the end of the queue of place i, which must have room. */
 void admission_put(struct admission *admission, uint32_t i, const jolon_Command *command);
 
-/* Takes the command that is to go into the ring next, in which `untaken` commands lie. Returns
- * false when none may go now. Fills command and client. */
-bool admission_take(struct admission *admission, uint64_t untaken, uint64_t now_ns,
-                    jolon_Command *command, uint64_t *client);
+/* What the intake knows of the world when it admits commands. */
+struct admission_world {
+    uint64_t untaken; /* commands that lie in the ring */
+    bool strained;    /* its frames take more than ADMISSION_STRAIN_SHARE of their time */
+};
+
+/* Takes the command that is to go into the ring next. Returns false when none may go now. Fills
+ * command and client. */
+bool admission_take(struct admission *admission, const struct admission_world *world,
+                    uint64_t now_ns, jolon_Command *command, uint64_t *client);
 
 /* True when a command waits, whether or not it may go now. */
 bool admission_waiting(const struct admission *admission);
 
-/* True for the commands that operators' slots are kept for. */
+/* True for the commands that operators' slots are kept for, and for those that put bodies into the
+ * world. */
 bool admission_is_operators(const jolon_Command *command);
+bool admission_is_costly(const jolon_Command *command);
 
 #endif

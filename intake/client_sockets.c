@@ -35,38 +35,15 @@ void client_sockets_close(struct client_sockets *sockets)
     close(sockets->listener);
 }
 
-static void hang_up(struct client *client)
-{
-    if (client->fd >= 0)
-        close(client->fd);
-    client->fd = -1;
-}
-
 static void forget(struct client_sockets *sockets, struct admission *admission, uint32_t i)
 {
-    hang_up(&sockets->client[i]);
+    close(sockets->client[i].fd);
+    sockets->client[i].fd = -1;
     sockets->client[i].key = 0;
     admission_leave(admission, i);
 }
 
 /* --- accepting ---------------------------------------------------------------------------------*/
-
-/* A place for a new client; ADMISSION_SOURCES when there is none. */
-static uint32_t find_place(struct client_sockets *sockets, struct admission *admission,
-                           uint64_t now_ns)
-{
-    uint32_t oldest = 0;
-    for (uint32_t i = 0; i < ADMISSION_SOURCES; i++) {
-        if (!sockets->client[i].key)
-            return i;
-        if (sockets->client[i].heard_ns < sockets->client[oldest].heard_ns)
-            oldest = i;
-    }
-    if (now_ns - sockets->client[oldest].heard_ns < CLIENT_IDLE_NS)
-        return ADMISSION_SOURCES;
-    forget(sockets, admission, oldest);
-    return oldest;
-}
 
 static uint32_t connections_of(const struct client_sockets *sockets, pid_t pid)
 {
@@ -74,6 +51,37 @@ static uint32_t connections_of(const struct client_sockets *sockets, pid_t pid)
     for (uint32_t i = 0; i < ADMISSION_SOURCES; i++)
         count += sockets->client[i].key && sockets->client[i].pid == pid;
     return count;
+}
+
+/* The client to make room for a newcomer: of the process with the most connections, the one that
+ * has been silent longest. A newcomer whose process has as many already finds none. */
+static uint32_t find_victim(const struct client_sockets *sockets, uint32_t newcomers)
+{
+    uint32_t victim = ADMISSION_SOURCES, most = newcomers;
+    for (uint32_t i = 0; i < ADMISSION_SOURCES; i++) {
+        const struct client *client = &sockets->client[i];
+        uint32_t count = connections_of(sockets, client->pid);
+        if (count > most || (victim < ADMISSION_SOURCES && count == most &&
+                             client->heard_ns < sockets->client[victim].heard_ns)) {
+            victim = i;
+            most = count;
+        }
+    }
+    return victim;
+}
+
+/* A place for a new client of a process with so many already; ADMISSION_SOURCES: there is none. */
+static uint32_t find_place(struct client_sockets *sockets, struct admission *admission,
+                           uint32_t newcomers)
+{
+    for (uint32_t i = 0; i < ADMISSION_SOURCES; i++) {
+        if (!sockets->client[i].key)
+            return i;
+    }
+    uint32_t victim = find_victim(sockets, newcomers);
+    if (victim < ADMISSION_SOURCES)
+        forget(sockets, admission, victim);
+    return victim;
 }
 
 static void refuse(struct client_sockets *sockets, int fd, const char *why, pid_t pid)
@@ -96,11 +104,12 @@ static void welcome(struct client_sockets *sockets, struct admission *admission,
         refuse(sockets, fd, "it belongs to another user", peer.pid);
         return;
     }
-    if (connections_of(sockets, peer.pid) >= CLIENTS_PER_PROCESS) {
+    uint32_t others = connections_of(sockets, peer.pid);
+    if (others >= CLIENTS_PER_PROCESS) {
         refuse(sockets, fd, "it has too many connections already", peer.pid);
         return;
     }
-    uint32_t i = find_place(sockets, admission, now_ns);
+    uint32_t i = find_place(sockets, admission, others);
     if (i == ADMISSION_SOURCES) {
         refuse(sockets, fd, "all places are taken", peer.pid);
         return;
@@ -160,18 +169,31 @@ static bool read_one(struct client_sockets *sockets, struct admission *admission
     return true;
 }
 
+/* Also of a flooder whose commands nobody reads any more, the death is seen at once. */
+static void forget_the_gone(struct client_sockets *sockets, struct admission *admission)
+{
+    struct pollfd polled[ADMISSION_SOURCES];
+    for (uint32_t i = 0; i < ADMISSION_SOURCES; i++)
+        polled[i] = (struct pollfd){.fd = sockets->client[i].fd};
+    if (poll(polled, ADMISSION_SOURCES, 0) <= 0)
+        return;
+    for (uint32_t i = 0; i < ADMISSION_SOURCES; i++) {
+        if (polled[i].fd >= 0 && polled[i].revents & (POLLHUP | POLLERR))
+            forget(sockets, admission, i);
+    }
+}
+
 void client_sockets_receive(struct client_sockets *sockets, struct admission *admission,
                             uint64_t now_ns)
 {
+    forget_the_gone(sockets, admission);
     accept_new(sockets, admission, now_ns);
     for (uint32_t i = 0; i < ADMISSION_SOURCES; i++) {
         bool more = sockets->client[i].fd >= 0;
         while (more && admission_room(admission, i)) {
             if (!read_one(sockets, admission, i, now_ns, &more))
-                hang_up(&sockets->client[i]);
+                forget(sockets, admission, i);
         }
-        if (sockets->client[i].key && sockets->client[i].fd < 0 && !admission->source[i].count)
-            forget(sockets, admission, i);
     }
 }
 
@@ -186,7 +208,7 @@ void client_sockets_reply(struct client_sockets *sockets, uint64_t client,
     packet.version = COMMAND_PACKET_VERSION;
     packet.reply = *reply;
     for (uint32_t i = 0; i < ADMISSION_SOURCES && client; i++) {
-        if (sockets->client[i].key == client && sockets->client[i].fd >= 0)
+        if (sockets->client[i].key == client)
             (void)send(sockets->client[i].fd, &packet, sizeof packet, MSG_DONTWAIT | MSG_NOSIGNAL);
     }
 }

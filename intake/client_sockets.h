@@ -3,8 +3,10 @@
  *
  * Clients of another user than the world's are refused, but for root. One process has at most
  * CLIENTS_PER_PROCESS connections. When all places are taken, a new client gets the place of the
- * one that has been silent longest, if that is longer than CLIENT_IDLE_NS; an evicted client
- * connects again with its next command. Nothing here blocks. One thread. */
+ * process that has the most, of its connections the one that has been silent longest. An evicted
+ * client connects again with its next command. A client that hangs up gives up what was not yet
+ * taken, as nobody would hear the answer. So processes with many connections keep out
+ * themselves, and nobody else. Nothing here blocks. One thread. */
 #ifndef JOLON_INTAKE_CLIENT_SOCKETS_H
 #define JOLON_INTAKE_CLIENT_SOCKETS_H
 
@@ -15,10 +17,9 @@
 #include <sys/types.h>
 
 #define CLIENTS_PER_PROCESS 16u
-#define CLIENT_IDLE_NS      1000000000u
 
 struct client {
-    int fd;       /* -1: hung up; its queued commands are still taken */
+    int fd;
     uint64_t key; /* counted from 1, never used again; 0: the place is free */
     pid_t pid;
     uint64_t heard_ns;

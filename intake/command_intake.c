@@ -10,6 +10,8 @@
 #include <errno.h>
 #include <sys/random.h>
 
+#define LONG_FRAME_NS (50 * (uint64_t)NS_PER_MS) /* an idle collider beats every 20 ms */
+
 static int cannot_read(const struct view *view, struct reason *reason)
 {
     return reason_set(reason, "world \"%s\": its last frame cannot be read", view->name);
@@ -140,6 +142,17 @@ static uint64_t untaken(const struct view *view)
     return end - head.command_cursor[RING_CLIENTS];
 }
 
+/* Did the last frame's work take too large a share of its time, or is a long one under way? */
+static bool strained(const struct view *view)
+{
+    const struct role_slot *mover = view->slot[ROLE_MOVER], *collider = view->slot[ROLE_COLLIDER];
+    uint64_t work_ns = atomic_load_explicit(&mover->stage_ns, memory_order_relaxed) +
+                       atomic_load_explicit(&collider->stage_ns, memory_order_relaxed);
+    uint64_t beat_ns = atomic_load_explicit(&collider->beat_ns, memory_order_relaxed);
+    return (double)work_ns > ADMISSION_STRAIN_SHARE * view->world.params->dt_s * NS_PER_S ||
+           clock_now_ns() > beat_ns + LONG_FRAME_NS;
+}
+
 void command_intake_turn(struct command_intake *intake, struct view *view, uint64_t now_ns)
 {
     jolon_Command wire;
@@ -149,10 +162,10 @@ void command_intake_turn(struct command_intake *intake, struct view *view, uint6
     client_sockets_receive(&intake->clients, &intake->admission, now_ns);
     if (!admission_waiting(&intake->admission))
         return;
-    uint64_t lying = over ? 0 : untaken(view);
-    while (admission_take(&intake->admission, lying, now_ns, &wire, &client)) {
+    struct admission_world world = {over ? 0 : untaken(view), !over && strained(view)};
+    while (admission_take(&intake->admission, &world, now_ns, &wire, &client)) {
         take_one(intake, view, &wire, client, over);
-        lying += over ? 0 : 1;
+        world.untaken += over ? 0 : 1;
     }
 }
 

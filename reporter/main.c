@@ -37,7 +37,6 @@ struct reporter {
     struct remote_commands remote;
     bool takes_commands;
     struct batch batch;
-    dds_entity_t waitset; /* of the commands, when it takes some */
     uint64_t frame_due_ns;
 };
 
@@ -54,10 +53,7 @@ static int open_topics(struct reporter *reporter, struct reason *reason)
     if (reporter->takes_commands &&
         remote_commands_open(&reporter->remote, view->name, link, reason) != 0)
         return -1;
-    if (!reporter->takes_commands)
-        return 0;
-    reporter->waitset = dds_topics_waitset(link, &reporter->remote.reader, 1, reason);
-    return reporter->waitset < 0 ? -1 : 0;
+    return 0;
 }
 
 /* What the processes and the frame say, ten times a second. */
@@ -95,13 +91,10 @@ static bool turn(struct reporter *reporter)
 /* Until the next turn, or until a command comes. */
 static void rest(const struct reporter *reporter)
 {
-    uint64_t now_ns = clock_now_ns();
-    if (!reporter->takes_commands) /* a wait set of nothing would not wait */
-        clock_sleep_until_ns(now_ns + WAIT_NS);
-    else
-        dds_topics_wait(reporter->waitset, remote_commands_busy(&reporter->remote, now_ns)
-                                               ? WAIT_COMMAND_NS
-                                               : WAIT_NS);
+    if (reporter->takes_commands)
+        remote_commands_wait(&reporter->remote, WAIT_COMMAND_NS, WAIT_NS);
+    else /* a wait set of nothing would not wait */
+        clock_sleep_until_ns(clock_now_ns() + WAIT_NS);
 }
 
 /* What is committed goes out before the process ends, within bounds. */

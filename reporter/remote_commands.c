@@ -23,7 +23,10 @@ int remote_commands_open(struct remote_commands *remote, const char *world,
     if (remote->writer < 0)
         return -1;
     remote->reader = dds_topics_reader(link, TOPIC_COMMAND, reason);
-    return remote->reader < 0 ? -1 : 0;
+    if (remote->reader < 0)
+        return -1;
+    remote->waitset = dds_topics_waitset(link, &remote->reader, 1, reason);
+    return remote->waitset < 0 ? -1 : 0;
 }
 
 /* The sender of a DDS writer; a new one takes the place of the one that has been silent longest. */
@@ -77,13 +80,18 @@ void remote_commands_turn(struct remote_commands *remote, uint64_t now_ns)
     pass_replies(remote);
 }
 
-bool remote_commands_busy(const struct remote_commands *remote, uint64_t now_ns)
+static bool busy(const struct remote_commands *remote, uint64_t now_ns)
 {
     for (uint32_t i = 0; i < REMOTE_SENDERS; i++) {
         if (remote->sender[i].handle && now_ns - remote->sender[i].heard_ns < BUSY_NS)
             return true;
     }
     return false;
+}
+
+void remote_commands_wait(const struct remote_commands *remote, uint64_t busy_ns, uint64_t idle_ns)
+{
+    dds_topics_wait(remote->waitset, busy(remote, clock_now_ns()) ? busy_ns : idle_ns);
 }
 
 void remote_commands_tell(struct view *view, bool unguarded)

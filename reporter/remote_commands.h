@@ -13,7 +13,7 @@
 #define REMOTE_SENDERS 12u /* fewer than CLIENTS_PER_PROCESS of the intake */
 
 struct remote_commands {
-    dds_entity_t reader, writer;
+    dds_entity_t reader, writer, waitset;
     const char *world;
     struct remote_sender {
         dds_instance_handle_t handle; /* of the DDS writer, 0: the place is free */
@@ -30,8 +30,9 @@ int remote_commands_open(struct remote_commands *remote, const char *world,
 /* Passes on the commands and the replies that have come. */
 void remote_commands_turn(struct remote_commands *remote, uint64_t now_ns);
 
-/* True when a sender was heard lately, so that replies are to be expected. */
-bool remote_commands_busy(const struct remote_commands *remote, uint64_t now_ns);
+/* Waits for commands: at most busy_ns when a sender was heard lately, so that replies are to be
+ * expected, else at most idle_ns. */
+void remote_commands_wait(const struct remote_commands *remote, uint64_t busy_ns, uint64_t idle_ns);
 
 /* Notes in the reporter's slot whether the world takes remote commands without DDS Security. If it
  * does, the log warns of it. */

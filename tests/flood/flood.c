@@ -97,7 +97,7 @@ _Noreturn static void flood_it(const struct flood *flood)
     struct command_packet packet = {
         .magic = COMMAND_PACKET_MAGIC,
         .version = COMMAND_PACKET_VERSION,
-        .command = {.source = 4711,
+        .command = {.source = 4711 + (uint64_t)getpid(),
                     .type = flood->spawn ? jolon_COMMAND_SPAWN : jolon_COMMAND_DRIVE,
                     .entity = 2,
                     .x_m = 20000.0,
@@ -126,8 +126,8 @@ static void drive(struct flood *flood, const struct view *view, struct caller *c
             .type = jolon_COMMAND_DRIVE, .entity = flood->vehicle, .throttle = 0.5F};
         jolon_CommandReply reply;
         uint64_t before = segment_load(&view->commit->commit);
-        if (caller_call(caller, &command, clock_now_ns() + ANSWER_NS, &reply) &&
-            reply.result == jolon_RESULT_DONE)
+        /* Whether it was done counts for nothing: the vehicle may be a wreck by now. */
+        if (caller_call(caller, &command, clock_now_ns() + ANSWER_NS, &reply))
             flood->frames[flood->answers++] = (uint32_t)(reply.frame - before);
         else
             flood->unanswered++;
