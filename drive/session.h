@@ -2,9 +2,9 @@
  *
  * It chooses, takes, drives, aims, fires, changes and releases by commands alone, which go over the
  * world's command socket or, to another machine, over DDS. It knows only what the world says over
- * DDS. A vehicle is held by a lease, which is renewed all the time; when a session dies, its vehicle
- * goes back to its agent at the lease's end. A world that is silent, or whose reporter, intake or
- * mover is away, is waited for. */
+ * DDS. A vehicle is held by a lease, which is renewed all the time; when a session dies, its
+ * vehicle goes back to its agent at the lease's end. A world that is silent, or whose reporter,
+ * intake or mover is away, is waited for. */
 #ifndef JOLON_DRIVE_SESSION_H
 #define JOLON_DRIVE_SESSION_H
 
