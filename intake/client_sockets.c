@@ -94,9 +94,8 @@ static void refuse(struct client_sockets *sockets, int fd, const char *why, pid_
 static void welcome(struct client_sockets *sockets, struct admission *admission, int fd,
                     uint64_t now_ns)
 {
-    struct ucred peer = {0};
-    socklen_t bytes = sizeof peer;
-    if (getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &peer, &bytes) != 0 || bytes != sizeof peer) {
+    struct ucred peer;
+    if (!local_socket_peer(fd, &peer)) {
         close(fd);
         return;
     }

@@ -85,10 +85,14 @@ int local_socket_connect(const char *world, const char *suffix, int type, struct
     return fd;
 }
 
+bool local_socket_peer(int fd, struct ucred *peer)
+{
+    socklen_t bytes = sizeof *peer;
+    return getsockopt(fd, SOL_SOCKET, SO_PEERCRED, peer, &bytes) == 0 && bytes == sizeof *peer;
+}
+
 bool local_socket_peer_is(int fd, uid_t user)
 {
     struct ucred peer;
-    socklen_t bytes = sizeof peer;
-    return getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &peer, &bytes) == 0 && bytes == sizeof peer &&
-           peer.uid == user;
+    return local_socket_peer(fd, &peer) && peer.uid == user;
 }

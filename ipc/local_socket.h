@@ -8,6 +8,7 @@
 #include <sys/types.h>
 
 struct reason;
+struct ucred;
 
 #define LOCAL_SOCKET_SUFFIX_MAX 16 /* with the NUL */
 
@@ -23,6 +24,10 @@ int local_socket_listen(const char *world, const char *suffix, int type, int bac
  * when a process of another user does, EAGAIN when the backlog is full and type has SOCK_NONBLOCK.
  * Without SOCK_NONBLOCK a full backlog blocks. */
 int local_socket_connect(const char *world, const char *suffix, int type, struct reason *reason);
+
+/* Asks the kernel for the user and the process of the other side, as they were when it connected;
+ * false when it cannot tell. */
+bool local_socket_peer(int fd, struct ucred *peer);
 
 /* Is the other side of a connected unix socket a process of this user? False when the kernel cannot
  * tell. Asks for nothing but getsockopt(SO_PEERCRED). */
