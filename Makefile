@@ -59,11 +59,15 @@ endif
 # --- set-up: packages ---------------------------------------------------------------------------
 STAMP    := build/.packages
 $(STAMP): packages.txt supervisor/install-packages
-	@supervisor/install-packages $<
+	@supervisor/install-packages $< $@
 	@mkdir -p $(@D) && touch $@
 TEST_STAMP := build/.packages-tests
-$(TEST_STAMP): tests/packages.txt supervisor/install-packages | $(STAMP) # one apt-get at a time
-	@supervisor/install-packages $<
+$(TEST_STAMP): tests/packages.txt supervisor/install-packages | $(STAMP)
+	@supervisor/install-packages $< $@
+	@mkdir -p $(@D) && touch $@
+BENCH_STAMP := build/.packages-bench
+$(BENCH_STAMP): bench/packages.txt supervisor/install-packages | $(STAMP)
+	@supervisor/install-packages $< $@
 	@mkdir -p $(@D) && touch $@
 
 # --- sources ------------------------------------------------------------------------------------
@@ -181,7 +185,9 @@ BASE_LIBS     = $(HASH_LIBS) -lm
 
 PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-renderer \
         $(BIN)/jolon-video $(BIN)/jolon-intake $(BIN)/jolon-reporter $(BIN)/jolon-recorder $(BIN)/jolon-ctl $(BIN)/jolon-drive $(BIN)/jolon-harness $(BIN)/jolon-console $(BIN)/jolon-monitor \
-        $(BIN)/jolon-bench $(BIN)/jolon-keeper $(BIN)/jolon
+        $(BIN)/jolon-keeper $(BIN)/jolon
+# The benchmarks have packages of their own, so only `make bench` and the tests build them.
+BENCH    := $(BIN)/jolon-bench
 # Of the build with crash points: what their tests run.
 CRASH_PROGRAMS := $(BIN)/jolon-world $(BIN)/jolon-mover $(BIN)/jolon-collider $(BIN)/jolon-intake $(BIN)/jolon-recorder \
         $(BIN)/jolon-keeper $(BIN)/jolon $(BUILD)/tests/crash/test_crash
@@ -228,8 +234,9 @@ $(BIN)/jolon-harness: $(call objects,$(HARNESS_SRC)) $(TOPICS) $(TOPICS_JSON) $(
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-monitor: $(call objects,$(MONITOR_SRC)) $(TOPICS) $(TOPICS_JSON) $(IPC) $(WORLD)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-bench: $(call objects,$(BENCH_SRC)) $(patsubst %.cpp,$(OBJ)/%.o,$(BENCH_CPP)) $(PICTURE) $(REPLAY) $(LOGS) $(CONFIG) $(IPC) $(WORLD)
+$(BENCH): $(call objects,$(BENCH_SRC)) $(patsubst %.cpp,$(OBJ)/%.o,$(BENCH_CPP)) $(PICTURE) $(REPLAY) $(LOGS) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(RENDER_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS) -lstdc++)
+$(patsubst %,$(OBJ)/%.o,$(basename $(wildcard bench/peer_*))): | $(BENCH_STAMP)
 $(BIN)/jolon-keeper: $(call objects,$(KEEPER_SRC)) $(SANDBOX) $(IPC) $(WORLD)
 	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon: supervisor/jolon
@@ -392,7 +399,7 @@ check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 
 # Crash points are tried unsanitized: a sanitizer has its own handler for faults.
 # All that is tried, built: `make -j tests` first, and `make test` only runs it.
-tests: all $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(FILM) $(EXAMPLES) $(if $(SAN),,crash)
+tests: all $(BENCH) $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(FILM) $(EXAMPLES) $(if $(SAN),,crash)
 test: tests
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property golden system $(if $(SAN),,crash)
 
@@ -467,10 +474,11 @@ rtps: all $(PEER)
 storm: all $(STORM)
 	@$(STORM) --kills $(KILLS) $(if $(SEED),--seed $(SEED)) $(if $(SCENARIO),--scenario $(SCENARIO)) $(STORMY)
 
-bench: all bench-render
-	@bench/run $(BIN)/jolon-bench
-bench-render: $(BIN)/jolon-bench
-	@bench/run-render $(BIN)/jolon-bench
+# One after the other: each has the machine to itself.
+bench: bench-render
+	@bench/run $(BENCH)
+bench-render: all $(BENCH)
+	@bench/run-render $(BENCH)
 
 # The frame protocol's model: MODEL=short, usual or full.
 MODEL    ?= usual
@@ -526,7 +534,7 @@ help:
 	@echo 'make game [SECONDS=300] [SEED=n]          two players and a program at once, while everything is killed'
 	@echo 'make storm [KILLS=1000] [SEED=n]           kill everything at random, count what came of it'
 	@echo 'make model [MODEL=short|usual|full]      check the frame protocol with spin'
-	@echo 'make bench                              measure; results in bench/results/'
+	@echo 'make bench                              build jolon-bench, measure; results in bench/results/'
 	@echo 'make bench-render                       what pictures cost, alone'
 	@echo 'make install PREFIX=/usr/local DESTDIR= make uninstall'
 	@echo 'make figures                            the pictures of docs/ again (A.1 to A.9 of the thesis)'
