@@ -94,6 +94,7 @@ REPORTER_SRC := $(wildcard reporter/*.c)
 MONITOR_SRC  := $(wildcard monitor/*.c)
 RECORDER_SRC := $(wildcard recorder/*.c)
 FIGURES_SRC  := $(wildcard figures/*.c)
+KEYS_SRC     := $(wildcard docs/keys/*.c)
 BENCH_SRC    := $(wildcard bench/*.c)
 BENCH_CPP    := $(wildcard bench/*.cpp)
 UNIT_SRC     := $(wildcard tests/unit/test_*.c)
@@ -202,7 +203,7 @@ LAG            := $(BUILD)/tests/lag/lag
 FLOOD          := $(BUILD)/tests/flood/flood
 FILM           := $(BUILD)/tests/film/film
 
-.PHONY: all run test tests check examples figures game rtps storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
+.PHONY: all run test tests check examples figures docs game rtps storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
 all: $(if $(CRASHPOINTS),$(CRASH_PROGRAMS),$(PROGRAMS))
 
 # --- programs -----------------------------------------------------------------------------------
@@ -370,6 +371,7 @@ $(OBJ)/tests/unit/test_samples.o: $(IDL)/status.h
 $(BUILD)/tests/unit/test_rtps_filter: $(OBJ)/topics/rtps_filter.o
 $(BUILD)/tests/unit/test_dds_datagrams: $(call objects,topics/dds_datagrams.c topics/rtps_filter.c)
 $(BUILD)/tests/unit/test_compare: $(call objects,worldctl/compare.c)
+$(BUILD)/tests/unit/test_schema: $(call objects,docs/keys/key_tables.c)
 
 $(STORM): $(call objects,$(STORM_SRC) worldctl/json.c) $(COMMANDS) $(IPC) $(WORLD)
 	$(call link,$(JSON_LIBS) $(BASE_LIBS))
@@ -515,6 +517,13 @@ $(SHEET): $(call objects,$(FIGURES_SRC) $(addprefix renderer/image/,image.c text
 figures: all $(SHEET)
 	@figures/make $(BUILD)
 
+# --- tables of the documents --------------------------------------------------------------------
+KEYS := $(BUILD)/docs/keys
+$(KEYS): $(call objects,$(KEYS_SRC)) $(CONFIG) $(IPC) $(WORLD)
+	$(call link,$(CONFIG_LIBS) $(BASE_LIBS))
+docs: $(KEYS)
+	@$(KEYS) docs/scenario.md
+
 # --- keeping it tidy ----------------------------------------------------------------------------
 C_FILES = $(shell git ls-files '*.c' '*.h')
 format:
@@ -538,6 +547,7 @@ help:
 	@echo 'make bench-render                       what pictures cost, alone'
 	@echo 'make install PREFIX=/usr/local DESTDIR= make uninstall'
 	@echo 'make figures                            the pictures of docs/ again (A.1 to A.9 of the thesis)'
+	@echo 'make docs                               the tables of keys in docs/scenario.md again'
 	@echo 'make format | lint | clean'
 
 -include $(shell find $(OBJ) -name '*.d' 2>/dev/null)

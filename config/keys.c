@@ -125,7 +125,7 @@ void keys_allowed(const struct key *key, char *text, size_t bytes)
     case KEY_CHOICES:
         if (key->choices != NULL) {
             for (const struct key_choice *choice = key->choices; choice->name != NULL; choice++) {
-                if (choice->built)
+                if (choice->value != KEY_LATER)
                     append(text, bytes, "%s%s", text[0] == '\0' ? "" : ", ", choice->name);
             }
         } else {
@@ -147,6 +147,8 @@ void keys_allowed(const struct key *key, char *text, size_t bytes)
     case KEY_TYPE_COUNT:
         break;
     }
+    if (key->unit != NULL)
+        append(text, bytes, " %s", key->unit);
 }
 
 /* "what is wrong; allowed: ..." */
@@ -210,7 +212,7 @@ static int store_choice(const struct given *given, void *destination, const char
     for (const struct key_choice *choice = key->choices; choice->name != NULL; choice++) {
         if (strcmp(choice->name, word) != 0)
             continue;
-        if (!choice->built)
+        if (choice->value == KEY_LATER)
             return refuse_value(given, "not in this version");
         char *to = (char *)destination + key->offset;
         if (key->store == STORE_U8)

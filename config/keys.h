@@ -2,8 +2,8 @@
  * override or a default into memory: found by name, checked for type and range, then stored - or
  * refused with a line that names file, line, key, value and what is allowed.
  *
- * The tables themselves are in config/schema.c; docs/scenario.md shows the same rows to users and
- * a test holds the two together. */
+ * The tables are in config/schema.h. `make docs` writes the same rows into docs/scenario.md, and a
+ * test fails when the two differ. */
 #ifndef JOLON_CONFIG_KEYS_H
 #define JOLON_CONFIG_KEYS_H
 
@@ -39,12 +39,14 @@ enum key_store {
     STORE_ROUTE   /* const config_setting_t *, checked, alive as long as its file */
 };
 
-/* One allowed word. A word that a later version will know is refused as such. */
+/* One allowed word. */
 struct key_choice {
     const char *name;
-    uint32_t value;
-    bool built;
+    uint32_t value;      /* KEY_LATER: the word is refused as not in this version */
+    const char *meaning; /* a sentence for documents; NULL where the key's meaning says it */
 };
+
+#define KEY_LATER UINT32_MAX
 
 struct key {
     const char *name; /* dotted, from the table's top: "world.seed" */
@@ -57,6 +59,9 @@ struct key {
     const char *fallback; /* as one would write it in an override; NULL: nothing is stored */
     bool required;
     const struct key_choice *choices; /* ends with a NULL name */
+    const char *unit;                 /* in the file, of the value: "m"; NULL: it has none */
+    const char *meaning;              /* what the value does: sentences, in Markdown */
+    const char *unset;                /* what holds when nothing is stored; NULL: "none" */
 };
 
 struct key_table {
@@ -79,7 +84,7 @@ int keys_refuse(struct loader_message *message, struct key_place place, const ch
 /* Index of the key called name, -1 when there is none. */
 int keys_find(const struct key_table *table, const char *name);
 
-/* What is allowed, for messages and documents: "1..1000", "real, max", "true, false". */
+/* What is allowed, for messages and documents: "1..1000 Hz", "real, max", "true, false". */
 void keys_allowed(const struct key *key, char *text, size_t bytes);
 const char *key_type_name(enum key_type type);
 

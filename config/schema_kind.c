@@ -1,0 +1,155 @@
+/* The schema of a kind's file. `make docs` writes these rows into docs/scenario.md. */
+#include "config/schema_internal.h"
+
+static const struct key_choice domains[] = {
+    {"land", DOMAIN_LAND, NULL},         {"sea", DOMAIN_SEA, NULL},     {"air", DOMAIN_AIR, NULL},
+    {"munition", DOMAIN_MUNITION, NULL}, {"fixed", DOMAIN_FIXED, NULL}, {NULL, 0, NULL}};
+static const struct key_choice guidances[] = {
+    {"ballistic", GUIDANCE_BALLISTIC, NULL}, {"homing", GUIDANCE_HOMING, NULL}, {NULL, 0, NULL}};
+static const struct key_choice doctrines[] = {
+    {"armour", DOCTRINE_ARMOUR, NULL}, {"light", DOCTRINE_LIGHT, NULL},
+    {"soft", DOCTRINE_SOFT, NULL},     {"helicopter", DOCTRINE_HELICOPTER, NULL},
+    {"jet", DOCTRINE_JET, NULL},       {"warship", DOCTRINE_WARSHIP, NULL},
+    {"beast", DOCTRINE_BEAST, NULL},   {NULL, 0, NULL}};
+static const struct key_choice classes[] = {{"tree", OBJECT_TREE, NULL},
+                                            {"bush", OBJECT_BUSH, NULL},
+                                            {"pole", OBJECT_POLE, NULL},
+                                            {"building", OBJECT_BUILDING, NULL},
+                                            {"watertower", OBJECT_WATERTOWER, NULL},
+                                            {"other_manmade", OBJECT_OTHER_MANMADE, NULL},
+                                            {"other_natural", OBJECT_OTHER_NATURAL, NULL},
+                                            {NULL, 0, NULL}};
+
+#define K struct kind_entry
+static const struct key kind_keys[] = {
+    TEXT("name", K, kind.name, NULL, .required = true,
+         .meaning = "The name of the file, without `.cfg`."),
+    CHOICE("domain", K, kind.domain, STORE_U8, domains, NULL, .required = true,
+           .meaning = "What the kind is, and where it moves."),
+    CHOICE("class", K, kind.object_class, STORE_U8, classes, NULL,
+           .meaning = "Fixed objects, which must have it: their row of the thesis's Table 1. Kinds "
+                      "of one class are mixed at random. Other kinds must not have it."),
+    TEXT("model", K, model, NULL, .required = true,
+         .meaning = "The shape: the name of a file of `config/models`, without `.obj`."),
+    TEXT("munition", K, munition, NULL,
+         .meaning = "Vehicles: the kind that they fire. A vehicle without it is unarmed."),
+    CHOICE("guidance", K, kind.guidance, STORE_U8, guidances, "ballistic",
+           .meaning = "Munitions. `ballistic`: the munition falls freely. `homing`: it follows its "
+                      "target."),
+    BOOLEAN("craters", K, kind.craters, STORE_U8, "false",
+            .meaning = "Munitions. true: a munition that strikes the ground digs a crater."),
+    NUMBER("mass_kg", K, kind.mass_kg, 0.001, 1e9, NULL, .required = true, .unit = "kg",
+           .meaning = "The mass."),
+    NUMBER("radius_m", K, kind.radius_m, 0.01, 500, NULL, .required = true, .unit = "m",
+           .meaning = "The radius of a sphere around the position. With `shape = \"sphere\"` this "
+                      "sphere is what collides."),
+    NUMBER("length_m", K, kind.length_m, 0.01, 1000, NULL, .required = true, .unit = "m",
+           .meaning = "The size of the body from rear to front."),
+    NUMBER("width_m", K, kind.width_m, 0.01, 1000, NULL, .required = true, .unit = "m",
+           .meaning = "The size of the body from left to right."),
+    NUMBER("height_m", K, kind.height_m, 0.01, 1000, NULL, .required = true, .unit = "m",
+           .meaning = "The size of the body from bottom to top."),
+    NUMBER("max_speed_mps", K, kind.max_speed_mps, 0, 3000, "0", .unit = "m/s",
+           .meaning = "Vehicles and munitions, above 0: the top speed. A ballistic munition starts "
+                      "with it."),
+    NUMBER("min_speed_mps", K, kind.min_speed_mps, 0, 3000, "0", .unit = "m/s",
+           .meaning = "Aircraft: the least speed in flight, at most `max_speed_mps`. 0: the "
+                      "aircraft can hover."),
+    NUMBER("acceleration_mps2", K, kind.acceleration_mps2, 0, 10000, "0", .unit = "m/s^2",
+           .meaning = "Vehicles, above 0: the acceleration. Braking is twice as strong."),
+    SCALED("turn_rate_dps", K, kind.turn_rate_rps, 0, 720, RAD_PER_DEG, "0", .unit = "degrees/s",
+           .meaning = "Vehicles and homing munitions, above 0: how fast they turn."),
+    SCALED("max_slope_deg", K, kind.max_slope_rad, 1, 89, RAD_PER_DEG, "30", .unit = "degrees",
+           .meaning = "Land vehicles: the steepest ground that they climb."),
+    NUMBER("cruise_altitude_m", K, kind.cruise_altitude_m, 0, 20000, "0", .unit = "m",
+           .meaning = "Aircraft: their usual height above the ground."),
+    NUMBER("climb_rate_mps", K, kind.climb_rate_mps, 0, 500, "0", .unit = "m/s",
+           .meaning = "Aircraft, above 0: how fast they climb."),
+    NUMBER("rigidity", K, kind.rigidity, 0, 1, "0.5",
+           .meaning = "The share of an impact's energy that causes damage at once; the rest dents "
+                      "the skin. Fixed objects under `impulse` and `spring`: the share of the "
+                      "energy that damages the vehicle. A fixed object below 0.1, such as a bush, "
+                      "bends aside."),
+    NUMBER("moldability", K, kind.moldability, 0, 1, "0.5",
+           .meaning = "The share of a dent that stays, and the share of the energy of the dent "
+                      "that causes damage."),
+    NUMBER("restitution", K, kind.restitution, 0, 1, "0.2",
+           .meaning = "The share of the closing speed that is left after a bounce. The lower value "
+                      "of the two kinds counts."),
+    NUMBER("friction", K, kind.friction, 0, 2, "0.6",
+           .meaning = "Coulomb's coefficient of friction of the skin: about 0 for ice, 1 for "
+                      "rubber. The geometric mean of the two kinds counts."),
+    NUMBER("resistance_j", K, kind.resistance_j, 1, 1e12, NULL, .required = true, .unit = "J",
+           .meaning = "The energy that destroys it. The three levels of damage of a fixed object "
+                      "are shares of it."),
+    NUMBER("stiffness_npm", K, kind.stiffness_npm, 0, 1e12, "0", .unit = "N/m",
+           .meaning = "The stiffness of the skin, for `response = \"spring\"`. 0: the skin takes "
+                      "up `resistance_j` over a quarter of the body's smallest side."),
+    SCALED("severe_deg", K, kind.severe_rad, 0, 45, RAD_PER_DEG, "5", .unit = "degrees",
+           .meaning = "Figure 8: an impact is severe when the two headings differ by a multiple of "
+                      "90 degrees to within this angle. A severe impact stops or destroys both "
+                      "vehicles; after any other they bounce. The wider value of the two kinds "
+                      "counts."),
+    NUMBER("bounce_keep", K, kind.bounce_keep, 0, 1, "0.6",
+           .meaning = "Figure 8: the share of its own speed that the vehicle keeps in a bounce."),
+    NUMBER("fast_mps", K, kind.fast_mps, 0, 3000, "0", .unit = "m/s",
+           .meaning = "Figure 8: a severe impact destroys both vehicles when this one is faster. "
+                      "0: the scenario's `fast_vehicle_mps`."),
+    NUMBER("damage_high", K, kind.damage_high, 0, 1000, "0",
+           .meaning = "Fixed objects: the ratio of the energy of an impact to `resistance_j` from "
+                      "which damage is high. 0: the scenario's. A kind has all three ratios or "
+                      "none."),
+    NUMBER("damage_med", K, kind.damage_med, 0, 1000, "0",
+           .meaning = "Fixed objects: the ratio from which damage is medium, below `damage_high`."),
+    NUMBER("damage_low", K, kind.damage_low, 0, 1000, "0",
+           .meaning = "Fixed objects: the ratio from which damage is low, below `damage_med`."),
+    NUMBER("debris_keep", K, kind.debris_keep, 0, 1, "1",
+           .meaning = "Fixed objects: the share of its top speed that a land vehicle may go over "
+                      "one that has fallen. The lowest share counts where several lie."),
+    NUMBER("explosive_kg", K, kind.explosive_kg, 0, 100000, "0", .unit = "kg of TNT",
+           .meaning = "Munitions: the charge. Vehicles: what explodes when they are destroyed."),
+    NUMBER("range_m", K, kind.range_m, 0, 50000, "0", .unit = "m",
+           .meaning = "Armed vehicles, above 0: how far they fire."),
+    NUMBER("sight_m", K, kind.sight_m, 0, 50000, "0", .unit = "m",
+           .meaning = "Vehicles: how far they see enemies. 0: `range_m`, or 1,500 m for an unarmed "
+                      "vehicle."),
+    SCALED("view_deg", K, kind.view_rad, 1, 360, RAD_PER_DEG, "360", .unit = "degrees",
+           .meaning = "Vehicles: the angle of view around the direction of the turret, or of the "
+                      "hull where there is no turret. 360: all round, as from the cupola of a "
+                      "tank."),
+    CHOICE("doctrine", K, kind.doctrine, STORE_U32, doctrines, NULL, .unset = "by domain",
+           .meaning = "Vehicles: how they react to what they notice (Minds, below). A land vehicle "
+                      "without this key is `light`, or `soft` when it is unarmed; a ship is "
+                      "`warship`; an aircraft is `helicopter`, or `jet` with a `min_speed_mps`."),
+    NUMBER("reload_s", K, kind.reload_s, 0, 3600, "0", .unit = "s",
+           .meaning = "Armed vehicles, above 0: the time from one shot to the next."),
+    SCALED("turret_rate_dps", K, kind.turret_rate_rps, 0, 360, RAD_PER_DEG, "0",
+           .unit = "degrees/s",
+           .meaning = "How fast the turret turns, only with `munition`. 0: there is no turret, and "
+                      "the vehicle aims with its hull."),
+    SCALED("gun_rate_dps", K, kind.gun_rate_rps, 0, 360, RAD_PER_DEG, "0", .unit = "degrees/s",
+           .meaning = "How fast the gun moves up and down, only with `munition`. 0: it does not."),
+    SCALED("gun_low_deg", K, kind.gun_low_rad, -90, 90, RAD_PER_DEG, "0", .unit = "degrees",
+           .meaning = "The lowest elevation of the gun above the plane of the hull: 0 or below."),
+    SCALED("gun_high_deg", K, kind.gun_high_rad, -90, 90, RAD_PER_DEG, "0", .unit = "degrees",
+           .meaning = "The highest elevation of the gun above the plane of the hull: 0 or above."),
+    SCALED("seeker_deg", K, kind.seeker_rad, 0, 180, RAD_PER_DEG, "0", .unit = "degrees",
+           .meaning = "Homing munitions, above 0: the half angle of the cone around the direction "
+                      "of flight in which they see their target. A target that leaves the cone is "
+                      "lost for good."),
+    SCALED("dispersion_mrad", K, kind.dispersion_rad, 0, 500, 0.001, "0", .unit = "mrad",
+           .meaning = "Munitions: the standard error of the aim. 1 mrad is 1 m at 1 km."),
+    NUMBER("life_s", K, kind.life_s, 0, 600, "0", .unit = "s",
+           .meaning = "Munitions, above 0: the flight ends after this time."),
+    NUMBER("courage", K, kind.courage, 0, 1, "0.5",
+           .meaning = "How often a vehicle that is fired upon fires back instead of fleeing."),
+    NUMBER("fuel_l", K, kind.fuel_l, 0, 1e7, "0", .unit = "l",
+           .meaning = "The fuel of a full tank. 0: the vehicle needs none."),
+    NUMBER("fuel_lps", K, kind.fuel_lps, 0, 1000, "0", .unit = "l/s",
+           .meaning = "The fuel burnt at full speed."),
+    WHOLE32("rounds", K, kind.rounds, 0, 1000000, "0",
+            .meaning = "The rounds of its munition at the start."),
+};
+#undef K
+const struct key_table schema_kind = {"kind", kind_keys, COUNT(kind_keys)};
+_Static_assert(COUNT(kind_keys) <= 64, "key_reading.given is one word");
