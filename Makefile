@@ -4,6 +4,15 @@ MAKEFLAGS += --no-builtin-rules
 .SECONDARY:
 .DEFAULT_GOAL := all
 
+# All processors build, unless -j says how many. Goals that do more than build run one after another
+# when several are named (`make clean all`), and tests/lint calls make for itself.
+BUILDING := all tests examples fuzzers crash build/%
+ifeq ($(MAKELEVEL)$(filter lint,$(MAKECMDGOALS))$(if $(filter-out $(BUILDING),$(MAKECMDGOALS)),$(word 2,$(MAKECMDGOALS))),0)
+ifeq ($(filter -j% --jobserver%,$(MAKEFLAGS)),)
+MAKEFLAGS += -j$(shell nproc)
+endif
+endif
+
 # --- what to build with -------------------------------------------------------------------------
 CC       ?= gcc
 ifeq ($(origin CC),default)
@@ -55,6 +64,29 @@ endif
 ifneq ($(findstring thread,$(SAN)),)
 CFLAGS_ALL  += -Wno-tsan
 endif
+
+# --- how far it is ------------------------------------------------------------------------------
+# $(call say,WORDS) prints one line a step: "[ 37/412] CC world/entity.c"; `make -s` prints none.
+# When the first step begins, make -n says how many there are.
+LETTERS := $(filter-out --%,$(firstword -$(MAKEFLAGS)))
+STEP    :=
+# The number of steps, and how many digits it has.
+STEPS_TO_DO = $(eval STEPS_TO_DO := $(shell MAKEFLAGS= MFLAGS= MAKELEVEL=0 $(MAKE) -n $(if $(findstring B,$(LETTERS)),-B) \
+        COUNTING=1 $(MAKEOVERRIDES) $(MAKECMDGOALS) 2>/dev/null | \
+        awk '/@ counted/ { n++ } END { print n + 0, length(n + 0) }'))$(STEPS_TO_DO)
+ifdef COUNTING
+say = echo '@ counted'
+else ifneq ($(findstring s,$(LETTERS)),)
+say = :
+else
+say = $(eval STEP += x)printf '[%$(word 2,$(STEPS_TO_DO))d/%d] %s\n' $(words $(STEP)) $(word 1,$(STEPS_TO_DO)) \
+        '$(1)$(if $(CRASHPOINTS), (crash points))'
+endif
+
+# $(call rewritten,FILE,TEXT): what a FILE depends on that is written anew when its TEXT changes. Its
+# recipe compares the two. Nothing is written while steps are counted, so they are compared here.
+differ    = $(subst x$(1),,x$(2))$(subst x$(2),,x$(1))
+rewritten = $(if $(COUNTING),$(if $(call differ,$(file <$(1)),$(2)),FORCE),FORCE)
 
 # --- set-up: packages ---------------------------------------------------------------------------
 STAMP    := build/.packages
@@ -207,7 +239,7 @@ FILM           := $(BUILD)/tests/film/film
 all: $(if $(CRASHPOINTS),$(CRASH_PROGRAMS),$(PROGRAMS))
 
 # --- programs -----------------------------------------------------------------------------------
-link = @mkdir -p $(@D); echo "  LD $@"; $(CC) $(LDFLAGS_ALL) -o $@ $(sort $(filter %.o,$^)) $(1)
+link = @mkdir -p $(@D); $(call say,LD $@); $(CC) $(LDFLAGS_ALL) -o $@ $(sort $(filter %.o,$^)) $(1)
 
 $(BIN)/jolon-world: $(call objects,$(WORLDCTL_SRC)) $(REPLAY) $(LOGS) $(ARCHIVE) $(CONFIG) $(IPC) $(WORLD)
 	$(call link,$(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
@@ -261,37 +293,37 @@ $(OBJ)/bench/%.o: CFLAGS_EXTRA = $(JSON_CFLAGS)
 $(call objects,$(TOPICS_SRC) $(CTL_SRC) $(DRIVE_SRC) $(HARNESS_SRC) $(CONSOLE_SRC) $(INTAKE_SRC) $(REPORTER_SRC) $(MONITOR_SRC) $(STORM_SRC) $(LISTENER_SRC) $(FLOOD_SRC) $(PEER_SRC)): $(IDL)/status.h
 
 $(OBJ)/%.o: %.c $(BUILD)/flags | $(STAMP)
-	@mkdir -p $(@D); echo "  CC $<"
+	@mkdir -p $(@D); $(call say,CC $<)
 	@$(CC) $(CFLAGS_ALL) $(CFLAGS_EXTRA) -MMD -MP -c -o $@ $<
 
 $(OBJ)/%.avx2.o: %.c $(BUILD)/flags | $(STAMP)
-	@mkdir -p $(@D); echo "  CC $< (AVX2)"
+	@mkdir -p $(@D); $(call say,CC $< (AVX2))
 	@$(CC) $(CFLAGS_ALL) -mavx2 $(CFLAGS_EXTRA) -MMD -MP -c -o $@ $<
 
 $(OBJ)/%.o: %.cpp $(BUILD)/flags | $(STAMP)
-	@mkdir -p $(@D); echo "  CXX $<"
+	@mkdir -p $(@D); $(call say,CXX $<)
 	@$(CXX) -std=c++17 $(CXXFLAGS_ALL) $(PEER_CFLAGS) -MMD -MP -c -o $@ $<
 
 TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE) $(CONFINED) $(CRASH_SRC) $(STORM_SRC) $(LISTENER_SRC) $(PEER_SRC) $(LAG_SRC) $(FLOOD_SRC) $(FILM_SRC) $(GOLDEN_SRC) $(FUZZ_SRC)
 $(call objects,$(TEST_SRC)): | $(TEST_STAMP)
 
 # Again when a file comes or goes, too.
-$(OBJ)/console/page.list: FORCE
+$(OBJ)/console/page.list: $(call rewritten,$(OBJ)/console/page.list,$(PAGE_FILES))
 	@mkdir -p $(@D); echo '$(PAGE_FILES)' | cmp -s - $@ || echo '$(PAGE_FILES)' > $@
 $(PAGE): $(PAGE_FILES) $(OBJ)/console/page.list console/embed | $(STAMP)
-	@mkdir -p $(@D); echo "  AS $@"
+	@mkdir -p $(@D); $(call say,AS $@)
 	@console/embed $(PAGE_FILES) > $(@:.o=.s) && $(CC) -c -o $@ $(@:.o=.s)
 
 # Generated from the IDL; generated code is not held to our warnings.
 $(IDL)/status.c $(IDL)/status.h &: ipc/status.idl | $(STAMP)
-	@mkdir -p $(IDL); echo "  IDL $<"; idlc -l c -o $(IDL) $<
+	@mkdir -p $(IDL); $(call say,IDL $<); idlc -l c -o $(IDL) $<
 $(STATUS): $(IDL)/status.c $(IDL)/status.h $(BUILD)/flags
-	@mkdir -p $(@D); $(CC) $(filter-out $(WARN),$(CFLAGS_ALL)) $(DDS_CFLAGS) -c -o $@ $<
+	@mkdir -p $(@D); $(call say,CC $<); $(CC) $(filter-out $(WARN),$(CFLAGS_ALL)) $(DDS_CFLAGS) -c -o $@ $<
 
 # Everything is built again when the compiler or its flags change.
-$(BUILD)/flags: FORCE | $(STAMP)
-	@mkdir -p $(@D); echo '$(CC) $(CFLAGS_ALL) $(LDFLAGS_ALL)' | cmp -s - $@ || \
-		echo '$(CC) $(CFLAGS_ALL) $(LDFLAGS_ALL)' > $@
+FLAGS = $(CC) $(CFLAGS_ALL) $(LDFLAGS_ALL)
+$(BUILD)/flags: $(call rewritten,$(BUILD)/flags,$(FLAGS)) | $(STAMP)
+	@mkdir -p $(@D); echo '$(FLAGS)' | cmp -s - $@ || echo '$(FLAGS)' > $@
 .PHONY: FORCE
 FORCE:
 
@@ -334,7 +366,7 @@ $(OBJ)/tests/unit/test_sandbox.o: CFLAGS_EXTRA = $(DDS_CFLAGS)
 # Preloaded by system tests; it stands in the way of functions that the headers say much about.
 FAILING := $(BUILD)/tests/faults/failing.so
 $(FAILING): tests/faults/failing.c $(BUILD)/flags | $(TEST_STAMP)
-	@mkdir -p $(@D); echo "  LD $@"
+	@mkdir -p $(@D); $(call say,LD $@)
 	@$(CC) -std=c17 $(OPT) -g -D_GNU_SOURCE $(filter-out -Wpedantic,$(WARN)) -fPIC -shared -o $@ $< -ldl
 
 $(addprefix $(BUILD)/tests/unit/test_soft_,bodies plants puffs): $(SOFT) $(SCENE) $(call objects,$(SOFT_STAGE))
@@ -400,13 +432,13 @@ check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property
 
 # Crash points are tried unsanitized: a sanitizer has its own handler for faults.
-# All that is tried, built: `make -j tests` first, and `make test` only runs it.
+# All that is tried, built: `make test` builds it too, and then runs it.
 tests: all $(BENCH) $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(FILM) $(EXAMPLES) $(if $(SAN),,crash)
 test: tests
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property golden system $(if $(SAN),,crash)
 
 crash: | $(STAMP) $(TEST_STAMP)
-	@$(MAKE) --no-print-directory CRASHPOINTS=1 BUILD=$(BUILD)/crash all
+	@$(if $(COUNTING),:,$(MAKE)) --no-print-directory CRASHPOINTS=1 BUILD=$(BUILD)/crash all
 
 # --- fuzzing ------------------------------------------------------------------------------------
 # Harnesses are clang's: tests/fuzz/run calls make again, with a compiler, sanitizers and a build

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Packages: what is missing is installed by root, or by sudo; a user with neither gets one line with
-# the command to type. A run needs neither jolon-bench nor the engines that it measures.
+# the command to type. A run needs neither jolon-bench nor the engines that it measures. A build uses
+# all processors and numbers its steps.
 . "$(dirname "$0")/lib.sh"
 top=$(cd "$bin" && until [ -e Makefile ]; do cd ..; done && pwd)
 
@@ -45,11 +46,29 @@ install list
 check "what is there is not installed again" eval '[ $status = 0 ] && [ ! -e asked ]'
 
 # In a build tree where nothing has been made, make says all that it would do.
-would() { env -u MAKEFLAGS -u MFLAGS make -n -C "$top" BUILD="$folder/tree" "$@" 2>&1; }
-would run >run.plan
-would bench >bench.plan
+build() { env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL make -C "$top" --no-print-directory BUILD="$folder/tree" "$@" 2>&1; }
+build -n run >run.plan
+build -n bench >bench.plan
 check "make run builds the programs" grep -q 'bin/jolon-mover' run.plan
 check "but not the benchmarks" eval '! grep -q "jolon-bench\|peer_ode\|peer_bullet" run.plan'
 check "make bench builds them" grep -q 'bin/jolon-bench' bench.plan
 check "no engine is in the list of packages" eval '! grep -q "libode\|libbullet" "$top/packages.txt"'
+
+# --- the build -----------------------------------------------------------------------------------
+mapfile -t sources < <(cd "$top" && find mover -name '*.c' | sort | head -n 3)
+parts=("${sources[@]/#/$folder/tree/obj/}")
+parts=("${parts[@]/%.c/.o}")
+check "steps are numbered up to their number" equal "$(build "${parts[@]}" | sed 's/ CC .*//' | sort | xargs)" \
+    "[1/3] [2/3] [3/3]"
+check "no step is printed when all is done" equal "$(build "${parts[@]}" | grep -c CC)" 0
+rm "${parts[0]}"
+check "what is there is no step" equal "$(build "${parts[@]}" | grep CC)" "[1/1] CC ${sources[0]}"
+check "other flags are steps for all" equal "$(build OPT='-O0 -g1' "${parts[@]}" | grep -c '/3\] CC ')" 3
+rm "${parts[@]}"
+check "make -s says nothing" equal "$(build -s "${parts[@]}")" ""
+# jobs GOAL...: what make counts as its own number of jobs
+jobs() { build -np "$@" | grep -a '^MAKEFLAGS = ' | grep -oE -- ' -j[0-9]+' | tail -n 1; }
+check "all processors build" equal "$(jobs all)" " -j$(nproc)"
+check "but -j says how many" equal "$(jobs -j7 all)" " -j7"
+check "several goals that do more than build run in their order" equal "$(jobs clean all)" ""
 done_testing
