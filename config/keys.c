@@ -109,6 +109,19 @@ static void append_range(char *text, size_t bytes, const struct key *key)
     append_limit(text, bytes, key->high);
 }
 
+static void append_unit(char *text, size_t bytes, const struct key *key)
+{
+    if (key->unit != NULL)
+        append(text, bytes, " %s", key->unit);
+}
+
+void keys_range(const struct key *key, char *text, size_t bytes)
+{
+    text[0] = '\0';
+    append_range(text, bytes, key);
+    append_unit(text, bytes, key);
+}
+
 void keys_allowed(const struct key *key, char *text, size_t bytes)
 {
     text[0] = '\0';
@@ -147,8 +160,7 @@ void keys_allowed(const struct key *key, char *text, size_t bytes)
     case KEY_TYPE_COUNT:
         break;
     }
-    if (key->unit != NULL)
-        append(text, bytes, " %s", key->unit);
+    append_unit(text, bytes, key);
 }
 
 /* "what is wrong; allowed: ..." */

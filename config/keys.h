@@ -88,6 +88,9 @@ int keys_find(const struct key_table *table, const char *name);
 void keys_allowed(const struct key *key, char *text, size_t bytes);
 const char *key_type_name(enum key_type type);
 
+/* The range of a key's number, or of each coordinate of a place: "0..50000 m". */
+void keys_range(const struct key *key, char *text, size_t bytes);
+
 /* Stores every fallback. 0; -1 when one breaks its own key's rule (a bug in the table). */
 int keys_defaults(const struct key_table *table, void *destination, struct loader_message *message);
 

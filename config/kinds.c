@@ -1,4 +1,4 @@
-/* Kinds: one file each, checked alone and then against each other. */
+/* Reads the files of kinds. Each file is checked alone, then the references between kinds. */
 #include "config/kinds.h"
 
 #include "config/models.h"
@@ -15,7 +15,7 @@
 #define SUFFIX          ".cfg"
 #define UNARMED_SIGHT_M 1500.0
 
-/* A kind's file while it is being read; its munition waits until all kinds are known. */
+/* A kind's file while it is read. Its munition is looked up when all kinds are known. */
 struct reading {
     char path[PATH_MAX];
     char munition[KIND_NAME_MAX];
@@ -46,8 +46,8 @@ static int add_name(struct names *names, const char *file, struct key_place plac
                            KIND_COUNT_MAX);
     if (length >= KIND_NAME_MAX)
         return keys_refuse(message, place, NULL, NULL,
-                           "%s is too long a kind's name; allowed: up to %d characters", file,
-                           KIND_NAME_MAX - 1);
+                           "%s is too long for the name of a kind; allowed: up to %d characters",
+                           file, KIND_NAME_MAX - 1);
     memset(names->name[names->count], 0, KIND_NAME_MAX);
     memcpy(names->name[names->count++], file, length);
     return 0;
@@ -71,13 +71,14 @@ static int list_names(struct names *names, const char *data_dir, struct loader_m
     if (result != 0)
         return result;
     if (names->count == 0)
-        return keys_refuse(message, place, NULL, NULL, "has no kinds; right would be: NAME.cfg");
-    /* The directory's own order is the file system's; kinds' numbers must not depend on it. */
+        return keys_refuse(message, place, NULL, NULL,
+                           "has no kinds; right would be: files NAME.cfg");
+    /* The order of a directory depends on the file system. The numbers of kinds must not. */
     qsort(names->name, (size_t)names->count, KIND_NAME_MAX, compare_names);
     return 0;
 }
 
-/* A value that is allowed by itself but not beside the others. */
+/* Refuses a value that is in range but does not fit the other values. */
 static int refuse_pair(const struct key_reading *keys, const char *name, double value,
                        const char *why, struct loader_message *message)
 {
@@ -89,11 +90,19 @@ static int refuse_pair(const struct key_reading *keys, const char *name, double 
     return keys_refuse(message, place, name, text, "%s", why);
 }
 
+static int refuse_no_class(const struct key_reading *keys, struct loader_message *message)
+{
+    const struct key_place place = {keys->file, 1};
+    char allowed[128];
+
+    keys_allowed(&keys->table->keys[keys_find(keys->table, "class")], allowed, sizeof(allowed));
+    return keys_refuse(message, place, "class", NULL,
+                       "is missing; a fixed object needs it; allowed: %s", allowed);
+}
+
 static int check_domain(const struct kind *kind, const struct key_reading *keys, bool has_class,
                         struct loader_message *message)
 {
-    const struct key_place place = {keys->file, 1};
-
     switch ((enum domain)kind->domain) {
     case DOMAIN_LAND:
     case DOMAIN_SEA:
@@ -120,18 +129,14 @@ static int check_domain(const struct kind *kind, const struct key_reading *keys,
                                "is needed by a munition; allowed: above 0", message);
         break;
     case DOMAIN_FIXED:
-        if (!has_class)
-            return keys_refuse(message, place, "class", NULL,
-                               "is missing; a fixed object needs it: tree, bush, pole, "
-                               "building, watertower, other_manmade, other_natural");
-        break;
+        return has_class ? 0 : refuse_no_class(keys, message);
     case DOMAIN_COUNT:
         break;
     }
     return 0;
 }
 
-/* All three levels of damage are the kind's own, or none is. */
+/* A kind has all three ratios of damage, each below the one before, or none. */
 static int check_damage(const struct kind *kind, const struct key_reading *keys,
                         struct loader_message *message)
 {
@@ -154,22 +159,25 @@ static int check_damage(const struct kind *kind, const struct key_reading *keys,
     return 0;
 }
 
-/* What turns must be armed, and what is moved must have somewhere to go. */
+/* Only an armed kind has a turret or a gun that moves. A gun that moves has a range of elevation,
+ * and a homing munition has a seeker and turns. */
 static int check_gun(const struct kind *kind, const struct key_reading *keys, bool has_munition,
                      struct loader_message *message)
 {
     if (kind->turret_rate_rps > 0 && !has_munition)
         return refuse_pair(keys, "turret_rate_dps", kind->turret_rate_rps * DEG_PER_RAD,
-                           "is for what fires a munition; allowed: with munition", message);
+                           "is only for an armed vehicle; allowed: with munition", message);
     if (kind->gun_rate_rps > 0 && !has_munition)
         return refuse_pair(keys, "gun_rate_dps", kind->gun_rate_rps * DEG_PER_RAD,
-                           "is for what fires a munition; allowed: with munition", message);
+                           "is only for an armed vehicle; allowed: with munition", message);
     if (kind->gun_low_rad > 0)
         return refuse_pair(keys, "gun_low_deg", kind->gun_low_rad * DEG_PER_RAD,
-                           "is above the level, where a gun rests; allowed: up to 0", message);
+                           "is above the level, at which the gun rests; allowed: 0 or below",
+                           message);
     if (kind->gun_high_rad < 0)
         return refuse_pair(keys, "gun_high_deg", kind->gun_high_rad * DEG_PER_RAD,
-                           "is below the level, where a gun rests; allowed: from 0 on", message);
+                           "is below the level, at which the gun rests; allowed: 0 or above",
+                           message);
     if (kind->gun_rate_rps <= 0 && (kind->gun_low_rad < 0 || kind->gun_high_rad > 0))
         return refuse_pair(keys, "gun_rate_dps", 0.0,
                            "is needed beside gun_low_deg and gun_high_deg; allowed: above 0",
@@ -187,26 +195,28 @@ static int check_kind(const struct kind *kind, const struct key_reading *keys, c
     bool has_class = (keys->given >> keys_find(keys->table, "class") & 1u) != 0;
     bool has_munition = (keys->given >> keys_find(keys->table, "munition") & 1u) != 0;
     struct key_place place = {keys->file, keys->line[keys_find(keys->table, "name")]};
+    struct key_place class_place = {keys->file, keys->line[keys_find(keys->table, "class")]};
 
     if (strcmp(kind->name, name) != 0)
-        return keys_refuse(message, place, "name", kind->name, "is not the file's own; allowed: %s",
-                           name);
+        return keys_refuse(message, place, "name", kind->name,
+                           "is not the name of the file; allowed: %s", name);
     if (kind->min_speed_mps > kind->max_speed_mps)
         return refuse_pair(keys, "min_speed_mps", kind->min_speed_mps,
-                           "is above max_speed_mps; allowed: up to it", message);
+                           "is above max_speed_mps; allowed: up to max_speed_mps", message);
     if (has_munition && (kind->range_m <= 0 || kind->reload_s <= 0))
         return refuse_pair(keys, kind->range_m <= 0 ? "range_m" : "reload_s", 0.0,
-                           "is needed by what fires a munition; allowed: above 0", message);
+                           "is needed by an armed vehicle; allowed: above 0", message);
     if (has_class && kind->domain != DOMAIN_FIXED)
-        return refuse_pair(keys, "class", kind->object_class,
-                           "is for fixed objects; allowed: with domain = \"fixed\"", message);
+        return keys_refuse(message, class_place, "class",
+                           object_class_name((enum object_class)kind->object_class),
+                           "is only for fixed objects; allowed: with domain = \"fixed\"");
     if (check_damage(kind, keys, message) != 0 || check_gun(kind, keys, has_munition, message) != 0)
         return -1;
     return check_domain(kind, keys, has_class, message);
 }
 
-/* A skin that has taken up resistance_j when it is pressed in by a quarter of the body's smallest
- * side: k d^2 / 2 = resistance_j. */
+/* The stiffness [N/m] of a skin that takes up resistance_j when it is pressed in by d, a quarter of
+ * the body's smallest side: k d^2 / 2 = resistance_j. */
 static double stiffness_of(const struct kind *kind)
 {
     double depth = 0.25 * fmin(kind->length_m, fmin(kind->width_m, kind->height_m));
@@ -214,7 +224,7 @@ static double stiffness_of(const struct kind *kind)
     return 2.0 * kind->resistance_j / (depth * depth);
 }
 
-/* What a vehicle's file leaves open of how it sees and thinks. */
+/* Sets the sight and the doctrine that the file of a vehicle leaves open. */
 static void complete_mind(struct kind *kind, bool has_doctrine)
 {
     if (kind->sight_m <= 0)
@@ -240,7 +250,7 @@ static void take_hulls(struct kind *kind, const struct hulls *hulls)
     kind->high_m = hulls->high_m;
 }
 
-/* Says of a bad model also which kind wants it. */
+/* Index of the kind's model; -1 with a message that names the kind as well as the model. */
 static int find_model(struct models *models, const struct key_reading *keys, const char *name,
                       struct loader_message *message)
 {
@@ -250,7 +260,7 @@ static int find_model(struct models *models, const struct key_reading *keys, con
 
     if (name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_")] != '\0')
         return keys_refuse(message, place, "model", name,
-                           "is not a model's name; allowed: a-z 0-9 - _");
+                           "is not the name of a model; allowed: a-z 0-9 - _");
     model = models_find(models, name, &why);
     if (model < 0)
         return keys_refuse(message, place, "model", name, "%s", why.text);
@@ -299,7 +309,7 @@ err_config:
     return result;
 }
 
-/* A vehicle's munition is another kind, which may come later in the alphabet. */
+/* Looks up the kind's munition, which may be a kind with a later name. */
 static int resolve_munition(struct scenario *scenario, uint32_t index,
                             const struct reading *reading, struct loader_message *message)
 {
@@ -311,10 +321,10 @@ static int resolve_munition(struct scenario *scenario, uint32_t index,
     kind->munition = kind_find(scenario->kinds, scenario->kind_count, reading->munition);
     if (kind->munition == KIND_NONE)
         return keys_refuse(message, place, "munition", reading->munition,
-                           "unknown kind; allowed: one with domain = \"munition\"");
+                           "unknown kind; allowed: a kind with domain = \"munition\"");
     if (scenario->kinds[kind->munition].domain != DOMAIN_MUNITION)
         return keys_refuse(message, place, "munition", reading->munition,
-                           "is no munition; allowed: a kind with domain = \"munition\"");
+                           "is not a munition; allowed: a kind with domain = \"munition\"");
     return 0;
 }
 

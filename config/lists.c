@@ -1,4 +1,4 @@
-/* Fixed objects, ordered shots, and the names that shots go by. */
+/* Reads the lists of fixed objects, bases and ordered shots. Shots name vehicles. */
 #include "config/lists.h"
 
 #include "config/entry.h"
@@ -54,7 +54,8 @@ int lists_bases(struct scenario *scenario, const config_setting_t *list, const c
         if (entry_read(&entry, &schema_base, i, list, &base) != 0)
             return -1;
         if (scenario->based[base.force])
-            return entry_refuse(&entry, BASE_FORCE, "has a base already; allowed: one a force");
+            return entry_refuse(&entry, BASE_FORCE,
+                                "has a base already; allowed: one base for each force");
         scenario->based[base.force] = 1;
         scenario->params.base[base.force] = (struct force_base){base.at[0], base.at[1]};
     }
@@ -64,7 +65,7 @@ int lists_bases(struct scenario *scenario, const config_setting_t *list, const c
 /* --- names -------------------------------------------------------------------------------------
  */
 
-/* Named groups in the order of their names, for looking up. */
+/* The groups that have a name, sorted by it for binary search. */
 struct named {
     const struct scenario_group **group;
     uint32_t count;
@@ -76,7 +77,7 @@ static int compare_groups(const void *a, const void *b)
 
     int order = strcmp((*left)->name, (*right)->name);
 
-    return order != 0 ? order : (*left > *right) - (*left < *right); /* then the file's order */
+    return order != 0 ? order : (*left > *right) - (*left < *right); /* else in file order */
 }
 
 static const struct scenario_group *find_group(const struct named *named, const char *name)
@@ -97,7 +98,7 @@ static const struct scenario_group *find_group(const struct named *named, const 
     return NULL;
 }
 
-/* The group of several whose member is called name: "tank-3" of three or more "tank". */
+/* The group whose member is called name: "tank-3" is the third of three or more called "tank". */
 static const struct scenario_group *find_of_many(const struct named *named, const char *name)
 {
     const char *dash = strrchr(name, '-');
@@ -115,7 +116,7 @@ static const struct scenario_group *find_of_many(const struct named *named, cons
     return group;
 }
 
-/* The group that the vehicle called name comes from, NULL when no vehicle is. */
+/* The group of the vehicle called name; NULL when there is no such vehicle. */
 static const struct scenario_group *find_vehicle(const struct named *named, const char *name)
 {
     const struct scenario_group *group = find_group(named, name);
@@ -123,7 +124,7 @@ static const struct scenario_group *find_vehicle(const struct named *named, cons
     return group != NULL && group->count == 1 ? group : find_of_many(named, name);
 }
 
-/* Sorts the named groups and refuses a name that two vehicles would have. */
+/* Sorts the named groups, and refuses a name that two vehicles would share. */
 static int collect_names(struct named *named, const struct scenario *scenario,
                          const config_setting_t *vehicles, const char *file,
                          struct loader_message *message)
@@ -150,7 +151,7 @@ static int collect_names(struct named *named, const struct scenario *scenario,
         const struct key_place place = {file, (int)config_setting_source_line(name)};
         snprintf(path, sizeof(path), "vehicles[%u].name", index);
         return keys_refuse(message, place, path, group->name,
-                           "is another vehicle's name too; allowed: each name once");
+                           "is also the name of another vehicle; allowed: each name once");
     }
     return 0;
 }
@@ -167,18 +168,18 @@ static int check_fire(const struct entry *entry, const struct fire_entry *fire,
     *munition = KIND_NONE;
     if (entry_given(entry, FIRE_SHOOTER) && shooter == NULL)
         return entry_refuse(entry, FIRE_SHOOTER,
-                            "is no vehicle's name; allowed: a name of vehicles");
+                            "is not the name of a vehicle; allowed: a name of vehicles");
     if (entry_given(entry, FIRE_TARGET) && find_vehicle(named, fire->target) == NULL)
         return entry_refuse(entry, FIRE_TARGET,
-                            "is no vehicle's name; allowed: a name of vehicles");
+                            "is not the name of a vehicle; allowed: a name of vehicles");
     if (entry_given(entry, FIRE_TARGET) == entry_given(entry, FIRE_POINT))
         return entry_refuse(entry, FIRE_TARGET,
-                            "a shot goes to a target or to a point; allowed: one of "
-                            "target and point");
+                            "a shot needs a target or a point; allowed: one of the two");
     if (entry_given(entry, FIRE_TARGET) && shooter == NULL)
-        return entry_refuse(entry, FIRE_TARGET,
-                            "has no shooter, and what falls out of the sky falls on a point; right "
-                            "would be: a shooter beside it, or a point");
+        return entry_refuse(
+            entry, FIRE_TARGET,
+            "needs a shooter, as a munition that falls from the sky falls on a point; "
+            "right would be: a shooter beside it, or a point");
     if (entry_given(entry, FIRE_MUNITION)) {
         *munition = entry_kind(entry, FIRE_MUNITION, fire->munition, DOMAIN_BIT(DOMAIN_MUNITION));
         return *munition == KIND_NONE ? -1 : 0;
@@ -187,10 +188,11 @@ static int check_fire(const struct entry *entry, const struct fire_entry *fire,
         return entry_refuse(entry, FIRE_MUNITION,
                             "is missing; a shot without a shooter needs the munition that falls");
     if (kinds[shooter->kind].munition == KIND_NONE)
-        return entry_refuse(entry, FIRE_SHOOTER,
-                            "is a %s, which has no munition; right would be: one "
-                            "that has, or a munition here",
-                            kinds[shooter->kind].name);
+        return entry_refuse(
+            entry, FIRE_SHOOTER,
+            "is a %s, which has no munition; right would be: an armed vehicle, or a "
+            "munition here",
+            kinds[shooter->kind].name);
     return 0;
 }
 

@@ -1,4 +1,5 @@
-/* The loader: defaults, kinds, scenario file, overrides, lists, then what follows from them. */
+/* Reads a scenario in this order: defaults, the scenario file, overrides, kinds, lists. Then sets
+ * the parameters that follow from them. */
 #include "config/loader.h"
 
 #include "config/kinds.h"
@@ -16,8 +17,8 @@
 #define DEFAULT_SCENARIO "hunter-liggett"
 #define OVERRIDE_PLACE   "--set"
 
-/* Sizes of the shared tables. A frame can at most fill an eighth of the event ring, so that
- * readers have seven frames' worth of time at worst; 16 events an entity keep a busy second. */
+/* Sizes of the shared tables. A frame fills an eighth of the event ring at most, so that a reader
+ * has at least seven frames of time. 16 events an entity are the events of a busy second. */
 #define EVENT_SLOTS_MIN    65536u
 #define EVENT_SLOTS_MAX    1048576u
 #define EVENTS_PER_ENTITY  16u
@@ -28,7 +29,7 @@
 #define CRATER_SLOTS       65536u
 #define DENT_SLOTS         65536u
 
-/* A load under way. */
+/* A scenario while it is read. */
 struct load {
     struct scenario *scenario;
     const char *data_dir;
@@ -40,7 +41,7 @@ struct load {
     struct loader_message *message;
 };
 
-/* Finds the scenario's file: path itself, else NAME or NAME.cfg among the shipped ones. */
+/* Finds the scenario's file: the path itself, else NAME or NAME.cfg in data_dir/scenarios. */
 static int find_scenario(const char *data_dir, const char *path, char *found, size_t bytes,
                          struct loader_message *message)
 {
@@ -66,7 +67,7 @@ static int find_scenario(const char *data_dir, const char *path, char *found, si
                        data_dir);
 }
 
-/* Lists are read elsewhere, by kind of entry. */
+/* Lists have readers of their own (read_lists()). */
 static bool is_list(const config_setting_t *setting)
 {
     const char *name = config_setting_name(setting);
@@ -137,7 +138,7 @@ static int apply_override(struct load *load, const char *text)
                          load->message);
 }
 
-/* Three constants of which each must be above the next. */
+/* Three constants. Each must be above the next. */
 struct levels {
     const char *name[3];
     double value[3];
@@ -153,13 +154,13 @@ static int check_levels(const struct load *load, const struct levels *levels)
             continue;
         snprintf(text, sizeof(text), "%.15g", levels->value[i]);
         return keys_refuse(load->message, load->origin[keys_find(&schema_scenario, name)], name,
-                           text, "is not below the next level of damage; allowed: below %.15g",
+                           text, "is not below the next higher level; allowed: below %.15g",
                            levels->value[i - 1]);
     }
     return 0;
 }
 
-/* Values that are allowed alone but not together. */
+/* Checks values that are in range but may not fit each other. */
 static int check_together(const struct load *load)
 {
     const struct collision_params *collision = &load->scenario->params.collision;
@@ -195,7 +196,7 @@ static int read_lists(struct load *load)
         lists_objects(scenario, objects, file, load->message) != 0 ||
         lists_fires(scenario, fires, vehicles, file, load->message) != 0)
         return -1;
-    /* A list that an override has replaced was still checked. */
+    /* A list is checked even when an override replaces it. */
     if (scenario->objects != OBJECTS_LIST)
         scenario->object_count = 0;
     return 0;
@@ -220,21 +221,21 @@ static void derive(struct load *load)
     params->dt_s = 1.0 / params->hz;
     params->event_slots = event_slots_for(params->capacity);
     params->events_per_frame = params->event_slots / EVENT_FRAME_SHARE;
-    /* At most half of a frame's events, so that collisions always have room beside them. */
+    /* At most half of a frame's events, so that collisions always have room for theirs. */
     params->intents_per_frame =
         intents < params->events_per_frame / 2 ? (uint32_t)intents : params->events_per_frame / 2;
     params->command_slots = COMMAND_SLOTS;
     params->crater_slots = CRATER_SLOTS;
     params->dent_slots = DENT_SLOTS;
     params->scenario_hash = XXH3_64bits_digest(load->hash);
-    /* For people: of a path that is too long the end says more than the beginning. */
+    /* Of a path that is too long the end is kept, which tells people more than its beginning. */
     if (length < PATH_TEXT_MAX)
         memcpy(params->scenario, path, length + 1);
     else
         snprintf(params->scenario, PATH_TEXT_MAX, "...%s", path + length - (PATH_TEXT_MAX - 4));
 }
 
-/* What the same scenario can be read from again. */
+/* Notes the file and the overrides, from which the same scenario can be read again. */
 static int write_recipe(const struct load *load, const char *const *overrides, int override_count)
 {
     char *absolute = realpath(load->source.path, NULL);
@@ -245,8 +246,9 @@ static int write_recipe(const struct load *load, const char *const *overrides, i
     for (int i = 0; i < override_count && result == 0; i++)
         result = recipe_add(&load->scenario->recipe, "set", overrides[i]);
     if (result != 0)
-        return keys_refuse(load->message, (struct key_place){load->source.path, 0}, NULL, NULL,
-                           "no memory for its recipe, or its overrides are too long");
+        return keys_refuse(
+            load->message, (struct key_place){load->source.path, 0}, NULL, NULL,
+            "no memory to note what it was made from, or overrides that are too long");
     return 0;
 }
 
@@ -297,8 +299,8 @@ err_source:
     return result;
 }
 
-/* May the key change in a world that exists? Its counts, its capacities and what stands in it were
- * made from the others. */
+/* Returns true for a key that can change in a world that exists. The counts, the capacities and the
+ * objects of the world were made from the other keys. */
 static bool changeable(const struct key *key)
 {
     _Static_assert(offsetof(struct scenario, params) == 0, "keys of params come first");
@@ -324,7 +326,7 @@ int loader_branch(struct params *params, const char *const *overrides, int overr
         const struct key *key = &schema_scenario.keys[index];
         if (!changeable(key))
             return keys_refuse(message, load.origin[index], key->name, value,
-                               "cannot change in a world that was made already; allowed: "
+                               "cannot change in a world that exists; allowed: "
                                "world.seed, hz, frames, pace and name, collision.*, renderer.*");
         if (keys_set_text(key, &scenario, value, load.origin[index], message) != 0)
             return -1;

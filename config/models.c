@@ -267,8 +267,7 @@ static int take_mesh(struct taking *taking, const struct aiMesh *mesh, struct mo
         triangle[i] = like;
         if (face->mNumIndices != 3)
             return keys_refuse(taking->message, taking->place, NULL, NULL,
-                               "has a face of %u corners; allowed: faces of three and more",
-                               face->mNumIndices);
+                               "has a face of %u corners; allowed: 3 or more", face->mNumIndices);
         for (int corner = 0; corner < 3; corner++) {
             if (face->mIndices[corner] >= mesh->mNumVertices)
                 return keys_refuse(taking->message, taking->place, NULL, NULL,
@@ -302,16 +301,17 @@ static int take_part(struct taking *taking, const struct aiNode *node, struct mo
     uint32_t part = part_of(node->mName.data);
 
     if (part == PART_COUNT)
-        return keys_refuse(taking->message, taking->place, NULL, NULL,
-                           "object %s: unknown part; allowed: body, turret, gun, rotor, "
-                           "tail_rotor, wheel, front_wheel, track, solid, a number behind",
-                           node->mName.data);
+        return keys_refuse(
+            taking->message, taking->place, NULL, NULL,
+            "object %s: unknown part; allowed: body, turret, gun, rotor, "
+            "tail_rotor, wheel, front_wheel, track, solid; \"_1\" and so on may follow",
+            node->mName.data);
     like->part = (uint16_t)part;
     if (part == PART_BODY || part == PART_TURRET)
         return 0;
     if (taking->joints == MODEL_JOINTS_MAX)
         return keys_refuse(taking->message, taking->place, NULL, NULL,
-                           "object %s: moves, and is one too many; allowed: up to %u",
+                           "object %s: is one moving part too many; allowed: up to %u",
                            node->mName.data, MODEL_JOINTS_MAX - 1);
     like->joint = (uint16_t)taking->joints++;
     return 0;

@@ -1,4 +1,4 @@
-/* OBJ: lines into words, each line by the rule of its first word. */
+/* Splits lines into words, and checks each line by the rule of its first word. */
 #include "config/obj.h"
 
 #include "config/keys.h"
@@ -14,7 +14,7 @@
 
 #define NAME_CHARACTERS "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_"
 
-/* A word of a line; not terminated. */
+/* A word of a line, without a NUL at its end. */
 struct word {
     const char *text;
     size_t length;
@@ -26,16 +26,16 @@ struct materials {
     uint32_t count;
 };
 
-/* A file being checked, and the line that it is at. */
+/* A file while it is checked, and its current line. */
 struct checking {
     struct key_place place;
     struct loader_message *message;
     struct word word[WORDS_MAX];
-    uint32_t words; /* may be more than fit: too many for any rule */
+    uint32_t words; /* may be above WORDS_MAX, which is too many for any rule */
     obj_open *open;
     void *context;
     struct materials *materials; /* of the file that mtllib names */
-    bool library, chosen;        /* mtllib, usemtl came */
+    bool library, chosen;        /* there was a line mtllib, usemtl */
     uint32_t vertices, textures, normals, triangles, sections;
 };
 
@@ -45,7 +45,7 @@ struct statement {
     int (*check)(struct checking *checking);
 };
 
-/* Refuses word `index` of the line, 0: the whole line. */
+/* Refuses word `index` of the line; 0: the whole line. */
 static int refuse(const struct checking *checking, uint32_t index, const char *wrong)
 {
     char name[OBJ_WORD_MAX + 1], value[OBJ_WORD_MAX + 1];
@@ -77,8 +77,8 @@ static size_t digits(const char *text)
     return strspn(text, "0123456789");
 }
 
-/* Length of the number that text begins with, 0 when it does not: 1, -2.5, +1.0e-3. Others that C
- * takes, such as .5, assimp does not count as numbers. */
+/* Length of the number at the beginning of text, such as 1, -2.5 or +1.0e-3; 0: there is none.
+ * assimp does not accept every number of C, for example not .5. */
 static size_t number_length(const char *text)
 {
     size_t length = *text == '+' || *text == '-';
@@ -104,13 +104,13 @@ static int check_number(const struct checking *checking, uint32_t index, double 
     char wrong[80];
 
     if (word->length > NUMBER_TEXT_MAX || number_length(word->text) != word->length)
-        return refuse(checking, index, "is not a number; right would be: -1.25");
+        return refuse(checking, index, "is not a number; right would be: a number such as -1.25");
     double value = strtod(word->text, NULL);
     snprintf(wrong, sizeof(wrong), "out of range; allowed: %g..%g", low, high);
     return value >= low && value <= high ? 0 : refuse(checking, index, wrong);
 }
 
-/* Words from 1 on: at least and at most so many numbers, and nothing else. */
+/* Checks that the words after the first are numbers, `least` to `most` of them. */
 static int check_numbers(const struct checking *checking, uint32_t least, uint32_t most, double low,
                          double high)
 {
@@ -164,8 +164,8 @@ static void split(struct checking *checking, const char *line, size_t length)
     }
 }
 
-/* Nothing that another reader could take for a line's end, a line's continuation or a text's end:
- * what is one line here is one line to assimp. */
+/* Refuses bytes that assimp could take for the end of a line or of the text, or for the
+ * continuation of a line, so that both readers see the same lines. */
 static int check_bytes(const struct checking *checking, const char *line, size_t length)
 {
     bool comment = line[strspn(line, " \t")] == '#';
@@ -177,10 +177,11 @@ static int check_bytes(const struct checking *checking, const char *line, size_t
         unsigned char c = (unsigned char)line[i];
 
         if ((c < 0x20 && c != '\t') || c == 0x7f || c == '\\' || (c > 0x7f && !comment))
-            return keys_refuse(checking->message, checking->place, NULL, NULL,
-                               "has a byte 0x%02x; allowed: printable ASCII but the backslash, in "
-                               "comments any letters",
-                               c);
+            return keys_refuse(
+                checking->message, checking->place, NULL, NULL,
+                "has a byte 0x%02x; allowed: printable ASCII except the backslash, and any "
+                "letters in comments",
+                c);
     }
     return 0;
 }
@@ -190,13 +191,14 @@ static int check_line(struct checking *checking, const char *line,
 {
     if (checking->words == 0 || checking->word[0].text[0] == '#')
         return 0;
-    if (checking->word[0].text != line) /* assimp would leave the line out */
+    if (checking->word[0].text != line) /* assimp would skip the line */
         return refuse(checking, 0, "is indented; right would be: at the line's beginning");
     for (; statements->name != NULL; statements++) {
         if (is_word(&checking->word[0], statements->name))
             return statements->check(checking);
     }
-    return refuse(checking, 0, "is not taken from a model; docs/scenario.md says what is");
+    return refuse(checking, 0,
+                  "is not supported in a model; docs/scenario.md lists the lines that are");
 }
 
 static int check_lines(struct checking *checking, const struct source *source,
@@ -334,7 +336,7 @@ static int check_section(struct checking *checking)
     return take_name(checking, name);
 }
 
-/* assimp gives triangles of no material, or of one that it does not find, some other. */
+/* The material must exist: assimp would give triangles without one the colour of another. */
 static int check_usemtl(struct checking *checking)
 {
     char name[OBJ_WORD_MAX + 1];
@@ -349,7 +351,7 @@ static int check_usemtl(struct checking *checking)
     return 0;
 }
 
-/* Reads a whole number of 1..count at *at and moves behind it; false when there is none. */
+/* Reads a whole number of 1..count at *at and moves *at behind it; false: there is none. */
 static bool take_index(const char **at, const char *end, uint32_t count)
 {
     uint32_t value = 0;
@@ -360,7 +362,7 @@ static bool take_index(const char **at, const char *end, uint32_t count)
     return digits > 0 && value >= 1 && value <= count;
 }
 
-/* v, v/vt, v//vn or v/vt/vn, of what came before. */
+/* Returns true for v, v/vt, v//vn or v/vt/vn, with the indices of earlier lines. */
 static bool is_corner(const struct checking *checking, const struct word *word)
 {
     const char *at = word->text, *end = at + word->length;
@@ -394,8 +396,8 @@ static int check_face(struct checking *checking)
         return refuse_many(checking, "triangles", OBJ_TRIANGLES_MAX);
     for (uint32_t i = 1; i <= corners; i++) {
         if (!is_corner(checking, &checking->word[i])) {
-            snprintf(wrong, sizeof(wrong), "is no corner; allowed: 1..%u, the vertices before it",
-                     checking->vertices);
+            snprintf(wrong, sizeof(wrong),
+                     "is not a corner; allowed: 1..%u, the vertices before it", checking->vertices);
             return refuse(checking, i, wrong);
         }
     }

@@ -1,4 +1,4 @@
-/* The list of scripts. */
+/* Reads the list of scripts. */
 #include "config/scripts.h"
 
 #include "config/entry.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a step may do, by the key that says so. */
+/* The actions of a step, and the key of each. STEP_KEY_ALTITUDE is one when it stands alone. */
 static const struct {
     uint32_t key; /* enum step_key */
     enum step_type type;
@@ -25,7 +25,7 @@ static const struct {
     {STEP_KEY_BEHAVIOUR, STEP_BEHAVIOUR},
 };
 
-/* Makes room for so many more steps. */
+/* Makes room for `more` steps. 0; -1 with the message. */
 static int reserve_steps(struct scenario *scenario, uint64_t more, const char *file,
                          struct loader_message *message)
 {
@@ -34,7 +34,7 @@ static int reserve_steps(struct scenario *scenario, uint64_t more, const char *f
 
     if (count > SCRIPT_STEPS_MAX)
         return keys_refuse(message, place, NULL, NULL,
-                           "makes the scripts %llu steps long; allowed: up to %u in all",
+                           "gives the scripts %llu steps; allowed: up to %u in all",
                            (unsigned long long)count, SCRIPT_STEPS_MAX);
     struct scenario_step *steps = realloc(scenario->steps, (count + 1) * sizeof(*steps));
     if (steps == NULL)
@@ -43,7 +43,21 @@ static int reserve_steps(struct scenario *scenario, uint64_t more, const char *f
     return 0;
 }
 
-/* The one thing that a step does; STEP_TYPE_COUNT with the message when it is none or several. */
+/* Refuses a step without an action, with the keys of all actions. */
+static void refuse_no_action(const struct entry *entry)
+{
+    char names[256];
+    size_t used = 0;
+
+    for (size_t i = 0; i < sizeof(actions) / sizeof(actions[0]) && used < sizeof(names); i++)
+        used += (size_t)snprintf(names + used, sizeof(names) - used, "%s, ",
+                                 schema_step.keys[actions[i].key].name);
+    entry_refuse(entry, STEP_KEY_GO,
+                 "is missing, and so is any other action; right would be: one of %s%s", names,
+                 schema_step.keys[STEP_KEY_ALTITUDE].name);
+}
+
+/* The one action of a step; STEP_TYPE_COUNT with the message when it has none or several. */
 static enum step_type find_action(const struct entry *entry)
 {
     enum step_type type = STEP_TYPE_COUNT;
@@ -53,8 +67,8 @@ static enum step_type find_action(const struct entry *entry)
         if (!entry_given(entry, actions[i].key))
             continue;
         if (first != NULL) {
-            entry_refuse(entry, actions[i].key, "stands beside %s; allowed: one of them in a step",
-                         first);
+            entry_refuse(entry, actions[i].key,
+                         "is a second action beside %s; allowed: one action in a step", first);
             return STEP_TYPE_COUNT;
         }
         first = schema_step.keys[actions[i].key].name;
@@ -63,14 +77,11 @@ static enum step_type find_action(const struct entry *entry)
     if (first == NULL && entry_given(entry, STEP_KEY_ALTITUDE))
         return STEP_ALTITUDE;
     if (first == NULL)
-        entry_refuse(entry, STEP_KEY_GO,
-                     "is missing, and so is all else that a step can do; right would be: one of "
-                     "go, arrive, face_deg, stop, wait_s, fire, fire_at, for_s, altitude_m, "
-                     "behaviour");
+        refuse_no_action(entry);
     return type;
 }
 
-/* Keys that only some steps have. */
+/* Checks the keys that only some actions may have beside them. */
 static int check_beside(const struct entry *entry, enum step_type type)
 {
     static const uint32_t controls[] = {STEP_KEY_THROTTLE, STEP_KEY_STEER, STEP_KEY_CLIMB};
@@ -79,26 +90,28 @@ static int check_beside(const struct entry *entry, enum step_type type)
 
     for (size_t i = 0; i < sizeof(controls) / sizeof(controls[0]); i++) {
         if (type != STEP_CONTROLS && entry_given(entry, controls[i]))
-            return entry_refuse(entry, controls[i],
-                                "does not say for how long; right would be: for_s beside it, and "
-                                "nothing else");
+            return entry_refuse(
+                entry, controls[i],
+                "needs a duration; right would be: for_s beside it, and no other action");
     }
     if (entry_given(entry, STEP_KEY_SPEED) && type != STEP_GO)
-        return entry_refuse(entry, STEP_KEY_SPEED, "is for go alone; right would be: without it");
+        return entry_refuse(entry, STEP_KEY_SPEED,
+                            "is only for go; right would be: a step without it");
     if (entry_given(entry, STEP_KEY_ALTITUDE) && !moves)
-        return entry_refuse(entry, STEP_KEY_ALTITUDE,
-                            "is for go, arrive, face_deg and wait_s, or a step of its own");
+        return entry_refuse(
+            entry, STEP_KEY_ALTITUDE,
+            "is only for go, arrive, face_deg and wait_s, or for a step of its own");
     return 0;
 }
 
-/* Times only grow; last_s: the step before's. */
+/* Checks that times do not decrease. last_s: the latest time of the steps before. */
 static int check_time(const struct entry *entry, const struct step_entry *given,
                       enum step_type type, double last_s)
 {
     if (type == STEP_ARRIVE && !entry_given(entry, STEP_KEY_AT))
-        return entry_refuse(entry, STEP_KEY_AT, "is missing; arrive needs the time to be there");
+        return entry_refuse(entry, STEP_KEY_AT, "is missing; arrive needs the time of the arrival");
     if (entry_given(entry, STEP_KEY_AT) && entry_given(entry, STEP_KEY_AFTER))
-        return entry_refuse(entry, STEP_KEY_AFTER, "stands beside at_s; allowed: one of them");
+        return entry_refuse(entry, STEP_KEY_AFTER, "stands beside at_s; allowed: one of the two");
     if (entry_given(entry, STEP_KEY_AT) && given->at_s < last_s)
         return entry_refuse(entry, STEP_KEY_AT,
                             "is before the time of an earlier step; allowed: from %.15g on",
@@ -232,11 +245,10 @@ static int add_script(struct entry *entry, const struct script_entry *given, XXH
 
     if (scripts_find(scenario, given->name) != UINT32_MAX)
         return entry_refuse(entry, SCRIPT_NAME,
-                            "is another script's name too; allowed: each name once");
+                            "is also the name of another script; allowed: each name once");
     if ((steps != NULL) == entry_given(entry, SCRIPT_FILE))
         return entry_refuse(entry, SCRIPT_FILE,
-                            "a script has either steps or a file of waypoints; allowed: one of "
-                            "steps and file");
+                            "a script needs steps or a file of waypoints; allowed: one of the two");
     memcpy(script->name, given->name, sizeof(script->name));
     memcpy(script->file, given->file, sizeof(script->file));
     script->reacts = (uint8_t)given->react;

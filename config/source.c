@@ -1,4 +1,4 @@
-/* Sources: reading and parsing one file. */
+/* Reads and parses one file. */
 #include "config/source.h"
 
 #include "config/keys.h"
@@ -59,8 +59,9 @@ static int check_status(const struct stat *status, size_t most, struct key_place
     return 0;
 }
 
-/* Opens a file below folder (AT_FDCWD: here). A device may act on being opened, so it is looked at
- * before; what is looked at after is what is read. -1 with the message. */
+/* Opens a file in folder (AT_FDCWD: the working directory). The status is checked before the file
+ * is opened, because opening a device may have an effect, and again after, because the name may
+ * have changed its meaning. follow: 0 or AT_SYMLINK_NOFOLLOW. -1 with the message. */
 static int open_checked(int folder, const char *name, int follow, struct key_place place,
                         size_t most, struct stat *status, struct loader_message *message)
 {
@@ -84,7 +85,7 @@ err_open:
     return -1;
 }
 
-/* Takes an open file, and closes it. */
+/* Reads an open file whole, and closes it. */
 static int take(struct source *source, int fd, const struct stat *status,
                 struct loader_message *message)
 {
@@ -132,11 +133,11 @@ int source_read_in(struct source *source, const char *folder, const char *name, 
     if (name[0] == '\0' || strchr(name, '/') != NULL || strcmp(name, ".") == 0 ||
         strcmp(name, "..") == 0)
         return keys_refuse(message, place, NULL, NULL,
-                           "is no file of %s; allowed: the name of one, without '/'", folder);
+                           "is not the name of a file in %s; allowed: a name without '/'", folder);
     int dir = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
     if (dir < 0)
         return keys_refuse(message, place, NULL, NULL, "cannot be opened: %s", strerror(errno));
-    /* Of a name of one part, not following a link is all there is to staying in the folder. */
+    /* A name of one part leads out of the folder only by a symbolic link. */
     int fd = open_checked(dir, name, AT_SYMLINK_NOFOLLOW, place, most, &status, message);
     close(dir);
     return take(source, fd, &status, message);
@@ -149,7 +150,7 @@ void source_free(struct source *source)
     source->bytes = 0;
 }
 
-/* The parser follows @include to any file at all; it acts on it at the start of a line only. */
+/* libconfig would read any file that an @include at the start of a line names. */
 static int refuse_includes(const struct source *source, struct loader_message *message)
 {
     int line = 1;
@@ -160,8 +161,9 @@ static int refuse_includes(const struct source *source, struct loader_message *m
         if (strncmp(word, "@include", strlen("@include")) == 0) {
             const struct key_place place = {source->path, line};
 
-            return keys_refuse(message, place, NULL, NULL,
-                               "@include is not taken; write what it would include here");
+            return keys_refuse(
+                message, place, NULL, NULL,
+                "@include is not supported; right would be: the included text itself");
         }
         at = strchr(at, '\n');
         if (at != NULL)
@@ -170,9 +172,9 @@ static int refuse_includes(const struct source *source, struct loader_message *m
     return 0;
 }
 
-/* Trees that no schema has are not built: the parser keeps every part of them, and looks through a
- * group for each key that it adds to it. And it takes a string that never ends for the file's end.
- */
+/* Refuses trees that no schema has before libconfig builds them: it keeps every part in memory, and
+ * each key added to a group costs a search of the group. It also takes a string that never ends for
+ * the end of the file. */
 static int check_shape(const struct source *source, struct loader_message *message)
 {
     struct literals_shape shape;
@@ -182,12 +184,13 @@ static int check_shape(const struct source *source, struct loader_message *messa
     const struct key_place open = {source->path, shape.open_line};
     const struct key_place fullest = {source->path, shape.fullest_line};
     if (shape.open_line > 0)
-        return keys_refuse(message, open, NULL, NULL,
-                           "has a string or comment that never ends; right would be: \" or */");
+        return keys_refuse(
+            message, open, NULL, NULL,
+            "has a string or comment that never ends; right would be: a closing \" or */");
     if (shape.deepest > SCHEMA_DEPTH_MAX)
         return keys_refuse(message, deepest, NULL, NULL,
-                           "is nested %u deep; allowed: up to %u of ( [ { in each other",
-                           shape.deepest, SCHEMA_DEPTH_MAX);
+                           "is nested %u deep; allowed: up to %u levels of ( [ {", shape.deepest,
+                           SCHEMA_DEPTH_MAX);
     if (shape.fullest > SCHEMA_MEMBERS_MAX)
         return keys_refuse(message, fullest, NULL, NULL, "is a group of %u keys; allowed: up to %u",
                            shape.fullest, SCHEMA_MEMBERS_MAX);

@@ -1,4 +1,4 @@
-/* The list of vehicles. */
+/* Reads the list of vehicles. */
 #include "config/entry.h"
 #include "config/lists.h"
 #include "config/schema.h"
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Leaves room for "-1048576", the largest count. */
+/* The rest of the name has room for "-1048576", the largest number of a vehicle. */
 #define SHARED_NAME_MAX 15
 
 static int check_vehicle(const struct entry *entry, const struct vehicle_entry *vehicle,
@@ -18,7 +18,7 @@ static int check_vehicle(const struct entry *entry, const struct vehicle_entry *
 
     if (placed && vehicle->count != 1 && !entry_given(entry, VEHICLE_FORMATION))
         return entry_refuse(entry, VEHICLE_COUNT,
-                            "stands beside at, which places one; allowed: 1, or a formation");
+                            "is not 1, but at places one vehicle; allowed: 1, or a formation");
     total += vehicle->count;
     if (total > entry->scenario->params.capacity)
         return entry_refuse(entry, VEHICLE_COUNT,
@@ -33,7 +33,8 @@ static int check_vehicle(const struct entry *entry, const struct vehicle_entry *
     return 0;
 }
 
-/* What it fires at, by its one key or the older one, which may say the same. */
+/* Sets whom the vehicles fire at. The key engage and the older key fire_at_will may both be given
+ * if they agree. */
 static int choose_engagement(const struct entry *entry, const struct vehicle_entry *vehicle,
                              struct scenario_group *group)
 {
@@ -50,7 +51,8 @@ static int choose_engagement(const struct entry *entry, const struct vehicle_ent
     return 0;
 }
 
-/* A formation is led by its entry's first vehicle; who follows stands in the entries behind it. */
+/* The first vehicle of an entry with a formation leads it. The entries directly after it may hold
+ * its followers. */
 static int choose_formation(const struct entry *entry, const struct vehicle_entry *vehicle,
                             struct scenario_group *group)
 {
@@ -59,24 +61,28 @@ static int choose_formation(const struct entry *entry, const struct vehicle_entr
 
     if (follows && (entry->scenario->group_count == 0 || !group[-1].formed))
         return entry_refuse(entry, VEHICLE_BEHAVIOUR,
-                            "has nobody to follow; right would be: an entry right behind one that "
-                            "has a formation");
+                            "has no leader to follow; right would be: an entry directly after one "
+                            "with a formation");
     if (follows && (formation || entry_given(entry, VEHICLE_AT)))
-        return entry_refuse(entry, formation ? VEHICLE_FORMATION : VEHICLE_AT,
-                            "is the leader's, whom it follows; right would be: without it");
+        return entry_refuse(
+            entry, formation ? VEHICLE_FORMATION : VEHICLE_AT,
+            "is set by the leader of the formation; right would be: an entry without it");
     if (follows && group[-1].force != vehicle->force)
-        return entry_refuse(entry, VEHICLE_FORCE,
-                            "is not its leader's; right would be: the force of the entry before");
+        return entry_refuse(
+            entry, VEHICLE_FORCE,
+            "is not the force of its leader; right would be: the force of the entry "
+            "before");
     if (entry_given(entry, VEHICLE_SPACING) && !formation)
         return entry_refuse(entry, VEHICLE_SPACING,
-                            "is that of a formation; right would be: formation beside it");
+                            "is only for a formation; right would be: formation beside it");
     group->formed = formation || follows;
     group->shape = vehicle->formation;
     group->spacing_m = vehicle->spacing_m;
     return 0;
 }
 
-/* patrol roams, a placed vehicle waits, one with a route follows it - unless the entry says. */
+/* Sets the behaviour of an entry that names none: script with a script, else route with a route,
+ * else idle at a given place, else patrol. */
 static int choose_behaviour(const struct entry *entry, struct vehicle_entry *vehicle)
 {
     bool route = entry_given(entry, VEHICLE_ROUTE), script = entry_given(entry, VEHICLE_SCRIPT);
@@ -88,26 +94,26 @@ static int choose_behaviour(const struct entry *entry, struct vehicle_entry *veh
                                                               : BEHAVIOUR_PATROL;
     if (vehicle->behaviour == BEHAVIOUR_ROUTE && !route)
         return entry_refuse(entry, VEHICLE_BEHAVIOUR,
-                            "has no route; right would be: route = ( [x, z], "
-                            "[x, z] )");
+                            "needs a route; right would be: route = ( [x, z], [x, z] )");
     if (vehicle->roads && !route)
         return entry_refuse(entry, VEHICLE_ROADS,
-                            "has no route to lay along them; right would be: route = ( [x, z], "
-                            "[x, z] )");
+                            "needs a route; right would be: route = ( [x, z], [x, z] )");
     if (vehicle->behaviour == BEHAVIOUR_SCRIPT && !script)
-        return entry_refuse(entry, VEHICLE_BEHAVIOUR,
-                            "has no script; right would be: script = \"NAME\", of one of scripts");
+        return entry_refuse(
+            entry, VEHICLE_BEHAVIOUR,
+            "needs a script; right would be: script = \"NAME\", with a name of scripts");
     if (vehicle->behaviour != BEHAVIOUR_SCRIPT && script)
         return entry_refuse(entry, VEHICLE_SCRIPT, "is only followed with behaviour = \"script\"");
     if (vehicle->behaviour != BEHAVIOUR_ROUTE && !script && route)
         return entry_refuse(entry, VEHICLE_ROUTE, "is only followed with behaviour = \"route\"");
     if (script && scripts_find(entry->scenario, vehicle->script) == UINT32_MAX)
         return entry_refuse(entry, VEHICLE_SCRIPT,
-                            "is no script's name; allowed: a name of scripts");
+                            "is not the name of a script; allowed: a name of scripts");
     return 0;
 }
 
-/* The entry's route is appended to the scenario's, whose space was counted before. */
+/* Appends the entry's route to the scenario's routes, which have room for it (count_points()).
+ * Returns its index. */
 static uint32_t add_route(struct scenario *scenario, const config_setting_t *points)
 {
     struct route *route = &scenario->routes[scenario->route_count];
@@ -172,7 +178,7 @@ static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
     return 0;
 }
 
-/* Upper bound of the points of all routes, so that one allocation holds them. */
+/* An upper bound of the points of all routes, for one allocation; UINT32_MAX for too many. */
 static uint32_t count_points(const config_setting_t *list)
 {
     uint64_t points = 0;

@@ -1,8 +1,7 @@
-/* Lines of numbers with commas between, each an arrival. */
+/* Reads lines of numbers with commas between them. Each line is an arrival. */
 #include "config/waypoints.h"
 
-#include "config/keys.h"
-#include "world/square.h"
+#include "config/schema.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,16 +11,20 @@
 #define COLUMNS_MAX 4
 #define ROW_MAX     256
 
-static const char *const columns[COLUMNS_MAX] = {"time_s", "x", "z", "altitude_m"};
+/* The columns. A value has the range of a step's key. */
+static const struct {
+    const char *name;
+    enum step_key key;
+} columns[COLUMNS_MAX] = {{"time_s", STEP_KEY_AT},
+                          {"x", STEP_KEY_ARRIVE},
+                          {"z", STEP_KEY_ARRIVE},
+                          {"altitude_m", STEP_KEY_ALTITUDE}};
 
-/* What a column may hold. */
-static const double highest[COLUMNS_MAX] = {1e7, WORLD_SIDE_M, WORLD_SIDE_M, 20000.0};
-
-/* A file on its way into steps. */
+/* A file while it is read. */
 struct reading {
     const struct source *source;
     struct loader_message *message;
-    struct key_place place; /* of the line at hand */
+    struct key_place place; /* the current line */
     const char *next;       /* the line after it */
     char line[ROW_MAX];
     int columns; /* of the header */
@@ -38,8 +41,8 @@ uint32_t waypoints_lines(const char *text)
     return lines;
 }
 
-/* The next line that is not empty, without blanks at its end: 1; 0 at the file's end; -1 with the
- * message. */
+/* Copies the next line that is not empty, without the blanks at its end. 1; 0 at the end of the
+ * file; -1 with the message. */
 static int next_line(struct reading *reading)
 {
     while (*reading->next != '\0') {
@@ -78,20 +81,22 @@ static int read_header(struct reading *reading)
     return 0;
 }
 
-/* The value of one column, which begins at *at and ends before the next. */
+/* Reads the value of one column at *at, and moves *at behind it. */
 static int read_value(struct reading *reading, int column, const char **at, double *value)
 {
     size_t length = strcspn(*at, ",");
-    char text[ROW_MAX], *end = NULL;
+    const struct key *key = &schema_step.keys[columns[column].key];
+    char text[ROW_MAX], range[64], *end = NULL;
 
+    keys_range(key, range, sizeof(range));
     snprintf(text, sizeof(text), "%.*s", (int)length, *at);
     *value = strtod(text, &end);
     if (end == text || end[strspn(end, " ")] != '\0' || !isfinite(*value))
-        return keys_refuse(reading->message, reading->place, columns[column], text,
-                           "is not a number; allowed: 0..%.0f", highest[column]);
-    if (!(*value >= 0.0 && *value <= highest[column]))
-        return keys_refuse(reading->message, reading->place, columns[column], text,
-                           "out of range; allowed: 0..%.0f", highest[column]);
+        return keys_refuse(reading->message, reading->place, columns[column].name, text,
+                           "is not a number; allowed: %s", range);
+    if (!(*value >= key->low && *value <= key->high))
+        return keys_refuse(reading->message, reading->place, columns[column].name, text,
+                           "out of range; allowed: %s", range);
     *at += length;
     return 0;
 }
@@ -121,7 +126,7 @@ static int refuse_time(const struct reading *reading, double time_s, double befo
     char text[32];
 
     snprintf(text, sizeof(text), "%.15g", time_s);
-    return keys_refuse(reading->message, reading->place, columns[0], text,
+    return keys_refuse(reading->message, reading->place, columns[0].name, text,
                        "is not after the line before; allowed: above %.15g", before_s);
 }
 

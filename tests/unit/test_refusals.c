@@ -202,69 +202,70 @@ static const struct refusal refusals[] = {
      "burst, missile, rocket, shell"},
     /* Keys that do not go together. */
     {VEHICLE("at = [1, 2]; count = 2;"), 2,
-     "vehicles[0].count = 2: stands beside at, which places one; allowed: 1, or a "
+     "vehicles[0].count = 2: is not 1, but at places one vehicle; allowed: 1, or a "
      "formation"},
     {"world = { capacity = 20; };\nvehicles = ( { kind = \"tank\"; count = 15; },\n"
      "{ kind = \"jeep\"; count = 6; } );",
      3, "vehicles[1].count = 6: makes 21 vehicles in all; allowed: up to world.capacity, 20"},
     {VEHICLE("behaviour = \"route\";"), 2,
-     "vehicles[0].behaviour = \"route\": has no route; right would be: route = ( [x, z], [x, z] )"},
+     "vehicles[0].behaviour = \"route\": needs a route; right would be: route = ( [x, z], [x, z] "
+     ")"},
     {VEHICLE("behaviour = \"idle\"; route = ( [1, 2], [3, 4] );"), 2,
      "vehicles[0].route = ([1, 2], [3, 4]): is only followed with behaviour = \"route\""},
     {VEHICLE("name = \"0123456789abcdef\"; count = 2;"), 2,
      "vehicles[0].name = \"0123456789abcdef\": is too long for several vehicles, whose names end "
      "in \"-1\" and so on; allowed: up to 15 characters"},
     {VEHICLE("roads = true;"), 2,
-     "vehicles[0].roads = true: has no route to lay along them; right would be: route = ( [x, z], "
+     "vehicles[0].roads = true: needs a route; right would be: route = ( [x, z], "
      "[x, z] )"},
     {"vehicles = ( { kind = \"ship\"; roads = true; route = ( [1, 2], [3, 4] ); } );", 1,
      "vehicles[0].roads = true: is not for a ship; allowed: false, or a kind of land or air"},
     {"vehicles = ( { kind = \"tank\"; name = \"T\"; } );\n"
      "fires = ( { at_s = 1; munition = \"bomb\"; target = \"T\"; } );",
      2,
-     "fires[0].target = \"T\": has no shooter, and what falls out of the sky falls on a point; "
+     "fires[0].target = \"T\": needs a shooter, as a munition that falls from the sky falls on a "
+     "point; "
      "right "
      "would be: a shooter beside it, or a point"},
     /* Scripts. */
     {VEHICLE("script = \"x\";"), 2,
-     "vehicles[0].script = \"x\": is no script's name; allowed: a name of scripts"},
+     "vehicles[0].script = \"x\": is not the name of a script; allowed: a name of scripts"},
     {VEHICLE("behaviour = \"script\";"), 2,
-     "vehicles[0].behaviour = \"script\": has no script; right would be: script = \"NAME\", of one "
-     "of scripts"},
+     "vehicles[0].behaviour = \"script\": needs a script; right would be: script = \"NAME\", with "
+     "a name of scripts"},
     {"scripts = ( { name = \"a\"; } );", 1,
-     "scripts[0].file: a script has either steps or a file of waypoints; allowed: one of steps and "
-     "file"},
+     "scripts[0].file: a script needs steps or a file of waypoints; allowed: one of the two"},
     {"scripts = ( { name = \"a\"; steps = ( ); } );", 1,
      "scripts[0]: has no steps; right would be: steps = ( { go = [x, z]; }, ... )"},
     {"scripts = ( { name = \"a\"; steps = ( { stop = true; } ); },\n{ name = \"a\"; steps = ( { "
      "stop "
      "= true; } ); } );",
-     2, "scripts[1].name = \"a\": is another script's name too; allowed: each name once"},
+     2, "scripts[1].name = \"a\": is also the name of another script; allowed: each name once"},
     {STEPS("{ go = [1, 2]; },\n{ }"), 3,
-     "scripts[0].steps[1].go: is missing, and so is all else that a step can do; right would be: "
-     "..."},
+     "scripts[0].steps[1].go: is missing, and so is any other action; right would be: one of go, "
+     "arrive, face_deg, stop, wait_s, fire, for_s, fire_at, behaviour, altitude_m"},
     {STEPS("{ go = [1, 2]; wait_s = 2; }"), 2,
-     "scripts[0].steps[0].wait_s = 2: stands beside go; allowed: one of them in a step"},
+     "scripts[0].steps[0].wait_s = 2: is a second action beside go; allowed: one action in a step"},
     {STEPS("{ arrive = [1, 2]; }"), 2,
-     "scripts[0].steps[0].at_s: is missing; arrive needs the time to be there"},
+     "scripts[0].steps[0].at_s: is missing; arrive needs the time of the arrival"},
     {STEPS("{ at_s = 5; stop = true; },\n{ at_s = 4; stop = true; }"), 3,
      "scripts[0].steps[1].at_s = 4: is before the time of an earlier step; allowed: from 5 on"},
     {STEPS("{ at_s = 5; after_s = 2; stop = true; }"), 2,
-     "scripts[0].steps[0].after_s = 2: stands beside at_s; allowed: one of them"},
+     "scripts[0].steps[0].after_s = 2: stands beside at_s; allowed: one of the two"},
     {STEPS("{ go = [1, 50001]; }"), 2,
      "scripts[0].steps[0].go = [1, 50001]: out of range; allowed: [x, z], each 0..50000 m"},
     {STEPS("{ stop = false; }"), 2,
      "scripts[0].steps[0].stop = false: does nothing; allowed: true"},
     {STEPS("{ steer = 0.5; stop = true; }"), 2,
-     "scripts[0].steps[0].steer = 0.5: does not say for how long; right would be: ..."},
+     "scripts[0].steps[0].steer = 0.5: needs a duration; right would be: ..."},
     {STEPS("{ wait_s = 1; speed_mps = 5; }"), 2,
-     "scripts[0].steps[0].speed_mps = 5: is for go alone; right would be: without it"},
+     "scripts[0].steps[0].speed_mps = 5: is only for go; right would be: a step without it"},
     {STEPS("{ behaviour = \"attack\"; }"), 2,
      "scripts[0].steps[0].behaviour = \"attack\": unknown; allowed: idle, hold, patrol, route, "
      "withdraw"},
     {STEPS("{ jump = true; }"), 2, "scripts[0].steps[0].jump = true: unknown key; ..."},
     {"bases = ( { force = \"red\"; at = [1, 2]; },\n{ force = \"red\"; at = [1, 2]; } );", 2,
-     "bases[1].force = \"red\": has a base already; allowed: one a force"},
+     "bases[1].force = \"red\": has a base already; allowed: one base for each force"},
     {VEHICLE("engage = \"some\";"), 2,
      "vehicles[0].engage = \"some\": unknown; allowed: free, return, hold"},
     {VEHICLE("engage = \"hold\";\nfire_at_will = true;"), 3,
@@ -277,47 +278,50 @@ static const struct refusal refusals[] = {
     {VEHICLE("formation = \"line\"; spacing_m = 0.5;"), 2,
      "vehicles[0].spacing_m = 0.5: out of range; allowed: 1..5000 m"},
     {VEHICLE("spacing_m = 20;"), 2,
-     "vehicles[0].spacing_m = 20: is that of a formation; right would be: formation beside it"},
+     "vehicles[0].spacing_m = 20: is only for a formation; right would be: formation beside it"},
     {VEHICLE("behaviour = \"follow\";"), 2,
-     "vehicles[0].behaviour = \"follow\": has nobody to follow; right would be: an entry right "
-     "behind one that has a formation"},
+     "vehicles[0].behaviour = \"follow\": has no leader to follow; right would be: an entry "
+     "directly after one with a formation"},
     {VEHICLE("formation = \"line\"; }, { kind = \"jeep\"; }, { kind = \"jeep\"; behaviour = "
              "\"follow\";"),
      2,
-     "vehicles[2].behaviour = \"follow\": has nobody to follow; right would be: an entry right "
-     "behind one that has a formation"},
+     "vehicles[2].behaviour = \"follow\": has no leader to follow; right would be: an entry "
+     "directly after one with a formation"},
     {VEHICLE("formation = \"line\"; },\n{ kind = \"jeep\"; force = \"red\"; behaviour = "
              "\"follow\";"),
      3,
-     "vehicles[1].force = \"red\": is not its leader's; right would be: the force of the entry "
+     "vehicles[1].force = \"red\": is not the force of its leader; right would be: the force of "
+     "the entry "
      "before"},
     {VEHICLE("formation = \"line\"; },\n{ kind = \"jeep\"; at = [1, 2]; behaviour = \"follow\";"),
-     3, "vehicles[1].at = [1, 2]: is the leader's, whom it follows; right would be: without it"},
+     3,
+     "vehicles[1].at = [1, 2]: is set by the leader of the formation; right would be: an entry "
+     "without it"},
     {VEHICLE("name = \"A\"; }, { kind = \"jeep\"; name = \"A\";"), 2,
-     "vehicles[1].name = A: is another vehicle's name too; allowed: each name once"},
+     "vehicles[1].name = A: is also the name of another vehicle; allowed: each name once"},
     {VEHICLE("name = \"A\"; count = 12; }, { kind = \"jeep\"; name = \"A-12\";"), 2,
-     "vehicles[1].name = A-12: is another vehicle's name too; allowed: each name once"},
+     "vehicles[1].name = A-12: is also the name of another vehicle; allowed: each name once"},
     {"collision = { figure8 = {\ndamage_med = 1; }; };", 2,
-     "collision.figure8.damage_med = 1: is not below the next level of damage; allowed: below 1"},
+     "collision.figure8.damage_med = 1: is not below the next higher level; allowed: below 1"},
     {"collision = { figure8 = {\ndamage_low = 0.5; }; };", 2,
-     "collision.figure8.damage_low = 0.5: is not below the next level of damage; allowed: below "
+     "collision.figure8.damage_low = 0.5: is not below the next higher level; allowed: below "
      "0.3"},
     {"collision = { figure8 = {\nmass_c2_kg = 20000; }; };", 2,
-     "collision.figure8.mass_c2_kg = 20000: is not below the next level of damage; allowed: below "
+     "collision.figure8.mass_c2_kg = 20000: is not below the next higher level; allowed: below "
      "20000"},
     {"collision = { figure8 = {\nmass_c3_kg = 8001; }; };", 2,
-     "collision.figure8.mass_c3_kg = 8001: is not below the next level of damage; allowed: below "
+     "collision.figure8.mass_c3_kg = 8001: is not below the next higher level; allowed: below "
      "8000"},
     {"fires = ( { shooter = \"X\"; point = [1, 2]; } );", 1,
-     "fires[0].shooter = \"X\": is no vehicle's name; allowed: a name of vehicles"},
+     "fires[0].shooter = \"X\": is not the name of a vehicle; allowed: a name of vehicles"},
     {VEHICLE("name = \"A\"; count = 12; } );\nfires = ( { shooter = \"A-13\"; point = [1, 2];"), 3,
-     "fires[0].shooter = \"A-13\": is no vehicle's name; allowed: a name of vehicles"},
+     "fires[0].shooter = \"A-13\": is not the name of a vehicle; allowed: a name of vehicles"},
     {VEHICLE("name = \"A\"; count = 12; } );\nfires = ( { shooter = \"A\"; point = [1, 2];"), 3,
-     "fires[0].shooter = \"A\": is no vehicle's name; allowed: a name of vehicles"},
+     "fires[0].shooter = \"A\": is not the name of a vehicle; allowed: a name of vehicles"},
     {VEHICLE("name = \"A\"; } );\nfires = ( { shooter = \"A\"; target = \"B\";"), 3,
-     "fires[0].target = \"B\": is no vehicle's name; allowed: a name of vehicles"},
+     "fires[0].target = \"B\": is not the name of a vehicle; allowed: a name of vehicles"},
     {VEHICLE("name = \"A\"; } );\nfires = ( { shooter = \"A\"; "), 3,
-     "fires[0].target: a shot goes to a target or to a point; allowed: one of target and point"},
+     "fires[0].target: a shot needs a target or a point; allowed: one of the two"},
     {"fires = ( { point = [1, 2]; } );", 1,
      "fires[0].munition: is missing; a shot without a shooter needs the munition that falls"},
     {"vehicles = ( { kind = \"truck\"; name = \"A\"; } );\nfires = ( { shooter = \"A\"; point = "
@@ -328,7 +332,7 @@ static const struct refusal refusals[] = {
      "syntax error; right would be: group = { key = value; key = value; };"},
     {"world = { seed = 1;\n seed = 2; };", 2, "duplicate setting name; right would be: ..."},
     {"\n  @include \"/etc/passwd\"\n", 2,
-     "@include is not taken; write what it would include here"},
+     "@include is not supported; right would be: the included text itself"},
 };
 
 static void check_message(const char *want)
@@ -386,10 +390,10 @@ static void test_override_refusals(void **state)
         {"terrain.source=dem",
          "--set: terrain.source = dem: not in this version; allowed: generated, flat"},
         {"collision.figure8.mass_c3_kg=9000",
-         "--set: collision.figure8.mass_c3_kg = 9000: is not below the next level of damage; "
+         "--set: collision.figure8.mass_c3_kg = 9000: is not below the next higher level; "
          "allowed: below 8000"},
         {"collision.figure8.damage_low=2",
-         "--set: collision.figure8.damage_low = 2: is not below the next level of damage; allowed: "
+         "--set: collision.figure8.damage_low = 2: is not below the next higher level; allowed: "
          "below 0.3"},
         {"world.sede=7",
          "--set: world.sede = 7: unknown key; allowed: a scenario key of one value, such as "
@@ -491,29 +495,29 @@ static const struct refusal kind_refusals[] = {
     {KIND_LAND "turn_rate_dps = 0;", 2,
      "turn_rate_dps = 0: is needed by a vehicle; allowed: above 0"},
     {KIND_LAND "turn_rate_dps = 9; min_speed_mps = 10;", 2,
-     "min_speed_mps = 10: is above max_speed_mps; allowed: up to it"},
+     "min_speed_mps = 10: is above max_speed_mps; allowed: up to max_speed_mps"},
     {KIND_LAND "turn_rate_dps = 9; class = \"tree\";", 2,
-     "class = 0: is for fixed objects; allowed: with domain = \"fixed\""},
+     "class = tree: is only for fixed objects; allowed: with domain = \"fixed\""},
     {KIND_LAND "turn_rate_dps = 9; munition = \"k\"; range_m = 5; reload_s = 1;", 2,
-     "munition = k: is no munition; allowed: a kind with domain = \"munition\""},
+     "munition = k: is not a munition; allowed: a kind with domain = \"munition\""},
     {KIND_LAND "turn_rate_dps = 9; munition = \"x\"; range_m = 5; reload_s = 1;", 2,
-     "munition = x: unknown kind; allowed: one with domain = \"munition\""},
+     "munition = x: unknown kind; allowed: a kind with domain = \"munition\""},
     {KIND_LAND "turn_rate_dps = 9; munition = \"k\"; range_m = 0;", 2,
-     "range_m = 0: is needed by what fires a munition; allowed: above 0"},
+     "range_m = 0: is needed by an armed vehicle; allowed: above 0"},
     {KIND_BEGIN "domain = \"air\"; max_speed_mps = 9; acceleration_mps2 = 1; turn_rate_dps = 9;\n"
                 "climb_rate_mps = 0;",
      3, "climb_rate_mps = 0: is needed by an aircraft; allowed: above 0"},
     {KIND_BEGIN "domain = \"munition\"; max_speed_mps = 9;\nlife_s = 0;", 3,
      "life_s = 0: is needed by a munition; allowed: above 0"},
-    {KIND_BEGIN "domain = \"fixed\";", 1, "class: is missing; a fixed object needs it: tree, ..."},
+    {KIND_BEGIN "domain = \"fixed\";", 1, "class: is missing; a fixed object needs it; allowed: tree, ..."},
     {"name = \"other\"; domain = \"land\"; model = \"k\"; mass_kg = 1; radius_m = 1; resistance_j "
      "= "
      "1; length_m = 1; width_m = 1; height_m = 1;",
-     1, "name = other: is not the file's own; allowed: k"},
+     1, "name = other: is not the name of the file; allowed: k"},
     {"model = \"../k\"; name = \"k\"; domain = \"fixed\"; class = \"tree\"; mass_kg = 1; radius_m "
      "= "
      "1; resistance_j = 1; length_m = 1; width_m = 1; height_m = 1;",
-     1, "model = ../k: is not a model's name; allowed: a-z 0-9 - _"},
+     1, "model = ../k: is not the name of a model; allowed: a-z 0-9 - _"},
 };
 
 static void test_kind_refusals(void **state)

@@ -77,13 +77,13 @@ static void test_names_stay_in_their_folder(void **state)
         {"socket", "is a socket; allowed: a regular file"},
         {"folder", "is a directory; allowed: a regular file"},
         {"none", "cannot be opened: No such file or directory"},
-        {"", "is no file of "},
-        {".", "is no file of "},
-        {"..", "is no file of "},
-        {"../outside", "is no file of "},
-        {"folder/file", "is no file of "},
-        {"folder/../file", "is no file of "},
-        {"/etc/passwd", "is no file of "},
+        {"", "is not the name of a file in "},
+        {".", "is not the name of a file in "},
+        {"..", "is not the name of a file in "},
+        {"../outside", "is not the name of a file in "},
+        {"folder/file", "is not the name of a file in "},
+        {"folder/../file", "is not the name of a file in "},
+        {"/etc/passwd", "is not the name of a file in "},
     };
 
     (void)state;
@@ -192,7 +192,7 @@ static void test_open_strings_are_refused(void **state)
     (void)state;
     assert_false(parses("a = 1;\nb = \"x; c = 2;\n", "", 0, ""));
     assert_string_equal(message.text, "a.cfg:2: has a string or comment that never ends; right "
-                                      "would be: \" or */");
+                                      "would be: a closing \" or */");
     assert_false(parses("a = 1;\n", "", 0, "\"left out"));
     assert_false(parses("a = 1;\n", "", 0, "/* left out"));
     assert_true(parses("a = 1;\n", "", 0, "// left out"));
@@ -204,7 +204,7 @@ static void test_deep_and_full_are_refused(void **state)
     assert_true(parses("a = ((((((((1))))))));", "", 0, ""));
     assert_false(parses("a =\n(((((((((1)))))))));", "", 0, ""));
     assert_string_equal(message.text,
-                        "a.cfg:2: is nested 9 deep; allowed: up to 8 of ( [ { in each other");
+                        "a.cfg:2: is nested 9 deep; allowed: up to 8 levels of ( [ {");
     assert_false(parses("a = ", "(", 60000, ""));
     assert_non_null(strstr(message.text, "is nested 60000 deep; allowed: up to 8"));
     assert_true(parses("g = {\n", "k@ = 1;", SCHEMA_MEMBERS_MAX, "};"));

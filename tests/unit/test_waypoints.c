@@ -55,9 +55,9 @@ static void test_wrong_lines_are_refused(void **state)
                               "header"},
         {"time_s,x,z\n1,2,3,4\n", "convoy.csv:2: 1,2,3,4: has more than 3 numbers; right would be: "
                                   "as many as in the header"},
-        {"time_s,x,z\n1,two,3\n", "convoy.csv:2: x = two: is not a number; allowed: 0..50000"},
-        {"time_s,x,z\n1,2,50001\n", "convoy.csv:2: z = 50001: out of range; allowed: 0..50000"},
-        {"time_s,x,z\n1,nan,3\n", "convoy.csv:2: x = nan: is not a number; allowed: 0..50000"},
+        {"time_s,x,z\n1,two,3\n", "convoy.csv:2: x = two: is not a number; allowed: 0..50000 m"},
+        {"time_s,x,z\n1,2,50001\n", "convoy.csv:2: z = 50001: out of range; allowed: 0..50000 m"},
+        {"time_s,x,z\n1,nan,3\n", "convoy.csv:2: x = nan: is not a number; allowed: 0..50000 m"},
         {"time_s,x,z\n5,2,3\n5,2,3\n",
          "convoy.csv:3: time_s = 5: is not after the line before; allowed: above 5"},
     };
