@@ -10,7 +10,7 @@ import argparse
 import struct
 import time
 
-from rtps import Reporter, captured, from_port, own_of, own_socket, target_of
+from rtps import Reporter, captured, from_port, heard_prefix, own_of, own_socket, target_of
 
 TYPE_INFORMATION = b"\x75\0"
 HASH_MINIMAL, HASH_OF_NO_KIND = b"\xf1", b"\xff"
@@ -41,13 +41,7 @@ def main():
         for port in Reporter.open_ports(options.pid):
             out.sendto(datagram, ("127.0.0.1", port))
         time.sleep(0.3 if number == 0 else 0.001)
-        try:
-            while True:
-                heard = out.recv(65536)
-                if heard[:4] == b"RTPS":
-                    to = heard[8:20]
-        except OSError:
-            pass
+        to = heard_prefix(out, to)
 
 
 main()

@@ -21,8 +21,8 @@ import struct
 import sys
 import time
 
-from rtps import DATA, DATAGRAM_MAX, HEADER, INFO_DST, INFO_TS, Reporter, captured, from_port, own_of, own_socket, \
-    submessages, target_of
+from rtps import DATA, DATAGRAM_MAX, HEADER, INFO_DST, INFO_TS, Reporter, captured, from_port, heard_prefix, \
+    own_of, own_socket, submessages, target_of
 
 ACKNACK, HEARTBEAT, GAP, DATA_FRAG = 0x06, 0x07, 0x08, 0x16
 KINDS = (0x01, ACKNACK, HEARTBEAT, GAP, INFO_TS, 0x0C, 0x0D, INFO_DST, 0x0F, 0x12, 0x13, DATA, DATA_FRAG,
@@ -145,13 +145,7 @@ def main():
         if sent % SESSION == 0:
             session = Session(datagrams, old_target, sent // SESSION, rng)
         if sent % 50 == 0:
-            try:
-                while True:
-                    heard = out.recv(65536)
-                    if heard[:4] == b"RTPS":
-                        target = heard[8:20]
-            except OSError:
-                pass
+            target = heard_prefix(out, target)
             if not reporter.alive():
                 if options.keep:
                     keep_last(options.keep, reporter.restarts + 1, last)

@@ -44,6 +44,17 @@ def own_socket():
     return out
 
 
+def heard_prefix(sock, prefix):
+    """Reads all that has come, and returns the prefix of its last sender, or the given one."""
+    try:
+        while True:
+            heard = sock.recv(65536)
+            if heard[:4] == b"RTPS":
+                prefix = heard[8:20]
+    except OSError:
+        return prefix
+
+
 def own_of(datagrams):
     """The prefix of who sent them."""
     return datagrams[0][8:20]

@@ -59,6 +59,17 @@ nothing_left() { ! ls /dev/shm "$JOLON_RUNTIME_DIR" | grep -q "^\(jolon\.$UID\.\
 # Where a world's name, lock or object is: path_of name|lock|object [WORLD]
 path_of() { "$bin/jolon-world" paths --world "${2-$name}" "$1"; }
 
+# Copies the programs and their data into FOLDER, for users who may not read where they were built.
+copy_programs() {
+    local config
+    mkdir -p "$1/build"
+    cp -r "$bin" "$1/build/bin"
+    for config in "$bin/../../config" "$bin/../../../config"; do
+        [ ! -d "$config" ] || cp -r "$config" "$1/config"
+    done
+    chmod -R go+rX "$1"
+}
+
 # Waits up to 10 s for a condition.
 eventually() {
     local tries

@@ -21,12 +21,7 @@ at_end_users() {
     rm -rf "$tree"
     at_end
 }
-mkdir -p "$tree/build"
-cp -r "$bin" "$tree/build/bin"
-for config in "$bin/../../config" "$bin/../../../config"; do
-    [ ! -d "$config" ] || cp -r "$config" "$tree/config"
-done
-chmod -R go+rX "$tree"
+copy_programs "$tree"
 theirs=$tree/build/bin/jolon world=$tree/build/bin/jolon-world
 for user in "$first" "$second"; do
     useradd --system --create-home --home-dir "$tree/$user" --shell /usr/sbin/nologin "$user" 2>/dev/null

@@ -8,7 +8,6 @@ if [ "$UID" != 0 ] || ! command -v useradd >/dev/null; then
     done_testing
 fi
 
-# The user may not read where this was built, so the programs are copied to where everybody may.
 other=jolon-test-$$
 tree=$(mktemp -d)
 at_end_user() {
@@ -22,12 +21,7 @@ at_end_user() {
 trap at_end_user EXIT
 useradd --system --no-create-home --shell /usr/sbin/nologin "$other"
 uid=$(id -u "$other")
-mkdir -p "$tree/build"
-cp -r "$bin" "$tree/build/bin"
-for config in "$bin/../../config" "$bin/../../../config"; do
-    [ ! -d "$config" ] || cp -r "$config" "$tree/config"
-done
-chmod -R go+rX "$tree"
+copy_programs "$tree"
 theirs=$tree/build/bin/jolon
 cd "$tree" || exit 1
 
