@@ -1,4 +1,4 @@
-/* Reading the entries of a scenario's lists. */
+/* Reads the entries of a scenario's lists. */
 #include "config/entry.h"
 
 #include "config/schema.h"
@@ -27,7 +27,7 @@ int entry_refuse(const struct entry *entry, uint32_t key, const char *format, ..
     return keys_refuse(entry->message, place, path, setting != NULL ? value : NULL, "%s", text);
 }
 
-/* Names of the kinds of these domains, for messages. */
+/* Lists the names of the kinds of these domains, for messages. */
 static void name_kinds(const struct scenario *scenario, unsigned domains, char *text, size_t bytes)
 {
     size_t used = 0;

@@ -1,5 +1,5 @@
-/* Hulls: pieces joined by what their common hulls cost, then each wrap without what is flat in it.
- */
+/* Joins pieces by the volume that their common hulls add, then makes hulls with one face for all
+ * triangles in a plane. */
 #include "config/hulls.h"
 
 #include "config/pieces.h"
@@ -9,21 +9,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A piece that sticks out of another by no more than this is within it [m]. */
+/* A piece is inside another when it is outside of its hull by no more than this [m]. */
 #define NESTED_M 1e-6
 
 /* --- joining -----------------------------------------------------------------------------------*/
 
-/* Two pieces' common hull. */
+/* The common hull of two pieces. */
 struct joint {
-    double cost_m3; /* how much larger than both together */
-    bool exact;     /* false: it costs at least this */
+    double cost_m3; /* its volume beyond that of both hulls */
+    bool exact;     /* false: cost_m3 is a lower bound */
 };
 
 struct joining {
     struct pieces *pieces;
     struct joint *joint; /* [count * count]: of i with j at i * count + j, where i < j */
-    uint32_t left;       /* pieces */
+    uint32_t left;       /* pieces that are left */
 };
 
 static struct joint *joint_of(const struct joining *joining, uint32_t i, uint32_t j)
@@ -33,7 +33,7 @@ static struct joint *joint_of(const struct joining *joining, uint32_t i, uint32_
     return i < j ? &joining->joint[i * count + j] : &joining->joint[j * count + i];
 }
 
-/* Takes the pieces within this one into it. */
+/* Joins all pieces that are inside this one to it. */
 static int take_inside(struct joining *joining, uint32_t outer)
 {
     struct pieces *pieces = joining->pieces;
@@ -49,7 +49,7 @@ static int take_inside(struct joining *joining, uint32_t outer)
     return 0;
 }
 
-/* The common hull holds the one wrap and any point of the other: here the furthest out. */
+/* A lower bound of the cost: the common hull has at least wrap and the furthest point of other. */
 static double least_cost(const struct wrap *wrap, const struct wrap *other)
 {
     struct vec3 furthest = other->point[0];
@@ -67,7 +67,7 @@ static double least_cost(const struct wrap *wrap, const struct wrap *other)
     return wrap_growth(wrap, furthest) - other->volume_m3;
 }
 
-/* Of piece i with every piece from `from` on. */
+/* Sets the lower bounds of piece i with every piece from `from` on. */
 static void guess_joints(const struct joining *joining, uint32_t i, uint32_t from)
 {
     const struct piece *piece = joining->pieces->piece;
@@ -112,7 +112,7 @@ static int join(struct joining *joining, uint32_t i, uint32_t j)
     return 0;
 }
 
-/* The cheapest pair, of equals the first; NULL when there are no two. */
+/* The pair with the least cost, of equal pairs the first; NULL: there are no two pieces. */
 static const struct joint *cheapest(const struct joining *joining, uint32_t *left, uint32_t *right)
 {
     const struct piece *piece = joining->pieces->piece;
@@ -134,7 +134,8 @@ static const struct joint *cheapest(const struct joining *joining, uint32_t *lef
     return best;
 }
 
-/* A pair's cost is measured when by its least one it is the cheapest: few are. */
+/* The exact cost of a pair is computed only when its lower bound is the least of all, for few
+ * pairs. */
 static int join_cheapest(struct joining *joining)
 {
     double free_m3 = HULLS_FREE_M3;
@@ -175,14 +176,14 @@ static int join_pieces(struct pieces *pieces)
     return result;
 }
 
-/* --- a hull out of a wrap ----------------------------------------------------------------------*/
+/* --- a hull without flat edges -----------------------------------------------------------------*/
 
 struct shell {
     struct vec3 *vertex; /* in order of x, y, z */
     uint32_t vertices;
     struct hull_plane *plane; /* in order of their normals */
     uint32_t planes;
-    uint32_t *plane_of; /* [the wrap's faces] while it is made */
+    uint32_t *plane_of; /* [wrap.face_count], while the shell is made */
 };
 
 static void shell_free(struct shell *shell)
@@ -221,7 +222,7 @@ static bool lies_on(const struct hull_plane *plane, const struct wrap *wrap,
     return true;
 }
 
-/* The plane of each face: of the largest face that it is flat with. */
+/* Finds the plane of each face: that of the largest face in whose plane it lies. */
 static void find_planes(struct shell *shell, struct wrap *wrap)
 {
     qsort(wrap->face, wrap->face_count, sizeof(*wrap->face), compare_areas);
@@ -237,7 +238,7 @@ static void find_planes(struct shell *shell, struct wrap *wrap)
     }
 }
 
-/* Is the point a corner of three planes or more? Others are within a face or an edge. */
+/* Returns true for a corner of three planes or more. Other points are within a face or an edge. */
 static bool is_corner(const struct shell *shell, const struct wrap *wrap, uint32_t point)
 {
     uint32_t seen[2] = {UINT32_MAX, UINT32_MAX};
@@ -258,7 +259,8 @@ static bool is_corner(const struct shell *shell, const struct wrap *wrap, uint32
     return false;
 }
 
-/* Moves the planes out until they hold all corners, which the lattice may have left outside. */
+/* Moves the planes outwards until all corners are inside: snapping to the lattice may have left
+ * some of them outside. */
 static void hold_points(struct shell *shell, const struct piece *piece)
 {
     for (uint32_t i = 0; i < shell->planes; i++) {
@@ -296,7 +298,7 @@ static int shell_make(struct shell *shell, struct piece *piece)
 
 /* --- into the scenario's tables ----------------------------------------------------------------*/
 
-/* The sphere around the box around the vertices. */
+/* Sets the sphere around the vertices; its centre is that of their box. */
 static void set_sphere(struct hull *hull, const struct shell *shell)
 {
     struct vec3 low = shell->vertex[0], high = low;
@@ -374,7 +376,7 @@ static int add_pieces(struct hulls *hulls, struct scenario *scenario, struct pie
     return 0;
 }
 
-/* One hull around everything, for a first look. To be freed in any case. */
+/* Makes one hull around all pieces, for a first test. The caller frees it in any case. */
 static int outer_make(struct shell *shell, const struct pieces *pieces)
 {
     uint32_t count = 0, taken = 0;

@@ -1,11 +1,11 @@
-/* Hulls: from a model's triangles to a few convex hulls, what the narrow phase collides with
- * (world/hull.h).
+/* Makes a few convex hulls of a model's triangles, for the narrow phase (world/hull.h).
  *
- * Each connected piece of the model is wrapped, and a piece inside another taken into it. Then
- * those two whose common hull adds least to their own volumes are joined, again and again, until at
- * most HULLS_A_MODEL are left, and on for as long as that costs next to nothing. Every corner of
- * the model is within one of the hulls; a hull's vertices are corners of the model, but for flat
- * pieces (config/pieces.h). The same model gives the same hulls, to the bit, on every machine. */
+ * Each connected piece of the model gets its convex hull, and a piece inside the hull of another
+ * becomes part of that piece. Then the two pieces are joined whose common hull has the least volume
+ * beyond their own hulls. This is repeated until at most HULLS_A_MODEL pieces are left, and further
+ * while joining adds next to no volume. Every corner of the model is within a hull. The vertices of
+ * a hull are corners of the model, except those of flat pieces (config/pieces.h). The same model
+ * gives the same hulls to the bit on every machine. */
 #ifndef JOLON_CONFIG_HULLS_H
 #define JOLON_CONFIG_HULLS_H
 
@@ -14,28 +14,28 @@
 
 #include <stdint.h>
 
-/* Joining two hulls that adds no more than this [m3] is free, a can of fuel: fewer hulls make a
- * faster narrow phase. */
+/* Two pieces are always joined when that adds no more volume than this [m3], the volume of a can of
+ * fuel: fewer hulls make a faster narrow phase. */
 #define HULLS_FREE_M3 0.02
 
-/* When some must be joined, others that cost as much to within this share are joined too, so that
- * what is the same on both sides of a model mostly stays so. */
+/* When two pieces must be joined, others that add as much volume to within this share are joined
+ * too. So a model that is the same on both sides mostly keeps the same hulls on both sides. */
 #define HULLS_TIE_SHARE 0.01
 
-/* Faces whose corners are this near to one plane are one [m]. */
+/* Faces whose corners are this near to one plane are one face [m]. */
 #define HULLS_FLAT_M 2e-6
 
-/* What a kind knows of its model's hulls. */
+/* A model's hulls, as its kinds have them. */
 struct hulls {
     uint32_t first, count; /* in the scenario's hulls */
-    uint32_t outer;        /* the hull around all of them, likewise */
-    double bound_m;        /* all as in struct kind */
+    uint32_t outer;        /* in the scenario's hulls: the hull around all of them */
+    double bound_m;        /* this and the next: as in struct kind */
     double level_m;
     double low_m, high_m;
 };
 
-/* Adds a model's hulls to the scenario's tables. 0; -1 with the message, which place begins: too
- * many pieces, a hull of more than HULL_VERTICES_MAX vertices, no memory. */
+/* Adds a model's hulls to the scenario's tables. place: where the message says the model is. 0; -1
+ * with the message: too many pieces, a hull of more than HULL_VERTICES_MAX vertices, no memory. */
 int hulls_build(struct hulls *hulls, struct scenario *scenario, const struct model *model,
                 struct key_place place, struct loader_message *message);
 

@@ -1,4 +1,4 @@
-/* Keys: finding, checking, storing and refusing values by the tables of config/schema.c. */
+/* Finds keys in the tables of the schema; checks, stores and refuses their values. */
 #include "config/keys.h"
 
 #include "world/utf8.h"
@@ -13,7 +13,7 @@
 #define VALUE_TEXT_MAX   80
 #define ALLOWED_TEXT_MAX 256
 
-/* A value with the name it is refused by. */
+/* A value and the words of its refusal. */
 struct given {
     const struct key *key;
     const char *path;
@@ -22,7 +22,7 @@ struct given {
     struct loader_message *message;
 };
 
-/* Appends to text of size bytes; what does not fit is cut. */
+/* Appends to a text of size bytes, and cuts off what does not fit. */
 static void append(char *text, size_t bytes, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -36,7 +36,8 @@ static void append(char *text, size_t bytes, const char *format, ...)
     va_end(arguments);
 }
 
-/* Files are other people's: what could steer a terminal is shown, not sent. */
+/* Control characters are shown as numbers: files may come from others, and a terminal would obey.
+ */
 static void append_escaped(char *text, size_t bytes, const char *raw)
 {
     for (; *raw != '\0'; raw++) {
@@ -96,7 +97,7 @@ const char *key_type_name(enum key_type type)
     return type < KEY_TYPE_COUNT ? names[type] : "?";
 }
 
-/* A limit as a person would write it: whole numbers in full. */
+/* Appends a limit; whole numbers are written in full. */
 static void append_limit(char *text, size_t bytes, double limit)
 {
     append(text, bytes, floor(limit) == limit && fabs(limit) < 1e16 ? "%.0f" : "%.15g", limit);
@@ -178,7 +179,7 @@ static int store_number(const struct given *given, void *destination, double val
     const struct key *key = given->key;
     char *to = (char *)destination + key->offset;
 
-    if (!(value >= key->low && value <= key->high)) /* NaN is out of every range */
+    if (!(value >= key->low && value <= key->high)) /* refuses NaN too */
         return refuse_value(given, "out of range");
     switch (key->store) {
     case STORE_U8: {
@@ -236,7 +237,7 @@ static int store_choice(const struct given *given, void *destination, const char
     return refuse_value(given, "unknown");
 }
 
-/* Each word of "word,word"; blanks after a comma do not matter. */
+/* Stores the words of "word, word". Blanks before a word are ignored. */
 static int store_choices(const struct given *given, void *destination, const char *words)
 {
     uint32_t all = 0;
@@ -258,7 +259,7 @@ static int store_choices(const struct given *given, void *destination, const cha
     return 0;
 }
 
-/* Names and titles: printable ASCII, so that they are the same in every table, file and topic. */
+/* Texts are printable ASCII, so that they look the same in every table, file and topic. */
 static int store_text(const struct given *given, void *destination, const char *text)
 {
     const struct key *key = given->key;
@@ -345,7 +346,7 @@ static double number_of(const config_setting_t *setting)
     }
 }
 
-/* Exactly count numbers in an array or list; false when it is not that. */
+/* Reads an array or list of exactly count numbers. Returns false for any other setting. */
 static bool numbers_of(const config_setting_t *setting, double *numbers, int count)
 {
     if ((setting->type != CONFIG_TYPE_ARRAY && setting->type != CONFIG_TYPE_LIST) ||
@@ -366,7 +367,7 @@ bool keys_point(const config_setting_t *setting, double point[2])
     return numbers_of(setting, point, 2);
 }
 
-/* Lists of numbers may have been written as arrays; they look better so. */
+/* Lists of numbers are shown as arrays: most were arrays before literals_widen(). */
 static bool looks_like_array(const config_setting_t *setting)
 {
     bool numbers = config_setting_length(setting) > 0;
@@ -513,7 +514,7 @@ static int store_setting(const struct given *given, void *destination,
     return refuse_value(given, "has no such type");
 }
 
-/* Does any key of the table lie below the group called name? */
+/* Returns true if the table has keys in a group called name. */
 static bool is_group(const struct key_table *table, const char *name)
 {
     size_t length = strlen(name);
@@ -525,7 +526,7 @@ static bool is_group(const struct key_table *table, const char *name)
     return false;
 }
 
-/* The names that may stand directly in the group called prefix. */
+/* Lists the names of the keys and groups directly in the group called prefix. */
 static void list_names(const struct key_table *table, const char *prefix, char *text, size_t bytes)
 {
     size_t length = strlen(prefix);
@@ -577,7 +578,7 @@ static int read_setting(struct key_reading *reading, const config_setting_t *set
     return keys_read(reading, setting, name, shown, message);
 }
 
-/* The parser gives a file's own group no line: it begins on the first. */
+/* libconfig gives the group of the whole file no line; it begins on line 1. */
 static int group_line(const config_setting_t *group)
 {
     int line = (int)config_setting_source_line(group);

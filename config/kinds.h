@@ -1,4 +1,4 @@
-/* Kinds: config/kinds/NAME.cfg, one file a kind, and the models they name. */
+/* Reader of the kinds, config/kinds/NAME.cfg, one file each, and of the models that they name. */
 #ifndef JOLON_CONFIG_KINDS_H
 #define JOLON_CONFIG_KINDS_H
 
@@ -6,9 +6,9 @@
 
 #include <xxhash.h>
 
-/* Reads every kind in name order into the scenario, their files into the hash. 0; -1 with the
- * message: a bad key, a name other than the file's, values that do not go together, a model or
- * munition that does not exist. */
+/* Reads every kind into the scenario, in order of their names, and adds their files to the hash. 0;
+ * -1 with the message: a wrong key, a name that is not the file's, values that do not fit each
+ * other, an unknown model or munition. */
 int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *hash,
                struct loader_message *message);
 

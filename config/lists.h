@@ -1,12 +1,12 @@
-/* Lists: the scenario's vehicles, fixed objects and ordered shots, entry by entry, with the names
- * of kinds and vehicles resolved. */
+/* Readers of a scenario's lists: vehicles, fixed objects, bases and ordered shots. They look up the
+ * names of kinds, scripts and vehicles. */
 #ifndef JOLON_CONFIG_LISTS_H
 #define JOLON_CONFIG_LISTS_H
 
 #include "config/keys.h"
 
-/* Each takes the setting of that name (NULL: an empty list) of a file. The scenario's kinds,
- * scripts and params.capacity must be final. 0, or -1 with the message. */
+/* Each reads the setting of its name of a file; NULL is an empty list. The scenario's kinds,
+ * scripts and params.capacity must be read before. 0; -1 with the message. */
 int lists_vehicles(struct scenario *scenario, const config_setting_t *list, const char *file,
                    struct loader_message *message);
 int lists_objects(struct scenario *scenario, const config_setting_t *list, const char *file,
@@ -15,8 +15,8 @@ int lists_objects(struct scenario *scenario, const config_setting_t *list, const
 int lists_bases(struct scenario *scenario, const config_setting_t *list, const char *file,
                 struct loader_message *message);
 
-/* After lists_vehicles() with the same vehicles: shooters and targets are their names, which are
- * checked here to be different. */
+/* Call after lists_vehicles() with the same vehicles. Shooters and targets are names of vehicles;
+ * two vehicles with the same name are refused here. */
 int lists_fires(struct scenario *scenario, const config_setting_t *list,
                 const config_setting_t *vehicles, const char *file, struct loader_message *message);
 

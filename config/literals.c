@@ -1,4 +1,4 @@
-/* Literals: one pass over the text, token by token. */
+/* Goes through a text once, token by token. */
 #include "config/literals.h"
 
 #include <ctype.h>
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Shorter ones fit 32 bits, longer ones may not. */
+/* Integers of at most so many digits fit 32 bits. */
 #define DECIMAL_DIGITS_SAFE 9
 #define HEX_DIGITS_SAFE     7
 
@@ -16,7 +16,7 @@
 struct copying {
     const char *from;
     char *to;
-    bool array; /* inside an array that became a list */
+    bool array; /* inside an array that becomes a list */
 };
 
 static void copy(struct copying *copying, size_t count)
@@ -44,8 +44,8 @@ static size_t comment_length(const char *text, bool *ends)
     return *ends ? (size_t)(end - text) + 2 : strlen(text);
 }
 
-/* Length of the string or comment that text begins with, 0 when it does not. ends: false when it
- * goes on past the end of the text. */
+/* Length of the string or comment at the beginning of text; 0: there is none. ends: false when it
+ * does not end in the text. */
 static size_t opaque_length(const char *text, bool *ends)
 {
     *ends = true;
@@ -64,7 +64,7 @@ static void copy_number(struct copying *copying)
     const char *end = text + digits + (hex ? 2 : 0);
     bool whole = !isalnum((unsigned char)*end) && *end != '.';
 
-    if (!whole) { /* a fraction, an exponent or a suffix: right as it is */
+    if (!whole) { /* a fraction, an exponent or a suffix stays as it is */
         while (isalnum((unsigned char)*end) || *end == '.' ||
                ((*end == '+' || *end == '-') && (end[-1] == 'e' || end[-1] == 'E')))
             end++;
@@ -74,7 +74,7 @@ static void copy_number(struct copying *copying)
         *copying->to++ = 'L';
 }
 
-/* Does text, at "[", hold nothing but numbers up to its "]"? */
+/* Returns true if the array that begins at "[" has only numbers. */
 static bool is_number_array(const char *text)
 {
     size_t length = 1 + strspn(text + 1, HEX_DIGITS "xXL+-.,; \t\r\n");
@@ -122,7 +122,7 @@ void literals_measure(const char *text, struct literals_shape *shape)
 
 char *literals_widen(const char *text)
 {
-    /* Every character added follows eight of a number or more. */
+    /* A character is added after eight or more characters of a number, and one at the end. */
     size_t bytes = strlen(text);
     char *widened = malloc(bytes + bytes / 8 + 3);
     struct copying copying = {text, widened, false};
@@ -155,7 +155,7 @@ char *literals_widen(const char *text)
         }
     }
     if (copying.to > widened && copying.to[-1] != '\n')
-        *copying.to++ = '\n'; /* without it the parser refuses a comment at the end */
+        *copying.to++ = '\n'; /* without it libconfig refuses a comment at the end */
     *copying.to = '\0';
     return widened;
 }

@@ -1,27 +1,27 @@
-/* Literals: numbers as people write them, made such that libconfig reads them right. It takes an
- * integer past 32 bits without the suffix L as some other number, without a word, and refuses an
- * array that holds 1 beside 2.5. */
+/* Rewrites numbers so that libconfig reads them correctly. libconfig reads an integer of more than
+ * 32 bits without the suffix L as another number, without an error, and refuses an array such as
+ * [1, 2.5]. */
 #ifndef JOLON_CONFIG_LITERALS_H
 #define JOLON_CONFIG_LITERALS_H
 
 #include <stdint.h>
 
-/* What a text would have the parser build. */
+/* The size of the tree that libconfig would build from a text. */
 struct literals_shape {
-    uint32_t deepest; /* groups, lists and arrays in each other */
-    uint32_t fullest; /* settings of a group, of those no deeper than LITERALS_DEPTH */
-    int deepest_line, fullest_line; /* from 1, where it first is so; 0: there is none */
-    int open_line; /* where a string or comment begins that does not end; 0: there is none */
+    uint32_t deepest; /* levels of groups, lists and arrays */
+    uint32_t fullest; /* most settings of a group that is no deeper than LITERALS_DEPTH */
+    int deepest_line, fullest_line; /* the first line, from 1, of each maximum; 0: none */
+    int open_line; /* where a string or comment begins that does not end; 0: none */
 };
 
 #define LITERALS_DEPTH 64u
 
-/* Measures a text, whether or not it can be parsed, in one pass and no memory. */
+/* Measures any text, also one that cannot be parsed, in one pass and without allocation. */
 void literals_measure(const char *text, struct literals_shape *shape);
 
-/* A copy of text in which long integers end in L and arrays of numbers are lists, [1, 2.5] being
- * (1, 2.5), and the last line ends; strings, comments and line numbers stay. NULL when memory is
- * out; the caller frees. */
+/* A copy of text in which long integers end in L, arrays of numbers are lists ([1, 2.5] becomes
+ * (1, 2.5)) and the last line has an end. Strings, comments and line numbers stay. The caller frees
+ * it; NULL: no memory. */
 char *literals_widen(const char *text);
 
 #endif

@@ -1,11 +1,11 @@
-/* Whether an allocation of C++ failed. */
+/* Notices failed allocations of C++. */
 #include "config/memory.h"
 
 #include <stddef.h>
 
 typedef void new_handler(void);
 
-/* std::set_new_handler(), by its name in the library. */
+/* std::set_new_handler(), by its linker name. */
 extern new_handler *set_new_handler(new_handler *handler) __asm__("_ZSt15set_new_handlerPFvvE");
 
 static bool missed;
@@ -13,7 +13,7 @@ static bool missed;
 static void remember(void)
 {
     missed = true;
-    set_new_handler(NULL); /* and so operator new throws */
+    set_new_handler(NULL); /* makes operator new throw */
 }
 
 void memory_watch(void)

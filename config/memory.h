@@ -1,12 +1,11 @@
-/* assimp is C++, whose failed allocations are exceptions that it catches: here it is kept that
- * there was one. */
+/* Notices failed allocations of C++. assimp is C++ and catches the exception of a failed
+ * allocation, so that its caller would not know. */
 #ifndef JOLON_CONFIG_MEMORY_H
 #define JOLON_CONFIG_MEMORY_H
 
 #include <stdbool.h>
 
-/* From now on an allocation of C++ that fails is remembered; memory_missed() says whether one was.
- */
+/* After memory_watch() memory_missed() returns true once an allocation of C++ has failed. */
 void memory_watch(void);
 bool memory_missed(void);
 

@@ -1,5 +1,6 @@
-/* Polygon models by assimp. It opens files through our own calls, so that what it reads is what
- * was checked (config/obj.h) and hashed, and nothing outside the models' folder. */
+/* Reads polygon models with assimp. assimp opens files through the functions here, so that it reads
+ * the bytes that were checked (config/obj.h) and hashed, and no file outside the folder of models.
+ */
 #include "config/models.h"
 
 #include "config/keys.h"
@@ -17,14 +18,14 @@
 
 #define NODE_DEPTH_MAX 8
 
-/* An open file, as assimp sees it. */
+/* A file that assimp has open. */
 struct reader {
     struct aiFile file;
     const struct source *source;
     size_t at;
 };
 
-/* Of those that can be several on a model each stands with a number behind its name. */
+/* Parts that a model can have several of have a number behind the name. */
 static const char *const part_names[PART_COUNT] = {
     [PART_BODY] = "body",
     [PART_TURRET] = "turret",
@@ -54,8 +55,8 @@ void models_close(struct models *models)
     models->file_count = 0;
 }
 
-/* The file of this name in the models' folder, read at most once. NULL with the message. An
- * obj_open. */
+/* An obj_open: the file of this name in the folder of models, which is read at most once. NULL with
+ * the message. */
 static const struct source *find_file(void *context, const char *name,
                                       struct loader_message *message)
 {
@@ -125,7 +126,7 @@ static enum aiReturn reader_seek(struct aiFile *file, size_t offset, enum aiOrig
     size_t size = reader->source->bytes;
     size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? reader->at : size;
 
-    /* From the end and from here assimp may count back: unsigned wrap-around is the subtraction. */
+    /* assimp may count back from the end and from here; unsigned wrap-around subtracts. */
     if (base + offset > size)
         return aiReturn_FAILURE;
     reader->at = base + offset;
@@ -144,11 +145,11 @@ static const char *base_name(const char *path)
     return slash != NULL ? slash + 1 : path;
 }
 
-/* assimp asks for paths; only the last part counts: what obj_check() let through. */
+/* assimp asks for a path. Only its last part counts, which obj_check() has accepted. */
 static struct aiFile *open_reader(struct aiFileIO *io, const char *path, const char *mode)
 {
     struct models *models = (struct models *)(void *)io->UserData;
-    struct loader_message ignored; /* obj_check() was there first and would have refused */
+    struct loader_message ignored; /* obj_check() has read the file before */
     struct reader *reader;
     const struct source *source;
 
@@ -174,13 +175,13 @@ static void close_reader(struct aiFileIO *io, struct aiFile *file)
     free(file->UserData);
 }
 
-/* A model being taken out of assimp's scene. */
+/* A model while it is copied from assimp's scene. */
 struct taking {
     struct models *models;
     const struct aiScene *scene;
     struct key_place place;
     struct model *model;
-    uint32_t joints; /* used, the turret's among them */
+    uint32_t joints; /* used, that of the turret included */
     struct loader_message *message;
 };
 
@@ -221,7 +222,7 @@ static uint8_t tint_of(const char *material)
     return strncmp(material, "wash", 4) == 0 ? MODEL_TINT_WASH : 0;
 }
 
-/* The material's colour and whether it is the force's; -1 with the message. */
+/* Sets the colour and the tint of a mesh's triangles from its material. 0; -1 with the message. */
 static int take_material(struct taking *taking, const struct aiMesh *mesh,
                          struct model_triangle *like)
 {
@@ -279,7 +280,7 @@ static int take_mesh(struct taking *taking, const struct aiMesh *mesh, struct mo
     return 0;
 }
 
-/* The part that an object's name stands for, a number behind a "_" left aside; PART_COUNT: none. */
+/* The part that an object's name means, without "_" and a number at its end; PART_COUNT: none. */
 static uint32_t part_of(const char *name)
 {
     size_t length = strlen(name), end = length;
@@ -295,7 +296,7 @@ static uint32_t part_of(const char *name)
     return part;
 }
 
-/* What an object's triangles have in common; -1 with the message. */
+/* Sets the part and the joint of an object's triangles. 0; -1 with the message. */
 static int take_part(struct taking *taking, const struct aiNode *node, struct model_triangle *like)
 {
     uint32_t part = part_of(node->mName.data);
@@ -317,8 +318,8 @@ static int take_part(struct taking *taking, const struct aiNode *node, struct mo
     return 0;
 }
 
-/* OBJ objects and groups come as nodes of that name under the root. solid: takes those that only
- * collide, else those that are seen. */
+/* Copies the meshes of a node and of the nodes below it. OBJ objects and groups are nodes of their
+ * name below the root. solid: true copies the objects that only collide, false all others. */
 static int take_node(struct taking *taking, const struct aiNode *node, bool solid, int depth)
 {
     struct model_triangle like = {.part = PART_BODY};

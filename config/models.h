@@ -1,6 +1,6 @@
-/* Polygon models: config/models/NAME.obj and the material files they name, read with assimp into
- * a scenario's model tables, their hulls beside them. Each file is read once, hashed once, and only
- * from that folder. */
+/* Reader of the polygon models, config/models/NAME.obj, and of the material files that they name.
+ * It fills a scenario's tables of models and of their hulls. Each file is read once and hashed
+ * once, and only files of that folder are read. */
 #ifndef JOLON_CONFIG_MODELS_H
 #define JOLON_CONFIG_MODELS_H
 
@@ -24,16 +24,15 @@ struct models {
     XXH3_state_t *hash;
     struct source file[MODELS_FILE_MAX];
     int file_count;
-    struct hulls hulls[KIND_COUNT_MAX]; /* of each of the scenario's models */
+    struct hulls hulls[KIND_COUNT_MAX]; /* of each model of the scenario */
 };
 
 void models_open(struct models *models, struct scenario *scenario, const char *data_dir,
                  XXH3_state_t *hash);
 void models_close(struct models *models);
 
-/* Index in the scenario's models of the model called name, reading it when it is new. -1 with the
- * message: not a name, no such file, not a model, too large, a part or material that means
- * nothing. */
+/* Index in the scenario's models of the model called name, which is read when it is new. -1 with
+ * the message: no such file, not a model, too large, an unknown part or material. */
 int models_find(struct models *models, const char *name, struct loader_message *message);
 
 #endif

@@ -1,6 +1,6 @@
-/* OBJ: the plain part of Wavefront's OBJ and MTL files that a model may use. Files are checked
- * against it line by line before assimp sees them: what assimp is given is small, whole and in
- * order, whatever a file was. Pure but for the files that a model names; start-up only. */
+/* Checks Wavefront OBJ and MTL files line by line before assimp reads them. A model may use the
+ * plain part of the formats only, so that assimp gets small and complete input, whatever the file
+ * was. Reads no file but those that a model names. Start-up only. */
 #ifndef JOLON_CONFIG_OBJ_H
 #define JOLON_CONFIG_OBJ_H
 
@@ -18,13 +18,13 @@
 #define OBJ_MATERIALS_MAX 256u
 #define OBJ_EXTENT_MAX    1000.0 /* [m] of a vertex's coordinate */
 
-/* Gives the text of a file that stands beside the model, read at most once; NULL with the message.
- * name: one word of a-z A-Z 0-9 . - _ that does not begin with a dot. */
+/* Returns the text of a file in the folder of the model, which is read at most once; NULL with the
+ * message. name: one word of a-z A-Z 0-9 . - _ that does not begin with a dot. */
 typedef const struct source *obj_open(void *context, const char *name,
                                       struct loader_message *message);
 
-/* Checks an OBJ file and the MTL file that it names. 0; -1 with the message, with file, line, word,
- * value and what is allowed. */
+/* Checks an OBJ file and the MTL file that it names. 0; -1 with a message that names file, line,
+ * word, value and what is allowed. */
 int obj_check(const struct source *source, obj_open *open, void *context,
               struct loader_message *message);
 

@@ -1,4 +1,4 @@
-/* Pieces: the model's corners by place, the places joined by its triangles. */
+/* Finds the places of a model's corners, and connects them by its triangles. */
 #include "config/pieces.h"
 
 #include "config/table.h"
@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The places of a model's corners, each once, as a forest: a tree is a piece. */
+/* The places of a model's corners, each once, in a union-find forest. A tree is a piece. */
 struct places {
     struct vec3 *at;  /* [count] in order of x, y, z */
     uint32_t *of;     /* [vertices] index of each vertex's place */
-    uint32_t *parent; /* [count] never behind its child */
+    uint32_t *parent; /* [count] the index of a parent is never above its child's */
     uint32_t count;
 };
 
@@ -41,7 +41,7 @@ static void join_places(const struct places *places, uint32_t a, uint32_t b)
         places->parent[root_a] = root_b;
 }
 
-/* A corner on its way to its place. */
+/* A corner, for sorting by place. */
 struct arrival {
     struct vec3 at;
     uint32_t vertex;
@@ -108,7 +108,7 @@ static int add_point(struct piece *piece, struct vec3 at)
     return 0;
 }
 
-/* Deals the places out to the pieces that they make up. */
+/* Adds each place to the piece of its tree. */
 static int deal_places(struct pieces *pieces, const struct places *places)
 {
     uint32_t *piece_of = calloc(places->count, sizeof(*piece_of)); /* of each root */
@@ -130,7 +130,8 @@ static int deal_places(struct pieces *pieces, const struct places *places)
     return result;
 }
 
-/* Replaces every point of a flat piece by two, one to each side, along every axis that it lacks. */
+/* Makes a flat piece thick: along every axis that it does not span, each point becomes two, one to
+ * either side. */
 static int thicken(struct piece *piece)
 {
     struct vec3 axis[3];

@@ -1,6 +1,6 @@
-/* Pieces: what of a model hangs together. Corners at the same place are joined, whatever part of
- * the model they belong to; each piece is wrapped. Of a model with a part that is solid, that part
- * alone. */
+/* The connected pieces of a model, each with its convex hull. Triangles that share the place of a
+ * corner are connected, whatever part of the model they belong to. Of a model with a solid part,
+ * only that part counts. */
 #ifndef JOLON_CONFIG_PIECES_H
 #define JOLON_CONFIG_PIECES_H
 
@@ -9,17 +9,17 @@
 
 #include <stdint.h>
 
-/* A piece flatter than this gets PIECES_THICKNESS_M, half of it to either side, so that every hull
- * has a volume: a rotor blade of a single quad is something that one can run into. */
+/* A piece flatter than this becomes PIECES_THICKNESS_M thick, half of it to either side, so that
+ * every hull has a volume: bodies collide with a rotor blade that is one quad [m]. */
 #define PIECES_FLAT_M      0.001
 #define PIECES_THICKNESS_M 0.02
 
-/* Of one model: joining them looks at every pair. */
+/* Most pieces of one model; joining them compares every pair. */
 #define PIECES_MAX 256
 
 struct piece {
     struct vec3 *point; /* every corner */
-    uint32_t count;     /* 0: gone, there is no piece */
+    uint32_t count;     /* 0: it was joined to another piece */
     struct wrap wrap;
 };
 
@@ -28,13 +28,13 @@ struct pieces {
     uint32_t count;
 };
 
-/* Finds the pieces of a model of the scenario; pieces is to be freed in any case. 0; -1 with errno
- * ENOMEM, E2BIG (more than PIECES_MAX pieces), or wrap_points()'s. */
+/* Finds the pieces of a model of the scenario. The caller frees pieces in any case. 0; -1 with
+ * errno ENOMEM, E2BIG (more than PIECES_MAX pieces) or that of wrap_points(). */
 int pieces_find(struct pieces *pieces, const struct scenario *scenario, const struct model *model);
 void pieces_free(struct pieces *pieces);
 
-/* Adds another's points to a piece's and takes the other away. wrap is that of both, and is taken;
- * NULL: the piece's own holds them. 0; -1 with errno ENOMEM. */
+/* Moves the points of another piece to a piece. wrap: the hull of both, which the piece then owns;
+ * NULL: the hull of the piece holds the other. 0; -1 with errno ENOMEM. */
 int pieces_join(struct piece *piece, struct piece *other, struct wrap *wrap);
 
 #endif

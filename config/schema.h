@@ -1,25 +1,26 @@
-/* The schema: every key of scenario and kind files, what it is allowed to be and where it goes.
- * Entries of lists and kinds are read into the plain structs here and resolved afterwards. */
+/* The schema: every key of the files of scenarios and kinds, its type, range, default, meaning and
+ * destination. A scenario's groups are read into struct scenario. Entries of lists and kinds are
+ * read into the structs below; the names in them are looked up afterwards. */
 #ifndef JOLON_CONFIG_SCHEMA_H
 #define JOLON_CONFIG_SCHEMA_H
 
 #include "config/keys.h"
 #include "world/scenario.h"
 
-/* Limits of files, checked before anything is allocated. */
+/* Limits of files. They are checked before memory of that size is allocated. */
 #define SCHEMA_SCENARIO_BYTES_MAX (4u * 1024u * 1024u)
 #define SCHEMA_KIND_BYTES_MAX     (64u * 1024u)
-#define SCHEMA_DEPTH_MAX          8u  /* of groups, lists and arrays in each other */
-#define SCHEMA_MEMBERS_MAX        64u /* keys of one group, as of a struct key_table */
+#define SCHEMA_DEPTH_MAX          8u  /* levels of groups, lists and arrays */
+#define SCHEMA_MEMBERS_MAX        64u /* keys of one group; a struct key_table has no more */
 
 #define SCHEMA_GROUPS_MAX  65536
 #define SCHEMA_OBJECTS_MAX 1048576
 #define SCHEMA_SCRIPTS_MAX 65536
 #define SCHEMA_FIRES_MAX   65536
-/* Largest whole number that is exact in a double, as JSON and many languages carry numbers. */
+/* The largest whole number up to which all are exact in a double, the number of JSON. */
 #define SCHEMA_WHOLE_MAX 9007199254740991.0
 
-/* Destination: struct scenario. Also everything an override can set. */
+/* Destination: struct scenario. These are the keys that an override can set. */
 extern const struct key_table schema_scenario;
 
 /* Rows of schema_vehicle, for key_reading.given and .line. */
@@ -51,7 +52,7 @@ struct vehicle_entry {
     uint32_t count;
     uint32_t force, behaviour;
     uint32_t fire_at_will;
-    uint32_t engage; /* ENTITY_FLAG_*, 0: only who fires at it */
+    uint32_t engage; /* ENTITY_FLAG_*; 0: it returns fire */
     uint32_t stand;
     uint32_t formation;
     double spacing_m;
@@ -134,7 +135,7 @@ extern const struct key_table schema_fire;
 struct kind_entry {
     struct kind kind;
     char model[KIND_NAME_MAX];
-    char munition[KIND_NAME_MAX]; /* "" for none */
+    char munition[KIND_NAME_MAX]; /* "": none */
 };
 extern const struct key_table schema_kind;
 

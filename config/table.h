@@ -1,12 +1,12 @@
-/* Tables that grow while files are read: plain memory, owned by whoever holds the pointer. */
+/* Tables that grow while files are read. The owner of the pointer frees them. */
 #ifndef JOLON_CONFIG_TABLE_H
 #define JOLON_CONFIG_TABLE_H
 
 #include <stdint.h>
 #include <stdlib.h>
 
-/* Adds count items of size bytes to a table of *used; returns the first of them, not set, or NULL
- * with the table as it was when memory is out. */
+/* Adds count items of size bytes to a table of *used items. Returns the first new item, not set;
+ * NULL, with the table as it was: no memory. */
 static inline void *table_extend(void **table, uint32_t *used, uint32_t count, size_t size)
 {
     void *larger = realloc(*table, ((size_t)*used + count) * size);

@@ -1,4 +1,4 @@
-/* Waypoint files: where a vehicle is when, a line each. */
+/* Reader of files of waypoints. A line has a time and the place where the vehicle is then. */
 #ifndef JOLON_CONFIG_WAYPOINTS_H
 #define JOLON_CONFIG_WAYPOINTS_H
 
@@ -8,12 +8,13 @@
 #define WAYPOINTS_BYTES_MAX (4u * 1024u * 1024u)
 #define WAYPOINTS_HEADER    "time_s,x,z[,altitude_m]"
 
-/* Lines of the text that are not empty: an upper bound of its waypoints, for allocation. */
+/* The number of lines that are not empty, which is an upper bound of the waypoints. */
 uint32_t waypoints_lines(const char *text);
 
-/* Reads "time_s,x,z[,altitude_m]" and the lines behind it into steps, which have room for
- * waypoints_lines(). Times ascend, points are on the map. How many there are; -1 with the message
- * of the line and what would be right. */
+/* Reads the header and the lines after it into steps, which have room for waypoints_lines(). Times
+ * must increase, and points must be on the map. Returns the number of waypoints; -1 with the
+ * message.
+ */
 int waypoints_read(const struct source *source, struct scenario_step *steps,
                    struct loader_message *message);
 

@@ -1,26 +1,26 @@
-/* Wraps: from a tetrahedron on, every point outside takes away the triangles that see it and is
- * joined to the edge of the hole. */
+/* Makes a convex hull by adding points to a tetrahedron. A point outside removes the triangles that
+ * face it, and new triangles connect it with the edge of the hole. */
 #include "config/wrap.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A triangle is slim when its area is less than this share of what its sides could have: then its
- * normal is found exactly. The normals of others are good to 4e-14, so that a point's distance from
- * a plane is good to SURE_M wherever it is. */
+/* A triangle is slim when twice its area is less than this share of the product of two sides. Its
+ * normal is then computed exactly. The normals of other triangles have an error below 4e-14, so
+ * that the distance of a point from a plane has an error below SURE_M [m]. */
 #define SLIM_SHARE 0.01
 #define SURE_M     1e-9
 
 __extension__ typedef __int128 wide;
 
-/* A wrap being made; its triangles are in no order. */
+/* A hull while it grows. Its triangles are in no order. */
 struct wrapping {
     struct vec3 *point;
     uint32_t count;
     struct wrap_face *face;
     uint32_t face_count;
-    uint32_t (*edge)[2]; /* around the triangles that go */
+    uint32_t (*edge)[2]; /* around the triangles that are removed */
     uint32_t edge_count;
 };
 
@@ -40,18 +40,19 @@ static struct vec3 unit(struct vec3 v)
     return vec3_scale(v, 1.0 / vec3_length(v));
 }
 
-/* --- what points span --------------------------------------------------------------------------*/
+/* --- the axes that points span -----------------------------------------------------------------*/
 
-/* Up to four points that span what all span: the first, the furthest from it, the furthest from
- * their line, the furthest from their plane. */
+/* Up to four points that span as many axes as all points: the first, the furthest from it, the
+ * furthest from their line, the furthest from their plane. */
 struct span {
-    int axes;           /* spanned by more than was asked: corner has one more */
+    int axes;           /* spanned by more than least_m; corner has one entry more */
     uint32_t corner[4]; /* indices */
-    struct vec3 along;  /* from axes == 1 on: unit, of the line */
-    struct vec3 normal; /* from axes == 2 on: unit, of the plane */
+    struct vec3 along;  /* axes >= 1: unit vector along the line */
+    struct vec3 normal; /* axes >= 2: unit normal of the plane */
 };
 
-/* Distance of a point, relative to the first corner, from what is spanned so far. */
+/* Distance of a point from the point, line or plane that is spanned. from: relative to corner[0].
+ */
 static double distance(const struct span *span, struct vec3 from)
 {
     if (span->axes == 0)
@@ -124,7 +125,7 @@ static int64_t steps(double metres)
     return (int64_t)(metres * WRAP_STEPS);
 }
 
-/* Exact: differences have 33 bits, and sums of two products of them 67. */
+/* The exact cross product in steps: differences have 33 bits, sums of two products 67 bits. */
 static void cross_exactly(struct vec3 u, struct vec3 v, wide product[3])
 {
     int64_t ux = steps(u.x), uy = steps(u.y), uz = steps(u.z);
@@ -135,7 +136,7 @@ static void cross_exactly(struct vec3 u, struct vec3 v, wide product[3])
     product[2] = (wide)ux * vy - (wide)uy * vx;
 }
 
-/* Sum of the sizes of a vector's components. */
+/* Sum of the absolute components of a vector. */
 static double extent(struct vec3 v)
 {
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
@@ -165,7 +166,7 @@ static void add_face(struct wrapping *w, uint32_t a, uint32_t b, uint32_t c)
     face->area_m2 = 0.5 * length;
 }
 
-/* Is the point on the outer side of the triangle's plane? */
+/* Returns true if the point is on the outer side of the triangle's plane. */
 static bool is_above(const struct wrapping *w, const struct wrap_face *face, struct vec3 p)
 {
     double above = vec3_dot(face->normal, p) - face->offset_m;
@@ -184,7 +185,7 @@ static void begin(struct wrapping *w, const struct span *span)
 {
     uint32_t a = span->corner[0], b = span->corner[1], c = span->corner[2], d = span->corner[3];
 
-    /* a, b, c are counter-clockwise as seen from away from d. */
+    /* a, b, c are counter-clockwise as seen from the side away from d. */
     if (vec3_dot(span->normal, vec3_sub(w->point[d], w->point[a])) > 0.0) {
         b = span->corner[2];
         c = span->corner[1];
@@ -197,7 +198,7 @@ static void begin(struct wrapping *w, const struct span *span)
 
 static void add_edge(struct wrapping *w, uint32_t from, uint32_t to)
 {
-    /* An edge between two triangles that go is walked in both directions, and goes with them. */
+    /* An edge between two removed triangles occurs in both directions, and is removed too. */
     for (uint32_t i = 0; i < w->edge_count; i++) {
         if (w->edge[i][0] == to && w->edge[i][1] == from) {
             w->edge_count--;
@@ -240,7 +241,7 @@ static int add_points(struct wrapping *w, uint32_t from)
     return 0;
 }
 
-/* Of pyramids over the triangles with their tips in one of the hull's points. */
+/* The sum of the pyramids from one vertex of the hull to all triangles. */
 static double volume_of(const struct wrapping *w)
 {
     struct vec3 tip = w->point[w->face[0].corner[0]];
@@ -254,10 +255,10 @@ static double volume_of(const struct wrapping *w)
     return volume / 3.0;
 }
 
-/* Copies what is left, its points numbered anew, into memory of the right size. */
+/* Copies the hull, with new indices of its points, into memory of the right size. */
 static int finish(struct wrap *wrap, const struct wrapping *w)
 {
-    uint32_t *number = calloc(w->count, sizeof(*number)); /* + 1; 0: not of the hull */
+    uint32_t *number = calloc(w->count, sizeof(*number)); /* new index + 1; 0: not a vertex */
 
     wrap->point = malloc(w->count * sizeof(*wrap->point));
     wrap->face = malloc(w->face_count * sizeof(*wrap->face));
@@ -287,8 +288,8 @@ static int finish(struct wrap *wrap, const struct wrapping *w)
     return 0;
 }
 
-/* Room for count points. A closed surface of triangles over n points has 2 n - 4 of them, and each
- * has three edges. */
+/* Allocates room for count points. A closed surface of triangles over n points has 2 n - 4
+ * triangles, and each has three edges. */
 static int open_wrapping(struct wrapping *w, uint32_t count)
 {
     uint32_t faces = count < WRAP_FACES_MAX / 2 ? 2 * count : WRAP_FACES_MAX + 2;
@@ -324,7 +325,8 @@ static int compare_ranked(const void *left, const void *right)
     return wrap_compare(&a->point, &b->point);
 }
 
-/* Copies the points onto the lattice, those furthest out first: most others are then inside. */
+/* Snaps the points to the lattice, the furthest from their middle first: then most of the others
+ * are inside. */
 static int rank_points(struct vec3 *to, const struct vec3 *point, uint32_t count)
 {
     struct ranked *ranked = malloc(count * sizeof(*ranked));
@@ -382,9 +384,9 @@ void wrap_free(struct wrap *wrap)
     memset(wrap, 0, sizeof(*wrap));
 }
 
-/* --- two wraps ---------------------------------------------------------------------------------*/
+/* --- two hulls ---------------------------------------------------------------------------------*/
 
-/* Begins with the wrap that has more points and adds those of the other. */
+/* Begins with the hull that has more points and adds the points of the other. */
 static int add_both(struct wrapping *w, const struct wrap *a, const struct wrap *b)
 {
     const struct wrap *large = a->point_count >= b->point_count ? a : b;

@@ -509,7 +509,8 @@ static const struct refusal kind_refusals[] = {
      3, "climb_rate_mps = 0: is needed by an aircraft; allowed: above 0"},
     {KIND_BEGIN "domain = \"munition\"; max_speed_mps = 9;\nlife_s = 0;", 3,
      "life_s = 0: is needed by a munition; allowed: above 0"},
-    {KIND_BEGIN "domain = \"fixed\";", 1, "class: is missing; a fixed object needs it; allowed: tree, ..."},
+    {KIND_BEGIN "domain = \"fixed\";", 1,
+     "class: is missing; a fixed object needs it; allowed: tree, ..."},
     {"name = \"other\"; domain = \"land\"; model = \"k\"; mass_kg = 1; radius_m = 1; resistance_j "
      "= "
      "1; length_m = 1; width_m = 1; height_m = 1;",
