@@ -83,10 +83,11 @@ say = $(eval STEP += x)printf '[%$(word 2,$(STEPS_TO_DO))d/%d] %s\n' $(words $(S
         '$(1)$(if $(CRASHPOINTS), (crash points))'
 endif
 
-# $(call rewritten,FILE,TEXT): what a FILE depends on that is written anew when its TEXT changes. Its
-# recipe compares the two. Nothing is written while steps are counted, so they are compared here.
+# $(call rewritten,FILE,NAME): what a FILE depends on that is written anew when the variable NAME has
+# another value. Its recipe compares the two. Nothing is written while steps are counted, so they are
+# compared here. Only then is the variable looked up, because it may ask a compiler.
 differ    = $(subst x$(1),,x$(2))$(subst x$(2),,x$(1))
-rewritten = $(if $(COUNTING),$(if $(call differ,$(file <$(1)),$(2)),FORCE),FORCE)
+rewritten = $(if $(COUNTING),$(if $(call differ,$(file <$(1)),$($(2))),FORCE),FORCE)
 
 # --- set-up: packages ---------------------------------------------------------------------------
 STAMP    := build/.packages
@@ -308,7 +309,7 @@ TEST_SRC := $(UNIT_SRC) $(PROPERTY_SRC) $(SUPPORT_SRC) $(MAP_STAGE) $(SOFT_STAGE
 $(call objects,$(TEST_SRC)): | $(TEST_STAMP)
 
 # Again when a file comes or goes, too.
-$(OBJ)/console/page.list: $(call rewritten,$(OBJ)/console/page.list,$(PAGE_FILES))
+$(OBJ)/console/page.list: $(call rewritten,$(OBJ)/console/page.list,PAGE_FILES)
 	@mkdir -p $(@D); echo '$(PAGE_FILES)' | cmp -s - $@ || echo '$(PAGE_FILES)' > $@
 $(PAGE): $(PAGE_FILES) $(OBJ)/console/page.list console/embed | $(STAMP)
 	@mkdir -p $(@D); $(call say,AS $@)
@@ -322,7 +323,7 @@ $(STATUS): $(IDL)/status.c $(IDL)/status.h $(BUILD)/flags
 
 # Everything is built again when the compiler or its flags change.
 FLAGS = $(CC) $(CFLAGS_ALL) $(LDFLAGS_ALL)
-$(BUILD)/flags: $(call rewritten,$(BUILD)/flags,$(FLAGS)) | $(STAMP)
+$(BUILD)/flags: $(call rewritten,$(BUILD)/flags,FLAGS) | $(STAMP)
 	@mkdir -p $(@D); echo '$(FLAGS)' | cmp -s - $@ || echo '$(FLAGS)' > $@
 .PHONY: FORCE
 FORCE:

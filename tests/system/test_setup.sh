@@ -66,6 +66,7 @@ check "what is there is no step" equal "$(build "${parts[@]}" | grep CC)" "[1/1]
 check "other flags are steps for all" equal "$(build OPT='-O0 -g1' "${parts[@]}" | grep -c '/3\] CC ')" 3
 rm "${parts[@]}"
 check "make -s says nothing" equal "$(build -s "${parts[@]}")" ""
+check "no compiler is asked before it is installed" equal "$(build CC=no-such-compiler help | grep 'not found')" ""
 # jobs GOAL...: what make counts as its own number of jobs
 jobs() { build -np "$@" | grep -a '^MAKEFLAGS = ' | grep -oE -- ' -j[0-9]+' | tail -n 1; }
 check "all processors build" equal "$(jobs all)" " -j$(nproc)"
