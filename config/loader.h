@@ -13,8 +13,8 @@ struct loader_message {
  * in order, then every data_dir/kinds/ *.cfg in order of their names with the models they name,
  * then the scenario's lists. So a wrong key of the user is refused before the other files are read.
  * path: NULL for data_dir/scenarios/hunter-liggett.cfg; a name without '/' that is no file in the
- * working directory is looked up in data_dir/scenarios/. -1 with the message, and
- * scenario is empty. */
+ * working directory is looked up in data_dir/scenarios/. 0; -1 with the message, and scenario
+ * empty. */
 int loader_scenario(struct scenario *scenario, const char *data_dir, const char *path,
                     const char *const *overrides, int override_count,
                     struct loader_message *message);
