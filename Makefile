@@ -522,24 +522,33 @@ model: | $(TEST_STAMP)
 
 # --- installing ---------------------------------------------------------------------------------
 SHARE = $(DESTDIR)$(PREFIX)/share/jolon
+DOC   = $(DESTDIR)$(PREFIX)/share/doc/jolon
 MAN1  = $(DESTDIR)$(PREFIX)/share/man/man1
 COMPLETIONS = $(DESTDIR)$(PREFIX)/share/bash-completion/completions
+UNITS = $(DESTDIR)$(PREFIX)/lib/systemd/system
+# jolon-bench is installed when it has been built.
+INSTALLED = $(PROGRAMS) $(wildcard $(BENCH))
+PAGES = $(filter-out $(if $(wildcard $(BENCH)),,%/jolon-bench.1),$(wildcard man/*.1))
+# In the folders in which they lie here, so that their links hold.
+DOCUMENTS = LICENSE $(sort $(wildcard *.md */README.md) $(shell find docs examples -type f \
+        '(' -name '*.md' -o -name '*.png' -o -name '*.svg' -o -path '*examples/*' ')'))
 install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)
-	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
-	cp -R config/kinds config/models config/scenarios config/cyclonedds.xml config/dds-security $(SHARE)
-	install -d $(MAN1) $(COMPLETIONS)
-	install -m 644 man/*.1 $(MAN1)
+	install -d $(DESTDIR)$(PREFIX)/bin $(MAN1) $(COMPLETIONS) $(UNITS)
+	install -m 755 -s $(filter-out %/jolon,$(INSTALLED)) $(DESTDIR)$(PREFIX)/bin
+	install -m 755 $(BIN)/jolon $(DESTDIR)$(PREFIX)/bin
+	install -m 644 $(PAGES) $(MAN1)
 	ln -sf jolon-run.1 $(MAN1)/jolon-start.1
 	install -m 644 supervisor/jolon.completion $(COMPLETIONS)/jolon
-	install -d $(DESTDIR)$(PREFIX)/lib/systemd/system
-	sed 's|@BIN@|$(PREFIX)/bin|' supervisor/jolon@.service \
-		> $(DESTDIR)$(PREFIX)/lib/systemd/system/jolon@.service
+	sed 's|@BIN@|$(PREFIX)/bin|' supervisor/jolon@.service > $(UNITS)/jolon@.service
+	rm -rf $(SHARE) $(DOC)
+	install -d $(SHARE) $(DOC)
+	cp -R config/kinds config/models config/scenarios config/cyclonedds.xml config/dds-security ipc/status.idl $(SHARE)
+	@cp --parents $(DOCUMENTS) $(DOC)
+	chmod -R u=rwX,go=rX $(SHARE) $(DOC) $(UNITS)/jolon@.service
 uninstall:
-	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,$(notdir $(PROGRAMS)))
-	rm -f $(DESTDIR)$(PREFIX)/lib/systemd/system/jolon@.service
-	rm -rf $(SHARE)
-	rm -f $(addprefix $(MAN1)/,$(notdir $(wildcard man/*.1)) jolon-start.1) $(COMPLETIONS)/jolon
+	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,$(notdir $(PROGRAMS) $(BENCH)))
+	rm -f $(addprefix $(MAN1)/,$(notdir $(wildcard man/*.1)) jolon-start.1) $(COMPLETIONS)/jolon $(UNITS)/jolon@.service
+	rm -rf $(SHARE) $(DOC)
 
 # --- pictures of the documents ------------------------------------------------------------------
 SHEET := $(BUILD)/figures/sheet
