@@ -1,6 +1,9 @@
 /* The schema: every key of the files of scenarios and kinds, its type, range, default, meaning and
  * destination. A scenario's groups are read into struct scenario. Entries of lists and kinds are
- * read into the structs below; the names in them are looked up afterwards. */
+ * read into the structs below; the names in them are looked up afterwards.
+ *
+ * To add a key, add a member to its destination (struct params for a scenario's groups) and a row
+ * to its table. Show it in an example of docs/scenario.md, and run `make docs`. */
 #ifndef JOLON_CONFIG_SCHEMA_H
 #define JOLON_CONFIG_SCHEMA_H
 
