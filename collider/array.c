@@ -1,8 +1,8 @@
 /* Growth of arrays within a step: rare, and counted. */
 #include "collider/array.h"
 
-#include "ipc/log.h"
-#include "world/reserve.h"
+#include "ipc/process/log.h"
+#include "world/runtime/reserve.h"
 
 #include <errno.h>
 #include <inttypes.h>

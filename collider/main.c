@@ -2,12 +2,12 @@
  * buffers, the craters and the event ring. */
 #include "collider/array.h"
 #include "collider/step.h"
-#include "ipc/frame.h"
-#include "ipc/log.h"
-#include "ipc/process.h"
-#include "sandbox/sandbox.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "ipc/sandbox/sandbox.h"
 
-#include "world/work_done.h"
+#include "world/runtime/work_done.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -29,12 +29,12 @@ static void tell_growth(uint64_t *told)
 static void collide_frames(struct collider *collider, struct view *view)
 {
     const struct event_ring ring = {view->events, view->header->event_slots};
-    struct frame frame;
+    struct frame_protocol frame;
     uint64_t told = 0;
-    while (frame_collider_begin(&frame, view) == 0) {
+    while (frame_protocol_collider_begin(&frame, view) == 0) {
         collider_step(collider, &view->w[(frame.number - 1) & 1], &view->m,
                       &view->w[frame.number & 1], &ring);
-        frame_collider_end(&frame, view);
+        frame_protocol_collider_end(&frame, view);
         tell_growth(&told);
     }
 }
@@ -56,7 +56,7 @@ int main(int argc, char **argv)
                                                                &reason) != 0)
         die_refused("%s", reason.text);
     work_done_into(&view.slot[view.role]->work);
-    struct workers *workers = workers_create(options.threads);
+    struct thread_pool *workers = thread_pool_create(options.threads);
     if (!workers)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
     if (collider_init(&collider, &view.world, view.w[0].craters, workers) != 0)
@@ -64,14 +64,14 @@ int main(int argc, char **argv)
     if (sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
     /* It may have been asked to stop, or the run may have ended, while another had the role. */
-    if (segment_take(&view) == 0 && !(options.stand_by && frame_finished(&view))) {
+    if (segment_take(&view) == 0 && !(options.stand_by && frame_protocol_finished(&view))) {
         segment_ready(&view);
         log_info("collides world \"%s\" on %u thread(s)", view.name, options.threads);
         collide_frames(&collider, &view);
     }
 
     collider_free(&collider);
-    workers_destroy(workers);
+    thread_pool_destroy(workers);
     segment_detach(&view);
     return EXIT_OK;
 }

@@ -1,8 +1,8 @@
 /* The collider's step, from top to bottom. */
 #include "collider/step.h"
 
-#include "collider/respond.h"
-#include "world/work_done.h"
+#include "collider/response/response.h"
+#include "world/runtime/work_done.h"
 
 #include <errno.h>
 #include <string.h>
@@ -10,19 +10,19 @@
 #define PIECES_A_WORKER 2u /* at a time */
 
 int collider_init(struct collider *collider, const struct world *world,
-                  const struct crater *craters, struct workers *workers)
+                  const struct crater *craters, struct thread_pool *workers)
 {
     *collider =
         (struct collider){.world = world, .workers = workers, .fixed_hash_frame = UINT64_MAX};
     if (crater_index_init(&collider->craters, craters) != 0 ||
-        crest_init(&collider->crest, &world->terrain) != 0 ||
-        motion_init(&collider->motion, world) != 0 ||
-        broad_init(&collider->broad, world, workers) != 0 ||
-        contacts_init(&collider->contacts, world, workers) != 0 ||
+        height_max_map_init(&collider->crest, &world->terrain) != 0 ||
+        body_motion_init(&collider->motion, world) != 0 ||
+        broad_phase_init(&collider->broad, world, workers) != 0 ||
+        contact_queue_init(&collider->contacts, world, workers) != 0 ||
         island_init(&collider->island, world) != 0 ||
         charges_init(&collider->charges, world) != 0 ||
-        pair_list_init(&collider->pairs, detect_pairs_first(world)) != 0 ||
-        !(collider->workspace = detect_workspace_create(world))) {
+        pair_list_init(&collider->pairs, pair_filter_pairs_first(world)) != 0 ||
+        !(collider->workspace = method_workspace_create(world))) {
         collider_free(collider);
         errno = ENOMEM;
         return -1;
@@ -33,13 +33,13 @@ int collider_init(struct collider *collider, const struct world *world,
 void collider_free(struct collider *collider)
 {
     crater_index_free(&collider->craters);
-    crest_free(&collider->crest);
-    motion_free(&collider->motion);
-    broad_free(&collider->broad);
-    contacts_free(&collider->contacts);
+    height_max_map_free(&collider->crest);
+    body_motion_free(&collider->motion);
+    broad_phase_free(&collider->broad);
+    contact_queue_free(&collider->contacts);
     island_free(&collider->island);
     charges_free(&collider->charges);
-    detect_workspace_free(collider->workspace);
+    method_workspace_free(collider->workspace);
     pair_list_free(&collider->pairs);
     *collider = (struct collider){0};
 }
@@ -51,7 +51,7 @@ struct stage {
     uint32_t known; /* pieces of next that are what this process left */
 };
 
-_Static_assert(BROAD_ROWS_TAKEN % CHECKSUM_ROWS == 0, "rows are taken by whole pieces");
+_Static_assert(BROAD_PHASE_ROWS_TAKEN % CHECKSUM_ROWS == 0, "rows are taken by whole pieces");
 
 static void take_pieces(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
@@ -72,8 +72,8 @@ static void take_rows(void *context, uint32_t first, uint32_t end)
 /* Copies all moved rows. */
 static void take_all(struct stage *stage)
 {
-    workers_run(stage->collider->workers, take_pieces, stage, piece_count(stage->used),
-                PIECES_A_WORKER);
+    thread_pool_run(stage->collider->workers, take_pieces, stage, piece_count(stage->used),
+                    PIECES_A_WORKER);
 }
 
 /* How many pieces of next still hold what this process left there two frames ago. */
@@ -85,65 +85,65 @@ static uint32_t known_pieces(const struct collider *collider, const struct moved
     return own ? piece_count(next->head->used) : 0;
 }
 
-static void put_intents(struct sink *sink, const struct moved *moved)
+static void put_intents(struct event_writer *sink, const struct moved *moved)
 {
     for (uint32_t i = 0; i < moved->head->intent_count; i++) {
         const struct event *intent = &moved->intents[i];
-        struct event *event = sink_event(sink, (enum event_type)intent->type);
+        struct event *event = event_writer_event(sink, (enum event_type)intent->type);
         if (event)
             memcpy(event->bytes, intent->bytes, sizeof event->bytes);
     }
 }
 
-static void draw_pairs(struct motion *motion, const struct pair_list *list)
+static void draw_pairs(struct body_motion *motion, const struct pair_list *list)
 {
     for (uint32_t i = 0; i < list->count; i++) {
-        motion_draw(motion, list->pair[i].a);
+        body_motion_draw(motion, list->pair[i].a);
         if (!(list->pair[i].b & PAIR_FIXED))
-            motion_draw(motion, list->pair[i].b);
+            body_motion_draw(motion, list->pair[i].b);
     }
 }
 
 /* The default: rows are copied on the way, while they are at hand, and only the ways of who comes
  * near something are drawn. */
-static void find_pairs_swept(struct stage *stage, const struct detect_input *input)
+static void find_pairs_swept(struct stage *stage, const struct method_input *input)
 {
     struct collider *collider = stage->collider;
-    broad_pairs_moved(&collider->broad, input, &collider->motion, take_rows, stage);
-    for (int i = 0; i < WORKERS_MAX; i++)
+    broad_phase_pairs_moved(&collider->broad, input, &collider->motion, take_rows, stage);
+    for (int i = 0; i < THREAD_POOL_MAX; i++)
         draw_pairs(&collider->motion, &collider->broad.list[i]);
-    contacts_begin(&collider->contacts, collider->broad.list, WORKERS_MAX);
+    contact_queue_begin(&collider->contacts, collider->broad.list, THREAD_POOL_MAX);
 }
 
 /* Copies the moved rows and finds the frame's pairs by the method chosen. The broad phase runs with
  * every method: blasts and changed ways look up what is near in it. */
-static void find_pairs(struct stage *stage, const struct detect_input *input)
+static void find_pairs(struct stage *stage, const struct method_input *input)
 {
     struct collider *collider = stage->collider;
-    detect_method *method =
-        detect_method_of((enum method)collider->world->params->collision.method);
+    method_pairs_function *method =
+        method_of((enum method)collider->world->params->collision.method);
     if (!method) {
         find_pairs_swept(stage, input);
         return;
     }
     take_all(stage);
     for (uint32_t i = 0; i < input->rows; i++)
-        motion_take(&collider->motion, i);
+        body_motion_take(&collider->motion, i);
     collider->pairs.count = 0;
-    broad_pairs(&collider->broad, input);
+    broad_phase_pairs(&collider->broad, input);
     method(input, collider->workspace, &collider->pairs);
-    contacts_begin(&collider->contacts, &collider->pairs, 1);
+    contact_queue_begin(&collider->contacts, &collider->pairs, 1);
 }
 
-static void collide_all(struct stage *stage, struct respond *respond)
+static void collide_all(struct stage *stage, struct response_context *respond)
 {
     struct collider *collider = stage->collider;
     struct contact contact;
     find_pairs(stage, &respond->input.detect);
-    contacts_find(&collider->contacts, &respond->input);
-    contacts_find_ends(&collider->contacts, &respond->input, respond->next->head->tick);
-    while (contacts_next(&collider->contacts, &respond->input, &contact)) {
-        respond_contact(respond, &contact);
+    contact_queue_find(&collider->contacts, &respond->input);
+    contact_queue_find_ends(&collider->contacts, &respond->input, respond->next->head->tick);
+    while (contact_queue_next(&collider->contacts, &respond->input, &contact)) {
+        response_contact(respond, &contact);
         work_done();
     }
 }
@@ -181,12 +181,12 @@ static uint64_t checksum(struct collider *collider, const struct state *committe
                              fixed_hash(collider, committed, next), &lists);
 }
 
-struct respond collider_respond(struct collider *collider, struct state *next)
+struct response_context collider_respond(struct collider *collider, struct state *next)
 {
     const struct world *world = collider->world;
     enum response_model model = (enum response_model)world->params->collision.response;
     bool impulses = model == MODEL_IMPULSE || model == MODEL_SPRING;
-    return (struct respond){
+    return (struct response_context){
         .world = world,
         .broad = &collider->broad,
         .contacts = &collider->contacts,
@@ -220,24 +220,24 @@ void collider_step(struct collider *collider, const struct state *committed,
     crater_index_update(&collider->craters, committed->head->crater_count);
     begin_head(next->head, moved->head);
     memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
-    motion_begin(&collider->motion, committed, next);
+    body_motion_begin(&collider->motion, committed, next);
 
-    struct respond respond = collider_respond(collider, next);
-    respond.sink = (struct sink){.slot = ring->slot,
-                                 .slots = ring->slots,
-                                 .first = committed->head->event_end,
-                                 .frame = next->head->frame,
-                                 .tick = next->head->tick,
-                                 .most = world->params->events_per_frame,
-                                 .tally = &next->head->tally};
+    struct response_context respond = collider_respond(collider, next);
+    respond.sink = (struct event_writer){.slot = ring->slot,
+                                         .slots = ring->slots,
+                                         .first = committed->head->event_end,
+                                         .frame = next->head->frame,
+                                         .tick = next->head->tick,
+                                         .most = world->params->events_per_frame,
+                                         .tally = &next->head->tally};
     put_intents(&respond.sink, moved);
     if (next->head->advanced) {
         collide_all(&stage, &respond);
-        contacts_end(&collider->contacts);
+        contact_queue_end(&collider->contacts);
     } else {
         take_all(&stage);
     }
     next->head->event_end = respond.sink.first + respond.sink.count;
-    next->head->event_digest = sink_digest(&respond.sink, committed->head->event_digest);
+    next->head->event_digest = event_writer_digest(&respond.sink, committed->head->event_digest);
     *left = next->head->checksum = checksum(collider, committed, next);
 }

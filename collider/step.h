@@ -6,28 +6,28 @@
 #ifndef JOLON_COLLIDER_STEP_H
 #define JOLON_COLLIDER_STEP_H
 
-#include "collider/broad.h"
-#include "collider/contact.h"
-#include "collider/crest.h"
-#include "collider/detect.h"
-#include "collider/island.h"
-#include "collider/motion.h"
-#include "collider/respond.h"
+#include "collider/broad_phase/broad_phase.h"
+#include "collider/narrow_phase/contact_queue.h"
+#include "collider/motion/height_max_map.h"
+#include "collider/motion/pair_filter.h"
+#include "collider/response/island.h"
+#include "collider/motion/body_motion.h"
+#include "collider/response/response.h"
 #include "world/checksum.h"
-#include "world/workers.h"
+#include "world/runtime/thread_pool.h"
 #include "world/world.h"
 
 struct collider {
     const struct world *world;
     struct crater_index craters; /* cache of the committed craters */
-    struct crest crest;
-    struct workers *workers; /* NULL: alone */
-    struct broad broad;
-    struct contacts contacts;
-    struct motion motion;
+    struct height_max_map crest;
+    struct thread_pool *workers; /* NULL: alone */
+    struct broad_phase broad;
+    struct contact_queue contacts;
+    struct body_motion motion;
     struct island island;
     struct charges charges;
-    struct detect_workspace *workspace; /* of a method beside the broad phase */
+    struct method_workspace *workspace; /* of a method beside the broad phase */
     struct pair_list pairs;             /* its pairs */
     /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: of none yet */
     uint64_t fixed_hash, fixed_hash_frame;
@@ -45,7 +45,7 @@ struct event_ring {
 /* craters: the world's list. 0, or -1 with errno ENOMEM. workers may be NULL and stays the
  * caller's. */
 int collider_init(struct collider *collider, const struct world *world,
-                  const struct crater *craters, struct workers *workers);
+                  const struct crater *craters, struct thread_pool *workers);
 void collider_free(struct collider *collider);
 
 /* Fills next and the ring; reads committed and moved, writes neither. It takes no memory and asks
@@ -53,8 +53,8 @@ void collider_free(struct collider *collider);
 void collider_step(struct collider *collider, const struct state *committed,
                    const struct moved *moved, struct state *next, const struct event_ring *ring);
 
-/* What answers work with, over the frame that motion_begin was given; the sink is the caller's to
- * set. Part of collider_step, and for tests. */
-struct respond collider_respond(struct collider *collider, struct state *next);
+/* What answers work with, over the frame that body_motion_begin was given; the sink is the caller's
+ * to set. Part of collider_step, and for tests. */
+struct response_context collider_respond(struct collider *collider, struct state *next);
 
 #endif

@@ -1,9 +1,9 @@
 /* Reads the files of kinds. Each file is checked alone, then the references between kinds. */
 #include "config/kinds.h"
 
-#include "config/models.h"
-#include "config/schema.h"
-#include "config/source.h"
+#include "config/mesh/models.h"
+#include "config/syntax/schema.h"
+#include "config/syntax/source.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -42,12 +42,13 @@ static int add_name(struct names *names, const char *file, struct key_place plac
         return 0;
     length -= strlen(SUFFIX);
     if (names->count == KIND_COUNT_MAX)
-        return keys_refuse(message, place, NULL, NULL, "has too many kinds; allowed: up to %d",
-                           KIND_COUNT_MAX);
+        return key_table_refuse(message, place, NULL, NULL, "has too many kinds; allowed: up to %d",
+                                KIND_COUNT_MAX);
     if (length >= KIND_NAME_MAX)
-        return keys_refuse(message, place, NULL, NULL,
-                           "%s is too long for the name of a kind; allowed: up to %d characters",
-                           file, KIND_NAME_MAX - 1);
+        return key_table_refuse(
+            message, place, NULL, NULL,
+            "%s is too long for the name of a kind; allowed: up to %d characters", file,
+            KIND_NAME_MAX - 1);
     memset(names->name[names->count], 0, KIND_NAME_MAX);
     memcpy(names->name[names->count++], file, length);
     return 0;
@@ -63,7 +64,8 @@ static int list_names(struct names *names, const char *data_dir, struct loader_m
     snprintf(path, sizeof(path), "%s/kinds", data_dir);
     DIR *dir = opendir(path);
     if (dir == NULL)
-        return keys_refuse(message, place, NULL, NULL, "cannot be opened: %s", strerror(errno));
+        return key_table_refuse(message, place, NULL, NULL, "cannot be opened: %s",
+                                strerror(errno));
     names->count = 0;
     while (result == 0 && (entry = readdir(dir)) != NULL)
         result = add_name(names, entry->d_name, place, message);
@@ -71,8 +73,8 @@ static int list_names(struct names *names, const char *data_dir, struct loader_m
     if (result != 0)
         return result;
     if (names->count == 0)
-        return keys_refuse(message, place, NULL, NULL,
-                           "has no kinds; right would be: files NAME.cfg");
+        return key_table_refuse(message, place, NULL, NULL,
+                                "has no kinds; right would be: files NAME.cfg");
     /* The order of a directory depends on the file system. The numbers of kinds must not. */
     qsort(names->name, (size_t)names->count, KIND_NAME_MAX, compare_names);
     return 0;
@@ -82,12 +84,12 @@ static int list_names(struct names *names, const char *data_dir, struct loader_m
 static int refuse_pair(const struct key_reading *keys, const char *name, double value,
                        const char *why, struct loader_message *message)
 {
-    int index = keys_find(keys->table, name);
+    int index = key_table_find(keys->table, name);
     struct key_place place = {keys->file, index >= 0 ? keys->line[index] : 0};
     char text[32];
 
     snprintf(text, sizeof(text), "%.15g", value);
-    return keys_refuse(message, place, name, text, "%s", why);
+    return key_table_refuse(message, place, name, text, "%s", why);
 }
 
 static int refuse_no_class(const struct key_reading *keys, struct loader_message *message)
@@ -95,9 +97,10 @@ static int refuse_no_class(const struct key_reading *keys, struct loader_message
     const struct key_place place = {keys->file, 1};
     char allowed[128];
 
-    keys_allowed(&keys->table->keys[keys_find(keys->table, "class")], allowed, sizeof(allowed));
-    return keys_refuse(message, place, "class", NULL,
-                       "is missing; a fixed object needs it; allowed: %s", allowed);
+    key_table_allowed(&keys->table->keys[key_table_find(keys->table, "class")], allowed,
+                      sizeof(allowed));
+    return key_table_refuse(message, place, "class", NULL,
+                            "is missing; a fixed object needs it; allowed: %s", allowed);
 }
 
 static int check_domain(const struct kind *kind, const struct key_reading *keys, bool has_class,
@@ -192,14 +195,14 @@ static int check_gun(const struct kind *kind, const struct key_reading *keys, bo
 static int check_kind(const struct kind *kind, const struct key_reading *keys, const char *name,
                       struct loader_message *message)
 {
-    bool has_class = (keys->given >> keys_find(keys->table, "class") & 1u) != 0;
-    bool has_munition = (keys->given >> keys_find(keys->table, "munition") & 1u) != 0;
-    struct key_place place = {keys->file, keys->line[keys_find(keys->table, "name")]};
-    struct key_place class_place = {keys->file, keys->line[keys_find(keys->table, "class")]};
+    bool has_class = (keys->given >> key_table_find(keys->table, "class") & 1u) != 0;
+    bool has_munition = (keys->given >> key_table_find(keys->table, "munition") & 1u) != 0;
+    struct key_place place = {keys->file, keys->line[key_table_find(keys->table, "name")]};
+    struct key_place class_place = {keys->file, keys->line[key_table_find(keys->table, "class")]};
 
     if (strcmp(kind->name, name) != 0)
-        return keys_refuse(message, place, "name", kind->name,
-                           "is not the name of the file; allowed: %s", name);
+        return key_table_refuse(message, place, "name", kind->name,
+                                "is not the name of the file; allowed: %s", name);
     if (kind->min_speed_mps > kind->max_speed_mps)
         return refuse_pair(keys, "min_speed_mps", kind->min_speed_mps,
                            "is above max_speed_mps; allowed: up to max_speed_mps", message);
@@ -207,9 +210,9 @@ static int check_kind(const struct kind *kind, const struct key_reading *keys, c
         return refuse_pair(keys, kind->range_m <= 0 ? "range_m" : "reload_s", 0.0,
                            "is needed by an armed vehicle; allowed: above 0", message);
     if (has_class && kind->domain != DOMAIN_FIXED)
-        return keys_refuse(message, class_place, "class",
-                           object_class_name((enum object_class)kind->object_class),
-                           "is only for fixed objects; allowed: with domain = \"fixed\"");
+        return key_table_refuse(message, class_place, "class",
+                                object_class_name((enum object_class)kind->object_class),
+                                "is only for fixed objects; allowed: with domain = \"fixed\"");
     if (check_damage(kind, keys, message) != 0 || check_gun(kind, keys, has_munition, message) != 0)
         return -1;
     return check_domain(kind, keys, has_class, message);
@@ -254,16 +257,16 @@ static void take_hulls(struct kind *kind, const struct hulls *hulls)
 static int find_model(struct models *models, const struct key_reading *keys, const char *name,
                       struct loader_message *message)
 {
-    const struct key_place place = {keys->file, keys->line[keys_find(keys->table, "model")]};
+    const struct key_place place = {keys->file, keys->line[key_table_find(keys->table, "model")]};
     struct loader_message why;
     int model;
 
     if (name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_")] != '\0')
-        return keys_refuse(message, place, "model", name,
-                           "is not the name of a model; allowed: a-z 0-9 - _");
+        return key_table_refuse(message, place, "model", name,
+                                "is not the name of a model; allowed: a-z 0-9 - _");
     model = models_find(models, name, &why);
     if (model < 0)
-        return keys_refuse(message, place, "model", name, "%s", why.text);
+        return key_table_refuse(message, place, "model", name, "%s", why.text);
     return model;
 }
 
@@ -286,8 +289,8 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     XXH3_64bits_update(models->hash, source.text, source.bytes);
     memset(&config, 0, sizeof(config));
     if (source_parse(&source, &config, message) != 0 ||
-        keys_defaults(&schema_kind, &entry, message) != 0 ||
-        keys_read(&keys, config_root_setting(&config), "", "", message) != 0 ||
+        key_table_defaults(&schema_kind, &entry, message) != 0 ||
+        key_table_read(&keys, config_root_setting(&config), "", "", message) != 0 ||
         check_kind(&entry.kind, &keys, name, message) != 0)
         goto err_config;
     model = find_model(models, &keys, entry.model, message);
@@ -297,11 +300,11 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     kind->model = (uint16_t)model;
     if (kind->stiffness_npm <= 0)
         kind->stiffness_npm = stiffness_of(kind);
-    complete_mind(kind, (keys.given >> keys_find(&schema_kind, "doctrine") & 1u) != 0);
+    complete_mind(kind, (keys.given >> key_table_find(&schema_kind, "doctrine") & 1u) != 0);
     take_hulls(kind, &models->hulls[model]);
     kind->munition = KIND_NONE;
     memcpy(reading->munition, entry.munition, sizeof(entry.munition));
-    reading->munition_line = keys.line[keys_find(&schema_kind, "munition")];
+    reading->munition_line = keys.line[key_table_find(&schema_kind, "munition")];
     result = 0;
 err_config:
     config_destroy(&config);
@@ -320,11 +323,11 @@ static int resolve_munition(struct scenario *scenario, uint32_t index,
         return 0;
     kind->munition = kind_find(scenario->kinds, scenario->kind_count, reading->munition);
     if (kind->munition == KIND_NONE)
-        return keys_refuse(message, place, "munition", reading->munition,
-                           "unknown kind; allowed: a kind with domain = \"munition\"");
+        return key_table_refuse(message, place, "munition", reading->munition,
+                                "unknown kind; allowed: a kind with domain = \"munition\"");
     if (scenario->kinds[kind->munition].domain != DOMAIN_MUNITION)
-        return keys_refuse(message, place, "munition", reading->munition,
-                           "is not a munition; allowed: a kind with domain = \"munition\"");
+        return key_table_refuse(message, place, "munition", reading->munition,
+                                "is not a munition; allowed: a kind with domain = \"munition\"");
     return 0;
 }
 
@@ -338,7 +341,7 @@ int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *ha
     int result = -1;
 
     if (models == NULL || readings == NULL) {
-        keys_refuse(message, place, NULL, NULL, "no memory for the kinds");
+        key_table_refuse(message, place, NULL, NULL, "no memory for the kinds");
         goto err_memory;
     }
     models_open(models, scenario, data_dir, hash);
@@ -346,7 +349,7 @@ int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *ha
         goto err_models;
     scenario->kinds = calloc(KIND_COUNT_MAX, sizeof(*scenario->kinds));
     if (scenario->kinds == NULL) {
-        keys_refuse(message, place, NULL, NULL, "no memory for the kinds");
+        key_table_refuse(message, place, NULL, NULL, "no memory for the kinds");
         goto err_models;
     }
     for (int i = 0; i < names.count; i++) {

@@ -3,10 +3,10 @@
 #include "config/loader.h"
 
 #include "config/kinds.h"
-#include "config/lists.h"
-#include "config/schema.h"
+#include "config/syntax/lists.h"
+#include "config/syntax/schema.h"
 #include "config/scripts.h"
-#include "config/source.h"
+#include "config/syntax/source.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -52,19 +52,19 @@ static int find_scenario(const char *data_dir, const char *path, char *found, si
 
     if (path != NULL && (strchr(path, '/') != NULL || stat(path, &status) == 0)) {
         if ((size_t)snprintf(found, bytes, "%s", path) >= bytes)
-            return keys_refuse(message, place, NULL, NULL, "is too long for a path");
+            return key_table_refuse(message, place, NULL, NULL, "is too long for a path");
         return 0;
     }
     for (size_t i = 0; i < sizeof(suffixes) / sizeof(suffixes[0]); i++) {
         if ((size_t)snprintf(found, bytes, "%s/scenarios/%s%s", data_dir, name, suffixes[i]) >=
             bytes)
-            return keys_refuse(message, place, NULL, NULL, "is too long for a path");
+            return key_table_refuse(message, place, NULL, NULL, "is too long for a path");
         if (stat(found, &status) == 0)
             return 0;
     }
-    return keys_refuse(message, place, NULL, NULL,
-                       "no such scenario; right would be: a file, or a name from %s/scenarios",
-                       data_dir);
+    return key_table_refuse(message, place, NULL, NULL,
+                            "no such scenario; right would be: a file, or a name from %s/scenarios",
+                            data_dir);
 }
 
 /* Lists have readers of their own (read_lists()). */
@@ -86,7 +86,7 @@ static int read_file(struct load *load)
     const config_setting_t *root = config_root_setting(&load->config);
     const config_setting_t *objects = config_setting_get_member(root, "objects");
 
-    if (keys_read(&keys, root, "", "", load->message) != 0)
+    if (key_table_read(&keys, root, "", "", load->message) != 0)
         return -1;
     for (uint32_t i = 0; i < schema_scenario.count; i++) {
         if ((keys.given >> i & 1u) != 0)
@@ -98,7 +98,7 @@ static int read_file(struct load *load)
         load->scenario->objects = OBJECTS_LIST;
         load->objects_chosen = true;
     }
-    if ((keys.given >> keys_find(&schema_scenario, "objects.source") & 1u) != 0)
+    if ((keys.given >> key_table_find(&schema_scenario, "objects.source") & 1u) != 0)
         load->objects_chosen = true;
     return 0;
 }
@@ -111,14 +111,15 @@ static int find_override(struct load *load, const char *text, const char **value
     char name[KEY_PATH_MAX];
 
     if (equals == NULL || equals == text)
-        return keys_refuse(load->message, place, text, NULL,
-                           "is not an override; right would be: group.key=value");
+        return key_table_refuse(load->message, place, text, NULL,
+                                "is not an override; right would be: group.key=value");
     snprintf(name, sizeof(name), "%.*s", (int)(equals - text), text);
-    int index = keys_find(&schema_scenario, name);
+    int index = key_table_find(&schema_scenario, name);
     if (index < 0 || (size_t)(equals - text) >= sizeof(name))
-        return keys_refuse(load->message, place, name, equals + 1,
-                           "unknown key; allowed: a scenario key of one value, such as world.seed "
-                           "or collision.response");
+        return key_table_refuse(
+            load->message, place, name, equals + 1,
+            "unknown key; allowed: a scenario key of one value, such as world.seed "
+            "or collision.response");
     load->origin[index] = place;
     *value = equals + 1;
     return index;
@@ -134,8 +135,8 @@ static int apply_override(struct load *load, const char *text)
     if (strcmp(schema_scenario.keys[index].name, "objects.source") == 0)
         load->objects_chosen = true;
     XXH3_64bits_update(load->hash, text, strlen(text) + 1);
-    return keys_set_text(&schema_scenario.keys[index], load->scenario, value, load->origin[index],
-                         load->message);
+    return key_table_set_text(&schema_scenario.keys[index], load->scenario, value,
+                              load->origin[index], load->message);
 }
 
 /* Three constants. Each must be above the next. */
@@ -153,9 +154,9 @@ static int check_levels(const struct load *load, const struct levels *levels)
         if (levels->value[i - 1] > levels->value[i])
             continue;
         snprintf(text, sizeof(text), "%.15g", levels->value[i]);
-        return keys_refuse(load->message, load->origin[keys_find(&schema_scenario, name)], name,
-                           text, "is not below the next higher level; allowed: below %.15g",
-                           levels->value[i - 1]);
+        return key_table_refuse(
+            load->message, load->origin[key_table_find(&schema_scenario, name)], name, text,
+            "is not below the next higher level; allowed: below %.15g", levels->value[i - 1]);
     }
     return 0;
 }
@@ -239,14 +240,14 @@ static void derive(struct load *load)
 static int write_recipe(const struct load *load, const char *const *overrides, int override_count)
 {
     char *absolute = realpath(load->source.path, NULL);
-    int result =
-        recipe_add(&load->scenario->recipe, "scenario", absolute ? absolute : load->source.path);
+    int result = provenance_add(&load->scenario->recipe, "scenario",
+                                absolute ? absolute : load->source.path);
 
     free(absolute);
     for (int i = 0; i < override_count && result == 0; i++)
-        result = recipe_add(&load->scenario->recipe, "set", overrides[i]);
+        result = provenance_add(&load->scenario->recipe, "set", overrides[i]);
     if (result != 0)
-        return keys_refuse(
+        return key_table_refuse(
             load->message, (struct key_place){load->source.path, 0}, NULL, NULL,
             "no memory to note what it was made from, or overrides that are too long");
     return 0;
@@ -257,7 +258,8 @@ static int read_scenario(struct load *load, const char *const *overrides, int ov
     if (source_parse(&load->source, &load->config, load->message) != 0)
         return -1;
     XXH3_64bits_update(load->hash, load->source.text, load->source.bytes);
-    if (keys_defaults(&schema_scenario, load->scenario, load->message) != 0 || read_file(load) != 0)
+    if (key_table_defaults(&schema_scenario, load->scenario, load->message) != 0 ||
+        read_file(load) != 0)
         return -1;
     for (int i = 0; i < override_count; i++) {
         if (apply_override(load, overrides[i]) != 0)
@@ -286,7 +288,7 @@ int loader_scenario(struct scenario *scenario, const char *data_dir, const char 
         return -1;
     load.hash = XXH3_createState();
     if (load.hash == NULL || XXH3_64bits_reset(load.hash) != XXH_OK) {
-        keys_refuse(message, (struct key_place){found, 0}, NULL, NULL, "no memory to read it");
+        key_table_refuse(message, (struct key_place){found, 0}, NULL, NULL, "no memory to read it");
         goto err_source;
     }
     result = read_scenario(&load, overrides, override_count);
@@ -325,10 +327,11 @@ int loader_branch(struct params *params, const char *const *overrides, int overr
             return -1;
         const struct key *key = &schema_scenario.keys[index];
         if (!changeable(key))
-            return keys_refuse(message, load.origin[index], key->name, value,
-                               "cannot change in a world that exists; allowed: "
-                               "world.seed, hz, frames, pace and name, collision.*, renderer.*");
-        if (keys_set_text(key, &scenario, value, load.origin[index], message) != 0)
+            return key_table_refuse(
+                message, load.origin[index], key->name, value,
+                "cannot change in a world that exists; allowed: "
+                "world.seed, hz, frames, pace and name, collision.*, renderer.*");
+        if (key_table_set_text(key, &scenario, value, load.origin[index], message) != 0)
             return -1;
         scenario.params.dt_s = 1.0 / scenario.params.hz;
         if (before != XXH3_64bits(&scenario.params, sizeof(scenario.params)))

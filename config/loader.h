@@ -3,7 +3,7 @@
 #ifndef JOLON_CONFIG_LOADER_H
 #define JOLON_CONFIG_LOADER_H
 
-#include "world/scenario.h"
+#include "world/making/scenario.h"
 
 struct loader_message {
     char text[1024]; /* "file:line: key = value: what is wrong; what would be right" */

@@ -3,8 +3,8 @@
 #ifndef JOLON_CONFIG_SCHEMA_INTERNAL_H
 #define JOLON_CONFIG_SCHEMA_INTERNAL_H
 
-#include "config/schema.h"
-#include "world/square.h"
+#include "config/syntax/schema.h"
+#include "world/terrain/gridsquare.h"
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 

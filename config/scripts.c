@@ -1,8 +1,8 @@
 /* Reads the list of scripts. */
 #include "config/scripts.h"
 
-#include "config/entry.h"
-#include "config/schema.h"
+#include "config/syntax/entry.h"
+#include "config/syntax/schema.h"
 #include "config/waypoints.h"
 
 #include <stdio.h>
@@ -33,12 +33,12 @@ static int reserve_steps(struct scenario *scenario, uint64_t more, const char *f
     uint64_t count = scenario->step_count + more;
 
     if (count > SCRIPT_STEPS_MAX)
-        return keys_refuse(message, place, NULL, NULL,
-                           "gives the scripts %llu steps; allowed: up to %u in all",
-                           (unsigned long long)count, SCRIPT_STEPS_MAX);
+        return key_table_refuse(message, place, NULL, NULL,
+                                "gives the scripts %llu steps; allowed: up to %u in all",
+                                (unsigned long long)count, SCRIPT_STEPS_MAX);
     struct scenario_step *steps = realloc(scenario->steps, (count + 1) * sizeof(*steps));
     if (steps == NULL)
-        return keys_refuse(message, place, NULL, NULL, "no memory for its scripts");
+        return key_table_refuse(message, place, NULL, NULL, "no memory for its scripts");
     scenario->steps = steps;
     return 0;
 }
@@ -185,8 +185,8 @@ static int read_steps(struct entry *script, const config_setting_t *list)
     if (length == 0) {
         const struct key_place place = {entry.keys.file, (int)config_setting_source_line(list)};
 
-        return keys_refuse(entry.message, place, script->path, NULL,
-                           "has no steps; right would be: steps = ( { go = [x, z]; }, ... )");
+        return key_table_refuse(entry.message, place, script->path, NULL,
+                                "has no steps; right would be: steps = ( { go = [x, z]; }, ... )");
     }
     if (reserve_steps(entry.scenario, 2 * (uint64_t)length, entry.keys.file, entry.message) != 0)
         return -1;

@@ -2,7 +2,7 @@
 #ifndef JOLON_CONFIG_SCRIPTS_H
 #define JOLON_CONFIG_SCRIPTS_H
 
-#include "config/keys.h"
+#include "config/syntax/key_table.h"
 
 #include <xxhash.h>
 

@@ -1,9 +1,9 @@
 /* Reads the list of vehicles. */
-#include "config/entry.h"
-#include "config/lists.h"
-#include "config/schema.h"
+#include "config/syntax/entry.h"
+#include "config/syntax/lists.h"
+#include "config/syntax/schema.h"
 #include "config/scripts.h"
-#include "world/square.h"
+#include "world/terrain/gridsquare.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -123,7 +123,7 @@ static uint32_t add_route(struct scenario *scenario, const config_setting_t *poi
     for (uint32_t i = 0; i < route->count; i++) {
         double point[2] = {0, 0};
 
-        keys_point(config_setting_get_elem(points, i), point);
+        key_table_point(config_setting_get_elem(points, i), point);
         scenario->route_points[scenario->route_point_count++] =
             (struct route_point){point[0], point[1]};
     }
@@ -206,9 +206,9 @@ int lists_vehicles(struct scenario *scenario, const config_setting_t *list, cons
     if (points > ROUTE_POINTS_MAX) {
         const struct key_place place = {file, (int)config_setting_source_line(list)};
 
-        return keys_refuse(message, place, "vehicles", NULL,
-                           "routes have too many points; allowed: up to %u in all",
-                           ROUTE_POINTS_MAX);
+        return key_table_refuse(message, place, "vehicles", NULL,
+                                "routes have too many points; allowed: up to %u in all",
+                                ROUTE_POINTS_MAX);
     }
     uint32_t count = (uint32_t)length;
     scenario->groups = entry_allocate(count, sizeof(*scenario->groups), file, message);

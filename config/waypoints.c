@@ -1,7 +1,7 @@
 /* Reads lines of numbers with commas between them. Each line is an arrival. */
 #include "config/waypoints.h"
 
-#include "config/schema.h"
+#include "config/syntax/schema.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -54,8 +54,8 @@ static int next_line(struct reading *reading)
         while (length > 0 && strchr(" \t\r", line[length - 1]) != NULL)
             length--;
         if (length >= ROW_MAX)
-            return keys_refuse(reading->message, reading->place, NULL, NULL,
-                               "has %zu characters; allowed: up to %d", length, ROW_MAX - 1);
+            return key_table_refuse(reading->message, reading->place, NULL, NULL,
+                                    "has %zu characters; allowed: up to %d", length, ROW_MAX - 1);
         if (length == 0)
             continue;
         memcpy(reading->line, line, length);
@@ -76,8 +76,8 @@ static int read_header(struct reading *reading)
     else if (found > 0 && strcmp(reading->line, "time_s,x,z,altitude_m") == 0)
         reading->columns = 4;
     else
-        return keys_refuse(reading->message, reading->place, found > 0 ? reading->line : NULL, NULL,
-                           "is not the header; right would be: " WAYPOINTS_HEADER);
+        return key_table_refuse(reading->message, reading->place, found > 0 ? reading->line : NULL,
+                                NULL, "is not the header; right would be: " WAYPOINTS_HEADER);
     return 0;
 }
 
@@ -88,15 +88,15 @@ static int read_value(struct reading *reading, int column, const char **at, doub
     const struct key *key = &schema_step.keys[columns[column].key];
     char text[ROW_MAX], range[64], *end = NULL;
 
-    keys_range(key, range, sizeof(range));
+    key_table_range(key, range, sizeof(range));
     snprintf(text, sizeof(text), "%.*s", (int)length, *at);
     *value = strtod(text, &end);
     if (end == text || end[strspn(end, " ")] != '\0' || !isfinite(*value))
-        return keys_refuse(reading->message, reading->place, columns[column].name, text,
-                           "is not a number; allowed: %s", range);
+        return key_table_refuse(reading->message, reading->place, columns[column].name, text,
+                                "is not a number; allowed: %s", range);
     if (!(*value >= key->low && *value <= key->high))
-        return keys_refuse(reading->message, reading->place, columns[column].name, text,
-                           "out of range; allowed: %s", range);
+        return key_table_refuse(reading->message, reading->place, columns[column].name, text,
+                                "out of range; allowed: %s", range);
     *at += length;
     return 0;
 }
@@ -107,17 +107,17 @@ static int read_line(struct reading *reading, double values[COLUMNS_MAX])
 
     for (int column = 0; column < reading->columns; column++) {
         if (column > 0 && *at != ',')
-            return keys_refuse(reading->message, reading->place, reading->line, NULL,
-                               "has %d numbers; right would be: %d, as in the header", column,
-                               reading->columns);
+            return key_table_refuse(reading->message, reading->place, reading->line, NULL,
+                                    "has %d numbers; right would be: %d, as in the header", column,
+                                    reading->columns);
         at += column > 0;
         if (read_value(reading, column, &at, &values[column]) != 0)
             return -1;
     }
     if (*at != '\0')
-        return keys_refuse(reading->message, reading->place, reading->line, NULL,
-                           "has more than %d numbers; right would be: as many as in the header",
-                           reading->columns);
+        return key_table_refuse(
+            reading->message, reading->place, reading->line, NULL,
+            "has more than %d numbers; right would be: as many as in the header", reading->columns);
     return 0;
 }
 
@@ -126,8 +126,8 @@ static int refuse_time(const struct reading *reading, double time_s, double befo
     char text[32];
 
     snprintf(text, sizeof(text), "%.15g", time_s);
-    return keys_refuse(reading->message, reading->place, columns[0].name, text,
-                       "is not after the line before; allowed: above %.15g", before_s);
+    return key_table_refuse(reading->message, reading->place, columns[0].name, text,
+                            "is not after the line before; allowed: above %.15g", before_s);
 }
 
 int waypoints_read(const struct source *source, struct scenario_step *steps,
@@ -139,7 +139,8 @@ int waypoints_read(const struct source *source, struct scenario_step *steps,
     int count = 0, found;
 
     if (strlen(source->text) != source->bytes)
-        return keys_refuse(message, reading.place, NULL, NULL, "is not text: it has a NUL byte");
+        return key_table_refuse(message, reading.place, NULL, NULL,
+                                "is not text: it has a NUL byte");
     if (read_header(&reading) != 0)
         return -1;
     while ((found = next_line(&reading)) > 0) {
@@ -157,8 +158,8 @@ int waypoints_read(const struct source *source, struct scenario_step *steps,
             .line = reading.place.line};
     }
     if (found == 0 && count == 0)
-        return keys_refuse(message, reading.place, NULL, NULL,
-                           "has no waypoint; right would be: a line of " WAYPOINTS_HEADER
-                           " behind the header");
+        return key_table_refuse(message, reading.place, NULL, NULL,
+                                "has no waypoint; right would be: a line of " WAYPOINTS_HEADER
+                                " behind the header");
     return found < 0 ? -1 : count;
 }

@@ -3,7 +3,7 @@
 #define JOLON_CONFIG_WAYPOINTS_H
 
 #include "config/loader.h"
-#include "config/source.h"
+#include "config/syntax/source.h"
 
 #define WAYPOINTS_BYTES_MAX (4u * 1024u * 1024u)
 #define WAYPOINTS_HEADER    "time_s,x,z[,altitude_m]"

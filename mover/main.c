@@ -1,11 +1,11 @@
 /* jolon-mover: paces the frames and moves every vehicle and munition. Writes the moved table. */
-#include "ipc/frame.h"
-#include "ipc/log.h"
-#include "ipc/process.h"
-#include "sandbox/sandbox.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "ipc/sandbox/sandbox.h"
 #include "mover/step.h"
 
-#include "world/work_done.h"
+#include "world/runtime/work_done.h"
 
 #include <errno.h>
 #include <string.h>
@@ -15,13 +15,13 @@
 static void move_frames(struct mover *mover, struct view *view)
 {
     struct command_source sources[COMMAND_RING_COUNT];
-    struct frame frame;
-    while (frame_mover_begin(&frame, view) == 0) {
+    struct frame_protocol frame;
+    while (frame_protocol_mover_begin(&frame, view) == 0) {
         for (int i = 0; i < COMMAND_RING_COUNT; i++)
             sources[i] = (struct command_source){
                 view->commands[i]->slot, view->header->command_slots, frame.command_head[i]};
         mover_step(mover, &view->w[(frame.number - 1) & 1], &view->m, sources);
-        frame_mover_end(&frame, view);
+        frame_protocol_mover_end(&frame, view);
     }
 }
 
@@ -43,7 +43,7 @@ int main(int argc, char **argv)
                                                                &reason) != 0)
         die_refused("%s", reason.text);
     work_done_into(&view.slot[view.role]->work);
-    struct workers *workers = workers_create(options.threads);
+    struct thread_pool *workers = thread_pool_create(options.threads);
     if (!workers)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
     if (mover_init(&mover, &view.world, view.w[0].craters, workers) != 0)
@@ -51,14 +51,14 @@ int main(int argc, char **argv)
     if (sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
     /* It may have been asked to stop, or the run may have ended, while another had the role. */
-    if (segment_take(&view) == 0 && !(options.stand_by && frame_finished(&view))) {
+    if (segment_take(&view) == 0 && !(options.stand_by && frame_protocol_finished(&view))) {
         segment_ready(&view);
         log_info("moves world \"%s\" on %u thread(s)", view.name, options.threads);
         move_frames(&mover, &view);
     }
 
     mover_free(&mover);
-    workers_destroy(workers);
+    thread_pool_destroy(workers);
     segment_detach(&view);
     return EXIT_OK;
 }

@@ -1,15 +1,15 @@
 /* The mover's step: copy, commands, every row for itself, then what reaches beyond a row. */
 #include "mover/step.h"
 
-#include "mover/air.h"
-#include "mover/fight.h"
-#include "mover/hold.h"
-#include "mover/land.h"
-#include "mover/percept.h"
-#include "mover/serial.h"
-#include "mover/turns.h"
-#include "mover/turret.h"
-#include "mover/wreck.h"
+#include "mover/motion/aircraft.h"
+#include "mover/agent/attack.h"
+#include "mover/motion/constant_course.h"
+#include "mover/motion/ground_vehicle.h"
+#include "mover/agent/perception.h"
+#include "mover/context/serial_context.h"
+#include "mover/agent/think_schedule.h"
+#include "mover/weapon/turret.h"
+#include "mover/motion/wreck.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,19 +18,19 @@
 #define ROWS_A_WORKER   (PIECES_A_WORKER * CHECKSUM_ROWS)
 
 int mover_init(struct mover *mover, const struct world *world, const struct crater *craters,
-               struct workers *workers)
+               struct thread_pool *workers)
 {
     *mover = (struct mover){.world = world, .workers = workers};
     piece_hashes_blank(&mover->blank);
-    avoid_init(&mover->avoid, world);
-    mover->patches = calloc(world->params->capacity + STAND_AHEAD, sizeof *mover->patches);
+    avoidance_init(&mover->avoid, world);
+    mover->patches = calloc(world->params->capacity + GROUND_POSE_AHEAD, sizeof *mover->patches);
     mover->patches_ahead = calloc(world->params->capacity, sizeof *mover->patches_ahead);
-    if (mover->patches && mover->patches_ahead && scars_init(&mover->scars, world) == 0 &&
-        easy_init(&mover->easy, &world->terrain) == 0 &&
+    if (mover->patches && mover->patches_ahead && ground_marks_init(&mover->scars, world) == 0 &&
+        slope_max_map_init(&mover->easy, &world->terrain) == 0 &&
         crater_index_init(&mover->craters, craters) == 0 &&
-        near_init(&mover->near, world->params->capacity) == 0 &&
-        company_init(&mover->company, world->params->capacity) == 0 &&
-        outlook_init(&mover->outlook, world, &mover->craters) == 0)
+        neighbour_index_init(&mover->near, world->params->capacity) == 0 &&
+        neighbour_lists_init(&mover->company, world->params->capacity) == 0 &&
+        line_of_sight_init(&mover->outlook, world, &mover->craters) == 0)
         return 0;
     mover_free(mover);
     return -1;
@@ -39,17 +39,17 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
 void mover_free(struct mover *mover)
 {
     crater_index_free(&mover->craters);
-    near_free(&mover->near);
-    company_free(&mover->company);
-    outlook_free(&mover->outlook);
-    scars_free(&mover->scars);
-    easy_free(&mover->easy);
+    neighbour_index_free(&mover->near);
+    neighbour_lists_free(&mover->company);
+    line_of_sight_free(&mover->outlook);
+    ground_marks_free(&mover->scars);
+    slope_max_map_free(&mover->easy);
     free(mover->patches);
     free(mover->patches_ahead);
 }
 
 struct rows {
-    const struct move *move;
+    const struct step_context *move;
     struct table committed, moved;
     const struct state_head *head; /* of moved */
     struct moved_pieces *pieces;
@@ -59,16 +59,16 @@ struct rows {
 
 /* Rows that move together: those of a piece of the table that have yet to. */
 struct together {
-    const struct piece *piece;
+    const struct row_block *piece;
     uint8_t motion[CHECKSUM_ROWS];
-    struct land land;
-    struct air air;
-    struct hold hold;
+    struct ground_vehicle land;
+    struct aircraft air;
+    struct constant_course hold;
     struct wrecks wrecks;
 };
 
 /* What follows a vehicle's own motion. */
-static void after_motion(const struct move *move, struct together *together, uint32_t i,
+static void after_motion(const struct step_context *move, struct together *together, uint32_t i,
                          bool blocked)
 {
     uint8_t *motion = &together->motion[i - together->piece->first];
@@ -83,29 +83,29 @@ static void after_motion(const struct move *move, struct together *together, uin
     turret_hold_fire(move, i, &solution);
 }
 
-static void move_land(const struct move *move, struct together *together)
+static void move_land(const struct step_context *move, struct together *together)
 {
-    struct land *land = &together->land;
-    land_move(move, land);
+    struct ground_vehicle *land = &together->land;
+    ground_vehicle_move(move, land);
     for (int l = 0; l < land->count; l++)
         after_motion(move, together, land->row[l], land->blocked.lane[l] != 0);
     land->count = 0;
 }
 
-static void move_air(const struct move *move, struct together *together)
+static void move_air(const struct step_context *move, struct together *together)
 {
-    struct air *air = &together->air;
-    air_move(move, air);
+    struct aircraft *air = &together->air;
+    aircraft_move(move, air);
     for (int l = 0; l < air->count; l++)
         after_motion(move, together, air->row[l], air->blocked.lane[l] != 0);
     air->count = 0;
 }
 
-static void move_hold(const struct move *move, struct together *together)
+static void move_hold(const struct step_context *move, struct together *together)
 {
-    struct hold *hold = &together->hold;
+    struct constant_course *hold = &together->hold;
     const bool guns = !piece_lacks(together->piece, GUN_COLUMNS);
-    hold_pose(move, hold);
+    constant_course_pose(move, hold);
     for (int l = 0; l < hold->count; l++) {
         if (guns && move->m->state[hold->row[l]] != ENTITY_WRECK)
             turret_turn(move, hold->row[l], &(struct turret_solution){0});
@@ -113,51 +113,51 @@ static void move_hold(const struct move *move, struct together *together)
     hold->count = 0;
 }
 
-static void move_wrecks(const struct move *move, struct together *together)
+static void move_wrecks(const struct step_context *move, struct together *together)
 {
     struct wrecks *wrecks = &together->wrecks;
     wrecks_find_ground(move, wrecks);
     for (int l = 0; l < wrecks->count; l++) {
         uint32_t i = wrecks->row[l];
-        if (wreck_row(move, i, wrecks->y.lane[l]) && hold_take(move, &together->hold, i))
+        if (wreck_row(move, i, wrecks->y.lane[l]) && constant_course_take(move, &together->hold, i))
             move_hold(move, together);
     }
     wrecks->count = 0;
 }
 
-static void move_by_wish(const struct move *move, uint32_t i, const struct wish *wish,
-                         struct together *together)
+static void move_by_wish(const struct step_context *move, uint32_t i,
+                         const struct desired_motion *wish, struct together *together)
 {
     switch ((enum domain)move->world->kinds[move->m->kind[i]].domain) {
     case DOMAIN_SEA:
-        after_motion(move, together, i, move_sea(move, i, wish));
+        after_motion(move, together, i, ship_move(move, i, wish));
         break;
     case DOMAIN_AIR:
-        if (air_take(move, &together->air, i, wish))
+        if (aircraft_take(move, &together->air, i, wish))
             move_air(move, together);
         break;
     default:
-        if (land_take(move, &together->land, i, wish))
+        if (ground_vehicle_take(move, &together->land, i, wish))
             move_land(move, together);
         break;
     }
 }
 
 /* By the controls that its agent set. */
-static void move_held(const struct move *move, uint32_t i, struct together *together)
+static void move_held(const struct step_context *move, uint32_t i, struct together *together)
 {
-    struct wish wish;
+    struct desired_motion wish;
     if (move->world->kinds[move->m->kind[i]].domain != DOMAIN_LAND) {
         agent_hold(move, i, &wish);
         move_by_wish(move, i, &wish, together);
-    } else if (land_take_held(move, &together->land, i)) {
+    } else if (ground_vehicle_take_held(move, &together->land, i)) {
         move_land(move, together);
     }
 }
 
-static void move_row(const struct move *move, uint32_t i, struct together *together)
+static void move_row(const struct step_context *move, uint32_t i, struct together *together)
 {
-    struct wish wish;
+    struct desired_motion wish;
     switch ((enum motion)together->motion[i - together->piece->first]) {
     case MOTION_NONE:
         break;
@@ -166,12 +166,12 @@ static void move_row(const struct move *move, uint32_t i, struct together *toget
             move_wrecks(move, together);
         break;
     case MOTION_FLIGHT:
-        move_flight(move, i);
+        projectile_move(move, i);
         break;
     case MOTION_HOLD:
-        if (!hold_row(move, i))
+        if (!constant_course_row(move, i))
             turret_turn(move, i, &(struct turret_solution){0});
-        else if (hold_take(move, &together->hold, i))
+        else if (constant_course_take(move, &together->hold, i))
             move_hold(move, together);
         break;
     case MOTION_ALONE:
@@ -185,7 +185,7 @@ static void move_row(const struct move *move, uint32_t i, struct together *toget
     }
 }
 
-static void move_rest(const struct move *move, struct together *together)
+static void move_rest(const struct step_context *move, struct together *together)
 {
     if (together->land.count > 0)
         move_land(move, together);
@@ -215,7 +215,7 @@ static void move_rest(const struct move *move, struct together *together)
  * on, or only zeros. */
 static uint64_t still_blank(const struct rows *rows, const struct together *together)
 {
-    const struct piece *piece = together->piece;
+    const struct row_block *piece = together->piece;
     uint64_t columns = piece->blank & ~STILL_COLUMNS & ~MOTION_COLUMNS & ~SPIN_COLUMNS;
     /* What does not turn does not begin to; what turns may turn about another axis. */
     uint64_t spins = piece_lacks(piece, SPIN_COLUMNS) ? SPIN_COLUMNS : 0;
@@ -231,15 +231,15 @@ static uint64_t still_blank(const struct rows *rows, const struct together *toge
 }
 
 /* Returns the columns that are as they were. */
-static uint64_t move_piece(const struct rows *rows, const struct piece *piece)
+static uint64_t move_piece(const struct rows *rows, const struct row_block *piece)
 {
-    const struct move *move = rows->move;
+    const struct step_context *move = rows->move;
     struct together together;
     together.piece = piece;
-    turns_take(move, piece, together.motion);
-    land_begin(&together.land);
-    air_begin(&together.air);
-    hold_begin(&together.hold);
+    think_schedule_take(move, piece, together.motion);
+    ground_vehicle_begin(&together.land);
+    aircraft_begin(&together.air);
+    constant_course_begin(&together.hold);
     wrecks_begin(&together.wrecks);
     for (uint32_t i = piece->first; i < piece->end; i++)
         move_row(move, i, &together);
@@ -256,7 +256,7 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
     for (; first < end; first += CHECKSUM_ROWS) {
         uint32_t number = first / CHECKSUM_ROWS;
         uint64_t *changed = &rows->pieces->changed[number];
-        const struct piece piece = {
+        const struct row_block piece = {
             .first = first,
             .end = end - first < CHECKSUM_ROWS ? end : first + CHECKSUM_ROWS,
             .changed = *changed,
@@ -282,7 +282,7 @@ static void take_pieces(void *context, uint32_t first, uint32_t end, uint32_t wo
     }
 }
 
-static void scenario_fires(struct serial *serial)
+static void scenario_fires(struct serial_context *serial)
 {
     const struct world *world = serial->move->world;
     struct state_head *head = serial->moved->head;
@@ -292,7 +292,7 @@ static void scenario_fires(struct serial *serial)
         const struct fire_order *order = &world->fires[head->fire_cursor++];
         uint32_t shooter = order->shooter_slot, target = order->target_slot;
         if (shooter == SLOT_NONE) {
-            weapons_drop(serial, order->kind, order->x, order->z);
+            fire_drop_bomb(serial, order->kind, order->x, order->z);
             continue;
         }
         /* Initial slots hold their first owner while the id is slot + 1. */
@@ -301,35 +301,35 @@ static void scenario_fires(struct serial *serial)
         if (target != SLOT_NONE && !entities_alive(m, target, target + 1))
             continue;
         if (target != SLOT_NONE)
-            weapons_fire(serial, shooter, target, order->kind);
+            fire_shoot(serial, shooter, target, order->kind);
         else
-            weapons_fire_at(serial, shooter, order->x, order->z, order->kind);
+            fire_shoot_at(serial, shooter, order->x, order->z, order->kind);
     }
 }
 
-static void pull_trigger(struct serial *serial, uint32_t i)
+static void pull_trigger(struct serial_context *serial, uint32_t i)
 {
     const struct entities *w = &serial->move->committed->entities;
     struct entities *m = &serial->moved->entities;
     uint8_t trigger = m->trigger[i];
     m->trigger[i] = 0;
-    serial_changes(serial, i, COLUMN_BIT(trigger));
+    serial_context_changes(serial, i, COLUMN_BIT(trigger));
     if (trigger >> TRIGGER_REASON_SHIFT) {
-        struct event *event = serial_intent(serial, EVENT_AGENT);
+        struct event *event = serial_context_intent(serial, EVENT_AGENT);
         if (event)
-            event->agent =
-                (struct event_agent){serial_party(serial, i), w->behaviour[i], m->behaviour[i],
-                                     (uint32_t)(trigger >> TRIGGER_REASON_SHIFT) - 1};
+            event->agent = (struct event_agent){serial_context_party(serial, i), w->behaviour[i],
+                                                m->behaviour[i],
+                                                (uint32_t)(trigger >> TRIGGER_REASON_SHIFT) - 1};
         serial->moved->head->tally.agent_changes++;
     }
     if ((trigger & TRIGGER_FIRE) && entities_alive(m, m->target_slot[i], m->target_id[i]))
-        weapons_fire(serial, i, m->target_slot[i], KIND_NONE);
+        fire_shoot(serial, i, m->target_slot[i], KIND_NONE);
     if (trigger & TRIGGER_FIRE_AT)
-        weapons_fire_at(serial, i, m->goal_x[i], m->goal_z[i], KIND_NONE);
+        fire_shoot_at(serial, i, m->goal_x[i], m->goal_z[i], KIND_NONE);
 }
 
 /* Few rows have one: those that do not are passed over eight at a time. */
-static void pull_triggers(struct serial *serial)
+static void pull_triggers(struct serial_context *serial)
 {
     const uint8_t *trigger = serial->moved->entities.trigger;
     uint32_t used = serial->move->committed->head->used;
@@ -376,7 +376,7 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
                 const struct command_source sources[COMMAND_RING_COUNT])
 {
     struct state_head *head = moved->head;
-    struct move move = {
+    struct step_context move = {
         .world = mover->world,
         .craters = &mover->craters,
         .near = &mover->near,
@@ -390,12 +390,12 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
         .patches = mover->patches,
         .patches_ahead = mover->patches_ahead,
         .tick = committed->head->tick + 1,
-        .think = percept_think(mover->world->params, committed->head->used),
-        .turn = percept_turn(mover->world->params, committed->head->used),
-        .aim = fight_aim(mover->world->params),
+        .think = perception_think(mover->world->params, committed->head->used),
+        .turn = perception_turn(mover->world->params, committed->head->used),
+        .aim = attack_aim(mover->world->params),
         .dt_s = mover->world->params->dt_s,
     };
-    struct serial serial = {.move = &move, .moved = moved, .pieces = &mover->pieces};
+    struct serial_context serial = {.move = &move, .moved = moved, .pieces = &mover->pieces};
     struct rows rows = {.move = &move,
                         .committed = state_table(committed),
                         .moved = moved_table(moved),
@@ -406,19 +406,20 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
     uint32_t used = committed->head->used;
     crater_index_update(&mover->craters, committed->head->crater_count);
     begin_head(moved, committed->head);
-    workers_run(mover->workers, take_pieces, &rows, piece_count(used), PIECES_A_WORKER);
-    commands_apply(&serial, sources);
+    thread_pool_run(mover->workers, take_pieces, &rows, piece_count(used), PIECES_A_WORKER);
+    command_apply_all(&serial, sources);
     if (!head->paused || head->steps_left > 0) {
         if (head->paused)
             head->steps_left--;
         head->advanced = 1;
         head->tick = move.tick;
-        near_build(&mover->near, &committed->entities, used, (uint32_t)move.tick, move.think,
-                   mover->workers);
-        company_gather(&mover->company, &mover->near, mover->world, &mover->avoid, mover->workers);
+        neighbour_index_build(&mover->near, &committed->entities, used, (uint32_t)move.tick,
+                              move.think, mover->workers);
+        neighbour_lists_gather(&mover->company, &mover->near, mover->world, &mover->avoid,
+                               mover->workers);
         mover->outlook.fixed_damage = committed->fixed_damage;
-        scars_update(&mover->scars, mover->world, committed);
-        workers_run(mover->workers, move_rows, &rows, used, ROWS_A_WORKER);
+        ground_marks_update(&mover->scars, mover->world, committed);
+        thread_pool_run(mover->workers, move_rows, &rows, used, ROWS_A_WORKER);
         scenario_fires(&serial);
         pull_triggers(&serial);
     }

@@ -3,14 +3,14 @@
 #ifndef JOLON_MOVER_STEP_H
 #define JOLON_MOVER_STEP_H
 
-#include "mover/avoid.h"
-#include "mover/company.h"
-#include "mover/near.h"
-#include "mover/outlook.h"
-#include "mover/easy.h"
-#include "mover/scars.h"
+#include "mover/agent/avoidance.h"
+#include "mover/agent/neighbour_lists.h"
+#include "mover/query/neighbour_index.h"
+#include "mover/query/line_of_sight.h"
+#include "mover/query/slope_max_map.h"
+#include "mover/query/ground_marks.h"
 #include "world/checksum.h"
-#include "world/workers.h"
+#include "world/runtime/thread_pool.h"
 #include "world/world.h"
 
 /* One command ring as the step sees it: commands sequence .. end - 1 may be taken. */
@@ -27,25 +27,26 @@ struct moved_pieces {
 
 struct mover {
     const struct world *world;
-    struct crater_index craters;   /* cache of the committed craters */
-    struct near near;              /* of the committed vehicles; of this frame */
-    struct outlook outlook;        /* over the committed ground; of this frame */
-    struct company company;        /* likewise */
-    struct avoid avoid;            /* of the kinds */
-    struct scars scars;            /* cache of the committed craters and damage */
-    struct easy easy;              /* cache of the ground's slopes and water */
-    struct footing_patch *patches; /* [capacity + STAND_AHEAD] cache of the ground about each row */
-    struct footing_patch *patches_ahead; /* [capacity] where aircraft soon will be */
-    struct workers *workers;             /* NULL: alone */
-    struct moved_pieces pieces;          /* of this frame */
-    struct piece_hashes blank;           /* of a piece that is all zero */
-    uint64_t left;                       /* checksum of the moved table that it left; 0: none */
+    struct crater_index craters;    /* cache of the committed craters */
+    struct neighbour_index near;    /* of the committed vehicles; of this frame */
+    struct line_of_sight outlook;   /* over the committed ground; of this frame */
+    struct neighbour_lists company; /* likewise */
+    struct avoidance avoid;         /* of the kinds */
+    struct ground_marks scars;      /* cache of the committed craters and damage */
+    struct slope_max_map easy;      /* cache of the ground's slopes and water */
+    struct terrain_cache_entry
+        *patches; /* [capacity + GROUND_POSE_AHEAD] cache of the ground about each row */
+    struct terrain_cache_entry *patches_ahead; /* [capacity] where aircraft soon will be */
+    struct thread_pool *workers;               /* NULL: alone */
+    struct moved_pieces pieces;                /* of this frame */
+    struct piece_hashes blank;                 /* of a piece that is all zero */
+    uint64_t left; /* checksum of the moved table that it left; 0: none */
 };
 
 /* craters: the world's list. 0, or -1 with errno ENOMEM. workers may be NULL and stays the
  * caller's. */
 int mover_init(struct mover *mover, const struct world *world, const struct crater *craters,
-               struct workers *workers);
+               struct thread_pool *workers);
 void mover_free(struct mover *mover);
 
 /* Fills moved from the committed state and the commands. It takes no memory and asks the kernel for

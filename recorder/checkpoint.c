@@ -1,8 +1,8 @@
 /* When a checkpoint is due, and what is said of it. */
 #include "recorder/checkpoint.h"
 
-#include "ipc/clock.h"
-#include "ipc/log.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
 
 #include <errno.h>
 #include <inttypes.h>

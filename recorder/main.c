@@ -1,10 +1,10 @@
 /* jolon-recorder: writes the run's events and commands into logs that no kill can spoil, and its
  * checkpoints. */
-#include "ipc/clock.h"
-#include "ipc/frame.h"
-#include "ipc/process.h"
-#include "recorder/record.h"
-#include "sandbox/sandbox.h"
+#include "ipc/process/clock.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/process.h"
+#include "recorder/recording.h"
+#include "ipc/sandbox/sandbox.h"
 
 #include <signal.h>
 
@@ -35,7 +35,7 @@ int main(int argc, char **argv)
     if (sandbox_begin(&sandbox, ROLE_RECORDER, recorder.options.sandbox_off, &reason) != 0 ||
         segment_attach(view, recorder.options.world, ROLE_RECORDER, &reason) != 0)
         die_refused("%s", reason.text);
-    record_open(&recorder);
+    recording_open(&recorder);
     if (confine(&recorder, &sandbox, &reason) != 0)
         die_refused("%s", reason.text);
     segment_ready(view);
@@ -43,14 +43,14 @@ int main(int argc, char **argv)
     for (;;) {
         bool last = process_stopping();
         uint64_t seen = atomic_load(&view->commit->commit);
-        if (record_turn(&recorder, seen))
+        if (recording_turn(&recorder, seen))
             continue;
         if (last)
             break;
-        frame_wait(view, seen, clock_now_ns() + WAIT_NS);
+        frame_protocol_wait(view, seen, clock_now_ns() + WAIT_NS);
     }
 
-    int code = (int)record_close(&recorder);
+    int code = (int)recording_close(&recorder);
     segment_detach(view);
     return code;
 }

@@ -1,8 +1,8 @@
 /* The recorder's options. */
 #include "recorder/options.h"
 
-#include "ipc/log.h"
-#include "ipc/process.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
 
 #include <getopt.h>
 #include <stdint.h>

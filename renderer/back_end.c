@@ -1,7 +1,7 @@
 /* Choosing what draws. */
 #include "renderer/back_end.h"
 
-#include "ipc/log.h"
+#include "ipc/process/log.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -9,12 +9,12 @@
 #define WHY_BYTES    400
 #define THREADS_MOST 4u /* unless more are asked for */
 
-static int open_gl(struct draw *draw, const struct options *options, const struct scenery *scenery,
-                   const char *because, struct reason *reason)
+static int open_gl(struct back_end_interface *draw, const struct options *options,
+                   const struct static_scene *scenery, const char *because, struct reason *reason)
 {
     struct gl_wish wish = {.device = options->device,
                            .hardware = options->back_end != BACK_END_GL && options->device == NULL};
-    char name[DRAW_NAME_BYTES];
+    char name[BACK_END_NAME_BYTES];
     if (gl_open(draw, scenery, options->width, options->height, &wish, name, reason) != 0)
         return -1;
     log_info("draws with %s: %s", name, because);
@@ -30,8 +30,8 @@ static uint32_t threads_for(const struct options *options)
     return cores < 4 ? 1 : cores > 8 ? THREADS_MOST : (uint32_t)(cores / 2);
 }
 
-static int open_soft(struct draw *draw, const struct options *options,
-                     const struct scenery *scenery, const char *because, struct reason *reason)
+static int open_soft(struct back_end_interface *draw, const struct options *options,
+                     const struct static_scene *scenery, const char *because, struct reason *reason)
 {
     uint32_t threads = threads_for(options);
     if (soft_open(draw, scenery, options->width, options->height, threads, reason) != 0)
@@ -41,8 +41,8 @@ static int open_soft(struct draw *draw, const struct options *options,
     return 0;
 }
 
-int back_end_open(struct draw *draw, const struct options *options, const struct scenery *scenery,
-                  struct reason *reason)
+int back_end_open(struct back_end_interface *draw, const struct options *options,
+                  const struct static_scene *scenery, struct reason *reason)
 {
     char missing[WHY_BYTES], because[WHY_BYTES + 32];
     if (options->back_end == BACK_END_GL || options->device != NULL)

@@ -1,17 +1,17 @@
 /* jolon-renderer: draws a running world off-screen. It copies committed frames at its own rate;
  * the simulation never waits for it, and it leaves the processor to it. */
-#include "ipc/clock.h"
-#include "ipc/frame.h"
-#include "ipc/log.h"
-#include "ipc/process.h"
-#include "renderer/account.h"
+#include "ipc/process/clock.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "renderer/timing.h"
 #include "renderer/back_end.h"
 #include "renderer/options.h"
-#include "renderer/pulse.h"
-#include "renderer/studio.h"
-#include "renderer/survey.h"
-#include "renderer/turns.h"
-#include "sandbox/sandbox.h"
+#include "renderer/heartbeat.h"
+#include "renderer/render_session.h"
+#include "renderer/base_map_service.h"
+#include "renderer/draw_schedule.h"
+#include "ipc/sandbox/sandbox.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -20,28 +20,28 @@
 
 #define NICENESS 12 /* far behind the frame loop */
 
-static int run(struct studio *studio, struct view *view, struct reason *reason)
+static int run(struct render_session *studio, struct view *view, struct reason *reason)
 {
     bool last = false;
-    if (studio_look(studio, reason) != 0)
+    if (render_session_look(studio, reason) != 0)
         return -1;
-    if (studio_check_vehicles(studio, reason) != 0)
+    if (render_session_check_vehicles(studio, reason) != 0)
         log_warn("%s; follows another until it is there", reason->text);
     while (!last) {
-        last = process_stopping() || frame_finished(view);
+        last = process_stopping() || frame_protocol_finished(view);
         if (!last) {
-            if (turns_wait(studio, view, reason) != 0)
+            if (draw_schedule_wait(studio, view, reason) != 0)
                 return -1;
-            last = process_stopping() || frame_finished(view);
+            last = process_stopping() || frame_protocol_finished(view);
         }
         /* The look that belongs to the last picture comes after the run's end was seen. */
-        if (last && studio_look(studio, reason) != 0)
+        if (last && render_session_look(studio, reason) != 0)
             return -1;
         uint64_t begun_ns = clock_now_ns();
-        if (studio_draw(studio, last, reason) != 0)
+        if (render_session_draw(studio, last, reason) != 0)
             return -1;
-        account_picture(view, studio, begun_ns);
-        if (!last && turns_share(studio, reason) != 0)
+        timing_picture(view, studio, begun_ns);
+        if (!last && draw_schedule_share(studio, reason) != 0)
             return -1;
     }
     return 0;
@@ -50,13 +50,13 @@ static int run(struct studio *studio, struct view *view, struct reason *reason)
 /* Before any thread: what pictures go to is opened, and nothing but their folder can be written to
  * by name. The driver's cache moves there too: it holds programs, and others run those that it
  * keeps at home. */
-static int confine(struct sandbox *sandbox, struct outlets *outlets, const struct options *options,
-                   struct reason *reason)
+static int confine(struct sandbox *sandbox, struct output_set *outlets,
+                   const struct options *options, struct reason *reason)
 {
     char cache[1024];
-    if (outlets_open(outlets, &options->outlets, reason) != 0)
+    if (output_set_open(outlets, &options->outlets, reason) != 0)
         return -1;
-    if (output_cache(&outlets->output, cache, sizeof cache) == 0)
+    if (picture_folder_cache(&outlets->output, cache, sizeof cache) == 0)
         setenv("MESA_SHADER_CACHE_DIR", cache, 1);
     if (sandbox_begin(sandbox, options->role, options->sandbox_off, reason) != 0)
         return -1;
@@ -76,23 +76,24 @@ static void find_followed(struct options *options, const struct view *view)
 }
 
 /* One picture of the present frame, without a role. */
-static int snap(struct studio *studio, struct reason *reason)
+static int snap(struct render_session *studio, struct reason *reason)
 {
-    return studio_look(studio, reason) == 0 && studio_check_vehicles(studio, reason) == 0 &&
-                   studio_draw(studio, true, reason) == 0
+    return render_session_look(studio, reason) == 0 &&
+                   render_session_check_vehicles(studio, reason) == 0 &&
+                   render_session_draw(studio, true, reason) == 0
                ? 0
                : -1;
 }
 
 int main(int argc, char **argv)
 {
-    static struct studio studio;
-    static struct outlets outlets;
-    static struct survey survey;
+    static struct render_session studio;
+    static struct output_set outlets;
+    static struct base_map_service survey;
     struct options options;
     struct view view;
     struct sandbox sandbox = {.on = false};
-    struct pulse pulse;
+    struct heartbeat pulse;
     struct reason reason, second;
 
     log_open("renderer");
@@ -108,21 +109,22 @@ int main(int argc, char **argv)
     if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &reason) != 0)
         die_refused("%s", reason.text);
     find_followed(&options, &view);
-    survey_open(&survey, &view.world);
-    options.outlets.painter = survey_painter(&survey);
+    base_map_service_open(&survey, &view.world);
+    options.outlets.painter = base_map_service_painter(&survey);
     if (!snapping && confine(&sandbox, &outlets, &options, &reason) != 0)
         die_refused("%s", reason.text);
     /* The pulse keeps its priority; drawing, and the threads of the OpenGL driver, get out of the
      * frame loop's way. */
-    if (!snapping && pulse_start(&pulse, &view) != 0)
+    if (!snapping && heartbeat_start(&pulse, &view) != 0)
         die_refused("cannot start a thread: %s", strerror(errno));
     if (setpriority(PRIO_PROCESS, 0, NICENESS) != 0)
         log_warn("cannot lower its priority: %s", strerror(errno));
-    if (!snapping && outlets_start(&outlets, &reason) != 0)
+    if (!snapping && output_set_start(&outlets, &reason) != 0)
         die_refused("%s", reason.text);
     setenv("LP_NUM_THREADS", "1", 0);
 
-    if (studio_open(&studio, &view, &pulse, snapping ? NULL : &outlets, &options, &reason) != 0 ||
+    if (render_session_open(&studio, &view, &pulse, snapping ? NULL : &outlets, &options,
+                            &reason) != 0 ||
         sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
     int result;
@@ -134,14 +136,14 @@ int main(int argc, char **argv)
                  options.out, studio.shots[0].wish.name, studio.shot_count > 1 ? ", ..." : "",
                  studio.options.width, studio.options.height, studio.options.fps);
         result = run(&studio, &view, &reason);
-        if (outlets_close(&outlets, result == 0 ? &reason : &second) != 0)
+        if (output_set_close(&outlets, result == 0 ? &reason : &second) != 0)
             result = -1;
-        pulse_stop(&pulse);
+        heartbeat_stop(&pulse);
     }
     if (result != 0)
         die_refused("%s", reason.text);
-    studio_close(&studio);
-    survey_close(&survey);
+    render_session_close(&studio);
+    base_map_service_close(&survey);
     segment_detach(&view);
     return EXIT_OK;
 }

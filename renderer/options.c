@@ -1,10 +1,10 @@
 /* Reading the command line. */
 #include "renderer/options.h"
 
-#include "http/listen.h"
-#include "ipc/log.h"
-#include "ipc/process.h"
-#include "world/square.h"
+#include "ipc/http/listen.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
 #include <getopt.h>
@@ -254,7 +254,7 @@ static bool take_outlet(struct options *options, int letter, const char *value)
 /* Somebody watches: more than a still now and then. */
 static void take_live_defaults(struct options *options)
 {
-    struct outlets_wish *wish = &options->outlets;
+    struct output_set_wish *wish = &options->outlets;
     bool live = wish->video != NULL || wish->stream_port >= 0;
     if (live && options->snap != NULL)
         die_usage("--snap makes one picture: --video and --stream are for --out");

@@ -2,9 +2,9 @@
 #ifndef JOLON_RENDERER_OPTIONS_H
 #define JOLON_RENDERER_OPTIONS_H
 
-#include "ipc/role.h"
-#include "renderer/output/outlets.h"
-#include "renderer/scene/aim.h"
+#include "ipc/segment/role.h"
+#include "renderer/output/output_set.h"
+#include "renderer/scene/camera/view_camera.h"
 #include "renderer/views.h"
 
 #include <stdbool.h>
@@ -21,18 +21,18 @@ struct options {
     struct views views;      /* none: the world's */
     uint32_t follow;         /* entity id, 0: picks one */
     const char *follow_name; /* or its name, NULL */
-    bool follow_given;      /* follows it even as a wreck; else the world's choice while it lives */
-    double field_rad;       /* of view */
-    struct aim_stand stand; /* of the free camera */
-    bool look_given;        /* its direction */
-    int back_end;           /* enum back_end; below 0: the world's */
-    const char *device;     /* number or part of the name; NULL: the first that draws */
-    uint32_t threads;       /* of the own rasteriser; 0: as suits the machine */
-    int hold;               /* less detail rather than fewer pictures; below 0: the world's */
-    bool exact;             /* committed frames alone, nothing between them */
+    bool follow_given; /* follows it even as a wreck; else the world's choice while it lives */
+    double field_rad;  /* of view */
+    struct view_camera_stand stand; /* of the free camera */
+    bool look_given;                /* its direction */
+    int back_end;                   /* enum back_end; below 0: the world's */
+    const char *device;             /* number or part of the name; NULL: the first that draws */
+    uint32_t threads;               /* of the own rasteriser; 0: as suits the machine */
+    int hold;   /* less detail rather than fewer pictures; below 0: the world's */
+    bool exact; /* committed frames alone, nothing between them */
     bool list_devices;
-    struct outlets_wish outlets; /* where pictures go, when out is given */
-    int parent_pid;              /* 0: none */
+    struct output_set_wish outlets; /* where pictures go, when out is given */
+    int parent_pid;                 /* 0: none */
     bool sandbox_off;
 };
 

@@ -2,7 +2,7 @@
 #ifndef JOLON_RENDERER_VIEWS_H
 #define JOLON_RENDERER_VIEWS_H
 
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 #include "world/world.h"
 
 #include <stdint.h>

@@ -1,16 +1,16 @@
 /* jolon-reporter: the only process of a world with DDS. It publishes the status topics and, where
  * it was told to, passes on the commands of other machines. The frame loop waits neither for it nor
  * for its subscribers. */
-#include "ipc/clock.h"
-#include "ipc/frame.h"
-#include "ipc/log.h"
-#include "ipc/process.h"
-#include "reporter/batch.h"
-#include "reporter/events.h"
+#include "ipc/process/clock.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "reporter/entity_topic.h"
+#include "reporter/event_topics.h"
 #include "reporter/options.h"
 #include "reporter/remote_commands.h"
-#include "reporter/report.h"
-#include "sandbox/sandbox.h"
+#include "reporter/status_topics.h"
+#include "ipc/sandbox/sandbox.h"
 
 #include <errno.h>
 #include <unistd.h>
@@ -32,11 +32,11 @@
 struct reporter {
     struct view view;
     struct dds_link link;
-    struct report report;
-    struct events events;
+    struct status_topics report;
+    struct event_topics events;
     struct remote_commands remote;
     bool takes_commands;
-    struct batch batch;
+    struct entity_topic batch;
     uint64_t frame_due_ns;
 };
 
@@ -44,11 +44,11 @@ static int open_topics(struct reporter *reporter, struct reason *reason)
 {
     const struct dds_link *link = &reporter->link;
     struct view *view = &reporter->view;
-    if (report_open(&reporter->report, view, link, reason) != 0 ||
-        report_world(&reporter->report, view, reason) != 0 ||
-        report_names(&reporter->report, view, reason) != 0 ||
-        events_open(&reporter->events, view, link, reporter->report.run, reason) != 0 ||
-        batch_open(&reporter->batch, view, link, reporter->report.run, reason) != 0)
+    if (status_topics_open(&reporter->report, view, link, reason) != 0 ||
+        status_topics_world(&reporter->report, view, reason) != 0 ||
+        status_topics_names(&reporter->report, view, reason) != 0 ||
+        event_topics_open(&reporter->events, view, link, reporter->report.run, reason) != 0 ||
+        entity_topic_open(&reporter->batch, view, link, reporter->report.run, reason) != 0)
         return -1;
     if (reporter->takes_commands &&
         remote_commands_open(&reporter->remote, view->name, link, reason) != 0)
@@ -61,11 +61,11 @@ static void tell_status(struct reporter *reporter, uint64_t now_ns)
 {
     if (now_ns < reporter->frame_due_ns)
         return;
-    reporter->frame_due_ns += REPORT_PERIOD_NS;
+    reporter->frame_due_ns += STATUS_TOPICS_PERIOD_NS;
     if (reporter->frame_due_ns <= now_ns)
-        reporter->frame_due_ns = now_ns + REPORT_PERIOD_NS;
-    report_processes(&reporter->report, &reporter->view, now_ns);
-    report_frame(&reporter->report, &reporter->view, now_ns);
+        reporter->frame_due_ns = now_ns + STATUS_TOPICS_PERIOD_NS;
+    status_topics_processes(&reporter->report, &reporter->view, now_ns);
+    status_topics_frame(&reporter->report, &reporter->view, now_ns);
 }
 
 /* True when there is more to do at once. */
@@ -73,12 +73,13 @@ static bool turn(struct reporter *reporter)
 {
     struct role_slot *slot = reporter->view.slot[ROLE_REPORTER];
     uint64_t begun_ns = clock_now_ns();
-    frame_beat(&reporter->view);
+    frame_protocol_beat(&reporter->view);
     if (reporter->takes_commands)
         remote_commands_turn(&reporter->remote, begun_ns);
-    bool more = !events_publish(&reporter->events, &reporter->view, begun_ns + EVENTS_LIMIT_NS);
+    bool more =
+        !event_topics_publish(&reporter->events, &reporter->view, begun_ns + EVENTS_LIMIT_NS);
     tell_status(reporter, begun_ns);
-    more |= batch_publish(&reporter->batch, &reporter->view, clock_now_ns());
+    more |= entity_topic_publish(&reporter->batch, &reporter->view, clock_now_ns());
     uint64_t stage_ns = clock_now_ns() - begun_ns;
     log_frame(reporter->events.frame);
     atomic_store_explicit(&slot->frame, reporter->events.frame, memory_order_relaxed);
@@ -102,10 +103,10 @@ static void last_words(struct reporter *reporter)
 {
     uint64_t now_ns = clock_now_ns();
     atomic_store(&reporter->view.slot[ROLE_REPORTER]->state, ROLE_STOPPING);
-    (void)events_publish(&reporter->events, &reporter->view, now_ns + LAST_EVENTS_NS);
-    report_processes(&reporter->report, &reporter->view, now_ns);
-    report_frame(&reporter->report, &reporter->view, now_ns);
-    events_flush(&reporter->events, clock_now_ns() + LAST_ACKS_NS);
+    (void)event_topics_publish(&reporter->events, &reporter->view, now_ns + LAST_EVENTS_NS);
+    status_topics_processes(&reporter->report, &reporter->view, now_ns);
+    status_topics_frame(&reporter->report, &reporter->view, now_ns);
+    event_topics_flush(&reporter->events, clock_now_ns() + LAST_ACKS_NS);
 }
 
 int main(int argc, char **argv)
@@ -141,7 +142,7 @@ int main(int argc, char **argv)
     }
 
     last_words(&reporter);
-    batch_close(&reporter.batch);
+    entity_topic_close(&reporter.batch);
     segment_detach(&reporter.view);
     dds_link_close(&reporter.link, EXIT_OK);
     return EXIT_OK;

@@ -1,8 +1,8 @@
 /* jolon-reporter's arguments. */
 #include "reporter/options.h"
 
-#include "ipc/log.h"
-#include "ipc/process.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
 
 #include <getopt.h>
 #include <stdio.h>

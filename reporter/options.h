@@ -2,7 +2,7 @@
 #ifndef JOLON_REPORTER_OPTIONS_H
 #define JOLON_REPORTER_OPTIONS_H
 
-#include "topics/dds_link.h"
+#include "ipc/topics/dds_link.h"
 
 struct options {
     const char *world;

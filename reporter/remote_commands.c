@@ -1,9 +1,9 @@
 /* Commands from DDS to the intake, replies to DDS. */
 #include "reporter/remote_commands.h"
 
-#include "ipc/clock.h"
-#include "ipc/log.h"
-#include "ipc/runtime_folder.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/segment/runtime_folder.h"
 
 #include <unistd.h>
 

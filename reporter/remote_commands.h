@@ -7,8 +7,8 @@
 #ifndef JOLON_REPORTER_REMOTE_COMMANDS_H
 #define JOLON_REPORTER_REMOTE_COMMANDS_H
 
-#include "topics/command_socket.h"
-#include "topics/dds_topics.h"
+#include "ipc/topics/command_socket.h"
+#include "ipc/topics/dds_topics.h"
 
 #define REMOTE_SENDERS 12u /* fewer than CLIENTS_PER_PROCESS of the intake */
 

@@ -1,8 +1,8 @@
 /* The folders that a set writes in. */
 #include "supervisor/confine.h"
 
-#include "ipc/runtime_folder.h"
-#include "sandbox/sandbox.h"
+#include "ipc/segment/runtime_folder.h"
+#include "ipc/sandbox/sandbox.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef JOLON_SUPERVISOR_CONFINE_H
 #define JOLON_SUPERVISOR_CONFINE_H
 
-#include "supervisor/set.h"
+#include "supervisor/process_set.h"
 
 /* Confines the calling process, and every process that it starts from now on, to what a set needs:
  * sandbox_keeper() with the folders that the plan's files lie in, the runtime folder, and shared

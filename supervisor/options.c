@@ -1,8 +1,8 @@
 /* Reading the keeper's command line. */
 #include "supervisor/options.h"
 
-#include "ipc/log.h"
-#include "ipc/process.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -48,7 +48,7 @@ static const struct option known[] = {
 static void leave_out(struct plan *plan, const char *name)
 {
     enum role role = role_find(name);
-    if (role == ROLE_NONE || role == ROLE_INTAKE || judge_makes_frames(role))
+    if (role == ROLE_NONE || role == ROLE_INTAKE || restart_policy_makes_frames(role))
         die_usage("--without %s: there are renderer, reporter, recorder", name);
     plan->left_out[role] = true;
 }

@@ -2,7 +2,7 @@
 #ifndef JOLON_SUPERVISOR_OPTIONS_H
 #define JOLON_SUPERVISOR_OPTIONS_H
 
-#include "supervisor/set.h"
+#include "supervisor/process_set.h"
 
 /* Wrong usage ends the process (exit 2). */
 struct plan options_plan(int argc, char **argv);

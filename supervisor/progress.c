@@ -1,10 +1,10 @@
 /* Frame, time, counts and speed on one line. */
 #include "supervisor/progress.h"
 
-#include "ipc/clock.h"
-#include "ipc/log.h"
-#include "ipc/snapshot.h"
-#include "supervisor/set.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/frame/snapshot.h"
+#include "supervisor/process_set.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -33,7 +33,7 @@ static void show(const struct progress *progress, const struct view *view)
 
 void progress_turn(struct progress *progress, const struct view *view)
 {
-    if (set_heard() &&
+    if (process_set_heard() &&
         log_due(&progress->shown_ns, progress->live ? NS_PER_S / 4 : 5 * (uint64_t)NS_PER_S))
         show(progress, view);
 }

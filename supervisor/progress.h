@@ -2,7 +2,7 @@
 #ifndef JOLON_SUPERVISOR_PROGRESS_H
 #define JOLON_SUPERVISOR_PROGRESS_H
 
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 
 struct progress {
     bool live; /* standard error is a terminal: one line, drawn over */

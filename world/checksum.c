@@ -1,7 +1,7 @@
 /* Checksums by pieces and columns of rows and by entries of lists. */
 #include "world/checksum.h"
 
-#include "world/hash.h"
+#include "world/maths/hash.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -81,10 +81,11 @@ static void hash_pieces(void *context, uint32_t first, uint32_t end, uint32_t wo
     }
 }
 
-void table_hash(struct table table, uint32_t used, const uint64_t *columns, struct workers *workers)
+void table_hash(struct table table, uint32_t used, const uint64_t *columns,
+                struct thread_pool *workers)
 {
     struct hashing job = {table, used, columns};
-    workers_run(workers, hash_pieces, &job, piece_count(used), PIECES_A_WORKER);
+    thread_pool_run(workers, hash_pieces, &job, piece_count(used), PIECES_A_WORKER);
 }
 
 void piece_hashes_blank(struct piece_hashes *blank)

@@ -9,7 +9,7 @@
 #ifndef JOLON_WORLD_CHECKSUM_H
 #define JOLON_WORLD_CHECKSUM_H
 
-#include "world/workers.h"
+#include "world/runtime/thread_pool.h"
 #include "world/world.h"
 
 #define CHECKSUM_ROWS   1024u /* of a piece; docs/decisions/019 has what others cost */
@@ -48,7 +48,7 @@ void table_hash_piece(struct table table, uint32_t piece, uint32_t used, uint64_
 
 /* ... of each piece (columns NULL: all of them), on the workers (NULL: alone). */
 void table_hash(struct table table, uint32_t used, const uint64_t *columns,
-                struct workers *workers);
+                struct thread_pool *workers);
 
 /* Hashes of a whole piece that is all zero. */
 void piece_hashes_blank(struct piece_hashes *blank);

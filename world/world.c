@@ -1,7 +1,7 @@
 /* Digest, and small questions about a world. */
 #include "world/world.h"
 
-#include "world/hash.h"
+#include "world/maths/hash.h"
 
 #include <stddef.h>
 #include <string.h>

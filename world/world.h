@@ -3,16 +3,16 @@
 #ifndef JOLON_WORLD_WORLD_H
 #define JOLON_WORLD_WORLD_H
 
-#include "world/command.h"
-#include "world/dent.h"
-#include "world/entity.h"
-#include "world/event.h"
-#include "world/fixed.h"
-#include "world/formation.h"
-#include "world/hull.h"
-#include "world/kind.h"
-#include "world/script.h"
-#include "world/terrain.h"
+#include "world/entity/command.h"
+#include "world/entity/dent.h"
+#include "world/entity/entity.h"
+#include "world/entity/event.h"
+#include "world/terrain/fixed.h"
+#include "world/entity/formation.h"
+#include "world/entity/hull.h"
+#include "world/entity/kind.h"
+#include "world/entity/script.h"
+#include "world/terrain/terrain.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -221,7 +221,7 @@ struct world {
     const struct vec3 *hull_vertices;
     const struct hull_plane *hull_planes;
     const struct fixed_object *fixed;
-    const uint32_t *reach_start; /* [SQUARE_COUNT + 1] into reach */
+    const uint32_t *reach_start; /* [GRIDSQUARE_COUNT + 1] into reach */
     const uint32_t *reach;       /* fixed object indices, ascending within a square */
     const struct area *areas;
     const struct route *routes;

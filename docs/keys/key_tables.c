@@ -1,7 +1,7 @@
 /* Copies a document line by line, and puts tables made of the schema in place of its own. */
 #include "docs/keys/key_tables.h"
 
-#include "config/schema.h"
+#include "config/syntax/schema.h"
 
 #include <string.h>
 
@@ -45,7 +45,7 @@ static void write_key(FILE *to, const char *prefix, const struct key *key)
 {
     char allowed[ALLOWED_MAX];
 
-    keys_allowed(key, allowed, sizeof(allowed));
+    key_table_allowed(key, allowed, sizeof(allowed));
     fprintf(to, "| `%s%s` | %s | %s | %s | %s |\n", prefix, key->name, key_type_name(key->type),
             allowed,
             key->fallback != NULL ? key->fallback
@@ -93,7 +93,7 @@ static const struct key *find_key(const char *name)
     for (size_t s = 0; s < COUNT(sources); s++) {
         size_t length = strlen(sources[s].prefix);
         int index = strncmp(name, sources[s].prefix, length) == 0
-                        ? keys_find(sources[s].table, name + length)
+                        ? key_table_find(sources[s].table, name + length)
                         : -1;
 
         if (index >= 0)

@@ -1,5 +1,5 @@
-/* The tables of docs/scenario.md, which say what the rows of config/schema.h say. In the document
- * a table stands between a line that names it and the line "<!-- end -->":
+/* The tables of docs/scenario.md, which say what the rows of config/syntax/schema.h say. In the
+ * document a table stands between a line that names it and the line "<!-- end -->":
  *
  *     <!-- keys of collision -->                the scenario keys below the group "collision"
  *     <!-- keys of vehicles[] -->               the keys of a list's entries

@@ -1,6 +1,6 @@
 /* The instruments over a camera's picture: the small map and the statistics bar. */
-#include "renderer/chart/chart.h"
-#include "renderer/chart/gauges.h"
+#include "renderer/chart/annotated_picture.h"
+#include "renderer/chart/statistics_bar.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -19,17 +19,19 @@ static const struct rgba grey = {176, 184, 184, 255};
 static const struct rgba amber = {255, 205, 96, 255};
 static const struct rgba back = {12, 15, 18, 190};
 
-static void small_map(struct chart *chart, struct image *image, const struct chart_source *source)
+static void small_map(struct annotated_picture *chart, struct image *image,
+                      const struct annotated_picture_source *source)
 {
     uint32_t side = (chart->width < chart->height ? chart->width : chart->height) / SMALL_SHARE;
     int32_t gap = (int32_t)side / 15, left = (int32_t)(chart->width - side) - gap;
     struct map_view view = map_whole(0, 0, side);
-    struct chart_scale scale = {.symbol = maths_max(SMALL_SYMBOL * side / 180.0, 3.0),
-                                .triangle = 0.25 * side};
-    if (chart_part_size(&chart->small, side, side) != 0 ||
-        chart_ground(&chart->small.base, &chart->small.image, &view, source, &scale) != 0)
+    struct annotated_picture_scale scale = {.symbol = maths_max(SMALL_SYMBOL * side / 180.0, 3.0),
+                                            .triangle = 0.25 * side};
+    if (annotated_picture_part_size(&chart->small, side, side) != 0 ||
+        annotated_picture_ground(&chart->small.base, &chart->small.image, &view, source, &scale) !=
+            0)
         return;
-    chart_things(&chart->small.image, &view, source, &scale);
+    annotated_picture_things(&chart->small.image, &view, source, &scale);
     image_rectangle(image, left - 2, gap - 2, (int32_t)side + 4, (int32_t)side + 4,
                     (struct rgba){10, 12, 14, 200});
     image_copy(image, &chart->small.image, left, gap);
@@ -47,11 +49,11 @@ struct bar {
     uint32_t large, small; /* [pixel] letters of values and of names */
     int32_t margin, row_height, name_width;
     uint32_t rows, count;
-    struct cell cells[GAUGES_MAX];
+    struct cell cells[STATISTICS_BAR_MAX];
 };
 
-static int32_t cell_width(struct chart *chart, const struct bar *bar, const struct gauge *gauge,
-                          int32_t gap)
+static int32_t cell_width(struct annotated_picture *chart, const struct bar *bar,
+                          const struct gauge *gauge, int32_t gap)
 {
     int32_t name = text_width(chart->text, bar->small, gauge->name);
     int32_t widest = text_width(chart->text, bar->large, gauge->widest);
@@ -99,7 +101,8 @@ static void leave_out_one(struct bar *bar, uint32_t rank)
 }
 
 /* Measures all fields with a gap between them. */
-static void measure(struct chart *chart, struct bar *bar, const struct gauge *gauges, int32_t gap)
+static void measure(struct annotated_picture *chart, struct bar *bar, const struct gauge *gauges,
+                    int32_t gap)
 {
     for (uint32_t i = 0; i < bar->count; i++)
         bar->cells[i] =
@@ -108,7 +111,8 @@ static void measure(struct chart *chart, struct bar *bar, const struct gauge *ga
 
 /* One row if all of it fits, if need be closer and without the spare field; else two; then the
  * least important fields go. */
-static void choose_rows(struct chart *chart, struct bar *bar, const struct gauge *gauges)
+static void choose_rows(struct annotated_picture *chart, struct bar *bar,
+                        const struct gauge *gauges)
 {
     int32_t width = (int32_t)chart->width, large = (int32_t)bar->large;
     measure(chart, bar, gauges, large * 3 / 4);
@@ -144,7 +148,7 @@ static void spread(struct bar *bar, int32_t width)
     }
 }
 
-static void arrange(struct chart *chart, struct bar *bar, const struct gauge *gauges,
+static void arrange(struct annotated_picture *chart, struct bar *bar, const struct gauge *gauges,
                     uint32_t count, const struct statistics *s)
 {
     uint32_t height = chart->height / BAR_LETTERS, across = chart->width / BAR_ACROSS;
@@ -166,7 +170,7 @@ static void arrange(struct chart *chart, struct bar *bar, const struct gauge *ga
     spread(bar, (int32_t)chart->width);
 }
 
-static void draw_cell(struct chart *chart, struct image *image, const struct bar *bar,
+static void draw_cell(struct annotated_picture *chart, struct image *image, const struct bar *bar,
                       const struct gauge *gauge, int32_t x, int32_t top)
 {
     static const struct rgba colours[] = {[GAUGE_GOOD] = {176, 232, 150, 255},
@@ -189,26 +193,26 @@ static void draw_cell(struct chart *chart, struct image *image, const struct bar
     text_draw(chart->text, image, x, lower, bar->large, colours[gauge->state], gauge->value);
 }
 
-static void draw_name(struct chart *chart, struct image *image, const struct bar *bar,
+static void draw_name(struct annotated_picture *chart, struct image *image, const struct bar *bar,
                       const struct statistics *s, int32_t top)
 {
     int32_t small = (int32_t)bar->small, upper = top + small * 11 / 10;
     char name[sizeof s->name], words[64];
     snprintf(name, sizeof name, "%s", s->name);
     snprintf(words, sizeof words, "%s %s", s->force, s->kind);
-    chart_shorten(chart, name, bar->large, bar->name_width - (int32_t)bar->large / 2);
-    chart_shorten(chart, words, bar->small, bar->name_width - (int32_t)bar->large / 2);
+    annotated_picture_shorten(chart, name, bar->large, bar->name_width - (int32_t)bar->large / 2);
+    annotated_picture_shorten(chart, words, bar->small, bar->name_width - (int32_t)bar->large / 2);
     text_draw(chart->text, image, bar->margin, upper, bar->small, grey, words);
     text_draw(chart->text, image, bar->margin, upper + (int32_t)bar->large * 11 / 10, bar->large,
               amber, name);
 }
 
-static void statistics_bar(struct chart *chart, struct image *image, const struct statistics *s,
-                           double fps)
+static void statistics_bar(struct annotated_picture *chart, struct image *image,
+                           const struct statistics *s, double fps)
 {
-    struct gauge gauges[GAUGES_MAX];
+    struct gauge gauges[STATISTICS_BAR_MAX];
     struct bar bar = {.rows = 0};
-    arrange(chart, &bar, gauges, gauges_of(gauges, s, fps), s);
+    arrange(chart, &bar, gauges, statistics_bar_of(gauges, s, fps), s);
     int32_t width = (int32_t)chart->width, pad = (int32_t)bar.small / 3;
     int32_t height = (int32_t)bar.rows * bar.row_height + pad;
     int32_t top = (int32_t)chart->height - height;
@@ -230,7 +234,8 @@ static void statistics_bar(struct chart *chart, struct image *image, const struc
     }
 }
 
-void chart_instruments(struct chart *chart, struct image *image, const struct chart_source *source)
+void annotated_picture_instruments(struct annotated_picture *chart, struct image *image,
+                                   const struct annotated_picture_source *source)
 {
     small_map(chart, image, source);
     if (source->slot == SLOT_NONE)

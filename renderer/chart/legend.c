@@ -1,8 +1,8 @@
 /* Where words go on the map, and what they say. */
 #include "renderer/chart/legend.h"
 
-#include "renderer/chart/gauges.h"
-#include "world/square.h"
+#include "renderer/chart/statistics_bar.h"
+#include "world/terrain/gridsquare.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,19 +37,19 @@ static const struct place places[] = {
     {"Pacific Ocean", 4600.0, 45800.0, true},
 };
 
-static uint32_t fine_letters(const struct chart *chart, uint32_t percent)
+static uint32_t fine_letters(const struct annotated_picture *chart, uint32_t percent)
 {
     uint32_t size = chart->layout.letters * percent / 100;
     return size < FINE_LEAST ? FINE_LEAST : size;
 }
 
-static int32_t em_of(const struct chart *chart)
+static int32_t em_of(const struct annotated_picture *chart)
 {
     return (int32_t)chart->layout.letters;
 }
 
 /* How many vehicles a box would touch. */
-static uint32_t crowd(const struct map_view *view, const struct chart_source *source,
+static uint32_t crowd(const struct map_view *view, const struct annotated_picture_source *source,
                       struct box box)
 {
     const struct entities *e = source->moment->entities;
@@ -67,7 +67,7 @@ static uint32_t crowd(const struct map_view *view, const struct chart_source *so
 
 /* The free box of the fewest vehicles, the first of equals, CROWD_STEP being as good as none; -1
  * when none is free. */
-static int32_t best_box(const struct map_view *view, const struct chart_source *source,
+static int32_t best_box(const struct map_view *view, const struct annotated_picture_source *source,
                         const struct taken *taken, const struct box *boxes, uint32_t count)
 {
     int32_t best = -1;
@@ -95,8 +95,9 @@ static void words_of_length(char *words, size_t bytes, double metres)
 }
 
 /* A bar of a length that is easily read, in a lower corner, and what the contours mean. */
-static void scale_bar(struct chart *chart, struct image *image, const struct map_view *view,
-                      const struct chart_source *source, struct taken *taken)
+static void scale_bar(struct annotated_picture *chart, struct image *image,
+                      const struct map_view *view, const struct annotated_picture_source *source,
+                      struct taken *taken)
 {
     int32_t em = em_of(chart), thick = em / 3 > 3 ? em / 3 : 3;
     uint32_t size = fine_letters(chart, 90), fine = fine_letters(chart, 75);
@@ -104,7 +105,7 @@ static void scale_bar(struct chart *chart, struct image *image, const struct map
     int32_t pixels = (int32_t)(length / view->metres);
     char words[24], interval[40];
     words_of_length(words, sizeof words, length);
-    snprintf(interval, sizeof interval, "contours %.0f m", base_contour_m(view->metres));
+    snprintf(interval, sizeof interval, "contours %.0f m", base_map_contour_m(view->metres));
     int32_t beside = text_width(chart->text, size, words) + em / 2;
     int32_t width = pixels + beside, over = text_width(chart->text, fine, interval);
     width = (width > over ? width : over) + 2;
@@ -129,8 +130,9 @@ static void scale_bar(struct chart *chart, struct image *image, const struct map
     text_draw_rimmed(chart->text, image, x, y - lift, fine, white, interval);
 }
 
-static void north_arrow(struct chart *chart, struct image *image, const struct map_view *view,
-                        const struct chart_source *source, struct taken *taken)
+static void north_arrow(struct annotated_picture *chart, struct image *image,
+                        const struct map_view *view, const struct annotated_picture_source *source,
+                        struct taken *taken)
 {
     int32_t em = em_of(chart), width = 2 * em, height = 7 * em / 2;
     int32_t top = view->top + em / 2, right = view->left + (int32_t)view->width - width - em / 2;
@@ -151,8 +153,8 @@ static void north_arrow(struct chart *chart, struct image *image, const struct m
 }
 
 /* A number of the grid beside its line, if there is room. */
-static void grid_number(struct chart *chart, struct image *image, struct taken *taken, int32_t x,
-                        int32_t y, double metres, double step_m)
+static void grid_number(struct annotated_picture *chart, struct image *image, struct taken *taken,
+                        int32_t x, int32_t y, double metres, double step_m)
 {
     uint32_t size = fine_letters(chart, 80);
     char words[16];
@@ -162,8 +164,8 @@ static void grid_number(struct chart *chart, struct image *image, struct taken *
         text_draw_rimmed(chart->text, image, x + 2, y + (int32_t)size, size, white, words);
 }
 
-static void grid_numbers(struct chart *chart, struct image *image, const struct map_view *view,
-                         struct taken *taken, double step_m)
+static void grid_numbers(struct annotated_picture *chart, struct image *image,
+                         const struct map_view *view, struct taken *taken, double step_m)
 {
     double east = fmin(view->x + view->width * view->metres, WORLD_SIDE_M);
     double south = fmin(view->z + view->height * view->metres, WORLD_SIDE_M);
@@ -202,7 +204,8 @@ static uint32_t spots_of(struct box spots[SPOTS_MAX], struct point at, bool wate
     return count;
 }
 
-static void place_mark(struct chart *chart, struct image *image, struct point at, struct box name)
+static void place_mark(struct annotated_picture *chart, struct image *image, struct point at,
+                       struct box name)
 {
     double left = name.left, right = left + name.width;
     double top = name.top, bottom = top + name.height;
@@ -217,9 +220,9 @@ static void place_mark(struct chart *chart, struct image *image, struct point at
     image_disc(image, at, radius, white);
 }
 
-static void place_name(struct chart *chart, struct image *image, const struct map_view *view,
-                       const struct chart_source *source, struct taken *taken,
-                       const struct place *place)
+static void place_name(struct annotated_picture *chart, struct image *image,
+                       const struct map_view *view, const struct annotated_picture_source *source,
+                       struct taken *taken, const struct place *place)
 {
     uint32_t size = fine_letters(chart, 90);
     struct point at = map_point(view, place->x, place->z);
@@ -238,8 +241,8 @@ static void place_name(struct chart *chart, struct image *image, const struct ma
                      place->water ? water_name : white, place->name);
 }
 
-void legend_marks(struct chart *chart, struct image *image, const struct map_view *view,
-                  const struct chart_source *source, struct taken *taken)
+void legend_marks(struct annotated_picture *chart, struct image *image, const struct map_view *view,
+                  const struct annotated_picture_source *source, struct taken *taken)
 {
     double step_m = map_round(GRID_LETTERS * 2.0 * chart->layout.letters * view->metres);
     map_grid(image, view, step_m);
@@ -263,7 +266,7 @@ struct entry {
 };
 
 /* The most important first. */
-static const struct entry entries[LAYOUT_SYMBOLS] = {
+static const struct entry entries[MAP_LAYOUT_SYMBOLS] = {
     {"blue", THING_VEHICLE, FORCE_BLUE, FORM_LAND},
     {"red", THING_VEHICLE, FORCE_RED, FORM_LAND},
     {"neutral", THING_VEHICLE, FORCE_NEUTRAL, FORM_LAND},
@@ -313,12 +316,13 @@ static int32_t most(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
-void legend_symbols(struct chart *chart, struct image *image, struct box box, bool kinds)
+void legend_symbols(struct annotated_picture *chart, struct image *image, struct box box,
+                    bool kinds)
 {
     int32_t em = em_of(chart), line = em * 7 / 5;
     int32_t columns = most((box.width - em) / (LEGEND_COLUMN * em), 1);
     int32_t fit = most((box.height - em / 2) / line, 0);
-    int32_t count = kinds ? LAYOUT_SYMBOLS : ENTRIES_WITHOUT_KINDS;
+    int32_t count = kinds ? MAP_LAYOUT_SYMBOLS : ENTRIES_WITHOUT_KINDS;
     int32_t rows = (count + columns - 1) / columns;
     if (rows > fit) {
         rows = fit;
@@ -334,8 +338,8 @@ void legend_symbols(struct chart *chart, struct image *image, struct box box, bo
     }
 }
 
-struct box legend_corner(struct chart *chart, const struct map_view *view,
-                         const struct chart_source *source)
+struct box legend_corner(struct annotated_picture *chart, const struct map_view *view,
+                         const struct annotated_picture_source *source)
 {
     int32_t em = em_of(chart), width = em + 2 * LEGEND_COLUMN * em;
     int32_t height = em + ENTRIES_WITHOUT_KINDS / 2 * em * 7 / 5 - em / 3, gap = em / 2;
@@ -358,7 +362,7 @@ struct figure {
     struct rgba colour;
 };
 
-static uint32_t world_figures(struct figure *figures, const struct moment *moment)
+static uint32_t world_figures(struct figure *figures, const struct frame_view *moment)
 {
     const struct state_head *head = moment->head;
     const struct {
@@ -399,7 +403,7 @@ static uint32_t vehicle_figures(struct figure *figures, const struct statistics 
 }
 
 /* Name, and force and kind where they have room beside it. */
-static int32_t title(struct chart *chart, struct image *image, struct box box,
+static int32_t title(struct annotated_picture *chart, struct image *image, struct box box,
                      const struct statistics *s)
 {
     int32_t em = em_of(chart), y = box.top + em * 17 / 10, width = box.width - 2 * em;
@@ -407,22 +411,22 @@ static int32_t title(struct chart *chart, struct image *image, struct box box,
     char name[sizeof s->name], words[64];
     snprintf(name, sizeof name, "%s", s->name);
     snprintf(words, sizeof words, "%s %s", s->force, s->kind);
-    chart_shorten(chart, name, large, width);
+    annotated_picture_shorten(chart, name, large, width);
     int32_t end = text_draw(chart->text, image, box.left + em, y, large, amber, name) + em;
     if (end + text_width(chart->text, chart->layout.letters, words) <= box.left + box.width - em)
         text_draw(chart->text, image, end, y, chart->layout.letters, grey, words);
     return y + em * 7 / 5;
 }
 
-void legend_figures(struct chart *chart, struct image *image, struct box box,
-                    const struct chart_source *source)
+void legend_figures(struct annotated_picture *chart, struct image *image, struct box box,
+                    const struct annotated_picture_source *source)
 {
-    const struct moment *moment = source->moment;
+    const struct frame_view *moment = source->moment;
     struct figure figures[FIGURES_MAX];
     uint32_t count = 1, size = chart->layout.letters * 19 / 20;
     int32_t em = em_of(chart), line = em * 27 / 20, y = box.top + em * 3 / 2;
     figures[0] = (struct figure){.name = "time", .colour = white};
-    snprintf(figures[0].value, sizeof figures[0].value, "%.2f s", moment_time_s(moment));
+    snprintf(figures[0].value, sizeof figures[0].value, "%.2f s", frame_view_time_s(moment));
     if (source->slot != SLOT_NONE) {
         struct statistics s;
         statistics_of(&s, moment, source->slot);

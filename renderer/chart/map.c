@@ -1,7 +1,7 @@
 /* Drawing what moves on the map. */
 #include "renderer/chart/map.h"
 
-#include "world/square.h"
+#include "world/terrain/gridsquare.h"
 
 #include <math.h>
 
@@ -82,12 +82,12 @@ void map_craters(struct image *image, const struct map_view *view,
 
 /* --- vehicles --------------------------------------------------------------------------------- */
 
-static enum domain domain_of(const struct moment *moment, uint32_t slot)
+static enum domain domain_of(const struct frame_view *moment, uint32_t slot)
 {
     return (enum domain)moment->world->kinds[moment->entities->kind[slot]].domain;
 }
 
-static bool is_drawn(const struct moment *moment, uint32_t slot)
+static bool is_drawn(const struct frame_view *moment, uint32_t slot)
 {
     return moment->entities->state[slot] != ENTITY_FREE &&
            moment->entities->kind[slot] < moment->world->counts.kinds;
@@ -112,7 +112,7 @@ static void draw_track(struct image *image, const struct map_view *view, const s
     }
 }
 
-void map_tracks(struct image *image, const struct map_view *view, const struct moment *moment,
+void map_tracks(struct image *image, const struct map_view *view, const struct frame_view *moment,
                 const struct tracks *tracks, double pixels, uint8_t opacity)
 {
     const struct entities *e = moment->entities;
@@ -126,7 +126,7 @@ void map_tracks(struct image *image, const struct map_view *view, const struct m
     }
 }
 
-static bool burns(const struct moment *moment, uint32_t slot)
+static bool burns(const struct frame_view *moment, uint32_t slot)
 {
     uint64_t ticks = moment->head->tick - moment->entities->changed_tick[slot];
     return (double)ticks * moment->world->params->dt_s < FIRE_LIFE_S;
@@ -134,7 +134,7 @@ static bool burns(const struct moment *moment, uint32_t slot)
 
 enum rank { RANK_WRECK, RANK_FIRE, RANK_MUNITION, RANK_VEHICLE, RANK_COUNT };
 
-static enum rank rank_of(const struct moment *moment, uint32_t slot)
+static enum rank rank_of(const struct frame_view *moment, uint32_t slot)
 {
     if (moment->entities->state[slot] == ENTITY_WRECK)
         return burns(moment, slot) ? RANK_FIRE : RANK_WRECK;
@@ -142,7 +142,7 @@ static enum rank rank_of(const struct moment *moment, uint32_t slot)
 }
 
 static void draw_symbol(struct image *image, const struct map_view *view,
-                        const struct moment *moment, uint32_t slot, double pixels)
+                        const struct frame_view *moment, uint32_t slot, double pixels)
 {
     const struct entities *e = moment->entities;
     struct point at = map_point(view, e->x[slot], e->z[slot]);
@@ -166,7 +166,7 @@ static void draw_symbol(struct image *image, const struct map_view *view,
     }
 }
 
-void map_vehicles(struct image *image, const struct map_view *view, const struct moment *moment,
+void map_vehicles(struct image *image, const struct map_view *view, const struct frame_view *moment,
                   uint32_t slot, double pixels)
 {
     for (uint32_t rank = 0; rank < RANK_COUNT; rank++)
@@ -177,10 +177,10 @@ void map_vehicles(struct image *image, const struct map_view *view, const struct
         draw_symbol(image, view, moment, slot, pixels);
 }
 
-void map_blasts(struct image *image, const struct map_view *view, const struct moment *moment,
+void map_blasts(struct image *image, const struct map_view *view, const struct frame_view *moment,
                 const struct effects *effects, double pixels)
 {
-    double now = moment_time_s(moment);
+    double now = frame_view_time_s(moment);
     for (uint32_t i = 0; i < effects->count; i++) {
         const struct effect *effect = &effects->effect[i];
         double age = (now - effect->time_s) / BLAST_LIFE_S;
@@ -213,7 +213,7 @@ void map_sight(struct image *image, const struct map_view *view, const struct ca
     image_line(image, corners[0], corners[2], stroke, edge);
 }
 
-void map_followed(struct image *image, const struct map_view *view, const struct moment *moment,
+void map_followed(struct image *image, const struct map_view *view, const struct frame_view *moment,
                   uint32_t slot, double pixels, double length)
 {
     const struct rgba dark = {0, 0, 0, 170}, white = {255, 255, 255, 255};

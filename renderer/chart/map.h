@@ -1,16 +1,16 @@
 /* The map (thesis row 12): every vehicle's position, direction and track over the base map, what
  * burns and explodes, and what the driven vehicle's camera sees. Pure; drawn in software. Words are
- * added by chart.c. Everything is clipped by the image, not by the view: a view that is not all of
- * its image needs an image of its own. */
-#ifndef JOLON_RENDERER_MAP_H
-#define JOLON_RENDERER_MAP_H
+ * added by annotated_picture.c. Everything is clipped by the image, not by the view: a view that is
+ * not all of its image needs an image of its own. */
+#ifndef JOLON_RENDERER_CHART_MAP_H
+#define JOLON_RENDERER_CHART_MAP_H
 
 #include "renderer/chart/symbol.h"
 #include "renderer/chart/track.h"
 #include "renderer/image/image.h"
-#include "renderer/scene/camera.h"
-#include "renderer/scene/effects.h"
-#include "renderer/scene/moment.h"
+#include "renderer/scene/camera/camera.h"
+#include "renderer/scene/frame/effects.h"
+#include "renderer/scene/frame/frame_view.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -48,15 +48,15 @@ void map_craters(struct image *image, const struct map_view *view,
 
 /* Tracks of all vehicles: a dot where each was every TRACK_INTERVAL_S, fading with age from this
  * opacity; pixels is the length of symbols. */
-void map_tracks(struct image *image, const struct map_view *view, const struct moment *moment,
+void map_tracks(struct image *image, const struct map_view *view, const struct frame_view *moment,
                 const struct tracks *tracks, double pixels, uint8_t opacity);
 
 /* Symbols of length pixels (symbol.h); the followed vehicle (SLOT_NONE: none) on top of all. */
-void map_vehicles(struct image *image, const struct map_view *view, const struct moment *moment,
+void map_vehicles(struct image *image, const struct map_view *view, const struct frame_view *moment,
                   uint32_t slot, double pixels);
 
 /* Detonations of the last seconds. */
-void map_blasts(struct image *image, const struct map_view *view, const struct moment *moment,
+void map_blasts(struct image *image, const struct map_view *view, const struct frame_view *moment,
                 const struct effects *effects, double pixels);
 
 /* The triangle that a camera sees, from its eye in its direction with its field of view; nothing
@@ -65,7 +65,7 @@ void map_sight(struct image *image, const struct map_view *view, const struct ca
                double length);
 
 /* The followed vehicle's ring and direction. */
-void map_followed(struct image *image, const struct map_view *view, const struct moment *moment,
+void map_followed(struct image *image, const struct map_view *view, const struct frame_view *moment,
                   uint32_t slot, double pixels, double length);
 
 #endif

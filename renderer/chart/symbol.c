@@ -2,7 +2,7 @@
  * gives both its rim's coverage and its own. */
 #include "renderer/chart/symbol.h"
 
-#include "world/maths.h"
+#include "world/maths/maths.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* Symbols of the map. What a symbol is shows in its form, whose it is in its colour and its rim, so
  * that people who see few colours can tell as well: blue and dark rims are the blue force, red and
  * pale ones the red, yellow and dark ones neutral. Pure. */
-#ifndef JOLON_RENDERER_SYMBOL_H
-#define JOLON_RENDERER_SYMBOL_H
+#ifndef JOLON_RENDERER_CHART_SYMBOL_H
+#define JOLON_RENDERER_CHART_SYMBOL_H
 
 #include "renderer/image/image.h"
 #include "world/world.h"

@@ -17,7 +17,7 @@ void tracks_free(struct tracks *tracks)
     tracks->track = NULL;
 }
 
-void tracks_note(struct tracks *tracks, const struct moment *moment)
+void tracks_note(struct tracks *tracks, const struct frame_view *moment)
 {
     double now = world_time_s(moment->world, moment->head);
     if (now - tracks->last_s < TRACK_INTERVAL_S)

@@ -1,8 +1,8 @@
 /* Where vehicles have been lately, for the tracks on the map (thesis row 12). Pure. */
-#ifndef JOLON_RENDERER_TRACK_H
-#define JOLON_RENDERER_TRACK_H
+#ifndef JOLON_RENDERER_CHART_TRACK_H
+#define JOLON_RENDERER_CHART_TRACK_H
 
-#include "renderer/scene/moment.h"
+#include "renderer/scene/frame/frame_view.h"
 
 #include <stdint.h>
 
@@ -27,7 +27,7 @@ int tracks_init(struct tracks *tracks, uint32_t capacity);
 void tracks_free(struct tracks *tracks);
 
 /* Adds a point to every vehicle's track when the interval has passed. */
-void tracks_note(struct tracks *tracks, const struct moment *moment);
+void tracks_note(struct tracks *tracks, const struct frame_view *moment);
 
 /* The track of a slot if it is this entity's, else NULL. */
 const struct track *tracks_of(const struct tracks *tracks, uint32_t slot, uint32_t id);

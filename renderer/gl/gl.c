@@ -1,10 +1,10 @@
 /* The OpenGL back end: one picture from start to read-back. */
 #include "renderer/gl/gl.h"
 
-#include "renderer/draw.h"
+#include "renderer/scene/back_end_interface.h"
 #include "renderer/gl/gl_context.h"
-#include "renderer/scene/light.h"
-#include "renderer/image/smooth.h"
+#include "renderer/scene/frame/light.h"
+#include "renderer/soft/fxaa.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -124,7 +124,7 @@ static void draw_shadows(struct gl *gl, const struct scene *scene)
     glDisable(GL_STENCIL_TEST);
 }
 
-static void draw_scene(struct gl *gl, const struct scene *scene, const struct moment *moment)
+static void draw_scene(struct gl *gl, const struct scene *scene, const struct frame_view *moment)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, gl->target);
     glViewport(0, 0, (GLsizei)gl->drawn.width, (GLsizei)gl->drawn.height);
@@ -163,7 +163,7 @@ static void read_back(struct gl *gl)
     }
 }
 
-static int gl_picture(void *self, const struct scene *scene, const struct moment *moment,
+static int gl_picture(void *self, const struct scene *scene, const struct frame_view *moment,
                       struct image *image, struct reason *reason)
 {
     struct gl *gl = self;
@@ -175,7 +175,7 @@ static int gl_picture(void *self, const struct scene *scene, const struct moment
     draw_scene(gl, scene, moment);
 
     read_back(gl);
-    smooth_edges(image, &gl->drawn);
+    fxaa_edges(image, &gl->drawn);
     GLenum error = glGetError();
     if (error == GL_NO_ERROR)
         return 0;
@@ -216,8 +216,9 @@ void gl_list(void)
     gl_context_list();
 }
 
-int gl_open(struct draw *draw, const struct scenery *scenery, uint32_t width, uint32_t height,
-            const struct gl_wish *wish, char name[DRAW_NAME_BYTES], struct reason *reason)
+int gl_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
+            uint32_t height, const struct gl_wish *wish, char name[BACK_END_NAME_BYTES],
+            struct reason *reason)
 {
     struct gl *gl = calloc(1, sizeof *gl);
     if (gl == NULL)
@@ -241,8 +242,8 @@ int gl_open(struct draw *draw, const struct scenery *scenery, uint32_t width, ui
         goto err_ground;
     if (gl_billboards_open(&gl->boards, reason) != 0)
         goto err_bodies;
-    snprintf(name, DRAW_NAME_BYTES, "%s", gl->context.name);
-    *draw = (struct draw){.self = gl, .picture = gl_picture, .close = gl_close};
+    snprintf(name, BACK_END_NAME_BYTES, "%s", gl->context.name);
+    *draw = (struct back_end_interface){.self = gl, .picture = gl_picture, .close = gl_close};
     return 0;
 
 err_bodies:

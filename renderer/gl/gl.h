@@ -1,11 +1,11 @@
 /* The OpenGL back end's parts: each owns its program and buffers, and draws one kind of thing from
  * a scene. All run in the thread that holds the context. Private to gl*.c. */
-#ifndef JOLON_RENDERER_GL_H
-#define JOLON_RENDERER_GL_H
+#ifndef JOLON_RENDERER_GL_GL_H
+#define JOLON_RENDERER_GL_GL_H
 
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 #include "renderer/scene/scene.h"
-#include "renderer/scene/tiles.h"
+#include "renderer/scene/terrain/terrain_tiles.h"
 
 #include <epoxy/gl.h>
 
@@ -67,15 +67,16 @@ struct gl_ground_shader {
 };
 
 struct gl_ground {
-    const struct scenery *scenery;
+    const struct static_scene *scenery;
     struct gl_ground_shader land, shore;
-    struct tiles cache;
+    struct terrain_tiles cache;
     struct gl_tile tiles[TILE_CAPACITY];
 };
-int gl_ground_open(struct gl_ground *ground, const struct scenery *scenery, struct reason *reason);
+int gl_ground_open(struct gl_ground *ground, const struct static_scene *scenery,
+                   struct reason *reason);
 void gl_ground_close(struct gl_ground *ground);
 void gl_ground_draw(struct gl_ground *ground, const struct scene *scene,
-                    const struct moment *moment);
+                    const struct frame_view *moment);
 
 /* --- bodies (gl_bodies.c, gl_form.c) --- */
 
@@ -88,13 +89,14 @@ struct gl_mesh {
 };
 
 struct gl_bodies {
-    const struct scenery *scenery;
+    const struct static_scene *scenery;
     GLuint program, shadow_program, array, meshes, copies;
     GLuint dents, dent_texture; /* the buffer, and the texture that is a view of it */
     GLint u_pivots, u_low, u_shadow_pivots;
     struct gl_mesh *mesh; /* [models * MESH_DETAIL_COUNT] */
 };
-int gl_bodies_open(struct gl_bodies *bodies, const struct scenery *scenery, struct reason *reason);
+int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
+                   struct reason *reason);
 void gl_bodies_close(struct gl_bodies *bodies);
 /* Sends the scene's copies; the draws that follow use them. */
 void gl_bodies_send(struct gl_bodies *bodies, const struct scene *scene);

@@ -211,7 +211,8 @@ static void open_dents(struct gl_bodies *bodies)
     glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, bodies->dents);
 }
 
-int gl_bodies_open(struct gl_bodies *bodies, const struct scenery *scenery, struct reason *reason)
+int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
+                   struct reason *reason)
 {
     *bodies = (struct gl_bodies){.scenery = scenery};
     bodies->program = gl_program_on("body", gl_form_text, vertex_text, fragment_text, reason);

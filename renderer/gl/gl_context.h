@@ -1,8 +1,8 @@
 /* An OpenGL context without a window, found wherever this machine has one. */
-#ifndef JOLON_RENDERER_GL_CONTEXT_H
-#define JOLON_RENDERER_GL_CONTEXT_H
+#ifndef JOLON_RENDERER_GL_GL_CONTEXT_H
+#define JOLON_RENDERER_GL_GL_CONTEXT_H
 
-#include "renderer/draw.h"
+#include "renderer/scene/back_end_interface.h"
 
 #include <epoxy/egl.h>
 

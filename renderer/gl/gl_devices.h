@@ -1,8 +1,8 @@
 /* Which devices could give an OpenGL context, before one is asked for. Private to gl*.c. */
-#ifndef JOLON_RENDERER_GL_DEVICES_H
-#define JOLON_RENDERER_GL_DEVICES_H
+#ifndef JOLON_RENDERER_GL_GL_DEVICES_H
+#define JOLON_RENDERER_GL_GL_DEVICES_H
 
-#include "renderer/draw.h"
+#include "renderer/scene/back_end_interface.h"
 
 #include <epoxy/egl.h>
 

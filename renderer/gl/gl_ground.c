@@ -1,7 +1,7 @@
 /* The ground in OpenGL: the cache's tiles, each sent to the driver when it is new. */
 #include "renderer/gl/gl.h"
 
-#include "renderer/scene/light.h"
+#include "renderer/scene/frame/light.h"
 
 #include <math.h>
 #include <string.h>
@@ -133,11 +133,12 @@ static int open_shader(struct gl_ground_shader *shader, const char *name, const 
     return 0;
 }
 
-int gl_ground_open(struct gl_ground *ground, const struct scenery *scenery, struct reason *reason)
+int gl_ground_open(struct gl_ground *ground, const struct static_scene *scenery,
+                   struct reason *reason)
 {
     memset(ground, 0, sizeof *ground);
     ground->scenery = scenery;
-    if (tiles_init(&ground->cache) != 0)
+    if (terrain_tiles_init(&ground->cache) != 0)
         return reason_set(reason, "no memory for the ground");
     if (open_shader(&ground->land, "ground", land_text, reason) == 0 &&
         open_shader(&ground->shore, "water", shore_text, reason) == 0)
@@ -156,13 +157,13 @@ void gl_ground_close(struct gl_ground *ground)
     }
     glDeleteProgram(ground->land.program);
     glDeleteProgram(ground->shore.program);
-    tiles_free(&ground->cache);
+    terrain_tiles_free(&ground->cache);
 }
 
 /* The driver's copy of a tile in the cache. */
 static struct gl_tile *copy_of(struct gl_ground *ground, const struct tile *tile)
 {
-    struct gl_tile *copy = &ground->tiles[tiles_index(&ground->cache, tile)];
+    struct gl_tile *copy = &ground->tiles[terrain_tiles_index(&ground->cache, tile)];
     if (copy->array == 0)
         open_tile(copy);
     return copy;
@@ -175,7 +176,7 @@ static void send_shape(struct gl_ground *ground, const struct tile *tile)
         return;
     copy->shape_version = tile->shape_version;
     glBindBuffer(GL_ARRAY_BUFFER, copy->vertices);
-    const struct ground_mesh *mesh = &tile->mesh;
+    const struct terrain_mesh *mesh = &tile->mesh;
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(mesh->vertex_count * sizeof mesh->vertices[0]),
                  mesh->vertices, GL_STATIC_DRAW);
     glBindVertexArray(copy->array);
@@ -206,7 +207,7 @@ static void draw_view(struct gl_ground *ground, const struct gl_ground_shader *s
                       const struct scene *scene, const struct tile_view *view)
 {
     const struct tile_key *key = &view->shape->key;
-    double side = ground_patch_side(key->level);
+    double side = terrain_quadtree_patch_side(key->level);
     double x = key->column * side, z = key->row * side;
     float corner[3];
     scene_place(scene, (struct vec3){x, 0.0, z}, corner);
@@ -224,10 +225,10 @@ static void draw_view(struct gl_ground *ground, const struct gl_ground_shader *s
 }
 
 void gl_ground_draw(struct gl_ground *ground, const struct scene *scene,
-                    const struct moment *moment)
+                    const struct frame_view *moment)
 {
-    struct tiles *cache = &ground->cache;
-    tiles_update(cache, scene->patches, scene->patch_count, moment, scene->paintings);
+    struct terrain_tiles *cache = &ground->cache;
+    terrain_tiles_update(cache, scene->patches, scene->patch_count, moment, scene->paintings);
     glEnable(GL_CULL_FACE);
     glActiveTexture(GL_TEXTURE0 + UNIT_TILE);
     for (uint32_t i = 0; i < cache->view_count; i++) {

@@ -1,8 +1,8 @@
 /* Shaders: compiling them, and the text that all of them share. */
 #include "renderer/gl/gl.h"
 
-#include "renderer/scene/light.h"
-#include "renderer/scene/tiles.h"
+#include "renderer/scene/frame/light.h"
+#include "renderer/scene/terrain/terrain_tiles.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* Textures that never change, from their painters into the driver. */
 #include "renderer/gl/gl.h"
 
-#include "renderer/scene/foliage.h"
-#include "renderer/scene/texture.h"
+#include "renderer/scene/model/plant_impostors.h"
+#include "renderer/scene/draw_list/texture.h"
 
 #include <stdlib.h>
 
@@ -48,18 +48,18 @@ static int open_flat(struct gl_textures *textures)
 
 static int open_plants(struct gl_textures *textures)
 {
-    struct foliage_picture *picture = malloc(sizeof *picture);
+    struct plant_impostors_picture *picture = malloc(sizeof *picture);
     if (picture == NULL)
         return -1;
-    GLsizei side = (GLsizei)FOLIAGE_SIDE;
+    GLsizei side = (GLsizei)PLANT_IMPOSTORS_SIDE;
     textures->plants = make(UNIT_PLANT, GL_TEXTURE_2D_ARRAY, GL_CLAMP_TO_EDGE);
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, side, side, FOLIAGE_COUNT, 0, GL_RGBA,
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, side, side, PLANT_IMPOSTORS_COUNT, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, NULL);
     textures->facing = make(UNIT_FACING, GL_TEXTURE_2D_ARRAY, GL_CLAMP_TO_EDGE);
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, side, side, FOLIAGE_COUNT, 0, GL_RGBA,
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, side, side, PLANT_IMPOSTORS_COUNT, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, NULL);
-    for (GLint i = 0; i < FOLIAGE_COUNT; i++) {
-        foliage_paint(picture, (enum foliage)i);
+    for (GLint i = 0; i < PLANT_IMPOSTORS_COUNT; i++) {
+        plant_impostors_paint(picture, (enum plant_impostors)i);
         glActiveTexture(GL_TEXTURE0 + UNIT_PLANT);
         glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, i, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
                         picture->colour);

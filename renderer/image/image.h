@@ -1,6 +1,6 @@
 /* Pictures in memory and the few smooth-edged shapes that maps and instruments need. Pure. */
-#ifndef JOLON_RENDERER_IMAGE_H
-#define JOLON_RENDERER_IMAGE_H
+#ifndef JOLON_RENDERER_IMAGE_IMAGE_H
+#define JOLON_RENDERER_IMAGE_IMAGE_H
 
 #include <stdint.h>
 

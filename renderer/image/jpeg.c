@@ -1,7 +1,7 @@
 /* libjpeg-turbo, which takes our pixels as they are. */
 #include "renderer/image/jpeg.h"
 
-#include "ipc/log.h"
+#include "ipc/process/log.h"
 
 #include <errno.h>
 #include <setjmp.h>

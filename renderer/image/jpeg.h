@@ -1,6 +1,6 @@
 /* Pictures as JPEG. Any thread. */
-#ifndef JOLON_RENDERER_JPEG_H
-#define JOLON_RENDERER_JPEG_H
+#ifndef JOLON_RENDERER_IMAGE_JPEG_H
+#define JOLON_RENDERER_IMAGE_JPEG_H
 
 #include "renderer/image/image.h"
 

@@ -1,6 +1,6 @@
 /* Pictures as PNG files. */
-#ifndef JOLON_RENDERER_PNG_H
-#define JOLON_RENDERER_PNG_H
+#ifndef JOLON_RENDERER_IMAGE_PNG_H
+#define JOLON_RENDERER_IMAGE_PNG_H
 
 #include "renderer/image/image.h"
 

@@ -1,9 +1,9 @@
 /* Words in pictures, from an installed font (FreeType). Each letter of a size is rendered once,
  * hinted to whole pixels, and kept; it is laid over the picture in proportion to light. */
-#ifndef JOLON_RENDERER_TEXT_H
-#define JOLON_RENDERER_TEXT_H
+#ifndef JOLON_RENDERER_IMAGE_TEXT_H
+#define JOLON_RENDERER_IMAGE_TEXT_H
 
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 #include "renderer/image/image.h"
 
 struct text; /* a font, opened */

@@ -1,6 +1,6 @@
 /* Pictures in the colours of video: brightness for every pixel, colour for every four. Pure. */
-#ifndef JOLON_RENDERER_YUV_H
-#define JOLON_RENDERER_YUV_H
+#ifndef JOLON_RENDERER_IMAGE_YUV_H
+#define JOLON_RENDERER_IMAGE_YUV_H
 
 #include "renderer/image/image.h"
 

@@ -1,9 +1,9 @@
 /* libavcodec and its kin, opened only when there is video to be made: they bring 130 libraries into
  * a process, and a machine without them does without video alone. */
-#ifndef JOLON_RENDERER_LIBAV_H
-#define JOLON_RENDERER_LIBAV_H
+#ifndef JOLON_RENDERER_OUTPUT_LIBAV_H
+#define JOLON_RENDERER_OUTPUT_LIBAV_H
 
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>

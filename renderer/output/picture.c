@@ -1,7 +1,7 @@
 /* The pool of pictures. */
 #include "renderer/output/picture.h"
 
-#include "ipc/log.h"
+#include "ipc/process/log.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,7 +59,7 @@ struct picture *picture_make(struct picture_pool *pool, struct image *image, con
 {
     pthread_mutex_lock(&pool->lock);
     struct picture *picture = take_spare(pool, image);
-    if (picture == NULL && pool->count < PICTURES_MAX && (picture = make_new(image)) != NULL)
+    if (picture == NULL && pool->count < PICTURE_PROXY_MAX && (picture = make_new(image)) != NULL)
         pool->count++;
     pthread_mutex_unlock(&pool->lock);
     if (picture == NULL)

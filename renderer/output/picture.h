@@ -10,7 +10,7 @@
 
 #define PICTURE_VIEW_BYTES  32
 #define PICTURE_WORDS_BYTES 512
-#define PICTURES_MAX        32u /* of a pool; 1280x720 takes 4 MB each, only when they are needed */
+#define PICTURE_PROXY_MAX   32u /* of a pool; 1280x720 takes 4 MB each, only when they are needed */
 
 struct picture_pool {
     pthread_mutex_t lock;
@@ -35,7 +35,7 @@ void picture_pool_free(struct picture_pool *pool);
 
 /* Makes a picture of what was drawn, held once. It takes the image's pixels and gives it others of
  * the same size for them, whose content is anything. NULL, and the image as it was, when there is
- * no memory or PICTURES_MAX are under way. */
+ * no memory or PICTURE_PROXY_MAX are under way. */
 struct picture *picture_make(struct picture_pool *pool, struct image *image, const char *view,
                              const char *words);
 

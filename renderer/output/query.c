@@ -1,7 +1,7 @@
 /* Reading queries, from whoever they come. */
 #include "renderer/output/query.h"
 
-#include "world/square.h"
+#include "world/terrain/gridsquare.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,11 +1,11 @@
 /* What clients of the stream ask for, read from the addresses' queries: "view=chase&vehicle=17".
  * Pure. Every call returns 0, or -1 with a reason that says what would be right; what a client
  * wrote is repeated in it shortened, and letters alone. */
-#ifndef JOLON_RENDERER_QUERY_H
-#define JOLON_RENDERER_QUERY_H
+#ifndef JOLON_RENDERER_OUTPUT_QUERY_H
+#define JOLON_RENDERER_OUTPUT_QUERY_H
 
-#include "ipc/segment.h"
-#include "renderer/output/wanted.h"
+#include "ipc/segment/segment.h"
+#include "renderer/output/picture_requests.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -19,7 +19,7 @@
 
 /* /picture.jpg?view=&vehicle=&size=WxH&after=N&bar=0|1 */
 struct query_picture {
-    struct wanted_key key;
+    struct picture_requests_key key;
     bool after_given;
     uint64_t after; /* waits for another picture than this */
     uint32_t seen;  /* keys that came, a bit each */

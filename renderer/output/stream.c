@@ -1,11 +1,11 @@
 /* The stream's views and the thread that encodes them. */
 #include "renderer/output/stream.h"
 
-#include "ipc/clock.h"
-#include "ipc/log.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
 #include "renderer/image/jpeg.h"
-#include "renderer/output/outlet.h"
-#include "renderer/output/stream_inside.h"
+#include "renderer/output/output_queue.h"
+#include "renderer/output/stream_internal.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -155,7 +155,7 @@ static bool serve_views(struct stream *stream)
 static bool serve_wanted(struct stream *stream)
 {
     bool done = false;
-    for (uint32_t i = 0; i < WANTED_MAX && !stream->ending; i++) {
+    for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX && !stream->ending; i++) {
         struct stream_view *view = &stream->wanted_view[i];
         if (view->askers == 0 || view->fresh == NULL)
             continue;
@@ -187,7 +187,7 @@ static void wait_shortly(struct stream *stream)
 static void *serve(void *argument)
 {
     struct stream *stream = argument;
-    setpriority(PRIO_PROCESS, 0, OUTLET_NICENESS); /* this thread's alone */
+    setpriority(PRIO_PROCESS, 0, OUTPUT_QUEUE_NICENESS); /* this thread's alone */
     pthread_mutex_lock(&stream->lock);
     while (!stream->ending) {
         bool done = serve_views(stream);
@@ -277,7 +277,7 @@ void stream_close(struct stream *stream)
     }
     for (uint32_t i = 0; i < stream->views; i++)
         let_go(&stream->view[i]);
-    for (uint32_t i = 0; i < WANTED_MAX; i++)
+    for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++)
         let_go(&stream->wanted_view[i]);
     for (uint32_t i = 0; i < STREAM_MAPS; i++)
         let_go(&stream->map[i].view);

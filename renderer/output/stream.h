@@ -3,14 +3,14 @@
  * one makes a JPEG of a picture, once however many watch and not at all when nobody does; one
  * paints maps; libmicrohttpd's serve the clients. Nobody who watches, or does not read, makes the
  * drawing wait: a client takes the newest picture when it is done with the one before. */
-#ifndef JOLON_RENDERER_STREAM_H
-#define JOLON_RENDERER_STREAM_H
+#ifndef JOLON_RENDERER_OUTPUT_STREAM_H
+#define JOLON_RENDERER_OUTPUT_STREAM_H
 
-#include "ipc/role.h"
-#include "ipc/segment.h"
+#include "ipc/segment/role.h"
+#include "ipc/segment/segment.h"
 #include "renderer/output/picture.h"
 #include "renderer/output/query.h"
-#include "renderer/output/wanted.h"
+#include "renderer/output/picture_requests.h"
 
 #include <stdint.h>
 
@@ -32,8 +32,8 @@ struct stream *stream_open(const char *world, const struct stream_painter *paint
  * not allowed. */
 int stream_listen(struct stream *stream, const char *address, uint16_t port, struct reason *reason);
 
-/* Listens on the renderer's own socket (ipc/pictures.h), for processes of this user alone. 0, or -1
- * with the reason: another process has the name. */
+/* Listens on the renderer's own socket (ipc/segment/picture_socket.h), for processes of this user
+ * alone. 0, or -1 with the reason: another process has the name. */
 int stream_listen_here(struct stream *stream, enum role role, struct reason *reason);
 
 /* "http://ADDRESS:PORT/" of stream_listen(). */
@@ -52,13 +52,14 @@ void stream_close(struct stream *stream);
  */
 
 struct stream_wish {
-    struct wanted_key key;
+    struct picture_requests_key key;
     uint64_t generation; /* another for another wish in the same row; 0: none is there */
     bool waiting;        /* somebody waits for it now */
     bool again;          /* ... even if it would be as the last */
 };
 
-/* Fills wishes[WANTED_MAX] with the rows that somebody has asked for lately. How many wait. */
+/* Fills wishes[PICTURE_REQUESTS_MAX] with the rows that somebody has asked for lately. How many
+ * wait. */
 uint32_t stream_wishes(struct stream *stream, struct stream_wish *wishes);
 
 /* Answers a row's wish: with a picture, which the caller goes on holding, or with NULL: there is no

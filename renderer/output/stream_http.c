@@ -1,8 +1,8 @@
-/* The stream's clients. Every function here runs in the thread of a door's server (http/server.h)
- * but those that start, end, sweep and wake. */
-#include "renderer/output/stream_inside.h"
+/* The stream's clients. Every function here runs in the thread of a door's server
+ * (ipc/http/server.h) but those that start, end, sweep and wake. */
+#include "renderer/output/stream_internal.h"
 
-#include "ipc/clock.h"
+#include "ipc/process/clock.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -298,10 +298,10 @@ static bool reply_path(struct stream_client *client, const char *path, struct ht
     struct stream *stream = client->stream;
     size_t stem = 0, length = strnlen(path, REQUEST_BYTES);
     if (strcmp(path, "/picture.jpg") == 0)
-        return stream_asked_picture(client, reply);
+        return stream_requests_picture(client, reply);
     if (strcmp(path, "/map.jpg") == 0 && stream->painter.paint != NULL &&
         (client->map != NULL || http_arguments(client->request, NULL, NULL) > 0))
-        return stream_asked_map(client, reply);
+        return stream_requests_map(client, reply);
     bool live = length < REQUEST_BYTES && ends_with(path, length, ".mjpeg", &stem);
     bool still = length < REQUEST_BYTES && ends_with(path, length, ".jpg", &stem);
     if (live || still)
@@ -348,7 +348,7 @@ static void on_end(void *context, struct http_request *request)
     struct stream_client *client = request->own;
     pthread_mutex_lock(&stream->lock);
     struct stream_client **place = find_place(stream, client);
-    stream_asked_end(client);
+    stream_requests_end(client);
     if (place != NULL)
         stop_watching(place);
     pthread_mutex_unlock(&stream->lock);

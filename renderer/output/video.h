@@ -7,10 +7,10 @@
  *     .webm   WebM, VP8
  *
  * Without libx264 in the library, MPEG-4 part 2 takes the place of H.264. */
-#ifndef JOLON_RENDERER_VIDEO_H
-#define JOLON_RENDERER_VIDEO_H
+#ifndef JOLON_RENDERER_OUTPUT_VIDEO_H
+#define JOLON_RENDERER_OUTPUT_VIDEO_H
 
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 #include "renderer/output/picture.h"
 
 #include <stdint.h>

@@ -1,12 +1,12 @@
 /* Bodies, and the order of everything. */
 #include "renderer/scene/scene.h"
 
-#include "renderer/scene/grain.h"
-#include "renderer/scene/light.h"
-#include "renderer/scene/pose.h"
-#include "renderer/scene/tiles.h"
-#include "renderer/scene/tufts.h"
-#include "world/square.h"
+#include "renderer/scene/noise/value_noise.h"
+#include "renderer/scene/frame/light.h"
+#include "renderer/scene/frame/body_axes.h"
+#include "renderer/scene/terrain/terrain_tiles.h"
+#include "renderer/scene/plants/grass.h"
+#include "world/terrain/gridsquare.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +35,7 @@ static const float force_colours[FORCE_COUNT][3] = {
 
 int scene_init(struct scene *scene)
 {
-    *scene = (struct scene){.detail = 1.0f, .paintings = TILES_ALL};
+    *scene = (struct scene){.detail = 1.0f, .paintings = TERRAIN_TILES_ALL};
     scene->plants = malloc(SCENE_PLANTS_MAX * sizeof *scene->plants);
     scene->bodies = malloc(SCENE_BODIES_MAX * sizeof *scene->bodies);
     scene->copies = malloc(SCENE_BODIES_MAX * sizeof *scene->copies);
@@ -44,7 +44,7 @@ int scene_init(struct scene *scene)
     scene->order = malloc(SCENE_BODIES_MAX * sizeof *scene->order);
     scene->puff_keys = malloc(2 * SCENE_PUFFS_MAX * sizeof *scene->puff_keys);
     scene->puffs_sorted = malloc(SCENE_PUFFS_MAX * sizeof *scene->puffs_sorted);
-    scene->tufts = tufts_new();
+    scene->tufts = grass_new();
     if (scene->plants != NULL && scene->bodies != NULL && scene->copies != NULL &&
         scene->puffs != NULL && scene->dents != NULL && scene->order != NULL &&
         scene->puff_keys != NULL && scene->puffs_sorted != NULL && scene->tufts != NULL)
@@ -63,7 +63,7 @@ void scene_free(struct scene *scene)
     free(scene->order);
     free(scene->puff_keys);
     free(scene->puffs_sorted);
-    tufts_free(scene->tufts);
+    grass_free(scene->tufts);
     memset(scene, 0, sizeof *scene);
 }
 
@@ -98,7 +98,7 @@ struct scene_body *scene_body_add(struct scene *scene, uint16_t model, enum mesh
 }
 
 void scene_body_place(const struct scene *scene, struct scene_body *body, struct vec3 position,
-                      const struct pose *pose, double scale)
+                      const struct body_axes *pose, double scale)
 {
     scene_place(scene, position, body->at);
     copy_axis(body->forward, pose->forward, scale);
@@ -107,7 +107,7 @@ void scene_body_place(const struct scene *scene, struct scene_body *body, struct
 }
 
 /* The plane of the ground where the body's shadow falls, along the sun's light. */
-void scene_body_shadow(struct scene *scene, const struct moment *moment, struct vec3 position,
+void scene_body_shadow(struct scene *scene, const struct frame_view *moment, struct vec3 position,
                        double pixels)
 {
     const struct terrain *terrain = &moment->world->terrain;
@@ -135,11 +135,11 @@ void scene_body_shadow(struct scene *scene, const struct moment *moment, struct 
 /* --- vehicles and munitions ------------------------------------------------------------------- */
 
 /* Where its turret points, how far it has come. */
-static void show_gear(const struct scene *scene, const struct moment *moment, uint32_t slot,
+static void show_gear(const struct scene *scene, const struct frame_view *moment, uint32_t slot,
                       struct scene_body *body)
 {
     const struct entities *e = moment->entities;
-    struct gear_state state = gear_of(moment->gear, moment, slot);
+    struct articulation_state state = articulation_of(moment->gear, moment, slot);
     double turns = e->state[slot] == ENTITY_WRECK ? 0.0 : ROTOR_TURNS * scene->time_s;
     body->turret_rad = state.turret_rad;
     body->gun_rad = state.gun_rad;
@@ -158,12 +158,12 @@ static float burn_of(const struct entities *e, uint32_t slot)
 }
 
 /* The body's dents into the scene's list. */
-static void add_dents(struct scene *scene, const struct moment *moment, uint32_t id,
+static void add_dents(struct scene *scene, const struct frame_view *moment, uint32_t id,
                       struct scene_body *body)
 {
-    struct dented of[DENTS_PER_BODY];
+    struct dented of[DENT_INDEX_PER_BODY];
     uint32_t count =
-        dents_of(moment->dents, id, moment->head->tick, moment->world->params->dt_s, of);
+        dent_index_of(moment->dents, id, moment->head->tick, moment->world->params->dt_s, of);
     if (scene->dent_count + count > SCENE_DENTS_MAX) {
         scene->omitted++;
         return;
@@ -179,7 +179,7 @@ static void add_dents(struct scene *scene, const struct moment *moment, uint32_t
     }
 }
 
-static void add_entity(struct scene *scene, const struct moment *moment, uint32_t slot)
+static void add_entity(struct scene *scene, const struct frame_view *moment, uint32_t slot)
 {
     const struct entities *e = moment->entities;
     if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= moment->world->counts.kinds)
@@ -193,11 +193,11 @@ static void add_entity(struct scene *scene, const struct moment *moment, uint32_
     /* Its shadow may be in the picture when the body is not. */
     if (pixels < BODY_LEAST_PIXELS || !camera_sees(&scene->camera, position, 3.0 * kind->radius_m))
         return;
-    bool bent = pixels > BENT_LEAST_PIXELS && dents_any(moment->dents, e->id[slot]);
+    bool bent = pixels > BENT_LEAST_PIXELS && dent_index_any(moment->dents, e->id[slot]);
     struct scene_body *body = scene_body_add(scene, kind->model, scene_detail(pixels, bent));
     if (body == NULL)
         return;
-    struct pose pose = pose_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
+    struct body_axes pose = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
     scene_body_place(scene, body, position, &pose, 1.0);
     memcpy(body->tint, force_colours[e->force[slot] % FORCE_COUNT], sizeof body->tint);
     body->burn = burn_of(e, slot);
@@ -249,19 +249,20 @@ static void sort_bodies(struct scene *scene)
     }
 }
 
-void scene_build(struct scene *scene, const struct camera *camera, const struct scenery *scenery,
-                 const struct moment *moment, const struct effects *effects)
+void scene_build(struct scene *scene, const struct camera *camera,
+                 const struct static_scene *scenery, const struct frame_view *moment,
+                 const struct effects *effects)
 {
     scene->camera = *camera;
-    scene->sight = sight_of(camera);
-    scene->time_s = moment_time_s(moment);
+    scene->sight = frustum_of(camera);
+    scene->time_s = frame_view_time_s(moment);
     const struct renderer_params *wanted = &moment->world->params->renderer;
     scene->fog = wanted->fog != 0;
     scene->haze = wanted->haze != 0;
     scene->texture = wanted->texture != 0;
     scene->plant_count = scene->body_count = scene->puff_count = 0;
     scene->dent_count = scene->omitted = 0;
-    scene->patch_count = ground_select(&scenery->ground, camera, scene->patches);
+    scene->patch_count = terrain_quadtree_select(&scenery->ground, camera, scene->patches);
     scene_plants(scene, scenery, moment);
     for (uint32_t slot = 0; slot < moment->head->used; slot++)
         add_entity(scene, moment, slot);

@@ -3,15 +3,15 @@
  * no world in the back ends that draw it, save for the ground they tile.
  *
  * Places in the lists are metres relative to the camera's eye, world axes. */
-#ifndef JOLON_RENDERER_SCENE_H
-#define JOLON_RENDERER_SCENE_H
+#ifndef JOLON_RENDERER_SCENE_SCENE_H
+#define JOLON_RENDERER_SCENE_SCENE_H
 
-#include "renderer/scene/camera.h"
-#include "renderer/scene/effects.h"
-#include "renderer/scene/moment.h"
-#include "renderer/scene/pose.h"
-#include "renderer/scene/scenery.h"
-#include "renderer/scene/sight.h"
+#include "renderer/scene/camera/camera.h"
+#include "renderer/scene/frame/effects.h"
+#include "renderer/scene/frame/frame_view.h"
+#include "renderer/scene/frame/body_axes.h"
+#include "renderer/scene/draw_list/static_scene.h"
+#include "renderer/scene/camera/frustum.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -43,7 +43,7 @@ struct scene_plant {
     float at[3]; /* the foot */
     float width, height;
     float lean;     /* to its right, as a share of the height: broken trees */
-    float picture;  /* enum foliage */
+    float picture;  /* enum plant_impostors */
     float slope[2]; /* of the ground: rise a metre to the east, to the south */
     float tint[3];  /* on the picture's colours */
 };
@@ -108,14 +108,14 @@ struct puff_key {
 
 struct scene {
     struct camera camera;
-    struct sight sight; /* of the camera */
-    float detail;       /* above 0 .. 1, full: how far tufts and woods reach, how dense puffs are;
-                           the caller's, 1 at first */
-    double time_s;      /* of simulation, for what moves in the picture */
+    struct frustum sight; /* of the camera */
+    float detail;         /* above 0 .. 1, full: how far tufts and woods reach, how dense puffs are;
+                             the caller's, 1 at first */
+    double time_s;        /* of simulation, for what moves in the picture */
     bool fog, haze, texture; /* thesis row 5 */
-    struct ground_patch patches[GROUND_PATCHES_MAX];
+    struct terrain_quadtree_patch patches[TERRAIN_QUADTREE_PATCHES_MAX];
     uint32_t patch_count;
-    uint32_t paintings; /* ground tiles that the picture may paint; TILES_ALL but live */
+    uint32_t paintings; /* ground tiles that the picture may paint; TERRAIN_TILES_ALL but live */
     struct scene_plant *plants;
     uint32_t plant_count;
     struct scene_body *bodies; /* copies of one model and detail follow each other */
@@ -129,7 +129,7 @@ struct scene {
     struct body_order *order;        /* scratch */
     struct puff_key *puff_keys;      /* scratch, twice as many */
     struct scene_puff *puffs_sorted; /* scratch */
-    struct tufts *tufts;             /* kept from picture to picture */
+    struct grass *tufts;             /* kept from picture to picture */
 };
 
 /* 0, or -1 with errno ENOMEM. */
@@ -137,16 +137,21 @@ int scene_init(struct scene *scene);
 void scene_free(struct scene *scene);
 
 /* Fills all lists for the camera, which is copied in. */
-void scene_build(struct scene *scene, const struct camera *camera, const struct scenery *scenery,
-                 const struct moment *moment, const struct effects *effects);
+void scene_build(struct scene *scene, const struct camera *camera,
+                 const struct static_scene *scenery, const struct frame_view *moment,
+                 const struct effects *effects);
 
 /* Parts of scene_build, for the files that make them. */
-void scene_fixed(struct scene *scene, const struct scenery *scenery, const struct moment *moment);
-void scene_plants(struct scene *scene, const struct scenery *scenery, const struct moment *moment);
-void scene_debris(struct scene *scene, const struct scenery *scenery, const struct moment *moment,
-                  const struct effects *effects);
-void scene_rotors(struct scene *scene, const struct scenery *scenery, const struct moment *moment);
-void scene_puffs(struct scene *scene, const struct moment *moment, const struct effects *effects);
+void scene_fixed(struct scene *scene, const struct static_scene *scenery,
+                 const struct frame_view *moment);
+void scene_plants(struct scene *scene, const struct static_scene *scenery,
+                  const struct frame_view *moment);
+void scene_debris(struct scene *scene, const struct static_scene *scenery,
+                  const struct frame_view *moment, const struct effects *effects);
+void scene_rotors(struct scene *scene, const struct static_scene *scenery,
+                  const struct frame_view *moment);
+void scene_puffs(struct scene *scene, const struct frame_view *moment,
+                 const struct effects *effects);
 
 /* Level of detail of a body that shows so large [pixel]; never finer for a smaller one. bent: its
  * polygons are moved, and must be fine enough for it. */
@@ -157,10 +162,10 @@ struct scene_body *scene_body_add(struct scene *scene, uint16_t model, enum mesh
 
 /* Where it is, how it is turned, and its size over its model's. */
 void scene_body_place(const struct scene *scene, struct scene_body *body, struct vec3 position,
-                      const struct pose *pose, double scale);
+                      const struct body_axes *pose, double scale);
 
 /* Gives the last body of the list a shadow, unless it is too small or too far for one to show. */
-void scene_body_shadow(struct scene *scene, const struct moment *moment, struct vec3 position,
+void scene_body_shadow(struct scene *scene, const struct frame_view *moment, struct vec3 position,
                        double pixels);
 
 /* Places relative to the eye, in float. */

@@ -1,8 +1,8 @@
 /* Kernels: the inner loops, compiled twice from files named kernel_*.c, once for every processor of
  * the architecture and once for those with AVX2. Both give the same picture to the bit. Which is
  * used is chosen when the back end is opened. */
-#ifndef JOLON_RENDERER_KERNEL_H
-#define JOLON_RENDERER_KERNEL_H
+#ifndef JOLON_RENDERER_SOFT_KERNEL_H
+#define JOLON_RENDERER_SOFT_KERNEL_H
 
 #include "renderer/soft/soft.h"
 
@@ -23,9 +23,9 @@
     X(soft_plants_fill, void,                                                                      \
       (const struct soft_plants *plants, const struct soft_frame *frame,                           \
        const struct soft_target *target))                                                          \
-    X(soft_puffs_set_up, void, (struct soft_puffs * puffs, const struct soft_frame *frame))        \
+    X(soft_puffs_set_up, void, (struct soft_particles * puffs, const struct soft_frame *frame))    \
     X(soft_puffs_fill, void,                                                                       \
-      (const struct soft_puffs *puffs, const struct soft_frame *frame,                             \
+      (const struct soft_particles *puffs, const struct soft_frame *frame,                         \
        const struct soft_target *target))                                                          \
     X(soft_resolve, void,                                                                          \
       (const struct soft_ground *ground, const struct soft_frame *frame,                           \

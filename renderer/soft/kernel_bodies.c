@@ -1,9 +1,9 @@
 /* Bodies and their shadows, made ready: corners are moved, lit and projected; faces set up. */
-#include "renderer/soft/air.h"
-#include "renderer/soft/form.h"
+#include "renderer/soft/atmosphere.h"
+#include "renderer/soft/body_deform.h"
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/soft_bodies.h"
-#include "renderer/soft/span.h"
+#include "renderer/soft/triangle_raster.h"
 
 #define SHADE_BIAS   0.002f /* of the distance: a shadow lies so much nearer than its plane */
 #define SHADE_PIXELS 2.0f   /* and as its plane is so many pixels further */
@@ -20,7 +20,7 @@ struct maker {
     const struct scene_body *body;
     const struct soft_mesh *mesh;
     const struct mesh_frame *gear;
-    struct form form;
+    struct body_deform form;
     struct soft_paint paint;
     float dark;   /* of its shadow; 0: it has none */
     float link_m; /* of its tracks */
@@ -108,19 +108,19 @@ static struct affine turned(const struct maker *m, const struct soft_group *grou
 
 /* --- corners ---------------------------------------------------------------------------------- */
 
-VEC void load3(v8f v[3], float *const column[3], uint32_t at)
+SIMD8 void load3(v8f v[3], float *const column[3], uint32_t at)
 {
     for (uint32_t i = 0; i < 3; i++)
-        v[i] = vec_load_f(column[i] + at);
+        v[i] = simd8_load_f(column[i] + at);
 }
 
-VEC void store3(float *const column[3], uint32_t at, const v8f v[3])
+SIMD8 void store3(float *const column[3], uint32_t at, const v8f v[3])
 {
     for (uint32_t i = 0; i < 3; i++)
-        vec_store_f(column[i] + at, v[i]);
+        simd8_store_f(column[i] + at, v[i]);
 }
 
-VEC void apply(const struct affine *a, const v8f v[3], float one, v8f out[3])
+SIMD8 void apply(const struct affine *a, const v8f v[3], float one, v8f out[3])
 {
     for (uint32_t i = 0; i < 3; i++)
         out[i] = a->m[i][0] * v[0] + a->m[i][1] * v[1] + a->m[i][2] * v[2] + one * a->t[i];
@@ -137,11 +137,11 @@ static void form_group(const struct maker *m, const struct soft_group *group)
         load3(n, m->mesh->column + MESH_NORMAL_X, at);
         apply(&roll, built, 1.0f, v);
         apply(&roll, n, 0.0f, normal);
-        v8f bare = m->form.dent_count > 0 ? form_bare(&m->form, v) : vec_f(0.0f);
-        v8f fell = m->form.fallen ? form_fell(&m->form, built) : vec_f(0.0f);
-        form_corners(&m->form, v);
-        vec_store_f(column[CORNER_VALUE + SIDE_BARE] + at, bare);
-        vec_store_f(column[CORNER_VALUE + SIDE_FELL] + at, fell);
+        v8f bare = m->form.dent_count > 0 ? body_deform_bare(&m->form, v) : simd8_f(0.0f);
+        v8f fell = m->form.fallen ? body_deform_fell(&m->form, built) : simd8_f(0.0f);
+        body_deform_corners(&m->form, v);
+        simd8_store_f(column[CORNER_VALUE + SIDE_BARE] + at, bare);
+        simd8_store_f(column[CORNER_VALUE + SIDE_FELL] + at, fell);
         store3(column + CORNER_PLACE, at, v);
         store3(column + CORNER_NORMAL, at, normal);
     }
@@ -175,20 +175,21 @@ static void form_normals(const struct maker *m)
 
 /* The sky lights what faces up, the ground throws a little back, and what is low under a body gets
  * neither. */
-VEC struct colour8 light_of(const struct soft_frame *f, const v8f world[3], const v8f n[3],
-                            v8f high)
+SIMD8 struct colour8 light_of(const struct soft_frame *f, const v8f world[3], const v8f n[3],
+                              v8f high)
 {
     struct colour8 sun_light = colour_of(SUN_LIGHT_RED, SUN_LIGHT_GREEN, SUN_LIGHT_BLUE);
     struct colour8 sky =
         colour_of(SKY_LIGHT_RED * 1.12f, SKY_LIGHT_GREEN * 1.12f, SKY_LIGHT_BLUE * 1.12f);
-    v8f zero = vec_f(0.0f),
-        sun = vec_max(n[0] * f->sun[0] + n[1] * f->sun[1] + n[2] * f->sun[2], zero);
-    v8f open = 0.55f + 0.45f * vec_smoothstep(0.0f, 1.3f, high);
+    v8f zero = simd8_f(0.0f),
+        sun = simd8_max(n[0] * f->sun[0] + n[1] * f->sun[1] + n[2] * f->sun[2], zero);
+    v8f open = 0.55f + 0.45f * simd8_smoothstep(0.0f, 1.3f, high);
     struct colour8 around = colour_mix(colour_of(0.36f, 0.31f, 0.24f), sky, 0.5f + 0.5f * n[1]);
-    v8f far = vec_sqrt(vec_dot3(world, world)), along = 2.0f * vec_dot3(world, n), towards = zero;
+    v8f far = simd8_sqrt(simd8_dot3(world, world)), along = 2.0f * simd8_dot3(world, n),
+        towards = zero;
     for (uint32_t i = 0; i < 3; i++)
         towards += (world[i] - along * n[i]) * f->sun[i];
-    v8f back = vec_max(towards / far, zero), square = back * back, fourth = square * square;
+    v8f back = simd8_max(towards / far, zero), square = back * back, fourth = square * square;
     v8f strong =
         sun * (0.8f + 0.2f * (open - 0.55f) * (1.0f / 0.45f)) + 0.16f * fourth * fourth * fourth;
     return (struct colour8){around.r * open + sun_light.r * strong,
@@ -197,26 +198,27 @@ VEC struct colour8 light_of(const struct soft_frame *f, const v8f world[3], cons
 }
 
 /* Places from the eye to where they are in the picture; set: 0 or CORNER_SHADE. */
-VEC void project(const struct soft_frame *f, float *const *column, uint32_t at, const v8f place[3])
+SIMD8 void project(const struct soft_frame *f, float *const *column, uint32_t at,
+                   const v8f place[3])
 {
     v8f ahead = f->ahead[0] * place[0] + f->ahead[1] * place[1] + f->ahead[2] * place[2];
     v8f across = f->across[0] * place[0] + f->across[1] * place[1] + f->across[2] * place[2];
     v8f down = f->down[0] * place[0] + f->down[1] * place[1] + f->down[2] * place[2];
-    v8f over = 1.0f / vec_max(ahead, vec_f(1e-3f));
-    vec_store_f(column[CORNER_AHEAD] + at, ahead);
-    vec_store_f(column[CORNER_ACROSS] + at, across);
-    vec_store_f(column[CORNER_DOWN] + at, down);
-    vec_store_f(column[CORNER_OVER] + at, over);
-    vec_store_f(column[CORNER_COLUMN] + at, f->centre_x + across * over);
-    vec_store_f(column[CORNER_ROW] + at, f->centre_y + down * over);
+    v8f over = 1.0f / simd8_max(ahead, simd8_f(1e-3f));
+    simd8_store_f(column[CORNER_AHEAD] + at, ahead);
+    simd8_store_f(column[CORNER_ACROSS] + at, across);
+    simd8_store_f(column[CORNER_DOWN] + at, down);
+    simd8_store_f(column[CORNER_OVER] + at, over);
+    simd8_store_f(column[CORNER_COLUMN] + at, f->centre_x + across * over);
+    simd8_store_f(column[CORNER_ROW] + at, f->centre_y + down * over);
 }
 
 /* Along the sun's light onto the plane. */
-VEC void drop(const struct soft_frame *f, const float plane[4], v8f place[3])
+SIMD8 void drop(const struct soft_frame *f, const float plane[4], v8f place[3])
 {
     float steep = 1.0f / (plane[0] * f->sun[0] + plane[1] * f->sun[1] + plane[2] * f->sun[2]);
     v8f high = plane[0] * place[0] + plane[1] * place[1] + plane[2] * place[2] - plane[3];
-    v8f back = vec_max(high * steep, vec_f(0.0f));
+    v8f back = simd8_max(high * steep, simd8_f(0.0f));
     for (uint32_t i = 0; i < 3; i++)
         place[i] -= f->sun[i] * back;
 }
@@ -261,15 +263,15 @@ static void place_group(const struct maker *m, const struct soft_group *group, b
         project(m->frame, column, at, place);
         load3(n, facing, at);
         apply(&world, n, 0.0f, normal);
-        v8f over = 1.0f / vec_sqrt(vec_dot3(normal, normal) + 1e-20f);
+        v8f over = 1.0f / simd8_sqrt(simd8_dot3(normal, normal) + 1e-20f);
         for (uint32_t i = 0; i < 3; i++)
             normal[i] *= over;
         v8f high = part.m[1][0] * v[0] + part.m[1][1] * v[1] + part.m[1][2] * v[2] + part.t[1];
         struct colour8 light = light_of(m->frame, place, normal, high - low);
-        vec_store_f(value[SIDE_RED] + at, light.r);
-        vec_store_f(value[SIDE_GREEN] + at, light.g);
-        vec_store_f(value[SIDE_BLUE] + at, light.b);
-        vec_store_f(value[SIDE_ALONG] + at, vec_load_f(mesh[MESH_ALONG] + at) + links);
+        simd8_store_f(value[SIDE_RED] + at, light.r);
+        simd8_store_f(value[SIDE_GREEN] + at, light.g);
+        simd8_store_f(value[SIDE_BLUE] + at, light.b);
+        simd8_store_f(value[SIDE_ALONG] + at, simd8_load_f(mesh[MESH_ALONG] + at) + links);
     }
 }
 
@@ -277,13 +279,13 @@ static void place_group(const struct maker *m, const struct soft_group *group, b
 
 enum face_kind { FACE_FLAT, FACE_SIDE, FACE_SHADE };
 
-VEC v8f corner_value(const struct maker *m, uint32_t column, v8i corner)
+SIMD8 v8f corner_value(const struct maker *m, uint32_t column, v8i corner)
 {
-    return vec_gather_f(m->bodies->column[column], corner);
+    return simd8_gather_f(m->bodies->column[column], corner);
 }
 
 /* Base colours of the faces at hand, with the force's; which are in camouflage. */
-VEC struct colour8 base_colours(const struct maker *m, v8f *worn)
+SIMD8 struct colour8 base_colours(const struct maker *m, v8f *worn)
 {
     struct colour8 c;
     const float *tint = m->body->tint;
@@ -295,16 +297,16 @@ VEC struct colour8 base_colours(const struct maker *m, v8f *worn)
         (*worn)[i] = face->force_tint;
     }
     *worn *= 1.0f / 255.0f;
-    c = colour_scale(c, vec_f(1.0f / 255.0f));
+    c = colour_scale(c, simd8_f(1.0f / 255.0f));
     v8f bright = 0.55f + 0.3f * (c.r + c.g + c.b);
     struct colour8 force = {tint[0] * bright, tint[1] * bright, tint[2] * bright};
     c = colour_mix(c, force, 0.85f * *worn);
-    *worn = vec_select((*worn >= 0.29f) & (*worn <= 0.6f), vec_f(1.0f), vec_f(0.0f));
+    *worn = simd8_select((*worn >= 0.29f) & (*worn <= 0.6f), simd8_f(1.0f), simd8_f(0.0f));
     return c;
 }
 
 /* The colours of faces too small for their paint to be seen: its mean. */
-VEC v8u flat_colours(const struct maker *m, const v8i corner[3])
+SIMD8 v8u flat_colours(const struct maker *m, const v8i corner[3])
 {
     const struct soft_paint *p = &m->paint;
     v8f worn, light[3];
@@ -315,15 +317,15 @@ VEC v8u flat_colours(const struct maker *m, const v8i corner[3])
                     corner_value(m, CORNER_VALUE + SIDE_RED + i, corner[2])) *
                    (p->clear / 3.0f);
     if (m->frame->texture) {
-        v8f soot = vec_clamp((0.65f - vec_f(p->soot_low)) * p->soot_over, 0.0f, 1.0f);
-        soot = vec_max(soot * soot * (3.0f - 2.0f * soot) * p->soot_most, vec_f(p->burnt));
+        v8f soot = simd8_clamp((0.65f - simd8_f(p->soot_low)) * p->soot_over, 0.0f, 1.0f);
+        soot = simd8_max(soot * soot * (3.0f - 2.0f * soot) * p->soot_most, simd8_f(p->burnt));
         c = colour_mix(colour_scale(c, 1.0f - 0.15f * worn), colour_of(0.055f, 0.05f, 0.047f),
                        soot);
     } else {
-        c = colour_mix(c, colour_of(0.07f, 0.07f, 0.07f), vec_f(p->plain));
+        c = colour_mix(c, colour_of(0.07f, 0.07f, 0.07f), simd8_f(p->plain));
     }
-    return vec_pack(c.r * light[0] + p->air[0], c.g * light[1] + p->air[1],
-                    c.b * light[2] + p->air[2]);
+    return simd8_pack(c.r * light[0] + p->air[0], c.g * light[1] + p->air[1],
+                      c.b * light[2] + p->air[2]);
 }
 
 static struct soft_rows *next_rows(struct soft_faces *faces, const struct span8 *s, uint32_t lane)
@@ -333,58 +335,60 @@ static struct soft_rows *next_rows(struct soft_faces *faces, const struct span8 
     return rows;
 }
 
-VEC void put_flats(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
+SIMD8 void put_flats(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
 {
     struct soft_faces *faces = &m->bodies->flats;
-    struct plane8 depth = span_plane(s, corner_value(m, CORNER_OVER, corner[0]),
-                                     corner_value(m, CORNER_OVER, corner[1]),
-                                     corner_value(m, CORNER_OVER, corner[2]));
+    struct plane8 depth = triangle_raster_plane(s, corner_value(m, CORNER_OVER, corner[0]),
+                                                corner_value(m, CORNER_OVER, corner[1]),
+                                                corner_value(m, CORNER_OVER, corner[2]));
     v8u colours = flat_colours(m, corner);
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
         struct soft_flat *flat = (struct soft_flat *)faces->list + faces->count;
-        *flat = (struct soft_flat){span_of(s, (int)lane), span_plane_of(&depth, (int)lane),
-                                   colours[lane]};
+        *flat = (struct soft_flat){triangle_raster_of(s, (int)lane),
+                                   triangle_raster_plane_of(&depth, (int)lane), colours[lane]};
         next_rows(faces, s, lane);
     }
 }
 
 /* The mip whose texels are as large as pixels, or a little finer. */
-VEC v8i mip_of(v8f pixel_m, float per_m)
+SIMD8 v8i mip_of(v8f pixel_m, float per_m)
 {
-    v8f texels = vec_max(pixel_m * (per_m * 0.93f * (float)(1 << SOFT_DETAIL_POWER)), vec_f(1.0f));
+    v8f texels =
+        simd8_max(pixel_m * (per_m * 0.93f * (float)(1 << SOFT_DETAIL_POWER)), simd8_f(1.0f));
     v8i mip = (v8i)((v8u)texels >> 23) - 127;
-    return vec_select_i(mip < SOFT_DETAIL_MIPS, mip, vec_i(SOFT_DETAIL_MIPS - 1));
+    return simd8_select_i(mip < SOFT_DETAIL_MIPS, mip, simd8_i(SOFT_DETAIL_MIPS - 1));
 }
 
-VEC void put_sides(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
+SIMD8 void put_sides(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
 {
     struct soft_faces *faces = &m->bodies->sides;
     v8f over[3], worn;
     for (uint32_t i = 0; i < 3; i++)
         over[i] = corner_value(m, CORNER_OVER, corner[i]);
-    struct plane8 depth = span_plane(s, over[0], over[1], over[2]), value[SIDE_VALUES];
+    struct plane8 depth = triangle_raster_plane(s, over[0], over[1], over[2]), value[SIDE_VALUES];
     for (uint32_t i = 0; i < SIDE_VALUES; i++)
         if (m->shaped || (i != SIDE_FELL && i != SIDE_BARE))
-            value[i] = span_plane(s, corner_value(m, CORNER_VALUE + i, corner[0]) * over[0],
-                                  corner_value(m, CORNER_VALUE + i, corner[1]) * over[1],
-                                  corner_value(m, CORNER_VALUE + i, corner[2]) * over[2]);
+            value[i] =
+                triangle_raster_plane(s, corner_value(m, CORNER_VALUE + i, corner[0]) * over[0],
+                                      corner_value(m, CORNER_VALUE + i, corner[1]) * over[1],
+                                      corner_value(m, CORNER_VALUE + i, corner[2]) * over[2]);
         else
-            value[i] = (struct plane8){vec_f(0.0f), vec_f(0.0f), vec_f(0.0f)};
+            value[i] = (struct plane8){simd8_f(0.0f), simd8_f(0.0f), simd8_f(0.0f)};
     v8f pixel_m = 3.0f * m->frame->pixel_m / (over[0] + over[1] + over[2]);
     v8i broad = mip_of(pixel_m, PAINT_BROAD_PER_M), fine = mip_of(pixel_m, PAINT_FINE_PER_M);
     /* The largest is too large for a processor's nearer caches, and no one sees it. */
-    fine = vec_select_i(fine > 0, fine, vec_i(1));
+    fine = simd8_select_i(fine > 0, fine, simd8_i(1));
     struct colour8 c = base_colours(m, &worn);
     /* Until they are finer than pixels. */
-    v8f links = vec_clamp(1.5f - 2.0f * pixel_m / m->link_m, 0.0f, 1.0f);
+    v8f links = simd8_clamp(1.5f - 2.0f * pixel_m / m->link_m, 0.0f, 1.0f);
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
         struct soft_side *side = (struct soft_side *)faces->list + faces->count;
-        side->span = span_of(s, (int)lane);
-        side->depth = span_plane_of(&depth, (int)lane);
+        side->span = triangle_raster_of(s, (int)lane);
+        side->depth = triangle_raster_plane_of(&depth, (int)lane);
         for (uint32_t i = 0; i < SIDE_VALUES; i++)
-            side->value[i] = span_plane_of(&value[i], (int)lane);
+            side->value[i] = triangle_raster_plane_of(&value[i], (int)lane);
         side->colour[0] = c.r[lane];
         side->colour[1] = c.g[lane];
         side->colour[2] = c.b[lane];
@@ -398,27 +402,29 @@ VEC void put_sides(struct maker *m, const struct span8 *s, const v8i corner[3], 
     }
 }
 
-VEC void put_shades(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
+SIMD8 void put_shades(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
 {
     struct soft_faces *faces = &m->bodies->shades;
-    struct plane8 depth = span_plane(s, corner_value(m, CORNER_SHADE + CORNER_OVER, corner[0]),
-                                     corner_value(m, CORNER_SHADE + CORNER_OVER, corner[1]),
-                                     corner_value(m, CORNER_SHADE + CORNER_OVER, corner[2]));
+    struct plane8 depth =
+        triangle_raster_plane(s, corner_value(m, CORNER_SHADE + CORNER_OVER, corner[0]),
+                              corner_value(m, CORNER_SHADE + CORNER_OVER, corner[1]),
+                              corner_value(m, CORNER_SHADE + CORNER_OVER, corner[2]));
     float more = 1.0f + SHADE_BIAS;
-    depth.top = more * depth.top + SHADE_PIXELS * (vec_abs(depth.x) + vec_abs(depth.y));
+    depth.top = more * depth.top + SHADE_PIXELS * (simd8_abs(depth.x) + simd8_abs(depth.y));
     depth.x *= more;
     depth.y *= more;
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
         struct soft_shade *shade = (struct soft_shade *)faces->list + faces->count;
-        *shade = (struct soft_shade){span_of(s, (int)lane), span_plane_of(&depth, (int)lane),
+        *shade = (struct soft_shade){triangle_raster_of(s, (int)lane),
+                                     triangle_raster_plane_of(&depth, (int)lane),
                                      (uint32_t)(m->dark * (float)SOFT_SHADOW_FULL + 0.5f)};
         next_rows(faces, s, lane);
     }
 }
 
 /* Sets up the faces at hand. */
-VEC void put_faces(struct maker *m, enum face_kind kind)
+SIMD8 void put_faces(struct maker *m, enum face_kind kind)
 {
     uint32_t set = kind == FACE_SHADE ? CORNER_SHADE : 0;
     struct corners8 c;
@@ -432,11 +438,11 @@ VEC void put_faces(struct maker *m, enum face_kind kind)
         c.x[i] = corner_value(m, set + CORNER_COLUMN, corner[i]);
         c.y[i] = corner_value(m, set + CORNER_ROW, corner[i]);
     }
-    v8i there = span_set_up(&s, &c, m->frame->width, m->frame->height);
-    there &= vec_count() < (int32_t)m->count;
+    v8i there = triangle_raster_set_up(&s, &c, m->frame->width, m->frame->height);
+    there &= simd8_count() < (int32_t)m->count;
     if (m->mesh->closed)
         there &= s.area < 0.0f;
-    uint32_t lanes = vec_bits(there);
+    uint32_t lanes = simd8_bits(there);
     if (lanes != 0 && kind == FACE_FLAT)
         put_flats(m, &s, corner, lanes);
     if (lanes != 0 && kind == FACE_SIDE)
@@ -446,7 +452,8 @@ VEC void put_faces(struct maker *m, enum face_kind kind)
     m->count = m->cut = 0;
 }
 
-VEC void add_face(struct maker *m, const struct soft_face *face, uint32_t a, uint32_t b, uint32_t c)
+SIMD8 void add_face(struct maker *m, const struct soft_face *face, uint32_t a, uint32_t b,
+                    uint32_t c)
 {
     m->corner[0][m->count] = a;
     m->corner[1][m->count] = b;
@@ -457,7 +464,7 @@ VEC void add_face(struct maker *m, const struct soft_face *face, uint32_t a, uin
 /* The values of a corner that mix evenly along an edge. */
 #define CUT_VALUES (2 + SIDE_VALUES)
 
-_Static_assert(CUT_VALUES <= SPAN_VALUES_MAX, "more values than can be cut");
+_Static_assert(CUT_VALUES <= TRIANGLE_RASTER_VALUES_MAX, "more values than can be cut");
 
 static void add_cut_face(struct maker *m, const struct soft_face *face, uint32_t set)
 {
@@ -471,7 +478,7 @@ static void add_cut_face(struct maker *m, const struct soft_face *face, uint32_t
         for (uint32_t v = 0; v < SIDE_VALUES; v++)
             from[i].value[2 + v] = column[CORNER_VALUE + v][at];
     }
-    uint32_t count = span_clip(from, CUT_VALUES, m->frame->near_m, cut);
+    uint32_t count = triangle_raster_clip(from, CUT_VALUES, m->frame->near_m, cut);
     uint32_t first = m->mesh->corner_count + m->cut;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t at = first + i;
@@ -488,7 +495,7 @@ static void add_cut_face(struct maker *m, const struct soft_face *face, uint32_t
 }
 
 /* Sets up what crosses the near plane, and all other faces of a body that does. */
-VEC void make_cut_faces(struct maker *m, enum face_kind kind)
+SIMD8 void make_cut_faces(struct maker *m, enum face_kind kind)
 {
     uint32_t set = kind == FACE_SHADE ? CORNER_SHADE : 0;
     const float *ahead = m->bodies->column[set + CORNER_AHEAD];
@@ -507,26 +514,26 @@ VEC void make_cut_faces(struct maker *m, enum face_kind kind)
 }
 
 /* Which of eight faces are seen, a bit each. */
-VEC uint32_t seen_faces(const struct maker *m, const struct soft_face *faces, uint32_t count,
-                        uint32_t set)
+SIMD8 uint32_t seen_faces(const struct maker *m, const struct soft_face *faces, uint32_t count,
+                          uint32_t set)
 {
     struct corners8 c;
-    v8i lane = vec_count();
-    v8i at = vec_select_i(lane < (int32_t)count, lane, vec_i(0)) * (int32_t)sizeof *faces;
+    v8i lane = simd8_count();
+    v8i at = simd8_select_i(lane < (int32_t)count, lane, simd8_i(0)) * (int32_t)sizeof *faces;
     for (uint32_t i = 0; i < 3; i++) {
-        v8i corner = (v8i)vec_gather_bytes(&faces->corner[i], at);
+        v8i corner = (v8i)simd8_gather_bytes(&faces->corner[i], at);
         c.x[i] = corner_value(m, set + CORNER_COLUMN, corner);
         c.y[i] = corner_value(m, set + CORNER_ROW, corner);
     }
-    v8f area = span_area(&c);
-    v8i shown = span_shown(&c, area, m->frame->width, m->frame->height);
+    v8f area = triangle_raster_area(&c);
+    v8i shown = triangle_raster_shown(&c, area, m->frame->width, m->frame->height);
     shown &= lane < (int32_t)count;
-    return vec_bits(m->mesh->closed ? shown & (area < 0.0f) : shown);
+    return simd8_bits(m->mesh->closed ? shown & (area < 0.0f) : shown);
 }
 
 /* Most faces look away or hold no pixel: those that are seen are gathered before they are set up.
  */
-VEC void make_faces(struct maker *m, enum face_kind kind)
+SIMD8 void make_faces(struct maker *m, enum face_kind kind)
 {
     uint32_t set = kind == FACE_SHADE ? CORNER_SHADE : 0, count = m->mesh->face_count;
     if (m->cuts) {
@@ -559,8 +566,8 @@ static float step(float low, float high, float v)
 static void mix_paint(struct maker *m)
 {
     const float *at = m->body->at;
-    v8f place[3] = {vec_f(at[0]), vec_f(at[1]), vec_f(at[2])};
-    struct air8 air = air_at(m->frame, place);
+    v8f place[3] = {simd8_f(at[0]), simd8_f(at[1]), simd8_f(at[2])};
+    struct air8 air = atmosphere_at(m->frame, place);
     float burn = m->body->burn, much = air.much[0];
     m->paint = (struct soft_paint){
         .soot_low = 1.12f - 1.15f * burn,
@@ -598,8 +605,8 @@ static void make_body(struct maker *m, uint32_t index)
         return;
     m->mesh = &bodies->mesh[copy->model * MESH_DETAIL_COUNT + copy->detail];
     m->gear = &bodies->scenery->frames[copy->model];
-    m->form = form_of(m->body, f->scene->dents);
-    m->shaped = form_any(&m->form);
+    m->form = body_deform_of(m->body, f->scene->dents);
+    m->shaped = body_deform_any(&m->form);
     m->sides = reach.pixels >= SIDE_LEAST_PIXELS;
     m->cuts = reach.ahead - 4.0f * reach.metres < f->near_m;
     m->count = m->cut = 0;

@@ -1,7 +1,7 @@
 /* The ground's triangles, and its depth in a band. */
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/soft_ground.h"
-#include "renderer/soft/span.h"
+#include "renderer/soft/triangle_raster.h"
 
 /* Where a patch's vertices are seen: x, y [pixel] and depth. */
 struct seen {
@@ -20,7 +20,7 @@ struct batch {
 static bool project(const struct seen *seen, const float (*vertices)[3], uint32_t count,
                     const float corner[3], const struct soft_frame *frame)
 {
-    v8i near = vec_i(0);
+    v8i near = simd8_i(0);
     for (uint32_t i = 0; i < count; i += LANES) {
         v8f place[3];
         uint32_t held = count - i < LANES ? count - i : LANES;
@@ -29,7 +29,7 @@ static bool project(const struct seen *seen, const float (*vertices)[3], uint32_
             for (uint32_t a = 0; a < 3; a++)
                 place[a][lane] = v[a];
         }
-        v8f across = vec_f(0.0f), down = vec_f(0.0f), ahead = vec_f(0.0f);
+        v8f across = simd8_f(0.0f), down = simd8_f(0.0f), ahead = simd8_f(0.0f);
         for (uint32_t a = 0; a < 3; a++) {
             v8f p = place[a] + corner[a];
             across += p * frame->across[a];
@@ -38,45 +38,45 @@ static bool project(const struct seen *seen, const float (*vertices)[3], uint32_
         }
         v8i too_near = ahead < frame->near_m;
         near |= too_near;
-        v8f depth = 1.0f / vec_select(too_near, vec_f(1.0f), ahead);
-        vec_store_f(seen->x + i, frame->centre_x + across * depth);
-        vec_store_f(seen->y + i, frame->centre_y + down * depth);
-        vec_store_f(seen->depth + i, vec_select(too_near, vec_f(0.0f), depth));
+        v8f depth = 1.0f / simd8_select(too_near, simd8_f(1.0f), ahead);
+        simd8_store_f(seen->x + i, frame->centre_x + across * depth);
+        simd8_store_f(seen->y + i, frame->centre_y + down * depth);
+        simd8_store_f(seen->depth + i, simd8_select(too_near, simd8_f(0.0f), depth));
     }
-    return vec_bits(near) != 0;
+    return simd8_bits(near) != 0;
 }
 
 /* How steeply depth changes from pixel to pixel, in the promise's code. */
 static v8u steepness(const struct plane8 *depth)
 {
-    v8f steep = vec_max(vec_abs(depth->x), vec_abs(depth->y));
+    v8f steep = simd8_max(simd8_abs(depth->x), simd8_abs(depth->y));
     /* The float's own bits are its logarithm, near enough. */
     v8i halves = (((v8i)steep) >> 22) - 2 * (127 - SOFT_STEEP_LOW);
-    halves = vec_select_i(halves < 0, vec_i(0), halves);
+    halves = simd8_select_i(halves < 0, simd8_i(0), halves);
     int32_t most = (1 << SOFT_STEEP_BITS) - 1;
-    return (v8u)vec_select_i(halves > most, vec_i(most), halves);
+    return (v8u)simd8_select_i(halves > most, simd8_i(most), halves);
 }
 
 static void flush(struct soft_ground *ground, const struct soft_frame *frame, struct batch *batch)
 {
     struct span8 span;
-    v8i drawn = span_set_up(&span, &batch->corners, frame->width, frame->height);
-    drawn &= (span.area < 0.0f) & (vec_count() < (int32_t)batch->count);
+    v8i drawn = triangle_raster_set_up(&span, &batch->corners, frame->width, frame->height);
+    drawn &= (span.area < 0.0f) & (simd8_count() < (int32_t)batch->count);
     batch->count = 0;
-    uint32_t bits = vec_bits(drawn);
+    uint32_t bits = simd8_bits(drawn);
     if (bits == 0)
         return;
     const v8f *at = batch->depth;
-    struct plane8 depth = span_plane(&span, at[0], at[1], at[2]);
-    v8f least = vec_min(vec_min(at[0], at[1]), at[2]);
-    v8f most = vec_max(vec_max(at[0], at[1]), at[2]);
+    struct plane8 depth = triangle_raster_plane(&span, at[0], at[1], at[2]);
+    v8f least = simd8_min(simd8_min(at[0], at[1]), at[2]);
+    v8f most = simd8_max(simd8_max(at[0], at[1]), at[2]);
     v8u steep = steepness(&depth);
     for (; bits != 0; bits &= bits - 1) {
         int lane = __builtin_ctz(bits);
         uint32_t n = ground->count++;
         ground->list[n] = (struct soft_ground_triangle){
-            .span = span_of(&span, lane),
-            .depth = span_plane_of(&depth, lane),
+            .span = triangle_raster_of(&span, lane),
+            .depth = triangle_raster_plane_of(&depth, lane),
             .least = least[lane],
             .most = most[lane],
             .promise = batch->patch | steep[lane] << SOFT_PATCH_BITS,
@@ -108,7 +108,7 @@ static void put_cut(struct soft_ground *ground, const struct soft_frame *frame, 
             in[i].ahead += p * frame->ahead[a];
         }
     }
-    uint32_t count = span_clip(in, 2, frame->near_m, cut);
+    uint32_t count = triangle_raster_clip(in, 2, frame->near_m, cut);
     for (uint32_t last = 2; last < count; last++) {
         const uint32_t of[3] = {0, last - 1, last};
         for (uint32_t i = 0; i < 3; i++) {
@@ -129,12 +129,12 @@ static void put_all(struct soft_ground *ground, const struct soft_frame *frame, 
     for (uint32_t i = 0; i < count; i += LANES) {
         uint32_t held = count - i < LANES ? count - i : LANES;
         for (uint32_t corner = 0; corner < 3; corner++) {
-            v8i at = vec_i(0);
+            v8i at = simd8_i(0);
             for (uint32_t lane = 0; lane < held; lane++)
                 at[lane] = triangles[i + lane][corner];
-            batch->corners.x[corner] = vec_gather_f(seen->x, at);
-            batch->corners.y[corner] = vec_gather_f(seen->y, at);
-            batch->depth[corner] = vec_gather_f(seen->depth, at);
+            batch->corners.x[corner] = simd8_gather_f(seen->x, at);
+            batch->corners.y[corner] = simd8_gather_f(seen->y, at);
+            batch->depth[corner] = simd8_gather_f(seen->depth, at);
         }
         batch->count = held;
         flush(ground, frame, batch);
@@ -173,10 +173,10 @@ void KERNEL(soft_ground_set_up)(struct soft_ground *ground, const struct soft_fr
     struct batch batch = {.count = 0};
     ground->count = 0;
     for (uint32_t i = 0; i < scene->patch_count; i++) {
-        const struct ground_patch *patch = &scene->patches[i];
+        const struct terrain_quadtree_patch *patch = &scene->patches[i];
         const struct tile *tile = ground->tiles.views[i].shape;
-        const struct ground_mesh *mesh = &tile->mesh;
-        double side = ground_patch_side(patch->level);
+        const struct terrain_mesh *mesh = &tile->mesh;
+        double side = terrain_quadtree_patch_side(patch->level);
         float corner[3];
         scene_place(scene, (struct vec3){patch->column * side, 0.0, patch->row * side}, corner);
         batch.patch = i;
@@ -196,19 +196,19 @@ struct depth_pass {
     const struct soft_target *target;
 };
 
-VEC void depth_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
+SIMD8 void depth_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
 {
     const struct depth_pass *pass = context;
     const struct soft_ground_triangle *t = pass->triangle;
     float *depth = pass->target->depth + at;
     uint32_t *colour = pass->target->colour + at;
-    v8f here = span_value(&t->span, &t->depth, x, y), old = vec_load_f(depth);
-    here = vec_clamp(here, t->least, t->most);
+    v8f here = triangle_raster_value(&t->span, &t->depth, x, y), old = simd8_load_f(depth);
+    here = simd8_clamp(here, t->least, t->most);
     v8i seen = inside & (here > old);
-    if (vec_bits(seen) == 0)
+    if (simd8_bits(seen) == 0)
         return;
-    vec_store_f(depth, vec_select(seen, here, old));
-    vec_store_u(colour, vec_select_u(seen, vec_u(t->promise), vec_load_u(colour)));
+    simd8_store_f(depth, simd8_select(seen, here, old));
+    simd8_store_u(colour, simd8_select_u(seen, simd8_u(t->promise), simd8_load_u(colour)));
 }
 
 void KERNEL(soft_ground_fill)(const struct soft_ground *ground, const struct soft_frame *frame,
@@ -219,6 +219,6 @@ void KERNEL(soft_ground_fill)(const struct soft_ground *ground, const struct sof
     const struct soft_bins *bins = &ground->bins;
     for (uint32_t i = bins->start[target->band]; i < bins->start[target->band + 1]; i++) {
         pass.triangle = &ground->list[bins->item[i]];
-        span_walk(&pass.triangle->span, target, depth_pixels, &pass);
+        triangle_raster_walk(&pass.triangle->span, target, depth_pixels, &pass);
     }
 }

@@ -1,9 +1,9 @@
 /* Plants and their shadows, made ready, and plants into a band. */
-#include "renderer/soft/air.h"
-#include "renderer/soft/board.h"
+#include "renderer/soft/atmosphere.h"
+#include "renderer/soft/billboard.h"
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/soft_plants.h"
-#include "renderer/soft/span.h"
+#include "renderer/soft/triangle_raster.h"
 
 #define SHADE_RANGE_M 2200.0f /* no shadows beyond */
 #define SHADE_FULL_M  1400.0f
@@ -53,15 +53,15 @@ static void load_plants(const struct soft_frame *f, struct plants8 *p,
         p->slope[0][i] = plant->slope[0];
         p->slope[1][i] = plant->slope[1];
     }
-    p->far = vec_sqrt(vec_dot3(p->at, p->at));
-    p->level = vec_sqrt(p->at[0] * p->at[0] + p->at[2] * p->at[2] + 1e-8f);
+    p->far = simd8_sqrt(simd8_dot3(p->at, p->at));
+    p->level = simd8_sqrt(p->at[0] * p->at[0] + p->at[2] * p->at[2] + 1e-8f);
     p->ahead_x = p->at[0] / p->level;
     p->ahead_z = p->at[2] / p->level;
-    p->air = air_at(f, p->at);
+    p->air = atmosphere_at(f, p->at);
 }
 
 /* Over the picture: the dot product of a pixel's ray with a way. */
-VEC struct values8 over_picture(const struct soft_frame *f, v8f x, v8f y, v8f z)
+SIMD8 struct values8 over_picture(const struct soft_frame *f, v8f x, v8f y, v8f z)
 {
     struct values8 o;
     o.v[1] = f->ray_x[0] * x + f->ray_x[1] * y + f->ray_x[2] * z;
@@ -70,7 +70,7 @@ VEC struct values8 over_picture(const struct soft_frame *f, v8f x, v8f y, v8f z)
     return o;
 }
 
-VEC struct values8 sum(struct values8 a, v8f by, struct values8 b, v8f by_b)
+SIMD8 struct values8 sum(struct values8 a, v8f by, struct values8 b, v8f by_b)
 {
     struct values8 o;
     for (uint32_t i = 0; i < 3; i++)
@@ -79,31 +79,31 @@ VEC struct values8 sum(struct values8 a, v8f by, struct values8 b, v8f by_b)
 }
 
 /* A board's corner in the picture. */
-VEC void take_corner(const struct soft_frame *f, struct boards8 *b, const v8f place[3], v8i *cut)
+SIMD8 void take_corner(const struct soft_frame *f, struct boards8 *b, const v8f place[3], v8i *cut)
 {
     v8f ahead = f->ahead[0] * place[0] + f->ahead[1] * place[1] + f->ahead[2] * place[2];
     v8f across = f->across[0] * place[0] + f->across[1] * place[1] + f->across[2] * place[2];
     v8f down = f->down[0] * place[0] + f->down[1] * place[1] + f->down[2] * place[2];
     v8i behind = ahead < f->near_m;
-    v8f over = 1.0f / vec_select(behind, vec_f(f->near_m), ahead);
+    v8f over = 1.0f / simd8_select(behind, simd8_f(f->near_m), ahead);
     v8f x = f->centre_x + across * over, y = f->centre_y + down * over;
     *cut |= behind;
     b->there |= ~behind;
-    b->left = vec_min(b->left, x);
-    b->right = vec_max(b->right, x);
-    b->high = vec_min(b->high, y);
-    b->low = vec_max(b->low, y);
+    b->left = simd8_min(b->left, x);
+    b->right = simd8_max(b->right, x);
+    b->high = simd8_min(b->high, y);
+    b->low = simd8_max(b->low, y);
 }
 
 /* Where in the picture boards may be, of which a corner is at the foot, and two sides. What reaches
  * behind the near plane may be anywhere. */
-VEC void find_bounds(const struct soft_frame *f, struct boards8 *b, const v8f foot[3],
-                     const v8f side[3], const v8f up[3])
+SIMD8 void find_bounds(const struct soft_frame *f, struct boards8 *b, const v8f foot[3],
+                       const v8f side[3], const v8f up[3])
 {
-    v8i cut = vec_i(0);
-    b->there = vec_i(0);
-    b->left = b->high = vec_f(SPAN_FAR);
-    b->right = b->low = vec_f(-SPAN_FAR);
+    v8i cut = simd8_i(0);
+    b->there = simd8_i(0);
+    b->left = b->high = simd8_f(TRIANGLE_RASTER_FAR);
+    b->right = b->low = simd8_f(-TRIANGLE_RASTER_FAR);
     for (uint32_t corner = 0; corner < 4; corner++) {
         v8f place[3];
         for (uint32_t i = 0; i < 3; i++) {
@@ -113,25 +113,25 @@ VEC void find_bounds(const struct soft_frame *f, struct boards8 *b, const v8f fo
         take_corner(f, b, place, &cut);
     }
     float columns = (float)f->width, rows = (float)f->height;
-    b->size = vec_min(b->right - b->left, b->low - b->high);
-    b->left = vec_clamp(vec_select(cut, vec_f(0.0f), b->left), 0.0f, columns);
-    b->right = vec_clamp(vec_select(cut, vec_f(columns), b->right), 0.0f, columns);
-    b->high = vec_clamp(vec_select(cut, vec_f(0.0f), b->high), 0.0f, rows);
-    b->low = vec_clamp(vec_select(cut, vec_f(rows), b->low), 0.0f, rows);
+    b->size = simd8_min(b->right - b->left, b->low - b->high);
+    b->left = simd8_clamp(simd8_select(cut, simd8_f(0.0f), b->left), 0.0f, columns);
+    b->right = simd8_clamp(simd8_select(cut, simd8_f(columns), b->right), 0.0f, columns);
+    b->high = simd8_clamp(simd8_select(cut, simd8_f(0.0f), b->high), 0.0f, rows);
+    b->low = simd8_clamp(simd8_select(cut, simd8_f(rows), b->low), 0.0f, rows);
     b->there &= (b->left < b->right) & (b->high < b->low);
 }
 
 /* Upright, turned to the eye about the vertical; seen steeply from above, with its top away from
  * the eye (struct scene_plant). */
-VEC struct boards8 stand(const struct soft_frame *f, const struct plants8 *p)
+SIMD8 struct boards8 stand(const struct soft_frame *f, const struct plants8 *p)
 {
     struct boards8 b;
-    v8f right_x = -p->ahead_z, right_z = p->ahead_x, zero = vec_f(0.0f), one = vec_f(1.0f);
+    v8f right_x = -p->ahead_z, right_z = p->ahead_x, zero = simd8_f(0.0f), one = simd8_f(1.0f);
     v8f side[3] = {right_x * p->width, zero, right_z * p->width};
     v8f leans = p->lean * p->height;
     /* Sine and cosine of how far it lies back. */
-    v8f back = vec_max((-p->at[1] - p->level) * SCENE_PLANT_STEEP / p->far, zero);
-    v8f rise = vec_select(back > zero, (p->level - p->at[1]) * SCENE_PLANT_STEEP / p->far, one);
+    v8f back = simd8_max((-p->at[1] - p->level) * SCENE_PLANT_STEEP / p->far, zero);
+    v8f rise = simd8_select(back > zero, (p->level - p->at[1]) * SCENE_PLANT_STEEP / p->far, one);
     v8f back_x = p->ahead_x * back, back_z = p->ahead_z * back;
     v8f up[3] = {right_x * leans + back_x * p->height, rise * p->height,
                  right_z * leans + back_z * p->height};
@@ -146,22 +146,22 @@ VEC struct boards8 stand(const struct soft_frame *f, const struct plants8 *p)
             -foot);
     struct values8 off = over_picture(f, right_x / p->width, zero, right_z / p->width);
     b.down = sum(b.depth, one, high, -one);
-    b.across = sum(sum(off, one, high, -leans / p->width), one, b.depth, vec_f(0.5f));
+    b.across = sum(sum(off, one, high, -leans / p->width), one, b.depth, simd8_f(0.5f));
     return b;
 }
 
 /* Laid on the slope, away from the sun. */
-VEC struct boards8 lie(const struct soft_frame *f, const struct plants8 *p, v8f *reach)
+SIMD8 struct boards8 lie(const struct soft_frame *f, const struct plants8 *p, v8f *reach)
 {
     struct boards8 b;
     float level = sqrtf(f->sun[0] * f->sun[0] + f->sun[2] * f->sun[2]);
     float away_x = -f->sun[0] / level, away_z = -f->sun[2] / level;
     float aside_x = -away_z, aside_z = away_x;
-    v8f one = vec_f(1.0f), leans = p->lean * p->height;
+    v8f one = simd8_f(1.0f), leans = p->lean * p->height;
     /* Where the sun's ray through the top meets the slope. */
     v8f fall = p->slope[0] * away_x + p->slope[1] * away_z;
     v8f bank = p->slope[0] * aside_x + p->slope[1] * aside_z;
-    *reach = p->height / vec_max(f->sun[1] / level + fall, vec_f(SHADE_STEEP));
+    *reach = p->height / simd8_max(f->sun[1] / level + fall, simd8_f(SHADE_STEEP));
     v8f foot[3] = {p->at[0], p->at[1] + 0.10f + 0.02f * p->height, p->at[2]};
     v8f side[3] = {aside_x * p->width, bank * p->width, aside_z * p->width};
     v8f up[3] = {away_x * *reach + aside_x * leans, fall * *reach + bank * leans,
@@ -169,13 +169,13 @@ VEC struct boards8 lie(const struct soft_frame *f, const struct plants8 *p, v8f 
     find_bounds(f, &b, foot, side, up);
     v8f under = foot[1] - p->slope[0] * foot[0] - p->slope[1] * foot[2];
     b.there &= under < -1e-3f;
-    v8f over = 1.0f / vec_min(under, vec_f(-1e-3f));
+    v8f over = 1.0f / simd8_min(under, simd8_f(-1e-3f));
     b.depth = over_picture(f, -p->slope[0] * over, over, -p->slope[1] * over);
     v8f at_away = foot[0] * away_x + foot[2] * away_z;
     v8f at_aside = foot[0] * aside_x + foot[2] * aside_z;
-    struct values8 high = sum(over_picture(f, away_x / *reach, vec_f(0.0f), away_z / *reach), one,
+    struct values8 high = sum(over_picture(f, away_x / *reach, simd8_f(0.0f), away_z / *reach), one,
                               b.depth, -at_away / *reach);
-    struct values8 off = over_picture(f, aside_x / p->width, vec_f(0.0f), aside_z / p->width);
+    struct values8 off = over_picture(f, aside_x / p->width, simd8_f(0.0f), aside_z / p->width);
     b.down = sum(b.depth, one, high, -one);
     b.across =
         sum(sum(off, one, high, -leans / p->width), one, b.depth, 0.5f - at_aside / p->width);
@@ -195,7 +195,7 @@ static bool set_board(const struct soft_plants *plants, struct soft_board *board
                       struct soft_rows *rows, const struct boards8 *b, float picture, uint32_t lane)
 {
     uint32_t which = (uint32_t)(picture + 0.5f);
-    which = which < FOLIAGE_COUNT ? which : 0;
+    which = which < PLANT_IMPOSTORS_COUNT ? which : 0;
     board->level = (uint16_t)level_of(b->size[lane]);
     board->leaves = plants->first[which][board->level];
     float side = (float)(1u << board->level);
@@ -204,10 +204,10 @@ static bool set_board(const struct soft_plants *plants, struct soft_board *board
         board->across[i] = side * b->across.v[i][lane];
         board->down[i] = side * b->down.v[i][lane];
     }
-    board->left = (int16_t)span_ceil(b->left[lane], (float)SOFT_SIDE_MAX);
-    board->right = (int16_t)span_ceil(b->right[lane], (float)SOFT_SIDE_MAX);
-    rows->first = (int16_t)span_ceil(b->high[lane], (float)SOFT_SIDE_MAX);
-    rows->end = (int16_t)span_ceil(b->low[lane], (float)SOFT_SIDE_MAX);
+    board->left = (int16_t)triangle_raster_ceil(b->left[lane], (float)SOFT_SIDE_MAX);
+    board->right = (int16_t)triangle_raster_ceil(b->right[lane], (float)SOFT_SIDE_MAX);
+    rows->first = (int16_t)triangle_raster_ceil(b->high[lane], (float)SOFT_SIDE_MAX);
+    rows->end = (int16_t)triangle_raster_ceil(b->low[lane], (float)SOFT_SIDE_MAX);
     return board->left < board->right && rows->first < rows->end;
 }
 
@@ -234,8 +234,8 @@ static void put_plants(struct soft_plants *plants, const struct soft_frame *f,
 {
     struct boards8 b = stand(f, p);
     /* Small pictures are averages of leaf and gap: a lower threshold keeps their size. */
-    v8f cut = 255.0f * (0.5f - 0.28f * vec_smoothstep(150.0f, 1800.0f, p->far));
-    for (lanes &= vec_bits(b.there); lanes != 0; lanes &= lanes - 1) {
+    v8f cut = 255.0f * (0.5f - 0.28f * simd8_smoothstep(150.0f, 1800.0f, p->far));
+    for (lanes &= simd8_bits(b.there); lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
         struct soft_plant *plant = &plants->plants[plants->count];
         if (!set_board(plants, &plant->board, &plants->rows[plants->count], &b, from[lane].picture,
@@ -255,13 +255,13 @@ static void put_casts(struct soft_plants *plants, const struct soft_frame *f,
     v8f reach, far = p->far;
     v8i none = (far > SHADE_RANGE_M) | (p->height < SHADE_LEAST_M) |
                ((p->height < SHADE_HIGH_M) & (far > SHADE_LOW_M));
-    lanes &= vec_bits(~none);
+    lanes &= simd8_bits(~none);
     if (lanes == 0)
         return;
     struct boards8 b = lie(f, p, &reach);
-    v8f strong = 1.0f - vec_smoothstep(SHADE_FULL_M, SHADE_RANGE_M, far);
+    v8f strong = 1.0f - simd8_smoothstep(SHADE_FULL_M, SHADE_RANGE_M, far);
     v8f dark = (float)SOFT_SHADOW_FULL * (1.0f - p->air.much) * strong;
-    for (lanes &= vec_bits(b.there); lanes != 0; lanes &= lanes - 1) {
+    for (lanes &= simd8_bits(b.there); lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
         struct soft_cast *cast = &plants->casts[plants->cast_count];
         cast->dark = (uint32_t)(dark[lane] + 0.5f);
@@ -301,87 +301,87 @@ struct leaves8 {
     v8f alpha, facing[3];
 };
 
-VEC struct leaves8 unpack(v8u colour, v8u facing, bool texture)
+SIMD8 struct leaves8 unpack(v8u colour, v8u facing, bool texture)
 {
     struct leaves8 l = {
-        .colour = {vec_byte(colour, 0), vec_byte(colour, 8), vec_byte(colour, 16)},
-        .alpha = vec_byte(colour, 24),
-        .facing = {vec_byte(facing, 0) * (1.0f / 127.5f) - 1.0f,
-                   vec_byte(facing, 8) * (1.0f / 127.5f) - 1.0f,
-                   vec_byte(facing, 16) * (1.0f / 127.5f) - 1.0f},
+        .colour = {simd8_byte(colour, 0), simd8_byte(colour, 8), simd8_byte(colour, 16)},
+        .alpha = simd8_byte(colour, 24),
+        .facing = {simd8_byte(facing, 0) * (1.0f / 127.5f) - 1.0f,
+                   simd8_byte(facing, 8) * (1.0f / 127.5f) - 1.0f,
+                   simd8_byte(facing, 16) * (1.0f / 127.5f) - 1.0f},
     };
     if (!texture)
-        l.colour = colour_scale(colour_of(0.25f, 0.32f, 0.15f), vec_byte(facing, 24));
+        l.colour = colour_scale(colour_of(0.25f, 0.32f, 0.15f), simd8_byte(facing, 24));
     return l;
 }
 
-VEC struct leaves8 mix(const struct leaves8 *a, const struct leaves8 *b, v8f t)
+SIMD8 struct leaves8 mix(const struct leaves8 *a, const struct leaves8 *b, v8f t)
 {
     struct leaves8 l = {.colour = colour_mix(a->colour, b->colour, t),
-                        .alpha = vec_mix(a->alpha, b->alpha, t)};
+                        .alpha = simd8_mix(a->alpha, b->alpha, t)};
     for (uint32_t i = 0; i < 3; i++)
-        l.facing[i] = vec_mix(a->facing[i], b->facing[i], t);
+        l.facing[i] = simd8_mix(a->facing[i], b->facing[i], t);
     return l;
 }
 
 /* Between the four nearest texels. */
-VEC struct leaves8 four_leaves(const struct soft_board *b, const struct soft_leaf *leaves,
-                               v8f column, v8f row, bool texture)
+SIMD8 struct leaves8 four_leaves(const struct soft_board *b, const struct soft_leaf *leaves,
+                                 v8f column, v8f row, bool texture)
 {
     float last = (float)(1u << b->level) - 1.0f;
-    v8f left = vec_clamp(column - 0.5f, 0.0f, last), high = vec_clamp(row - 0.5f, 0.0f, last);
-    v8i x = vec_to_i(left), y = vec_to_i(high);
-    v8i right = vec_select_i(vec_to_f(x) < last, vec_i(8), vec_i(0));
-    v8i below = vec_select_i(vec_to_f(y) < last, vec_i(8 << b->level), vec_i(0));
+    v8f left = simd8_clamp(column - 0.5f, 0.0f, last), high = simd8_clamp(row - 0.5f, 0.0f, last);
+    v8i x = simd8_to_i(left), y = simd8_to_i(high);
+    v8i right = simd8_select_i(simd8_to_f(x) < last, simd8_i(8), simd8_i(0));
+    v8i below = simd8_select_i(simd8_to_f(y) < last, simd8_i(8 << b->level), simd8_i(0));
     v8i at = ((y << b->level) + x) * 8;
-    struct leaves8 four[4];
+    struct leaves8 f64x4[4];
     for (uint32_t i = 0; i < 4; i++) {
-        v8i texel = at + ((i & 1) != 0 ? right : vec_i(0)) + ((i & 2) != 0 ? below : vec_i(0));
-        struct vec_pairs pair = vec_gather_pairs(leaves, texel);
-        four[i] = unpack(pair.low, pair.high, texture);
+        v8i texel = at + ((i & 1) != 0 ? right : simd8_i(0)) + ((i & 2) != 0 ? below : simd8_i(0));
+        struct simd8_pairs pair = simd8_gather_pairs(leaves, texel);
+        f64x4[i] = unpack(pair.low, pair.high, texture);
     }
-    struct leaves8 top = mix(&four[0], &four[1], left - vec_to_f(x));
-    struct leaves8 low = mix(&four[2], &four[3], left - vec_to_f(x));
-    return mix(&top, &low, high - vec_to_f(y));
+    struct leaves8 top = mix(&f64x4[0], &f64x4[1], left - simd8_to_f(x));
+    struct leaves8 low = mix(&f64x4[2], &f64x4[3], left - simd8_to_f(x));
+    return mix(&top, &low, high - simd8_to_f(y));
 }
 
 /* Light on leaves, some of it from behind through them. */
-VEC v8u lit(const struct soft_plant *p, const struct leaves8 *l)
+SIMD8 v8u lit(const struct soft_plant *p, const struct leaves8 *l)
 {
     v8f sun =
         l->facing[0] * p->to_sun[0] + l->facing[1] * p->to_sun[1] + l->facing[2] * p->to_sun[2];
-    v8f zero = vec_f(0.0f), most = vec_f(255.0f);
-    v8f straight = vec_max(0.85f * sun + 0.15f, zero) + vec_max(-0.16f * sun, zero);
+    v8f zero = simd8_f(0.0f), most = simd8_f(255.0f);
+    v8f straight = simd8_max(0.85f * sun + 0.15f, zero) + simd8_max(-0.16f * sun, zero);
     v8f around = 0.80f + 0.35f * l->facing[1];
     v8f r = l->colour.r * (around * p->sky[0] + straight * p->sun[0]) + p->air[0] + 0.5f;
     v8f g = l->colour.g * (around * p->sky[1] + straight * p->sun[1]) + p->air[1] + 0.5f;
     v8f b = l->colour.b * (around * p->sky[2] + straight * p->sun[2]) + p->air[2] + 0.5f;
-    return (v8u)(vec_to_i(vec_min(r, most)) | vec_to_i(vec_min(g, most)) << 8 |
-                 vec_to_i(vec_min(b, most)) << 16) |
+    return (v8u)(simd8_to_i(simd8_min(r, most)) | simd8_to_i(simd8_min(g, most)) << 8 |
+                 simd8_to_i(simd8_min(b, most)) << 16) |
            0xff000000u;
 }
 
-VEC void plant_pixels(const struct soft_plant *p, const struct soft_leaf *leaves,
-                      const struct soft_target *t, int32_t x, int32_t y, v8i inside, bool texture)
+SIMD8 void plant_pixels(const struct soft_plant *p, const struct soft_leaf *leaves,
+                        const struct soft_target *t, int32_t x, int32_t y, v8i inside, bool texture)
 {
     size_t at = (size_t)(y - t->first) * t->stride + (size_t)x;
-    struct board8 b = board_pixels(&p->board, t->depth + at, x, y, inside);
+    struct board8 b = billboard_pixels(&p->board, t->depth + at, x, y, inside);
     struct leaves8 l;
-    if (vec_bits(b.seen) == 0)
+    if (simd8_bits(b.seen) == 0)
         return;
     if (p->mixed) {
         l = four_leaves(&p->board, leaves, b.column, b.row, texture);
         b.seen &= l.alpha >= (float)p->board.cut;
     } else {
-        v8i texel = board_texel(&p->board, b.column, b.row);
-        struct vec_pairs pair = vec_gather_pairs(leaves, texel * 8);
+        v8i texel = billboard_texel(&p->board, b.column, b.row);
+        struct simd8_pairs pair = simd8_gather_pairs(leaves, texel * 8);
         b.seen &= (v8i)(pair.low >> 24) >= (int32_t)p->board.cut;
-        if (vec_bits(b.seen) == 0)
+        if (simd8_bits(b.seen) == 0)
             return;
         l = unpack(pair.low, pair.high, texture);
     }
-    vec_store_f(t->depth + at, vec_select(b.seen, b.depth, vec_load_f(t->depth + at)));
-    vec_store_u(t->colour + at, vec_select_u(b.seen, lit(p, &l), vec_load_u(t->colour + at)));
+    simd8_store_f(t->depth + at, simd8_select(b.seen, b.depth, simd8_load_f(t->depth + at)));
+    simd8_store_u(t->colour + at, simd8_select_u(b.seen, lit(p, &l), simd8_load_u(t->colour + at)));
 }
 
 void KERNEL(soft_plants_fill)(const struct soft_plants *plants, const struct soft_frame *frame,
@@ -396,7 +396,7 @@ void KERNEL(soft_plants_fill)(const struct soft_plants *plants, const struct sof
         int32_t last = rows->end < target->end ? rows->end : target->end;
         for (; y < last; y++)
             for (int32_t x = p->board.left & -LANES; x < p->board.right; x += LANES) {
-                v8i column = vec_count() + x;
+                v8i column = simd8_count() + x;
                 plant_pixels(p, leaves, target, x, y,
                              (column >= p->board.left) & (column < p->board.right), frame->texture);
             }

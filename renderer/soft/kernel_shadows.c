@@ -1,17 +1,17 @@
 /* Shadows of bodies and plants on the ground of a band: marks that resolve darkens by. */
-#include "renderer/soft/board.h"
+#include "renderer/soft/billboard.h"
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/soft_bodies.h"
 #include "renderer/soft/soft_plants.h"
-#include "renderer/soft/span.h"
+#include "renderer/soft/triangle_raster.h"
 
 /* Darkens ground, where it is not darker, and nothing else. */
-VEC void darken(uint32_t *colour, v8i seen, uint32_t dark)
+SIMD8 void darken(uint32_t *colour, v8i seen, uint32_t dark)
 {
-    v8u there = vec_load_u(colour), mark = vec_u(dark << SOFT_SHADOW_BITS);
-    v8u others = ~vec_u(255u << SOFT_SHADOW_BITS);
+    v8u there = simd8_load_u(colour), mark = simd8_u(dark << SOFT_SHADOW_BITS);
+    v8u others = ~simd8_u(255u << SOFT_SHADOW_BITS);
     seen &= (v8i)((there & ~others) < mark) & (v8i)(there < 0x01000000u);
-    vec_store_u(colour, vec_select_u(seen, (there & others) | mark, there));
+    simd8_store_u(colour, simd8_select_u(seen, (there & others) | mark, there));
 }
 
 struct shading {
@@ -19,13 +19,13 @@ struct shading {
     const struct soft_shade *shade;
 };
 
-VEC void shade_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
+SIMD8 void shade_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
 {
     const struct shading *s = context;
-    v8f depth = span_value(&s->shade->span, &s->shade->depth, x, y);
-    v8f there = vec_load_f(s->target->depth + at);
+    v8f depth = triangle_raster_value(&s->shade->span, &s->shade->depth, x, y);
+    v8f there = simd8_load_f(s->target->depth + at);
     v8i seen = inside & (depth >= there) & (there > 0.0f);
-    if (vec_bits(seen) != 0)
+    if (simd8_bits(seen) != 0)
         darken(s->target->colour + at, seen, s->shade->dark);
 }
 
@@ -39,16 +39,16 @@ static void fill_cast(const struct soft_plants *plants, const struct soft_target
     int32_t last = rows->end < t->end ? rows->end : t->end;
     for (; y < last; y++) {
         int32_t first, end;
-        board_range(&c->board, y, &first, &end);
+        billboard_range(&c->board, y, &first, &end);
         for (int32_t x = first & -LANES; x < end; x += LANES) {
             size_t at = (size_t)(y - t->first) * t->stride + (size_t)x;
-            v8i column = vec_count() + x;
-            struct board8 b =
-                board_pixels(&c->board, t->depth + at, x, y, (column >= first) & (column < end));
-            b.seen &= vec_load_f(t->depth + at) > 0.0f;
-            if (vec_bits(b.seen) == 0)
+            v8i column = simd8_count() + x;
+            struct board8 b = billboard_pixels(&c->board, t->depth + at, x, y,
+                                               (column >= first) & (column < end));
+            b.seen &= simd8_load_f(t->depth + at) > 0.0f;
+            if (simd8_bits(b.seen) == 0)
                 continue;
-            v8u leaf = vec_gather_bytes(leaves, board_texel(&c->board, b.column, b.row) * 8);
+            v8u leaf = simd8_gather_bytes(leaves, billboard_texel(&c->board, b.column, b.row) * 8);
             darken(t->colour + at, b.seen & ((v8i)(leaf >> 24) >= (int32_t)c->board.cut), c->dark);
         }
     }
@@ -62,7 +62,7 @@ void KERNEL(soft_shadows_fill)(const struct soft_bodies *bodies, const struct so
     const struct soft_bins *bins = &bodies->shades.bins;
     for (uint32_t i = bins->start[target->band]; i < bins->start[target->band + 1]; i++) {
         s.shade = (const struct soft_shade *)bodies->shades.list + bins->item[i];
-        span_walk(&s.shade->span, target, shade_pixels, &s);
+        triangle_raster_walk(&s.shade->span, target, shade_pixels, &s);
     }
     bins = &plants->cast_bins;
     for (uint32_t i = bins->start[target->band]; i < bins->start[target->band + 1]; i++)

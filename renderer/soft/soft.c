@@ -1,10 +1,10 @@
 /* The software back end: one picture from start to end. */
 #include "renderer/soft/soft.h"
 
-#include "renderer/image/smooth.h"
-#include "renderer/scene/light.h"
+#include "renderer/soft/fxaa.h"
+#include "renderer/scene/frame/light.h"
 #include "renderer/soft/kernel.h"
-#include "world/workers.h"
+#include "world/runtime/thread_pool.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ static const char *const stage_names[STAGE_COUNT] = {
     [STAGE_RESOLVE] = "resolve", [STAGE_PUFFS] = "puffs",     [STAGE_SMOOTH] = "smooth",
 };
 
-_Static_assert(STAGE_COUNT <= DRAW_STAGES_MAX, "more stages than can be told");
+_Static_assert(STAGE_COUNT <= BACK_END_STAGES_MAX, "more stages than can be told");
 
 enum soft_kind { KIND_GROUND, KIND_BODIES, KIND_PLANTS, KIND_PUFFS, KIND_COUNT };
 
@@ -46,10 +46,10 @@ struct soft {
     struct soft_ground *ground;
     struct soft_bodies *bodies;
     struct soft_plants *plants;
-    struct soft_puffs *puffs;
+    struct soft_particles *puffs;
     const struct soft_kernels *kernels;
-    struct workers *workers;
-    struct soft_worker worker[WORKERS_MAX];
+    struct thread_pool *workers;
+    struct soft_worker worker[THREAD_POOL_MAX];
     uint32_t width, height; /* of the largest picture */
     struct image drawn;     /* its edges still rough */
     struct image *smoothed; /* where the picture goes */
@@ -57,7 +57,7 @@ struct soft {
     atomic_bool ready[SOFT_BANDS_MAX], taken[SOFT_BANDS_MAX];
     struct soft_frame frame;
     int failed[KIND_COUNT]; /* by the thread that prepared it */
-    struct draw_stages stages;
+    struct back_end_stages stages;
 };
 
 /* --- timing ------------------------------------------------------------------------------------
@@ -83,13 +83,13 @@ static void spent(struct soft_worker *worker, enum stage stage)
     worker->mark_ns = now;
 }
 
-static const struct draw_stages *soft_stages(void *self)
+static const struct back_end_stages *soft_stages(void *self)
 {
     struct soft *soft = self;
     soft->stages.count = STAGE_COUNT;
     for (uint32_t s = 0; s < STAGE_COUNT; s++) {
-        soft->stages.stage[s] = (struct draw_stage){.name = stage_names[s]};
-        for (uint32_t w = 0; w < workers_threads(soft->workers); w++)
+        soft->stages.stage[s] = (struct back_end_stage){.name = stage_names[s]};
+        for (uint32_t w = 0; w < thread_pool_threads(soft->workers); w++)
             soft->stages.stage[s].cpu_ns += soft->worker[w].cpu_ns[s];
     }
     return &soft->stages;
@@ -114,8 +114,8 @@ static double power_of_e(double x)
     return power;
 }
 
-static void frame_begin(struct soft *soft, const struct scene *scene, const struct moment *moment,
-                        const struct image *image)
+static void frame_begin(struct soft *soft, const struct scene *scene,
+                        const struct frame_view *moment, const struct image *image)
 {
     const struct camera *c = &scene->camera;
     struct soft_frame *f = &soft->frame;
@@ -166,7 +166,7 @@ static void prepare_kinds(void *context, uint32_t first, uint32_t end, uint32_t 
         else if (kind == KIND_PLANTS)
             *failed = soft_plants_prepare(soft->plants, &soft->frame);
         else
-            *failed = soft_puffs_prepare(soft->puffs, &soft->frame);
+            *failed = soft_particles_prepare(soft->puffs, &soft->frame);
         spent(&soft->worker[worker], STAGE_PREPARE);
     }
 }
@@ -203,8 +203,8 @@ static void smooth_ready(struct soft *soft, uint32_t band)
         if (atomic_load(&soft->ready[at > 0 ? at - 1 : 0]) && atomic_load(&soft->ready[at]) &&
             atomic_load(&soft->ready[at < last ? at + 1 : last]) &&
             !atomic_exchange(&soft->taken[at], true))
-            smooth_rows(soft->smoothed, &soft->drawn, at * SOFT_BAND_ROWS,
-                        at < last ? bottom : soft->frame.height);
+            fxaa_rows(soft->smoothed, &soft->drawn, at * SOFT_BAND_ROWS,
+                      at < last ? bottom : soft->frame.height);
     }
 }
 
@@ -236,20 +236,20 @@ static void draw_bands(void *context, uint32_t first, uint32_t end, uint32_t wor
     }
 }
 
-static int soft_picture(void *self, const struct scene *scene, const struct moment *moment,
+static int soft_picture(void *self, const struct scene *scene, const struct frame_view *moment,
                         struct image *image, struct reason *reason)
 {
     struct soft *soft = self;
     if (image->width > soft->width || image->height > soft->height)
         return reason_set(reason, "a %ux%u picture was asked of a back end opened for %ux%u",
                           image->width, image->height, soft->width, soft->height);
-    for (uint32_t w = 0; w < workers_threads(soft->workers); w++)
+    for (uint32_t w = 0; w < thread_pool_threads(soft->workers); w++)
         memset(soft->worker[w].cpu_ns, 0, sizeof soft->worker[w].cpu_ns);
     frame_begin(soft, scene, moment, image);
     mark(&soft->worker[0]);
     soft_ground_bring(soft->ground, &soft->frame);
     spent(&soft->worker[0], STAGE_TILES);
-    workers_run(soft->workers, prepare_kinds, soft, KIND_COUNT, 1);
+    thread_pool_run(soft->workers, prepare_kinds, soft, KIND_COUNT, 1);
     int failed = 0;
     for (uint32_t kind = 0; kind < KIND_COUNT; kind++)
         failed |= soft->failed[kind];
@@ -262,7 +262,7 @@ static int soft_picture(void *self, const struct scene *scene, const struct mome
         atomic_init(&soft->ready[band], false);
         atomic_init(&soft->taken[band], false);
     }
-    workers_run(soft->workers, draw_bands, soft, soft->frame.bands, 1);
+    thread_pool_run(soft->workers, draw_bands, soft, soft->frame.bands, 1);
     return 0;
 }
 
@@ -272,12 +272,12 @@ static int soft_picture(void *self, const struct scene *scene, const struct mome
 static void soft_close(void *self)
 {
     struct soft *soft = self;
-    workers_destroy(soft->workers);
+    thread_pool_destroy(soft->workers);
     soft_ground_close(soft->ground);
     soft_bodies_close(soft->bodies);
     soft_plants_close(soft->plants);
-    soft_puffs_close(soft->puffs);
-    for (uint32_t w = 0; w < WORKERS_MAX; w++) {
+    soft_particles_close(soft->puffs);
+    for (uint32_t w = 0; w < THREAD_POOL_MAX; w++) {
         free(soft->worker[w].colour);
         free(soft->worker[w].depth);
     }
@@ -300,14 +300,14 @@ const char *soft_vectors(void)
 }
 
 /* 0, or -1 with the reason. */
-static int open_parts(struct soft *soft, const struct scenery *scenery, uint32_t threads,
+static int open_parts(struct soft *soft, const struct static_scene *scenery, uint32_t threads,
                       struct reason *reason)
 {
     size_t band = ((size_t)soft->width + 15u) / 16u * 16u * SOFT_BAND_ROWS * sizeof(uint32_t);
     size_t bands = ((size_t)soft->height + SOFT_BAND_ROWS - 1) / SOFT_BAND_ROWS;
     soft->drawn.pixels = aligned_alloc(SOFT_ALIGN, band * bands);
     bool room = soft->drawn.pixels != NULL;
-    soft->workers = workers_create(threads);
+    soft->workers = thread_pool_create(threads);
     for (uint32_t w = 0; w < threads; w++) {
         soft->worker[w].colour = aligned_alloc(SOFT_ALIGN, band);
         soft->worker[w].depth = aligned_alloc(SOFT_ALIGN, band);
@@ -320,18 +320,18 @@ static int open_parts(struct soft *soft, const struct scenery *scenery, uint32_t
     soft->bodies =
         soft->ground ? soft_bodies_open(scenery, soft_ground_detail(soft->ground), reason) : NULL;
     soft->plants = soft->bodies ? soft_plants_open(reason) : NULL;
-    soft->puffs = soft->plants ? soft_puffs_open(reason) : NULL;
+    soft->puffs = soft->plants ? soft_particles_open(reason) : NULL;
     return soft->puffs ? 0 : -1;
 }
 
-int soft_open_build(struct draw *draw, const struct scenery *scenery, uint32_t width,
-                    uint32_t height, uint32_t threads, const struct soft_kernels *kernels,
-                    struct reason *reason)
+int soft_open_build(struct back_end_interface *draw, const struct static_scene *scenery,
+                    uint32_t width, uint32_t height, uint32_t threads,
+                    const struct soft_kernels *kernels, struct reason *reason)
 {
     if (width < 1 || height < 1 || width > SOFT_SIDE_MAX || height > SOFT_SIDE_MAX)
         return reason_set(reason, "a picture of %ux%u: a side is 1 .. %d", width, height,
                           SOFT_SIDE_MAX);
-    threads = threads < 1 ? 1 : threads > WORKERS_MAX ? WORKERS_MAX : threads;
+    threads = threads < 1 ? 1 : threads > THREAD_POOL_MAX ? THREAD_POOL_MAX : threads;
     struct soft *soft = aligned_alloc(SOFT_ALIGN, sizeof *soft);
     if (soft == NULL)
         return reason_set(reason, "no memory for drawing");
@@ -343,13 +343,13 @@ int soft_open_build(struct draw *draw, const struct scenery *scenery, uint32_t w
         soft_close(soft);
         return -1;
     }
-    *draw = (struct draw){
+    *draw = (struct back_end_interface){
         .self = soft, .picture = soft_picture, .stages = soft_stages, .close = soft_close};
     return 0;
 }
 
-int soft_open(struct draw *draw, const struct scenery *scenery, uint32_t width, uint32_t height,
-              uint32_t threads, struct reason *reason)
+int soft_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
+              uint32_t height, uint32_t threads, struct reason *reason)
 {
     return soft_open_build(draw, scenery, width, height, threads, best_kernels(), reason);
 }

@@ -3,7 +3,7 @@
  * The picture is cut into bands of SOFT_BAND_ROWS rows; a band's colours and depths stay in a
  * core's own cache. A picture is made in two steps:
  *   prepare   each kind of thing is transformed, clipped, set up and sorted into lists, one for
- *             each band (soft_bins_sort). The kinds are prepared by different threads.
+ *             each band (band_lists_sort). The kinds are prepared by different threads.
  *   bands     each band is cleared, then filled by one pass after the other: ground, shadows,
  *             bodies, plants, resolve, puffs. Threads take bands as they come; a band reads the
  *             lists and writes its own rows, so that the picture is the same for any number of
@@ -21,15 +21,16 @@
  * How a pass is made (bodies, say): soft_bodies.c owns the lists and their memory, and calls the
  * kernels soft_bodies_set_up (prepare) and soft_bodies_fill (band) in kernel_bodies.c, which is
  * compiled twice (kernel.h lists every kernel). Set-up fills corners8 with eight triangles at a
- * time, clips what crosses the near plane (span_clip), calls span_set_up and span_plane, and stores
- * the records of those that can be seen with the rows they touch. Fill goes through the band's list
- * (soft_bins_of) and calls span_walk with an inlined function of eight pixels at a time, which
- * tests depth, shades and stores. All of this is in span.h, over vec.h; light and air in air.h. */
-#ifndef JOLON_RENDERER_SOFT_H
-#define JOLON_RENDERER_SOFT_H
+ * time, clips what crosses the near plane (triangle_raster_clip), calls triangle_raster_set_up and
+ * triangle_raster_plane, and stores the records of those that can be seen with the rows they touch.
+ * Fill goes through the band's list (soft_bins_of) and calls triangle_raster_walk with an inlined
+ * function of eight pixels at a time, which tests depth, shades and stores. All of this is in
+ * triangle_raster.h, over simd8.h; light and air in atmosphere.h. */
+#ifndef JOLON_RENDERER_SOFT_SOFT_H
+#define JOLON_RENDERER_SOFT_SOFT_H
 
-#include "ipc/segment.h"
-#include "renderer/draw.h"
+#include "ipc/segment/segment.h"
+#include "renderer/scene/back_end_interface.h"
 #include "renderer/scene/scene.h"
 
 #include <stddef.h>
@@ -47,7 +48,7 @@ struct soft_kernels;
 /* What every part knows of a picture. Axes are the world's. */
 struct soft_frame {
     const struct scene *scene;
-    const struct moment *moment;
+    const struct frame_view *moment;
     const struct soft_kernels *kernels;
     uint32_t width, height, bands;
     /* A place p from the eye is at x = centre_x + dot(across, p) / d, y = centre_y +
@@ -74,11 +75,11 @@ struct soft_target {
 };
 
 /* soft_open() with one build of the kernels. */
-int soft_open_build(struct draw *draw, const struct scenery *scenery, uint32_t width,
-                    uint32_t height, uint32_t threads, const struct soft_kernels *kernels,
-                    struct reason *reason);
+int soft_open_build(struct back_end_interface *draw, const struct static_scene *scenery,
+                    uint32_t width, uint32_t height, uint32_t threads,
+                    const struct soft_kernels *kernels, struct reason *reason);
 
-/* --- triangles, set up in span.h --- */
+/* --- triangles, set up in triangle_raster.h --- */
 
 /* A triangle's edges, ready to be walked: corners from top to bottom, and how far each edge goes
  * aside in a row. */
@@ -93,7 +94,7 @@ struct span_plane {
     float top, x, y;
 };
 
-/* --- lists of what touches each band (soft_bins.c) --- */
+/* --- lists of what touches each band (band_lists.c) --- */
 
 struct soft_rows {
     int16_t first, end; /* rows of the picture, within it; first < end */
@@ -106,9 +107,9 @@ struct soft_bins {
 };
 
 /* Sorts count items, whose rows are given, into the bands. 0, or -1 with errno ENOMEM. */
-int soft_bins_sort(struct soft_bins *bins, const struct soft_rows *rows, uint32_t count,
-                   uint32_t bands);
-void soft_bins_free(struct soft_bins *bins);
+int band_lists_sort(struct soft_bins *bins, const struct soft_rows *rows, uint32_t count,
+                    uint32_t bands);
+void band_lists_free(struct soft_bins *bins);
 
 /* Makes room for count things of a size; what was there is kept. 0, or -1 with errno ENOMEM. */
 int soft_room(void **list, size_t *room, size_t count, size_t size);
@@ -117,7 +118,7 @@ int soft_room(void **list, size_t *room, size_t count, size_t size);
 
 struct soft_ground;
 struct soft_detail;
-struct soft_ground *soft_ground_open(const struct scenery *scenery, struct reason *reason);
+struct soft_ground *soft_ground_open(const struct static_scene *scenery, struct reason *reason);
 void soft_ground_close(struct soft_ground *ground);
 /* The fine texture, for others too. */
 const struct soft_detail *soft_ground_detail(const struct soft_ground *ground);
@@ -128,18 +129,18 @@ int soft_ground_prepare(struct soft_ground *ground, const struct soft_frame *fra
 /* --- bodies, plants, puffs: each in a file of its own --- */
 
 /* NULL with the reason. */
-struct soft_bodies *soft_bodies_open(const struct scenery *scenery,
+struct soft_bodies *soft_bodies_open(const struct static_scene *scenery,
                                      const struct soft_detail *detail, struct reason *reason);
 struct soft_plants *soft_plants_open(struct reason *reason);
-struct soft_puffs *soft_puffs_open(struct reason *reason);
+struct soft_particles *soft_particles_open(struct reason *reason);
 void soft_bodies_close(struct soft_bodies *bodies);
 void soft_plants_close(struct soft_plants *plants);
-void soft_puffs_close(struct soft_puffs *puffs);
+void soft_particles_close(struct soft_particles *puffs);
 
 /* Each in a thread of its own, perhaps. Shadows of bodies and plants are prepared with them. 0, or
  * -1 with errno ENOMEM. */
 int soft_bodies_prepare(struct soft_bodies *bodies, const struct soft_frame *frame);
 int soft_plants_prepare(struct soft_plants *plants, const struct soft_frame *frame);
-int soft_puffs_prepare(struct soft_puffs *puffs, const struct soft_frame *frame);
+int soft_particles_prepare(struct soft_particles *puffs, const struct soft_frame *frame);
 
 #endif

@@ -42,7 +42,7 @@ static int room_for_meshes(struct soft_bodies *bodies)
     return bodies->mesh == NULL || bodies->opened == NULL ? -1 : 0;
 }
 
-struct soft_bodies *soft_bodies_open(const struct scenery *scenery,
+struct soft_bodies *soft_bodies_open(const struct static_scene *scenery,
                                      const struct soft_detail *detail, struct reason *reason)
 {
     struct soft_bodies *bodies = calloc(1, sizeof *bodies);
@@ -59,7 +59,7 @@ struct soft_bodies *soft_bodies_open(const struct scenery *scenery,
 
 static void free_faces(struct soft_faces *faces)
 {
-    soft_bins_free(&faces->bins);
+    band_lists_free(&faces->bins);
     free(faces->list);
     free(faces->rows);
 }
@@ -113,7 +113,7 @@ static int face_room(struct soft_faces *faces, size_t count, size_t size)
 
 static int sort_faces(struct soft_faces *faces, uint32_t bands)
 {
-    return soft_bins_sort(&faces->bins, faces->rows, faces->count, bands);
+    return band_lists_sort(&faces->bins, faces->rows, faces->count, bands);
 }
 
 int soft_bodies_prepare(struct soft_bodies *bodies, const struct soft_frame *frame)

@@ -1,7 +1,7 @@
 /* Bodies made ready for the picture: what set-up leaves for the bands. Private to soft_bodies.c and
  * its kernels. */
-#ifndef JOLON_RENDERER_SOFT_BODIES_H
-#define JOLON_RENDERER_SOFT_BODIES_H
+#ifndef JOLON_RENDERER_SOFT_SOFT_BODIES_H
+#define JOLON_RENDERER_SOFT_SOFT_BODIES_H
 
 #include "renderer/soft/soft.h"
 #include "renderer/soft/soft_mesh.h"
@@ -91,7 +91,7 @@ enum corner_column {
 #define CORNERS_CUT 32u /* room for those cut from faces at hand */
 
 struct soft_bodies {
-    const struct scenery *scenery;
+    const struct static_scene *scenery;
     struct soft_mesh *mesh; /* [models * MESH_DETAIL_COUNT]; owned */
     bool *opened;           /* [meshes] is it there? it comes when it is needed; owned */
     uint32_t meshes;

@@ -6,14 +6,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-struct soft_ground *soft_ground_open(const struct scenery *scenery, struct reason *reason)
+struct soft_ground *soft_ground_open(const struct static_scene *scenery, struct reason *reason)
 {
     struct soft_ground *ground = calloc(1, sizeof *ground);
     if (ground != NULL) {
         ground->scenery = scenery;
         /* Whole vectors of vertices are written. */
         ground->seen = aligned_alloc(SOFT_ALIGN, 3 * SOFT_SEEN_ROOM * sizeof *ground->seen);
-        if (tiles_init(&ground->tiles) == 0 && ground->seen != NULL &&
+        if (terrain_tiles_init(&ground->tiles) == 0 && ground->seen != NULL &&
             soft_detail_make(&ground->detail) == 0 && (ground->clouds = soft_clouds_make()) != NULL)
             return ground;
         soft_ground_close(ground);
@@ -26,8 +26,8 @@ void soft_ground_close(struct soft_ground *ground)
 {
     if (ground == NULL)
         return;
-    tiles_free(&ground->tiles);
-    soft_bins_free(&ground->bins);
+    terrain_tiles_free(&ground->tiles);
+    band_lists_free(&ground->bins);
     soft_detail_free(&ground->detail);
     free(ground->clouds);
     free(ground->list);
@@ -51,8 +51,8 @@ void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *fram
 {
     const struct scene *scene = frame->scene;
     struct vec3 eye = scene->camera.eye;
-    tiles_update(&ground->tiles, scene->patches, scene->patch_count, frame->moment,
-                 scene->paintings);
+    terrain_tiles_update(&ground->tiles, scene->patches, scene->patch_count, frame->moment,
+                         scene->paintings);
     ground->fine_at[0] = fraction(eye.x / (double)FINE_M);
     ground->fine_at[1] = fraction(eye.z / (double)FINE_M);
     double east = eye.x + 0.35 * eye.z, south = eye.z - 0.35 * eye.x;
@@ -62,7 +62,7 @@ void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *fram
     ground->swell_at[1] = fraction(east * (double)SOFT_SWELL_PER_M);
     for (uint32_t i = 0; i < scene->patch_count; i++) {
         const struct tile_view *view = &ground->tiles.views[i];
-        double side = ground_patch_side(scene->patches[i].level), last = TILE_TEXELS - 1;
+        double side = terrain_quadtree_patch_side(scene->patches[i].level), last = TILE_TEXELS - 1;
         double per_m = (double)view->share / side * last;
         ground->patches[i] = (struct soft_patch){
             .paint = view->paint->paint,
@@ -91,5 +91,5 @@ int soft_ground_prepare(struct soft_ground *ground, const struct soft_frame *fra
     if (full != 0)
         return -1;
     frame->kernels->soft_ground_set_up(ground, frame);
-    return soft_bins_sort(&ground->bins, ground->rows, ground->count, frame->bands);
+    return band_lists_sort(&ground->bins, ground->rows, ground->count, frame->bands);
 }

@@ -1,9 +1,9 @@
 /* What the ground's kernels share with soft_ground.c. Private to them. */
-#ifndef JOLON_RENDERER_SOFT_GROUND_H
-#define JOLON_RENDERER_SOFT_GROUND_H
+#ifndef JOLON_RENDERER_SOFT_SOFT_GROUND_H
+#define JOLON_RENDERER_SOFT_SOFT_GROUND_H
 
-#include "renderer/scene/light.h"
-#include "renderer/scene/tiles.h"
+#include "renderer/scene/frame/light.h"
+#include "renderer/scene/terrain/terrain_tiles.h"
 #include "renderer/soft/soft.h"
 #include "renderer/soft/soft_texture.h"
 
@@ -15,7 +15,8 @@
 #define SOFT_STEEP_BITS 6
 #define SOFT_STEEP_LOW  26 /* the least steepness told is 2^-26 */
 
-_Static_assert(GROUND_PATCHES_MAX <= 1 << SOFT_PATCH_BITS, "patches that no pixel can name");
+_Static_assert(TERRAIN_QUADTREE_PATCHES_MAX <= 1 << SOFT_PATCH_BITS,
+               "patches that no pixel can name");
 
 /* What a code says, whatever stands in its higher bits. */
 static inline float soft_steepness(uint32_t code)
@@ -50,9 +51,9 @@ struct soft_ground_triangle {
 };
 
 struct soft_ground {
-    const struct scenery *scenery;
-    struct tiles tiles;
-    struct soft_patch patches[GROUND_PATCHES_MAX];
+    const struct static_scene *scenery;
+    struct terrain_tiles tiles;
+    struct soft_patch patches[TERRAIN_QUADTREE_PATCHES_MAX];
     struct soft_ground_triangle *list;
     size_t list_room;
     struct soft_rows *rows;

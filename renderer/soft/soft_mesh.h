@@ -1,9 +1,9 @@
 /* A model's mesh as the rasteriser wants it: corners that faces share, as columns that vector loops
  * run along; those of one part and joint follow each other. Pure. */
-#ifndef JOLON_RENDERER_SOFT_MESH_H
-#define JOLON_RENDERER_SOFT_MESH_H
+#ifndef JOLON_RENDERER_SOFT_SOFT_MESH_H
+#define JOLON_RENDERER_SOFT_SOFT_MESH_H
 
-#include "renderer/scene/mesh.h"
+#include "renderer/scene/model/mesh.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -12,11 +12,11 @@ struct leaf {
     float colour[3], alpha, facing[3];
 };
 
-static void read_picture(struct leaf *to, const struct foliage_picture *picture)
+static void read_picture(struct leaf *to, const struct plant_impostors_picture *picture)
 {
-    for (uint32_t row = 0; row < FOLIAGE_SIDE; row++)
-        for (uint32_t column = 0; column < FOLIAGE_SIDE; column++) {
-            struct leaf *leaf = &to[row * FOLIAGE_SIDE + column];
+    for (uint32_t row = 0; row < PLANT_IMPOSTORS_SIDE; row++)
+        for (uint32_t column = 0; column < PLANT_IMPOSTORS_SIDE; column++) {
+            struct leaf *leaf = &to[row * PLANT_IMPOSTORS_SIDE + column];
             for (uint32_t i = 0; i < 3; i++) {
                 leaf->colour[i] = (float)picture->colour[row][column][i];
                 leaf->facing[i] = (float)picture->facing[row][column][i] / 127.5f - 1.0f;
@@ -84,16 +84,17 @@ static void write_level(struct soft_leaf *to, const struct leaf *from, uint32_t 
 
 static int open_pictures(struct soft_plants *plants)
 {
-    struct foliage_picture *picture = malloc(sizeof *picture);
-    struct leaf *leaves = malloc((size_t)FOLIAGE_SIDE * FOLIAGE_SIDE * sizeof *leaves);
+    struct plant_impostors_picture *picture = malloc(sizeof *picture);
+    struct leaf *leaves =
+        malloc((size_t)PLANT_IMPOSTORS_SIDE * PLANT_IMPOSTORS_SIDE * sizeof *leaves);
     uint32_t all = 0, at = 0;
-    for (uint32_t side = FOLIAGE_SIDE; side > 1; side /= 2)
+    for (uint32_t side = PLANT_IMPOSTORS_SIDE; side > 1; side /= 2)
         all += side * side;
-    plants->leaves = malloc((size_t)all * FOLIAGE_COUNT * sizeof *plants->leaves);
+    plants->leaves = malloc((size_t)all * PLANT_IMPOSTORS_COUNT * sizeof *plants->leaves);
     int failed = picture == NULL || leaves == NULL || plants->leaves == NULL ? -1 : 0;
-    for (uint32_t which = 0; failed == 0 && which < FOLIAGE_COUNT; which++) {
-        uint32_t side = FOLIAGE_SIDE;
-        foliage_paint(picture, (enum foliage)which);
+    for (uint32_t which = 0; failed == 0 && which < PLANT_IMPOSTORS_COUNT; which++) {
+        uint32_t side = PLANT_IMPOSTORS_SIDE;
+        plant_impostors_paint(picture, (enum plant_impostors)which);
         read_picture(leaves, picture);
         for (uint32_t level = PLANT_LEVELS; level > 0; level--, side /= 2) {
             if (level < PLANT_LEVELS)
@@ -124,8 +125,8 @@ void soft_plants_close(struct soft_plants *plants)
 {
     if (plants == NULL)
         return;
-    soft_bins_free(&plants->bins);
-    soft_bins_free(&plants->cast_bins);
+    band_lists_free(&plants->bins);
+    band_lists_free(&plants->cast_bins);
     free(plants->leaves);
     free(plants->plants);
     free(plants->casts);
@@ -150,7 +151,7 @@ int soft_plants_prepare(struct soft_plants *plants, const struct soft_frame *fra
     if (failed != 0)
         return -1;
     frame->kernels->soft_plants_set_up(plants, frame);
-    if (soft_bins_sort(&plants->bins, plants->rows, plants->count, frame->bands) != 0)
+    if (band_lists_sort(&plants->bins, plants->rows, plants->count, frame->bands) != 0)
         return -1;
-    return soft_bins_sort(&plants->cast_bins, plants->cast_rows, plants->cast_count, frame->bands);
+    return band_lists_sort(&plants->cast_bins, plants->cast_rows, plants->cast_count, frame->bands);
 }

@@ -1,9 +1,9 @@
 /* Plants made ready for the picture: what set-up leaves for the bands. Private to soft_plants.c and
  * its kernels. */
-#ifndef JOLON_RENDERER_SOFT_PLANTS_H
-#define JOLON_RENDERER_SOFT_PLANTS_H
+#ifndef JOLON_RENDERER_SOFT_SOFT_PLANTS_H
+#define JOLON_RENDERER_SOFT_SOFT_PLANTS_H
 
-#include "renderer/scene/foliage.h"
+#include "renderer/scene/model/plant_impostors.h"
 #include "renderer/soft/soft.h"
 
 #include <stdbool.h>
@@ -44,10 +44,10 @@ struct soft_cast {
 };
 
 struct soft_plants {
-    struct soft_leaf *leaves;                        /* owned */
-    uint32_t first[FOLIAGE_COUNT][PLANT_LEVELS + 1]; /* of the level whose side is 2^i */
-    struct soft_plant *plants;                       /* owned: those in the picture */
-    struct soft_cast *casts;                         /* owned */
+    struct soft_leaf *leaves;                                /* owned */
+    uint32_t first[PLANT_IMPOSTORS_COUNT][PLANT_LEVELS + 1]; /* of the level whose side is 2^i */
+    struct soft_plant *plants;                               /* owned: those in the picture */
+    struct soft_cast *casts;                                 /* owned */
     struct soft_rows *rows, *cast_rows;
     size_t plant_room, cast_room, row_room, cast_row_room;
     uint32_t count, cast_count;

@@ -1,7 +1,7 @@
 /* Laying textures out. */
 #include "renderer/soft/soft_texture.h"
 
-#include "renderer/scene/texture.h"
+#include "renderer/scene/draw_list/texture.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* Textures of the ground and the sky, laid out for looking up. Private to the ground's files. */
-#ifndef JOLON_RENDERER_SOFT_TEXTURE_H
-#define JOLON_RENDERER_SOFT_TEXTURE_H
+#ifndef JOLON_RENDERER_SOFT_SOFT_TEXTURE_H
+#define JOLON_RENDERER_SOFT_SOFT_TEXTURE_H
 
 #include <stdint.h>
 

@@ -1,11 +1,11 @@
 /* A writer of commands. */
 #include "tests/crash/commander.h"
 
-#include "ipc/clock.h"
-#include "ipc/frame.h"
-#include "ipc/log.h"
-#include "ipc/process.h"
-#include "ipc/snapshot.h"
+#include "ipc/process/clock.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "ipc/frame/snapshot.h"
 
 #include <errno.h>
 #include <string.h>
@@ -29,7 +29,7 @@ static const struct command list[] = {
 static void settle(const struct view *view, uint64_t taken)
 {
     struct state_head head;
-    while (!frame_finished(view)) {
+    while (!frame_protocol_finished(view)) {
         if (snapshot_head(&head, view) == 0 && head.command_cursor[RING_CLIENTS] >= taken &&
             head.paused && head.steps_left == 0)
             return;

@@ -1,7 +1,7 @@
 /* Kinds of runs: the roles' own, and what is done to a world before they come or after. */
 #include "tests/crash/runs.h"
 
-#include "ipc/local_socket.h"
+#include "ipc/segment/local_socket.h"
 #include "tests/support/child.h"
 #include "tests/support/named_world.h"
 

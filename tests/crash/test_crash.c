@@ -9,7 +9,7 @@
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
 
-#include "ipc/clock.h"
+#include "ipc/process/clock.h"
 
 #include <inttypes.h>
 #include <setjmp.h>

@@ -1,8 +1,8 @@
 /* One run: a world, its processes, their small parent. */
 #include "tests/crash/trial.h"
 
-#include "ipc/clock.h"
-#include "ipc/snapshot.h"
+#include "ipc/process/clock.h"
+#include "ipc/frame/snapshot.h"
 #include "tests/support/child.h"
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
@@ -65,13 +65,13 @@ void plan_make(struct plan *plan, const char *text, uint32_t event_slots)
     params->events_per_frame = event_slots / 2;
     params->intents_per_frame = event_slots / 4;
     params->crater_slots = params->dent_slots = params->command_slots = 64;
-    if (genesis_build(&plan->genesis, &plan->scenario, message, sizeof message) != 0)
+    if (world_build_build(&plan->genesis, &plan->scenario, message, sizeof message) != 0)
         fail_msg("the test's world is refused: %s", message);
 }
 
 void plan_free(struct plan *plan)
 {
-    genesis_free(&plan->genesis);
+    world_build_free(&plan->genesis);
     scenario_free(&plan->scenario);
 }
 

@@ -3,9 +3,9 @@
 #ifndef JOLON_TESTS_CRASH_TRIAL_H
 #define JOLON_TESTS_CRASH_TRIAL_H
 
-#include "ipc/segment.h"
-#include "world/genesis.h"
-#include "world/scenario.h"
+#include "ipc/segment/segment.h"
+#include "world/making/world_build.h"
+#include "world/making/scenario.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -23,7 +23,7 @@ struct death {
 /* What is run. */
 struct plan {
     struct scenario scenario;
-    struct genesis genesis;
+    struct world_build genesis;
     bool commands;      /* a commander steers it */
     bool late_recorder; /* the recorder comes when all is over */
     /* A mover and a collider stand by and take over from the first that dies. NULL: none. Else the

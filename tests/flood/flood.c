@@ -7,13 +7,13 @@
  * --spawn floods with spawns of tanks on one spot instead of drives; --idle opens so many more
  * connections that send nothing. Prints one JSON object:
  * {"sent_per_s", "answers", "frames_p50", "frames_p99", "frames_max", "unanswered"}. */
-#include "ipc/clock.h"
-#include "ipc/local_socket.h"
-#include "ipc/log.h"
-#include "ipc/process.h"
-#include "topics/caller.h"
-#include "topics/command_packet.h"
-#include "topics/command_socket.h"
+#include "ipc/process/clock.h"
+#include "ipc/segment/local_socket.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "ipc/topics/command_client.h"
+#include "ipc/topics/command_packet.h"
+#include "ipc/topics/command_socket.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -118,7 +118,7 @@ _Noreturn static void flood_it(const struct flood *flood)
 }
 
 /* Drives the vehicle, one command at a time, and notes the frames until each answer. */
-static void drive(struct flood *flood, const struct view *view, struct caller *caller,
+static void drive(struct flood *flood, const struct view *view, struct command_client *caller,
                   uint64_t until_ns)
 {
     while (clock_now_ns() < until_ns && flood->answers < ANSWERS_MAX) {
@@ -127,7 +127,7 @@ static void drive(struct flood *flood, const struct view *view, struct caller *c
         jolon_CommandReply reply;
         uint64_t before = segment_load(&view->commit->commit);
         /* Whether it was done counts for nothing: the vehicle may be a wreck by now. */
-        if (caller_call(caller, &command, clock_now_ns() + ANSWER_NS, &reply))
+        if (command_client_call(caller, &command, clock_now_ns() + ANSWER_NS, &reply))
             flood->frames[flood->answers++] = (uint32_t)(reply.frame - before);
         else
             flood->unanswered++;
@@ -145,7 +145,7 @@ int main(int argc, char **argv)
 {
     static struct flood flood;
     static struct view view;
-    static struct caller caller;
+    static struct command_client caller;
     struct command_socket socket;
     struct reason reason;
     log_open("flood");
@@ -154,7 +154,7 @@ int main(int argc, char **argv)
     flood.sent =
         mmap(NULL, sizeof *flood.sent, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (flood.sent == MAP_FAILED || segment_attach(&view, flood.world, ROLE_NONE, &reason) != 0 ||
-        caller_open(&caller, command_socket_open(&socket, flood.world), &reason) != 0)
+        command_client_open(&caller, command_socket_open(&socket, flood.world), &reason) != 0)
         die_refused("cannot begin");
     for (uint32_t i = 0; i < flood.idle; i++)
         (void)connect_to(&flood);

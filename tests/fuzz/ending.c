@@ -1,7 +1,7 @@
 /* exit(), in the place of the C library's. */
 #include "tests/fuzz/ending.h"
 
-#include "ipc/log.h"
+#include "ipc/process/log.h"
 
 #include <stdbool.h>
 

@@ -5,7 +5,7 @@
 #include "tests/fuzz/support.h"
 
 #include "collider/step.h"
-#include "ipc/log.h"
+#include "ipc/process/log.h"
 #include "mover/step.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ static void open_world(void)
 {
     static char text[16384];
     struct scenario scenario;
-    struct genesis genesis;
+    struct world_build genesis;
     struct loader_message message;
     struct reason reason;
     size_t at = (size_t)snprintf(text, sizeof text, "%sobjects = (\n", begin);
@@ -41,15 +41,15 @@ static void open_world(void)
     at += (size_t)snprintf(text + at, sizeof text - at, ");\n");
     CHECK(loader_scenario(&scenario, support_data_dir(), support_file(text, at), NULL, 0,
                           &message) == 0);
-    CHECK(genesis_build(&genesis, &scenario, text, sizeof text) == 0);
+    CHECK(world_build_build(&genesis, &scenario, text, sizeof text) == 0);
     struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
     CHECK(segment_private(&view, &header, &reason) == 0);
     segment_fill(&view, &genesis);
-    genesis_free(&genesis);
+    world_build_free(&genesis);
     scenario_free(&scenario);
     CHECK(mover_init(&mover, &view.world, view.w[0].craters, NULL) == 0);
     CHECK(collider_init(&first, &view.world, view.w[0].craters, NULL) == 0);
-    CHECK(collider_init(&second, &view.world, view.w[0].craters, workers_create(2)) == 0);
+    CHECK(collider_init(&second, &view.world, view.w[0].craters, thread_pool_create(2)) == 0);
 }
 
 /* Frame 0 with nobody in it; nobody remembers an earlier input. */

@@ -3,8 +3,8 @@
 #include "tests/fuzz/http_client.h"
 #include "tests/fuzz/support.h"
 
-#include "console/request.h"
-#include "ipc/log.h"
+#include "clients/console/request.h"
+#include "ipc/process/log.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -17,10 +17,10 @@ static void answer_tickets(void)
 {
     pthread_mutex_lock(&console.lock);
     while (console.desk.ticket) {
-        struct ticket *ticket = console.desk.ticket;
+        struct pending_command *ticket = console.desk.ticket;
         console.desk.ticket = ticket->next;
         console.desk.tickets--;
-        answer_error(&ticket->answer, ANSWER_NO_REPLY, "look", "no reply came");
+        http_answer_error(&ticket->answer, HTTP_ANSWER_NO_REPLY, "look", "no reply came");
         ticket->done = true;
         ticket->ready(ticket);
     }
@@ -32,12 +32,12 @@ static void start(void)
     static char name[32];
     struct reason reason;
     (void)snprintf(name, sizeof name, "fuzz-%d", (int)getpid());
-    watch_open(&console.watch, name);
+    world_reader_open(&console.watch, name);
     support_world(&console.watch.view);
     CHECK(snapshot_init(&console.watch.snapshot, &console.watch.view) == 0);
     console.watch.there = true;
     console.listener = http_client_listener();
-    CHECK(pictures_open(&console.pictures, name, &reason) == 0);
+    CHECK(picture_proxy_open(&console.pictures, name, &reason) == 0);
     CHECK(server_start(&console, &reason) == 0);
 }
 

@@ -2,8 +2,8 @@
  * the same bytes with blanks between the words. */
 #include "tests/fuzz/support.h"
 
-#include "ctl/parse.h"
-#include "ipc/log.h"
+#include "clients/ctl/parse.h"
+#include "ipc/process/log.h"
 #include "tests/fuzz/ending.h"
 
 #include <getopt.h>
@@ -14,7 +14,7 @@
 
 #define ARGUMENTS_MAX 24
 
-static void check_order(const struct order *order)
+static void check_order(const struct command_text *order)
 {
     const jolon_Command *c = &order->command;
     CHECK(order->verb && (order->given & ~order->verb->allowed) == 0);
@@ -24,7 +24,7 @@ static void check_order(const struct order *order)
           c->gear <= jolon_GEAR_LOW);
     CHECK(isfinite(c->x_m) && isfinite(c->z_m) && isfinite(c->altitude_m) &&
           isfinite(c->heading_rad) && isfinite(c->speed_mps) && isfinite(c->scale));
-    CHECK(order->rounds >= 1 && order->rounds <= ORDER_ROUNDS_MAX);
+    CHECK(order->rounds >= 1 && order->rounds <= COMMAND_TEXT_ROUNDS_MAX);
 }
 
 static void check(const struct ctl_request *request)
@@ -39,7 +39,7 @@ static void check(const struct ctl_request *request)
 static void run_line(const uint8_t *data, size_t size)
 {
     char line[CTL_LINE_MAX];
-    struct order order;
+    struct command_text order;
     struct reason reason = {.text = ""};
     size = size < sizeof line - 1 ? size : sizeof line - 1;
     memcpy(line, data, size);

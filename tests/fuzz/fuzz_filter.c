@@ -1,15 +1,15 @@
 /* What is typed into the monitor's filter: which vehicles of a small world suit it. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/log.h"
-#include "monitor/table.h"
+#include "ipc/process/log.h"
+#include "clients/monitor/vehicle_table.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define VEHICLES 6u
 
-static struct mirror mirror;
+static struct world_mirror mirror;
 static jolon_Entity entities[VEHICLES];
 
 /* One of each state, at the ends of what a column may say. */
@@ -32,9 +32,9 @@ static void begin(void)
 /* A row that is shown suits each word of the filter alone. */
 static void check_words(const char *filter)
 {
-    char word[TABLE_FILTER_MAX];
+    char word[VEHICLE_TABLE_FILTER_MAX];
     for (uint32_t i = 0; i < VEHICLES; i++) {
-        if (!table_suits(&mirror, &entities[i], filter))
+        if (!vehicle_table_suits(&mirror, &entities[i], filter))
             continue;
         for (const char *at = filter + strspn(filter, " "); *at != '\0';
              at += strcspn(at, " "), at += strspn(at, " ")) {
@@ -44,25 +44,26 @@ static void check_words(const char *filter)
                 continue;
             memcpy(word, at, length);
             word[length] = '\0';
-            CHECK(table_suits(&mirror, &entities[i], word));
+            CHECK(vehicle_table_suits(&mirror, &entities[i], word));
         }
     }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static struct table table;
+    static struct vehicle_table table;
     if (!mirror.has_batch)
         begin();
     char *filter = malloc(size + 1);
     CHECK(filter);
     memcpy(filter, data, size);
     filter[size] = '\0';
-    enum table_column sort = (enum table_column)(size % TABLE_COLUMNS);
-    CHECK(table_build(&table, &mirror, filter, sort, size & 1));
+    enum vehicle_table_column sort = (enum vehicle_table_column)(size % VEHICLE_TABLE_COLUMNS);
+    CHECK(vehicle_table_build(&table, &mirror, filter, sort, size & 1));
     CHECK(table.count <= VEHICLES);
     for (uint32_t i = 0; i < table.count; i++)
-        CHECK(table.row[i] < VEHICLES && table_suits(&mirror, &entities[table.row[i]], filter));
+        CHECK(table.row[i] < VEHICLES &&
+              vehicle_table_suits(&mirror, &entities[table.row[i]], filter));
     check_words(filter);
     free(filter);
     return 0;

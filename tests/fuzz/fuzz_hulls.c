@@ -2,8 +2,8 @@
  * a kilometre apart. What assimp could give us, without the file. */
 #include "tests/fuzz/support.h"
 
-#include "config/hulls.h"
-#include "ipc/log.h"
+#include "config/mesh/hulls.h"
+#include "ipc/process/log.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,8 +4,8 @@
  * where (two bytes) and to what. */
 #include "tests/fuzz/support.h"
 
-#include "archive/image.h"
-#include "ipc/log.h"
+#include "recorder/archive/image.h"
+#include "ipc/process/log.h"
 
 #include <fcntl.h>
 #include <stdlib.h>

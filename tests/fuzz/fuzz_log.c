@@ -3,10 +3,10 @@
  * that a log's line has, so that what is behind it is reached. Refusals end the process. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/log.h"
-#include "recorder/command_log.h"
-#include "recorder/event_log.h"
-#include "replay/tape.h"
+#include "ipc/process/log.h"
+#include "recorder/log/command_log.h"
+#include "recorder/log/event_log.h"
+#include "recorder/replay/log_replay.h"
 #include "tests/fuzz/ending.h"
 
 #include <fcntl.h>
@@ -62,19 +62,19 @@ static size_t seal(char *to, const char *from, size_t size)
 
 static void replay(const char *path)
 {
-    struct tape tape;
+    struct log_replay tape;
     struct reason reason = {.text = ""};
-    (void)tape_is_one(path);
-    if (tape_open(&tape, path, &reason) != 0) {
+    (void)log_replay_is_one(path);
+    if (log_replay_open(&tape, path, &reason) != 0) {
         CHECK(reason.text[0] != '\0');
         return;
     }
-    (void)tape_end(&tape);
-    (void)tape_recipe(&tape, "scenario");
+    (void)log_replay_end(&tape);
+    (void)log_replay_recipe(&tape, "scenario");
     for (uint32_t i = 0; i < tape.count; i++)
         CHECK(tape.record[i].type != RECORD_COMMAND ||
               tape.record[i].command.ring < COMMAND_RING_COUNT);
-    tape_close(&tape);
+    log_replay_close(&tape);
 }
 
 /* What it is after a recorder has begun and ended: a row of whole records. */

@@ -2,8 +2,8 @@
  * line there is box.mtl alone. Our grammar, assimp, our tables and hulls. */
 #include "tests/fuzz/support.h"
 
-#include "config/models.h"
-#include "ipc/log.h"
+#include "config/mesh/models.h"
+#include "ipc/process/log.h"
 
 #include <string.h>
 

@@ -1,16 +1,16 @@
 /* Orders as JSON, as jolon harness and jolon console take them from anybody. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/log.h"
-#include "topics/order_json.h"
+#include "ipc/process/log.h"
+#include "ipc/topics/command_json.h"
 
 #include <math.h>
 #include <string.h>
 
-static void check(struct order *order)
+static void check(struct command_text *order)
 {
     struct reason reason;
-    const struct names none = {.told = true};
+    const struct name_table none = {.told = true};
     const jolon_Command *c = &order->command;
     CHECK(order->verb && (order->given & ~order->verb->allowed) == 0 &&
           (order->verb->needed & ~order->given) == 0);
@@ -22,18 +22,19 @@ static void check(struct order *order)
     CHECK(c->throttle >= -1.0F && c->throttle <= 1.0F && c->brake >= 0.0F && c->brake <= 1.0F);
     CHECK(isfinite(c->x_m) && isfinite(c->z_m) && isfinite(c->altitude_m) &&
           isfinite(c->heading_rad) && isfinite(c->speed_mps) && isfinite(c->scale));
-    CHECK(order->rounds >= 1 && order->rounds <= ORDER_ROUNDS_MAX);
-    CHECK(order_needs_names(order) == (order_resolve(order, &none, 60.0, &reason) != 0));
-    jolon_Command round = order_round(order, 7, order->rounds - 1);
+    CHECK(order->rounds >= 1 && order->rounds <= COMMAND_TEXT_ROUNDS_MAX);
+    CHECK(command_text_needs_names(order) ==
+          (command_text_resolve(order, &none, 60.0, &reason) != 0));
+    jolon_Command round = command_text_round(order, 7, order->rounds - 1);
     CHECK(round.x_m >= 0.0 && round.x_m <= 50000.0 && round.z_m >= 0.0 && round.z_m <= 50000.0);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct order order;
+    struct command_text order;
     struct reason reason = {.text = ""};
     cJSON *object = cJSON_ParseWithLength((const char *)data, size);
-    if (order_from_json(&order, object, &reason) == 0)
+    if (command_from_json(&order, object, &reason) == 0)
         check(&order);
     else
         CHECK(reason.text[0] && strlen(reason.text) < sizeof reason.text - 1);

@@ -1,16 +1,16 @@
 /* Samples of a world's status of any bytes: what samples_good() lets pass is shown in every way. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/clock.h"
-#include "ipc/log.h"
-#include "monitor/json.h"
-#include "monitor/lines.h"
-#include "monitor/map.h"
-#include "monitor/spark.h"
-#include "monitor/table.h"
-#include "topics/event_json.h"
-#include "topics/samples.h"
-#include "topics/tell.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "clients/monitor/json.h"
+#include "clients/monitor/status_lines.h"
+#include "clients/monitor/character_map.h"
+#include "clients/monitor/sparkline.h"
+#include "clients/monitor/vehicle_table.h"
+#include "ipc/topics/event_json.h"
+#include "ipc/topics/samples.h"
+#include "ipc/topics/event_lines.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -52,7 +52,7 @@ static void show_event(enum dds_topic topic)
         jolon_AgentEvent agent;
         jolon_CraterEvent crater;
     } event;
-    char line[TAIL_LINE_MAX];
+    char line[EVENT_MERGE_LINE_MAX];
     fill(&event, sizeof event);
     if (topic == TOPIC_COLLISION) {
         end_party(&event.collision.a);
@@ -69,39 +69,42 @@ static void show_event(enum dds_topic topic)
     }
     if (!samples_good(topic, &event))
         return;
-    tell_event(line, topic, &event);
+    event_lines_event(line, topic, &event);
     event_json(line, topic, &event);
     cJSON *object = cJSON_Parse(line);
     CHECK(object);
     cJSON_Delete(object);
 }
 
-static void show_map(const struct mirror *mirror)
+static void show_map(const struct world_mirror *mirror)
 {
-    static struct map map;
+    static struct character_map map;
     const jolon_WorldInfo *world = &mirror->world;
-    const struct map_ground ground = {world->height_m, world->water, jolon_MAP_SIDE, world->side_m};
-    const struct map_area area = {0.5 * world->side_m, 0.5 * world->side_m, world->side_m};
-    map_begin(&map, 5, 20, &area, &ground);
+    const struct character_map_ground ground = {world->height_m, world->water, jolon_MAP_SIDE,
+                                                world->side_m};
+    const struct character_map_area area = {0.5 * world->side_m, 0.5 * world->side_m,
+                                            world->side_m};
+    character_map_begin(&map, 5, 20, &area, &ground);
     for (uint32_t i = 0; i < mirror->batch.count; i++)
-        map_mark(&map, mirror->batch.entity[i].x_m, mirror->batch.entity[i].z_m, MAP_BLUE);
+        character_map_mark(&map, mirror->batch.entity[i].x_m, mirror->batch.entity[i].z_m,
+                           CHARACTER_MAP_BLUE);
 }
 
-static void show(const struct mirror *mirror)
+static void show(const struct world_mirror *mirror)
 {
-    char line[LINES_MAX], row[TABLE_LINE_MAX], bars[SPARK_TEXT_MAX];
-    struct spark spark = {.count = 0};
+    char line[STATUS_LINES_MAX], row[VEHICLE_TABLE_LINE_MAX], bars[SPARKLINE_TEXT_MAX];
+    struct sparkline spark = {.count = 0};
     uint64_t now_ns = mirror->frame_ns + 1;
-    lines_status(line, mirror, now_ns);
-    lines_world(line, mirror, now_ns);
-    lines_frame(line, mirror);
-    lines_counts(line, mirror);
+    status_lines_status(line, mirror, now_ns);
+    status_lines_world(line, mirror, now_ns);
+    status_lines_frame(line, mirror);
+    status_lines_counts(line, mirror);
     for (uint32_t i = 0; i < mirror->role_count; i++)
-        lines_process(line, &mirror->role[i]);
+        status_lines_process(line, &mirror->role[i]);
     for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++)
-        table_line(row, mirror, &mirror->batch.entity[i]);
-    spark_add(&spark, mirror->frame.recent.max_ms);
-    spark_text(bars, &spark, 4, mirror->frame.hz > 0.0 ? 1000.0 / mirror->frame.hz : 0.0, true);
+        vehicle_table_line(row, mirror, &mirror->batch.entity[i]);
+    sparkline_add(&spark, mirror->frame.recent.max_ms);
+    sparkline_text(bars, &spark, 4, mirror->frame.hz > 0.0 ? 1000.0 / mirror->frame.hz : 0.0, true);
     if (mirror->has_world)
         show_map(mirror);
     char *text = json_status(mirror, "", now_ns);
@@ -112,7 +115,7 @@ static void show(const struct mirror *mirror)
 }
 
 /* The ground is the same everywhere but for one cell: bytes are for the rest. */
-static bool take_world(struct mirror *mirror)
+static bool take_world(struct world_mirror *mirror)
 {
     jolon_WorldInfo *world = &mirror->world;
     fill(&world->hz, sizeof world->hz);
@@ -128,7 +131,7 @@ static bool take_world(struct mirror *mirror)
     return samples_good(TOPIC_WORLD, world);
 }
 
-static bool take_entities(struct mirror *mirror)
+static bool take_entities(struct world_mirror *mirror)
 {
     static jolon_Entity entity[ENTITIES];
     jolon_EntityBatch batch;
@@ -145,7 +148,7 @@ static bool take_entities(struct mirror *mirror)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static struct mirror mirror;
+    static struct world_mirror mirror;
     static jolon_EntityName name[ENTITIES];
     jolon_EntityNames names = {.names = {._buffer = name}};
     uint8_t what;
@@ -156,7 +159,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     input.left = size;
     fill(&what, sizeof what);
     if (what >= 128) {
-        show_event((enum dds_topic)(TOPIC_COLLISION + what % TAIL_TOPICS));
+        show_event((enum dds_topic)(TOPIC_COLLISION + what % EVENT_MERGE_TOPICS));
         return 0;
     }
     fill(&mirror.frame, sizeof mirror.frame);
@@ -174,10 +177,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         END(name[i].name);
     names.names._length = what / 2 % (ENTITIES + 1);
     if (samples_good(TOPIC_NAMES, &names))
-        (void)names_learn(&mirror.names, &names);
+        (void)name_table_learn(&mirror.names, &names);
     mirror.has_world = what & 64 && take_world(&mirror);
     if (mirror.has_world || !(what & 64))
         show(&mirror);
-    names_close(&mirror.names);
+    name_table_close(&mirror.names);
     return 0;
 }

@@ -1,11 +1,11 @@
 /* Scenario files and --set: read, checked, and what passed made into a world when it is small. */
 #include "tests/fuzz/support.h"
 
-#include "config/literals.h"
-#include "ipc/log.h"
-#include "ipc/segment.h"
-#include "world/genesis.h"
-#include "world/square.h"
+#include "config/syntax/literals.h"
+#include "ipc/process/log.h"
+#include "ipc/segment/segment.h"
+#include "world/making/world_build.h"
+#include "world/terrain/gridsquare.h"
 
 #include <string.h>
 
@@ -36,10 +36,10 @@ static bool is_small(const struct scenario *scenario)
 
 static void make_world(const struct scenario *scenario)
 {
-    struct genesis genesis;
+    struct world_build genesis;
     struct layout layout;
     char text[512] = "";
-    if (genesis_build(&genesis, scenario, text, sizeof text) != 0) {
+    if (world_build_build(&genesis, scenario, text, sizeof text) != 0) {
         CHECK(text[0] != '\0');
         return;
     }
@@ -51,7 +51,7 @@ static void make_world(const struct scenario *scenario)
         CHECK(genesis.first.z[i] >= 0.0 && genesis.first.z[i] <= WORLD_SIDE_M);
         CHECK(genesis.first.y[i] >= -1e5 && genesis.first.y[i] <= 1e5);
     }
-    genesis_free(&genesis);
+    world_build_free(&genesis);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -3,8 +3,8 @@
  * what else is done; then come changes of 6 bytes: what is changed, which word, to what. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/log.h"
-#include "ipc/segment.h"
+#include "ipc/process/log.h"
+#include "ipc/segment/segment.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -69,7 +69,7 @@ static void open_files(void)
     close(fd);
 }
 
-/* As ipc/segment.c: every word but the magic and the hash itself. */
+/* As ipc/segment/segment.c: every word but the magic and the hash itself. */
 static void seal(struct segment_header *header)
 {
     header->magic = 0;

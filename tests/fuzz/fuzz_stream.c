@@ -3,8 +3,8 @@
 #include "tests/fuzz/http_client.h"
 #include "tests/fuzz/support.h"
 
-#include "ipc/log.h"
-#include "renderer/output/stream_inside.h"
+#include "ipc/process/log.h"
+#include "renderer/output/stream_internal.h"
 
 #include <string.h>
 
@@ -32,10 +32,10 @@ static struct picture *draw(void)
 /* Every other wish is for a vehicle that is gone. */
 static void draw_wishes(void)
 {
-    struct stream_wish wishes[WANTED_MAX];
+    struct stream_wish wishes[PICTURE_REQUESTS_MAX];
     if (stream_wishes(stream, wishes) == 0)
         return;
-    for (uint32_t i = 0; i < WANTED_MAX; i++) {
+    for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++) {
         if (!wishes[i].waiting)
             continue;
         CHECK(wishes[i].key.width >= QUERY_SIDE_MIN && wishes[i].key.width <= QUERY_WIDTH_MAX &&

@@ -2,8 +2,8 @@
 #include "tests/fuzz/support.h"
 
 #include "config/waypoints.h"
-#include "ipc/log.h"
-#include "world/square.h"
+#include "ipc/process/log.h"
+#include "world/terrain/gridsquare.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* One connection an input. */
 #include "tests/fuzz/http_client.h"
 
-#include "ipc/log.h"
+#include "ipc/process/log.h"
 
 #include <poll.h>
 #include <stdio.h>

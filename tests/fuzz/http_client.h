@@ -3,7 +3,7 @@
 #ifndef JOLON_TESTS_FUZZ_HTTP_CLIENT_H
 #define JOLON_TESTS_FUZZ_HTTP_CLIENT_H
 
-#include "http/listen.h"
+#include "ipc/http/listen.h"
 
 #include <stddef.h>
 #include <stdint.h>

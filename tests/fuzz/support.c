@@ -1,9 +1,9 @@
 /* The harnesses' folder, and what an accepted scenario must be. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/log.h"
-#include "world/genesis.h"
-#include "world/square.h"
+#include "ipc/process/log.h"
+#include "world/making/world_build.h"
+#include "world/terrain/gridsquare.h"
 
 #include <fcntl.h>
 #include <limits.h>
@@ -121,17 +121,17 @@ static const char battle[] =
 void support_world(struct view *view)
 {
     struct scenario scenario;
-    struct genesis genesis;
+    struct world_build genesis;
     struct loader_message message;
     struct reason reason;
     char text[512];
     const char *path = support_file(battle, strlen(battle));
     CHECK(loader_scenario(&scenario, support_data_dir(), path, NULL, 0, &message) == 0);
-    CHECK(genesis_build(&genesis, &scenario, text, sizeof text) == 0);
+    CHECK(world_build_build(&genesis, &scenario, text, sizeof text) == 0);
     struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
     CHECK(segment_private(view, &header, &reason) == 0);
     segment_fill(view, &genesis);
-    genesis_free(&genesis);
+    world_build_free(&genesis);
     scenario_free(&scenario);
 }
 

@@ -4,9 +4,9 @@
 #ifndef JOLON_TESTS_FUZZ_SUPPORT_H
 #define JOLON_TESTS_FUZZ_SUPPORT_H
 
-#include "config/hulls.h"
+#include "config/mesh/hulls.h"
 #include "config/loader.h"
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -2,7 +2,7 @@
  * on one thread and on three; and OpenGL draws the same within a measure, where there is OpenGL.
  * They are looked at by people before they are kept. GOLDEN=write keeps new ones; a picture that
  * differs is left beside the test's program to be looked at. */
-#include "bench/scene.h"
+#include "tests/bench/scene.h"
 #include "renderer/image/png.h"
 
 #include <setjmp.h>
@@ -33,7 +33,7 @@ struct golden {
     uint64_t frame;
     uint32_t follow;
     enum view_mode view;
-    struct aim_stand stand;
+    struct view_camera_stand stand;
 };
 
 static const struct golden goldens[] = {
@@ -72,10 +72,10 @@ static char kept_folder[512], drawn_folder[512];
 static uint8_t *one, *three, *opengl;
 static bool has_opengl;
 
-static void draw_with(struct bench_scene *scene, const struct moment *moment, struct draw *other,
-                      uint8_t *pixels)
+static void draw_with(struct bench_scene *scene, const struct frame_view *moment,
+                      struct back_end_interface *other, uint8_t *pixels)
 {
-    struct draw own = scene->draw;
+    struct back_end_interface own = scene->draw;
     scene->draw = *other;
     bench_scene_draw(scene, moment);
     memcpy(pixels, scene->image.pixels, BYTES);
@@ -97,11 +97,11 @@ static int draw_all(void **state)
                                           .view = golden->view,
                                           .stand = golden->stand};
     const struct gl_wish any = {.device = NULL};
-    char name[DRAW_NAME_BYTES];
+    char name[BACK_END_NAME_BYTES];
     struct reason reason;
-    struct draw other;
+    struct back_end_interface other;
     bench_scene_open(&scene, &wish);
-    struct moment moment = bench_scene_moment(&scene);
+    struct frame_view moment = bench_scene_moment(&scene);
     bench_scene_build(&scene, &moment);
     bench_scene_draw(&scene, &moment);
     memcpy(one, scene.image.pixels, BYTES);

@@ -6,10 +6,10 @@
  * vehicle's throttle has changed in one. The difference of the two frames is the lag. A frame that
  * it misses counts as the later one that it saw. Of a SpaceMouse it is the daemon: a socket that
  * SPNAV_SOCKET names, where it writes motions; the column is the steering. */
-#include "ipc/clock.h"
-#include "ipc/frame.h"
-#include "ipc/log.h"
-#include "ipc/process.h"
+#include "ipc/process/clock.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -153,7 +153,7 @@ static bool settle(const struct lag *lag)
         uint64_t now_ns = clock_now_ns();
         if (now_ns > until_ns)
             return false;
-        (void)frame_wait(&lag->view, commit, now_ns + LIMIT_NS);
+        (void)frame_protocol_wait(&lag->view, commit, now_ns + LIMIT_NS);
         drain(lag);
         float value = look(lag, &commit);
         still = value == last ? still + 1 : 0;
@@ -183,7 +183,7 @@ static bool press(struct lag *lag, uint32_t which)
     uint64_t at = commit, pressed_ns = clock_now_ns();
     push(lag, (which & 1) == 0);
     while (clock_now_ns() - pressed_ns < LIMIT_NS) {
-        (void)frame_wait(&lag->view, commit, pressed_ns + LIMIT_NS);
+        (void)frame_protocol_wait(&lag->view, commit, pressed_ns + LIMIT_NS);
         float value = look(lag, &commit);
         if (value != before) {
             uint64_t frames = commit - at;

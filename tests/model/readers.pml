@@ -1,4 +1,4 @@
-/* Who only reads: ipc/snapshot.c, and the recorder with its log. */
+/* Who only reads: ipc/frame/snapshot.c, and the recorder with its log. */
 
 /* A whole head: the frame and one word of it, or the copy is overtaken and taken again (rule 6). */
 #define HEAD(frame, word, from)                                                                    \

@@ -1,4 +1,4 @@
-/* The two stages: ipc/frame.c, and of mover/ and collider/ what they read and write where. */
+/* The two stages: ipc/frame/frame_protocol.c, and of mover/ and collider/ what they read and write where. */
 
 /* --- doorbells (rule 7) ---------------------------------------------------------------------------*/
 

@@ -3,9 +3,9 @@
  *
  * It does what docs/topics.md asks of a receiver: it drops what is not above the last sequence that
  * it has of the topic in that run, and says on standard error when one is missing. */
-#include "ipc/log.h"
-#include "ipc/process.h"
-#include "topics/dds_topics.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "ipc/topics/dds_topics.h"
 
 #include "status.h"
 

@@ -1,10 +1,10 @@
 /* Samples of every status topic: most of random members, some all but good. */
 #include "tests/rtps/hostile.h"
 
-#include "ipc/clock.h"
-#include "ipc/log.h"
-#include "topics/dds_topics.h"
-#include "world/random.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/topics/dds_topics.h"
+#include "world/maths/random.h"
 
 #include "status.h"
 

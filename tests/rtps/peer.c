@@ -10,11 +10,11 @@
  *     peer ... hostile SEED
  *         writes samples on every topic of the world's status that no reporter would write, for
  *         three seconds (tests/rtps/hostile.h) */
-#include "ipc/clock.h"
-#include "ipc/log.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
 #include "tests/rtps/hostile.h"
 #include "tests/rtps/sent.h"
-#include "topics/dds_topics.h"
+#include "ipc/topics/dds_topics.h"
 
 #include "status.h"
 

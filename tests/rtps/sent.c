@@ -1,8 +1,8 @@
-/* The sendmsg() of a peer, in the place of topics/dds_datagrams.c: a peer hears and says what it
- * likes. */
+/* The sendmsg() of a peer, in the place of ipc/topics/dds_datagrams.c: a peer hears and says what
+ * it likes. */
 #include "tests/rtps/sent.h"
 
-#include "topics/dds_datagrams.h"
+#include "ipc/topics/dds_datagrams.h"
 
 #include <pthread.h>
 #include <stdint.h>

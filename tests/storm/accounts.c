@@ -1,7 +1,7 @@
 /* The log of events and the digests. */
 #include "tests/storm/accounts.h"
 
-#include "ipc/snapshot.h"
+#include "ipc/frame/snapshot.h"
 
 #include <cjson/cJSON.h>
 #include <errno.h>

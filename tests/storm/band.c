@@ -1,8 +1,8 @@
 /* Start, adoption and end of the set; whose process is whose. */
 #include "tests/storm/band.h"
 
-#include "ipc/clock.h"
-#include "ipc/process.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/process.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -1,7 +1,7 @@
 /* The table. */
 #include "tests/storm/report.h"
 
-#include "worldctl/json.h"
+#include "ipc/json/world_json.h"
 
 #include <inttypes.h>
 #include <stdio.h>

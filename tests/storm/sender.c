@@ -1,11 +1,11 @@
 /* Commands over the command socket. */
 #include "tests/storm/sender.h"
 
-#include "ipc/clock.h"
-#include "ipc/log.h"
-#include "ipc/process.h"
-#include "topics/caller.h"
-#include "topics/command_socket.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "ipc/topics/command_client.h"
+#include "ipc/topics/command_socket.h"
 
 #include <pthread.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@
 struct sender {
     const struct storm_options *options;
     struct command_socket socket;
-    struct caller caller;
+    struct command_client caller;
     pthread_t thread;
     _Atomic bool end;
     _Atomic uint64_t end_ns; /* when to give up on the last */
@@ -59,15 +59,15 @@ static jolon_Command draw(struct sender *sender)
 static bool exchange(struct sender *sender, const jolon_Command *command)
 {
     jolon_CommandReply reply;
-    uint64_t sequence = caller_send(&sender->caller, command);
+    uint64_t sequence = command_client_send(&sender->caller, command);
     for (;;) {
-        caller_turn(&sender->caller);
-        if (caller_answered(&sender->caller, sequence, &reply))
+        command_client_turn(&sender->caller);
+        if (command_client_answered(&sender->caller, sequence, &reply))
             return true;
         uint64_t now_ns = clock_now_ns();
         if (process_stopping() || (atomic_load(&sender->end) && now_ns > sender->end_ns))
             return false;
-        caller_wait(&sender->caller, now_ns + WAIT_NS);
+        command_client_wait(&sender->caller, now_ns + WAIT_NS);
     }
 }
 
@@ -94,8 +94,8 @@ struct sender *sender_start(const struct storm_options *options, struct reason *
     }
     sender->options = options;
     sender->chance.state = options->seed ^ 0x5eed;
-    if (caller_open(&sender->caller, command_socket_open(&sender->socket, options->world),
-                    reason) != 0 ||
+    if (command_client_open(&sender->caller, command_socket_open(&sender->socket, options->world),
+                            reason) != 0 ||
         pthread_create(&sender->thread, NULL, send_all, sender) != 0) {
         sender_free(sender);
         return NULL;

@@ -1,12 +1,12 @@
 /* storm: kills and stops the processes of a real set at random, and counts what came of it. */
 #include "tests/storm/storm.h"
 
-#include "ipc/clock.h"
-#include "ipc/log.h"
-#include "ipc/process.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
 #include "tests/storm/report.h"
 #include "tests/storm/sender.h"
-#include "world/random.h"
+#include "world/maths/random.h"
 
 #include <errno.h>
 #include <getopt.h>

@@ -15,7 +15,7 @@
 #ifndef JOLON_TESTS_STORM_STORM_H
 #define JOLON_TESTS_STORM_STORM_H
 
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,8 +1,8 @@
 /* Strikes. */
 #include "tests/storm/victim.h"
 
-#include "ipc/clock.h"
-#include "ipc/process.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/process.h"
 
 #include <errno.h>
 #include <signal.h>

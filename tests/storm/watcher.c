@@ -1,9 +1,9 @@
 /* Commits and recoveries. */
 #include "tests/storm/watcher.h"
 
-#include "ipc/clock.h"
-#include "ipc/frame.h"
-#include "ipc/log.h"
+#include "ipc/process/clock.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
 
 #include <stdlib.h>
 
@@ -95,7 +95,7 @@ static void *watch(void *argument)
     struct watcher *watcher = argument;
     uint64_t seen = watcher->first_frame;
     while (!atomic_load(&watcher->end)) {
-        uint64_t frame = frame_wait(watcher->view, seen, clock_now_ns() + WAIT_NS);
+        uint64_t frame = frame_protocol_wait(watcher->view, seen, clock_now_ns() + WAIT_NS);
         uint64_t now = clock_now_ns();
         if (frame < seen)
             watcher->back++;

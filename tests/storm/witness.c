@@ -1,8 +1,8 @@
 /* The reader of snapshots and the housekeeper. */
 #include "tests/storm/witness.h"
 
-#include "ipc/clock.h"
-#include "ipc/process.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/process.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -3,7 +3,7 @@
 #ifndef JOLON_TESTS_STORM_WITNESS_H
 #define JOLON_TESTS_STORM_WITNESS_H
 
-#include "ipc/snapshot.h"
+#include "ipc/frame/snapshot.h"
 #include "tests/storm/band.h"
 
 #include <pthread.h>

@@ -1,7 +1,7 @@
 /* Private views for tests of the protocol. */
 #include "tests/support/bare_view.h"
 
-#include "ipc/frame.h"
+#include "ipc/frame/frame_protocol.h"
 #include "world/checksum.h"
 
 #include <setjmp.h>
@@ -48,13 +48,13 @@ struct view bare_view_as(const struct view *view, enum role role)
     return copy;
 }
 
-static struct frame frame; /* a writing process has one */
+static struct frame_protocol frame; /* a writing process has one */
 
 struct state *bare_view_begin(struct view *collider)
 {
     uint64_t commit = atomic_load(&collider->commit->commit);
     atomic_store(&collider->moved_word->moved, commit + 1);
-    if (frame_collider_begin(&frame, collider) != 0)
+    if (frame_protocol_collider_begin(&frame, collider) != 0)
         abort();
     struct state *next = &collider->w[frame.number & 1];
     *next->head = *collider->w[commit & 1].head;
@@ -66,5 +66,5 @@ void bare_view_end(struct view *collider)
 {
     struct state *next = &collider->w[frame.number & 1];
     next->head->checksum = state_checksum(next, collider->header->counts.fixed);
-    frame_collider_end(&frame, collider);
+    frame_protocol_collider_end(&frame, collider);
 }

@@ -3,7 +3,7 @@
 #ifndef JOLON_TESTS_SUPPORT_BARE_VIEW_H
 #define JOLON_TESTS_SUPPORT_BARE_VIEW_H
 
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 
 struct bare_sizes {
     uint32_t capacity, fixed;

@@ -1,7 +1,7 @@
 /* Forked children of a test. */
 #include "tests/support/child.h"
 
-#include "ipc/clock.h"
+#include "ipc/process/clock.h"
 
 #include <setjmp.h>
 #include <signal.h>

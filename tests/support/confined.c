@@ -1,7 +1,7 @@
 /* Children that enter sandboxes. */
 #include "tests/support/confined.h"
 
-#include "sandbox/sandbox.h"
+#include "ipc/sandbox/sandbox.h"
 #include "tests/support/child.h"
 
 #include <fcntl.h>

@@ -2,7 +2,7 @@
 #include "tests/support/fixture.h"
 
 #include "config/loader.h"
-#include "world/random.h"
+#include "world/maths/random.h"
 #include "world/checksum.h"
 
 #include <dirent.h>
@@ -153,7 +153,7 @@ void fixture_open(struct fixture *fixture, const char *text)
     char message[512];
     memset(fixture, 0, sizeof *fixture);
     fixture_scenario(&fixture->scenario, text);
-    if (genesis_build(&fixture->genesis, &fixture->scenario, message, sizeof message) != 0)
+    if (world_build_build(&fixture->genesis, &fixture->scenario, message, sizeof message) != 0)
         fail_msg("the test's world is refused: %s", message);
     struct segment_header header =
         segment_header_for(&fixture->scenario.params, &fixture->genesis.counts);
@@ -165,15 +165,15 @@ void fixture_open(struct fixture *fixture, const char *text)
 
 void fixture_threads(struct fixture *fixture, uint32_t threads)
 {
-    player_free(&fixture->player);
-    assert_int_equal(player_init(&fixture->player, &fixture->view, threads), 0);
+    frame_stepper_free(&fixture->player);
+    assert_int_equal(frame_stepper_init(&fixture->player, &fixture->view, threads), 0);
 }
 
 void fixture_close(struct fixture *fixture)
 {
-    player_free(&fixture->player);
+    frame_stepper_free(&fixture->player);
     segment_abandon(&fixture->view);
-    genesis_free(&fixture->genesis);
+    world_build_free(&fixture->genesis);
     scenario_free(&fixture->scenario);
 }
 
@@ -245,7 +245,7 @@ uint32_t fixture_put(struct fixture *fixture, struct fixture_entity entity)
 
 void fixture_written(struct fixture *fixture)
 {
-    struct player *player = &fixture->player;
+    struct frame_stepper *player = &fixture->player;
     player->mover.left = player->collider.left[0] = player->collider.left[1] = 0;
 }
 
@@ -269,7 +269,7 @@ void fixture_run(struct fixture *fixture, uint32_t frames)
 void fixture_go_on(struct fixture *fixture, uint32_t frames)
 {
     for (uint32_t n = 0; n < frames; n++) {
-        player_step(&fixture->player, NULL);
+        frame_stepper_step(&fixture->player, NULL);
         check_checksums(fixture);
     }
 }

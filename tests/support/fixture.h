@@ -13,10 +13,10 @@
 #ifndef JOLON_TESTS_SUPPORT_FIXTURE_H
 #define JOLON_TESTS_SUPPORT_FIXTURE_H
 
-#include "ipc/segment.h"
-#include "replay/player.h"
-#include "world/genesis.h"
-#include "world/scenario.h"
+#include "ipc/segment/segment.h"
+#include "recorder/replay/frame_stepper.h"
+#include "world/making/world_build.h"
+#include "world/making/scenario.h"
 
 #include <stdint.h>
 
@@ -24,9 +24,9 @@
 
 struct fixture {
     struct scenario scenario;
-    struct genesis genesis;
+    struct world_build genesis;
     struct view view; /* private; mapped shared, so that children of fork see it */
-    struct player player;
+    struct frame_stepper player;
 };
 
 /* --- scenarios and worlds ----------------------------------------------------------------------*/

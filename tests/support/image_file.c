@@ -103,11 +103,11 @@ void image_file_put(const char *path, const void *bytes, size_t count)
 
 void image_file_play(struct view *view, uint64_t frame)
 {
-    struct player player;
-    assert_int_equal(player_init(&player, view, 1), 0);
-    while (player_frame(&player) < frame)
-        player_step(&player, NULL);
-    player_free(&player);
+    struct frame_stepper player;
+    assert_int_equal(frame_stepper_init(&player, view, 1), 0);
+    while (frame_stepper_frame(&player) < frame)
+        frame_stepper_step(&player, NULL);
+    frame_stepper_free(&player);
 }
 
 uint64_t image_file_digest(const struct view *view)

@@ -4,8 +4,8 @@
 #ifndef JOLON_TESTS_SUPPORT_IMAGE_FILE_H
 #define JOLON_TESTS_SUPPORT_IMAGE_FILE_H
 
-#include "archive/image.h"
-#include "replay/player.h"
+#include "recorder/archive/image.h"
+#include "recorder/replay/frame_stepper.h"
 
 #include <limits.h>
 #include <stdbool.h>

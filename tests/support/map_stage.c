@@ -1,7 +1,7 @@
 /* The world of the map's tests. */
 #include "tests/support/map_stage.h"
 
-#include "world/square.h"
+#include "world/terrain/gridsquare.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,11 +27,11 @@ void map_stage_open(struct map_stage *stage, uint64_t seed)
     }
     stage->state = fixture_state(&stage->fixture);
     assert_int_equal(crater_index_init(&stage->craters, stage->state.craters), 0);
-    stage->moment = (struct moment){.world = &stage->fixture.view.world,
-                                    .head = stage->state.head,
-                                    .entities = &stage->state.entities,
-                                    .fixed_damage = stage->state.fixed_damage,
-                                    .craters = &stage->craters};
+    stage->moment = (struct frame_view){.world = &stage->fixture.view.world,
+                                        .head = stage->state.head,
+                                        .entities = &stage->state.entities,
+                                        .fixed_damage = stage->state.fixed_damage,
+                                        .craters = &stage->craters};
 }
 
 void map_stage_close(struct map_stage *stage)

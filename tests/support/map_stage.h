@@ -11,7 +11,7 @@ struct map_stage {
     struct fixture fixture;
     struct state state;
     struct crater_index craters;
-    struct moment moment;
+    struct frame_view moment;
 };
 
 /* Level ground with vehicles of all forces and domains all over the square, headings at random. */

@@ -21,7 +21,7 @@ void named_world_name(char name[SEGMENT_NAME_MAX])
 }
 
 void named_world_publish(const char *name, const struct scenario *scenario,
-                         const struct genesis *genesis)
+                         const struct world_build *genesis)
 {
     struct view view;
     struct reason reason;

@@ -3,14 +3,14 @@
 #ifndef JOLON_TESTS_SUPPORT_NAMED_WORLD_H
 #define JOLON_TESTS_SUPPORT_NAMED_WORLD_H
 
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 
 /* A name that no other world has: "test-PID-N". */
 void named_world_name(char name[SEGMENT_NAME_MAX]);
 
 /* Creates and publishes a world of a genesis under a name. */
 void named_world_publish(const char *name, const struct scenario *scenario,
-                         const struct genesis *genesis);
+                         const struct world_build *genesis);
 
 /* Creates and publishes a world of the scenario's text (see fixture.h) under a new name. */
 void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text);

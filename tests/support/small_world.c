@@ -1,8 +1,8 @@
 /* Small worlds for tests of detection. */
 #include "tests/support/small_world.h"
 
-#include "world/reach.h"
-#include "world/square.h"
+#include "world/terrain/fixed_index.h"
+#include "world/terrain/gridsquare.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -100,14 +100,15 @@ void small_world_reach(struct small_world *w)
     free(w->reach_start);
     free(w->reach);
     assert_int_equal(
-        reach_build(w->fixed, w->world.counts.fixed, w->kinds, &w->reach_start, &w->reach), 0);
+        fixed_index_build(w->fixed, w->world.counts.fixed, w->kinds, &w->reach_start, &w->reach),
+        0);
     w->world.reach_start = w->reach_start;
     w->world.reach = w->reach;
 }
 
-struct detect_input small_world_input(const struct small_world *w)
+struct method_input small_world_input(const struct small_world *w)
 {
-    return (struct detect_input){.world = &w->world,
+    return (struct method_input){.world = &w->world,
                                  .entities = &w->e,
                                  .path = w->path,
                                  .fixed_damage = w->damage,

@@ -3,7 +3,7 @@
 #ifndef JOLON_TESTS_SUPPORT_SMALL_WORLD_H
 #define JOLON_TESTS_SUPPORT_SMALL_WORLD_H
 
-#include "collider/detect.h"
+#include "collider/motion/pair_filter.h"
 
 #include <stdint.h>
 
@@ -56,6 +56,6 @@ uint32_t small_world_tree(struct small_world *w, struct vec3 at, double radius_m
 /* Builds the squares' reach, for those who ask for it. */
 void small_world_reach(struct small_world *w);
 
-struct detect_input small_world_input(const struct small_world *w);
+struct method_input small_world_input(const struct small_world *w);
 
 #endif

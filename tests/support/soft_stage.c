@@ -1,6 +1,6 @@
 #include "tests/support/soft_stage.h"
 
-#include "renderer/scene/light.h"
+#include "renderer/scene/frame/light.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,7 +2,7 @@
 #include "tests/support/spread.h"
 
 #include "tests/support/fixture.h"
-#include "world/square.h"
+#include "world/terrain/gridsquare.h"
 
 struct spread spread_draw(uint64_t *random, double widest)
 {
@@ -12,11 +12,11 @@ struct spread spread_draw(uint64_t *random, double widest)
                            extents[fixture_random(random) % 5]};
     switch (fixture_random(random) % 4) {
     case 0: /* on a corner of four squares */
-        place.x = SQUARE_SIDE_M * floor(place.x / SQUARE_SIDE_M);
-        place.z = SQUARE_SIDE_M * floor(place.z / SQUARE_SIDE_M);
+        place.x = GRIDSQUARE_SIDE_M * floor(place.x / GRIDSQUARE_SIDE_M);
+        place.z = GRIDSQUARE_SIDE_M * floor(place.z / GRIDSQUARE_SIDE_M);
         break;
     case 1: /* on a border */
-        place.x = SQUARE_SIDE_M * floor(place.x / SQUARE_SIDE_M);
+        place.x = GRIDSQUARE_SIDE_M * floor(place.x / GRIDSQUARE_SIDE_M);
         break;
     case 2: /* at the world's corner, and past it */
         place.x = place.z = fixture_random(random) & 1 ? 0.0 : WORLD_SIDE_M;
@@ -34,6 +34,6 @@ struct vec3 spread_point(const struct spread *place, uint64_t *random)
                      fixture_uniform(random, 0.0, 0.2 * place->extent + 1.0),
                      place->z + fixture_uniform(random, -half, half)};
     if (fixture_random(random) % 8 == 0) /* exactly on a border */
-        p.x = SQUARE_SIDE_M * floor(p.x / SQUARE_SIDE_M);
+        p.x = GRIDSQUARE_SIDE_M * floor(p.x / GRIDSQUARE_SIDE_M);
     return p;
 }

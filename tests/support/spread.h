@@ -3,7 +3,7 @@
 #ifndef JOLON_TESTS_SUPPORT_SPREAD_H
 #define JOLON_TESTS_SUPPORT_SPREAD_H
 
-#include "world/maths.h"
+#include "world/maths/maths.h"
 
 #include <stdint.h>
 

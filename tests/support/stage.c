@@ -2,8 +2,8 @@
 #include "tests/support/stage.h"
 
 #include "collider/step.h"
-#include "ipc/frame.h"
-#include "ipc/process.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/process.h"
 #include "mover/step.h"
 #include "tests/support/child.h"
 
@@ -19,15 +19,15 @@ static int run_mover(struct view *view)
 {
     struct command_source sources[COMMAND_RING_COUNT];
     struct mover mover;
-    struct frame frame;
+    struct frame_protocol frame;
     if (mover_init(&mover, &view->world, view->w[0].craters, NULL) != 0)
         return 99;
-    while (frame_mover_begin(&frame, view) == 0) {
+    while (frame_protocol_mover_begin(&frame, view) == 0) {
         for (int i = 0; i < COMMAND_RING_COUNT; i++)
             sources[i] = (struct command_source){
                 view->commands[i]->slot, view->header->command_slots, frame.command_head[i]};
         mover_step(&mover, &view->w[(frame.number - 1) & 1], &view->m, sources);
-        frame_mover_end(&frame, view);
+        frame_protocol_mover_end(&frame, view);
     }
     mover_free(&mover);
     return 0;
@@ -37,13 +37,13 @@ static int run_collider(struct view *view)
 {
     const struct event_ring ring = {view->events, view->header->event_slots};
     struct collider collider;
-    struct frame frame;
+    struct frame_protocol frame;
     if (collider_init(&collider, &view->world, view->w[0].craters, NULL) != 0)
         return 99;
-    while (frame_collider_begin(&frame, view) == 0) {
+    while (frame_protocol_collider_begin(&frame, view) == 0) {
         collider_step(&collider, &view->w[(frame.number - 1) & 1], &view->m,
                       &view->w[frame.number & 1], &ring);
-        frame_collider_end(&frame, view);
+        frame_protocol_collider_end(&frame, view);
     }
     collider_free(&collider);
     return 0;

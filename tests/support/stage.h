@@ -3,7 +3,7 @@
 #ifndef JOLON_TESTS_SUPPORT_STAGE_H
 #define JOLON_TESTS_SUPPORT_STAGE_H
 
-#include "ipc/segment.h"
+#include "ipc/segment/segment.h"
 
 #include <sys/types.h>
 

@@ -1,9 +1,9 @@
 /* Tests' hands on the inside of a frame. */
 #include "tests/support/steps.h"
 
-#include "mover/turret.h"
-#include "world/footing.h"
-#include "world/rotation.h"
+#include "mover/weapon/turret.h"
+#include "world/terrain/terrain_cache.h"
+#include "world/maths/rotation.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -162,7 +162,7 @@ void steps_lay(const struct fixture *fixture, uint32_t row, uint32_t target)
 {
     struct entities e = steps_rows(fixture);
     const struct kind *kinds = fixture->view.world.kinds;
-    struct move move = {.world = &fixture->view.world};
+    struct step_context move = {.world = &fixture->view.world};
     struct mat3 body = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
     struct vec3 lead = turret_lead(&move, turret_muzzle(&move, &e, row),
                                    &kinds[kinds[e.kind[row]].munition], &e, target);
@@ -173,11 +173,11 @@ void steps_lay(const struct fixture *fixture, uint32_t row, uint32_t target)
 
 /* --- the middle of a frame ---------------------------------------------------------------------*/
 
-void steps_serial(struct fixture *fixture, struct move *move, struct serial *serial)
+void steps_serial(struct fixture *fixture, struct step_context *move, struct serial_context *serial)
 {
     struct view *view = &fixture->view;
     const struct state *committed = &view->w[atomic_load(&view->commit->commit) & 1];
-    *move = (struct move){
+    *move = (struct step_context){
         .world = &view->world,
         .craters = &fixture->player.mover.craters,
         .near = &fixture->player.mover.near,
@@ -194,11 +194,11 @@ void steps_serial(struct fixture *fixture, struct move *move, struct serial *ser
     };
     *view->m.head = *committed->head;
     entities_copy(&view->m.entities, &committed->entities, 0, committed->head->used);
-    *serial =
-        (struct serial){.move = move, .moved = &view->m, .pieces = &fixture->player.mover.pieces};
+    *serial = (struct serial_context){
+        .move = move, .moved = &view->m, .pieces = &fixture->player.mover.pieces};
 }
 
-void steps_respond(struct fixture *fixture, struct respond *respond)
+void steps_respond(struct fixture *fixture, struct response_context *respond)
 {
     struct view *view = &fixture->view;
     struct collider *collider = &fixture->player.collider;
@@ -210,24 +210,24 @@ void steps_respond(struct fixture *fixture, struct respond *respond)
     next->head->tick++;
     entities_copy(&next->entities, &committed->entities, 0, committed->head->used);
     memcpy(next->fixed_damage, committed->fixed_damage, view->world.counts.fixed);
-    motion_begin(&collider->motion, committed, next);
+    body_motion_begin(&collider->motion, committed, next);
     for (uint32_t i = 0; i < next->head->used; i++)
-        motion_take(&collider->motion, i);
+        body_motion_take(&collider->motion, i);
     *respond = collider_respond(collider, next);
-    respond->sink = (struct sink){.slot = view->events,
-                                  .slots = view->header->event_slots,
-                                  .first = committed->head->event_end,
-                                  .frame = next->head->frame,
-                                  .tick = next->head->tick,
-                                  .most = view->world.params->events_per_frame,
-                                  .tally = &next->head->tally};
-    broad_pairs(&collider->broad, &respond->input.detect);
-    contacts_begin(&collider->contacts, collider->broad.list, WORKERS_MAX);
+    respond->sink = (struct event_writer){.slot = view->events,
+                                          .slots = view->header->event_slots,
+                                          .first = committed->head->event_end,
+                                          .frame = next->head->frame,
+                                          .tick = next->head->tick,
+                                          .most = view->world.params->events_per_frame,
+                                          .tally = &next->head->tally};
+    broad_phase_pairs(&collider->broad, &respond->input.detect);
+    contact_queue_begin(&collider->contacts, collider->broad.list, THREAD_POOL_MAX);
 }
 
-void steps_respond_end(struct respond *respond)
+void steps_respond_end(struct response_context *respond)
 {
-    contacts_end(respond->contacts);
+    contact_queue_end(respond->contacts);
     respond->charges->count = 0;
 }
 
@@ -268,7 +268,7 @@ void steps_move(struct fixture *fixture)
 {
     struct view *view = &fixture->view;
     struct command_source sources[COMMAND_RING_COUNT];
-    player_sources(view, sources);
+    frame_stepper_sources(view, sources);
     mover_step(&fixture->player.mover, &view->w[atomic_load(&view->commit->commit) & 1], &view->m,
                sources);
 }

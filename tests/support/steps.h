@@ -5,8 +5,8 @@
 #ifndef JOLON_TESTS_SUPPORT_STEPS_H
 #define JOLON_TESTS_SUPPORT_STEPS_H
 
-#include "collider/respond.h"
-#include "mover/serial.h"
+#include "collider/response/response.h"
+#include "mover/context/serial_context.h"
 #include "tests/support/fixture.h"
 
 /* --- what is constant in a world, writable for tests -------------------------------------------*/
@@ -62,12 +62,13 @@ void steps_lay(const struct fixture *fixture, uint32_t row, uint32_t target);
 
 /* The mover's serial half at the next frame's tick: the moved table is a copy of the committed
  * frame, and nothing has moved. move must live as long as serial. */
-void steps_serial(struct fixture *fixture, struct move *move, struct serial *serial);
+void steps_serial(struct fixture *fixture, struct step_context *move,
+                  struct serial_context *serial);
 
 /* The collider with the next frame's buffer a copy of the committed one, every row at rest and
  * nothing to meet. Free with steps_respond_end. */
-void steps_respond(struct fixture *fixture, struct respond *respond);
-void steps_respond_end(struct respond *respond);
+void steps_respond(struct fixture *fixture, struct response_context *respond);
+void steps_respond_end(struct response_context *respond);
 
 /* --- purity ------------------------------------------------------------------------------------*/
 

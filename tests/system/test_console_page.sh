@@ -21,16 +21,16 @@ fi
 # --- the sources --------------------------------------------------------------------------------------
 whole() { # a module by its ending, also for a node that takes .js for a script
     local file
-    for file in "$root"/console/page/*.js "$here"/*.mjs; do
+    for file in "$root"/clients/console/page/*.js "$here"/*.mjs; do
         cp "$file" "$folder/module.mjs"
         node --check "$folder/module.mjs" || { echo "$file"; return 1; }
         [ "$(wc -l <"$file")" -lt 400 ] || { echo "$file is too long"; return 1; }
     done
 }
 check "every module is well-formed and short" whole
-check "the page takes nothing from outside" eval '! grep -nE "https?://" "$root"/console/page/* | grep -v www.w3.org'
+check "the page takes nothing from outside" eval '! grep -nE "https?://" "$root"/clients/console/page/* | grep -v www.w3.org'
 check "and has nothing that the server's rules forbid" \
-    eval '! grep -nE "<script>|<style|style=|onclick=" "$root"/console/page/index.html'
+    eval '! grep -nE "<script>|<style|style=|onclick=" "$root"/clients/console/page/index.html'
 
 # --- the page -----------------------------------------------------------------------------------------
 cat >people.cfg <<'C'

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Row 16: outside programs drive vehicles, in C over the topics (examples/escort.c) and in any
-# language through jolon harness (examples/sentry.py), while the reporter and the mover are killed;
+# Row 16: outside programs drive vehicles, in C over the topics (docs/examples/escort.c) and in any
+# language through jolon harness (docs/examples/sentry.py), while the reporter and the mover are killed;
 # every line is answered once, whatever it says.
 top=$(cd "$(dirname "$0")/../.." && pwd)
 . "$(dirname "$0")/lib.sh"
@@ -25,7 +25,7 @@ check "a set starts" "$jolon" start -w "$name" --without renderer --without reco
 # --- both programs drive while processes die ---------------------------------------------------------
 CYCLONEDDS_URI=file://$top/config/cyclonedds.xml "$escort" "$name" 2 1 >escort.out 2>&1 &
 escorting=$!
-python3 "$top/examples/sentry.py" --jolon "$jolon" -w "$name" --seconds 9 --side 25 Sentry >sentry.out 2>&1 &
+python3 "$top/docs/examples/sentry.py" --jolon "$jolon" -w "$name" --seconds 9 --side 25 Sentry >sentry.out 2>&1 &
 watching=$!
 sleep 1
 for role in intake mover reporter; do

@@ -64,7 +64,7 @@ check "a long frame ends no run" equal $? 0
 check "and kills nobody" equal "$(json restarts <long.json)" 0
 check "though it takes far longer than silence may" test "$(json collider_ms.max <long.json | cut -d. -f1)" -gt 300
 # 4,000 jeeps side by side, 28 m a frame: each box reaches into a hundred others, and the frame has more pairs
-# than are set aside (collider/detect.h). The arrays grow within the step, under the sandbox.
+# than are set aside (collider/motion/pair_filter.h). The arrays grow within the step, under the sandbox.
 { echo 'world = { name = "abreast"; seed = 7; capacity = 4096; pace = "max"; hz = 1.0; };'
     echo 'terrain = { source = "flat"; height_m = 100.0; };'
     echo 'collision = { shape = "sphere"; };'

@@ -41,13 +41,13 @@ check "the links of the installed documents hold" equal "$(broken_links)" ""
 # shellcheck disable=SC2046 # flags are words
 compiled() (
     mkdir compiled && cd compiled && idlc -l c "$share/jolon/status.idl" &&
-        cc -D_GNU_SOURCE -o escort "$share"/doc/jolon/examples/escort.c status.c -I. \
+        cc -D_GNU_SOURCE -o escort "$share"/doc/jolon/docs/examples/escort.c status.c -I. \
             $(pkg-config --cflags --libs CycloneDDS) -lm
     ./escort
     [ $? = 2 ] # it takes three arguments
 )
 check "the example in C can be compiled" compiled
-check "the example in Python runs" eval '"$share"/doc/jolon/examples/sentry.py --help | grep -q "^usage: "'
+check "the example in Python runs" eval '"$share"/doc/jolon/docs/examples/sentry.py --help | grep -q "^usage: "'
 
 check "uninstall" make -s -C "$root" uninstall DESTDIR="$folder/root" PREFIX=/opt/jolon
 check "leaves no file" equal "$(find "$folder/root" ! -type d)" ""

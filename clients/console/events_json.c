@@ -1,0 +1,208 @@
+/* What happened, in words, out of the event ring. */
+#include "clients/console/tell.h"
+
+#include "world/event_text.h"
+
+#include <string.h>
+
+#define BATCH    128u
+#define SCAN_MAX 8192u /* events looked at for one answer */
+
+/* Bits of event types, and one for drives that were done: there are several a second of each
+ * player, so they are told only to who asks for them. */
+#define DRIVE_BIT (1u << EVENT_TYPE_COUNT)
+
+static const char *type_word(uint32_t bit)
+{
+    return bit == EVENT_TYPE_COUNT ? "drive" : event_type_name((enum event_type)bit);
+}
+
+/* types=collision,fire,... */
+static bool read_types(const struct tell *tell, uint32_t *types, struct http_answer *answer)
+{
+    const char *at = query_text(&tell->query, "types");
+    *types = *at ? 0 : DRIVE_BIT - 1;
+    while (*at) {
+        size_t length = strcspn(at, ",");
+        uint32_t bit = EVENT_COLLISION;
+        while (bit <= EVENT_TYPE_COUNT &&
+               (strlen(type_word(bit)) != length || strncmp(type_word(bit), at, length) != 0))
+            bit++;
+        if (bit > EVENT_TYPE_COUNT) {
+            http_answer_error(
+                answer, HTTP_ANSWER_BAD,
+                "there are collision, fire, detonation, crater, agent, command, drive",
+                "types: \"%.*s\" is no type of event", length < 40 ? (int)length : 40, at);
+            return false;
+        }
+        *types |= 1u << bit;
+        at += length + (at[length] == ',');
+    }
+    return true;
+}
+
+static bool wanted(const struct event *event, uint32_t types)
+{
+    if (event->type == EVENT_COMMAND && event->command.type == COMMAND_DRIVE &&
+        event->command.result == COMMAND_DONE)
+        return types & DRIVE_BIT;
+    return event->type < EVENT_TYPE_COUNT && (types & 1u << event->type);
+}
+
+static struct event_text_party party_of(const struct world *world, const struct event_party *party)
+{
+    const char *kind = party->fixed ? "ground" : "none"; /* nobody: the terrain, or none */
+    if (party->id)
+        kind = party->kind < world->counts.kinds ? world->kinds[party->kind].name : "?";
+    return (struct event_text_party){kind, party->id};
+}
+
+/* Words, the vehicles they are about, and where. */
+static const double *describe(const struct world *world, const struct event *event,
+                              char words[EVENT_TEXT_MAX], const struct event_party *about[2])
+{
+    switch ((enum event_type)event->type) {
+    case EVENT_COLLISION:
+        about[0] = &event->collision.a;
+        about[1] = &event->collision.b;
+        event_text_collision(words, party_of(world, about[0]), party_of(world, about[1]),
+                             (double)event->collision.closing_mps,
+                             (enum response)event->collision.response);
+        return event->collision.point;
+    case EVENT_FIRE:
+        about[0] = &event->fire.shooter;
+        about[1] = &event->fire.target;
+        event_text_fire(words, party_of(world, about[0]), party_of(world, about[1]),
+                        party_of(world, &event->fire.munition).kind);
+        return event->fire.point;
+    case EVENT_DETONATION:
+        about[0] = &event->detonation.struck_party;
+        event_text_detonation(words, party_of(world, &event->detonation.munition).kind,
+                              party_of(world, about[0]), (enum struck)event->detonation.struck,
+                              about[0]->damage == DAMAGE_DESTROYED);
+        return event->detonation.point;
+    case EVENT_CRATER:
+        event_text_crater(words, (double)event->crater.radius_m, (double)event->crater.depth_m);
+        return event->crater.point;
+    case EVENT_AGENT:
+        about[0] = &event->agent.agent;
+        event_text_agent(words, party_of(world, about[0]), event->agent.from, event->agent.to,
+                         (enum agent_reason)event->agent.because);
+        return NULL;
+    case EVENT_COMMAND:
+        event_text_command(words, (enum command_type)event->command.type,
+                           (enum command_result)event->command.result, event->command.entity);
+        return NULL;
+    case EVENT_NONE:
+    case EVENT_TYPE_COUNT:
+        break;
+    }
+    words[0] = '\0';
+    return NULL;
+}
+
+static void put_event(struct json_writer *text, const struct world *world,
+                      const struct event *event)
+{
+    const struct event_party *about[2] = {NULL, NULL};
+    char words[EVENT_TEXT_MAX];
+    const double *point = describe(world, event, words, about);
+    json_writer_begin(text, '{');
+    json_writer_key_whole(text, "sequence", event->sequence);
+    json_writer_key_whole(text, "frame", event->frame);
+    json_writer_key_number(text, "time_s", (double)event->tick * world->params->dt_s, 2);
+    json_writer_key_word(text, "type", event_type_name((enum event_type)event->type));
+    json_writer_key_word(text, "text", words);
+    json_writer_key(text, "ids");
+    json_writer_begin(text, '[');
+    for (int i = 0; i < 2; i++) {
+        if (about[i] && about[i]->id && !about[i]->fixed)
+            json_writer_whole(text, about[i]->id);
+    }
+    if (event->type == EVENT_COMMAND && event->command.entity)
+        json_writer_whole(text, event->command.entity);
+    json_writer_end(text, ']');
+    if (point) {
+        json_writer_key(text, "point");
+        json_writer_begin(text, '[');
+        json_writer_number(text, point[0], 1);
+        json_writer_number(text, point[2], 1);
+        json_writer_end(text, ']');
+    }
+    json_writer_end(text, '}');
+}
+
+struct asked {
+    uint64_t after, most;
+    uint32_t types;
+    bool from_now; /* nothing was said: the newest */
+};
+
+/* The place from which the newest `most` are what is wanted. */
+static uint64_t newest(const struct view *view, const struct asked *asked, uint64_t end)
+{
+    struct event batch[BATCH];
+    uint64_t place[TELL_EVENTS_MAX];
+    struct event_cursor cursor = {.next = end > SCAN_MAX ? end - SCAN_MAX : 0};
+    uint64_t seen = 0;
+    uint32_t count;
+    while (cursor.next < end && (count = events_read(view, &cursor, batch, BATCH)) > 0) {
+        for (uint32_t i = 0; i < count; i++) {
+            if (wanted(&batch[i], asked->types))
+                place[seen++ % asked->most] = batch[i].sequence;
+        }
+    }
+    return seen == 0 ? end : place[seen < asked->most ? 0 : seen % asked->most];
+}
+
+static void put_events(struct json_writer *text, const struct view *view, const struct asked *asked,
+                       struct event_cursor *cursor)
+{
+    struct event batch[BATCH];
+    uint64_t put = 0, scanned = 0;
+    uint32_t count;
+    json_writer_key(text, "events");
+    json_writer_begin(text, '[');
+    while (put < asked->most && scanned < SCAN_MAX) {
+        uint64_t from = cursor->next;
+        if ((count = events_read(view, cursor, batch, BATCH)) == 0)
+            break;
+        for (uint32_t i = 0; i < count && put < asked->most; i++) {
+            from = batch[i].sequence + 1;
+            if (!wanted(&batch[i], asked->types))
+                continue;
+            put_event(text, &view->world, &batch[i]);
+            put++;
+        }
+        cursor->next = from; /* what is left of the batch is for the next time */
+        scanned += count;
+    }
+    json_writer_end(text, ']');
+}
+
+void events_json(const struct tell *tell, struct http_answer *answer)
+{
+    struct json_writer *text = &answer->text;
+    struct asked asked = {.from_now = !*query_text(&tell->query, "after")};
+    struct state_head head;
+    if (!query_whole(&tell->query, "after", 0, UINT64_MAX, 0, &asked.after, answer) ||
+        !query_whole(&tell->query, "most", 1, TELL_EVENTS_MAX, TELL_EVENTS, &asked.most, answer) ||
+        !read_types(tell, &asked.types, answer) || !tell_there(tell, answer))
+        return;
+    const struct view *view = &tell->watch->view;
+    if (snapshot_head(&head, view) != 0) {
+        http_answer_error(answer, HTTP_ANSWER_AWAY, "ask again",
+                          "the last frame cannot be read just now");
+        return;
+    }
+    struct event_cursor cursor = {.next = asked.after};
+    if (asked.from_now)
+        cursor.next = newest(view, &asked, head.event_end);
+    else if (asked.after > head.event_end) /* of another run, or before a repair */
+        cursor.next = head.event_end;
+    json_writer_begin(text, '{');
+    put_events(text, view, &asked, &cursor);
+    json_writer_key_whole(text, "next", cursor.next);
+    json_writer_key_whole(text, "missed", cursor.gap);
+    json_writer_end(text, '}');
+}

@@ -1,0 +1,68 @@
+/* Errors in words, and numbers of an address. */
+#include "clients/console/http_answer.h"
+
+#include "world/runtime/utf8.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define SHOWN_MAX 40 /* letters of a wrong value that are shown again */
+
+void http_answer_error(struct http_answer *answer, enum http_answer_status status, const char *next,
+                       const char *format, ...)
+{
+    char what[512];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)utf8_format(what, sizeof what, format, arguments);
+    va_end(arguments);
+    json_writer_free(&answer->text);
+    answer->status = status;
+    json_writer_begin(&answer->text, '{');
+    json_writer_key_word(&answer->text, "error", what);
+    json_writer_key_word(&answer->text, "next", next);
+    json_writer_end(&answer->text, '}');
+}
+
+const char *query_text(const struct query *query, const char *key)
+{
+    const char *text = query->value(query->context, key);
+    return text ? text : "";
+}
+
+bool query_number(const struct query *query, const char *key, double low, double high,
+                  double fallback, double *value, struct http_answer *answer)
+{
+    const char *text = query->value(query->context, key);
+    char *end;
+    *value = fallback;
+    if (!text || !*text)
+        return true;
+    *value = strtod(text, &end);
+    if (end != text && !*end && *value >= low && *value <= high)
+        return true;
+    http_answer_error(answer, HTTP_ANSWER_BAD, "ask with another value",
+                      "%s=%.*s: a number from %g to %g", key, SHOWN_MAX, text, low, high);
+    return false;
+}
+
+bool query_whole(const struct query *query, const char *key, uint64_t low, uint64_t high,
+                 uint64_t fallback, uint64_t *value, struct http_answer *answer)
+{
+    const char *text = query->value(query->context, key);
+    char *end;
+    *value = fallback;
+    if (!text || !*text)
+        return true;
+    errno = 0;
+    *value = strtoull(text, &end, 10);
+    if (text[0] >= '0' && text[0] <= '9' && !*end && !errno && *value >= low && *value <= high)
+        return true;
+    http_answer_error(answer, HTTP_ANSWER_BAD, "ask with another value",
+                      "%s=%.*s: a whole number from %llu to %llu", key, SHOWN_MAX, text,
+                      (unsigned long long)low, (unsigned long long)high);
+    return false;
+}

@@ -1,0 +1,162 @@
+/* JSON into a buffer. */
+#include "clients/console/json_writer.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DIGITS_MAX 24
+
+static void put(struct json_writer *text, const char *bytes, size_t count)
+{
+    if (text->failed)
+        return;
+    if (count > text->room - text->used) {
+        size_t room = text->room ? text->room : 512;
+        while (room - text->used < count)
+            room *= 2;
+        char *grown = room <= JSON_WRITER_MAX ? realloc(text->bytes, room) : NULL;
+        if (!grown) {
+            text->failed = true;
+            return;
+        }
+        text->bytes = grown;
+        text->room = room;
+    }
+    memcpy(text->bytes + text->used, bytes, count);
+    text->used += count;
+}
+
+static void put_comma(struct json_writer *text)
+{
+    if (text->comma)
+        put(text, ",", 1);
+    text->comma = true;
+}
+
+void json_writer_free(struct json_writer *text)
+{
+    free(text->bytes);
+    *text = (struct json_writer){0};
+}
+
+void json_writer_begin(struct json_writer *text, char bracket)
+{
+    put_comma(text);
+    put(text, &bracket, 1);
+    text->comma = false;
+}
+
+void json_writer_end(struct json_writer *text, char bracket)
+{
+    put(text, &bracket, 1);
+    text->comma = true;
+}
+
+static void put_escaped(struct json_writer *text, const char *word)
+{
+    static const char hex[] = "0123456789abcdef";
+    put(text, "\"", 1);
+    for (const char *c = word; *c; c++) {
+        unsigned char byte = (unsigned char)*c;
+        if (byte == '"' || byte == '\\') {
+            const char pair[2] = {'\\', *c};
+            put(text, pair, sizeof pair);
+        } else if (byte < 0x20 || byte == 0x7f) {
+            const char code[6] = {'\\', 'u', '0', '0', hex[byte >> 4], hex[byte & 15]};
+            put(text, code, sizeof code);
+        } else {
+            put(text, c, 1);
+        }
+    }
+    put(text, "\"", 1);
+}
+
+void json_writer_key(struct json_writer *text, const char *key)
+{
+    put_comma(text);
+    put_escaped(text, key);
+    put(text, ":", 1);
+    text->comma = false;
+}
+
+void json_writer_word(struct json_writer *text, const char *word)
+{
+    put_comma(text);
+    put_escaped(text, word);
+}
+
+/* The digits of value into the end of a field; where they begin. */
+static char *digits_of(char digits[DIGITS_MAX], uint64_t value)
+{
+    char *at = digits + DIGITS_MAX;
+    do {
+        *--at = (char)('0' + value % 10);
+        value /= 10;
+    } while (value);
+    return at;
+}
+
+void json_writer_whole(struct json_writer *text, uint64_t value)
+{
+    char digits[DIGITS_MAX];
+    char *at = digits_of(digits, value);
+    put_comma(text);
+    put(text, at, (size_t)(digits + DIGITS_MAX - at));
+}
+
+void json_writer_number(struct json_writer *text, double value, int decimals)
+{
+    static const double power[] = {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+    put_comma(text);
+    if (!isfinite(value) || fabs(value) > 1e9) {
+        put(text, "null", 4);
+        return;
+    }
+    char digits[DIGITS_MAX], whole[DIGITS_MAX];
+    uint64_t scale = (uint64_t)power[decimals];
+    uint64_t scaled = (uint64_t)llround(fabs(value) * power[decimals]);
+    if (value < 0.0 && scaled > 0)
+        put(text, "-", 1);
+    char *at = digits_of(whole, scaled / scale);
+    put(text, at, (size_t)(whole + DIGITS_MAX - at));
+    if (scaled % scale == 0)
+        return;
+    /* A one before the fraction keeps its leading zeros. */
+    uint64_t fraction = scaled % scale + scale;
+    while (fraction % 10 == 0)
+        fraction /= 10;
+    at = digits_of(digits, fraction) + 1;
+    put(text, ".", 1);
+    put(text, at, (size_t)(digits + DIGITS_MAX - at));
+}
+
+void json_writer_bool(struct json_writer *text, bool value)
+{
+    put_comma(text);
+    put(text, value ? "true" : "false", value ? 4 : 5);
+}
+
+void json_writer_key_word(struct json_writer *text, const char *key, const char *word)
+{
+    json_writer_key(text, key);
+    json_writer_word(text, word);
+}
+
+void json_writer_key_whole(struct json_writer *text, const char *key, uint64_t value)
+{
+    json_writer_key(text, key);
+    json_writer_whole(text, value);
+}
+
+void json_writer_key_number(struct json_writer *text, const char *key, double value, int decimals)
+{
+    json_writer_key(text, key);
+    json_writer_number(text, value, decimals);
+}
+
+void json_writer_key_bool(struct json_writer *text, const char *key, bool value)
+{
+    json_writer_key(text, key);
+    json_writer_bool(text, value);
+}

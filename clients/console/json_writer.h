@@ -1,0 +1,41 @@
+/* JSON as it is written: into memory that grows up to a bound. Commas and quotes are put where they
+ * belong; what text holds is escaped. cJSON makes a tree first, which costs more than all the rest
+ * of an answer with thousands of numbers. Nothing here fails but text.failed, at the end. */
+#ifndef JOLON_CLIENTS_CONSOLE_JSON_WRITER_H
+#define JOLON_CLIENTS_CONSOLE_JSON_WRITER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define JSON_WRITER_MAX (16u << 20) /* [byte] of one answer */
+
+struct json_writer {
+    char *bytes;
+    size_t used, room;
+    bool comma;  /* wanted before what comes next */
+    bool failed; /* no memory, or too long */
+};
+
+void json_writer_free(struct json_writer *text);
+
+/* '{' or '[', and what ends it. */
+void json_writer_begin(struct json_writer *text, char bracket);
+void json_writer_end(struct json_writer *text, char bracket);
+
+/* Within an object, before a value. */
+void json_writer_key(struct json_writer *text, const char *key);
+
+void json_writer_word(struct json_writer *text, const char *word);
+void json_writer_whole(struct json_writer *text, uint64_t value);
+/* With at most so many decimals, 0..9; null when it is not finite or beyond 1e9. */
+void json_writer_number(struct json_writer *text, double value, int decimals);
+void json_writer_bool(struct json_writer *text, bool value);
+
+/* Key and value at once. */
+void json_writer_key_word(struct json_writer *text, const char *key, const char *word);
+void json_writer_key_whole(struct json_writer *text, const char *key, uint64_t value);
+void json_writer_key_number(struct json_writer *text, const char *key, double value, int decimals);
+void json_writer_key_bool(struct json_writer *text, const char *key, bool value);
+
+#endif

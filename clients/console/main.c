@@ -1,0 +1,119 @@
+/* jolon-console: the page in a browser, and the server behind it. It reads the world as any reader
+ * does and writes nothing of the world's memory, but for the slot of its role when it is the
+ * console of the world's set. What its players want goes to the intake over the command socket, as
+ * every client's commands do. It may come, go and be killed. */
+#include "clients/console/options.h"
+#include "clients/console/server.h"
+#include "ipc/process/clock.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "ipc/sandbox/sandbox.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+#define NICENESS 5
+
+/* Longest wait between two looks at the world. */
+#define TURN_NS (50 * (uint64_t)NS_PER_MS)
+
+static struct console console = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+static int choose_token(const struct options *options, struct reason *reason)
+{
+    uint8_t bytes[SESSION_KEY_BYTES];
+    if (options->token_file)
+        return session_key_file(console.token, options->token_file, reason);
+    if (!session_key_random(bytes))
+        return reason_set(reason, "the system gives no random numbers");
+    session_key_text(console.token, bytes);
+    return 0;
+}
+
+/* The set's console speaks into the set's log, where the token has no place. */
+static void greet(const struct options *options)
+{
+    if (options->role) {
+        log_info("serves %s", console.listener.url);
+    } else {
+        printf("%s#token=%s\n", console.listener.url, console.token);
+        (void)fflush(stdout);
+        log_info("world \"%s\": open the address above; without its end (#...) one may look and "
+                 "change nothing",
+                 options->world);
+    }
+    if (!console.listener.local)
+        log_warn("everybody who reaches %s may look, and what is sent can be read on the way, the "
+                 "token too: use it in a network of your own",
+                 options->address);
+}
+
+/* The keeper looks after who has the role: it has to hear that this process lives. */
+static void beat(struct view *set)
+{
+    frame_protocol_beat(set);
+    atomic_store_explicit(&set->slot[ROLE_CONSOLE]->frame, atomic_load(&set->commit->commit),
+                          memory_order_relaxed);
+}
+
+static void turn(uint64_t now_ns)
+{
+    pthread_mutex_lock(&console.lock);
+    if (world_reader_turn(&console.watch, now_ns)) {
+        command_queue_world_changed(&console.desk, &console.players, &console.watch);
+        if (console.watch.there)
+            log_info("world \"%s\" is there", console.watch.name);
+        else
+            log_info("%s; waiting for it", console.watch.why.text);
+    }
+    command_queue_turn(&console.desk, &console.players, &console.watch, now_ns);
+    pthread_mutex_unlock(&console.lock);
+    http_server_sweep(console.http, now_ns);
+}
+
+int main(int argc, char **argv)
+{
+    struct options options;
+    struct sandbox sandbox;
+    struct view set = {0}; /* attached in the role, if this is the set's console */
+    struct reason reason;
+    char folder[RUNTIME_FOLDER_MAX];
+    log_open("console");
+    options_parse(&options, argc, argv);
+    process_close_inherited();
+    process_die_with_parent(options.parent);
+    process_signals();
+    if (nice(NICENESS) == -1)
+        log_warn("runs at normal priority: nice %d not allowed", NICENESS);
+    const struct http_listen_options where = {.address_option = "--address",
+                                              .port_option = "--port",
+                                              .address = options.address,
+                                              .port = options.port};
+    world_reader_open(&console.watch, options.world);
+    if (runtime_folder(folder, &reason) != 0 || choose_token(&options, &reason) != 0 ||
+        (options.role && segment_attach(&set, options.world, ROLE_CONSOLE, &reason) != 0) ||
+        sandbox_begin(&sandbox, ROLE_CONSOLE, options.sandbox_off, &reason) != 0 ||
+        sandbox_files(&sandbox, NULL, 0, &reason) != 0 ||
+        http_listen(&console.listener, &where, &reason) != 0 ||
+        command_queue_open(&console.desk, options.world, &reason) != 0 ||
+        picture_proxy_open(&console.pictures, options.world, &reason) != 0 ||
+        server_start(&console, &reason) != 0)
+        die_refused("%s", reason.text);
+    greet(&options); /* the first word to a terminal asks what it is: not in the sandbox */
+    if (sandbox_enter(&sandbox, &reason) != 0)
+        die_refused("%s", reason.text);
+    if (options.role)
+        segment_ready(&set);
+    while (!process_stopping()) {
+        uint64_t now_ns = clock_now_ns();
+        if (options.role)
+            beat(&set);
+        turn(now_ns);
+        command_queue_wait(&console.desk, now_ns + TURN_NS);
+    }
+    server_end(&console);
+    world_reader_close(&console.watch);
+    segment_detach(&set);
+    return EXIT_OK;
+}

@@ -1,0 +1,24 @@
+/* The command line of jolon-console. */
+#ifndef JOLON_CLIENTS_CONSOLE_OPTIONS_H
+#define JOLON_CLIENTS_CONSOLE_OPTIONS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define OPTIONS_PORT 8080u
+
+struct options {
+    const char *world;
+    const char *address;
+    uint16_t port;
+    const char *token_file; /* NULL: a new token */
+    int parent;             /* process id, 0: none */
+    bool role;              /* it is its set's console: has the role's lock and slot */
+    bool sandbox_off;
+};
+
+/* Fills options. Ends the program: with help on standard output (0), or with one line that says
+ * what is wrong (2). */
+void options_parse(struct options *options, int argc, char **argv);
+
+#endif

@@ -1,0 +1,107 @@
+/* What may be posted. */
+#include "clients/console/post_requests.h"
+
+#include "clients/console/access_control.h"
+#include "clients/console/process_control.h"
+#include "ipc/process/clock.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* From the desk's thread: the server goes on with the request, and finds the answer. */
+static void on_ready(struct pending_command *ticket)
+{
+    struct request *request =
+        (struct request *)(void *)((char *)ticket - offsetof(struct request, ticket));
+    http_wake(request->http);
+}
+
+static bool join(struct request *request, struct player *player, struct http_answer *answer)
+{
+    char name[PLAYERS_NAME_MAX];
+    uint8_t key[SESSION_KEY_BYTES];
+    struct json_writer *text = &answer->text;
+    uint64_t source = command_client_source(), now_ns = clock_now_ns();
+    (void)player;
+    if (!request_body_join(name, request->http->body, request->http->body_bytes, answer))
+        return true;
+    if (source == 0 || !session_key_random(key)) {
+        http_answer_error(answer, HTTP_ANSWER_AWAY, "try again",
+                          "the system gives no random numbers");
+        return true;
+    }
+    const struct player *joined =
+        players_join(&request->console->players, name, key, source, now_ns);
+    if (!joined) {
+        http_answer_error(answer, HTTP_ANSWER_TOO_MANY, "wait until one has left, or look on",
+                          "there are %u players, more cannot be", PLAYERS_MAX);
+        return true;
+    }
+    json_writer_begin(text, '{');
+    json_writer_key_whole(text, "player", joined->number);
+    json_writer_key_word(text, "name", joined->name);
+    json_writer_key_word(text, "key", joined->key);
+    json_writer_end(text, '}');
+    return true;
+}
+
+static bool command(struct request *request, struct player *player, struct http_answer *answer)
+{
+    struct console *console = request->console;
+    struct pending_command *ticket = &request->ticket;
+    const char *key = http_header(request->http, "X-Jolon-Player");
+    if (key && !player) {
+        http_answer_error(answer, HTTP_ANSWER_UNAUTHORIZED, "POST /api/join again",
+                          "no player has this key; who is not heard of for two minutes has left");
+        return true;
+    }
+    if (console->ending || !console->watch.there) {
+        http_answer_error(answer, HTTP_ANSWER_AWAY, "wait until it is there", "%s",
+                          console->ending ? "the console ends" : console->watch.why.text);
+        return true;
+    }
+    if (!request_body_order(&ticket->order, &ticket->cancel, request->http->body,
+                            request->http->body_bytes, answer))
+        return true;
+    ticket->ready = on_ready;
+    return !command_queue_put(&console->desk, ticket, player, clock_now_ns(), answer);
+}
+
+static bool process(struct request *request, struct player *player, struct http_answer *answer)
+{
+    char role[REQUEST_BODY_ROLE_MAX];
+    bool restart;
+    (void)player;
+    if (request_body_process(&restart, role, request->http->body, request->http->body_bytes,
+                             answer))
+        process_control_end(&request->console->watch, role, restart, answer);
+    return true;
+}
+
+static const struct {
+    const char *path;
+    bool (*change)(struct request *request, struct player *player, struct http_answer *answer);
+} changes[] = {{"/api/join", join}, {"/api/command", command}, {"/api/process", process}};
+
+#define CHANGES (sizeof changes / sizeof changes[0])
+
+bool post_requests_find(const char *path)
+{
+    for (size_t i = 0; i < CHANGES; i++) {
+        if (strcmp(path, changes[i].path) == 0)
+            return true;
+    }
+    return false;
+}
+
+bool post_requests_world(struct request *request, const char *path, struct http_answer *answer)
+{
+    uint64_t now_ns = clock_now_ns();
+    struct player *player = access_control_player(request, now_ns);
+    size_t i = 0;
+    if (!access_control_open_to_change(request, player, now_ns, answer))
+        return true;
+    while (strcmp(path, changes[i].path) != 0)
+        i++;
+    return changes[i].change(request, player, answer);
+}

@@ -1,0 +1,90 @@
+/* The process table, and signals. */
+#include "clients/console/process_control.h"
+
+#include "clients/console/tell.h"
+#include "ipc/process/clock.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/pidfd.h>
+#include <unistd.h>
+
+static void put_role(struct json_writer *text, const struct world_reader *watch, enum role role)
+{
+    const struct role_slot *slot = watch->view.slot[role];
+    int pid = segment_holder(watch->name, role);
+    uint64_t beat_ns = atomic_load(&slot->beat_ns), now_ns = clock_now_ns();
+    json_writer_begin(text, '{');
+    json_writer_key_word(text, "role", role_name(role));
+    json_writer_key_word(
+        text, "state", pid ? role_state_name((enum role_state)atomic_load(&slot->state)) : "dead");
+    json_writer_key_whole(text, "pid", (uint64_t)pid);
+    json_writer_key_whole(text, "restarts", atomic_load(&slot->starts) - 1);
+    json_writer_key_number(text, "beat_age_ms",
+                           now_ns > beat_ns ? (double)(now_ns - beat_ns) / 1e6 : 0.0, 1);
+    json_writer_key_number(text, "stage_ms", (double)atomic_load(&slot->stage_ns) / 1e6, 3);
+    json_writer_key_number(text, "stage_p99_ms",
+                           (double)histogram_quantile(&slot->stage, 0.99) / 1e6, 3);
+    json_writer_key_whole(text, "late_frames", atomic_load(&slot->late_frames));
+    json_writer_key_whole(text, "frame", atomic_load(&slot->frame));
+    json_writer_end(text, '}');
+}
+
+void tell_processes(const struct tell *tell, struct http_answer *answer)
+{
+    struct json_writer *text = &answer->text;
+    if (!tell_there(tell, answer))
+        return;
+    json_writer_begin(text, '[');
+    for (int role = 0; role < ROLE_COUNT; role++) {
+        if (atomic_load(&tell->watch->view.slot[role]->starts) > 0)
+            put_role(text, tell->watch, (enum role)role);
+    }
+    json_writer_end(text, ']');
+}
+
+/* The process is still the role's when the descriptor is its own: another one with its number is
+ * never hit. 0, or an errno. */
+static int signal_holder(const struct world_reader *watch, enum role role, int pid,
+                         int signal_number)
+{
+    int fd = pidfd_open(pid, 0);
+    if (fd < 0)
+        return errno;
+    int result = ESRCH;
+    if (segment_holder(watch->name, role) == pid)
+        result = pidfd_send_signal(fd, signal_number, NULL, 0) == 0 ? 0 : errno;
+    close(fd);
+    return result;
+}
+
+void process_control_end(const struct world_reader *watch, const char *name, bool restart,
+                         struct http_answer *answer)
+{
+    enum role role = role_find(name);
+    if (role == ROLE_NONE) {
+        http_answer_error(
+            answer, HTTP_ANSWER_BAD,
+            "there are mover, collider, reporter, recorder, renderer, renderer-2 ..., console",
+            "\"%.16s\" is no role", name);
+        return;
+    }
+    int pid = segment_holder(watch->name, role);
+    /* Asked to stop, a frame role would end the run; killed, it is only replaced. */
+    bool kills = !restart || role == ROLE_MOVER || role == ROLE_COLLIDER;
+    int cause = pid ? signal_holder(watch, role, pid, kills ? SIGKILL : SIGTERM) : ESRCH;
+    if (cause != 0) {
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT,
+                          "the process table shows when it is there again",
+                          "the %s does not run: %s", name, strerror(cause));
+        return;
+    }
+    struct json_writer *text = &answer->text;
+    json_writer_begin(text, '{');
+    json_writer_key_word(text, "result", "done");
+    json_writer_key_word(text, "role", name);
+    json_writer_key_whole(text, "pid", (uint64_t)pid);
+    json_writer_key_word(text, "signal", kills ? "KILL" : "TERM");
+    json_writer_end(text, '}');
+}

@@ -1,0 +1,102 @@
+/* Words of replies. */
+#include "clients/console/result_text.h"
+
+#include "world/world.h"
+
+#include <stdio.h>
+
+/* The kinds there are, for whoever named another. */
+static void list_kinds(const struct world_reader *watch, bool munitions, char *text, size_t bytes)
+{
+    size_t used = (size_t)snprintf(text, bytes, "there are");
+    const struct world *world = &watch->view.world;
+    for (uint32_t i = 0; watch->there && i < world->counts.kinds && used < bytes; i++) {
+        const struct kind *kind = &world->kinds[i];
+        if (kind->domain == DOMAIN_FIXED || (kind->domain == DOMAIN_MUNITION) != munitions)
+            continue;
+        int length = snprintf(text + used, bytes - used, " %s", kind->name);
+        used += length > 0 ? (size_t)length : 0;
+    }
+}
+
+static void explain_cannot(struct http_answer *answer, const struct command_text *order)
+{
+    const jolon_Command *command = &order->command;
+    if (command->type == jolon_COMMAND_STEP)
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT, "pause the world first",
+                          "it runs: no step to make");
+    else if (command->type == jolon_COMMAND_FIRE)
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT,
+                          "wait until it is loaded; its rounds are in its "
+                          "state",
+                          "vehicle %u cannot fire now: destroyed, loading or out of rounds",
+                          command->entity);
+    else
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT, "take another one",
+                          "%u cannot do that: it is destroyed, or no vehicle", command->entity);
+}
+
+static void explain(struct http_answer *answer, const struct command_text *order,
+                    enum command_result result, const struct world_reader *watch,
+                    const struct players *players)
+{
+    const jolon_Command *command = &order->command;
+    const struct player *driver = players_driver(players, command->entity);
+    char kinds[512];
+    switch (result) {
+    case COMMAND_NO_SUCH_ENTITY:
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT, "choose one on the map or in the list",
+                          "there is no %u any more, or never was", command->entity);
+        break;
+    case COMMAND_NO_SUCH_KIND:
+        list_kinds(watch, command->type == jolon_COMMAND_FIRE, kinds, sizeof kinds);
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT, kinds, "\"%s\": no such kind",
+                          command->kind);
+        break;
+    case COMMAND_TABLE_FULL:
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT,
+                          "remove something first, or make the world with a larger world.capacity",
+                          "the world has no room for more");
+        break;
+    case COMMAND_TAKEN:
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT,
+                          "wait until it is released, or take another one", "%s drives %u",
+                          driver ? driver->name : "somebody else", command->entity);
+        break;
+    case COMMAND_CANNOT:
+        explain_cannot(answer, order);
+        break;
+    default:
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT,
+                          "docs/console.md says what an order looks like", "%s: %s",
+                          order->verb->name, command_result_name(result));
+        break;
+    }
+}
+
+void result_text_put(struct http_answer *answer, const struct command_text *order,
+                     const jolon_CommandReply *reply, const struct world_reader *watch,
+                     const struct players *players)
+{
+    struct json_writer *text = &answer->text;
+    if (reply->result != jolon_RESULT_DONE) {
+        explain(answer, order, (enum command_result)reply->result, watch, players);
+        return;
+    }
+    answer->status = HTTP_ANSWER_OK;
+    json_writer_begin(text, '{');
+    json_writer_key_word(text, "result", "done");
+    json_writer_key_whole(text, "frame", reply->frame);
+    json_writer_key_whole(text, "entity", reply->entity);
+    json_writer_end(text, '}');
+}
+
+void result_text_none(struct http_answer *answer, const struct command_text *order, bool heard)
+{
+    http_answer_error(answer, HTTP_ANSWER_NO_REPLY,
+                      heard ? "look whether it was done before you order it again"
+                            : "is the reporter running? The process table shows it",
+                      heard ? "%s: no reply came in time"
+                            : "%s: nobody takes commands for the world",
+                      order->verb->name);
+}

@@ -1,0 +1,16 @@
+/* What became of an order, in words. Pure. */
+#ifndef JOLON_CLIENTS_CONSOLE_RESULT_TEXT_H
+#define JOLON_CLIENTS_CONSOLE_RESULT_TEXT_H
+
+#include "clients/console/request_body.h"
+#include "clients/console/world_reader.h"
+
+/* Writes {"result": "done", "frame", "entity"}, or why not and what to do. */
+void result_text_put(struct http_answer *answer, const struct command_text *order,
+                     const jolon_CommandReply *reply, const struct world_reader *watch,
+                     const struct players *players);
+
+/* No reply came. */
+void result_text_none(struct http_answer *answer, const struct command_text *order, bool heard);
+
+#endif

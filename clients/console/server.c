@@ -1,0 +1,244 @@
+/* Requests: their checks, and who answers them. */
+#include "clients/console/server.h"
+
+#include "clients/console/post_requests.h"
+#include "clients/console/access_control.h"
+#include "clients/console/page_files.h"
+#include "clients/console/tell.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define JSON_TYPE "application/json"
+
+static const struct http_header headers[] = {
+    {"X-Frame-Options", "DENY"},
+    {"Referrer-Policy", "no-referrer"},
+    {"Cross-Origin-Resource-Policy", "same-origin"},
+    {"Content-Security-Policy",
+     "default-src 'self'; img-src 'self' blob: data:; object-src 'none'; base-uri 'none'; "
+     "form-action 'none'; frame-ancestors 'none'"},
+    {NULL, NULL},
+};
+
+/* --- answers -----------------------------------------------------------------------------------*/
+
+/* The answer's text becomes the reply's. */
+static void reply_answer(struct http_reply *reply, struct http_answer *answer)
+{
+    if (answer->text.failed || answer->text.used == 0)
+        http_answer_error(answer, HTTP_ANSWER_AWAY, "ask for less, or again",
+                          "no memory for the answer");
+    *reply = (struct http_reply){.status = (unsigned)answer->status,
+                                 .type = JSON_TYPE,
+                                 .bytes = answer->text.bytes,
+                                 .count = answer->text.used,
+                                 .release = free,
+                                 .owner = answer->text.bytes};
+}
+
+static void refuse(struct http_reply *reply, unsigned status, const char *what, const char *next)
+{
+    struct http_answer answer = {.status = HTTP_ANSWER_OK};
+    http_answer_error(&answer, (enum http_answer_status)status, next, "%s", what);
+    reply_answer(reply, &answer);
+}
+
+static void let_go(void *copy)
+{
+    picture_proxy_release(copy);
+}
+
+/* The copy becomes the reply's. */
+static void reply_picture(struct http_reply *reply, struct request *request)
+{
+    struct picture_copy *copy = request->gaze.copy;
+    struct http_answer answer = {.status = HTTP_ANSWER_OK};
+    request->gaze.copy = NULL;
+    if (!copy || copy->status != HTTP_ANSWER_OK) {
+        picture_proxy_explain(copy, &answer);
+        picture_proxy_release(copy);
+        reply_answer(reply, &answer);
+        return;
+    }
+    *reply = (struct http_reply){.status = HTTP_ANSWER_OK,
+                                 .type = "image/jpeg",
+                                 .bytes = copy->body,
+                                 .count = copy->body_bytes,
+                                 .release = let_go,
+                                 .owner = copy};
+    http_reply_add(reply, "X-Picture", "%llu", (unsigned long long)copy->number);
+    http_reply_add(reply, "X-Frame", "%s", copy->frame);
+    http_reply_add(reply, "X-Time", "%s", copy->time);
+}
+
+static void reply_page(struct http_reply *reply, const struct page_files_file *file)
+{
+    *reply = (struct http_reply){.status = HTTP_ANSWER_OK,
+                                 .type = page_files_type(file),
+                                 .cache = "no-cache",
+                                 .bytes = file->bytes,
+                                 .count = file->count};
+}
+
+/* --- what there is to ask for ------------------------------------------------------------------*/
+
+typedef void tell_function(const struct tell *tell, struct http_answer *answer);
+
+static const struct {
+    const char *path;
+    tell_function *tell;
+} readings[] = {
+    {"/api/world", world_json},   {"/api/state", state_json},         {"/api/list", vehicles_json},
+    {"/api/events", events_json}, {"/api/processes", tell_processes},
+};
+
+static const char *argument(void *context, const char *key)
+{
+    return http_argument(context, key);
+}
+
+static tell_function *find_reading(const char *path)
+{
+    for (size_t i = 0; i < sizeof readings / sizeof readings[0]; i++) {
+        if (strcmp(path, readings[i].path) == 0)
+            return readings[i].tell;
+    }
+    return NULL;
+}
+
+/* From a thread of the pictures': the server goes on with the request, once it is suspended. */
+static void on_picture(struct gaze *gaze)
+{
+    struct request *request =
+        (struct request *)(void *)((char *)gaze - offsetof(struct request, gaze));
+    struct console *console = request->console;
+    pthread_mutex_lock(&console->lock);
+    http_wake(request->http);
+    pthread_mutex_unlock(&console->lock);
+}
+
+/* Under the lock. False: it waits for its picture, and is called again. */
+static bool read_picture(struct request *request, bool map, struct http_answer *answer)
+{
+    char target[PICTURE_PROXY_TARGET];
+    uint64_t now_ns = clock_now_ns();
+    const struct player *player = access_control_player(request, now_ns);
+    const struct query query = {argument, request->http};
+    request->gaze.ready = on_picture;
+    return !access_control_open(request, player, now_ns, answer) ||
+           !picture_proxy_target(&query, map, target, &request->gaze, answer) ||
+           picture_proxy_ask(&request->console->pictures, target, &request->gaze, answer);
+}
+
+/* Under the lock. */
+static void read_world(struct request *request, const char *path, struct http_answer *answer)
+{
+    struct console *console = request->console;
+    uint64_t now_ns = clock_now_ns();
+    const struct player *player = access_control_player(request, now_ns);
+    tell_function *function = find_reading(path);
+    struct tell tell = {.watch = &console->watch,
+                        .players = &console->players,
+                        .desk = &console->desk,
+                        .player = player,
+                        .query = {argument, request->http},
+                        .now_ns = now_ns};
+    if (!access_control_open(request, player, now_ns, answer))
+        return;
+    if (function)
+        function(&tell, answer);
+    else if (!page_files_find(path))
+        http_answer_error(answer, HTTP_ANSWER_NOT_FOUND,
+                          "the page begins at /; docs/console.md lists the "
+                          "rest",
+                          "there is nothing at %.60s", path);
+}
+
+/* --- the server's calls ------------------------------------------------------------------------*/
+
+/* Under the lock: what is answered now; false: it waits for its ticket, and is called again. */
+static bool make_answer(struct request *request, const char *path, const char *method,
+                        struct http_answer *answer)
+{
+    bool reads = strcmp(method, "GET") == 0 || strcmp(method, "HEAD") == 0;
+    bool map = strcmp(path, "/api/map") == 0;
+    if (request->gaze.done)
+        return true;
+    if (request->ticket.done) {
+        *answer = request->ticket.answer;
+        request->ticket.answer = (struct http_answer){.status = HTTP_ANSWER_OK};
+        return true;
+    }
+    if (reads && (map || strcmp(path, "/api/picture") == 0))
+        return read_picture(request, map, answer);
+    if (reads && !post_requests_find(path))
+        read_world(request, path, answer);
+    else if (!reads && strcmp(method, "POST") == 0 && post_requests_find(path))
+        return post_requests_world(request, path, answer);
+    else
+        http_answer_error(answer, HTTP_ANSWER_NOT_ALLOWED,
+                          post_requests_find(path) ? "POST it"
+                                                   : "GET it; nothing else is to be had here",
+                          "%.20s is not for %.60s", method, path);
+    return true;
+}
+
+static bool on_request(void *context, struct http_request *http, struct http_reply *reply)
+{
+    struct console *console = context;
+    struct request *request = http->own;
+    struct http_answer answer = {.status = HTTP_ANSWER_OK};
+    if (!http->woken)
+        *request = (struct request){
+            .console = console, .http = http, .ticket = {.answer = {.status = HTTP_ANSWER_OK}}};
+    pthread_mutex_lock(&console->lock);
+    bool now = make_answer(request, http->path, http->method, &answer);
+    if (!now)
+        http_wait(http);
+    pthread_mutex_unlock(&console->lock);
+    if (!now)
+        return false;
+    const struct page_files_file *file = answer.text.used == 0 ? page_files_find(http->path) : NULL;
+    if (request->gaze.done)
+        reply_picture(reply, request);
+    else if (file)
+        reply_page(reply, file);
+    else
+        reply_answer(reply, &answer);
+    return true;
+}
+
+static void on_end(void *context, struct http_request *http)
+{
+    struct request *request = http->own;
+    (void)context;
+    json_writer_free(&request->ticket.answer.text);
+    picture_proxy_release(request->gaze.copy);
+}
+
+int server_start(struct console *console, struct reason *reason)
+{
+    const struct http_handler handler = {.context = console,
+                                         .own_bytes = sizeof(struct request),
+                                         .body_max = REQUEST_BODY,
+                                         .headers = headers,
+                                         .answer = on_request,
+                                         .refuse = refuse,
+                                         .end = on_end};
+    console->http = http_server_start(&console->listener, &handler, reason);
+    return console->http ? 0 : -1;
+}
+
+void server_end(struct console *console)
+{
+    pthread_mutex_lock(&console->lock);
+    console->ending = true;
+    command_queue_close(&console->desk);
+    pthread_mutex_unlock(&console->lock);
+    picture_proxy_close(&console->pictures);
+    http_server_stop(console->http);
+}

@@ -1,0 +1,252 @@
+/* The moment: the frame, its numbers, who is in an area, and the vehicle that is asked for. */
+#include "clients/console/tell.h"
+
+#include "world/terrain/gridsquare.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define MILLI_NS 1e6
+
+uint32_t tell_driver(const struct tell *tell, uint32_t row)
+{
+    const struct entities *e = &tell->watch->snapshot.entities;
+    if (e->behaviour[row] != BEHAVIOUR_DRIVEN || e->driver[row] == 0)
+        return 0;
+    return tell->player && e->driver[row] == tell->player->source ? 2 : 1;
+}
+
+static void put_times(struct json_writer *text, const char *key, const struct histogram *histogram)
+{
+    json_writer_key(text, key);
+    json_writer_begin(text, '{');
+    json_writer_key_number(text, "p50", (double)histogram_quantile(histogram, 0.50) / MILLI_NS, 3);
+    json_writer_key_number(text, "p99", (double)histogram_quantile(histogram, 0.99) / MILLI_NS, 3);
+    json_writer_key_number(text, "max", (double)histogram->max_ns / MILLI_NS, 3);
+    json_writer_end(text, '}');
+}
+
+static void put_tally(struct json_writer *text, const struct state_head *head)
+{
+    const struct tally *tally = &head->tally;
+    json_writer_key(text, "tally");
+    json_writer_begin(text, '{');
+    json_writer_key_whole(text, "collisions", tally->collisions);
+    json_writer_key_whole(text, "fires", tally->fires);
+    json_writer_key_whole(text, "detonations", tally->detonations);
+    json_writer_key_whole(text, "craters", head->crater_count);
+    json_writer_key_whole(text, "destroyed", tally->destroyed);
+    json_writer_key_whole(text, "fixed_damaged", tally->fixed_damaged);
+    json_writer_key_whole(text, "agent_changes", tally->agent_changes);
+    json_writer_key_whole(text, "commands", tally->commands);
+    json_writer_key_whole(text, "events_dropped", tally->events_dropped);
+    json_writer_end(text, '}');
+}
+
+static void put_head(struct json_writer *text, const struct tell *tell)
+{
+    const struct world_reader *watch = tell->watch;
+    const struct view *view = &watch->view;
+    const struct state_head *head = &watch->snapshot.head;
+    json_writer_key_whole(text, "frame", head->frame);
+    json_writer_key_number(text, "time_s", world_time_s(&view->world, head), 3);
+    json_writer_key_word(text, "state", world_reader_state(watch, head));
+    json_writer_key_bool(text, "paused", head->paused != 0);
+    json_writer_key_number(text, "scale", head->time_scale, 3);
+    json_writer_key_number(text, "rate_hz", world_reader_rate_hz(watch), 1);
+    json_writer_key_whole(text, "late_frames", atomic_load(&view->slot[ROLE_MOVER]->late_frames));
+    json_writer_key_whole(text, "vehicles", head->vehicles);
+    json_writer_key_whole(text, "munitions", head->munitions);
+    json_writer_key_whole(text, "events", head->event_end);
+    put_tally(text, head);
+    put_times(text, "frame_ms", &view->slot[ROLE_COLLIDER]->whole);
+}
+
+struct area_asked {
+    double x0, z0, x1, z1;
+    uint64_t most;
+};
+
+static bool read_area(const struct tell *tell, struct area_asked *area, struct http_answer *answer)
+{
+    const char *given = query_text(&tell->query, "area");
+    *area = (struct area_asked){0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M, 0};
+    int used = 0;
+    if (*given && (sscanf(given, "%lf,%lf,%lf,%lf%n", &area->x0, &area->z0, &area->x1, &area->z1,
+                          &used) != 4 ||
+                   given[used] || !(area->x0 <= area->x1) || !(area->z0 <= area->z1))) {
+        http_answer_error(answer, HTTP_ANSWER_BAD, "ask as area=X0,Z0,X1,Z1 in metres",
+                          "area=%.60s: not four numbers, the lower ones first", given);
+        return false;
+    }
+    return query_whole(&tell->query, "most", 0, TELL_ENTITIES_MAX, TELL_ENTITIES, &area->most,
+                       answer);
+}
+
+static bool within(const struct area_asked *area, const struct entities *e, uint32_t row)
+{
+    return e->state[row] != ENTITY_FREE && e->x[row] >= area->x0 && e->x[row] <= area->x1 &&
+           e->z[row] >= area->z0 && e->z[row] <= area->z1;
+}
+
+static void put_entity(struct json_writer *text, const struct tell *tell, uint32_t row)
+{
+    const struct entities *e = &tell->watch->snapshot.entities;
+    json_writer_begin(text, '[');
+    json_writer_whole(text, e->id[row]);
+    json_writer_whole(text, e->kind[row]);
+    json_writer_whole(text, e->force[row]);
+    json_writer_whole(text, e->behaviour[row]);
+    json_writer_whole(text, e->state[row]);
+    json_writer_whole(text, e->damage[row]);
+    json_writer_number(text, e->x[row], 1);
+    json_writer_number(text, e->z[row], 1);
+    json_writer_number(text, e->heading[row], 3);
+    json_writer_number(text, vec3_length(entities_velocity(e, row)), 1);
+    json_writer_number(text, (double)e->turret[row], 3);
+    json_writer_whole(text, tell_driver(tell, row));
+    json_writer_end(text, ']');
+}
+
+/* When more are there than are wanted, every so manieth by its id: the same ones the next time. */
+static void put_entities(struct json_writer *text, const struct tell *tell,
+                         const struct area_asked *area)
+{
+    const struct snapshot *snapshot = &tell->watch->snapshot;
+    const struct entities *e = &snapshot->entities;
+    uint64_t count = 0, put = 0;
+    for (uint32_t row = 0; row < snapshot->head.used; row++)
+        count += within(area, e, row);
+    uint64_t stride = area->most > 0 ? (count + area->most - 1) / area->most : 0;
+    stride = stride > 0 ? stride : 1;
+    json_writer_key(text, "entities");
+    json_writer_begin(text, '[');
+    for (uint32_t row = 0; row < snapshot->head.used && put < area->most; row++) {
+        if (!within(area, e, row) || e->id[row] % stride != 0)
+            continue;
+        put_entity(text, tell, row);
+        put++;
+    }
+    json_writer_end(text, ']');
+    json_writer_key_whole(text, "left_out", count - put);
+}
+
+static void put_where(struct json_writer *text, const struct tell *tell, uint32_t row)
+{
+    const struct entities *e = &tell->watch->snapshot.entities;
+    const struct world *world = &tell->watch->view.world;
+    json_writer_key_number(text, "x", e->x[row], 2);
+    json_writer_key_number(text, "y", e->y[row], 2);
+    json_writer_key_number(text, "z", e->z[row], 2);
+    json_writer_key_number(text, "speed_mps", vec3_length(entities_velocity(e, row)), 2);
+    json_writer_key_number(text, "heading_deg", e->heading[row] / RAD_PER_DEG, 1);
+    json_writer_key_number(text, "pitch_deg", e->pitch[row] / RAD_PER_DEG, 1);
+    json_writer_key_number(text, "roll_deg", e->roll[row] / RAD_PER_DEG, 1);
+    json_writer_key_number(text, "altitude_m",
+                           e->y[row] - terrain_base_height(&world->terrain, e->x[row], e->z[row]),
+                           1);
+    json_writer_key_number(text, "turret_deg", (double)e->turret[row] / RAD_PER_DEG, 1);
+    json_writer_key_number(text, "gun_deg", (double)e->gun[row] / RAD_PER_DEG, 1);
+}
+
+static void put_me(struct json_writer *text, const struct tell *tell, uint32_t row)
+{
+    static const char *const drivers[] = {"", "another", "you"};
+    const struct world_reader *watch = tell->watch;
+    const struct entities *e = &watch->snapshot.entities;
+    const struct world *world = &watch->view.world;
+    const struct kind *kind = &world->kinds[e->kind[row]];
+    double reload_s =
+        ((double)e->reload_tick[row] - (double)watch->snapshot.head.tick) * world->params->dt_s;
+    json_writer_key(text, "me");
+    json_writer_begin(text, '{');
+    json_writer_key_whole(text, "id", e->id[row]);
+    json_writer_key_word(text, "name", world_entity_name(world, e->id[row]));
+    json_writer_key_word(text, "kind", kind->name);
+    json_writer_key_word(text, "force", force_name((enum force)e->force[row]));
+    json_writer_key_word(text, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));
+    json_writer_key_word(text, "state", entity_state_name((enum entity_state)e->state[row]));
+    json_writer_key_word(text, "damage", damage_name((enum damage)e->damage[row]));
+    put_where(text, tell, row);
+    json_writer_key_whole(text, "rounds", e->rounds[row]);
+    json_writer_key_whole(text, "rounds_full", kind->rounds);
+    json_writer_key_number(text, "fuel_l", e->fuel_l[row], 1);
+    json_writer_key_number(text, "fuel_full_l", kind->fuel_l, 1);
+    json_writer_key_number(text, "reload_s", fmax(reload_s, 0.0), 2);
+    json_writer_key_word(text, "gear", gear_name(entity_gear(e->flags[row])));
+    json_writer_key_number(text, "throttle", (double)e->throttle[row], 2);
+    json_writer_key_whole(
+        text, "target",
+        entities_alive(e, e->target_slot[row], e->target_id[row]) ? e->target_id[row] : 0);
+    json_writer_key_word(text, "driver", drivers[tell_driver(tell, row)]);
+    json_writer_end(text, '}');
+}
+
+static void put_players(struct json_writer *text, const struct tell *tell)
+{
+    json_writer_key(text, "players");
+    json_writer_begin(text, '[');
+    for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
+        const struct player *player = &tell->players->player[i];
+        if (!player->number)
+            continue;
+        json_writer_begin(text, '{');
+        json_writer_key_whole(text, "player", player->number);
+        json_writer_key_word(text, "name", player->name);
+        json_writer_key_whole(text, "vehicle", player->vehicle);
+        json_writer_key_bool(text, "you", player == tell->player);
+        json_writer_end(text, '}');
+    }
+    json_writer_end(text, ']');
+    if (tell->player) {
+        json_writer_key(text, "you");
+        json_writer_begin(text, '{');
+        json_writer_key_whole(text, "player", tell->player->number);
+        json_writer_key_whole(text, "vehicle", tell->player->vehicle);
+        json_writer_key_word(text, "lost", tell->player->lost);
+        json_writer_end(text, '}');
+    }
+}
+
+static void put_missions(struct json_writer *text, const struct command_queue *desk)
+{
+    json_writer_key(text, "missions");
+    json_writer_begin(text, '[');
+    for (uint32_t i = 0; i < COMMAND_QUEUE_MISSIONS; i++) {
+        const struct command_series *mission = &desk->mission[i].mission;
+        const struct command_text *order = &mission->order;
+        if (!desk->mission[i].number)
+            continue;
+        json_writer_begin(text, '{');
+        json_writer_key_whole(text, "mission", desk->mission[i].number);
+        json_writer_key_word(text, "munition", order->command.kind);
+        json_writer_key_number(text, "x", order->command.x_m, 1);
+        json_writer_key_number(text, "z", order->command.z_m, 1);
+        json_writer_key_number(text, "radius_m", order->radius_m, 1);
+        json_writer_key_whole(text, "rounds", order->rounds);
+        json_writer_key_whole(text, "fired", mission->done);
+        json_writer_key_whole(text, "refused", mission->answered - mission->done);
+        json_writer_end(text, '}');
+    }
+    json_writer_end(text, ']');
+}
+
+void state_json(const struct tell *tell, struct http_answer *answer)
+{
+    struct json_writer *text = &answer->text;
+    struct area_asked area;
+    uint64_t me = 0;
+    if (!read_area(tell, &area, answer) ||
+        !query_whole(&tell->query, "me", 0, UINT32_MAX, 0, &me, answer) ||
+        !tell_copied(tell, answer))
+        return;
+    uint32_t row = world_reader_row(tell->watch, (uint32_t)me);
+    json_writer_begin(text, '{');
+    put_head(text, tell);
+    put_entities(text, tell, &area);
+    put_players(text, tell);
+    put_missions(text, tell->desk);
+    if (row != SLOT_NONE)
+        put_me(text, tell, row);
+    json_writer_end(text, '}');
+}

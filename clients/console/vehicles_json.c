@@ -1,0 +1,276 @@
+/* The list of vehicles: filtered, sorted, a page of it. However many there are, only the rows up to
+ * the end of that page are kept, in a heap. */
+#include "clients/console/tell.h"
+
+#include "world/terrain/gridsquare.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum sorting {
+    SORT_ID,
+    SORT_NAME,
+    SORT_KIND,
+    SORT_SPEED,
+    SORT_DAMAGE,
+    SORT_ROUNDS,
+    SORT_FUEL,
+    SORT_BEHAVIOUR,
+    SORT_COUNT
+};
+
+static const char *const sort_words[SORT_COUNT] = {"id",     "name",   "kind", "speed",
+                                                   "damage", "rounds", "fuel", "behaviour"};
+
+struct asked {
+    const char *search;
+    uint32_t force, kind; /* FORCE_COUNT, KIND_NONE: any */
+    enum sorting sort;
+    bool descending;
+    uint64_t from, most;
+    bool kind_found[KIND_COUNT_MAX]; /* is the search in its name? */
+};
+
+/* A row and what it is sorted by. */
+struct entry {
+    double key;
+    const char *word; /* "" but where it is sorted by words */
+    uint32_t row, id;
+};
+
+/* --- what is asked -----------------------------------------------------------------------------*/
+
+static bool read_sort(const struct tell *tell, struct asked *asked, struct http_answer *answer)
+{
+    const char *word = query_text(&tell->query, "sort");
+    asked->sort = SORT_ID;
+    while (*word && asked->sort < SORT_COUNT && strcmp(word, sort_words[asked->sort]) != 0)
+        asked->sort++;
+    if (asked->sort < SORT_COUNT)
+        return true;
+    http_answer_error(answer, HTTP_ANSWER_BAD,
+                      "there are id, name, kind, speed, damage, rounds, fuel, behaviour",
+                      "sort=%.40s: nothing to sort by", word);
+    return false;
+}
+
+static bool read_force(const struct tell *tell, struct asked *asked, struct http_answer *answer)
+{
+    const char *word = query_text(&tell->query, "force");
+    asked->force = *word ? 0 : FORCE_COUNT;
+    while (*word && asked->force < FORCE_COUNT &&
+           strcmp(word, force_name((enum force)asked->force)) != 0)
+        asked->force++;
+    if (!*word || asked->force < FORCE_COUNT)
+        return true;
+    http_answer_error(answer, HTTP_ANSWER_BAD, "there are neutral, blue, red",
+                      "force=%.40s: no such force", word);
+    return false;
+}
+
+static bool read_kind(const struct tell *tell, struct asked *asked, struct http_answer *answer)
+{
+    const struct world *world = &tell->watch->view.world;
+    const char *word = query_text(&tell->query, "kind");
+    asked->kind = *word ? kind_find(world->kinds, world->counts.kinds, word) : KIND_NONE;
+    if (!*word || asked->kind != KIND_NONE)
+        return true;
+    http_answer_error(answer, HTTP_ANSWER_BAD, "/api/world lists them", "kind=%.40s: no such kind",
+                      word);
+    return false;
+}
+
+static bool read_asked(const struct tell *tell, struct asked *asked, struct http_answer *answer)
+{
+    uint64_t descending = 0;
+    const struct world *world = &tell->watch->view.world;
+    *asked = (struct asked){.search = query_text(&tell->query, "search")};
+    if (!read_sort(tell, asked, answer) || !read_force(tell, asked, answer) ||
+        !read_kind(tell, asked, answer) ||
+        !query_whole(&tell->query, "descending", 0, 1, 0, &descending, answer) ||
+        !query_whole(&tell->query, "from", 0, TELL_FROM_MAX, 0, &asked->from, answer) ||
+        !query_whole(&tell->query, "most", 1, TELL_ROWS_MAX, TELL_ROWS, &asked->most, answer))
+        return false;
+    asked->descending = descending != 0;
+    for (uint32_t i = 0; i < world->counts.kinds && i < KIND_COUNT_MAX; i++)
+        asked->kind_found[i] = strcasestr(world->kinds[i].name, asked->search) != NULL;
+    return true;
+}
+
+/* Is the row of the list? The search is a part of its name or kind, or its id's beginning. */
+static bool belongs(const struct tell *tell, const struct asked *asked, uint32_t row)
+{
+    const struct entities *e = &tell->watch->snapshot.entities;
+    const struct world *world = &tell->watch->view.world;
+    char id[16];
+    uint32_t kind = e->kind[row];
+    if (e->state[row] == ENTITY_FREE || kind >= world->counts.kinds ||
+        world->kinds[kind].domain == DOMAIN_MUNITION ||
+        (asked->force < FORCE_COUNT && e->force[row] != asked->force) ||
+        (asked->kind != KIND_NONE && kind != asked->kind))
+        return false;
+    if (asked->kind_found[kind] ||
+        strcasestr(world_entity_name(world, e->id[row]), asked->search) != NULL)
+        return true;
+    (void)snprintf(id, sizeof id, "%u", e->id[row]);
+    return strncmp(id, asked->search, strlen(asked->search)) == 0;
+}
+
+/* --- order -------------------------------------------------------------------------------------*/
+
+static struct entry entry_of(const struct tell *tell, const struct asked *asked, uint32_t row)
+{
+    const struct entities *e = &tell->watch->snapshot.entities;
+    const struct world *world = &tell->watch->view.world;
+    struct entry entry = {.word = "", .row = row, .id = e->id[row]};
+    switch (asked->sort) {
+    case SORT_NAME:
+        entry.word = world_entity_name(world, entry.id);
+        if (entry.word[0] == '\0') /* those without one behind the others, either way */
+            entry.key = asked->descending ? -1.0 : 1.0;
+        break;
+    case SORT_KIND:
+        entry.word = world->kinds[e->kind[row]].name;
+        break;
+    case SORT_BEHAVIOUR:
+        entry.word = behaviour_name((enum behaviour)e->behaviour[row]);
+        break;
+    case SORT_SPEED:
+        entry.key = vec3_length(entities_velocity(e, row));
+        break;
+    case SORT_DAMAGE:
+        entry.key = e->damage[row];
+        break;
+    case SORT_ROUNDS:
+        entry.key = e->rounds[row];
+        break;
+    case SORT_FUEL:
+        entry.key = e->fuel_l[row];
+        break;
+    case SORT_ID:
+    case SORT_COUNT:
+        entry.key = entry.id;
+        break;
+    }
+    return entry;
+}
+
+/* Below 0: a comes before b. Equal ones by their id, so that pages fit each other. */
+static int compare(const struct entry *a, const struct entry *b, bool descending)
+{
+    int order = (a->key > b->key) - (a->key < b->key);
+    if (order == 0)
+        order = strcmp(a->word, b->word);
+    if (order != 0)
+        return descending ? -order : order;
+    return (a->id > b->id) - (a->id < b->id);
+}
+
+/* A heap whose first is the last of those kept. */
+struct heap {
+    struct entry *entry; /* [room] */
+    uint32_t count, room;
+    bool descending;
+};
+
+static void sink(struct heap *heap, uint32_t at, uint32_t count)
+{
+    struct entry *e = heap->entry;
+    for (;;) {
+        uint32_t child = 2 * at + 1;
+        if (child + 1 < count && compare(&e[child], &e[child + 1], heap->descending) < 0)
+            child++;
+        if (child >= count || compare(&e[at], &e[child], heap->descending) >= 0)
+            return;
+        struct entry swapped = e[at];
+        e[at] = e[child];
+        e[child] = swapped;
+        at = child;
+    }
+}
+
+static void keep(struct heap *heap, const struct entry *entry)
+{
+    if (heap->count == heap->room) {
+        if (compare(entry, &heap->entry[0], heap->descending) < 0) {
+            heap->entry[0] = *entry;
+            sink(heap, 0, heap->count);
+        }
+        return;
+    }
+    uint32_t at = heap->count++;
+    while (at > 0 && compare(&heap->entry[(at - 1) / 2], entry, heap->descending) < 0) {
+        heap->entry[at] = heap->entry[(at - 1) / 2];
+        at = (at - 1) / 2;
+    }
+    heap->entry[at] = *entry;
+}
+
+static void sort(struct heap *heap)
+{
+    for (uint32_t count = heap->count; count > 1; count--) {
+        struct entry last = heap->entry[count - 1];
+        heap->entry[count - 1] = heap->entry[0];
+        heap->entry[0] = last;
+        sink(heap, 0, count - 1);
+    }
+}
+
+/* --- the answer --------------------------------------------------------------------------------*/
+
+static void put_row(struct json_writer *text, const struct tell *tell, uint32_t row)
+{
+    const struct entities *e = &tell->watch->snapshot.entities;
+    const struct world *world = &tell->watch->view.world;
+    const struct player *player = players_driver(tell->players, e->id[row]);
+    json_writer_begin(text, '{');
+    json_writer_key_whole(text, "id", e->id[row]);
+    json_writer_key_word(text, "name", world_entity_name(world, e->id[row]));
+    json_writer_key_word(text, "kind", world->kinds[e->kind[row]].name);
+    json_writer_key_word(text, "force", force_name((enum force)e->force[row]));
+    json_writer_key_word(text, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));
+    json_writer_key_word(text, "state", entity_state_name((enum entity_state)e->state[row]));
+    json_writer_key_word(text, "damage", damage_name((enum damage)e->damage[row]));
+    json_writer_key_number(text, "x", e->x[row], 1);
+    json_writer_key_number(text, "z", e->z[row], 1);
+    json_writer_key_number(text, "speed_mps", vec3_length(entities_velocity(e, row)), 1);
+    json_writer_key_whole(text, "rounds", e->rounds[row]);
+    json_writer_key_number(text, "fuel_l", e->fuel_l[row], 1);
+    json_writer_key_whole(text, "driven", tell_driver(tell, row));
+    json_writer_key_word(text, "player", player ? player->name : "");
+    json_writer_end(text, '}');
+}
+
+void vehicles_json(const struct tell *tell, struct http_answer *answer)
+{
+    struct asked asked;
+    struct json_writer *text = &answer->text;
+    if (!tell_copied(tell, answer) || !read_asked(tell, &asked, answer))
+        return;
+    struct heap heap = {.room = (uint32_t)(asked.from + asked.most),
+                        .descending = asked.descending};
+    heap.entry = malloc(heap.room * sizeof *heap.entry);
+    if (!heap.entry) {
+        http_answer_error(answer, HTTP_ANSWER_AWAY, "ask for less", "no memory for the list");
+        return;
+    }
+    uint64_t total = 0;
+    for (uint32_t row = 0; row < tell->watch->snapshot.head.used; row++) {
+        if (!belongs(tell, &asked, row))
+            continue;
+        struct entry entry = entry_of(tell, &asked, row);
+        keep(&heap, &entry);
+        total++;
+    }
+    sort(&heap);
+    json_writer_begin(text, '{');
+    json_writer_key_whole(text, "total", total);
+    json_writer_key(text, "rows");
+    json_writer_begin(text, '[');
+    for (uint64_t i = asked.from; i < heap.count; i++)
+        put_row(text, tell, heap.entry[i].row);
+    json_writer_end(text, ']');
+    json_writer_end(text, '}');
+    free(heap.entry);
+}

@@ -1,0 +1,93 @@
+/* Devices opened, awaited and read. */
+#include "clients/drive/inputs.h"
+
+#include "ipc/process/clock.h"
+
+#include <poll.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+static void say(struct inputs *inputs, const char *text)
+{
+    size_t used = strlen(inputs->said);
+    inputs->news = true;
+    (void)snprintf(inputs->said + used, sizeof inputs->said - used, "%s%s", used ? "; " : "", text);
+}
+
+/* 0 when it may be done without. */
+static int opened(struct inputs *inputs, int result, bool needed, const struct reason *why,
+                  struct reason *reason)
+{
+    if (result == 0)
+        say(inputs, inputs->input[inputs->count++].what);
+    else if (needed)
+        return reason_set(reason, "%s", why->text);
+    else
+        say(inputs, why->text);
+    return 0;
+}
+
+int inputs_open(struct inputs *inputs, enum inputs_choice choice, const char *path,
+                struct reason *reason)
+{
+    struct reason why;
+    *inputs = (struct inputs){0};
+    if (terminal_keys_open(&inputs->input[0], reason) != 0)
+        return -1;
+    inputs->count = 1;
+    say(inputs, inputs->input[0].what);
+    bool gamepad = choice == INPUTS_GAMEPAD || path;
+    bool spacemouse = choice == INPUTS_SPACEMOUSE;
+    if ((gamepad || choice == INPUTS_AUTO) &&
+        opened(inputs, gamepad_open(&inputs->input[inputs->count], path, &why), gamepad, &why,
+               reason) != 0)
+        return -1;
+    if ((spacemouse || choice == INPUTS_AUTO) &&
+        opened(inputs, spacemouse_open(&inputs->input[inputs->count], &why), spacemouse, &why,
+               reason) != 0)
+        return -1;
+    return 0;
+}
+
+void inputs_close(struct inputs *inputs)
+{
+    for (uint32_t i = 0; i < inputs->count; i++)
+        inputs->input[i].close(&inputs->input[i]);
+    inputs->count = 0;
+}
+
+/* The first are the keys; they keep their place. */
+static void lose(struct inputs *inputs, uint32_t which)
+{
+    struct input *input = &inputs->input[which];
+    if (which == 0) {
+        inputs->keys_ended = true;
+        return;
+    }
+    (void)snprintf(inputs->said, sizeof inputs->said, "keys; the %s is gone", input->what);
+    inputs->news = true;
+    input->close(input);
+    inputs->count--;
+    memmove(input, input + 1, (inputs->count - which) * sizeof *input);
+}
+
+void inputs_read(struct inputs *inputs, bool keys_wanted, uint64_t until_ns, struct intents *queue)
+{
+    struct pollfd waits[INPUTS_MAX];
+    uint64_t now_ns = clock_now_ns();
+    uint64_t left_ns = now_ns < until_ns ? until_ns - now_ns : 0;
+    struct timespec left = {(time_t)(left_ns / NS_PER_S), (long)(left_ns % NS_PER_S)};
+    queue->count = 0;
+    for (uint32_t i = 0; i < inputs->count; i++)
+        waits[i] = (struct pollfd){.fd = inputs->input[i].fd, .events = POLLIN};
+    if (!keys_wanted || inputs->keys_ended)
+        waits[0].fd = -1;
+    if (ppoll(waits, inputs->count, &left, NULL) <= 0)
+        return;
+    for (uint32_t i = inputs->count; i-- > 0;) {
+        struct input *input = &inputs->input[i];
+        if (waits[i].revents && input->read(input, queue) != 0)
+            lose(inputs, i);
+    }
+}

@@ -1,0 +1,132 @@
+/* jolon-drive: sit down and drive. Takes a vehicle of a world, from a terminal and from what else
+ * is in one's hands, and shows what it does. */
+#include "clients/drive/inputs.h"
+#include "clients/drive/recent_events.h"
+#include "clients/drive/options.h"
+#include "clients/drive/plain_output.h"
+#include "clients/drive/screen.h"
+#include "clients/drive/terminal.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "ipc/topics/command_route.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+#define LEAVE_NS (1 * (uint64_t)NS_PER_S)
+
+struct drive {
+    struct options options;
+    struct dds_link link;
+    struct world_mirror mirror;
+    struct event_merge tail;
+    struct command_client caller;
+    struct command_route route; /* of the caller */
+    struct inputs inputs;
+    struct session session;
+    struct recent_events news;
+    struct plain_output plain;
+    uint64_t period_ns; /* between two pictures of the screen */
+    uint64_t draw_ns;   /* when the next picture is due */
+};
+
+/* Returns false when nobody reads any more. */
+static bool show(struct drive *drive, bool touched, uint64_t now_ns)
+{
+    if (drive->options.plain)
+        return plain_output_show(&drive->plain, &drive->session, &drive->news, now_ns);
+    if (touched || now_ns >= drive->draw_ns) {
+        screen_draw(&drive->session, &drive->news, drive->inputs.said, now_ns);
+        drive->draw_ns = now_ns + drive->period_ns;
+    }
+    return true;
+}
+
+/* Keys of a pipe wait for the vehicle; a person's never wait. When the pipe ends, that is quitting.
+ */
+static bool keys_wanted(const struct drive *drive)
+{
+    return !drive->options.plain || drive->session.state >= SESSION_DRIVING ||
+           drive->session.state == SESSION_WATCHING || isatty(STDIN_FILENO);
+}
+
+/* The hands first, and out with it: only then what came in meanwhile, and the picture of it. */
+static void run(struct drive *drive)
+{
+    struct session *session = &drive->session;
+    uint64_t due_ns = 0;
+    bool good = true;
+    while (!process_stopping() && !session->ended && good) {
+        struct intents intents;
+        inputs_read(&drive->inputs, keys_wanted(drive), due_ns, &intents);
+        uint64_t now_ns = clock_now_ns();
+        for (uint32_t i = 0; i < intents.count; i++)
+            session_take(session, &intents.intent[i], now_ns);
+        if (drive->inputs.news)
+            session_say(session, now_ns, "in use: %s", drive->inputs.said);
+        drive->inputs.news = false;
+        due_ns = session_turn(session, now_ns);
+        world_mirror_take(&drive->mirror);
+        (void)event_merge_turn(&drive->tail, recent_events_take, &drive->news);
+        good = show(drive, intents.count > 0, clock_now_ns());
+        session->ended |= drive->inputs.keys_ended && session->fire == 0;
+    }
+}
+
+/* A world of one's own that is not there will not come by itself; one elsewhere may. */
+static int look_for_world(const struct options *options, struct reason *reason)
+{
+    struct view view;
+    if (options->remote)
+        return 0;
+    if (segment_attach(&view, options->world, ROLE_NONE, reason) != 0)
+        return -1;
+    segment_detach(&view);
+    return 0;
+}
+
+static void open_all(struct drive *drive)
+{
+    struct reason reason;
+    const struct options *options = &drive->options;
+    if (look_for_world(options, &reason) != 0 ||
+        inputs_open(&drive->inputs, options->input, options->device, &reason) != 0 ||
+        dds_link_open(&drive->link, &options->link, options->world, &reason) != 0 ||
+        world_mirror_open(&drive->mirror, &drive->link, options->world, true, &reason) != 0 ||
+        event_merge_open(&drive->tail, &drive->link, recent_events_format, &reason) != 0 ||
+        command_route_open(&drive->route, &drive->caller, options->remote, &drive->link,
+                           options->world, &reason) != 0)
+        die_refused("%s", reason.text);
+    session_open(&drive->session, &drive->mirror, &drive->caller, options->wanted, clock_now_ns());
+    drive->news.session = &drive->session;
+    drive->period_ns = (uint64_t)(NS_PER_S / options->rate_hz);
+    drive->plain.period_ns = drive->period_ns;
+    if (!options->plain && screen_open(&reason) != 0)
+        die_refused("%s", reason.text);
+    terminal_take(!options->plain);
+}
+
+int main(int argc, char **argv)
+{
+    static struct drive drive;
+    log_open("drive");
+    options_parse(&drive.options, argc, argv);
+    drive.options.link.quiet = !drive.options.plain;
+    process_signals();
+    open_all(&drive);
+    run(&drive);
+    session_leave(&drive.session, clock_now_ns() + LEAVE_NS);
+    if (!drive.options.plain)
+        screen_close();
+    terminal_back();
+    int code = drive.session.refused ? EXIT_REFUSED : EXIT_OK;
+    if (drive.session.refused)
+        (void)fprintf(stderr, "jolon-drive: %s\n", drive.session.notice);
+    inputs_close(&drive.inputs);
+    event_merge_close(&drive.tail);
+    world_mirror_close(&drive.mirror);
+    (void)fflush(stdout);
+    dds_link_close(&drive.link, code);
+    return code;
+}

@@ -1,0 +1,183 @@
+/* Head, statistics beside the map, events, who else drives, a notice, the keys. */
+#include "clients/drive/screen.h"
+
+#include "clients/drive/character_map.h"
+#include "clients/drive/terminal_keys.h"
+#include "clients/drive/status_panel.h"
+#include "clients/drive/terminal.h"
+#include "ipc/process/process.h"
+#include "ipc/process/clock.h"
+#include "ipc/topics/event_lines.h"
+
+#include <curses.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+/* Told by letters as well; of the colours, blue and yellow differ for everybody. */
+enum pair { PAIR_PLAIN, PAIR_BLUE, PAIR_RED, PAIR_WATER, PAIR_WARN };
+
+#define ROWS_MIN      20
+#define COLUMNS_MIN   60
+#define NOTICE_NS     (8 * (uint64_t)NS_PER_S)
+#define FOOT_ROWS     4 /* look, others, notice, keys */
+#define NEWS_ROWS_MIN 3
+
+int screen_open(struct reason *reason)
+{
+    if (!newterm(NULL, stdout, stdin))
+        return reason_set(reason, "TERM=%s: no terminal that curses knows; --plain works on any",
+                          getenv("TERM") ? getenv("TERM") : "");
+    (void)curs_set(0);
+    if (process_colours() && has_colors() && start_color() == OK) {
+        (void)use_default_colors();
+        (void)init_pair(PAIR_BLUE, COLOR_CYAN, -1);
+        (void)init_pair(PAIR_RED, COLOR_YELLOW, -1);
+        (void)init_pair(PAIR_WATER, COLOR_BLUE, -1);
+        (void)init_pair(PAIR_WARN, COLOR_YELLOW, -1);
+    }
+    return 0;
+}
+
+void screen_close(void)
+{
+    (void)endwin();
+}
+
+static void put(int row, int column, const char *text, attr_t attributes, enum pair pair)
+{
+    if (row < 0 || row >= LINES || column >= COLS)
+        return;
+    (void)attr_set(attributes, (short)pair, NULL);
+    (void)mvaddnstr(row, column, text, COLS - column);
+    (void)attr_set(A_NORMAL, PAIR_PLAIN, NULL);
+}
+
+static void put_bar(int row, const char *text)
+{
+    char line[STATUS_PANEL_LINE];
+    size_t length = strnlen(text, sizeof line - 1);
+    memcpy(line, text, length);
+    while (length < (size_t)COLS && length < sizeof line - 1)
+        line[length++] = ' ';
+    line[length] = '\0';
+    put(row, 0, line, A_REVERSE, PAIR_PLAIN);
+}
+
+static void draw_cell(int row, int column, const struct character_map_cell *cell)
+{
+    static const struct {
+        attr_t attributes;
+        enum pair pair;
+    } looks[] = {
+        [CHARACTER_MAP_GROUND] = {A_DIM, PAIR_PLAIN},
+        [CHARACTER_MAP_WATER] = {A_NORMAL, PAIR_WATER},
+        [CHARACTER_MAP_WRECK] = {A_DIM, PAIR_PLAIN},
+        [CHARACTER_MAP_NEUTRAL] = {A_NORMAL, PAIR_PLAIN},
+        [CHARACTER_MAP_RED] = {A_BOLD, PAIR_RED},
+        [CHARACTER_MAP_BLUE] = {A_BOLD, PAIR_BLUE},
+        [CHARACTER_MAP_MUNITION] = {A_BOLD, PAIR_PLAIN},
+        [CHARACTER_MAP_TARGET] = {A_REVERSE, PAIR_RED},
+        [CHARACTER_MAP_SELF] = {A_REVERSE, PAIR_PLAIN},
+    };
+    put(row, column, cell->text, looks[cell->mark].attributes, looks[cell->mark].pair);
+}
+
+static void draw_chart(const struct session *session, int top, int rows, int left)
+{
+    static struct character_map chart;
+    char scale[64];
+    character_map_draw(&chart, session->mirror, session_entity(session), session->target, rows - 1,
+                       (COLS - left) / 2, character_map_cell_m(session->zoom));
+    for (int row = 0; row < chart.rows; row++) {
+        for (int column = 0; column < chart.columns; column++)
+            draw_cell(top + row, left + 2 * column, &chart.cell[row][column]);
+    }
+    (void)snprintf(scale, sizeof scale, "a cell %g m; blue RED Neutral xx wreck", chart.cell_m);
+    put(top + rows - 1, left, scale, A_DIM, PAIR_PLAIN);
+}
+
+static void draw_statistics(const struct session *session, int top, int rows)
+{
+    char row[STATUS_PANEL_ROWS][STATUS_PANEL_COLUMNS];
+    int at = top;
+    status_panel_statistics(row, session);
+    for (int i = 0; i < STATUS_PANEL_ROWS && at < top + rows; i++) {
+        if (row[i][0])
+            put(at++, 0, row[i], A_NORMAL, PAIR_PLAIN);
+    }
+}
+
+static void draw_news(const struct recent_events *news, int top, int rows)
+{
+    uint64_t kept = news->count < RECENT_EVENTS_KEPT ? news->count : RECENT_EVENTS_KEPT;
+    uint64_t shown = kept < (uint64_t)rows ? kept : (uint64_t)rows;
+    for (uint64_t i = 0; i < shown; i++)
+        put(top + (int)i, 0, news->line[(news->count - shown + i) % RECENT_EVENTS_KEPT], A_NORMAL,
+            PAIR_PLAIN);
+}
+
+static void draw_help(const char *inputs)
+{
+    const char *keys, *meaning;
+    size_t length = strlen(inputs), width = COLS > 2 ? (size_t)COLS - 2 : 1;
+    for (size_t row = 0; row < 2 && row * width < length; row++)
+        put(2 + (int)row, 2, inputs + row * width, A_DIM, PAIR_PLAIN);
+    for (uint32_t i = 0; terminal_keys_help(i, &keys, &meaning); i++) {
+        put(5 + (int)i, 2, keys, A_BOLD, PAIR_PLAIN);
+        put(5 + (int)i, 14, meaning, A_NORMAL, PAIR_PLAIN);
+    }
+}
+
+static void draw_foot(const struct session *session, uint64_t now_ns)
+{
+    char line[STATUS_PANEL_LINE];
+    status_panel_look(line, session);
+    put(LINES - 4, 0, line, A_NORMAL, PAIR_PLAIN);
+    status_panel_others(line, session);
+    put(LINES - 3, 0, line, A_DIM, PAIR_PLAIN);
+    event_lines_silence(line, sizeof line, session->mirror, now_ns);
+    if (line[0])
+        put(LINES - 2, 0, line, A_BOLD, PAIR_WARN);
+    else if (session->notices &&
+             (now_ns - session->notice_ns < NOTICE_NS || session->state != SESSION_DRIVING))
+        put(LINES - 2, 0, session->notice, A_BOLD, PAIR_PLAIN);
+    put(LINES - 1, 0,
+        "w s throttle  a d steer  b brake  arrows aim  t lock  space fire  h help  q quit", A_DIM,
+        PAIR_PLAIN);
+}
+
+static void take_size(void)
+{
+    struct winsize size;
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 0 && size.ws_col > 0)
+        (void)resizeterm(size.ws_row, size.ws_col);
+}
+
+void screen_draw(const struct session *session, const struct recent_events *news,
+                 const char *inputs, uint64_t now_ns)
+{
+    char line[STATUS_PANEL_LINE];
+    if (terminal_resized())
+        take_size();
+    (void)erase();
+    status_panel_head(line, session, now_ns);
+    put_bar(0, line);
+    int rows = LINES - 1 - FOOT_ROWS - NEWS_ROWS_MIN;
+    if (rows > STATUS_PANEL_ROWS && LINES < 40)
+        rows = STATUS_PANEL_ROWS;
+    if (LINES < ROWS_MIN || COLS < COLUMNS_MIN) {
+        put(1, 0, "this terminal is small: 60 x 20 is the least, 80 x 24 is good", A_NORMAL,
+            PAIR_PLAIN);
+        draw_foot(session, now_ns);
+    } else if (session->help) {
+        draw_help(inputs);
+    } else {
+        draw_statistics(session, 1, rows);
+        draw_chart(session, 1, rows, STATUS_PANEL_COLUMNS + 1);
+        draw_news(news, 1 + rows, LINES - 1 - FOOT_ROWS - rows);
+        draw_foot(session, now_ns);
+    }
+    (void)refresh();
+}

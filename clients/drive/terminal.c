@@ -1,0 +1,88 @@
+/* Settings of the terminal, and signals that must not leave it spoilt. */
+#include "clients/drive/terminal.h"
+
+#include "clients/drive/terminal_keys.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <termios.h>
+#include <unistd.h>
+
+/* Leaves the other screen, shows the cursor, plain letters. */
+#define SCREEN_BACK "\033[?1049l\033[?25h\033[0m\r\n"
+
+static struct {
+    struct termios before;
+    volatile sig_atomic_t taken, asked, screen, resized;
+} terminal;
+
+static void write_all(const char *text)
+{
+    ssize_t written = write(STDOUT_FILENO, text, strlen(text));
+    (void)written; /* nobody is left to be told */
+}
+
+void terminal_back(void)
+{
+    if (terminal.asked)
+        write_all(TERMINAL_KEYS_BACK);
+    if (terminal.screen)
+        write_all(SCREEN_BACK);
+    if (terminal.taken)
+        (void)tcsetattr(STDIN_FILENO, TCSAFLUSH, &terminal.before);
+    terminal.asked = terminal.screen = terminal.taken = 0;
+}
+
+/* Once: SA_RESETHAND. The signal does then what it does. */
+static void on_crash(int signal_number)
+{
+    terminal_back();
+    (void)raise(signal_number);
+}
+
+static void on_resize(int signal_number)
+{
+    (void)signal_number;
+    terminal.resized = 1;
+}
+
+/* The console of the kernel takes part of the question for something else. */
+static bool may_ask(void)
+{
+    const char *type = getenv("TERM");
+    return isatty(STDOUT_FILENO) && type && strcmp(type, "linux") != 0 && strcmp(type, "dumb") != 0;
+}
+
+void terminal_take(bool screen)
+{
+    static const int crashes[] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGQUIT, SIGALRM};
+    struct sigaction crash = {.sa_handler = on_crash, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction resize = {.sa_handler = on_resize};
+    struct termios raw;
+    if (tcgetattr(STDIN_FILENO, &terminal.before) != 0)
+        return; /* a pipe */
+    for (size_t i = 0; i < sizeof crashes / sizeof crashes[0]; i++)
+        (void)sigaction(crashes[i], &crash, NULL);
+    (void)sigaction(SIGWINCH, &resize, NULL);
+    raw = terminal.before;
+    raw.c_lflag &= ~(tcflag_t)(ICANON | ECHO | IEXTEN);
+    raw.c_iflag &= ~(tcflag_t)(IXON | ICRNL);
+    raw.c_cc[VMIN] = 1;
+    raw.c_cc[VTIME] = 0;
+    raw.c_cc[VSUSP] = _POSIX_VDISABLE;
+    (void)tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+    terminal.taken = 1;
+    terminal.screen = screen;
+    if (may_ask()) {
+        terminal.asked = 1;
+        write_all(TERMINAL_KEYS_ASK);
+    }
+}
+
+bool terminal_resized(void)
+{
+    bool resized = terminal.resized != 0;
+    terminal.resized = 0;
+    return resized;
+}

@@ -1,0 +1,227 @@
+/* Bytes of a terminal into intents. */
+#include "clients/drive/terminal_keys.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define ESCAPE       '\033'
+#define CTRL_C       3
+#define CTRL_D       4
+#define READ_AT_ONCE 256
+
+/* Modifiers of the protocol, less one. */
+#define WITH_SHIFT 1
+#define WITH_CTRL  4
+
+enum press { PRESS_DOWN = 1, PRESS_AGAIN, PRESS_UP };
+
+/* A key is for an axis, or it is for an action. */
+struct binding {
+    uint32_t code;
+    int8_t way; /* -1, 1: for axis; 0: for action */
+    enum input_axis axis;
+    enum input_action action;
+};
+
+#define PUSH(code, axis, way)                                                                      \
+    {                                                                                              \
+        (code), (way), (axis), ACTION_COUNT                                                        \
+    }
+#define DOES(code, action)                                                                         \
+    {                                                                                              \
+        (code), 0, AXIS_COUNT, (action)                                                            \
+    }
+
+static const struct binding bindings[] = {
+    PUSH('w', AXIS_THROTTLE, 1),
+    PUSH('s', AXIS_THROTTLE, -1),
+    PUSH('d', AXIS_STEER, 1),
+    PUSH('a', AXIS_STEER, -1),
+    PUSH('r', AXIS_CLIMB, 1),
+    PUSH('f', AXIS_CLIMB, -1),
+    PUSH('b', AXIS_BRAKE, 1),
+    PUSH(TERMINAL_KEYS_RIGHT, AXIS_AIM_X, 1),
+    PUSH(TERMINAL_KEYS_LEFT, AXIS_AIM_X, -1),
+    PUSH(TERMINAL_KEYS_UP, AXIS_AIM_Y, 1),
+    PUSH(TERMINAL_KEYS_DOWN, AXIS_AIM_Y, -1),
+    DOES(' ', ACTION_FIRE),
+    DOES('t', ACTION_LOCK),
+    DOES('y', ACTION_UNLOCK),
+    DOES('x', ACTION_STOP),
+    DOES('g', ACTION_GEAR_UP),
+    DOES('v', ACTION_GEAR_DOWN),
+    DOES('n', ACTION_NEXT),
+    DOES('p', ACTION_PREVIOUS),
+    DOES('k', ACTION_NEAREST_KIND),
+    DOES('o', ACTION_NEAREST_FORCE),
+    DOES('1', ACTION_NEAREST_BLUE),
+    DOES('2', ACTION_NEAREST_RED),
+    DOES('0', ACTION_NEAREST_NEUTRAL),
+    DOES('u', ACTION_RELEASE),
+    DOES('\r', ACTION_TAKE),
+    DOES('\n', ACTION_TAKE),
+    DOES(',', ACTION_LOOK_LEFT),
+    DOES('.', ACTION_LOOK_RIGHT),
+    DOES('/', ACTION_LOOK_AHEAD),
+    DOES('+', ACTION_ZOOM_IN),
+    DOES('=', ACTION_ZOOM_IN),
+    DOES('-', ACTION_ZOOM_OUT),
+    DOES('h', ACTION_HELP),
+    DOES('?', ACTION_HELP),
+    DOES('q', ACTION_QUIT),
+    DOES(CTRL_C, ACTION_QUIT),
+    DOES(CTRL_D, ACTION_QUIT),
+};
+
+static const char *const help[][2] = {
+    {"w s", "throttle up, down; the longer, the faster; through 0 into reverse"},
+    {"a d", "steer left, right: wheel, rudder, stick"},
+    {"r f", "climb, sink: stick or collective of aircraft"},
+    {"b  x", "brake; stop: throttle 0, wheels straight"},
+    {"g v", "gear up, down: reverse, neutral, low, automatic"},
+    {"arrows", "turret left, right, gun up, down; aircraft: the stick"},
+    {"t y", "lock the next enemy ahead, unlock"},
+    {"space", "fire, at the locked target if there is one"},
+    {"n p", "become the next, the previous vehicle"},
+    {"k o", "become the nearest of this kind, of this force"},
+    {"1 2 0", "become the nearest blue, red, neutral vehicle"},
+    {"u  enter", "release to its agent; take it again"},
+    {", . /", "look left, right, ahead: what is there, and t locks there"},
+    {"+ -", "map nearer, wider"},
+    {"h  q", "this help; release and quit"},
+};
+
+bool terminal_keys_help(uint32_t n, const char **keys, const char **meaning)
+{
+    if (n >= sizeof help / sizeof help[0])
+        return false;
+    *keys = help[n][0];
+    *meaning = help[n][1];
+    return true;
+}
+
+static void key(const struct terminal_keys *keys, uint32_t code, enum press press,
+                struct intents *queue)
+{
+    if (code >= 'A' && code <= 'Z') /* with shift, or caps lock: the same */
+        code += 'a' - 'A';
+    for (size_t i = 0; i < sizeof bindings / sizeof bindings[0]; i++) {
+        const struct binding *b = &bindings[i];
+        if (b->code != code)
+            continue;
+        if (b->way != 0)
+            intent_put(queue, (struct intent){.type = press == PRESS_UP ? INTENT_UP : INTENT_DOWN,
+                                              .axis = b->axis,
+                                              .value = (float)b->way,
+                                              .lifts = keys->lifts});
+        else if (press == PRESS_DOWN)
+            intent_act(queue, b->action);
+        return;
+    }
+}
+
+/* CSI code[:others] ; modifiers[:press] u, and CSI 1 ; modifiers[:press] A to D. */
+static void protocol_key(struct terminal_keys *keys, const char *text, char last,
+                         struct intents *queue)
+{
+    char *end;
+    unsigned long code = strtoul(text, &end, 10);
+    unsigned long with = 1, press = PRESS_DOWN;
+    end += strcspn(end, ";");
+    if (*end == ';') {
+        with = strtoul(end + 1, &end, 10);
+        if (*end == ':') {
+            press = strtoul(end + 1, &end, 10);
+            keys->lifts = true;
+        }
+    }
+    if (press < PRESS_DOWN || press > PRESS_UP)
+        return;
+    if (last >= 'A' && last <= 'D')
+        code = TERMINAL_KEYS_UP + (unsigned long)(last - 'A');
+    else if (with > 0 && ((with - 1) & WITH_CTRL))
+        code = code == 'c' ? CTRL_C : code == 'd' ? CTRL_D : 0;
+    else if (with > 0 && ((with - 1) & WITH_SHIFT) && code == '/')
+        code = '?';
+    if (code < TERMINAL_KEYS_UP || last != 'u')
+        key(keys, (uint32_t)code, (enum press)press, queue);
+}
+
+/* A whole sequence, from its escape to its last byte. */
+static void sequence(struct terminal_keys *keys, struct intents *queue)
+{
+    char last = keys->sequence[keys->length - 1];
+    const char *text = keys->sequence + 2;
+    keys->sequence[keys->length - 1] = '\0';
+    if (keys->sequence[1] == 'O' && last >= 'A' && last <= 'D') {
+        key(keys, TERMINAL_KEYS_UP + (uint32_t)(last - 'A'), PRESS_DOWN, queue);
+    } else if (keys->sequence[1] == '[' && text[0] == '?') {
+        if (last == 'u') /* the answer to TERMINAL_KEYS_ASK: which parts it does */
+            keys->lifts = (strtoul(text + 1, NULL, 10) & 2) != 0;
+    } else if (keys->sequence[1] == '[' && (last == 'u' || (last >= 'A' && last <= 'D'))) {
+        protocol_key(keys, text, last, queue);
+    }
+}
+
+/* Is the sequence whole with this byte? */
+static bool ends(const struct terminal_keys *keys, char byte)
+{
+    if (keys->length == 2)
+        return byte != '[' && byte != 'O';
+    return byte >= 0x40 && byte <= 0x7e;
+}
+
+void terminal_keys_decode(struct terminal_keys *keys, const char *bytes, size_t count,
+                          struct intents *queue)
+{
+    for (size_t i = 0; i < count; i++) {
+        char byte = bytes[i];
+        if (byte == ESCAPE) { /* a lone one before it meant nothing */
+            keys->sequence[0] = byte;
+            keys->length = 1;
+        } else if (keys->length == 0) {
+            key(keys, (unsigned char)byte, PRESS_DOWN, queue);
+        } else if (keys->length == TERMINAL_KEYS_SEQUENCE_MAX - 1) {
+            keys->length = 0;
+        } else {
+            keys->sequence[keys->length++] = byte;
+            if (ends(keys, byte)) {
+                sequence(keys, queue);
+                keys->length = 0;
+            }
+        }
+    }
+}
+
+static int terminal_keys_read(struct input *input, struct intents *queue)
+{
+    char bytes[READ_AT_ONCE];
+    ssize_t count = read(input->fd, bytes, sizeof bytes);
+    if (count < 0)
+        return errno == EINTR || errno == EAGAIN ? 0 : -1;
+    if (count == 0)
+        return -1;
+    terminal_keys_decode(input->state, bytes, (size_t)count, queue);
+    return 0;
+}
+
+static void terminal_keys_close(struct input *input)
+{
+    free(input->state);
+}
+
+int terminal_keys_open(struct input *input, struct reason *reason)
+{
+    struct terminal_keys *keys = calloc(1, sizeof *keys);
+    if (!keys)
+        return reason_set(reason, "keys: out of memory");
+    *input = (struct input){.fd = STDIN_FILENO,
+                            .what = "keys",
+                            .read = terminal_keys_read,
+                            .close = terminal_keys_close,
+                            .state = keys};
+    return 0;
+}

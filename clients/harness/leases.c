@@ -1,0 +1,142 @@
+/* Vehicles held. */
+#include "clients/harness/leases.h"
+
+#include "ipc/process/clock.h"
+#include "ipc/topics/json_members.h"
+#include "world/world.h"
+
+#include <string.h>
+
+/* Renewals leave room in the caller for what the program orders. */
+#define WAITING_MAX (COMMAND_CLIENT_WAITING_MAX / 2)
+
+void leases_clear(struct leases *leases)
+{
+    leases->count = 0;
+}
+
+static struct lease *find(struct leases *leases, uint32_t vehicle)
+{
+    for (uint32_t i = 0; i < leases->count; i++) {
+        if (leases->held[i].command.entity == vehicle)
+            return &leases->held[i];
+    }
+    return NULL;
+}
+
+static void drop(struct leases *leases, struct lease *lease)
+{
+    *lease = leases->held[--leases->count];
+}
+
+/* A lease is in frames, however many of them the world makes a second now. */
+static uint32_t lease_frames(const struct leases *leases)
+{
+    const jolon_FrameStatus *frame = &leases->mirror->frame;
+    double rate_hz = leases->mirror->world.hz;
+    if (rate_hz * frame->time_scale > rate_hz)
+        rate_hz *= frame->time_scale;
+    if (frame->rate_hz > rate_hz)
+        rate_hz = frame->rate_hz;
+    double frames = LEASES_S * rate_hz + 1.0;
+    return frames < COMMAND_LEASE_MAX ? (uint32_t)frames : COMMAND_LEASE_MAX;
+}
+
+/* The lease that an order changes, NULL: none. */
+static struct lease *changed(struct leases *leases, const struct command_text *order)
+{
+    jolon_CommandType type = order->command.type;
+    bool changes = type == jolon_COMMAND_DRIVE || type == jolon_COMMAND_RELEASE ||
+                   type == jolon_COMMAND_REMOVE;
+    return changes ? find(leases, order->command.entity) : NULL;
+}
+
+void leases_begin(struct leases *leases, struct command_client *caller, struct command_text *order)
+{
+    struct lease *lease = changed(leases, order);
+    if (lease && lease->sequence) {
+        command_client_forget(caller, lease->sequence);
+        lease->sequence = 0;
+    }
+    if (order->command.type == jolon_COMMAND_DRIVE && !command_text_needs_hz(order))
+        order->command.lease_frames = lease_frames(leases);
+}
+
+void leases_hold_off(struct leases *leases, const struct command_text *order)
+{
+    struct lease *lease = changed(leases, order);
+    if (lease)
+        lease->ordered = true;
+}
+
+void leases_answer(struct leases *leases, const struct command_text *order,
+                   const jolon_CommandReply *reply, uint64_t now_ns)
+{
+    bool keeps = order->command.type == jolon_COMMAND_DRIVE && !command_text_needs_hz(order);
+    struct lease *lease = changed(leases, order);
+    if (reply->result != jolon_RESULT_DONE)
+        return;
+    if (lease && !keeps) /* given back, or held by a lease that the program looks after itself */
+        drop(leases, lease);
+    if (!keeps)
+        return;
+    if (!lease && leases->count < LEASES_MAX)
+        lease = &leases->held[leases->count++];
+    if (lease)
+        *lease = (struct lease){.command = order->command,
+                                .renew_ns = now_ns + LEASES_RENEW_NS,
+                                .tick = leases->mirror->frame.tick};
+}
+
+static void tell_lost(const struct leases *leases, uint32_t vehicle, jolon_CommandResult why)
+{
+    cJSON *object = cJSON_CreateObject();
+    put_whole(object, "lost", vehicle);
+    put_word(object, "because", command_result_name((enum command_result)why));
+    char *line = cJSON_PrintUnformatted(object);
+    output_line(leases->output, OUTPUT_ANSWER, line);
+    cJSON_free(line);
+    cJSON_Delete(object);
+}
+
+/* A paused world's leases do not run, and a command would make it commit a frame. */
+static bool runs(const struct leases *leases, const struct lease *lease)
+{
+    return !leases->mirror->frame.paused || leases->mirror->frame.tick != lease->tick;
+}
+
+void leases_turn(struct leases *leases, struct command_client *caller, uint64_t now_ns)
+{
+    for (uint32_t i = 0; i < leases->count;) {
+        struct lease *lease = &leases->held[i];
+        jolon_CommandReply reply;
+        if (lease->sequence && command_client_answered(caller, lease->sequence, &reply)) {
+            lease->sequence = 0;
+            if (reply.result != jolon_RESULT_DONE) {
+                tell_lost(leases, lease->command.entity, reply.result);
+                drop(leases, lease);
+                continue;
+            }
+        }
+        if (!lease->sequence && !lease->ordered && now_ns >= lease->renew_ns) {
+            lease->renew_ns = now_ns + LEASES_RENEW_NS;
+            if (runs(leases, lease) && caller->count < WAITING_MAX) {
+                lease->command.lease_frames = lease_frames(leases);
+                lease->sequence = command_client_send(caller, &lease->command);
+                lease->tick = leases->mirror->frame.tick;
+            }
+        }
+        lease->ordered = false;
+        i++;
+    }
+}
+
+uint64_t leases_due_ns(const struct leases *leases)
+{
+    uint64_t due_ns = UINT64_MAX;
+    for (uint32_t i = 0; i < leases->count; i++) {
+        if (!leases->held[i].sequence && leases->held[i].renew_ns < due_ns)
+            due_ns = leases->held[i].renew_ns;
+    }
+    return due_ns;
+}

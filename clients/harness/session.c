@@ -1,0 +1,200 @@
+/* Turns of the session. */
+#include "clients/harness/session.h"
+
+#include "clients/harness/json_line.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/process.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#define REST_NS      (250 * (uint64_t)NS_PER_MS)
+#define REST_TAIL_NS (25 * (uint64_t)NS_PER_MS) /* events wait to be put in order */
+
+/* From one of Cyclone DDS's threads. */
+static void ring(dds_entity_t reader, void *context)
+{
+    const struct session *session = context;
+    (void)reader;
+    (void)eventfd_write(session->bell, 1);
+}
+
+static int listen_to(struct session *session, const dds_entity_t *readers, size_t count,
+                     struct reason *reason)
+{
+    dds_listener_t *listener = dds_create_listener(session);
+    dds_return_t code = DDS_RETCODE_OK;
+    dds_lset_data_available(listener, ring);
+    for (size_t i = 0; i < count && code == DDS_RETCODE_OK; i++)
+        code = dds_set_listener(readers[i], listener);
+    dds_delete_listener(listener);
+    return code == DDS_RETCODE_OK ? 0
+                                  : reason_set(reason, "DDS listener: %s", dds_strretcode(code));
+}
+
+int session_open(struct session *session, struct reason *reason)
+{
+    const struct options *options = &session->options;
+    session->bell = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+    if (session->bell < 0)
+        return reason_set(reason, "eventfd: %s", strerror(errno));
+    if (dds_link_open(&session->link, &options->link, options->world, reason) != 0 ||
+        world_mirror_open(&session->mirror, &session->link, options->world, true, reason) != 0 ||
+        command_route_open(&session->route, &session->caller, options->remote, &session->link,
+                           options->world, reason) != 0 ||
+        listen_to(session, session->mirror.reader, WORLD_MIRROR_READERS, reason) != 0 ||
+        listen_to(session, &session->mirror.names_reader.reader, 1, reason) != 0)
+        return -1;
+    session->leases.mirror = &session->mirror;
+    session->leases.output = &session->output;
+    session->desk.caller = &session->caller;
+    session->desk.output = &session->output;
+    session->desk.leases = &session->leases;
+    session->desk.timeout_ns = (uint64_t)(options->timeout_s * NS_PER_S);
+    return 0;
+}
+
+void session_close(struct session *session)
+{
+    if (session->tailing)
+        event_merge_close(&session->tail);
+    world_mirror_close(&session->mirror);
+    picture_folder_close(&session->output);
+}
+
+static bool knows_the_world(const struct session *session)
+{
+    return session->mirror.has_world && session->mirror.names.told && session->mirror.frame_ns;
+}
+
+bool session_meet(struct session *session)
+{
+    uint64_t until_ns = clock_now_ns() + session->desk.timeout_ns;
+    while (!process_stopping()) {
+        world_mirror_take(&session->mirror);
+        if (knows_the_world(session))
+            return true;
+        if (clock_now_ns() >= until_ns)
+            break;
+        struct pollfd bell = {.fd = session->bell, .events = POLLIN};
+        eventfd_t rung;
+        (void)poll(&bell, 1, 50);
+        (void)eventfd_read(session->bell, &rung);
+    }
+    return false;
+}
+
+/* Another world under the same name is another: what was driven is not there. */
+static void tell_world(struct session *session)
+{
+    if (session->mirror.world.run == session->run)
+        return;
+    if (session->run)
+        leases_clear(&session->leases);
+    session->run = session->mirror.world.run;
+    char *line = subscription_world(&session->mirror);
+    output_line(&session->output, OUTPUT_ANSWER, line);
+    cJSON_free(line);
+}
+
+static bool takes_lines(const struct session *session)
+{
+    return command_queue_room(&session->desk) && session->output.used < OUTPUT_HOLD;
+}
+
+static void take_lines(struct session *session)
+{
+    static char line[INPUT_LINE_MAX + 1];
+    size_t bytes = 0;
+    while (takes_lines(session)) {
+        enum input_result result = input_next(&session->input, line, &bytes);
+        if (result == INPUT_NONE)
+            return;
+        if (result == INPUT_TOO_LONG)
+            json_line_refuse_length(session);
+        else
+            json_line_obey(session, line, bytes);
+    }
+}
+
+static void open_tail(struct session *session)
+{
+    struct reason reason;
+    if (session->tailing || !session->wants.events)
+        return;
+    session->tailing = true;
+    if (event_merge_open(&session->tail, &session->link, subscription_format, &reason) != 0 ||
+        listen_to(session, session->tail.reader, EVENT_MERGE_TOPICS, &reason) != 0)
+        json_line_complain(session, NULL, reason.text);
+}
+
+/* What the program still drives goes back to its agents. */
+static void release_all(struct session *session)
+{
+    for (uint32_t i = 0; i < session->leases.count && command_queue_room(&session->desk); i++) {
+        struct command_text order;
+        struct reason reason;
+        struct command_text_value value = {.number = session->leases.held[i].command.entity};
+        if (command_text_begin(&order, "release", &reason) == 0 &&
+            command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &reason) == 0)
+            command_queue_add(&session->desk, "", &order);
+    }
+    session->released = true;
+}
+
+void session_turn(struct session *session, uint64_t now_ns)
+{
+    eventfd_t rung;
+    (void)eventfd_read(session->bell, &rung);
+    world_mirror_take(&session->mirror);
+    tell_world(session);
+    take_lines(session);
+    open_tail(session);
+    command_client_turn(&session->caller);
+    command_queue_turn(&session->desk, now_ns);
+    leases_turn(&session->leases, &session->caller, now_ns);
+    subscription_states(&session->wants, &session->mirror, &session->output, now_ns);
+    if (session->tailing)
+        subscription_events(&session->wants, &session->tail, &session->output);
+    bool silent = session->input.ended && !session->input.used && !session->desk.count;
+    if (silent && !session->released)
+        release_all(session);
+}
+
+static uint64_t least(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+void session_rest(struct session *session)
+{
+    uint64_t now_ns = clock_now_ns();
+    uint64_t wake_ns = now_ns + (session->tailing && session->tail.count ? REST_TAIL_NS : REST_NS);
+    bool reads = !session->input.ended && input_room(&session->input) && takes_lines(session);
+    struct pollfd watched[] = {
+        {.fd = session->bell, .events = POLLIN},
+        {.fd = reads ? STDIN_FILENO : -1, .events = POLLIN},
+        {.fd = session->output.used ? STDOUT_FILENO : -1, .events = POLLOUT},
+        {.fd = command_client_descriptor(&session->caller), .events = POLLIN},
+    };
+    wake_ns = least(wake_ns, command_client_due_ns(&session->caller));
+    wake_ns = least(wake_ns, command_queue_due_ns(&session->desk));
+    wake_ns = least(wake_ns, leases_due_ns(&session->leases));
+    wake_ns = least(wake_ns, subscription_due_ns(&session->wants));
+    uint64_t wait_ns = wake_ns > now_ns ? wake_ns - now_ns : 0;
+    if (poll(watched, 4, (int)((wait_ns + NS_PER_MS - 1) / NS_PER_MS)) <= 0)
+        return;
+    if (watched[1].revents)
+        input_read(&session->input);
+    if (watched[2].revents)
+        output_write(&session->output);
+}
+
+bool session_over(const struct session *session)
+{
+    bool said = session->input.ended && !session->input.used && session->released;
+    return session->output.gone || (said && !session->desk.count && !session->output.used);
+}

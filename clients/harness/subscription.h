@@ -1,0 +1,56 @@
+/* What the program wants to be told: frames, entities at a rate, events of some types.
+ *
+ * {"want":{"frames":true,"entities":[7,"West"],"rate_hz":5,"events":["fire","collision"]}};
+ * entities also "all", or {"near":7,"within_m":500}. A new want takes the place of the old one. */
+#ifndef JOLON_CLIENTS_HARNESS_SUBSCRIPTION_H
+#define JOLON_CLIENTS_HARNESS_SUBSCRIPTION_H
+
+#include "clients/harness/output.h"
+#include "ipc/topics/world_mirror.h"
+#include "ipc/topics/event_merge.h"
+
+#include <cjson/cJSON.h>
+
+#define SUBSCRIPTION_ENTITIES_MAX 1024u
+#define SUBSCRIPTION_RATE_HZ      5.0
+#define SUBSCRIPTION_RATE_MIN_HZ  0.1
+#define SUBSCRIPTION_RATE_MAX_HZ  10.0 /* as often as the topics tell them */
+
+struct subscription {
+    bool frames, all;
+    uint32_t near; /* id, 0: not by distance */
+    double within_m;
+    double rate_hz;
+    uint32_t events; /* bits of TOPIC_COLLISION ... from 0 */
+    uint32_t count;
+    uint32_t id[SUBSCRIPTION_ENTITIES_MAX]; /* [count] */
+
+    uint64_t due_ns;         /* of the next states, CLOCK_MONOTONIC */
+    uint64_t frame;          /* of the entities last told */
+    uint64_t from_run, from; /* events of this run before this frame are history */
+    uint64_t missed;         /* by the tail, that was told already */
+};
+
+/* Reads a want: -1 with the reason, and wants is as it was. */
+int subscription_read(struct subscription *wants, const cJSON *want,
+                      const struct world_mirror *mirror, struct reason *reason);
+
+/* Tells frame and entities when they are due. */
+void subscription_states(struct subscription *wants, const struct world_mirror *mirror,
+                         struct output *output, uint64_t now_ns);
+
+/* When subscription_states() has something to do [CLOCK_MONOTONIC ns]; UINT64_MAX: never. */
+uint64_t subscription_due_ns(const struct subscription *wants);
+
+/* A event_merge_format for subscription_events(): the event as JSON after what that needs to
+ * choose. */
+void subscription_format(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, const void *event);
+
+/* Tells the events that came and are wanted. */
+void subscription_events(struct subscription *wants, struct event_merge *tail,
+                         struct output *output);
+
+/* The world, as it is told once and whenever it is another: its line, for cJSON_free(). */
+char *subscription_world(const struct world_mirror *mirror);
+
+#endif

@@ -1,0 +1,104 @@
+/* jolon-monitor: attaches to a world at any time, from anywhere, and shows what it does: a terminal
+ * view, one status line a second, one JSON object, or the events. Any number of them may run; none
+ * is ever waited for. */
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "clients/monitor/json.h"
+#include "clients/monitor/status_lines.h"
+#include "clients/monitor/options.h"
+#include "clients/monitor/plain_output.h"
+#include "clients/monitor/screen.h"
+#include "ipc/topics/event_json.h"
+#include "ipc/topics/event_lines.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+/* How often the screen looks at the keyboard and at new events. */
+#define LOOK_NS (50 * (uint64_t)NS_PER_MS)
+
+#define NICENESS 10 /* far behind the frame loop: a hundred of them make no frame late */
+
+/* Of this thread and of those that it starts: before DDS starts its own. */
+static void step_back(void)
+{
+    if (getpriority(PRIO_PROCESS, 0) < NICENESS && setpriority(PRIO_PROCESS, 0, NICENESS) != 0)
+        log_warn("cannot lower its priority: %s", strerror(errno));
+}
+
+static int run_events(struct event_merge *tail)
+{
+    while (!process_stopping()) {
+        bool good = event_merge_turn(tail, plain_output_line, NULL);
+        if (!good || !plain_output_flush())
+            return EXIT_REFUSED; /* nobody reads any more, or no memory */
+        dds_topics_wait(tail->waitset, tail->count ? LOOK_NS : NS_PER_S / 4);
+    }
+    if (tail->missed)
+        log_warn("events were missed at %llu places", (unsigned long long)tail->missed);
+    return EXIT_OK;
+}
+
+static int run_screen(struct world_mirror *mirror, struct event_merge *tail,
+                      const struct options *options)
+{
+    static struct screen screen;
+    struct reason reason;
+    uint64_t due_ns = 0;
+    if (screen_open(&screen, &reason) != 0)
+        die_refused("%s", reason.text);
+    while (!process_stopping() && !screen.desk.quit) {
+        world_mirror_take(mirror);
+        screen_note(&screen, mirror);
+        (void)event_merge_turn(tail, screen_event, &screen);
+        uint64_t now_ns = clock_now_ns();
+        if (screen_keys(&screen, mirror) || now_ns >= due_ns) {
+            screen_draw(&screen, mirror, now_ns);
+            due_ns = now_ns + (uint64_t)(NS_PER_S / options->rate_hz);
+        }
+        clock_sleep_until_ns(now_ns + LOOK_NS < due_ns ? now_ns + LOOK_NS : due_ns);
+    }
+    screen_close(&screen);
+    return EXIT_OK;
+}
+
+int main(int argc, char **argv)
+{
+    static struct world_mirror mirror;
+    static struct event_merge tail;
+    struct options options;
+    struct dds_link link;
+    struct reason reason;
+    int code;
+    log_open("monitor");
+    options_parse(&options, argc, argv);
+    bool screen = !options.once && !options.lines && !options.json && !options.events &&
+                  isatty(STDOUT_FILENO);
+    options.link.quiet = screen;
+    options.link.part = DDS_ONLOOKER;
+    if (options.rate_hz <= 0.0)
+        options.rate_hz = screen ? OPTIONS_SCREEN_HZ : OPTIONS_LINES_HZ;
+    process_signals();
+    step_back();
+    if (dds_link_open(&link, &options.link, options.world, &reason) != 0 ||
+        (!options.events &&
+         world_mirror_open(&mirror, &link, options.world, screen || options.json, &reason) != 0) ||
+        ((options.events || screen) &&
+         event_merge_open(&tail, &link, screen ? event_lines_event : event_json, &reason) != 0))
+        die_refused("%s", reason.text);
+    if (options.events)
+        code = run_events(&tail);
+    else if (options.once)
+        code = plain_output_once(&mirror, &options);
+    else if (screen)
+        code = run_screen(&mirror, &tail, &options);
+    else
+        code = plain_output_lines(&mirror, &options);
+    event_merge_close(&tail);
+    world_mirror_close(&mirror);
+    dds_link_close(&link, code);
+    return code;
+}

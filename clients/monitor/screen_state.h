@@ -1,0 +1,76 @@
+/* The desk: what somebody at the screen looks at, and what a key makes of that. Pure. */
+#ifndef JOLON_CLIENTS_MONITOR_SCREEN_STATE_H
+#define JOLON_CLIENTS_MONITOR_SCREEN_STATE_H
+
+#include "clients/monitor/character_map.h"
+#include "clients/monitor/vehicle_table.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum screen_state_page {
+    SCREEN_STATE_ALL,
+    SCREEN_STATE_VEHICLES,
+    SCREEN_STATE_EVENTS,
+    SCREEN_STATE_MAP,
+    SCREEN_STATE_HELP,
+    SCREEN_STATE_PAGES
+};
+
+/* Keys that are no characters. */
+enum screen_state_key {
+    SCREEN_STATE_UP = 256,
+    SCREEN_STATE_DOWN,
+    SCREEN_STATE_LEFT,
+    SCREEN_STATE_RIGHT,
+    SCREEN_STATE_PAGE_UP,
+    SCREEN_STATE_PAGE_DOWN,
+    SCREEN_STATE_HOME,
+    SCREEN_STATE_END,
+    SCREEN_STATE_ENTER,
+    SCREEN_STATE_BACKSPACE,
+    SCREEN_STATE_ESCAPE,
+    SCREEN_STATE_TAB
+};
+
+#define SCREEN_STATE_ZOOM_MAX 9 /* times two: 50 km down to 98 m */
+
+struct screen_state {
+    enum screen_state_page page;
+    bool quit;
+    bool typing; /* the page's filter is being typed */
+    char filter[SCREEN_STATE_PAGES][VEHICLE_TABLE_FILTER_MAX];
+    enum vehicle_table_column sort;
+    bool descending;
+    uint32_t chosen;      /* id of a vehicle, 0: none */
+    bool follow;          /* the map stays about the chosen one */
+    uint32_t first;       /* row of the table at the top */
+    uint64_t back;        /* events between the last one shown and the newest */
+    double x, z;          /* [m] the map's middle */
+    int zoom;             /* 0: the whole square */
+    uint32_t page_rows;   /* what the screen had room for when it was last drawn */
+    uint32_t chosen_row;  /* of the table; its count when the chosen one is not in it */
+    uint32_t table_count; /* rows of it */
+};
+
+/* As it is at the start, of a world of side_m. */
+void screen_state_begin(struct screen_state *desk, double side_m);
+
+/* What a key does: a character, or an enum screen_state_key. Returns the way that the choice moves
+ * in the table: 0, or rows down or up; the caller knows the ids. */
+int screen_state_key(struct screen_state *desk, int key, double side_m);
+
+/* After the table was built: the chosen one's row, and the row at the top moved so that it shows.
+ */
+void screen_state_table(struct screen_state *desk, const struct vehicle_table *table,
+                        const struct world_mirror *mirror, uint32_t page_rows);
+
+/* Moves the choice by rows in the table. */
+void screen_state_choose(struct screen_state *desk, const struct vehicle_table *table,
+                         const struct world_mirror *mirror, int rows);
+
+/* What the map shows; about the chosen one when it is followed and there. */
+struct character_map_area screen_state_area(struct screen_state *desk,
+                                            const struct world_mirror *mirror, double side_m);
+
+#endif

@@ -1,0 +1,295 @@
+/* A block of rows at a time, four abreast, from columns to records. What is done to each is what
+ * body_motion_take, pair_filter_box and strip_bins.h's functions do, to the bit. */
+#include "collider/broad_phase/body_boxes.h"
+
+#include "world/maths/cpu_dispatch.h"
+#include "world/entity/entity.h"
+
+#include <string.h>
+
+#define BLOCK     64
+#define LINE_ROWS 8           /* doubles in a cache line */
+#define AHEAD     (3 * BLOCK) /* rows between asking for memory and using it */
+#define LONG_M    64.0        /* a way's extent in x from which it is clipped to its strips */
+
+typedef double four __attribute__((vector_size(4 * sizeof(double))));
+typedef int64_t four_masks __attribute__((vector_size(4 * sizeof(int64_t))));
+typedef float four_metres __attribute__((vector_size(4 * sizeof(float))));
+typedef int32_t four_steps __attribute__((vector_size(4 * sizeof(int32_t))));
+typedef uint32_t four_words __attribute__((vector_size(4 * sizeof(uint32_t))));
+
+#define CHOOSE(mask, yes, no) ((four)(((mask) & (four_masks)(yes)) | (~(mask) & (four_masks)(no))))
+#define CHOOSE_METRES(mask, yes, no)                                                               \
+    ((four_metres)(((mask) & (four_steps)(yes)) | (~(mask) & (four_steps)(no))))
+
+#define SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+
+_Static_assert(sizeof(struct path_box) == 6 * sizeof(float), "a box is its six bounds");
+
+struct block {
+    /* What is not read where it lies: few rows, new ones, ways that are drawn. */
+    _Alignas(64) double at[3][BLOCK], to[3][BLOCK];
+    double grow[BLOCK];
+    uint32_t rests[BLOCK]; /* BIN_RESTS or 0 */
+    uint32_t tag[BLOCK];
+    struct bin_record record[BLOCK];
+    uint32_t strip[BLOCK];      /* STRIP_COUNT: several */
+    struct path_box box[BLOCK]; /* of fewer rows than a block */
+};
+
+/* Where a block's ways begin, and where they lead. */
+struct ends {
+    const double *at[3], *to[3];
+};
+
+/* --- ways --------------------------------------------------------------------------------------*/
+
+static struct ends own_ends(const struct block *block)
+{
+    return (struct ends){{block->at[0], block->at[1], block->at[2]},
+                         {block->to[0], block->to[1], block->to[2]}};
+}
+
+/* Of drawn ways. */
+static struct ends take_paths(struct block *block, const struct path *path, uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        struct vec3 to = path_at(&path[k], 1.0);
+        __builtin_prefetch(&path[k + AHEAD]);
+        block->at[0][k] = path[k].at.x;
+        block->at[1][k] = path[k].at.y;
+        block->at[2][k] = path[k].at.z;
+        block->to[0][k] = to.x;
+        block->to[1][k] = to.y;
+        block->to[2][k] = to.z;
+        block->rests[k] = pair_filter_rests(&path[k]) ? BIN_RESTS : 0;
+    }
+    return own_ends(block);
+}
+
+/* Where the rows were and are; of those that are new, where they are. */
+static struct ends take_places(struct block *block, const struct body_motion *motion,
+                               uint32_t first, uint32_t count)
+{
+    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    const struct ends ends = {{w->x + first, w->y + first, w->z + first},
+                              {n->x + first, n->y + first, n->z + first}};
+    bool old = first + count <= motion->committed->head->used &&
+               memcmp(w->id + first, n->id + first, count * sizeof *n->id) == 0;
+    if (old && count == BLOCK)
+        return ends;
+    for (int axis = 0; axis < 3; axis++) {
+        memcpy(block->at[axis], ends.at[axis], count * sizeof(double));
+        memcpy(block->to[axis], ends.to[axis], count * sizeof(double));
+        for (uint32_t k = 0; !old && k < count; k++) {
+            if (!body_motion_old(motion, first + k))
+                block->at[axis][k] = block->to[axis][k];
+        }
+    }
+    return own_ends(block);
+}
+
+/* Who has no way, and does not turn either. */
+static void find_resting(const struct body_boxes *rows, struct block *block, uint32_t first,
+                         uint32_t count)
+{
+    const struct entities *w = &rows->motion->committed->entities,
+                          *n = &rows->motion->next->entities;
+    const double *angle[] = {w->heading, w->pitch, w->roll, n->heading, n->pitch, n->roll};
+    /* Where one stands another will: the next block's angles are asked for. */
+    for (uint32_t i = 0; i < sizeof angle / sizeof angle[0]; i++) {
+        for (uint32_t k = 0; k < BLOCK; k += LINE_ROWS)
+            __builtin_prefetch(angle[i] + first + BLOCK + k);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        if (block->rests[k] && body_motion_turns(rows->motion, first + k))
+            block->rests[k] = 0;
+    }
+}
+
+/* --- boxes and records -------------------------------------------------------------------------*/
+
+static void take_kinds(const struct body_boxes *rows, struct block *block, uint32_t first,
+                       uint32_t count)
+{
+    const uint8_t *state = rows->input->entities->state + first;
+    const uint16_t *kinds = rows->input->entities->kind + first;
+    const double *x = rows->input->entities->x + first, *z = rows->input->entities->z + first;
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t kind = state[k] != ENTITY_FREE ? kinds[k] : 0;
+        block->grow[k] = rows->grow[kind];
+        block->tag[k] = (first + k) | rows->flags[kind];
+        if (rows->flags[kind] & BIN_AIR && rows->input->crest)
+            __builtin_prefetch(height_max_map_at(rows->input->crest, x[k], z[k]));
+    }
+}
+
+/* bin_steps of each. */
+static inline four_steps steps_of(four_metres metres)
+{
+    const four_metres none = {0}, last = {BIN_LAST, BIN_LAST, BIN_LAST, BIN_LAST};
+    four_metres steps = metres * BIN_STEPS_PER_M;
+    steps = CHOOSE_METRES(steps > none, steps, none);
+    steps = CHOOSE_METRES(steps < last, steps, last);
+    return __builtin_convertvector(steps, four_steps);
+}
+
+/* Four rows' bounds to four boxes: low and high are x, y, z. */
+static void put_boxes(struct path_box *box, const four_metres low[3], const four_metres high[3])
+{
+    four_metres xy_01 = SHUFFLE(low[0], low[1], 0, 4, 1, 5);
+    four_metres xy_23 = SHUFFLE(low[0], low[1], 2, 6, 3, 7);
+    four_metres zx_01 = SHUFFLE(low[2], high[0], 0, 4, 1, 5);
+    four_metres zx_23 = SHUFFLE(low[2], high[0], 2, 6, 3, 7);
+    four_metres yz_01 = SHUFFLE(high[1], high[2], 0, 4, 1, 5);
+    four_metres yz_23 = SHUFFLE(high[1], high[2], 2, 6, 3, 7);
+    const four_metres bounds[6] = {
+        SHUFFLE(xy_01, zx_01, 0, 1, 4, 5), SHUFFLE(yz_01, xy_01, 0, 1, 6, 7),
+        SHUFFLE(zx_01, yz_01, 2, 3, 6, 7), SHUFFLE(xy_23, zx_23, 0, 1, 4, 5),
+        SHUFFLE(yz_23, xy_23, 0, 1, 6, 7), SHUFFLE(zx_23, yz_23, 2, 3, 6, 7)};
+    memcpy(box, bounds, sizeof bounds);
+}
+
+/* Bounds of four rows to four records. */
+static void put_records(struct block *block, uint32_t k, four_steps west, four_steps east,
+                        four_steps north, four_steps south)
+{
+    four_words strip = (four_words)north / BIN_STRIP_STEPS;
+    four_words edge = strip * BIN_STRIP_STEPS;
+    four_words low = (four_words)north - edge, high = (four_words)south - edge;
+    four_words z = low | high << 16;
+    four_words wide = (four_words)(east - west > BIN_WIDE_STEPS) & BIN_WIDE;
+    for (uint32_t i = 0; i < 4; i++) {
+        block->record[k + i] =
+            (struct bin_record){west[i], east[i], z[i], block->tag[k + i] | wide[i]};
+        block->strip[k + i] = high[i] < BIN_STRIP_STEPS ? strip[i] : STRIP_COUNT;
+    }
+}
+
+/* moved: the ends are places, and a way leads from one to the other as body_motion_way has it; who
+ * has none is noted, and it is true when anybody has none. */
+static bool bound_rows(struct block *block, const struct ends *ends, bool moved,
+                       struct path_box *box)
+{
+    four_masks any = {0};
+    for (uint32_t k = 0; k < BLOCK; k += 4) {
+        const four grow = *(const four *)(const void *)&block->grow[k];
+        four_metres low[3], high[3];
+        four_masks rests = {-1, -1, -1, -1};
+        for (int axis = 0; axis < 3; axis++) {
+            four at, to;
+            memcpy(&at, ends->at[axis] + k, sizeof at);
+            memcpy(&to, ends->to[axis] + k, sizeof to);
+            __builtin_prefetch(ends->at[axis] + k + AHEAD);
+            __builtin_prefetch(ends->to[axis] + k + AHEAD);
+            four along = to - at;
+            rests &= along == 0.0;
+            to = moved ? at + along : to;
+            low[axis] = __builtin_convertvector(CHOOSE(at < to, at, to) - grow, four_metres);
+            high[axis] = __builtin_convertvector(CHOOSE(at > to, at, to) + grow, four_metres);
+        }
+        any |= rests;
+        for (uint32_t i = 0; moved && i < 4; i++)
+            block->rests[k + i] = (uint32_t)rests[i] & BIN_RESTS;
+        put_boxes(&box[k], low, high);
+        put_records(block, k, steps_of(low[0]), steps_of(high[0]), steps_of(low[2]),
+                    steps_of(high[2]));
+    }
+    return any[0] | any[1] | any[2] | any[3];
+}
+
+/* --- into strips -------------------------------------------------------------------------------*/
+
+static void add_spanning(const struct body_boxes *rows, struct strip_bins *bins,
+                         struct bin_record record)
+{
+    uint32_t row = record.tag & BIN_ROW;
+    const struct path_box *box = &rows->box[row];
+    double grow = rows->grow[rows->input->entities->kind[row]];
+    bool is_long = false;
+    record.tag |= BIN_SPANS;
+    if (record.tag & BIN_WIDE) {
+        struct path path =
+            rows->motion ? body_motion_way(rows->motion, row) : rows->input->path[row];
+        is_long = fabs(path.along.x) > LONG_M;
+    }
+    if (is_long)
+        record.tag |= BIN_LONG;
+    if (rows->motion && record.tag & (BIN_LONG | BIN_AIR))
+        body_motion_draw(rows->motion, row);
+    uint32_t last = bin_strip(box->max_z);
+    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
+        if (is_long) {
+            struct sweep_and_prune_span span =
+                sweep_and_prune_span(&rows->input->path[row], box, grow, strip);
+            record.min_x = span.min_x;
+            record.max_x = span.max_x;
+        }
+        record.z = bin_z(box->min_z, box->max_z, strip);
+        strip_bins_add(bins, strip, record);
+    }
+}
+
+/* Who cannot reach the ground, and is no round, has no end to be looked for. */
+static void add_flier(const struct body_boxes *rows, struct sweep_worker *lane,
+                      const struct ends *ends, uint32_t k, uint32_t tag)
+{
+    const struct method_input *input = rows->input;
+    uint32_t row = tag & BIN_ROW;
+    struct vec3 at = {ends->at[0][k], ends->at[1][k], ends->at[2][k]};
+    struct vec3 to = {ends->to[0][k], ends->to[1][k], ends->to[2][k]};
+    if (input->entities->state[row] != ENTITY_ACTIVE ||
+        (!(tag & BIN_ROUND) && input->crest &&
+         height_max_map_below(input->crest, input->craters, at, to)))
+        return;
+    if (rows->motion)
+        body_motion_draw(rows->motion, row);
+    pair_list_add(&lane->fliers, row, 0);
+}
+
+static void add_rows(const struct body_boxes *rows, struct sweep_worker *lane,
+                     const struct block *block, const struct ends *ends, uint32_t first,
+                     uint32_t count)
+{
+    const struct entities *e = rows->input->entities;
+    const uint8_t *state = e->state + first, *behaviour = e->behaviour + first;
+    for (uint32_t k = 0; k < count; k++) {
+        struct bin_record record = block->record[k];
+        if (state[k] == ENTITY_FREE)
+            continue;
+        record.tag |= block->rests[k] | (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0);
+        if (block->strip[k] < STRIP_COUNT)
+            strip_bins_add(&lane->bins, block->strip[k], record);
+        else
+            add_spanning(rows, &lane->bins, record);
+        if (record.tag & (BIN_ROUND | BIN_AIR))
+            add_flier(rows, lane, ends, k, record.tag);
+    }
+}
+
+static void bin_block(const struct body_boxes *rows, struct block *block, struct sweep_worker *lane,
+                      uint32_t first, uint32_t count)
+{
+    struct path_box *box = rows->box + first, *to = count < BLOCK ? block->box : box;
+    struct ends ends;
+    take_kinds(rows, block, first, count);
+    if (rows->motion) {
+        ends = take_places(block, rows->motion, first, count);
+        if (bound_rows(block, &ends, true, to))
+            find_resting(rows, block, first, count);
+    } else {
+        ends = take_paths(block, rows->input->path + first, count);
+        bound_rows(block, &ends, false, to);
+    }
+    if (count < BLOCK)
+        memcpy(box, block->box, count * sizeof *box);
+    add_rows(rows, lane, block, &ends, first, count);
+}
+
+VECTOR_CLONES void body_boxes_bin(const struct body_boxes *rows, struct sweep_worker *lane,
+                                  uint32_t first, uint32_t end)
+{
+    struct block block = {0};
+    for (uint32_t row = first; row < end; row += BLOCK)
+        bin_block(rows, &block, lane, row, end - row < BLOCK ? end - row : BLOCK);
+}

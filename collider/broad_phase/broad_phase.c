@@ -1,0 +1,189 @@
+/* The broad phase over strips. */
+#include "collider/broad_phase/broad_phase.h"
+
+#include "collider/broad_phase/body_boxes.h"
+#include "world/entity/entity.h"
+#include "world/maths/sort.h"
+#include "world/runtime/work_done.h"
+
+#include <errno.h>
+#include <stdlib.h>
+
+#define ROWS_A_PIECE   (2 * BROAD_PHASE_ROWS_TAKEN)
+#define STRIPS_A_PIECE 4
+#define ALONE_MOST     8192 /* rows that one thread has done before others would have woken */
+
+int broad_phase_init(struct broad_phase *broad, const struct world *world,
+                     struct thread_pool *workers)
+{
+    *broad = (struct broad_phase){
+        .world = world, .workers = workers, .lanes = thread_pool_threads(workers)};
+    uint32_t rows = world->params->capacity, pairs = pair_filter_pairs_first(world);
+    broad->box = malloc(rows * sizeof *broad->box);
+    broad->lane = calloc(broad->lanes, sizeof *broad->lane);
+    bool taken = broad->box && broad->lane && static_boxes_init(&broad->standing, world) == 0;
+    for (uint32_t i = 0; taken && i < broad->lanes; i++)
+        taken = sweep_worker_init(&broad->lane[i], rows, pairs) == 0;
+    if (taken)
+        return 0;
+    broad_phase_free(broad);
+    errno = ENOMEM;
+    return -1;
+}
+
+void broad_phase_free(struct broad_phase *broad)
+{
+    for (uint32_t i = 0; broad->lane && i < broad->lanes; i++)
+        sweep_worker_free(&broad->lane[i]);
+    static_boxes_free(&broad->standing);
+    free(broad->lane);
+    free(broad->box);
+    *broad = (struct broad_phase){0};
+}
+
+struct job {
+    struct broad_phase *broad;
+    struct body_boxes rows;
+    struct strips strips;
+    double grow[KIND_COUNT_MAX];
+    uint32_t flags[KIND_COUNT_MAX]; /* of the tag */
+    broad_phase_take *take;         /* NULL: rows are there */
+    void *context;
+};
+
+static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    struct job *job = context;
+    for (uint32_t row = first; row < end; row += BROAD_PHASE_ROWS_TAKEN) {
+        uint32_t past = end - row < BROAD_PHASE_ROWS_TAKEN ? end : row + BROAD_PHASE_ROWS_TAKEN;
+        if (job->take)
+            job->take(job->context, row, past);
+        body_boxes_bin(&job->rows, &job->broad->lane[worker], row, past);
+        work_done();
+    }
+}
+
+static void meet_strips(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    struct job *job = context;
+    struct sweep_worker *lane = &job->broad->lane[worker];
+    for (uint32_t strip = first; strip < end; strip++)
+        sweep_and_prune_pairs(&job->strips, lane, strip);
+}
+
+void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_input *input,
+                             struct body_motion *motion, broad_phase_take *take, void *context)
+{
+    struct job job = {.broad = broad, .take = take, .context = context};
+    struct thread_pool *workers = input->rows > ALONE_MOST ? broad->workers : NULL;
+    const struct world *world = input->world;
+    for (uint32_t i = 0; i < world->counts.kinds; i++) {
+        job.grow[i] = pair_filter_grow(world, &world->kinds[i]);
+        job.flags[i] = world->kinds[i].domain == DOMAIN_AIR ? BIN_AIR : 0;
+    }
+    job.rows = (struct body_boxes){
+        .input = input, .motion = motion, .box = broad->box, .grow = job.grow, .flags = job.flags};
+    job.strips = (struct strips){.input = input,
+                                 .motion = motion,
+                                 .standing = &broad->standing,
+                                 .box = broad->box,
+                                 .grow = job.grow,
+                                 .lane = broad->lane,
+                                 .lanes = broad->lanes};
+    for (uint32_t i = 0; i < broad->lanes; i++) {
+        strip_bins_clear(&broad->lane[i].bins);
+        broad->lane[i].fliers.count = 0;
+        broad->lane[i].pairs.count = 0;
+    }
+    thread_pool_run(workers, bin_rows, &job, input->rows, ROWS_A_PIECE);
+    thread_pool_run(workers, meet_strips, &job, STRIP_COUNT, STRIPS_A_PIECE);
+    for (uint32_t i = 0; i < broad->lanes; i++)
+        broad->list[i] = broad->lane[i].pairs;
+}
+
+void broad_phase_pairs(struct broad_phase *broad, const struct method_input *input)
+{
+    broad_phase_pairs_moved(broad, input, NULL, NULL, NULL);
+}
+
+/* --- queries -----------------------------------------------------------------------------------*/
+
+/* Puts what was added since in order, each once. */
+static void order_found(struct pair_list *found, uint32_t since)
+{
+    struct pair *pair = found->pair + since;
+    uint32_t count = found->count - since, kept = 0;
+    if (count == 0)
+        return;
+    sort_words(pair, count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (kept == 0 || pair[kept - 1].a != pair[i].a || pair[kept - 1].b != pair[i].b)
+            pair[kept++] = pair[i];
+    }
+    found->count = since + kept;
+}
+
+/* Rows in several strips are found in each: a full list is ordered, each once. */
+static void add_found(struct pair_list *found, uint32_t since, uint32_t a, uint32_t b)
+{
+    if (found->count == found->capacity)
+        order_found(found, since);
+    pair_list_add(found, a, b);
+}
+
+uint64_t broad_phase_found_most(const struct world *world)
+{
+    return 2 * ((uint64_t)world->params->capacity + world->counts.fixed) + 2;
+}
+
+static struct bin_record record_of(const struct path_box *box, uint32_t strip)
+{
+    return (struct bin_record){.min_x = bin_steps(box->min_x),
+                               .max_x = bin_steps(box->max_x),
+                               .z = bin_z(box->min_z, box->max_z, strip)};
+}
+
+static void query_strip(const struct broad_phase *broad, const struct strip_bins *bins,
+                        uint32_t strip, const struct path_box *box, struct pair_list *found,
+                        uint32_t since)
+{
+    struct bin_record one = record_of(box, strip);
+    uint32_t count;
+    const struct bin_chunk *chunk = strip_bins_last(bins, strip, &count);
+    for (; chunk; chunk = chunk->before, count = BIN_CHUNK_RECORDS) {
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t row = chunk->record[i].tag & BIN_ROW;
+            if (bin_meet(&one, &chunk->record[i]) && pair_filter_boxes_meet(box, &broad->box[row]))
+                add_found(found, since, row, 0);
+        }
+    }
+}
+
+void broad_phase_query(const struct broad_phase *broad, const struct method_input *input,
+                       const struct path_box *box, struct pair_list *found)
+{
+    uint32_t since = found->count, last = bin_strip(box->max_z);
+    (void)input;
+    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
+        for (uint32_t i = 0; i < broad->lanes; i++)
+            query_strip(broad, &broad->lane[i].bins, strip, box, found, since);
+    }
+    order_found(found, since);
+}
+
+void broad_phase_query_fixed(const struct broad_phase *broad, const struct method_input *input,
+                             const struct path_box *box, struct pair_list *found)
+{
+    uint32_t since = found->count, last = bin_strip(box->max_z);
+    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
+        struct bin_record one = record_of(box, strip);
+        const struct bin_record *object = static_boxes_from(&broad->standing, strip, one.min_x);
+        for (; object->min_x <= one.max_x; object++) {
+            uint32_t index = object->tag & BIN_OBJECT;
+            if (bin_meet(&one, object) &&
+                pair_filter_box_meets_fixed(input, box, &input->world->fixed[index]))
+                add_found(found, since, 0, index | PAIR_FIXED);
+        }
+    }
+    order_found(found, since);
+}

@@ -1,0 +1,42 @@
+/* Where fixed objects stand, for the broad phase: in each strip of gridsquares the objects that
+ * reach into it, from west to east (thesis row 37: none near a border is found late). Built once
+ * from the world; fixed objects never move. Read-only afterwards; any thread. */
+#ifndef JOLON_COLLIDER_BROAD_PHASE_STATIC_BOXES_H
+#define JOLON_COLLIDER_BROAD_PHASE_STATIC_BOXES_H
+
+#include "collider/broad_phase/strip_bins.h"
+#include "world/world.h"
+
+#include <stdint.h>
+
+#define STATIC_BOXES_COLUMN_BITS 18 /* columns of 512 m, in steps */
+#define STATIC_BOXES_COLUMNS     (1 << (BIN_BITS - STATIC_BOXES_COLUMN_BITS))
+
+#define STATIC_BOXES_AHEAD 4 /* this many records may be looked at from any of a strip's on */
+
+struct static_boxes {
+    /* By strip, then by min_x; each strip ends with STATIC_BOXES_AHEAD that lie beyond all. */
+    struct bin_record *record;
+    uint32_t start[STRIP_COUNT + 1];
+    /* [STRIP_COUNT][STATIC_BOXES_COLUMNS] the first record that reaches into the column or beyond:
+     * none before it does */
+    uint32_t *first;
+};
+
+/* 0, or -1 with errno ENOMEM. */
+int static_boxes_init(struct static_boxes *standing, const struct world *world);
+void static_boxes_free(struct static_boxes *standing);
+
+/* The first strip that the object reaches into. */
+uint32_t static_boxes_strip(const struct world *world, const struct fixed_object *object);
+
+/* The strip's records from the first that can reach x [steps] on; the one that ends them lies
+ * beyond every max_x. */
+static inline const struct bin_record *static_boxes_from(const struct static_boxes *standing,
+                                                         uint32_t strip, int32_t x)
+{
+    uint32_t column = (uint32_t)x >> STATIC_BOXES_COLUMN_BITS;
+    return standing->record + standing->first[strip * STATIC_BOXES_COLUMNS + column];
+}
+
+#endif

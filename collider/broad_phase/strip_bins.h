@@ -1,0 +1,144 @@
+/* Bins: what each strip of gridsquares holds in this frame, as 16-byte records. A strip is a row of
+ * 400 squares, 125 m from north to south and the world's 50 km from west to east.
+ *
+ * Every worker fills bins of its own, so that none waits; a strip is the sum of its workers' bins.
+ * Records lie in chunks of 1 KB that are taken one after the other, so the memory that is touched
+ * follows the bodies. */
+#ifndef JOLON_COLLIDER_BROAD_PHASE_STRIP_BINS_H
+#define JOLON_COLLIDER_BROAD_PHASE_STRIP_BINS_H
+
+#include "collider/motion/pair_filter.h"
+#include "world/entity/entity.h"
+#include "world/terrain/gridsquare.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define STRIP_COUNT GRIDSQUARE_PER_SIDE
+
+/* A record's tag: a row, or a fixed object, and what is asked so often that it must be at hand. */
+#define BIN_ROW    (CAPACITY_MAX - 1u)
+#define BIN_RESTS  0x00100000u /* its way has no length */
+#define BIN_ROUND  0x00200000u /* a munition: pair_same_shooter decides */
+#define BIN_AIR    0x00400000u /* an aircraft: pair_filter_tests_fixed decides */
+#define BIN_LONG   0x00800000u /* a long way: narrower in each strip than its box is */
+#define BIN_WIDE   0x01000000u /* wider than BIN_WIDE_STEPS, or long */
+#define BIN_OBJECT 0x7fffffffu /* of a fixed object's tag: its index */
+#define BIN_SPANS  0x80000000u /* in several strips */
+
+/* A box in one strip, in whole steps of 1/512 m: x from the world's west edge, z from the strip's
+ * north edge and cut off at the strip's edges. A bound is rounded down on both sides, which keeps
+ * the order of any two and so every overlap. */
+struct bin_record {
+    int32_t min_x, max_x; /* 0 .. BIN_LAST */
+    uint32_t z;           /* low | high << 16 */
+    uint32_t tag;
+};
+
+#define BIN_STEPS_PER_M 512
+#define BIN_STRIP_STEPS 64000    /* 125 m */
+#define BIN_LAST        25599998 /* the last within the world that a float can hold */
+#define BIN_BITS        25       /* of any number of steps */
+#define BIN_WIDE_STEPS  (16 * BIN_STEPS_PER_M)
+
+_Static_assert(BIN_STRIP_STEPS == (int)GRIDSQUARE_SIDE_M * BIN_STEPS_PER_M,
+               "a strip is a square deep");
+_Static_assert(BIN_LAST / BIN_STRIP_STEPS == STRIP_COUNT - 1, "all of the world, no strip more");
+
+_Static_assert(sizeof(struct bin_record) == 16, "four to a cache line");
+
+#define BIN_CHUNK_BYTES   1024u
+#define BIN_CHUNK_RECORDS (BIN_CHUNK_BYTES / sizeof(struct bin_record) - 1)
+
+struct bin_chunk {
+    /* Of the same strip and full: the one before, and the one before that; NULL: none. */
+    struct bin_chunk *before, *before_that;
+    struct bin_record record[BIN_CHUNK_RECORDS];
+};
+
+_Static_assert(sizeof(struct bin_chunk) == BIN_CHUNK_BYTES, "chunks lie on borders of their size");
+
+#define BIN_SLABS        24 /* from one chunk on, enough for CAPACITY_MAX rows in all strips */
+#define BIN_STRIPS_A_ROW 8u
+
+/* One worker's bins. */
+struct strip_bins {
+    struct bin_record *next[STRIP_COUNT]; /* where the next record goes; on a multiple of
+                                             BIN_CHUNK_BYTES there is no room for it */
+    /* Chunks lie in slabs that are kept from frame to frame: slab i has first << i of them. Chunks
+     * point at each other, so a frame that needs more gets another slab, and nothing moves. */
+    struct bin_chunk *slab[BIN_SLABS]; /* NULL: no frame has needed it */
+    uint32_t first;
+    uint32_t at, chunks; /* the frame takes from this slab, and has taken so many of it */
+};
+
+/* Set aside are chunks for this many rows in BIN_STRIPS_A_ROW strips each. 0, or -1 with errno
+ * ENOMEM. */
+int strip_bins_init(struct strip_bins *bins, uint32_t rows);
+void strip_bins_free(struct strip_bins *bins);
+
+/* Empties the bins and keeps their memory. */
+void strip_bins_clear(struct strip_bins *bins);
+
+/* A new chunk for the strip: where its first record goes. A kernel that refuses another slab ends
+ * the process. */
+struct bin_record *strip_bins_chunk(struct strip_bins *bins, uint32_t strip);
+
+static inline void strip_bins_add(struct strip_bins *bins, uint32_t strip, struct bin_record record)
+{
+    struct bin_record *at = bins->next[strip];
+    if (((uintptr_t)at & (BIN_CHUNK_BYTES - 1)) == 0)
+        at = strip_bins_chunk(bins, strip);
+    *at = record;
+    bins->next[strip] = at + 1;
+}
+
+/* The strip's newest chunk and how many records it holds; those before it are full. NULL: none. */
+static inline const struct bin_chunk *strip_bins_last(const struct strip_bins *bins, uint32_t strip,
+                                                      uint32_t *count)
+{
+    const struct bin_record *next = bins->next[strip];
+    if (!next)
+        return NULL;
+    uintptr_t base = ((uintptr_t)next - 1) / BIN_CHUNK_BYTES * BIN_CHUNK_BYTES;
+    const struct bin_chunk *chunk = (const struct bin_chunk *)base;
+    *count = (uint32_t)(next - chunk->record);
+    return chunk;
+}
+
+/* Metres as steps, still a float; what lies outside the world is at its edge. Ascends. */
+static inline float bin_scaled(float metres)
+{
+    float steps = metres * BIN_STEPS_PER_M;
+    steps = steps > 0.0f ? steps : 0.0f; /* not a number gives 0 */
+    return steps < (float)BIN_LAST ? steps : (float)BIN_LAST;
+}
+
+static inline int32_t bin_steps(float metres)
+{
+    return (int32_t)bin_scaled(metres);
+}
+
+static inline uint32_t bin_strip(float z)
+{
+    return (uint32_t)bin_steps(z) / BIN_STRIP_STEPS;
+}
+
+/* A record's z in the strip. */
+static inline uint32_t bin_z(float min_z, float max_z, uint32_t strip)
+{
+    int32_t edge = (int32_t)strip * BIN_STRIP_STEPS;
+    int32_t low = bin_steps(min_z) - edge, high = bin_steps(max_z) - edge;
+    low = low > 0 ? low : 0;
+    high = high < BIN_STRIP_STEPS ? high : BIN_STRIP_STEPS;
+    return (uint32_t)low | (uint32_t)high << 16;
+}
+
+/* Without branches: in no order, half of the comparisons come out either way. */
+static inline bool bin_meet(const struct bin_record *p, const struct bin_record *q)
+{
+    return (p->min_x <= q->max_x) & (q->min_x <= p->max_x) & ((p->z & 0xffffu) <= q->z >> 16) &
+           ((q->z & 0xffffu) <= p->z >> 16);
+}
+
+#endif

@@ -1,0 +1,438 @@
+/* Counting sort by west edge, then a sweep over neighbours in order, many at a time.
+ *
+ * Buckets are not sorted within: a record is compared with all that follow it up to the end of the
+ * bucket of its east edge, and the comparison looks at both sides. */
+#include "collider/broad_phase/sweep_and_prune.h"
+
+#include "ipc/process/log.h"
+#include "world/maths/cpu_dispatch.h"
+#include "world/runtime/reserve.h"
+#include "world/runtime/work_done.h"
+
+#include <string.h>
+
+#define SORT_LEAST     6u  /* below it every pair is compared */
+#define BUCKET_BITS    16u /* at most: a quarter of a megabyte, within a processor's own cache */
+#define BLOCK          16u /* records compared at a time */
+#define NEAR           3u  /* neighbours that every record is compared with */
+#define PADDING        (2 * BLOCK)
+#define PREFETCH_PAIRS 8u
+#define LINE_BYTES     64u
+#define LONG_SLACK_M   0.05 /* more than the strips' borders are uncertain by */
+
+/* --- memory ------------------------------------------------------------------------------------*/
+
+int sweep_worker_init(struct sweep_worker *lane, uint32_t rows, uint32_t pairs)
+{
+    uint64_t padded = (uint64_t)rows + PADDING;
+    *lane = (struct sweep_worker){.capacity = rows};
+    if (strip_bins_init(&lane->bins, rows) != 0 || pair_list_init(&lane->pairs, pairs) != 0 ||
+        pair_list_init(&lane->fliers, rows) != 0)
+        return -1;
+    lane->record = reserve_take(padded, sizeof *lane->record);
+    lane->sorted = reserve_take(padded, sizeof *lane->sorted);
+    lane->min_x = reserve_take(padded, sizeof *lane->min_x);
+    lane->max_x = reserve_take(padded, sizeof *lane->max_x);
+    lane->low_z = reserve_take(padded, sizeof *lane->low_z);
+    lane->high_z = reserve_take(padded, sizeof *lane->high_z);
+    lane->tag = reserve_take(padded, sizeof *lane->tag);
+    lane->bucket = reserve_take(1u << BUCKET_BITS, sizeof *lane->bucket);
+    lane->candidate = reserve_take(SWEEP_AND_PRUNE_CANDIDATES, sizeof *lane->candidate);
+    return lane->record && lane->sorted && lane->min_x && lane->max_x && lane->low_z &&
+                   lane->high_z && lane->tag && lane->bucket && lane->candidate
+               ? 0
+               : -1;
+}
+
+void sweep_worker_free(struct sweep_worker *lane)
+{
+    strip_bins_free(&lane->bins);
+    reserve_free(lane->record);
+    reserve_free(lane->sorted);
+    reserve_free(lane->min_x);
+    reserve_free(lane->max_x);
+    reserve_free(lane->low_z);
+    reserve_free(lane->high_z);
+    reserve_free(lane->tag);
+    reserve_free(lane->bucket);
+    reserve_free(lane->candidate);
+    pair_list_free(&lane->pairs);
+    pair_list_free(&lane->fliers);
+    memset(lane, 0, sizeof *lane);
+}
+
+/* --- long ways ---------------------------------------------------------------------------------*/
+
+struct sweep_and_prune_span sweep_and_prune_span(const struct path *path,
+                                                 const struct path_box *box, double grow,
+                                                 uint32_t strip)
+{
+    double left = 1.0 - path->since, dx = path->along.x * left, dz = path->along.z * left;
+    struct sweep_and_prune_span span = {bin_steps(box->min_x), bin_steps(box->max_x)};
+    if (dz == 0.0)
+        return span;
+    /* When the way is nearer to the strip than the body reaches. */
+    double reach = grow + LONG_SLACK_M, from = 0.0, to = 1.0;
+    double enter = (GRIDSQUARE_SIDE_M * (double)strip - reach - path->at.z) / dz;
+    double leave = (GRIDSQUARE_SIDE_M * (double)(strip + 1) + reach - path->at.z) / dz;
+    if (strip == 0) /* what lies outside the world is in the strip at its edge */
+        enter = dz > 0.0 ? -INFINITY : INFINITY;
+    if (strip == STRIP_COUNT - 1)
+        leave = dz > 0.0 ? INFINITY : -INFINITY;
+    from = maths_max(from, maths_min(enter, leave));
+    to = maths_min(to, maths_max(enter, leave));
+    if (!(from <= to))
+        return span;
+    double p = path->at.x + dx * from, q = path->at.x + dx * to;
+    int32_t min_x = bin_steps((float)(maths_min(p, q) - reach));
+    int32_t max_x = bin_steps((float)(maths_max(p, q) + reach));
+    span.min_x = min_x > span.min_x ? min_x : span.min_x;
+    span.max_x = max_x < span.max_x ? max_x : span.max_x;
+    return span;
+}
+
+static struct sweep_and_prune_span span_in(const struct strips *strips, uint32_t tag,
+                                           uint32_t strip)
+{
+    uint32_t row = tag & BIN_ROW;
+    const struct path_box *box = &strips->box[row];
+    if (!(tag & BIN_LONG))
+        return (struct sweep_and_prune_span){bin_steps(box->min_x), bin_steps(box->max_x)};
+    return sweep_and_prune_span(&strips->input->path[row], box,
+                                strips->grow[strips->input->entities->kind[row]], strip);
+}
+
+static bool spans_meet(struct sweep_and_prune_span p, struct sweep_and_prune_span q)
+{
+    return p.min_x <= q.max_x && q.min_x <= p.max_x;
+}
+
+/* --- what meets, exactly -----------------------------------------------------------------------*/
+
+static uint32_t later(uint32_t a, uint32_t b)
+{
+    return a > b ? a : b;
+}
+
+/* Two that are in several strips both are a pair in the first in which they meet. */
+static bool met_before(const struct strips *strips, uint32_t a, uint32_t b, uint32_t strip)
+{
+    uint32_t first =
+        later(bin_strip(strips->box[a & BIN_ROW].min_z), bin_strip(strips->box[b & BIN_ROW].min_z));
+    for (; first < strip; first++) {
+        if (spans_meet(span_in(strips, a, first), span_in(strips, b, first)))
+            return true;
+    }
+    return false;
+}
+
+static void take_moving(const struct strips *strips, struct sweep_worker *lane, struct pair tags,
+                        uint32_t strip)
+{
+    uint32_t p = tags.a & BIN_ROW, q = tags.b & BIN_ROW;
+    uint32_t a = p < q ? p : q, b = p < q ? q : p;
+    if (!pair_filter_boxes_meet(&strips->box[a], &strips->box[b]) ||
+        (tags.a & tags.b & BIN_SPANS && met_before(strips, tags.a, tags.b, strip)) ||
+        ((tags.a | tags.b) & BIN_ROUND && pair_same_shooter(strips->input->entities, a, b)))
+        return;
+    pair_list_add(&lane->pairs, a, b);
+}
+
+static bool met_object_before(const struct strips *strips, uint32_t tag,
+                              const struct bin_record *object, uint32_t first, uint32_t strip)
+{
+    struct sweep_and_prune_span span = {object->min_x, object->max_x};
+    for (first = later(first, bin_strip(strips->box[tag & BIN_ROW].min_z)); first < strip;
+         first++) {
+        if (spans_meet(span_in(strips, tag, first), span))
+            return true;
+    }
+    return false;
+}
+
+static void take_fixed(const struct strips *strips, struct sweep_worker *lane, uint32_t tag,
+                       const struct bin_record *record, uint32_t strip)
+{
+    const struct method_input *input = strips->input;
+    uint32_t row = tag & BIN_ROW, index = record->tag & BIN_OBJECT;
+    const struct fixed_object *object = &input->world->fixed[index];
+    if (tag & BIN_RESTS || !pair_filter_stands(input, index) ||
+        !pair_filter_box_meets_fixed(input, &strips->box[row], object) ||
+        (tag & record->tag & BIN_SPANS &&
+         met_object_before(strips, tag, record, static_boxes_strip(input->world, object), strip)))
+        return;
+    /* No other strip looks at it, or it is drawn. */
+    if (tag & BIN_AIR && strips->motion)
+        body_motion_draw(strips->motion, row);
+    if (tag & BIN_AIR && !pair_filter_tests_fixed(input, row))
+        return;
+    pair_list_add(&lane->pairs, row, index | PAIR_FIXED);
+}
+
+static void take_candidates(struct sweep_worker *lane)
+{
+    const struct strips *strips = lane->strips;
+    const struct pair *candidate = lane->candidate;
+    uint32_t count = lane->candidates;
+    for (uint32_t i = 0; i < count; i++) {
+        if (i + PREFETCH_PAIRS < count) {
+            __builtin_prefetch(&strips->box[candidate[i + PREFETCH_PAIRS].a & BIN_ROW]);
+            __builtin_prefetch(&strips->box[candidate[i + PREFETCH_PAIRS].b & BIN_ROW]);
+        }
+        take_moving(strips, lane, candidate[i], lane->strip);
+    }
+    lane->candidates = 0;
+    work_done();
+}
+
+/* --- gathering and sorting ---------------------------------------------------------------------*/
+
+static void prefetch_chunk(const struct bin_chunk *chunk)
+{
+    for (uint32_t line = 0; chunk && line < BIN_CHUNK_BYTES; line += LINE_BYTES)
+        __builtin_prefetch((const char *)chunk + line);
+}
+
+static void gather(const struct strips *strips, struct sweep_worker *lane, uint32_t strip)
+{
+    uint32_t total = 0;
+    for (uint32_t i = 0; i < strips->lanes; i++) {
+        uint32_t count;
+        const struct bin_chunk *chunk = strip_bins_last(&strips->lane[i].bins, strip, &count);
+        for (; chunk; chunk = chunk->before, count = BIN_CHUNK_RECORDS) {
+            prefetch_chunk(chunk->before_that);
+            CHECK(count <= lane->capacity - total);
+            memcpy(lane->record + total, chunk->record, count * sizeof *chunk->record);
+            total += count;
+        }
+    }
+    lane->count = total;
+}
+
+/* At least as many buckets as records over all of the world. */
+static void set_buckets(struct sweep_worker *lane)
+{
+    uint32_t bits = 5;
+    while (1u << bits < lane->count && bits < BUCKET_BITS)
+        bits++;
+    lane->shift = BIN_BITS - bits;
+}
+
+/* Takes the records apart, each word in a row. All four are taken, for else gcc makes no vectors.
+ */
+static void spread(const uint32_t *restrict word, int32_t *restrict min_x, int32_t *restrict max_x,
+                   int32_t *restrict low_z, int32_t *restrict high_z, uint32_t *restrict tag)
+{
+    for (size_t k = 0; k < BLOCK; k++) {
+        min_x[k] = (int32_t)word[4 * k];
+        max_x[k] = (int32_t)word[4 * k + 1];
+        low_z[k] = (int32_t)(word[4 * k + 2] & 0xffffu);
+        high_z[k] = (int32_t)(word[4 * k + 2] >> 16);
+        tag[k] = word[4 * k + 3];
+    }
+}
+
+static void sort_records(struct sweep_worker *lane)
+{
+    uint32_t count = lane->count, end = 0, tags = 0;
+    set_buckets(lane);
+    uint32_t *bucket = lane->bucket, shift = lane->shift, buckets = 1u << (BIN_BITS - shift);
+    const struct bin_record *record = lane->record;
+    memset(bucket, 0, buckets * sizeof *bucket);
+    for (uint32_t i = 0; i < count; i++) {
+        bucket[(uint32_t)record[i].min_x >> shift]++;
+        tags |= record[i].tag;
+    }
+    lane->tags = tags;
+    for (uint32_t i = 0; i < buckets; i++) {
+        uint32_t more = bucket[i];
+        bucket[i] = end;
+        end += more;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        lane->sorted[bucket[(uint32_t)record[i].min_x >> shift]++] = record[i];
+    for (uint32_t i = count; i < count + PADDING; i++)
+        lane->sorted[i] = (struct bin_record){.min_x = INT32_MAX, .max_x = INT32_MIN};
+    for (uint32_t i = 0; i < count + BLOCK; i += BLOCK)
+        spread((const void *)&lane->sorted[i], lane->min_x + i, lane->max_x + i, lane->low_z + i,
+               lane->high_z + i, lane->tag + i);
+}
+
+/* --- the sweep ---------------------------------------------------------------------------------*/
+
+/* hit[k]: does record k meet the one `offset` after it? */
+static void compare_neighbours(const int32_t *restrict min_x, const int32_t *restrict max_x,
+                               const int32_t *restrict low_z, const int32_t *restrict high_z,
+                               uint32_t offset, uint8_t *restrict hit)
+{
+    for (uint32_t k = 0; k < BLOCK; k++)
+        hit[k] = (min_x[k + offset] <= max_x[k]) & (min_x[k] <= max_x[k + offset]) &
+                 (low_z[k + offset] <= high_z[k]) & (low_z[k] <= high_z[k + offset]);
+}
+
+/* hit[k]: does record k meet this one? */
+static void compare_with(const int32_t *restrict min_x, const int32_t *restrict max_x,
+                         const int32_t *restrict low_z, const int32_t *restrict high_z,
+                         const struct bin_record *restrict one, uint8_t *restrict hit)
+{
+    int32_t one_min = one->min_x, one_max = one->max_x;
+    int32_t one_low = (int32_t)(one->z & 0xffffu), one_high = (int32_t)(one->z >> 16);
+    for (uint32_t k = 0; k < BLOCK; k++)
+        hit[k] = (min_x[k] <= one_max) & (one_min <= max_x[k]) & (low_z[k] <= one_high) &
+                 (one_low <= high_z[k]);
+}
+
+/* hit[k]: does the bucket of record k's east edge hold records beyond its near neighbours? */
+static void compare_buckets(const int32_t *restrict min_x, const int32_t *restrict max_x,
+                            uint32_t shift, uint8_t *restrict hit)
+{
+    for (uint32_t k = 0; k < BLOCK; k++)
+        hit[k] = min_x[k + NEAR + 1] >> shift <= max_x[k] >> shift;
+}
+
+/* Which of the bytes are 1. */
+static uint32_t list_hits(const uint8_t *hit, uint8_t *place)
+{
+    uint32_t count = 0;
+    for (uint32_t word = 0; word < BLOCK; word += 8) {
+        uint64_t bits;
+        memcpy(&bits, hit + word, sizeof bits);
+        for (; bits != 0; bits &= bits - 1)
+            place[count++] = (uint8_t)(word + (uint32_t)__builtin_ctzll(bits) / 8);
+    }
+    return count;
+}
+
+static void found(struct sweep_worker *lane, uint32_t a, uint32_t b)
+{
+    if (a & b & BIN_RESTS)
+        return;
+    if (lane->candidates == SWEEP_AND_PRUNE_CANDIDATES)
+        take_candidates(lane);
+    lane->candidate[lane->candidates++] = (struct pair){a, b};
+}
+
+static void sweep_far(struct sweep_worker *lane, uint32_t i)
+{
+    uint8_t hit[BLOCK], place[BLOCK];
+    const struct bin_record *one = &lane->sorted[i];
+    uint32_t last = lane->bucket[(uint32_t)one->max_x >> lane->shift];
+    for (uint32_t j = i + NEAR + 1; j < last; j += BLOCK) {
+        compare_with(lane->min_x + j, lane->max_x + j, lane->low_z + j, lane->high_z + j, one, hit);
+        uint32_t hits = list_hits(hit, place);
+        for (uint32_t n = 0; n < hits; n++)
+            found(lane, one->tag, lane->tag[j + place[n]]);
+    }
+}
+
+/* Compares each of a block with its neighbours to the east. */
+static void sweep_block(struct sweep_worker *lane, uint32_t i)
+{
+    uint8_t hit[BLOCK], place[BLOCK];
+    for (uint32_t offset = 1; offset <= NEAR; offset++) {
+        compare_neighbours(lane->min_x + i, lane->max_x + i, lane->low_z + i, lane->high_z + i,
+                           offset, hit);
+        uint32_t hits = list_hits(hit, place);
+        for (uint32_t n = 0; n < hits; n++) {
+            const uint32_t *tag = lane->tag + i + place[n];
+            found(lane, tag[0], tag[offset]);
+        }
+    }
+    compare_buckets(lane->min_x + i, lane->max_x + i, lane->shift, hit);
+    uint32_t hits = list_hits(hit, place);
+    for (uint32_t n = 0; n < hits; n++)
+        sweep_far(lane, i + place[n]);
+}
+
+static void sweep_sorted(struct sweep_worker *lane)
+{
+    for (uint32_t i = 0; i < lane->count; i += BLOCK)
+        sweep_block(lane, i);
+}
+
+static void sweep_few(struct sweep_worker *lane)
+{
+    const struct bin_record *record = lane->record;
+    for (uint32_t i = 0; i + 1 < lane->count; i++) {
+        for (uint32_t j = i + 1; j < lane->count; j++) {
+            if (bin_meet(&record[i], &record[j]))
+                found(lane, record[i].tag, record[j].tag);
+        }
+    }
+}
+
+/* --- fixed objects -----------------------------------------------------------------------------*/
+
+/* Looks for the objects that one record meets: a few at a time and without branches, since none is
+ * met as a rule, but how many are passed on the way east is anyone's guess. */
+static void look_around(const struct strips *strips, struct sweep_worker *lane,
+                        const struct bin_record *one, uint32_t strip)
+{
+    const struct bin_record *object = static_boxes_from(strips->standing, strip, one->min_x);
+    for (; object->min_x <= one->max_x; object += STATIC_BOXES_AHEAD) {
+        uint32_t met = 0;
+        for (uint32_t i = 0; i < STATIC_BOXES_AHEAD; i++)
+            met |= (uint32_t)bin_meet(one, &object[i]) << i;
+        for (; met != 0; met &= met - 1) {
+            const struct bin_record *hit = &object[__builtin_ctz(met)];
+            take_fixed(strips, lane, one->tag, hit, strip);
+        }
+    }
+}
+
+/* Looks for the sorted records that one object meets, but for wide ones. */
+static void look_from(const struct strips *strips, struct sweep_worker *lane,
+                      const struct bin_record *object, uint32_t strip)
+{
+    uint8_t hit[BLOCK], place[BLOCK];
+    int32_t west = object->min_x - BIN_WIDE_STEPS;
+    uint32_t key = (uint32_t)(west > 0 ? west : 0) >> lane->shift;
+    uint32_t end = lane->bucket[(uint32_t)object->max_x >> lane->shift];
+    for (uint32_t i = key > 0 ? lane->bucket[key - 1] : 0; i < end; i += BLOCK) {
+        compare_with(lane->min_x + i, lane->max_x + i, lane->low_z + i, lane->high_z + i, object,
+                     hit);
+        uint32_t hits = list_hits(hit, place);
+        for (uint32_t n = 0; n < hits; n++) {
+            uint32_t tag = lane->tag[i + place[n]];
+            if (!(tag & BIN_WIDE))
+                take_fixed(strips, lane, tag, object, strip);
+        }
+    }
+}
+
+static void meet_fixed(const struct strips *strips, struct sweep_worker *lane, uint32_t strip)
+{
+    const struct static_boxes *standing = strips->standing;
+    uint32_t first = standing->start[strip], end = standing->start[strip + 1] - STATIC_BOXES_AHEAD;
+    bool crowded = lane->count >= SORT_LEAST && lane->count > end - first;
+    if (first == end)
+        return;
+    for (uint32_t i = first; crowded && i < end; i++)
+        look_from(strips, lane, &standing->record[i], strip);
+    if (crowded && !(lane->tags & BIN_WIDE))
+        return;
+    for (uint32_t i = 0; i < lane->count; i++) {
+        const struct bin_record *one = &lane->record[i];
+        if ((!crowded || one->tag & BIN_WIDE) && !(one->tag & BIN_RESTS))
+            look_around(strips, lane, one, strip);
+    }
+}
+
+VECTOR_CLONES void sweep_and_prune_pairs(const struct strips *strips, struct sweep_worker *lane,
+                                         uint32_t strip)
+{
+    lane->strips = strips;
+    lane->strip = strip;
+    gather(strips, lane, strip);
+    if (lane->count == 0)
+        return;
+    if (lane->count < SORT_LEAST) {
+        sweep_few(lane);
+    } else {
+        sort_records(lane);
+        sweep_sorted(lane);
+    }
+    take_candidates(lane);
+    if (strips->input->world->counts.fixed > 0)
+        meet_fixed(strips, lane, strip);
+}

@@ -1,0 +1,321 @@
+/* The nearest point of the difference of two bodies to the origin, round by round: the simplex of
+ * at most four of its corners that is nearest so far, and the corner farthest towards the origin.
+ *
+ * What makes it hold for thin and flat simplices: a simplex's nearest point comes from modified
+ * Gram-Schmidt, which is backward stable (Bjorck 1967), so that it is exact for corners moved by
+ * rounding alone; of all faces at the new corner the nearest is taken. Every point on the way is
+ * one of both bodies, so that the distance is never less than what is known; and every plane on the
+ * way keeps the bodies apart, so that it is never more: the two meet, or it is looked again from
+ * elsewhere. */
+#include "collider/geometry/gjk.h"
+
+#define ROUNDS     64    /* of one look; most end after ten */
+#define LOOKS      8     /* more, from the corners of a cube, where the first is not sure */
+#define NEAR_M     1e-13 /* as near as doubles tell for bodies of tens of metres */
+#define NEAR_SHARE 1e-15 /* of the distance, for far ones */
+#define SURE_M     1e-11 /* the nearest points and the plane between them agree to this */
+#define FLAT       1e-28 /* an edge this little off the others [share of its length, squared] */
+/* Where the origin is over the very border of two faces, rounding can hide the next face from the
+ * present one: then a corner is taken that brings the point no farther than this, a few times. */
+#define TIE  1e-6 /* [share] */
+#define TIES 12
+
+/* Of the difference: a vertex of a less one of b. */
+struct corner {
+    struct vec3 w;
+    uint32_t a, b;
+};
+
+/* Some corners and the point nearest to the origin between them. */
+struct face {
+    const struct corner *corner[4];
+    double weight[4]; /* > 0, together 1 */
+    int count;
+    struct vec3 nearest;
+    double square;       /* its distance, squared */
+    struct vec3 edge[3]; /* square to each other; they span what the corners do */
+    double edge_square[3];
+    int edges;
+};
+
+struct simplex {
+    struct corner corner[4]; /* of the face */
+    struct face face;
+};
+
+struct vec3 gjk_vertex(const struct convex *convex, uint32_t vertex)
+{
+    return rotation_apply(&convex->turn, vec3_scale(convex->vertex[vertex], convex->scale));
+}
+
+uint32_t gjk_support(const struct convex *convex, struct vec3 direction, struct vec3 *point)
+{
+    struct vec3 d = rotation_back(&convex->turn, direction);
+    double most = vec3_dot(convex->vertex[0], d);
+    uint32_t best = 0;
+    for (uint32_t i = 1; i < convex->count; i++) {
+        double reach = vec3_dot(convex->vertex[i], d);
+        if (reach > most) {
+            most = reach;
+            best = i;
+        }
+    }
+    *point = gjk_vertex(convex, best);
+    return best;
+}
+
+static struct corner corner_of(const struct convex *a, const struct convex *b, uint32_t of_a,
+                               uint32_t of_b)
+{
+    struct vec3 on_b = vec3_add(gjk_vertex(b, of_b), vec3_sub(b->at, a->at));
+    return (struct corner){vec3_sub(gjk_vertex(a, of_a), on_b), of_a, of_b};
+}
+
+/* The corner of the difference farthest in a direction. */
+static struct corner corner_along(const struct convex *a, const struct convex *b,
+                                  struct vec3 direction)
+{
+    struct corner corner;
+    struct vec3 on_a, on_b;
+    corner.a = gjk_support(a, direction, &on_a);
+    corner.b = gjk_support(b, vec3_scale(direction, -1.0), &on_b);
+    corner.w = vec3_sub(on_a, vec3_add(on_b, vec3_sub(b->at, a->at)));
+    return corner;
+}
+
+/* Adds the part of a corner's edge that is square to those there are, and what share of each of
+ * those is in it. False when nothing of it is left. */
+static bool span(struct face *face, const struct corner *corner, double share[3])
+{
+    struct vec3 e = vec3_sub(corner->w, face->corner[0]->w);
+    double length = vec3_dot(e, e);
+    for (int i = 0; i < face->edges; i++) {
+        share[i] = vec3_dot(face->edge[i], e) / face->edge_square[i];
+        e = vec3_sub(e, vec3_scale(face->edge[i], share[i]));
+    }
+    double square = vec3_dot(e, e);
+    if (!(square > FLAT * length))
+        return false;
+    face->edge[face->edges] = e;
+    face->edge_square[face->edges++] = square;
+    return true;
+}
+
+/* Finds the point nearest to the origin in the line, plane or space through the corners. False
+ * when they are flat, or it lies outside of them. */
+static bool project(struct face *face)
+{
+    struct vec3 rest = vec3_scale(face->corner[0]->w, -1.0);
+    double along[3], share[3][3], left = 1.0;
+    face->edges = 0;
+    for (int i = 0; i < face->count - 1; i++) {
+        if (!span(face, face->corner[i + 1], share[i]))
+            return false;
+        along[i] = vec3_dot(rest, face->edge[i]) / face->edge_square[i];
+        rest = vec3_sub(rest, vec3_scale(face->edge[i], along[i]));
+    }
+    for (int i = face->edges - 1; i >= 0; i--) {
+        double weight = along[i];
+        for (int j = i + 1; j < face->edges; j++)
+            weight -= share[j][i] * face->weight[j + 1];
+        if (!(weight > 0.0))
+            return false;
+        face->weight[i + 1] = weight;
+        left -= weight;
+    }
+    if (!(left > 0.0))
+        return false;
+    face->weight[0] = left;
+    face->nearest = vec3_scale(face->corner[0]->w, left);
+    for (int i = 1; i < face->count; i++)
+        face->nearest = vec3_add(face->nearest, vec3_scale(face->corner[i]->w, face->weight[i]));
+    face->square = face->count == 4 ? 0.0 : vec3_dot(face->nearest, face->nearest);
+    return true;
+}
+
+/* Makes it a simplex of this face of its, and of a new corner. */
+static void settle(struct simplex *simplex, const struct face *face)
+{
+    struct corner corner[4];
+    for (int i = 0; i < face->count; i++)
+        corner[i] = *face->corner[i];
+    simplex->face = *face;
+    for (int i = 0; i < face->count; i++) {
+        simplex->corner[i] = corner[i];
+        simplex->face.corner[i] = &simplex->corner[i];
+    }
+}
+
+/* Takes a new corner in: of all faces that have it the nearest, which is the whole of them if the
+ * origin is over its inside. False when none is nearer than the limit [squared]. */
+static bool take(struct simplex *simplex, const struct corner *corner, double limit)
+{
+    struct face trial[2];
+    double least = limit;
+    int kept = 0, whole = (1 << simplex->face.count) - 1;
+    bool any = false;
+    for (int faces = whole; faces >= 0; faces--) {
+        struct face *face = &trial[1 - kept];
+        face->corner[0] = corner;
+        face->count = 1;
+        for (int i = 0; i < simplex->face.count; i++) {
+            if (faces & 1 << i)
+                face->corner[face->count++] = &simplex->corner[i];
+        }
+        if (!project(face) || !(face->square < least))
+            continue;
+        least = face->square;
+        kept = 1 - kept;
+        any = true;
+        if (faces == whole)
+            break;
+    }
+    if (any)
+        settle(simplex, &trial[kept]);
+    return any;
+}
+
+static bool holds(const struct simplex *simplex, const struct corner *corner)
+{
+    for (int i = 0; i < simplex->face.count; i++) {
+        if (simplex->corner[i].a == corner->a && simplex->corner[i].b == corner->b)
+            return true;
+    }
+    return false;
+}
+
+/* The direction from the nearest point to the origin. It is made square to the edges again, as
+ * the rounding of a point that is very near would not have it. */
+static struct vec3 towards_origin(const struct face *face)
+{
+    struct vec3 n = vec3_scale(face->nearest, -1.0 / sqrt(face->square));
+    for (int i = 0; i < face->edges; i++)
+        n = vec3_sub(n,
+                     vec3_scale(face->edge[i], vec3_dot(n, face->edge[i]) / face->edge_square[i]));
+    return vec3_scale(n, 1.0 / vec3_length(n));
+}
+
+/* A corner that brings the point no nearer still tells how the nearest faces lie: the direction n
+ * is to be square to its edge as well. False when it lies ahead, or that is known already. */
+static bool lean_on(struct face *face, const struct corner *corner, struct vec3 n)
+{
+    double share[3];
+    if (face->edges >= 2 || !span(face, corner, share))
+        return false;
+    double ahead = vec3_dot(face->edge[face->edges - 1], n);
+    return ahead * ahead < 0.25 * face->edge_square[face->edges - 1];
+}
+
+/* What is known of a distance: the nearest simplex, and the plane that keeps the most apart. */
+struct known {
+    struct simplex simplex;
+    double square; /* of the simplex's distance */
+    struct vec3 normal;
+    double apart;
+};
+
+static void keep(struct known *known, const struct simplex *simplex)
+{
+    if (!(simplex->face.square < known->square))
+        return;
+    known->square = simplex->face.square;
+    settle(&known->simplex, &simplex->face);
+}
+
+/* Is a distance [squared] as short as can be? */
+static bool certain(double square, double apart, double slack)
+{
+    double length = sqrt(square);
+    return length <= GJK_OVERLAP_M || length - apart <= slack + NEAR_SHARE * length;
+}
+
+/* The simplex to begin with. */
+static void begin(const struct convex *a, const struct convex *b, const struct gjk_start *start,
+                  struct simplex *simplex)
+{
+    struct corner corner = start->count > 0 ? corner_of(a, b, start->a[0], start->b[0])
+                                            : corner_along(a, b, start->guess);
+    simplex->face = (struct face){.corner[0] = &corner, .count = 1};
+    (void)project(&simplex->face); /* a point alone always can be */
+    settle(simplex, &simplex->face);
+    for (uint32_t i = 1; i < start->count; i++) {
+        corner = corner_of(a, b, start->a[i], start->b[i]);
+        (void)take(simplex, &corner, simplex->face.square);
+    }
+}
+
+/* Looks once. */
+static void look(const struct convex *a, const struct convex *b, const struct gjk_start *start,
+                 struct known *known)
+{
+    struct corner corner;
+    struct simplex simplex;
+    int ties = 0;
+    begin(a, b, start, &simplex);
+    for (int round = 0; round < ROUNDS; round++) {
+        double square = simplex.face.square;
+        if (certain(square, known->apart, NEAR_M))
+            break;
+        struct vec3 n = towards_origin(&simplex.face);
+        corner = corner_along(a, b, n);
+        double apart = -vec3_dot(n, corner.w);
+        if (apart > known->apart) {
+            known->apart = apart;
+            known->normal = n;
+        }
+        if (certain(square, known->apart, NEAR_M) || holds(&simplex, &corner))
+            break;
+        if (take(&simplex, &corner, square))
+            continue;
+        keep(known, &simplex);
+        if (ties++ < TIES && take(&simplex, &corner, square * (1.0 + TIE)))
+            continue;
+        if (!lean_on(&simplex.face, &corner, n))
+            break;
+    }
+    keep(known, &simplex);
+}
+
+static struct gjk result(const struct convex *a, const struct convex *b, const struct known *known)
+{
+    struct gjk gjk = {.on_a = a->at, .on_b = b->at};
+    for (int i = 0; i < known->simplex.face.count; i++) {
+        const struct corner *corner = &known->simplex.corner[i];
+        double weight = known->simplex.face.weight[i];
+        gjk.on_a = vec3_add(gjk.on_a, vec3_scale(gjk_vertex(a, corner->a), weight));
+        gjk.on_b = vec3_add(gjk.on_b, vec3_scale(gjk_vertex(b, corner->b), weight));
+    }
+    gjk.distance_m = sqrt(known->square);
+    gjk.normal = known->normal;
+    if (gjk.distance_m <= GJK_OVERLAP_M) {
+        gjk.on_a = vec3_lerp(gjk.on_a, gjk.on_b, 0.5);
+        gjk.on_b = gjk.on_a;
+        gjk.distance_m = 0.0;
+        gjk.normal = (struct vec3){0.0, 0.0, 0.0};
+    }
+    return gjk;
+}
+
+struct gjk gjk_distance_from(const struct convex *a, const struct convex *b,
+                             struct gjk_start *start)
+{
+    struct known known = {.square = INFINITY, .apart = -INFINITY};
+    look(a, b, start, &known);
+    for (int other = 0; other < LOOKS && !certain(known.square, known.apart, SURE_M); other++) {
+        const struct gjk_start elsewhere = {
+            .guess = {other & 1 ? -1.0 : 1.0, other & 2 ? -1.0 : 1.0, other & 4 ? -1.0 : 1.0}};
+        look(a, b, &elsewhere, &known);
+    }
+    start->count = known.simplex.face.count < 4 ? (uint32_t)known.simplex.face.count : 0;
+    for (uint32_t i = 0; i < start->count; i++) {
+        start->a[i] = known.simplex.corner[i].a;
+        start->b[i] = known.simplex.corner[i].b;
+    }
+    return result(a, b, &known);
+}
+
+struct gjk gjk_distance(const struct convex *a, const struct convex *b)
+{
+    struct gjk_start start = {.guess = vec3_sub(b->at, a->at)};
+    return gjk_distance_from(a, b, &start);
+}

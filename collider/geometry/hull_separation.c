@@ -1,0 +1,244 @@
+/* Let z be the way from a vertex of a to one of b, moving by z' a frame, and n the normal of a
+ * plane that swings by m a frame. At h from now z is z + h z', give or take K h^2 / 2, as no point
+ * at r from an axis is accelerated by more than rate^2 r (world/maths/rotation.h). So along n + h m
+ * the two are apart by
+ *
+ *     n.z + h (n.z' + m.z)     a straight line; of those of all vertices the least is concave
+ *     + h^2 m.z'               the bodies' part is known, the turning's part has a bound
+ *     - |n + h m| K h^2 / 2    what acceleration does
+ *
+ * where a gap counts |n + h m| <= 1 + h^2 m.m / 2 times, as n and m are square to each other. Taken
+ * together: a concave line less one bend, B h^2 / 2. What it leaves at some h it leaves all the way
+ * from now to h, and Newton's steps from above come down to the last h at which it leaves the gap.
+ * The least line is that of the vertices that are foremost in a direction: n.(r + h spin x r) +
+ * h m.r = r.(n + h (n x spin + m)). */
+#include "collider/geometry/hull_separation.h"
+
+#define NEWTON     16 /* steps to one time */
+#define ROUNDING_M 1e-13
+/* Spheres this much of their radii apart are looked at instead of hulls. */
+#define SPHERES_FAR 0.1
+
+/* How far apart two points are along a direction, and how that changes. */
+struct line {
+    double gap, rate;
+};
+
+/* --- bodies in time ----------------------------------------------------------------------------*/
+
+struct rotation_path turning_of(const struct swept_body *body)
+{
+    struct rotation_path turning = {.body = body, .turn = rotation_matrix(body->from)};
+    double left = 1.0 - body->path.since;
+    turning.share = left > 0.0 ? 1.0 / left : 0.0;
+    turning.rate = rotation_rate(body->from, body->to) * turning.share;
+    struct vec3 spin = rotation_speed(body->from, body->to, 0.0);
+    double speed = vec3_length(spin);
+    if (speed > 0.0)
+        turning.axis = rotation_back(&turning.turn, vec3_scale(spin, 1.0 / speed));
+    return turning;
+}
+
+struct hull_pair hull_pair_of(const struct rotation_path *a, const struct rotation_path *b,
+                              const struct hull *hull_a, const struct hull *hull_b)
+{
+    double scale_a = a->body->scale, scale_b = b->body->scale;
+    double arm_a = vec3_length(vec3_cross(a->axis, hull_a->centre)) * scale_a;
+    double arm_b = vec3_length(vec3_cross(b->axis, hull_b->centre)) * scale_b;
+    double radius_a = hull_a->radius_m * scale_a, radius_b = hull_b->radius_m * scale_b;
+    double turn_a = a->rate * a->rate, turn_b = b->rate * b->rate;
+    return (struct hull_pair){
+        .a = a,
+        .b = b,
+        .hull_a = hull_a,
+        .hull_b = hull_b,
+        .velocity = vec3_sub(b->body->path.along, a->body->path.along),
+        .radii_m = radius_a + radius_b,
+        .speed = a->rate * (arm_a + radius_a) + b->rate * (arm_b + radius_b),
+        .bend = turn_a * (arm_a + radius_a) + turn_b * (arm_b + radius_b),
+        .bend_spheres = turn_a * arm_a + turn_b * arm_b,
+    };
+}
+
+static void pose(const struct rotation_path *turning, const struct hull *hull, double time,
+                 struct convex *convex, struct vec3 *spin, struct vec3 *centre)
+{
+    const struct swept_body *body = turning->body;
+    convex->vertex = body->vertices + hull->first_vertex;
+    convex->count = hull->vertex_count;
+    convex->scale = body->scale;
+    convex->turn = turning->turn;
+    *spin = (struct vec3){0.0, 0.0, 0.0};
+    if (turning->rate > 0.0) {
+        double t = maths_clamp((time - body->path.since) * turning->share, 0.0, 1.0);
+        convex->turn = rotation_matrix(rotation_between(body->from, body->to, t));
+        *spin = vec3_scale(rotation_speed(body->from, body->to, t), turning->share);
+    }
+    *centre = rotation_apply(&convex->turn, vec3_scale(hull->centre, body->scale));
+}
+
+struct vec3 hull_separation_at(const struct path *a, const struct path *b, double time)
+{
+    struct vec3 moved_a = vec3_scale(a->along, time - a->since);
+    struct vec3 moved_b = vec3_scale(b->along, time - b->since);
+    return vec3_add(vec3_sub(b->at, a->at), vec3_sub(moved_b, moved_a));
+}
+
+struct relative_pose moment_at(const struct hull_pair *pair, double time)
+{
+    struct relative_pose now;
+    now.time = time;
+    pose(pair->a, pair->hull_a, time, &now.a, &now.spin_a, &now.centre_a);
+    pose(pair->b, pair->hull_b, time, &now.b, &now.spin_b, &now.centre_b);
+    now.a.at = (struct vec3){0.0, 0.0, 0.0};
+    now.b.at = hull_separation_at(&pair->a->body->path, &pair->b->body->path, time);
+    now.towards = vec3_add(now.b.at, vec3_sub(now.centre_b, now.centre_a));
+    now.centres_m = vec3_length(now.towards);
+    now.towards = now.centres_m > 0.0 ? vec3_scale(now.towards, 1.0 / now.centres_m)
+                                      : (struct vec3){0.0, 1.0, 0.0};
+    return now;
+}
+
+/* --- lines -------------------------------------------------------------------------------------*/
+
+/* How the way from r_a to r_b, which are from their bodies' positions, changes. */
+static struct vec3 parting(const struct hull_pair *pair, const struct relative_pose *now,
+                           struct vec3 r_a, struct vec3 r_b)
+{
+    return vec3_add(pair->velocity,
+                    vec3_sub(vec3_cross(now->spin_b, r_b), vec3_cross(now->spin_a, r_a)));
+}
+
+static struct line line_between(const struct hull_pair *pair, const struct relative_pose *now,
+                                const struct plane *plane, struct vec3 r_a, struct vec3 r_b)
+{
+    struct vec3 z = vec3_add(now->b.at, vec3_sub(r_b, r_a));
+    return (struct line){vec3_dot(plane->normal, z),
+                         vec3_dot(plane->normal, parting(pair, now, r_a, r_b)) +
+                             vec3_dot(plane->swing, z)};
+}
+
+/* The line of the vertices that are the least apart at h. */
+static struct line nearest_at(const struct hull_pair *pair, const struct relative_pose *now,
+                              const struct plane *plane, double h)
+{
+    struct vec3 n = plane->normal, r_a, r_b;
+    struct vec3 change_a = vec3_add(vec3_cross(n, now->spin_a), plane->swing);
+    struct vec3 change_b = vec3_add(vec3_cross(n, now->spin_b), plane->swing);
+    gjk_support(&now->a, vec3_add(n, vec3_scale(change_a, h)), &r_a);
+    gjk_support(&now->b, vec3_scale(vec3_add(n, vec3_scale(change_b, h)), -1.0), &r_b);
+    return line_between(pair, now, plane, r_a, r_b);
+}
+
+/* What a line and a bend leave over a gap at h. */
+static double over(struct line line, double gap, double bend, double h)
+{
+    return line.gap - gap + (line.rate - 0.5 * bend * h) * h;
+}
+
+/* The h at which nothing is left; there is one, as something is left now and nothing later. */
+static double root(struct line line, double gap, double bend)
+{
+    double left = maths_max(line.gap - gap, 0.0);
+    double way = sqrt(line.rate * line.rate + 2.0 * bend * left);
+    if (line.rate > 0.0)
+        return (line.rate + way) / bend;
+    return left > 0.0 ? 2.0 * left / (way - line.rate) : 0.0;
+}
+
+/* All that bends the lines, for h up to most. */
+static double bend_of(const struct hull_pair *pair, const struct plane *plane, double gap,
+                      double most)
+{
+    double square = vec3_dot(plane->swing, plane->swing), swing = sqrt(square);
+    double known = vec3_dot(plane->swing, pair->velocity);
+    return pair->bend * (1.0 + swing * most) + 2.0 * swing * pair->speed +
+           maths_max(0.0, -2.0 * known) + square * maths_max(0.0, gap);
+}
+
+/* --- public ------------------------------------------------------------------------------------*/
+
+double hull_separation_now(const struct relative_pose *now, struct vec3 normal)
+{
+    struct vec3 r_a, r_b;
+    gjk_support(&now->a, normal, &r_a);
+    gjk_support(&now->b, vec3_scale(normal, -1.0), &r_b);
+    return vec3_dot(normal, vec3_add(now->b.at, vec3_sub(r_b, r_a)));
+}
+
+double hull_separation_nearing(const struct hull_pair *pair, const struct relative_pose *now,
+                               struct vec3 normal, struct vec3 point)
+{
+    return -vec3_dot(normal, parting(pair, now, point, vec3_sub(point, now->b.at)));
+}
+
+double hull_separation_for(const struct hull_pair *pair, const struct relative_pose *now,
+                           const struct plane *plane, double gap, double most)
+{
+    double bend = bend_of(pair, plane, gap, most), h = most;
+    for (int i = 0; i < NEWTON; i++) {
+        struct line line = nearest_at(pair, now, plane, h);
+        if (over(line, gap, bend, h) >= -ROUNDING_M)
+            return h;
+        h = maths_min(h, root(line, gap, bend));
+    }
+    /* Concave: what is over is at least what is on the chord from now to h. */
+    double left = nearest_at(pair, now, plane, 0.0).gap - gap;
+    double there = over(nearest_at(pair, now, plane, h), gap, bend, h);
+    return left > 0.0 ? h * left / (left - there) : 0.0;
+}
+
+struct vec3 hull_separation_swing(const struct hull_pair *pair, const struct relative_pose *now,
+                                  struct vec3 normal, const struct gjk_start *nearest)
+{
+    struct vec3 edge[2], rest = {0.0, 0.0, 0.0}, first = rest, first_parting = rest;
+    double change[2], most = 2.0 * (pair->a->rate + pair->b->rate);
+    if (most == 0.0 || nearest->count < 2)
+        return rest;
+    /* n stays square to the edges e of the simplex: m.e = -n.e'. */
+    for (uint32_t i = 0; i < nearest->count; i++) {
+        struct vec3 r_a = gjk_vertex(&now->a, nearest->a[i]);
+        struct vec3 r_b = gjk_vertex(&now->b, nearest->b[i]);
+        struct vec3 z = vec3_sub(r_b, r_a), z_parting = parting(pair, now, r_a, r_b);
+        if (i == 0) {
+            first = z;
+            first_parting = z_parting;
+        } else {
+            edge[i - 1] = vec3_sub(z, first);
+            change[i - 1] = -vec3_dot(normal, vec3_sub(z_parting, first_parting));
+        }
+    }
+    struct vec3 swing;
+    if (nearest->count == 2) {
+        swing = vec3_scale(edge[0], change[0] / vec3_dot(edge[0], edge[0]));
+    } else {
+        struct vec3 across = vec3_cross(edge[1], normal), over_it = vec3_cross(normal, edge[0]);
+        swing = vec3_add(vec3_scale(across, change[0] / vec3_dot(edge[0], across)),
+                         vec3_scale(over_it, change[1] / vec3_dot(edge[1], over_it)));
+    }
+    /* Of edges of hardly any length it would be noise. */
+    return vec3_dot(swing, swing) <= most * most ? swing : rest;
+}
+
+bool hull_separation_by_spheres(const struct hull_pair *pair, const struct relative_pose *now,
+                                double most, double *h)
+{
+    double gap = pair->radii_m + TOUCH_M;
+    if (now->centres_m <= gap + SPHERES_FAR * pair->radii_m)
+        return false;
+    const struct plane plane = {.normal = now->towards};
+    struct line line = line_between(pair, now, &plane, now->centre_a, now->centre_b);
+    *h = most;
+    if (over(line, gap, pair->bend_spheres, most) < 0.0)
+        *h = maths_min(most, root(line, gap, pair->bend_spheres));
+    return true;
+}
+
+bool hull_separation_by_centres(const struct hull_pair *pair, const struct relative_pose *now,
+                                double most)
+{
+    const struct plane plane = {.normal = now->towards};
+    if (nearest_at(pair, now, &plane, 0.0).gap < TOUCH_M)
+        return false;
+    return over(nearest_at(pair, now, &plane, most), TOUCH_M, pair->bend, most) >= 0.0;
+}

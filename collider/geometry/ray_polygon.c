@@ -1,0 +1,125 @@
+/* Rays against polygons, and level 3 of Osborne 1991.
+ *
+ * The plane of each polygon comes from its first three corners and gives the distance, as in the
+ * thesis. Where it then projects polygon and point along the polygon's dominant axis, here they are
+ * projected along the ray, onto the plane across the ray's dominant axis through its start: the
+ * same answer, but a corner that two polygons share has the same coordinates for both, so that by
+ * Haines's rule for edges a ray through a closed model's edge meets exactly one of its polygons and
+ * never slips through.
+ *
+ * How level 3 is read. "A ray shot from the center of the moving object towards the center of the
+ * object it collided with" gives the possible point of collision "on the surface of the sphere":
+ * ray 1, on the vehicle's sphere. "Due to the possibility that the actual object was not
+ * penetrated", that point "is used as the origin of the second ray", in a "form of backward ray
+ * tracing", and "if no intersection is found once all of the polygons have been checked, then only
+ * the spheres were penetrated and not the objects themselves". So ray 2 runs from the sphere back
+ * to the vehicle's centre. It comes first to the vehicle's own skin, unless that lies beyond the
+ * sphere, whose radius is slightly smaller than the vehicle; an object that the vehicle touches has
+ * a polygon on what is left of the way, and the one nearest to the vehicle's centre is where they
+ * collide. Positions of what stands are on the ground below it, where nothing is to be met: the
+ * rays run as high above the line between positions as the vehicle's middle is. What this misses,
+ * as the thesis does: objects that touch beside the line of their centres, and one inside of which
+ * all of that way lies. */
+#include "collider/geometry/ray_polygon.h"
+
+#include "collider/geometry/point_in_polygon.h"
+
+/* A ray in a model's axes and unscaled units; times along it are metres of the world. */
+struct beam {
+    struct vec3 from, along;
+    struct vec3 across; /* the dominant axis */
+};
+
+static struct vec3 dominant(struct vec3 v)
+{
+    double x = fabs(v.x), y = fabs(v.y), z = fabs(v.z);
+    if (x >= y && x >= z)
+        return (struct vec3){1.0, 0.0, 0.0};
+    return y >= z ? (struct vec3){0.0, 1.0, 0.0} : (struct vec3){0.0, 0.0, 1.0};
+}
+
+static struct beam beam_of(const struct ray_polygon_model *model, struct vec3 from,
+                           struct vec3 direction)
+{
+    struct beam beam;
+    double unscale = 1.0 / model->scale;
+    beam.from = vec3_scale(rotation_back(&model->turn, vec3_sub(from, model->at)), unscale);
+    beam.along = vec3_scale(rotation_back(&model->turn, direction), unscale);
+    beam.across = dominant(beam.along);
+    return beam;
+}
+
+static void corners_of(const struct world *world, const struct model *model, uint32_t triangle,
+                       struct vec3 corner[3])
+{
+    const struct model_triangle *t = &world->model_triangles[model->first_triangle + triangle];
+    for (int i = 0; i < 3; i++) {
+        const struct model_vertex *v = &world->model_vertices[model->first_vertex + t->vertex[i]];
+        corner[i] = (struct vec3){(double)v->x, (double)v->y, (double)v->z};
+    }
+}
+
+static struct vec3 normal_of(const struct vec3 corner[3])
+{
+    struct vec3 u = vec3_sub(corner[1], corner[0]), v = vec3_sub(corner[2], corner[0]);
+    return (struct vec3){u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
+
+/* Does the beam, seen along itself, go through the polygon? */
+static bool goes_through(const struct beam *beam, const struct vec3 corner[3])
+{
+    struct vec3 seen[3];
+    double speed = vec3_dot(beam->along, beam->across);
+    for (int i = 0; i < 3; i++) {
+        double time = vec3_dot(vec3_sub(corner[i], beam->from), beam->across) / speed;
+        seen[i] = vec3_sub(corner[i], vec3_scale(beam->along, time));
+    }
+    return point_in_polygon_inside(seen, 3, beam->across, beam->from);
+}
+
+bool ray_polygon_nearest(const struct ray_polygon_model *model, struct vec3 from,
+                         struct vec3 direction, double most_m, struct ray_polygon_hit *hit)
+{
+    const struct model *shape = &model->world->models[model->model];
+    struct beam beam = beam_of(model, from, direction);
+    struct vec3 corner[3], normal = {0.0, 0.0, 0.0};
+    double nearest = INFINITY;
+    for (uint32_t i = 0; i < model_solid_triangles(shape); i++) {
+        corners_of(model->world, shape, i, corner);
+        struct vec3 n = normal_of(corner);
+        double speed = vec3_dot(n, beam.along);
+        double distance = vec3_dot(n, vec3_sub(corner[0], beam.from)) / speed;
+        /* Along the plane it is 0 / 0 or endless: never between. */
+        if (!(distance >= 0.0 && distance <= most_m && distance < nearest) ||
+            !goes_through(&beam, corner))
+            continue;
+        nearest = distance;
+        normal = n;
+        hit->triangle = i;
+    }
+    if (nearest == INFINITY)
+        return false;
+    hit->distance_m = nearest;
+    hit->point = vec3_add(from, vec3_scale(direction, nearest));
+    hit->normal = rotation_apply(&model->turn, vec3_scale(normal, 1.0 / vec3_length(normal)));
+    return true;
+}
+
+bool ray_polygon_collision(const struct ray_polygon_model *vehicle, double vehicle_radius_m,
+                           const struct ray_polygon_model *object, double object_radius_m,
+                           struct ray_polygon_hit *hit)
+{
+    struct vec3 way = vec3_sub(object->at, vehicle->at);
+    double apart = vec3_length(way), skin_m = vehicle_radius_m;
+    struct ray_polygon_hit skin;
+    if (apart >= vehicle_radius_m + object_radius_m)
+        return false;
+    /* Between equal centres there is no way: ahead. */
+    way = apart > 0.0 ? vec3_scale(way, 1.0 / apart)
+                      : rotation_apply(&vehicle->turn, (struct vec3){1.0, 0.0, 0.0});
+    struct vec3 centre = vec3_add(vehicle->at, (struct vec3){0.0, vehicle->middle_m, 0.0});
+    struct vec3 on_sphere = vec3_add(centre, vec3_scale(way, vehicle_radius_m));
+    if (ray_polygon_nearest(vehicle, on_sphere, vec3_scale(way, -1.0), vehicle_radius_m, &skin))
+        skin_m -= skin.distance_m;
+    return ray_polygon_nearest(object, centre, way, skin_m, hit);
+}

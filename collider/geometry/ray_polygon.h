@@ -1,0 +1,45 @@
+/* Rays against polygon models, and the thesis's two rays (Osborne 1991, pp. 24-26). Pure; any
+ * thread.
+ */
+#ifndef JOLON_COLLIDER_GEOMETRY_RAY_POLYGON_H
+#define JOLON_COLLIDER_GEOMETRY_RAY_POLYGON_H
+
+#include "world/maths/rotation.h"
+#include "world/world.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A model where it stands. */
+struct ray_polygon_model {
+    const struct world *world;
+    uint32_t model; /* index into world->models */
+    double scale;
+    struct mat3 turn;
+    struct vec3 at;  /* [m, world] */
+    double middle_m; /* how far its middle is above that */
+};
+
+struct ray_polygon_hit {
+    double distance_m;  /* from the ray's start */
+    struct vec3 point;  /* [m, world] */
+    struct vec3 normal; /* unit, world, of the polygon: out of the model */
+    uint32_t triangle;  /* within the model */
+};
+
+/* Nearest polygon that the ray from a point along a unit direction meets within most_m: its plane
+ * from the first three corners, then Haines's test. From inside of a model that is a polygon's
+ * back. Of equally near ones the first in the model; no ray slips through between two that share an
+ * edge. False when there is none. */
+bool ray_polygon_nearest(const struct ray_polygon_model *model, struct vec3 from,
+                         struct vec3 direction, double most_m, struct ray_polygon_hit *hit);
+
+/* Level 3 of the thesis: ray 1 from the vehicle's centre to the object's, at the height of the
+ * vehicle's middle, gives the point where it leaves the vehicle's sphere; ray 2 from there back
+ * along the way tells by the polygons whether the objects touch and where. The hit is on a polygon
+ * of the object, its distance from the vehicle's centre. See the .c for how the text is read. */
+bool ray_polygon_collision(const struct ray_polygon_model *vehicle, double vehicle_radius_m,
+                           const struct ray_polygon_model *object, double object_radius_m,
+                           struct ray_polygon_hit *hit);
+
+#endif

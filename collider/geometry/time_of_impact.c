@@ -1,0 +1,274 @@
+/* How time goes forward: to the last time at which the plane between the nearest points surely
+ * keeps the hulls apart (hull_separation.c), from there along the plane between the nearest points
+ * there, and so on. This is Newton's method for the gap: where the plane turns with what it lies
+ * on, it doubles its digits with each distance that GJK finds. */
+#include "collider/geometry/time_of_impact.h"
+
+#include "collider/geometry/hull_separation.h"
+#include "collider/geometry/contact_manifold.h"
+
+#define LOOKS      1024  /* distances of one pair of hulls */
+#define TOUCHING_M 5e-10 /* a gap this near to the one looked for is it after a few tries */
+#define TRIES      3
+#define EXACT_M    1e-12 /* and this near at once */
+#define WINDOW_M   1e-6  /* what the spheres' times may be off */
+#define SHALLOW_M  1e-6  /* gaps below this are left for an overlap */
+#define DEEP       0.05  /* of an overlap: coming nearer by it is a touch again */
+
+/* How two hulls lie at a moment. */
+struct sight {
+    double gap; /* across the plane; below 0 they overlap by that */
+    struct plane plane;
+    struct vec3 point; /* between the nearest points */
+};
+
+/* --- how two hulls lie -------------------------------------------------------------------------*/
+
+/* Takes the plane when the hulls overlap it less; it turns with a spin. */
+static void shallower(const struct relative_pose *now, struct vec3 normal, struct vec3 spin,
+                      struct sight *sight)
+{
+    double gap = hull_separation_now(now, normal);
+    if (gap > sight->gap) {
+        sight->gap = gap;
+        sight->plane = (struct plane){normal, vec3_cross(spin, normal)};
+    }
+}
+
+/* The shallowest way out of an overlap: by the faces of both, the line of the centres, and the
+ * normal that is left of when they last were apart. */
+static void look_inside(const struct hull_pair *pair, const struct relative_pose *now,
+                        struct vec3 last, struct sight *sight)
+{
+    const struct hull_plane *planes_a = pair->a->body->planes + pair->hull_a->first_plane;
+    const struct hull_plane *planes_b = pair->b->body->planes + pair->hull_b->first_plane;
+    const struct vec3 still = {0.0, 0.0, 0.0};
+    sight->gap = -INFINITY;
+    for (uint32_t i = 0; i < pair->hull_a->plane_count; i++)
+        shallower(now, rotation_apply(&now->a.turn, planes_a[i].normal), now->spin_a, sight);
+    for (uint32_t i = 0; i < pair->hull_b->plane_count; i++)
+        shallower(now, vec3_scale(rotation_apply(&now->b.turn, planes_b[i].normal), -1.0),
+                  now->spin_b, sight);
+    shallower(now, now->towards, still, sight);
+    if (vec3_dot(last, last) > 0.0)
+        shallower(now, last, still, sight);
+}
+
+/* last: the normal left of the moment before, 0 for none. */
+static struct sight look(const struct hull_pair *pair, const struct relative_pose *now,
+                         struct vec3 last, struct gjk_start *start)
+{
+    start->guess = now->towards;
+    struct gjk gjk = gjk_distance_from(&now->a, &now->b, start);
+    struct sight sight = {.point = vec3_lerp(gjk.on_a, gjk.on_b, 0.5)};
+    if (gjk.distance_m > 0.0) {
+        sight.gap = hull_separation_now(now, gjk.normal);
+        sight.plane =
+            (struct plane){gjk.normal, hull_separation_swing(pair, now, gjk.normal, start)};
+    } else {
+        look_inside(pair, now, last, &sight);
+    }
+    return sight;
+}
+
+/* What stands in for a patch when there is none: a point between the nearest points, or in both of
+ * two bodies that overlap, and the foremost vertices. */
+static void scattered(const struct relative_pose *now, const struct sight *sight,
+                      struct contact_manifold *patch)
+{
+    patch->middle = sight->point;
+    patch->count = 2;
+    gjk_support(&now->a, sight->plane.normal, &patch->corner[0]);
+    gjk_support(&now->b, vec3_scale(sight->plane.normal, -1.0), &patch->corner[1]);
+    patch->corner[1] = vec3_add(patch->corner[1], now->b.at);
+}
+
+/* Do the bodies come nearer where they touch? Then *point is where. */
+static bool nearing(const struct hull_pair *pair, const struct relative_pose *now,
+                    const struct sight *sight, struct vec3 *point)
+{
+    struct contact_manifold patch;
+    struct vec3 normal = sight->plane.normal;
+    double fastest = NEARING_M;
+    bool nears = false;
+    if (!contact_manifold_between(&now->a, &now->b, normal, &patch))
+        scattered(now, sight, &patch);
+    *point = patch.middle;
+    if (hull_separation_nearing(pair, now, normal, patch.middle) > NEARING_M)
+        return true;
+    for (uint32_t i = 0; i < patch.count; i++) {
+        double speed = hull_separation_nearing(pair, now, normal, patch.corner[i]);
+        if (speed > fastest) {
+            fastest = speed;
+            *point = patch.corner[i];
+            nears = true;
+        }
+    }
+    return nears;
+}
+
+/* --- pairs of hulls ----------------------------------------------------------------------------*/
+
+/* The gap at which bodies that are this far apart now, and not coming nearer, touch. */
+static double next_gap(double gap)
+{
+    if (gap <= SHALLOW_M)
+        return gap - maths_max(0.5 * TOUCH_M, -DEEP * gap);
+    return maths_min(TOUCH_M, maths_max(0.5 * gap, gap - 0.5 * TOUCH_M));
+}
+
+/* What is left of the plane's normal after h. */
+static struct vec3 normal_after(const struct plane *plane, double h)
+{
+    struct vec3 normal = vec3_add(plane->normal, vec3_scale(plane->swing, h));
+    return vec3_scale(normal, 1.0 / vec3_length(normal));
+}
+
+/* Takes the touch when it comes before the one there is, or is deeper. */
+static void found(const struct hull_pair *pair, const struct relative_pose *now,
+                  const struct sight *sight, struct vec3 point, struct hull_contact *touch)
+{
+    double depth = maths_max(0.0, -sight->gap);
+    if (touch->toi < now->time || (touch->toi == now->time && touch->depth_m >= depth))
+        return;
+    *touch =
+        (struct hull_contact){.toi = now->time,
+                              .point = vec3_add(path_at(&pair->a->body->path, now->time), point),
+                              .normal = sight->plane.normal,
+                              .depth_m = depth};
+}
+
+/* Advances one pair from `from` to its touch, if there is one before `until` or touch->toi. */
+static void time_of_impact(const struct hull_pair *pair, double from, double until,
+                           struct hull_contact *touch)
+{
+    struct gjk_start start = {.count = 0};
+    struct vec3 point, normal = {0.0, 0.0, 0.0};
+    double time = from, gap = TOUCH_M, last = maths_min(until, touch->toi), h;
+    bool first = true;
+    int tries = 0;
+    for (int looks = 0; looks < LOOKS; looks++) {
+        struct relative_pose now = moment_at(pair, time);
+        if (!hull_separation_by_spheres(pair, &now, last - time, &h)) {
+            if (first && hull_separation_by_centres(pair, &now, last - time))
+                return;
+            first = false;
+            struct sight sight = look(pair, &now, normal, &start);
+            double left = sight.gap - gap;
+            bool there = left <= EXACT_M || (left <= TOUCHING_M && tries++ >= TRIES);
+            if ((there || looks == LOOKS - 1) && nearing(pair, &now, &sight, &point)) {
+                found(pair, &now, &sight, point, touch);
+                return;
+            }
+            gap = there ? next_gap(sight.gap) : maths_max(gap, next_gap(sight.gap));
+            h = hull_separation_for(pair, &now, &sight.plane, gap, last - time);
+            normal = normal_after(&sight.plane, h);
+        }
+        if (!(time + h < last))
+            return;
+        time += h;
+    }
+}
+
+/* --- bodies ------------------------------------------------------------------------------------*/
+
+/* The part of [*from, *until] in which the spheres around the bodies are near enough. False when
+ * there is none. */
+static bool window(const struct swept_body *a, const struct swept_body *b, double *from,
+                   double *until)
+{
+    struct vec3 s = hull_separation_at(&a->path, &b->path, *from);
+    struct vec3 w = vec3_sub(b->path.along, a->path.along);
+    double reach = a->bound_m + b->bound_m + TOUCH_M + WINDOW_M;
+    double ww = vec3_dot(w, w), sw = vec3_dot(s, w), over = vec3_dot(s, s) - reach * reach;
+    double root = sw * sw - ww * over;
+    if (over > 0.0 && (sw >= 0.0 || root < 0.0))
+        return false;
+    if (ww == 0.0)
+        return true;
+    double way = sqrt(maths_max(root, 0.0));
+    *until = maths_min(*until, *from + (way - sw) / ww);
+    if (over > 0.0)
+        *from += over / (way - sw);
+    return *from <= *until;
+}
+
+static int order_of(double a, double b)
+{
+    return (a > b) - (a < b);
+}
+
+static int order_of_points(struct vec3 a, struct vec3 b)
+{
+    int order = order_of(a.x, b.x);
+    if (order == 0)
+        order = order_of(a.y, b.y);
+    return order != 0 ? order : order_of(a.z, b.z);
+}
+
+static int order_of_turns(struct quat a, struct quat b)
+{
+    int order = order_of(a.w, b.w);
+    return order != 0 ? order
+                      : order_of_points((struct vec3){a.x, a.y, a.z}, (struct vec3){b.x, b.y, b.z});
+}
+
+/* Which of two bodies is computed as the first, whatever the caller calls them. Bodies that are
+ * alike in all of this do not move against each other. */
+static int order_of_bodies(const struct swept_body *a, const struct swept_body *b)
+{
+    int order = order_of_points(a->path.at, b->path.at);
+    if (order == 0)
+        order = order_of_points(a->path.along, b->path.along);
+    if (order == 0)
+        order = order_of(a->path.since, b->path.since);
+    if (order == 0)
+        order = order_of_turns(a->from, b->from);
+    return order != 0 ? order : order_of_turns(a->to, b->to);
+}
+
+bool time_of_impact_touch(const struct swept_body *a, const struct swept_body *b, double from,
+                          struct hull_contact *touch)
+{
+    double until = 1.0;
+    bool swap = order_of_bodies(a, b) > 0;
+    if (swap) {
+        const struct swept_body *other = a;
+        a = b;
+        b = other;
+    }
+    if (!window(a, b, &from, &until))
+        return false;
+    struct rotation_path turning_a = turning_of(a), turning_b = turning_of(b);
+    if (turning_a.rate == 0.0 && turning_b.rate == 0.0 &&
+        order_of_points(a->path.along, b->path.along) == 0)
+        return false; /* at rest with each other */
+    struct hull_contact first = {.toi = INFINITY};
+    for (uint32_t i = 0; i < a->hull_count; i++) {
+        for (uint32_t j = 0; j < b->hull_count; j++) {
+            struct hull_pair pair = hull_pair_of(&turning_a, &turning_b, &a->hull[i], &b->hull[j]);
+            time_of_impact(&pair, from, until, &first);
+        }
+    }
+    if (first.toi == INFINITY)
+        return false;
+    if (swap)
+        first.normal = vec3_scale(first.normal, -1.0);
+    *touch = first;
+    return true;
+}
+
+double time_of_impact_gap(const struct swept_body *a, const struct swept_body *b, double time)
+{
+    struct rotation_path turning_a = turning_of(a), turning_b = turning_of(b);
+    double least = INFINITY;
+    for (uint32_t i = 0; i < a->hull_count; i++) {
+        for (uint32_t j = 0; j < b->hull_count; j++) {
+            struct hull_pair pair = hull_pair_of(&turning_a, &turning_b, &a->hull[i], &b->hull[j]);
+            struct relative_pose now = moment_at(&pair, time);
+            if (now.centres_m - pair.radii_m < least)
+                least = maths_min(least, gjk_distance(&now.a, &now.b).distance_m);
+        }
+    }
+    return least;
+}

@@ -1,0 +1,216 @@
+/* All intersecting pairs by sorting and sweeping, after Hopcroft, Schwartz and Sharir 1983 (as
+ * Osborne 1991, p. 5, tells of it): theirs finds whether any two of n spheres intersect in O(n
+ * log^2 n), by a plane that passes through all of them and a structure of what it cuts.
+ *
+ * Here the plane passes along x through the swept boxes, and what it cuts is kept in a balanced
+ * tree by z that knows where the intervals below each node end at the latest, as in Six and Wood's
+ * report of all intersecting boxes (1982), but without a further tree for the heights: on terrain
+ * few pairs that overlap on the map are apart by height. So a frame is O((n + k) log n), k the
+ * pairs of boxes that overlap on the map. */
+#include "collider/motion/pair_filter.h"
+
+#include "world/maths/random.h"
+#include "world/maths/sort.h"
+#include "world/runtime/work_done.h"
+
+#include <string.h>
+
+#define NOBODY UINT32_MAX
+
+enum { BLOCK_STARTS, BLOCK_ENDS, BLOCK_NODE };
+
+/* Where along x the plane meets a body, or leaves a node, as bits that ascend with it. */
+struct mark {
+    uint32_t key, what;
+};
+
+/* A body in the treap of what the plane cuts: ordered by its least z, a heap by a hash of its
+ * number. Nodes are numbered as the plane meets them, so that those it cuts lie together. */
+struct node {
+    float min_z, max_z;
+    float last_z; /* greatest max_z of it and of all below it */
+    uint32_t left, right;
+    uint32_t body;
+};
+
+struct sweep {
+    const struct method_input *input;
+    struct pair_filter_bodies bodies;
+    struct node *node;      /* [bodies] */
+    uint32_t moving, fixed; /* roots */
+    struct pair_list *pairs;
+};
+
+/* --- sorting -----------------------------------------------------------------------------------*/
+
+/* No edge of a box is -0, which would come before 0. */
+static uint32_t ascending_bits(float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+}
+
+/* --- what the plane cuts -----------------------------------------------------------------------*/
+
+static bool before(const struct sweep *sweep, uint32_t i, uint32_t j)
+{
+    float a = sweep->node[i].min_z, b = sweep->node[j].min_z;
+    return a < b || (!(b < a) && i < j);
+}
+
+static bool above(uint32_t i, uint32_t j)
+{
+    return random_mix(i) > random_mix(j); /* a bijection: never equal */
+}
+
+static void refresh(const struct sweep *sweep, uint32_t i)
+{
+    struct node *node = &sweep->node[i];
+    node->last_z = node->max_z;
+    if (node->left != NOBODY && sweep->node[node->left].last_z > node->last_z)
+        node->last_z = sweep->node[node->left].last_z;
+    if (node->right != NOBODY && sweep->node[node->right].last_z > node->last_z)
+        node->last_z = sweep->node[node->right].last_z;
+}
+
+/* Parts a tree into what comes before node i and what comes after it. */
+static void part(const struct sweep *sweep, uint32_t root, uint32_t i, uint32_t *low,
+                 uint32_t *high)
+{
+    if (root == NOBODY) {
+        *low = *high = NOBODY;
+        return;
+    }
+    struct node *node = &sweep->node[root];
+    if (before(sweep, root, i)) {
+        *low = root;
+        part(sweep, node->right, i, &node->right, high);
+    } else {
+        *high = root;
+        part(sweep, node->left, i, low, &node->left);
+    }
+    refresh(sweep, root);
+}
+
+/* Joins two trees, all of low before all of high. */
+static uint32_t join(const struct sweep *sweep, uint32_t low, uint32_t high)
+{
+    if (low == NOBODY)
+        return high;
+    if (high == NOBODY)
+        return low;
+    uint32_t root = above(low, high) ? low : high;
+    if (root == low)
+        sweep->node[low].right = join(sweep, sweep->node[low].right, high);
+    else
+        sweep->node[high].left = join(sweep, low, sweep->node[high].left);
+    refresh(sweep, root);
+    return root;
+}
+
+static uint32_t insert(const struct sweep *sweep, uint32_t root, uint32_t i)
+{
+    if (root == NOBODY || above(i, root)) {
+        part(sweep, root, i, &sweep->node[i].left, &sweep->node[i].right);
+        root = i;
+    } else if (before(sweep, i, root)) {
+        sweep->node[root].left = insert(sweep, sweep->node[root].left, i);
+    } else {
+        sweep->node[root].right = insert(sweep, sweep->node[root].right, i);
+    }
+    refresh(sweep, root);
+    return root;
+}
+
+static uint32_t extract(const struct sweep *sweep, uint32_t root, uint32_t i)
+{
+    struct node *node = &sweep->node[root];
+    if (root == i)
+        return join(sweep, node->left, node->right);
+    if (before(sweep, i, root))
+        node->left = extract(sweep, node->left, i);
+    else
+        node->right = extract(sweep, node->right, i);
+    refresh(sweep, root);
+    return root;
+}
+
+/* Everything in the tree that overlaps node i in z may meet it. */
+static void meet(const struct sweep *sweep, uint32_t root, uint32_t i)
+{
+    if (root == NOBODY || sweep->node[root].last_z < sweep->node[i].min_z)
+        return;
+    const struct node *node = &sweep->node[i], *other = &sweep->node[root];
+    meet(sweep, other->left, i);
+    if (other->min_z > node->max_z)
+        return; /* and so are all to its right */
+    if (other->max_z >= node->min_z)
+        pair_filter_meet(sweep->input, &sweep->bodies, other->body, node->body, sweep->pairs);
+    meet(sweep, other->right, i);
+}
+
+/* --- the sweep ---------------------------------------------------------------------------------*/
+
+static uint32_t *root_of(struct sweep *sweep, uint32_t i)
+{
+    return sweep->node[i].body < sweep->bodies.moving ? &sweep->moving : &sweep->fixed;
+}
+
+/* The plane reaches node i. */
+static void reach(struct sweep *sweep, uint32_t i)
+{
+    uint32_t body = sweep->node[i].body;
+    bool asks_fixed = body < sweep->bodies.moving && sweep->bodies.tests_fixed[body];
+    meet(sweep, sweep->moving, i);
+    if (asks_fixed)
+        meet(sweep, sweep->fixed, i);
+    uint32_t *root = root_of(sweep, i);
+    *root = insert(sweep, *root, i);
+}
+
+static void pass(struct sweep *sweep, const struct mark *starts, const struct mark *ends)
+{
+    for (uint32_t i = 0, left = 0; i < sweep->bodies.count; i++) {
+        while (ends[left].key < starts[i].key) {
+            uint32_t *root = root_of(sweep, ends[left].what);
+            *root = extract(sweep, *root, ends[left].what);
+            left++;
+        }
+        reach(sweep, i);
+        work_done();
+    }
+}
+
+/* Puts the bodies in the order in which the plane meets them (starts) and leaves them (ends, by
+ * their nodes). */
+static void put_in_order(struct sweep *sweep, struct mark *starts, struct mark *ends)
+{
+    uint32_t count = sweep->bodies.count;
+    for (uint32_t i = 0; i < count; i++)
+        starts[i] = (struct mark){ascending_bits(sweep->bodies.box[i].min_x), i};
+    sort_words(starts, count);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct path_box *box = &sweep->bodies.box[starts[i].what];
+        sweep->node[i] = (struct node){.min_z = box->min_z,
+                                       .max_z = box->max_z,
+                                       .left = NOBODY,
+                                       .right = NOBODY,
+                                       .body = starts[i].what};
+        ends[i] = (struct mark){ascending_bits(box->max_x), i};
+    }
+    sort_words(ends, count);
+}
+
+void method_hopcroft_pairs(const struct method_input *input, struct method_workspace *workspace,
+                           struct pair_list *pairs)
+{
+    struct sweep sweep = {.input = input, .moving = NOBODY, .fixed = NOBODY, .pairs = pairs};
+    pair_filter_bodies(input, workspace, &sweep.bodies);
+    uint32_t count = sweep.bodies.count;
+    struct mark *starts = pair_filter_block(workspace, BLOCK_STARTS, count, sizeof *starts);
+    struct mark *ends = pair_filter_block(workspace, BLOCK_ENDS, count, sizeof *ends);
+    sweep.node = pair_filter_block(workspace, BLOCK_NODE, count, sizeof *sweep.node);
+    put_in_order(&sweep, starts, ends);
+    pass(&sweep, starts, ends);
+}

@@ -1,0 +1,39 @@
+/* MPS II and III (Winn and Strong 1989, Cheeseman 1990, as Osborne 1991, p. 6, tells of them): a
+ * platform within a certain range of another on the map, and both are killed. Neither heights nor
+ * trees are looked at, and only where the frame ends. */
+#include "collider/motion/pair_filter.h"
+
+#include "world/runtime/work_done.h"
+
+/* A platform's place on the map. */
+struct spot {
+    double x, z;
+    uint32_t row;
+};
+
+static uint32_t list_platforms(const struct method_input *input, struct spot *spot)
+{
+    const struct entities *e = input->entities;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < input->rows; i++) {
+        if (pair_filter_there(input, i) && input->world->kinds[e->kind[i]].domain < DOMAIN_MUNITION)
+            spot[count++] = (struct spot){e->x[i], e->z[i], i};
+    }
+    return count;
+}
+
+void method_mps_pairs(const struct method_input *input, struct method_workspace *workspace,
+                      struct pair_list *pairs)
+{
+    struct spot *spot = pair_filter_block(workspace, 0, input->rows, sizeof *spot);
+    double near = input->world->params->collision.mps_near_m;
+    uint32_t count = list_platforms(input, spot);
+    for (uint32_t a = 0; a < count; a++) {
+        work_done();
+        for (uint32_t b = a + 1; b < count; b++) {
+            double dx = spot[b].x - spot[a].x, dz = spot[b].z - spot[a].z;
+            if (dx * dx + dz * dz <= near * near && !pair_excluded(input, spot[a].row, spot[b].row))
+                pair_list_add(pairs, spot[a].row, spot[b].row);
+        }
+    }
+}

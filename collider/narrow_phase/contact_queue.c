@@ -1,0 +1,476 @@
+/* The frame's contacts in a heap, and their renewal. */
+#include "collider/narrow_phase/contact_queue.h"
+
+#include "collider/array.h"
+#include "ipc/process/log.h"
+#include "world/runtime/reserve.h"
+#include "world/runtime/work_done.h"
+
+#include <errno.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+#define PAIRS_A_PIECE  16
+#define FLIERS_A_PIECE 128
+
+/* Ends of a row's way: the ground, and the air. */
+#define ENDS_A_ROW 2u
+
+/* More contacts never wait: each pair and each row's end, and as many void ones. */
+#define HEAP_MAX (2u * (PAIRS_MAX + ENDS_A_ROW * CAPACITY_MAX))
+
+/* Each pair has at most one contact that holds, and each row two ends. */
+static uint32_t holding_most(const struct contact_queue *contacts, uint32_t pairs)
+{
+    return pairs + ENDS_A_ROW * contacts->rows;
+}
+
+int contact_queue_init(struct contact_queue *contacts, const struct world *world,
+                       struct thread_pool *workers)
+{
+    uint32_t rows = world->params->capacity, pairs = pair_filter_pairs_first(world);
+    *contacts = (struct contact_queue){.workers = workers, .rows = rows, .pair_capacity = pairs};
+    contacts->heap.capacity = 2 * holding_most(contacts, pairs);
+    contacts->heap.contact = reserve_take(contacts->heap.capacity, sizeof *contacts->heap.contact);
+    contacts->pair = reserve_take(pairs, sizeof *contacts->pair);
+    contacts->met = reserve_take(pairs, sizeof *contacts->met);
+    contacts->swept = reserve_take(pairs, sizeof *contacts->swept);
+    contacts->link = reserve_take(2 * (uint64_t)pairs, sizeof *contacts->link);
+    contacts->head = calloc(rows, sizeof *contacts->head);
+    contacts->version = calloc(rows, sizeof *contacts->version);
+    contacts->strayed = reserve_take(rows, sizeof *contacts->strayed);
+    contacts->strays = calloc(rows, sizeof *contacts->strays);
+    if (contacts->heap.contact && contacts->pair && contacts->met && contacts->swept &&
+        contacts->link && contacts->head && contacts->version && contacts->strayed &&
+        contacts->strays && pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
+        return 0;
+    contact_queue_free(contacts);
+    errno = ENOMEM;
+    return -1;
+}
+
+void contact_queue_free(struct contact_queue *contacts)
+{
+    reserve_free(contacts->heap.contact);
+    reserve_free(contacts->pair);
+    reserve_free(contacts->met);
+    reserve_free(contacts->swept);
+    reserve_free(contacts->link);
+    free(contacts->head);
+    free(contacts->version);
+    reserve_free(contacts->strayed);
+    free(contacts->strays);
+    pair_list_free(&contacts->near);
+    *contacts = (struct contact_queue){0};
+}
+
+/* --- pairs -------------------------------------------------------------------------------------*/
+
+static void link_row(struct contact_queue *contacts, uint32_t row, uint32_t pair)
+{
+    contacts->link[contacts->link_count] = (struct contact_link){pair, contacts->head[row]};
+    contacts->head[row] = ++contacts->link_count;
+}
+
+static void more_pairs(struct contact_queue *contacts)
+{
+    uint32_t held = contacts->pair_count, more = 2 * contacts->pair_capacity + 1;
+    CHECK(held < PAIRS_MAX);
+    contacts->pair = array_grow(contacts->pair, held, more, sizeof *contacts->pair);
+    contacts->met = array_grow(contacts->met, held, more, sizeof *contacts->met);
+    contacts->swept = array_grow(contacts->swept, held, more, sizeof *contacts->swept);
+    contacts->link = array_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
+                                sizeof *contacts->link);
+    contacts->pair_capacity = more;
+}
+
+static void add_pair(struct contact_queue *contacts, struct pair pair)
+{
+    if (contacts->pair_count == contacts->pair_capacity)
+        more_pairs(contacts);
+    uint32_t index = contacts->pair_count++;
+    contacts->pair[index] = pair;
+    contacts->met[index] = 0;
+    contacts->swept[index] = 0;
+    link_row(contacts, pair.a, index);
+    if (!(pair.b & PAIR_FIXED))
+        link_row(contacts, pair.b, index);
+}
+
+void contact_queue_begin(struct contact_queue *contacts, const struct pair_list *lists,
+                         uint32_t list_count)
+{
+    for (uint32_t i = 0; i < contacts->stray_count; i++)
+        contacts->strays[contacts->strayed[i]] = 0;
+    contacts->heap.count = 0;
+    contacts->link_count = 0;
+    contacts->pair_count = 0;
+    contacts->stray_count = 0;
+    contacts->change = 0;
+    for (uint32_t i = 0; i < list_count; i++) {
+        for (uint32_t n = 0; n < lists[i].count; n++)
+            add_pair(contacts, lists[i].pair[n]);
+    }
+}
+
+void contact_queue_end(struct contact_queue *contacts)
+{
+    for (uint32_t i = 0; i < contacts->pair_count; i++) {
+        struct pair pair = contacts->pair[i];
+        contacts->head[pair.a] = 0;
+        if (!(pair.b & PAIR_FIXED))
+            contacts->head[pair.b] = 0;
+    }
+}
+
+/* --- the heap ----------------------------------------------------------------------------------*/
+
+/* The one order of contacts, whatever order they were found in. */
+static bool earlier(const struct contact *p, const struct contact *q)
+{
+    if (p->touch.toi != q->touch.toi)
+        return p->touch.toi < q->touch.toi;
+    if (p->a != q->a)
+        return p->a < q->a;
+    return p->b < q->b;
+}
+
+/* Was it computed from the ways that its bodies still have? */
+static bool holds(const struct contact_queue *contacts, const struct contact *contact)
+{
+    return contact->version_a == contacts->version[contact->a] &&
+           (contact->b >= PAIR_FIXED || contact->version_b == contacts->version[contact->b]);
+}
+
+/* Puts a contact where place i or one below it is free. */
+static void sink_from(struct contact *heap, uint32_t count, uint32_t i, struct contact contact)
+{
+    for (uint32_t child = 2 * i + 1; child < count; child = 2 * i + 1) {
+        if (child + 1 < count && earlier(&heap[child + 1], &heap[child]))
+            child++;
+        if (!earlier(&heap[child], &contact))
+            break;
+        heap[i] = heap[child];
+        i = child;
+    }
+    heap[i] = contact;
+}
+
+/* Contacts in any order become a heap. */
+static void order_heap(struct contact_list *heap)
+{
+    for (uint32_t i = heap->count / 2; i > 0; i--)
+        sink_from(heap->contact, heap->count, i - 1, heap->contact[i - 1]);
+}
+
+static void drop_void(struct contact_queue *contacts)
+{
+    struct contact_list *heap = &contacts->heap;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < heap->count; i++) {
+        if (holds(contacts, &heap->contact[i]))
+            heap->contact[kept++] = heap->contact[i];
+    }
+    heap->count = kept;
+    order_heap(heap);
+}
+
+/* Sees to it that the heap's array has room for this many contacts more. */
+static void make_room(struct contact_list *heap, uint32_t more)
+{
+    uint64_t needed = (uint64_t)heap->count + more;
+    if (needed <= heap->capacity)
+        return;
+    CHECK(needed <= HEAP_MAX);
+    heap->contact = array_grow(heap->contact, heap->count, 2 * needed, sizeof *heap->contact);
+    heap->capacity = (uint32_t)(2 * needed);
+}
+
+static void push(struct contact_queue *contacts, const struct contact *contact)
+{
+    if (contacts->heap.count >= 2 * holding_most(contacts, contacts->pair_count))
+        drop_void(contacts);
+    make_room(&contacts->heap, 1);
+    struct contact *heap = contacts->heap.contact;
+    uint32_t i = contacts->heap.count++;
+    while (i > 0 && earlier(contact, &heap[(i - 1) / 2])) {
+        heap[i] = heap[(i - 1) / 2];
+        i = (i - 1) / 2;
+    }
+    heap[i] = *contact;
+}
+
+static void pop(struct contact_queue *contacts)
+{
+    struct contact_list *heap = &contacts->heap;
+    heap->count--;
+    sink_from(heap->contact, heap->count, 0, heap->contact[heap->count]);
+}
+
+/* --- finding -----------------------------------------------------------------------------------*/
+
+/* Sweeps one pair from a time on; true with its contact when it has one. */
+static bool sweep_pair(const struct contact_queue *contacts, const struct contact_input *input,
+                       uint32_t index, double from, struct contact *contact)
+{
+    const struct pair *pair = &contacts->pair[index];
+    const uint8_t *state = input->detect.entities->state;
+    bool fixed = pair->b & PAIR_FIXED;
+    if (contacts->met[index] >= input->meets || state[pair->a] == ENTITY_FREE ||
+        (!fixed && state[pair->b] == ENTITY_FREE) ||
+        (fixed && !pair_filter_stands(&input->detect, pair->b & ~PAIR_FIXED)))
+        return false;
+    *contact = (struct contact){.a = pair->a,
+                                .b = pair->b,
+                                .pair = index + 1,
+                                .version_a = contacts->version[pair->a],
+                                .version_b = fixed ? 0 : contacts->version[pair->b]};
+    return narrow_phase_touch(&input->detect, input->motion, input->through_fixed, pair, from,
+                              &contact->touch);
+}
+
+struct job {
+    struct contact_queue *contacts;
+    const struct contact_input *input;
+    uint64_t tick;
+    _Atomic uint32_t found; /* contacts in the heap's array, in no order */
+};
+
+static void note(struct job *job, const struct contact *contact)
+{
+    struct contact_list *heap = &job->contacts->heap;
+    uint32_t place = atomic_fetch_add_explicit(&job->found, 1, memory_order_relaxed);
+    CHECK(place < heap->capacity);
+    heap->contact[place] = *contact;
+}
+
+static void find_some(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    struct job *job = context;
+    struct contact contact;
+    (void)worker;
+    for (uint32_t i = first; i < end; i++) {
+        if (sweep_pair(job->contacts, job->input, i, 0.0, &contact))
+            note(job, &contact);
+        if (i % PAIRS_A_PIECE == 0)
+            work_done();
+    }
+}
+
+/* What is found of count things, at most `each` of one, goes into the heap. */
+static void find_all(struct job *job, thread_pool_function *find, uint32_t count, uint32_t each,
+                     uint32_t grain)
+{
+    struct contact_queue *contacts = job->contacts;
+    make_room(&contacts->heap, count * each);
+    job->found = contacts->heap.count;
+    thread_pool_run(contacts->workers, find, job, count, grain);
+    contacts->heap.count = job->found;
+    order_heap(&contacts->heap);
+}
+
+void contact_queue_find(struct contact_queue *contacts, const struct contact_input *input)
+{
+    struct job job = {.contacts = contacts, .input = input};
+    find_all(&job, find_some, contacts->pair_count, 1, PAIRS_A_PIECE);
+}
+
+static struct contact end_of(const struct contact_queue *contacts, uint32_t row, uint32_t what,
+                             double toi)
+{
+    return (struct contact){
+        .touch.toi = toi, .a = row, .b = what, .version_a = contacts->version[row]};
+}
+
+void contact_queue_add_end(struct contact_queue *contacts, uint32_t row, uint32_t what, double toi)
+{
+    const struct contact contact = end_of(contacts, row, what, toi);
+    push(contacts, &contact);
+}
+
+void contact_queue_ground(struct contact_queue *contacts, const struct contact_input *input,
+                          uint32_t row)
+{
+    const struct entities *e = input->detect.entities;
+    double toi;
+    bool flies = e->behaviour[row] == BEHAVIOUR_FLIGHT ||
+                 input->detect.world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+    if (flies && e->state[row] == ENTITY_ACTIVE &&
+        pair_filter_ground(&input->detect, &input->detect.path[row], &toi))
+        contact_queue_add_end(contacts, row, CONTACT_GROUND, toi);
+}
+
+static void find_end(struct job *job, uint32_t row)
+{
+    const struct entities *e = job->input->detect.entities;
+    struct contact contact;
+    double toi;
+    const struct method_input *detect = &job->input->detect;
+    if (pair_filter_ground(detect, &detect->path[row], &toi)) {
+        contact = end_of(job->contacts, row, CONTACT_GROUND, toi);
+        note(job, &contact);
+    }
+    if (e->behaviour[row] != BEHAVIOUR_FLIGHT || job->tick < e->until_tick[row])
+        return;
+    contact = end_of(job->contacts, row, CONTACT_AIR, 1.0);
+    note(job, &contact);
+}
+
+/* Fliers first .. end - 1 of all lanes' together. */
+static void find_some_ends(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    struct job *job = context;
+    const struct broad_phase *broad = job->input->broad;
+    uint32_t before = 0;
+    (void)worker;
+    for (uint32_t lane = 0; lane < broad->lanes; lane++) {
+        const struct pair_list *fliers = &broad->lane[lane].fliers;
+        uint32_t i = first > before ? first - before : 0;
+        for (; i < fliers->count && before + i < end; i++)
+            find_end(job, fliers->pair[i].a);
+        before += fliers->count;
+    }
+}
+
+void contact_queue_find_ends(struct contact_queue *contacts, const struct contact_input *input,
+                             uint64_t tick)
+{
+    struct job job = {.contacts = contacts, .input = input, .tick = tick};
+    uint32_t count = 0;
+    for (uint32_t lane = 0; lane < input->broad->lanes; lane++)
+        count += input->broad->lane[lane].fliers.count;
+    find_all(&job, find_some_ends, count, ENDS_A_ROW, FLIERS_A_PIECE);
+}
+
+const struct contact *contact_queue_peek(struct contact_queue *contacts)
+{
+    while (contacts->heap.count > 0) {
+        const struct contact *first = &contacts->heap.contact[0];
+        if (holds(contacts, first))
+            return first;
+        pop(contacts);
+    }
+    return NULL;
+}
+
+bool contact_queue_next(struct contact_queue *contacts, const struct contact_input *input,
+                        struct contact *contact)
+{
+    const struct contact *first = contact_queue_peek(contacts);
+    if (!first)
+        return false;
+    *contact = *first;
+    pop(contacts);
+    contact->last = contact->pair != 0 && ++contacts->met[contact->pair - 1] >= input->meets;
+    return true;
+}
+
+void contact_queue_settle(struct contact_queue *contacts, const struct contact *contact)
+{
+    contacts->swept[contact->pair - 1] = contacts->change + 1;
+}
+
+/* --- another way -------------------------------------------------------------------------------*/
+
+static bool paired(const struct contact_queue *contacts, const struct pair *pair)
+{
+    for (uint32_t link = contacts->head[pair->a]; link != 0; link = contacts->link[link - 1].next) {
+        const struct pair *known = &contacts->pair[contacts->link[link - 1].pair];
+        if (known->a == pair->a && known->b == pair->b)
+            return true;
+    }
+    return false;
+}
+
+static void meet(struct contact_queue *contacts, const struct contact_input *input, uint32_t row,
+                 uint32_t other)
+{
+    bool fixed = other & PAIR_FIXED;
+    struct pair pair = {fixed || row < other ? row : other, fixed || row < other ? other : row};
+    if (other == row || paired(contacts, &pair))
+        return;
+    if (!fixed)
+        body_motion_draw(input->motion, other);
+    if (fixed || !pair_excluded(&input->detect, pair.a, pair.b))
+        add_pair(contacts, pair);
+}
+
+static bool box_within(const struct path_box *inner, const struct path_box *outer)
+{
+    return inner->min_x >= outer->min_x && inner->max_x <= outer->max_x &&
+           inner->min_y >= outer->min_y && inner->max_y <= outer->max_y &&
+           inner->min_z >= outer->min_z && inner->max_z <= outer->max_z;
+}
+
+static struct path_box box_union(const struct path_box *a, const struct path_box *b)
+{
+    return (struct path_box){
+        a->min_x < b->min_x ? a->min_x : b->min_x, a->min_y < b->min_y ? a->min_y : b->min_y,
+        a->min_z < b->min_z ? a->min_z : b->min_z, a->max_x > b->max_x ? a->max_x : b->max_x,
+        a->max_y > b->max_y ? a->max_y : b->max_y, a->max_z > b->max_z ? a->max_z : b->max_z,
+    };
+}
+
+/* Pairs the row with whatever its new way comes near: what the broad phase knows, and the rows that
+ * have left the boxes that it knows. */
+static void look_around(struct contact_queue *contacts, const struct contact_input *input,
+                        uint32_t row)
+{
+    struct path_box *known = &input->broad->box[row];
+    struct path_box box = pair_filter_box(&input->detect, row);
+    bool strays = !box_within(&box, known);
+    contacts->near.count = 0;
+    broad_phase_query(input->broad, &input->detect, &box, &contacts->near);
+    uint32_t rows = contacts->near.count;
+    broad_phase_query_fixed(input->broad, &input->detect, &box, &contacts->near);
+    for (uint32_t i = 0; i < contacts->near.count; i++) {
+        const struct pair *near = &contacts->near.pair[i];
+        meet(contacts, input, row, i < rows ? near->a : near->b);
+    }
+    for (uint32_t i = 0; i < contacts->stray_count; i++) {
+        if (pair_filter_boxes_meet(&box, &input->broad->box[contacts->strayed[i]]))
+            meet(contacts, input, row, contacts->strayed[i]);
+    }
+    if (!strays)
+        return;
+    if (!contacts->strays[row])
+        contacts->strayed[contacts->stray_count++] = row;
+    contacts->strays[row] = 1;
+    *known = box_union(known, &box);
+}
+
+/* Sweeps the row's pairs, but for those that this change has swept from the other side. */
+static void sweep_row(struct contact_queue *contacts, const struct contact_input *input,
+                      uint32_t row, double time)
+{
+    struct contact contact;
+    for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
+        uint32_t pair = contacts->link[link - 1].pair;
+        if (contacts->swept[pair] == contacts->change)
+            continue;
+        contacts->swept[pair] = contacts->change;
+        if (sweep_pair(contacts, input, pair, time, &contact))
+            push(contacts, &contact);
+    }
+    contact_queue_ground(contacts, input, row);
+}
+
+void contact_queue_change(struct contact_queue *contacts, const struct contact_input *input,
+                          const uint32_t *rows, uint32_t count, double time)
+{
+    enum method method = (enum method)input->detect.world->params->collision.method;
+    contacts->change++;
+    for (uint32_t i = 0; i < count; i++)
+        contacts->version[rows[i]]++;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!pair_filter_discrete(method))
+            look_around(contacts, input, rows[i]);
+        sweep_row(contacts, input, rows[i], time);
+        work_done();
+    }
+}
+
+void contact_queue_drop(struct contact_queue *contacts, uint32_t row)
+{
+    contacts->version[row]++;
+}

@@ -1,0 +1,107 @@
+/* One pair at a time: spheres in closed form, hulls by conservative advancement. */
+#include "collider/narrow_phase/narrow_phase.h"
+
+/* The touch of two spheres at its time. Centre in centre any normal would do: it is upwards. */
+static void touch_of_spheres(struct vec3 a, struct vec3 b, double radius_a, double reach,
+                             struct hull_contact *touch)
+{
+    struct vec3 between = vec3_sub(b, a);
+    double distance = vec3_length(between);
+    touch->normal =
+        distance > 0.0 ? vec3_scale(between, 1.0 / distance) : (struct vec3){0.0, 1.0, 0.0};
+    touch->point = vec3_add(a, vec3_scale(touch->normal, radius_a));
+    touch->depth_m = maths_max(0.0, reach - distance);
+}
+
+static bool touch_spheres(const struct method_input *detect, const struct pair *pair, double from,
+                          bool discrete, struct hull_contact *touch)
+{
+    const struct path *path = detect->path, *a = &path[pair->a];
+    double radius = pair_filter_row_reach(detect, pair->a), reach = radius;
+    struct path still, *b = &still;
+    if (pair->b & PAIR_FIXED) {
+        const struct fixed_object *object = &detect->world->fixed[pair->b & ~PAIR_FIXED];
+        still = (struct path){.at = fixed_position(object)};
+        reach += pair_filter_fixed_reach(detect->world, object);
+    } else {
+        still = path[pair->b];
+        reach += pair_filter_row_reach(detect, pair->b);
+    }
+    if (discrete)
+        touch->toi = 1.0;
+    else if (!analytic_impact_spheres(a, b, reach, from, &touch->toi))
+        return false;
+    touch_of_spheres(path_at(a, touch->toi), path_at(b, touch->toi), radius, reach, touch);
+    return true;
+}
+
+/* Do the spheres around two bodies tell that they do not touch at this time? */
+static bool far_apart(const struct swept_body *a, const struct swept_body *b, double time)
+{
+    struct vec3 between = vec3_sub(path_at(&b->path, time), path_at(&a->path, time));
+    double reach = a->bound_m + b->bound_m + TOUCH_M;
+    return vec3_dot(between, between) > reach * reach;
+}
+
+/* Bodies are looked at as one hull each first: what passes by costs one pair of hulls and not
+ * dozens. Pieces within hulls that are apart touch no sooner than these do. False when they never
+ * do; else *from is when. */
+static bool outer_touch(const struct world *world, const struct swept_body *a, uint16_t kind_a,
+                        const struct swept_body *b, uint16_t kind_b, double *from)
+{
+    struct swept_body outer_a = *a, outer_b = *b;
+    struct hull_contact touch;
+    if (a->hull_count * b->hull_count == 1)
+        return true;
+    outer_a.hull = world->hulls + world->kinds[kind_a].outer_hull;
+    outer_b.hull = world->hulls + world->kinds[kind_b].outer_hull;
+    outer_a.hull_count = outer_b.hull_count = 1;
+    bool meet = time_of_impact_touch(&outer_a, &outer_b, *from, &touch);
+    if (meet && touch.toi == *from)
+        return true;
+    if (!far_apart(&outer_a, &outer_b, *from) &&
+        time_of_impact_gap(&outer_a, &outer_b, *from) <= TOUCH_M)
+        return true; /* they come apart, but the pieces in them may meet */
+    if (meet)
+        *from = touch.toi;
+    return meet;
+}
+
+static bool touch_hulls(const struct body_motion *motion, const struct pair *pair, double from,
+                        struct hull_contact *touch)
+{
+    const struct world *world = motion->world;
+    const uint16_t *kind = motion->next->entities.kind;
+    bool fixed = pair->b & PAIR_FIXED;
+    uint32_t object = pair->b & ~PAIR_FIXED;
+    struct swept_body a = body_motion_body(motion, pair->a);
+    struct swept_body b =
+        fixed ? body_motion_fixed(world, object) : body_motion_body(motion, pair->b);
+    return outer_touch(world, &a, kind[pair->a], &b,
+                       fixed ? world->fixed[object].kind : kind[pair->b], &from) &&
+           time_of_impact_touch(&a, &b, from, touch);
+}
+
+bool narrow_phase_lets_in(const struct world *world, bool through_fixed, uint32_t object)
+{
+    return through_fixed || world->kinds[world->fixed[object].kind].rigidity < YIELDING_RIGIDITY;
+}
+
+bool narrow_phase_touch(const struct method_input *input, const struct body_motion *motion,
+                        bool through_fixed, const struct pair *pair, double from,
+                        struct hull_contact *touch)
+{
+    const struct world *world = input->world;
+    const struct collision_params *how = &world->params->collision;
+    bool discrete = pair_filter_discrete((enum method)how->method);
+    bool hulls = how->shape == SHAPE_MODEL && !discrete;
+    if (hulls ? !touch_hulls(motion, pair, from, touch)
+              : !touch_spheres(input, pair, from, discrete, touch))
+        return false;
+    if (discrete || !(pair->b & PAIR_FIXED))
+        return true;
+    /* Who is inside already has entered before: the touch of it was answered then. Hulls within
+     * their skin of each other count as inside. */
+    bool inside = touch->toi <= from && (hulls || touch->depth_m > 0.0 || from > 0.0);
+    return !(inside && narrow_phase_lets_in(world, through_fixed, pair->b & ~PAIR_FIXED));
+}

@@ -1,0 +1,186 @@
+/* What becomes of single contacts under impulses: fixed objects that give way, how bouncy and rough
+ * a contact is, and what the lost energy does. */
+#include "collider/response/island.h"
+
+/* What would leave slower than this along the normal does not bounce at all. */
+#define STOP_MPS 0.2
+
+static const struct kind *kind_of(const struct response_context *respond, uint32_t row)
+{
+    return &respond->world->kinds[respond->next->entities.kind[row]];
+}
+
+static const struct kind *fixed_kind_of(const struct response_context *respond, uint32_t body)
+{
+    return &respond->world->kinds[respond->world->fixed[body & ~PAIR_FIXED].kind];
+}
+
+static const struct kind *other_kind(const struct response_context *respond, uint32_t body)
+{
+    return body & PAIR_FIXED ? fixed_kind_of(respond, body) : kind_of(respond, body);
+}
+
+/* --- objects that give way ---------------------------------------------------------------------*/
+
+/* A bush bends: it takes its share of the momentum. */
+static void bend(struct response_context *respond, struct island_meeting *meeting,
+                 const struct kind *fixed)
+{
+    const struct impact *impact = &meeting->impact;
+    double mass_kg = kind_of(respond, impact->a)->mass_kg;
+    double keeps = mass_kg / (mass_kg + fixed->mass_kg);
+    meeting->outcome.response = RESPONSE_SLOW;
+    meeting->outcome.impulse_ns = mass_kg * impact->closing_mps * (1.0 - keeps);
+    path_change_slow(respond, impact->a, impact->time, keeps);
+}
+
+/* It breaks: that costs its resistance, the rest of the energy goes on. */
+static void break_through(struct response_context *respond, struct island_meeting *meeting,
+                          const struct kind *fixed, double yields_j)
+{
+    const struct impact *impact = &meeting->impact;
+    double mass_kg = kind_of(respond, impact->a)->mass_kg;
+    double speed = vec3_length(entities_velocity(&respond->next->entities, impact->a));
+    double whole = 0.5 * mass_kg * speed * speed;
+    double share = sqrt(maths_max(0.0, 1.0 - yields_j / whole));
+    meeting->outcome.response = RESPONSE_SLOW;
+    meeting->outcome.impulse_ns = mass_kg * speed * (1.0 - share);
+    path_change_slow(respond, impact->a, impact->time, share);
+    impact_damage_row(respond, impact->a, impact, -1.0, yields_j * fixed->rigidity, NULL);
+}
+
+bool contact_impulse_gives_way(struct response_context *respond, struct island_meeting *meeting)
+{
+    const struct impact *impact = &meeting->impact;
+    const struct kind *fixed = fixed_kind_of(respond, impact->b);
+    double mass_kg = kind_of(respond, impact->a)->mass_kg;
+    double energy = 0.5 * mass_kg * impact->closing_mps * impact->closing_mps;
+    if (fixed->rigidity < YIELDING_RIGIDITY) {
+        bend(respond, meeting, fixed);
+    } else {
+        double yields_j = fixed->resistance_j * damage_high_share(respond, fixed);
+        if (meeting->leans ||
+            damage_fixed_object(respond, impact->b & ~PAIR_FIXED, energy) < DAMAGE_HIGH ||
+            energy < yields_j)
+            return false;
+        break_through(respond, meeting, fixed, yields_j);
+    }
+    if (!meeting->leans)
+        write_collision_event(respond, &meeting->report, impact, &meeting->outcome);
+    return true;
+}
+
+/* --- contacts for the solver -------------------------------------------------------------------*/
+
+static struct vec3 velocity_at(const struct solver_body *body, struct vec3 point)
+{
+    struct vec3 r = vec3_sub(point, body->centre), w = body->spin;
+    return vec3_add(body->velocity, vec3_cross(w, r));
+}
+
+struct solver_contact contact_impulse_contact(const struct response_context *respond,
+                                              const struct island_meeting *meeting,
+                                              const struct solver_body bodies[2])
+{
+    const struct impact *impact = &meeting->impact;
+    const struct kind *ka = kind_of(respond, impact->a), *kb = other_kind(respond, impact->b);
+    struct solver_contact contact = {.point = impact->point,
+                                     .normal = impact->normal,
+                                     .friction = sqrt(ka->friction * kb->friction)};
+    struct vec3 closing =
+        vec3_sub(velocity_at(&bodies[0], contact.point), velocity_at(&bodies[1], contact.point));
+    double restitution = maths_min(ka->restitution, kb->restitution);
+    if (!meeting->leans && restitution * vec3_dot(closing, contact.normal) > STOP_MPS)
+        contact.restitution = restitution;
+    return contact;
+}
+
+/* --- solving -----------------------------------------------------------------------------------*/
+
+/* What a unit impulse at the contact changes of the speed along the normal there [1/kg]. */
+static double mobility(const struct solver_body *body, const struct solver_contact *contact)
+{
+    struct vec3 n = contact->normal, r = vec3_sub(contact->point, body->centre);
+    struct vec3 moment = vec3_cross(r, n);
+    struct vec3 spin = rotation_apply(&body->inverse_inertia, moment);
+    return n.x * n.x * body->inverse_mass.x + n.y * n.y * body->inverse_mass.y +
+           n.z * n.z * body->inverse_mass.z + vec3_dot(moment, spin);
+}
+
+static void strike(struct solver_body *body, struct vec3 point, struct vec3 impulse)
+{
+    struct vec3 r = vec3_sub(point, body->centre);
+    struct vec3 moment = vec3_cross(r, impulse);
+    body->velocity = vec3_add(body->velocity, (struct vec3){body->inverse_mass.x * impulse.x,
+                                                            body->inverse_mass.y * impulse.y,
+                                                            body->inverse_mass.z * impulse.z});
+    body->spin = vec3_add(body->spin, rotation_apply(&body->inverse_inertia, moment));
+}
+
+/* A spring between the two skins: no friction, one contact after the other. */
+static void by_spring(const struct response_context *respond, struct island_meeting *meeting,
+                      struct solver_body *bodies, struct solver_contact *contact)
+{
+    struct solver_body *a = &bodies[contact->a], *b = &bodies[contact->b];
+    const struct impact *impact = &meeting->impact;
+    const struct kind *ka = kind_of(respond, impact->a);
+    const struct kind *kb = other_kind(respond, impact->b);
+    struct vec3 relative = vec3_sub(velocity_at(a, contact->point), velocity_at(b, contact->point));
+    double gives = mobility(a, contact) + mobility(b, contact);
+    contact->closing_mps = vec3_dot(relative, contact->normal);
+    contact->impulse = (struct vec3){0.0, 0.0, 0.0};
+    contact->lost_j = 0.0;
+    if (!(contact->closing_mps > 0.0) || !(gives > 0.0))
+        return;
+    const struct contact_spring spring = {
+        .reduced_kg = 1.0 / gives,
+        .closing_mps = contact->closing_mps,
+        .stiffness_npm = contact_spring_in_series(ka->stiffness_npm, kb->stiffness_npm),
+        .restitution = contact->restitution};
+    meeting->blow = spring_impact(&spring);
+    double out = contact->closing_mps * contact->restitution;
+    contact->lost_j = 0.5 / gives * (contact->closing_mps * contact->closing_mps - out * out);
+    contact->impulse = vec3_scale(contact->normal, meeting->blow.impulse_ns);
+    strike(a, contact->point, vec3_scale(contact->impulse, -1.0));
+    strike(b, contact->point, contact->impulse);
+}
+
+void contact_impulse_solve(struct response_context *respond, uint32_t first, uint32_t bodies)
+{
+    struct island *island = respond->island;
+    bool springs = respond->world->params->collision.response == MODEL_SPRING;
+    uint32_t contacts = 0;
+    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
+        if (springs)
+            by_spring(respond, &island->meeting[i - 1], island->solve, &island->contact[contacts]);
+        contacts++;
+    }
+    if (!springs)
+        contact_solver_island(island->solve, bodies, island->contact, contacts);
+}
+
+/* --- afterwards --------------------------------------------------------------------------------*/
+
+void contact_impulse_harm(struct response_context *respond, struct island_meeting *meeting,
+                          const struct solver_contact *contact)
+{
+    const struct impact *impact = &meeting->impact;
+    const struct kind *ka = kind_of(respond, impact->a);
+    const struct spring_impact *spring = meeting->blow.depth_m > 0.0 ? &meeting->blow : NULL;
+    if (meeting->leans)
+        return;
+    meeting->outcome.impulse_ns = vec3_length(contact->impulse);
+    meeting->outcome.response = contact->restitution > 0.0 ? RESPONSE_BOUNCE : RESPONSE_STOP;
+    if (impact->b & PAIR_FIXED) {
+        const struct kind *fixed = fixed_kind_of(respond, impact->b);
+        impact_damage_row(respond, impact->a, impact, -1.0, contact->lost_j * fixed->rigidity,
+                          spring);
+    } else { /* the larger mass hurts the smaller more (row 30) */
+        const struct kind *kb = kind_of(respond, impact->b);
+        double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
+        impact_damage_row(respond, impact->a, impact, -1.0, contact->lost_j * share_a, spring);
+        impact_damage_row(respond, impact->b, impact, 1.0, contact->lost_j * (1.0 - share_a),
+                          spring);
+    }
+    write_collision_event(respond, &meeting->report, impact, &meeting->outcome);
+}

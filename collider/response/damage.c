@@ -1,0 +1,110 @@
+/* Energy into damage (thesis rows 26, 27, 30). A body takes harm until its kind's resistance_j is
+ * reached; a fixed object is damaged by the single hardest blow, as in figure 8. */
+#include "collider/response/response_figure8.h"
+
+/* A body's levels, as shares of resistance_j: those in between only show how much is left. */
+#define SHARE_HIGH 0.6
+#define SHARE_MED  0.3
+#define SHARE_LOW  0.1
+
+#define DAMAGE_COLUMNS                                                                             \
+    (COLUMN_BIT(harm_j) | COLUMN_BIT(damage) | COLUMN_BIT(changed_tick) | COLUMN_BIT(state) |      \
+     COLUMN_BIT(behaviour) | COLUMN_BIT(order))
+
+static enum damage level(double share)
+{
+    if (share >= 1.0)
+        return DAMAGE_DESTROYED;
+    if (share >= SHARE_HIGH)
+        return DAMAGE_HIGH;
+    if (share >= SHARE_MED)
+        return DAMAGE_MED;
+    return share >= SHARE_LOW ? DAMAGE_LOW : DAMAGE_NONE;
+}
+
+void damage_destroy(struct response_context *respond, uint32_t row, double time)
+{
+    const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
+    if (respond->next->entities.state[row] != ENTITY_ACTIVE)
+        return;
+    struct entities *e = response_change(respond, row, DAMAGE_COLUMNS);
+    e->state[row] = ENTITY_WRECK;
+    e->behaviour[row] = e->order[row] = BEHAVIOUR_IDLE;
+    e->damage[row] = DAMAGE_DESTROYED;
+    e->harm_j[row] = maths_max(e->harm_j[row], kind->resistance_j);
+    e->changed_tick[row] = (uint32_t)respond->next->head->tick;
+    respond->next->head->tally.destroyed++;
+    struct charge charge = {.point = path_at(&respond->path[row], time),
+                            .time = time,
+                            .explosive_kg = kind->explosive_kg};
+    if (kind->explosive_kg > 0.0)
+        explosion_charge(respond, &charge);
+}
+
+void damage_row(struct response_context *respond, uint32_t row, double joules, double time)
+{
+    const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
+    if (respond->next->entities.state[row] != ENTITY_ACTIVE || !(joules > 0.0))
+        return;
+    struct entities *e = response_change(respond, row, DAMAGE_COLUMNS);
+    e->harm_j[row] += joules;
+    enum damage damage = level(e->harm_j[row] / kind->resistance_j);
+    if (damage == DAMAGE_DESTROYED) {
+        damage_destroy(respond, row, time);
+    } else if (damage > e->damage[row]) {
+        e->damage[row] = (uint8_t)damage;
+        e->changed_tick[row] = (uint32_t)respond->next->head->tick;
+    }
+}
+
+/* It never heals; the hardest blow counts. */
+static enum damage damage_fixed(struct response_context *respond, uint32_t object,
+                                enum damage damage)
+{
+    uint8_t *now = &respond->next->fixed_damage[object];
+    if (damage > *now) {
+        *now = (uint8_t)damage;
+        respond->next->head->tally.fixed_damaged++;
+    }
+    return (enum damage) * now;
+}
+
+/* A kind's own constant, or the scenario's. */
+static double own_or(double own, double scenario)
+{
+    return own > 0.0 ? own : scenario;
+}
+
+double damage_high_share(const struct response_context *respond, const struct kind *kind)
+{
+    return own_or(kind->damage_high, respond->world->params->collision.damage_high);
+}
+
+enum damage damage_fixed_object(struct response_context *respond, uint32_t object, double joules)
+{
+    const struct world *world = respond->world;
+    const struct collision_params *limits = &world->params->collision;
+    const struct kind *kind = &world->kinds[world->fixed[object].kind];
+    double share = joules / kind->resistance_j;
+    enum damage damage = DAMAGE_NONE;
+    if (share >= damage_high_share(respond, kind))
+        damage = DAMAGE_HIGH;
+    else if (share >= own_or(kind->damage_med, limits->damage_med))
+        damage = DAMAGE_MED;
+    else if (share >= own_or(kind->damage_low, limits->damage_low))
+        damage = DAMAGE_LOW;
+    return damage_fixed(respond, object, damage);
+}
+
+enum damage damage_fixed_mass(struct response_context *respond, uint32_t object, double mass_kg)
+{
+    const struct collision_params *limits = &respond->world->params->collision;
+    enum damage damage = DAMAGE_NONE;
+    if (mass_kg >= limits->mass_c1_kg)
+        damage = DAMAGE_HIGH;
+    else if (mass_kg >= limits->mass_c2_kg)
+        damage = DAMAGE_MED;
+    else if (mass_kg >= limits->mass_c3_kg)
+        damage = DAMAGE_LOW;
+    return damage_fixed(respond, object, damage);
+}

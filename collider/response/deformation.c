@@ -1,0 +1,24 @@
+/* Harm and dents of one blow. */
+#include "collider/response/deformation.h"
+
+#include "world/maths/maths.h"
+
+static double deformation_length(const struct kind *kind)
+{
+    return DEFORMATION_LENGTH * maths_min(kind->length_m, maths_min(kind->width_m, kind->height_m));
+}
+
+struct deformation deformation_of(const struct kind *kind, double joules)
+{
+    struct deformation crush = {0.0, 0.0, 0.0};
+    double gives = 1.0 - kind->rigidity;
+    if (!(joules > 0.0))
+        return crush;
+    crush.harm_j = joules * (kind->rigidity + gives * kind->moldability);
+    double depth = gives * deformation_length(kind) * maths_min(1.0, joules / kind->resistance_j);
+    if (depth >= DEFORMATION_DENT_LEAST_M) {
+        crush.plastic_m = kind->moldability * depth;
+        crush.elastic_m = depth - crush.plastic_m;
+    }
+    return crush;
+}

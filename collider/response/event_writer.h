@@ -1,0 +1,23 @@
+/* The frame's events, written into the ring from the committed end on. A frame holds at most
+ * events_per_frame; what is more is counted in the tally. */
+#ifndef JOLON_COLLIDER_RESPONSE_EVENT_WRITER_H
+#define JOLON_COLLIDER_RESPONSE_EVENT_WRITER_H
+
+#include "world/world.h"
+
+struct event_writer {
+    struct event *slot;
+    uint64_t slots; /* power of two */
+    uint64_t first; /* sequence of the frame's first event */
+    uint64_t frame, tick;
+    uint32_t count, most;
+    struct tally *tally;
+};
+
+/* A new event of this type, zeroed but for its key; NULL when the frame has no room left. */
+struct event *event_writer_event(struct event_writer *sink, enum event_type type);
+
+/* Chains the frame's events onto the digest of all before. */
+uint64_t event_writer_digest(const struct event_writer *sink, uint64_t digest);
+
+#endif

@@ -1,0 +1,241 @@
+/* Detonations: blast over what is near, craters in the ground, chains of what explodes in turn. */
+#include "collider/response/response.h"
+
+#include "ipc/process/log.h"
+#include "world/runtime/reserve.h"
+#include "world/runtime/work_done.h"
+
+#include <errno.h>
+
+#define TNT_J_PER_KG       4.184e6
+#define EXPLOSION_RADIUS_M 8.0  /* of one kilogram; grows with the cube root (Hopkinson scaling) */
+#define EXPLOSION_COUPLING 0.02 /* share of a near charge's energy that a body takes */
+#define CRATER_RADIUS_M    1.1  /* of one kilogram on soil; grows with the cube root */
+#define CRATER_DEPTH       0.4  /* over the radius */
+
+int charges_init(struct charges *charges, const struct world *world)
+{
+    /* Each row explodes once in a frame: as a round, or as what a blast destroys. */
+    *charges = (struct charges){.capacity = world->params->capacity};
+    charges->charge = reserve_take(charges->capacity, sizeof *charges->charge);
+    if (charges->charge && pair_list_init(&charges->near, broad_phase_found_most(world)) == 0)
+        return 0;
+    charges_free(charges);
+    errno = ENOMEM;
+    return -1;
+}
+
+void charges_free(struct charges *charges)
+{
+    reserve_free(charges->charge);
+    pair_list_free(&charges->near);
+    *charges = (struct charges){0};
+}
+
+void explosion_charge(struct response_context *respond, const struct charge *charge)
+{
+    struct charges *charges = respond->charges;
+    CHECK(charges->count < charges->capacity);
+    charges->charge[charges->count++] = *charge;
+}
+
+/* Energy that a body takes whose surface is at this distance: falls to nothing at the blast's
+ * radius; touching, all of it. */
+static double explosion_energy(double explosive_kg, double radius_m, double distance_m)
+{
+    double left = 1.0 - distance_m / radius_m;
+    if (left <= 0.0)
+        return 0.0;
+    double share = distance_m <= 0.0 ? 1.0 : EXPLOSION_COUPLING * left * left;
+    return TNT_J_PER_KG * explosive_kg * share;
+}
+
+static double distance_to(struct vec3 from, struct vec3 centre, double radius_m)
+{
+    return maths_max(0.0, vec3_length(vec3_sub(centre, from)) - radius_m);
+}
+
+static void explosion_row(struct response_context *respond, const struct charge *charge,
+                          double radius, uint32_t row)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct path *path = &respond->path[row];
+    if (e->state[row] != ENTITY_ACTIVE || e->behaviour[row] == BEHAVIOUR_FLIGHT)
+        return;
+    body_motion_draw(respond->motion, row);
+    struct vec3 at = path_at(path, maths_max(charge->time, path->since));
+    double distance = distance_to(charge->point, at, respond->world->kinds[e->kind[row]].radius_m);
+    /* A direct hit was answered where it struck; to the blast it is merely near. */
+    double joules = explosion_energy(charge->explosive_kg, radius, maths_max(distance, 1e-3));
+    /* A stray round of one's own side is no attack. */
+    uint32_t owner = charge->owner_slot;
+    bool known = entities_alive(e, owner, charge->owner_id);
+    bool friend = known && e->force[owner] != FORCE_NEUTRAL && e->force[owner] == e->force[row];
+    if (joules > 0.0 && known && owner != row && !friend) {
+        struct entities *change =
+            response_change(respond, row, COLUMN_BIT(threat_slot) | COLUMN_BIT(threat_id));
+        change->threat_slot[row] = charge->owner_slot;
+        change->threat_id[row] = charge->owner_id;
+    }
+    damage_row(respond, row, joules, charge->time);
+}
+
+static void explosion_fixed(struct response_context *respond, const struct charge *charge,
+                            double radius, uint32_t index)
+{
+    const struct fixed_object *object = &respond->world->fixed[index];
+    struct vec3 at = fixed_position(object);
+    double distance = distance_to(charge->point, at, (double)object->radius_m);
+    damage_fixed_object(respond, index, explosion_energy(charge->explosive_kg, radius, distance));
+}
+
+static bool listed(const struct pair_list *list, uint32_t row)
+{
+    for (uint32_t i = 0; i < list->count; i++) {
+        if (list->pair[i].a == row)
+            return true;
+    }
+    return false;
+}
+
+/* The rows that may be within the blast: what the broad phase knows there, and those that have left
+ * the boxes that it knows. */
+static void find_rows(const struct response_context *respond, const struct path_box *box)
+{
+    const struct contact_queue *contacts = respond->contacts;
+    struct pair_list *near = &respond->charges->near;
+    broad_phase_query(respond->broad, &respond->input.detect, box, near);
+    for (uint32_t i = 0; i < contacts->stray_count; i++) {
+        uint32_t row = contacts->strayed[i];
+        if (pair_filter_boxes_meet(box, &respond->broad->box[row]) && !listed(near, row))
+            pair_list_add(near, row, 0);
+    }
+}
+
+static void explosion_one(struct response_context *respond, const struct charge *charge)
+{
+    double radius = EXPLOSION_RADIUS_M * maths_cbrt(charge->explosive_kg);
+    const struct path still = {.at = charge->point};
+    struct path_box box = pair_filter_way_box(&still, radius + BOX_SLACK_M);
+    struct pair_list *near = &respond->charges->near;
+    near->count = 0;
+    find_rows(respond, &box);
+    for (uint32_t i = 0; i < near->count; i++)
+        explosion_row(respond, charge, radius, near->pair[i].a);
+    near->count = 0;
+    broad_phase_query_fixed(respond->broad, &respond->input.detect, &box, near);
+    for (uint32_t i = 0; i < near->count; i++)
+        explosion_fixed(respond, charge, radius, near->pair[i].b & ~PAIR_FIXED);
+}
+
+void explosion_all(struct response_context *respond)
+{
+    struct charges *charges = respond->charges;
+    /* Blasts may add charges: each body explodes once, so this ends. */
+    for (uint32_t i = 0; i < charges->count; i++) {
+        struct charge charge = charges->charge[i];
+        explosion_one(respond, &charge);
+        work_done();
+    }
+    charges->count = 0;
+}
+
+static void dig(struct response_context *respond, struct vec3 point, double explosive_kg)
+{
+    struct state_head *head = respond->next->head;
+    double radius = CRATER_RADIUS_M * maths_cbrt(explosive_kg);
+    if (head->crater_count >= respond->world->params->crater_slots) {
+        head->tally.craters_refused++;
+        return;
+    }
+    struct crater *crater = &respond->next->craters[head->crater_count++];
+    *crater = (struct crater){point.x, point.z, (float)radius, (float)(radius * CRATER_DEPTH),
+                              head->frame};
+    struct event *event = event_writer_event(&respond->sink, EVENT_CRATER);
+    if (event) {
+        event->crater.point[0] = point.x;
+        event->crater.point[1] = point.y;
+        event->crater.point[2] = point.z;
+        event->crater.radius_m = crater->radius_m;
+        event->crater.depth_m = crater->depth_m;
+    }
+}
+
+static enum struck struck_of(const struct response_context *respond, uint32_t struck,
+                             struct vec3 point)
+{
+    if (struck == CONTACT_AIR)
+        return STRUCK_AIR;
+    if (struck == CONTACT_GROUND)
+        return cover_is_water(terrain_cover(&respond->world->terrain, point.x, point.z))
+                   ? STRUCK_WATER
+                   : STRUCK_GROUND;
+    return struck & PAIR_FIXED ? STRUCK_FIXED : STRUCK_VEHICLE;
+}
+
+/* A direct hit: the charge's whole energy and the round's own. */
+static void hit(struct response_context *respond, uint32_t round, uint32_t struck, enum struck what,
+                double time)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct kind *kind = &respond->world->kinds[e->kind[round]];
+    struct vec3 velocity = entities_velocity(e, round);
+    if (what == STRUCK_VEHICLE)
+        velocity = vec3_sub(velocity, entities_velocity(e, struck));
+    double joules =
+        TNT_J_PER_KG * kind->explosive_kg + 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
+    if (what == STRUCK_VEHICLE)
+        damage_row(respond, struck, joules, time);
+    if (what == STRUCK_FIXED)
+        damage_fixed_object(respond, struck & ~PAIR_FIXED, joules);
+}
+
+static struct event_party party_struck(const struct response_context *respond, uint32_t struck,
+                                       enum struck what)
+{
+    const struct entities *e = &respond->next->entities;
+    if (what == STRUCK_VEHICLE)
+        return (struct event_party){e->id[struck], e->kind[struck], 0, e->damage[struck]};
+    if (what == STRUCK_FIXED) {
+        uint32_t object = struck & ~PAIR_FIXED;
+        return (struct event_party){object + 1, respond->world->fixed[object].kind, 1,
+                                    respond->next->fixed_damage[object]};
+    }
+    return (struct event_party){0, KIND_NONE, 0, DAMAGE_NONE};
+}
+
+void explosion_munition(struct response_context *respond, uint32_t row, uint32_t struck,
+                        double time)
+{
+    const struct entities *e = &respond->next->entities;
+    struct state_head *head = respond->next->head;
+    const struct kind *kind = &respond->world->kinds[e->kind[row]];
+    struct vec3 point = path_at(&respond->path[row], time);
+    enum struck what = struck_of(respond, struck, point);
+    struct charge charge = {.point = point,
+                            .time = time,
+                            .explosive_kg = kind->explosive_kg,
+                            .owner_slot = e->owner_slot[row],
+                            .owner_id = e->owner_id[row]};
+    struct event *event = event_writer_event(&respond->sink, EVENT_DETONATION);
+    struct event_party munition = {e->id[row], e->kind[row], 0, DAMAGE_DESTROYED};
+
+    head->tally.detonations++;
+    hit(respond, row, struck, what, time);
+    if (event) {
+        event->detonation.munition = munition;
+        event->detonation.struck_party = party_struck(respond, struck, what);
+        event->detonation.point[0] = point.x;
+        event->detonation.point[1] = point.y;
+        event->detonation.point[2] = point.z;
+        event->detonation.explosive_kg = (float)kind->explosive_kg;
+        event->detonation.struck = what;
+    }
+    if (what == STRUCK_GROUND && kind->craters)
+        dig(respond, point, kind->explosive_kg);
+    entities_clear(response_change(respond, row, COLUMNS_ALL), row);
+    head->munitions--;
+    contact_queue_drop(respond->contacts, row);
+    if (charge.explosive_kg > 0.0)
+        explosion_charge(respond, &charge);
+}

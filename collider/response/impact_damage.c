@@ -1,0 +1,39 @@
+/* What a collision's energy does to one body: harm, and a dent where it was struck. */
+#include "collider/response/deformation.h"
+#include "collider/response/response.h"
+#include "collider/response/contact_spring.h"
+
+/* inwards: unit, world axes. */
+static void dent(struct response_context *respond, uint32_t row, const struct impact *impact,
+                 struct vec3 inwards, const struct deformation *crush)
+{
+    const struct state *next = respond->next;
+    struct state_head *head = next->head;
+    struct mat3 turn = rotation_matrix(body_motion_turned(respond->motion, row, impact->time));
+    struct vec3 from_position = vec3_sub(impact->point, path_at(&respond->path[row], impact->time));
+    if (head->dent_count >= respond->world->params->dent_slots) {
+        head->tally.dents_refused++;
+        return;
+    }
+    struct dent *entry = &next->dents[head->dent_count++];
+    *entry = (struct dent){.id = next->entities.id[row],
+                           .tick = (uint32_t)head->tick,
+                           .plastic_m = (float)crush->plastic_m,
+                           .elastic_m = (float)crush->elastic_m};
+    vec3_to_floats(entry->point, rotation_back(&turn, from_position));
+    vec3_to_floats(entry->direction, rotation_back(&turn, inwards));
+}
+
+void impact_damage_row(struct response_context *respond, uint32_t row, const struct impact *impact,
+                       double side, double joules, const struct spring_impact *spring)
+{
+    const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
+    struct deformation crush = deformation_of(kind, joules);
+    if (spring) { /* each skin gave way by half */
+        crush.plastic_m = 0.5 * spring->left_m;
+        crush.elastic_m = 0.5 * (spring->depth_m - spring->left_m);
+    }
+    if (crush.plastic_m + crush.elastic_m >= DEFORMATION_DENT_LEAST_M)
+        dent(respond, row, impact, vec3_scale(impact->normal, side), &crush);
+    damage_row(respond, row, crush.harm_j, impact->time);
+}

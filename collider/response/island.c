@@ -1,0 +1,284 @@
+/* From contacts of one moment to islands, through the solver, to the bodies' new ways. */
+#include "collider/response/island.h"
+
+#include "collider/array.h"
+#include "world/entity/mass_properties.h"
+#include "world/runtime/reserve.h"
+
+#include <errno.h>
+#include <stdlib.h>
+
+/* Less is no overlap but rounding, 50 km from the origin [m]. */
+#define ROUNDING_M 1e-9
+
+int island_init(struct island *island, const struct world *world)
+{
+    uint32_t rows = world->params->capacity, most = pair_filter_pairs_first(world);
+    uint64_t solved = (uint64_t)rows + most;
+    *island = (struct island){.meeting_capacity = most, .rows = rows};
+    island->meeting = reserve_take(most, sizeof *island->meeting);
+    island->body = reserve_take(rows, sizeof *island->body);
+    island->row = reserve_take(rows, sizeof *island->row);
+    island->body_of = calloc(rows, sizeof *island->body_of);
+    island->solve = reserve_take(solved, sizeof *island->solve);
+    island->solve_of = reserve_take(solved, sizeof *island->solve_of);
+    island->contact = reserve_take(most, sizeof *island->contact);
+    if (island->meeting && island->body && island->row && island->body_of && island->solve &&
+        island->solve_of && island->contact)
+        return 0;
+    island_free(island);
+    errno = ENOMEM;
+    return -1;
+}
+
+void island_free(struct island *island)
+{
+    reserve_free(island->meeting);
+    reserve_free(island->body);
+    reserve_free(island->row);
+    free(island->body_of);
+    reserve_free(island->solve);
+    reserve_free(island->solve_of);
+    reserve_free(island->contact);
+    *island = (struct island){0};
+}
+
+/* --- the moment's meetings ---------------------------------------------------------------------*/
+
+static uint32_t body_for(struct island *island, uint32_t row)
+{
+    if (island->body_of[row] == 0) {
+        uint32_t index = island->bodies++;
+        island->body[index] =
+            (struct island_body){.row = row, .parent = index, .local = UINT32_MAX};
+        island->row[index] = row;
+        island->body_of[row] = index + 1;
+    }
+    return island->body_of[row] - 1;
+}
+
+static uint32_t root_of(struct island *island, uint32_t body)
+{
+    while (island->body[body].parent != body) {
+        island->body[body].parent = island->body[island->body[body].parent].parent;
+        body = island->body[body].parent;
+    }
+    return body;
+}
+
+/* The lower root becomes both's, so that groups come in the order of their first meeting. */
+static void join(struct island *island, uint32_t p, uint32_t q)
+{
+    uint32_t a = root_of(island, p), b = root_of(island, q);
+    island->body[a > b ? a : b].parent = a > b ? b : a;
+}
+
+/* Nothing is in the solver while meetings are gathered: there is nothing to copy. */
+static void more_meetings(struct island *island)
+{
+    uint32_t more = 2 * island->meeting_capacity + 1;
+    uint64_t solved = (uint64_t)island->rows + more;
+    island->meeting = array_grow(island->meeting, island->meetings, more, sizeof *island->meeting);
+    island->solve = array_grow(island->solve, 0, solved, sizeof *island->solve);
+    island->solve_of = array_grow(island->solve_of, 0, solved, sizeof *island->solve_of);
+    island->contact = array_grow(island->contact, 0, more, sizeof *island->contact);
+    island->meeting_capacity = more;
+}
+
+/* Takes in one contact: a lean, a fixed object that gives way, or a meeting for the solver. */
+static void take(struct response_context *respond, const struct contact *contact)
+{
+    struct island *island = respond->island;
+    if (island->meetings == island->meeting_capacity)
+        more_meetings(island);
+    struct island_meeting *meeting = &island->meeting[island->meetings];
+    *meeting = (struct island_meeting){
+        .contact = *contact, .impact = response_impact(respond, contact), .body_b = BODY_FIXED};
+    if (passes_through(respond, &meeting->impact))
+        return;
+    meeting->leans = contact_persists(respond, &meeting->impact);
+    if (!meeting->leans)
+        meeting->report = response_report(respond, &meeting->impact);
+    meeting->body_a = body_for(island, contact->a); /* it is swept with the others in any case */
+    if (contact->b & PAIR_FIXED && contact_impulse_gives_way(respond, meeting)) {
+        contact_queue_settle(respond->contacts, contact);
+        return;
+    }
+    island->body[meeting->body_a].stays |= contact->last;
+    if (!(contact->b & PAIR_FIXED)) {
+        meeting->body_b = body_for(island, contact->b);
+        island->body[meeting->body_b].stays |= contact->last;
+        join(island, meeting->body_a, meeting->body_b);
+    }
+    island->meetings++;
+}
+
+/* Is the next contact one of the same moment that impulses answer? Rounds and the ground are not.
+ */
+static bool same_moment(const struct response_context *respond, const struct contact *next,
+                        double toi)
+{
+    const uint8_t *behaviour = respond->next->entities.behaviour;
+    return next && next->touch.toi <= toi + CONTACT_TIE && next->b < CONTACT_AIR &&
+           behaviour[next->a] != BEHAVIOUR_FLIGHT &&
+           (next->b & PAIR_FIXED || behaviour[next->b] != BEHAVIOUR_FLIGHT);
+}
+
+static void gather(struct response_context *respond, const struct contact *first)
+{
+    struct contact contact = *first;
+    take(respond, &contact);
+    while (same_moment(respond, contact_queue_peek(respond->contacts), first->touch.toi)) {
+        contact_queue_next(respond->contacts, &respond->input, &contact);
+        contact.touch.toi = first->touch.toi;
+        if (contact.b & PAIR_FIXED &&
+            !pair_filter_stands(&respond->input.detect, contact.b & ~PAIR_FIXED))
+            continue;
+        take(respond, &contact);
+    }
+}
+
+static void chain(struct island *island)
+{
+    for (uint32_t i = 0; i < island->meetings; i++) {
+        struct island_body *root = &island->body[root_of(island, island->meeting[i].body_a)];
+        if (root->last != 0)
+            island->meeting[root->last - 1].next = i + 1;
+        else
+            root->first = i + 1;
+        root->last = i + 1;
+    }
+}
+
+/* --- into the solver ---------------------------------------------------------------------------*/
+
+static struct solver_body solve_body_of(const struct response_context *respond,
+                                        struct island_body *body, double time)
+{
+    const struct entities *e = &respond->next->entities;
+    uint32_t row = body->row;
+    const struct mass_properties inertia = mass_properties_of(&respond->world->kinds[e->kind[row]]);
+    struct mat3 turn = rotation_matrix(body_motion_turned(respond->motion, row, time));
+    double light = 1.0 / inertia.mass_kg;
+    body->grounded = path_change_grounded(respond, row);
+    body->arm = rotation_apply(&turn, (struct vec3){0.0, inertia.centre_m, 0.0});
+    struct solver_body solve = {
+        .centre = vec3_add(path_at(&respond->path[row], time), body->arm),
+    };
+    if (body->grounded) { /* it can neither jump nor roll over */
+        solve.inverse_mass = (struct vec3){light, 0.0, light};
+        solve.inverse_inertia.m[1][1] = 1.0 / inertia.moment.y;
+    } else {
+        solve.inverse_mass = (struct vec3){light, light, light};
+        solve.inverse_inertia = mass_properties_inverse_world(&inertia, &turn);
+    }
+    solve.spin = path_change_spin(respond, row);
+    solve.velocity = vec3_add(entities_velocity(e, row), vec3_cross(solve.spin, body->arm));
+    if (body->grounded)
+        solve.velocity.y = 0.0; /* the slope's doing: it would push like a lift */
+    return solve;
+}
+
+/* A body's place in the solver. */
+static uint32_t local_of(const struct response_context *respond, uint32_t *count, uint32_t index,
+                         double time)
+{
+    struct island *island = respond->island;
+    if (index == BODY_FIXED) {
+        island->solve[*count] = (struct solver_body){0};
+        island->solve_of[*count] = BODY_FIXED;
+        return (*count)++;
+    }
+    struct island_body *body = &island->body[index];
+    if (body->local == UINT32_MAX) {
+        island->solve[*count] = solve_body_of(respond, body, time);
+        island->solve_of[*count] = index;
+        body->local = (*count)++;
+    }
+    return body->local;
+}
+
+/* --- and out again -----------------------------------------------------------------------------*/
+
+/* The backup vector (Hahn 1988; thesis row 46): bodies that overlap part along the normal, the
+ * lighter by more, until their skins touch. */
+static void part(const struct response_context *respond, const struct island_meeting *meeting,
+                 const struct solver_contact *contact)
+{
+    struct island *island = respond->island;
+    bool hulls = respond->world->params->collision.shape == SHAPE_MODEL;
+    double depth = meeting->impact.depth_m;
+    if (!(depth > ROUNDING_M))
+        return;
+    struct vec3 n = contact->normal;
+    double slant = vec3_dot(n, meeting->contact.touch.normal);
+    double way = (depth + (hulls ? TOUCH_M : 0.0)) / maths_max(slant, 0.5);
+    const struct solver_body *a = &island->solve[contact->a], *b = &island->solve[contact->b];
+    double la = a->inverse_mass.x, lb = b->inverse_mass.x;
+    struct island_body *body_a = &island->body[meeting->body_a];
+    body_a->shift = vec3_sub(body_a->shift, vec3_scale(n, way * la / (la + lb)));
+    if (meeting->body_b == BODY_FIXED)
+        return;
+    struct island_body *body_b = &island->body[meeting->body_b];
+    body_b->shift = vec3_add(body_b->shift, vec3_scale(n, way * lb / (la + lb)));
+}
+
+static void leave(struct response_context *respond, const struct solver_body *solve,
+                  const struct island_body *body, double time)
+{
+    uint32_t row = body->row;
+    struct vec3 velocity = vec3_sub(solve->velocity, vec3_cross(solve->spin, body->arm));
+    if (body->grounded)
+        velocity.y = 0.0; /* the mover puts it on the slope again */
+    struct vec3 at = vec3_add(path_at(&respond->path[row], time), body->shift);
+    path_change_leave(respond, row, time, at, velocity, solve->spin, body->stays);
+}
+
+static void solve_group(struct response_context *respond, uint32_t first, double time)
+{
+    struct island *island = respond->island;
+    uint32_t bodies = 0, contacts = 0;
+    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
+        const struct island_meeting *meeting = &island->meeting[i - 1];
+        uint32_t a = local_of(respond, &bodies, meeting->body_a, time);
+        uint32_t b = local_of(respond, &bodies, meeting->body_b, time);
+        const struct solver_body sides[2] = {island->solve[a], island->solve[b]};
+        struct solver_contact *contact = &island->contact[contacts++];
+        *contact = contact_impulse_contact(respond, meeting, sides);
+        contact->a = a;
+        contact->b = b;
+    }
+    contact_impulse_solve(respond, first, bodies);
+    contacts = 0;
+    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
+        const struct island_meeting *meeting = &island->meeting[i - 1];
+        const struct solver_contact *contact = &island->contact[contacts++];
+        part(respond, meeting, contact);
+        if (vec3_dot(contact->impulse, contact->impulse) == 0.0)
+            contact_queue_settle(respond->contacts,
+                                 &meeting->contact); /* it would be found again */
+    }
+    for (uint32_t i = 0; i < bodies; i++) {
+        if (island->solve_of[i] != BODY_FIXED)
+            leave(respond, &island->solve[i], &island->body[island->solve_of[i]], time);
+    }
+    contacts = 0;
+    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next)
+        contact_impulse_harm(respond, &island->meeting[i - 1], &island->contact[contacts++]);
+}
+
+void island_answer(struct response_context *respond, const struct contact *contact)
+{
+    struct island *island = respond->island;
+    double time = contact->touch.toi;
+    island->meetings = island->bodies = 0;
+    gather(respond, contact);
+    chain(island);
+    for (uint32_t i = 0; i < island->bodies; i++) {
+        if (island->body[i].first != 0)
+            solve_group(respond, island->body[i].first, time);
+    }
+    path_change_swept(respond, island->row, island->bodies, time);
+    for (uint32_t i = 0; i < island->bodies; i++)
+        island->body_of[island->row[i]] = 0;
+}

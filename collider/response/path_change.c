@@ -1,0 +1,128 @@
+/* How an answer to a contact changes a body's way through the rest of the frame. */
+#include "collider/response/response.h"
+
+#include "world/entity/mass_properties.h"
+#include "world/terrain/gridsquare.h"
+
+/* A wreck this near the ground lies on it [m]. */
+#define LIES_M 0.05
+
+#define PATH_CHANGE_COLUMNS                                                                        \
+    (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(vx) | COLUMN_BIT(vy) |             \
+     COLUMN_BIT(vz) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) | COLUMN_BIT(roll))
+#define SPIN_COLUMNS (COLUMN_BIT(spin_x) | COLUMN_BIT(spin_y) | COLUMN_BIT(spin_z))
+
+bool path_change_grounded(const struct response_context *respond, uint32_t row)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct world *world = respond->world;
+    enum domain domain = (enum domain)world->kinds[e->kind[row]].domain;
+    if (domain == DOMAIN_LAND || domain == DOMAIN_SEA)
+        return true;
+    return e->state[row] == ENTITY_WRECK &&
+           e->y[row] <= LIES_M + terrain_height(&world->terrain, respond->input.detect.craters,
+                                                e->x[row], e->z[row]);
+}
+
+struct vec3 path_change_spin(const struct response_context *respond, uint32_t row)
+{
+    const struct body_motion *motion = respond->motion;
+    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    if (!path_change_grounded(respond, row))
+        return (struct vec3){n->spin_x[row], n->spin_y[row], n->spin_z[row]};
+    double yaw = n->spin_y[row];
+    if (motion->change[row] != 0)
+        yaw += body_motion_turning(motion, row).driven_rps;
+    else if (body_motion_old(motion, row))
+        yaw = -maths_wrap_half(n->heading[row] - w->heading[row]) / respond->world->params->dt_s;
+    return (struct vec3){0.0, yaw, 0.0};
+}
+
+/* What it turns beside its own spin. */
+static double driven(const struct response_context *respond, uint32_t row)
+{
+    return path_change_spin(respond, row).y - respond->next->entities.spin_y[row];
+}
+
+/* The way goes no further than the world's edge. It may begin beyond it, where the body was pushed
+ * out of another, but does not end there. */
+static struct path within_world(struct path path)
+{
+    double left = 1.0 - path.since;
+    if (!(left > 0.0)) {
+        path.at.x = maths_clamp(path.at.x, 0.0, WORLD_SIDE_M);
+        path.at.z = maths_clamp(path.at.z, 0.0, WORLD_SIDE_M);
+    }
+    if (left > 0.0) {
+        path.along.x =
+            (maths_clamp(path.at.x + path.along.x * left, 0.0, WORLD_SIDE_M) - path.at.x) / left;
+        path.along.z =
+            (maths_clamp(path.at.z + path.along.z * left, 0.0, WORLD_SIDE_M) - path.at.z) / left;
+    }
+    return path;
+}
+
+/* Gives the row this way and what follows from it for the frame's end. */
+static void take_way(struct response_context *respond, uint32_t row, const struct path *path,
+                     const struct rotation_path *turning, struct vec3 velocity)
+{
+    struct entities *e = response_change(respond, row, PATH_CHANGE_COLUMNS);
+    struct path way = within_world(*path);
+    body_motion_change(respond->motion, row, &way, turning);
+    entities_set_position(e, row, path_at(&way, 1.0));
+    entities_set_velocity(e, row, velocity);
+    rotation_angles(turning->to, &e->heading[row], &e->pitch[row], &e->roll[row]);
+}
+
+void path_change_swept(struct response_context *respond, const uint32_t *rows, uint32_t count,
+                       double time)
+{
+    contact_queue_change(respond->contacts, &respond->input, rows, count, time);
+}
+
+void path_change_stay(struct response_context *respond, uint32_t row, double time,
+                      struct vec3 velocity)
+{
+    struct quat turned = body_motion_turned(respond->motion, row, time);
+    const struct rotation_path turning = {.from = turned, .to = turned};
+    const struct path path = {.at = path_at(&respond->path[row], time), .since = time};
+    take_way(respond, row, &path, &turning, velocity);
+    path_change_swept(respond, &row, 1, time);
+}
+
+void path_change_slow(struct response_context *respond, uint32_t row, double time, double share)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct path *before = &respond->path[row];
+    const struct rotation_path turning = {.from = body_motion_turned(respond->motion, row, time),
+                                          .to = body_motion_turning(respond->motion, row).to,
+                                          .driven_rps = driven(respond, row)};
+    const struct path path = {
+        .at = path_at(before, time), .along = vec3_scale(before->along, share), .since = time};
+    take_way(respond, row, &path, &turning, vec3_scale(entities_velocity(e, row), share));
+}
+
+void path_change_leave(struct response_context *respond, uint32_t row, double time, struct vec3 at,
+                       struct vec3 velocity, struct vec3 spin_rps, bool stays)
+{
+    struct entities *e = response_change(respond, row, SPIN_COLUMNS);
+    double dt_s = respond->world->params->dt_s;
+    struct quat turned = body_motion_turned(respond->motion, row, time);
+    const struct rotation_path turning = {
+        .from = turned,
+        .to = stays ? turned : rotation_spun(turned, spin_rps, (1.0 - time) * dt_s),
+        .driven_rps = driven(respond, row)};
+    const struct path path = {
+        .at = at, .along = vec3_scale(velocity, stays ? 0.0 : dt_s), .since = time};
+    if (!path_change_grounded(respond, row)) {
+        /* Its axes turn with it, its angular momentum does not. */
+        const struct mass_properties inertia =
+            mass_properties_of(&respond->world->kinds[e->kind[row]]);
+        struct mat3 before = rotation_matrix(turned), after = rotation_matrix(turning.to);
+        spin_rps = mass_properties_carried(&inertia, &before, spin_rps, &after);
+    }
+    e->spin_x[row] = spin_rps.x;
+    e->spin_y[row] = spin_rps.y - turning.driven_rps;
+    e->spin_z[row] = spin_rps.z;
+    take_way(respond, row, &path, &turning, velocity);
+}

@@ -1,0 +1,307 @@
+/* One contact at a time, in the order of time: who met whom, which model answers, and the event. */
+#include "collider/response/response.h"
+
+#include "collider/response/response_mps.h"
+
+/* Bodies that touched within this time and close no faster than this lean on each other, or rub
+ * along: that is one long contact, told of when it began. An engine adds far less within the time;
+ * less here tells of a vehicle that drives along another again and again. */
+#define LEAN_S   0.25
+#define LEAN_MPS 2.0
+
+/* A normal with less of it on the level is too steep to push what the ground holds. */
+#define LEVEL_MIN 0.2
+
+/* Tells the agent which way leads away from what it ran into. */
+static void bump(struct response_context *respond, uint32_t row, double away_x, double away_z)
+{
+    struct entities *e =
+        response_change(respond, row, COLUMN_BIT(bumped) | COLUMN_BIT(bump_heading));
+    e->bumped[row] = 1;
+    e->bump_heading[row] = (float)maths_heading(away_x, away_z);
+}
+
+/* Bodies that the ground holds push each other on the level only: along the normal, or, where that
+ * is too steep to tell, along the line between their places. */
+static struct vec3 level_normal(const struct response_context *respond,
+                                const struct contact *contact)
+{
+    struct vec3 level = {contact->touch.normal.x, 0.0, contact->touch.normal.z};
+    double length = vec3_length(level);
+    if (length < LEVEL_MIN) {
+        struct vec3 a = path_at(&respond->path[contact->a], contact->touch.toi), b;
+        if (contact->b & PAIR_FIXED) {
+            b = fixed_position(&respond->world->fixed[contact->b & ~PAIR_FIXED]);
+        } else {
+            b = path_at(&respond->path[contact->b], contact->touch.toi);
+        }
+        level = (struct vec3){b.x - a.x, 0.0, b.z - a.z};
+        length = vec3_length(level);
+    }
+    return length > 0.0 ? vec3_scale(level, 1.0 / length) : (struct vec3){1.0, 0.0, 0.0};
+}
+
+/* Of the row's skin where it touches. */
+static struct vec3 velocity_at(const struct response_context *respond, uint32_t row,
+                               const struct hull_contact *touch)
+{
+    struct vec3 w = path_change_spin(respond, row);
+    struct vec3 r = vec3_sub(touch->point, path_at(&respond->path[row], touch->toi));
+    return vec3_add(entities_velocity(&respond->next->entities, row), vec3_cross(w, r));
+}
+
+struct impact response_impact(const struct response_context *respond, const struct contact *contact)
+{
+    const struct entities *e = &respond->next->entities;
+    struct impact impact = {.a = contact->a,
+                            .b = contact->b,
+                            .time = contact->touch.toi,
+                            .point = contact->touch.point,
+                            .normal = contact->touch.normal,
+                            .depth_m = contact->touch.depth_m};
+    struct vec3 va = velocity_at(respond, contact->a, &contact->touch), vb = {0.0, 0.0, 0.0};
+    double other_heading;
+    if (path_change_grounded(respond, contact->a) &&
+        (contact->b & PAIR_FIXED || path_change_grounded(respond, contact->b)))
+        impact.normal = level_normal(respond, contact);
+    if (contact->b & PAIR_FIXED) {
+        other_heading = fixed_heading(&respond->world->fixed[contact->b & ~PAIR_FIXED]);
+    } else {
+        vb = velocity_at(respond, contact->b, &contact->touch);
+        other_heading = e->heading[contact->b];
+    }
+    impact.closing_mps = maths_max(0.0, vec3_dot(vec3_sub(va, vb), impact.normal));
+    impact.angle_rad = maths_wrap_turn(other_heading - e->heading[contact->a]);
+    return impact;
+}
+
+static void answer(struct response_context *respond, const struct impact *impact,
+                   struct outcome *outcome)
+{
+    bool fixed = impact->b & PAIR_FIXED;
+    enum response_model model = (enum response_model)respond->world->params->collision.response;
+    if (model == MODEL_FIGURE8)
+        (fixed ? response_figure8_fixed : response_figure8_moving)(respond, impact, outcome);
+    else if (model == MODEL_MPS && !fixed)
+        response_mps_moving(respond, impact, outcome);
+}
+
+static struct event_party party_of(const struct response_context *respond, uint32_t body)
+{
+    const struct entities *e = &respond->next->entities;
+    if (body & PAIR_FIXED) {
+        uint32_t object = body & ~PAIR_FIXED;
+        return (struct event_party){object + 1, respond->world->fixed[object].kind, 1,
+                                    respond->next->fixed_damage[object]};
+    }
+    return (struct event_party){e->id[body], e->kind[body], 0, e->damage[body]};
+}
+
+static void put(double to[3], struct vec3 from)
+{
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
+}
+
+/* How the other side of a contact is remembered: an entity by its id, which no slot change blurs.
+ */
+static uint32_t body_mark(const struct response_context *respond, uint32_t body)
+{
+    return body & PAIR_FIXED ? body : respond->next->entities.id[body];
+}
+
+static bool touched(const struct response_context *respond, uint32_t row, uint32_t mark)
+{
+    const struct entities *e = &respond->next->entities;
+    uint64_t age = respond->next->head->tick - e->touch_tick[row];
+    return e->touch_body[row] == mark && (double)age * respond->world->params->dt_s <= LEAN_S;
+}
+
+static void remember(struct response_context *respond, const struct impact *impact)
+{
+    const uint64_t columns = COLUMN_BIT(touch_body) | COLUMN_BIT(touch_tick);
+    struct entities *e = response_change(respond, impact->a, columns);
+    uint32_t tick = (uint32_t)respond->next->head->tick;
+    e->touch_body[impact->a] = body_mark(respond, impact->b);
+    e->touch_tick[impact->a] = tick;
+    if (!(impact->b & PAIR_FIXED)) {
+        e = response_change(respond, impact->b, columns);
+        e->touch_body[impact->b] = body_mark(respond, impact->a);
+        e->touch_tick[impact->b] = tick;
+    }
+}
+
+bool passes_through(struct response_context *respond, const struct impact *impact)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct world *world = respond->world;
+    uint32_t row = impact->a, object = impact->b & ~PAIR_FIXED;
+    if (!(impact->b & PAIR_FIXED) ||
+        !narrow_phase_lets_in(world, respond->input.through_fixed, object) ||
+        e->touch_body[row] != impact->b)
+        return false;
+    double age_s = (double)(respond->next->head->tick - e->touch_tick[row]) * world->params->dt_s;
+    double across = 2.0 * (pair_filter_row_reach(&respond->input.detect, row) +
+                           pair_filter_fixed_reach(world, &world->fixed[object]));
+    if (age_s * vec3_length(entities_velocity(e, row)) > across)
+        return false;
+    remember(respond, impact);
+    return true;
+}
+
+bool contact_persists(struct response_context *respond, const struct impact *impact)
+{
+    bool leans =
+        impact->closing_mps < LEAN_MPS &&
+        (touched(respond, impact->a, body_mark(respond, impact->b)) ||
+         (!(impact->b & PAIR_FIXED) && touched(respond, impact->b, body_mark(respond, impact->a))));
+    remember(respond, impact);
+    return leans;
+}
+
+struct report response_report(struct response_context *respond, const struct impact *impact)
+{
+    struct vec3 direction = entities_velocity(&respond->next->entities, impact->a);
+    double speed = vec3_length(direction);
+    respond->next->head->tally.collisions++;
+    return (struct report){.event = event_writer_event(&respond->sink, EVENT_COLLISION),
+                           .direction_a = speed > 0.0 ? vec3_scale(direction, 1.0 / speed)
+                                                      : (struct vec3){0, 0, 0}};
+}
+
+void write_collision_event(struct response_context *respond, const struct report *report,
+                           const struct impact *impact, const struct outcome *outcome)
+{
+    if (outcome->response == RESPONSE_STOP || outcome->response == RESPONSE_BOUNCE) {
+        bump(respond, impact->a, -impact->normal.x, -impact->normal.z);
+        if (!(impact->b & PAIR_FIXED))
+            bump(respond, impact->b, impact->normal.x, impact->normal.z);
+    }
+    if (!report->event)
+        return;
+    struct event_collision *collision = &report->event->collision;
+    collision->a = party_of(respond, impact->a);
+    collision->b = party_of(respond, impact->b);
+    put(collision->point, impact->point);
+    vec3_to_floats(collision->normal, impact->normal);
+    vec3_to_floats(collision->direction_a, report->direction_a);
+    collision->toi = impact->time;
+    collision->closing_mps = (float)impact->closing_mps;
+    collision->angle_deg = (float)(impact->angle_rad * DEG_PER_RAD);
+    collision->impulse_ns = (float)outcome->impulse_ns;
+    collision->response = outcome->response;
+}
+
+/* Leaning bodies only stop pressing: what each brings along the normal is taken out, shared so that
+ * momentum stays. */
+static void lean(struct response_context *respond, const struct impact *impact)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct kind *kinds = respond->world->kinds;
+    bool fixed = impact->b & PAIR_FIXED;
+    double ma = kinds[e->kind[impact->a]].mass_kg,
+           mb = fixed ? 0.0 : kinds[e->kind[impact->b]].mass_kg;
+    double share = fixed ? 1.0 : mb / (ma + mb);
+    const struct {
+        uint32_t row;
+        double push;
+    } side[2] = {{impact->a, -share}, {impact->b, 1.0 - share}};
+    for (int i = 0; i < (fixed ? 1 : 2); i++) {
+        uint32_t row = side[i].row;
+        struct vec3 push = vec3_scale(impact->normal, side[i].push * impact->closing_mps);
+        const struct vec3 spin = path_change_spin(respond, row);
+        path_change_leave(respond, row, impact->time, path_at(&respond->path[row], impact->time),
+                          vec3_add(entities_velocity(e, row), push), spin, false);
+    }
+    const uint32_t rows[2] = {impact->a, impact->b};
+    path_change_swept(respond, rows, fixed ? 1 : 2, impact->time);
+}
+
+/* Does the model do anything about this collision? */
+static bool answered(const struct response_context *respond, const struct impact *impact)
+{
+    enum response_model model = (enum response_model)respond->world->params->collision.response;
+    return model != MODEL_NONE && !(model == MODEL_MPS && impact->b & PAIR_FIXED);
+}
+
+static void collide(struct response_context *respond, const struct contact *contact)
+{
+    struct impact impact = response_impact(respond, contact);
+    struct outcome outcome = {RESPONSE_NONE, 0.0};
+    if (passes_through(respond, &impact))
+        return;
+    if (contact_persists(respond, &impact)) {
+        if (answered(respond, &impact))
+            lean(respond, &impact);
+        return;
+    }
+    struct report report = response_report(respond, &impact);
+    answer(respond, &impact, &outcome);
+    write_collision_event(respond, &report, &impact, &outcome);
+}
+
+/* An aircraft meets the ground. */
+static void crash(struct response_context *respond, const struct contact *contact)
+{
+    const struct entities *e = &respond->next->entities;
+    uint32_t row = contact->a;
+    double time = contact->touch.toi;
+    struct vec3 velocity = entities_velocity(e, row);
+    struct event *event = event_writer_event(&respond->sink, EVENT_COLLISION);
+    struct vec3 at = path_at(&respond->path[row], time);
+    struct vec3 normal =
+        terrain_normal(&respond->world->terrain, respond->input.detect.craters, at.x, at.z);
+    respond->next->head->tally.collisions++;
+    struct vec3 slide = vec3_sub(velocity, vec3_scale(normal, vec3_dot(velocity, normal)));
+    /* A wreck first: what still flies would meet the ground again where it stays. */
+    damage_destroy(respond, row, time);
+    path_change_stay(respond, row, time, vec3_scale(slide, 0.3));
+    if (event) {
+        event->collision.a = party_of(respond, row);
+        event->collision.b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
+        put(event->collision.point, respond->path[row].at);
+        vec3_to_floats(event->collision.normal, vec3_scale(normal, -1.0));
+        if (vec3_length(velocity) > 0.0)
+            vec3_to_floats(event->collision.direction_a,
+                           vec3_scale(velocity, 1.0 / vec3_length(velocity)));
+        event->collision.toi = time;
+        event->collision.closing_mps = (float)maths_max(0.0, -vec3_dot(velocity, normal));
+        event->collision.response = RESPONSE_DESTROYED;
+    }
+}
+
+static bool is_round(const struct response_context *respond, uint32_t body)
+{
+    return body < PAIR_FIXED && respond->next->entities.behaviour[body] == BEHAVIOUR_FLIGHT;
+}
+
+static bool by_impulse(const struct response_context *respond)
+{
+    enum response_model model = (enum response_model)respond->world->params->collision.response;
+    return model == MODEL_IMPULSE || model == MODEL_SPRING;
+}
+
+void response_contact(struct response_context *respond, const struct contact *contact)
+{
+    bool round_a = is_round(respond, contact->a), round_b = is_round(respond, contact->b);
+    double time = contact->touch.toi;
+    if (contact->b >= PAIR_FIXED && contact->b < CONTACT_AIR &&
+        !pair_filter_stands(&respond->input.detect, contact->b & ~PAIR_FIXED))
+        return; /* it fell earlier in this frame */
+    if (round_a && round_b) {
+        explosion_munition(respond, contact->a, CONTACT_AIR, time);
+        explosion_munition(respond, contact->b, CONTACT_AIR, time);
+    } else if (round_a) {
+        explosion_munition(respond, contact->a, contact->b, time);
+    } else if (round_b) {
+        explosion_munition(respond, contact->b, contact->a, time);
+    } else if (contact->b >= CONTACT_AIR) {
+        crash(respond, contact);
+    } else if (by_impulse(respond)) {
+        island_answer(respond, contact);
+    } else {
+        collide(respond, contact);
+    }
+    explosion_all(respond);
+}

@@ -1,0 +1,105 @@
+/* Figure 8 of the thesis (p. 22), with the gaps that it leaves closed (row 27).
+ *
+ * Its constants: severe_rad, bounce_keep and fast_mps belong to the kinds of the two that meet.
+ * An impact is severe when it is within the wider of their two severe_rad of a quarter turn; both
+ * are killed when either goes faster than its own kind's fast_mps; a bounce leaves each its own
+ * kind's bounce_keep. So no rule asks who of the two comes first or is the heavier. "Large",
+ * "moving quickly" and constant1..3 are the scenario's, the last also a kind's own (damage.c). */
+#include "collider/response/response_mps.h"
+#include "collider/response/response_figure8.h"
+
+/* Angles come from headings, which are never exact to the last bit: a ten-thousandth of a degree
+ * keeps 5 and 85 degrees on the severe side. */
+#define ANGLE_SLACK_RAD (1e-4 * RAD_PER_DEG)
+
+static const struct kind *kind_of(const struct response_context *respond, uint32_t row)
+{
+    return &respond->world->kinds[respond->next->entities.kind[row]];
+}
+
+static bool severe(const struct kind *a, const struct kind *b, double angle_rad)
+{
+    double off = maths_wrap_half(4.0 * angle_rad) * 0.25; /* from the nearest quarter turn */
+    return fabs(off) <= maths_max(a->severe_rad, b->severe_rad) + ANGLE_SLACK_RAD;
+}
+
+static bool fast(const struct response_context *respond, const struct kind *kind, double speed_mps)
+{
+    double scenario = respond->world->params->collision.fast_vehicle_mps;
+    return speed_mps > (kind->fast_mps > 0.0 ? kind->fast_mps : scenario);
+}
+
+/* Mirrored off the plane of contact when it was going into it, and slower. */
+static struct vec3 bounced(struct vec3 velocity, struct vec3 normal, double keep)
+{
+    double into = vec3_dot(velocity, normal);
+    if (into > 0.0)
+        velocity = vec3_sub(velocity, vec3_scale(normal, 2.0 * into));
+    return vec3_scale(velocity, keep);
+}
+
+static double energy_of(const struct kind *kind, struct vec3 velocity)
+{
+    return 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
+}
+
+void response_figure8_moving(struct response_context *respond, const struct impact *impact,
+                             struct outcome *outcome)
+{
+    const struct entities *e = &respond->next->entities;
+    const struct kind *ka = kind_of(respond, impact->a), *kb = kind_of(respond, impact->b);
+    struct vec3 va = entities_velocity(e, impact->a), vb = entities_velocity(e, impact->b);
+    double before = energy_of(ka, va) + energy_of(kb, vb);
+    if (severe(ka, kb, impact->angle_rad)) {
+        if (fast(respond, ka, vec3_length(va)) || fast(respond, kb, vec3_length(vb))) {
+            response_mps_moving(respond, impact, outcome); /* "Kill both" */
+            return;
+        }
+        outcome->response = RESPONSE_STOP;
+        va = vb = (struct vec3){0.0, 0.0, 0.0};
+    } else {
+        outcome->response = RESPONSE_BOUNCE;
+        va = bounced(va, impact->normal, ka->bounce_keep);
+        vb = bounced(vb, vec3_scale(impact->normal, -1.0), kb->bounce_keep);
+    }
+    double lost = before - energy_of(ka, va) - energy_of(kb, vb);
+    path_change_stay(respond, impact->a, impact->time, va);
+    path_change_stay(respond, impact->b, impact->time, vb);
+    /* The larger mass hurts the smaller more (row 30). */
+    double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
+    impact_damage_row(respond, impact->a, impact, -1.0, lost * share_a, NULL);
+    impact_damage_row(respond, impact->b, impact, 1.0, lost * (1.0 - share_a), NULL);
+}
+
+static void damage_object(struct response_context *respond, uint32_t object, double mass_kg,
+                          double joules)
+{
+    if (respond->world->params->collision.measure == MEASURE_MASS)
+        damage_fixed_mass(respond, object, mass_kg);
+    else
+        damage_fixed_object(respond, object, joules);
+}
+
+void response_figure8_fixed(struct response_context *respond, const struct impact *impact,
+                            struct outcome *outcome)
+{
+    const struct world *world = respond->world;
+    const struct collision_params *limits = &world->params->collision;
+    uint32_t object = impact->b & ~PAIR_FIXED;
+    double fixed_kg = world->kinds[world->fixed[object].kind].mass_kg;
+    double mass_kg = kind_of(respond, impact->a)->mass_kg;
+    double energy = 0.5 * mass_kg * impact->closing_mps * impact->closing_mps;
+    double speed = vec3_length(entities_velocity(&respond->next->entities, impact->a));
+    damage_object(respond, object, mass_kg, energy);
+    if (fixed_kg >= limits->large_fixed_kg && speed > limits->fast_fixed_mps) {
+        outcome->response = RESPONSE_DESTROYED;
+        path_change_stay(respond, impact->a, impact->time, (struct vec3){0.0, 0.0, 0.0});
+        damage_destroy(respond, impact->a, impact->time);
+        return;
+    }
+    outcome->response = RESPONSE_SLOW;
+    path_change_slow(respond, impact->a, impact->time, mass_kg / (mass_kg + fixed_kg));
+    path_change_swept(respond, &impact->a, 1, impact->time);
+    impact_damage_row(respond, impact->a, impact, -1.0, energy * fixed_kg / (mass_kg + fixed_kg),
+                      NULL);
+}

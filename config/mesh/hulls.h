@@ -1,0 +1,42 @@
+/* Makes a few convex hulls of a model's triangles, for the narrow phase (world/entity/hull.h).
+ *
+ * Each connected piece of the model gets its convex hull, and a piece inside the hull of another
+ * becomes part of that piece. Then the two pieces are joined whose common hull has the least volume
+ * beyond their own hulls. This is repeated until at most HULLS_A_MODEL pieces are left, and further
+ * while joining adds next to no volume. Every corner of the model is within a hull. The vertices of
+ * a hull are corners of the model, except those of flat pieces (config/mesh/connected_pieces.h).
+ * The same model gives the same hulls to the bit on every machine. */
+#ifndef JOLON_CONFIG_MESH_HULLS_H
+#define JOLON_CONFIG_MESH_HULLS_H
+
+#include "config/syntax/key_table.h"
+#include "world/making/scenario.h"
+
+#include <stdint.h>
+
+/* Two pieces are always joined when that adds no more volume than this [m3], the volume of a can of
+ * fuel: fewer hulls make a faster narrow phase. */
+#define HULLS_FREE_M3 0.02
+
+/* When two pieces must be joined, others that add as much volume to within this share are joined
+ * too. So a model that is the same on both sides mostly keeps the same hulls on both sides. */
+#define HULLS_TIE_SHARE 0.01
+
+/* Faces whose corners are this near to one plane are one face [m]. */
+#define HULLS_FLAT_M 2e-6
+
+/* A model's hulls, as its kinds have them. */
+struct hulls {
+    uint32_t first, count; /* in the scenario's hulls */
+    uint32_t outer;        /* in the scenario's hulls: the hull around all of them */
+    double bound_m;        /* this and the next: as in struct kind */
+    double level_m;
+    double low_m, high_m;
+};
+
+/* Adds a model's hulls to the scenario's tables. place: where the message says the model is. 0; -1
+ * with the message: too many pieces, a hull of more than HULL_VERTICES_MAX vertices, no memory. */
+int hulls_build(struct hulls *hulls, struct scenario *scenario, const struct model *model,
+                struct key_place place, struct loader_message *message);
+
+#endif

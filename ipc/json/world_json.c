@@ -1,0 +1,211 @@
+/* JSON of a world's values. */
+#include "ipc/json/world_json.h"
+
+#include "ipc/process/log.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static void need(const void *made)
+{
+    if (!made)
+        die_refused("out of memory while writing JSON");
+}
+
+/* Adding copies the key: that may fail too, and would leave the value out without a word. */
+static void put(cJSON *object, const char *key, cJSON *item)
+{
+    if (!item || !cJSON_AddItemToObject(object, key, item))
+        need(NULL);
+}
+
+void json_text(cJSON *object, const char *key, const char *text)
+{
+    need(cJSON_AddStringToObject(object, key, text));
+}
+
+void json_number(cJSON *object, const char *key, double value)
+{
+    need(isfinite(value) ? cJSON_AddNumberToObject(object, key, value)
+                         : cJSON_AddNullToObject(object, key));
+}
+
+void json_whole(cJSON *object, const char *key, uint64_t value)
+{
+    char text[24];
+    snprintf(text, sizeof text, "%llu", (unsigned long long)value);
+    need(cJSON_AddRawToObject(object, key, text));
+}
+
+void json_bool(cJSON *object, const char *key, int value)
+{
+    need(cJSON_AddBoolToObject(object, key, value));
+}
+
+void json_hex(cJSON *object, const char *key, uint64_t value)
+{
+    char text[24];
+    snprintf(text, sizeof text, "%016llx", (unsigned long long)value);
+    json_text(object, key, text);
+}
+
+static cJSON *single(float value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.9g", (double)value);
+    return isfinite(value) ? cJSON_CreateRaw(text) : cJSON_CreateNull();
+}
+
+void json_single(cJSON *object, const char *key, float value)
+{
+    put(object, key, single(value));
+}
+
+void json_triple(cJSON *object, const char *key, double x, double y, double z)
+{
+    const double value[3] = {x, y, z};
+    put(object, key, cJSON_CreateDoubleArray(value, 3));
+}
+
+void json_triple_single(cJSON *object, const char *key, const float value[3])
+{
+    cJSON *array = json_array(object, key);
+    for (int i = 0; i < 3; i++) {
+        cJSON *item = single(value[i]);
+        need(item);
+        cJSON_AddItemToArray(array, item);
+    }
+}
+
+cJSON *json_object(cJSON *object, const char *key)
+{
+    cJSON *child = cJSON_AddObjectToObject(object, key);
+    need(child);
+    return child;
+}
+
+cJSON *json_array(cJSON *object, const char *key)
+{
+    cJSON *child = cJSON_AddArrayToObject(object, key);
+    need(child);
+    return child;
+}
+
+void json_print(cJSON *object)
+{
+    char *text = cJSON_PrintUnformatted(object);
+    need(text);
+    puts(text);
+    cJSON_free(text);
+    cJSON_Delete(object);
+}
+
+/* --- events ------------------------------------------------------------------------------------*/
+
+static const char *kind_text(const struct world *world, const struct event_party *party)
+{
+    if (party->id == 0) /* nobody: the terrain, or none */
+        return party->fixed ? "ground" : "none";
+    return party->kind < world->counts.kinds ? world->kinds[party->kind].name : "?";
+}
+
+static void add_party(cJSON *object, const char *key, const struct world *world,
+                      const struct event_party *party)
+{
+    cJSON *child = json_object(object, key);
+    json_whole(child, "id", party->id);
+    json_text(child, "kind", kind_text(world, party));
+    json_bool(child, "fixed", party->fixed);
+}
+
+static void add_collision(cJSON *object, const struct world *world,
+                          const struct event_collision *collision)
+{
+    add_party(object, "a", world, &collision->a);
+    add_party(object, "b", world, &collision->b);
+    json_triple(object, "point", collision->point[0], collision->point[1], collision->point[2]);
+    json_triple_single(object, "normal", collision->normal);
+    json_triple_single(object, "direction", collision->direction_a);
+    json_number(object, "toi", collision->toi);
+    json_single(object, "closing_mps", collision->closing_mps);
+    json_single(object, "angle_deg", collision->angle_deg);
+    json_single(object, "impulse_ns", collision->impulse_ns);
+    json_text(object, "response", response_name((enum response)collision->response));
+    json_text(object, "damage_a", damage_name((enum damage)collision->a.damage));
+    json_text(object, "damage_b", damage_name((enum damage)collision->b.damage));
+}
+
+static void add_fire(cJSON *object, const struct world *world, const struct event_fire *fire)
+{
+    add_party(object, "shooter", world, &fire->shooter);
+    add_party(object, "target", world, &fire->target);
+    add_party(object, "munition", world, &fire->munition);
+    json_triple(object, "point", fire->point[0], fire->point[1], fire->point[2]);
+}
+
+static void add_detonation(cJSON *object, const struct world *world,
+                           const struct event_detonation *detonation)
+{
+    add_party(object, "munition", world, &detonation->munition);
+    json_triple(object, "point", detonation->point[0], detonation->point[1], detonation->point[2]);
+    json_text(object, "struck", struck_name((enum struck)detonation->struck));
+    json_whole(object, "id", detonation->struck_party.id);
+    json_text(object, "kind", kind_text(world, &detonation->struck_party));
+    json_text(object, "damage", damage_name((enum damage)detonation->struck_party.damage));
+    json_single(object, "explosive_kg", detonation->explosive_kg);
+}
+
+static void add_agent(cJSON *object, const struct world *world, const struct event_agent *agent)
+{
+    json_whole(object, "id", agent->agent.id);
+    json_text(object, "kind", kind_text(world, &agent->agent));
+    json_text(object, "from", behaviour_name((enum behaviour)agent->from));
+    json_text(object, "to", behaviour_name((enum behaviour)agent->to));
+    json_text(object, "because", agent_reason_name((enum agent_reason)agent->because));
+}
+
+static void add_command(cJSON *object, const struct event_command *command)
+{
+    json_hex(object, "source", command->source);
+    json_whole(object, "command_sequence", command->sequence);
+    json_text(object, "command", command_type_name((enum command_type)command->type));
+    json_text(object, "result", command_result_name((enum command_result)command->result));
+    json_whole(object, "id", command->entity);
+}
+
+cJSON *json_event(const struct world *world, const struct event *event)
+{
+    cJSON *object = cJSON_CreateObject();
+    need(object);
+    json_whole(object, "frame", event->frame);
+    json_whole(object, "index", event->index);
+    json_number(object, "time_s", (double)event->tick * world->params->dt_s);
+    json_text(object, "type", event_type_name((enum event_type)event->type));
+    switch ((enum event_type)event->type) {
+    case EVENT_COLLISION:
+        add_collision(object, world, &event->collision);
+        break;
+    case EVENT_FIRE:
+        add_fire(object, world, &event->fire);
+        break;
+    case EVENT_DETONATION:
+        add_detonation(object, world, &event->detonation);
+        break;
+    case EVENT_CRATER:
+        json_triple(object, "point", event->crater.point[0], event->crater.point[1],
+                    event->crater.point[2]);
+        json_single(object, "radius_m", event->crater.radius_m);
+        json_single(object, "depth_m", event->crater.depth_m);
+        break;
+    case EVENT_AGENT:
+        add_agent(object, world, &event->agent);
+        break;
+    case EVENT_COMMAND:
+        add_command(object, &event->command);
+        break;
+    default:
+        break;
+    }
+    return object;
+}

@@ -1,0 +1,67 @@
+/* Crash points: places between two stores at which a process can be made to die.
+ *
+ * In a build made by `make CRASHPOINTS=1` every store of the frame protocol, of a world's creation
+ * and of the event log has a point before it that bears its name; in any other build all of this
+ * is nothing at all. The environment of such a build's programs:
+ *     JOLON_CRASH=ROLE:NAME:N[:SIGNAL]
+ *                               the process of that role (log_open's name) sends itself SIGNAL (by
+ *                               number, else 9, SIGKILL) when it comes to the point NAME for the
+ *                               Nth time
+ *     JOLON_CRASH_COUNT=FILE    at its end a process appends a line for every point that it has:
+ *                               role, name, how often it came there; tabs between
+ * tests/crash drives every role through all of them. */
+#ifndef JOLON_IPC_PROCESS_CRASH_POINT_H
+#define JOLON_IPC_PROCESS_CRASH_POINT_H
+
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* What the macros below call. */
+struct crash_point {
+    _Alignas(16) const char *name;
+    _Atomic uint64_t crossings;
+};
+
+void crash_point_role(const char *role);
+void crash_point_cross(struct crash_point *point);
+void crash_point_guard_stores(void *first, size_t bytes);
+void crash_point_guard_pages(void *first, size_t bytes);
+void crash_point_unguard(void);
+
+#ifdef CRASHPOINTS
+
+/* The points of a program lie side by side in a section of their own, so that one that nobody ever
+ * comes to is known too. */
+#define CRASH_POINT(point_name)                                                                    \
+    do {                                                                                           \
+        static struct crash_point crash_point                                                      \
+            __attribute__((section("crash_points"), used)) = {point_name, 0};                      \
+        crash_point_cross(&crash_point);                                                           \
+    } while (0)
+
+/* Says who this process is. */
+#define CRASH_POINT_ROLE(role) crash_point_role(role)
+
+/* Of a write of so many bytes: how many to write at a time, so that a line can be torn. */
+#define CRASH_POINT_PART(bytes) ((bytes) > 64 ? (bytes) / 2 : (bytes))
+
+/* Until CRASH_POINT_UNGUARD every store by this thread to whole pages from first on is a crossing
+ * of the point "store in a step"; or the first store to each page one of "page of a new world". For
+ * code that must not know of crash points. */
+#define CRASH_POINT_GUARD_STORES(first, bytes) crash_point_guard_stores(first, bytes)
+#define CRASH_POINT_GUARD_PAGES(first, bytes)  crash_point_guard_pages(first, bytes)
+#define CRASH_POINT_UNGUARD()                  crash_point_unguard()
+
+#else
+
+#define CRASH_POINT(name)                      ((void)0)
+#define CRASH_POINT_ROLE(role)                 ((void)0)
+#define CRASH_POINT_PART(bytes)                (bytes)
+#define CRASH_POINT_GUARD_STORES(first, bytes) ((void)0)
+#define CRASH_POINT_GUARD_PAGES(first, bytes)  ((void)0)
+#define CRASH_POINT_UNGUARD()                  ((void)0)
+
+#endif
+
+#endif

@@ -1,0 +1,261 @@
+/* Start and end of a role's process. */
+#include "ipc/process/process.h"
+
+#include "ipc/process/log.h"
+#include "world/runtime/thread_pool.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static volatile sig_atomic_t stopping;
+
+static void on_stop(int signal_number)
+{
+    (void)signal_number;
+    stopping = 1;
+}
+
+/* What goes with the world's memory; "": nothing. */
+#define GOES_COUNT 5
+static char goes[GOES_COUNT][SEGMENT_PATH_MAX + 16];
+
+/* A page that the object no longer has: somebody made it shorter under us. A bus error of any other
+ * kind is a crash like any other: the instruction runs again, without a handler, and ends the
+ * process. Roles run this within their sandbox: no system call but what each of them may. */
+static void on_bus_error(int signal_number, siginfo_t *info, void *context)
+{
+    (void)signal_number;
+    (void)context;
+    if (info->si_code != BUS_ADRERR)
+        return;
+    for (int i = 0; i < GOES_COUNT; i++) {
+        if (goes[i][0] != '\0')
+            unlink(goes[i]);
+    }
+    die_at_once("the world's memory went away: its object in /dev/shm was made shorter");
+}
+
+void process_guard_removes(const struct segment_paths *paths)
+{
+    snprintf(goes[0], sizeof goes[0], "%s", paths->object);
+    snprintf(goes[1], sizeof goes[1], "%s", paths->name);
+    snprintf(goes[2], sizeof goes[2], "%s", paths->lock);
+    snprintf(goes[3], sizeof goes[3], "%s.commands", paths->name);
+    snprintf(goes[4], sizeof goes[4], "%s.pictures", paths->name);
+}
+
+static void check_stack(void)
+{
+    struct rlimit stack;
+    if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < PROCESS_STACK_BYTES)
+        die_refused("the stack is limited to %llu KB, and %u KB are needed: ulimit -s 8192",
+                    (unsigned long long)stack.rlim_cur / 1024, PROCESS_STACK_BYTES / 1024);
+}
+
+void process_guard(void)
+{
+    check_stack();
+    struct sigaction bus = {.sa_sigaction = on_bus_error,
+                            .sa_flags = SA_SIGINFO | (int)SA_RESETHAND};
+    struct sigaction ignore = {.sa_handler = SIG_IGN};
+    sigemptyset(&bus.sa_mask);
+    sigemptyset(&ignore.sa_mask);
+    sigaction(SIGBUS, &bus, NULL);
+    sigaction(SIGXFSZ, &ignore, NULL);
+}
+
+void process_hold_stop(void)
+{
+    sigset_t stop;
+    sigemptyset(&stop);
+    sigaddset(&stop, SIGTERM);
+    sigaddset(&stop, SIGINT);
+    sigaddset(&stop, SIGHUP);
+    sigprocmask(SIG_BLOCK, &stop, NULL);
+}
+
+bool process_stopping(void)
+{
+    return stopping != 0;
+}
+
+void process_signals(void)
+{
+    struct sigaction stop = {.sa_handler = on_stop}; /* no SA_RESTART: waits end early */
+    struct sigaction ignore = {.sa_handler = SIG_IGN};
+    sigemptyset(&stop.sa_mask);
+    sigemptyset(&ignore.sa_mask);
+    sigaction(SIGTERM, &stop, NULL);
+    sigaction(SIGINT, &stop, NULL);
+    sigaction(SIGHUP, &stop, NULL);
+    sigaction(SIGPIPE, &ignore, NULL);
+    process_guard();
+}
+
+bool process_colours(void)
+{
+    const char *no_color = getenv("NO_COLOR");
+    return no_color == NULL || no_color[0] == '\0';
+}
+
+void process_close_inherited(void)
+{
+    (void)close_range(STDERR_FILENO + 1, ~0u, 0); /* a kernel without it leaves them open */
+}
+
+void process_die_with_parent(int parent_pid)
+{
+    if (parent_pid <= 0)
+        return;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent_pid) /* it died before the kernel was asked */
+        _exit(0);
+}
+
+char process_state(int pid)
+{
+    char path[64], line[512];
+    snprintf(path, sizeof path, "/proc/%d/stat", pid);
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return '\0';
+    size_t length = fread(line, 1, sizeof line - 1, file);
+    fclose(file);
+    line[length] = '\0';
+    /* pid (name) state: the name may hold anything, also parentheses */
+    const char *end = strrchr(line, ')');
+    return end && end[1] == ' ' ? end[2] : '\0';
+}
+
+uint64_t process_whole(const char *option, const char *text, uint64_t low, uint64_t high)
+{
+    char *end;
+    errno = 0;
+    unsigned long long value = strtoull(text, &end, 10);
+    if (text[0] < '0' || text[0] > '9' || *end != '\0' || errno != 0 || value < low || value > high)
+        die_usage("--%s %s: must be a whole number from %llu to %llu", option, text,
+                  (unsigned long long)low, (unsigned long long)high);
+    return value;
+}
+
+struct process_size process_size(const char *option, const char *text, uint32_t low, uint32_t high)
+{
+    struct process_size size;
+    int used = 0;
+    if (sscanf(text, "%5ux%5u%n", &size.width, &size.height, &used) != 2 || text[used] != '\0' ||
+        size.width < low || size.width > high || size.height < low || size.height > high)
+        die_usage("--%s %s: not WxH with each from %u to %u, as 1280x720", option, text, low, high);
+    return size;
+}
+
+bool process_number_read(const char *text, double low, double high, double *value)
+{
+    char *end;
+    errno = 0;
+    *value = strtod(text, &end);
+    return errno == 0 && end != text && *end == '\0' && *value >= low && *value <= high;
+}
+
+double process_number(const char *option, const char *text, double low, double high)
+{
+    double value;
+    if (!process_number_read(text, low, high, &value))
+        die_usage("--%s %s: must be a number from %g to %g", option, text, low, high);
+    return value;
+}
+
+void process_refuse_memory(uint32_t capacity)
+{
+    die_refused("cannot take the memory of the steps of a world of capacity %u: %s; allow more "
+                "address space (ulimit -v; vm.overcommit_ratio where vm.overcommit_memory is 2) "
+                "or lower world.capacity",
+                capacity, strerror(errno));
+}
+
+struct stage_options process_stage_options(int argc, char **argv, const char *program)
+{
+    static const struct option options[] = {{"world", required_argument, NULL, 'w'},
+                                            {"threads", required_argument, NULL, 't'},
+                                            {"parent", required_argument, NULL, 'p'},
+                                            {"stand-by", no_argument, NULL, 's'},
+                                            {"no-sandbox", no_argument, NULL, 'n'},
+                                            {"help", no_argument, NULL, 'h'},
+                                            {NULL, 0, NULL, 0}};
+    struct stage_options chosen = {.world = "default", .threads = 1};
+    int option;
+    opterr = 0; /* we say it, in one line */
+    while ((option = getopt_long(argc, argv, "w:h", options, NULL)) != -1) {
+        switch (option) {
+        case 'w':
+            chosen.world = optarg;
+            break;
+        case 't':
+            chosen.threads = (uint32_t)process_whole("threads", optarg, 1, THREAD_POOL_MAX);
+            break;
+        case 'p':
+            chosen.parent = (int)process_whole("parent", optarg, 1, INT32_MAX);
+            break;
+        case 's':
+            chosen.stand_by = true;
+            break;
+        case 'n':
+            chosen.sandbox_off = true;
+            break;
+        case 'h':
+            printf("usage: %s [--world NAME] [--threads 1..16] [--parent PID] [--stand-by] "
+                   "[--no-sandbox]\n",
+                   program);
+            exit(EXIT_OK);
+        default:
+            die_usage("%s: no such option, or its value is missing; try %s --help",
+                      argv[optind - 1], program);
+        }
+    }
+    if (optind < argc)
+        die_usage("%s: takes no arguments; try %s --help", argv[optind], program);
+    return chosen;
+}
+
+static bool holds_kinds(const char *directory)
+{
+    char path[512];
+    struct stat status;
+    int length = snprintf(path, sizeof path, "%s/kinds", directory);
+    return length > 0 && length < (int)sizeof path && stat(path, &status) == 0 &&
+           S_ISDIR(status.st_mode);
+}
+
+int process_data_dir(char *path, size_t bytes)
+{
+    /* build/bin, build/san-.../bin, PREFIX/bin */
+    static const char *const places[] = {"../../config", "../../../config", "../share/jolon"};
+    char self[400];
+    const char *given = getenv("JOLON_DATA");
+    if (given) {
+        snprintf(path, bytes, "%s", given);
+        return holds_kinds(path) ? 0 : -1;
+    }
+    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    if (length <= 0)
+        return -1;
+    self[length] = '\0';
+    char *slash = strrchr(self, '/');
+    if (!slash)
+        return -1;
+    *slash = '\0';
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        snprintf(path, bytes, "%s/%s", self, places[i]);
+        if (holds_kinds(path))
+            return 0;
+    }
+    errno = ENOENT;
+    return -1;
+}

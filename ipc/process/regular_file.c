@@ -1,0 +1,24 @@
+/* Opening what must be a plain file. */
+#include "ipc/process/regular_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+int regular_file_open(const char *path, uint64_t *bytes, struct reason *reason)
+{
+    struct stat status;
+    int fd = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0 && errno == ELOOP)
+        return reason_set(reason, "%s: is a symbolic link; name the file itself", path);
+    if (fd < 0)
+        return reason_set(reason, "%s: cannot open: %s", path, strerror(errno));
+    if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) {
+        close(fd);
+        return reason_set(reason, "%s: is no plain file", path);
+    }
+    *bytes = (uint64_t)status.st_size;
+    return fd;
+}

@@ -1,0 +1,44 @@
+/* Removal of what killed processes left. */
+#include "ipc/process/stale_files.h"
+
+#include "ipc/process/crash_point.h"
+#include "ipc/process/process.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* A process that nobody has waited for yet still has its number, but writes nothing any more. */
+static bool gone(pid_t pid)
+{
+    if (kill(pid, 0) != 0)
+        return errno == ESRCH;
+    char state = process_state(pid);
+    return state == 'Z' || state == 'X';
+}
+
+void stale_files_sweep(const char *folder, const char *prefix)
+{
+    size_t length = strlen(prefix);
+    DIR *directory = opendir(folder);
+    if (!directory)
+        return;
+    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
+        if (strncmp(entry->d_name, prefix, length) != 0)
+            continue;
+        char *end;
+        long pid = strtol(entry->d_name + length, &end, 10);
+        if (*end != '\0' || pid <= 0)
+            continue;
+        /* One with our own number is of a process before us. */
+        if (pid != getpid() && !gone((pid_t)pid))
+            continue;
+        CRASH_POINT("swept temporary");
+        unlinkat(dirfd(directory), entry->d_name, 0);
+    }
+    closedir(directory);
+}

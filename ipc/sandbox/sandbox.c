@@ -1,0 +1,155 @@
+/* The steps into the sandbox, and the privileges. */
+#include "ipc/sandbox/sandbox.h"
+
+#include "ipc/process/log.h"
+#include "ipc/sandbox/file_rules.h"
+#include "ipc/sandbox/syscall_filter.h"
+#include "ipc/sandbox/syscall_report.h"
+
+#include <errno.h>
+#include <linux/capability.h>
+#include <malloc.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SANITIZED true
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||                         \
+    __has_feature(memory_sanitizer)
+#define SANITIZED true
+#endif
+#endif
+#ifndef SANITIZED
+#define SANITIZED false
+#endif
+
+/* Signals to itself, page protection, a file at its end (ipc/process/crash_point.h). */
+#ifdef CRASHPOINTS
+#define CRASHES true
+#else
+#define CRASHES false
+#endif
+
+/* Has this build, for this role, system calls of its own that no list names? */
+static const char *needs_more(enum role role)
+{
+#ifdef SANDBOX_SANITIZED
+    if (role != ROLE_MOVER && role != ROLE_COLLIDER)
+        return "a sanitizer";
+#else
+    (void)role;
+    if (SANITIZED)
+        return "a sanitizer";
+#endif
+    return CRASHES ? "a build with crash points" : NULL;
+}
+
+static int refused(struct reason *reason, const char *what, int error)
+{
+    return reason_set(reason,
+                      "sandbox: %s: %s; this kernel or container does not allow it: allow it, or "
+                      "run with --no-sandbox",
+                      what, strerror(error));
+}
+
+/* What this process may not get back, whoever's program it would become. */
+static int drop_capabilities(void)
+{
+    struct __user_cap_header_struct header = {.version = _LINUX_CAPABILITY_VERSION_3};
+    const struct __user_cap_data_struct none[_LINUX_CAPABILITY_U32S_3] = {{0}};
+    /* Only who has CAP_SETPCAP can drop from the bounding set; others have nothing to bound. */
+    for (int capability = 0; prctl(PR_CAPBSET_READ, capability) >= 0; capability++)
+        (void)prctl(PR_CAPBSET_DROP, capability);
+    (void)prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
+    return (int)syscall(SYS_capset, &header, none);
+}
+
+static int drop_privileges(struct reason *reason)
+{
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
+        return refused(reason, "no new privileges", errno);
+    if (drop_capabilities() != 0)
+        return refused(reason, "dropping capabilities", errno);
+    return 0;
+}
+
+/* Of a step into Landlock, which old kernels do not have. */
+static int files_done(int result, struct reason *reason)
+{
+    if (result == -ENOSYS || result == -EOPNOTSUPP) {
+        log_info("this kernel has no Landlock: any file of its user's is open to it");
+        return 0;
+    }
+    return result == 0 ? 0 : refused(reason, "Landlock", -result);
+}
+
+int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reason *reason)
+{
+    *sandbox = (struct sandbox){.role = role};
+    if (off) {
+        log_warn("runs WITHOUT its sandbox (--no-sandbox): a fault in it can do whatever its user "
+                 "can");
+        return 0;
+    }
+    const char *what = needs_more(role);
+    if (what) {
+        log_info("runs without its sandbox: %s needs more system calls than that allows", what);
+        return 0;
+    }
+    if (drop_privileges(reason) != 0)
+        return -1;
+    /* All threads allocate from one arena: with further ones the C library opens files, now and
+     * then, to count processors and to ask how memory is promised. */
+    (void)mallopt(M_ARENA_MAX, 1);
+    /* The first date, also one of a library's, would read the file of the time zone. */
+    tzset();
+    sandbox->on = true;
+    return 0;
+}
+
+int sandbox_files(const struct sandbox *sandbox, const int *folders, size_t count,
+                  struct reason *reason)
+{
+    if (!sandbox->on)
+        return 0;
+    return files_done(file_rules_confine(sandbox->role, folders, count), reason);
+}
+
+#ifdef SANDBOX_SANITIZED
+/* The search for leaks at a process's end is a process that reads this one: no filter lets it. */
+static int entered;
+int __lsan_is_turned_off(void); /* NOLINT(bugprone-reserved-identifier): the sanitizer's name */
+int __lsan_is_turned_off(void)  /* NOLINT(bugprone-reserved-identifier): the sanitizer's name */
+{
+    return entered;
+}
+#endif
+
+int sandbox_enter(const struct sandbox *sandbox, struct reason *reason)
+{
+    if (!sandbox->on)
+        return 0;
+    int result = syscall_report_install(sandbox->role);
+    if (result == 0)
+        result = syscall_filter_load(sandbox->role);
+#ifdef SANDBOX_SANITIZED
+    entered = 1;
+#endif
+    return result == 0 ? 0 : refused(reason, "seccomp", -result);
+}
+
+int sandbox_keeper(const char *const *folders, size_t count, struct reason *reason)
+{
+    if (SANITIZED || CRASHES)
+        return 0;
+    if (drop_privileges(reason) != 0 ||
+        files_done(file_rules_confine_keeper(folders, count), reason) != 0)
+        return -1;
+    int result = syscall_filter_load(ROLE_NONE);
+    return result == 0 ? 0 : refused(reason, "seccomp", -result);
+}

@@ -1,0 +1,105 @@
+/* Layout of a world's segment: which regions there are, how large, where, and who may write them.
+ *
+ * Offsets follow from struct params and struct counts alone, so every process computes them anew
+ * from the checked header and trusts none from memory. Regions begin on page borders of every
+ * kernel, so that a process maps for writing what its role writes and nothing else. */
+#ifndef JOLON_IPC_SEGMENT_LAYOUT_H
+#define JOLON_IPC_SEGMENT_LAYOUT_H
+
+#include "ipc/segment/role.h"
+#include "world/world.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define SEGMENT_MAGIC   0x314e4f4c4f4a0a1au /* "\x1a\nJOLON1": also no text file's first bytes */
+#define SEGMENT_VERSION 5u
+
+/* Every region begins at a multiple of this [byte]. A mapping begins on a page border, and pages
+ * are 4, 16 or 64 KiB, as the kernel was built (aarch64 has all three). */
+#define REGION_ALIGN 65536u
+
+/* A table's head has this much room before its columns begin. */
+#define LAYOUT_HEAD_BYTES 512u
+_Static_assert(sizeof(struct state_head) <= LAYOUT_HEAD_BYTES, "columns begin after the head");
+
+enum region {
+    REGION_HEADER, /* struct segment_header; written at creation only, like all up to REACH */
+    REGION_PARAMS,
+    REGION_KINDS,
+    REGION_MODELS,
+    REGION_MODEL_VERTICES,
+    REGION_MODEL_TRIANGLES,
+    REGION_HULLS,
+    REGION_HULL_VERTICES,
+    REGION_HULL_PLANES,
+    REGION_POSTS,
+    REGION_COVER,
+    REGION_FIXED,
+    REGION_REACH_START,
+    REGION_REACH,
+    REGION_AREAS,
+    REGION_ROUTES,
+    REGION_ROUTE_POINTS,
+    REGION_FIRES,
+    REGION_ROAD_POINTS,
+    REGION_FORMATIONS,
+    REGION_SCRIPTS,
+    REGION_SCRIPT_STEPS,
+    REGION_NAMES,
+    REGION_RECIPE,
+    REGION_COMMIT,  /* struct commit_words: collider; the regions before it never change */
+    REGION_WORLD_A, /* head, columns, their hashes, fixed damage: collider */
+    REGION_WORLD_B,
+    REGION_CRATERS,    /* collider */
+    REGION_DENTS,      /* collider */
+    REGION_EVENTS,     /* collider */
+    REGION_MOVED_WORD, /* struct moved_word: mover */
+    REGION_MOVED,      /* head, columns, their hashes, intents: mover */
+    REGION_COMMANDS,   /* a struct command_ring_words and its slots, one for each ring */
+    REGION_COMMANDS_LAST = REGION_COMMANDS + COMMAND_RING_COUNT - 1,
+    REGION_DOORS, /* doorbell semaphores: every role */
+    REGION_SLOTS, /* a struct role_slot each: that role */
+    REGION_SLOTS_LAST = REGION_SLOTS + ROLE_COUNT - 1,
+    REGION_COUNT
+};
+
+struct segment_header {
+    uint64_t magic; /* written last at creation */
+    uint32_t version;
+    uint32_t header_bytes;
+    uint64_t layout_hash; /* of sizes and offsets as compiled: another build refuses */
+    uint64_t total_bytes;
+    uint64_t static_hash[REGION_COMMIT]; /* XXH3 of each region that never changes; [0] is 0 */
+    struct counts counts;
+    uint32_t capacity, event_slots, intents_per_frame, command_slots, crater_slots;
+    uint32_t dent_slots;
+    uint64_t made;        /* random: one creation's own, which its images carry with them */
+    uint64_t origin;      /* of the image it was loaded from (image_segment()); 0: of a scenario */
+    uint64_t first_event; /* the event ring begins with it: 0, or where the image was taken */
+    uint64_t head_hash;   /* XXH3 over the words above but magic */
+};
+
+struct layout {
+    size_t offset[REGION_COUNT];
+    size_t bytes[REGION_COUNT];
+    size_t total;
+};
+
+/* Bytes of a table: head, columns, and the columns' hashes (world/checksum.h). */
+size_t layout_table_bytes(uint32_t capacity);
+
+/* Fills layout from the header's counts and sizes. 0; -1 with errno EOVERFLOW when a size is
+ * beyond its bound (a header from elsewhere). */
+int layout_compute(struct layout *layout, const struct segment_header *header);
+
+/* Hash of everything compiled in that two attached processes must agree on. */
+uint64_t layout_hash(void);
+
+/* May a holder of this role write this region? ROLE_NONE writes nothing. */
+bool layout_writable(enum role role, enum region region);
+
+const char *region_name(enum region region);
+
+#endif

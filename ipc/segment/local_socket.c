@@ -1,0 +1,98 @@
+/* Unix sockets that are addressed through the runtime folder's descriptor: "/proc/self/fd/N/NAME"
+ * is short, and a socket's address has room for 107 bytes only. */
+#include "ipc/segment/local_socket.h"
+
+#include "ipc/process/log.h"
+#include "ipc/segment/runtime_folder.h"
+#include "ipc/segment/segment.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+struct place {
+    int folder;
+    char name[SEGMENT_NAME_MAX + LOCAL_SOCKET_SUFFIX_MAX];
+    struct sockaddr_un address;
+};
+
+static int find_place(struct place *place, const char *world, const char *suffix,
+                      struct reason *reason)
+{
+    CHECK(segment_name_ok(world) && strlen(suffix) < LOCAL_SOCKET_SUFFIX_MAX);
+    place->folder = runtime_folder_open(reason);
+    if (place->folder < 0)
+        return -1;
+    snprintf(place->name, sizeof place->name, "%s.%s", world, suffix);
+    place->address = (struct sockaddr_un){.sun_family = AF_UNIX};
+    snprintf(place->address.sun_path, sizeof place->address.sun_path, "/proc/self/fd/%d/%s",
+             place->folder, place->name);
+    return 0;
+}
+
+/* Closes what there is, and says what did not work and why, with errno as it was. */
+static int failed(const struct place *place, int fd, const char *what, struct reason *reason)
+{
+    int cause = errno;
+    char folder[RUNTIME_FOLDER_MAX];
+    if (fd >= 0)
+        close(fd);
+    close(place->folder);
+    if (runtime_folder(folder, reason) == 0)
+        reason_set(reason, "%s/%s: cannot %s: %s", folder, place->name, what, strerror(cause));
+    errno = cause;
+    return -1;
+}
+
+int local_socket_listen(const char *world, const char *suffix, int type, int backlog,
+                        struct reason *reason)
+{
+    struct place place;
+    if (find_place(&place, world, suffix, reason) != 0)
+        return -1;
+    if (unlinkat(place.folder, place.name, 0) != 0 && errno != ENOENT)
+        return failed(&place, -1, "remove the socket of a dead process", reason);
+    int fd = socket(AF_UNIX, type | SOCK_CLOEXEC, 0);
+    /* The mode of a socket before bind() is the mode of its file, less the umask. */
+    if (fd < 0 || fchmod(fd, 0600) != 0 ||
+        bind(fd, (const struct sockaddr *)&place.address, sizeof place.address) != 0 ||
+        listen(fd, backlog) != 0)
+        return failed(&place, fd, "listen", reason);
+    close(place.folder);
+    return fd;
+}
+
+int local_socket_connect(const char *world, const char *suffix, int type, struct reason *reason)
+{
+    struct place place;
+    if (find_place(&place, world, suffix, reason) != 0) {
+        errno = EACCES;
+        return -1;
+    }
+    int fd = socket(AF_UNIX, type | SOCK_CLOEXEC, 0);
+    if (fd < 0 || connect(fd, (const struct sockaddr *)&place.address, sizeof place.address) != 0)
+        return failed(&place, fd, "connect", reason);
+    if (!local_socket_peer_is(fd, geteuid())) {
+        errno = EACCES;
+        return failed(&place, fd, "connect to a process of another user", reason);
+    }
+    close(place.folder);
+    return fd;
+}
+
+bool local_socket_peer(int fd, struct ucred *peer)
+{
+    socklen_t bytes = sizeof *peer;
+    return getsockopt(fd, SOL_SOCKET, SO_PEERCRED, peer, &bytes) == 0 && bytes == sizeof *peer;
+}
+
+bool local_socket_peer_is(int fd, uid_t user)
+{
+    struct ucred peer;
+    return local_socket_peer(fd, &peer) && peer.uid == user;
+}

@@ -1,0 +1,247 @@
+/* The search for the runtime folder, and the checks of what was found. */
+#include "ipc/segment/runtime_folder.h"
+
+#include "ipc/segment/segment.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <pwd.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define SAY_ANOTHER "or name a folder of your own with JOLON_RUNTIME_DIR"
+
+enum found { FOUND, PASSED_OVER, REFUSED };
+
+/* A search: the folder that was found, and why earlier places were passed over. */
+struct search {
+    char path[RUNTIME_FOLDER_MAX];
+    int fd;
+    char passed[320];
+    struct reason *reason;
+};
+
+/* What this process found first; "" before. */
+static pthread_mutex_t kept_lock = PTHREAD_MUTEX_INITIALIZER;
+static char kept[RUNTIME_FOLDER_MAX];
+
+static enum found refused(struct search *search, int error, const char *right)
+{
+    reason_set(search->reason, "%s: cannot be the runtime folder: %s; %s", search->path,
+               strerror(error), right);
+    return REFUSED;
+}
+
+static enum found passed_over(struct search *search, const char *place, const char *why)
+{
+    size_t used = strlen(search->passed);
+    snprintf(search->passed + used, sizeof search->passed - used, "%s%s: %s", used ? ", " : "",
+             place, why);
+    return PASSED_OVER;
+}
+
+/* Opens the folder without following a symbolic link, and checks owner and mode on the descriptor,
+ * so that nothing can change between the check and the use. */
+static enum found open_checked(struct search *search, int base, const char *name)
+{
+    struct stat status;
+    int fd = openat(base, name, O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (fd < 0)
+        return refused(search, errno,
+                       errno == ENOTDIR || errno == ELOOP
+                           ? "it is no folder, or a symbolic link: remove it, " SAY_ANOTHER
+                           : "make it enterable, " SAY_ANOTHER);
+    if (fstat(fd, &status) != 0) {
+        close(fd);
+        return refused(search, errno, SAY_ANOTHER);
+    }
+    if (status.st_uid != geteuid())
+        reason_set(search->reason,
+                   "%s: cannot be the runtime folder: it belongs to user %u, not to user %u; name "
+                   "a folder of your own with JOLON_RUNTIME_DIR",
+                   search->path, (unsigned)status.st_uid, (unsigned)geteuid());
+    else if ((status.st_mode & 0777) != 0700)
+        reason_set(search->reason,
+                   "%s: cannot be the runtime folder: its mode is %04o, not 0700; run `chmod 700 "
+                   "%s`, " SAY_ANOTHER,
+                   search->path, (unsigned)(status.st_mode & 0777), search->path);
+    else {
+        search->fd = fd;
+        return FOUND;
+    }
+    close(fd);
+    return REFUSED;
+}
+
+/* Takes the folder called name in base, and makes it when it is missing. */
+static enum found make_and_open(struct search *search, int base, const char *name)
+{
+    if (mkdirat(base, name, 0700) != 0 && errno != EEXIST)
+        return refused(search, errno, "make it yourself, " SAY_ANOTHER);
+    return open_checked(search, base, name);
+}
+
+static int set_path(struct search *search, const char *base, const char *name)
+{
+    int length =
+        snprintf(search->path, sizeof search->path, "%s%s%s", base, *name ? "/" : "", name);
+    if (length < (int)sizeof search->path)
+        return 0;
+    reason_set(search->reason,
+               "%.100s...: is too long for the runtime folder: %d bytes, at most %d; name a "
+               "shorter one with JOLON_RUNTIME_DIR",
+               base, length, RUNTIME_FOLDER_MAX - 1);
+    return -1;
+}
+
+/* A folder that belongs to this user and in which nobody else may write; -1 with why not. */
+static int open_base(const char *path, const char **why)
+{
+    struct stat status;
+    int fd = open(path, O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0) {
+        *why = strerror(errno);
+        return -1;
+    }
+    if (fstat(fd, &status) == 0 && status.st_uid == geteuid() &&
+        (status.st_mode & (S_IWGRP | S_IWOTH)) == 0)
+        return fd;
+    *why = status.st_uid != geteuid() ? "belongs to another user" : "others may write in it";
+    close(fd);
+    return -1;
+}
+
+/* The folder called name within base, or one level deeper: base/name/deeper. */
+static enum found within(struct search *search, const char *base, const char *name,
+                         const char *deeper)
+{
+    const char *why = "";
+    char both[64];
+    snprintf(both, sizeof both, "%s%s%s", name, deeper ? "/" : "", deeper ? deeper : "");
+    int fd = open_base(base, &why);
+    if (fd < 0)
+        return passed_over(search, base, why);
+    enum found found = REFUSED;
+    if (set_path(search, base, both) == 0) {
+        bool made = mkdirat(fd, name, 0700) == 0 || errno == EEXIST;
+        if (!made && (errno == EROFS || errno == EACCES || errno == EPERM))
+            found = passed_over(search, base, strerror(errno));
+        else if (!made)
+            found = refused(search, errno, SAY_ANOTHER);
+        else
+            found = deeper ? make_and_open(search, fd, both) : open_checked(search, fd, name);
+    }
+    close(fd);
+    return found;
+}
+
+/* The folder that $JOLON_RUNTIME_DIR names. */
+static enum found from_own_variable(struct search *search)
+{
+    const char *value = getenv("JOLON_RUNTIME_DIR");
+    if (!value || value[0] == '\0')
+        return PASSED_OVER;
+    if (value[0] != '/') {
+        reason_set(search->reason,
+                   "JOLON_RUNTIME_DIR=%.200s: must be an absolute path, as /run/jolon", value);
+        return REFUSED;
+    }
+    if (set_path(search, value, "") != 0)
+        return REFUSED;
+    /* With a slash at its end a symbolic link would be followed. */
+    for (size_t end = strlen(search->path); end > 1 && search->path[end - 1] == '/'; end--)
+        search->path[end - 1] = '\0';
+    return make_and_open(search, AT_FDCWD, search->path);
+}
+
+/* The first of the folders that systemd made for a service. */
+static enum found from_service(struct search *search)
+{
+    char first[RUNTIME_FOLDER_MAX + 1];
+    const char *why = "", *value = getenv("RUNTIME_DIRECTORY");
+    if (!value || value[0] != '/')
+        return PASSED_OVER;
+    snprintf(first, sizeof first, "%.*s", (int)strcspn(value, ":"), value);
+    int fd = open_base(first, &why);
+    if (fd < 0)
+        return passed_over(search, first, why);
+    close(fd);
+    return set_path(search, first, "") == 0 ? open_checked(search, AT_FDCWD, first) : REFUSED;
+}
+
+static enum found from_session(struct search *search)
+{
+    char base[64];
+    const char *value = getenv("XDG_RUNTIME_DIR");
+    enum found found = PASSED_OVER;
+    if (value && value[0] == '/')
+        found = within(search, value, "jolon", NULL);
+    snprintf(base, sizeof base, "/run/user/%u", (unsigned)geteuid());
+    return found == PASSED_OVER ? within(search, base, "jolon", NULL) : found;
+}
+
+/* $HOME is another user's after `sudo -E` or `su`; then it is the home that the system knows. */
+static enum found from_home(struct search *search)
+{
+    struct passwd entry, *known = NULL;
+    char text[4096];
+    const char *value = getenv("HOME");
+    enum found found = PASSED_OVER;
+    if (value && value[0] == '/')
+        found = within(search, value, ".jolon", "run");
+    if (found == PASSED_OVER && getpwuid_r(geteuid(), &entry, text, sizeof text, &known) == 0 &&
+        known && (!value || strcmp(known->pw_dir, value) != 0))
+        found = within(search, known->pw_dir, ".jolon", "run");
+    return found;
+}
+
+static enum found find(struct search *search)
+{
+    enum found found = from_own_variable(search);
+    if (found == PASSED_OVER)
+        found = from_service(search);
+    if (found == PASSED_OVER && geteuid() == 0)
+        found = within(search, "/run", "jolon", NULL);
+    if (found == PASSED_OVER && geteuid() != 0)
+        found = from_session(search);
+    if (found == PASSED_OVER)
+        found = from_home(search);
+    if (found == PASSED_OVER)
+        reason_set(search->reason,
+                   "there is no private folder for names and sockets (%s); name a folder of your "
+                   "own with JOLON_RUNTIME_DIR",
+                   search->passed);
+    return found;
+}
+
+int runtime_folder_open(struct reason *reason)
+{
+    struct search search = {.fd = -1, .reason = reason};
+    pthread_mutex_lock(&kept_lock);
+    memcpy(search.path, kept, sizeof kept);
+    pthread_mutex_unlock(&kept_lock);
+    if (search.path[0] != '\0')
+        return open_checked(&search, AT_FDCWD, search.path) == FOUND ? search.fd : -1;
+    if (find(&search) != FOUND)
+        return -1;
+    pthread_mutex_lock(&kept_lock);
+    memcpy(kept, search.path, sizeof kept);
+    pthread_mutex_unlock(&kept_lock);
+    return search.fd;
+}
+
+int runtime_folder(char path[RUNTIME_FOLDER_MAX], struct reason *reason)
+{
+    int fd = runtime_folder_open(reason);
+    if (fd < 0)
+        return -1;
+    close(fd);
+    pthread_mutex_lock(&kept_lock);
+    memcpy(path, kept, sizeof kept);
+    pthread_mutex_unlock(&kept_lock);
+    return 0;
+}

@@ -1,0 +1,79 @@
+/* Commands over DDS. */
+#include "ipc/topics/command_dds.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+/* In one of Cyclone DDS's threads. */
+static void ring(dds_entity_t reader, void *context)
+{
+    const struct command_dds *dds = context;
+    (void)reader;
+    (void)eventfd_write(dds->bell, 1);
+}
+
+static int ring_for_replies(struct command_dds *dds, struct reason *reason)
+{
+    dds_listener_t *listener = dds_create_listener(dds);
+    dds_lset_data_available(listener, ring);
+    dds_return_t code = dds_set_listener(dds->replies, listener);
+    dds_delete_listener(listener);
+    return code == DDS_RETCODE_OK ? 0
+                                  : reason_set(reason, "DDS listener: %s", dds_strretcode(code));
+}
+
+static void send_command(void *self, const jolon_Command *command)
+{
+    const struct command_dds *dds = self;
+    (void)dds_write(dds->commands, command);
+}
+
+static bool receive(void *self, jolon_CommandReply *reply)
+{
+    const struct command_dds *dds = self;
+    void *sample = NULL;
+    dds_sample_info_t info;
+    eventfd_t rung;
+    (void)eventfd_read(dds->bell, &rung);
+    while (dds_take(dds->replies, &sample, &info, 1, 1) > 0) {
+        bool valid = info.valid_data;
+        if (valid)
+            *reply = *(const jolon_CommandReply *)sample;
+        (void)dds_return_loan(dds->replies, &sample, 1);
+        sample = NULL;
+        if (valid)
+            return true;
+    }
+    return false;
+}
+
+static bool heard(void *self)
+{
+    const struct command_dds *dds = self;
+    dds_publication_matched_status_t matched = {0};
+    return dds_get_publication_matched_status(dds->commands, &matched) >= 0 &&
+           matched.current_count > 0;
+}
+
+static int descriptor(void *self)
+{
+    const struct command_dds *dds = self;
+    return dds->bell;
+}
+
+int command_dds_open(struct command_dds *dds, const struct dds_link *link,
+                     struct command_link *command_link, struct reason *reason)
+{
+    static const struct command_transport transport = {send_command, receive, heard, descriptor};
+    *command_link = (struct command_link){&transport, dds};
+    dds->bell = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+    if (dds->bell < 0)
+        return reason_set(reason, "eventfd: %s", strerror(errno));
+    /* The reader first: the reply may come as soon as the command is out. */
+    if ((dds->replies = dds_topics_reader(link, TOPIC_REPLY, reason)) < 0 ||
+        (dds->commands = dds_topics_writer(link, TOPIC_COMMAND, reason)) < 0)
+        return -1;
+    return ring_for_replies(dds, reason);
+}

@@ -1,0 +1,454 @@
+/* Orders: the tables of verbs and arguments, and their checks. */
+#include "ipc/topics/command_text.h"
+
+#include "ipc/process/process.h"
+#include "world/maths/random.h"
+#include "world/terrain/gridsquare.h"
+#include "world/world.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LEASE_MIN_S 0.1
+#define LEASE_MAX_S 3600.0
+#define EVERY_MAX_S 3600.0
+#define RADIUS_MAX  5000.0 /* [m] */
+
+enum sort { SORT_ENTITY, SORT_FLOAT, SORT_DOUBLE, SORT_WHOLE, SORT_TRUTH, SORT_KIND, SORT_WORD };
+
+typedef const char *word_name(int value);
+
+static const char *gear_word(int value)
+{
+    return gear_name((enum gearing)value);
+}
+
+static const char *force_word(int value)
+{
+    return force_name((enum force)value);
+}
+
+static const char *behaviour_word(int value)
+{
+    return behaviour_name((enum behaviour)value);
+}
+
+#define AT(member)         offsetof(struct command_text, member)
+#define FLOAT(member, low) SORT_FLOAT, low, 1.0, AT(command.member), NULL
+#define BIT(field)         (1u << (field))
+
+/* Numbers: low to high. Words: low is the first, high the last of the enumeration. */
+static const struct {
+    const char *name, *option;
+    enum sort sort;
+    double low, high;
+    size_t at; /* within struct command_text */
+    word_name *word;
+} fields[COMMAND_TEXT_FIELD_COUNT] = {
+    [COMMAND_TEXT_VEHICLE] = {"vehicle", "vehicle", SORT_ENTITY, 1, UINT32_MAX, AT(vehicle), NULL},
+    [COMMAND_TEXT_TARGET] = {"target", "target", SORT_ENTITY, 1, UINT32_MAX, AT(target), NULL},
+    [COMMAND_TEXT_THROTTLE] = {"throttle", "throttle", FLOAT(throttle, -1.0)},
+    [COMMAND_TEXT_STEER] = {"steer", "steer", FLOAT(steer, -1.0)},
+    [COMMAND_TEXT_CLIMB] = {"climb", "climb", FLOAT(climb, -1.0)},
+    [COMMAND_TEXT_TRAVERSE] = {"traverse", "traverse", FLOAT(traverse, -1.0)},
+    [COMMAND_TEXT_ELEVATE] = {"elevate", "elevate", FLOAT(elevate, -1.0)},
+    [COMMAND_TEXT_BRAKE] = {"brake", "brake", FLOAT(brake, 0.0)},
+    [COMMAND_TEXT_GEAR] = {"gear", "gear", SORT_WORD, 0, GEAR_COUNT - 1, AT(command.gear),
+                           gear_word},
+    [COMMAND_TEXT_LEASE] = {"lease_s", "lease", SORT_DOUBLE, LEASE_MIN_S, LEASE_MAX_S, AT(lease_s),
+                            NULL},
+    [COMMAND_TEXT_ANYWAY] = {"anyway", "anyway", SORT_TRUTH, 0, 1, AT(command.anyway), NULL},
+    [COMMAND_TEXT_KIND] = {"kind", "kind", SORT_KIND, 0, 0, AT(command.kind), NULL},
+    [COMMAND_TEXT_MUNITION] = {"munition", "munition", SORT_KIND, 0, 0, AT(command.kind), NULL},
+    [COMMAND_TEXT_X] = {"x", "x", SORT_DOUBLE, 0, WORLD_SIDE_M, AT(command.x_m), NULL},
+    [COMMAND_TEXT_Z] = {"z", "z", SORT_DOUBLE, 0, WORLD_SIDE_M, AT(command.z_m), NULL},
+    [COMMAND_TEXT_FORCE] = {"force", "force", SORT_WORD, 0, FORCE_COUNT - 1, AT(command.force),
+                            force_word},
+    [COMMAND_TEXT_BEHAVIOUR] = {"behaviour", "behaviour", SORT_WORD, 0, BEHAVIOUR_PATROL,
+                                AT(command.behaviour), behaviour_word},
+    [COMMAND_TEXT_ALTITUDE] = {"altitude_m", "altitude", SORT_DOUBLE, 0, 20000,
+                               AT(command.altitude_m), NULL},
+    [COMMAND_TEXT_HEADING] = {"heading_deg", "heading", SORT_DOUBLE, -360, 360,
+                              AT(command.heading_rad), NULL},
+    [COMMAND_TEXT_SPEED] = {"speed_mps", "speed", SORT_DOUBLE, 0, 2000, AT(command.speed_mps),
+                            NULL},
+    [COMMAND_TEXT_FRAMES] = {"frames", "frames", SORT_WHOLE, 1, 1000000, AT(command.frames), NULL},
+    [COMMAND_TEXT_SCALE] = {"scale", "scale", SORT_DOUBLE, 0.01, 100, AT(command.scale), NULL},
+    [COMMAND_TEXT_ROUNDS] = {"rounds", "rounds", SORT_WHOLE, 1, COMMAND_TEXT_ROUNDS_MAX, AT(rounds),
+                             NULL},
+    [COMMAND_TEXT_EVERY] = {"every_s", "every", SORT_DOUBLE, 0, EVERY_MAX_S, AT(every_s), NULL},
+    [COMMAND_TEXT_RADIUS] = {"radius_m", "radius", SORT_DOUBLE, 0, RADIUS_MAX, AT(radius_m), NULL},
+    [COMMAND_TEXT_SEED] = {"seed", "seed", SORT_WHOLE, 0, UINT32_MAX, AT(seed), NULL},
+};
+
+_Static_assert(sizeof(jolon_Gear) == sizeof(int) && sizeof(jolon_Force) == sizeof(int) &&
+                   sizeof(jolon_Behaviour) == sizeof(int),
+               "words are stored as int");
+_Static_assert(sizeof((jolon_Command *)0)->kind == COMMAND_TEXT_NAME_MAX, "names of kinds");
+_Static_assert(COMMAND_TEXT_NAME_MAX == ENTITY_NAME_MAX, "names of vehicles");
+
+#define CONTROLS                                                                                   \
+    (BIT(COMMAND_TEXT_THROTTLE) | BIT(COMMAND_TEXT_STEER) | BIT(COMMAND_TEXT_CLIMB) |              \
+     BIT(COMMAND_TEXT_TRAVERSE) | BIT(COMMAND_TEXT_ELEVATE) | BIT(COMMAND_TEXT_BRAKE) |            \
+     BIT(COMMAND_TEXT_GEAR) | BIT(COMMAND_TEXT_LEASE))
+#define SKY (BIT(COMMAND_TEXT_MUNITION) | BIT(COMMAND_TEXT_X) | BIT(COMMAND_TEXT_Z))
+#define MISSION                                                                                    \
+    (SKY | BIT(COMMAND_TEXT_ROUNDS) | BIT(COMMAND_TEXT_EVERY) | BIT(COMMAND_TEXT_RADIUS) |         \
+     BIT(COMMAND_TEXT_SEED))
+#define PLACE (BIT(COMMAND_TEXT_KIND) | BIT(COMMAND_TEXT_X) | BIT(COMMAND_TEXT_Z))
+#define SPAWN                                                                                      \
+    (PLACE | BIT(COMMAND_TEXT_FORCE) | BIT(COMMAND_TEXT_BEHAVIOUR) | BIT(COMMAND_TEXT_ALTITUDE) |  \
+     BIT(COMMAND_TEXT_HEADING) | BIT(COMMAND_TEXT_SPEED))
+#define WHO     BIT(COMMAND_TEXT_VEHICLE)
+#define NOTHING COMMAND_TEXT_FIELD_COUNT
+
+static const struct command_text_verb verbs[] = {
+    {"pause", jolon_COMMAND_PAUSE, 0, 0, NOTHING},
+    {"resume", jolon_COMMAND_RESUME, 0, 0, NOTHING},
+    {"step", jolon_COMMAND_STEP, BIT(COMMAND_TEXT_FRAMES), BIT(COMMAND_TEXT_FRAMES),
+     COMMAND_TEXT_FRAMES},
+    {"scale", jolon_COMMAND_SCALE, BIT(COMMAND_TEXT_SCALE), BIT(COMMAND_TEXT_SCALE),
+     COMMAND_TEXT_SCALE},
+    {"drive", jolon_COMMAND_DRIVE, WHO | CONTROLS, WHO, COMMAND_TEXT_VEHICLE},
+    {"release", jolon_COMMAND_RELEASE, WHO | BIT(COMMAND_TEXT_ANYWAY), WHO, COMMAND_TEXT_VEHICLE},
+    {"fire", jolon_COMMAND_FIRE, WHO | BIT(COMMAND_TEXT_TARGET) | MISSION, 0, COMMAND_TEXT_VEHICLE},
+    {"mission", jolon_COMMAND_FIRE, MISSION, SKY, NOTHING},
+    {"spawn", jolon_COMMAND_SPAWN, SPAWN, PLACE, COMMAND_TEXT_KIND},
+    {"remove", jolon_COMMAND_REMOVE, WHO, WHO, COMMAND_TEXT_VEHICLE},
+    {"quit", jolon_COMMAND_QUIT, 0, 0, NOTHING},
+};
+
+#define VERB_COUNT (sizeof verbs / sizeof verbs[0])
+
+const struct command_text_verb *command_text_verb(size_t i)
+{
+    return i < VERB_COUNT ? &verbs[i] : NULL;
+}
+
+const char *command_text_field_name(enum command_text_field field)
+{
+    return fields[field].name;
+}
+
+const char *command_text_field_option(enum command_text_field field)
+{
+    return fields[field].option;
+}
+
+enum command_text_field command_text_field(const char *name)
+{
+    int i = 0;
+    while (i < COMMAND_TEXT_FIELD_COUNT && strcmp(fields[i].name, name) != 0)
+        i++;
+    return (enum command_text_field)i;
+}
+
+bool command_text_field_is_truth(enum command_text_field field)
+{
+    return fields[field].sort == SORT_TRUTH;
+}
+
+/* How many letters to put in, take out or change; words are short. */
+static size_t edits(const char *a, const char *b)
+{
+    size_t row[COMMAND_TEXT_NAME_MAX + 1];
+    size_t width = strnlen(b, COMMAND_TEXT_NAME_MAX);
+    for (size_t j = 0; j <= width; j++)
+        row[j] = j;
+    for (size_t i = 0; a[i] && i < COMMAND_TEXT_NAME_MAX; i++) {
+        size_t corner = row[0];
+        row[0] = i + 1;
+        for (size_t j = 0; j < width; j++) {
+            size_t change = corner + (a[i] != b[j]);
+            size_t least = row[j] < row[j + 1] ? row[j] + 1 : row[j + 1] + 1;
+            corner = row[j + 1];
+            row[j + 1] = change < least ? change : least;
+        }
+    }
+    return row[width];
+}
+
+/* "a, b, c" */
+static void list(char *text, size_t bytes, const char *word)
+{
+    size_t used = strlen(text);
+    (void)snprintf(text + used, bytes - used, "%s%s", used ? ", " : "", word);
+}
+
+int command_text_begin(struct command_text *order, const char *verb, struct reason *reason)
+{
+    char all[160] = "";
+    size_t best = 0;
+    *order = (struct command_text){.rounds = 1, .command = {.altitude_m = -1.0}};
+    for (size_t i = 0; i < VERB_COUNT; i++) {
+        if (strcmp(verbs[i].name, verb) == 0) {
+            order->verb = &verbs[i];
+            order->command.type = verbs[i].type;
+            return 0;
+        }
+        if (edits(verb, verbs[i].name) < edits(verb, verbs[best].name))
+            best = i;
+        list(all, sizeof all, verbs[i].name);
+    }
+    if (edits(verb, verbs[best].name) <= 2)
+        return reason_set(reason, "'%.32s': no such command; did you mean %s?", verb,
+                          verbs[best].name);
+    return reason_set(reason, "'%.32s': no such command; there are %s", verb, all);
+}
+
+static int wrong(const struct command_text_value *value, struct reason *reason, const char *right)
+{
+    if (value->text)
+        return reason_set(reason, "'%.32s': not %s", value->text, right);
+    if (value->is_truth)
+        return reason_set(reason, "%s: not %s", value->truth ? "true" : "false", right);
+    return reason_set(reason, "%g: not %s", value->number, right);
+}
+
+/* A number within the field's range, and a whole one if it must be. */
+static int take_number(double *number, enum command_text_field field,
+                       const struct command_text_value *value, struct reason *reason)
+{
+    char right[96];
+    double low = fields[field].low, high = fields[field].high;
+    bool whole = fields[field].sort == SORT_WHOLE || fields[field].sort == SORT_ENTITY;
+    bool good = false;
+    if (value->text) {
+        good = value->loose && process_number_read(value->text, low, high, number);
+    } else if (!value->is_truth) {
+        *number = value->number;
+        good = *number >= low && *number <= high;
+    }
+    if (good && whole)
+        good = *number == (double)(uint32_t)*number;
+    if (good)
+        return 0;
+    (void)snprintf(right, sizeof right, "a %snumber from %.10g to %.10g", whole ? "whole " : "",
+                   low, high);
+    return wrong(value, reason, right);
+}
+
+static int take_name(char *to, const struct command_text_value *value, const char *what,
+                     struct reason *reason)
+{
+    char right[64];
+    size_t length = value->text ? strlen(value->text) : 0;
+    if (length == 0 || length >= COMMAND_TEXT_NAME_MAX) {
+        (void)snprintf(right, sizeof right, "%s, of 1 to %u letters", what,
+                       COMMAND_TEXT_NAME_MAX - 1);
+        return wrong(value, reason, right);
+    }
+    memcpy(to, value->text, length + 1);
+    return 0;
+}
+
+static bool is_digits(const char *text)
+{
+    return *text && text[strspn(text, "0123456789")] == '\0';
+}
+
+/* An id, or a name that is looked up later. */
+static int take_entity(struct command_text *order, enum command_text_field field,
+                       const struct command_text_value *value, struct reason *reason)
+{
+    double number;
+    char *name = (char *)order + fields[field].at;
+    uint32_t *id = field == COMMAND_TEXT_VEHICLE ? &order->command.entity : &order->command.target;
+    if (value->is_truth)
+        return wrong(value, reason, "the id or the name of a vehicle");
+    if (value->text && !(value->loose && is_digits(value->text)))
+        return take_name(name, value, "the id or the name of a vehicle", reason);
+    if (take_number(&number, field, value, reason) != 0)
+        return -1;
+    *id = (uint32_t)number;
+    return 0;
+}
+
+static int take_word(void *to, enum command_text_field field,
+                     const struct command_text_value *value, struct reason *reason)
+{
+    char all[96] = "";
+    for (int i = (int)fields[field].low; i <= (int)fields[field].high; i++) {
+        const char *name = fields[field].word(i);
+        if (value->text && strcmp(name, value->text) == 0) {
+            memcpy(to, &i, sizeof i);
+            return 0;
+        }
+        list(all, sizeof all, name);
+    }
+    char right[112];
+    (void)snprintf(right, sizeof right, "one of %s", all);
+    return wrong(value, reason, right);
+}
+
+static int take(struct command_text *order, enum command_text_field field,
+                const struct command_text_value *value, struct reason *reason)
+{
+    char *to = (char *)order + fields[field].at;
+    double number = 0.0;
+    float single;
+    uint32_t whole;
+    switch (fields[field].sort) {
+    case SORT_ENTITY:
+        return take_entity(order, field, value, reason);
+    case SORT_KIND:
+        return take_name(to, value, "the name of a kind", reason);
+    case SORT_WORD:
+        return take_word(to, field, value, reason);
+    case SORT_TRUTH:
+        if (!value->is_truth)
+            return wrong(value, reason, "true or false");
+        memcpy(to, &value->truth, sizeof value->truth);
+        return 0;
+    case SORT_FLOAT:
+    case SORT_DOUBLE:
+    case SORT_WHOLE:
+        break;
+    }
+    if (take_number(&number, field, value, reason) != 0)
+        return -1;
+    single = (float)number;
+    if (field == COMMAND_TEXT_HEADING)
+        number *= RAD_PER_DEG;
+    if (fields[field].sort == SORT_FLOAT) {
+        memcpy(to, &single, sizeof single);
+    } else if (fields[field].sort == SORT_WHOLE) {
+        whole = (uint32_t)number;
+        memcpy(to, &whole, sizeof whole);
+    } else {
+        memcpy(to, &number, sizeof number);
+    }
+    return 0;
+}
+
+int command_text_give(struct command_text *order, enum command_text_field field,
+                      const struct command_text_value *value, struct reason *reason)
+{
+    if (!(order->verb->allowed & BIT(field)))
+        return reason_set(reason, "%s does not take it", order->verb->name);
+    if (order->given & BIT(field))
+        return reason_set(reason, "it is given twice");
+    if (take(order, field, value, reason) != 0)
+        return -1;
+    order->given |= BIT(field);
+    return 0;
+}
+
+/* Out of the sky onto a place, or by a vehicle: not both. */
+static int check_fire(const struct command_text *order, struct reason *reason)
+{
+    uint32_t by_vehicle = order->given & (WHO | BIT(COMMAND_TEXT_TARGET));
+    uint32_t by_sky = order->given & MISSION;
+    if (by_vehicle & WHO ? by_sky != 0 : by_vehicle != 0 || (by_sky & SKY) != SKY)
+        return reason_set(reason,
+                          "%s: either a vehicle, and a target or none; or a munition and a "
+                          "place x, z, and rounds, every, radius and seed or none",
+                          order->verb->name);
+    return 0;
+}
+
+int command_text_end(struct command_text *order, struct reason *reason)
+{
+    uint32_t missing = order->verb->needed & ~order->given;
+    if (missing)
+        return reason_set(reason, "%s: %s is missing", order->verb->name,
+                          fields[__builtin_ctz(missing)].name);
+    return order->command.type == jolon_COMMAND_FIRE ? check_fire(order, reason) : 0;
+}
+
+bool command_text_needs_names(const struct command_text *order)
+{
+    return order->vehicle[0] || order->target[0];
+}
+
+bool command_text_needs_hz(const struct command_text *order)
+{
+    return order->lease_s > 0.0;
+}
+
+static int resolve_name(uint32_t *id, const char *name, const struct name_table *names,
+                        struct reason *reason)
+{
+    const char *nearest = "";
+    if (!name[0])
+        return 0;
+    *id = name_table_find(names, name);
+    if (*id)
+        return 0;
+    for (uint32_t i = 0; i < names->count; i++) {
+        if (!*nearest || edits(name, names->entry[i].name) < edits(name, nearest))
+            nearest = names->entry[i].name;
+    }
+    if (!*nearest)
+        return reason_set(reason, "'%s': no vehicle has a name in this world; say its id", name);
+    return reason_set(reason, "'%s': no vehicle has that name; the nearest is %s", name, nearest);
+}
+
+int command_text_resolve(struct command_text *order, const struct name_table *names, double hz,
+                         struct reason *reason)
+{
+    jolon_Command *command = &order->command;
+    if (command_text_needs_names(order) &&
+        (resolve_name(&command->entity, order->vehicle, names, reason) != 0 ||
+         resolve_name(&command->target, order->target, names, reason) != 0))
+        return -1;
+    if (command_text_needs_hz(order)) {
+        double frames = order->lease_s * hz;
+        command->lease_frames = frames < COMMAND_LEASE_MAX ? (uint32_t)frames : COMMAND_LEASE_MAX;
+        if (!command->lease_frames)
+            command->lease_frames = 1;
+    }
+    return 0;
+}
+
+jolon_Command command_text_round(const struct command_text *order, uint64_t seed, uint32_t round)
+{
+    jolon_Command command = order->command;
+    if (order->radius_m > 0.0) {
+        double sine, cosine;
+        double away_m = order->radius_m * sqrt(random_unit(seed, 0, round, RANDOM_MISSION_RANGE));
+        maths_sincos(TWO_PI * random_unit(seed, 0, round, RANDOM_MISSION_AZIMUTH), &sine, &cosine);
+        command.x_m = maths_clamp(command.x_m + away_m * sine, 0.0, WORLD_SIDE_M);
+        command.z_m = maths_clamp(command.z_m + away_m * cosine, 0.0, WORLD_SIDE_M);
+    }
+    return command;
+}
+
+const char *command_text_advice(const struct command_text *order, jolon_CommandResult result)
+{
+    switch (result) {
+    case jolon_RESULT_NO_SUCH_ENTITY:
+        return "; it may have been removed: jolon monitor shows who is there";
+    case jolon_RESULT_TAKEN:
+        return order->command.type == jolon_COMMAND_RELEASE
+                   ? "; release it anyway, or wait until its driver lets go"
+                   : "; wait until its driver lets go, or take it from him: release anyway";
+    case jolon_RESULT_OUT_OF_RANGE:
+        return order->command.type == jolon_COMMAND_SPAWN
+                   ? "; a ship needs water, what drives needs land, and all of them a place on the "
+                     "map"
+                   : "";
+    case jolon_RESULT_TABLE_FULL:
+        return "; remove something, or give the scenario a larger world.capacity";
+    case jolon_RESULT_CANNOT:
+        switch (order->command.type) {
+        case jolon_COMMAND_STEP:
+            return "; pause first";
+        case jolon_COMMAND_RELEASE:
+            return "; nobody drives it";
+        case jolon_COMMAND_FIRE:
+            return "; it still lays its gun on the target or reloads: say it again; or it has "
+                   "no rounds, or is a wreck";
+        case jolon_COMMAND_DRIVE:
+            return "; it is a wreck: take another";
+        case jolon_COMMAND_SPAWN:
+            return "; too many vehicles stand on that spot already: name a place 10 m away";
+        default:
+            return "";
+        }
+    default:
+        return "";
+    }
+}

@@ -1,0 +1,184 @@
+/* The link to DDS: domain with an explicit configuration, participant, partition, bounded end. */
+#include "ipc/topics/dds_link.h"
+
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/topics/dds_config.h"
+#include "ipc/topics/dds_datagrams.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <netinet/in.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define CLOSE_LIMIT_S 1u
+
+/* Cyclone DDS says in its log, not in its return codes, what was wrong; its threads log too. */
+static struct {
+    pthread_mutex_t lock;
+    char last[256]; /* the latest warning or error, without its newline */
+    bool quiet;
+    uint64_t logged_ns;
+} said = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+static volatile sig_atomic_t close_exit_code;
+
+/* Up to the end of its line. The text may come from any datagram, in no particular encoding. */
+static void keep_text(const char *message)
+{
+    size_t length = strcspn(message, "\n");
+    if (length >= sizeof said.last)
+        length = sizeof said.last - 1;
+    for (size_t i = 0; i < length; i++)
+        said.last[i] = isprint((unsigned char)message[i]) ? message[i] : '?';
+    said.last[length] = '\0';
+}
+
+static void take_log(void *unused, const dds_log_data_t *data)
+{
+    (void)unused;
+    if (!(data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_WARNING)))
+        return;
+    (void)pthread_mutex_lock(&said.lock);
+    keep_text(data->message);
+    /* Cyclone DDS aborts after a fatal message. */
+    if (!said.quiet && (data->priority & DDS_LC_FATAL || log_due(&said.logged_ns, NS_PER_S)))
+        log_warn("dds: %s", said.last);
+    (void)pthread_mutex_unlock(&said.lock);
+}
+
+/* what: a part of DDS, or the configuration file that it did not like. */
+static int refuse(struct reason *reason, const char *what, dds_return_t code)
+{
+    (void)pthread_mutex_lock(&said.lock);
+    int result = reason_set(reason, "DDS %s: %s%s%s", what, dds_strretcode(code),
+                            said.last[0] ? ": " : "", said.last);
+    (void)pthread_mutex_unlock(&said.lock);
+    return result;
+}
+
+bool dds_link_option(struct dds_link_options *options, int option, const char *argument)
+{
+    char *end;
+    unsigned long number;
+    switch (option) {
+    case DDS_LINK_OPTION_FIRST:
+        options->config = argument;
+        return true;
+    case DDS_LINK_OPTION_FIRST + 1:
+        options->interface = argument;
+        return true;
+    case DDS_LINK_OPTION_FIRST + 2:
+        errno = 0;
+        number = strtoul(argument, &end, 10);
+        if (errno || end == argument || *end || *argument == '-' || number > DDS_LINK_DOMAIN_MAX)
+            die_usage("--domain %s: not a DDS domain; 0 to %u", argument, DDS_LINK_DOMAIN_MAX);
+        options->domain = (uint32_t)number;
+        return true;
+    default:
+        return false;
+    }
+}
+
+static int configure(char *text, size_t bytes, const struct dds_link_options *options,
+                     struct reason *reason)
+{
+    char address[INET_ADDRSTRLEN];
+    if (options->config && options->interface)
+        return reason_set(reason,
+                          "--interface %s: not together with --dds-config, whose file "
+                          "names the interface",
+                          options->interface);
+    if (options->config)
+        return dds_config_file(text, bytes, options->config, reason);
+    if (dds_config_interface(address, sizeof address,
+                             options->interface ? options->interface : DDS_LOOPBACK, reason) != 0)
+        return -1;
+    return dds_config_builtin(text, bytes, address, options->part, reason);
+}
+
+/* Publisher and subscriber carry the partition: every reader and writer made in them is in it. */
+static int join_partition(struct dds_link *link, const char *world, struct reason *reason)
+{
+    dds_qos_t *qos = dds_create_qos();
+    dds_qset_partition1(qos, world);
+    link->publisher = dds_create_publisher(link->participant, qos, NULL);
+    link->subscriber = dds_create_subscriber(link->participant, qos, NULL);
+    dds_delete_qos(qos);
+    if (link->publisher < 0)
+        return refuse(reason, "publisher", link->publisher);
+    if (link->subscriber < 0)
+        return refuse(reason, "subscriber", link->subscriber);
+    return 0;
+}
+
+void dds_link_check_world(const char *name)
+{
+    if (!segment_name_ok(name))
+        die_usage("--world %s: no name for a world: 1 to %d of a-z A-Z 0-9 _ -", name,
+                  SEGMENT_NAME_MAX - 1);
+}
+
+int dds_link_open(struct dds_link *link, const struct dds_link_options *options, const char *world,
+                  struct reason *reason)
+{
+    char *config = malloc(DDS_CONFIG_MAX);
+    if (!config)
+        return reason_set(reason, "DDS configuration: out of memory");
+    if (configure(config, DDS_CONFIG_MAX, options, reason) != 0)
+        goto err_config;
+    said.quiet = true; /* until it is open: what is said goes into the reason */
+    said.last[0] = '\0';
+    dds_set_log_sink(take_log, NULL);
+    link->secure = dds_config_secure(config);
+    /* Without peers in so many words all are found by multicast, or are told because they came. */
+    dds_datagrams_begin(!strcasestr(config, "<Peer"));
+    link->domain = dds_create_domain(options->domain, config);
+    if (link->domain < 0 && strstr(said.last, "participant index")) {
+        (void)reason_set(reason,
+                         "DDS domain %u: it has %u worlds with reporters on this machine, and has "
+                         "room for no more; name another, as --domain %u",
+                         options->domain, DDS_HOSTS, options->domain ? 0 : 1);
+        goto err_config;
+    }
+    if (link->domain < 0) {
+        (void)refuse(reason, options->config ? options->config : "domain", link->domain);
+        goto err_config;
+    }
+    link->participant = dds_create_participant(options->domain, NULL, NULL);
+    if (link->participant < 0) {
+        (void)refuse(reason, "participant", link->participant);
+        goto err_domain;
+    }
+    if (join_partition(link, world, reason) != 0)
+        goto err_domain;
+    free(config);
+    said.quiet = options->quiet;
+    return 0;
+
+err_domain:
+    (void)dds_delete(link->domain);
+err_config:
+    free(config);
+    return -1;
+}
+
+static void end_process(int signal_number)
+{
+    (void)signal_number;
+    _exit(close_exit_code);
+}
+
+void dds_link_close(struct dds_link *link, int exit_code)
+{
+    struct sigaction action = {.sa_handler = end_process};
+    close_exit_code = exit_code;
+    (void)sigaction(SIGALRM, &action, NULL);
+    (void)alarm(CLOSE_LIMIT_S);
+    (void)dds_delete(link->domain);
+    (void)alarm(0);
+}

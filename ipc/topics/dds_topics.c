@@ -1,0 +1,134 @@
+/* Topics, their qualities of service, readers, writers and the wait for them. */
+#include "ipc/topics/dds_topics.h"
+
+#include "status.h"
+
+/* How long a write may wait for room in the transport: the writer has a heart to beat. */
+#define WRITE_LIMIT DDS_MSECS(10)
+
+/* Subscribers learn within this time that the writer was killed; shorter leases race. */
+#define LIVELINESS_LEASE DDS_SECS(1)
+
+/* A late reader gets the writer's depth in one burst, and what happens meanwhile on top of it: a
+ * reader that keeps no more than the writer loses some of it before it looks. */
+#define READER_ROOM 4
+
+static const struct {
+    const char *name;
+    const dds_topic_descriptor_t *descriptor;
+    int32_t depth;           /* samples kept, of each instance: for late readers and slow ones */
+    dds_duration_t lifespan; /* 0: for ever */
+} table[TOPIC_COUNT] = {
+    [TOPIC_WORLD] = {"WorldInfo", &jolon_WorldInfo_desc, 1, 0},
+    [TOPIC_PROCESS] = {"ProcessStatus", &jolon_ProcessStatus_desc, 1, 0},
+    [TOPIC_FRAME] = {"FrameStatus", &jolon_FrameStatus_desc, 1, 0},
+    /* Batches are not written while nobody reads: an old one must not pass for the present. */
+    [TOPIC_ENTITIES] = {"EntityBatch", &jolon_EntityBatch_desc, 1, DDS_SECS(1)},
+    [TOPIC_COLLISION] = {"CollisionEvent", &jolon_CollisionEvent_desc, 4096, 0},
+    [TOPIC_FIRE] = {"FireEvent", &jolon_FireEvent_desc, 4096, 0},
+    [TOPIC_DETONATION] = {"DetonationEvent", &jolon_DetonationEvent_desc, 4096, 0},
+    [TOPIC_CRATER] = {"CraterEvent", &jolon_CraterEvent_desc, 4096, 0},
+    [TOPIC_AGENT] = {"AgentEvent", &jolon_AgentEvent_desc, 4096, 0},
+    [TOPIC_COMMAND] = {"Command", &jolon_Command_desc, 256, 0},
+    [TOPIC_REPLY] = {"CommandReply", &jolon_CommandReply_desc, 256, 0},
+    [TOPIC_NAMES] = {"EntityNames", &jolon_EntityNames_desc, 1, 0},
+};
+
+static dds_qos_t *make_qos(enum dds_topic topic, bool writer)
+{
+    int32_t depth = table[topic].depth;
+    dds_qos_t *qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, WRITE_LIMIT);
+    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST,
+                     writer || depth == 1 ? depth : depth * READER_ROOM);
+    if (writer) {
+        /* What a late reader gets comes from the durability service's depth, not the history's. */
+        dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
+                                    DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+        dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, LIVELINESS_LEASE);
+        if (table[topic].lifespan)
+            dds_qset_lifespan(qos, table[topic].lifespan);
+    }
+    return qos;
+}
+
+static dds_entity_t make_end(const struct dds_link *link, enum dds_topic topic, bool writer,
+                             struct reason *reason)
+{
+    const char *name = table[topic].name;
+    dds_entity_t handle =
+        dds_create_topic(link->participant, table[topic].descriptor, name, NULL, NULL);
+    if (handle < 0)
+        return reason_set(reason, "DDS topic %s: %s", name, dds_strretcode(handle));
+    dds_qos_t *qos = make_qos(topic, writer);
+    dds_entity_t end = writer ? dds_create_writer(link->publisher, handle, qos, NULL)
+                              : dds_create_reader(link->subscriber, handle, qos, NULL);
+    dds_delete_qos(qos);
+    if (end < 0)
+        return reason_set(reason, "DDS %s of %s: %s", writer ? "writer" : "reader", name,
+                          dds_strretcode(end));
+    return end;
+}
+
+dds_entity_t dds_topics_reader(const struct dds_link *link, enum dds_topic topic,
+                               struct reason *reason)
+{
+    return make_end(link, topic, false, reason);
+}
+
+dds_entity_t dds_topics_writer(const struct dds_link *link, enum dds_topic topic,
+                               struct reason *reason)
+{
+    return make_end(link, topic, true, reason);
+}
+
+static dds_return_t attach(dds_entity_t waitset, dds_entity_t reader)
+{
+    dds_return_t code = dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
+    return code < 0 ? code : dds_waitset_attach(waitset, reader, reader);
+}
+
+bool dds_topics_orphaned(dds_entity_t reader, dds_instance_handle_t writer)
+{
+    dds_instance_handle_t there[16];
+    dds_return_t count = dds_get_matched_publications(reader, there, 16);
+    for (int i = 0; i < count && i < 16; i++) {
+        if (there[i] == writer)
+            return false;
+    }
+    return count > 0 && count <= 16; /* of so many it may be another */
+}
+
+void dds_topics_ask_again(const struct dds_link *link, enum dds_topic topic, dds_entity_t waitset,
+                          dds_entity_t *reader)
+{
+    struct reason reason;
+    dds_entity_t again = dds_topics_reader(link, topic, &reason);
+    if (again < 0)
+        return;
+    if (waitset) {
+        (void)dds_waitset_detach(waitset, *reader);
+        (void)attach(waitset, again);
+    }
+    (void)dds_delete(*reader);
+    *reader = again;
+}
+
+dds_entity_t dds_topics_waitset(const struct dds_link *link, const dds_entity_t *readers,
+                                size_t count, struct reason *reason)
+{
+    dds_entity_t waitset = dds_create_waitset(link->participant);
+    dds_return_t code = waitset;
+    for (size_t i = 0; i < count && code >= 0; i++)
+        code = attach(waitset, readers[i]);
+    if (code < 0)
+        return reason_set(reason, "DDS wait set: %s", dds_strretcode(code));
+    return waitset;
+}
+
+void dds_topics_wait(dds_entity_t waitset, uint64_t timeout_ns)
+{
+    dds_attach_t triggered;
+    (void)dds_waitset_wait(waitset, &triggered, 1, (dds_duration_t)timeout_ns);
+}

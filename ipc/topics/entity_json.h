@@ -1,0 +1,12 @@
+/* An entity as JSON: the same members wherever one is told. */
+#ifndef JOLON_IPC_TOPICS_ENTITY_JSON_H
+#define JOLON_IPC_TOPICS_ENTITY_JSON_H
+
+#include "ipc/topics/world_mirror.h"
+
+#include <cjson/cJSON.h>
+
+/* A new object: position and velocity in world axes [m, m/s], angles in degrees. */
+cJSON *entity_json(const struct world_mirror *mirror, const jolon_Entity *entity);
+
+#endif

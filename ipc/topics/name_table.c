@@ -1,0 +1,73 @@
+/* A list of names. */
+#include "ipc/topics/name_table.h"
+
+#include "world/world.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void name_table_close(struct name_table *names)
+{
+    free(names->entry);
+    *names = (struct name_table){0};
+}
+
+bool name_table_learn(struct name_table *names, const jolon_EntityNames *told)
+{
+    uint32_t count = told->names._length;
+    jolon_EntityName *entry = malloc((count + 1) * sizeof *entry);
+    if (!entry)
+        return false;
+    if (count)
+        memcpy(entry, told->names._buffer, count * sizeof *entry);
+    name_table_close(names);
+    names->entry = entry;
+    names->count = count;
+    names->run = told->run;
+    names->told = true;
+    return true;
+}
+
+bool name_table_read_world(struct name_table *names, const struct world *world, uint64_t run)
+{
+    uint32_t named = 0;
+    for (uint32_t id = 1; id <= world->counts.names && named < jolon_NAMES_MAX; id++)
+        named += world_entity_name(world, id)[0] != '\0';
+    jolon_EntityName *entry = calloc(named + 1, sizeof *entry);
+    if (!entry)
+        return false;
+    name_table_close(names);
+    for (uint32_t id = 1; names->count < named; id++) {
+        if (!world_entity_name(world, id)[0])
+            continue;
+        jolon_EntityName *to = &entry[names->count++];
+        to->id = id;
+        (void)stpncpy(to->name, world_entity_name(world, id), sizeof to->name - 1);
+    }
+    names->entry = entry;
+    names->run = run;
+    names->told = true;
+    return true;
+}
+
+const char *name_table_of(const struct name_table *names, uint32_t id)
+{
+    uint32_t low = 0, high = names->count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (names->entry[middle].id < id)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < names->count && names->entry[low].id == id ? names->entry[low].name : "";
+}
+
+uint32_t name_table_find(const struct name_table *names, const char *name)
+{
+    for (uint32_t i = 0; i < names->count; i++) {
+        if (strcmp(names->entry[i].name, name) == 0)
+            return names->entry[i].id;
+    }
+    return 0;
+}

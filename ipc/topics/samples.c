@@ -1,0 +1,209 @@
+/* What is asked of each type's members. */
+#include "ipc/topics/samples.h"
+
+#include "ipc/segment/role.h"
+#include "world/entity/entity.h"
+#include "world/runtime/utf8.h"
+
+#include "status.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Far beyond what any world has, and far within what arithmetic on it can hold. */
+#define NUMBER_MAX 1e15
+#define SIDE_MIN_M 1.0
+
+static bool number(double value)
+{
+    return fabs(value) <= NUMBER_MAX; /* not if it is none */
+}
+
+static bool amount(double value)
+{
+    return value >= 0.0 && value <= NUMBER_MAX;
+}
+
+static void clean(char *text)
+{
+    while (*text) {
+        uint32_t code;
+        size_t bytes = utf8_read(text, &code);
+        if (bytes > 0 && utf8_visible(code))
+            text += bytes;
+        else
+            *text++ = '?';
+    }
+}
+
+static bool times(const jolon_Times *value)
+{
+    return amount(value->p50_ms) && amount(value->p99_ms) && amount(value->max_ms);
+}
+
+static bool good_world(jolon_WorldInfo *world)
+{
+    bool good = world->hz > 0.0 && amount(world->hz) && world->side_m >= SIDE_MIN_M &&
+                amount(world->side_m) && world->kinds._length <= 64;
+    for (uint32_t i = 0; good && i < jolon_MAP_CELLS; i++)
+        good = number((double)world->height_m[i]);
+    for (uint32_t i = 0; good && i < world->kinds._length; i++) {
+        jolon_KindInfo *kind = &world->kinds._buffer[i];
+        clean(kind->name);
+        good = kind->domain <= jolon_DOMAIN_FIXED && number((double)kind->length_m) &&
+               number((double)kind->max_speed_mps) && number((double)kind->range_m) &&
+               number((double)kind->fuel_l);
+    }
+    clean(world->world);
+    clean(world->ground);
+    clean(world->scenario);
+    return good;
+}
+
+static bool good_names(jolon_EntityNames *names)
+{
+    for (uint32_t i = 0; i < names->names._length; i++) {
+        clean(names->names._buffer[i].name);
+        if (i > 0 && names->names._buffer[i].id <= names->names._buffer[i - 1].id)
+            return false; /* they are searched by halves */
+    }
+    return names->names._length <= jolon_NAMES_MAX;
+}
+
+static bool good_process(const jolon_ProcessStatus *status)
+{
+    return role_find(status->role) != ROLE_NONE && status->state <= jolon_PROCESS_DEAD &&
+           amount(status->beat_age_ms) && amount(status->stage_ms) &&
+           amount(status->stage_p50_ms) && amount(status->stage_p99_ms) &&
+           amount(status->stage_max_ms);
+}
+
+static bool good_frame(const jolon_FrameStatus *frame)
+{
+    return amount(frame->sim_time_s) && frame->state <= jolon_RUN_STALLED && amount(frame->hz) &&
+           amount(frame->rate_hz) && amount(frame->time_scale) && times(&frame->frame_time) &&
+           times(&frame->mover_time) && times(&frame->collider_time) && times(&frame->recent);
+}
+
+static bool good_entity(const jolon_Entity *entity)
+{
+    const float numbers[] = {
+        entity->vx_mps,    entity->vy_mps,   entity->vz_mps,     entity->heading_rad,
+        entity->pitch_rad, entity->roll_rad, entity->turret_rad, entity->gun_rad,
+        entity->fuel_l,    entity->throttle, entity->reload_s,
+    };
+    bool good = entity->state <= jolon_ENTITY_WRECK && entity->force <= jolon_FORCE_RED &&
+                entity->behaviour <= jolon_BEHAVIOUR_RESUPPLY &&
+                entity->damage <= jolon_DAMAGE_DESTROYED && entity->gear <= jolon_GEAR_LOW &&
+                number(entity->x_m) && number(entity->y_m) && number(entity->z_m);
+    for (size_t i = 0; good && i < sizeof numbers / sizeof numbers[0]; i++)
+        good = number((double)numbers[i]);
+    return good;
+}
+
+static bool good_batch(const jolon_EntityBatch *batch)
+{
+    bool good = batch->part < batch->parts && amount(batch->sim_time_s) &&
+                batch->total <= CAPACITY_MAX && batch->entities._length <= batch->total;
+    for (uint32_t i = 0; good && i < batch->entities._length; i++)
+        good = good_entity(&batch->entities._buffer[i]);
+    return good;
+}
+
+static bool party(jolon_Party *value)
+{
+    clean(value->kind);
+    return value->damage <= jolon_DAMAGE_DESTROYED;
+}
+
+static bool point(const jolon_Point *value)
+{
+    return number(value->x_m) && number(value->y_m) && number(value->z_m);
+}
+
+static bool direction(const jolon_Direction *value)
+{
+    return number((double)value->x) && number((double)value->y) && number((double)value->z);
+}
+
+static bool good_collision(jolon_CollisionEvent *event)
+{
+    return party(&event->a) && party(&event->b) && point(&event->point) &&
+           direction(&event->normal) && direction(&event->direction) && number(event->toi) &&
+           number((double)event->closing_mps) && number((double)event->angle_deg) &&
+           number((double)event->impulse_ns) && event->response <= jolon_RESPONSE_DESTROYED;
+}
+
+static bool good_detonation(jolon_DetonationEvent *event)
+{
+    return party(&event->munition) && party(&event->victim) && point(&event->point) &&
+           number((double)event->explosive_kg) && event->struck <= jolon_STRUCK_AIR;
+}
+
+static bool good_agent(jolon_AgentEvent *event)
+{
+    return party(&event->agent) && event->before <= jolon_BEHAVIOUR_RESUPPLY &&
+           event->after <= jolon_BEHAVIOUR_RESUPPLY && event->because <= jolon_REASON_LEASE_OVER;
+}
+
+static bool good_event(enum dds_topic topic, void *sample)
+{
+    jolon_FireEvent *fire = sample;
+    const jolon_CraterEvent *crater = sample;
+    const jolon_EventHeader *header = sample;
+    if (!amount(header->time_s) || header->previous > header->sequence)
+        return false;
+    if (topic == TOPIC_COLLISION)
+        return good_collision(sample);
+    if (topic == TOPIC_FIRE)
+        return party(&fire->shooter) && party(&fire->target) && party(&fire->munition) &&
+               point(&fire->point);
+    if (topic == TOPIC_DETONATION)
+        return good_detonation(sample);
+    if (topic == TOPIC_CRATER)
+        return point(&crater->point) && amount((double)crater->radius_m) &&
+               amount((double)crater->depth_m);
+    return good_agent(sample);
+}
+
+bool samples_good(enum dds_topic topic, void *sample)
+{
+    switch (topic) {
+    case TOPIC_WORLD:
+        return good_world(sample);
+    case TOPIC_NAMES:
+        return good_names(sample);
+    case TOPIC_PROCESS:
+        return good_process(sample);
+    case TOPIC_FRAME:
+        return good_frame(sample);
+    case TOPIC_ENTITIES:
+        return good_batch(sample);
+    case TOPIC_COLLISION:
+    case TOPIC_FIRE:
+    case TOPIC_DETONATION:
+    case TOPIC_CRATER:
+    case TOPIC_AGENT:
+        return good_event(topic, sample);
+    case TOPIC_COMMAND:
+    case TOPIC_REPLY:
+    case TOPIC_COUNT:
+        break;
+    }
+    return false;
+}
+
+bool samples_next(struct samples *samples)
+{
+    dds_sample_info_t info;
+    for (;;) {
+        if (samples->sample)
+            (void)dds_return_loan(samples->reader, &samples->sample, 1);
+        samples->sample = NULL;
+        if (dds_take(samples->reader, &samples->sample, &info, 1, 1) <= 0)
+            return false;
+        samples->writer = info.publication_handle;
+        if (info.valid_data && samples_good(samples->topic, samples->sample))
+            return true;
+    }
+}

@@ -1,0 +1,99 @@
+/* The manners of fighting. */
+#include "mover/agent/attack.h"
+
+#include "mover/agent/perception.h"
+
+#define HOVER_S        12.0 /* a helicopter's round: it hovers, then flies to another side */
+#define HOVER_SHARE    0.6  /* of it that it hovers */
+#define TOO_NEAR_SHARE 0.25 /* of its range: nearer than that it backs away */
+#define SIDE_RAD       1.7  /* off its target, when it flies to another side */
+#define NEARLY_M       50.0 /* beyond its range it gets ready to fire */
+#define BREAK_OFF      0.2  /* of its range: a jet's pass is over */
+#define AIM_HZ         20.0 /* how often a loaded gun is laid, and tried */
+
+/* Its target as it knows it: where it last saw it. */
+struct aim {
+    double heading, distance;
+    bool seen;
+};
+
+static void stand_off(const struct kind *kind, const struct aim *aim, double share,
+                      struct desired_motion *wish)
+{
+    bool there = aim->seen && aim->distance <= share * kind->range_m;
+    wish->heading_rad = aim->heading;
+    wish->speed_mps = there ? 0.0 : kind->max_speed_mps;
+}
+
+static void hover(const struct step_context *move, uint32_t i, const struct kind *kind,
+                  const struct aim *aim, double share, struct desired_motion *wish)
+{
+    double round = ((double)move->tick * move->dt_s + (double)(move->m->id[i] % 12u)) / HOVER_S;
+    double phase = round - floor(round);
+    stand_off(kind, aim, share, wish);
+    if (wish->speed_mps > 0.0 || phase < HOVER_SHARE)
+        return;
+    double side = (uint64_t)floor(round) % 2 ? SIDE_RAD : -SIDE_RAD;
+    if (aim->distance < TOO_NEAR_SHARE * kind->range_m)
+        side = PI;
+    wish->heading_rad = maths_wrap_turn(aim->heading + side);
+    wish->speed_mps = 0.5 * kind->max_speed_mps;
+}
+
+/* Towards it from afar, straight on when near or past it, until there is room to turn. */
+static void pass(const struct step_context *move, uint32_t i, const struct kind *kind,
+                 const struct aim *aim, double share, struct desired_motion *wish)
+{
+    double heading = move->m->heading[i];
+    bool ahead = fabs(maths_wrap_half(aim->heading - heading)) < HALF_PI;
+    bool inbound =
+        ahead ? aim->distance > BREAK_OFF * kind->range_m : aim->distance > share * kind->range_m;
+    wish->heading_rad = inbound ? aim->heading : heading;
+    wish->speed_mps = kind->max_speed_mps;
+}
+
+void attack_wish(const struct step_context *move, uint32_t i,
+                 const struct behaviour_table_table *table, struct desired_motion *wish)
+{
+    struct entities *m = move->m;
+    const struct entities *w = &move->committed->entities;
+    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    struct aim aim = {.seen = perception_in_sight(move, i)};
+    if (aim.seen) { /* it follows it with its eyes */
+        m->goal_x[i] = w->x[m->target_slot[i]];
+        m->goal_z[i] = w->z[m->target_slot[i]];
+    }
+    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    aim.heading = maths_heading(dx, dz);
+    aim.distance = sqrt(dx * dx + dz * dz);
+    switch (table->manner) {
+    case MANNER_HOVER:
+        hover(move, i, kind, &aim, table->stand_off, wish);
+        break;
+    case MANNER_PASS:
+        pass(move, i, kind, &aim, table->stand_off, wish);
+        break;
+    default: /* a charge is a stand-off at no distance */
+        stand_off(kind, &aim, table->stand_off, wish);
+        break;
+    }
+}
+
+uint32_t attack_aim(const struct params *params)
+{
+    return (uint32_t)maths_max(1.0, params->hz / AIM_HZ);
+}
+
+bool attack_ready(const struct step_context *move, uint32_t i)
+{
+    const struct entities *m = move->m;
+    if (m->behaviour[i] != BEHAVIOUR_ATTACK || move->tick < m->reload_tick[i] ||
+        !perception_in_sight(move, i) || !perception_armed(move, i))
+        return false;
+    double range = move->world->kinds[m->kind[i]].range_m + NEARLY_M;
+    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    const struct entities *w = &move->committed->entities;
+    uint32_t target = m->target_slot[i];
+    return dx * dx + dz * dz < range * range && entities_alive(w, target, m->target_id[i]) &&
+           w->state[target] == ENTITY_ACTIVE;
+}

@@ -1,0 +1,506 @@
+/* Avoiding: a fan of directions, how far each is free, and the best of them. */
+#include "mover/agent/avoidance.h"
+
+#include "mover/query/slope_max_map.h"
+
+#include "mover/agent/neighbour_lists.h"
+#include "world/terrain/fixed_index.h"
+#include "world/terrain/gridsquare.h"
+
+#include <stddef.h>
+
+#define REACT_S        0.6  /* until a look has turned or slowed it */
+#define TURNS_AHEAD    1.5  /* turning circles that it looks ahead at least */
+#define HORIZON_M      12.0 /* and in any case */
+#define FARTHEST_M     600.0
+#define TALL_M         3.0   /* above this nothing is in a land vehicle's way */
+#define GAP_M          1.0   /* kept clear to the side and ahead */
+#define AIR_GAP_M      8.0   /* likewise in the air, and above and below */
+#define LOW_FLIGHT_M   40.0  /* above it nothing fixed is in an aircraft's way */
+#define BRAKE_SHARE    0.8   /* of how hard it can slow, counted on */
+#define HARMLESS_SHARE 0.005 /* of its resistance_j that an object may cost a vehicle */
+#define YIELDS         0.1   /* fixed kinds with less rigidity bend, whatever runs into them */
+#define TURN_COST      0.25  /* a radian off its way, in shares of the horizon */
+#define CHANGE_COST    0.10  /* a radian off what it did before: it makes up its mind */
+#define LEFT_COST      0.03  /* turning left: of equals everybody takes the right */
+#define SHARP_SHARE    0.25 /* of its speed in turns of a quarter and more: it sweeps less ground */
+#define STRAYS         0.05 /* over distance: what bodies stray from the course that they have now */
+#define GIVEN_WAY_S    2.5  /* until when it counts on who must give way to do so */
+#define CROSSING       0.94 /* cosine of 20 degrees: courses that differ by less do not cross */
+#define ROUNDED_MPS    1e-4 /* more than the index rounds velocities */
+#define CLIMB_AHEAD_S  6.0  /* how far ahead aircraft see that they must climb */
+
+/* The fan [rad] off the wished heading, and its sines and cosines; the last is the present heading,
+ * set by the look. */
+#define FAN     13
+#define PRESENT FAN
+static const double fan_rad[FAN] = {0.0,
+                                    10 * RAD_PER_DEG,
+                                    -10 * RAD_PER_DEG,
+                                    20 * RAD_PER_DEG,
+                                    -20 * RAD_PER_DEG,
+                                    35 * RAD_PER_DEG,
+                                    -35 * RAD_PER_DEG,
+                                    55 * RAD_PER_DEG,
+                                    -55 * RAD_PER_DEG,
+                                    80 * RAD_PER_DEG,
+                                    -80 * RAD_PER_DEG,
+                                    115 * RAD_PER_DEG,
+                                    -115 * RAD_PER_DEG};
+static const double fan_sine[FAN] = {0.0,
+                                     0.17364817766693033,
+                                     -0.17364817766693033,
+                                     0.3420201433256687,
+                                     -0.3420201433256687,
+                                     0.573576436351046,
+                                     -0.573576436351046,
+                                     0.8191520442889918,
+                                     -0.8191520442889918,
+                                     0.984807753012208,
+                                     -0.984807753012208,
+                                     0.9063077870366499,
+                                     -0.9063077870366499};
+static const double fan_cosine[FAN] = {1.0,
+                                       0.984807753012208,
+                                       0.984807753012208,
+                                       0.9396926207859084,
+                                       0.9396926207859084,
+                                       0.8191520442889918,
+                                       0.8191520442889918,
+                                       0.5735764363510461,
+                                       0.5735764363510461,
+                                       0.17364817766693041,
+                                       0.17364817766693041,
+                                       -0.42261826174069944,
+                                       -0.42261826174069944};
+
+struct look {
+    const struct kind *kind;
+    int step; /* 1: looks along all of the fan; PRESENT: along the wished and the present heading */
+    double sine, cosine; /* of the wished heading */
+    double way;          /* 1, backwards -1 */
+    double wish_mps, present_mps;
+    double speed_mps; /* along the fan: that it comes to within a second */
+    double horizon_m;
+    double half_width, half_length, gap;
+    double x[FAN + 1], z[FAN + 1]; /* the fan's directions, unit */
+    double free_m[FAN + 1];        /* how far it can go along each; the horizon when farther */
+};
+
+/* --- what follows from the kinds ---------------------------------------------------------------*/
+
+/* Of its model's hulls that begin below TALL_M, upright; the sphere where spheres collide. */
+static double reach_of(const struct world *world, const struct kind *kind)
+{
+    double farthest = 0.0;
+    if (world->params->collision.shape != SHAPE_MODEL)
+        return kind->radius_m;
+    for (uint32_t h = 0; h < kind->hull_count; h++) {
+        const struct hull *hull = &world->hulls[kind->first_hull + h];
+        const struct vec3 *vertex = &world->hull_vertices[hull->first_vertex];
+        double low = INFINITY, level = 0.0;
+        for (uint32_t v = 0; v < hull->vertex_count; v++) {
+            low = maths_min(low, vertex[v].y);
+            level = maths_max(level, vertex[v].x * vertex[v].x + vertex[v].z * vertex[v].z);
+        }
+        if (low < TALL_M)
+            farthest = maths_max(farthest, level);
+    }
+    return sqrt(farthest);
+}
+
+/* The collider's impulses: a bush bends; what breaks costs its resistance, times its rigidity. */
+static bool does_no_harm(const struct kind *vehicle, const struct kind *fixed)
+{
+    if (fixed->rigidity < YIELDS)
+        return true;
+    double energy = 0.5 * vehicle->mass_kg * vehicle->max_speed_mps * vehicle->max_speed_mps;
+    return energy > fixed->resistance_j &&
+           fixed->resistance_j * fixed->rigidity < HARMLESS_SHARE * vehicle->resistance_j;
+}
+
+static double gap_of(const struct kind *kind)
+{
+    return kind->domain == DOMAIN_AIR ? AIR_GAP_M : GAP_M;
+}
+
+/* How far it looks ahead at a speed [m]. */
+static double horizon_of(const struct kind *kind, double speed)
+{
+    double brake = BRAKES * kind->acceleration_mps2;
+    double horizon =
+        maths_max(speed * speed / (2.0 * brake), TURNS_AHEAD * speed / kind->turn_rate_rps);
+    return maths_min(FARTHEST_M,
+                     horizon + speed * REACT_S + HORIZON_M + 2.0 * (0.5 * kind->length_m));
+}
+
+/* And for others: they come to meet it. */
+static double around_of(double horizon_m)
+{
+    return maths_min(FARTHEST_M, 2.0 * horizon_m);
+}
+
+static double slope_of(const struct kind *kind)
+{
+    double sine, cosine;
+    maths_sincos(kind->max_slope_rad, &sine, &cosine);
+    return sine / maths_max(cosine, 1e-9);
+}
+
+void avoidance_init(struct avoidance *avoid, const struct world *world)
+{
+    *avoid = (struct avoidance){.reach_m = {0.0}};
+    for (uint32_t k = 0; k < world->counts.kinds; k++) {
+        const struct kind *kind = &world->kinds[k];
+        if (kind->domain == DOMAIN_FIXED)
+            avoid->reach_m[k] = reach_of(world, kind);
+        for (uint32_t o = 0; o < world->counts.kinds && kind->domain != DOMAIN_FIXED; o++) {
+            if (world->kinds[o].domain == DOMAIN_FIXED && does_no_harm(kind, &world->kinds[o]))
+                avoid->harmless[k] |= UINT64_C(1) << o;
+        }
+        if (kind->domain < DOMAIN_MUNITION) {
+            avoid->reach_m[k] =
+                0.5 * sqrt(kind->length_m * kind->length_m + kind->width_m * kind->width_m);
+            avoid->high_m[k] = (float)(0.5 * kind->height_m + AVOIDANCE_ROUNDED_M);
+            avoid->gap_m[k] = (float)(gap_of(kind) + AVOIDANCE_ROUNDED_M);
+            avoid->around_m[k] = around_of(horizon_of(kind, kind->max_speed_mps));
+            avoid->slope[k] = slope_of(kind);
+        }
+    }
+    for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++) {
+        if (world->reach_start[square + 1] > world->reach_start[square])
+            avoid->stands[square / 64] |= UINT64_C(1) << square % 64;
+    }
+}
+
+/* --- the fan -----------------------------------------------------------------------------------*/
+
+static void direct(struct look *look, int k)
+{
+    look->x[k] = look->way * (look->sine * fan_cosine[k] + look->cosine * fan_sine[k]);
+    look->z[k] = look->way * (look->sine * fan_sine[k] - look->cosine * fan_cosine[k]);
+    look->free_m[k] = look->horizon_m;
+}
+
+static void begin(struct look *look, const struct step_context *move, uint32_t i,
+                  const struct desired_motion *wish)
+{
+    const struct entities *m = move->m;
+    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    double speed = fabs(wish->speed_mps), sine, cosine, forward, rightward;
+    look->kind = kind;
+    look->step = PRESENT;
+    look->way = wish->speed_mps < 0.0 ? -1.0 : 1.0;
+    look->wish_mps = speed;
+    look->half_width = 0.5 * kind->width_m;
+    look->half_length = 0.5 * kind->length_m;
+    look->gap = gap_of(kind);
+    look->horizon_m = horizon_of(kind, speed);
+    maths_sincos(wish->heading_rad, &look->sine, &look->cosine);
+    direct(look, 0);
+    maths_sincos(m->heading[i], &sine, &cosine);
+    kinematics_along(m, i, sine, cosine, &forward, &rightward);
+    look->x[PRESENT] = look->way * sine;
+    look->z[PRESENT] = -look->way * cosine;
+    look->present_mps = maths_max(1.0, look->way * forward);
+    look->speed_mps = maths_min(speed, look->present_mps + kind->acceleration_mps2);
+    look->free_m[PRESENT] = look->horizon_m;
+}
+
+/* All of the fan, for what is in the way of the wished direction: mostly nothing is. */
+static void open_fan(struct look *look)
+{
+    look->step = 1;
+    for (int k = 0; k < FAN; k++)
+        direct(look, k);
+    look->free_m[PRESENT] = look->horizon_m;
+}
+
+/* Something that stands at (dx, dz) from here, reach_m about its middle. */
+static void stands(struct look *look, double dx, double dz, double reach_m)
+{
+    double beside = reach_m + look->half_width + look->gap;
+    double ahead = reach_m + look->half_length + look->gap;
+    for (int k = 0; k <= FAN; k += look->step) {
+        double along = dx * look->x[k] + dz * look->z[k];
+        double across = fabs(dx * look->z[k] - dz * look->x[k]);
+        if (along > 0.0 && across < beside + STRAYS * along)
+            look->free_m[k] = maths_min(look->free_m[k], maths_max(0.0, along - ahead));
+    }
+}
+
+/* Must the other give way? As at sea: who has the other on his right, and who comes from behind. */
+static bool gives_way(const struct look *look, double dx, double dz, double vx, double vz)
+{
+    double ahead = dx * look->x[0] + dz * look->z[0];
+    double to_right = dz * look->x[0] - dx * look->z[0];
+    double same = vx * look->x[0] + vz * look->z[0];
+    double speed = sqrt(vx * vx + vz * vz);
+    if (speed < 1.0) /* it stands */
+        return false;
+    if (same > CROSSING * speed)
+        return ahead < 0.0;
+    return same > -CROSSING * speed && to_right < 0.0;
+}
+
+/* Can it meet something that goes on at (vx, vz) before the horizon, if it goes along direction k?
+ * On the safe side by more than what the index rounds, and without a division. */
+static bool may_meet(const struct look *look, int k, double dx, double dz, double vx, double vz,
+                     double reach_m)
+{
+    double speed = k == PRESENT ? look->present_mps : look->speed_mps;
+    double ux = speed * look->x[k] - vx, uz = speed * look->z[k] - vz;
+    double square = ux * ux + uz * uz, closing = sqrt(square);
+    double rounded = ROUNDED_MPS * (fabs(dx) + fabs(dz));
+    double along = dx * ux + dz * uz, across = fabs(dx * uz - dz * ux); /* times closing */
+    double beside =
+        reach_m + look->gap + AVOIDANCE_ROUNDED_M + maths_max(look->half_width, look->half_length);
+    double ahead = reach_m + look->half_length + look->gap + AVOIDANCE_ROUNDED_M;
+    return along > -rounded && across < beside * closing + STRAYS * along + rounded &&
+           speed * (along - ahead * closing - rounded) <
+               look->horizon_m * (square + ROUNDED_MPS * (closing + 1.0));
+}
+
+/* Something that goes on at (vx, vz): as far as it comes itself until they meet. */
+static void goes(struct look *look, double dx, double dz, double vx, double vz, double reach_m)
+{
+    double beside = reach_m + look->half_width + look->gap;
+    double ahead = reach_m + look->half_length + look->gap;
+    bool other_gives_way = gives_way(look, dx, dz, vx, vz);
+    for (int k = 0; k <= FAN; k += look->step) {
+        double speed = k == PRESENT ? look->present_mps : look->speed_mps;
+        double ux = speed * look->x[k] - vx, uz = speed * look->z[k] - vz;
+        double closing = sqrt(ux * ux + uz * uz);
+        if (closing < 0.1)
+            continue;
+        double along = (dx * ux + dz * uz) / closing;
+        double across = fabs(dx * uz - dz * ux) / closing;
+        double askew = fabs(ux * look->z[k] - uz * look->x[k]) / closing; /* it meets it so */
+        double wide = beside + askew * (look->half_length - look->half_width);
+        if (along > 0.0 && across < wide + STRAYS * along) {
+            double meets_s = maths_max(0.0, along - ahead) / closing;
+            if (!other_gives_way || meets_s < GIVEN_WAY_S)
+                look->free_m[k] = maths_min(look->free_m[k], speed * meets_s);
+        }
+    }
+}
+
+/* --- what is there -----------------------------------------------------------------------------*/
+
+static void see_square(const struct step_context *move, uint32_t i, struct look *look,
+                       uint32_t square)
+{
+    const struct world *world = move->world;
+    const struct entities *m = move->m;
+    const uint8_t *damage = move->committed->fixed_damage;
+    uint64_t harmless = move->avoid->harmless[m->kind[i]];
+    bool flies = look->kind->domain == DOMAIN_AIR;
+    const uint32_t *objects;
+    uint32_t count = world_reach(world, square, &objects);
+    for (uint32_t n = 0; n < count; n++) {
+        const struct fixed_object *object = &world->fixed[objects[n]];
+        double dx = object->x - m->x[i], dz = object->z - m->z[i];
+        double most = look->horizon_m + (double)object->radius_m;
+        if (dx * dx + dz * dz > most * most || damage[objects[n]] >= DAMAGE_HIGH ||
+            harmless >> object->kind & 1u)
+            continue;
+        if (flies &&
+            (double)object->y + (double)object->height_m + 0.5 * look->kind->height_m < m->y[i])
+            continue;
+        const struct kind *kind = &world->kinds[object->kind];
+        stands(look, dx, dz,
+               flies ? fixed_index_of_fixed(object, world->kinds)
+                     : move->avoid->reach_m[object->kind] * fixed_scale(object, kind));
+    }
+}
+
+static void see_fixed(const struct step_context *move, uint32_t i, struct look *look)
+{
+    const struct entities *m = move->m;
+    double most = look->horizon_m;
+    struct gridsquare_box box =
+        gridsquare_box_of(m->x[i] - most, m->z[i] - most, m->x[i] + most, m->z[i] + most);
+    for (int32_t row = box.z0; row <= box.z1; row++)
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            uint32_t square = gridsquare_index(column, row);
+            if (move->avoid->stands[square / 64] >> square % 64 & 1u)
+                see_square(move, i, look, square);
+        }
+}
+
+static void see_vehicle(const struct step_context *move, uint32_t i, struct look *look,
+                        const struct neighbour_index_entry *at)
+{
+    const struct entities *m = move->m, *w = &move->committed->entities;
+    double apart = 0.5 * (look->kind->height_m + move->world->kinds[at->kind].height_m) + look->gap;
+    double reach = move->avoid->reach_m[at->kind];
+    double dx = (double)at->x - m->x[i], dz = (double)at->z - m->z[i];
+    double vx = (double)at->vx, vz = (double)at->vz;
+    uint32_t j = at->row;
+    if (j == i || fabs((double)at->y - m->y[i]) > apart + AVOIDANCE_ROUNDED_M)
+        return;
+    if (look->step == PRESENT && !may_meet(look, 0, dx, dz, vx, vz, reach) &&
+        !may_meet(look, PRESENT, dx, dz, vx, vz, reach))
+        return;
+    if (fabs(w->y[j] - m->y[i]) <= apart)
+        goes(look, w->x[j] - m->x[i], w->z[j] - m->z[i], w->vx[j], w->vz[j], reach);
+}
+
+static void see_vehicles(const struct step_context *move, uint32_t i, struct look *look)
+{
+    const struct entities *m = move->m;
+    const struct neighbour_index_entry *entry;
+    double most = around_of(look->horizon_m);
+    const struct neighbour_lists_list *list = &move->company->list[i];
+    if (list->count != NEIGHBOUR_LISTS_NONE && most <= move->avoid->around_m[m->kind[i]]) {
+        entry = &move->company->entries[list->first];
+        for (const struct neighbour_index_entry *end = entry + list->count; entry < end; entry++) {
+            if (neighbour_index_within(entry, m->x[i], m->z[i], most * most))
+                see_vehicle(move, i, look, entry);
+        }
+        return;
+    }
+    struct neighbour_query walk =
+        neighbour_index_begin(move->near, NEIGHBOUR_INDEX_ALL, m->x[i], m->z[i], most);
+    while ((entry = neighbour_index_next(&walk)) != NULL)
+        see_vehicle(move, i, look, entry);
+}
+
+static bool in_world(double x, double z)
+{
+    return x > 0.0 && z > 0.0 && x < WORLD_SIDE_M && z < WORLD_SIDE_M;
+}
+
+/* How far the ground lets it go that way: two soundings, where it is not known to be easy. */
+static double ground_free(const struct step_context *move, uint32_t i, const struct look *look,
+                          int k)
+{
+    const struct entities *m = move->m;
+    double before_m = 0.0, before_y = m->y[i];
+    double end_x = m->x[i] + look->horizon_m * look->x[k];
+    double end_z = m->z[i] + look->horizon_m * look->z[k];
+    if (look->kind->domain == DOMAIN_LAND && in_world(end_x, end_z) &&
+        slope_max_map_between(move->easy, move->scars, m->x[i], m->z[i], end_x, end_z,
+                              move->avoid->slope[m->kind[i]]))
+        return look->horizon_m;
+    for (int n = 1; n <= 2; n++) {
+        double way = 0.5 * n * look->horizon_m;
+        double x = m->x[i] + way * look->x[k], z = m->z[i] + way * look->z[k];
+        if (!in_world(x, z) || cover_is_water(terrain_cover(&move->world->terrain, x, z)) !=
+                                   (look->kind->domain == DOMAIN_SEA))
+            return before_m;
+        if (look->kind->domain == DOMAIN_LAND) {
+            double y = kinematics_ground(move, x, z);
+            if (y > before_y &&
+                maths_atan2(y - before_y, way - before_m) >= look->kind->max_slope_rad)
+                return before_m;
+            before_y = y;
+        }
+        before_m = way;
+    }
+    return look->horizon_m;
+}
+
+/* --- what it does about it ---------------------------------------------------------------------*/
+
+static int best(const struct look *look, double dodge_rad)
+{
+    int found = 0;
+    double most = -INFINITY;
+    for (int k = 0; k < FAN; k++) {
+        double score = look->free_m[k] / look->horizon_m - TURN_COST * fabs(fan_rad[k]) -
+                       CHANGE_COST * fabs(fan_rad[k] - dodge_rad) -
+                       (fan_rad[k] < 0.0 ? LEFT_COST : 0.0);
+        if (score > most) {
+            most = score;
+            found = k;
+        }
+    }
+    return found;
+}
+
+/* Speed from which it stops within free_m. */
+static double stopping_speed(const struct look *look, double free_m)
+{
+    return sqrt(2.0 * BRAKE_SHARE * BRAKES * look->kind->acceleration_mps2 * free_m);
+}
+
+/* Share of its speed that aircraft do without, to be over the ground ahead when they are there. */
+static double climbing_ease(const struct step_context *move, uint32_t i, const struct look *look,
+                            const struct desired_motion *wish)
+{
+    const struct entities *m = move->m;
+    double way = look->wish_mps * CLIMB_AHEAD_S;
+    double ground = kinematics_ground(move, m->x[i] + way * look->x[0], m->z[i] + way * look->z[0]);
+    double climb = ground + 0.5 * wish->altitude_m - m->y[i];
+    double most = look->kind->climb_rate_mps * CLIMB_AHEAD_S;
+    return climb > most ? 1.0 - most / climb : 0.0;
+}
+
+/* --- it looks ----------------------------------------------------------------------------------*/
+
+static void see(const struct step_context *move, uint32_t i, struct look *look, bool low)
+{
+    see_vehicles(move, i, look);
+    if (low)
+        see_fixed(move, i, look);
+}
+
+/* Which direction it takes when something is in the way of the wished one. */
+static int choose(const struct step_context *move, uint32_t i, struct look *look, bool low)
+{
+    double dodge = (double)move->m->dodge[i];
+    open_fan(look);
+    see(move, i, look, low);
+    int way = best(look, dodge);
+    for (int tries = 0; tries < FAN && look->kind->domain != DOMAIN_AIR; tries++) {
+        double free_m = ground_free(move, i, look, way);
+        if (free_m >= look->free_m[way])
+            break;
+        look->free_m[way] = free_m;
+        way = best(look, dodge);
+    }
+    return way;
+}
+
+/* First along the wished direction alone: where that is free no other is better. */
+static void look_ahead(const struct step_context *move, uint32_t i,
+                       const struct desired_motion *wish)
+{
+    struct entities *m = move->m;
+    struct look look;
+    begin(&look, move, i, wish);
+    bool flies = look.kind->domain == DOMAIN_AIR;
+    bool low = !flies || m->y[i] - kinematics_ground(move, m->x[i], m->z[i]) < LOW_FLIGHT_M;
+    double ease = flies ? climbing_ease(move, i, &look, wish) : 0.0;
+    int way = wish->speed_mps < 0.0 ? PRESENT : 0;
+    see(move, i, &look, low);
+    if (way == 0 && (look.free_m[0] < look.horizon_m ||
+                     (!flies && ground_free(move, i, &look, 0) < look.horizon_m)))
+        way = choose(move, i, &look, low);
+    double free_m = look.free_m[way];
+    if (look.x[way] * look.x[PRESENT] + look.z[way] * look.z[PRESENT] < fan_cosine[1])
+        free_m = maths_min(free_m, look.free_m[PRESENT]); /* it is not turned there yet */
+    if (free_m < look.horizon_m)
+        ease = maths_max(ease, 1.0 - stopping_speed(&look, free_m) / look.wish_mps);
+    m->dodge[i] = way < FAN ? (float)fan_rad[way] : 0.0f; /* backwards it only slows */
+    m->ease[i] = (float)maths_max(ease, 0.0);
+}
+
+void avoidance_steer(const struct step_context *move, uint32_t i, struct desired_motion *wish)
+{
+    struct entities *m = move->m;
+    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    if (wish->driven || !(fabs(wish->speed_mps) > 0.0)) {
+        m->dodge[i] = m->ease[i] = 0.0f;
+        return;
+    }
+    if (step_context_thinks(move, i))
+        look_ahead(move, i, wish);
+    wish->heading_rad = maths_wrap_turn(wish->heading_rad + (double)m->dodge[i]);
+    wish->speed_mps *= 1.0 - (double)m->ease[i];
+    if (wish->speed_mps > 0.0 && kind->domain != DOMAIN_SEA && kind->min_speed_mps <= 0.0) {
+        double off = maths_cos(wish->heading_rad - m->heading[i]);
+        wish->speed_mps *= maths_clamp(off, SHARP_SHARE, 1.0);
+    }
+}

@@ -1,0 +1,189 @@
+/* The tables. What most doctrines share is written once, above; a row earlier in a table goes
+ * before those below it. */
+#include "mover/agent/behaviour_table.h"
+
+#include <stddef.h>
+
+#define FLEE_S     30
+#define DASH_S     15
+#define BACK_OFF_S 3
+
+#define B(name) (1u << BEHAVIOUR_##name)
+#define P(name) (1u << PERCEPT_##name)
+
+/* On its order: nothing is happening to it. */
+#define CALM (B(IDLE) | B(PATROL) | B(ROUTE) | B(FOLLOW) | B(SCRIPT))
+/* By its own mind, wherever it is: neither driven nor passive. */
+#define OWN    (CALM | B(ATTACK) | B(FLEE) | B(BACK_OFF) | B(WITHDRAW) | B(RESUPPLY))
+#define MOVING (OWN & ~(B(IDLE) | B(RESUPPLY)))
+
+#define ORDER    BEHAVIOUR_TABLE_ORDER
+#define TO(name) BEHAVIOUR_##name
+#define AS(name) REASON_##name
+
+/* Nobody goes on without fuel, nor drives itself against a driver's will. */
+#define BY_NECESSITY                                                                               \
+    {OWN & ~B(IDLE), P(NO_FUEL), 0, TO(IDLE), AS(OUT_OF_FUEL), 0},                                 \
+    {                                                                                              \
+        B(DRIVEN), P(LEASE_OVER), 0, ORDER, AS(LEASE_OVER), 0                                      \
+    }
+
+/* A fight's ends. */
+#define FIGHTS_END                                                                                 \
+    {B(ATTACK), P(TARGET_GONE), 0, ORDER, AS(TARGET_GONE), 0},                                     \
+        {B(ATTACK), P(TIME_OVER), 0, ORDER, AS(LOST_SIGHT), 0},                                    \
+    {                                                                                              \
+        B(ATTACK), 0, P(ARMED) | P(NO_ROUNDS), ORDER, AS(COMMAND), 0                               \
+    }
+
+/* Home for rounds and fuel, and back. */
+#define SUPPLIES                                                                                   \
+    {B(WITHDRAW), P(ARRIVED), 0, TO(RESUPPLY), AS(ARRIVED), BEHAVIOUR_TABLE_RESUPPLY_S},           \
+        {B(RESUPPLY), P(TIME_OVER), 0, ORDER, AS(SUPPLIED), 0},                                    \
+        {CALM | B(ATTACK), P(NO_ROUNDS), P(STAND), TO(WITHDRAW), AS(OUT_OF_ROUNDS), 0},            \
+        {B(ATTACK), P(NO_ROUNDS), 0, ORDER, AS(OUT_OF_ROUNDS), 0},                                 \
+    {                                                                                              \
+        CALM | B(ATTACK), P(LOW_FUEL), P(STAND), TO(WITHDRAW), AS(LOW_FUEL), 0                     \
+    }
+
+/* What it ran into is behind, after a while; then it goes on with what it was at. */
+#define BUMPS                                                                                      \
+    {MOVING, P(BUMP), 0, TO(BACK_OFF), AS(COLLISION), BACK_OFF_S},                                 \
+        {B(BACK_OFF),                                                                              \
+         P(TIME_OVER) | P(TARGET) | P(ARMED) | P(BRAVE),                                           \
+         0,                                                                                        \
+         TO(ATTACK),                                                                               \
+         AS(TIME_OVER),                                                                            \
+         BEHAVIOUR_TABLE_FIGHT_S},                                                                 \
+        {B(BACK_OFF), P(TIME_OVER) | P(TARGET), P(STAND), TO(FLEE), AS(TIME_OVER), DASH_S},        \
+        {B(BACK_OFF), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0},                                   \
+    {                                                                                              \
+        B(FLEE), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0                                          \
+    }
+
+/* Shot at. In a fight it fights on, the longer for it; one that flees goes on from the last. */
+#define SHOT_AT(fleeing, time_s)                                                                   \
+    {B(ATTACK), P(SHOT), 0, TO(ATTACK), AS(FIRED_UPON), BEHAVIOUR_TABLE_FIGHT_S},                  \
+        {CALM | B(RESUPPLY) | B(BACK_OFF),                                                         \
+         P(SHOT) | P(ARMED) | P(BRAVE),                                                            \
+         0,                                                                                        \
+         TO(ATTACK),                                                                               \
+         AS(FIRED_UPON),                                                                           \
+         BEHAVIOUR_TABLE_FIGHT_S},                                                                 \
+    {                                                                                              \
+        CALM | B(RESUPPLY) | B(BACK_OFF) | B(FLEE), P(SHOT), P(STAND), TO(fleeing),                \
+            AS(FIRED_UPON), time_s                                                                 \
+    }
+
+#define SEES_ENEMY                                                                                 \
+    {                                                                                              \
+        B(IDLE) | B(PATROL) | B(ROUTE) | B(FOLLOW), P(ENEMY) | P(ARMED) | P(AT_WILL), 0,           \
+            TO(ATTACK), AS(ENEMY_SEEN), BEHAVIOUR_TABLE_FIGHT_S                                    \
+    }
+
+/* Too much for its courage: away for a while, or all the way home. */
+#define HURT_GOES_HOME                                                                             \
+    {                                                                                              \
+        CALM | B(ATTACK), P(HURT), P(BRAVE) | P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0        \
+    }
+#define ODDS(to, time_s)                                                                           \
+    {                                                                                              \
+        B(ATTACK), P(OUTNUMBERED), P(BRAVE) | P(STAND), TO(to), AS(OUTNUMBERED), time_s            \
+    }
+
+/* Tanks and carriers: they give way to odds and damage, into cover. */
+static const struct behaviour_table_row armour[] = {
+    BY_NECESSITY,
+    FIGHTS_END,
+    SUPPLIES,
+    {B(ATTACK), P(HURT), P(BRAVE) | P(STAND) | P(BUMP), TO(FLEE), AS(HURT), FLEE_S},
+    SHOT_AT(FLEE, FLEE_S),
+    ODDS(FLEE, FLEE_S),
+    BUMPS,
+    SEES_ENEMY,
+};
+
+/* Jeeps: out of sight at once; when hit or outnumbered, home. */
+static const struct behaviour_table_row light[] = {
+    BY_NECESSITY,
+    FIGHTS_END,
+    SUPPLIES,
+    {CALM | B(ATTACK) | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0},
+    SHOT_AT(FLEE, FLEE_S),
+    {B(ATTACK), P(OUTNUMBERED), P(BRAVE) | P(STAND), TO(WITHDRAW), AS(OUTNUMBERED), 0},
+    BUMPS,
+    SEES_ENEMY,
+};
+
+/* Trucks: they have no business with an enemy, and go before he sees them. */
+static const struct behaviour_table_row soft[] = {
+    BY_NECESSITY,
+    FIGHTS_END,
+    SUPPLIES,
+    {CALM | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0},
+    SHOT_AT(FLEE, FLEE_S),
+    {B(PATROL) | B(ROUTE), P(ENEMY), P(STAND) | P(AT_WILL), TO(FLEE), AS(ENEMY_SEEN), DASH_S},
+    BUMPS,
+    SEES_ENEMY,
+};
+
+/* Helicopters: hit, they are gone behind the nearest hill. */
+static const struct behaviour_table_row helicopter[] = {
+    BY_NECESSITY,          FIGHTS_END,         SUPPLIES, HURT_GOES_HOME,
+    SHOT_AT(FLEE, DASH_S), ODDS(FLEE, DASH_S), BUMPS,    SEES_ENEMY,
+};
+
+/* Jets: too fast to be counted by, or to count; fuel is what ends their fights. */
+static const struct behaviour_table_row jet[] = {
+    BY_NECESSITY,
+    FIGHTS_END,
+    SUPPLIES,
+    HURT_GOES_HOME,
+    SHOT_AT(FLEE, DASH_S),
+    {B(FLEE), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0},
+    SEES_ENEMY,
+};
+
+/* Ships: they cannot hide. They fight, or keep their distance. */
+static const struct behaviour_table_row warship[] = {
+    BY_NECESSITY, FIGHTS_END, SUPPLIES, HURT_GOES_HOME, SHOT_AT(FLEE, FLEE_S), BUMPS, SEES_ENEMY,
+};
+
+/* Whatever the laboratory let out: no odds, no wounds and no empty guns impress it. */
+static const struct behaviour_table_row beast[] = {
+    BY_NECESSITY,
+    {B(ATTACK), P(TARGET_GONE), 0, ORDER, AS(TARGET_GONE), 0},
+    {B(ATTACK), P(TIME_OVER), 0, ORDER, AS(LOST_SIGHT), 0},
+    {CALM | B(ATTACK), P(SHOT) | P(BRAVE), 0, TO(ATTACK), AS(FIRED_UPON), BEHAVIOUR_TABLE_FIGHT_S},
+    {CALM | B(FLEE), P(SHOT), P(STAND), TO(FLEE), AS(FIRED_UPON), FLEE_S},
+    BUMPS,
+    SEES_ENEMY,
+};
+
+#define TABLE(rows_of, how, share)                                                                 \
+    {                                                                                              \
+        .name = #rows_of, .row = (rows_of), .rows = sizeof(rows_of) / sizeof((rows_of)[0]),        \
+        .manner = (how), .stand_off = (share)                                                      \
+    }
+
+const struct behaviour_table_table behaviour_table_tables[DOCTRINE_COUNT] = {
+    [DOCTRINE_ARMOUR] = TABLE(armour, MANNER_STAND_OFF, 0.5),
+    [DOCTRINE_LIGHT] = TABLE(light, MANNER_STAND_OFF, 0.7),
+    [DOCTRINE_SOFT] = TABLE(soft, MANNER_STAND_OFF, 0.8),
+    [DOCTRINE_HELICOPTER] = TABLE(helicopter, MANNER_HOVER, 0.6),
+    [DOCTRINE_JET] = TABLE(jet, MANNER_PASS, 0.8),
+    [DOCTRINE_WARSHIP] = TABLE(warship, MANNER_STAND_OFF, 0.6),
+    [DOCTRINE_BEAST] = TABLE(beast, MANNER_CHARGE, 0.0),
+};
+
+const struct behaviour_table_row *behaviour_table_next(const struct behaviour_table_table *table,
+                                                       enum behaviour behaviour, uint32_t percepts)
+{
+    for (uint32_t n = 0; n < table->rows; n++) {
+        const struct behaviour_table_row *row = &table->row[n];
+        if ((row->from >> behaviour & 1u) && (percepts & row->when) == row->when &&
+            !(percepts & row->unless))
+            return row;
+    }
+    return NULL;
+}

@@ -1,0 +1,366 @@
+/* Steps, one after the other or by the clock. */
+#include "mover/agent/script_player.h"
+
+#include "mover/agent/perception.h"
+
+#define CRUISE_SHARE  0.75 /* of full speed, where a step gives none */
+#define THERE_M       1.0  /* as near to its point it is there, and a frame's way */
+#define FACED_RAD     0.01 /* off the heading that it shall face */
+#define STANDS_MPS    0.05
+#define LEVEL_M       2.0  /* off the height that it shall have */
+#define AGILE_SHARE   0.35 /* of its turn rate: what a slow body surely has */
+#define SHOT_WAIT_S   20.0 /* a shot that is not possible for so long is given up */
+#define STEPS_A_FRAME 64   /* what is over at once; more go on in the next frame */
+
+/* A row on its script. */
+struct reading {
+    const struct step_context *move;
+    const struct script *script;
+    const struct script_step *steps;
+    const struct kind *kind;
+    uint32_t i;
+    double now_s; /* that the frame reaches */
+};
+
+static struct reading read_row(const struct step_context *move, uint32_t i)
+{
+    const struct world *world = move->world;
+    const struct script *script = &world->scripts[move->m->order_arg[i]];
+    return (struct reading){
+        .move = move,
+        .script = script,
+        .steps = world->script_steps + script->first,
+        .kind = &world->kinds[move->m->kind[i]],
+        .i = i,
+        .now_s = (double)move->tick * move->dt_s,
+    };
+}
+
+static uint32_t pass_of(const struct reading *r)
+{
+    return r->move->m->leg[r->i] / r->script->count;
+}
+
+static const struct script_step *step_of(const struct reading *r)
+{
+    return &r->steps[r->move->m->leg[r->i] % r->script->count];
+}
+
+static double seconds_to(const struct reading *r, const struct script_step *step)
+{
+    return step->at_s + (double)pass_of(r) * r->script->period_s - r->now_s;
+}
+
+/* Half a frame early is nearer to its time than half a frame late. */
+static bool is_time(const struct reading *r, double seconds)
+{
+    return seconds < 0.5 * r->move->dt_s;
+}
+
+static uint32_t tick_after(const struct reading *r, double seconds)
+{
+    return (uint32_t)(r->move->tick + (uint64_t)(seconds / r->move->dt_s + 0.5));
+}
+
+static void say(const struct reading *r, enum behaviour behaviour, enum agent_reason reason)
+{
+    struct entities *m = r->move->m;
+    m->behaviour[r->i] = (uint8_t)behaviour;
+    m->trigger[r->i] = (uint8_t)((m->trigger[r->i] & (TRIGGER_FIRE | TRIGGER_FIRE_AT)) |
+                                 (unsigned)(reason + 1) << TRIGGER_REASON_SHIFT);
+}
+
+/* --- from step to step -------------------------------------------------------------------------*/
+
+static void begin(const struct reading *r, uint32_t leg)
+{
+    struct entities *m = r->move->m;
+    m->leg[r->i] = leg;
+    m->until_tick[r->i] = 0;
+    m->throttle[r->i] = m->steer[r->i] = m->climb[r->i] = 0.0f;
+}
+
+/* The step after this one; false: there is none, and the vehicle is idle. */
+static bool go_on(const struct reading *r)
+{
+    struct entities *m = r->move->m;
+    uint32_t leg = m->leg[r->i] + 1;
+    if (leg % r->script->count == 0 && !r->script->repeats) {
+        m->order[r->i] = BEHAVIOUR_IDLE;
+        if (m->trigger[r->i] >> TRIGGER_REASON_SHIFT) /* it has just arrived */
+            m->behaviour[r->i] = BEHAVIOUR_IDLE;
+        else
+            say(r, BEHAVIOUR_IDLE, REASON_SCRIPT);
+        return false;
+    }
+    begin(r, leg);
+    return true;
+}
+
+/* Steps that begin at a time which has come cut off what is before them; a point that is to be
+ * reached by now is given up for the next. False: nothing is cut off. */
+static bool cut_off(const struct reading *r)
+{
+    const struct entities *m = r->move->m;
+    const struct script_step *step = step_of(r);
+    uint32_t index = m->leg[r->i] % r->script->count, first = m->leg[r->i] - index;
+    if (r->script->period_s > 0.0 &&
+        is_time(r, r->script->period_s - r->now_s + (double)pass_of(r) * r->script->period_s)) {
+        begin(r, first + r->script->count);
+        return true;
+    }
+    if (step->next_due != UINT32_MAX && is_time(r, seconds_to(r, &r->steps[step->next_due]))) {
+        begin(r, first + step->next_due);
+        return true;
+    }
+    if (step->type == STEP_ARRIVE && index + 1 < r->script->count && step[1].type == STEP_ARRIVE &&
+        is_time(r, seconds_to(r, &step[1]))) {
+        begin(r, first + index + 1);
+        return true;
+    }
+    return false;
+}
+
+/* --- on the way --------------------------------------------------------------------------------*/
+
+static double distance_to(const struct reading *r, const struct script_step *step)
+{
+    const struct entities *m = r->move->m;
+    double dx = step->x - m->x[r->i], dz = step->z - m->z[r->i];
+    return sqrt(dx * dx + dz * dz);
+}
+
+static double speed_now(const struct reading *r)
+{
+    const struct entities *m = r->move->m;
+    return sqrt(m->vx[r->i] * m->vx[r->i] + m->vz[r->i] * m->vz[r->i]);
+}
+
+/* How hard it slows [m/s2], with something in hand. */
+static double slowing(const struct reading *r)
+{
+    double share = r->kind->domain == DOMAIN_LAND ? 0.8 * BRAKES : 0.8;
+    return maths_max(share * r->kind->acceleration_mps2, 0.01);
+}
+
+/* The speed at which its turning circle still meets a point so far away and so far to the side. */
+static double turning_speed(const struct reading *r, double metres, double off_rad)
+{
+    double sine, cosine;
+    maths_sincos(fabs(off_rad), &sine, &cosine);
+    double across = fabs(off_rad) < HALF_PI ? sine : 1.0;
+    return AGILE_SHARE * r->kind->turn_rate_rps * metres / maths_max(2.0 * across, 1e-6);
+}
+
+/* Speed that brings it over so many metres in so many seconds, at rest at their end if it halts:
+ * v s - v^2 / 2 b is the way at v for s seconds of which the last are spent braking at b. */
+static double timed_speed(const struct reading *r, const struct script_step *step, double metres,
+                          double seconds)
+{
+    double brake = slowing(r);
+    if (!is_time(r, seconds) && !step->halt)
+        return metres / seconds;
+    if (!is_time(r, seconds) && seconds * seconds > 2.0 * metres / brake)
+        return brake * (seconds - sqrt(seconds * seconds - 2.0 * metres / brake));
+    return r->kind->max_speed_mps;
+}
+
+static void wish_point(const struct reading *r, const struct script_step *step, double speed,
+                       struct desired_motion *wish)
+{
+    struct entities *m = r->move->m;
+    double metres = distance_to(r, step);
+    m->goal_x[r->i] = step->x;
+    m->goal_z[r->i] = step->z;
+    if (metres > THERE_M)
+        wish->heading_rad = maths_heading(step->x - m->x[r->i], step->z - m->z[r->i]);
+    if (step->halt)
+        speed = maths_min(speed, sqrt(2.0 * slowing(r) * metres));
+    double off = maths_wrap_half(wish->heading_rad - m->heading[r->i]);
+    wish->speed_mps = maths_min(speed, turning_speed(r, metres, off));
+}
+
+/* Is it at its point? One that goes on from there need only pass it, as near as it can turn. */
+static bool is_there(const struct reading *r, const struct script_step *step)
+{
+    double near = THERE_M + speed_now(r) * r->move->dt_s;
+    if (r->kind->min_speed_mps > 0.0)
+        near += 2.0 * r->kind->max_speed_mps / maths_max(r->kind->turn_rate_rps, 0.01);
+    else if (!step->halt)
+        near += r->kind->radius_m;
+    return distance_to(r, step) < near;
+}
+
+/* --- steps: each wishes, and says whether it is over -------------------------------------------*/
+
+static bool go(const struct reading *r, const struct script_step *step, struct desired_motion *wish)
+{
+    wish_point(r, step, step->amount > 0.0 ? step->amount : CRUISE_SHARE * r->kind->max_speed_mps,
+               wish);
+    if (!is_there(r, step))
+        return false;
+    say(r, BEHAVIOUR_SCRIPT, REASON_ARRIVED);
+    return true;
+}
+
+/* The frame reaches its time: where it is then was settled in the frames before. */
+static bool arrive(const struct reading *r, const struct script_step *step,
+                   struct desired_motion *wish)
+{
+    double seconds = seconds_to(r, step);
+    /* The way of this frame is yet to come: it is that much nearer the time, not the place. */
+    wish_point(r, step, timed_speed(r, step, distance_to(r, step), seconds + r->move->dt_s), wish);
+    if (!is_time(r, seconds) ||
+        (!is_there(r, step) && distance_to(r, step) > wish->speed_mps * r->move->dt_s + THERE_M))
+        return false;
+    say(r, BEHAVIOUR_SCRIPT, REASON_ARRIVED);
+    return true;
+}
+
+static bool face(const struct reading *r, const struct script_step *step,
+                 struct desired_motion *wish)
+{
+    wish->heading_rad = step->amount;
+    wish->speed_mps = 0.0;
+    return fabs(maths_wrap_half(step->amount - r->move->m->heading[r->i])) < FACED_RAD;
+}
+
+/* Until its own time, or for so long since it began. */
+static bool wait(const struct reading *r, const struct script_step *step)
+{
+    uint32_t *until = &r->move->m->until_tick[r->i];
+    if (step->at_s >= 0.0)
+        return is_time(r, seconds_to(r, step) + step->amount);
+    if (*until == 0)
+        *until = tick_after(r, step->amount);
+    return r->move->tick >= *until;
+}
+
+static bool controls(const struct reading *r, const struct script_step *step,
+                     struct desired_motion *wish)
+{
+    struct entities *m = r->move->m;
+    if (wait(r, step))
+        return true;
+    m->throttle[r->i] = step->throttle;
+    m->steer[r->i] = step->steer;
+    m->climb[r->i] = step->climb;
+    driver_controls_motion(r->move, r->i, wish);
+    return false;
+}
+
+/* Asks for a shot until it has been fired, or could not be for too long. Who has no turret aims
+ * with the hull, and turns it there. */
+static bool fire(const struct reading *r, const struct script_step *step,
+                 struct desired_motion *wish)
+{
+    struct entities *m = r->move->m;
+    const struct entities *w = &r->move->committed->entities;
+    uint32_t i = r->i, tick = (uint32_t)r->move->tick, target = step->target_slot;
+    bool loaded = tick >= m->reload_tick[i];
+    if (r->kind->munition == KIND_NONE || m->rounds[i] == 0 ||
+        (m->until_tick[i] != 0 && !loaded)) /* fired: it loads */
+        return true;
+    if (step->type == STEP_FIRE &&
+        (!entities_alive(w, target, target + 1) || w->state[target] != ENTITY_ACTIVE))
+        return true;
+    if (step->type == STEP_FIRE) {
+        m->target_slot[i] = target;
+        m->target_id[i] = target + 1;
+    }
+    if (!loaded)
+        return false;
+    if (m->until_tick[i] == 0)
+        m->until_tick[i] = tick_after(r, SHOT_WAIT_S);
+    m->trigger[i] |= step->type == STEP_FIRE ? TRIGGER_FIRE : TRIGGER_FIRE_AT;
+    m->goal_x[i] = step->type == STEP_FIRE ? m->goal_x[i] : step->x;
+    m->goal_z[i] = step->type == STEP_FIRE ? m->goal_z[i] : step->z;
+    if (!(r->kind->turret_rate_rps > 0.0))
+        wish->heading_rad = step->type == STEP_FIRE
+                                ? maths_heading(w->x[target] - m->x[i], w->z[target] - m->z[i])
+                                : maths_heading(step->x - m->x[i], step->z - m->z[i]);
+    return tick >= m->until_tick[i];
+}
+
+static bool climb(const struct reading *r, const struct script_step *step)
+{
+    const struct entities *m = r->move->m;
+    double height = m->y[r->i] - kinematics_ground(r->move, m->x[r->i], m->z[r->i]);
+    return r->kind->domain != DOMAIN_AIR || fabs(height - step->altitude_m) < LEVEL_M;
+}
+
+/* Back to its agent; who withdraws stays at the base. */
+static void order(const struct reading *r, const struct script_step *step)
+{
+    struct entities *m = r->move->m;
+    bool home = step->behaviour == BEHAVIOUR_WITHDRAW;
+    m->order[r->i] = (uint8_t)(home ? BEHAVIOUR_IDLE : step->behaviour);
+    m->order_arg[r->i] = step->order_arg;
+    m->leg[r->i] = 0;
+    m->until_tick[r->i] = 0;
+    m->goal_x[r->i] = m->x[r->i]; /* reached: its agent chooses the next */
+    m->goal_z[r->i] = m->z[r->i];
+    if (home) {
+        const struct force_base *base = &r->move->world->params->base[m->force[r->i]];
+        m->goal_x[r->i] = base->x;
+        m->goal_z[r->i] = base->z;
+    }
+    say(r, (enum behaviour)step->behaviour, REASON_SCRIPT);
+}
+
+/* True when the step is over and the next can begin in the same frame. */
+static bool do_step(const struct reading *r, struct desired_motion *wish)
+{
+    const struct script_step *step = step_of(r);
+    *wish = (struct desired_motion){.heading_rad = r->move->m->heading[r->i],
+                                    .altitude_m = step->altitude_m};
+    if (step->type != STEP_ARRIVE && step->at_s >= 0.0 && !is_time(r, seconds_to(r, step)))
+        return false; /* not yet: it stands and waits */
+    switch ((enum step_type)step->type) {
+    case STEP_GO:
+        return go(r, step, wish);
+    case STEP_ARRIVE:
+        return arrive(r, step, wish);
+    case STEP_FACE:
+        return face(r, step, wish);
+    case STEP_STOP:
+        return speed_now(r) <= maths_max(STANDS_MPS, r->kind->min_speed_mps);
+    case STEP_WAIT:
+        return wait(r, step);
+    case STEP_FIRE:
+    case STEP_FIRE_AT:
+        return fire(r, step, wish);
+    case STEP_CONTROLS:
+        return controls(r, step, wish);
+    case STEP_ALTITUDE:
+        return climb(r, step);
+    default:
+        order(r, step);
+        return false;
+    }
+}
+
+/* A frame says one arrival at most: who says it goes on in the next. */
+void script_player_wish(const struct step_context *move, uint32_t i, struct desired_motion *wish)
+{
+    const struct reading r = read_row(move, i);
+    for (int n = 0; n < STEPS_A_FRAME && cut_off(&r); n++)
+        continue;
+    for (int n = 0; n < STEPS_A_FRAME && do_step(&r, wish); n++) {
+        if (!go_on(&r) || move->m->trigger[i] != 0)
+            return;
+    }
+}
+
+void script_player_again(const struct step_context *move, uint32_t i)
+{
+    move->m->until_tick[i] = (uint32_t)move->tick;
+}
+
+uint32_t script_player_minds(const struct step_context *move, uint32_t i)
+{
+    const struct script *script = &move->world->scripts[move->m->order_arg[i]];
+    return script->reacts ? UINT32_MAX
+                          : PERCEPTION_BIT(NO_FUEL) | PERCEPTION_BIT(BUMP) |
+                                PERCEPTION_BIT(TIME_OVER) | PERCEPTION_BIT(LEASE_OVER);
+}

@@ -1,0 +1,66 @@
+/* Driven vehicles: from the controls that a player or an outside program set to what they ask. */
+#include "mover/context/step_context.h"
+
+#define REVERSE_SHARE 0.4  /* of full speed, backwards */
+#define LOW_SHARE     0.35 /* of full speed, in low gear */
+#define ASTERN_SHARE  0.5  /* of full speed, ships backwards */
+#define HOVER_BACK    0.25 /* of full speed, helicopters backwards */
+
+/* Speed [m/s] that a throttle asks for: full is what its gear allows, back the share of it that it
+ * does backwards. */
+static double geared(enum gearing gear, double throttle, double full, double back)
+{
+    switch (gear) {
+    case GEAR_REVERSE: /* the pedal alone: pulled back it does nothing */
+        return -back * full * maths_max(throttle, 0.0);
+    case GEAR_NEUTRAL:
+        return 0.0;
+    case GEAR_LOW:
+        full *= LOW_SHARE;
+        break;
+    default:
+        break;
+    }
+    return full * (throttle < 0.0 ? back * throttle : throttle);
+}
+
+/* A helicopter's stick is its speed, forwards and backwards; a wing needs its least speed, and its
+ * throttle is what comes on top. */
+static double airspeed(const struct kind *kind, double throttle)
+{
+    if (kind->min_speed_mps > 0.0)
+        return kind->min_speed_mps +
+               maths_max(throttle, 0.0) * (kind->max_speed_mps - kind->min_speed_mps);
+    return kind->max_speed_mps * (throttle < 0.0 ? HOVER_BACK * throttle : throttle);
+}
+
+void driver_controls_motion(const struct step_context *move, uint32_t i,
+                            struct desired_motion *wish)
+{
+    const struct entities *m = move->m;
+    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    double throttle = (double)m->throttle[i], brake = (double)m->brake[i];
+    enum gearing gear = entity_gear(m->flags[i]);
+    *wish = (struct desired_motion){
+        .heading_rad = m->heading[i],
+        .driven = true,
+        .gear = kind->domain == DOMAIN_AIR ? GEAR_AUTOMATIC : gear,
+        .turn = (double)m->steer[i],
+        .climb_mps = (double)m->climb[i] * kind->climb_rate_mps,
+        .brake = brake,
+    };
+    /* Whoever brakes means it, whatever the other foot does. */
+    if (kind->domain == DOMAIN_AIR)
+        wish->speed_mps = airspeed(kind, throttle * (1.0 - brake));
+    else
+        wish->speed_mps = geared(gear, throttle * (1.0 - brake), kind->max_speed_mps,
+                                 kind->domain == DOMAIN_SEA ? ASTERN_SHARE : REVERSE_SHARE);
+}
+
+void driver_controls_let_go(const struct entities *m, uint32_t i)
+{
+    m->throttle[i] = m->steer[i] = m->climb[i] = 0.0f;
+    m->traverse[i] = m->elevate[i] = m->brake[i] = 0.0f;
+    m->flags[i] &= (uint8_t)~ENTITY_GEAR_MASK;
+    m->driver[i] = 0;
+}

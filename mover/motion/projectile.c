@@ -1,0 +1,94 @@
+/* Munitions: ballistic under gravity alone, or homing on their target. */
+#include "mover/context/step_context.h"
+
+#define BOOST_MPS2 300.0 /* a missile's acceleration to full speed */
+#define NAVIGATION                                                                                 \
+    4.0 /* of proportional navigation: its way turns so much faster than the sight                 \
+         */
+
+/* Turns velocity towards direction (unit) by at most most_rad, keeping its length. */
+static struct vec3 turned(struct vec3 velocity, struct vec3 direction, double most_rad)
+{
+    double speed = vec3_length(velocity);
+    if (speed <= 0.0)
+        return velocity;
+    struct vec3 ahead = vec3_scale(velocity, 1.0 / speed);
+    double along = vec3_dot(ahead, direction);
+    struct vec3 side = vec3_sub(direction, vec3_scale(ahead, along));
+    double across = vec3_length(side);
+    double angle = maths_atan2(across, along);
+    if (angle <= most_rad)
+        return vec3_scale(direction, speed);
+    if (across <= 0.0) { /* straight behind: any way round will do */
+        side = (struct vec3){-ahead.z, 0.0, ahead.x};
+        across = maths_max(vec3_length(side), 1e-12);
+    }
+    double sine, cosine;
+    maths_sincos(most_rad, &sine, &cosine);
+    return vec3_add(vec3_scale(ahead, speed * cosine), vec3_scale(side, speed * sine / across));
+}
+
+/* Does the seeker see the target from here? Straight ahead it sees at any distance. */
+static bool sees(const struct kind *kind, struct vec3 velocity, struct vec3 to)
+{
+    double across = vec3_length(vec3_cross(velocity, to)), along = vec3_dot(velocity, to);
+    return maths_atan2(across, along) <= kind->seeker_rad;
+}
+
+/* Where to fly (unit) to meet what is at to and moves at closing, seen from the missile: turning
+ * its way NAVIGATION times as fast as the line of sight turns makes that line stand still, so that
+ * a crossing target is met without a guess at the time of flight (Zarchan, Tactical and Strategic
+ * Missile Guidance, chapter 2). */
+static struct vec3 navigated(struct vec3 velocity, struct vec3 to, struct vec3 closing, double dt_s)
+{
+    double square = maths_max(vec3_dot(to, to), 1e-6);
+    struct vec3 sight_rps = vec3_scale(vec3_cross(to, closing), 1.0 / square);
+    struct vec3 turn = vec3_scale(vec3_cross(sight_rps, velocity), NAVIGATION * dt_s);
+    struct vec3 next = vec3_add(velocity, turn);
+    return vec3_scale(next, 1.0 / maths_max(vec3_length(next), 1e-9));
+}
+
+static void home(const struct step_context *move, uint32_t i, const struct kind *kind)
+{
+    struct entities *m = move->m;
+    const struct entities *w = &move->committed->entities;
+    uint32_t target = m->target_slot[i];
+    struct vec3 velocity = entities_velocity(m, i);
+    double speed = vec3_length(velocity);
+    double faster = kinematics_approach(speed, kind->max_speed_mps, BOOST_MPS2 * move->dt_s);
+    if (speed > 0.0)
+        velocity = vec3_scale(velocity, faster / speed);
+    if (m->target_id[i] != 0 && entities_alive(w, target, m->target_id[i])) {
+        struct vec3 to = vec3_sub(entities_position(w, target), entities_position(m, i));
+        to.y += kinematics_aim_height(move, w->kind[target]);
+        if (sees(kind, velocity, to))
+            velocity =
+                turned(velocity,
+                       navigated(velocity, to, vec3_sub(entities_velocity(w, target), velocity),
+                                 move->dt_s),
+                       kind->turn_rate_rps * move->dt_s);
+        else /* what left the seeker's cone is lost for good */
+            m->target_slot[i] = m->target_id[i] = 0;
+    }
+    entities_set_velocity(m, i, velocity);
+    entities_set_position(m, i,
+                          vec3_add(entities_position(m, i), vec3_scale(velocity, move->dt_s)));
+}
+
+void projectile_move(const struct step_context *move, uint32_t i)
+{
+    struct entities *m = move->m;
+    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    if (kind->guidance == GUIDANCE_HOMING) {
+        home(move, i, kind);
+    } else { /* exact for constant gravity */
+        m->x[i] += m->vx[i] * move->dt_s;
+        m->y[i] += (m->vy[i] - 0.5 * GRAVITY_MPS2 * move->dt_s) * move->dt_s;
+        m->z[i] += m->vz[i] * move->dt_s;
+        m->vy[i] -= GRAVITY_MPS2 * move->dt_s;
+    }
+    double level = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    if (level > 0.0)
+        m->heading[i] = maths_heading(m->vx[i], m->vz[i]);
+    m->pitch[i] = maths_atan2(m->vy[i], level);
+}

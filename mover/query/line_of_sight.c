@@ -1,0 +1,273 @@
+/* Lines of outlook. The ground between posts is flat triangles, so the line is above all of it when
+ * it is above it wherever it crosses an edge of one; craters are curved and are sampled. Squares
+ * whose highest point the line passes above are passed at once. */
+#include "mover/query/line_of_sight.h"
+
+#include "world/terrain/fixed_index.h"
+#include "world/terrain/gridsquare.h"
+
+#include <stdlib.h>
+
+#define CRATER_SAMPLES 12  /* along the way over one */
+#define FIRST_LOOKS    7   /* points of the line that are tried first: most hills are wide */
+#define LEAST_M        1.0 /* on the map; whoever is nearer sees */
+
+struct line {
+    const struct line_of_sight *outlook;
+    struct vec3 from, way; /* all of it, for t 0..1 */
+    double level;          /* its length on the map */
+};
+
+double line_of_sight_kept(enum damage damage)
+{
+    static const double kept[DAMAGE_COUNT] = {1.0, 1.0, 0.75, 0.25, 0.1};
+    return kept[damage < DAMAGE_COUNT ? damage : DAMAGE_DESTROYED];
+}
+
+/* --- the skyline -------------------------------------------------------------------------------*/
+
+static float ground_top(const struct terrain *terrain, uint32_t column, uint32_t row)
+{
+    uint32_t cells = (terrain->side - 1) / GRIDSQUARE_PER_SIDE;
+    const float *post = terrain->posts + (size_t)row * cells * terrain->side + column * cells;
+    float top = post[0];
+    for (uint32_t r = 0; r <= cells; r++) {
+        for (uint32_t c = 0; c <= cells; c++)
+            top = post[(size_t)r * terrain->side + c] > top ? post[(size_t)r * terrain->side + c]
+                                                            : top;
+    }
+    return top;
+}
+
+static double object_height(const struct world *world, const struct fixed_object *object)
+{
+    const struct kind *kind = &world->kinds[object->kind];
+    return kind->height_m * fixed_scale(object, kind);
+}
+
+/* Fixed objects by the squares that the boxes of what is seen of them reach into. */
+static int build_reach(struct line_of_sight *outlook)
+{
+    const struct world *world = outlook->world;
+    struct kind *kinds = calloc(world->counts.kinds + 1, sizeof *kinds);
+    if (!kinds)
+        return -1;
+    for (uint32_t k = 0; k < world->counts.kinds; k++) {
+        double length = world->kinds[k].length_m, width = world->kinds[k].width_m;
+        kinds[k] = world->kinds[k];
+        kinds[k].level_m = 0.5 * sqrt(length * length + width * width);
+    }
+    int result = fixed_index_build(world->fixed, world->counts.fixed, kinds, &outlook->reach_start,
+                                   &outlook->reach);
+    free(kinds);
+    return result;
+}
+
+static uint32_t objects_of(const struct line_of_sight *outlook, uint32_t square,
+                           const uint32_t **objects)
+{
+    *objects = outlook->reach + outlook->reach_start[square];
+    return outlook->reach_start[square + 1] - outlook->reach_start[square];
+}
+
+static float square_top(const struct line_of_sight *outlook, uint32_t square)
+{
+    const struct world *world = outlook->world;
+    const uint32_t *objects;
+    uint32_t count = objects_of(outlook, square, &objects);
+    float top =
+        ground_top(&world->terrain, square % GRIDSQUARE_PER_SIDE, square / GRIDSQUARE_PER_SIDE);
+    for (uint32_t n = 0; n < count; n++) {
+        const struct fixed_object *object = &world->fixed[objects[n]];
+        float high = (float)((double)object->y + object_height(world, object) + 0.01);
+        top = high > top ? high : top;
+    }
+    return top;
+}
+
+int line_of_sight_init(struct line_of_sight *outlook, const struct world *world,
+                       const struct crater_index *craters)
+{
+    *outlook = (struct line_of_sight){.world = world, .craters = craters};
+    outlook->top = malloc(GRIDSQUARE_COUNT * sizeof *outlook->top);
+    if (!outlook->top || build_reach(outlook) != 0) {
+        line_of_sight_free(outlook);
+        return -1;
+    }
+    for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++)
+        outlook->top[square] = square_top(outlook, square);
+    return 0;
+}
+
+void line_of_sight_free(struct line_of_sight *outlook)
+{
+    free(outlook->top);
+    free(outlook->reach_start);
+    free(outlook->reach);
+    *outlook = (struct line_of_sight){0};
+}
+
+/* --- the ground --------------------------------------------------------------------------------*/
+
+static double height_at(const struct line *line, double t)
+{
+    return line->from.y + line->way.y * t;
+}
+
+static bool ground_above(const struct line *line, double t)
+{
+    return terrain_height(&line->outlook->world->terrain, line->outlook->craters,
+                          line->from.x + line->way.x * t,
+                          line->from.z + line->way.z * t) > height_at(line, t);
+}
+
+/* Is the ground above the line where start + way * t is a whole number of spacings, t0..t1? */
+static bool edges_above(const struct line *line, double start, double way, double t0, double t1)
+{
+    double spacing = line->outlook->world->terrain.spacing_m;
+    double a = (start + way * t0) / spacing, b = (start + way * t1) / spacing;
+    int64_t last = (int64_t)floor(maths_max(a, b));
+    if (way == 0.0)
+        return false;
+    for (int64_t k = (int64_t)floor(maths_min(a, b)) + 1; k <= last; k++) {
+        if (ground_above(line, maths_clamp(((double)k * spacing - start) / way, t0, t1)))
+            return true;
+    }
+    return false;
+}
+
+/* The line's way over one crater, rim included. */
+static bool crater_above(const struct line *line, const struct crater *crater, double t0, double t1)
+{
+    double reach = CRATER_RIM * (double)crater->radius_m, square = line->level * line->level;
+    double dx = crater->x - line->from.x, dz = crater->z - line->from.z;
+    double middle = (dx * line->way.x + dz * line->way.z) / square;
+    double off = dx * dx + dz * dz - middle * middle * square;
+    if (off >= reach * reach)
+        return false;
+    double half = sqrt((reach * reach - off) / square);
+    double first = maths_max(middle - half, t0), last = maths_min(middle + half, t1);
+    for (int n = 0; n <= CRATER_SAMPLES && first < last; n++) {
+        if (ground_above(line, first + (last - first) * (double)n / CRATER_SAMPLES))
+            return true;
+    }
+    /* The crest itself lies a bowl's radius off the centre. */
+    double bowl = (double)crater->radius_m * (double)crater->radius_m - off;
+    double crest = bowl > 0.0 ? sqrt(bowl / square) : 0.0;
+    return (middle - crest > t0 && middle - crest < t1 && ground_above(line, middle - crest)) ||
+           (middle + crest > t0 && middle + crest < t1 && ground_above(line, middle + crest));
+}
+
+static bool ground_hides(const struct line *line, uint32_t square, double t0, double t1)
+{
+    const struct crater_index *craters = line->outlook->craters;
+    const struct vec3 *from = &line->from, *way = &line->way;
+    if (ground_above(line, t1) || edges_above(line, from->x, way->x, t0, t1) ||
+        edges_above(line, from->z, way->z, t0, t1) ||
+        edges_above(line, from->x - from->z, way->x - way->z, t0, t1))
+        return true;
+    for (uint32_t link = craters->head[square]; link != 0; link = craters->links[link - 1].next) {
+        if (crater_above(line, &craters->craters[craters->links[link - 1].crater], t0, t1))
+            return true;
+    }
+    return false;
+}
+
+/* --- what stands on it -------------------------------------------------------------------------*/
+
+/* Narrows t0..t1 to where the line is within half of a side's middle; false when it never is. */
+static bool within_side(double start, double way, double half, double *t0, double *t1)
+{
+    if (way == 0.0)
+        return fabs(start) <= half;
+    double a = (-half - start) / way, b = (half - start) / way;
+    *t0 = maths_max(*t0, maths_min(a, b));
+    *t1 = maths_min(*t1, maths_max(a, b));
+    return *t0 < *t1;
+}
+
+static bool object_hides(const struct line *line, uint32_t index)
+{
+    const struct world *world = line->outlook->world;
+    const struct fixed_object *object = &world->fixed[index];
+    const struct kind *kind = &world->kinds[object->kind];
+    double scale = fixed_scale(object, kind);
+    double length = 0.5 * scale * kind->length_m, width = 0.5 * scale * kind->width_m;
+    double dx = line->from.x - object->x, dz = line->from.z - object->z;
+    double across = (dx * line->way.z - dz * line->way.x) / line->level;
+    if (across * across > length * length + width * width || kind->object_class == OBJECT_POLE)
+        return false;
+    double top =
+        (double)object->y + scale * kind->height_m *
+                                line_of_sight_kept((enum damage)line->outlook->fixed_damage[index]);
+    double sine, cosine, t0 = 0.0, t1 = 1.0;
+    maths_sincos(fixed_heading(object), &sine, &cosine);
+    if (!within_side(dx * sine - dz * cosine, line->way.x * sine - line->way.z * cosine, length,
+                     &t0, &t1) ||
+        !within_side(dx * cosine + dz * sine, line->way.x * cosine + line->way.z * sine, width, &t0,
+                     &t1))
+        return false;
+    if (t0 <= 0.0 || t1 >= 1.0) /* one of the two is in it */
+        return false;
+    return maths_min(height_at(line, t0), height_at(line, t1)) < top;
+}
+
+static bool objects_hide(const struct line *line, uint32_t square)
+{
+    const uint32_t *objects;
+    uint32_t count = objects_of(line->outlook, square, &objects);
+    for (uint32_t n = 0; n < count; n++) {
+        if (object_hides(line, objects[n]))
+            return true;
+    }
+    return false;
+}
+
+/* --- square by square --------------------------------------------------------------------------*/
+
+static bool square_hides(const struct line *line, int32_t column, int32_t row, double t0, double t1)
+{
+    uint32_t square = gridsquare_index(column, row);
+    double lowest = maths_min(height_at(line, t0), height_at(line, t1));
+    if (lowest > (double)line->outlook->top[square] && line->outlook->craters->head[square] == 0)
+        return false;
+    return ground_hides(line, square, t0, t1) || objects_hide(line, square);
+}
+
+/* Where the line leaves the column or row of squares that holds coordinate metres at t. */
+static double border(double start, double way, int32_t axis)
+{
+    if (way == 0.0)
+        return INFINITY;
+    return ((double)(way > 0.0 ? axis + 1 : axis) * GRIDSQUARE_SIDE_M - start) / way;
+}
+
+bool line_of_sight_clear(const struct line_of_sight *outlook, struct vec3 from, struct vec3 to)
+{
+    struct line line = {.outlook = outlook, .from = from, .way = vec3_sub(to, from)};
+    int32_t column = gridsquare_axis(from.x), row = gridsquare_axis(from.z);
+    double t = 0.0;
+    line.level = sqrt(line.way.x * line.way.x + line.way.z * line.way.z);
+    if (line.level < LEAST_M)
+        return true;
+    for (int n = 1; n <= FIRST_LOOKS; n++) {
+        /* 1/2, 1/4, 3/4, 1/8 ...: bits reversed. */
+        int reversed = (n & 1) << 2 | (n & 2) | (n & 4) >> 2;
+        if (ground_above(&line, (double)reversed / (FIRST_LOOKS + 1)))
+            return false;
+    }
+    while (column >= 0 && row >= 0 && column < GRIDSQUARE_PER_SIDE && row < GRIDSQUARE_PER_SIDE) {
+        double tx = border(from.x, line.way.x, column), tz = border(from.z, line.way.z, row);
+        double end = maths_clamp(maths_min(tx, tz), t, 1.0);
+        if (square_hides(&line, column, row, t, end))
+            return false;
+        if (!(end < 1.0))
+            return true;
+        if (tx <= tz)
+            column += line.way.x > 0.0 ? 1 : -1;
+        else
+            row += line.way.z > 0.0 ? 1 : -1;
+        t = end;
+    }
+    return true;
+}

@@ -1,0 +1,134 @@
+/* Shots: aim, dispersion, the new munition, and the target's alarm. */
+#include "mover/context/serial_context.h"
+
+#include "mover/weapon/turret.h"
+#include "world/maths/random.h"
+
+#include <stddef.h>
+
+#define LAUNCH_SHARE  0.3   /* of a missile's full speed: how it leaves */
+#define DROP_HEIGHT_M 300.0 /* rounds out of the sky come from this far above the point */
+
+/* About normal, standard deviation 1: the sum of twelve uniforms would do, four are enough. */
+static double spread(const struct serial_context *serial, uint32_t row, enum random_purpose purpose)
+{
+    uint64_t bits = random_u64(serial->move->world->params->seed, serial->move->tick,
+                               serial->moved->entities.id[row], purpose);
+    double sum = 0.0;
+    for (int i = 0; i < 4; i++)
+        sum += (double)(bits >> (16 * i) & 0xffff) * (1.0 / 65536.0);
+    return (sum - 2.0) * 1.7320508075688772;
+}
+
+static struct vec3 dispersed(const struct serial_context *serial, uint32_t row,
+                             struct vec3 direction, double error_rad)
+{
+    double level = sqrt(direction.x * direction.x + direction.z * direction.z);
+    double heading = maths_heading(direction.x, direction.z) +
+                     error_rad * spread(serial, row, RANDOM_DISPERSION_AZIMUTH);
+    double pitch = maths_atan2(direction.y, level) +
+                   error_rad * spread(serial, row, RANDOM_DISPERSION_ELEVATION);
+    double sine, cosine, sine_pitch, cosine_pitch;
+    maths_sincos(heading, &sine, &cosine);
+    maths_sincos(pitch, &sine_pitch, &cosine_pitch);
+    return (struct vec3){sine * cosine_pitch, sine_pitch, -cosine * cosine_pitch};
+}
+
+static void point_munition(struct entities *m, uint32_t row, struct vec3 position,
+                           struct vec3 velocity)
+{
+    double level = sqrt(velocity.x * velocity.x + velocity.z * velocity.z);
+    entities_set_position(m, row, position);
+    entities_set_velocity(m, row, velocity);
+    m->heading[row] = maths_heading(velocity.x, velocity.z);
+    m->pitch[row] = maths_atan2(velocity.y, level);
+}
+
+/* The new munition, its shooter's loss and the event; the row target, if any, is told. Directed at
+ * point, if not NULL, instead. */
+static bool launch(struct serial_context *serial, uint32_t shooter, uint32_t target,
+                   const struct vec3 *point, uint16_t munition)
+{
+    struct entities *m = &serial->moved->entities;
+    const struct world *world = serial->move->world;
+    const struct kind *kind = &world->kinds[m->kind[shooter]];
+    if (munition == KIND_NONE)
+        munition = kind->munition;
+    if (munition == KIND_NONE || m->rounds[shooter] == 0 ||
+        serial->moved->head->intent_count >= world->params->intents_per_frame)
+        return false;
+    uint32_t row = spawn_entity(serial, munition, m->force[shooter]);
+    if (row == SLOT_NONE)
+        return false;
+    const struct kind *round = &world->kinds[munition];
+    struct vec3 position = turret_muzzle(serial->move, m, shooter);
+    struct vec3 direction = point ? turret_lead_point(position, round, *point)
+                            : target != SLOT_NONE
+                                ? turret_lead(serial->move, position, round, m, target)
+                                : turret_barrel(m, shooter);
+    direction = dispersed(serial, row, direction, round->dispersion_rad);
+    double clear = kind->radius_m + round->radius_m + 0.5;
+    struct vec3 muzzle = vec3_add(position, vec3_scale(direction, clear));
+    double speed = round->max_speed_mps;
+    if (round->guidance == GUIDANCE_HOMING) { /* its motor burns from here on */
+        double carried = maths_max(0.0, vec3_dot(direction, entities_velocity(m, shooter)));
+        speed = maths_min(speed, LAUNCH_SHARE * speed + carried);
+    }
+    point_munition(m, row, muzzle, vec3_scale(direction, speed));
+    m->owner_slot[row] = shooter;
+    m->owner_id[row] = m->id[shooter];
+    m->rounds[shooter]--;
+    serial_context_changes(serial, shooter, COLUMN_BIT(rounds) | COLUMN_BIT(reload_tick));
+    m->reload_tick[shooter] =
+        (uint32_t)(serial->move->tick + (uint64_t)(kind->reload_s / serial->move->dt_s));
+
+    struct event *event = serial_context_intent(serial, EVENT_FIRE);
+    event->fire.shooter = serial_context_party(serial, shooter);
+    event->fire.munition = serial_context_party(serial, row);
+    event->fire.point[0] = muzzle.x;
+    event->fire.point[1] = muzzle.y;
+    event->fire.point[2] = muzzle.z;
+    serial->moved->head->tally.fires++;
+    if (target != SLOT_NONE) {
+        event->fire.target = serial_context_party(serial, target);
+        m->target_slot[row] = target;
+        m->target_id[row] = m->id[target];
+        m->threat_slot[target] = shooter;
+        m->threat_id[target] = m->id[shooter];
+        serial_context_changes(serial, target, COLUMN_BIT(threat_slot) | COLUMN_BIT(threat_id));
+    }
+    return true;
+}
+
+bool fire_shoot(struct serial_context *serial, uint32_t shooter, uint32_t target, uint16_t munition)
+{
+    return launch(serial, shooter, target, NULL, munition);
+}
+
+bool fire_shoot_at(struct serial_context *serial, uint32_t shooter, double x, double z,
+                   uint16_t munition)
+{
+    const struct vec3 point = {x, kinematics_ground(serial->move, x, z), z};
+    return launch(serial, shooter, SLOT_NONE, &point, munition);
+}
+
+bool fire_drop_bomb(struct serial_context *serial, uint16_t munition, double x, double z)
+{
+    struct entities *m = &serial->moved->entities;
+    const struct world *world = serial->move->world;
+    if (serial->moved->head->intent_count >= world->params->intents_per_frame)
+        return false;
+    uint32_t row = spawn_entity(serial, munition, FORCE_NEUTRAL);
+    if (row == SLOT_NONE)
+        return false;
+    struct vec3 position = {x, kinematics_ground(serial->move, x, z) + DROP_HEIGHT_M, z};
+    struct vec3 velocity = {0.0, -world->kinds[munition].max_speed_mps, 0.0};
+    point_munition(m, row, position, velocity);
+    struct event *event = serial_context_intent(serial, EVENT_FIRE);
+    event->fire.munition = serial_context_party(serial, row);
+    event->fire.point[0] = position.x;
+    event->fire.point[1] = position.y;
+    event->fire.point[2] = position.z;
+    serial->moved->head->tally.fires++;
+    return true;
+}

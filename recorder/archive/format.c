@@ -1,0 +1,88 @@
+/* Which parts an image has, and how large they are. */
+#include "recorder/archive/format.h"
+
+#include "ipc/process/log.h"
+
+#include <xxhash.h>
+
+/* Regions that are in the image as they are: all that never change but header and parameters,
+ * which its own header holds. */
+#define FIRST_STATIC REGION_KINDS
+#define LAST_STATIC  REGION_RECIPE
+
+struct list {
+    struct image_part *part;
+    uint32_t count;
+};
+
+static void add(struct list *list, const void *at, size_t bytes)
+{
+    if (bytes == 0)
+        return;
+    CHECK(list->count < IMAGE_PARTS_MAX);
+    list->part[list->count++] = (struct image_part){(void *)(uintptr_t)at, bytes};
+}
+
+static void add_columns(struct list *list, const struct entities *e, uint32_t used)
+{
+#define X(type, name) add(list, e->name, used * sizeof(type));
+    ENTITY_COLUMNS(X)
+#undef X
+}
+
+/* Commands first .. end - 1, in one piece or, around the ring's end, in two. */
+static void add_ring(struct list *list, const struct command *ring, uint64_t slots, uint64_t first,
+                     uint64_t end)
+{
+    uint64_t count = end - first, at = first & (slots - 1);
+    uint64_t before = count < slots - at ? count : slots - at;
+    add(list, ring + at, before * sizeof *ring);
+    add(list, ring, (count - before) * sizeof *ring);
+}
+
+uint32_t image_parts(const struct image_header *header, const struct image_tables *tables,
+                     struct image_part parts[IMAGE_PARTS_MAX])
+{
+    const struct view *view = tables->view;
+    const struct segment_header *segment = &header->segment;
+    struct list list = {parts, 0};
+    for (int i = FIRST_STATIC; i <= LAST_STATIC; i++)
+        add(&list, (const unsigned char *)view->base + view->layout.offset[i],
+            view->layout.bytes[i]);
+    add(&list, tables->state.head, sizeof *tables->state.head);
+    add_columns(&list, &tables->state.entities, header->used);
+    add(&list, tables->state.fixed_damage, segment->counts.fixed);
+    add(&list, view->w[0].craters, header->craters * sizeof(struct crater));
+    add(&list, view->w[0].dents, header->dents * sizeof(struct dent));
+    for (int i = 0; i < COMMAND_RING_COUNT; i++)
+        add_ring(&list, tables->ring[i], segment->command_slots, header->ring_first[i],
+                 header->ring_end[i]);
+    if (header->inputs) {
+        add(&list, tables->moved.head, sizeof *tables->moved.head);
+        add_columns(&list, &tables->moved.entities, header->moved_used);
+        add(&list, tables->moved.intents, header->intents * sizeof(struct event));
+    }
+    return list.count;
+}
+
+uint64_t image_content_bytes(const struct image_header *header, const struct layout *layout)
+{
+    uint64_t bytes = sizeof(struct state_head) + header->used * entities_row_bytes() +
+                     header->segment.counts.fixed + header->craters * sizeof(struct crater) +
+                     header->dents * sizeof(struct dent);
+    for (int i = FIRST_STATIC; i <= LAST_STATIC; i++)
+        bytes += layout->bytes[i];
+    for (int i = 0; i < COMMAND_RING_COUNT; i++)
+        bytes += (header->ring_end[i] - header->ring_first[i]) * sizeof(struct command);
+    if (header->inputs)
+        bytes += sizeof(struct state_head) + header->moved_used * entities_row_bytes() +
+                 header->intents * sizeof(struct event);
+    return bytes;
+}
+
+uint64_t image_header_hash(const struct image_header *header)
+{
+    struct image_header copy = *header;
+    copy.header_hash = 0;
+    return XXH3_64bits(&copy, sizeof copy);
+}

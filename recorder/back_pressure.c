@@ -1,0 +1,76 @@
+/* Pausing a world that cannot be recorded as fast as it goes. */
+#include "recorder/back_pressure.h"
+
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
+
+#include <inttypes.h>
+
+#define BATCH 256
+
+static void note(struct back_pressure *brake, const struct event_command *command)
+{
+    if (command->result != COMMAND_DONE)
+        return;
+    if (command->type == COMMAND_RESUME)
+        brake->holder = COMMAND_RING_COUNT;
+    /* Somebody else's pause outlasts ours. */
+    if (command->type == COMMAND_PAUSE &&
+        (brake->holder == COMMAND_RING_COUNT || brake->holder == RING_RECORDER))
+        brake->holder = command->ring;
+}
+
+static void look(struct back_pressure *brake, const struct view *view)
+{
+    static struct event events[BATCH];
+    uint32_t count;
+    do {
+        count = events_read(view, &brake->cursor, events, BATCH);
+        for (uint32_t i = 0; i < count; i++) {
+            if (events[i].type == EVENT_COMMAND)
+                note(brake, &events[i].command);
+        }
+    } while (count == BATCH);
+}
+
+void back_pressure_open(struct back_pressure *brake, const struct view *view)
+{
+    *brake = (struct back_pressure){.on = view->world.params->when_full == WHEN_FULL_PAUSE,
+                                    .holder = COMMAND_RING_COUNT};
+    if (brake->on)
+        look(brake, view);
+}
+
+static void send(struct view *view, enum command_type type)
+{
+    uint64_t sent = atomic_load(&view->commands[RING_RECORDER]->head);
+    struct command command = {
+        .source = BACK_PRESSURE_SOURCE, .source_sequence = sent + 1, .type = type};
+    (void)command_put(view, RING_RECORDER, &command); /* full: at the next turn */
+}
+
+bool back_pressure_holds(const struct back_pressure *brake)
+{
+    return brake->on && brake->holder == RING_RECORDER;
+}
+
+void back_pressure_turn(struct back_pressure *brake, struct view *view, uint64_t written)
+{
+    struct state_head head;
+    if (!brake->on)
+        return;
+    look(brake, view);
+    if (snapshot_head(&head, view) != 0 || frame_protocol_finished(view) ||
+        atomic_load(&view->commands[RING_RECORDER]->head) > head.command_cursor[RING_RECORDER])
+        return; /* what was sent is still to be taken */
+    uint64_t waiting = head.event_end > written ? head.event_end - written : 0;
+    if (waiting > view->header->event_slots / 2 && (!head.paused || head.steps_left > 0)) {
+        log_warn("%" PRIu64 " events wait to be written, half of what the ring holds: pausing "
+                 "the world until they are",
+                 waiting);
+        send(view, COMMAND_PAUSE);
+    } else if (waiting == 0 && head.paused && back_pressure_holds(brake)) {
+        log_info("every event is written: the world goes on");
+        send(view, COMMAND_RESUME);
+    }
+}

@@ -1,0 +1,242 @@
+/* The run's commands into a journal. */
+#include "recorder/log/command_log.h"
+
+#include "ipc/process/clock.h"
+#include "ipc/process/crash_point.h"
+#include "ipc/process/log.h"
+#include "ipc/json/world_json.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define OPTION   "--commands"
+#define BATCH    256
+#define CLOSE_NS (2 * (uint64_t)NS_PER_S)
+#define MARK_NS  (5 * (uint64_t)NS_PER_S) /* so much of a killed run's end may be unknown */
+
+/* --- beginning and going on --------------------------------------------------------------------*/
+
+static uint64_t recipe_number(const struct world *world, const char *key)
+{
+    const char *value = provenance_find(world->recipe, world->counts.recipe, key);
+    return value ? strtoull(value, NULL, 10) : 0;
+}
+
+/* Where the world was when it was made. */
+static struct record_place beginning(const struct view *view)
+{
+    return (struct record_place){.frame = recipe_number(&view->world, "frame"),
+                                 .events = view->header->first_event,
+                                 .commands = recipe_number(&view->world, "commands")};
+}
+
+static void begin(struct command_log *log, const struct view *view)
+{
+    const struct world *world = &view->world;
+    cJSON *object = cJSON_CreateObject();
+    uint32_t next = 0;
+    log->at = beginning(view);
+    json_text(object, "jolon", "commands");
+    json_whole(object, "format", COMMAND_LOG_FORMAT);
+    record_put_place(object, &log->at);
+    json_text(object, "type", record_type_name(RECORD_BEGIN));
+    json_text(object, "world", view->name);
+    json_text(object, "scenario", world->params->scenario);
+    json_whole(object, "seed", world->params->seed);
+    json_hex(object, "made", view->header->made);
+    json_hex(object, "origin", view->header->origin);
+    json_hex(object, "layout", view->header->layout_hash);
+    json_hex(object, "scenario_hash", world->params->scenario_hash);
+    json_hex(object, "static_hash", segment_static_hash(view->header));
+    cJSON *recipe = json_array(object, "recipe");
+    for (const char *text = provenance_next(world->recipe, world->counts.recipe, &next); text;
+         text = provenance_next(world->recipe, world->counts.recipe, &next))
+        cJSON_AddItemToArray(recipe, cJSON_CreateString(text));
+    journal_put(&log->journal, object);
+}
+
+/* Is the log's first record one of this very world's? */
+static bool same_world(const struct command_log *log, const struct view *view)
+{
+    uint64_t made;
+    char *first = journal_first(&log->journal);
+    cJSON *object = first ? cJSON_Parse(first) : NULL;
+    bool same = record_hex(object, "made", &made) && made == view->header->made;
+    bool ours = first && strncmp(first, COMMAND_LOG_BEGINS, sizeof COMMAND_LOG_BEGINS - 1) == 0;
+    cJSON_Delete(object);
+    free(first);
+    if (!ours)
+        die_refused(OPTION " %s: is no log of commands; name another file", log->journal.path);
+    return same;
+}
+
+/* The run before wrote to the same folder: its log is kept. */
+static void put_aside(struct command_log *log)
+{
+    char old[PATH_TEXT_MAX * 4];
+    const char *path = log->journal.path;
+    CRASH_POINT("log put aside");
+    if ((size_t)snprintf(old, sizeof old, "%s.old", path) >= sizeof old || rename(path, old) != 0)
+        die_refused(OPTION " %s: is another run's, and cannot be renamed to %s: %s", path, old,
+                    strerror(errno));
+    log_info(OPTION " %s: another run's log is now %s", path, old);
+    (void)journal_close(&log->journal);
+    journal_open(&log->journal, OPTION, path, COMMAND_LOG_BEGINS);
+}
+
+static void go_on(struct command_log *log, const struct view *view)
+{
+    struct command_record last;
+    struct state_head head;
+    cJSON *object = cJSON_Parse(log->journal.last);
+    bool read = command_record_read(&last, object);
+    cJSON_Delete(object);
+    if (!read)
+        die_refused(OPTION " %s: its last record is none of a log of commands; name another file",
+                    log->journal.path);
+    if (snapshot_head(&head, view) == 0 &&
+        last.at.frame > head.frame + 1) /* one frame may have been lost to damage */
+        die_refused(OPTION " %s: holds more than this world has; name another file",
+                    log->journal.path);
+    log->at = last.at;
+    if (last.type == RECORD_END)
+        journal_put(&log->journal, command_record_json(&(struct command_record){
+                                       .type = RECORD_RESUMED, .at = last.at}));
+}
+
+void command_log_open(struct command_log *log, const struct view *view, const char *path)
+{
+    *log = (struct command_log){.marked_ns = clock_now_ns()};
+    journal_open(&log->journal, OPTION, path, COMMAND_LOG_BEGINS);
+    if (log->journal.last && !same_world(log, view))
+        put_aside(log);
+    if (log->journal.last)
+        go_on(log, view);
+    else
+        begin(log, view);
+    log->cursor.next = log->written = log->at.events;
+    (void)journal_flush(&log->journal);
+}
+
+/* --- writing -----------------------------------------------------------------------------------*/
+
+static void put(struct command_log *log, struct command_record *record)
+{
+    log->at = record->at;
+    journal_put(&log->journal, command_record_json(record));
+}
+
+/* Commands that the ring overwrote before they could be written: up to, not including, number. */
+static void put_gap(struct command_log *log, const struct record_place *before)
+{
+    struct command_record gap = {
+        .type = RECORD_GAP, .at = *before, .lost = before->commands - log->at.commands};
+    if (gap.lost == 0)
+        return;
+    log_warn("%" PRIu64 " commands lost: the ring had gone round; the run cannot be replayed "
+             "beyond frame %" PRIu64,
+             gap.lost, log->at.frame);
+    put(log, &gap);
+}
+
+static void put_command(struct command_log *log, const struct event *event)
+{
+    /* The number is cut to 32 bits; what is lost is less than that. */
+    uint32_t lost = event->command.number - (uint32_t)log->at.commands;
+    struct record_place before = {event->frame, event->sequence, log->at.commands + lost};
+    put_gap(log, &before);
+    struct command_record record = {.type = RECORD_COMMAND,
+                                    .at = {event->frame, event->sequence + 1, before.commands + 1},
+                                    .command = event->command};
+    put(log, &record);
+}
+
+static void put_mark(struct command_log *log)
+{
+    put_gap(log, &log->mark.at);
+    put(log, &log->mark);
+    log->marking = false;
+    log->marked_ns = clock_now_ns();
+}
+
+/* A mark of the last committed frame, to be written once everything before it is. */
+static void take_mark(struct command_log *log, const struct state_head *head)
+{
+    log->mark = (struct command_record){
+        .type = RECORD_MARK,
+        .at = {head->frame, head->event_end, head->tally.commands},
+        .event_digest = head->event_digest,
+    };
+    log->marking = true;
+}
+
+static void mark_when_due(struct command_log *log, const struct view *view)
+{
+    struct state_head head;
+    if (log->marking || clock_now_ns() - log->marked_ns < MARK_NS)
+        return;
+    log->marked_ns = clock_now_ns();
+    if (snapshot_head(&head, view) == 0 && head.frame > log->at.frame)
+        take_mark(log, &head);
+}
+
+static bool flush(struct command_log *log)
+{
+    if (journal_flush(&log->journal) != 0)
+        return false;
+    log->written = log->cursor.next;
+    return true;
+}
+
+bool command_log_turn(struct command_log *log, const struct view *view)
+{
+    static struct event events[BATCH];
+    if (!flush(log))
+        return false;
+    mark_when_due(log, view);
+    uint32_t count = events_read(view, &log->cursor, events, BATCH);
+    log->cursor.gap = 0; /* commands have numbers of their own */
+    for (uint32_t i = 0; i < count; i++) {
+        if (log->marking && events[i].sequence >= log->mark.at.events)
+            put_mark(log);
+        if (events[i].type == EVENT_COMMAND)
+            put_command(log, &events[i]);
+    }
+    if (log->marking && log->cursor.next >= log->mark.at.events)
+        put_mark(log);
+    return flush(log) && count > 0;
+}
+
+/* The last committed frame with its digest, as the mark that ends the log. */
+static int take_end(struct command_log *log, const struct view *view)
+{
+    struct snapshot snapshot;
+    if (snapshot_init(&snapshot, view) != 0)
+        return -1;
+    int result = snapshot_take(&snapshot, view);
+    if (result == 0) {
+        struct state state = snapshot_state(&snapshot, view);
+        take_mark(log, &snapshot.head);
+        log->mark.type = RECORD_END;
+        log->mark.digested = true;
+        log->mark.digest = world_digest(&view->world, &state);
+    }
+    snapshot_free(&snapshot);
+    return result;
+}
+
+int command_log_close(struct command_log *log, const struct view *view)
+{
+    int result = take_end(log, view);
+    uint64_t until = clock_now_ns() + CLOSE_NS;
+    while (result == 0 && log->marking) {
+        if (!command_log_turn(log, view) && (log->journal.error != 0 || clock_now_ns() > until))
+            result = -1;
+    }
+    if (journal_close(&log->journal) != 0)
+        result = -1;
+    return result;
+}

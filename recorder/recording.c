@@ -1,0 +1,96 @@
+/* The recorder's work: logs, checkpoints and the brake, a look at a time. */
+#include "recorder/recording.h"
+
+#include "ipc/process/clock.h"
+#include "ipc/process/crash_point.h"
+#include "ipc/frame/frame_protocol.h"
+
+#include <inttypes.h>
+
+void recording_open(struct recorder *recorder)
+{
+    const struct options *options = &recorder->options;
+    struct reason reason;
+    command_log_open(&recorder->commands, &recorder->view, options->commands);
+    if (options->events)
+        event_log_open(&recorder->events, &recorder->view, options->events);
+    if (options->checkpoint && checkpoint_open(&recorder->checkpoint, &recorder->view,
+                                               options->checkpoint, options->every, &reason) != 0)
+        die_refused("--checkpoint %s", reason.text);
+    back_pressure_open(&recorder->brake, &recorder->view);
+}
+
+/* True when there is more to do at once. */
+static bool write_logs(struct recorder *recorder)
+{
+    struct role_slot *slot = recorder->view.slot[ROLE_RECORDER];
+    bool more = command_log_turn(&recorder->commands, &recorder->view);
+    uint64_t written = recorder->commands.written;
+    if (recorder->options.events) {
+        uint64_t gaps = recorder->events.gaps;
+        more |= event_log_turn(&recorder->events, &recorder->view);
+        CRASH_POINT("gaps");
+        atomic_fetch_add(&slot->gaps, recorder->events.gaps - gaps);
+        if (recorder->events.written < written)
+            written = recorder->events.written;
+    }
+    back_pressure_turn(&recorder->brake, &recorder->view, written);
+    return more;
+}
+
+/* The logs reach the disk with the checkpoint, so that after a crash of the machine they are not
+ * behind it. */
+static void write_checkpoint(struct recorder *recorder)
+{
+    uint64_t before = recorder->checkpoint.written;
+    if (!recorder->options.checkpoint)
+        return;
+    checkpoint_turn(&recorder->checkpoint, &recorder->view);
+    if (recorder->checkpoint.written == before)
+        return;
+    (void)write_logs(recorder);
+    if (journal_sync(&recorder->commands.journal) != 0 ||
+        (recorder->options.events && journal_sync(&recorder->events.journal) != 0))
+        log_warn("the logs did not reach the disk with the checkpoint");
+}
+
+bool recording_turn(struct recorder *recorder, uint64_t frame)
+{
+    struct role_slot *slot = recorder->view.slot[ROLE_RECORDER];
+    uint64_t begun_ns = clock_now_ns();
+    log_frame(frame);
+    frame_protocol_beat(&recorder->view);
+    atomic_store_explicit(&slot->frame, frame, memory_order_relaxed);
+    bool more = write_logs(recorder);
+    write_checkpoint(recorder);
+    atomic_store_explicit(&slot->stage_ns, clock_now_ns() - begun_ns, memory_order_relaxed);
+    return more;
+}
+
+/* The logs first: a checkpoint takes long on a slow disk, and a log that was stopped without its
+ * end cannot be told from a killed one. */
+enum exit_code recording_close(struct recorder *recorder)
+{
+    const struct options *options = &recorder->options;
+    enum exit_code code = EXIT_OK;
+    uint64_t missing = 0;
+    if (command_log_close(&recorder->commands, &recorder->view) != 0) {
+        log_warn("--commands %s: the run's end is not in it", options->commands);
+        code = EXIT_REFUSED;
+    }
+    if (options->events)
+        missing = event_log_close(&recorder->events, &recorder->view);
+    if (missing > 0) {
+        atomic_fetch_add(&recorder->view.slot[ROLE_RECORDER]->gaps, missing);
+        log_warn("--events %s: %" PRIu64 " events of the run are not in it", options->events,
+                 missing);
+        code = EXIT_REFUSED;
+    }
+    if (back_pressure_holds(&recorder->brake) && !frame_protocol_finished(&recorder->view))
+        log_warn("the world is left paused; `jolon ctl resume` lets it go on unrecorded");
+    if (options->checkpoint) {
+        (void)checkpoint_write(&recorder->checkpoint, &recorder->view);
+        checkpoint_close(&recorder->checkpoint);
+    }
+    return code;
+}

@@ -1,0 +1,116 @@
+/* Going on from a checkpoint, or branching off it. */
+#include "recorder/replay/image_resume.h"
+
+#include "recorder/archive/image.h"
+#include "config/loader.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "world/checksum.h"
+#include "recorder/replay/world_adopt.h"
+#include "recorder/replay/scenario_load.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void change_settings(const struct arguments *arguments, struct image *image)
+{
+    struct loader_message message;
+    if (loader_branch(&image->params, arguments->set, arguments->sets, &message) != 0)
+        die_refused("%s", message.text);
+    arguments_seconds(arguments, &image->params);
+    uint64_t limit = image->params.frame_limit;
+    if (limit != 0 && image->header.frame >= limit)
+        die_refused("%s: is of frame %" PRIu64 ", and the run ends with frame %" PRIu64
+                    "; --set world.frames=N goes further, 0 without end",
+                    image->path, image->header.frame, limit);
+}
+
+/* A run that was quit goes on: that is what --from is for. */
+static void forget_quit(struct view *view, uint64_t frame)
+{
+    struct state *state = &view->w[frame & 1];
+    state->head->quit = 0;
+    state_seal(state, view->header->counts.fixed);
+}
+
+/* The world's own: how to make it again from the image, and what was changed. */
+static int write_recipe(const struct view *view, const struct arguments *arguments,
+                        const struct image *image, struct reason *reason)
+{
+    struct provenance recipe = {0};
+    char text[32], *path = realpath(image->path, NULL);
+    const struct state_head *head = view->w[image->header.frame & 1].head;
+    int result = provenance_add(&recipe, "image", path ? path : image->path);
+    free(path);
+    snprintf(text, sizeof text, "%" PRIu64, head->frame);
+    result |= provenance_add(&recipe, "frame", text);
+    snprintf(text, sizeof text, "%" PRIu64, head->tally.commands);
+    result |= provenance_add(&recipe, "commands", text);
+    for (int i = 0; i < arguments->sets; i++)
+        result |= provenance_add(&recipe, "set", arguments->set[i]);
+    scenario_load_recipe_seconds(arguments, &recipe);
+    uint32_t room = view->world.counts.recipe;
+    if (result == 0 && recipe.bytes < room) {
+        char *to = (char *)(uintptr_t)view->world.recipe;
+        memset(to, 0, room);
+        memcpy(to, recipe.text, recipe.bytes);
+    } else {
+        result = reason_set(reason,
+                            "--set: %u bytes of overrides; a world from an image has room for %u",
+                            recipe.bytes, room);
+    }
+    provenance_free(&recipe);
+    return result;
+}
+
+void image_resume_open(const struct arguments *arguments, struct image *image)
+{
+    struct reason reason;
+    if (image_open(image, arguments->from, &reason) != 0)
+        die_refused("%s", reason.text);
+    change_settings(arguments, image);
+}
+
+int image_resume_fill(struct view *view, const struct arguments *arguments,
+                      const struct image *image, struct reason *reason)
+{
+    if (image_load(view, image, reason) != 0)
+        return -1;
+    forget_quit(view, image->header.frame);
+    return write_recipe(view, arguments, image, reason);
+}
+
+static void make(const struct arguments *arguments, const struct image *image)
+{
+    struct view view;
+    struct reason reason;
+    struct segment_header header = image_segment(image);
+    if (segment_begin(&view, arguments->world, &header, &reason) != 0)
+        die_refused("%s", reason.text);
+    int result = image_resume_fill(&view, arguments, image, &reason);
+    process_hold_stop();
+    if (result != 0 || segment_publish(&view, &reason) != 0) {
+        segment_abandon(&view);
+        die_refused("%s", reason.text);
+    }
+    segment_detach(&view);
+}
+
+int image_resume_world(const struct arguments *arguments)
+{
+    static struct image image;
+    if (arguments->path)
+        die_usage("create --from %s %s: an image has its scenario within it; leave one of them out",
+                  arguments->from, arguments->path);
+    image_resume_open(arguments, &image);
+    if (!arguments->adopt || !world_adopt_world(arguments->world, &image.params, &image.header)) {
+        make(arguments, &image);
+        printf("world \"%s\": frame %" PRIu64 " of %s, %s\n", arguments->world, image.header.frame,
+               image.path,
+               image_branches(&image) ? "branched off with other settings" : "goes on from there");
+    }
+    image_close(&image);
+    return EXIT_OK;
+}

@@ -1,0 +1,137 @@
+/* The beginning of a recorded run, made again. */
+#include "recorder/replay/run_start.h"
+
+#include "recorder/archive/image.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "world/provenance.h"
+#include "recorder/replay/scenario_load.h"
+#include "recorder/replay/image_resume.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+void run_start_tape(struct log_replay *tape, const char *path)
+{
+    struct reason reason;
+    if (log_replay_open(tape, path, &reason) != 0)
+        die_refused("%s", reason.text);
+    if (tape->torn)
+        log_warn("%s: its last line is torn: left out", path);
+}
+
+/* The arguments that the recipe stands for. */
+static void arguments_of(struct arguments *arguments, const struct log_replay *tape)
+{
+    const cJSON *text;
+    *arguments = (struct arguments){.world = "default",
+                                    .path = log_replay_recipe(tape, "scenario"),
+                                    .from = log_replay_recipe(tape, "image")};
+    const char *seconds = log_replay_recipe(tape, "seconds");
+    if (seconds && !process_number_read(seconds, 0.001, 1e9, &arguments->seconds))
+        die_refused("%s:1: recipe: seconds=%s: must be a number from 0.001 to 1e9", tape->path,
+                    seconds);
+    cJSON_ArrayForEach(text, cJSON_GetObjectItemCaseSensitive(tape->begin, "recipe"))
+    {
+        const char *set = cJSON_IsString(text) ? provenance_value(text->valuestring, "set") : NULL;
+        if (!set)
+            continue;
+        if (!strchr(set, '='))
+            die_refused("%s:1: recipe: set=%s: must be set=KEY=VALUE", tape->path, set);
+        if (arguments->sets == ARGUMENT_SETS_MAX)
+            die_refused("%s:1: recipe: more than %d texts set=KEY=VALUE", tape->path,
+                        ARGUMENT_SETS_MAX);
+        arguments_set(arguments, set);
+    }
+}
+
+static const char *scenario_text(const struct log_replay *tape)
+{
+    return cJSON_GetObjectItemCaseSensitive(tape->begin, "scenario")->valuestring;
+}
+
+/* The log's recipe, byte by byte, in the place of the one that making it again has made. */
+static void keep_recipe(const struct view *view, const struct log_replay *tape)
+{
+    const cJSON *text;
+    char *to = (char *)(uintptr_t)view->world.recipe;
+    uint32_t room = view->world.counts.recipe, used = 0;
+    memset(to, 0, room);
+    cJSON_ArrayForEach(text, cJSON_GetObjectItemCaseSensitive(tape->begin, "recipe"))
+    {
+        size_t length = cJSON_IsString(text) ? strlen(text->valuestring) + 1 : room;
+        if (length >= room - used)
+            die_refused("%s:1: its recipe does not fit the world that it makes", tape->path);
+        memcpy(to + used, text->valuestring, length);
+        used += (uint32_t)length;
+    }
+}
+
+static void check_hash(const struct log_replay *tape, const struct params *params, const char *from)
+{
+    if (params->scenario_hash != tape->scenario_hash)
+        die_refused("%s: was recorded of another scenario (hash %016" PRIx64 "; now %016" PRIx64
+                    "): %s, or one of config/kinds, has changed since",
+                    tape->path, tape->scenario_hash, params->scenario_hash, from);
+}
+
+static void from_scenario(struct view *view, const struct log_replay *tape,
+                          const struct arguments *arguments)
+{
+    struct scenario scenario;
+    struct world_build genesis;
+    struct reason reason;
+    scenario_load_scenario(arguments, &scenario);
+    check_hash(tape, &scenario.params, arguments->path);
+    memset(scenario.params.scenario, 0, sizeof scenario.params.scenario); /* every byte counts */
+    snprintf(scenario.params.scenario, sizeof scenario.params.scenario, "%s", scenario_text(tape));
+    scenario_load_generate(&scenario, &genesis);
+    struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
+    if (segment_private(view, &header, &reason) != 0)
+        die_refused("%s", reason.text);
+    segment_fill(view, &genesis);
+    world_build_free(&genesis);
+    scenario_free(&scenario);
+}
+
+static void from_image(struct view *view, const struct log_replay *tape,
+                       const struct arguments *arguments)
+{
+    static struct image image;
+    struct reason reason;
+    image_resume_open(arguments, &image);
+    if (image.header.header_hash != tape->origin)
+        die_refused("%s: the run went on from another image than %s is now", tape->path,
+                    arguments->from);
+    check_hash(tape, &image.params, arguments->from);
+    struct segment_header header = image_segment(&image);
+    if (segment_private(view, &header, &reason) != 0 ||
+        image_resume_fill(view, arguments, &image, &reason) != 0)
+        die_refused("%s", reason.text);
+    image_close(&image);
+}
+
+void run_start_world(struct view *view, const struct log_replay *tape)
+{
+    struct arguments arguments;
+    if (tape->layout != layout_hash())
+        die_refused("%s: layout: was recorded by another build of Jolon; replay it with that build",
+                    tape->path);
+    arguments_of(&arguments, tape);
+    if (arguments.from)
+        from_image(view, tape, &arguments);
+    else if (arguments.path)
+        from_scenario(view, tape, &arguments);
+    else
+        die_refused("%s:1: its recipe names neither a scenario nor an image", tape->path);
+    keep_recipe(view, tape);
+    segment_hash_static(view);
+    if (segment_static_hash(view->header) != tape->static_hash)
+        die_refused("%s: the world made again is not the one that was recorded: %s of it differ",
+                    tape->path, "terrain, kinds, models, objects or parameters");
+    uint64_t frame = atomic_load(&view->commit->commit);
+    if (frame != tape->start.frame)
+        die_refused("%s: begins with frame %" PRIu64 "; the world made again is at %" PRIu64,
+                    tape->path, tape->start.frame, frame);
+}

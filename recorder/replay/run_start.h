@@ -1,0 +1,15 @@
+/* Remaking: the world that a log of commands begins with, in this process's own memory. */
+#ifndef JOLON_RECORDER_REPLAY_RUN_START_H
+#define JOLON_RECORDER_REPLAY_RUN_START_H
+
+#include "recorder/replay/log_replay.h"
+
+/* From the scenario, or from the image that the world went on from. segment_abandon frees it. Ends
+ * the process (exit 1) with what differs from then: the build, the scenario or what it is made of,
+ * the image, or any byte of what never changes. */
+void run_start_world(struct view *view, const struct log_replay *tape);
+
+/* log_replay_open(), or ends the process (exit 1) with the reason. A torn end is said. */
+void run_start_tape(struct log_replay *tape, const char *path);
+
+#endif

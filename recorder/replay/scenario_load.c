@@ -1,0 +1,60 @@
+/* Scenarios into worlds. */
+#include "recorder/replay/scenario_load.h"
+
+#include "config/loader.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+void scenario_load_recipe_seconds(const struct arguments *arguments, struct provenance *recipe)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.17g", arguments->seconds);
+    if (arguments->seconds > 0.0 && provenance_add(recipe, "seconds", text) != 0)
+        die_refused("--seconds %s: no room in the recipe: %s", text, strerror(errno));
+}
+
+/* On a terminal, ten times a second, from the second on that placing takes. */
+static uint64_t placing_begun_ns, placing_told_ns;
+
+static void tell_placing(uint32_t placed, uint32_t of)
+{
+    uint64_t now_ns = clock_now_ns();
+    if (placing_begun_ns == 0)
+        placing_begun_ns = now_ns;
+    if (now_ns - placing_begun_ns < NS_PER_S || now_ns - placing_told_ns < NS_PER_S / 10)
+        return;
+    placing_told_ns = now_ns;
+    (void)fprintf(stderr, "\r%u of %u vehicles have a place", placed, of);
+}
+
+void scenario_load_scenario(const struct arguments *arguments, struct scenario *scenario)
+{
+    char data_dir[512];
+    struct loader_message message;
+    if (process_data_dir(data_dir, sizeof data_dir) != 0)
+        die_refused("cannot find the data (kinds, models, scenarios) beside the programs; set "
+                    "JOLON_DATA to the folder that holds kinds/");
+    if (loader_scenario(scenario, data_dir, arguments->path, arguments->set, arguments->sets,
+                        &message) != 0)
+        die_refused("%s", message.text);
+    if (isatty(STDERR_FILENO))
+        scenario->placing = tell_placing;
+    arguments_seconds(arguments, &scenario->params);
+    scenario_load_recipe_seconds(arguments, &scenario->recipe);
+}
+
+void scenario_load_generate(const struct scenario *scenario, struct world_build *genesis)
+{
+    char text[512];
+    int built = world_build_build(genesis, scenario, text, sizeof text);
+    if (placing_told_ns > 0)
+        (void)fputs("\r\033[K", stderr);
+    if (built != 0)
+        die_refused("%s: %s", scenario->params.scenario, text);
+}

@@ -1,0 +1,70 @@
+/* Going on with a dead set's world, or making room. */
+#include "recorder/replay/world_adopt.h"
+
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/segment/segment.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+#define DYING_NS (5 * (uint64_t)NS_PER_S) /* roles die with their keeper, but not at once */
+
+static bool same_world(const struct view *view, const struct params *params,
+                       const struct image_header *image)
+{
+    return view->world.params->scenario_hash == params->scenario_hash &&
+           (!image || view->header->origin == image->header_hash ||
+            view->header->made == image->segment.made);
+}
+
+/* A world that is damaged beyond repair is not ours to lose, unless an image of it is at hand. One
+ * that only cannot be looked at now may be good, and stays whatever is at hand. */
+static void not_usable(const struct reason *reason, const struct image_header *image)
+{
+    if (!reason->damaged)
+        die_refused("%s", reason->text);
+    if (!image)
+        die_refused("%s; `jolon clean -w` with its name removes it, another -w NAME makes another",
+                    reason->text);
+    log_warn("%s; goes on from the image", reason->text);
+}
+
+static bool make_room(const char *name)
+{
+    struct reason reason;
+    if (segment_remove(name, false, &reason) != 0)
+        die_refused("%s", reason.text);
+    return false;
+}
+
+bool world_adopt_world(const char *name, const struct params *params,
+                       const struct image_header *image)
+{
+    struct view view;
+    struct reason reason;
+    bool same = false;
+    if (segment_attach(&view, name, ROLE_NONE, &reason) == 0) {
+        same = same_world(&view, params, image);
+        segment_detach(&view);
+    } else if (!reason.foreign) {
+        not_usable(&reason, image);
+    }
+    if (!same)
+        return make_room(name);
+    if (segment_wait_free(name, ROLE_COLLIDER, clock_now_ns() + DYING_NS, &reason) != 0)
+        die_refused("%s", reason.text);
+    int repaired = segment_repair(name, &reason);
+    if (repaired < 0) {
+        not_usable(&reason, image);
+        return make_room(name);
+    }
+    if (repaired > 0)
+        printf("%s\n", reason.text);
+    if (segment_attach(&view, name, ROLE_NONE, &reason) != 0)
+        die_refused("%s", reason.text);
+    printf("world \"%s\": a set that died left it at frame %" PRIu64 "; goes on from there\n", name,
+           (uint64_t)atomic_load(&view.commit->commit));
+    segment_detach(&view);
+    return true;
+}

@@ -1,0 +1,98 @@
+/* Pictures with words: the map with its close-up, legend and figures, and the instruments laid over
+ * a camera's picture. What stays the same from picture to picture is kept: the ground, and letters.
+ */
+#ifndef JOLON_RENDERER_CHART_ANNOTATED_PICTURE_H
+#define JOLON_RENDERER_CHART_ANNOTATED_PICTURE_H
+
+#include "renderer/chart/base_map.h"
+#include "renderer/chart/map_layout.h"
+#include "renderer/chart/map.h"
+#include "renderer/image/text.h"
+#include "renderer/scene/frame/statistics.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What a picture is taken from; borrowed for one call. */
+struct annotated_picture_source {
+    const struct frame_view *moment;
+    const struct tracks *tracks;
+    const struct effects *effects; /* recent detonations; NULL for none */
+    const struct camera *camera;   /* whose view the triangle shows; NULL: no triangle */
+    uint32_t slot;                 /* of the followed vehicle, SLOT_NONE for none */
+    double fps;                    /* pictures a second that the renderer makes; 0: not known */
+};
+
+/* A map within a picture: its ground, and an image of its own to be drawn in. */
+struct annotated_picture_part {
+    struct base_map base;
+    struct image image;
+};
+
+struct annotated_picture {
+    struct text *text; /* owned, unless it is another's */
+    bool beside;       /* it is */
+    const struct world *world;
+    uint32_t width, height; /* of the pictures */
+    struct map_layout layout;
+    struct base_map whole, area;
+    struct annotated_picture_part close_up, small;
+};
+
+/* 0, or -1 with the reason. Quick: ground is painted when a picture first needs it, at most some
+ * tenths of a second. */
+int annotated_picture_open(struct annotated_picture *chart, const struct world *world,
+                           uint32_t width, uint32_t height, struct reason *reason);
+/* One for pictures of another size, with the letters of the first, which must outlive it. */
+void annotated_picture_open_beside(struct annotated_picture *chart,
+                                   const struct annotated_picture *first, uint32_t width,
+                                   uint32_t height);
+void annotated_picture_close(struct annotated_picture *chart);
+
+/* The map as a picture: the whole square, and as the picture's size and aspect have room, a
+ * close-up around the followed vehicle, its figures, and a legend. 0, or -1 with errno. */
+int annotated_picture_map(struct annotated_picture *chart, struct image *image,
+                          const struct annotated_picture_source *source);
+
+/* A map of one place that fills the picture: centre [m, world], and metres a pixel. To pan is to
+ * change the centre, and costs what comes into view; to zoom is to change metres, and paints all
+ * anew. 0, or -1 with errno. */
+int annotated_picture_area(struct annotated_picture *chart, struct image *image,
+                           const struct annotated_picture_source *source, double x, double z,
+                           double metres);
+
+/* The statistics bar below and a small map in the corner of a camera's picture. A small map that
+ * there is no memory for is left out. */
+void annotated_picture_instruments(struct annotated_picture *chart, struct image *image,
+                                   const struct annotated_picture_source *source);
+
+/* --- for the files of chart/ ------------------------------------------------------------------ */
+
+/* Makes a part's image of a size, unless it is. 0, or -1 with errno ENOMEM. */
+int annotated_picture_part_size(struct annotated_picture_part *part, uint32_t width,
+                                uint32_t height);
+
+/* How a map is drawn. */
+struct annotated_picture_scale {
+    double symbol;   /* [pixel] length of symbols */
+    double triangle; /* [pixel] of the viewing triangle */
+    uint8_t tracks;  /* opacity, 0: without */
+};
+
+/* What lies below a map's words: ground, craters, tracks, what the camera sees. 0, or -1 with
+ * errno ENOMEM. */
+int annotated_picture_ground(struct base_map *base, struct image *image,
+                             const struct map_view *view,
+                             const struct annotated_picture_source *source,
+                             const struct annotated_picture_scale *scale);
+
+/* What lies above them: vehicles, fires, detonations, the followed vehicle's ring. */
+void annotated_picture_things(struct image *image, const struct map_view *view,
+                              const struct annotated_picture_source *source,
+                              const struct annotated_picture_scale *scale);
+
+/* Words, shortened until they take at most width pixels. */
+void annotated_picture_shorten(struct annotated_picture *chart, char *words, uint32_t size,
+                               int32_t width);
+
+#endif

@@ -1,0 +1,118 @@
+/* Laying out. All measures follow from the letters' size. */
+#include "renderer/chart/map_layout.h"
+
+#define PICTURE_LETTERS 48 /* letters' sizes in the shorter side of a picture */
+#define PANEL_LEAST     9  /* letters' sizes: a narrower panel holds nothing */
+#define CLOSE_UP_LEAST  14 /* a smaller close-up shows nothing */
+#define SIDE_BY_SIDE    36 /* a panel so wide has the close-up beside the words */
+#define FIGURE_WIDTH    13
+#define SYMBOL_WIDTH    8
+#define RULE            2  /* [pixel] between the maps */
+#define CLOSE_UP_MOST   65 /* [%] of a panel */
+#define CLOSE_UP_ENOUGH 42
+
+static int32_t least(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Size of ordinary words in a picture. */
+static uint32_t letters_of(uint32_t width, uint32_t height)
+{
+    uint32_t letters = (width < height ? width : height) / PICTURE_LETTERS;
+    return letters < MAP_LAYOUT_LETTERS_LEAST ? MAP_LAYOUT_LETTERS_LEAST : letters;
+}
+
+static int32_t rows_for(int32_t count, int32_t width, int32_t each)
+{
+    int32_t columns = width / each > 1 ? width / each : 1;
+    return (count + columns - 1) / columns;
+}
+
+/* Figures above the legend, both with what they need, or sharing what there is. */
+static void stack_words(struct map_layout *layout, struct box box)
+{
+    int32_t em = (int32_t)layout->letters, inner = box.width - 2 * em;
+    int32_t legend = rows_for(MAP_LAYOUT_SYMBOLS, inner, SYMBOL_WIDTH * em) * em * 7 / 5 + em;
+    int32_t figures =
+        rows_for(MAP_LAYOUT_FIGURES, inner, FIGURE_WIDTH * em) * em * 27 / 20 + em * 3;
+    if (figures + legend > box.height)
+        legend = least(legend, box.height * 9 / 20);
+    layout->figures = (struct box){box.left, box.top, box.width, box.height - legend};
+    layout->legend = (struct box){box.left, box.top + box.height - legend, box.width, legend};
+}
+
+static int32_t words_height(int32_t em, int32_t width)
+{
+    int32_t inner = width - 2 * em;
+    return rows_for(MAP_LAYOUT_FIGURES, inner, FIGURE_WIDTH * em) * em * 27 / 20 + em * 3 +
+           rows_for(MAP_LAYOUT_SYMBOLS, inner, SYMBOL_WIDTH * em) * em * 7 / 5 + em;
+}
+
+/* The close-up above the words, with what they leave, but within shares of the panel. */
+static void stack_panel(struct map_layout *layout, struct box panel)
+{
+    int32_t em = (int32_t)layout->letters;
+    int32_t height = panel.height - words_height(em, panel.width);
+    height = least(height, panel.height * CLOSE_UP_MOST / 100);
+    if (height < panel.height * CLOSE_UP_ENOUGH / 100)
+        height = panel.height * CLOSE_UP_ENOUGH / 100;
+    if (panel.width >= CLOSE_UP_LEAST * em && height >= CLOSE_UP_LEAST * em / 2) {
+        layout->close_up = (struct box){panel.left, panel.top, panel.width, height};
+        panel.top += height;
+        panel.height -= height;
+    }
+    stack_words(layout, panel);
+}
+
+void map_layout_map(struct map_layout *layout, uint32_t width, uint32_t height)
+{
+    int32_t w = (int32_t)width, h = (int32_t)height, side = least(w, h);
+    int32_t em = (int32_t)letters_of(width, height);
+    *layout = (struct map_layout){.letters = (uint32_t)em, .whole = {0, 0, side, side}};
+    if (w - side - RULE >= PANEL_LEAST * em) {
+        stack_panel(layout, (struct box){side + RULE, 0, w - side - RULE, h});
+    } else if (h - side - RULE >= PANEL_LEAST * em) {
+        struct box panel = {0, side + RULE, w, h - side - RULE};
+        if (w < SIDE_BY_SIDE * em) {
+            stack_panel(layout, panel);
+            return;
+        }
+        layout->close_up = (struct box){0, panel.top, w / 2, panel.height};
+        stack_words(layout, (struct box){w / 2, panel.top, w - w / 2, panel.height});
+    } else {
+        layout->whole.left = (w - side) / 2;
+        layout->whole.top = (h - side) / 2;
+    }
+}
+
+bool box_within(struct box box, struct box bounds)
+{
+    return box.left >= bounds.left && box.top >= bounds.top &&
+           box.left + box.width <= bounds.left + bounds.width &&
+           box.top + box.height <= bounds.top + bounds.height;
+}
+
+bool box_overlap(struct box a, struct box b)
+{
+    return a.left < b.left + b.width && b.left < a.left + a.width && a.top < b.top + b.height &&
+           b.top < a.top + a.height;
+}
+
+bool taken_free(const struct taken *taken, struct box box)
+{
+    if (!box_within(box, taken->bounds))
+        return false;
+    for (uint32_t i = 0; i < taken->count; i++)
+        if (box_overlap(taken->boxes[i], box))
+            return false;
+    return true;
+}
+
+bool taken_take(struct taken *taken, struct box box)
+{
+    if (taken->count == TAKEN_MAX || !taken_free(taken, box))
+        return false;
+    taken->boxes[taken->count++] = box;
+    return true;
+}

@@ -1,0 +1,28 @@
+/* The statistics bar in words (thesis row 13): what stands in each of its fields, and which of them
+ * are alarms. Pure. */
+#ifndef JOLON_RENDERER_CHART_STATISTICS_BAR_H
+#define JOLON_RENDERER_CHART_STATISTICS_BAR_H
+
+#include "renderer/scene/frame/statistics.h"
+
+#include <stdint.h>
+
+#define STATISTICS_BAR_MAX 12u
+#define GAUGE_RANK_SPARE   11u /* a field of this rank goes rather than cost another row */
+
+enum gauge_state { GAUGE_GOOD, GAUGE_PLAIN, GAUGE_WARNING, GAUGE_ALARM };
+
+struct gauge {
+    const char *name;
+    const char *widest; /* no value is wider, nearly: fields keep their places */
+    char value[32];
+    uint32_t state; /* enum gauge_state */
+    uint32_t rank;  /* where not all have room, the highest go first */
+};
+
+/* Fills the fields in the order in which they are read; fps: 0 when it is not known. Returns how
+ * many. */
+uint32_t statistics_bar_of(struct gauge gauges[STATISTICS_BAR_MAX],
+                           const struct statistics *statistics, double fps);
+
+#endif

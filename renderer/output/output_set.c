@@ -1,0 +1,271 @@
+/* The outlets of one renderer. */
+#include "renderer/output/output_set.h"
+
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#define STILLS_DEPTH  2u    /* of a view: half a second of stills at the usual rate */
+#define FILM_DEPTH    4u    /* an encoder's hiccup */
+#define NUMBERS_MAX   10000 /* of files with one name */
+#define STILL_SLACK_S 0.01  /* pictures come a little early or late */
+
+/* --- opening -----------------------------------------------------------------------------------*/
+
+/* "dir/film.mkv", "dir/film-2.mkv", ... */
+static int name_video(char path[OUTPUT_SET_PATH_BYTES], const char *wish, int number)
+{
+    const char *slash = strrchr(wish, '/'), *dot = strrchr(wish, '.');
+    if (dot == NULL || (slash != NULL && dot < slash))
+        dot = wish + strlen(wish);
+    int length = number == 1 ? snprintf(path, OUTPUT_SET_PATH_BYTES, "%s", wish)
+                             : snprintf(path, OUTPUT_SET_PATH_BYTES, "%.*s-%d%s", (int)(dot - wish),
+                                        wish, number, dot);
+    return length < OUTPUT_SET_PATH_BYTES ? 0 : -1;
+}
+
+static int make_video_file(struct output_set *outlets, struct reason *reason)
+{
+    const char *wish = outlets->wish.video;
+    int fd = -1;
+    errno = EEXIST;
+    for (int number = 1; fd < 0 && errno == EEXIST && number < NUMBERS_MAX; number++) {
+        if (name_video(outlets->video_path, wish, number) != 0)
+            return reason_set(reason, "--video %s: the path is too long", wish);
+        fd = open(outlets->video_path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    }
+    if (fd < 0)
+        return reason_set(reason, "--video %s: cannot make the file: %s", outlets->video_path,
+                          strerror(errno));
+    return outlets->video_fd = fd;
+}
+
+static int open_video(struct output_set *outlets, struct reason *reason)
+{
+    const struct output_set_wish *wish = &outlets->wish;
+    outlets->video =
+        video_open(wish->video, wish->video_fps, wish->replay ? VIDEO_REPLAY : VIDEO_LIVE, reason);
+    if (outlets->video == NULL)
+        return -1;
+    int fd = wish->replay ? wish->video_fd : make_video_file(outlets, reason);
+    if (fd < 0)
+        return -1;
+    video_write_to(outlets->video, fd);
+    if (wish->video_view != NULL)
+        snprintf(outlets->video_view, sizeof outlets->video_view, "%s", wish->video_view);
+    if (!wish->replay)
+        log_info("video of %s goes to %s (%s): a second of it is a second of simulation, of at "
+                 "most %.3g pictures",
+                 wish->video_view != NULL ? wish->video_view : "the first view",
+                 outlets->video_path, video_codec(outlets->video), wish->video_fps);
+    return 0;
+}
+
+/* Without a socket of its own the renderer draws all the same: it says so and goes on. */
+static int open_stream(struct output_set *outlets, struct reason *reason)
+{
+    const struct output_set_wish *wish = &outlets->wish;
+    struct reason socket_reason;
+    outlets->stream = stream_open(wish->world, &wish->painter, reason);
+    if (outlets->stream == NULL)
+        return -1;
+    if (wish->asked && stream_listen_here(outlets->stream, wish->role, &socket_reason) != 0)
+        log_warn("%s; nobody can ask for pictures there", socket_reason.text);
+    if (wish->stream_port < 0)
+        return 0;
+    if (stream_listen(outlets->stream, wish->stream_address, (uint16_t)wish->stream_port, reason) !=
+        0)
+        return -1;
+    log_info("stream: %s shows every view", stream_url(outlets->stream));
+    return 0;
+}
+
+int output_set_open(struct output_set *outlets, const struct output_set_wish *wish,
+                    struct reason *reason)
+{
+    *outlets = (struct output_set){.wish = *wish, .output.folder = -1, .video_fd = -1};
+    picture_pool_init(&outlets->pool);
+    picture_pool_init(&outlets->asked);
+    if (wish->folder != NULL && picture_folder_open(&outlets->output, wish->folder, reason) != 0)
+        return -1;
+    if ((wish->stream_port >= 0 || wish->asked) && open_stream(outlets, reason) != 0)
+        return -1;
+    return wish->video != NULL ? open_video(outlets, reason) : 0;
+}
+
+/* --- what the threads do -----------------------------------------------------------------------*/
+
+static int write_still(void *self, const struct picture *picture, struct reason *reason)
+{
+    struct output_set *outlets = self;
+    return picture_folder_picture(&outlets->output, picture->view, &picture->image, picture->frame,
+                                  picture->words, reason);
+}
+
+static int write_film(void *self, const struct picture *picture, struct reason *reason)
+{
+    struct output_set *outlets = self;
+    return video_put(outlets->video, picture, reason);
+}
+
+int output_set_start(struct output_set *outlets, struct reason *reason)
+{
+    const struct output_queue_work stills = {
+        .self = outlets, .take = write_still, .depth = STILLS_DEPTH};
+    const struct output_queue_work film = {
+        .self = outlets, .take = write_film, .depth = FILM_DEPTH, .patient = outlets->wish.replay};
+    if ((outlets->wish.folder != NULL && output_queue_start(&outlets->stills, &stills) != 0) ||
+        (outlets->video != NULL && output_queue_start(&outlets->film, &film) != 0))
+        return reason_set(reason, "cannot start a thread for pictures: %s", strerror(errno));
+    if (outlets->stream != NULL && stream_start(outlets->stream, reason) != 0)
+        return -1;
+    outlets->started = true;
+    return 0;
+}
+
+/* --- pictures ----------------------------------------------------------------------------------*/
+
+/* NULL: there are more views than rows; every picture of such a one is a still. */
+static struct output_set_row *row_of(struct output_set *outlets, const char *view)
+{
+    for (uint32_t i = 0; i < OUTPUT_SET_VIEWS_MAX; i++) {
+        struct output_set_row *row = &outlets->row[i];
+        if (row->view[0] == '\0')
+            snprintf(row->view, sizeof row->view, "%s", view);
+        if (strcmp(row->view, view) == 0)
+            return row;
+    }
+    return NULL;
+}
+
+static void put_still(struct output_set *outlets, struct picture *picture)
+{
+    struct output_set_row *row = row_of(outlets, picture->view);
+    double fps = outlets->wish.stills_fps;
+    uint64_t now_ns = clock_now_ns();
+    if (row != NULL) {
+        bool early = fps > 0.0 && row->still_ns != 0 &&
+                     (double)(now_ns - row->still_ns) / 1e9 < 1.0 / fps - STILL_SLACK_S;
+        picture_release(row->left);
+        row->left = early ? picture_hold(picture) : NULL;
+        if (early)
+            return;
+        row->still_ns = now_ns;
+    }
+    output_queue_put(&outlets->stills, picture);
+}
+
+/* 0, or -1 with the reason when there can be no more video. */
+static int put_film(struct output_set *outlets, struct picture *picture, struct reason *reason)
+{
+    if (outlets->video_view[0] == '\0')
+        snprintf(outlets->video_view, sizeof outlets->video_view, "%s", picture->view);
+    if (strcmp(outlets->video_view, picture->view) == 0)
+        output_queue_put(&outlets->film, picture);
+    return output_queue_failed(&outlets->film, reason) ? -1 : 0;
+}
+
+static int hand_out(struct output_set *outlets, struct picture *picture, struct reason *reason)
+{
+    if (outlets->stream != NULL)
+        stream_put(outlets->stream, picture);
+    if (outlets->video != NULL && !outlets->video_over && put_film(outlets, picture, reason) != 0) {
+        if (outlets->wish.replay)
+            return -1;
+        log_warn("%s: %s; no more of it", outlets->video_path, reason->text);
+        outlets->video_over = true;
+    }
+    if (outlets->wish.folder == NULL)
+        return 0;
+    put_still(outlets, picture);
+    return output_queue_failed(&outlets->stills, reason) ? -1 : 0;
+}
+
+int output_set_put(struct output_set *outlets, const char *view, struct image *image,
+                   uint64_t frame, double time_s, const char *words, struct reason *reason)
+{
+    struct picture *picture = picture_make(&outlets->pool, image, view, words);
+    if (picture == NULL) {
+        outlets->lost++;
+        return 0;
+    }
+    picture->frame = frame;
+    picture->time_s = time_s;
+    int result = hand_out(outlets, picture, reason);
+    picture_release(picture);
+    return result;
+}
+
+void output_set_grant(struct output_set *outlets, uint32_t row, uint64_t generation,
+                      struct image *image, uint64_t frame, double time_s)
+{
+    struct picture *picture = NULL;
+    if (image != NULL) {
+        picture = picture_make(&outlets->asked, image, "asked", "");
+        if (picture == NULL)
+            return; /* whoever waits asks again */
+        picture->frame = frame;
+        picture->time_s = time_s;
+    }
+    stream_grant(outlets->stream, row, generation, picture);
+    picture_release(picture);
+}
+
+/* --- the end -----------------------------------------------------------------------------------*/
+
+static int close_stills(struct output_set *outlets, struct reason *reason)
+{
+    for (uint32_t i = 0; i < OUTPUT_SET_VIEWS_MAX; i++) {
+        if (outlets->row[i].left != NULL)
+            output_queue_put(&outlets->stills, outlets->row[i].left);
+        picture_release(outlets->row[i].left);
+    }
+    int result = output_queue_end(&outlets->stills, reason);
+    unsigned long long dropped = outlets->stills.dropped + outlets->lost;
+    if (dropped > 0)
+        log_info("%llu pictures were drawn faster than they could be written", dropped);
+    return result;
+}
+
+static int close_video(struct output_set *outlets, struct reason *reason)
+{
+    int result = output_queue_end(&outlets->film, reason);
+    uint64_t pictures = video_pictures(outlets->video);
+    struct reason second;
+    if (video_close(outlets->video, result == 0 ? reason : &second) != 0)
+        result = -1;
+    outlets->video = NULL;
+    if (outlets->video_fd >= 0 && close(outlets->video_fd) != 0 && result == 0)
+        result = reason_set(reason, "video: cannot complete the file: %s", strerror(errno));
+    if (outlets->wish.replay)
+        return result;
+    if (result != 0 && !outlets->video_over)
+        log_warn("%s: %s", outlets->video_path, reason->text);
+    log_info("%s: %llu pictures%s; %llu came faster than they could be encoded",
+             outlets->video_path, (unsigned long long)pictures,
+             result == 0 ? "" : ", not completed", (unsigned long long)outlets->film.dropped);
+    return 0;
+}
+
+int output_set_close(struct output_set *outlets, struct reason *reason)
+{
+    int result = 0;
+    struct reason second;
+    if (!outlets->started)
+        return 0;
+    stream_close(outlets->stream);
+    if (outlets->wish.folder != NULL) {
+        result = close_stills(outlets, reason);
+        picture_folder_close(&outlets->output);
+    }
+    if (outlets->video != NULL && close_video(outlets, result == 0 ? reason : &second) != 0)
+        result = -1;
+    picture_pool_free(&outlets->pool);
+    picture_pool_free(&outlets->asked);
+    return result;
+}

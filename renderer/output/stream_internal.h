@@ -1,0 +1,141 @@
+/* What the parts of the stream share: stream.c has the views and the thread that encodes them,
+ * stream_listen.c where it listens, stream_http.c the clients, stream_requests.c the pictures and
+ * maps that clients ask for. One lock is over all of it, held for copies at most: no
+ * thread draws, encodes or sends under it. */
+#ifndef JOLON_RENDERER_OUTPUT_STREAM_INTERNAL_H
+#define JOLON_RENDERER_OUTPUT_STREAM_INTERNAL_H
+
+#include "ipc/http/server.h"
+#include "renderer/output/query.h"
+#include "renderer/output/stream.h"
+#include "renderer/output/picture_requests.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define STREAM_VIEWS_MAX 16u
+#define STREAM_WATCHERS  16u /* clients that watch at the same time */
+#define STREAM_DOORS     2u
+#define STREAM_MAPS      16u /* maps that are kept, or under way */
+
+/* An encoded picture, which nobody changes. */
+struct stream_jpeg {
+    _Atomic uint32_t holders;
+    uint8_t *bytes;
+    size_t count;
+    uint32_t width, height;
+    uint64_t frame;
+    double time_s;
+};
+
+struct stream_view {
+    char name[PICTURE_VIEW_BYTES];
+    struct picture *fresh;     /* the newest, when there is no JPEG of it yet; else NULL */
+    struct stream_jpeg *jpeg;  /* the newest there is; NULL before the first */
+    uint64_t number;           /* of what is shown: goes up with every JPEG */
+    uint64_t shown_ns;         /* CLOCK_MONOTONIC of that */
+    uint32_t watchers, askers; /* clients of the stream; those who wait for one picture now */
+    uint64_t drawn, encoded, skipped; /* pictures put; JPEGs made; those that clients passed over */
+};
+
+/* Where clients come in. */
+struct stream_door {
+    struct http_listener listener;
+    struct http_server *server;
+};
+
+/* A map that was asked for: its ground never changes, so it is kept until others take its place. */
+struct stream_map {
+    struct query_map key;
+    bool used;
+    bool wanted;       /* to be painted; the painting thread clears it */
+    uint64_t asked_ns; /* CLOCK_MONOTONIC when somebody last asked */
+    uint32_t holders;  /* requests that are not answered yet */
+    struct stream_view view;
+};
+
+/* A request, in its own room in the server (ipc/http/server.h). It may wait for a picture. */
+struct stream_client {
+    struct stream *stream; /* NULL: nothing was asked yet */
+    struct stream_view *view;
+    struct picture_requests *wanted; /* the row that the request holds; NULL: none */
+    struct stream_map *map;          /* likewise */
+    uint64_t until_ns;               /* waits no longer; 0: as long as it takes */
+    struct http_request *request;
+    struct stream_client *next; /* of those that wait */
+    bool asked;                 /* counted in the view's askers */
+    struct stream_jpeg *jpeg;   /* being sent */
+    char head[192];             /* before it */
+    size_t head_bytes, sent;
+    uint64_t number; /* of the last that was sent */
+};
+
+struct stream {
+    char world[32], url[96];
+    struct stream_door door[STREAM_DOORS];
+    uint32_t doors;
+    struct stream_painter painter; /* paint is NULL: there are no maps */
+    bool started;
+    pthread_t encoding, painting;
+    pthread_mutex_t lock; /* of all below */
+    pthread_cond_t come;  /* the encoding thread has something to do, ... */
+    pthread_cond_t asked; /* ... the drawing thread, ... */
+    pthread_cond_t paint; /* ... the painting thread */
+    bool ending;
+    uint64_t numbers;         /* of pictures that were asked for: no two have the same */
+    uint64_t asks, asks_seen; /* requests that wait for a picture; ... by the drawing thread */
+    struct picture_requests_table wanted;
+    struct stream_view wanted_view[PICTURE_REQUESTS_MAX]; /* of those rows */
+    bool
+        again[PICTURE_REQUESTS_MAX]; /* somebody waits for a picture even if it would be the same */
+    struct stream_map map[STREAM_MAPS];
+    struct stream_view view[STREAM_VIEWS_MAX];
+    uint32_t views;
+    struct stream_client *watcher[STREAM_WATCHERS]; /* NULL: the place is free */
+    struct stream_client *waiting;
+};
+
+/* Starts and ends the server of every door. 0, or -1 with the reason. The second wants `ending`
+ * set, so that nobody waits again. */
+int stream_http_start(struct stream *stream, struct reason *reason);
+void stream_http_end(struct stream *stream);
+
+/* Replies: a line of plain text; a picture, which they hold. */
+void stream_refuse(struct http_reply *reply, unsigned status, const char *text);
+void stream_reply_jpeg(struct http_reply *reply, struct stream_jpeg *jpeg);
+
+/* --- under the lock ----------------------------------------------------------------------------
+ */
+
+/* Gives up connections that are out of time. */
+void stream_http_sweep(struct stream *stream);
+
+/* Lets go on who waits for this view, NULL: for any. */
+void stream_http_wake(struct stream *stream, const struct stream_view *view);
+
+/* Lets go on who has waited long enough; when the next will have [ns], UINT64_MAX for none. */
+uint64_t stream_http_expire(struct stream *stream, uint64_t now_ns);
+
+/* Keeps a request waiting for its view's next picture. False: there is no reply yet. */
+bool stream_wait_here(struct stream_client *client);
+
+struct stream_view *stream_find(struct stream *stream, const char *name, size_t length);
+/* Also without the lock; the second: NULL is nothing, else a struct stream_jpeg. */
+struct stream_jpeg *stream_hold(struct stream_jpeg *jpeg);
+void stream_release(void *jpeg);
+/* NULL when there is no memory. Without the lock. */
+struct stream_jpeg *stream_encode(const struct image *image, uint64_t frame, double time_s);
+
+/* Answers to "/picture.jpg?..." and "/map.jpg?...", false: it waits; and what of them a request
+ * still holds at its end. */
+bool stream_requests_picture(struct stream_client *client, struct http_reply *reply);
+bool stream_requests_map(struct stream_client *client, struct http_reply *reply);
+void stream_requests_end(struct stream_client *client);
+
+/* The thread that paints maps; argument: the stream. */
+void *stream_paint(void *argument);
+
+#endif

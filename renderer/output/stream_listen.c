@@ -1,0 +1,58 @@
+/* Where the stream listens. */
+#include "renderer/output/stream_internal.h"
+
+#include "ipc/process/log.h"
+#include "ipc/segment/picture_socket.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#define BACKLOG    64
+#define SEND_BYTES (256 * 1024) /* of a client's socket: more only makes what it sees older */
+
+static void add_door(struct stream *stream, const struct http_listener *listener)
+{
+    CHECK(stream->doors < STREAM_DOORS);
+    stream->door[stream->doors++] = (struct stream_door){.listener = *listener};
+}
+
+int stream_listen(struct stream *stream, const char *address, uint16_t port, struct reason *reason)
+{
+    struct http_listener listener;
+    const struct http_listen_options options = {.address_option = "--stream-address",
+                                                .port_option = "--stream",
+                                                .address = address,
+                                                .port = port,
+                                                .send_bytes = SEND_BYTES};
+    if (http_listen(&listener, &options, reason) != 0)
+        return -1;
+    snprintf(stream->url, sizeof stream->url, "%s", listener.url);
+    if (!listener.local)
+        log_warn("the stream is open to whoever reaches %s: it has no password", address);
+    add_door(stream, &listener);
+    return 0;
+}
+
+/* The renderer holds its role: a socket of that name is a dead renderer's. */
+int stream_listen_here(struct stream *stream, enum role role, struct reason *reason)
+{
+    const int bytes = SEND_BYTES;
+    char suffix[LOCAL_SOCKET_SUFFIX_MAX];
+    picture_socket_suffix(suffix, role);
+    int fd =
+        local_socket_listen(stream->world, suffix, SOCK_STREAM | SOCK_NONBLOCK, BACKLOG, reason);
+    if (fd < 0)
+        return -1;
+    const struct http_listener listener = {.fd = fd, .local = true, .ours = true};
+    if (setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes) != 0) {
+        reason_set(reason, "%s: cannot set the size of the socket's buffer: %s", suffix,
+                   strerror(errno));
+        close(fd);
+        return -1;
+    }
+    add_door(stream, &listener);
+    return 0;
+}

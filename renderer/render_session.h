@@ -1,0 +1,115 @@
+/* The studio: everything one renderer keeps from picture to picture, and the steps of making them.
+ */
+#ifndef JOLON_RENDERER_RENDER_SESSION_H
+#define JOLON_RENDERER_RENDER_SESSION_H
+
+#include "ipc/frame/snapshot.h"
+#include "renderer/requested_pictures.h"
+#include "renderer/chart/annotated_picture.h"
+#include "renderer/scene/back_end_interface.h"
+#include "renderer/quality_control.h"
+#include "renderer/options.h"
+#include "renderer/output/output_set.h"
+#include "renderer/heartbeat.h"
+#include "renderer/scene/frame/frame_interpolation.h"
+#include "renderer/scene/frame/effects.h"
+#include "renderer/scene/camera/follow.h"
+#include "renderer/view_picture.h"
+#include "renderer/views.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define RENDER_SESSION_SMOOTH_FPS                                                                  \
+    20.0                            /* from this rate on, pictures show what is between frames     \
+                                     */
+#define RENDER_SESSION_PAINTINGS 4u /* tiles of ground that one of these paints, 1 ms each */
+
+struct render_session {
+    struct view *view;
+    struct heartbeat *pulse;
+    struct output_set *outlets;  /* NULL: a picture goes where options.snap says */
+    struct options options;      /* with the world's own where none were given */
+    struct snapshot snapshot[2]; /* the last two frames seen ... */
+    uint32_t latest;             /* ... and which of them is the later */
+    uint32_t whole;              /* of them there are: 0, 1, 2 */
+    bool smooth;                 /* draws between them, ... */
+    double at_s;                 /* ... at this time of simulation; below 0: by the clock */
+    struct frame_interpolation blend;
+    struct frame_interpolation_clock clock;
+    struct crater_index craters;
+    struct dent_index dents;
+    struct event_cursor events;
+    struct effects effects;
+    struct tracks tracks;
+    struct articulation gear;
+    struct follow follow;
+    struct view_picture shots[VIEWS_MAX];
+    uint32_t shot_count;
+    struct static_scene scenery;
+    struct scene scene;
+    struct annotated_picture chart;
+    struct back_end_interface draw; /* self is NULL when only maps are wanted */
+    struct image image;
+    struct image small; /* what is drawn smaller and then stretched; the memory of a whole one */
+    struct quality_control governor;
+    uint64_t seen;        /* frame of the latest snapshot */
+    uint64_t drawn;       /* frame of the last pictures, UINT64_MAX for none, ... */
+    double drawn_ahead_s; /* ... and how much later they were */
+    bool drawn_whole;     /* ... and with everything */
+    uint64_t drawn_ns;    /* CLOCK_MONOTONIC when they were begun */
+    double rate;          /* pictures a second, measured; 0: not yet */
+    struct requested_pictures booth;
+    uint64_t complained_ns;
+};
+
+/* outlets: NULL to draw into options->snap. 0, or -1 with the reason: no memory, nothing to draw
+ * with, no font. */
+int render_session_open(struct render_session *studio, struct view *view, struct heartbeat *pulse,
+                        struct output_set *outlets, const struct options *options,
+                        struct reason *reason);
+void render_session_close(struct render_session *studio);
+
+/* When the next pictures are due (CLOCK_MONOTONIC); UINT64_MAX when only those at the end are. */
+uint64_t render_session_due_ns(const struct render_session *studio);
+
+/* Looks at the world: takes a snapshot and the events since the last. 0; -1 with the reason when
+ * the world is damaged or memory is out. A world that goes on too fast to be copied leaves what
+ * was seen before, and says so at most every 10 s. */
+int render_session_look(struct render_session *studio, struct reason *reason);
+
+/* Is every vehicle that was asked for by number in the frame seen last? 0, or -1 with the reason.
+ */
+int render_session_check_vehicles(const struct render_session *studio, struct reason *reason);
+
+/* The frame of one of the snapshots; it lives as long as that holds it. */
+struct frame_view render_session_moment(const struct render_session *studio, uint32_t which);
+
+/* Draws what was seen last and writes it out, every view, unless it was drawn before. last: exactly
+ * the last frame seen, at full quality, whatever the rate. 0, or -1 with the reason. */
+int render_session_draw(struct render_session *studio, bool last, struct reason *reason);
+
+/* --- for the booth ------------------------------------------------------------------------------
+ */
+
+/* Where a camera's picture goes, and what is laid over it. */
+struct render_session_sheet {
+    struct image *image;
+    struct annotated_picture *chart; /* instruments of the image's size; NULL: none */
+    double rate;                     /* pictures a second, for them */
+};
+
+/* What is shown: the last frame, or at a high rate the state between it and the one before. It
+ * lives until the next call. */
+struct frame_view render_session_present(struct render_session *studio, bool last);
+
+/* The slot of a vehicle, SLOT_NONE when there is none; of 0: of the one that is followed. */
+uint32_t render_session_find(struct render_session *studio, const struct frame_view *moment,
+                             uint32_t vehicle);
+
+/* Draws what a shot's camera sees. 0, or -1 with the reason. */
+int render_session_shoot(struct render_session *studio, struct view_picture *shot,
+                         const struct frame_view *moment, const struct quality_control_level *level,
+                         const struct render_session_sheet *sheet, struct reason *reason);
+
+#endif

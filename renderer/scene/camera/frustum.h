@@ -1,0 +1,57 @@
+/* What the camera can see, made ready for asking often: a ball relative to the eye, in float,
+ * without a root or a division. Pure. */
+#ifndef JOLON_RENDERER_SCENE_CAMERA_FRUSTUM_H
+#define JOLON_RENDERER_SCENE_CAMERA_FRUSTUM_H
+
+#include "renderer/scene/camera/camera.h"
+
+#include <stdbool.h>
+
+struct frustum {
+    float forward[3], right[3], up[3]; /* unit, world */
+    float tan_x, tan_y;                /* of half the fields of view */
+    float cos_x, cos_y;
+    float far_m;
+    float near_m;
+    float focal_pixels; /* a metre at a metre's distance */
+};
+
+static inline struct frustum frustum_of(const struct camera *camera)
+{
+    struct frustum sight = {
+        .tan_x = (float)camera->tan_x,
+        .tan_y = (float)camera->tan_y,
+        .cos_x = (float)(1.0 / sqrt(1.0 + camera->tan_x * camera->tan_x)),
+        .cos_y = (float)(1.0 / sqrt(1.0 + camera->tan_y * camera->tan_y)),
+        .far_m = (float)camera->far_m,
+        .near_m = (float)camera->near_m,
+        .focal_pixels = (float)camera->focal_pixels,
+    };
+    vec3_to_floats(sight.forward, camera->forward);
+    vec3_to_floats(sight.right, camera->right);
+    vec3_to_floats(sight.up, camera->up);
+    return sight;
+}
+
+static inline float frustum_dot(const float a[3], const float b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Can any of this ball be in the picture? at: relative to the eye. Never false for one that is. */
+static inline bool frustum_ball(const struct frustum *sight, const float at[3], float radius_m)
+{
+    float depth = frustum_dot(at, sight->forward), far = sight->far_m + radius_m;
+    float x = fabsf(frustum_dot(at, sight->right)), y = fabsf(frustum_dot(at, sight->up));
+    return depth >= -radius_m && depth <= far &&
+           (x - depth * sight->tan_x) * sight->cos_x <= radius_m &&
+           (y - depth * sight->tan_y) * sight->cos_y <= radius_m;
+}
+
+/* How large a length shows at a distance [pixel]. */
+static inline float frustum_pixels(const struct frustum *sight, float length_m, float distance_m)
+{
+    return length_m * sight->focal_pixels / fmaxf(distance_m, sight->near_m);
+}
+
+#endif

@@ -1,0 +1,243 @@
+/* The views' cameras. */
+#include "renderer/scene/camera/view_camera.h"
+
+#include "renderer/scene/camera/crew_eye.h"
+#include "renderer/scene/frame/articulation.h"
+#include "renderer/scene/frame/body_axes.h"
+#include "world/terrain/gridsquare.h"
+
+#define TANK_RADIUS_M 3.0 /* the body that the lengths below are for */
+#define SCALE_LEAST   0.75
+#define SCALE_MOST    12.0
+
+#define CHASE_BACK_M   25.0
+#define CHASE_UP_M     9.0
+#define CHASE_BEYOND_M 23.0 /* it looks at a point so far ahead of the subject */
+#define CHASE_ASIDE_RAD                                                                            \
+    0.24                      /* a little from the side: a body seen straight from behind is flat  \
+                               */
+#define CHASE_PITCH_SHARE 0.5 /* of the subject's pitch that the camera takes part in */
+#define EASE_TURN_S       0.5 /* a camera has made up two thirds of a turn after this */
+#define EASE_LIFT_S       0.4
+
+#define ORBIT_AWAY_M   22.0
+#define ORBIT_UP_M     8.0
+#define OVERHEAD_UP_M  90.0
+#define STAND_AHEAD_M  38.0 /* of the free camera that nobody placed */
+#define STAND_ASIDE_M  16.0
+#define STAND_UP_M     6.0
+#define INSIDE_NEAR_M  0.3
+#define INSIDE_LEAST_M 0.5 /* above the ground: of who sits low, or has turned over */
+
+#define SIGHT_SAMPLES     12
+#define SIGHT_CLEARANCE_M 1.0
+#define LATE_S            1.5  /* without a picture for so long, or ... */
+#define JUMP_M            25.0 /* ... a vehicle that is so far from where it went: begun anew */
+#define OVERLOOK_M        60.0 /* above the middle of the world, when there is no vehicle */
+
+struct subject {
+    struct vec3 position;
+    double heading_rad, pitch_rad;
+    double scale; /* its size over a tank's */
+};
+
+static struct subject subject_of(const struct frame_view *moment, uint32_t slot)
+{
+    const struct entities *e = moment->entities;
+    double middle = 0.5 * WORLD_SIDE_M;
+    if (slot == SLOT_NONE) {
+        double ground = terrain_height(&moment->world->terrain, NULL, middle, middle);
+        return (struct subject){.position = {middle, ground, middle},
+                                .scale = OVERLOOK_M / CHASE_UP_M};
+    }
+    double radius = moment->world->kinds[e->kind[slot]].radius_m;
+    return (struct subject){
+        .position = entities_position(e, slot),
+        .heading_rad = e->heading[slot],
+        .pitch_rad = e->pitch[slot],
+        .scale = maths_clamp(radius / TANK_RADIUS_M, SCALE_LEAST, SCALE_MOST),
+    };
+}
+
+/* The share of a difference that is left after a time, close to exp(-t / ease). */
+static double left_after(double t_s, double ease_s)
+{
+    double x = t_s / ease_s;
+    return 1.0 / (1.0 + x * (1.0 + x * (0.5 + x / 6.0)));
+}
+
+/* Time since the last picture [s of simulation]; INFINITY for a camera that begins anew. */
+static double since_last(const struct view_camera *aim, const struct frame_view *moment,
+                         uint32_t slot, const struct subject *subject)
+{
+    const struct entities *e = moment->entities;
+    double passed = frame_view_time_s(moment) - aim->time_s;
+    if (slot == SLOT_NONE || aim->id != e->id[slot] || passed < 0.0 || passed > LATE_S)
+        return INFINITY;
+    struct vec3 gone = vec3_scale(entities_velocity(e, slot), passed);
+    struct vec3 off = vec3_sub(subject->position, vec3_add(aim->position, gone));
+    return vec3_length(off) < JUMP_M + vec3_length(gone) ? passed : INFINITY;
+}
+
+static void remember(struct view_camera *aim, const struct frame_view *moment, uint32_t slot,
+                     const struct subject *subject)
+{
+    aim->id = slot == SLOT_NONE ? 0 : moment->entities->id[slot];
+    aim->time_s = frame_view_time_s(moment);
+    aim->position = subject->position;
+}
+
+static double floor_at(const struct frame_view *moment, struct vec3 at, double clearance_m)
+{
+    return terrain_height(&moment->world->terrain, moment->craters, at.x, at.z) + clearance_m;
+}
+
+/* How much higher the eye must be to see the subject over the ground between them. */
+static double lift_over(const struct frame_view *moment, struct vec3 eye, struct vec3 subject)
+{
+    double before = eye.y;
+    eye.y = maths_max(eye.y, floor_at(moment, eye, VIEW_CAMERA_CLEARANCE_M));
+    for (int32_t i = 1; i < SIGHT_SAMPLES; i++) {
+        double t = (double)i / SIGHT_SAMPLES; /* 0 at the eye, 1 at the subject */
+        struct vec3 on = vec3_lerp(eye, subject, t);
+        double ground = floor_at(moment, on, SIGHT_CLEARANCE_M * (1.0 - t));
+        if (on.y < ground)
+            eye.y += (ground - on.y) / (1.0 - t);
+    }
+    return eye.y - before;
+}
+
+/* Lifts the eye softly, save where it would be under the ground. */
+static void lift(struct view_camera *aim, const struct frame_view *moment,
+                 const struct subject *subject, double passed_s, struct vec3 *eye)
+{
+    double wanted = lift_over(moment, *eye, subject->position);
+    aim->lift_m = wanted + (aim->lift_m - wanted) * left_after(passed_s, EASE_LIFT_S);
+    eye->y = maths_max(eye->y + aim->lift_m, floor_at(moment, *eye, VIEW_CAMERA_CLEARANCE_M));
+}
+
+/* --- views ------------------------------------------------------------------------------------ */
+
+static void chase(struct view_camera *aim, const struct frame_view *moment,
+                  const struct subject *subject, double passed_s, struct vec3 *eye,
+                  struct vec3 *target)
+{
+    double left = left_after(passed_s, EASE_TURN_S), scale = subject->scale;
+    double tilt = CHASE_PITCH_SHARE * subject->pitch_rad;
+    aim->tilt_rad = tilt + (aim->tilt_rad - tilt) * left;
+    aim->heading_rad =
+        subject->heading_rad + maths_wrap_half(aim->heading_rad - subject->heading_rad) * left;
+    double sine, cosine, rise = maths_sin(aim->tilt_rad);
+    struct vec3 p = subject->position;
+    maths_sincos(aim->heading_rad + CHASE_ASIDE_RAD, &sine, &cosine);
+    *eye = (struct vec3){p.x - sine * CHASE_BACK_M * scale,
+                         p.y + (CHASE_UP_M - CHASE_BACK_M * rise) * scale,
+                         p.z + cosine * CHASE_BACK_M * scale};
+    maths_sincos(aim->heading_rad, &sine, &cosine);
+    *target = (struct vec3){p.x + sine * CHASE_BEYOND_M * scale,
+                            p.y + (1.0 + CHASE_BEYOND_M * rise) * scale,
+                            p.z - cosine * CHASE_BEYOND_M * scale};
+    lift(aim, moment, subject, passed_s, eye);
+    /* From high above it looks at the subject itself, which would leave the picture else. */
+    double high = maths_max(aim->lift_m, 0.0);
+    *target = vec3_lerp(*target, p, high / (high + CHASE_UP_M * scale));
+}
+
+static void orbit(struct view_camera *aim, const struct frame_view *moment,
+                  const struct subject *subject, double passed_s, struct vec3 *eye,
+                  struct vec3 *target)
+{
+    double sine, cosine, scale = subject->scale,
+                         turns = frame_view_time_s(moment) / VIEW_CAMERA_ORBIT_S;
+    struct vec3 p = subject->position;
+    maths_sincos(TWO_PI * (turns - floor(turns)), &sine, &cosine);
+    *eye = (struct vec3){p.x + sine * ORBIT_AWAY_M * scale, p.y + ORBIT_UP_M * scale,
+                         p.z - cosine * ORBIT_AWAY_M * scale};
+    *target = (struct vec3){p.x, p.y + scale, p.z};
+    lift(aim, moment, subject, passed_s, eye);
+}
+
+/* By the road, ahead of the vehicle, which will come past. */
+static void stand_beside(struct view_camera *aim, const struct frame_view *moment,
+                         const struct subject *subject)
+{
+    double sine, cosine, scale = subject->scale;
+    struct vec3 p = subject->position;
+    maths_sincos(subject->heading_rad, &sine, &cosine);
+    double along = STAND_AHEAD_M * scale, aside = STAND_ASIDE_M * scale;
+    aim->eye = (struct vec3){p.x + sine * along + cosine * aside, p.y + STAND_UP_M * scale,
+                             p.z - cosine * along + sine * aside};
+    aim->eye.y += lift_over(moment, aim->eye, p);
+    aim->target = (struct vec3){p.x, p.y + scale, p.z};
+}
+
+static void free_camera(struct view_camera *aim, const struct view_camera_wish *wish,
+                        const struct frame_view *moment, const struct subject *subject,
+                        const struct camera_lens *lens, struct camera *camera)
+{
+    const struct view_camera_stand *stand = &wish->stand;
+    if (!stand->given) {
+        if (!aim->stands)
+            stand_beside(aim, moment, subject);
+        aim->stands = true;
+        /* A crater may have come. */
+        struct vec3 eye = aim->eye;
+        eye.y = maths_max(eye.y, floor_at(moment, eye, VIEW_CAMERA_EYE_M));
+        camera_look_through(camera, eye, aim->target, lens);
+        return;
+    }
+    struct vec3 eye = {stand->x, 0.0, stand->z};
+    eye.y = floor_at(moment, eye, maths_max(stand->above_m, VIEW_CAMERA_EYE_M));
+    struct body_axes pose = body_axes_of(stand->heading_rad, stand->pitch_rad, 0.0);
+    camera_turn(camera, eye, pose.forward, pose.up, lens);
+}
+
+static void inside(const struct frame_view *moment, uint32_t slot, const struct camera_lens *lens,
+                   struct camera *camera)
+{
+    const struct entities *e = moment->entities;
+    struct crew_eye_seat seat = crew_eye_seat(moment->world, &moment->world->kinds[e->kind[slot]]);
+    struct vec3 at = seat.eye;
+    struct body_axes pose = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
+    struct vec3 eye = vec3_add(entities_position(e, slot), vec3_scale(pose.forward, at.x));
+    eye = vec3_add(eye, vec3_add(vec3_scale(pose.up, at.y), vec3_scale(pose.right, at.z)));
+    eye.y = maths_max(eye.y, floor_at(moment, eye, INSIDE_LEAST_M));
+    double sine, cosine;
+    double turned =
+        seat.turns ? (double)articulation_of(moment->gear, moment, slot).turret_rad : 0.0;
+    maths_sincos(turned, &sine, &cosine);
+    struct vec3 ahead = vec3_add(vec3_scale(pose.forward, cosine), vec3_scale(pose.right, sine));
+    ahead = vec3_sub(ahead, vec3_scale(pose.up, seat.down));
+    camera_turn(camera, eye, ahead, pose.up, lens);
+}
+
+void view_camera_camera(struct view_camera *aim, const struct view_camera_wish *wish,
+                        const struct frame_view *moment, uint32_t slot, struct camera *camera)
+{
+    struct camera_lens lens = {wish->field_rad, CAMERA_NEAR_M, wish->width, wish->height};
+    struct subject subject = subject_of(moment, slot);
+    double passed_s = since_last(aim, moment, slot, &subject);
+    struct vec3 eye, target;
+    remember(aim, moment, slot, &subject);
+    switch (slot == SLOT_NONE && wish->view != VIEW_FREE ? VIEW_CHASE : wish->view) {
+    case VIEW_INSIDE:
+        lens.near_m = INSIDE_NEAR_M;
+        inside(moment, slot, &lens, camera);
+        return;
+    case VIEW_FREE:
+        free_camera(aim, wish, moment, &subject, &lens, camera);
+        return;
+    case VIEW_OVERHEAD:
+        target = subject.position;
+        eye = (struct vec3){target.x, target.y + OVERHEAD_UP_M * subject.scale, target.z};
+        eye.y = maths_max(eye.y, floor_at(moment, eye, VIEW_CAMERA_CLEARANCE_M));
+        break;
+    case VIEW_ORBIT:
+        orbit(aim, moment, &subject, passed_s, &eye, &target);
+        break;
+    default:
+        chase(aim, moment, &subject, passed_s, &eye, &target);
+        break;
+    }
+    camera_look_through(camera, eye, target, &lens);
+}

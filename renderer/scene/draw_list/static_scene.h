@@ -1,0 +1,53 @@
+/* What the renderer works out once about a world that stands still: where its fixed objects are by
+ * gridsquare, what each looks like, and the ground's quadtree. Pure. */
+#ifndef JOLON_RENDERER_SCENE_DRAW_LIST_STATIC_SCENE_H
+#define JOLON_RENDERER_SCENE_DRAW_LIST_STATIC_SCENE_H
+
+#include "renderer/scene/model/plant_impostors.h"
+#include "renderer/scene/terrain/terrain_quadtree.h"
+#include "renderer/scene/model/mesh.h"
+#include "world/terrain/gridsquare.h"
+#include "world/world.h"
+
+#include <stdint.h>
+
+/* How a fixed object is drawn. */
+#define LOOK_MODEL 255u /* by its kind's polygons; anything less is an enum plant_impostors */
+
+#define STATIC_SCENE_BLOCK 8u /* gridsquares a side of a block, by which plants are culled */
+#define STATIC_SCENE_BLOCKS                                                                        \
+    ((GRIDSQUARE_PER_SIDE + STATIC_SCENE_BLOCK - 1u) / STATIC_SCENE_BLOCK) /* a side */
+#define STATIC_SCENE_LONELY 4u /* so few plants of a gridsquare are never thinned out */
+
+/* What never changes about a fixed object that is a plant. */
+struct static_scene_plant {
+    float width, height, sink; /* [m] sink: how deep its foot is in the ground */
+    float slope[2], tint[3];   /* see struct scene_plant */
+    float rank;                /* 0..1: while less than this share of a wood is shown, it is not */
+    float lone;                /* share of its wood that is never thinned out */
+};
+
+/* Lowest foot and highest top of the plants of a block; low above high: it has none. */
+struct static_scene_block {
+    float low, high;
+};
+
+struct static_scene {
+    const struct world *world;
+    struct terrain_quadtree ground;
+    uint32_t *square_start; /* [GRIDSQUARE_COUNT + 1] into world->fixed; owned */
+    uint8_t *look;          /* [world->counts.fixed] enum plant_impostors or LOOK_MODEL; owned */
+    struct static_scene_plant *plants; /* [world->counts.fixed]; owned */
+    struct static_scene_block
+        *blocks;               /* [STATIC_SCENE_BLOCKS * STATIC_SCENE_BLOCKS] row by row; owned */
+    struct mesh_frame *frames; /* [world->counts.models]; owned */
+};
+
+/* 0, or -1 with errno ENOMEM. The world must outlive it. */
+int static_scene_init(struct static_scene *scenery, const struct world *world);
+void static_scene_free(struct static_scene *scenery);
+
+/* Of the ground without craters: rise a metre to the east, to the south. */
+void static_scene_slope(const struct terrain *terrain, double x, double z, float slope[2]);
+
+#endif

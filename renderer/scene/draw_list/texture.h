@@ -1,0 +1,22 @@
+/* Pictures computed once: fine ground, clouds, smoke and flames. Pure. */
+#ifndef JOLON_RENDERER_SCENE_DRAW_LIST_TEXTURE_H
+#define JOLON_RENDERER_SCENE_DRAW_LIST_TEXTURE_H
+
+#include "renderer/scene/scene.h"
+
+#include <stdint.h>
+
+#define TEXTURE_DETAIL_SIDE 512u
+#define TEXTURE_CLOUD_SIDE  256u
+#define TEXTURE_PUFF_SIDE   128u
+
+/* Two channels that repeat without a seam, both 128 on average: grass, and scrub from above. */
+void texture_detail(uint8_t (*texels)[2]);
+
+/* One channel that repeats without a seam: how much cloud there is. */
+void texture_clouds(uint8_t *texels);
+
+/* Red: how much of it there is; green: how bright it is there, 128 for plain. */
+void texture_puff(uint8_t (*texels)[2], enum puff_picture picture);
+
+#endif

@@ -1,0 +1,144 @@
+/* Fixed objects made of polygons, whole and damaged (thesis rows 27, 32 and 33): poles lean and
+ * break, towers lean and fall over, buildings and rocks fall in until they are a heap, trees lie.
+ */
+#include "renderer/scene/scene.h"
+
+#include "renderer/scene/noise/value_noise.h"
+#include "world/terrain/gridsquare.h"
+
+#include <string.h>
+
+#define FIXED_RANGE_M   9000.0
+#define FELLED_AWAY_M   0.6   /* from the stump to the end of the trunk */
+#define FELLED_LIFT_M   0.5   /* above the ground: branches hold it up */
+#define POLE_BREAKS     0.24  /* of its height */
+#define LEGS_GIVE       0.22  /* of a tower's height: there they buckle */
+#define FALLS_IN_SLIGHT 0.35f /* see falls of struct scene_body; -1 to 1 from end to end */
+#define FALLS_IN_HALF   0.90f
+#define FALLS_IN_WHOLE  3.0f
+
+/* What no force paints is painted by whoever lives in it. */
+#define WASHES 4u
+static const float washes[WASHES][3] = {
+    {0.80f, 0.74f, 0.62f}, {0.93f, 0.91f, 0.86f}, {0.74f, 0.55f, 0.40f}, {0.70f, 0.66f, 0.50f}};
+
+/* What leans or falls does so to where its heading points. */
+static double lean_of(enum object_class object_class, enum damage damage)
+{
+    static const double pole_deg[] = {0.0, 3.0, 15.0};
+    if (object_class != OBJECT_POLE || damage >= DAMAGE_HIGH) /* it has fallen */
+        return 0.0;
+    return pole_deg[damage] * RAD_PER_DEG;
+}
+
+/* One end of it falls in first: which, its grain says. frame: of its model. */
+static void fall_in(struct scene_body *body, enum damage damage, const struct mesh_frame *frame)
+{
+    static const float more[] = {0.0f, FALLS_IN_SLIGHT, FALLS_IN_HALF, FALLS_IN_WHOLE};
+    double turn = (double)body->grain * (TWO_PI / 64.0), along, across;
+    maths_sincos(turn, &across, &along);
+    double reach = fabs(along) * 0.5 * (double)(frame->high[0] - frame->low[0]) +
+                   fabs(across) * 0.5 * (double)(frame->high[2] - frame->low[2]);
+    body->falls[0] = (float)(along / reach);
+    body->falls[1] = (float)(across / reach);
+    body->falls[2] = more[damage];
+}
+
+static void show_damage(struct scene_body *body, const struct kind *kind, enum damage damage,
+                        const struct mesh_frame *frame)
+{
+    static const float tower_rad[] = {0.0f, 0.04f, 0.16f, (float)HALF_PI};
+    bool down = damage == DAMAGE_HIGH;
+    body->burn = 0.1f * (float)damage;
+    switch ((enum object_class)kind->object_class) {
+    case OBJECT_POLE: /* what is above the break hangs down until its top lies on the ground */
+        if (down) {
+            double broken_m = POLE_BREAKS * kind->height_m, rest_m = kind->height_m - broken_m;
+            body->broken[1] = (float)broken_m;
+            body->broken[2] = (float)(HALF_PI + maths_atan2(broken_m, rest_m));
+        }
+        break;
+    case OBJECT_WATERTOWER: /* its legs give, and at last it goes over the edge of its feet */
+        body->broken[0] = down ? frame->high[0] : 0.0f;
+        body->broken[1] = down ? 0.0f : (float)(LEGS_GIVE * kind->height_m);
+        body->broken[2] = tower_rad[damage];
+        break;
+    default:
+        fall_in(body, damage, frame);
+        break;
+    }
+}
+
+static void add_fixed(struct scene *scene, const struct static_scene *scenery,
+                      const struct frame_view *moment, uint32_t index)
+{
+    const struct fixed_object *object = &moment->world->fixed[index];
+    const struct kind *kind = &moment->world->kinds[object->kind];
+    uint8_t damage = moment->fixed_damage[index] < DAMAGE_HIGH ? moment->fixed_damage[index]
+                                                               : (uint8_t)DAMAGE_HIGH;
+    struct vec3 position = fixed_position(object);
+    double size = maths_max((double)object->radius_m, (double)object->height_m);
+    double distance = vec3_length(vec3_sub(position, scene->camera.eye));
+    double pixels = camera_pixels(&scene->camera, 2.0 * size, distance);
+    if (pixels < BODY_LEAST_PIXELS || kind->model >= moment->world->counts.models ||
+        !camera_sees(&scene->camera, position, 3.0 * size))
+        return;
+    struct scene_body *body =
+        scene_body_add(scene, kind->model, scene_detail(pixels, damage != DAMAGE_NONE));
+    if (body == NULL)
+        return;
+    double lean = lean_of((enum object_class)kind->object_class, (enum damage)damage);
+    struct body_axes pose = body_axes_of(fixed_heading(object), -lean, 0.0);
+    scene_body_place(scene, body, position, &pose, fixed_scale(object, kind));
+    memcpy(body->tint, washes[value_noise_hash((int32_t)index, 6, 9) % WASHES], sizeof body->tint);
+    body->grain = (float)(value_noise_hash((int32_t)index, 4, 9) % 64u);
+    if (damage != DAMAGE_NONE)
+        show_damage(body, kind, (enum damage)damage, &scenery->frames[kind->model]);
+    scene_body_shadow(scene, moment, position, pixels);
+}
+
+/* A tree that was felled lies beside its stump, on the slope, whichever way its grain says. */
+static void add_felled(struct scene *scene, const struct frame_view *moment, uint32_t index)
+{
+    const struct fixed_object *object = &moment->world->fixed[index];
+    const struct kind *kind = &moment->world->kinds[object->kind];
+    const struct terrain *terrain = &moment->world->terrain;
+    struct vec3 foot = fixed_position(object);
+    double high_m = (double)object->height_m;
+    double distance = vec3_length(vec3_sub(foot, scene->camera.eye));
+    double pixels = camera_pixels(&scene->camera, high_m, distance);
+    if (pixels < BODY_LEAST_PIXELS || kind->model >= moment->world->counts.models ||
+        !camera_sees(&scene->camera, foot, 2.0 * high_m))
+        return;
+    struct scene_body *body = scene_body_add(scene, kind->model, scene_detail(pixels, false));
+    if (body == NULL)
+        return;
+    double heading = TWO_PI * (double)value_noise_unit((int32_t)index, 3, 9), x, z;
+    maths_sincos(heading, &x, &z);
+    double top_x = foot.x + high_m * x, top_z = foot.z - high_m * z;
+    double rise =
+        maths_atan2(terrain_height(terrain, moment->craters, top_x, top_z) - foot.y, high_m);
+    struct vec3 butt = {foot.x + FELLED_AWAY_M * x, foot.y + FELLED_LIFT_M,
+                        foot.z - FELLED_AWAY_M * z};
+    struct body_axes pose = body_axes_of(heading, rise - HALF_PI, 0.0);
+    scene_body_place(scene, body, butt, &pose, fixed_scale(object, kind));
+    scene_body_shadow(scene, moment, butt, pixels);
+}
+
+void scene_fixed(struct scene *scene, const struct static_scene *scenery,
+                 const struct frame_view *moment)
+{
+    struct vec3 eye = scene->camera.eye;
+    struct gridsquare_box box = gridsquare_box_of(eye.x - FIXED_RANGE_M, eye.z - FIXED_RANGE_M,
+                                                  eye.x + FIXED_RANGE_M, eye.z + FIXED_RANGE_M);
+    for (int32_t row = box.z0; row <= box.z1; row++) {
+        uint32_t first = scenery->square_start[gridsquare_index(box.x0, row)];
+        uint32_t end = scenery->square_start[gridsquare_index(box.x1, row) + 1];
+        for (uint32_t i = first; i < end; i++)
+            if (scenery->look[i] == LOOK_MODEL)
+                add_fixed(scene, scenery, moment, i);
+            else if (moment->fixed_damage[i] >= DAMAGE_HIGH &&
+                     moment->world->kinds[moment->world->fixed[i].kind].object_class == OBJECT_TREE)
+                add_felled(scene, moment, i);
+    }
+}

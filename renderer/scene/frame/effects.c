@@ -1,0 +1,197 @@
+/* Events turned into things to see. */
+#include "renderer/scene/frame/effects.h"
+
+#define MUZZLE_SHARE     0.7 /* of the shooter's height: there its gun is (mover/weapon/fire.c) */
+#define FLASH_M          0.9 /* of a shot of a megajoule */
+#define FLASH_LEAST_M    0.35
+#define FLASH_MOST_M     4.0
+#define CRASH_IMPULSE_NS 2.0e4 /* of a collision whose dust is as large as the body */
+#define CRASH_HIGH_M     5.0   /* higher over the ground a collision raises no dust */
+#define SPARKS_LEAST_MPS 2.5   /* slower bodies only rub */
+#define KICK_M           0.5   /* what a round without a charge throws up */
+#define WRECK_LEAST_KG   3.0   /* every vehicle has something that burns */
+
+double effects_life_s(enum effect_type type)
+{
+    static const double life[EFFECT_TYPE_COUNT] = {
+        [EFFECT_FLASH] = 0.8,          [EFFECT_EXPLOSION] = 10.0, [EFFECT_BURST] = 9.0,
+        [EFFECT_SPLASH] = 5.0,         [EFFECT_HIT] = 1.2,        [EFFECT_CRASH] = 3.5,
+        [EFFECT_WRECK] = EFFECT_LIFE_S};
+    return life[type];
+}
+
+static double end_of(const struct effect *effect)
+{
+    return effect->time_s + effects_life_s((enum effect_type)effect->type);
+}
+
+/* A place for one more: a free one, else that of the one that is over first. */
+static struct effect *place(struct effects *effects)
+{
+    if (effects->count < EFFECTS_MAX)
+        return &effects->effect[effects->count++];
+    struct effect *first = effects->effect;
+    for (uint32_t i = 1; i < EFFECTS_MAX; i++)
+        if (end_of(&effects->effect[i]) < end_of(first))
+            first = &effects->effect[i];
+    return first;
+}
+
+static struct effect *add(struct effects *effects, const struct frame_view *moment,
+                          const struct event *event, enum effect_type type, const double point[3],
+                          double size_m)
+{
+    struct effect *effect = place(effects);
+    *effect = (struct effect){
+        .point = {point[0], point[1], point[2]},
+        .time_s = (double)event->tick * moment->world->params->dt_s,
+        .size_m = (float)size_m,
+        .type = (uint32_t)type,
+        .seed = (uint32_t)event->frame * 64u + event->index,
+    };
+    return effect;
+}
+
+/* Fireball radius [m] of a charge: cube-root scaling, as large as such things look on film. */
+static double fireball(double explosive_kg)
+{
+    return 1.8 + 1.9 * maths_cbrt(explosive_kg);
+}
+
+static const struct kind *kind_of(const struct frame_view *moment, uint16_t kind)
+{
+    return kind < moment->world->counts.kinds ? &moment->world->kinds[kind] : NULL;
+}
+
+/* Where the shot went: as its round flies, or away from who fired it. */
+static struct vec3 way_of(const struct frame_view *moment, const struct event_fire *fire)
+{
+    const struct entities *e = moment->entities;
+    struct vec3 way = {0.0, 0.0, 0.0};
+    uint32_t slot = entities_find(e, moment->head->used, fire->munition.id);
+    if (slot != SLOT_NONE) {
+        way = entities_velocity(e, slot);
+    } else if ((slot = entities_find(e, moment->head->used, fire->shooter.id)) != SLOT_NONE) {
+        const struct kind *kind = kind_of(moment, e->kind[slot]);
+        way = vec3_sub((struct vec3){fire->point[0], fire->point[1], fire->point[2]},
+                       entities_position(e, slot));
+        way.y -= kind == NULL || kind->domain == DOMAIN_AIR ? 0.0 : MUZZLE_SHARE * kind->height_m;
+    }
+    double length = vec3_length(way);
+    return length > 0.0 ? vec3_scale(way, 1.0 / length) : (struct vec3){0.0, 1.0, 0.0};
+}
+
+static void take_fire(struct effects *effects, const struct frame_view *moment,
+                      const struct event *event)
+{
+    const struct event_fire *fire = &event->fire;
+    const struct kind *round = kind_of(moment, fire->munition.kind);
+    if (fire->shooter.id == 0 || round == NULL)
+        return; /* out of the sky: no muzzle */
+    double joules = 0.5 * round->mass_kg * round->max_speed_mps * round->max_speed_mps;
+    double size = FLASH_M * maths_cbrt(joules / 1.0e6);
+    struct effect *flash = add(effects, moment, event, EFFECT_FLASH, fire->point,
+                               maths_clamp(size, FLASH_LEAST_M, FLASH_MOST_M));
+    vec3_to_floats(flash->way, way_of(moment, fire));
+}
+
+static void take_detonation(struct effects *effects, const struct frame_view *moment,
+                            const struct event *event)
+{
+    static const enum effect_type charged[STRUCK_COUNT] = {
+        [STRUCK_VEHICLE] = EFFECT_EXPLOSION, [STRUCK_FIXED] = EFFECT_EXPLOSION,
+        [STRUCK_GROUND] = EFFECT_BURST,      [STRUCK_WATER] = EFFECT_SPLASH,
+        [STRUCK_AIR] = EFFECT_EXPLOSION,
+    };
+    const struct event_detonation *blast = &event->detonation;
+    motion_trails_end(&effects->spoors, blast->munition.id, blast->point,
+                      (double)event->tick * moment->world->params->dt_s);
+    if (blast->struck >= STRUCK_COUNT)
+        return;
+    if (blast->explosive_kg > 0.0f)
+        add(effects, moment, event, charged[blast->struck], blast->point,
+            fireball((double)blast->explosive_kg));
+    else if (blast->struck == STRUCK_GROUND)
+        add(effects, moment, event, EFFECT_CRASH, blast->point, KICK_M);
+    else if (blast->struck == STRUCK_WATER)
+        add(effects, moment, event, EFFECT_SPLASH, blast->point, KICK_M);
+    else if (blast->struck != STRUCK_AIR)
+        add(effects, moment, event, EFFECT_HIT, blast->point, KICK_M);
+}
+
+/* Is it of metal or stone? */
+static bool hard(const struct frame_view *moment, const struct event_party *party)
+{
+    const struct kind *kind = kind_of(moment, party->kind);
+    return kind != NULL && (kind->domain != DOMAIN_FIXED || (kind->object_class != OBJECT_TREE &&
+                                                             kind->object_class != OBJECT_BUSH));
+}
+
+static void take_collision(struct effects *effects, const struct frame_view *moment,
+                           const struct event *event)
+{
+    const struct event_collision *hit = &event->collision;
+    const double *at = hit->point;
+    double size =
+        0.5 + 2.0 * maths_min(1.5, maths_cbrt((double)hit->impulse_ns / CRASH_IMPULSE_NS));
+    bool wet = cover_is_water(terrain_cover(&moment->world->terrain, at[0], at[2]));
+    double above = at[1] - terrain_height(&moment->world->terrain, moment->craters, at[0], at[2]);
+    if (above < CRASH_HIGH_M)
+        add(effects, moment, event, wet ? EFFECT_SPLASH : EFFECT_CRASH, at,
+            wet ? 0.5 * size : size);
+    if (hard(moment, &hit->a) && hard(moment, &hit->b) &&
+        (double)hit->closing_mps > SPARKS_LEAST_MPS)
+        add(effects, moment, event, EFFECT_HIT, at, 0.6 * size);
+}
+
+/* Vehicles that were destroyed since the moment before. */
+static void take_wrecks(struct effects *effects, const struct frame_view *moment)
+{
+    const struct entities *e = moment->entities;
+    double now_s = frame_view_time_s(moment);
+    uint32_t used =
+        moment->head->used < MOTION_TRAILS_SLOTS ? moment->head->used : MOTION_TRAILS_SLOTS;
+    for (uint32_t slot = 0; slot < used; slot++) {
+        struct motion_trail *spoor = &effects->spoors.spoor[slot];
+        const struct kind *kind = kind_of(moment, e->kind[slot]);
+        if (e->state[slot] != ENTITY_WRECK || spoor->wrecked || kind == NULL)
+            continue;
+        double time_s = (double)e->changed_tick[slot] * moment->world->params->dt_s;
+        spoor->wrecked = true;
+        if (now_s - time_s > effects_life_s(EFFECT_WRECK))
+            continue;
+        struct effect *wreck = place(effects);
+        *wreck = (struct effect){
+            .point = entities_position(e, slot),
+            .time_s = time_s,
+            .size_m = (float)fireball(maths_max(kind->explosive_kg, WRECK_LEAST_KG)),
+            .type = EFFECT_WRECK,
+            .seed = e->id[slot],
+            .kind = e->kind[slot],
+        };
+        vec3_to_floats(wreck->way, entities_velocity(e, slot));
+    }
+}
+
+void effects_take(struct effects *effects, const struct frame_view *moment,
+                  const struct event *events, uint32_t count)
+{
+    motion_trails_note(&effects->spoors, moment);
+    take_wrecks(effects, moment);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct event *event = &events[i];
+        switch (event->type) {
+        case EVENT_FIRE:
+            take_fire(effects, moment, event);
+            break;
+        case EVENT_DETONATION:
+            take_detonation(effects, moment, event);
+            break;
+        case EVENT_COLLISION:
+            take_collision(effects, moment, event);
+            break;
+        default:
+            break;
+        }
+    }
+}

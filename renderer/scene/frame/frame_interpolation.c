@@ -1,0 +1,105 @@
+/* Blending two frames. */
+#include "renderer/scene/frame/frame_interpolation.h"
+
+#include <stdlib.h>
+
+#define COLUMNS     6
+#define JUMP_SHARE  2.0  /* a body goes at most so many times as far as its speed says ... */
+#define JUMP_M      2.0  /* ... and this; farther it was put there */
+#define LATE_STEPS  4.0  /* a world so late goes on from there: the clock does not run after it */
+#define EARLY_DRIFT 0.1  /* what the clock takes up each time when a frame is seen early */
+#define LATE_DRIFT  0.05 /* what the clock takes up of a delay beyond one step, each time */
+
+int frame_interpolation_init(struct frame_interpolation *blend, uint32_t capacity)
+{
+    *blend =
+        (struct frame_interpolation){.columns = calloc((size_t)capacity * COLUMNS, sizeof(double))};
+    blend->entities.capacity = capacity;
+    return blend->columns == NULL ? -1 : 0;
+}
+
+void frame_interpolation_free(struct frame_interpolation *blend)
+{
+    free(blend->columns);
+    blend->columns = NULL;
+}
+
+/* The earlier frame's table, with columns of our own for where bodies are. */
+static void borrow(struct frame_interpolation *blend, const struct entities *earlier)
+{
+    uint32_t capacity = blend->entities.capacity;
+    blend->entities = *earlier;
+    blend->entities.capacity = capacity;
+    blend->entities.x = blend->columns;
+    blend->entities.y = blend->columns + capacity;
+    blend->entities.z = blend->columns + 2 * (size_t)capacity;
+    blend->entities.heading = blend->columns + 3 * (size_t)capacity;
+    blend->entities.pitch = blend->columns + 4 * (size_t)capacity;
+    blend->entities.roll = blend->columns + 5 * (size_t)capacity;
+}
+
+/* Is it the same body in the same state, that has moved and not jumped? */
+static bool goes_on(const struct entities *a, const struct entities *b, uint32_t i, double passed_s)
+{
+    if (a->state[i] == ENTITY_FREE || a->id[i] != b->id[i] || a->state[i] != b->state[i])
+        return false;
+    double speed =
+        maths_max(vec3_length(entities_velocity(a, i)), vec3_length(entities_velocity(b, i)));
+    double way = vec3_length(vec3_sub(entities_position(b, i), entities_position(a, i)));
+    return way <= JUMP_SHARE * speed * passed_s + JUMP_M;
+}
+
+/* The short way round. */
+static double turn_between(double a, double b, double share)
+{
+    return a + maths_wrap_half(b - a) * share;
+}
+
+static void frame_interpolation_row(const struct entities *to, const struct entities *a,
+                                    const struct entities *b, uint32_t i, double share)
+{
+    entities_set_position(to, i,
+                          vec3_lerp(entities_position(a, i), entities_position(b, i), share));
+    to->heading[i] = maths_wrap_turn(turn_between(a->heading[i], b->heading[i], share));
+    to->pitch[i] = turn_between(a->pitch[i], b->pitch[i], share);
+    to->roll[i] = turn_between(a->roll[i], b->roll[i], share);
+}
+
+struct frame_view frame_interpolation_between(struct frame_interpolation *blend,
+                                              const struct frame_view *earlier,
+                                              const struct frame_view *later, double share)
+{
+    double passed_s = frame_view_time_s(later) - frame_view_time_s(earlier);
+    double most_s = FRAME_INTERPOLATION_STEPS_MOST * earlier->world->params->dt_s;
+    if (!(share < 1.0) || passed_s <= 0.0 || passed_s > most_s ||
+        later->head->used < earlier->head->used)
+        return *later;
+    if (share <= 0.0)
+        return *earlier;
+    const struct entities *a = earlier->entities, *b = later->entities;
+    borrow(blend, a);
+    for (uint32_t i = 0; i < earlier->head->used; i++)
+        frame_interpolation_row(&blend->entities, a, goes_on(a, b, i, passed_s) ? b : a, i, share);
+    struct frame_view between = *earlier;
+    between.entities = &blend->entities;
+    between.ahead_s += share * passed_s;
+    return between;
+}
+
+double frame_interpolation_time(struct frame_interpolation_clock *clock, double now_s,
+                                double newest_s, double step_s, double rate)
+{
+    if (rate <= 0.0) {
+        clock->set = false;
+        return newest_s;
+    }
+    double ahead_s = newest_s - rate * now_s;
+    double late_s = clock->ahead_s - ahead_s;
+    if (!clock->set || rate != clock->rate || fabs(late_s) > LATE_STEPS * step_s)
+        *clock = (struct frame_interpolation_clock){.set = true, .rate = rate, .ahead_s = ahead_s};
+    else if (late_s < 0.0)
+        clock->ahead_s -= EARLY_DRIFT * late_s;
+    else if (late_s > step_s) /* up to a step it may only have been seen late */
+        clock->ahead_s -= LATE_DRIFT * (late_s - step_s);
+    return maths_min(newest_s, rate * now_s + clock->ahead_s - step_s);
+}

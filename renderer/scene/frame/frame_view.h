@@ -1,0 +1,30 @@
+/* A moment: one committed frame as the renderer sees it. Views of a private snapshot; nothing here
+ * is shared with a writer but the append-only lists of craters and dents behind their indices. */
+#ifndef JOLON_RENDERER_SCENE_FRAME_FRAME_VIEW_H
+#define JOLON_RENDERER_SCENE_FRAME_FRAME_VIEW_H
+
+#include "renderer/scene/frame/dent_index.h"
+#include "renderer/scene/frame/articulation.h"
+#include "world/world.h"
+
+#include <stdint.h>
+
+struct frame_view {
+    const struct world *world;
+    const struct state_head *head;
+    const struct entities *entities; /* rows 0 .. head->used - 1 */
+    const uint8_t *fixed_damage;     /* [world->counts.fixed] enum damage */
+    const struct crater_index *craters;
+    const struct dent_index *dents;
+    const struct articulation *gear; /* NULL: all is as in the first picture */
+    double ahead_s; /* the picture's time after the frame's [s of simulation]; bodies are where they
+                       are then (renderer/scene/frame/frame_interpolation.h) */
+};
+
+/* Time of simulation in the picture. */
+static inline double frame_view_time_s(const struct frame_view *moment)
+{
+    return world_time_s(moment->world, moment->head) + moment->ahead_s;
+}
+
+#endif

@@ -1,0 +1,169 @@
+/* Noting places, and the curve through them. */
+#include "renderer/scene/frame/motion_trails.h"
+
+#include <math.h>
+
+#define SEA_INTERVAL_S      1.5 /* wakes are long */
+#define LAND_INTERVAL_S     0.4
+#define MUNITION_INTERVAL_S 0.35
+#define LEAST_MPS           0.5 /* slower than this nothing is left behind */
+
+/* Seconds between two points of what moves in this domain; 12 of them outlast what it leaves. */
+static double interval_s(uint8_t domain)
+{
+    return domain == DOMAIN_SEA    ? SEA_INTERVAL_S
+           : domain == DOMAIN_LAND ? LAND_INTERVAL_S
+                                   : MUNITION_INTERVAL_S;
+}
+
+/* Do things of this kind leave something along their way? */
+static bool leaves(const struct kind *kind)
+{
+    return kind->domain == DOMAIN_LAND || kind->domain == DOMAIN_SEA ||
+           (kind->domain == DOMAIN_MUNITION && kind->guidance == GUIDANCE_HOMING);
+}
+
+static void add_point(struct motion_trail *spoor, const double at[3], const double velocity[3],
+                      double time_s)
+{
+    struct motion_trail_point *point = &spoor->point[spoor->count++ % SPOOR_POINTS];
+    for (uint32_t i = 0; i < 3; i++) {
+        point->at[i] = (float)at[i];
+        point->velocity[i] = (float)velocity[i];
+    }
+    point->time_s = time_s;
+}
+
+static const struct motion_trail_point *newest(const struct motion_trail *spoor)
+{
+    return &spoor->point[(spoor->count - 1) % SPOOR_POINTS];
+}
+
+static void note(struct motion_trail *spoor, const struct frame_view *moment, uint32_t slot,
+                 double now_s)
+{
+    const struct entities *e = moment->entities;
+    const struct kind *kind = &moment->world->kinds[e->kind[slot]];
+    const double at[3] = {e->x[slot], e->y[slot], e->z[slot]};
+    const double velocity[3] = {e->vx[slot], e->vy[slot], e->vz[slot]};
+    if (spoor->count > 0 && newest(spoor)->time_s > now_s)
+        spoor->count = 0; /* time was turned back */
+    if (spoor->count > 0 && now_s - newest(spoor)->time_s < interval_s(kind->domain))
+        return;
+    if (spoor->count == 0 && vec3_length(entities_velocity(e, slot)) < LEAST_MPS)
+        return; /* a long stand is no spoor */
+    add_point(spoor, at, velocity, now_s);
+}
+
+void motion_trails_note(struct motion_trails *spoors, const struct frame_view *moment)
+{
+    const struct entities *e = moment->entities;
+    double now_s = frame_view_time_s(moment);
+    uint32_t used =
+        moment->head->used < MOTION_TRAILS_SLOTS ? moment->head->used : MOTION_TRAILS_SLOTS;
+    for (uint32_t slot = 0; slot < used; slot++) {
+        struct motion_trail *spoor = &spoors->spoor[slot];
+        if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= moment->world->counts.kinds)
+            continue; /* what it left still lies there */
+        if (spoor->id != e->id[slot]) {
+            spoor->id = e->id[slot];
+            spoor->kind = e->kind[slot];
+            spoor->count = 0;
+            spoor->wrecked = false;
+            spoor->smokes_s = INFINITY;
+        }
+        if (e->state[slot] == ENTITY_ACTIVE && e->damage[slot] >= DAMAGE_MED)
+            spoor->smokes_s =
+                fmin(spoor->smokes_s, (double)e->changed_tick[slot] * moment->world->params->dt_s);
+        if (e->state[slot] == ENTITY_ACTIVE && leaves(&moment->world->kinds[spoor->kind]))
+            note(spoor, moment, slot, now_s);
+    }
+}
+
+void motion_trails_end(struct motion_trails *spoors, uint32_t id, const double point[3],
+                       double time_s)
+{
+    for (uint32_t slot = 0; slot < MOTION_TRAILS_SLOTS; slot++) {
+        struct motion_trail *spoor = &spoors->spoor[slot];
+        if (spoor->id != id || spoor->count == 0 || newest(spoor)->time_s >= time_s)
+            continue;
+        const struct motion_trail_point *last = newest(spoor);
+        double since = time_s - last->time_s, velocity[3];
+        for (uint32_t i = 0; i < 3; i++)
+            velocity[i] = (point[i] - (double)last->at[i]) / since;
+        add_point(spoor, point, velocity, time_s);
+        return;
+    }
+}
+
+const struct motion_trail *motion_trails_of(const struct motion_trails *spoors, uint32_t slot,
+                                            uint32_t id)
+{
+    if (slot >= MOTION_TRAILS_SLOTS || spoors->spoor[slot].id != id)
+        return NULL;
+    return &spoors->spoor[slot];
+}
+
+static struct motion_trail_point straight(const struct motion_trail_point *from, double time_s)
+{
+    struct motion_trail_point point = *from;
+    for (uint32_t i = 0; i < 3; i++)
+        point.at[i] += (float)((double)from->velocity[i] * (time_s - from->time_s));
+    point.time_s = time_s;
+    return point;
+}
+
+/* Cubic Hermite. */
+static struct motion_trail_point between(const struct motion_trail_point *a,
+                                         const struct motion_trail_point *b, double time_s)
+{
+    struct motion_trail_point point = {.time_s = time_s};
+    double span = b->time_s - a->time_s, t = (time_s - a->time_s) / span, u = 1.0 - t;
+    double from = u * u * (1.0 + 2.0 * t), to = t * t * (3.0 - 2.0 * t);
+    for (uint32_t i = 0; i < 3; i++) {
+        double pa = (double)a->at[i], pb = (double)b->at[i];
+        double va = (double)a->velocity[i], vb = (double)b->velocity[i];
+        point.at[i] = (float)(from * pa + to * pb + span * t * u * (u * va - t * vb));
+        point.velocity[i] = (float)(6.0 * t * u * (pb - pa) / span + u * (u - 2.0 * t) * va +
+                                    t * (t - 2.0 * u) * vb);
+    }
+    return point;
+}
+
+struct motion_trail_point motion_trail_at(const struct motion_trail *spoor,
+                                          const struct motion_trail_point *now, double time_s)
+{
+    const struct motion_trail_point *later = now;
+    uint32_t kept = spoor == NULL ? 0 : spoor->count < SPOOR_POINTS ? spoor->count : SPOOR_POINTS;
+    for (uint32_t i = 0; i < kept; i++) {
+        const struct motion_trail_point *point =
+            &spoor->point[(spoor->count - 1 - i) % SPOOR_POINTS];
+        if (point->time_s >= later->time_s)
+            continue; /* of a moment after this one */
+        if (point->time_s <= time_s)
+            return between(point, later, time_s);
+        later = point;
+    }
+    return straight(later, time_s);
+}
+
+static double squared(const struct motion_trail_point *point)
+{
+    const float *v = point->velocity;
+    return (double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+double motion_trail_fastest_mps(const struct motion_trail *spoor,
+                                const struct motion_trail_point *now, double since_s)
+{
+    double fastest = squared(now);
+    uint32_t kept = spoor == NULL ? 0 : spoor->count < SPOOR_POINTS ? spoor->count : SPOOR_POINTS;
+    for (uint32_t i = 0; i < kept; i++) {
+        const struct motion_trail_point *point =
+            &spoor->point[(spoor->count - 1 - i) % SPOOR_POINTS];
+        fastest = maths_max(fastest, squared(point));
+        if (point->time_s < since_s)
+            break; /* the way from this one on was still left behind */
+    }
+    return sqrt(fastest);
+}

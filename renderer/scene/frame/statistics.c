@@ -1,0 +1,47 @@
+/* Statistics from the snapshot's columns. */
+#include "renderer/scene/frame/statistics.h"
+
+#include <stdio.h>
+
+void statistics_of(struct statistics *statistics, const struct frame_view *moment, uint32_t slot)
+{
+    const struct world *world = moment->world;
+    const struct entities *e = moment->entities;
+    const struct kind *kind = &world->kinds[e->kind[slot]];
+    const char *own = world_entity_name(world, e->id[slot]);
+    *statistics = (struct statistics){
+        .kind = kind->name,
+        .force = force_name((enum force)e->force[slot]),
+        .state = entity_state_name((enum entity_state)e->state[slot]),
+        .damage = damage_name((enum damage)e->damage[slot]),
+        .behaviour = behaviour_name((enum behaviour)e->behaviour[slot]),
+        .id = e->id[slot],
+        .speed_kmh = 3.6 * vec3_length(entities_velocity(e, slot)),
+        .heading_deg = maths_wrap_turn(e->heading[slot]) * DEG_PER_RAD,
+        .pitch_deg = e->pitch[slot] * DEG_PER_RAD,
+        .roll_deg = e->roll[slot] * DEG_PER_RAD,
+        .altitude_m = e->y[slot],
+        .above_ground_m =
+            e->y[slot] - terrain_height(&world->terrain, moment->craters, e->x[slot], e->z[slot]),
+        .fuel_share = kind->fuel_l > 0.0 ? e->fuel_l[slot] / kind->fuel_l : 1.0,
+        .rounds = e->rounds[slot],
+        .rounds_full = kind->rounds,
+        .frame = moment->head->frame,
+        .time_s = frame_view_time_s(moment),
+    };
+    if (own[0] != '\0')
+        snprintf(statistics->name, sizeof statistics->name, "%s", own);
+    else
+        snprintf(statistics->name, sizeof statistics->name, "%s %u", kind->name, e->id[slot]);
+}
+
+void statistics_line(const struct statistics *s, char *text, size_t bytes)
+{
+    snprintf(text, bytes,
+             "frame=%llu time_s=%.3f id=%u name=%s kind=%s force=%s state=%s damage=%s "
+             "behaviour=%s speed_kmh=%.2f heading_deg=%.2f pitch_deg=%.2f roll_deg=%.2f "
+             "altitude_m=%.2f rounds=%u fuel_pct=%.1f",
+             (unsigned long long)s->frame, s->time_s, s->id, s->name, s->kind, s->force, s->state,
+             s->damage, s->behaviour, s->speed_kmh, s->heading_deg, s->pitch_deg, s->roll_deg,
+             s->altitude_m, s->rounds, 100.0 * s->fuel_share);
+}

@@ -1,0 +1,161 @@
+/* Facets: the list, which corners are one, and normals. */
+#include "renderer/scene/model/mesh_facets.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EDGE_COSINE 0.84f /* facets that meet at more than 33 degrees have an edge between them */
+
+int mesh_facets_add(struct mesh_facets *facets, const struct facet *facet)
+{
+    if (facets->count == facets->capacity) {
+        uint32_t more = facets->capacity * 2 + 64;
+        struct facet *grown = realloc(facets->facet, more * sizeof *grown);
+        if (grown == NULL)
+            return -1;
+        facets->facet = grown;
+        facets->capacity = more;
+    }
+    facets->facet[facets->count++] = *facet;
+    return 0;
+}
+
+void mesh_facets_free(struct mesh_facets *facets)
+{
+    free(facets->facet);
+    *facets = (struct mesh_facets){NULL, 0, 0};
+}
+
+float facet_across(const struct facet *facet, float across[3])
+{
+    float u[3], v[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        u[i] = facet->corner[1][i] - facet->corner[0][i];
+        v[i] = facet->corner[2][i] - facet->corner[0][i];
+    }
+    across[0] = u[1] * v[2] - u[2] * v[1];
+    across[1] = u[2] * v[0] - u[0] * v[2];
+    across[2] = u[0] * v[1] - u[1] * v[0];
+    return sqrtf(across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
+}
+
+/* A place in the table of those met. */
+struct slot {
+    float at[3];
+    uint32_t part, place; /* 1 + its number; 0: free */
+};
+
+static uint32_t hash_of(const struct slot *slot)
+{
+    uint32_t bits[3], hash = slot->part;
+    memcpy(bits, slot->at, sizeof bits);
+    for (uint32_t i = 0; i < 3; i++) {
+        hash = (hash ^ bits[i]) * 0x9e3779b1u;
+        hash ^= hash >> 15;
+    }
+    return hash;
+}
+
+static bool same_place(const struct slot *a, const struct slot *b)
+{
+    return a->part == b->part && a->at[0] == b->at[0] && a->at[1] == b->at[1] &&
+           a->at[2] == b->at[2];
+}
+
+static struct slot *find_slot(struct slot *table, uint32_t mask, const struct slot *wanted)
+{
+    uint32_t i = hash_of(wanted) & mask;
+    while (table[i].place != 0 && !same_place(&table[i], wanted))
+        i = (i + 1) & mask;
+    return &table[i];
+}
+
+uint32_t *mesh_facets_places(const struct mesh_facets *facets, uint32_t *places)
+{
+    uint32_t corners = 3 * facets->count, size = 16;
+    while (size < 2 * corners) /* at most half full */
+        size *= 2;
+    struct slot *table = calloc(size, sizeof *table);
+    uint32_t *place = malloc((corners + 1) * sizeof *place);
+    *places = 0;
+    if (table == NULL || place == NULL) {
+        free(table);
+        free(place);
+        return NULL;
+    }
+    for (uint32_t i = 0; i < corners; i++) {
+        const struct facet *facet = &facets->facet[i / 3];
+        struct slot wanted = {.part =
+                                  (uint32_t)facet->from->joint * PART_COUNT + facet->from->part};
+        for (uint32_t axis = 0; axis < 3; axis++)
+            wanted.at[axis] = facet->corner[i % 3][axis] + 0.0f; /* there is no negative zero */
+        struct slot *slot = find_slot(table, size - 1, &wanted);
+        if (slot->place == 0) {
+            *slot = wanted;
+            slot->place = ++*places;
+        }
+        place[i] = slot->place - 1;
+    }
+    free(table);
+    return place;
+}
+
+static float dot(const float a[3], const float b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Corners of one place follow each other: a list of them for each place. */
+struct meeting {
+    uint32_t *first;  /* [places + 1] into corner */
+    uint32_t *corner; /* [3 * count] */
+};
+
+static int find_meetings(const struct mesh_facets *facets, struct meeting *meeting,
+                         uint32_t **place)
+{
+    uint32_t places, corners = 3 * facets->count;
+    *place = mesh_facets_places(facets, &places);
+    meeting->first = calloc((size_t)places + 2, sizeof *meeting->first);
+    meeting->corner = malloc((corners + 1) * sizeof *meeting->corner);
+    if (*place == NULL || meeting->first == NULL || meeting->corner == NULL)
+        return -1;
+    for (uint32_t i = 0; i < corners; i++)
+        meeting->first[(*place)[i] + 2]++;
+    for (uint32_t i = 2; i < places + 2; i++)
+        meeting->first[i] += meeting->first[i - 1];
+    for (uint32_t i = 0; i < corners; i++)
+        meeting->corner[meeting->first[(*place)[i] + 1]++] = i;
+    return 0;
+}
+
+static void corner_normal(const struct mesh_facets *facets, const struct meeting *meeting,
+                          uint32_t place, uint32_t facet, float normal[3])
+{
+    float own[3], sum[3] = {0.0f, 0.0f, 0.0f};
+    float size = facet_across(&facets->facet[facet], own);
+    for (uint32_t i = meeting->first[place]; i < meeting->first[place + 1]; i++) {
+        float other[3];
+        float length = facet_across(&facets->facet[meeting->corner[i] / 3], other);
+        if (dot(own, other) >= EDGE_COSINE * size * length)
+            for (uint32_t axis = 0; axis < 3; axis++)
+                sum[axis] += other[axis];
+    }
+    float length = sqrtf(dot(sum, sum));
+    for (uint32_t axis = 0; axis < 3; axis++)
+        normal[axis] = length > 0.0f ? sum[axis] / length : axis == 1 ? 1.0f : 0.0f;
+}
+
+int mesh_facets_normals(const struct mesh_facets *facets, float (*normals)[3])
+{
+    struct meeting meeting;
+    uint32_t *place;
+    int result = find_meetings(facets, &meeting, &place);
+    for (uint32_t i = 0; result == 0 && i < 3 * facets->count; i++)
+        corner_normal(facets, &meeting, place[i], i / 3, normals[i]);
+    free(place);
+    free(meeting.first);
+    free(meeting.corner);
+    return result;
+}

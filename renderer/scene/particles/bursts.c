@@ -1,0 +1,346 @@
+/* What happened: shots, explosions on bodies and in the ground, splashes, sparks, dust. Each is a
+ * function of its age; each puff of it is born and dies by its opacity. */
+#include "renderer/scene/particles/particles.h"
+
+#include <math.h>
+
+#define GRAVITY     9.81 /* [m/s^2] */
+#define FLASH_S     0.12 /* of the light of a shot; its gas stays longer */
+#define BLINK_S     0.14 /* of the light of an explosion */
+#define FIRE_PUFFS  12
+#define SMOKE_PUFFS 11
+#define SPARKS      16
+#define SOIL_JETS   11
+#define JET_PUFFS   3
+#define SPRAY_JETS  8
+#define RING_PUFFS  12
+
+/* 1 - exp(-x), nearly, without the C library's exp, which is not the same everywhere. */
+static double saturate(double x)
+{
+    return 1.0 - 1.0 / (1.0 + x * (1.0 + 0.5 * x));
+}
+
+/* Up and to all sides; steep 0: to all sides alike, 1: straight up. */
+static struct vec3 scatter(uint32_t seed, uint32_t n, double steep)
+{
+    double sine, cosine, up = steep + (1.0 - steep) * (double)luck(seed, n, 14);
+    maths_sincos(TWO_PI * (double)luck(seed, n, 13), &sine, &cosine);
+    double ring = sqrt(1.0 - up * up);
+    return (struct vec3){cosine * ring, up, sine * ring};
+}
+
+static struct vec3 effect_way(const struct effect *effect)
+{
+    return (struct vec3){(double)effect->way[0], (double)effect->way[1], (double)effect->way[2]};
+}
+
+/* --- shots ------------------------------------------------------------------------------------ */
+
+/* A star: a long flame ahead, shorter ones aside, as a muzzle brake lets them out. */
+static void flash_star(struct scene *scene, const struct effect *effect, double age)
+{
+    struct vec3 way = effect_way(effect), up = {0.0, 1.0, 0.0};
+    struct vec3 side = vec3_cross(way, up);
+    double wide = vec3_length(side), size = (double)effect->size_m;
+    side = wide > 0.01 ? vec3_scale(side, 1.0 / wide) : (struct vec3){1.0, 0.0, 0.0};
+    up = vec3_cross(side, way);
+    float light = (float)(1.0 - age / FLASH_S);
+    struct vec3 middle = vec3_add(effect->point, vec3_scale(way, 0.5 * size));
+    for (uint32_t n = 0; n < 5; n++) {
+        double turn = (n & 1 ? 1.0 : -1.0) * (0.8 + 0.4 * (double)luck(effect->seed, n, 30));
+        struct vec3 ray = n == 0  ? vec3_scale(way, 1.5)
+                          : n < 3 ? vec3_scale(side, turn)
+                                  : vec3_scale(up, 0.7 * turn);
+        ray = vec3_add(ray, vec3_scale(way, n == 0 ? 0.0 : 0.25));
+        struct spot flame = {
+            .at = vec3_add(n == 0 ? middle : effect->point, vec3_scale(ray, 0.55 * size)),
+            .along = vec3_scale(ray, size * (0.8 + 2.0 * age)),
+            .size_m = size * (n == 0 ? 0.50 : 0.28),
+            .picture = PUFF_GLOW,
+            .glow = 1.0f,
+            .shade = {1.0f, 0.82f, 0.48f, light}};
+        particles_add(scene, &flame);
+    }
+    struct spot glow = {.at = middle,
+                        .size_m = 2.2 * size,
+                        .picture = PUFF_GLOW,
+                        .glow = 1.0f,
+                        .shade = {1.0f, 0.70f, 0.32f, 0.75f * light}};
+    particles_add(scene, &glow);
+}
+
+static void flash(struct scene *scene, const struct effect *effect, double age)
+{
+    double life = effects_life_s(EFFECT_FLASH), size = (double)effect->size_m;
+    if (age < FLASH_S)
+        flash_star(scene, effect, age);
+    struct vec3 way = effect_way(effect);
+    for (uint32_t n = 0; n < 3; n++) {
+        double out = size * ((0.5 + 0.8 * n) * saturate(6.0 * age) + 0.3 * n);
+        struct spot gas = {.at = vec3_add(effect->point, vec3_scale(way, out)),
+                           .size_m = size * (0.35 + 0.9 * saturate(4.0 * age)),
+                           .picture = smoke_picture(effect->seed, n),
+                           .turn_rad = luck_turn(effect->seed, n, 12),
+                           .shade = {0.78f, 0.76f, 0.71f, 0.5f}};
+        gas.at.x += WIND_X * age;
+        gas.at.y += 0.6 * age;
+        gas.at.z += WIND_Z * age;
+        gas.shade.a *= come_and_go(age, 0.03, life, life);
+        particles_add(scene, &gas);
+    }
+}
+
+/* --- explosions ------------------------------------------------------------------------------- */
+
+static void blink(struct scene *scene, const struct effect *effect, double age, double size)
+{
+    float light = (float)maths_clamp(1.0 - age / BLINK_S, 0.0, 1.0);
+    for (uint32_t core = 0; core < 2 && light > 0.0f; core++) {
+        struct spot glow = {.at = effect->point,
+                            .size_m = size * (core ? 1.1 : 3.4),
+                            .picture = PUFF_GLOW,
+                            .glow = 1.0f,
+                            .shade = {1.0f, core ? 0.96f : 0.75f, core ? 0.85f : 0.42f,
+                                      light * (core ? 1.0f : 0.8f)}};
+        particles_add(scene, &glow);
+    }
+}
+
+static void fireball(struct scene *scene, const struct effect *effect, double age)
+{
+    double size = (double)effect->size_m, life = 0.75 + 0.09 * size;
+    blink(scene, effect, age, size);
+    if (age > life)
+        return;
+    double t = age / life, grown = 1.0 - (1.0 - t) * (1.0 - t);
+    double share = particles_share(scene, size, effect->point);
+    for (uint32_t n = 0; n < particles_shown(FIRE_PUFFS, share); n++) {
+        struct vec3 way = scatter(effect->seed, n, 0.0);
+        double out = size * (0.2 + 0.6 * grown) * (0.3 + 0.7 * (double)luck(effect->seed, n, 15));
+        /* Some burn out before others. */
+        double own = maths_min(1.0, t * (0.8 + 0.5 * (double)luck(effect->seed, n, 25)));
+        struct spot ball = {
+            .at = {effect->point.x + way.x * out, effect->point.y + way.y * out + 0.9 * size * t,
+                   effect->point.z + way.z * out},
+            .size_m = size * (0.42 + 0.34 * grown),
+            .picture = n % 3 ? smoke_picture(effect->seed, n) : PUFF_FLAME_A,
+            .turn_rad = luck_turn(effect->seed, n, 16) + 0.6f * (float)t,
+            .glow = (float)(0.50 - 0.38 * own),
+            .shade = shade_mix((struct shade){1.0f, 0.58f, 0.30f, 1.0f},
+                               (struct shade){0.60f, 0.14f, 0.03f, 0.7f}, own * 1.1)};
+        ball.shade.a *= particles_part(n, FIRE_PUFFS, share) * come_and_go(own, 0.03, 1.0, 0.45);
+        particles_add(scene, &ball);
+    }
+    struct spot glow = {.at = {effect->point.x, effect->point.y + 0.5 * size, effect->point.z},
+                        .size_m = 2.4 * size,
+                        .picture = PUFF_GLOW,
+                        .glow = 1.0f,
+                        .shade = {1.0f, 0.60f, 0.22f, (float)(0.4 * (1.0 - t) * (1.0 - t))}};
+    particles_add(scene, &glow);
+}
+
+/* A cloud that grows at once, then goes up and with the wind. tall: how many times higher than
+ * wide it becomes; in_s: how long it takes to appear. */
+static void cloud(struct scene *scene, const struct effect *effect, double age, struct shade shade,
+                  double life, double tall, double in_s)
+{
+    double size = (double)effect->size_m, t = age / life, grown = saturate(2.2 * age);
+    if (t >= 1.0)
+        return;
+    double share = particles_share(scene, size, effect->point);
+    for (uint32_t n = 0; n < particles_shown(SMOKE_PUFFS, share); n++) {
+        struct vec3 way = scatter(effect->seed ^ 0x55u, n, 0.0);
+        double reach = (double)luck(effect->seed, n, 17), slow = 0.5 + 0.9 * reach;
+        double out = size * (0.2 + 1.0 * grown * reach);
+        double up = out * way.y * (1.0 + (tall - 1.0) * grown) + 0.8 * tall * age * slow;
+        struct spot puff = {.at = {effect->point.x + way.x * out + WIND_X * age * slow,
+                                   effect->point.y + up + 0.2 * size,
+                                   effect->point.z + way.z * out + WIND_Z * age * slow},
+                            .size_m = size * (0.30 + 0.38 * grown * (1.2 - reach) + 0.09 * age),
+                            .picture = smoke_picture(effect->seed, n),
+                            .turn_rad = luck_turn(effect->seed, n, 18) + 0.1f * (float)age,
+                            .shade =
+                                shade_mix(shade, (struct shade){0.40f, 0.38f, 0.35f, shade.a}, t)};
+        puff.shade.a *= (float)((1.0 - t) * (1.0 - 0.5 * t)) *
+                        particles_part(n, SMOKE_PUFFS, share) *
+                        come_and_go(age, in_s, life, 0.2 * life);
+        particles_add(scene, &puff);
+    }
+}
+
+/* Streaks of light on their arcs, which the air slows down. */
+static void sparks(struct scene *scene, const struct effect *effect, double age, double speed,
+                   double life)
+{
+    double share = particles_share(scene, (double)effect->size_m, effect->point);
+    for (uint32_t n = 0; n < particles_shown(SPARKS, share); n++) {
+        double own = life * (0.45 + 0.55 * (double)luck(effect->seed, n, 26)), t = age / own;
+        float alpha = particles_part(n, SPARKS, share);
+        if (t >= 1.0 || alpha <= 0.0f)
+            continue;
+        struct vec3 way = scatter(effect->seed ^ 0xaau, n, 0.05);
+        double fast = speed * (0.35 + 0.65 * (double)luck(effect->seed, n, 19));
+        double gone = fast * own * 0.6 * saturate(t / 0.6), now = fast * (1.0 - 0.75 * t);
+        struct spot spark = {.at = vec3_add(effect->point, vec3_scale(way, gone)),
+                             .size_m = 0.045 + 0.012 * (double)effect->size_m,
+                             .picture = PUFF_GLOW,
+                             .glow = 1.0f,
+                             .shade = shade_mix((struct shade){1.0f, 0.90f, 0.60f, 1.0f},
+                                                (struct shade){1.0f, 0.35f, 0.08f, 0.0f}, t * t)};
+        spark.at.y -= 0.5 * GRAVITY * age * age;
+        spark.along = (struct vec3){0.02 * way.x * now, 0.02 * (way.y * now - GRAVITY * age),
+                                    0.02 * way.z * now};
+        spark.shade.a *= alpha;
+        particles_add(scene, &spark);
+    }
+}
+
+/* --- the ground and the sea ------------------------------------------------------------------- */
+
+/* How jets of soil or water go up and fall back. */
+struct fountain {
+    uint32_t jets;
+    double speed, gravity; /* [m/s], [m/s^2] */
+    double steep, width_m, life_s;
+    struct shade shade;
+    enum puff_picture picture;
+};
+
+/* Each jet is a few stretched puffs, the first the fastest; what has fallen below the ground that
+ * it came from is gone. */
+static void throw_up(struct scene *scene, const struct effect *effect, double age,
+                     const struct fountain *as)
+{
+    double share = particles_share(scene, (double)effect->size_m, effect->point);
+    for (uint32_t n = 0; n < particles_shown(as->jets * JET_PUFFS, share); n++) {
+        uint32_t jet = n / JET_PUFFS, back = n % JET_PUFFS;
+        struct vec3 way = scatter(effect->seed ^ 0x33u, jet, as->steep);
+        double speed =
+            as->speed * (0.55 + 0.45 * (double)luck(effect->seed, jet, 27)) * (1.0 - 0.26 * back);
+        double up = way.y * speed * age - 0.5 * as->gravity * age * age;
+        double rise = way.y * speed - as->gravity * age, grown = 0.7 + 0.7 * age;
+        double size = as->width_m * grown * (0.8 + 0.4 * (double)luck(effect->seed, n, 28));
+        double left = up / size + 0.8; /* sinks into the ground */
+        if (left <= 0.0)
+            continue;
+        double length =
+            size + speed * (0.03 + 0.16 * age / (1.0 + age)); /* drawn out as it flies */
+        struct spot puff = {.at = {effect->point.x + way.x * speed * age, effect->point.y + up,
+                                   effect->point.z + way.z * speed * age},
+                            .size_m = size,
+                            .picture = as->picture,
+                            .shade = as->shade};
+        double fast = maths_max(1.0, sqrt(speed * speed * (1.0 - way.y * way.y) + rise * rise));
+        puff.along = (struct vec3){way.x * speed * length / fast, rise * length / fast,
+                                   way.z * speed * length / fast};
+        float here = come_and_go(age, 0.04, as->life_s, as->life_s);
+        puff.shade.a *= (float)maths_clamp(left, 0.0, 1.0) * here * here *
+                        particles_part(n, as->jets * JET_PUFFS, share);
+        particles_add(scene, &puff);
+    }
+}
+
+static void burst(struct scene *scene, const struct frame_view *moment, const struct effect *effect,
+                  double age)
+{
+    double size = (double)effect->size_m;
+    enum cover cover = terrain_cover(&moment->world->terrain, effect->point.x, effect->point.z);
+    struct shade dust = dust_of(cover);
+    struct fountain soil = {.jets = SOIL_JETS,
+                            .speed = 7.5 * sqrt(size),
+                            .gravity = GRAVITY,
+                            .steep = 0.62,
+                            .width_m = 0.26 * size,
+                            .life_s = 3.0,
+                            .shade = {0.30f * dust.r, 0.27f * dust.g, 0.24f * dust.b, 0.95f},
+                            .picture = PUFF_SPRAY};
+    blink(scene, effect, age, 0.8 * size);
+    throw_up(scene, effect, age, &soil);
+    if (age < 0.5)
+        sparks(scene, effect, age, 7.0 * sqrt(size), 0.5);
+    struct shade smoke = {0.42f * dust.r, 0.40f * dust.g, 0.38f * dust.b, 0.55f};
+    cloud(scene, effect, age, smoke, effects_life_s(EFFECT_BURST), 1.5, 0.15);
+}
+
+/* Foam that runs outwards on the water. */
+static void ring(struct scene *scene, const struct effect *effect, double age, double life)
+{
+    double size = (double)effect->size_m, t = age / life,
+           out = size * (0.5 + 2.6 * saturate(1.2 * age));
+    double share = particles_share(scene, size, effect->point);
+    for (uint32_t n = 0; n < RING_PUFFS; n++) {
+        double sine, cosine, turn = (double)n + 0.6 * (double)luck(effect->seed, n, 29);
+        maths_sincos(TWO_PI * turn / RING_PUFFS, &sine, &cosine);
+        double wide = size * (0.22 + 0.20 * saturate(age));
+        struct spot foam = {
+            .at = {effect->point.x + out * cosine, 0.0, effect->point.z + out * sine},
+            .along = {-sine * 2.2 * wide, 0.0, cosine * 2.2 * wide},
+            .size_m = wide,
+            .picture = smoke_picture(effect->seed, n),
+            .shade = {0.90f, 0.95f, 0.97f, 0.6f}};
+        particles_lay(scene, &foam, effect->point.y);
+        foam.shade.a *= (float)((1.0 - t) * (1.0 - t)) *
+                        particles_part(n % 3, 3, maths_max(share, 0.4)) *
+                        come_and_go(age, 0.2, life, 0.5);
+        particles_add(scene, &foam);
+    }
+}
+
+static void splash(struct scene *scene, const struct effect *effect, double age)
+{
+    double size = (double)effect->size_m, life = effects_life_s(EFFECT_SPLASH);
+    struct fountain column = {.jets = SPRAY_JETS,
+                              .speed = 11.0 * sqrt(size),
+                              .gravity = 1.25 * GRAVITY,
+                              .steep = 0.98,
+                              .width_m = 0.30 * size,
+                              .life_s = 4.0,
+                              .shade = {0.92f, 0.96f, 0.98f, 0.95f},
+                              .picture = PUFF_SPRAY};
+    struct fountain crown = column;
+    throw_up(scene, effect, age, &column);
+    crown.speed = 6.0 * sqrt(size);
+    crown.steep = 0.60;
+    crown.width_m = 0.20 * size;
+    crown.life_s = 2.0;
+    throw_up(scene, effect, age, &crown);
+    cloud(scene, effect, age, (struct shade){0.92f, 0.95f, 0.97f, 0.35f}, 0.6 * life, 1.2, 0.3);
+    ring(scene, effect, age, life);
+}
+
+void bursts_effect(struct scene *scene, const struct frame_view *moment,
+                   const struct effect *effect, double age)
+{
+    double size = (double)effect->size_m, life = effects_life_s((enum effect_type)effect->type);
+    struct shade dust =
+        dust_of(terrain_cover(&moment->world->terrain, effect->point.x, effect->point.z));
+    switch ((enum effect_type)effect->type) {
+    case EFFECT_FLASH:
+        flash(scene, effect, age);
+        break;
+    case EFFECT_EXPLOSION:
+    case EFFECT_WRECK:
+        cloud(scene, effect, age, (struct shade){0.17f, 0.15f, 0.13f, 0.6f},
+              effects_life_s(EFFECT_EXPLOSION), 1.9, 0.9);
+        fireball(scene, effect, age);
+        sparks(scene, effect, age, 10.0 * sqrt(size), 1.6);
+        break;
+    case EFFECT_BURST:
+        burst(scene, moment, effect, age);
+        break;
+    case EFFECT_SPLASH:
+        splash(scene, effect, age);
+        break;
+    case EFFECT_HIT:
+        sparks(scene, effect, age, 6.0 + 3.0 * size, life);
+        blink(scene, effect, age, 0.3 * size);
+        break;
+    case EFFECT_CRASH:
+        dust.a = 0.15f + 0.40f * dust.a;
+        cloud(scene, effect, age, dust, life, 1.0, 0.12);
+        break;
+    case EFFECT_TYPE_COUNT:
+        break;
+    }
+}

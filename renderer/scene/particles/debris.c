@@ -1,0 +1,170 @@
+/* Debris: parts that fly off a vehicle which is destroyed, fall on the ground and stay there for a
+ * while. They are drawn with the vehicle's own model, squeezed into plates, bars and lumps. */
+#include "renderer/scene/scene.h"
+
+#include "renderer/scene/noise/value_noise.h"
+
+#include <math.h>
+
+#define GRAVITY      9.81 /* [m/s^2] */
+#define PIECES_MOST  9u
+#define SETTLE_S     0.5  /* after it fell, it tips over and slides so long */
+#define SLIDE        0.12 /* of its speed times SETTLE_S that it slides */
+#define SHRINK_S     5.0  /* before the end of its life it goes into the ground */
+#define PIXELS_LEAST 3.0  /* smaller parts are not shown; they grow into the picture */
+#define LANDINGS     4    /* steps towards the place where it meets the ground */
+
+struct piece {
+    double size[3]; /* [m] long, high, wide */
+};
+
+static const struct piece shapes[] = {
+    {{1.3, 0.10, 0.9}},  /* a plate */
+    {{1.6, 0.16, 0.18}}, /* a bar */
+    {{0.6, 0.45, 0.55}}, /* a lump */
+    {{0.8, 0.07, 0.5}},
+};
+
+#define SHAPES (sizeof shapes / sizeof shapes[0])
+
+/* How one flies. */
+struct flight {
+    struct vec3 from, velocity; /* [m, world], [m/s] */
+    double lands_s;             /* after it was thrown */
+    struct vec3 rest;           /* where it lies at last */
+};
+
+static double chance(uint32_t seed, uint32_t n, uint32_t purpose)
+{
+    return (double)value_noise_unit((int32_t)seed, (int32_t)n, 360u + purpose);
+}
+
+static struct vec3 flown(const struct flight *flight, double t)
+{
+    struct vec3 at = vec3_add(flight->from, vec3_scale(flight->velocity, t));
+    at.y -= 0.5 * GRAVITY * t * t;
+    return at;
+}
+
+static struct flight flight_of(const struct effect *effect, const struct frame_view *moment,
+                               uint32_t n)
+{
+    const struct terrain *terrain = &moment->world->terrain;
+    double sine, cosine,
+        out = (4.0 + 5.0 * chance(effect->seed, n, 0)) * sqrt((double)effect->size_m) * 0.6;
+    maths_sincos(TWO_PI * chance(effect->seed, n, 1), &sine, &cosine);
+    struct flight flight = {
+        .from = effect->point,
+        /* It keeps some of the way that the vehicle had. */
+        .velocity = {0.5 * (double)effect->way[0] + cosine * out,
+                     0.5 * (double)effect->way[1] + out * (1.0 + 0.9 * chance(effect->seed, n, 2)),
+                     0.5 * (double)effect->way[2] + sine * out},
+    };
+    flight.from.y += 1.0;
+    double ground = terrain_height(terrain, moment->craters, flight.from.x, flight.from.z);
+    for (uint32_t i = 0; i < LANDINGS; i++) {
+        double up = flight.velocity.y, high = flight.from.y - ground;
+        flight.lands_s = (up + sqrt(maths_max(0.0, up * up + 2.0 * GRAVITY * high))) / GRAVITY;
+        struct vec3 at = flown(&flight, flight.lands_s);
+        ground = terrain_height(terrain, moment->craters, at.x, at.z);
+    }
+    flight.rest = flown(&flight, flight.lands_s);
+    double slide = SLIDE * SETTLE_S;
+    flight.rest.x += flight.velocity.x * slide;
+    flight.rest.z += flight.velocity.z * slide;
+    flight.rest.y = terrain_height(terrain, moment->craters, flight.rest.x, flight.rest.z);
+    return flight;
+}
+
+/* Where it is so long after it was thrown. */
+static struct vec3 place_at(const struct flight *flight, double age)
+{
+    if (age <= flight->lands_s)
+        return flown(flight, age);
+    double t = maths_min(1.0, (age - flight->lands_s) / SETTLE_S);
+    struct vec3 landed = flown(flight, flight->lands_s);
+    return vec3_lerp(landed, flight->rest, t * (2.0 - t));
+}
+
+/* Its axes: it tumbles in whole turns until it lies flat on the ground. */
+static struct body_axes pose_at(const struct effect *effect, const struct flight *flight,
+                                struct vec3 normal, double age, uint32_t n)
+{
+    double t = maths_min(1.0, age / (flight->lands_s + SETTLE_S));
+    double turns = 1.0 + floor(3.0 * chance(effect->seed, n, 3));
+    double heading = TWO_PI * chance(effect->seed, n, 4);
+    struct body_axes pose = body_axes_of(heading + 4.0 * t, TWO_PI * turns * t, 0.0);
+    /* As it comes to rest, its up becomes the ground's. */
+    double flat = maths_clamp(4.0 * t - 3.0, 0.0, 1.0);
+    struct vec3 up = vec3_lerp(pose.up, normal, flat);
+    struct vec3 right = vec3_cross(pose.forward, up);
+    double wide = vec3_length(right), high = vec3_length(up);
+    if (wide < 1e-3 || high < 1e-3)
+        return pose;
+    pose.up = vec3_scale(up, 1.0 / high);
+    pose.right = vec3_scale(right, 1.0 / wide);
+    pose.forward = vec3_cross(pose.up, pose.right);
+    return pose;
+}
+
+static void add_piece(struct scene *scene, const struct static_scene *scenery,
+                      const struct frame_view *moment, const struct effect *effect, double age,
+                      uint32_t n)
+{
+    const struct kind *kind = &moment->world->kinds[effect->kind];
+    const struct mesh_frame *frame = &scenery->frames[kind->model];
+    const struct piece *shape =
+        &shapes[value_noise_hash((int32_t)effect->seed, (int32_t)n, 365) % SHAPES];
+    double life = EFFECT_LIFE_S * (0.6 + 0.4 * chance(effect->seed, n, 6));
+    double size = (0.7 + 0.6 * chance(effect->seed, n, 7)) * sqrt(kind->radius_m / 3.0);
+    size *= maths_clamp((life - age) / SHRINK_S, 0.0, 1.0);
+    struct flight flight = flight_of(effect, moment, n);
+    struct vec3 at = place_at(&flight, age);
+    double distance = vec3_length(vec3_sub(at, scene->camera.eye));
+    double pixels = camera_pixels(&scene->camera, 1.5 * size, distance);
+    size *= maths_clamp(pixels - PIXELS_LEAST, 0.0, 1.0);
+    if (pixels <= PIXELS_LEAST || !camera_sees(&scene->camera, at, 4.0))
+        return;
+    if (cover_is_water(terrain_cover(&moment->world->terrain, at.x, at.z)) && age > flight.lands_s)
+        return; /* it sank */
+    struct scene_body *body = scene_body_add(scene, kind->model, MESH_COARSEST);
+    if (body == NULL)
+        return;
+    struct vec3 normal = terrain_normal(&moment->world->terrain, moment->craters, at.x, at.z);
+    struct body_axes pose = pose_at(effect, &flight, normal, age, n);
+    double scale[3], low = 0.0;
+    for (uint32_t i = 0; i < 3; i++) {
+        double model = maths_max(0.01, (double)frame->high[i] - (double)frame->low[i]);
+        scale[i] = size * shape->size[i] / model;
+        if (i == 1)
+            low = -scale[i] * (double)frame->low[i];
+    }
+    at = vec3_add(at, vec3_scale(pose.up, low));
+    scene_place(scene, at, body->at);
+    vec3_to_floats(body->forward, vec3_scale(pose.forward, scale[0]));
+    vec3_to_floats(body->up, vec3_scale(pose.up, scale[1]));
+    vec3_to_floats(body->right, vec3_scale(pose.right, scale[2]));
+    body->tint[0] = body->tint[1] = body->tint[2] = 0.4f;
+    body->burn = 1.0f;
+    scene_body_shadow(scene, moment, at, pixels);
+}
+
+void scene_debris(struct scene *scene, const struct static_scene *scenery,
+                  const struct frame_view *moment, const struct effects *effects)
+{
+    for (uint32_t i = 0; i < effects->count; i++) {
+        const struct effect *effect = &effects->effect[i];
+        double age = scene->time_s - effect->time_s;
+        if (effect->type != EFFECT_WRECK || age < 0.0 || age > EFFECT_LIFE_S ||
+            effect->kind >= moment->world->counts.kinds ||
+            moment->world->kinds[effect->kind].model >= moment->world->counts.models)
+            continue;
+        float at[3];
+        scene_place(scene, effect->point, at);
+        float far = sqrtf(frustum_dot(at, at)), pixels = frustum_pixels(&scene->sight, 2.0f, far);
+        if (pixels < (float)PIXELS_LEAST || !frustum_ball(&scene->sight, at, 120.0f))
+            continue;
+        for (uint32_t n = 0; n < PIECES_MOST; n++)
+            add_piece(scene, scenery, moment, effect, age, n);
+    }
+}

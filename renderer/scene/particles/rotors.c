@@ -1,0 +1,55 @@
+/* Rotors that turn: a faint disc where the blades are too fast for the eye. It is a puff as wide
+ * and as flat as the disc shows from where the eye is. */
+#include "renderer/scene/particles/particles.h"
+
+#include "renderer/scene/frame/body_axes.h"
+
+#define DISC_ALPHA   0.52f
+#define FLAT_SHARE   0.03 /* of its radius a disc is seen to be thick */
+#define LEAST_PIXELS 6.0  /* across */
+
+/* From body axes to the world's. */
+static struct vec3 turned(const struct body_axes *pose, const float v[4])
+{
+    return vec3_add(
+        vec3_scale(pose->forward, (double)v[0]),
+        vec3_add(vec3_scale(pose->up, (double)v[1]), vec3_scale(pose->right, (double)v[2])));
+}
+
+static void add_disc(struct scene *scene, struct vec3 hub, struct vec3 axle, double radius_m)
+{
+    struct vec3 way = vec3_sub(hub, scene->camera.eye), across = vec3_cross(axle, way);
+    double distance = vec3_length(way), wide = vec3_length(across);
+    if (camera_pixels(&scene->camera, 2.0 * radius_m, distance) < LEAST_PIXELS || !(wide > 0.0))
+        return;
+    double open = fabs(vec3_dot(way, axle)) / distance;
+    struct spot disc = {.at = hub,
+                        .along = vec3_scale(across, radius_m / wide),
+                        .size_m = radius_m * maths_max(open, FLAT_SHARE),
+                        .shade = {0.12f, 0.12f, 0.13f, DISC_ALPHA},
+                        .picture = PUFF_DISC};
+    particles_add(scene, &disc);
+}
+
+void scene_rotors(struct scene *scene, const struct static_scene *scenery,
+                  const struct frame_view *moment)
+{
+    const struct entities *e = moment->entities;
+    for (uint32_t slot = 0; slot < moment->head->used; slot++) {
+        if (e->state[slot] != ENTITY_ACTIVE || e->kind[slot] >= moment->world->counts.kinds)
+            continue;
+        const struct kind *kind = &moment->world->kinds[e->kind[slot]];
+        if (kind->domain != DOMAIN_AIR || kind->model >= moment->world->counts.models)
+            continue;
+        const struct mesh_frame *frame = &scenery->frames[kind->model];
+        struct body_axes pose = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
+        for (uint32_t joint = 1; joint < MODEL_JOINTS_MAX; joint++) {
+            const float *pivot = frame->pivot[joint];
+            struct vec3 hub = vec3_add(entities_position(e, slot), turned(&pose, pivot));
+            if (frame->part[joint] == PART_ROTOR)
+                add_disc(scene, hub, pose.up, (double)pivot[3]);
+            else if (frame->part[joint] == PART_TAIL_ROTOR)
+                add_disc(scene, hub, pose.right, (double)pivot[3]);
+        }
+    }
+}

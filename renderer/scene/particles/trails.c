@@ -1,0 +1,371 @@
+/* What moving things leave behind and stir up: dust by the ground's cover, wakes, missiles' smoke,
+ * tracers, the wash of rotors. It lies along the way that they came, and stays where it was left.
+ */
+#include "renderer/scene/particles/particles.h"
+
+#include <math.h>
+
+#define LEAST_PIXELS   0.3  /* what never grows larger is not looked for */
+#define BEHIND_M       60.0 /* so far from where it is what it leaves may begin */
+#define MORE           1.25 /* of a row's share: between two points it may be faster than at them */
+#define OVERLAP        0.9  /* half a puff's length over the distance to the next */
+#define DUST_LEAST_MPS 2.5
+#define DUST_LIFE_S    2.8
+#define DUST_HZ        9.0
+#define DUST_HIGH_M    1.5 /* wheels higher than this over the ground raise none */
+#define WAKE_LEAST_MPS 1.0
+#define WAKE_LIFE_S    15.0
+#define WAKE_HZ        6.0
+#define BOW_LIFE_S     9.0
+#define BOW_HZ         7.0
+#define SMOKE_LIFE_S   3.6
+#define SMOKE_HZ       30.0
+#define TRACER_PIXELS  0.7f  /* a tracer is never thinner: light is seen from afar */
+#define TRACER_S       0.013 /* half of what it flies while the eye sees one streak */
+#define TRACER_REACH_M 30.0f
+#define WASH_DISCS     1.6 /* a rotor stirs up what is within so many radii below it */
+#define WASH_HZ        14.0
+#define RAISED_M       3.0
+#define WASH_LIFE_S    1.6
+
+/* What one thing gives off along its way. */
+struct trail {
+    const struct motion_trail *spoor;
+    struct motion_trail_point now;
+    double born_s; /* nothing is older */
+    double rate_hz, life_s;
+    double size_m, growth; /* radius at first, and how many times that more at the end */
+    double settle_mps;     /* how fast it goes along with the wind: a share of it */
+    uint32_t seed;
+};
+
+/* A puff of a trail, placed but not yet coloured. */
+struct left {
+    struct spot spot;
+    struct vec3 way; /* [m/s] of what left it */
+    double t;        /* 0..1 of its life */
+    double drift;    /* [s] so long with the wind */
+    uint32_t n;
+    float weight;
+};
+
+static struct motion_trail_point point_of(const struct entities *e, uint32_t slot, double time_s)
+{
+    struct motion_trail_point point = {.time_s = time_s};
+    vec3_to_floats(point.at, entities_position(e, slot));
+    vec3_to_floats(point.velocity, entities_velocity(e, slot));
+    return point;
+}
+
+/* Its numbers that may show; none when it was too slow to leave anything. */
+static struct row trail_row(const struct scene *scene, const struct trail *trail, double least_mps)
+{
+    const struct row none = {.last = -1, .step = 1};
+    struct vec3 at = {(double)trail->now.at[0], (double)trail->now.at[1], (double)trail->now.at[2]};
+    double from_s = maths_max(trail->born_s, scene->time_s - trail->life_s);
+    double speed = motion_trail_fastest_mps(trail->spoor, &trail->now, from_s);
+    if (speed < least_mps)
+        return none;
+    double length = speed * (scene->time_s - from_s);
+    /* Its nearest end may be anywhere: what is too dense for the one is sorted out by weight. */
+    double nearest = maths_max(0.0, particles_distance_m(scene, at) - length);
+    double largest = trail->size_m * (1.0 + trail->growth);
+    float place[3], reach = (float)(1.2 * length + 2.0 * largest + BEHIND_M);
+    scene_place(scene, at, place);
+    if (camera_pixels(&scene->camera, largest, nearest) < LEAST_PIXELS ||
+        !frustum_ball(&scene->sight, place, reach))
+        return none;
+    double spacing = particles_spacing_m(scene, trail->size_m, nearest);
+    return row_of(trail->seed, trail->rate_hz, from_s, maths_min(trail->now.time_s, scene->time_s),
+                  MORE * speed / (spacing * trail->rate_hz));
+}
+
+/* False when there is no such puff. */
+static bool trail_left(const struct scene *scene, const struct trail *trail, const struct row *row,
+                       int64_t number, struct left *left)
+{
+    double time_s = row_time_s(row, number), age = scene->time_s - time_s;
+    struct motion_trail_point was = motion_trail_at(trail->spoor, &trail->now, time_s);
+    struct vec3 way = {(double)was.velocity[0], (double)was.velocity[1], (double)was.velocity[2]};
+    double speed = vec3_length(way), drift = age * trail->settle_mps;
+    *left =
+        (struct left){.t = age / trail->life_s, .drift = drift, .n = (uint32_t)number, .way = way};
+    if (speed <= 0.0 || left->t < 0.0 || left->t > 1.0)
+        return false;
+    double size = trail->size_m * (1.0 + trail->growth * left->t);
+    struct vec3 at = {(double)was.at[0] + WIND_X * drift, (double)was.at[1],
+                      (double)was.at[2] + WIND_Z * drift};
+    double spacing = particles_spacing_m(scene, size, particles_distance_m(scene, at));
+    left->weight = row_weight(number, speed / (spacing * trail->rate_hz));
+    spacing = maths_max(spacing, speed / trail->rate_hz);
+    /* Each leans its own way, or they would look like one again and again. */
+    double tilt = 1.6 * size * ((double)luck(trail->seed, left->n, 31) - 0.5);
+    struct vec3 along = vec3_scale(way, maths_max(size, OVERLAP * spacing) / speed);
+    along.y += tilt;
+    left->spot = (struct spot){
+        .at = at,
+        .along = along,
+        .size_m = size * (0.85 + 0.3 * (double)luck(trail->seed, left->n, 10)),
+        .picture = smoke_picture(trail->seed, left->n),
+    };
+    return left->weight > 0.0f;
+}
+
+/* --- on land ---------------------------------------------------------------------------------- */
+
+static void dust(struct scene *scene, const struct frame_view *moment,
+                 const struct motion_trail *spoor, uint32_t slot, const struct kind *kind)
+{
+    const struct entities *e = moment->entities;
+    const struct terrain *terrain = &moment->world->terrain;
+    struct trail trail = {.spoor = spoor,
+                          .now = point_of(e, slot, scene->time_s),
+                          .born_s = (double)e->born_tick[slot] * moment->world->params->dt_s,
+                          .rate_hz = DUST_HZ,
+                          .life_s = DUST_LIFE_S,
+                          .size_m = 0.20 * kind->width_m + 0.25,
+                          .growth = 2.4,
+                          .settle_mps = 0.6,
+                          .seed = e->id[slot]};
+    struct row row = trail_row(scene, &trail, DUST_LEAST_MPS);
+    struct left left;
+    for (int64_t number = row.first; number <= row.last; number += row.step) {
+        if (!trail_left(scene, &trail, &row, number, &left))
+            continue;
+        double speed = vec3_length(left.way), wheels = left.spot.at.y;
+        struct spot *puff = &left.spot;
+        /* From either track in turn. */
+        double side =
+            0.36 * kind->width_m * ((double)luck(trail.seed, left.n, 9) < 0.5 ? -1.0 : 1.0);
+        puff->at.x += (-left.way.z * side - 0.42 * kind->length_m * left.way.x) / speed;
+        puff->at.z += (left.way.x * side - 0.42 * kind->length_m * left.way.z) / speed;
+        double ground = terrain_height(terrain, moment->craters, puff->at.x, puff->at.z);
+        puff->shade = dust_of(terrain_cover(terrain, puff->at.x - left.drift * WIND_X,
+                                            puff->at.z - left.drift * WIND_Z));
+        puff->at.y = ground + (0.6 + 0.2 * left.t) * puff->size_m;
+        double thick = maths_clamp((speed - DUST_LEAST_MPS) / 10.0, 0.0, 1.0) *
+                       maths_clamp(DUST_HIGH_M + ground - wheels, 0.0, 1.0);
+        puff->shade.a *= 0.65f * left.weight * (float)(thick * (1.0 - left.t) * (1.0 - left.t)) *
+                         come_and_go(left.t, 0.05, 2.0, 1.0);
+        particles_add(scene, puff);
+    }
+}
+
+/* --- on water --------------------------------------------------------------------------------- */
+
+/* Foam on the water; side: -1, 1 a wave of the bow, which spreads, 0 what the screws leave. */
+static void foam(struct scene *scene, const struct frame_view *moment,
+                 const struct motion_trail *spoor, uint32_t slot, const struct kind *kind,
+                 int32_t side)
+{
+    const struct entities *e = moment->entities;
+    struct trail trail = {.spoor = spoor,
+                          .now = point_of(e, slot, scene->time_s),
+                          .born_s = (double)e->born_tick[slot] * moment->world->params->dt_s,
+                          .rate_hz = side == 0 ? WAKE_HZ : BOW_HZ,
+                          .life_s = side == 0 ? WAKE_LIFE_S : BOW_LIFE_S,
+                          .size_m = (side == 0 ? 0.26 : 0.12) * kind->width_m,
+                          .growth = side == 0 ? 1.8 : 3.2,
+                          .seed = e->id[slot] * 3u + (uint32_t)(side + 1)};
+    struct row row = trail_row(scene, &trail, WAKE_LEAST_MPS);
+    struct left left;
+    for (int64_t number = row.first; number <= row.last; number += row.step) {
+        if (!trail_left(scene, &trail, &row, number, &left))
+            continue;
+        double speed = vec3_length(left.way), age = left.t * trail.life_s;
+        double along = (side == 0 ? -0.46 : 0.34) * kind->length_m;
+        double apart = side * (0.34 * kind->width_m + 0.16 * speed * age);
+        struct spot *puff = &left.spot;
+        puff->at.x += (along * left.way.x - apart * left.way.z) / speed;
+        puff->at.z += (along * left.way.z + apart * left.way.x) / speed;
+        particles_lay(scene, puff,
+                      terrain_base_height(&moment->world->terrain, puff->at.x, puff->at.z));
+        puff->shade = (struct shade){0.88f, 0.93f, 0.95f, side == 0 ? 0.55f : 0.50f};
+        puff->shade.a *= left.weight * (float)((1.0 - left.t) * (1.0 - left.t)) *
+                         (float)maths_clamp((speed - WAKE_LEAST_MPS) / 4.0, 0.0, 1.0) *
+                         come_and_go(left.t, 0.06, 2.0, 1.0);
+        particles_add(scene, puff);
+    }
+}
+
+/* --- in the air ------------------------------------------------------------------------------- */
+
+static void missile_smoke(struct scene *scene, const struct trail *trail)
+{
+    struct row row = trail_row(scene, trail, WAKE_LEAST_MPS);
+    struct left left;
+    for (int64_t number = row.first; number <= row.last; number += row.step) {
+        if (!trail_left(scene, trail, &row, number, &left))
+            continue;
+        double curl = 0.8 * left.spot.size_m * left.t;
+        left.spot.at.x += curl * ((double)luck(trail->seed, left.n, 20) - 0.5);
+        left.spot.at.y += curl * ((double)luck(trail->seed, left.n, 21) - 0.5);
+        left.spot.at.z += curl * ((double)luck(trail->seed, left.n, 22) - 0.5);
+        left.spot.shade = (struct shade){0.93f, 0.92f, 0.90f, 0.75f * left.weight};
+        left.spot.shade.a *= (float)((1.0 - left.t) * (1.0 - 0.5 * left.t));
+        particles_add(scene, &left.spot);
+    }
+}
+
+static struct trail missile_trail(const struct motion_trail *spoor, struct motion_trail_point now,
+                                  uint32_t id)
+{
+    return (struct trail){.spoor = spoor,
+                          .now = now,
+                          .rate_hz = SMOKE_HZ,
+                          .life_s = SMOKE_LIFE_S,
+                          .size_m = 0.45,
+                          .growth = 3.6,
+                          .settle_mps = 0.7,
+                          .seed = id};
+}
+
+static void missile(struct scene *scene, const struct frame_view *moment,
+                    const struct motion_trail *spoor, uint32_t slot, const struct kind *kind)
+{
+    const struct entities *e = moment->entities;
+    struct trail trail = missile_trail(spoor, point_of(e, slot, scene->time_s), e->id[slot]);
+    trail.born_s = (double)e->born_tick[slot] * moment->world->params->dt_s;
+    missile_smoke(scene, &trail);
+    struct vec3 velocity = entities_velocity(e, slot);
+    double speed = maths_max(vec3_length(velocity), 1.0), half = 0.5 * kind->length_m;
+    float flicker =
+        0.85f + 0.15f * value_noise_value(scene->time_s * 23.0, (double)(trail.seed % 4096u), 8);
+    for (uint32_t core = 0; core < 2; core++) {
+        struct spot burner = {
+            .at = vec3_add(entities_position(e, slot), vec3_scale(velocity, -1.3 * half / speed)),
+            .along = vec3_scale(velocity, (core ? 0.5 : 1.0) * half / speed),
+            .size_m = core ? 0.35 : 1.1,
+            .picture = PUFF_GLOW,
+            .glow = 1.0f,
+            .shade = {1.0f, core ? 0.9f : 0.62f, core ? 0.75f : 0.28f,
+                      core ? 1.0f : 0.7f * flicker}};
+        particles_add(scene, &burner);
+    }
+}
+
+/* A streak of light, with a white core in a halo. */
+static void tracer(struct scene *scene, const struct entities *e, uint32_t slot,
+                   const struct kind *kind)
+{
+    struct vec3 velocity = entities_velocity(e, slot), at = entities_position(e, slot);
+    double speed = vec3_length(velocity);
+    float place[3];
+    scene_place(scene, at, place);
+    if (speed < 1.0 || !frustum_ball(&scene->sight, place, TRACER_REACH_M))
+        return;
+    double distance = vec3_length(vec3_sub(at, scene->camera.eye));
+    double pixel_m = distance / scene->camera.focal_pixels, width = 0.14 + 0.6 * kind->radius_m;
+    double half = maths_clamp(speed * TRACER_S, 1.0, 20.0);
+    for (uint32_t core = 0; core < 2; core++) {
+        double size = maths_max(width * (core ? 0.45 : 1.6),
+                                (double)TRACER_PIXELS * (core ? 1.0 : 2.0) * pixel_m);
+        struct spot streak = {
+            .at = at,
+            .along = vec3_scale(velocity, half * (core ? 0.8 : 1.0) / speed),
+            .size_m = size,
+            .picture = PUFF_GLOW,
+            .glow = 1.0f,
+            .shade = {1.0f, core ? 0.92f : 0.55f, core ? 0.75f : 0.20f, core ? 1.0f : 0.65f}};
+        particles_add(scene, &streak);
+    }
+}
+
+/* What wind raises around a place, spray on water; smoothly from one cover to the next. */
+static struct shade raised_at(const struct terrain *terrain, double x, double z)
+{
+    struct shade sum = {0.0f, 0.0f, 0.0f, 0.0f};
+    for (uint32_t i = 0; i < 4; i++) {
+        enum cover cover = terrain_cover(terrain, x + (i & 1 ? RAISED_M : -RAISED_M),
+                                         z + (i & 2 ? RAISED_M : -RAISED_M));
+        struct shade one =
+            cover_is_water(cover) ? (struct shade){0.90f, 0.94f, 0.96f, 0.8f} : dust_of(cover);
+        sum.r += 0.25f * one.r;
+        sum.g += 0.25f * one.g;
+        sum.b += 0.25f * one.b;
+        sum.a += 0.25f * one.a;
+    }
+    return sum;
+}
+
+/* A ring of dust, or of spray, that a rotor near the ground drives outwards. */
+static void wash(struct scene *scene, const struct frame_view *moment, uint32_t slot,
+                 const struct kind *kind)
+{
+    const struct entities *e = moment->entities;
+    const struct terrain *terrain = &moment->world->terrain;
+    struct vec3 at = entities_position(e, slot);
+    double radius = 0.55 * kind->length_m;
+    float place[3];
+    scene_place(scene, at, place);
+    if (kind->min_speed_mps > 0.0 || !frustum_ball(&scene->sight, place, (float)(4.0 * radius)))
+        return; /* it has wings, or is out of the picture */
+    double above = at.y - terrain_height(terrain, moment->craters, at.x, at.z);
+    double strength = maths_clamp(1.0 - above / (WASH_DISCS * radius), 0.0, 1.0);
+    if (strength <= 0.0)
+        return;
+    struct row row = row_of(e->id[slot], WASH_HZ, scene->time_s - WASH_LIFE_S, scene->time_s,
+                            particles_share(scene, radius, at));
+    for (int64_t number = row.first; number <= row.last; number += row.step) {
+        uint32_t n = (uint32_t)number, seed = e->id[slot];
+        double t = (scene->time_s - row_time_s(&row, number)) / WASH_LIFE_S;
+        double turn = TWO_PI * (double)luck(seed, n, 23), sine, cosine;
+        maths_sincos(turn, &sine, &cosine);
+        double out = radius * (0.35 + 1.7 * t * (1.4 - 0.4 * t));
+        struct spot puff = {.at = {at.x + out * cosine, 0.0, at.z + out * sine},
+                            .size_m = radius * (0.16 + 0.34 * t),
+                            .picture = smoke_picture(seed, n),
+                            .turn_rad = luck_turn(seed, n, 24)};
+        puff.shade = raised_at(terrain, puff.at.x, puff.at.z);
+        puff.at.y = terrain_height(terrain, moment->craters, puff.at.x, puff.at.z) +
+                    (0.6 + 0.3 * t) * puff.size_m;
+        puff.shade.a *= 0.8f * (float)(strength * (1.0 - t)) * come_and_go(t, 0.15, 2.0, 1.0) *
+                        row_weight(number, particles_share(scene, radius, at));
+        particles_add(scene, &puff);
+    }
+}
+
+void trails_entity(struct scene *scene, const struct frame_view *moment,
+                   const struct motion_trail *spoor, uint32_t slot, const struct kind *kind)
+{
+    switch (kind->domain) {
+    case DOMAIN_LAND:
+        dust(scene, moment, spoor, slot, kind);
+        break;
+    case DOMAIN_SEA:
+        for (int32_t side = -1; side <= 1; side++)
+            foam(scene, moment, spoor, slot, kind, side);
+        break;
+    case DOMAIN_AIR:
+        wash(scene, moment, slot, kind);
+        break;
+    case DOMAIN_MUNITION:
+        if (kind->guidance == GUIDANCE_HOMING)
+            missile(scene, moment, spoor, slot, kind);
+        else
+            tracer(scene, moment->entities, slot, kind);
+        break;
+    default:
+        break;
+    }
+}
+
+void trails_left(struct scene *scene, const struct frame_view *moment,
+                 const struct motion_trails *spoors)
+{
+    const struct entities *e = moment->entities;
+    for (uint32_t slot = 0; slot < MOTION_TRAILS_SLOTS && slot < moment->head->used; slot++) {
+        const struct motion_trail *spoor = &spoors->spoor[slot];
+        if (spoor->count == 0 || (e->state[slot] != ENTITY_FREE && e->id[slot] == spoor->id) ||
+            moment->world->kinds[spoor->kind].domain != DOMAIN_MUNITION)
+            continue;
+        const struct motion_trail_point *end = &spoor->point[(spoor->count - 1) % SPOOR_POINTS];
+        if (end->time_s > scene->time_s || end->time_s < scene->time_s - SMOKE_LIFE_S)
+            continue;
+        struct trail trail = missile_trail(spoor, *end, spoor->id);
+        const struct motion_trail_point *first =
+            &spoor->point[spoor->count < SPOOR_POINTS ? 0 : spoor->count % SPOOR_POINTS];
+        trail.born_s = first->time_s;
+        missile_smoke(scene, &trail);
+    }
+}

@@ -1,0 +1,74 @@
+/* Pictures standing in space: walking the pixels of one. Kernels only. */
+#ifndef JOLON_RENDERER_SOFT_BILLBOARD_H
+#define JOLON_RENDERER_SOFT_BILLBOARD_H
+
+#include "renderer/soft/soft_plants.h"
+#include "renderer/soft/triangle_raster.h"
+#include "renderer/soft/simd8.h"
+
+/* A value at eight pixels of a row from x on. */
+SIMD8 v8f billboard_value(const float value[3], v8f x, float y)
+{
+    return value[0] + y * value[2] + x * value[1];
+}
+
+/* Makes the range of columns smaller to where a value is not below 0, or a little beyond. */
+SIMD8 void billboard_bound(float at, float step, float *left, float *right)
+{
+    float bound = -at / step;
+    if (step > 0.0f)
+        *left = bound - 1.0f > *left ? bound - 1.0f : *left;
+    else if (step < 0.0f)
+        *right = bound + 2.0f < *right ? bound + 2.0f : *right;
+    else if (at < 0.0f)
+        *right = *left;
+}
+
+/* The columns of a row in which the picture lies. */
+SIMD8 void billboard_range(const struct soft_board *b, int32_t y, int32_t *first, int32_t *end)
+{
+    float side = (float)(1u << b->level), left = b->left, right = b->right, row = (float)y;
+    float depth = side * (b->depth[0] + row * b->depth[2]);
+    float across = b->across[0] + row * b->across[2], down = b->down[0] + row * b->down[2];
+    billboard_bound(across, b->across[1], &left, &right);
+    billboard_bound(depth - across, side * b->depth[1] - b->across[1], &left, &right);
+    billboard_bound(down, b->down[1], &left, &right);
+    billboard_bound(depth - down, side * b->depth[1] - b->down[1], &left, &right);
+    *first = right > left ? (int32_t)left : 0;
+    *end = right > left ? (int32_t)right : 0;
+}
+
+/* Eight pixels of a board. */
+struct board8 {
+    v8f depth, column, row; /* texels */
+    v8i seen;
+};
+
+/* Where eight pixels fall in the picture, and which are in it and at least as near as what is
+ * there. */
+SIMD8 struct board8 billboard_pixels(const struct soft_board *b, const float *there, int32_t x,
+                                     int32_t y, v8i inside)
+{
+    struct board8 p;
+    float row = (float)y, side = (float)(1u << b->level);
+    v8f column = simd8_to_f(simd8_count() + x);
+    p.depth = billboard_value(b->depth, column, row);
+    p.seen = inside & (p.depth > simd8_load_f(there));
+    p.column = p.row = simd8_f(0.0f);
+    if (simd8_bits(p.seen) == 0)
+        return p;
+    v8f far = 1.0f / simd8_select(p.seen, p.depth, simd8_f(1.0f));
+    p.column = billboard_value(b->across, column, row) * far;
+    p.row = billboard_value(b->down, column, row) * far;
+    p.seen &= (p.column >= 0.0f) & (p.row >= 0.0f) & (p.column < side) & (p.row < side);
+    p.column = simd8_select(p.seen, p.column, simd8_f(0.0f));
+    p.row = simd8_select(p.seen, p.row, simd8_f(0.0f));
+    return p;
+}
+
+SIMD8 v8i billboard_texel(const struct soft_board *b, v8f column, v8f row)
+{
+    return (simd8_to_i(row) << b->level) + simd8_to_i(column);
+}
+
+#endif

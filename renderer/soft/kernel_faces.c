@@ -1,0 +1,154 @@
+/* Bodies into a band: small ones face by face in one colour, others with their paint. */
+#include "renderer/soft/atmosphere.h"
+#include "renderer/soft/kernel.h"
+#include "renderer/soft/soft_bodies.h"
+#include "renderer/soft/triangle_raster.h"
+#include "renderer/soft/texel.h"
+
+/* What the pixels of a face need. */
+struct painting {
+    const struct soft_target *target;
+    const struct soft_flat *flat;
+    const struct soft_side *side;
+    const struct soft_paint *paint;
+    const struct soft_detail *detail;
+    bool texture;
+};
+
+/* --- flat ------------------------------------------------------------------------------------- */
+
+SIMD8 void flat_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
+{
+    const struct painting *p = context;
+    v8f depth = triangle_raster_value(&p->flat->span, &p->flat->depth, x, y);
+    v8f there = simd8_load_f(p->target->depth + at);
+    v8i seen = inside & (depth > there);
+    simd8_store_f(p->target->depth + at, simd8_select(seen, depth, there));
+    simd8_store_u(p->target->colour + at, simd8_select_u(seen, simd8_u(p->flat->colour),
+                                                         simd8_load_u(p->target->colour + at)));
+}
+
+/* --- with detail ------------------------------------------------------------------------------ */
+
+/* The fine texture's mip at a place [periods]. */
+SIMD8 struct pair8 look(const struct painting *p, uint32_t mip, v8f x, v8f y)
+{
+    int32_t power = SOFT_DETAIL_POWER - (int32_t)mip;
+    float size = (float)(256 << power);
+    struct pair8 pair =
+        texel_pair(p->detail->mip[mip], power, x * size - 128.0f, y * size - 128.0f);
+    return (struct pair8){pair.red * TEXEL_OVER, pair.green * TEXEL_OVER};
+}
+
+SIMD8 v8f smooth(v8f t)
+{
+    t = simd8_clamp(t, 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+/* A track's links, light and dark by turns. */
+SIMD8 struct colour8 link_colour(const struct painting *p, struct colour8 c, v8f along)
+{
+    v8f half = 0.5f * along, off = simd8_abs(half - simd8_to_f(simd8_floor(half)) - 0.5f);
+    v8f link = 0.5f + (simd8_smoothstep(0.1f, 0.3f, off) - 0.5f) * p->side->links;
+    return colour_scale(c, 0.55f + 0.9f * link);
+}
+
+/* Bent sheet: the paint has gone where it bent most. */
+SIMD8 struct colour8 bare_colour(const struct painting *p, struct colour8 c, const v8f at[3],
+                                 v8f bare)
+{
+    v8f scrape = look(p, p->side->fine, at[0] * 0.9f + at[2], at[1] * 0.9f + at[2]).green;
+    struct colour8 metal = colour_scale(colour_of(0.30f, 0.285f, 0.27f), 0.5f + scrape);
+    v8f much = 0.85f * smooth((scrape - 0.85f + bare) * 4.0f);
+    return colour_mix(c, metal, simd8_select(bare > 0.0f, much, simd8_f(0.0f)));
+}
+
+/* Rubble: what it was, dust, and dark gaps between. */
+SIMD8 struct colour8 rubble_colour(const struct painting *p, struct colour8 c, const v8f at[3],
+                                   v8f fell)
+{
+    v8f x = at[0] + 0.7f * at[1], y = at[2] + 0.7f * at[1];
+    v8f lump = look(p, p->side->fine, x * 0.21f, y * 0.21f).green;
+    v8f gap = look(p, p->side->fine, x * 0.43f, y * 0.43f).red;
+    struct colour8 dust = colour_scale(colour_of(0.60f, 0.53f, 0.43f), 0.7f + 0.5f * gap);
+    struct colour8 rubble = colour_mix(c, dust, simd8_smoothstep(0.36f, 0.52f, lump));
+    rubble = colour_scale(rubble, 0.35f + 0.65f * simd8_smoothstep(0.34f, 0.50f, gap));
+    /* Between what stands and what lies, a slope of earth. */
+    v8f torn = simd8_smoothstep(0.01f, 0.15f, fell) * (1.0f - simd8_smoothstep(0.85f, 1.0f, fell));
+    struct colour8 earth = colour_scale(colour_of(0.42f, 0.35f, 0.27f), 0.55f + 0.9f * lump * gap);
+    return colour_mix(colour_mix(c, rubble, simd8_smoothstep(0.5f, 1.0f, fell)), earth,
+                      0.92f * torn);
+}
+
+/* Paint: blots, grain, soot and rust. */
+SIMD8 struct colour8 worn_colour(const struct painting *p, struct colour8 c, const v8f at[3])
+{
+    const struct soft_paint *paint = p->paint;
+    v8f x = at[0] + 0.45f * at[1], y = at[2] + 0.8f * at[1];
+    struct pair8 blot = look(p, p->side->broad, x * PAINT_BROAD_PER_M, y * PAINT_BROAD_PER_M);
+    struct pair8 fine = look(p, p->side->fine, x * PAINT_FINE_PER_M, y * PAINT_FINE_PER_M);
+    v8f dark = simd8_smoothstep(0.46f, 0.54f, blot.red) * p->side->worn;
+    c = colour_scale(c, (1.0f - 0.30f * dark) * (0.86f + 0.28f * fine.red));
+    v8f soot = smooth((fine.green + 0.3f * blot.green - paint->soot_low) * paint->soot_over);
+    v8f rust =
+        simd8_smoothstep(0.60f, 0.80f, fine.green + 0.4f * (blot.green - 0.5f)) * paint->rust;
+    struct colour8 burnt =
+        colour_mix(colour_of(0.055f, 0.05f, 0.047f), colour_of(0.20f, 0.115f, 0.07f), rust);
+    return colour_mix(c, burnt, simd8_max(soot * paint->soot_most, simd8_f(paint->burnt)));
+}
+
+SIMD8 void side_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
+{
+    const struct painting *p = context;
+    const struct soft_side *side = p->side;
+    const struct soft_paint *paint = p->paint;
+    v8f depth = triangle_raster_value(&side->span, &side->depth, x, y);
+    v8f there = simd8_load_f(p->target->depth + at), value[SIDE_VALUES];
+    v8i seen = inside & (depth > there);
+    if (simd8_bits(seen) == 0)
+        return;
+    v8f far = 1.0f / simd8_select(seen, depth, simd8_f(1.0f));
+    for (uint32_t i = 0; i < SIDE_FELL; i++)
+        value[i] = triangle_raster_value(&side->span, &side->value[i], x, y) * far;
+    struct colour8 c = colour_of(side->colour[0], side->colour[1], side->colour[2]);
+    if (side->track)
+        c = link_colour(p, c,
+                        triangle_raster_value(&side->span, &side->value[SIDE_ALONG], x, y) * far);
+    if (paint->shaped) {
+        v8f bare = triangle_raster_value(&side->span, &side->value[SIDE_BARE], x, y) * far;
+        v8f fell = triangle_raster_value(&side->span, &side->value[SIDE_FELL], x, y) * far;
+        if (simd8_bits(seen & (bare > 0.0f)) != 0)
+            c = bare_colour(p, c, value + SIDE_X, bare);
+        if (simd8_bits(seen & (fell > 0.0f)) != 0)
+            c = rubble_colour(p, c, value + SIDE_X, fell);
+    }
+    if (p->texture)
+        c = worn_colour(p, c, value + SIDE_X);
+    else
+        c = colour_mix(c, colour_of(0.07f, 0.07f, 0.07f), simd8_f(paint->plain));
+    v8u colour = simd8_pack(c.r * value[SIDE_RED] * paint->clear + paint->air[0],
+                            c.g * value[SIDE_GREEN] * paint->clear + paint->air[1],
+                            c.b * value[SIDE_BLUE] * paint->clear + paint->air[2]);
+    simd8_store_f(p->target->depth + at, simd8_select(seen, depth, there));
+    simd8_store_u(p->target->colour + at,
+                  simd8_select_u(seen, colour, simd8_load_u(p->target->colour + at)));
+}
+
+void KERNEL(soft_bodies_fill)(const struct soft_bodies *bodies, const struct soft_frame *frame,
+                              const struct soft_target *target)
+{
+    struct painting p = {.target = target, .detail = bodies->detail, .texture = frame->texture};
+    const struct soft_bins *bins = &bodies->flats.bins;
+    uint32_t band = target->band;
+    for (uint32_t i = bins->start[band]; i < bins->start[band + 1]; i++) {
+        p.flat = (const struct soft_flat *)bodies->flats.list + bins->item[i];
+        triangle_raster_walk(&p.flat->span, target, flat_pixels, &p);
+    }
+    bins = &bodies->sides.bins;
+    for (uint32_t i = bins->start[band]; i < bins->start[band + 1]; i++) {
+        p.side = (const struct soft_side *)bodies->sides.list + bins->item[i];
+        p.paint = &bodies->paints[p.side->paint];
+        triangle_raster_walk(&p.side->span, target, side_pixels, &p);
+    }
+}

@@ -1,0 +1,234 @@
+/* Triangles into pixels: clipping at the near plane, setting up eight triangles at once, walking
+ * one. Kernels only.
+ *
+ * A pixel belongs to a triangle when its centre lies inside; a centre on an edge belongs to the
+ * triangle below or to the right of it. Where an edge crosses a row is worked out from its upper to
+ * its lower corner, so that two triangles that share an edge agree to the bit: no pixel between
+ * them is missed, or drawn twice. */
+#ifndef JOLON_RENDERER_SOFT_TRIANGLE_RASTER_H
+#define JOLON_RENDERER_SOFT_TRIANGLE_RASTER_H
+
+#include "renderer/soft/soft.h"
+#include "renderer/soft/simd8.h"
+
+#include <stdbool.h>
+
+#define TRIANGLE_RASTER_FAR                                                                        \
+    1.0e8f /* [pixel] from the picture's corner: corners further off are not drawn */
+
+/* Eight triangles in the picture [pixel]. */
+struct corners8 {
+    v8f x[3], y[3];
+};
+
+/* Of eight triangles. */
+struct span8 {
+    v8f top_x, top_y, middle_x, middle_y, low_y;
+    v8f long_slope, upper_slope, lower_slope;
+    v8f area;       /* twice; positive when the corners turn clockwise in the picture */
+    v8f over_area;  /* 1 / area */
+    v8i first, end; /* rows, within the picture */
+    v8f x0, y0;     /* the first corner, and from it to the others */
+    v8f x1, y1, x2, y2;
+};
+
+struct plane8 {
+    v8f top, x, y;
+};
+
+SIMD8 void triangle_raster_order(v8f *x, v8f *y, v8f *lower_x, v8f *lower_y)
+{
+    v8i wrong = *y > *lower_y;
+    v8f swap_x = simd8_select(wrong, *lower_x, *x), swap_y = simd8_select(wrong, *lower_y, *y);
+    *lower_x = simd8_select(wrong, *x, *lower_x);
+    *lower_y = simd8_select(wrong, *y, *lower_y);
+    *x = swap_x;
+    *y = swap_y;
+}
+
+/* The row or column whose centre is the first at or after a place, within 0 .. most. */
+SIMD8 v8i triangle_raster_line(v8f at, float most)
+{
+    return simd8_ceil(simd8_clamp(at - 0.5f, 0.0f, most));
+}
+
+/* How far to the side an edge goes in a row; nothing where it crosses no row's centre. */
+SIMD8 v8f triangle_raster_slope(v8f x, v8f y, v8f lower_x, v8f lower_y)
+{
+    v8f high = lower_y - y;
+    return simd8_select(high > 0.0f, (lower_x - x) / simd8_select(high > 0.0f, high, simd8_f(1.0f)),
+                        simd8_f(0.0f));
+}
+
+/* Twice the triangles' areas; positive when the corners turn clockwise in the picture. */
+SIMD8 v8f triangle_raster_area(const struct corners8 *c)
+{
+    return (c->x[1] - c->x[0]) * (c->y[2] - c->y[0]) - (c->x[2] - c->x[0]) * (c->y[1] - c->y[0]);
+}
+
+/* The mask of the triangles that may hold a pixel's centre of a picture of this size: not of no
+ * area, not wholly to a side, not of corners that are no numbers. */
+SIMD8 v8i triangle_raster_shown(const struct corners8 *c, v8f area, uint32_t width, uint32_t height)
+{
+    float columns = (float)width, rows = (float)height;
+    v8f left = simd8_min(simd8_min(c->x[0], c->x[1]), c->x[2]);
+    v8f right = simd8_max(simd8_max(c->x[0], c->x[1]), c->x[2]);
+    v8f top = simd8_min(simd8_min(c->y[0], c->y[1]), c->y[2]);
+    v8f low = simd8_max(simd8_max(c->y[0], c->y[1]), c->y[2]);
+    /* No comparison holds for what is no number. */
+    v8i there = (area > 0.0f) | (area < 0.0f);
+    v8i number = (left > -TRIANGLE_RASTER_FAR) & (right < TRIANGLE_RASTER_FAR) &
+                 (top > -TRIANGLE_RASTER_FAR) & (low < TRIANGLE_RASTER_FAR);
+    /* Between two centres of columns, or of rows, there is nothing to draw. */
+    v8i columns_held = triangle_raster_line(left, columns) < triangle_raster_line(right, columns);
+    v8i rows_held = triangle_raster_line(top, rows) < triangle_raster_line(low, rows);
+    return there & number & columns_held & rows_held;
+}
+
+/* Sets eight triangles up. Returns triangle_raster_shown(). */
+SIMD8 v8i triangle_raster_set_up(struct span8 *s, const struct corners8 *c, uint32_t width,
+                                 uint32_t height)
+{
+    float rows = (float)height;
+    s->x0 = c->x[0];
+    s->y0 = c->y[0];
+    s->x1 = c->x[1] - c->x[0];
+    s->y1 = c->y[1] - c->y[0];
+    s->x2 = c->x[2] - c->x[0];
+    s->y2 = c->y[2] - c->y[0];
+    s->area = triangle_raster_area(c);
+    v8i there = (s->area > 0.0f) | (s->area < 0.0f);
+    s->over_area = 1.0f / simd8_select(there, s->area, simd8_f(1.0f));
+
+    v8f top_x = c->x[0], top_y = c->y[0], middle_x = c->x[1], middle_y = c->y[1];
+    v8f low_x = c->x[2], low_y = c->y[2];
+    triangle_raster_order(&top_x, &top_y, &middle_x, &middle_y);
+    triangle_raster_order(&middle_x, &middle_y, &low_x, &low_y);
+    triangle_raster_order(&top_x, &top_y, &middle_x, &middle_y);
+    s->top_x = top_x;
+    s->top_y = top_y;
+    s->middle_x = middle_x;
+    s->middle_y = middle_y;
+    s->low_y = low_y;
+    s->long_slope = triangle_raster_slope(top_x, top_y, low_x, low_y);
+    s->upper_slope = triangle_raster_slope(top_x, top_y, middle_x, middle_y);
+    s->lower_slope = triangle_raster_slope(middle_x, middle_y, low_x, low_y);
+    s->first = triangle_raster_line(top_y, rows);
+    s->end = triangle_raster_line(low_y, rows);
+    return triangle_raster_shown(c, s->area, width, height);
+}
+
+/* The plane through the values at the corners. */
+SIMD8 struct plane8 triangle_raster_plane(const struct span8 *s, v8f at0, v8f at1, v8f at2)
+{
+    v8f by1 = at1 - at0, by2 = at2 - at0;
+    v8f x = (by1 * s->y2 - by2 * s->y1) * s->over_area;
+    v8f y = (by2 * s->x1 - by1 * s->x2) * s->over_area;
+    return (struct plane8){at0 + (s->top_x - s->x0) * x + (s->top_y - s->y0) * y, x, y};
+}
+
+/* One of the eight. */
+SIMD8 struct span triangle_raster_of(const struct span8 *s, int lane)
+{
+    return (struct span){s->top_x[lane],       s->top_y[lane],      s->middle_x[lane],
+                         s->middle_y[lane],    s->low_y[lane],      s->long_slope[lane],
+                         s->upper_slope[lane], s->lower_slope[lane]};
+}
+
+SIMD8 struct span_plane triangle_raster_plane_of(const struct plane8 *p, int lane)
+{
+    return (struct span_plane){p->top[lane], p->x[lane], p->y[lane]};
+}
+
+/* The plane's value at the centres of eight pixels of a row from x on. */
+SIMD8 v8f triangle_raster_value(const struct span *s, const struct span_plane *p, int32_t x,
+                                int32_t y)
+{
+    float row = p->top + ((float)y + 0.5f - s->top_y) * p->y;
+    return row + (simd8_to_f(simd8_count() + x) + (0.5f - s->top_x)) * p->x;
+}
+
+/* ceil(v - 0.5) within 0 .. most; 0 for what is no number. */
+SIMD8 int32_t triangle_raster_ceil(float v, float most)
+{
+    v -= 0.5f;
+    v = v > 0.0f ? v : 0.0f;
+    v = v < most ? v : most;
+    int32_t whole = (int32_t)v;
+    return whole + (v > (float)whole);
+}
+
+/* Draws eight pixels of a row: x and y of the first, x a multiple of eight; its place in the
+ * target's arrays; which of the eight are inside. */
+typedef void triangle_raster_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside);
+
+/* Calls pixels, which should be inlined, for all of the triangle that lies in the band. Where its
+ * edges cross the rows is worked out for eight rows at once. */
+SIMD8 void triangle_raster_walk(const struct span *s, const struct soft_target *t,
+                                triangle_raster_pixels *pixels, void *context)
+{
+    float rows = (float)SOFT_SIDE_MAX, columns = (float)t->width;
+    int32_t y = triangle_raster_ceil(s->top_y, rows),
+            middle = triangle_raster_ceil(s->middle_y, rows);
+    int32_t end = triangle_raster_ceil(s->low_y, rows);
+    y = y > t->first ? y : t->first;
+    end = end < t->end ? end : t->end;
+    /* Is the middle corner to the right of the long edge? */
+    bool right = s->middle_x > s->top_x + (s->middle_y - s->top_y) * s->long_slope;
+    for (; y < end; y += LANES) {
+        v8i number = simd8_count() + y;
+        v8f down = simd8_to_f(number) + 0.5f;
+        v8f x_long = s->top_x + (down - s->top_y) * s->long_slope;
+        v8f x_short = simd8_select(number < middle, s->top_x + (down - s->top_y) * s->upper_slope,
+                                   s->middle_x + (down - s->middle_y) * s->lower_slope);
+        struct simd8_lanes first =
+            simd8_lanes(triangle_raster_line(right ? x_long : x_short, columns));
+        struct simd8_lanes last =
+            simd8_lanes(triangle_raster_line(right ? x_short : x_long, columns));
+        int32_t rows_left = end - y < LANES ? end - y : LANES;
+        size_t row = (size_t)(y - t->first) * t->stride;
+        for (int32_t i = 0; i < rows_left; i++, row += t->stride)
+            for (int32_t x = first.lane[i] & -LANES; x < last.lane[i]; x += LANES) {
+                v8i column = simd8_count() + x;
+                pixels(context, x, y + i, row + (size_t)x,
+                       (column >= first.lane[i]) & (column < last.lane[i]));
+            }
+    }
+}
+
+/* --- the near plane --- */
+
+#define TRIANGLE_RASTER_VALUES_MAX 12
+
+/* A triangle's corner before it is projected: where along the view, and its other values, which
+ * are mixed evenly along an edge: x and y across and down, colours and the like. */
+struct clip_corner {
+    float ahead;
+    float value[TRIANGLE_RASTER_VALUES_MAX];
+};
+
+/* Cuts away what is nearer than near_m. Returns how many corners are left: 0, 3 or 4, in the
+ * same sense of turn. */
+SIMD8 uint32_t triangle_raster_clip(const struct clip_corner corner[3], uint32_t values,
+                                    float near_m, struct clip_corner cut[4])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < 3; i++) {
+        const struct clip_corner *a = &corner[i], *b = &corner[i < 2 ? i + 1 : 0];
+        bool a_in = a->ahead >= near_m, b_in = b->ahead >= near_m;
+        if (a_in)
+            cut[count++] = *a;
+        if (a_in == b_in)
+            continue;
+        /* From the inner to the outer corner, whichever triangle asks. */
+        const struct clip_corner *in = a_in ? a : b, *out = a_in ? b : a;
+        float t = (near_m - in->ahead) / (out->ahead - in->ahead);
+        struct clip_corner *at = &cut[count++];
+        at->ahead = near_m;
+        for (uint32_t v = 0; v < values; v++)
+            at->value[v] = in->value[v] + (out->value[v] - in->value[v]) * t;
+    }
+    return count;
+}
+
+#endif

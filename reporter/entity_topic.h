@@ -1,0 +1,42 @@
+/* Batches: every entity of a frame in one sample, or in a few for a large world. */
+#ifndef JOLON_REPORTER_ENTITY_TOPIC_H
+#define JOLON_REPORTER_ENTITY_TOPIC_H
+
+#include "ipc/frame/snapshot.h"
+#include "ipc/topics/dds_topics.h"
+
+#include "status.h"
+
+#define ENTITY_TOPIC_PERIOD_NS 100000000u
+
+/* Entities in one sample, far below what the type allows: a sample is one write, about 5 ms, and
+ * between two of them this process takes commands and shows that it lives. */
+#define ENTITY_TOPIC_PART 8192u
+
+/* Batches may take one part in so many of the time: a world too large for ten a second gets fewer
+ * rather than a whole processor. */
+#define ENTITY_TOPIC_SHARE 8u
+
+struct entity_topic {
+    dds_entity_t writer;
+    struct snapshot snapshot;
+    jolon_Entity *entity; /* [room] */
+    uint32_t room;
+    double dt_s;
+    jolon_EntityBatch wire;      /* the part to be written next */
+    bool busy;                   /* parts of the snapshot are still to be written */
+    uint32_t row;                /* where the next part begins */
+    uint64_t begun_ns, spent_ns; /* of this batch */
+    uint64_t due_ns;
+};
+
+/* -1 with the reason: no memory, no writer. */
+int entity_topic_open(struct entity_topic *batch, const struct view *view,
+                      const struct dds_link *link, uint64_t run, struct reason *reason);
+void entity_topic_close(struct entity_topic *batch);
+
+/* Writes a part of the last committed frame's entities if that is due and somebody reads them. True
+ * when more parts wait for the next call. */
+bool entity_topic_publish(struct entity_topic *batch, const struct view *view, uint64_t now_ns);
+
+#endif

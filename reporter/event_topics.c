@@ -1,0 +1,240 @@
+/* The event ring onto the event topics. */
+#include "reporter/event_topics.h"
+
+#include "ipc/process/clock.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
+
+#include "status.h"
+
+#include <string.h>
+
+_Static_assert((int)jolon_RESPONSE_DESTROYED == (int)RESPONSE_DESTROYED &&
+                   (int)RESPONSE_COUNT == (int)jolon_RESPONSE_DESTROYED + 1,
+               "responses in ipc/topics/status.idl");
+_Static_assert((int)jolon_STRUCK_AIR == (int)STRUCK_AIR &&
+                   (int)STRUCK_COUNT == (int)jolon_STRUCK_AIR + 1,
+               "what is struck in ipc/topics/status.idl");
+_Static_assert((int)jolon_REASON_LEASE_OVER == (int)REASON_LEASE_OVER &&
+                   (int)REASON_COUNT == (int)jolon_REASON_LEASE_OVER + 1,
+               "agents' reasons in ipc/topics/status.idl");
+_Static_assert((int)jolon_DAMAGE_DESTROYED == (int)DAMAGE_DESTROYED &&
+                   (int)DAMAGE_COUNT == (int)jolon_DAMAGE_DESTROYED + 1,
+               "damage in ipc/topics/status.idl");
+_Static_assert(TOPIC_AGENT - TOPIC_COLLISION + 1 == EVENT_TOPICS_TOPICS,
+               "event topics are in a row");
+_Static_assert(EVENT_AGENT - EVENT_COLLISION + 1 == EVENT_TOPICS_TOPICS,
+               "event types are in a row");
+
+int event_topics_open(struct event_topics *events, const struct view *view,
+                      const struct dds_link *link, uint64_t run, struct reason *reason)
+{
+    struct state_head head;
+    *events = (struct event_topics){.run = run};
+    for (uint32_t i = 0; i < EVENT_TOPICS_TOPICS; i++) {
+        events->writer[i] = dds_topics_writer(link, (enum dds_topic)(TOPIC_COLLISION + i), reason);
+        if (events->writer[i] < 0)
+            return -1;
+        events->previous[i] = UINT64_MAX;
+    }
+    if (snapshot_head(&head, view) != 0)
+        return reason_set(reason, "world \"%s\": its last frame cannot be read", view->name);
+    /* Our slot still has the frame that the predecessor finished; 0 when there was none. */
+    const struct role_slot *slot = view->slot[view->role];
+    uint64_t before = atomic_load_explicit(&slot->frame, memory_order_relaxed);
+    uint64_t again = (uint64_t)(EVENT_TOPICS_AGAIN_S * view->world.params->hz);
+    events->publish_from =
+        head.event_end > EVENT_TOPICS_AGAIN ? head.event_end - EVENT_TOPICS_AGAIN : 0;
+    events->publish_from_frame = before > again ? before - again : 0;
+    events->gaps = atomic_load_explicit(&slot->gaps, memory_order_relaxed);
+    /* From the ring's oldest. What went before it is nobody's gap. */
+    uint64_t slots = view->header->event_slots;
+    events->cursor.next = head.event_end > slots ? head.event_end - slots : 0;
+    events->cursor.next -= events_read(view, &events->cursor, events->event, 1);
+    events->cursor.gap = 0;
+    return 0;
+}
+
+static jolon_Point point_of(const double point[3])
+{
+    return (jolon_Point){point[0], point[1], point[2]};
+}
+
+static jolon_Direction direction_of(const float direction[3])
+{
+    return (jolon_Direction){direction[0], direction[1], direction[2]};
+}
+
+static jolon_Party party_of(const struct world *world, const struct event_party *party)
+{
+    jolon_Party wire = {
+        .id = party->id, .fixed = party->fixed != 0, .damage = (jolon_Damage)party->damage};
+    const char *kind = party->fixed ? "ground" : "none"; /* nobody: the terrain, or none */
+    if (party->id)
+        kind = party->kind < world->counts.kinds ? world->kinds[party->kind].name : "?";
+    (void)stpncpy(wire.kind, kind, sizeof wire.kind - 1);
+    return wire;
+}
+
+static dds_return_t write_collision(dds_entity_t writer, const jolon_EventHeader *header,
+                                    const struct world *world, const struct event_collision *from)
+{
+    jolon_CollisionEvent wire = {
+        .header = *header,
+        .a = party_of(world, &from->a),
+        .b = party_of(world, &from->b),
+        .point = point_of(from->point),
+        .normal = direction_of(from->normal),
+        .toi = from->toi,
+        .closing_mps = from->closing_mps,
+        .angle_deg = from->angle_deg,
+        .impulse_ns = from->impulse_ns,
+        .direction = direction_of(from->direction_a),
+        .response = (jolon_Response)from->response,
+    };
+    return dds_write(writer, &wire);
+}
+
+static dds_return_t write_fire(dds_entity_t writer, const jolon_EventHeader *header,
+                               const struct world *world, const struct event_fire *from)
+{
+    jolon_FireEvent wire = {
+        .header = *header,
+        .shooter = party_of(world, &from->shooter),
+        .target = party_of(world, &from->target),
+        .munition = party_of(world, &from->munition),
+        .point = point_of(from->point),
+    };
+    return dds_write(writer, &wire);
+}
+
+static dds_return_t write_detonation(dds_entity_t writer, const jolon_EventHeader *header,
+                                     const struct world *world, const struct event_detonation *from)
+{
+    jolon_DetonationEvent wire = {
+        .header = *header,
+        .munition = party_of(world, &from->munition),
+        .victim = party_of(world, &from->struck_party),
+        .point = point_of(from->point),
+        .explosive_kg = from->explosive_kg,
+        .struck = (jolon_Struck)from->struck,
+    };
+    return dds_write(writer, &wire);
+}
+
+static dds_return_t write_crater(dds_entity_t writer, const jolon_EventHeader *header,
+                                 const struct event_crater *from)
+{
+    jolon_CraterEvent wire = {
+        .header = *header,
+        .point = point_of(from->point),
+        .radius_m = from->radius_m,
+        .depth_m = from->depth_m,
+    };
+    return dds_write(writer, &wire);
+}
+
+static dds_return_t write_agent(dds_entity_t writer, const jolon_EventHeader *header,
+                                const struct world *world, const struct event_agent *from)
+{
+    jolon_AgentEvent wire = {
+        .header = *header,
+        .agent = party_of(world, &from->agent),
+        .before = (jolon_Behaviour)from->from,
+        .after = (jolon_Behaviour)from->to,
+        .because = (jolon_AgentReason)from->because,
+    };
+    return dds_write(writer, &wire);
+}
+
+/* False when DDS had no room: the event is to be written again. */
+static bool publish_one(struct event_topics *events, const struct world *world,
+                        const struct event *event, bool publish)
+{
+    uint32_t topic = event->type - EVENT_COLLISION;
+    dds_return_t code = DDS_RETCODE_OK;
+    jolon_EventHeader header = {
+        .run = events->run,
+        .sequence = event->sequence,
+        .previous =
+            events->previous[topic] == UINT64_MAX ? event->sequence : events->previous[topic],
+        .frame = event->frame,
+        .index = event->index,
+        .time_s = (double)event->tick * world->params->dt_s,
+    };
+    if (publish) {
+        dds_entity_t writer = events->writer[topic];
+        switch ((enum event_type)event->type) {
+        case EVENT_COLLISION:
+            code = write_collision(writer, &header, world, &event->collision);
+            break;
+        case EVENT_FIRE:
+            code = write_fire(writer, &header, world, &event->fire);
+            break;
+        case EVENT_DETONATION:
+            code = write_detonation(writer, &header, world, &event->detonation);
+            break;
+        case EVENT_CRATER:
+            code = write_crater(writer, &header, &event->crater);
+            break;
+        case EVENT_AGENT:
+            code = write_agent(writer, &header, world, &event->agent);
+            break;
+        case EVENT_NONE:
+        case EVENT_COMMAND:
+        case EVENT_TYPE_COUNT:
+            break;
+        }
+    }
+    if (code == DDS_RETCODE_TIMEOUT)
+        return false;
+    if (code != DDS_RETCODE_OK && log_due(&events->logged_ns, NS_PER_S))
+        log_warn("%s event %llu not published: %s", event_type_name((enum event_type)event->type),
+                 (unsigned long long)event->sequence, dds_strretcode(code));
+    events->previous[topic] = event->sequence;
+    return true;
+}
+
+static void count_gap(struct event_topics *events)
+{
+    if (!events->cursor.gap)
+        return;
+    events->gaps += events->cursor.gap;
+    if (log_due(&events->logged_ns, NS_PER_S))
+        log_warn("%llu events were overwritten before they could be published; %llu so far",
+                 (unsigned long long)events->cursor.gap, (unsigned long long)events->gaps);
+    events->cursor.gap = 0;
+}
+
+bool event_topics_publish(struct event_topics *events, const struct view *view, uint64_t until_ns)
+{
+    uint64_t commit = atomic_load_explicit(&view->commit->commit, memory_order_acquire);
+    while (clock_now_ns() < until_ns) {
+        uint32_t count = events_read(view, &events->cursor, events->event, EVENT_TOPICS_AT_ONCE);
+        count_gap(events);
+        if (count == 0) {
+            events->frame = commit;
+            return true;
+        }
+        for (uint32_t i = 0; i < count; i++) {
+            const struct event *event = &events->event[i];
+            bool publish = event->sequence >= events->publish_from ||
+                           event->frame >= events->publish_from_frame;
+            if (event->type >= EVENT_COLLISION && event->type <= EVENT_AGENT &&
+                !publish_one(events, &view->world, event, publish)) {
+                events->cursor.next = event->sequence;
+                return false;
+            }
+        }
+    }
+    return false;
+}
+
+void event_topics_flush(const struct event_topics *events, uint64_t until_ns)
+{
+    for (uint32_t i = 0; i < EVENT_TOPICS_TOPICS; i++) {
+        uint64_t now_ns = clock_now_ns();
+        if (now_ns < until_ns)
+            (void)dds_wait_for_acks(events->writer[i], (dds_duration_t)(until_ns - now_ns));
+    }
+}

@@ -1,0 +1,22 @@
+/* Checks a command that came over DDS and puts it into the form of the command ring.
+ *
+ * Whoever reaches the domain can send anything: numbers that are none, ranges nobody thought of,
+ * names of nothing. What passes here is well-formed; whether the world can do it now, and whether
+ * its entity exists, only the mover knows. Pure. */
+#ifndef JOLON_REPORTER_INTAKE_COMMAND_CHECK_H
+#define JOLON_REPORTER_INTAKE_COMMAND_CHECK_H
+
+#include "status.h"
+#include "world/world.h"
+
+#define COMMAND_CHECK_FRAMES_MAX   1000000u
+#define COMMAND_CHECK_SCALE_MIN    0.01
+#define COMMAND_CHECK_SCALE_MAX    100.0
+#define COMMAND_CHECK_ALTITUDE_MAX 20000.0 /* [m] */
+#define COMMAND_CHECK_SPEED_MAX    2000.0  /* [m/s] */
+
+/* Fills command from wire; COMMAND_DONE when it may go into the ring, else why not. */
+enum command_result command_check(struct command *command, const jolon_Command *wire,
+                                  const struct world *world);
+
+#endif

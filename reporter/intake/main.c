@@ -1,0 +1,64 @@
+/* jolon-intake: takes the commands of local clients into the command ring, and sends the replies.
+ *
+ * It is the only writer of the clients' ring, and it knows neither DDS nor any other network: what
+ * comes from other machines reaches it through the reporter, which is a client like any other. */
+#include "reporter/intake/command_intake.h"
+#include "reporter/intake/options.h"
+#include "ipc/process/clock.h"
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "ipc/sandbox/sandbox.h"
+
+/* Longest waits between two looks at the world: with nothing to do, and with a command under way.
+ * Both leave the heart beating more often than every 20 ms. */
+#define WAIT_NS      (10 * (uint64_t)NS_PER_MS)
+#define WAIT_BUSY_NS ((uint64_t)NS_PER_MS)
+
+static void turn(struct command_intake *intake, struct view *view)
+{
+    struct role_slot *slot = view->slot[ROLE_INTAKE];
+    uint64_t begun_ns = clock_now_ns();
+    frame_protocol_beat(view);
+    command_intake_turn(intake, view, begun_ns);
+    uint64_t frame = segment_load(&view->commit->commit);
+    uint64_t stage_ns = clock_now_ns() - begun_ns;
+    log_frame(frame);
+    atomic_store_explicit(&slot->frame, frame, memory_order_relaxed);
+    atomic_store_explicit(&slot->stage_ns, stage_ns, memory_order_relaxed);
+    histogram_add(&slot->stage, stage_ns);
+}
+
+int main(int argc, char **argv)
+{
+    static struct command_intake intake;
+    static struct view view;
+    struct sandbox sandbox;
+    struct reason reason;
+    struct options options;
+    log_open("intake");
+    options_parse(&options, argc, argv);
+    process_close_inherited();
+    process_die_with_parent(options.parent);
+    process_signals();
+    if (sandbox_begin(&sandbox, ROLE_INTAKE, options.sandbox_off, &reason) != 0 ||
+        segment_attach(&view, options.world, ROLE_INTAKE, &reason) != 0)
+        die_refused("%s", reason.text);
+    if (command_intake_open(&intake, &view, &reason) != 0 ||
+        sandbox_enter(&sandbox, &reason) != 0) {
+        segment_detach(&view);
+        die_refused("%s", reason.text);
+    }
+    segment_ready(&view);
+
+    while (!process_stopping()) {
+        turn(&intake, &view);
+        uint64_t wait_ns = command_intake_busy(&intake) ? WAIT_BUSY_NS : WAIT_NS;
+        client_sockets_wait(&intake.clients, &intake.admission, clock_now_ns() + wait_ns);
+    }
+
+    command_intake_turn(&intake, &view, clock_now_ns());
+    command_intake_close(&intake);
+    segment_detach(&view);
+    return EXIT_OK;
+}

@@ -1,0 +1,53 @@
+/* Reports: what the world, its processes and its frames say of themselves.
+ *
+ * WorldInfo and EntityNames once, ProcessStatus of each role on change and once a second,
+ * FrameStatus as often as the caller asks. Reads the segment; writes nothing but DDS samples. */
+#ifndef JOLON_REPORTER_STATUS_TOPICS_H
+#define JOLON_REPORTER_STATUS_TOPICS_H
+
+#include "ipc/topics/dds_topics.h"
+
+#include "status.h"
+
+#define STATUS_TOPICS_RATE_SAMPLES                                                                 \
+    11u /* of STATUS_TOPICS_PERIOD_NS: the frame rate over a second */
+#define STATUS_TOPICS_PERIOD_NS 100000000u
+
+struct status_topics {
+    dds_entity_t world, names, process, frame; /* writers */
+    uint64_t run;                              /* of the world that view shows */
+    struct {
+        jolon_ProcessState state;
+        uint32_t pid;
+        uint64_t restarts;
+        uint64_t sent_ns; /* 0: never */
+    } told[ROLE_COUNT];
+    struct {
+        uint64_t at_ns, commit;
+    } rate[STATUS_TOPICS_RATE_SAMPLES];
+    uint32_t rate_next, rate_count;
+    struct histogram whole;       /* of frame times, when the last FrameStatus was made */
+    uint64_t commit, advanced_ns; /* last commit seen, and when it was new */
+};
+
+/* Makes the writers; -1 with the reason. */
+int status_topics_open(struct status_topics *report, const struct view *view,
+                       const struct dds_link *link, struct reason *reason);
+
+/* Writes WorldInfo; -1 with the reason when there is no memory for it. */
+int status_topics_world(struct status_topics *report, const struct view *view,
+                        struct reason *reason);
+
+/* Writes EntityNames; same error. */
+int status_topics_names(const struct status_topics *report, const struct view *view,
+                        struct reason *reason);
+
+/* Writes the ProcessStatus of each role that changed, or was not written for a second. */
+void status_topics_processes(struct status_topics *report, const struct view *view,
+                             uint64_t now_ns);
+
+/* Writes FrameStatus of the last committed frame. Every STATUS_TOPICS_PERIOD_NS: the frame rate is
+ * measured over the calls. */
+void status_topics_frame(struct status_topics *report, const struct view *view, uint64_t now_ns);
+
+#endif

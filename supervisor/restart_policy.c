@@ -1,0 +1,92 @@
+/* The rules that a death is judged by. */
+#include "supervisor/restart_policy.h"
+
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+
+#define STATUS_KILLED  (128 + 9)
+#define FREE_RESTARTS  8u /* kills from outside that cost no wait */
+#define FIRST_PAUSE_NS (50 * (uint64_t)NS_PER_MS)
+#define LONG_LIFE_NS   (5 * (uint64_t)NS_PER_S) /* of a role that makes no frames */
+
+bool restart_policy_makes_frames(enum role role)
+{
+    return role == ROLE_MOVER || role == ROLE_COLLIDER;
+}
+
+bool restart_policy_refused(int status)
+{
+    return status == EXIT_REFUSED || status == EXIT_USAGE;
+}
+
+/* The deaths up to free cost no pause; from then on the pause doubles with each. */
+static uint64_t pause_after(enum role role, uint32_t deaths, uint32_t free)
+{
+    uint64_t most = restart_policy_makes_frames(role) ? RESTART_POLICY_FRAME_PAUSE_MAX_NS
+                                                      : RESTART_POLICY_PAUSE_MAX_NS;
+    uint64_t pause = deaths > free ? FIRST_PAUSE_NS : 0;
+    for (uint32_t i = free + 1; i < deaths && pause < most; i++)
+        pause *= 2;
+    return pause < most ? pause : most;
+}
+
+static enum verdict give_up_after(enum role role, uint32_t deaths, uint32_t most)
+{
+    return restart_policy_makes_frames(role) && deaths >= most ? VERDICT_GIVE_UP : VERDICT_RESTART;
+}
+
+/* A kill from outside, or a request to stop that was not ours, says nothing about the frame, and
+ * little about the role. */
+static enum verdict killed(struct history *history, const struct death *death, uint64_t *delay_ns)
+{
+    history->quick_kills++;
+    *delay_ns = pause_after(death->role, history->quick_kills, FREE_RESTARTS);
+    return give_up_after(death->role, history->quick_kills, RESTART_POLICY_QUICK_KILLS);
+}
+
+/* It crashed, or it makes no frames and refused: what it refused may be put right meanwhile, as a
+ * port that another has, or a full disk. */
+static enum verdict failed(struct history *history, const struct death *death, uint64_t *delay_ns)
+{
+    if (restart_policy_makes_frames(death->role)) {
+        if (history->crash_frame != death->frame)
+            history->same_frame = 0;
+        history->crash_frame = death->frame;
+        if (++history->same_frame >= RESTART_POLICY_SAME_FRAME_DEATHS)
+            return VERDICT_POISON;
+    }
+    history->quick_crashes++;
+    *delay_ns = pause_after(death->role, history->quick_crashes, 1);
+    return give_up_after(death->role, history->quick_crashes, RESTART_POLICY_QUICK_CRASHES);
+}
+
+/* What it got done wipes out what went before. */
+static void forgive(struct history *history, const struct death *death)
+{
+    bool frames = death->frame > death->frame_at_start;
+    bool makes_frames = restart_policy_makes_frames(death->role);
+    if (death->was_ready)
+        history->stood_by = 0;
+    if (makes_frames ? frames : death->was_ready)
+        history->quick_kills = 0;
+    if (makes_frames ? frames : death->was_ready && death->lived_ns > LONG_LIFE_NS)
+        history->quick_crashes = 0;
+}
+
+enum verdict restart_policy_death(struct history *history, const struct death *death,
+                                  uint64_t *delay_ns)
+{
+    *delay_ns = 0;
+    if (death->status == EXIT_OK && restart_policy_makes_frames(death->role) && death->finished)
+        return VERDICT_FINISHED;
+    if (death->stood_by) { /* no frame was lost by it, and none stands for its want */
+        *delay_ns = pause_after(death->role, ++history->stood_by, FREE_RESTARTS);
+        return VERDICT_RESTART;
+    }
+    if (restart_policy_refused(death->status) && restart_policy_makes_frames(death->role))
+        return VERDICT_REFUSED;
+    forgive(history, death);
+    if (death->status == EXIT_OK || (death->status == STATUS_KILLED && !death->hung))
+        return killed(history, death, delay_ns);
+    return failed(history, death, delay_ns);
+}

@@ -1,0 +1,289 @@
+/* Two frames, field by field. */
+#include "supervisor/worldctl/compare.h"
+
+#include <inttypes.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+enum value_type { VALUE_DOUBLE, VALUE_FLOAT, VALUE_U64, VALUE_U32, VALUE_U16, VALUE_U8 };
+
+#define TYPE_OF(type)                                                                              \
+    _Generic((type){0}, double                                                                     \
+             : VALUE_DOUBLE, float                                                                 \
+             : VALUE_FLOAT, uint64_t                                                               \
+             : VALUE_U64, uint32_t                                                                 \
+             : VALUE_U32, uint16_t                                                                 \
+             : VALUE_U16, uint8_t                                                                  \
+             : VALUE_U8)
+
+static const size_t value_bytes[] = {8, 4, 8, 4, 2, 1};
+
+static void print_value(char text[32], enum value_type type, const void *at)
+{
+    double number;
+    float single;
+    uint64_t whole = 0;
+    switch (type) {
+    case VALUE_DOUBLE:
+        memcpy(&number, at, sizeof number);
+        snprintf(text, 32, "%.17g", number);
+        break;
+    case VALUE_FLOAT:
+        memcpy(&single, at, sizeof single);
+        snprintf(text, 32, "%.9g", (double)single);
+        break;
+    default: /* little-endian */
+        memcpy(&whole, at, value_bytes[type]);
+        snprintf(text, 32, "%" PRIu64, whole);
+        break;
+    }
+}
+
+static void set_values(struct difference *difference, enum value_type type, const void *a,
+                       const void *b)
+{
+    print_value(difference->a, type, a);
+    print_value(difference->b, type, b);
+}
+
+/* --- entities ----------------------------------------------------------------------------------*/
+
+struct column {
+    const char *name;
+    enum value_type type;
+    const unsigned char *a, *b;
+};
+
+/* Row of the first value that differs, count when none does. */
+static uint32_t first_row(const struct column *column, uint32_t count)
+{
+    size_t bytes = value_bytes[column->type];
+    if (memcmp(column->a, column->b, count * bytes) == 0)
+        return count;
+    uint32_t row = 0;
+    while (memcmp(column->a + row * bytes, column->b + row * bytes, bytes) == 0)
+        row++;
+    return row;
+}
+
+static void name_entity(struct difference *difference, const struct compared *a, uint32_t row)
+{
+    uint32_t id = a->state.entities.id[row];
+    const char *name = world_entity_name(a->world, id);
+    difference->row = row;
+    if (name[0])
+        snprintf(difference->field, sizeof difference->field, "%s of entity %u \"%s\" (row %u)",
+                 difference->column, id, name, row);
+    else
+        snprintf(difference->field, sizeof difference->field, "%s of entity %u (row %u)",
+                 difference->column, id, row);
+}
+
+static bool compare_entities(const struct compared *a, const struct compared *b,
+                             struct difference *difference)
+{
+    const struct entities *p = &a->state.entities, *q = &b->state.entities;
+    uint32_t rows =
+        a->state.head->used < b->state.head->used ? a->state.head->used : b->state.head->used;
+#define X(type, name)                                                                              \
+    {#name, TYPE_OF(type), (const unsigned char *)p->name, (const unsigned char *)q->name},
+    const struct column columns[] = {ENTITY_COLUMNS(X)};
+#undef X
+    for (size_t i = 0; i < COUNT(columns); i++) {
+        const struct column *column = &columns[i];
+        size_t bytes = value_bytes[column->type];
+        uint32_t row = first_row(column, rows);
+        if (row == rows)
+            continue;
+        if (difference->columns++ == 0) {
+            snprintf(difference->column, sizeof difference->column, "%s", column->name);
+            set_values(difference, column->type, column->a + row * bytes, column->b + row * bytes);
+            name_entity(difference, a, row);
+        }
+    }
+    return difference->columns > 0;
+}
+
+/* --- what lies beside them ---------------------------------------------------------------------*/
+
+static bool compare_fixed(const struct compared *a, const struct compared *b,
+                          struct difference *difference)
+{
+    const uint8_t *p = a->state.fixed_damage, *q = b->state.fixed_damage;
+    uint32_t count = a->world->counts.fixed < b->world->counts.fixed ? a->world->counts.fixed
+                                                                     : b->world->counts.fixed;
+    uint32_t i = 0;
+    if (memcmp(p, q, count) == 0)
+        return false;
+    while (p[i] == q[i])
+        i++;
+    difference->row = i;
+    snprintf(difference->column, sizeof difference->column, "fixed_damage");
+    snprintf(difference->field, sizeof difference->field, "damage of fixed object %u", i + 1);
+    snprintf(difference->a, sizeof difference->a, "%s", damage_name((enum damage)p[i]));
+    snprintf(difference->b, sizeof difference->b, "%s", damage_name((enum damage)q[i]));
+    return true;
+}
+
+struct member {
+    const char *name;
+    enum value_type type;
+    size_t offset;
+};
+
+#define MEMBER(type, struct_name, name)                                                            \
+    {                                                                                              \
+#name, TYPE_OF(type), offsetof(struct struct_name, name)                                   \
+    }
+
+/* First member in which two structs differ; NULL when none does. */
+static const struct member *first_member(const struct member *members, size_t count, const void *a,
+                                         const void *b)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (memcmp((const char *)a + members[i].offset, (const char *)b + members[i].offset,
+                   value_bytes[members[i].type]) != 0)
+            return &members[i];
+    }
+    return NULL;
+}
+
+static void name_member(struct difference *difference, const struct member *member, const void *a,
+                        const void *b)
+{
+    snprintf(difference->column, sizeof difference->column, "%s", member->name);
+    set_values(difference, member->type, (const char *)a + member->offset,
+               (const char *)b + member->offset);
+}
+
+static bool compare_craters(const struct compared *a, const struct compared *b,
+                            struct difference *difference)
+{
+    static const struct member members[] = {
+        MEMBER(double, crater, x), MEMBER(double, crater, z), MEMBER(float, crater, radius_m),
+        MEMBER(float, crater, depth_m), MEMBER(uint64_t, crater, frame)};
+    uint32_t count = a->state.head->crater_count < b->state.head->crater_count
+                         ? a->state.head->crater_count
+                         : b->state.head->crater_count;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct crater *p = &a->state.craters[i], *q = &b->state.craters[i];
+        const struct member *member = first_member(members, COUNT(members), p, q);
+        if (!member)
+            continue;
+        name_member(difference, member, p, q);
+        difference->row = i;
+        snprintf(difference->field, sizeof difference->field, "%s of crater %u", member->name, i);
+        return true;
+    }
+    return false;
+}
+
+static bool compare_dents(const struct compared *a, const struct compared *b,
+                          struct difference *difference)
+{
+    static const struct member members[] = {
+        MEMBER(uint32_t, dent, id),        MEMBER(uint32_t, dent, tick),
+        MEMBER(float, dent, point[0]),     MEMBER(float, dent, point[1]),
+        MEMBER(float, dent, point[2]),     MEMBER(float, dent, direction[0]),
+        MEMBER(float, dent, direction[1]), MEMBER(float, dent, direction[2]),
+        MEMBER(float, dent, plastic_m),    MEMBER(float, dent, elastic_m)};
+    uint32_t count = a->state.head->dent_count < b->state.head->dent_count
+                         ? a->state.head->dent_count
+                         : b->state.head->dent_count;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct dent *p = &a->state.dents[i], *q = &b->state.dents[i];
+        const struct member *member = first_member(members, COUNT(members), p, q);
+        if (!member)
+            continue;
+        name_member(difference, member, p, q);
+        difference->row = i;
+        snprintf(difference->field, sizeof difference->field, "%s of dent %u (entity %u)",
+                 member->name, i, p->id);
+        return true;
+    }
+    return false;
+}
+
+/* As in world_digest(): without pacing, quit, stage times and the checksum. */
+static bool compare_heads(const struct compared *a, const struct compared *b,
+                          struct difference *difference)
+{
+#define HEAD(type, name) MEMBER(type, state_head, name)
+    static const struct member members[] = {
+        HEAD(uint64_t, frame),
+        HEAD(uint64_t, tick),
+        HEAD(uint32_t, paused),
+        HEAD(uint32_t, steps_left),
+        HEAD(uint32_t, used),
+        HEAD(uint32_t, next_id),
+        HEAD(uint32_t, alloc_next),
+        HEAD(uint32_t, vehicles),
+        HEAD(uint32_t, munitions),
+        HEAD(uint32_t, crater_count),
+        HEAD(uint32_t, dent_count),
+        HEAD(uint32_t, fire_cursor),
+        HEAD(uint32_t, advanced),
+        HEAD(uint64_t, command_cursor[RING_CLIENTS]),
+        HEAD(uint64_t, command_cursor[RING_GATEWAY]),
+        HEAD(uint64_t, command_cursor[RING_CONSOLE]),
+        HEAD(uint64_t, command_cursor[RING_RECORDER]),
+        HEAD(uint64_t, tally.collisions),
+        HEAD(uint64_t, tally.fires),
+        HEAD(uint64_t, tally.detonations),
+        HEAD(uint64_t, tally.destroyed),
+        HEAD(uint64_t, tally.fixed_damaged),
+        HEAD(uint64_t, tally.agent_changes),
+        HEAD(uint64_t, tally.commands),
+        HEAD(uint64_t, tally.events_dropped),
+        HEAD(uint64_t, tally.craters_refused),
+        HEAD(uint64_t, tally.spawns_refused),
+        HEAD(uint64_t, tally.dents_refused),
+        HEAD(uint64_t, event_end),
+        HEAD(uint64_t, event_digest),
+    };
+#undef HEAD
+    const struct state_head *p = a->state.head, *q = b->state.head;
+    const struct member *member = first_member(members, COUNT(members), p, q);
+    if (!member)
+        return false;
+    name_member(difference, member, p, q);
+    snprintf(difference->field, sizeof difference->field, "%s of the head", member->name);
+    return true;
+}
+
+bool compare_states(const struct compared *a, const struct compared *b,
+                    struct difference *difference)
+{
+    *difference = (struct difference){0};
+    return compare_entities(a, b, difference) || compare_fixed(a, b, difference) ||
+           compare_craters(a, b, difference) || compare_dents(a, b, difference) ||
+           compare_heads(a, b, difference);
+}
+
+bool compare_worlds(const struct world *a, const struct world *b, struct difference *difference)
+{
+    static const struct member members[] = {
+        MEMBER(uint64_t, params, seed),
+        MEMBER(double, params, hz),
+        MEMBER(uint32_t, params, capacity),
+        MEMBER(uint32_t, params, collision.method),
+        MEMBER(uint32_t, params, collision.shape),
+        MEMBER(uint32_t, params, collision.response),
+        MEMBER(uint32_t, params, initial_entities),
+    };
+    *difference = (struct difference){0};
+    const struct member *member = first_member(members, COUNT(members), a->params, b->params);
+    if (member) {
+        name_member(difference, member, a->params, b->params);
+    } else if (a->counts.fixed != b->counts.fixed) {
+        snprintf(difference->column, sizeof difference->column, "fixed objects");
+        set_values(difference, VALUE_U32, &a->counts.fixed, &b->counts.fixed);
+    } else {
+        return false;
+    }
+    snprintf(difference->field, sizeof difference->field, "%s", difference->column);
+    return true;
+}

@@ -1,0 +1,82 @@
+/* Verbs that make, check and repair worlds. */
+#include "supervisor/worldctl/verbs.h"
+
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "world/making/world_build.h"
+#include "recorder/replay/world_adopt.h"
+#include "recorder/replay/arguments.h"
+#include "recorder/replay/scenario_load.h"
+#include "recorder/replay/image_resume.h"
+
+#include <stdio.h>
+
+int verb_create(const struct arguments *arguments)
+{
+    struct scenario scenario;
+    struct world_build genesis;
+    struct view view;
+    struct reason reason;
+    if (segment_name_check(arguments->world, &reason) != 0)
+        die_refused("%s", reason.text);
+    if (arguments->from)
+        return image_resume_world(arguments);
+    scenario_load_scenario(arguments, &scenario);
+    if (arguments->adopt && world_adopt_world(arguments->world, &scenario.params, NULL)) {
+        scenario_free(&scenario);
+        return EXIT_OK;
+    }
+    scenario_load_generate(&scenario, &genesis);
+    struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
+    if (segment_begin(&view, arguments->world, &header, &reason) != 0)
+        die_refused("%s", reason.text);
+    segment_fill(&view, &genesis);
+    process_hold_stop();
+    if (segment_publish(&view, &reason) != 0) {
+        segment_abandon(&view);
+        die_refused("%s", reason.text);
+    }
+    printf("world \"%s\": %u vehicles, %u fixed objects, %.1f MB\n", arguments->world, genesis.used,
+           genesis.counts.fixed, (double)view.layout.total / 1e6);
+    segment_detach(&view);
+    world_build_free(&genesis);
+    scenario_free(&scenario);
+    return EXIT_OK;
+}
+
+int verb_check(const struct arguments *arguments)
+{
+    struct view view;
+    struct reason reason;
+    if (arguments->path || arguments->sets > 0) {
+        struct scenario scenario;
+        struct world_build genesis;
+        scenario_load_scenario(arguments, &scenario);
+        scenario_load_generate(&scenario, &genesis);
+        printf("%s: good: %u vehicles, %u fixed objects, seed %llu, hash %016llx\n",
+               scenario.params.scenario, genesis.used, genesis.counts.fixed,
+               (unsigned long long)scenario.params.seed,
+               (unsigned long long)scenario.params.scenario_hash);
+        world_build_free(&genesis);
+        scenario_free(&scenario);
+        return EXIT_OK;
+    }
+    struct snapshot snapshot;
+    arguments_snapshot(arguments, &view, &snapshot);
+    if (segment_verify(&view, &reason) != 0)
+        die_refused("world \"%s\": %s", arguments->world, reason.text);
+    printf("world \"%s\": good at frame %llu\n", arguments->world,
+           (unsigned long long)snapshot.head.frame);
+    snapshot_free(&snapshot);
+    segment_detach(&view);
+    return EXIT_OK;
+}
+
+int verb_repair(const struct arguments *arguments)
+{
+    struct reason report;
+    if (segment_repair(arguments->world, &report) < 0)
+        die_refused("%s", report.text);
+    printf("%s\n", report.text);
+    return EXIT_OK;
+}

@@ -1,0 +1,130 @@
+/* Verb dump: every entity, every fixed object, or the heights of a piece of ground. */
+#include "supervisor/worldctl/verbs.h"
+
+#include "ipc/process/log.h"
+#include "recorder/replay/arguments.h"
+#include "ipc/json/world_json.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Until it may fire again. */
+static double reload_s(const struct world *world, const struct state_head *head, uint32_t tick)
+{
+    return tick > head->tick ? (double)(tick - head->tick) * world->params->dt_s : 0.0;
+}
+
+static cJSON *entity_json(const struct world *world, const struct state_head *head,
+                          const struct entities *e, uint32_t i)
+{
+    cJSON *object = cJSON_CreateObject();
+    json_whole(object, "id", e->id[i]);
+    json_text(object, "kind", world->kinds[e->kind[i]].name);
+    const char *name = world_entity_name(world, e->id[i]);
+    if (name[0] != '\0')
+        json_text(object, "name", name);
+    json_text(object, "force", force_name((enum force)e->force[i]));
+    json_triple(object, "position", e->x[i], e->y[i], e->z[i]);
+    json_triple(object, "velocity", e->vx[i], e->vy[i], e->vz[i]);
+    json_number(object, "heading_deg", e->heading[i] * DEG_PER_RAD);
+    json_number(object, "pitch_deg", e->pitch[i] * DEG_PER_RAD);
+    json_number(object, "roll_deg", e->roll[i] * DEG_PER_RAD);
+    json_number(object, "speed_mps", vec3_length(entities_velocity(e, i)));
+    json_text(object, "state", entity_state_name((enum entity_state)e->state[i]));
+    json_text(object, "damage", damage_name((enum damage)e->damage[i]));
+    json_whole(object, "rounds", e->rounds[i]);
+    json_number(object, "fuel", e->fuel_l[i]);
+    json_number(object, "turret_deg", (double)e->turret[i] * DEG_PER_RAD);
+    json_number(object, "gun_deg", (double)e->gun[i] * DEG_PER_RAD);
+    json_number(object, "reload_s", reload_s(world, head, e->reload_tick[i]));
+    json_number(object, "throttle", (double)e->throttle[i]);
+    json_text(object, "gear", gear_name(entity_gear(e->flags[i])));
+    json_text(object, "behaviour", behaviour_name((enum behaviour)e->behaviour[i]));
+    return object;
+}
+
+static void dump_entities(const struct arguments *arguments, const struct view *view,
+                          const struct snapshot *snapshot)
+{
+    const struct entities *e = &snapshot->entities;
+    for (uint32_t i = 0; i < snapshot->head.used; i++) {
+        if (e->state[i] == ENTITY_FREE)
+            continue;
+        if (arguments->json) {
+            json_print(entity_json(&view->world, &snapshot->head, e, i));
+            continue;
+        }
+        printf("%6u %-14s %-7s x %10.2f y %8.2f z %10.2f heading %5.1f %6.1f m/s %-6s %-9s %s\n",
+               e->id[i], view->world.kinds[e->kind[i]].name, force_name((enum force)e->force[i]),
+               e->x[i], e->y[i], e->z[i], e->heading[i] * DEG_PER_RAD,
+               vec3_length(entities_velocity(e, i)),
+               entity_state_name((enum entity_state)e->state[i]),
+               damage_name((enum damage)e->damage[i]),
+               behaviour_name((enum behaviour)e->behaviour[i]));
+    }
+}
+
+static void dump_fixed(const struct arguments *arguments, const struct view *view,
+                       const struct snapshot *snapshot)
+{
+    for (uint32_t i = 0; i < view->world.counts.fixed; i++) {
+        const struct fixed_object *object = &view->world.fixed[i];
+        const char *kind = view->world.kinds[object->kind].name;
+        const char *damage = damage_name((enum damage)snapshot->fixed_damage[i]);
+        if (!arguments->json) {
+            printf("%6u %-12s x %10.2f y %8.2f z %10.2f radius %5.2f %s\n", i + 1, kind, object->x,
+                   (double)object->y, object->z, (double)object->radius_m, damage);
+            continue;
+        }
+        cJSON *entry = cJSON_CreateObject();
+        json_whole(entry, "id", i + 1);
+        json_text(entry, "kind", kind);
+        json_triple(entry, "position", object->x, (double)object->y, object->z);
+        json_single(entry, "radius_m", object->radius_m);
+        json_single(entry, "height_m", object->height_m);
+        json_text(entry, "damage", damage);
+        json_print(entry);
+    }
+}
+
+static void dump_terrain(const struct arguments *arguments, const struct view *view,
+                         const struct snapshot *snapshot)
+{
+    double x0, z0, x1, z1, step;
+    char rest;
+    struct crater_index craters;
+    if (sscanf(arguments->terrain, "%lf,%lf,%lf,%lf,%lf%c", &x0, &z0, &x1, &z1, &step, &rest) != 5)
+        die_usage("--terrain %s: must be X0,Z0,X1,Z1,STEP in metres", arguments->terrain);
+    if (!(step > 0.0) || !(x1 >= x0) || !(z1 >= z0) || (x1 - x0) / step * ((z1 - z0) / step) > 1e8)
+        die_usage("--terrain %s: X0 <= X1, Z0 <= Z1, 0 < STEP, at most 1e8 points",
+                  arguments->terrain);
+    if (crater_index_init(&craters, view->w[0].craters) != 0)
+        die_refused("out of memory for the index of craters");
+    crater_index_update(&craters, snapshot->head.crater_count);
+    printf("x,z,height_m,cover\n");
+    for (uint64_t row = 0; z0 + (double)row * step <= z1; row++) {
+        for (uint64_t column = 0; x0 + (double)column * step <= x1; column++) {
+            double x = x0 + (double)column * step, z = z0 + (double)row * step;
+            printf("%.3f,%.3f,%.4f,%s\n", x, z,
+                   terrain_height(&view->world.terrain, &craters, x, z),
+                   cover_name(terrain_cover(&view->world.terrain, x, z)));
+        }
+    }
+    crater_index_free(&craters);
+}
+
+int verb_dump(const struct arguments *arguments)
+{
+    struct view view;
+    struct snapshot snapshot;
+    arguments_snapshot(arguments, &view, &snapshot);
+    if (arguments->terrain)
+        dump_terrain(arguments, &view, &snapshot);
+    else if (arguments->fixed)
+        dump_fixed(arguments, &view, &snapshot);
+    else
+        dump_entities(arguments, &view, &snapshot);
+    snapshot_free(&snapshot);
+    segment_detach(&view);
+    return EXIT_OK;
+}

@@ -1,0 +1,78 @@
+/* Verb replay-frame: the frame after an image's once more, in this process and on one thread, so
+ * that a debugger sees what a role died of. */
+#include "supervisor/worldctl/verbs.h"
+
+#include "recorder/archive/image.h"
+#include "ipc/process/log.h"
+#include "recorder/replay/frame_stepper.h"
+#include "recorder/replay/arguments.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+
+/* The page tables that the role had: a store elsewhere dies here as it died there. */
+static void protect(const struct view *view, enum role role)
+{
+    const struct layout *layout = &view->layout;
+    for (int i = 0; i < REGION_COUNT; i++) {
+        size_t end = i + 1 < REGION_COUNT ? layout->offset[i + 1] : layout->total;
+        int writable = layout_writable(role, (enum region)i) ? PROT_WRITE : 0;
+        if (end > layout->offset[i] && mprotect((unsigned char *)view->base + layout->offset[i],
+                                                end - layout->offset[i], PROT_READ | writable) != 0)
+            die_refused("cannot protect the world's memory: %s", strerror(errno));
+    }
+}
+
+static void load(const struct arguments *arguments, struct image *image, struct view *view)
+{
+    struct reason reason;
+    if (image_open(image, arguments->path, &reason) != 0)
+        die_refused("%s", reason.text);
+    struct segment_header header = image_segment(image);
+    if (segment_private(view, &header, &reason) != 0 || image_load(view, image, &reason) != 0)
+        die_refused("%s", reason.text);
+}
+
+static void run(struct frame_stepper *player, bool moved)
+{
+    struct view *view = player->view;
+    uint64_t frame = frame_stepper_frame(player) + 1;
+    log_frame(frame);
+    if (moved) {
+        log_info("frame %" PRIu64 ": was moved already", frame);
+    } else {
+        log_info("frame %" PRIu64 ": moves", frame);
+        protect(view, ROLE_MOVER);
+        frame_stepper_move(player, NULL);
+    }
+    log_info("frame %" PRIu64 ": collides", frame);
+    protect(view, ROLE_COLLIDER);
+    frame_stepper_collide(player);
+}
+
+int verb_replay_frame(const struct arguments *arguments)
+{
+    static struct image image;
+    struct view view;
+    struct frame_stepper player;
+    if (!arguments->path)
+        die_usage("replay-frame: wants the DUMP to run, as `save --inputs` or a set that gave up "
+                  "wrote it");
+    load(arguments, &image, &view);
+    if (frame_stepper_init(&player, &view, 1) != 0)
+        die_refused("out of memory to run a frame");
+    bool moved = atomic_load(&view.moved_word->moved) == image.header.frame + 1;
+    run(&player, moved);
+    const struct state *state = &view.w[frame_stepper_frame(&player) & 1];
+    printf("frame %" PRIu64 ": %s, digest %016" PRIx64 ", %" PRIu64 " events, %u entities\n",
+           state->head->frame, moved ? "collided" : "moved and collided",
+           world_digest(&view.world, state), state->head->event_end - image.header.event_end,
+           state->head->vehicles + state->head->munitions);
+    frame_stepper_free(&player);
+    segment_abandon(&view);
+    image_close(&image);
+    return EXIT_OK;
+}

@@ -1,0 +1,203 @@
+/* What models look like: every kind close up, from before and behind, at each level of damage with
+ * dents, as a wreck, and at each level of detail at the size from which on it is drawn. One row a
+ * kind, three for one alone. For whoever makes a model. */
+#include "tests/bench/bench.h"
+#include "tests/bench/scene.h"
+
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "renderer/image/png.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+
+#define KINDS_MAX     64u
+#define AWAY          25500.0 /* [m] x and z of where nothing else is */
+#define ALONE_PER_ROW 3u      /* pictures of one kind alone */
+#define LEVELS_SEEN   3u      /* of detail, in one picture */
+
+enum { BEFORE, BEHIND, LOW, MED, HIGH, WRECK, SMALL, COLUMNS };
+
+struct options {
+    const char *kind, *out;   /* kind: NULL for all */
+    struct process_size size; /* of one picture */
+    bool gl;
+};
+
+static uint32_t per_row(const struct options *options)
+{
+    return options->kind != NULL ? ALONE_PER_ROW : COLUMNS;
+}
+
+/* Two blows, the deeper the worse it is: on the front's right and on the left side. */
+static void bend(struct bench_scene *s, const struct mesh_frame *frame, enum damage damage)
+{
+    static const float depth_m[DAMAGE_COUNT] = {0.0f, 0.08f, 0.2f, 0.4f, 0.5f};
+    const float *low = frame->low, *high = frame->high;
+    struct dent *dent = s->view.w[0].dents;
+    float up = low[1] + 0.45f * (high[1] - low[1]);
+    dent[0] = (struct dent){.id = 1,
+                            .point = {high[0] * 0.95f, up, high[2] * 0.6f},
+                            .direction = {-0.8f, 0.0f, -0.6f},
+                            .plastic_m = depth_m[damage]};
+    dent[1] = (struct dent){.id = 1,
+                            .point = {0.2f * high[0], up, low[2]},
+                            .direction = {0.0f, 0.0f, 1.0f},
+                            .plastic_m = 0.7f * depth_m[damage]};
+    dent_index_update(&s->dents, 0);
+    dent_index_update(&s->dents, damage == DAMAGE_NONE ? 0 : 2);
+}
+
+static uint32_t fixed_of(const struct world *world, uint32_t kind)
+{
+    uint32_t i = 0;
+    while (i < world->counts.fixed && world->fixed[i].kind != kind)
+        i++;
+    return i;
+}
+
+/* Puts the kind up for the picture; where its middle is. */
+static struct vec3 put(struct bench_scene *s, uint32_t kind_index, uint32_t column)
+{
+    static const uint8_t damages[COLUMNS] = {
+        [LOW] = DAMAGE_LOW, [MED] = DAMAGE_MED, [HIGH] = DAMAGE_HIGH, [WRECK] = DAMAGE_DESTROYED};
+    const struct world *world = &s->view.world;
+    const struct kind *kind = &world->kinds[kind_index];
+    const struct mesh_frame *frame = &s->scenery.frames[kind->model];
+    const struct state *state = &s->view.w[0];
+    const struct entities *e = &state->entities;
+    double middle = 0.5 * (double)(frame->low[1] + frame->high[1]);
+    memset(e->state, ENTITY_FREE, state->head->used);
+    if (kind->domain == DOMAIN_FIXED) {
+        uint32_t i = fixed_of(world, kind_index);
+        if (i == world->counts.fixed)
+            die_refused("none of %s is on parade", kind->name);
+        state->fixed_damage[i] = damages[column] < DAMAGE_HIGH ? damages[column] : DAMAGE_HIGH;
+        return vec3_add(fixed_position(&world->fixed[i]), (struct vec3){0.0, middle, 0.0});
+    }
+    bool stands = kind->domain == DOMAIN_LAND;
+    e->id[0] = 1;
+    e->state[0] = column == WRECK ? ENTITY_WRECK : ENTITY_ACTIVE;
+    e->kind[0] = (uint16_t)kind_index;
+    e->force[0] = column == BEHIND || column == MED ? FORCE_RED
+                  : column == SMALL                 ? FORCE_NEUTRAL
+                                                    : FORCE_BLUE;
+    e->damage[0] = damages[column];
+    e->behaviour[0] = BEHAVIOUR_HOLD;
+    e->x[0] = AWAY;
+    e->z[0] = AWAY;
+    e->y[0] = terrain_base_height(&world->terrain, AWAY, AWAY) +
+              (stands ? 0.0 : 1.0 - (double)frame->low[1]);
+    e->heading[0] = e->pitch[0] = e->roll[0] = 0.0;
+    bend(s, frame, (enum damage)damages[column]);
+    struct frame_view moment = bench_scene_moment(s);
+    articulation_note(&s->gear, &moment);
+    return (struct vec3){AWAY, e->y[0] + middle, AWAY};
+}
+
+static double size_of(const struct mesh_frame *frame)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < 3; i++) {
+        double side = (double)frame->high[i] - (double)frame->low[i];
+        sum += side * side;
+    }
+    return sqrt(sum);
+}
+
+static void draw(struct bench_scene *s, struct image *sheet, const struct options *options,
+                 uint32_t kind, uint32_t column, uint32_t row)
+{
+    static const double turns[COLUMNS] = {[BEFORE] = -0.65, [BEHIND] = 4.2, [LOW] = -0.65,
+                                          [MED] = -0.65,    [HIGH] = -0.65, [WRECK] = -0.65};
+    struct vec3 middle = put(s, kind, column);
+    const struct mesh_frame *frame = &s->scenery.frames[s->view.world.kinds[kind].model];
+    double size = maths_max(size_of(frame), 1.7 * (double)(frame->high[1] - frame->low[1]));
+    uint32_t small = column == SMALL ? LEVELS_SEEN : 1;
+    uint32_t down = row + column / per_row(options);
+    for (uint32_t i = 0; i < small; i++) {
+        struct camera camera;
+        bool lies = column >= HIGH && s->view.world.kinds[kind].domain == DOMAIN_FIXED;
+        double away = (column == SMALL ? 2.9 + 7.0 * i * i : lies ? 1.7 : 1.05) * size + 0.4;
+        double turn = turns[column] - (column == SMALL ? 0.65 : 0.0);
+        struct vec3 from = {sin(turn) * away, 0.33 * away, -cos(turn) * away};
+        camera_look(&camera, vec3_add(middle, from), middle, options->size.width,
+                    options->size.height);
+        struct frame_view moment = bench_scene_moment(s);
+        scene_build(&s->scene, &camera, &s->scenery, &moment, &s->effects);
+        if (column == WRECK)
+            s->scene.puff_count = 0; /* its smoke hides it */
+        bench_scene_draw(s, &moment);
+        struct image part = s->image;
+        part.height /= small;
+        part.pixels +=
+            (size_t)4 * part.width * (s->image.height - part.height) / 2 / part.width * part.width;
+        image_copy(sheet, &part, (int32_t)(column % per_row(options) * options->size.width),
+                   (int32_t)(down * options->size.height + i * part.height));
+    }
+}
+
+static struct options read_options(int argc, char **argv)
+{
+    static const struct option known[] = {{"kind", required_argument, NULL, 'k'},
+                                          {"size", required_argument, NULL, 'z'},
+                                          {"gl", no_argument, NULL, 'g'},
+                                          {NULL, 0, NULL, 0}};
+    struct options o = {.size = {320, 240}};
+    int letter;
+    while ((letter = getopt_long(argc, argv, "", known, NULL)) != -1) {
+        if (letter == 'k')
+            o.kind = optarg;
+        else if (letter == 'g')
+            o.gl = true;
+        else if (letter == 'z')
+            o.size = process_size("size", optarg, BENCH_SIDE_MIN, BENCH_SIDE_MAX);
+        else
+            bench_refuse(argv[optind - 1]);
+    }
+    if (optind != argc - 1)
+        die_usage("models: needs one FILE; try jolon-bench help");
+    o.out = argv[optind];
+    return o;
+}
+
+/* The kinds to show; how many. */
+static uint32_t choose(const struct world *world, const char *name, uint32_t kinds[KINDS_MAX])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < world->counts.kinds && count < KINDS_MAX; i++)
+        if (name == NULL || strcmp(name, world->kinds[i].name) == 0)
+            kinds[count++] = i;
+    if (count == 0)
+        die_refused("%s: no such kind", name);
+    return count;
+}
+
+int bench_models(int argc, char **argv)
+{
+    static struct bench_scene scene;
+    struct options options = read_options(argc, argv);
+    struct image sheet;
+    uint32_t kinds[KINDS_MAX];
+    struct bench_scene_wish wish = {.scenario = "parade",
+                                    .width = options.size.width,
+                                    .height = options.size.height,
+                                    .threads = 1,
+                                    .soft = !options.gl};
+    bench_scene_open(&scene, &wish);
+    uint32_t count = choose(&scene.view.world, options.kind, kinds);
+    uint32_t rows = options.kind != NULL ? COLUMNS / ALONE_PER_ROW + 1 : count;
+    if (image_init(&sheet, per_row(&options) * options.size.width, rows * options.size.height) != 0)
+        die_refused("cannot begin: %s", strerror(errno));
+    for (uint32_t row = 0; row < count; row++)
+        for (uint32_t column = 0; column < COLUMNS; column++)
+            draw(&scene, &sheet, &options, kinds[row], column, row);
+    if (png_write_file(AT_FDCWD, options.out, &sheet, "jolon-bench models") != 0)
+        die_refused("%s: %s", options.out, strerror(errno));
+    image_free(&sheet);
+    bench_scene_close(&scene);
+    return EXIT_OK;
+}

@@ -1,0 +1,107 @@
+/* Drawing a world in one process. */
+#include "tests/bench/scene.h"
+
+#include "tests/bench/world.h"
+#include "ipc/process/log.h"
+
+#include <errno.h>
+#include <string.h>
+
+#define EVENTS 256u
+
+struct frame_view bench_scene_moment(const struct bench_scene *s)
+{
+    const struct state *state = &s->view.w[frame_stepper_frame(&s->player) & 1];
+    return (struct frame_view){.world = &s->view.world,
+                               .head = state->head,
+                               .entities = &state->entities,
+                               .fixed_damage = state->fixed_damage,
+                               .craters = &s->craters,
+                               .dents = &s->dents,
+                               .gear = &s->gear};
+}
+
+void bench_scene_go_on(struct bench_scene *s)
+{
+    struct event events[EVENTS];
+    uint32_t count;
+    frame_stepper_step(&s->player, NULL);
+    struct frame_view moment = bench_scene_moment(s);
+    crater_index_update(&s->craters, moment.head->crater_count);
+    dent_index_update(&s->dents, moment.head->dent_count);
+    do {
+        count = events_read(&s->view, &s->events, events, EVENTS);
+        effects_take(&s->effects, &moment, events, count);
+    } while (count == EVENTS);
+    tracks_note(&s->tracks, &moment);
+    articulation_note(&s->gear, &moment);
+}
+
+static void open_back_end(struct bench_scene *s)
+{
+    const struct bench_scene_wish *wish = &s->wish;
+    const struct gl_wish any = {.device = NULL};
+    char name[BACK_END_NAME_BYTES];
+    struct reason reason;
+    int opened =
+        wish->soft
+            ? soft_open(&s->draw, &s->scenery, wish->width, wish->height, wish->threads, &reason)
+            : gl_open(&s->draw, &s->scenery, wish->width, wish->height, &any, name, &reason);
+    if (opened != 0)
+        die_refused("%s", reason.text);
+}
+
+void bench_scene_open(struct bench_scene *s, const struct bench_scene_wish *wish)
+{
+    memset(s, 0, sizeof *s);
+    s->wish = *wish;
+    bench_world_open(&s->view, wish->scenario, BENCH_SCENARIO_VEHICLES);
+    const struct world *world = &s->view.world;
+    if (frame_stepper_init(&s->player, &s->view, 1) != 0 ||
+        crater_index_init(&s->craters, s->view.w[0].craters) != 0 ||
+        dent_index_init(&s->dents, s->view.w[0].dents, world->params->dent_slots) != 0 ||
+        tracks_init(&s->tracks, world->params->capacity) != 0 ||
+        articulation_init(&s->gear, world->params->capacity) != 0 ||
+        static_scene_init(&s->scenery, world) != 0 || scene_init(&s->scene) != 0 ||
+        image_init(&s->image, wish->width, wish->height) != 0)
+        die_refused("cannot begin: %s", strerror(errno));
+    open_back_end(s);
+    while (frame_stepper_frame(&s->player) < wish->frame)
+        bench_scene_go_on(s);
+    struct follow follow = {.id = 0};
+    struct frame_view moment = bench_scene_moment(s);
+    s->slot = follow_choose(&follow, &moment, &s->effects, wish->follow, true);
+}
+
+void bench_scene_close(struct bench_scene *s)
+{
+    s->draw.close(s->draw.self);
+    image_free(&s->image);
+    scene_free(&s->scene);
+    static_scene_free(&s->scenery);
+    articulation_free(&s->gear);
+    tracks_free(&s->tracks);
+    dent_index_free(&s->dents);
+    crater_index_free(&s->craters);
+    frame_stepper_free(&s->player);
+    segment_abandon(&s->view);
+}
+
+void bench_scene_build(struct bench_scene *s, const struct frame_view *moment)
+{
+    struct camera camera;
+    const struct view_camera_wish wish = {.view = s->wish.view,
+                                          .field_rad = CAMERA_FIELD_OF_VIEW_RAD,
+                                          .width = s->image.width,
+                                          .height = s->image.height,
+                                          .stand = s->wish.stand};
+    view_camera_camera(&s->aim, &wish, moment, s->slot, &camera);
+    scene_build(&s->scene, &camera, &s->scenery, moment, &s->effects);
+}
+
+void bench_scene_draw(struct bench_scene *s, const struct frame_view *moment)
+{
+    struct reason reason;
+    if (s->draw.picture(s->draw.self, &s->scene, moment, &s->image, &reason) != 0)
+        die_refused("%s", reason.text);
+}

@@ -1,0 +1,103 @@
+/* Making a world to measure on. */
+#include "tests/bench/world.h"
+
+#include "config/loader.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* What patrols when another number than the scenario's is asked for: parts of a hundred. */
+struct share {
+    const char *kind;
+    uint32_t percent;
+    enum force force;
+    uint8_t flags; /* ENTITY_FLAG_* */
+};
+
+#define KINDS 8
+
+static const struct share mixture[KINDS] = {{"tank", 50, FORCE_NEUTRAL, 0},
+                                            {"truck", 20, FORCE_BLUE, 0},
+                                            {"jeep", 20, FORCE_RED, 0},
+                                            {"helicopter", 10, FORCE_NEUTRAL, 0}};
+
+/* Two forces that engage whom they see. */
+#define AT_WILL ENTITY_FLAG_FIRE_AT_WILL
+static const struct share agents[KINDS] = {
+    {"tank", 25, FORCE_BLUE, AT_WILL},      {"tank", 25, FORCE_RED, AT_WILL},
+    {"carrier", 10, FORCE_BLUE, AT_WILL},   {"carrier", 10, FORCE_RED, AT_WILL},
+    {"jeep", 10, FORCE_BLUE, AT_WILL},      {"jeep", 10, FORCE_RED, AT_WILL},
+    {"helicopter", 5, FORCE_BLUE, AT_WILL}, {"helicopter", 5, FORCE_RED, AT_WILL}};
+
+static void replace_groups(struct scenario *scenario, uint32_t vehicles, const struct share *shares)
+{
+    struct scenario_group *groups = calloc(KINDS, sizeof *groups);
+    struct area *areas = calloc(1, sizeof *areas);
+    uint32_t left = vehicles;
+    if (!groups || !areas)
+        die_refused("out of memory");
+    areas[0] = (struct area){0.0, 0.0, 50000.0, 50000.0};
+    uint32_t used = 0;
+    for (; used < KINDS && shares[used].kind; used++) {
+        const struct share *share = &shares[used];
+        uint16_t kind = kind_find(scenario->kinds, scenario->kind_count, share->kind);
+        bool last = used + 1 == KINDS || !shares[used + 1].kind;
+        uint32_t count = last ? left : vehicles * share->percent / 100;
+        if (kind == KIND_NONE)
+            die_refused("kind %s is missing", share->kind);
+        groups[used] = (struct scenario_group){.kind = kind,
+                                               .force = (uint8_t)share->force,
+                                               .behaviour = BEHAVIOUR_PATROL,
+                                               .flags = share->flags,
+                                               .count = count,
+                                               .route = UINT32_MAX};
+        left -= count;
+    }
+    free(scenario->groups);
+    free(scenario->areas);
+    scenario->groups = groups;
+    scenario->group_count = used;
+    scenario->areas = areas;
+    scenario->area_count = 1;
+    scenario->fire_count = 0;
+}
+
+static void open_world(struct view *view, const char *path, uint32_t vehicles,
+                       const struct share *shares)
+{
+    char data_dir[512], capacity[64], text[512];
+    const char *const overrides[] = {capacity};
+    struct scenario scenario;
+    struct world_build genesis;
+    struct loader_message message;
+    struct reason reason;
+    uint32_t room = vehicles + vehicles / 4 + 4096;
+    snprintf(capacity, sizeof capacity, "world.capacity=%u",
+             room < CAPACITY_MAX ? room : CAPACITY_MAX);
+    if (process_data_dir(data_dir, sizeof data_dir) != 0)
+        die_refused("cannot find the data; set JOLON_DATA");
+    if (loader_scenario(&scenario, data_dir, path, overrides, 1, &message) != 0)
+        die_refused("%s", message.text);
+    if (shares)
+        replace_groups(&scenario, vehicles, shares);
+    if (world_build_build(&genesis, &scenario, text, sizeof text) != 0)
+        die_refused("%s", text);
+    struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
+    if (segment_private(view, &header, &reason) != 0)
+        die_refused("%s", reason.text);
+    segment_fill(view, &genesis);
+    world_build_free(&genesis);
+    scenario_free(&scenario);
+}
+
+void bench_world_open(struct view *view, const char *path, uint32_t vehicles)
+{
+    open_world(view, path, vehicles, vehicles != BENCH_SCENARIO_VEHICLES ? mixture : NULL);
+}
+
+void bench_world_agents(struct view *view, uint32_t vehicles)
+{
+    open_world(view, NULL, vehicles, agents);
+}

@@ -1,0 +1,443 @@
+/* What moves eight at a time goes, to the bit, where each would go by itself: on slopes, over
+ * craters and in debris, at shores and at the world's edge, with agents and drivers at the
+ * controls. The oracle moves one at a time, by the same model. SEED=n tries others. */
+#include "mover/motion/aircraft.h"
+#include "mover/motion/constant_course.h"
+#include "mover/motion/ground_vehicle.h"
+#include "mover/query/ground_marks.h"
+#include "mover/motion/wreck.h"
+#include "tests/support/steps.h"
+#include "world/terrain/gridsquare.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define ROUNDS  1500
+#define CRATERS 40u
+
+static const char scene[] = "world = { seed = 1; capacity = 64; };\n"
+                            "objects = ( { kind = \"building\"; at = [25020.0, 25020.0]; },\n"
+                            "            { kind = \"tree\"; at = [24990.0, 25060.0]; },\n"
+                            "            { kind = \"building\"; at = [25125.0, 25000.0]; } );\n";
+
+static struct fixture f;
+
+/* --- the oracle --------------------------------------------------------------------------------*/
+
+static double slope_speed(const struct kind *kind, double climb_rad, enum gearing gear)
+{
+    if (climb_rad <= 0.0)
+        return kind->max_speed_mps;
+    if (gear == GEAR_LOW)
+        return climb_rad < 1.2 * kind->max_slope_rad ? kind->max_speed_mps : 0.0;
+    if (climb_rad >= kind->max_slope_rad)
+        return 0.0;
+    return kind->max_speed_mps * (1.0 - (1.0 - 0.1) * climb_rad / kind->max_slope_rad);
+}
+
+/* Of every object that fell. */
+static double debris_share(const struct step_context *move, double x, double z)
+{
+    const struct world *world = move->world;
+    double share = 1.0;
+    for (uint32_t n = 0; n < world->counts.fixed; n++) {
+        const struct fixed_object *object = &world->fixed[n];
+        double dx = x - object->x, dz = z - object->z, radius = (double)object->radius_m;
+        if (move->committed->fixed_damage[n] >= DAMAGE_HIGH && dx * dx + dz * dz < radius * radius)
+            share = maths_min(share, world->kinds[object->kind].debris_keep);
+    }
+    return share;
+}
+
+static bool passable(const struct step_context *move, double x, double z)
+{
+    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M &&
+           !cover_is_water(terrain_cover(&move->world->terrain, x, z));
+}
+
+static double powered(const struct step_context *move, const struct kind *kind,
+                      const struct desired_motion *wish, double forward, double wanted)
+{
+    bool braking = fabs(wanted) < fabs(forward) || wanted * forward < 0.0;
+    bool held = fabs(wanted) < fabs(wish->speed_mps);
+    double rate = kind->acceleration_mps2;
+    if (braking)
+        rate = maths_min(kinematics_slowing(kind, wish, forward, (held ? BRAKES : 0.5) * rate),
+                         0.7 * GRAVITY_MPS2);
+    return kinematics_approach(forward, wanted, rate * move->dt_s);
+}
+
+static double rolling(const struct step_context *move, uint32_t i, const struct kind *kind,
+                      const struct desired_motion *wish, double forward)
+{
+    double pull = -GRAVITY_MPS2 * maths_sin(move->m->pitch[i]);
+    double hold = 0.03 * GRAVITY_MPS2 +
+                  wish->brake * kinematics_slowing(kind, &(struct desired_motion){.driven = false},
+                                                   forward, 0.0);
+    forward = kinematics_approach(forward + pull * move->dt_s, 0.0, hold * move->dt_s);
+    return maths_clamp(forward, -kind->max_speed_mps, kind->max_speed_mps);
+}
+
+static void stand_on_ground(const struct step_context *move, uint32_t i)
+{
+    struct entities *m = move->m;
+    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    double half_length = maths_max(kind->length_m * 0.5, 0.5);
+    double half_width = maths_max(kind->width_m * 0.5, 0.5);
+    double sine, cosine, x = m->x[i], z = m->z[i];
+    maths_sincos(m->heading[i], &sine, &cosine);
+    double length_x = sine * half_length, length_z = cosine * half_length;
+    double width_x = cosine * half_width, width_z = sine * half_width;
+    double front = kinematics_ground(move, x + length_x, z - length_z);
+    double back = kinematics_ground(move, x - length_x, z + length_z);
+    double right = kinematics_ground(move, x + width_x, z + width_z);
+    double left = kinematics_ground(move, x - width_x, z - width_z);
+    m->pitch[i] = maths_atan2(front - back, 2.0 * half_length);
+    m->roll[i] = maths_atan2(left - right, 2.0 * half_width);
+}
+
+static void speeds_of(const struct entities *m, uint32_t i, double *forward, double *rightward)
+{
+    double sine, cosine;
+    maths_sincos(m->heading[i], &sine, &cosine);
+    kinematics_along(m, i, sine, cosine, forward, rightward);
+}
+
+static bool drive_one(const struct step_context *move, uint32_t i,
+                      const struct desired_motion *wish)
+{
+    struct entities *m = move->m;
+    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    double forward, rightward, sine, cosine;
+    bool blocked = false;
+    speeds_of(m, i, &forward, &rightward);
+    double agility = maths_clamp(0.35 + (1.0 - 0.35) * fabs(forward) / 4.0, 0.0, 1.0);
+    kinematics_steer(move, i, wish, kind->turn_rate_rps * agility);
+    maths_sincos(m->heading[i], &sine, &cosine);
+
+    double wanted = wish->speed_mps;
+    if (!kinematics_burn(move, i, fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9)))
+        wanted = 0.0;
+    double limit = slope_speed(kind, wanted < 0.0 ? -m->pitch[i] : m->pitch[i], wish->gear);
+    if (fabs(wanted) > 0.0 && limit <= 0.0)
+        blocked = true;
+    limit = maths_min(limit, debris_share(move, m->x[i], m->z[i]) * kind->max_speed_mps);
+    wanted = maths_clamp(wanted, -limit, limit);
+    forward = wish->gear == GEAR_NEUTRAL ? rolling(move, i, kind, wish, forward)
+                                         : powered(move, kind, wish, forward, wanted);
+    rightward = kinematics_approach(rightward, 0.0, 0.7 * GRAVITY_MPS2 * move->dt_s);
+
+    double vx = forward * sine + rightward * cosine;
+    double vz = -forward * cosine + rightward * sine;
+    double x = m->x[i] + vx * move->dt_s, z = m->z[i] + vz * move->dt_s;
+    double lead = forward < 0.0 ? -kind->length_m * 0.5 : kind->length_m * 0.5;
+    bool goes = x != m->x[i] || z != m->z[i];
+    if (goes && (!passable(move, x + sine * lead, z - cosine * lead) || !passable(move, x, z))) {
+        blocked = true;
+        x = m->x[i], z = m->z[i];
+        vx = vz = 0.0;
+    }
+    double y = kinematics_ground(move, x, z);
+    entities_set_velocity(m, i, (struct vec3){vx, (y - m->y[i]) / move->dt_s, vz});
+    entities_set_position(m, i, (struct vec3){x, y, z});
+    stand_on_ground(move, i);
+    return blocked;
+}
+
+static void hold_one(const struct step_context *move, uint32_t i)
+{
+    struct entities *m = move->m;
+    double y = kinematics_ground(move, m->x[i], m->z[i]);
+    m->vy[i] = m->state[i] == ENTITY_WRECK ? 0.0 : (y - m->y[i]) / move->dt_s;
+    m->y[i] = y;
+    stand_on_ground(move, i);
+}
+
+static bool fly_one(const struct step_context *move, uint32_t i, const struct desired_motion *wish)
+{
+    struct entities *m = move->m;
+    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    double full = maths_max(kind->max_speed_mps, 1e-9), gain = kind->acceleration_mps2 * move->dt_s;
+    double forward, rightward, sine, cosine, before = m->heading[i];
+    double ground =
+        maths_max(kinematics_ground(move, m->x[i], m->z[i]),
+                  kinematics_ground(move, m->x[i] + m->vx[i] * 3.0, m->z[i] + m->vz[i] * 3.0));
+    speeds_of(m, i, &forward, &rightward);
+    kinematics_steer(move, i, wish, kind->turn_rate_rps);
+    maths_sincos(m->heading[i], &sine, &cosine);
+
+    double wanted = wish->speed_mps, climb = wish->climb_mps, limit = kind->climb_rate_mps;
+    if (!wish->driven) {
+        wanted = maths_clamp(wanted, kind->min_speed_mps, kind->max_speed_mps);
+        climb = maths_clamp((ground + wish->altitude_m - m->y[i]) * 0.8, -limit, limit);
+    }
+    if (!kinematics_burn(move, i, maths_clamp(fabs(wanted) / full, 0.2, 1.0))) {
+        wanted = 0.0;
+        climb = -limit;
+    }
+    double speed = forward;
+    forward = kinematics_approach(forward, wanted, gain * (1.0 + wish->brake));
+    rightward = kinematics_approach(rightward, 0.0, 6.0 * move->dt_s);
+    m->vx[i] = forward * sine + rightward * cosine;
+    m->vz[i] = -forward * cosine + rightward * sine;
+    m->vy[i] = kinematics_approach(m->vy[i], climb, 2.0 * gain);
+    kinematics_advance(&m->x[i], &m->vx[i], move->dt_s);
+    kinematics_advance(&m->z[i], &m->vz[i], move->dt_s);
+    m->y[i] += m->vy[i] * move->dt_s;
+
+    double rate = maths_wrap_half(m->heading[i] - before) / move->dt_s;
+    double bank = maths_clamp(maths_atan2(rate * forward, GRAVITY_MPS2), -1.0, 1.0);
+    double nose = kind->min_speed_mps > 0.0
+                      ? maths_atan2(m->vy[i], maths_max(forward, 1.0))
+                      : -0.12 * forward / full - 0.1 * (forward - speed) / maths_max(gain, 1e-9);
+    m->roll[i] = kinematics_approach(m->roll[i], bank, 1.5 * move->dt_s);
+    m->pitch[i] = kinematics_approach(m->pitch[i], nose, 1.5 * move->dt_s);
+    return m->x[i] < 200.0 || m->z[i] < 200.0 || m->x[i] > WORLD_SIDE_M - 200.0 ||
+           m->z[i] > WORLD_SIDE_M - 200.0;
+}
+
+/* --- worlds, vehicles and wishes ---------------------------------------------------------------*/
+
+static double rough(double x, double z, const void *context)
+{
+    double height = *(const double *)context;
+    return 100.0 + height * maths_sin(x * 0.021) * maths_cos(z * 0.017) +
+           0.2 * height * maths_sin(x * 0.09 + z * 0.07);
+}
+
+/* Near the middle, where there are craters and debris; at the shore; at the edges. */
+static double place(uint64_t *random)
+{
+    switch (fixture_random(random) % 4) {
+    case 0:
+        return fixture_uniform(random, 0.0, 8.0);
+    case 1:
+        return fixture_uniform(random, WORLD_SIDE_M - 8.0, WORLD_SIDE_M);
+    default:
+        return fixture_uniform(random, 24900.0, 25200.0);
+    }
+}
+
+static double some(uint64_t *random, double often, double low, double high)
+{
+    return fixture_uniform(random, 0.0, 1.0) < often ? fixture_uniform(random, low, high) : 0.0;
+}
+
+static void draw_row(const struct entities *e, uint64_t *random, uint32_t i, bool flies)
+{
+    static const char *const land[] = {"tank", "truck", "jeep", "carrier"};
+    static const char *const air[] = {"helicopter", "jet"};
+    uint16_t kind = fixture_kind(&f, flies ? air[fixture_random(random) % 2]
+                                           : land[fixture_random(random) % 4]);
+    entities_clear(e, i);
+    e->kind[i] = kind;
+    e->id[i] = i + 1;
+    e->state[i] = fixture_random(random) % 4 ? ENTITY_ACTIVE : ENTITY_WRECK;
+    e->x[i] = place(random);
+    e->z[i] = place(random);
+    e->y[i] = fixture_uniform(random, 90.0, 110.0);
+    e->vx[i] = some(random, 0.8, -20.0, 20.0);
+    e->vz[i] = some(random, 0.8, -20.0, 20.0);
+    e->heading[i] = some(random, 0.9, 0.0, TWO_PI);
+    e->pitch[i] = some(random, 0.8, -0.9, 0.9);
+    e->fuel_l[i] = some(random, 0.8, 0.0, 0.01);
+}
+
+static struct desired_motion draw_wish(const struct entities *e, uint64_t *random, uint32_t i)
+{
+    const struct kind *kind = &f.view.world.kinds[e->kind[i]];
+    double most = kind->max_speed_mps;
+    struct desired_motion wish = {
+        .heading_rad = e->heading[i] + some(random, 0.7, -7.0, 7.0),
+        .speed_mps = some(random, 0.8, -most, 1.2 * most),
+        .altitude_m = some(random, 0.8, 0.0, 150.0),
+    };
+    if (fixture_random(random) % 3 == 0) {
+        wish.driven = true;
+        wish.gear = (enum gearing)(fixture_random(random) % GEAR_COUNT);
+        wish.turn = some(random, 0.7, -1.0, 1.0);
+        wish.brake = some(random, 0.5, 0.0, 1.0);
+        wish.climb_mps = some(random, 0.5, -10.0, 10.0);
+    }
+    return wish;
+}
+
+/* Craters all over the middle and objects that fell, or neither. */
+static void scar(uint64_t *random, bool scarred)
+{
+    struct mover *mover = &f.player.mover;
+    struct state now = fixture_state(&f);
+    now.head->crater_count = scarred ? CRATERS : 0;
+    for (uint32_t n = 0; n < now.head->crater_count; n++)
+        now.craters[n] = (struct crater){fixture_uniform(random, 24900.0, 25200.0),
+                                         fixture_uniform(random, 24900.0, 25200.0),
+                                         (float)fixture_uniform(random, 1.0, 12.0), 1.5f, 1};
+    for (uint32_t n = 0; n < f.view.world.counts.fixed; n++)
+        now.fixed_damage[n] = scarred && fixture_random(random) % 4 ? DAMAGE_HIGH : DAMAGE_LOW;
+    crater_index_update(&mover->craters, 0);
+    crater_index_update(&mover->craters, now.head->crater_count);
+    mover->scars.craters = UINT32_MAX; /* they are another world's */
+    ground_marks_update(&mover->scars, &f.view.world, &now);
+}
+
+/* --- the two beside each other -----------------------------------------------------------------*/
+
+struct drawn {
+    uint32_t moved, flown, blocked, steep, scarred, partial;
+};
+
+/* The mover's table, and the oracle's: a copy. */
+struct both {
+    const struct step_context *move;
+    struct step_context alone;
+    struct entities rows; /* of alone */
+};
+
+static void compare(const struct both *both, uint32_t i)
+{
+    const struct entities *one = &both->rows, *many = both->move->m;
+#define X(type, name) assert_true(one->name[i] == many->name[i]);
+    ENTITY_COLUMNS(X)
+#undef X
+}
+
+static void draw_rows(struct both *both, uint64_t *random, uint32_t used, bool flies,
+                      struct desired_motion wish[LANE_COUNT])
+{
+    for (uint32_t i = 0; i < used; i++) {
+        draw_row(both->move->m, random, i, flies);
+        wish[i] = draw_wish(both->move->m, random, i);
+        both->move->m->steer[i] = (float)some(random, 0.7, -1.0, 1.0);
+        both->move->m->throttle[i] = (float)some(random, 0.8, -1.0, 1.0);
+    }
+    entities_copy(&both->rows, both->move->m, 0, used);
+}
+
+static void drive(struct both *both, uint64_t *random, struct ground_vehicle *land, uint32_t used,
+                  struct drawn *drawn)
+{
+    struct desired_motion wish[LANE_COUNT];
+    draw_rows(both, random, used, false, wish);
+    for (uint32_t i = 0; i < used; i++) {
+        bool held = fixture_random(random) % 2 != 0;
+        bool full = held ? ground_vehicle_take_held(both->move, land, i)
+                         : ground_vehicle_take(both->move, land, i, &wish[i]);
+        if (held)
+            agent_hold(&both->alone, i, &wish[i]);
+        assert_int_equal(full, i + 1 == LANE_COUNT);
+    }
+    ground_vehicle_move(both->move, land);
+    for (uint32_t i = 0; i < used; i++) {
+        bool blocked = drive_one(&both->alone, i, &wish[i]);
+        compare(both, i);
+        assert_int_equal(land->blocked.lane[i], blocked ? -1 : 0);
+        drawn->blocked += blocked;
+        drawn->steep += fabs(both->rows.pitch[i]) > 0.45;
+        drawn->scarred += land->stand.scarred.lane[i] != 0;
+    }
+    drawn->moved += used;
+    drawn->partial += used < LANE_COUNT;
+    land->count = 0;
+}
+
+static void stand(struct both *both, struct constant_course *hold, struct wrecks *wrecks,
+                  uint32_t used)
+{
+    for (uint32_t i = 0; i < used; i++) {
+        assert_int_equal(constant_course_take(both->move, hold, i), i + 1 == LANE_COUNT);
+        wrecks_take(both->move, wrecks, i);
+    }
+    constant_course_pose(both->move, hold);
+    wrecks_find_ground(both->move, wrecks);
+    for (uint32_t i = 0; i < used; i++) {
+        hold_one(&both->alone, i);
+        compare(both, i);
+        assert_true(wrecks->y.lane[i] ==
+                    kinematics_ground(&both->alone, both->rows.x[i], both->rows.z[i]));
+    }
+    hold->count = wrecks->count = 0;
+}
+
+static void fly(struct both *both, uint64_t *random, struct aircraft *air, uint32_t used,
+                struct drawn *drawn)
+{
+    struct desired_motion wish[LANE_COUNT];
+    draw_rows(both, random, used, true, wish);
+    for (uint32_t i = 0; i < used; i++)
+        assert_int_equal(aircraft_take(both->move, air, i, &wish[i]), i + 1 == LANE_COUNT);
+    aircraft_move(both->move, air);
+    for (uint32_t i = 0; i < used; i++) {
+        bool blocked = fly_one(&both->alone, i, &wish[i]);
+        compare(both, i);
+        assert_int_equal(air->blocked.lane[i], blocked ? -1 : 0);
+    }
+    drawn->flown += used;
+    air->count = 0;
+}
+
+/* Some rows, in order, into as many lanes as they fill; again with what the others left there. */
+static void move_some(struct both *both, uint64_t *random, struct drawn *drawn)
+{
+    struct ground_vehicle land;
+    struct constant_course hold;
+    struct wrecks wrecks;
+    struct aircraft air;
+    ground_vehicle_begin(&land);
+    constant_course_begin(&hold);
+    wrecks_begin(&wrecks);
+    aircraft_begin(&air);
+    for (int again = 0; again < 3; again++) {
+        uint32_t used = 1 + (uint32_t)fixture_random(random) % LANE_COUNT;
+        drive(both, random, &land, used, drawn);
+        stand(both, &hold, &wrecks, used);
+        fly(both, random, &air, used, drawn);
+    }
+}
+
+static void test_lanes_go_where_one_would(void **state)
+{
+    static const double heights[] = {0.0, 3.0, 15.0, 60.0};
+    uint64_t random = fixture_seed(50);
+    struct drawn drawn = {0};
+    struct serial_context serial;
+    struct step_context move;
+    struct both both = {.move = &move};
+    (void)state;
+    fixture_open(&f, scene);
+    assert_true(f.view.world.counts.fixed == 3);
+    void *memory = calloc(1, entities_bytes(64) + COLUMN_ALIGN);
+    assert_non_null(memory);
+    entities_bind(&both.rows, 64, memory);
+    for (int i = 0; i < ROUNDS; i++) {
+        if (i % 300 == 0) {
+            steps_cover(&f, COVER_GRASS, 0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M);
+            steps_cover(&f, COVER_LAKE, 25125.0, 24000.0, 26000.0, 25000.0);
+            steps_ground(&f, rough, &heights[i / 300 % 4]);
+        }
+        if (i % 50 == 0)
+            scar(&random, i % 100 == 0);
+        steps_serial(&f, &move, &serial);
+        both.alone = move;
+        both.alone.m = &both.rows;
+        move_some(&both, &random, &drawn);
+    }
+    free(memory);
+    fixture_close(&f);
+    print_message("%u drove: %u blocked, %u on steep ground, %u scarred; %u batches not full; "
+                  "%u flew\n",
+                  drawn.moved, drawn.blocked, drawn.steep, drawn.scarred, drawn.partial,
+                  drawn.flown);
+    assert_true(drawn.blocked > 500 && drawn.steep > 100 && drawn.scarred > 500 &&
+                drawn.partial > 500);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lanes_go_where_one_would)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,80 @@
+/* A reader that is slow: states are left out first, then events, which are counted; answers never.
+ */
+#include "clients/harness/output.c"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static struct output output;
+
+static size_t lines_of(char first)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < output.used; i++) {
+        const char *at = output.bytes + output.begin + i;
+        count += *at == first && (i == 0 || at[-1] == '\n');
+    }
+    return count;
+}
+
+static void add(enum output_sort sort, char first, size_t count)
+{
+    char line[1000];
+    memset(line, '.', sizeof line);
+    line[0] = first;
+    line[sizeof line - 1] = '\0';
+    for (size_t i = 0; i < count; i++)
+        output_line(&output, sort, line);
+}
+
+static void test_what_is_left_out(void **state)
+{
+    (void)state;
+    add(OUTPUT_STATE, 's', 3000);
+    size_t states = lines_of('s');
+    assert_true(states >= OUTPUT_STATES_MAX / 1000 && states <= OUTPUT_STATES_MAX / 1000 + 1);
+    assert_false(output_wants_states(&output));
+    add(OUTPUT_EVENT, 'e', 3000);
+    size_t events = lines_of('e');
+    assert_true(output.used >= OUTPUT_EVENTS_MAX && output.used < OUTPUT_EVENTS_MAX + 1000);
+    assert_int_equal(output.missed, 3000 - events);
+    add(OUTPUT_ANSWER, 'a', 100);
+    assert_int_equal(lines_of('a'), 100);
+    assert_int_equal(lines_of('s'), states);
+    picture_folder_close(&output);
+}
+
+static void test_what_was_missed_is_told_before_the_next(void **state)
+{
+    (void)state;
+    output_missed(&output, 7);
+    add(OUTPUT_ANSWER, 'a', 1);
+    assert_int_equal(lines_of('{'), 0);
+    add(OUTPUT_EVENT, 'e', 1);
+    assert_int_equal(lines_of('{'), 1);
+    assert_non_null(strstr(output.bytes, "{\"missed\":7}\ne"));
+    assert_int_equal(output.missed, 0);
+    picture_folder_close(&output);
+}
+
+static void test_no_memory_ends_it(void **state)
+{
+    (void)state;
+    output_line(&output, OUTPUT_ANSWER, NULL);
+    assert_true(output.gone);
+    picture_folder_close(&output);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_what_is_left_out),
+        cmocka_unit_test(test_what_was_missed_is_told_before_the_next),
+        cmocka_unit_test(test_no_memory_ends_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

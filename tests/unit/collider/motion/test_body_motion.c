@@ -1,0 +1,148 @@
+/* Ways and turnings of a frame's rows. */
+#include "collider/motion/body_motion.h"
+
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define ROWS 600 /* more turnings than the first room for them, and the second */
+
+static struct fixture f;
+static struct state *next;
+static struct body_motion *motion;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 1024; };");
+    for (uint32_t i = 0; i < ROWS; i++)
+        fixture_put(
+            &f, (struct fixture_entity){.kind = "jet", .at = {1000.0 + 20.0 * i, 900.0, 5000.0}});
+    motion = &f.player.collider.motion;
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+/* The next frame, in which row 0 has moved 6 m east and turned a tenth to the right, and the last
+ * row is somebody new. */
+static void begin(void)
+{
+    struct response_context respond;
+    next = &f.view.w[1];
+    steps_respond(&f, &respond);
+    steps_respond_end(&respond);
+    next->entities.x[0] += 6.0;
+    next->entities.heading[0] += 0.1;
+    next->entities.x[ROWS - 1] += 100.0;
+    next->entities.id[ROWS - 1]++;
+    body_motion_begin(motion, &f.view.w[0], next);
+    for (uint32_t i = 0; i < ROWS; i++)
+        body_motion_take(motion, i);
+}
+
+static double heading_of(struct quat turned)
+{
+    double heading, pitch, roll;
+    rotation_angles(turned, &heading, &pitch, &roll);
+    return heading;
+}
+
+static void test_a_row_goes_from_the_committed_pose_to_the_moved_one(void **state)
+{
+    (void)state;
+    begin();
+    assert_true(body_motion_old(motion, 0));
+    assert_true(fabs(path_at(&motion->path[0], 0.5).x - 1003.0) < 1e-9);
+    assert_true(motion->path[0].since == 0.0);
+    assert_true(fabs(heading_of(body_motion_turned(motion, 0, 0.0))) < 1e-12);
+    assert_true(fabs(heading_of(body_motion_turned(motion, 0, 0.5)) - 0.05) < 1e-9);
+    assert_true(fabs(heading_of(body_motion_turned(motion, 0, 1.0)) - 0.1) < 1e-12);
+}
+
+static void test_who_is_new_has_not_moved(void **state)
+{
+    (void)state;
+    begin();
+    assert_false(body_motion_old(motion, ROWS - 1));
+    assert_true(pair_filter_rests(&motion->path[ROWS - 1]));
+    assert_true(motion->path[ROWS - 1].at.x == next->entities.x[ROWS - 1]);
+}
+
+static void test_changed_turnings_are_kept_for_the_frame_and_no_longer(void **state)
+{
+    (void)state;
+    begin();
+    for (uint32_t i = 0; i < ROWS; i++) {
+        struct path path = {.at = {i, 0.0, 0.0}, .along = {8.0, 0.0, 0.0}, .since = 0.5};
+        struct rotation_path turning = {.from = rotation_of(0.0, 0.0, 0.0),
+                                        .to = rotation_of(1e-3 * i, 0.0, 0.0)};
+        body_motion_change(motion, i, &path, &turning);
+        body_motion_change(motion, i, &path, &turning); /* takes no more room */
+    }
+    assert_int_equal(motion->changes, ROWS);
+    for (uint32_t i = 0; i < ROWS; i++) {
+        assert_true(fabs(heading_of(body_motion_turned(motion, i, 0.75)) - 5e-4 * i) < 1e-9);
+        assert_true(path_at(&motion->path[i], 1.0).x == i + 4.0);
+    }
+    begin();
+    assert_int_equal(motion->changes, 0);
+    assert_true(fabs(heading_of(body_motion_turning(motion, 0).to) - 0.1) < 1e-12);
+    assert_true(fabs(maths_wrap_half(heading_of(body_motion_turning(motion, 7).to))) < 1e-12);
+}
+
+/* At the frame's very end there is no time left to turn in. */
+static void test_a_way_that_begins_at_the_end_is_turned_as_it_ends(void **state)
+{
+    (void)state;
+    begin();
+    struct path path = {.since = 1.0};
+    struct rotation_path turning = {.from = rotation_of(0.3, 0.0, 0.0),
+                                    .to = rotation_of(0.4, 0.0, 0.0)};
+    body_motion_change(motion, 3, &path, &turning);
+    assert_true(fabs(heading_of(body_motion_turned(motion, 3, 1.0)) - 0.4) < 1e-12);
+}
+
+static void test_bodies_have_their_kinds_hulls_at_their_size(void **state)
+{
+    (void)state;
+    begin();
+    const struct kind *kind = steps_kind(&f, "jet");
+    struct swept_body body = body_motion_body(motion, 0);
+    assert_int_equal(body.hull_count, kind->hull_count);
+    assert_ptr_equal(body.hull, f.view.world.hulls + kind->first_hull);
+    assert_true(body.scale == 1.0 && body.bound_m == kind->bound_m);
+    assert_true(body.path.along.x == 6.0);
+    fixture_close(&f);
+    fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25000.0, 25100.0]; } );");
+    struct fixed_object tree = f.view.world.fixed[0];
+    kind = &f.view.world.kinds[tree.kind];
+    body = body_motion_fixed(&f.view.world, 0);
+    assert_true(fabs(body.scale - (double)tree.radius_m / kind->radius_m) < 1e-12);
+    assert_true(fabs(body.bound_m - body.scale * kind->bound_m) < 1e-12);
+    assert_true(body.path.at.x == 25000.0 && body.path.at.z == 25100.0);
+    assert_true(fabs(maths_wrap_half(heading_of(body.to) - fixed_heading(&tree))) < 1e-9);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_row_goes_from_the_committed_pose_to_the_moved_one),
+        TEST(test_who_is_new_has_not_moved),
+        TEST(test_changed_turnings_are_kept_for_the_frame_and_no_longer),
+        TEST(test_a_way_that_begins_at_the_end_is_turned_as_it_ends),
+        TEST(test_bodies_have_their_kinds_hulls_at_their_size),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

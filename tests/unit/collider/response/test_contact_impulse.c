@@ -1,0 +1,263 @@
+/* Impulses on cases that can be worked out by hand. Momentum and energy over random ones are in
+ * tests/property/collider/test_collide.c. */
+#include "collider/response/deformation.h"
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; },\n"
+                     "            { kind = \"building\"; at = [26000.0, 25000.0]; },\n"
+                     "            { kind = \"bush\"; at = [27000.0, 25000.0]; } );\n");
+    struct kind *tank = steps_kind(&f, "tank"), *jeep = steps_kind(&f, "jeep");
+    tank->resistance_j = jeep->resistance_j = 1e12;
+    tank->mass_kg = 3000.0;
+    jeep->mass_kg = 1000.0;
+    tank->restitution = jeep->restitution = 0.5;
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, double x, double z, double speed_mps)
+{
+    return fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                   .at = {x, 100.0, z},
+                                                   .velocity = {speed_mps, 0.0, 0.0},
+                                                   .heading_rad = HALF_PI});
+}
+
+static const struct event_collision *collision(void)
+{
+    const struct event *event = fixture_event(&f, EVENT_COLLISION, 0);
+    assert_non_null(event);
+    return &event->collision;
+}
+
+/* A tank at 8 m/s into a jeep at rest, met half way through the frame. */
+static void ram(uint32_t *tank, uint32_t *jeep)
+{
+    *tank = put("tank", 20000.0, 20000.0, 8.0);
+    *jeep = put("jeep", 20004.6 + 4.0 / 60.0, 20000.0, 0.0);
+    fixture_run(&f, 1);
+}
+
+static void test_a_head_on_blow_follows_newton(void **state)
+{
+    uint32_t tank, jeep;
+    (void)state;
+    ram(&tank, &jeep);
+    struct entities e = steps_rows(&f);
+    /* Common speed 6; the jeep leaves at 6 + e * 6, the tank at 6 - e * 2. */
+    assert_true(fabs(e.vx[tank] - 5.0) < 1e-9 && fabs(e.vx[jeep] - 9.0) < 1e-9);
+    assert_true(e.vz[tank] == 0.0 && e.vz[jeep] == 0.0);
+    assert_true(fabs((double)collision()->impulse_ns - 9000.0) < 1e-3);
+    assert_true(fabs((double)collision()->closing_mps - 8.0) < 1e-6);
+    assert_true(fabs(collision()->toi - 0.5) < 1e-9);
+    assert_int_equal(collision()->response, RESPONSE_BOUNCE);
+    /* Lost: half the reduced mass of 750 times 64 times 1 - e^2, the jeep three quarters of it. */
+    assert_true(fabs(e.harm_j[jeep] - deformation_of(steps_kind(&f, "jeep"), 13500.0).harm_j) <
+                1e-6);
+    assert_true(fabs(e.harm_j[tank] - deformation_of(steps_kind(&f, "tank"), 4500.0).harm_j) <
+                1e-6);
+}
+
+static void test_the_event_says_where_and_which_way(void **state)
+{
+    uint32_t tank, jeep;
+    (void)state;
+    ram(&tank, &jeep);
+    const struct event_collision *c = collision();
+    assert_true(fabs(c->point[0] - (20000.0 + 4.0 / 60.0 + 3.0)) < 1e-9 && c->point[2] == 20000.0);
+    assert_true(c->normal[0] == 1.0f && c->normal[1] == 0.0f && c->normal[2] == 0.0f);
+    assert_true(c->direction_a[0] == 1.0f); /* row 34 */
+    assert_int_equal(c->a.id, tank + 1);
+    assert_int_equal(c->b.id, jeep + 1);
+    assert_int_equal(c->b.kind, fixture_kind(&f, "jeep"));
+}
+
+static void test_the_softer_of_the_two_decides_the_bounce(void **state)
+{
+    uint32_t tank, jeep;
+    (void)state;
+    steps_kind(&f, "jeep")->restitution = 0.0;
+    ram(&tank, &jeep);
+    assert_true(fabs(steps_rows(&f).vx[tank] - 6.0) < 1e-9);
+    assert_true(fabs(steps_rows(&f).vx[jeep] - 6.0) < 1e-9);
+    assert_int_equal(collision()->response, RESPONSE_STOP);
+}
+
+static void test_bodies_go_on_from_where_they_touched(void **state)
+{
+    uint32_t tank, jeep;
+    (void)state;
+    ram(&tank, &jeep);
+    struct entities e = steps_rows(&f);
+    /* Half the frame is left, at 5 and at 9 m/s. */
+    assert_true(fabs(e.x[tank] - (20000.0 + 4.0 / 60.0 + 2.5 / 60.0)) < 1e-9);
+    assert_true(fabs(e.x[jeep] - (20004.6 + 4.0 / 60.0 + 4.5 / 60.0)) < 1e-9);
+    assert_int_equal(e.bumped[tank] & e.bumped[jeep], 1);
+    assert_true(fabs((double)e.bump_heading[tank] - 1.5 * PI) < 1e-6); /* away is west */
+    assert_true(fabs((double)e.bump_heading[jeep] - HALF_PI) < 1e-6);
+    fixture_run(&f, 1);
+    assert_true(fabs(steps_rows(&f).x[jeep] - e.x[jeep] - 9.0 / 60.0) < 1e-9);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+}
+
+/* Touching along the diagonal: 3-4-5 with a reach of 4.6. */
+static void graze(double friction, uint32_t *tank, uint32_t *jeep)
+{
+    steps_kind(&f, "tank")->friction = steps_kind(&f, "jeep")->friction = friction;
+    *tank = put("tank", 20000.0, 20000.0, 8.0);
+    *jeep = put("jeep", 20000.0 + 0.8 * 4.6, 20000.0 + 0.6 * 4.6, 0.0);
+    fixture_run(&f, 1);
+}
+
+static void test_friction_drags_along_and_turns(void **state)
+{
+    uint32_t tank, jeep;
+    (void)state;
+    graze(0.5, &tank, &jeep);
+    struct entities e = steps_rows(&f);
+    double across = e.vz[tank] * 0.8 - e.vx[tank] * 0.6;
+    double dragged = e.vz[jeep] * 0.8 - e.vx[jeep] * 0.6;
+    assert_true(across > -8.0 * 0.6 && dragged < 0.0); /* some of it went over */
+    double mt = steps_kind(&f, "tank")->mass_kg, mj = steps_kind(&f, "jeep")->mass_kg;
+    assert_true(fabs(mt * e.vx[tank] + mj * e.vx[jeep] - 8.0 * mt) < 1e-6 * mt);
+    assert_true(fabs(mt * e.vz[tank] + mj * e.vz[jeep]) < 1e-6 * mt);
+    /* The jeep's north-west side is dragged to the north-east: clockwise, seen from above. */
+    assert_true(e.spin_y[jeep] < 0.0 && e.spin_y[tank] != 0.0);
+    assert_true(e.spin_x[jeep] == 0.0 && e.spin_z[jeep] == 0.0); /* the ground holds it level */
+}
+
+static void test_without_friction_only_the_speed_along_the_normal_changes(void **state)
+{
+    uint32_t tank, jeep;
+    (void)state;
+    graze(0.0, &tank, &jeep);
+    struct entities e = steps_rows(&f);
+    double along = e.vx[tank] * 0.8 + e.vz[tank] * 0.6,
+           across = e.vz[tank] * 0.8 - e.vx[tank] * 0.6;
+    assert_true(fabs(across + 8.0 * 0.6) < 1e-6);
+    assert_true(fabs(along - 8.0 * 0.8 * 5.0 / 8.0) < 1e-6);
+    assert_true(fabs(e.vx[jeep] * 0.6 - e.vz[jeep] * 0.8) < 1e-6);
+}
+
+/* --- fixed objects -----------------------------------------------------------------------------*/
+
+/* Runs a tank of 3 t into object n at this speed. */
+static uint32_t into(uint32_t n, double speed_mps, double radius_m)
+{
+    uint32_t row = put("tank", 25000.0 + 1000.0 * n - 3.0 - radius_m - 0.25 * speed_mps / 60.0,
+                       25000.0, speed_mps);
+    fixture_run(&f, 1);
+    return row;
+}
+
+static void test_a_wall_throws_it_back(void **state)
+{
+    double restitution = maths_min(0.5, steps_kind(&f, "building")->restitution);
+    uint32_t row = into(1, 10.0, 9.0);
+    (void)state;
+    assert_true(fabs(steps_rows(&f).vx[row] + 10.0 * restitution) < 1e-6);
+    double energy = 0.5 * 3000.0 * 100.0;
+    double rigidity = steps_kind(&f, "building")->rigidity;
+    double lost = energy * (1.0 - restitution * restitution) * rigidity;
+    assert_true(fabs(steps_rows(&f).harm_j[row] -
+                     deformation_of(steps_kind(&f, "tank"), lost).harm_j) < 1e-3);
+}
+
+static void test_what_breaks_costs_its_resistance(void **state)
+{
+    double resistance = steps_kind(&f, "tree")->resistance_j;
+    double speed = sqrt(2.0 * 4.0 * resistance / 3000.0); /* four times what it withstands */
+    uint32_t row = into(0, speed, (double)1.8f);
+    (void)state;
+    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_HIGH);
+    assert_int_equal(collision()->response, RESPONSE_SLOW);
+    assert_int_equal(collision()->b.damage, DAMAGE_HIGH);
+    assert_true(fabs(steps_rows(&f).vx[row] - speed * sqrt(0.75)) < 1e-6);
+    /* A quarter of the frame before, the rest after, at its new speed. */
+    double from = 25000.0 - 3.0 - (double)1.8f;
+    assert_true(fabs(steps_rows(&f).x[row] - from - 0.75 * speed * sqrt(0.75) / 60.0) < 1e-6);
+    fixture_run(&f, 30);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1); /* a stump stops nobody */
+}
+
+static void test_what_withstands_by_a_hair_stops_it(void **state)
+{
+    double speed = sqrt(2.0 * steps_kind(&f, "tree")->resistance_j / 3000.0);
+    uint32_t row = into(0, speed * (1.0 - 1e-6), (double)1.8f);
+    (void)state;
+    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_MED);
+    assert_true(steps_rows(&f).vx[row] <= 0.0);
+}
+
+static void test_row_32_a_bush_harms_nobody_and_is_not_harmed(void **state)
+{
+    uint32_t row = into(2, 10.0, (double)f.view.world.fixed[2].radius_m);
+    (void)state;
+    fixture_run(&f, 60);
+    assert_int_equal(fixture_state(&f).fixed_damage[2], DAMAGE_NONE);
+    assert_true(steps_rows(&f).harm_j[row] == 0.0);
+    assert_true(steps_rows(&f).vx[row] > 5.0 && steps_rows(&f).vx[row] < 10.0);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+}
+
+static void test_no_extreme_of_mass_or_resistance_makes_a_nan(void **state)
+{
+    static const double masses[] = {0.001, 1.0, 1e9}, resistances[] = {1.0, 1e12};
+    (void)state;
+    for (int m = 0; m < 9; m++) {
+        for (int r = 0; r < 2; r++) {
+            fixture_close(&f);
+            open_world(NULL);
+            steps_kind(&f, "tank")->mass_kg = masses[m % 3];
+            steps_kind(&f, "jeep")->mass_kg = masses[m / 3];
+            steps_kind(&f, "tree")->resistance_j = resistances[r];
+            steps_kind(&f, "tank")->explosive_kg = 0.0;
+            steps_params(&f)->collision.damage_high = r == 0 ? 0.0 : 1.0;
+            put("tank", 24994.0, 25000.0, 80.0);
+            put("tank", 20000.0, 20000.0, 80.0);
+            put("jeep", 20005.0, 20000.0, -80.0);
+            fixture_run(&f, 3);
+            struct entities e = steps_rows(&f);
+            for (uint32_t i = 0; i < 3; i++)
+                assert_true(isfinite(e.x[i]) && isfinite(e.y[i]) && isfinite(e.z[i]) &&
+                            isfinite(e.vx[i]) && isfinite(e.vz[i]) && isfinite(e.harm_j[i]));
+        }
+    }
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_head_on_blow_follows_newton),
+        TEST(test_the_event_says_where_and_which_way),
+        TEST(test_the_softer_of_the_two_decides_the_bounce),
+        TEST(test_bodies_go_on_from_where_they_touched),
+        TEST(test_friction_drags_along_and_turns),
+        TEST(test_without_friction_only_the_speed_along_the_normal_changes),
+        TEST(test_a_wall_throws_it_back),
+        TEST(test_what_breaks_costs_its_resistance),
+        TEST(test_what_withstands_by_a_hair_stops_it),
+        TEST(test_row_32_a_bush_harms_nobody_and_is_not_harmed),
+        TEST(test_no_extreme_of_mass_or_resistance_makes_a_nan),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

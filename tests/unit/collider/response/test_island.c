@@ -1,0 +1,284 @@
+/* Several bodies at one moment, overlaps, dents and springs, in whole frames (thesis rows 33, 36,
+ * 43, 46, 47). */
+#include "collider/response/deformation.h"
+#include "collider/response/contact_spring.h"
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define HIGH_M 900.0
+
+static struct fixture f;
+
+static void open_with(const char *text)
+{
+    fixture_open(&f, text);
+    struct kind *kind = steps_kind(&f, "helicopter"); /* radius 6 */
+    kind->restitution = 1.0;
+    kind->friction = 0.0;
+    kind->resistance_j = 1e12;
+    kind->explosive_kg = 0.0;
+}
+
+static int open_world(void **state)
+{
+    (void)state;
+    open_with("");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(double x, double z, double vx, double vz)
+{
+    return fixture_put(&f, (struct fixture_entity){.kind = "helicopter",
+                                                   .at = {x, HIGH_M, z},
+                                                   .velocity = {vx, 0.0, vz}});
+}
+
+static const struct event_collision *collision(uint32_t n)
+{
+    const struct event *event = fixture_event(&f, EVENT_COLLISION, n);
+    assert_non_null(event);
+    return &event->collision;
+}
+
+/* --- three and more ----------------------------------------------------------------------------*/
+
+static void test_row_36_a_blow_goes_through_a_row_of_them(void **state)
+{
+    (void)state;
+    uint32_t first = put(20000.0 - 12.5, 20000.0, 60.0, 0.0);
+    uint32_t row[4];
+    for (int i = 0; i < 4; i++)
+        row[i] = put(20000.0 + 12.0 * i, 20000.0, 0.0, 0.0);
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 4);
+    assert_true(fabs(e.vx[first]) < 1e-9);
+    for (int i = 0; i < 3; i++)
+        assert_true(fabs(e.vx[row[i]]) < 1e-9);
+    assert_true(fabs(e.vx[row[3]] - 60.0) < 1e-9);
+    assert_true(fabs(e.x[row[3]] - (20036.0 + 0.5)) < 1e-6); /* half the frame was left */
+}
+
+static void test_row_36_two_at_once_share_a_blow(void **state)
+{
+    (void)state;
+    /* The one in the middle meets both at the same moment, above and below its way. */
+    uint32_t one = put(20000.0 - 9.6 - 0.5, 20000.0, 60.0, 0.0);
+    uint32_t north = put(20000.0, 20000.0 - 7.2, 0.0, 0.0);
+    uint32_t south = put(20000.0, 20000.0 + 7.2, 0.0, 0.0);
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 2);
+    assert_true(fabs(collision(0)->toi - 0.5) < 1e-9 && fabs(collision(1)->toi - 0.5) < 1e-9);
+    assert_true(fabs(e.vz[one]) < 1e-9);
+    assert_true(fabs(e.vx[north] - e.vx[south]) < 1e-9 && fabs(e.vz[north] + e.vz[south]) < 1e-9);
+    assert_true(fabs(e.vx[one] + e.vx[north] + e.vx[south] - 60.0) < 1e-9);
+    double energy = 0.0;
+    for (uint32_t i = 0; i < 3; i++)
+        energy += e.vx[i] * e.vx[i] + e.vz[i] * e.vz[i];
+    assert_true(fabs(energy - 3600.0) < 1e-6); /* all of it comes back */
+}
+
+static void test_row_36_who_is_struck_twice_in_a_frame_answers_twice(void **state)
+{
+    (void)state;
+    steps_params(&f)->dt_s = 0.1;
+    uint32_t one = put(20000.0, 20000.0, 200.0, 0.0); /* meets two, which meets three */
+    uint32_t two = put(20014.0, 20000.0, 0.0, 0.0), three = put(20028.0, 20000.0, 0.0, 0.0);
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 2);
+    assert_true(fabs(collision(0)->toi - 0.1) < 1e-9 && fabs(collision(1)->toi - 0.2) < 1e-9);
+    assert_true(fabs(e.vx[one]) < 1e-9 && fabs(e.vx[two]) < 1e-9);
+    assert_true(fabs(e.vx[three] - 200.0) < 1e-9);
+    assert_true(fabs(e.x[three] - (20028.0 + 0.8 * 20.0)) < 1e-6);
+}
+
+/* A blow from the side parts two bodies at the moment in which they touch: nothing to answer. A
+ * second one drives the first into the other after all, within the frame. */
+static void test_row_36_who_parts_untouched_may_meet_later(void **state)
+{
+    (void)state;
+    const double touch = 12.0 - 1e-10, x = 20000.0, z = 20000.0;
+    const double cosine = 0.25881904510252074, sine = 0.9659258262890683; /* 75 degrees */
+    steps_params(&f)->dt_s = 0.1;
+    uint32_t one = put(x, z, 1.0, 0.0), two = put(x + touch, z, 0.0, 0.0);
+    put(x + touch * cosine, z + touch * sine, -200.0 * cosine, -200.0 * sine);
+    put(x - 18.4, z - 4.7, 600.0 * 0.988, 600.0 * 0.15);
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_true(e.vx[two] > 300.0);
+    assert_true(e.x[two] > e.x[one] + 12.0);
+}
+
+/* Slowed by a bush at the moment in which it strikes a tank, it has struck the tank once. */
+static void test_row_36_a_bush_beside_makes_no_second_collision(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "objects = ( { kind = \"bush\"; at = [25000.0, 25000.0]; } );");
+    const struct fixed_object *bush = &f.view.world.fixed[0];
+    steps_kind(&f, "tank")->resistance_j = 1e12;
+    double radius = steps_kind(&f, "tank")->radius_m, y = (double)bush->y;
+    double x = bush->x - radius - (double)bush->radius_m - 0.25;
+    uint32_t one =
+        fixture_put(&f, (struct fixture_entity){
+                            .kind = "tank", .at = {x, y, bush->z}, .velocity = {30.0, 0.0, 0.0}});
+    double ahead = 2.0 * radius + 0.25 - 1e-10; /* the bush comes a little later */
+    uint32_t two =
+        fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {x + ahead, y, bush->z}});
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 2);
+    assert_true(fabs(collision(0)->toi - collision(1)->toi) < CONTACT_TIE);
+    assert_true(collision(0)->b.fixed != collision(1)->b.fixed);
+    assert_true(e.vx[two] > 10.0 && e.vx[one] < e.vx[two]);
+}
+
+/* --- overlaps ----------------------------------------------------------------------------------*/
+
+static void test_row_46_overlapping_bodies_part_exactly(void **state)
+{
+    (void)state;
+    steps_kind(&f, "jet")->restitution = 0.0; /* radius 7 */
+    steps_kind(&f, "jet")->resistance_j = 1e12;
+    steps_kind(&f, "jet")->mass_kg = 4.0 * steps_kind(&f, "helicopter")->mass_kg;
+    uint32_t light = put(20000.0, 20000.0, 1.0, 0.0);
+    uint32_t heavy = fixture_put(&f, (struct fixture_entity){.kind = "jet",
+                                                             .at = {20010.0, HIGH_M, 20000.0},
+                                                             .velocity = {0, 0, 0}});
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_true(e.x[heavy] - e.x[light] >= 13.0 - 1e-9);
+    assert_true(e.x[heavy] - e.x[light] < 13.0 + 0.1);
+    /* 3 m, the light one four times as far. */
+    double pushed = e.x[heavy] - 20010.0, way = 0.2 / 60.0; /* both go on at 0.2 m/s */
+    assert_true(fabs(pushed - 0.6 - way) < 1e-6);
+}
+
+/* A truck that turns where it stands sweeps its corners into who stands beside it. */
+static void test_who_turns_in_place_meets_its_neighbour(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "collision = { shape = \"model\"; };");
+    uint32_t truck =
+        fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {20000.0, 100.0, 20000.0}});
+    fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {20003.0, 100.0, 20000.0}});
+    struct entities e = steps_rows(&f);
+    e.spin_y[truck] = -6.0; /* both look north; it turns to the right */
+    fixture_run(&f, 30);
+    assert_true(fixture_event_count(&f, EVENT_COLLISION) >= 1);
+    assert_true(steps_speed(&f, 1) > 0.0); /* pushed aside */
+}
+
+/* --- dents -------------------------------------------------------------------------------------*/
+
+static void test_rows_33_47_a_blow_leaves_a_dent_where_it_struck(void **state)
+{
+    (void)state;
+    struct kind *kind = steps_kind(&f, "helicopter");
+    kind->restitution = 0.0;
+    kind->rigidity = 0.25;
+    kind->moldability = 0.75;
+    kind->resistance_j = 1e7;
+    uint32_t one = put(20000.0 - 12.5, 20000.0, 60.0, 0.0), two = put(20000.0, 20000.0, 0.0, 0.0);
+    fixture_run(&f, 1);
+    struct state now = fixture_state(&f);
+    double half = 0.5 * 0.5 * (0.5 * kind->mass_kg) * 3600.0; /* half of what is lost */
+    struct deformation crush = deformation_of(kind, half);
+    assert_int_equal(now.head->dent_count, 2);
+    assert_int_equal(now.dents[0].id, one + 1);
+    assert_int_equal(now.dents[1].id, two + 1);
+    for (int i = 0; i < 2; i++) {
+        assert_true(fabs((double)now.dents[i].plastic_m - crush.plastic_m) < 1e-6);
+        assert_true(fabs((double)now.dents[i].elastic_m - crush.elastic_m) < 1e-6);
+        assert_int_equal(now.dents[i].tick, 1);
+    }
+    /* The first flies east and is struck on its nose; the second looks north: on its left. */
+    assert_true(fabsf(now.dents[0].point[0] - 6.0f) < 1e-3f && now.dents[0].direction[0] < -0.999f);
+    assert_true(fabsf(now.dents[1].point[2] + 6.0f) < 1e-3f && now.dents[1].direction[2] > 0.999f);
+}
+
+static void test_dents_beyond_the_list_are_counted(void **state)
+{
+    (void)state;
+    steps_kind(&f, "helicopter")->restitution = 0.0;
+    steps_kind(&f, "helicopter")->resistance_j = 1e6;
+    steps_params(&f)->dent_slots = 1;
+    put(20000.0 - 12.5, 20000.0, 30.0, 0.0);
+    put(20000.0, 20000.0, 0.0, 0.0);
+    fixture_run(&f, 1);
+    assert_int_equal(fixture_state(&f).head->dent_count, 1);
+    assert_int_equal(fixture_state(&f).head->tally.dents_refused, 1);
+}
+
+static void test_a_touch_leaves_no_dent(void **state)
+{
+    (void)state;
+    put(20000.0 - 12.001, 20000.0, 0.5, 0.0);
+    put(20000.0, 20000.0, 0.0, 0.0);
+    fixture_run(&f, 1);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+    assert_int_equal(fixture_state(&f).head->dent_count, 0);
+}
+
+/* --- springs -----------------------------------------------------------------------------------*/
+
+static void test_row_43_a_spring_gives_back_what_restitution_says(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    open_with("collision = { response = \"spring\"; shape = \"sphere\"; };");
+    struct kind *kind = steps_kind(&f, "helicopter");
+    kind->restitution = 0.5;
+    uint32_t one = put(20000.0 - 12.5, 20000.0, 60.0, 0.0), two = put(20000.0, 20000.0, 0.0, 0.0);
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_true(fabs(e.vx[one] + e.vx[two] - 60.0) < 1e-9);
+    assert_true(fabs(e.vx[two] - e.vx[one] - 30.0) < 1e-9);
+    const struct contact_spring spring = {
+        .reduced_kg = 0.5 * kind->mass_kg,
+        .closing_mps = 60.0,
+        .stiffness_npm = contact_spring_in_series(kind->stiffness_npm, kind->stiffness_npm),
+        .restitution = 0.5};
+    struct spring_impact blow = spring_impact(&spring);
+    assert_true(fabs((double)collision(0)->impulse_ns / blow.impulse_ns - 1.0) < 1e-6);
+    struct state now = fixture_state(&f);
+    assert_int_equal(now.head->dent_count, 2); /* each skin by half of the spring's way */
+    assert_true(fabs((double)now.dents[0].plastic_m - 0.5 * blow.left_m) < 1e-6);
+    assert_true(fabs((double)(now.dents[1].plastic_m + now.dents[1].elastic_m) -
+                     0.5 * blow.depth_m) < 1e-6);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_row_36_a_blow_goes_through_a_row_of_them),
+        TEST(test_row_36_two_at_once_share_a_blow),
+        TEST(test_row_36_who_is_struck_twice_in_a_frame_answers_twice),
+        TEST(test_row_36_who_parts_untouched_may_meet_later),
+        TEST(test_row_36_a_bush_beside_makes_no_second_collision),
+        TEST(test_row_46_overlapping_bodies_part_exactly),
+        TEST(test_who_turns_in_place_meets_its_neighbour),
+        TEST(test_rows_33_47_a_blow_leaves_a_dent_where_it_struck),
+        TEST(test_dents_beyond_the_list_are_counted),
+        TEST(test_a_touch_leaves_no_dent),
+        TEST(test_row_43_a_spring_gives_back_what_restitution_says),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,147 @@
+/* What an answer makes of a body's way through the rest of the frame. */
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define DT_S (1.0 / 60.0)
+
+static struct fixture f;
+static struct response_context respond;
+static const struct vec3 none = {0.0, 0.0, 0.0};
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    steps_respond_end(&respond);
+    fixture_close(&f);
+    return 0;
+}
+
+/* One body that goes 6 m east in the frame. */
+static uint32_t put(const char *kind, double x, double y)
+{
+    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                           .at = {x, y, 25000.0},
+                                                           .velocity = {6.0 / DT_S, 0.0, 0.0}});
+    steps_respond(&f, &respond);
+    respond.path[row].along.x = 6.0;
+    respond.next->entities.x[row] += 6.0;
+    return row;
+}
+
+static double x_of(uint32_t row)
+{
+    return respond.next->entities.x[row];
+}
+
+static void test_who_stays_ends_where_it_was_struck(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 25000.0, 900.0);
+    path_change_stay(&respond, row, 0.25, (struct vec3){3.0, 0.0, 0.0});
+    assert_true(fabs(x_of(row) - 25001.5) < 1e-9);
+    assert_true(respond.next->entities.vx[row] == 3.0);
+    assert_true(respond.path[row].since == 0.25 && pair_filter_rests(&respond.path[row]));
+}
+
+static void test_who_is_slowed_goes_on_at_its_share(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 25000.0, 900.0);
+    path_change_slow(&respond, row, 0.5, 0.5);
+    assert_true(fabs(x_of(row) - 25004.5) < 1e-9);
+    assert_true(fabs(respond.next->entities.vx[row] - 3.0 / DT_S) < 1e-9);
+}
+
+static void test_who_leaves_takes_velocity_and_spin_along(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 25000.0, 900.0);
+    struct vec3 at = {25002.0, 900.0, 25000.0}, velocity = {0.0, 0.0, 60.0};
+    path_change_leave(&respond, row, 0.5, at, velocity, (struct vec3){0.0, -6.0, 0.0}, false);
+    const struct entities *e = &respond.next->entities;
+    assert_true(fabs(e->x[row] - 25002.0) < 1e-9 && fabs(e->z[row] - 25000.5) < 1e-9);
+    /* Half of the frame at 6 rad/s to the right. */
+    assert_true(fabs(maths_wrap_half(e->heading[row] - HALF_PI) - 3.0 * DT_S) < 1e-9);
+    assert_true(fabs(e->spin_y[row] + 6.0) < 1e-9);
+    path_change_leave(&respond, row, 0.5, at, velocity, none, true);
+    assert_true(e->z[row] == 25000.0 && e->vz[row] == 60.0); /* stays, and takes it with it */
+}
+
+/* Row 17 and the mover know nothing outside: no answer may push a body there. */
+static void test_nobody_is_pushed_out_of_the_world(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 1.0, 900.0);
+    const struct vec3 out = {-300.0, 0.0, 0.0};
+    static const double times[] = {0.0, 0.5, 1.0};
+    for (int i = 0; i < 3; i++) {
+        struct vec3 at = {-0.5, 900.0, WORLD_SIDE_M + 0.5}; /* parted from another */
+        path_change_leave(&respond, row, times[i], at, out, none, i == 2);
+        assert_true(x_of(row) >= 0.0 && x_of(row) <= WORLD_SIDE_M);
+        assert_true(respond.next->entities.z[row] <= WORLD_SIDE_M);
+    }
+}
+
+static void test_what_the_ground_holds(void **state)
+{
+    (void)state;
+    uint32_t tank = put("tank", 25000.0, FIXTURE_GROUND_M);
+    steps_respond_end(&respond);
+    uint32_t jet = put("jet", 26000.0, 900.0);
+    struct entities *e = &respond.next->entities;
+    assert_true(path_change_grounded(&respond, tank));
+    assert_false(path_change_grounded(&respond, jet));
+    e->state[jet] = ENTITY_WRECK;
+    assert_false(path_change_grounded(&respond, jet)); /* it still falls */
+    e->y[jet] = FIXTURE_GROUND_M;
+    assert_true(path_change_grounded(&respond, jet));
+    /* Its driver's steering counts until an answer has turned it otherwise. */
+    e->spin_x[tank] = e->spin_z[tank] = 1.0;
+    e->heading[tank] += 0.01;
+    struct vec3 spin = path_change_spin(&respond, tank);
+    assert_true(spin.x == 0.0 && spin.z == 0.0 && fabs(spin.y + 0.01 / DT_S) < 1e-9);
+}
+
+/* A driver who steers goes on steering after an answer, and it does not become a spin of the
+ * vehicle's own. */
+static void test_an_answer_leaves_the_steering_to_the_driver(void **state)
+{
+    (void)state;
+    uint32_t tank = put("tank", 25000.0, FIXTURE_GROUND_M);
+    struct entities *e = &respond.next->entities;
+    struct vec3 at = {25003.0, FIXTURE_GROUND_M, 25000.0};
+    e->heading[tank] += 0.01;
+    struct vec3 spin = path_change_spin(&respond, tank);
+    spin.y -= 0.3; /* what an impulse adds, to the right as he steers */
+    path_change_leave(&respond, tank, 0.5, at, none, spin, false);
+    assert_true(fabs(e->spin_y[tank] + 0.3) < 1e-9);
+    assert_true(fabs(maths_wrap_half(e->heading[tank] - HALF_PI) - 0.01 - 0.15 * DT_S) < 1e-9);
+    assert_true(fabs(path_change_spin(&respond, tank).y - spin.y) < 1e-9);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_who_stays_ends_where_it_was_struck),
+        TEST(test_who_is_slowed_goes_on_at_its_share),
+        TEST(test_who_leaves_takes_velocity_and_spin_along),
+        TEST(test_nobody_is_pushed_out_of_the_world),
+        TEST(test_what_the_ground_holds),
+        TEST(test_an_answer_leaves_the_steering_to_the_driver),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

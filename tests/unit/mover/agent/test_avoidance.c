@@ -1,0 +1,199 @@
+/* Avoiding: woods, each other, water, steep ground; the same on any number of threads. */
+#include "tests/support/steps.h"
+#include "world/terrain/gridsquare.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define HZ    20
+#define TREES 80
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+/* A patrol that goes to a point and no other. */
+static uint32_t send(const char *kind, double x, double z, double goal_x, double goal_z)
+{
+    double heading = maths_heading(goal_x - x, goal_z - z);
+    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                           .at = {x, FIXTURE_GROUND_M, z},
+                                                           .heading_rad = heading,
+                                                           .behaviour = BEHAVIOUR_PATROL});
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
+    e.goal_x[row] = goal_x;
+    e.goal_z[row] = goal_z;
+    return row;
+}
+
+/* A wood of trees 14 m apart or more, over 300 m of the way from west to east. */
+static void plant(uint64_t *random)
+{
+    static char text[TREES * 80 + 256];
+    double x[TREES], z[TREES];
+    int length =
+        snprintf(text, sizeof text, "world = { seed = 1; capacity = 64; hz = 20.0; }; objects = (");
+    for (int n = 0; n < TREES;) {
+        x[n] = fixture_uniform(random, 25050.0, 25350.0);
+        z[n] = fixture_uniform(random, 24900.0, 25100.0);
+        bool apart = true;
+        for (int o = 0; o < n; o++)
+            apart &= (x[n] - x[o]) * (x[n] - x[o]) + (z[n] - z[o]) * (z[n] - z[o]) > 14.0 * 14.0;
+        if (!apart)
+            continue;
+        length += snprintf(text + length, sizeof text - (size_t)length,
+                           "%s{ kind = \"tree\"; at = [%.2f, %.2f]; }", n ? "," : "", x[n], z[n]);
+        n++;
+    }
+    snprintf(text + length, sizeof text - (size_t)length, ");");
+    fixture_close(&f);
+    fixture_open(&f, text);
+}
+
+static void test_a_wood_is_crossed(void **state)
+{
+    static const char *const kinds[] = {"tank", "jeep", "carrier"};
+    uint64_t random = fixture_seed(12);
+    int crossed = 0, hits = 0;
+    (void)state;
+    for (int n = 0; n < 12; n++) {
+        plant(&random);
+        uint32_t row = send(kinds[n % 3], 25000.0, fixture_uniform(&random, 24930.0, 25070.0),
+                            25420.0, 25000.0);
+        for (int frame = 0; frame < 120 * HZ && steps_rows(&f).x[row] < 25380.0; frame++)
+            fixture_run(&f, 1);
+        crossed += steps_rows(&f).x[row] >= 25380.0;
+        hits += (int)fixture_event_count(&f, EVENT_COLLISION);
+    }
+    print_message("%d of 12 crossed, %d trees hit\n", crossed, hits);
+    assert_true(crossed >= 11 && hits <= 1); /* some thickets are too narrow to turn in */
+}
+
+static void test_head_on_they_pass_each_other_on_the_right(void **state)
+{
+    (void)state;
+    for (double course = 0.0; course < TWO_PI; course += 0.7) {
+        double sine = maths_sin(course), cosine = -maths_cos(course);
+        steps_empty(&f);
+        uint32_t a = send("truck", 25000.0 - 200.0 * sine, 25000.0 - 200.0 * cosine,
+                          25000.0 + 400.0 * sine, 25000.0 + 400.0 * cosine);
+        uint32_t b = send("truck", 25000.0 + 200.0 * sine, 25000.0 + 200.0 * cosine,
+                          25000.0 - 400.0 * sine, 25000.0 - 400.0 * cosine);
+        double least = 1e9, right[2] = {0.0, 0.0};
+        for (int frame = 0; frame < 30 * HZ; frame++) {
+            fixture_run(&f, 1);
+            struct entities e = steps_rows(&f);
+            double dx = e.x[a] - e.x[b], dz = e.z[a] - e.z[b];
+            if (sqrt(dx * dx + dz * dz) < least) {
+                least = sqrt(dx * dx + dz * dz);
+                right[0] = -(e.x[a] - 25000.0) * cosine + (e.z[a] - 25000.0) * sine;
+                right[1] = (e.x[b] - 25000.0) * cosine - (e.z[b] - 25000.0) * sine;
+            }
+        }
+        assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+        assert_true(least > 5.0 && right[0] > 0.0 && right[1] > 0.0);
+    }
+}
+
+static void test_crossing_traffic_does_not_meet(void **state)
+{
+    uint64_t random = fixture_seed(3);
+    int collisions = 0, crossings = 0;
+    (void)state;
+    for (int n = 0; n < 40; n++) {
+        double course = fixture_uniform(&random, 0.3, PI),
+               late = fixture_uniform(&random, -20.0, 20.0);
+        double sine = maths_sin(course), cosine = -maths_cos(course);
+        steps_empty(&f);
+        send("tank", 25000.0, 25150.0 + late, 25000.0, 24400.0);
+        send("tank", 25000.0 - 150.0 * sine, 25000.0 - 150.0 * cosine, 25000.0 + 600.0 * sine,
+             25000.0 + 600.0 * cosine);
+        fixture_run(&f, 30 * HZ);
+        collisions += (int)fixture_event_count(&f, EVENT_COLLISION);
+        crossings++;
+    }
+    print_message("%d collisions in %d crossings\n", collisions, crossings);
+    assert_true(collisions <= 1);
+}
+
+static void test_it_stops_for_what_it_cannot_pass(void **state)
+{
+    (void)state;
+    steps_cover(&f, COVER_LAKE, 25125.0, 0.0, 50000.0, 50000.0); /* from x = 25062.5 on */
+    uint32_t row = send("jeep", 24900.0, 25000.0, 25400.0, 25000.0);
+    for (int frame = 0; frame < 30 * HZ; frame++) {
+        struct entities e = steps_rows(&f);
+        e.goal_x[row] = 25400.0;
+        e.goal_z[row] = 25000.0;
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        assert_true(e.x[row] < 25062.0);
+        assert_true(e.ease[row] >= 0.0f && e.ease[row] <= 1.0f);
+    }
+}
+
+static void test_a_driver_is_left_alone(void **state)
+{
+    uint32_t row = send("tank", 25000.0, 25000.0, 25500.0, 25000.0);
+    (void)state;
+    fixture_put(
+        &f, (struct fixture_entity){.kind = "truck", .at = {25060.0, FIXTURE_GROUND_M, 25000.0}});
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    fixture_run(&f, 10 * HZ);
+    assert_true(fixture_event_count(&f, EVENT_COLLISION) > 0);
+    assert_true(steps_rows(&f).dodge[row] == 0.0f && steps_rows(&f).ease[row] == 0.0f);
+}
+
+static uint64_t crowd(uint32_t threads)
+{
+    uint64_t random = 99;
+    fixture_close(&f);
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    fixture_threads(&f, threads);
+    for (int n = 0; n < 40; n++)
+        send(n % 2 ? "jeep" : "helicopter", fixture_uniform(&random, 24900.0, 25100.0),
+             fixture_uniform(&random, 24900.0, 25100.0), 25000.0, 25000.0);
+    fixture_run(&f, 20 * HZ);
+    return fixture_digest(&f);
+}
+
+static void test_the_same_on_any_number_of_threads(void **state)
+{
+    uint64_t one = crowd(1);
+    (void)state;
+    assert_true(crowd(2) == one && crowd(3) == one);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_wood_is_crossed),
+        TEST(test_head_on_they_pass_each_other_on_the_right),
+        TEST(test_crossing_traffic_does_not_meet),
+        TEST(test_it_stops_for_what_it_cannot_pass),
+        TEST(test_a_driver_is_left_alone),
+        TEST(test_the_same_on_any_number_of_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

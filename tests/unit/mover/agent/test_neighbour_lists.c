@@ -1,0 +1,117 @@
+/* Company: whoever a look would meet is in its list, and its order is of no account. */
+#include "mover/agent/avoidance.h"
+#include "mover/agent/neighbour_lists.h"
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define VEHICLES 1500
+
+static struct fixture f;
+static struct avoidance avoid;
+static struct neighbour_index near;
+static struct neighbour_lists company;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 2048; hz = 20.0; };");
+    avoidance_init(&avoid, &f.view.world);
+    return neighbour_index_init(&near, 2048) == 0 && neighbour_lists_init(&company, 2048) == 0 ? 0
+                                                                                               : -1;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    neighbour_index_free(&near);
+    neighbour_lists_free(&company);
+    fixture_close(&f);
+    return 0;
+}
+
+static void scatter(uint64_t *random, double side_m)
+{
+    static const char *const kinds[] = {"tank", "jeep", "truck", "helicopter"};
+    for (uint32_t n = 0; n < VEHICLES; n++)
+        fixture_put(
+            &f, (struct fixture_entity){.kind = kinds[n % 4],
+                                        .at = {25000.0 + fixture_uniform(random, -side_m, side_m),
+                                               fixture_uniform(random, 95.0, 120.0),
+                                               25000.0 + fixture_uniform(random, -side_m, side_m)},
+                                        .behaviour = BEHAVIOUR_PATROL});
+}
+
+/* By the rows themselves: near enough to be looked at, and not over or under it. */
+static bool in_company(const struct entities *e, uint32_t i, uint32_t j)
+{
+    const struct kind *kinds = f.view.world.kinds;
+    double dx = e->x[j] - e->x[i], dz = e->z[j] - e->z[i], far = avoid.around_m[e->kind[i]];
+    double apart = 0.5 * (kinds[e->kind[i]].height_m + kinds[e->kind[j]].height_m) + 1.0;
+    return i != j && dx * dx + dz * dz <= far * far && fabs(e->y[i] - e->y[j]) <= apart;
+}
+
+static bool lists(const struct neighbour_lists_list *list, uint32_t row)
+{
+    for (uint32_t n = 0; n < list->count; n++) {
+        if (company.entries[list->first + n].row == row)
+            return true;
+    }
+    return false;
+}
+
+/* How many lists were made of those that are due. */
+static uint32_t gather(uint32_t think, struct thread_pool *workers)
+{
+    struct entities e = steps_rows(&f);
+    uint32_t made = 0;
+    neighbour_index_build(&near, &e, VEHICLES, 0, think, workers);
+    neighbour_lists_gather(&company, &near, &f.view.world, &avoid, workers);
+    for (uint32_t i = 0; i < VEHICLES; i++) {
+        const struct neighbour_lists_list *list = &company.list[i];
+        if (e.id[i] % think != 0 || list->count == NEIGHBOUR_LISTS_NONE)
+            continue;
+        made++;
+        assert_false(lists(list, i));
+        for (uint32_t j = 0; j < VEHICLES; j++)
+            assert_true(!in_company(&e, i, j) || lists(list, j));
+    }
+    return made;
+}
+
+static void test_everybody_that_a_look_meets_is_listed(void **state)
+{
+    uint64_t random = fixture_seed(6);
+    (void)state;
+    scatter(&random, 3000.0);
+    uint32_t made = gather(12, NULL);
+    assert_true(made > VEHICLES / 24);
+    struct thread_pool *workers = thread_pool_create(3);
+    assert_non_null(workers);
+    assert_int_equal(gather(12, workers), made);
+    thread_pool_destroy(workers);
+}
+
+static void test_in_a_crowd_some_go_without_a_list(void **state)
+{
+    uint64_t random = fixture_seed(7);
+    (void)state;
+    scatter(&random, 60.0);
+    assert_true(gather(1, NULL) < VEHICLES);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_everybody_that_a_look_meets_is_listed),
+        TEST(test_in_a_crowd_some_go_without_a_list),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

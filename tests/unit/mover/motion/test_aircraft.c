@@ -1,0 +1,232 @@
+/* Aircraft: height over the ground, least speed, hovering, bank, the world's edge, empty tanks. */
+#include "tests/support/steps.h"
+#include "world/terrain/gridsquare.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define HZ 20.0
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+/* Ridges across the way east, one each 2 km, 240 m high. */
+static double ridges(double x, double z, const void *context)
+{
+    (void)z, (void)context;
+    double along = fabs(x / 2000.0 - floor(x / 2000.0) - 0.5) * 2.0;
+    return 100.0 + 240.0 * (1.0 - along);
+}
+
+static uint32_t put(const char *kind, double x, double z, double height, double speed_mps,
+                    enum behaviour behaviour)
+{
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                .at = {x, steps_ground_at(&f, x, z) + height, z},
+                                                .velocity = {speed_mps, 0.0, 0.0},
+                                                .heading_rad = HALF_PI,
+                                                .behaviour = BEHAVIOUR_PATROL});
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
+    return row;
+}
+
+static double height_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    return e.y[row] - steps_ground_at(&f, e.x[row], e.z[row]);
+}
+
+static void test_a_helicopter_keeps_its_height_over_ridges(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "helicopter");
+    uint32_t row;
+    double sum = 0.0, least = 1e9;
+    int frames = (int)(180.0 * HZ);
+    (void)state;
+    steps_ground(&f, ridges, NULL);
+    row = put("helicopter", 20000.0, 25000.0, kind->cruise_altitude_m, 40.0, BEHAVIOUR_PATROL);
+    for (int frame = 0; frame < frames; frame++) {
+        struct entities e = steps_rows(&f);
+        e.goal_x[row] = 40000.0; /* on east */
+        e.goal_z[row] = 25000.0;
+        fixture_run(&f, 1);
+        sum += height_of(row);
+        least = maths_min(least, height_of(row));
+    }
+    assert_true(steps_rows(&f).x[row] > 27000.0); /* it went over three and more */
+    assert_true(least > 10.0 && fabs(sum / frames - kind->cruise_altitude_m) < 40.0);
+    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
+}
+
+static void test_a_helicopter_hovers(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "helicopter");
+    uint32_t row = put("helicopter", 25000.0, 25000.0, 90.0, 40.0, BEHAVIOUR_IDLE);
+    (void)state;
+    fixture_run(&f, (uint32_t)(40.0 * HZ));
+    assert_true(steps_speed(&f, row) < 0.01);
+    assert_true(fabs(height_of(row) - kind->cruise_altitude_m) < 0.1);
+}
+
+static void test_a_jet_never_flies_below_its_least_speed(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "jet");
+    uint32_t idle, patrol;
+    (void)state;
+    steps_ground(&f, ridges, NULL);
+    idle = put("jet", 5000.0, 25000.0, 400.0, kind->min_speed_mps, BEHAVIOUR_IDLE);
+    patrol = put("jet", 25000.0, 20000.0, 400.0, 250.0, BEHAVIOUR_PATROL);
+    for (int frame = 0; frame < (int)(120.0 * HZ); frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        assert_true(hypot(e.vx[idle], e.vz[idle]) > kind->min_speed_mps - 1e-6);
+        assert_true(hypot(e.vx[patrol], e.vz[patrol]) > kind->min_speed_mps - 1e-6);
+        assert_true(hypot(e.vx[patrol], e.vz[patrol]) < kind->max_speed_mps + 1e-6);
+    }
+    assert_int_equal(steps_rows(&f).state[idle], ENTITY_ACTIVE);
+    assert_int_equal(steps_rows(&f).state[patrol], ENTITY_ACTIVE);
+}
+
+static void test_climbing_stays_within_the_kinds_rate(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "helicopter");
+    uint32_t row = put("helicopter", 25000.0, 25000.0, 200.0, 20.0, BEHAVIOUR_IDLE);
+    (void)state;
+    for (int frame = 0; frame < (int)(30.0 * HZ); frame++) {
+        steps_drive(&f, row, 0.3, 0.0, frame < 300 ? 1.0 : -0.6);
+        assert_true(fabs(steps_rows(&f).vy[row]) <= kind->climb_rate_mps + 1e-9);
+        if (frame == 299)
+            assert_true(fabs(steps_rows(&f).vy[row] - kind->climb_rate_mps) < 0.01);
+    }
+    assert_true(steps_rows(&f).vy[row] < -5.0);
+}
+
+static void test_patrols_stay_inside_the_world(void **state)
+{
+    uint32_t row[6];
+    (void)state;
+    for (uint32_t n = 0; n < 6; n++)
+        row[n] = put(n % 2 ? "jet" : "helicopter", n < 3 ? 300.0 : 49700.0, 1000.0 + 9000.0 * n,
+                     300.0, 70.0, BEHAVIOUR_PATROL);
+    for (int frame = 0; frame < (int)(120.0 * HZ); frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        for (uint32_t n = 0; n < 6; n++)
+            assert_true(e.x[row[n]] >= 0.0 && e.x[row[n]] <= WORLD_SIDE_M && e.z[row[n]] >= 0.0 &&
+                        e.z[row[n]] <= WORLD_SIDE_M);
+    }
+}
+
+static void test_it_banks_into_its_turn(void **state)
+{
+    uint32_t row = put("jet", 25000.0, 25000.0, 900.0, 250.0, BEHAVIOUR_IDLE);
+    (void)state;
+    steps_drive(&f, row, 1.0, 1.0, 0.0);
+    fixture_run(&f, (uint32_t)(3.0 * HZ));
+    assert_true(steps_rows(&f).roll[row] > 0.5 && steps_rows(&f).roll[row] <= 1.0);
+    steps_drive(&f, row, 1.0, -1.0, 0.0);
+    fixture_run(&f, (uint32_t)(3.0 * HZ));
+    assert_true(steps_rows(&f).roll[row] < -0.5);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(3.0 * HZ));
+    assert_true(fabs(steps_rows(&f).roll[row]) < 1e-6);
+}
+
+static void test_without_fuel_it_comes_down(void **state)
+{
+    uint32_t row = put("helicopter", 25000.0, 25000.0, 200.0, 20.0, BEHAVIOUR_PATROL);
+    (void)state;
+    steps_rows(&f).fuel_l[row] = 0.0;
+    fixture_run(&f, (uint32_t)(5.0 * HZ));
+    assert_true(steps_rows(&f).vy[row] == -steps_kind(&f, "helicopter")->climb_rate_mps);
+    fixture_run(&f, (uint32_t)(20.0 * HZ));
+    assert_true(steps_rows(&f).y[row] < FIXTURE_GROUND_M + 1.0);
+}
+
+static void test_a_driven_helicopter_follows_stick_and_collective(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "helicopter");
+    uint32_t row = put("helicopter", 25000.0, 25000.0, 200.0, 0.0, BEHAVIOUR_IDLE);
+    (void)state;
+    steps_drive(&f, row, -1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(10.0 * HZ));
+    assert_true(fabs(steps_rows(&f).vx[row] + 0.25 * kind->max_speed_mps) < 1e-9);
+    assert_true(steps_rows(&f).pitch[row] > 0.0); /* it leans back */
+    double height = steps_rows(&f).y[row];
+    steps_drive(&f, row, 0.0, 1.0, 0.0); /* comes to a hover and turns there */
+    fixture_run(&f, (uint32_t)(10.0 * HZ));
+    assert_true(steps_speed(&f, row) < 1e-9 && steps_rows(&f).y[row] == height);
+    double heading = steps_rows(&f).heading[row];
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(fabs(maths_wrap_half(steps_rows(&f).heading[row] - heading) - kind->turn_rate_rps) <
+                1e-9);
+    steps_drive(&f, row, 0.0, 0.0, 0.5);
+    fixture_run(&f, (uint32_t)(5.0 * HZ));
+    assert_true(fabs(steps_rows(&f).vy[row] - 0.5 * kind->climb_rate_mps) < 1e-9);
+}
+
+static void test_a_jets_throttle_is_above_its_least_speed_and_its_brake_slows_it(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "jet");
+    uint32_t row = put("jet", 25000.0, 25000.0, 900.0, 200.0, BEHAVIOUR_IDLE);
+    (void)state;
+    steps_pedals(&f, row, 1.0, 1.0, GEAR_AUTOMATIC);
+    double before = steps_speed(&f, row);
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(fabs(before - steps_speed(&f, row) - 2.0 * kind->acceleration_mps2) < 1e-6);
+    fixture_run(&f, (uint32_t)(20.0 * HZ));
+    assert_true(fabs(steps_speed(&f, row) - kind->min_speed_mps) < 1e-9);
+    steps_drive(&f, row, 0.5, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(20.0 * HZ));
+    assert_true(fabs(steps_speed(&f, row) - 0.5 * (kind->min_speed_mps + kind->max_speed_mps)) <
+                1e-9);
+}
+
+static void test_nothing_is_nan_with_a_kind_that_cannot_fly(void **state)
+{
+    struct kind *kind = steps_kind(&f, "helicopter");
+    uint32_t row = put("helicopter", 25000.0, 25000.0, 200.0, 0.0, BEHAVIOUR_IDLE);
+    (void)state;
+    kind->max_speed_mps = 0.0; /* config/ allows it */
+    fixture_run(&f, 10);
+    struct entities e = steps_rows(&f);
+    assert_true(isfinite(e.x[row]) && isfinite(e.y[row]) && isfinite(e.pitch[row]) &&
+                isfinite(e.fuel_l[row]));
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_helicopter_keeps_its_height_over_ridges),
+        TEST(test_a_helicopter_hovers),
+        TEST(test_a_jet_never_flies_below_its_least_speed),
+        TEST(test_climbing_stays_within_the_kinds_rate),
+        TEST(test_patrols_stay_inside_the_world),
+        TEST(test_it_banks_into_its_turn),
+        TEST(test_without_fuel_it_comes_down),
+        TEST(test_a_driven_helicopter_follows_stick_and_collective),
+        TEST(test_a_jets_throttle_is_above_its_least_speed_and_its_brake_slows_it),
+        TEST(test_nothing_is_nan_with_a_kind_that_cannot_fly),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

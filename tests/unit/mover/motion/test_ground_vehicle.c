@@ -1,0 +1,478 @@
+/* Ground vehicles: the terrain under them, slopes, water, the world's edge, the brakes. */
+#include "tests/support/steps.h"
+#include "world/terrain/gridsquare.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define HZ         60.0
+#define FLOAT_POST 1e-4 /* [rad] what posts as floats leave of an angle */
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put_tank(double x, double z, double heading_deg, double speed_mps)
+{
+    double heading = heading_deg * RAD_PER_DEG;
+    return fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                                   .at = {x, steps_ground_at(&f, x, z), z},
+                                                   .velocity = {speed_mps * maths_sin(heading), 0.0,
+                                                                -speed_mps * maths_cos(heading)},
+                                                   .heading_rad = heading});
+}
+
+static bool near(double value, double wanted, double slack)
+{
+    return fabs(value - wanted) <= slack;
+}
+
+/* --- the ground underneath ---------------------------------------------------------------------*/
+
+static void test_row_15_a_plane_gives_pitch_and_roll(void **state)
+{
+    static const double slopes_deg[] = {-30.0, -10.0, 0.0, 5.0, 20.0, 30.0};
+    (void)state;
+    for (size_t n = 0; n < sizeof slopes_deg / sizeof slopes_deg[0]; n++) {
+        double slope = slopes_deg[n] * RAD_PER_DEG;
+        fixture_close(&f);
+        fixture_open(&f, "");
+        steps_plane(&f, maths_sin(slope) / maths_cos(slope), 0.0); /* rises to the east */
+        uint32_t east = put_tank(25010.0, 25010.0, 90.0, 0.0);
+        uint32_t north = put_tank(25010.0, 25060.0, 0.0, 0.0);
+        uint32_t west = put_tank(25010.0, 24960.0, 270.0, 0.0);
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        assert_true(near(e.pitch[east], slope, FLOAT_POST) && near(e.roll[east], 0.0, FLOAT_POST));
+        assert_true(near(e.pitch[west], -slope, FLOAT_POST));
+        /* Heading north, its right side is uphill: up, so roll, right side down, is negative. */
+        assert_true(near(e.roll[north], -slope, FLOAT_POST));
+        assert_true(near(e.pitch[north], 0.0, FLOAT_POST));
+    }
+}
+
+static double bumpy(double x, double z, const void *context)
+{
+    (void)context;
+    return 100.0 + 6.0 * maths_sin(x * 0.013) + 6.0 * maths_sin(z * 0.017 + 1.0);
+}
+
+static void test_row_15_height_is_the_grounds_in_every_frame(void **state)
+{
+    (void)state;
+    steps_ground(&f, bumpy, NULL);
+    uint32_t row = put_tank(25000.0, 25000.0, 60.0, 10.0);
+    for (int frame = 0; frame < 600; frame++) {
+        steps_drive(&f, row, 1.0, frame % 200 < 100 ? 0.3 : -0.3, 0.0);
+        struct entities e = steps_rows(&f);
+        assert_true(e.y[row] == steps_ground_at(&f, e.x[row], e.z[row]));
+    }
+    assert_true(hypot(steps_rows(&f).x[row] - 25000.0, steps_rows(&f).z[row] - 25000.0) > 50.0);
+}
+
+/* --- slopes ------------------------------------------------------------------------------------*/
+
+/* Speed [m/s] that full throttle comes to on a slope. */
+static double speed_on(double slope_deg)
+{
+    double slope = slope_deg * RAD_PER_DEG;
+    fixture_close(&f);
+    fixture_open(&f, "");
+    steps_plane(&f, maths_sin(slope) / maths_cos(slope), 0.0);
+    uint32_t row = put_tank(25000.0, 25010.0, 90.0, 0.0);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(12.0 * HZ));
+    struct entities e = steps_rows(&f);
+    return hypot(e.vx[row], e.vz[row]);
+}
+
+static void test_slopes_limit_speed(void **state)
+{
+    double full = steps_kind(&f, "tank")->max_speed_mps, before = full;
+    (void)state;
+    assert_true(near(speed_on(0.0), full, 1e-9));
+    assert_true(near(speed_on(-15.0), full, 1e-9)); /* downhill nothing holds it */
+    for (double slope = 5.0; slope < 31.0; slope += 5.0) {
+        double speed = speed_on(slope);
+        assert_true(speed > 0.05 * full && speed < before - 0.05 * full);
+        before = speed;
+    }
+}
+
+static void test_ground_steeper_than_max_slope_is_not_climbed(void **state)
+{
+    (void)state;
+    assert_true(speed_on(31.5) == 0.0);
+    assert_true(speed_on(45.0) == 0.0);
+}
+
+static double cliff(double x, double z, const void *slope)
+{
+    (void)z;
+    return 100.0 + (x > 25000.0 ? (x - 25000.0) * *(const double *)slope : 0.0);
+}
+
+static void test_a_vehicle_stops_at_the_foot_of_a_cliff_and_climbs_a_hill(void **state)
+{
+    double steep = 1.0, gentle = 0.3;
+    (void)state;
+    steps_ground(&f, cliff, &steep);
+    uint32_t row = put_tank(24970.0, 25010.0, 90.0, 3.0);
+    steps_drive(&f, row, 0.2, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(30.0 * HZ));
+    assert_true(steps_rows(&f).x[row] < 25004.0 && steps_rows(&f).x[row] > 24990.0);
+    assert_true(steps_speed(&f, row) == 0.0);
+    steps_ground(&f, cliff, &gentle);
+    fixture_run(&f, (uint32_t)(10.0 * HZ));
+    assert_true(steps_rows(&f).x[row] > 25030.0);
+}
+
+/* --- borders -----------------------------------------------------------------------------------*/
+
+static void test_water_stops_it_at_the_shore(void **state)
+{
+    (void)state;
+    steps_cover(&f, COVER_LAKE, 25125.0, 0.0, 50000.0, 50000.0); /* from x = 25062.5 on */
+    uint32_t row = put_tank(24950.0, 25010.0, 90.0, 16.0);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    for (int frame = 0; frame < (int)(20.0 * HZ); frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        assert_false(cover_is_water(terrain_cover(&f.view.world.terrain, e.x[row], e.z[row])));
+    }
+    double bow = steps_rows(&f).x[row] + 0.5 * steps_kind(&f, "tank")->length_m;
+    assert_true(bow <= 25062.5 && bow > 25061.0);
+    assert_true(steps_speed(&f, row) < 0.5);
+}
+
+static void test_it_can_back_away_from_the_shore(void **state)
+{
+    (void)state;
+    steps_cover(&f, COVER_LAKE, 25125.0, 0.0, 50000.0, 50000.0);
+    uint32_t row = put_tank(25030.0, 25010.0, 90.0, 16.0);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(5.0 * HZ));
+    double stopped = steps_rows(&f).x[row];
+    steps_drive(&f, row, -1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(5.0 * HZ));
+    assert_true(steps_rows(&f).x[row] < stopped - 10.0);
+}
+
+static void test_the_worlds_edge_stops_it(void **state)
+{
+    static const double places[4][3] = {{50.0, 25000.0, 270.0},
+                                        {WORLD_SIDE_M - 50.0, 25000.0, 90.0},
+                                        {25000.0, 50.0, 0.0},
+                                        {25000.0, WORLD_SIDE_M - 50.0, 180.0}};
+    (void)state;
+    for (int n = 0; n < 4; n++) {
+        uint32_t row = put_tank(places[n][0], places[n][1], places[n][2], 16.0);
+        steps_drive(&f, row, 1.0, 0.0, 0.0);
+        fixture_run(&f, (uint32_t)(10.0 * HZ));
+        struct entities e = steps_rows(&f);
+        assert_in_range((uint64_t)e.x[row], 1, (uint64_t)WORLD_SIDE_M - 1);
+        assert_in_range((uint64_t)e.z[row], 1, (uint64_t)WORLD_SIDE_M - 1);
+        assert_true(steps_speed(&f, row) < 0.5);
+    }
+}
+
+/* --- engine, brakes, wheels --------------------------------------------------------------------*/
+
+static void test_it_gains_speed_at_its_acceleration_and_brakes_twice_as_hard(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "tank");
+    uint32_t row = put_tank(25000.0, 25010.0, 90.0, 0.0);
+    (void)state;
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(2.0 * HZ) - 1);
+    assert_true(near(steps_speed(&f, row), 2.0 * kind->acceleration_mps2, 1e-9));
+    fixture_run(&f, (uint32_t)(10.0 * HZ));
+    assert_true(near(steps_speed(&f, row), kind->max_speed_mps, 1e-9));
+    double from = steps_rows(&f).x[row];
+    double stop_s = kind->max_speed_mps / (2.0 * kind->acceleration_mps2);
+    steps_pedals(&f, row, 1.0, 1.0, GEAR_AUTOMATIC); /* the brake outdoes the throttle */
+    fixture_run(&f, (uint32_t)(stop_s * HZ) + 1);
+    assert_true(steps_speed(&f, row) == 0.0);
+    /* v squared over 2 a, within a frame's way. */
+    assert_true(near(steps_rows(&f).x[row] - from, 0.5 * kind->max_speed_mps * stop_s,
+                     kind->max_speed_mps / HZ));
+}
+
+static void test_a_throttle_let_go_slows_it_by_its_engine(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "tank");
+    uint32_t row = put_tank(25000.0, 25010.0, 90.0, 16.0);
+    uint32_t half = put_tank(25000.0, 25500.0, 90.0, 16.0);
+    (void)state;
+    steps_pedals(&f, row, 0.0, 0.0, GEAR_AUTOMATIC);
+    steps_pedals(&f, half, 0.0, 0.5, GEAR_AUTOMATIC);
+    double before[2] = {steps_speed(&f, row), steps_speed(&f, half)};
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(near(before[0] - steps_speed(&f, row), 0.5 * kind->acceleration_mps2, 1e-9));
+    assert_true(near(before[1] - steps_speed(&f, half), 1.25 * kind->acceleration_mps2, 1e-9));
+}
+
+static void test_reverse_gear_goes_backwards_by_the_throttle(void **state)
+{
+    double full = steps_kind(&f, "tank")->max_speed_mps;
+    uint32_t row = put_tank(25000.0, 25010.0, 90.0, 8.0);
+    (void)state;
+    steps_pedals(&f, row, 1.0, 0.0, GEAR_REVERSE); /* brakes first */
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(near(steps_rows(&f).vx[row], 3.0, 0.1));
+    fixture_run(&f, (uint32_t)(8.0 * HZ));
+    assert_true(near(steps_rows(&f).vx[row], -0.4 * full, 1e-9));
+    steps_pedals(&f, row, -1.0, 0.0, GEAR_REVERSE);
+    fixture_run(&f, (uint32_t)(8.0 * HZ));
+    assert_true(steps_speed(&f, row) == 0.0);
+}
+
+static void test_in_neutral_it_rolls_and_the_slope_pulls(void **state)
+{
+    uint32_t level = put_tank(25000.0, 25010.0, 90.0, 5.0);
+    (void)state;
+    steps_pedals(&f, level, 1.0, 0.0, GEAR_NEUTRAL);
+    double before = steps_speed(&f, level);
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(near(before - steps_speed(&f, level), 0.03 * GRAVITY_MPS2, 1e-6));
+    fixture_close(&f);
+    fixture_open(&f, "");
+    steps_plane(&f, 0.2, 0.0); /* rises to the east */
+    uint32_t rolls = put_tank(25000.0, 25010.0, 90.0, 0.0);
+    uint32_t held = put_tank(25000.0, 25500.0, 90.0, 0.0);
+    steps_pedals(&f, rolls, 0.0, 0.0, GEAR_NEUTRAL);
+    steps_pedals(&f, held, 0.0, 1.0, GEAR_NEUTRAL);
+    fixture_run(&f, (uint32_t)(2.0 * HZ));
+    double pull = GRAVITY_MPS2 * (maths_sin(maths_atan2(0.2, 1.0)) - 0.03);
+    assert_true(near(steps_rows(&f).vx[rolls], -pull * (2.0 * HZ + 2.0) / HZ, 0.05));
+    assert_true(steps_speed(&f, held) == 0.0);
+    fixture_run(&f, (uint32_t)(60.0 * HZ));
+    assert_true(steps_rows(&f).vx[rolls] >= -steps_kind(&f, "tank")->max_speed_mps - 1e-9);
+}
+
+static void test_low_gear_is_slow_and_strong(void **state)
+{
+    double full = steps_kind(&f, "tank")->max_speed_mps;
+    (void)state;
+    for (double slope_deg = 0.0; slope_deg < 45.0; slope_deg += 9.0) {
+        double slope = slope_deg * RAD_PER_DEG;
+        fixture_close(&f);
+        fixture_open(&f, "");
+        steps_plane(&f, maths_sin(slope) / maths_cos(slope), 0.0);
+        uint32_t row = put_tank(25000.0, 25010.0, 90.0, 0.0);
+        steps_pedals(&f, row, 1.0, 0.0, GEAR_LOW);
+        fixture_run(&f, (uint32_t)(6.0 * HZ));
+        struct entities e = steps_rows(&f);
+        double speed = sqrt(e.vx[row] * e.vx[row] + e.vz[row] * e.vz[row]);
+        assert_true(near(speed, slope_deg < 37.0 ? 0.35 * full : 0.0, 1e-9)); /* 31 x 1.2 */
+    }
+}
+
+static void test_no_control_makes_a_number_that_is_none_or_passes_a_limit(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "tank");
+    uint64_t random = fixture_seed(41);
+    uint32_t row = put_tank(25000.0, 25010.0, 90.0, 0.0);
+    (void)state;
+    steps_ground(&f, bumpy, NULL);
+    for (int n = 0; n < 3000; n++) {
+        double before = steps_speed(&f, row), heading = steps_rows(&f).heading[row];
+        struct command command = {.type = COMMAND_DRIVE, .entity = steps_rows(&f).id[row]};
+        for (int v = 0; v < 5; v++)
+            command.value[v] = floor(fixture_uniform(&random, -2.0, 3.0)) * 0.5;
+        command.value[5] = floor(fixture_uniform(&random, 0.0, 3.0)) * 0.5;
+        command.force = (uint16_t)(fixture_random(&random) % GEAR_COUNT);
+        assert_int_equal(steps_command(&f, command).result, COMMAND_DONE);
+        struct entities e = steps_rows(&f);
+        double level = sqrt(e.vx[row] * e.vx[row] + e.vz[row] * e.vz[row]);
+        assert_true(isfinite(e.x[row]) && isfinite(e.y[row]) && isfinite(e.z[row]));
+        assert_true(level <= kind->max_speed_mps + 1e-9 && isfinite(before));
+        assert_true(fabs(maths_wrap_half(e.heading[row] - heading)) <=
+                    kind->turn_rate_rps / HZ + 1e-12);
+    }
+}
+
+static void test_it_reverses_at_two_fifths(void **state)
+{
+    uint32_t row = put_tank(25000.0, 25010.0, 90.0, 0.0);
+    (void)state;
+    steps_drive(&f, row, -1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(8.0 * HZ));
+    assert_true(near(steps_rows(&f).vx[row], -0.4 * steps_kind(&f, "tank")->max_speed_mps, 1e-9));
+}
+
+static void test_it_turns_at_its_rate_when_it_rolls_and_slower_at_rest(void **state)
+{
+    double rate = steps_kind(&f, "tank")->turn_rate_rps;
+    uint32_t rolls = put_tank(25000.0, 25010.0, 90.0, 10.0);
+    uint32_t stands = put_tank(25000.0, 25500.0, 90.0, 0.0);
+    (void)state;
+    steps_drive(&f, rolls, 0.6, 1.0, 0.0);
+    steps_drive(&f, stands, 0.0, 1.0, 0.0);
+    double rolling = steps_rows(&f).heading[rolls], standing = steps_rows(&f).heading[stands];
+    fixture_run(&f, (uint32_t)HZ);
+    struct entities e = steps_rows(&f);
+    assert_true(near(maths_wrap_half(e.heading[rolls] - rolling), rate, 1e-9));
+    double turned = maths_wrap_half(e.heading[stands] - standing);
+    assert_true(turned > 0.2 * rate && turned < 0.5 * rate);
+}
+
+static void test_a_sideways_slide_is_braked_by_its_tyres(void **state)
+{
+    uint32_t row = put_tank(25000.0, 25010.0, 90.0, 0.0);
+    struct entities e = steps_rows(&f);
+    (void)state;
+    e.vz[row] = 10.0; /* to its right */
+    steps_drive(&f, row, 0.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)HZ);
+    assert_true(steps_rows(&f).vz[row] > 1.0);
+    fixture_run(&f, (uint32_t)(0.5 * HZ));
+    assert_true(steps_speed(&f, row) == 0.0); /* 10 / (0.7 g) = 1.46 s */
+}
+
+static void test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it(void **state)
+{
+    struct kind *kind = steps_kind(&f, "tank");
+    uint32_t runs = put_tank(25000.0, 25010.0, 90.0, 16.67),
+             idles = put_tank(25000.0, 25500.0, 90.0, 0.0);
+    (void)state;
+    kind->fuel_l = 1.0;
+    kind->fuel_lps = 0.2;
+    struct entities e = steps_rows(&f);
+    e.fuel_l[runs] = e.fuel_l[idles] = 1.0;
+    steps_drive(&f, runs, 0.5, 0.0, 0.0);
+    steps_drive(&f, idles, 0.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(5.0 * HZ));
+    assert_true(near(steps_rows(&f).fuel_l[runs], 0.5, 0.01));
+    assert_true(steps_rows(&f).fuel_l[idles] == 1.0);
+    fixture_run(&f, (uint32_t)(12.0 * HZ));
+    assert_true(steps_rows(&f).fuel_l[runs] == 0.0 && steps_speed(&f, runs) == 0.0);
+}
+
+/* --- debris ------------------------------------------------------------------------------------*/
+
+/* A fallen tree of radius 6 m at (25100, 25010), in both buffers: it fell some frames ago. */
+static void fell_tree(double keep)
+{
+    fixture_close(&f);
+    fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25100.0, 25010.0]; } );");
+    struct fixed_object *tree = (struct fixed_object *)(uintptr_t)f.view.world.fixed;
+    tree->radius_m = 6.0f;
+    steps_kind(&f, "tree")->debris_keep = keep;
+    for (int buffer = 0; buffer < 2; buffer++) {
+        f.view.w[buffer].fixed_damage[0] = DAMAGE_HIGH;
+        f.view.w[buffer].head->tally.fixed_damaged = 1;
+    }
+}
+
+static void test_debris_slows_what_drives_over_it(void **state)
+{
+    const struct kind *kind = steps_kind(&f, "tank");
+    double full = kind->max_speed_mps, brakes = 2.0 * kind->acceleration_mps2;
+    (void)state;
+    fell_tree(0.5);
+    uint32_t row = put_tank(25040.0, 25010.0, 90.0, full);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    double slowest = full, before = full;
+    while (steps_rows(&f).x[row] < 25120.0) {
+        double x = steps_rows(&f).x[row];
+        fixture_run(&f, 1);
+        double speed = steps_speed(&f, row);
+        if (fabs(x - 25100.0) < 5.9) /* on it: braked, no harder than it can */
+            assert_true(speed < before && speed > before - brakes / HZ - 1e-9);
+        else if (x < 25093.9)
+            assert_true(near(speed, full, 1e-9));
+        slowest = maths_min(slowest, speed);
+        before = speed;
+    }
+    assert_true(slowest < 0.9 * full && slowest > 0.5 * full);
+    fixture_run(&f, (uint32_t)(8.0 * HZ));
+    assert_true(near(steps_speed(&f, row), full, 1e-9));
+    /* Somebody who creeps is not slowed. */
+    uint32_t slow = put_tank(25090.0, 25010.0, 90.0, 0.4 * full);
+    steps_drive(&f, slow, 0.4, 0.0, 0.0);
+    fixture_run(&f, 60);
+    assert_true(near(steps_speed(&f, slow), 0.4 * full, 1e-6)); /* throttle is a float */
+}
+
+static void test_debris_keeps_to_its_share(void **state)
+{
+    double full = steps_kind(&f, "tank")->max_speed_mps;
+    (void)state;
+    fell_tree(0.25);
+    uint32_t row = put_tank(25100.0, 25010.0, 90.0, 0.0);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(2.0 * HZ)); /* a quarter of full speed by then, 4 m on */
+    while (steps_rows(&f).x[row] < 25105.9) {
+        fixture_run(&f, 1);
+        assert_true(near(steps_speed(&f, row), 0.25 * full, 0.06));
+    }
+}
+
+static void test_what_stands_and_what_lies_aside_slows_nobody(void **state)
+{
+    double full = steps_kind(&f, "tank")->max_speed_mps;
+    (void)state;
+    fell_tree(0.2);
+    uint32_t aside = put_tank(25060.0, 25017.0, 90.0, full); /* passes its edge by a metre */
+    steps_drive(&f, aside, 1.0, 0.0, 0.0);
+    for (int frame = 0; frame < 5 * (int)HZ; frame++) {
+        fixture_run(&f, 1);
+        assert_true(near(steps_speed(&f, aside), full, 1e-9));
+    }
+    fell_tree(0.2);
+    for (int buffer = 0; buffer < 2; buffer++)
+        f.view.w[buffer].fixed_damage[0] = DAMAGE_MED;
+    steps_params(&f)->collision.response = MODEL_NONE; /* it leans, and is driven through */
+    uint32_t row = put_tank(25060.0, 25010.0, 90.0, full);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    for (int frame = 0; frame < 5 * (int)HZ; frame++) {
+        fixture_run(&f, 1);
+        assert_true(near(steps_speed(&f, row), full, 1e-9));
+    }
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_row_15_a_plane_gives_pitch_and_roll),
+        TEST(test_row_15_height_is_the_grounds_in_every_frame),
+        TEST(test_slopes_limit_speed),
+        TEST(test_ground_steeper_than_max_slope_is_not_climbed),
+        TEST(test_a_vehicle_stops_at_the_foot_of_a_cliff_and_climbs_a_hill),
+        TEST(test_water_stops_it_at_the_shore),
+        TEST(test_it_can_back_away_from_the_shore),
+        TEST(test_the_worlds_edge_stops_it),
+        TEST(test_it_gains_speed_at_its_acceleration_and_brakes_twice_as_hard),
+        TEST(test_a_throttle_let_go_slows_it_by_its_engine),
+        TEST(test_reverse_gear_goes_backwards_by_the_throttle),
+        TEST(test_in_neutral_it_rolls_and_the_slope_pulls),
+        TEST(test_low_gear_is_slow_and_strong),
+        TEST(test_no_control_makes_a_number_that_is_none_or_passes_a_limit),
+        TEST(test_it_reverses_at_two_fifths),
+        TEST(test_it_turns_at_its_rate_when_it_rolls_and_slower_at_rest),
+        TEST(test_a_sideways_slide_is_braked_by_its_tyres),
+        TEST(test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it),
+        TEST(test_debris_slows_what_drives_over_it),
+        TEST(test_debris_keeps_to_its_share),
+        TEST(test_what_stands_and_what_lies_aside_slows_nobody),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,262 @@
+/* Turning that collisions gave a body (rows 39 and 43 of what the thesis states: new linear and
+ * angular velocities): tyres and water brake it, in the air it goes on about the centre of mass. */
+#include "tests/support/steps.h"
+#include "world/entity/mass_properties.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define HZ    60.0
+#define SCRUB 0.7 /* of its weight, what tyres hold against a turn */
+#define PILOT 1.5 /* [rad/s2] what a pilot takes off a spin */
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, double y, enum behaviour behaviour, struct vec3 velocity)
+{
+    return fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                   .at = {25000.0, y, 25000.0},
+                                                   .velocity = velocity,
+                                                   .heading_rad = 1.0,
+                                                   .behaviour = behaviour});
+}
+
+static void set_spin(uint32_t row, double x, double y, double z)
+{
+    struct entities e = steps_rows(&f);
+    e.spin_x[row] = x;
+    e.spin_y[row] = y;
+    e.spin_z[row] = z;
+}
+
+static void wreck(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    e.state[row] = ENTITY_WRECK;
+    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
+}
+
+static double spin_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    return vec3_length((struct vec3){e.spin_x[row], e.spin_y[row], e.spin_z[row]});
+}
+
+static double tyre_brake(const char *kind)
+{
+    return SCRUB * GRAVITY_MPS2 / (0.25 * steps_kind(&f, kind)->length_m);
+}
+
+/* --- on the ground and on the water ------------------------------------------------------------*/
+
+static void test_a_positive_spin_lowers_the_heading_and_the_tyres_end_it(void **state)
+{
+    const enum behaviour minds[] = {BEHAVIOUR_HOLD, BEHAVIOUR_DRIVEN};
+    double brake = tyre_brake("tank");
+    (void)state;
+    for (int n = 0; n < 4; n++) {
+        double sign = n & 1 ? -1.0 : 1.0;
+        fixture_close(&f);
+        fixture_open(&f, "");
+        uint32_t row = put("tank", 100.0, minds[n / 2], (struct vec3){0.0, 0.0, 0.0});
+        set_spin(row, 0.0, sign * 0.9, 0.0);
+        fixture_run(&f, 1);
+        assert_true(fabs(steps_rows(&f).heading[row] - (1.0 - sign * 0.9 / HZ)) < 1e-12);
+        assert_true(fabs(sign * steps_rows(&f).spin_y[row] - (0.9 - brake / HZ)) < 1e-12);
+        fixture_run(&f, (uint32_t)(0.9 / brake * HZ) + 1);
+        assert_true(steps_rows(&f).spin_y[row] == 0.0);
+        /* w squared over 2 a, within a frame's turn. */
+        double turned = sign * (1.0 - steps_rows(&f).heading[row]);
+        assert_true(fabs(turned - 0.9 * 0.9 / (2.0 * brake)) < 0.9 / HZ);
+        double heading = steps_rows(&f).heading[row];
+        fixture_run(&f, 30);
+        assert_true(steps_rows(&f).heading[row] == heading);
+    }
+}
+
+static void test_the_ground_ends_tumbling_at_once(void **state)
+{
+    (void)state;
+    uint32_t tank = put("tank", 100.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
+    uint32_t driven = put("jeep", 100.0, BEHAVIOUR_DRIVEN, (struct vec3){0.0, 0.0, 0.0});
+    uint32_t dead = put("truck", 100.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
+    steps_rows(&f).x[driven] += 100.0;
+    steps_rows(&f).x[dead] += 200.0;
+    wreck(dead);
+    for (uint32_t row = tank; row <= dead; row++)
+        set_spin(row, 3.0, 0.0, -2.0);
+    fixture_run(&f, 1);
+    for (uint32_t row = tank; row <= dead; row++) {
+        struct entities e = steps_rows(&f);
+        assert_true(spin_of(row) == 0.0 && e.heading[row] == 1.0);
+        assert_true(e.pitch[row] == 0.0 && e.roll[row] == 0.0 && e.y[row] == 100.0);
+    }
+}
+
+static void test_water_brakes_a_turn_more_softly(void **state)
+{
+    (void)state;
+    steps_kind(&f, "ship")->length_m = steps_kind(&f, "tank")->length_m;
+    steps_cover(&f, COVER_LAKE, 29000.0, 0.0, 50000.0, 50000.0);
+    uint32_t tank = put("tank", 100.0, BEHAVIOUR_DRIVEN, (struct vec3){0.0, 0.0, 0.0});
+    uint32_t ship = put("ship", 100.0, BEHAVIOUR_DRIVEN, (struct vec3){0.0, 0.0, 0.0});
+    steps_rows(&f).x[ship] = 40000.0;
+    set_spin(tank, 0.0, 0.5, 0.0);
+    set_spin(ship, 0.0, 0.5, 0.0);
+    fixture_run(&f, 6);
+    assert_true(spin_of(ship) > spin_of(tank) && spin_of(ship) < 0.5);
+    fixture_run(&f, 60);
+    assert_true(spin_of(ship) == 0.0);
+    assert_true(steps_rows(&f).heading[ship] < steps_rows(&f).heading[tank]);
+    assert_true(steps_rows(&f).pitch[ship] == 0.0 && steps_rows(&f).roll[ship] == 0.0);
+}
+
+static void test_steering_comes_on_top(void **state)
+{
+    (void)state;
+    uint32_t plain = put("tank", 100.0, BEHAVIOUR_DRIVEN, (struct vec3){0.0, 0.0, 0.0});
+    uint32_t hit = put("tank", 100.0, BEHAVIOUR_DRIVEN, (struct vec3){0.0, 0.0, 0.0});
+    steps_rows(&f).x[hit] += 100.0;
+    set_spin(hit, 0.0, -0.5, 0.0);
+    steps_drive(&f, plain, 0.0, 1.0, 0.0); /* one frame for both */
+    double steered = steps_rows(&f).heading[plain] - 1.0;
+    assert_true(steered > 0.001);
+    assert_true(fabs(steps_rows(&f).heading[hit] - (1.0 + 0.5 / HZ)) < 1e-12);
+    steps_drive(&f, hit, 0.0, 1.0, 0.0);
+    double turned = steps_rows(&f).heading[hit] - (1.0 + 0.5 / HZ);
+    double spun = (0.5 - tyre_brake("tank") / HZ) / HZ;
+    assert_true(fabs(turned - (steered + spun)) < 1e-12);
+}
+
+static void test_a_wreck_on_a_slope_turns_and_stays_on_it(void **state)
+{
+    (void)state;
+    steps_plane(&f, 0.2, 0.0); /* rises to the east */
+    uint32_t row = put("tank", 100.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
+    wreck(row);
+    set_spin(row, 0.0, 1.5, 0.0);
+    fixture_run(&f, 120);
+    struct entities e = steps_rows(&f);
+    assert_true(spin_of(row) == 0.0 && e.heading[row] < 0.8);
+    double rise = 0.2 * maths_sin(e.heading[row]); /* over one, where its nose points */
+    assert_true(fabs(e.pitch[row] - maths_atan2(rise, 1.0)) < 1e-4);
+    assert_true(e.x[row] == 25000.0 && e.z[row] == 25000.0);
+}
+
+/* --- in the air --------------------------------------------------------------------------------*/
+
+/* Angular momentum about the body's own middle. */
+static struct vec3 momentum_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    const struct mass_properties inertia = mass_properties_of(&f.view.world.kinds[e.kind[row]]);
+    struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    struct vec3 spin =
+        rotation_back(&turn, (struct vec3){e.spin_x[row], e.spin_y[row], e.spin_z[row]});
+    return rotation_apply(&turn, (struct vec3){inertia.moment.x * spin.x, inertia.moment.y * spin.y,
+                                               inertia.moment.z * spin.z});
+}
+
+static void test_a_body_on_hold_turns_about_its_middle_and_keeps_its_momentum(void **state)
+{
+    (void)state;
+    uint32_t row = put("jet", 900.0, BEHAVIOUR_HOLD, (struct vec3){120.0, 2.0, -40.0});
+    struct entities e = steps_rows(&f);
+    struct vec3 from = entities_position(&e, row);
+    set_spin(row, 1.7, -0.4, 0.9);
+    struct vec3 momentum = momentum_of(row);
+    for (int frame = 1; frame <= 300; frame++) {
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        struct vec3 off = vec3_sub(momentum_of(row), momentum);
+        assert_true(vec3_length(off) < 1e-9 * vec3_length(momentum));
+        assert_true(e.vx[row] == 120.0 && e.vy[row] == 2.0 && e.vz[row] == -40.0);
+        struct vec3 way = vec3_scale((struct vec3){120.0, 2.0, -40.0}, frame / HZ);
+        off = vec3_sub(entities_position(&e, row), vec3_add(from, way));
+        assert_true(vec3_length(off) < 1e-8);
+    }
+}
+
+static void test_spin_in_the_air_turns_by_its_rate(void **state)
+{
+    (void)state;
+    uint32_t row = put("jet", 900.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
+    set_spin(row, 0.0, -0.8, 0.0);
+    fixture_run(&f, 60);
+    assert_true(fabs(steps_rows(&f).heading[row] - 1.8) < 1e-9);
+    assert_true(steps_rows(&f).x[row] == 25000.0);
+    /* About its own nose: it rolls, right side down. */
+    set_spin(row, 0.5 * maths_sin(1.8), 0.0, -0.5 * maths_cos(1.8));
+    fixture_run(&f, 60);
+    assert_true(fabs(steps_rows(&f).roll[row] - 0.5) < 1e-9);
+    assert_true(fabs(steps_rows(&f).heading[row] - 1.8) < 1e-9);
+}
+
+static void test_a_falling_wreck_spins_until_it_lies_on_the_ground(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 160.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
+    wreck(row);
+    set_spin(row, 2.0, 1.0, 0.5);
+    fixture_run(&f, 60);
+    struct entities e = steps_rows(&f);
+    assert_true(spin_of(row) > 0.5);
+    assert_true(fabs(e.pitch[row]) + fabs(e.roll[row]) > 0.5);
+    fixture_run(&f, 600);
+    e = steps_rows(&f);
+    assert_true(spin_of(row) == 0.0 && e.y[row] == 100.0);
+    assert_true(e.vx[row] == 0.0 && e.vy[row] == 0.0 && e.vz[row] == 0.0);
+    assert_true(e.pitch[row] == 0.0 && e.roll[row] == 0.0); /* as the level ground is */
+}
+
+static void test_a_pilot_gets_his_aircraft_out_of_a_spin(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 400.0, BEHAVIOUR_DRIVEN, (struct vec3){0.0, 0.0, 0.0});
+    set_spin(row, 0.9, 1.2, 0.0);
+    double before = spin_of(row);
+    fixture_run(&f, 1);
+    /* Less what its axes take over as they turn. */
+    assert_true(fabs(spin_of(row) - (before - PILOT / HZ)) < 0.01);
+    assert_true(fabs(steps_rows(&f).heading[row] - 1.0) > 0.01);
+    fixture_run(&f, (uint32_t)(2.0 * before / PILOT * HZ) + 1);
+    assert_true(spin_of(row) == 0.0);
+    fixture_run(&f, 600);
+    struct entities e = steps_rows(&f);
+    assert_true(fabs(e.roll[row]) < 0.1 && fabs(e.pitch[row]) < 0.3);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_positive_spin_lowers_the_heading_and_the_tyres_end_it),
+        TEST(test_the_ground_ends_tumbling_at_once),
+        TEST(test_water_brakes_a_turn_more_softly),
+        TEST(test_steering_comes_on_top),
+        TEST(test_a_wreck_on_a_slope_turns_and_stays_on_it),
+        TEST(test_a_body_on_hold_turns_about_its_middle_and_keeps_its_momentum),
+        TEST(test_spin_in_the_air_turns_by_its_rate),
+        TEST(test_a_falling_wreck_spins_until_it_lies_on_the_ground),
+        TEST(test_a_pilot_gets_his_aircraft_out_of_a_spin),
+    };
+    return cmocka_run_group_tests_name("spin", tests, NULL, NULL);
+}

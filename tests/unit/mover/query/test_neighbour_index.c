@@ -1,0 +1,197 @@
+/* The index of who is where, against looking at everybody. */
+#include "mover/query/neighbour_index.h"
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define ROWS_MAX 6000u
+
+static struct entities rows;
+static void *memory;
+static struct neighbour_index near;
+static bool met[ROWS_MAX];
+
+static int open_table(void **state)
+{
+    (void)state;
+    memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(ROWS_MAX));
+    assert_non_null(memory);
+    memset(memory, 0, entities_bytes(ROWS_MAX));
+    entities_bind(&rows, ROWS_MAX, memory);
+    return neighbour_index_init(&near, ROWS_MAX);
+}
+
+static int close_table(void **state)
+{
+    (void)state;
+    neighbour_index_free(&near);
+    free(memory);
+    return 0;
+}
+
+static void put(uint32_t row, double x, double z, enum force force)
+{
+    rows.x[row] = x;
+    rows.z[row] = z;
+    rows.id[row] = row + 1;
+    rows.force[row] = (uint8_t)force;
+    rows.state[row] = ENTITY_ACTIVE;
+    rows.behaviour[row] = BEHAVIOUR_PATROL;
+}
+
+/* Everybody of all sorts, some of them where squares and the world end. */
+static void scatter(uint64_t *random, uint32_t count, double side_m)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        double x = fixture_uniform(random, 0.0, side_m), z = fixture_uniform(random, 0.0, side_m);
+        if (i % 7 == 0)
+            x = 781.25 * (double)(fixture_random(random) % 65);
+        put(i, x, i % 11 == 0 ? WORLD_SIDE_M : z, (enum force)(fixture_random(random) % 3));
+        uint64_t sort = fixture_random(random) % 8;
+        rows.state[i] = (uint8_t)(sort == 0   ? ENTITY_FREE
+                                  : sort == 1 ? ENTITY_WRECK
+                                              : ENTITY_ACTIVE);
+        if (sort == 2)
+            rows.behaviour[i] = BEHAVIOUR_FLIGHT;
+    }
+}
+
+static bool belongs(uint32_t i, uint32_t layers, double x, double z, double radius)
+{
+    double dx = (double)(float)rows.x[i] - x, dz = (double)(float)rows.z[i] - z;
+    if (rows.state[i] == ENTITY_FREE || rows.behaviour[i] == BEHAVIOUR_FLIGHT ||
+        dx * dx + dz * dz > radius * radius)
+        return false;
+    return rows.state[i] == ENTITY_WRECK
+               ? (layers & NEIGHBOUR_INDEX_LAYER(NEIGHBOUR_INDEX_WRECKS)) != 0
+               : (layers >> rows.force[i] & 1u) != 0;
+}
+
+static void agrees(uint32_t count, uint32_t layers, double x, double z, double radius)
+{
+    const struct neighbour_index_entry *entry;
+    memset(met, 0, sizeof met);
+    struct neighbour_query walk = neighbour_index_begin(&near, layers, x, z, radius);
+    while ((entry = neighbour_index_next(&walk))) {
+        assert_true(entry->row < count && !met[entry->row]);
+        met[entry->row] = true;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        assert_int_equal(met[i], belongs(i, layers, x, z, radius));
+}
+
+static void test_a_walk_meets_exactly_who_is_within_the_radius(void **state)
+{
+    uint64_t random = fixture_seed(9);
+    (void)state;
+    for (int trial = 0; trial < 60; trial++) {
+        uint32_t count = (uint32_t)(fixture_random(&random) % ROWS_MAX);
+        scatter(&random, count, trial % 2 ? WORLD_SIDE_M : 3000.0);
+        neighbour_index_build(&near, &rows, count, 0, 1, NULL);
+        for (int n = 0; n < 6; n++)
+            agrees(count, (uint32_t)(fixture_random(&random) % (NEIGHBOUR_INDEX_ALL + 1)),
+                   fixture_uniform(&random, -100.0, 6000.0), fixture_uniform(&random, 0.0, 6000.0),
+                   fixture_uniform(&random, 0.0, n % 2 ? 60.0 : 9000.0));
+    }
+}
+
+/* All that a walk gives, in its order. */
+static uint32_t walk_all(uint32_t layers, struct neighbour_index_entry *met_in_order)
+{
+    const struct neighbour_index_entry *entry;
+    uint32_t count = 0;
+    struct neighbour_query walk = neighbour_index_begin(&near, layers, 25000.0, 25000.0, 1e6);
+    while ((entry = neighbour_index_next(&walk)))
+        met_in_order[count++] = *entry;
+    return count;
+}
+
+static uint32_t cell_of(const struct neighbour_index_entry *entry)
+{
+    uint32_t column = (uint32_t)((double)entry->x * near.cells_per_m);
+    uint32_t row = (uint32_t)((double)entry->z * near.cells_per_m);
+    row = row < near.side ? row : near.side - 1;
+    return row * near.side + (column < near.side ? column : near.side - 1);
+}
+
+static void test_rows_ascend_in_a_cell_on_any_number_of_threads(void **state)
+{
+    static struct neighbour_index_entry one[ROWS_MAX], other[ROWS_MAX];
+    uint64_t random = fixture_seed(4);
+    (void)state;
+    scatter(&random, ROWS_MAX, 9000.0);
+    neighbour_index_build(&near, &rows, ROWS_MAX, 0, 1, NULL);
+    for (uint32_t layers = 1; layers <= NEIGHBOUR_INDEX_ALL; layers++) {
+        neighbour_index_build(&near, &rows, ROWS_MAX, 0, 1, NULL);
+        uint32_t count = walk_all(layers, one);
+        for (uint32_t n = 1; n < count && layers == NEIGHBOUR_INDEX_LAYER(FORCE_RED); n++)
+            assert_true(cell_of(&one[n - 1]) < cell_of(&one[n]) ||
+                        (cell_of(&one[n - 1]) == cell_of(&one[n]) && one[n - 1].row < one[n].row));
+        for (uint32_t threads = 2; threads <= 3; threads++) {
+            struct thread_pool *workers = thread_pool_create(threads);
+            assert_non_null(workers);
+            neighbour_index_build(&near, &rows, ROWS_MAX, 0, 1, workers);
+            assert_int_equal(walk_all(layers, other), count);
+            for (uint32_t n = 0; n < count; n++)
+                assert_int_equal(one[n].row, other[n].row);
+            thread_pool_destroy(workers);
+        }
+    }
+}
+
+static void test_those_are_due_whose_turn_it_is(void **state)
+{
+    static struct neighbour_index_entry all[ROWS_MAX];
+    uint64_t random = fixture_seed(8);
+    (void)state;
+    scatter(&random, 1000, 9000.0);
+    for (uint32_t think = 1; think < 40; think += 6) {
+        uint32_t tick = (uint32_t)fixture_random(&random);
+        neighbour_index_build(&near, &rows, 1000, tick, think, NULL);
+        uint32_t count = walk_all(NEIGHBOUR_INDEX_ALL, all);
+        for (uint32_t n = 0; n < count; n++)
+            assert_int_equal(all[n].due, rows.state[all[n].row] == ENTITY_ACTIVE &&
+                                             (tick + rows.id[all[n].row]) % think == 0);
+    }
+}
+
+static void test_an_empty_world_and_an_empty_layer_meet_nobody(void **state)
+{
+    (void)state;
+    neighbour_index_build(&near, &rows, 0, 0, 1, NULL);
+    agrees(0, NEIGHBOUR_INDEX_ALL, 25000.0, 25000.0, 1e6);
+    put(0, 25000.0, 25000.0, FORCE_BLUE);
+    neighbour_index_build(&near, &rows, 1, 0, 1, NULL);
+    agrees(1, NEIGHBOUR_INDEX_THE_LIVING, 25000.0, 25000.0, 0.0);
+    agrees(1, neighbour_index_enemies(FORCE_BLUE), 25000.0, 25000.0, 1e6);
+    agrees(1, neighbour_index_enemies(FORCE_NEUTRAL), 25000.0, 25000.0, 1e6);
+    assert_int_equal(near.present, NEIGHBOUR_INDEX_LAYER(FORCE_BLUE));
+}
+
+static void test_the_neutral_are_nobodys_enemies(void **state)
+{
+    (void)state;
+    assert_int_equal(neighbour_index_enemies(FORCE_BLUE), NEIGHBOUR_INDEX_LAYER(FORCE_RED));
+    assert_int_equal(neighbour_index_enemies(FORCE_RED), NEIGHBOUR_INDEX_LAYER(FORCE_BLUE));
+    assert_int_equal(neighbour_index_enemies(FORCE_NEUTRAL), 0);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_table, close_table)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_walk_meets_exactly_who_is_within_the_radius),
+        TEST(test_rows_ascend_in_a_cell_on_any_number_of_threads),
+        TEST(test_those_are_due_whose_turn_it_is),
+        TEST(test_an_empty_world_and_an_empty_layer_meet_nobody),
+        TEST(test_the_neutral_are_nobodys_enemies),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

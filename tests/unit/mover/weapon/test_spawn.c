@@ -1,0 +1,164 @@
+/* Rows for new entities: used again, with ids that never are. */
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define CAPACITY 16
+
+static struct fixture f;
+static struct step_context move;
+static struct serial_context serial;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 16; };");
+    steps_serial(&f, &move, &serial);
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t spawn(const char *kind)
+{
+    return spawn_entity(&serial, fixture_kind(&f, kind), FORCE_BLUE);
+}
+
+static void test_a_new_row_is_clean_whatever_lay_there(void **state)
+{
+    struct entities *m = &f.view.m.entities;
+    (void)state;
+#define X(type, name) memset(m->name, 0xa5, CAPACITY * sizeof(type));
+    ENTITY_COLUMNS(X)
+#undef X
+    uint32_t row = spawn("tank");
+    const struct kind *kind = steps_kind(&f, "tank");
+    assert_int_equal(row, 0);
+    assert_int_equal(m->id[row], 1);
+    assert_int_equal(m->state[row], ENTITY_ACTIVE);
+    assert_int_equal(m->force[row], FORCE_BLUE);
+    assert_int_equal(m->rounds[row], kind->rounds);
+    assert_true(m->fuel_l[row] == kind->fuel_l);
+    assert_true(m->x[row] == 0.0 && m->vx[row] == 0.0 && m->harm_j[row] == 0.0);
+    assert_int_equal(m->target_id[row] | m->owner_id[row] | m->threat_id[row] | m->bumped[row] |
+                         m->trigger[row] | m->flags[row] | m->damage[row],
+                     0);
+}
+
+static void test_a_munition_flies_and_has_a_life(void **state)
+{
+    const struct entities *m = &f.view.m.entities;
+    const struct state_head *head = f.view.m.head;
+    uint32_t row = spawn("missile");
+    (void)state;
+    assert_int_equal(m->behaviour[row], BEHAVIOUR_FLIGHT);
+    assert_int_equal(m->until_tick[row], 1 + (uint32_t)(20.0 * 60.0));
+    assert_int_equal(head->munitions, 1);
+    assert_int_equal(head->vehicles, 0);
+    spawn_remove(&serial, row);
+    assert_int_equal(head->munitions, 0);
+}
+
+static void test_a_full_table_refuses_and_counts(void **state)
+{
+    struct state_head *head = f.view.m.head;
+    (void)state;
+    for (uint32_t n = 0; n < CAPACITY; n++)
+        assert_int_equal(spawn("jeep"), n);
+    assert_int_equal(spawn("jeep"), SLOT_NONE);
+    assert_int_equal(spawn("shell"), SLOT_NONE);
+    assert_int_equal(head->tally.spawns_refused, 2);
+    assert_int_equal(head->next_id, CAPACITY + 1);
+    spawn_remove(&serial, 5);
+    assert_int_equal(spawn("jeep"), 5);
+    assert_int_equal(f.view.m.entities.id[5], CAPACITY + 1);
+}
+
+static void test_freed_rows_rest_while_there_are_others(void **state)
+{
+    (void)state;
+    for (uint32_t n = 0; n < 4; n++)
+        spawn("jeep");
+    spawn_remove(&serial, 1);
+    /* The search goes on from where it was: a row's late references die out meanwhile. */
+    for (uint32_t n = 4; n < CAPACITY; n++)
+        assert_int_equal(spawn("jeep"), n);
+    assert_int_equal(spawn("jeep"), 1);
+}
+
+/* Against a list that a child could keep. */
+static void test_random_comings_and_goings_keep_ids_and_counts(void **state)
+{
+    uint64_t random = fixture_seed(10);
+    uint32_t id[CAPACITY] = {0}, next = 1, live = 0, rounds = 0;
+    bool round_at[CAPACITY] = {false};
+    const struct entities *m = &f.view.m.entities;
+    const struct state_head *head = f.view.m.head;
+    (void)state;
+    for (int n = 0; n < 20000; n++) {
+        uint32_t at = (uint32_t)(fixture_random(&random) % CAPACITY);
+        if (fixture_random(&random) & 1) {
+            bool round = fixture_random(&random) & 1;
+            uint32_t row = spawn(round ? "shell" : "jeep");
+            assert_int_equal(row == SLOT_NONE, live == CAPACITY);
+            if (row == SLOT_NONE)
+                continue;
+            assert_int_equal(id[row], 0); /* nobody was there */
+            id[row] = next++;
+            round_at[row] = round;
+            live++;
+            rounds += round;
+        } else if (id[at] != 0) {
+            spawn_remove(&serial, at);
+            id[at] = 0;
+            live--;
+            rounds -= round_at[at];
+        }
+        for (uint32_t i = 0; i < head->used; i++)
+            assert_int_equal(m->id[i], id[i]);
+        assert_int_equal(head->munitions, rounds);
+        assert_int_equal(head->vehicles, live - rounds);
+    }
+}
+
+static void test_intents_end_when_the_frame_is_full(void **state)
+{
+    uint32_t most = f.view.world.params->intents_per_frame;
+    (void)state;
+    for (uint32_t n = 0; n < most; n++) {
+        struct event *intent = serial_context_intent(&serial, EVENT_AGENT);
+        assert_non_null(intent);
+        memset(intent->bytes, 0xa5, sizeof intent->bytes);
+    }
+    assert_null(serial_context_intent(&serial, EVENT_AGENT));
+    assert_int_equal(f.view.m.head->intent_count, most);
+    f.view.m.head->intent_count = 0;
+    const struct event *again = serial_context_intent(&serial, EVENT_FIRE);
+    for (size_t n = 0; n < sizeof again->bytes; n++) /* nothing of the last frame is left */
+        assert_int_equal(again->bytes[n], 0);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_new_row_is_clean_whatever_lay_there),
+        TEST(test_a_munition_flies_and_has_a_life),
+        TEST(test_a_full_table_refuses_and_counts),
+        TEST(test_freed_rows_rest_while_there_are_others),
+        TEST(test_random_comings_and_goings_keep_ids_and_counts),
+        TEST(test_intents_end_when_the_frame_is_full),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,227 @@
+/* Whole pictures of charts, words and all: at every size they stay within their bounds, show every
+ * vehicle of the whole map where the table says, and are the same when drawn again. */
+#include "renderer/chart/annotated_picture.h"
+
+#include "tests/support/map_stage.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#define GUARD 64 /* [byte] before and behind a picture's pixels */
+
+static const uint32_t sizes[][2] = {{64, 64},   {64, 300},  {320, 200}, {512, 512},
+                                    {640, 360}, {360, 640}, {800, 600}, {1280, 720}};
+
+struct canvas {
+    struct image image;
+    uint8_t *memory;
+};
+
+static void canvas_open(struct canvas *canvas, uint32_t width, uint32_t height)
+{
+    size_t bytes = (size_t)width * height * 4;
+    canvas->memory = malloc(bytes + 2 * (size_t)GUARD);
+    assert_non_null(canvas->memory);
+    memset(canvas->memory, 0xa5, bytes + 2 * (size_t)GUARD);
+    canvas->image = (struct image){width, height, canvas->memory + GUARD};
+    for (size_t i = 0; i < bytes; i++)
+        canvas->image.pixels[i] = (uint8_t)(i % 4 == 3 ? 255 : 120);
+}
+
+static void canvas_close(struct canvas *canvas)
+{
+    size_t bytes = (size_t)canvas->image.width * canvas->image.height * 4;
+    for (size_t i = 0; i < GUARD; i++) {
+        assert_int_equal(canvas->memory[i], 0xa5);
+        assert_int_equal(canvas->memory[GUARD + bytes + i], 0xa5);
+    }
+    free(canvas->memory);
+}
+
+static int open_stage(void **context)
+{
+    struct map_stage *stage = calloc(1, sizeof *stage);
+    assert_non_null(stage);
+    map_stage_open(stage, fixture_seed(21));
+    *context = stage;
+    return 0;
+}
+
+static int close_stage(void **context)
+{
+    map_stage_close(*context);
+    free(*context);
+    return 0;
+}
+
+static struct annotated_picture_source source_of(const struct map_stage *stage,
+                                                 struct tracks *tracks, uint32_t slot)
+{
+    assert_int_equal(tracks_init(tracks, 64), 0);
+    tracks_note(tracks, &stage->moment);
+    return (struct annotated_picture_source){
+        .moment = &stage->moment, .tracks = tracks, .slot = slot, .fps = 60.0};
+}
+
+static void open_chart(struct annotated_picture *chart, const struct map_stage *stage,
+                       uint32_t width, uint32_t height)
+{
+    struct reason reason;
+    if (annotated_picture_open(chart, stage->moment.world, width, height, &reason) != 0)
+        fail_msg("%s", reason.text);
+}
+
+static void test_the_whole_map_shows_everyone(void **context)
+{
+    const struct map_stage *stage = *context;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        struct annotated_picture chart;
+        struct tracks tracks;
+        struct canvas first, again;
+        struct annotated_picture_source source = source_of(stage, &tracks, SLOT_NONE);
+        open_chart(&chart, stage, sizes[i][0], sizes[i][1]);
+        canvas_open(&first, sizes[i][0], sizes[i][1]);
+        canvas_open(&again, sizes[i][0], sizes[i][1]);
+        assert_int_equal(annotated_picture_map(&chart, &first.image, &source), 0);
+        assert_int_equal(annotated_picture_map(&chart, &again.image, &source), 0);
+        assert_memory_equal(first.image.pixels, again.image.pixels,
+                            (size_t)sizes[i][0] * sizes[i][1] * 4);
+        struct box box = chart.layout.whole;
+        struct map_view view = map_whole(box.left, box.top, (uint32_t)box.width);
+        uint32_t hidden = 0;
+        for (uint32_t slot = 0; slot < stage->state.head->used; slot++)
+            hidden += !map_stage_shows(stage, &first.image, &view, slot);
+        /* A legend on the map may lie over some; at 64 pixels symbols lie over each other. */
+        if (box.width >= 200 && hidden > (chart.layout.legend.width > 0 ? 0 : 6))
+            fail_msg("%ux%u: %u vehicles do not show", sizes[i][0], sizes[i][1], hidden);
+        annotated_picture_close(&chart);
+        tracks_free(&tracks);
+        canvas_close(&first);
+        canvas_close(&again);
+    }
+}
+
+static void test_an_area_shows_who_is_there(void **context)
+{
+    const struct map_stage *stage = *context;
+    struct annotated_picture chart;
+    struct tracks tracks;
+    struct canvas canvas;
+    struct annotated_picture_source source = source_of(stage, &tracks, SLOT_NONE);
+    const struct entities *e = &stage->state.entities;
+    open_chart(&chart, stage, 400, 300);
+    canvas_open(&canvas, 400, 300);
+    for (uint32_t slot = 0; slot < stage->state.head->used; slot += 5) {
+        double metres = 4.0 + slot;
+        assert_int_equal(annotated_picture_area(&chart, &canvas.image, &source, e->x[slot] + 300.0,
+                                                e->z[slot], metres),
+                         0);
+        struct map_view view = map_around(e->x[slot] + 300.0, e->z[slot], metres, 0, 0, 400, 300);
+        map_align(&view);
+        if (!map_stage_shows(stage, &canvas.image, &view, slot))
+            fail_msg("slot %u does not show at %.0f m a pixel", slot, metres);
+    }
+    annotated_picture_close(&chart);
+    tracks_free(&tracks);
+    canvas_close(&canvas);
+}
+
+static uint32_t changed(const struct image *image, struct box box)
+{
+    uint32_t count = 0;
+    for (int32_t y = box.top; y < box.top + box.height; y++)
+        for (int32_t x = box.left; x < box.left + box.width; x++) {
+            const uint8_t *p = image->pixels + ((size_t)y * image->width + (size_t)x) * 4;
+            count += p[0] != 120 || p[1] != 120 || p[2] != 120;
+        }
+    return count;
+}
+
+/* Instruments leave the middle of the picture alone, and an alarm is red whatever the size. */
+static void test_instruments_keep_to_their_places(void **context)
+{
+    const struct map_stage *stage = *context;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        int32_t width = (int32_t)sizes[i][0], height = (int32_t)sizes[i][1];
+        struct annotated_picture chart;
+        struct tracks tracks;
+        struct canvas canvas;
+        struct annotated_picture_source source = source_of(stage, &tracks, 7);
+        stage->state.entities.damage[7] = DAMAGE_HIGH;
+        open_chart(&chart, stage, sizes[i][0], sizes[i][1]);
+        canvas_open(&canvas, sizes[i][0], sizes[i][1]);
+        annotated_picture_instruments(&chart, &canvas.image, &source);
+        struct box middle = {0, height * 3 / 10, width, height * 3 / 10};
+        struct box left = {0, 0, width / 2, height / 2};
+        if (width >= 200 && height >= 200) {
+            assert_int_equal(changed(&canvas.image, middle), 0);
+            assert_int_equal(changed(&canvas.image, left), 0);
+        }
+        assert_true(changed(&canvas.image, (struct box){0, height - 12, width, 12}) > 0);
+        uint32_t red = 0;
+        for (size_t at = (size_t)width * (size_t)(height / 2); at < (size_t)width * (size_t)height;
+             at++) {
+            const uint8_t *p = canvas.image.pixels + at * 4;
+            red += p[0] == 196 && p[1] == 36 && p[2] == 20;
+        }
+        if (width >= 320)
+            assert_true(red > 20);
+        annotated_picture_close(&chart);
+        tracks_free(&tracks);
+        canvas_close(&canvas);
+    }
+}
+
+static void test_words_are_shortened_to_fit(void **context)
+{
+    const struct map_stage *stage = *context;
+    struct annotated_picture chart;
+    open_chart(&chart, stage, 320, 200);
+    char words[64] = "a name that is much too long for the bar";
+    annotated_picture_shorten(&chart, words, 12, 80);
+    assert_true(text_width(chart.text, 12, words) <= 80);
+    assert_true(strlen(words) > 4);
+    assert_int_equal(words[strlen(words) - 1], '.');
+    char brief[64] = "Padre";
+    annotated_picture_shorten(&chart, brief, 12, 80);
+    assert_string_equal(brief, "Padre");
+    annotated_picture_close(&chart);
+}
+
+/* Letters of a size are the same before and after others pushed them out of the cache. */
+static void test_letters_are_kept_and_made_again(void **context)
+{
+    const struct map_stage *stage = *context;
+    struct annotated_picture chart;
+    struct canvas first, again;
+    const struct rgba white = {255, 255, 255, 255};
+    open_chart(&chart, stage, 320, 200);
+    canvas_open(&first, 300, 40);
+    canvas_open(&again, 300, 40);
+    int32_t end = text_draw_rimmed(chart.text, &first.image, -5, 30, 14, white, "Jolon 0123");
+    for (uint32_t size = 8; size < 60; size++)
+        assert_true(text_width(chart.text, size, "Jolon") > 0);
+    assert_int_equal(text_draw_rimmed(chart.text, &again.image, -5, 30, 14, white, "Jolon 0123"),
+                     end);
+    assert_int_equal(text_width(chart.text, 14, "Jolon 0123"), end + 5);
+    assert_memory_equal(first.image.pixels, again.image.pixels, (size_t)300 * 40 * 4);
+    canvas_close(&first);
+    canvas_close(&again);
+    annotated_picture_close(&chart);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
+    const struct CMUnitTest tests[] = {
+        TEST(test_the_whole_map_shows_everyone),     TEST(test_an_area_shows_who_is_there),
+        TEST(test_instruments_keep_to_their_places), TEST(test_words_are_shortened_to_fit),
+        TEST(test_letters_are_kept_and_made_again),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,131 @@
+/* The statistics bar says what the table holds (row 13), and what is alarming. */
+#include "renderer/chart/statistics_bar.h"
+
+#include "tests/support/map_stage.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct gauge *find(const struct gauge *gauges, uint32_t count, const char *name)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (strcmp(gauges[i].name, name) == 0)
+            return &gauges[i];
+    fail_msg("there is no %s", name);
+    return gauges;
+}
+
+/* The number in a field, as a reader would take it. */
+static double number(const struct gauge *gauges, uint32_t count, const char *name)
+{
+    return strtod(find(gauges, count, name)->value, NULL);
+}
+
+static void test_fields_equal_the_table(void **context)
+{
+    (void)context;
+    struct map_stage stage;
+    uint64_t seed = fixture_seed(13);
+    map_stage_open(&stage, seed);
+    struct entities *e = &stage.state.entities;
+    for (uint32_t i = 0; i < 500; i++) {
+        uint32_t slot = (uint32_t)fixture_uniform(&seed, 0.0, stage.state.head->used);
+        const struct kind *kind = &stage.moment.world->kinds[e->kind[slot]];
+        e->vx[slot] = fixture_uniform(&seed, -100.0, 100.0);
+        e->vz[slot] = fixture_uniform(&seed, -100.0, 100.0);
+        e->pitch[slot] = fixture_uniform(&seed, -1.5, 1.5);
+        e->roll[slot] = fixture_uniform(&seed, -1.5, 1.5);
+        e->y[slot] = fixture_uniform(&seed, -10.0, 2000.0);
+        e->rounds[slot] = (uint32_t)fixture_uniform(&seed, 0.0, 60.0);
+        e->fuel_l[slot] = fixture_uniform(&seed, 0.0, kind->fuel_l);
+        e->damage[slot] = (uint8_t)fixture_uniform(&seed, 0.0, DAMAGE_COUNT);
+        e->behaviour[slot] = (uint8_t)fixture_uniform(&seed, 0.0, BEHAVIOUR_COUNT);
+        stage.state.head->frame = i;
+        stage.state.head->tick = i;
+        struct statistics s;
+        struct gauge gauges[STATISTICS_BAR_MAX];
+        statistics_of(&s, &stage.moment, slot);
+        uint32_t n = statistics_bar_of(gauges, &s, 59.94);
+        double full = kind->fuel_l > 0.0 ? 100.0 * e->fuel_l[slot] / kind->fuel_l : 100.0;
+        double speed = 3.6 * hypot(e->vx[slot], e->vz[slot]), turn = 180.0 / 3.14159265358979;
+        assert_true(fabs(number(gauges, n, "SPEED km/h") - speed) <= 0.0501);
+        assert_true(fabs(remainder(number(gauges, n, "HEADING") - e->heading[slot] * turn,
+                                   360.0)) <= 0.0501);
+        assert_true(fabs(number(gauges, n, "PITCH") - e->pitch[slot] * turn) <= 0.0501);
+        assert_true(fabs(number(gauges, n, "ROLL") - e->roll[slot] * turn) <= 0.0501);
+        assert_true(fabs(number(gauges, n, "ALTITUDE m") - e->y[slot]) <= 0.501);
+        assert_true(number(gauges, n, "ROUNDS") == e->rounds[slot]);
+        assert_true(fabs(number(gauges, n, "FUEL") - full) <= 0.501);
+        assert_string_equal(find(gauges, n, "DAMAGE")->value,
+                            damage_name((enum damage)e->damage[slot]));
+        assert_string_equal(find(gauges, n, "BEHAVIOUR")->value,
+                            behaviour_name((enum behaviour)e->behaviour[slot]));
+        assert_true(fabs(number(gauges, n, "TIME s") - i * stage.moment.world->params->dt_s) <=
+                    0.00501);
+        assert_true(number(gauges, n, "FRAME") == i);
+        assert_string_equal(find(gauges, n, "FPS")->value, "59.9");
+    }
+    map_stage_close(&stage);
+}
+
+static uint32_t state_of(const struct statistics *s, const char *name)
+{
+    struct gauge gauges[STATISTICS_BAR_MAX];
+    uint32_t n = statistics_bar_of(gauges, s, 0.0);
+    return find(gauges, n, name)->state;
+}
+
+static void test_alarms(void **context)
+{
+    (void)context;
+    struct statistics s = {
+        .damage = "none", .behaviour = "hold", .fuel_share = 1.0, .rounds = 50, .rounds_full = 50};
+    static const char *const all[] = {"FUEL", "ROUNDS", "DAMAGE", "PITCH", "ROLL"};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        assert_int_equal(state_of(&s, all[i]), GAUGE_GOOD);
+    s.fuel_share = 0.2;
+    assert_int_equal(state_of(&s, "FUEL"), GAUGE_WARNING);
+    s.fuel_share = 0.05;
+    assert_int_equal(state_of(&s, "FUEL"), GAUGE_ALARM);
+    s.rounds = 9;
+    assert_int_equal(state_of(&s, "ROUNDS"), GAUGE_WARNING);
+    s.rounds = 0;
+    assert_int_equal(state_of(&s, "ROUNDS"), GAUGE_ALARM);
+    s.rounds_full = 0; /* it never had any */
+    assert_int_equal(state_of(&s, "ROUNDS"), GAUGE_GOOD);
+    s.damage = "low";
+    assert_int_equal(state_of(&s, "DAMAGE"), GAUGE_WARNING);
+    s.damage = "destroyed";
+    assert_int_equal(state_of(&s, "DAMAGE"), GAUGE_ALARM);
+    s.pitch_deg = -30.0;
+    assert_int_equal(state_of(&s, "PITCH"), GAUGE_WARNING);
+    s.roll_deg = 80.0;
+    assert_int_equal(state_of(&s, "ROLL"), GAUGE_ALARM);
+}
+
+static void test_what_is_not_known_is_left_out(void **context)
+{
+    (void)context;
+    struct statistics s = {.damage = "none", .behaviour = "hold", .roll_deg = -0.01};
+    struct gauge gauges[STATISTICS_BAR_MAX];
+    uint32_t n = statistics_bar_of(gauges, &s, 0.0);
+    for (uint32_t i = 0; i < n; i++)
+        assert_string_not_equal(gauges[i].name, "FPS");
+    assert_string_equal(find(gauges, n, "ROLL")->value, "+0.0");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_fields_equal_the_table),
+        cmocka_unit_test(test_alarms),
+        cmocka_unit_test(test_what_is_not_known_is_left_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

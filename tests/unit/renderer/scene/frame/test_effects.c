@@ -1,0 +1,768 @@
+/* Effects: what each event shows and for how long, what is remembered of it, and that pictures do
+ * not flicker: the same moment gives the same lists, and nothing comes or goes at once. */
+#include "renderer/scene/frame/effects.h"
+
+#include "renderer/scene/scene.h"
+#include "renderer/scene/plants/grass.h"
+#include "tests/support/fixture.h"
+#include "world/terrain/gridsquare.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define POSTS    401u
+#define CAPACITY 512u
+#define HZ       60.0
+#define MIDDLE   25000.0 /* [m] where things happen */
+#define GROUND   100.0f  /* [m] */
+
+enum { TANK, CHOPPER, SHIP, SHELL, MISSILE, KINDS };
+
+struct stage {
+    struct params params;
+    struct world world;
+    struct state_head head;
+    struct entities entities;
+    void *columns;
+    float *posts;
+    uint8_t *cover;
+    uint32_t *reach_start;
+    struct fixed_object fixed[1];
+    uint8_t fixed_damage[1];
+    struct crater craters[4];
+    struct crater_index index;
+    struct dent dent[4];
+    struct dent_index dents;
+    struct effects effects;
+    struct static_scene scenery;
+    struct scene scene;
+    struct frame_view moment;
+};
+
+static const struct kind kinds[KINDS] = {
+    [TANK] = {.domain = DOMAIN_LAND,
+              .radius_m = 3.0,
+              .length_m = 7.0,
+              .width_m = 3.6,
+              .height_m = 2.4,
+              .explosive_kg = 10.0},
+    [CHOPPER] =
+        {.domain = DOMAIN_AIR, .radius_m = 6.0, .length_m = 14.0, .width_m = 3.0, .height_m = 4.0},
+    [SHIP] =
+        {.domain = DOMAIN_SEA, .radius_m = 20.0, .length_m = 40.0, .width_m = 8.0, .height_m = 8.0},
+    [SHELL] = {.domain = DOMAIN_MUNITION,
+               .radius_m = 0.1,
+               .length_m = 0.8,
+               .mass_kg = 8.0,
+               .max_speed_mps = 1500.0,
+               .explosive_kg = 1.5},
+    [MISSILE] = {.domain = DOMAIN_MUNITION,
+                 .guidance = GUIDANCE_HOMING,
+                 .radius_m = 0.2,
+                 .length_m = 3.0,
+                 .mass_kg = 45.0,
+                 .max_speed_mps = 380.0,
+                 .explosive_kg = 8.0},
+};
+
+static const struct model_vertex box_vertices[] = {{-3, 0, -1}, {3, 0, -1}, {3, 2, -1}, {-3, 2, -1},
+                                                   {-3, 0, 1},  {3, 0, 1},  {3, 2, 1},  {-3, 2, 1}};
+
+static const struct model_triangle box_triangles[] = {
+    {.vertex = {0, 3, 2}}, {.vertex = {0, 2, 1}}, {.vertex = {4, 5, 6}},
+    {.vertex = {4, 6, 7}}, {.vertex = {3, 7, 6}}, {.vertex = {3, 6, 2}},
+};
+
+static const struct model models[] = {{.name = "box", .triangle_count = 6, .vertex_count = 8}};
+
+/* Level ground of one cover. */
+static void lay(struct stage *s, enum cover cover)
+{
+    for (uint32_t i = 0; i < POSTS * POSTS; i++) {
+        s->posts[i] = GROUND;
+        s->cover[i] = (uint8_t)cover;
+    }
+}
+
+static int open_stage(void **context)
+{
+    struct stage *s = calloc(1, sizeof *s);
+    assert_non_null(s);
+    s->params = (struct params){.dt_s = 1.0 / HZ, .hz = HZ, .capacity = CAPACITY};
+    s->params.renderer = (struct renderer_params){.fog = 1, .haze = 1};
+    s->posts = malloc(POSTS * POSTS * sizeof *s->posts);
+    s->cover = malloc(POSTS * POSTS);
+    s->reach_start = calloc(GRIDSQUARE_COUNT + 1, sizeof *s->reach_start);
+    s->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(CAPACITY));
+    assert_true(s->posts != NULL && s->cover != NULL && s->reach_start != NULL &&
+                s->columns != NULL);
+    lay(s, COVER_SAND);
+    memset(s->columns, 0, entities_bytes(CAPACITY));
+    entities_bind(&s->entities, CAPACITY, s->columns);
+    s->world = (struct world){.params = &s->params,
+                              .terrain = {s->posts, s->cover, POSTS, 125.0},
+                              .kinds = kinds,
+                              .models = models,
+                              .model_vertices = box_vertices,
+                              .model_triangles = box_triangles,
+                              .fixed = s->fixed,
+                              .reach_start = s->reach_start};
+    s->world.counts = (struct counts){.kinds = KINDS,
+                                      .models = 1,
+                                      .model_vertices = 8,
+                                      .model_triangles = 6,
+                                      .posts_side = POSTS};
+    assert_int_equal(crater_index_init(&s->index, s->craters), 0);
+    assert_int_equal(dent_index_init(&s->dents, s->dent, 4), 0);
+    assert_int_equal(static_scene_init(&s->scenery, &s->world), 0);
+    assert_int_equal(scene_init(&s->scene), 0);
+    s->moment = (struct frame_view){.world = &s->world,
+                                    .head = &s->head,
+                                    .entities = &s->entities,
+                                    .fixed_damage = s->fixed_damage,
+                                    .craters = &s->index,
+                                    .dents = &s->dents};
+    s->head.frame = s->head.tick = 6000;
+    *context = s;
+    return 0;
+}
+
+static int close_stage(void **context)
+{
+    struct stage *s = *context;
+    scene_free(&s->scene);
+    static_scene_free(&s->scenery);
+    crater_index_free(&s->index);
+    dent_index_free(&s->dents);
+    free(s->columns);
+    free(s->reach_start);
+    free(s->posts);
+    free(s->cover);
+    free(s);
+    return 0;
+}
+
+/* An entity over the ground at (x, z); its slot. */
+static uint32_t put(struct stage *s, uint16_t kind, double x, double above, double z)
+{
+    uint32_t slot = s->head.used++;
+    const struct entities *e = &s->entities;
+    e->id[slot] = slot + 1;
+    e->state[slot] = ENTITY_ACTIVE;
+    e->kind[slot] = kind;
+    e->x[slot] = x;
+    e->y[slot] = (double)GROUND + above;
+    e->z[slot] = z;
+    return slot;
+}
+
+/* Looks north at the middle from so far off. */
+static void look(struct stage *s, double away)
+{
+    struct camera camera;
+    struct vec3 middle = {MIDDLE, (double)GROUND + 3.0, MIDDLE};
+    camera_look(&camera, vec3_add(middle, (struct vec3){0.0, 4.0 + 0.1 * away, away}), middle, 1280,
+                720);
+    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
+}
+
+/* A step of simulated time later. */
+static void step(struct stage *s)
+{
+    s->head.frame++;
+    s->head.tick++;
+    for (uint32_t i = 0; i < s->head.used; i++) {
+        s->entities.x[i] += s->entities.vx[i] / HZ;
+        s->entities.y[i] += s->entities.vy[i] / HZ;
+        s->entities.z[i] += s->entities.vz[i] / HZ;
+    }
+    effects_take(&s->effects, &s->moment, NULL, 0);
+}
+
+/* How much puffs show: opacity times the size on the picture. */
+static double ink(const struct stage *s)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < s->scene.puff_count; i++) {
+        const struct scene_puff *puff = &s->scene.puffs[i];
+        double far = (double)frustum_dot(puff->at, puff->at);
+        double length = sqrt((double)frustum_dot(puff->axis, puff->axis));
+        sum += (double)puff->colour[3] * (double)puff->size *
+               maths_max(length, (double)puff->size) / far;
+    }
+    return sum;
+}
+
+static struct event happening(const struct stage *s, enum effect_type type)
+{
+    struct event event = {.frame = s->head.frame, .tick = s->head.tick, .index = 3};
+    double point[3] = {MIDDLE, (double)GROUND + 1.0, MIDDLE};
+    static const enum struck struck[EFFECT_TYPE_COUNT] = {
+        [EFFECT_EXPLOSION] = STRUCK_VEHICLE, [EFFECT_BURST] = STRUCK_GROUND,
+        [EFFECT_SPLASH] = STRUCK_WATER,      [EFFECT_HIT] = STRUCK_FIXED,
+        [EFFECT_CRASH] = STRUCK_GROUND,
+    };
+    if (type == EFFECT_FLASH) {
+        event.type = EVENT_FIRE;
+        event.fire = (struct event_fire){.shooter = {.id = 900}, .munition = {.kind = SHELL}};
+        memcpy(event.fire.point, point, sizeof point);
+        return event;
+    }
+    event.type = EVENT_DETONATION;
+    event.detonation = (struct event_detonation){.struck = struck[type]};
+    event.detonation.explosive_kg = type == EFFECT_HIT || type == EFFECT_CRASH ? 0.0f : 8.0f;
+    memcpy(event.detonation.point, point, sizeof point);
+    return event;
+}
+
+/* --- what happens ----------------------------------------------------------------------------- */
+
+static void test_each_event_shows_for_its_time(void **context)
+{
+    struct stage *s = *context;
+    for (uint32_t type = 0; type < EFFECT_WRECK; type++) {
+        struct event event = happening(s, (enum effect_type)type);
+        uint64_t began = s->head.tick;
+        look(s, 40.0);
+        assert_int_equal(s->scene.puff_count, 0);
+        effects_take(&s->effects, &s->moment, &event, 1);
+        assert_int_equal(s->effects.count, 1);
+        assert_int_equal(s->effects.effect[0].type, type);
+        double life = effects_life_s((enum effect_type)type);
+        s->head.tick = began + 4;
+        look(s, 40.0);
+        assert_true(s->scene.puff_count >= 3);
+        s->head.tick = began + (uint64_t)(0.6 * life * HZ);
+        look(s, 40.0);
+        assert_true(s->scene.puff_count >= 1);
+        s->head.tick = began + (uint64_t)(life * HZ) + 1;
+        look(s, 40.0);
+        assert_int_equal(s->scene.puff_count, 0);
+        s->head.tick = began - 1; /* nor before it happened */
+        look(s, 40.0);
+        assert_int_equal(s->scene.puff_count, 0);
+        s->effects.count = 0;
+        s->head.tick = began;
+    }
+}
+
+static void test_a_shot_out_of_the_sky_has_no_muzzle(void **context)
+{
+    struct stage *s = *context;
+    struct event event = happening(s, EFFECT_FLASH);
+    event.fire.shooter.id = 0;
+    effects_take(&s->effects, &s->moment, &event, 1);
+    assert_int_equal(s->effects.count, 0);
+}
+
+static void test_a_flash_goes_the_way_of_its_round(void **context)
+{
+    struct stage *s = *context;
+    uint32_t round = put(s, SHELL, MIDDLE, 1.0, MIDDLE - 30.0);
+    s->entities.vz[round] = -1500.0;
+    struct event event = happening(s, EFFECT_FLASH);
+    event.fire.munition.id = s->entities.id[round];
+    effects_take(&s->effects, &s->moment, &event, 1);
+    assert_true(s->effects.effect[0].way[2] < -0.999f);
+    /* When it is gone: away from who fired it. */
+    s->entities.state[round] = ENTITY_FREE;
+    uint32_t tank = put(s, TANK, MIDDLE - 5.0, 1.0 - 0.7 * 2.4, MIDDLE);
+    event.fire.shooter.id = s->entities.id[tank];
+    event.fire.munition.id = 900;
+    effects_take(&s->effects, &s->moment, &event, 1);
+    assert_true(s->effects.effect[1].way[0] > 0.999f);
+}
+
+/* Soil and water are thrown up, and come down again. */
+static void test_what_is_thrown_up_falls_back(void **context)
+{
+    struct stage *s = *context;
+    static const enum effect_type thrown[] = {EFFECT_BURST, EFFECT_SPLASH};
+    for (uint32_t i = 0; i < 2; i++) {
+        struct event event = happening(s, thrown[i]);
+        effects_take(&s->effects, &s->moment, &event, 1);
+        double most = 0.0, last = 0.0;
+        uint64_t began = s->head.tick;
+        for (uint32_t tick = 1; tick < 240; tick++) {
+            s->head.tick = began + tick;
+            look(s, 60.0);
+            double highest = 0.0;
+            for (uint32_t n = 0; n < s->scene.puff_count; n++)
+                if (s->scene.puffs[n].picture == (float)PUFF_SPRAY)
+                    highest =
+                        maths_max(highest, (double)s->scene.puffs[n].at[1] + s->scene.camera.eye.y);
+            most = maths_max(most, highest);
+            last = highest > 0.0 ? highest : last; /* of what can still be seen */
+        }
+        assert_true(most > (double)GROUND + 8.0);
+        assert_true(last > 0.0 && last < most - 4.0);
+        s->head.tick = began;
+        s->effects.count = 0;
+    }
+}
+
+static void test_what_is_over_first_gives_way(void **context)
+{
+    struct stage *s = *context;
+    struct event lasting = happening(s, EFFECT_BURST), brief = happening(s, EFFECT_FLASH);
+    effects_take(&s->effects, &s->moment, &lasting, 1);
+    for (uint32_t i = 0; i < 3 * EFFECTS_MAX; i++)
+        effects_take(&s->effects, &s->moment, &brief, 1);
+    assert_int_equal(s->effects.count, EFFECTS_MAX);
+    assert_int_equal(s->effects.effect[0].type, EFFECT_BURST);
+    for (uint32_t i = 0; i < 3 * EFFECTS_MAX; i++)
+        effects_take(&s->effects, &s->moment, &lasting, 1);
+    s->head.tick += 5;
+    look(s, 40.0); /* more than the list of puffs has room for */
+    assert_int_equal(s->scene.puff_count, SCENE_PUFFS_MAX);
+    assert_true(s->scene.omitted > 0);
+}
+
+/* --- wrecks ----------------------------------------------------------------------------------- */
+
+static uint32_t put_wreck(struct stage *s, double x, double z)
+{
+    uint32_t slot = put(s, TANK, x, 0.0, z);
+    s->entities.state[slot] = ENTITY_WRECK;
+    s->entities.damage[slot] = DAMAGE_DESTROYED;
+    s->entities.changed_tick[slot] = (uint32_t)s->head.tick;
+    effects_take(&s->effects, &s->moment, NULL, 0);
+    return slot;
+}
+
+static void test_a_wreck_bursts_once(void **context)
+{
+    struct stage *s = *context;
+    put_wreck(s, MIDDLE, MIDDLE);
+    for (uint32_t i = 0; i < 10; i++)
+        step(s);
+    assert_int_equal(s->effects.count, 1);
+    assert_int_equal(s->effects.effect[0].type, EFFECT_WRECK);
+    assert_true(s->effects.effect[0].time_s == 6000.0 / HZ);
+    /* One that a renderer finds when it begins lies there already. */
+    uint32_t old = put(s, TANK, MIDDLE + 50.0, 0.0, MIDDLE);
+    s->entities.state[old] = ENTITY_WRECK;
+    s->entities.changed_tick[old] = (uint32_t)(s->head.tick - (uint64_t)(HZ * EFFECT_LIFE_S) - 60);
+    step(s);
+    assert_int_equal(s->effects.count, 1);
+}
+
+static void test_debris_flies_and_comes_to_rest(void **context)
+{
+    struct stage *s = *context;
+    put_wreck(s, MIDDLE, MIDDLE);
+    uint64_t began = s->head.tick;
+    double most = 0.0;
+    float rest[16][3] = {{0.0f}};
+    uint32_t pieces = 0;
+    for (uint32_t tick = 1; tick < (uint32_t)(20.0 * HZ); tick += 3) {
+        s->head.tick = began + tick;
+        look(s, 50.0);
+        double eye = s->scene.camera.eye.y - (double)GROUND;
+        uint32_t seen = 0;
+        for (uint32_t i = 0; i < s->scene.body_count && seen < 16; i++) {
+            const struct scene_body *body = &s->scene.bodies[i];
+            if (s->scene.copies[i].detail != MESH_COARSEST)
+                continue; /* the wreck itself */
+            double above = (double)body->at[1] + eye;
+            assert_true(above > -0.5);
+            most = maths_max(most, above);
+            if (tick > 10.0 * HZ) {
+                assert_true(fabs(above) < 0.1); /* it lies flat */
+                assert_true(body->up[1] > 0.0f && fabsf(body->forward[1]) < 1e-3f);
+                bool moved = memcmp(rest[seen], body->at, sizeof rest[0]) != 0;
+                assert_true(pieces == 0 || !moved);
+                memcpy(rest[seen], body->at, sizeof rest[0]);
+            }
+            seen++;
+        }
+        if (tick > 10.0 * HZ)
+            pieces = seen;
+    }
+    assert_true(most > 3.0);
+    assert_true(pieces >= 4);
+    s->head.tick = began + (uint64_t)((EFFECT_LIFE_S + 1.0) * HZ);
+    look(s, 50.0);
+    assert_int_equal(s->scene.body_count, 1);
+}
+
+static void test_smoke_goes_on_when_damage_grows(void **context)
+{
+    struct stage *s = *context;
+    uint32_t slot = put(s, TANK, MIDDLE, 0.0, MIDDLE);
+    s->entities.damage[slot] = DAMAGE_MED;
+    s->entities.changed_tick[slot] = (uint32_t)s->head.tick;
+    for (uint32_t i = 0; i < 900; i++)
+        step(s);
+    look(s, 60.0);
+    double before = ink(s);
+    s->entities.damage[slot] = DAMAGE_HIGH;
+    s->entities.changed_tick[slot] = (uint32_t)s->head.tick;
+    look(s, 60.0);
+    assert_true(before > 0.0 && fabs(ink(s) - before) < 0.05 * before);
+}
+
+/* --- what moving things leave ----------------------------------------------------------------- */
+
+/* Dust of a tank that drives past, when it has come to the middle. */
+static double dust_on(struct stage *s, enum cover cover, double speed)
+{
+    lay(s, cover);
+    s->head.used = 0;
+    memset(&s->effects, 0, sizeof s->effects);
+    uint32_t slot = put(s, TANK, MIDDLE - 3.0 * speed, 0.0, MIDDLE);
+    s->entities.vx[slot] = speed;
+    for (uint32_t i = 0; i < 180; i++)
+        step(s);
+    look(s, 50.0);
+    return ink(s);
+}
+
+static void test_dust_goes_by_the_ground(void **context)
+{
+    struct stage *s = *context;
+    double sand = dust_on(s, COVER_SAND, 14.0);
+    assert_true(sand > 0.0);
+    double grass = dust_on(s, COVER_GRASS, 14.0);
+    assert_true(grass > 0.1 * sand && grass < 0.7 * sand);
+    assert_true(dust_on(s, COVER_FOREST, 14.0) == 0.0);
+    assert_true(dust_on(s, COVER_LAKE, 14.0) == 0.0);
+    assert_true(dust_on(s, COVER_SAND, 5.0) < 0.5 * sand);
+    assert_true(dust_on(s, COVER_SAND, 1.0) == 0.0);
+}
+
+/* What was left stays where it was left, whatever who left it does. */
+static void test_dust_stays_when_the_vehicle_stops(void **context)
+{
+    struct stage *s = *context;
+    double before = dust_on(s, COVER_SAND, 14.0);
+    s->entities.vx[0] = 0.0;
+    step(s);
+    look(s, 50.0);
+    assert_true(fabs(ink(s) - before) < 0.1 * before);
+}
+
+static void test_wash_is_of_low_rotors_alone(void **context)
+{
+    struct stage *s = *context;
+    uint32_t slot = put(s, CHOPPER, MIDDLE, 40.0, MIDDLE);
+    look(s, 60.0);
+    assert_int_equal(s->scene.puff_count, 0);
+    s->entities.y[slot] = (double)GROUND + 3.0;
+    look(s, 60.0);
+    assert_true(s->scene.puff_count > 5);
+    lay(s, COVER_FOREST);
+    look(s, 60.0);
+    assert_int_equal(s->scene.puff_count, 0);
+    lay(s, COVER_SEA);
+    look(s, 60.0);
+    assert_true(s->scene.puff_count > 5); /* spray */
+}
+
+static void test_a_ship_leaves_a_wake(void **context)
+{
+    struct stage *s = *context;
+    lay(s, COVER_SEA);
+    uint32_t slot = put(s, SHIP, MIDDLE - 130.0, 0.0, MIDDLE - 60.0);
+    s->entities.vx[slot] = 13.0;
+    s->entities.heading[slot] = HALF_PI;
+    for (uint32_t i = 0; i < 600; i++)
+        step(s);
+    look(s, 150.0);
+    uint32_t behind = 0;
+    double reach = s->entities.x[slot] - 100.0 - MIDDLE;
+    for (uint32_t i = 0; i < s->scene.puff_count; i++)
+        behind += (double)s->scene.puffs[i].at[0] < reach;
+    assert_true(behind > 3);
+}
+
+/* A missile that flies a circle leaves its smoke on the circle; and it stays when it is gone. */
+static void test_a_trail_is_where_the_missile_flew(void **context)
+{
+    struct stage *s = *context;
+    const double radius = 90.0, turn = 1.1; /* [m], [rad/s] */
+    uint32_t slot = put(s, MISSILE, MIDDLE, 30.0, MIDDLE);
+    s->entities.born_tick[slot] = (uint32_t)s->head.tick;
+    for (uint32_t i = 0; i < 150; i++) {
+        double angle = turn * i / HZ;
+        s->entities.x[slot] = MIDDLE + radius * maths_cos(angle);
+        s->entities.z[slot] = MIDDLE - radius * maths_sin(angle);
+        s->entities.vx[slot] = -radius * turn * maths_sin(angle);
+        s->entities.vz[slot] = -radius * turn * maths_cos(angle);
+        s->head.tick++;
+        s->head.frame++;
+        effects_take(&s->effects, &s->moment, NULL, 0);
+    }
+    for (uint32_t gone = 0; gone < 2; gone++) {
+        if (gone) {
+            struct event end = happening(s, EFFECT_SPLASH);
+            end.detonation.munition.id = s->entities.id[slot];
+            end.detonation.struck = STRUCK_AIR;
+            end.detonation.explosive_kg = 0.0f;
+            end.detonation.point[0] = s->entities.x[slot];
+            end.detonation.point[1] = s->entities.y[slot];
+            end.detonation.point[2] = s->entities.z[slot];
+            s->entities.state[slot] = ENTITY_FREE;
+            effects_take(&s->effects, &s->moment, &end, 1);
+        }
+        look(s, 300.0);
+        uint32_t smoke = 0;
+        for (uint32_t i = 0; i < s->scene.puff_count; i++) {
+            const struct scene_puff *puff = &s->scene.puffs[i];
+            if (puff->glow > 0.0f)
+                continue;
+            double x = (double)puff->at[0] + s->scene.camera.eye.x - MIDDLE;
+            double z = (double)puff->at[2] + s->scene.camera.eye.z - MIDDLE;
+            /* The wind takes it along by 5 m at most. */
+            assert_true(fabs(sqrt(x * x + z * z) - radius) < 6.0);
+            smoke++;
+        }
+        assert_true(smoke > 15);
+    }
+    s->head.tick += (uint64_t)(5.0 * HZ);
+    look(s, 300.0);
+    assert_int_equal(s->scene.puff_count, 0);
+}
+
+static void test_the_curve_is_smooth_and_ends_at_birth(void **context)
+{
+    (void)context;
+    uint64_t random = fixture_seed(11);
+    for (uint32_t round = 0; round < 200; round++) {
+        static struct motion_trail spoor;
+        double turn = fixture_uniform(&random, -0.7, 0.7), speed = fixture_uniform(&random, 5, 400);
+        double gap = fixture_uniform(&random, 0.1, 0.4);
+        struct motion_trail_point now = {.time_s = 0.0};
+        spoor.count = 0;
+        for (uint32_t i = 0; i < 20; i++) {
+            double t = gap * i, radius = speed / maths_max(fabs(turn), 1e-3);
+            struct motion_trail_point point = {
+                .at = {(float)(radius * maths_sin(t * turn)), 5.0f,
+                       (float)(radius * (1.0 - maths_cos(t * turn)))},
+                .velocity = {(float)(radius * turn * maths_cos(t * turn)), 0.0f,
+                             (float)(radius * turn * maths_sin(t * turn))},
+                .time_s = t};
+            now = point;
+            spoor.point[spoor.count++ % SPOOR_POINTS] = point;
+        }
+        for (uint32_t i = 0; i < 50; i++) {
+            double t = now.time_s - fixture_uniform(&random, 0.0, gap * (SPOOR_POINTS - 1));
+            double radius = speed / maths_max(fabs(turn), 1e-3);
+            struct motion_trail_point is = motion_trail_at(&spoor, &now, t);
+            double x = radius * maths_sin(t * turn), z = radius * (1.0 - maths_cos(t * turn));
+            assert_true(fabs((double)is.at[0] - x) < 0.001 * speed + 0.05);
+            assert_true(fabs((double)is.at[2] - z) < 0.001 * speed + 0.05);
+        }
+    }
+}
+
+/* --- pictures that hold still ----------------------------------------------------------------- */
+
+static void furnish(struct stage *s)
+{
+    static const enum effect_type types[] = {EFFECT_FLASH, EFFECT_EXPLOSION, EFFECT_BURST,
+                                             EFFECT_SPLASH, EFFECT_HIT};
+    for (uint32_t i = 0; i < 5; i++) {
+        struct event event = happening(s, types[i]);
+        event.index = i;
+        effects_take(&s->effects, &s->moment, &event, 1);
+    }
+    uint32_t tank = put(s, TANK, MIDDLE - 60.0, 0.0, MIDDLE - 10.0);
+    s->entities.vx[tank] = 12.0;
+    uint32_t missile = put(s, MISSILE, MIDDLE - 100.0, 20.0, MIDDLE - 20.0);
+    s->entities.vx[missile] = 150.0;
+    uint32_t shell = put(s, SHELL, MIDDLE, 5.0, MIDDLE);
+    s->entities.vx[shell] = 30.0;
+    put(s, CHOPPER, MIDDLE + 15.0, 4.0, MIDDLE);
+    put_wreck(s, MIDDLE + 5.0, MIDDLE);
+}
+
+static void test_the_same_moment_gives_the_same_lists(void **context)
+{
+    struct stage *s = *context;
+    furnish(s);
+    for (uint32_t i = 0; i < 45; i++)
+        step(s);
+    look(s, 45.0);
+    struct scene first = s->scene;
+    assert_true(first.puff_count > 100 && first.body_count > 8);
+    /* In another's memory, of which another camera was there before; and time stands, frames do
+     * not. */
+    assert_int_equal(scene_init(&s->scene), 0);
+    look(s, 3.0);
+    s->head.frame += 1000;
+    effects_take(&s->effects, &s->moment, NULL, 0);
+    look(s, 45.0);
+    assert_int_equal(s->scene.puff_count, first.puff_count);
+    assert_int_equal(s->scene.body_count, first.body_count);
+    assert_memory_equal(s->scene.puffs, first.puffs, first.puff_count * sizeof *first.puffs);
+    assert_memory_equal(s->scene.bodies, first.bodies, first.body_count * sizeof *first.bodies);
+    assert_memory_equal(s->scene.copies, first.copies, first.body_count * sizeof *first.copies);
+    scene_free(&first);
+}
+
+static void test_nothing_comes_or_goes_at_once(void **context)
+{
+    struct stage *s = *context;
+    put_wreck(s, MIDDLE, MIDDLE);
+    for (uint32_t i = 0; i < 1500; i++)
+        step(s);
+    /* By time; from where all of it is in the picture. */
+    look(s, 250.0);
+    double before = ink(s);
+    for (uint32_t i = 0; i < 120; i++) {
+        step(s);
+        look(s, 250.0);
+        assert_true(fabs(ink(s) - before) < 0.02 * before);
+        before = ink(s);
+    }
+    /* As the camera goes away: on the picture it shrinks, and with it all levels of detail. */
+    for (double away = 250.0; away < 4000.0; away *= 1.01) {
+        look(s, away);
+        before = ink(s);
+        look(s, 1.001 * away);
+        assert_true(fabs(ink(s) - before) < 0.01 * before);
+    }
+}
+
+static void test_fewer_puffs_far_away(void **context)
+{
+    struct stage *s = *context;
+    put_wreck(s, MIDDLE, MIDDLE);
+    for (uint32_t i = 0; i < 1800; i++)
+        step(s);
+    look(s, 250.0);
+    uint32_t near = s->scene.puff_count;
+    look(s, 1000.0);
+    uint32_t far = s->scene.puff_count;
+    look(s, 3000.0);
+    assert_true(near < 60 && far < near && s->scene.puff_count < far);
+    assert_in_range(s->scene.puff_count, 3, 14);
+}
+
+static void test_less_detail_is_less_to_draw(void **context)
+{
+    struct stage *s = *context;
+    furnish(s);
+    lay(s, COVER_CHAPARRAL);
+    s->params.renderer.texture = 1;
+    for (uint32_t i = 0; i < 45; i++)
+        step(s);
+    uint32_t plants = UINT32_MAX, puffs = UINT32_MAX;
+    for (float detail = 1.0f; detail > 0.05f; detail *= 0.7f) {
+        s->scene.detail = detail;
+        look(s, 45.0);
+        assert_true(s->scene.plant_count < plants && s->scene.puff_count <= puffs);
+        plants = s->scene.plant_count;
+        puffs = s->scene.puff_count;
+    }
+    s->scene.detail = 1.0f;
+    look(s, 45.0);
+    assert_true(puffs < s->scene.puff_count / 2);
+}
+
+static void test_no_puff_around_the_eye(void **context)
+{
+    struct stage *s = *context;
+    struct event event = happening(s, EFFECT_EXPLOSION);
+    effects_take(&s->effects, &s->moment, &event, 1);
+    s->head.tick += 60;
+    for (double away = 0.3; away < 40.0; away *= 1.2) {
+        look(s, away);
+        for (uint32_t i = 0; i < s->scene.puff_count; i++) {
+            const struct scene_puff *puff = &s->scene.puffs[i];
+            float far = sqrtf(frustum_dot(puff->at, puff->at));
+            assert_true(far > 0.6f * puff->size && puff->colour[3] > 0.0f);
+        }
+    }
+}
+
+static void test_puffs_come_farthest_first(void **context)
+{
+    struct stage *s = *context;
+    furnish(s);
+    for (uint32_t i = 0; i < 30; i++)
+        step(s);
+    look(s, 45.0);
+    assert_true(s->scene.puff_count > 100);
+    for (uint32_t i = 1; i < s->scene.puff_count; i++) {
+        const float *a = s->scene.puffs[i - 1].at, *b = s->scene.puffs[i].at;
+        assert_true(frustum_dot(a, a) >= frustum_dot(b, b));
+    }
+}
+
+/* --- tufts ------------------------------------------------------------------------------------ */
+
+static void test_tufts_do_not_grow_in_craters(void **context)
+{
+    struct stage *s = *context;
+    lay(s, COVER_CHAPARRAL);
+    s->params.renderer.texture = 1;
+    look(s, 30.0);
+    uint32_t before = s->scene.plant_count;
+    s->craters[0] = (struct crater){MIDDLE, MIDDLE, 12.0f, 3.0f, 1};
+    crater_index_update(&s->index, 1);
+    look(s, 30.0);
+    assert_true(before > 500 && s->scene.plant_count < before);
+    for (uint32_t i = 0; i < s->scene.plant_count; i++) {
+        double x = (double)s->scene.plants[i].at[0] + s->scene.camera.eye.x - MIDDLE;
+        double z = (double)s->scene.plants[i].at[2] + s->scene.camera.eye.z - MIDDLE;
+        assert_true(x * x + z * z > 100.0);
+    }
+}
+
+static void test_tufts_grow_into_the_picture(void **context)
+{
+    struct stage *s = *context;
+    lay(s, COVER_CHAPARRAL);
+    s->params.renderer.texture = 1;
+    look(s, 30.0);
+    uint32_t small = 0;
+    for (uint32_t i = 0; i < s->scene.plant_count; i++) {
+        const struct scene_plant *plant = &s->scene.plants[i];
+        float far = sqrtf(frustum_dot(plant->at, plant->at));
+        assert_true((double)far < GRASS_RANGE_M);
+        if ((double)far > 0.99 * GRASS_RANGE_M)
+            assert_true(plant->height < 0.3f);
+        small += plant->height < 0.1f;
+    }
+    assert_true(small > 0);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_each_event_shows_for_its_time),
+        TEST(test_a_shot_out_of_the_sky_has_no_muzzle),
+        TEST(test_a_flash_goes_the_way_of_its_round),
+        TEST(test_what_is_thrown_up_falls_back),
+        TEST(test_what_is_over_first_gives_way),
+        TEST(test_a_wreck_bursts_once),
+        TEST(test_debris_flies_and_comes_to_rest),
+        TEST(test_smoke_goes_on_when_damage_grows),
+        TEST(test_dust_goes_by_the_ground),
+        TEST(test_dust_stays_when_the_vehicle_stops),
+        TEST(test_wash_is_of_low_rotors_alone),
+        TEST(test_a_ship_leaves_a_wake),
+        TEST(test_a_trail_is_where_the_missile_flew),
+        TEST(test_the_curve_is_smooth_and_ends_at_birth),
+        TEST(test_the_same_moment_gives_the_same_lists),
+        TEST(test_nothing_comes_or_goes_at_once),
+        TEST(test_fewer_puffs_far_away),
+        TEST(test_less_detail_is_less_to_draw),
+        TEST(test_no_puff_around_the_eye),
+        TEST(test_puffs_come_farthest_first),
+        TEST(test_tufts_do_not_grow_in_craters),
+        TEST(test_tufts_grow_into_the_picture),
+    };
+    return cmocka_run_group_tests_name("effects", tests, NULL, NULL);
+}

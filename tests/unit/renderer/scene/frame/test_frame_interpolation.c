@@ -1,0 +1,278 @@
+/* Between two frames: bodies move evenly and turn the short way, and nothing else changes early. */
+#include "renderer/scene/frame/frame_interpolation.h"
+
+#include "tests/support/fixture.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define CAPACITY 64u
+#define DT_S     (1.0 / 60.0)
+
+struct frame_of {
+    struct state_head head;
+    struct entities entities;
+    void *columns;
+    struct frame_view moment;
+};
+
+struct stage {
+    struct params params;
+    struct world world;
+    struct frame_of a, b;
+    struct frame_interpolation blend;
+};
+
+static uint64_t seed;
+
+static double draw(double low, double high)
+{
+    seed = seed * 6364136223846793005ull + 1442695040888963407ull;
+    return low + (high - low) * (double)(seed >> 11) / 9007199254740992.0;
+}
+
+static void open_frame(struct frame_of *frame, const struct world *world, uint64_t number)
+{
+    frame->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(CAPACITY));
+    assert_non_null(frame->columns);
+    memset(frame->columns, 0, entities_bytes(CAPACITY));
+    entities_bind(&frame->entities, CAPACITY, frame->columns);
+    frame->head = (struct state_head){.frame = number, .tick = number, .used = CAPACITY};
+    frame->moment =
+        (struct frame_view){.world = world, .head = &frame->head, .entities = &frame->entities};
+}
+
+/* A table full of things that go somewhere, turning, and where they are a frame later. */
+static int open_stage(void **context)
+{
+    struct stage *s = calloc(1, sizeof *s);
+    assert_non_null(s);
+    seed = fixture_seed(3);
+    s->params = (struct params){.dt_s = DT_S, .hz = 60.0, .capacity = CAPACITY};
+    s->world.params = &s->params;
+    open_frame(&s->a, &s->world, 100);
+    open_frame(&s->b, &s->world, 101);
+    assert_int_equal(frame_interpolation_init(&s->blend, CAPACITY), 0);
+    for (uint32_t i = 0; i < CAPACITY; i++) {
+        const struct entities *e = &s->a.entities;
+        e->id[i] = i + 1;
+        e->state[i] = i % 5 == 4 ? ENTITY_WRECK : ENTITY_ACTIVE;
+        entities_set_position(e, i, (struct vec3){draw(0, 5e4), draw(0, 1e3), draw(0, 5e4)});
+        entities_set_velocity(e, i, (struct vec3){draw(-90, 90), draw(-9, 9), draw(-90, 90)});
+        e->heading[i] = draw(0.0, TWO_PI);
+        e->pitch[i] = draw(-1.0, 1.0);
+        e->roll[i] = draw(-PI, PI);
+        entities_copy(&s->b.entities, e, i, 1);
+        e = &s->b.entities;
+        struct vec3 way = vec3_scale(entities_velocity(e, i), DT_S);
+        entities_set_position(e, i, vec3_add(entities_position(e, i), way));
+        e->heading[i] = maths_wrap_turn(e->heading[i] + draw(-0.3, 0.3));
+        e->pitch[i] += draw(-0.1, 0.1);
+        e->roll[i] = maths_wrap_half(e->roll[i] + draw(-0.3, 0.3));
+    }
+    *context = s;
+    return 0;
+}
+
+static int close_stage(void **context)
+{
+    struct stage *s = *context;
+    frame_interpolation_free(&s->blend);
+    free(s->a.columns);
+    free(s->b.columns);
+    free(s);
+    return 0;
+}
+
+static struct frame_view at(struct stage *s, double share)
+{
+    return frame_interpolation_between(&s->blend, &s->a.moment, &s->b.moment, share);
+}
+
+static double turn(double from, double to)
+{
+    return fabs(maths_wrap_half(to - from));
+}
+
+/* --- the state -------------------------------------------------------------------------------- */
+
+static void test_ends_are_the_frames_themselves(void **context)
+{
+    struct stage *s = *context;
+    static const double ends[][2] = {{0.0, 0}, {-0.5, 0}, {1.0, 1}, {1.5, 1}, {NAN, 1}};
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        struct frame_view moment = at(s, ends[i][0]);
+        const struct frame_of *frame = ends[i][1] == 0.0 ? &s->a : &s->b;
+        assert_memory_equal(&moment, &frame->moment, sizeof moment);
+    }
+}
+
+static void test_bodies_go_evenly_and_turn_the_short_way(void **context)
+{
+    struct stage *s = *context;
+    const struct entities *a = &s->a.entities, *b = &s->b.entities;
+    for (int n = 0; n < 50; n++) {
+        double share = draw(0.001, 0.999);
+        struct frame_view moment = at(s, share);
+        assert_true(fabs(frame_view_time_s(&moment) - (100.0 + share) * DT_S) < 1e-12);
+        for (uint32_t i = 0; i < CAPACITY; i++) {
+            const struct entities *e = moment.entities;
+            struct vec3 from = entities_position(a, i), to = entities_position(b, i);
+            struct vec3 here = entities_position(e, i);
+            double way = vec3_length(vec3_sub(to, from));
+            assert_true(fabs(vec3_length(vec3_sub(here, from)) - share * way) < 1e-6);
+            assert_true(fabs(vec3_length(vec3_sub(to, here)) - (1.0 - share) * way) < 1e-6);
+            assert_true(e->heading[i] >= 0.0 && e->heading[i] < TWO_PI);
+            const double angle[][3] = {{a->heading[i], b->heading[i], e->heading[i]},
+                                       {a->pitch[i], b->pitch[i], e->pitch[i]},
+                                       {a->roll[i], b->roll[i], e->roll[i]}};
+            for (int k = 0; k < 3; k++) {
+                double whole = turn(angle[k][0], angle[k][1]);
+                assert_true(fabs(turn(angle[k][0], angle[k][2]) - share * whole) < 1e-9);
+                assert_true(fabs(turn(angle[k][2], angle[k][1]) - (1.0 - share) * whole) < 1e-9);
+            }
+        }
+    }
+}
+
+static void test_over_north_it_does_not_turn_around(void **context)
+{
+    struct stage *s = *context;
+    s->a.entities.heading[0] = TWO_PI - 0.1;
+    s->b.entities.heading[0] = 0.1;
+    assert_true(turn(at(s, 0.5).entities->heading[0], 0.0) < 1e-9);
+    assert_true(turn(at(s, 0.25).entities->heading[0], -0.05) < 1e-9);
+}
+
+/* What else is in the table is the earlier frame's, every column. */
+static void test_nothing_else_changes_early(void **context)
+{
+    struct stage *s = *context;
+    s->b.entities.damage[0] = 3;
+    s->b.entities.rounds[1] = 7;
+    s->b.entities.fuel_l[2] = 9.0;
+    struct frame_view moment = at(s, 0.9);
+    assert_ptr_equal(moment.head, s->a.moment.head);
+#define X(type, name)                                                                              \
+    if (strcmp(#name, "x") != 0 && strcmp(#name, "y") != 0 && strcmp(#name, "z") != 0 &&           \
+        strcmp(#name, "heading") != 0 && strcmp(#name, "pitch") != 0 &&                            \
+        strcmp(#name, "roll") != 0)                                                                \
+        assert_memory_equal(moment.entities->name, s->a.entities.name, CAPACITY * sizeof(type));
+    ENTITY_COLUMNS(X)
+#undef X
+}
+
+static void check_stays(struct stage *s, uint32_t slot)
+{
+    struct frame_view moment = at(s, 0.7);
+    struct vec3 before = entities_position(&s->a.entities, slot);
+    struct vec3 between = entities_position(moment.entities, slot);
+    assert_memory_equal(&before, &between, sizeof before);
+    assert_int_equal(moment.entities->state[slot], s->a.entities.state[slot]);
+    assert_int_equal(moment.entities->id[slot], s->a.entities.id[slot]);
+}
+
+static void test_what_appears_goes_dies_or_jumps_is_not_smeared(void **context)
+{
+    struct stage *s = *context;
+    s->a.entities.state[0] = ENTITY_FREE; /* appears */
+    s->b.entities.state[1] = ENTITY_FREE; /* is gone */
+    s->b.entities.id[2] = 999;            /* another in its slot */
+    s->b.entities.state[3] = ENTITY_WRECK;
+    s->b.entities.x[5] += 30.0;
+    s->b.entities.y[6] -= 30.0;
+    static const uint32_t slots[] = {0, 1, 2, 3, 5, 6};
+    for (size_t i = 0; i < sizeof slots / sizeof slots[0]; i++)
+        check_stays(s, slots[i]);
+    struct vec3 still = entities_position(&s->a.entities, 7);
+    struct vec3 moved = entities_position(at(s, 0.7).entities, 7);
+    assert_true(vec3_length(vec3_sub(still, moved)) > 0.0); /* the others do move */
+}
+
+static void test_frames_far_apart_or_backwards_are_the_later(void **context)
+{
+    struct stage *s = *context;
+    static const uint64_t ticks[] = {100, 99, 0,
+                                     100 + (uint64_t)FRAME_INTERPOLATION_STEPS_MOST + 1};
+    for (size_t i = 0; i < sizeof ticks / sizeof ticks[0]; i++) {
+        s->b.head.tick = ticks[i];
+        struct frame_view moment = at(s, 0.5);
+        assert_memory_equal(&moment, &s->b.moment, sizeof moment);
+    }
+}
+
+/* --- the clock -------------------------------------------------------------------------------- */
+
+/* A world of 60 frames a second that are seen up to a frame late; pictures at some rate. */
+static void test_time_goes_on_evenly(void **context)
+{
+    (void)context;
+    static const double rates[] = {24.0, 30.0, 59.94, 60.0, 75.0, 120.0};
+    seed = fixture_seed(5);
+    for (size_t r = 0; r < sizeof rates / sizeof rates[0]; r++) {
+        struct frame_interpolation_clock clock = {.set = false};
+        double before = 0.0, start = draw(1e3, 1e6);
+        for (int i = 0; i < 2000; i++) {
+            double now = start + i / rates[r];
+            double newest = floor(i / rates[r] * 60.0 + 0.37) * DT_S;
+            double shown = frame_interpolation_time(&clock, now, newest, DT_S, 1.0);
+            assert_true(shown <= newest);
+            assert_true(newest - shown < 2.1 * DT_S);
+            if (i > 400 && fabs(shown - before - 1.0 / rates[r]) > 0.05 * DT_S)
+                fail_msg("%.0f a second: picture %d is %.3f ms after the one before", rates[r], i,
+                         1e3 * (shown - before));
+            before = shown;
+        }
+    }
+}
+
+static void test_a_late_world_is_not_run_ahead_of(void **context)
+{
+    struct frame_interpolation_clock clock = {.set = false};
+    double newest = 10.0, before = 0.0;
+    (void)context;
+    for (int i = 0; i < 600; i++) { /* half as fast as it should go, and it stands for a while */
+        if (i < 200 || i > 300)
+            newest += 0.5 * DT_S;
+        double shown = frame_interpolation_time(&clock, 50.0 + i * DT_S, newest, DT_S, 1.0);
+        assert_true(shown <= newest && newest - shown < 3.0 * DT_S);
+        assert_true(shown >= before - 2.0 * DT_S);
+        before = shown;
+    }
+}
+
+static void test_a_world_that_stands_shows_its_frame(void **context)
+{
+    struct frame_interpolation_clock clock = {.set = false};
+    (void)context;
+    frame_interpolation_time(&clock, 1.0, 5.0, DT_S, 1.0);
+    assert_true(frame_interpolation_time(&clock, 1.1, 5.1, DT_S, 0.0) == 5.1);
+    assert_false(clock.set);
+    /* And goes on from there at another rate, without a leap. */
+    double shown = frame_interpolation_time(&clock, 9.0, 5.2, DT_S, 0.25);
+    assert_true(shown <= 5.2 && shown >= 5.2 - DT_S - 1e-9);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_ends_are_the_frames_themselves),
+        TEST(test_bodies_go_evenly_and_turn_the_short_way),
+        TEST(test_over_north_it_does_not_turn_around),
+        TEST(test_nothing_else_changes_early),
+        TEST(test_what_appears_goes_dies_or_jumps_is_not_smeared),
+        TEST(test_frames_far_apart_or_backwards_are_the_later),
+        cmocka_unit_test(test_time_goes_on_evenly),
+        cmocka_unit_test(test_a_late_world_is_not_run_ahead_of),
+        cmocka_unit_test(test_a_world_that_stands_shows_its_frame),
+    };
+    return cmocka_run_group_tests_name("blend", tests, NULL, NULL);
+}

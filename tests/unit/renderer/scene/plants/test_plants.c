@@ -1,0 +1,278 @@
+/* Plants of a picture: none that is in view is culled, far woods are thinned out without a jump,
+ * and trees that stand alone stay. */
+#include "renderer/scene/scene.h"
+
+#include "tests/support/fixture.h"
+#include "world/terrain/gridsquare.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define POSTS    401u
+#define CAPACITY 16u
+#define WOOD     40u  /* trees in one gridsquare */
+#define LONE     300u /* trees that stand alone */
+#define TREES    (WOOD + LONE)
+#define WOOD_X   (200.5 * 125.0) /* [m] the gridsquare's middle */
+
+struct stage {
+    struct params params;
+    struct world world;
+    struct state_head head;
+    struct entities entities;
+    void *columns;
+    float *posts;
+    uint8_t *cover;
+    uint32_t *reach_start;
+    struct fixed_object trees[TREES];
+    uint8_t fixed_damage[TREES];
+    struct crater craters[1];
+    struct crater_index index;
+    struct dent dent[1];
+    struct dent_index dents;
+    struct effects effects;
+    struct static_scene scenery;
+    struct scene scene;
+    struct frame_view moment;
+};
+
+static const struct kind kinds[] = {{.name = "oak",
+                                     .domain = DOMAIN_FIXED,
+                                     .object_class = OBJECT_TREE,
+                                     .radius_m = 4.0,
+                                     .height_m = 10.0}};
+
+static int by_square(const void *a, const void *b)
+{
+    const struct fixed_object *p = a, *q = b;
+    uint32_t first = gridsquare_of(p->x, p->z), second = gridsquare_of(q->x, q->z);
+    return (first > second) - (first < second);
+}
+
+/* One wood in the middle of the world, and lone trees around it, each in a square of its own. */
+static void plant(struct stage *s)
+{
+    uint64_t random = fixture_seed(3);
+    for (uint32_t i = 0; i < TREES; i++) {
+        struct fixed_object *tree = &s->trees[i];
+        tree->x = WOOD_X + fixture_uniform(&random, -60.0, 60.0);
+        tree->z = WOOD_X + fixture_uniform(&random, -60.0, 60.0);
+        if (i >= WOOD) {
+            uint32_t column = (i - WOOD) % 20, row = (i - WOOD) / 20;
+            tree->x = (186.0 + 2.0 * (column + column / 8) + 0.5) * 125.0;
+            tree->z = (188.0 + 2.0 * (row + 1.0) + 0.5 - (row >= 5 ? 1.0 : 0.0)) * 125.0;
+        }
+        tree->y = (float)terrain_base_height(&s->world.terrain, tree->x, tree->z);
+        tree->radius_m = 4.0f;
+        tree->height_m = (float)fixture_uniform(&random, 6.0, 14.0);
+    }
+    qsort(s->trees, TREES, sizeof *s->trees, by_square);
+}
+
+static int open_stage(void **context)
+{
+    struct stage *s = calloc(1, sizeof *s);
+    assert_non_null(s);
+    s->params = (struct params){.dt_s = 0.1, .hz = 10.0, .capacity = CAPACITY};
+    s->posts = malloc(POSTS * POSTS * sizeof *s->posts);
+    s->cover = calloc(POSTS, POSTS);
+    s->reach_start = calloc(GRIDSQUARE_COUNT + 1, sizeof *s->reach_start);
+    s->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(CAPACITY));
+    assert_true(s->posts != NULL && s->cover != NULL && s->reach_start != NULL &&
+                s->columns != NULL);
+    memset(s->columns, 0, entities_bytes(CAPACITY));
+    entities_bind(&s->entities, CAPACITY, s->columns);
+    for (uint32_t row = 0; row < POSTS; row++)
+        for (uint32_t column = 0; column < POSTS; column++)
+            s->posts[row * POSTS + column] =
+                (float)(300.0 + 60.0 * maths_sin(column * 0.11) * maths_cos(row * 0.07));
+    s->world = (struct world){.params = &s->params,
+                              .terrain = {s->posts, s->cover, POSTS, 125.0},
+                              .kinds = kinds,
+                              .fixed = s->trees,
+                              .reach_start = s->reach_start};
+    s->world.counts = (struct counts){.kinds = 1, .posts_side = POSTS, .fixed = TREES};
+    plant(s);
+    assert_int_equal(crater_index_init(&s->index, s->craters), 0);
+    assert_int_equal(dent_index_init(&s->dents, s->dent, 1), 0);
+    assert_int_equal(static_scene_init(&s->scenery, &s->world), 0);
+    assert_int_equal(scene_init(&s->scene), 0);
+    s->moment = (struct frame_view){.world = &s->world,
+                                    .head = &s->head,
+                                    .entities = &s->entities,
+                                    .fixed_damage = s->fixed_damage,
+                                    .craters = &s->index,
+                                    .dents = &s->dents};
+    *context = s;
+    return 0;
+}
+
+static int close_stage(void **context)
+{
+    struct stage *s = *context;
+    scene_free(&s->scene);
+    static_scene_free(&s->scenery);
+    crater_index_free(&s->index);
+    dent_index_free(&s->dents);
+    free(s->columns);
+    free(s->reach_start);
+    free(s->posts);
+    free(s->cover);
+    free(s);
+    return 0;
+}
+
+static void look(struct stage *s, struct vec3 eye, struct vec3 target)
+{
+    struct camera camera;
+    camera_look(&camera, eye, target, 1280, 720);
+    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
+}
+
+/* At the wood from so far south. */
+static void look_at_wood(struct stage *s, double away)
+{
+    struct vec3 wood = {WOOD_X, terrain_base_height(&s->world.terrain, WOOD_X, WOOD_X), WOOD_X};
+    look(s, vec3_add(wood, (struct vec3){0.0, 30.0 + 0.2 * away, away}), wood);
+}
+
+/* The plant of the picture that is this tree, NULL: none. */
+static const struct scene_plant *shown(const struct stage *s, const struct fixed_object *tree)
+{
+    float at[3];
+    scene_place(&s->scene, fixed_position(tree), at);
+    for (uint32_t i = 0; i < s->scene.plant_count; i++)
+        if (s->scene.plants[i].at[0] == at[0] && s->scene.plants[i].at[2] == at[2])
+            return &s->scene.plants[i];
+    return NULL;
+}
+
+static bool in_wood(const struct fixed_object *tree)
+{
+    return gridsquare_of(tree->x, tree->z) == gridsquare_of(WOOD_X, WOOD_X);
+}
+
+static void test_what_is_in_view_is_not_culled(void **context)
+{
+    struct stage *s = *context;
+    uint64_t random = fixture_seed(5);
+    uint32_t inside = 0, left_out = 0;
+    for (uint32_t round = 0; round < 60; round++) {
+        double x = fixture_uniform(&random, 23000.0, 28000.0);
+        double z = fixture_uniform(&random, 22500.0, 27500.0);
+        double turn = fixture_uniform(&random, 0.0, TWO_PI);
+        double y = terrain_base_height(&s->world.terrain, x, z) + fixture_uniform(&random, 2, 300);
+        look(s, (struct vec3){x, y, z},
+             (struct vec3){x + 100.0 * maths_cos(turn), y + fixture_uniform(&random, -60.0, 10.0),
+                           z + 100.0 * maths_sin(turn)});
+        for (uint32_t i = 0; i < TREES; i++) {
+            const struct fixed_object *tree = &s->trees[i];
+            struct vec3 foot = fixed_position(tree);
+            double far = vec3_length(vec3_sub(foot, s->scene.camera.eye));
+            double pixels = camera_pixels(&s->scene.camera, (double)tree->height_m, far);
+            if (in_wood(tree) || pixels < 2.1)
+                continue;
+            bool sees = camera_sees(&s->scene.camera, foot, 0.0);
+            assert_true(!sees || shown(s, tree) != NULL);
+            inside += sees;
+            left_out += shown(s, tree) == NULL;
+        }
+    }
+    assert_true(inside > 500 && left_out > 5000);
+}
+
+static void test_far_woods_are_thinned_out(void **context)
+{
+    struct stage *s = *context;
+    double width[2] = {0.0, 0.0};
+    uint32_t trees[2] = {0, 0};
+    for (uint32_t far = 0; far < 2; far++) {
+        look_at_wood(s, far ? 2500.0 : 300.0);
+        for (uint32_t i = 0; i < TREES; i++) {
+            const struct scene_plant *plant = shown(s, &s->trees[i]);
+            if (!in_wood(&s->trees[i]) || plant == NULL)
+                continue;
+            trees[far]++;
+            width[far] += (double)plant->width;
+        }
+    }
+    assert_int_equal(trees[0], WOOD);
+    assert_true(trees[1] < WOOD * 2 / 3 && trees[1] > WOOD / 5);
+    /* Those that stay hide as much of the hill as all did, crowns before crowns included. */
+    assert_true(width[1] > 0.45 * width[0] && width[1] < width[0]);
+}
+
+static void test_lone_trees_stay(void **context)
+{
+    struct stage *s = *context;
+    for (double away = 300.0; away < 2600.0; away *= 1.2) {
+        look_at_wood(s, away);
+        for (uint32_t i = 0; i < TREES; i++) {
+            const struct fixed_object *tree = &s->trees[i];
+            double far = vec3_length(vec3_sub(fixed_position(tree), s->scene.camera.eye));
+            double pixels = camera_pixels(&s->scene.camera, (double)tree->height_m, far);
+            if (in_wood(tree) || pixels < 3.1 ||
+                !camera_sees(&s->scene.camera, fixed_position(tree), 0.0))
+                continue;
+            const struct scene_plant *plant = shown(s, tree);
+            assert_true(plant != NULL && plant->height == tree->height_m);
+        }
+    }
+}
+
+static void test_no_plant_comes_or_goes_at_once(void **context)
+{
+    struct stage *s = *context;
+    for (double away = 300.0; away < 4500.0; away *= 1.02) {
+        float before[TREES];
+        look_at_wood(s, away);
+        for (uint32_t i = 0; i < TREES; i++) {
+            const struct scene_plant *plant = shown(s, &s->trees[i]);
+            before[i] = plant == NULL ? 0.0f : plant->height;
+        }
+        look_at_wood(s, 1.001 * away);
+        for (uint32_t i = 0; i < TREES; i++) {
+            const struct scene_plant *plant = shown(s, &s->trees[i]);
+            float now = plant == NULL ? 0.0f : plant->height;
+            if (!in_wood(&s->trees[i]))
+                continue; /* others may leave the picture */
+            assert_true(fabsf(now - before[i]) < 0.02f * s->trees[i].height_m);
+        }
+    }
+}
+
+static void test_less_detail_is_less_of_a_wood(void **context)
+{
+    struct stage *s = *context;
+    uint32_t before = UINT32_MAX;
+    for (float detail = 1.0f; detail > 0.2f; detail -= 0.1f) {
+        s->scene.detail = detail;
+        look_at_wood(s, 900.0);
+        assert_true(s->scene.plant_count <= before);
+        before = s->scene.plant_count;
+    }
+    s->scene.detail = 1.0f;
+    look_at_wood(s, 900.0);
+    assert_true(before < s->scene.plant_count - 10);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_what_is_in_view_is_not_culled),
+        TEST(test_far_woods_are_thinned_out),
+        TEST(test_lone_trees_stay),
+        TEST(test_no_plant_comes_or_goes_at_once),
+        TEST(test_less_detail_is_less_of_a_wood),
+    };
+    return cmocka_run_group_tests_name("plants", tests, NULL, NULL);
+}

@@ -1,0 +1,251 @@
+/* The software back end's puffs: what covers what, where, and how much. */
+#include "tests/support/fixture.h"
+#include "tests/support/soft_stage.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <stdio.h>
+
+#define BLUE  0xff804020u /* what is behind: red 0x20, green 0x40, blue 0x80 */
+#define FAR_M 100.0f
+
+static struct soft_particles *puffs;
+
+static int open_puffs(void **context)
+{
+    struct reason reason;
+    (void)context;
+    puffs = soft_particles_open(&reason);
+    return puffs != NULL ? 0 : -1;
+}
+
+static int close_puffs(void **context)
+{
+    (void)context;
+    soft_particles_close(puffs);
+    return 0;
+}
+
+static void open_stage(struct soft_stage *stage)
+{
+    const struct soft_kernels *builds[2];
+    soft_stage_builds(builds);
+    soft_stage_open(stage, builds[1]);
+    soft_stage_clear(stage, BLUE, FAR_M);
+}
+
+static void draw(struct soft_stage *stage)
+{
+    assert_int_equal(soft_particles_prepare(puffs, &stage->frame), 0);
+    for (uint32_t band = 0; band < stage->frame.bands; band++) {
+        struct soft_target target = soft_stage_band(stage, band);
+        stage->frame.kernels->soft_puffs_fill(puffs, &stage->frame, &target);
+    }
+}
+
+static struct scene_puff *add(struct soft_stage *stage, float x, float y, float far_m, float size)
+{
+    struct scene_puff *puff = &stage->scene.puffs[stage->scene.puff_count++];
+    *puff = (struct scene_puff){.at = {x, y, -far_m},
+                                .size = size,
+                                .picture = (float)PUFF_SMOKE_A,
+                                .colour = {1.0f, 1.0f, 1.0f, 1.0f}};
+    return puff;
+}
+
+static uint32_t byte_at(const struct soft_stage *stage, uint32_t x, uint32_t y, uint32_t shift)
+{
+    return soft_stage_colour(stage, x, y) >> shift & 255u;
+}
+
+/* A puff of 2 m at 20 m is 40 pixels wide, in the middle of the picture and nowhere else. */
+static void test_covers_its_circle(void **context)
+{
+    struct soft_stage stage;
+    (void)context;
+    open_stage(&stage);
+    add(&stage, 0.0f, 0.0f, 20.0f, 2.0f);
+    draw(&stage);
+    uint32_t middle_x = STAGE_WIDTH / 2, middle_y = STAGE_HEIGHT / 2;
+    assert_true(byte_at(&stage, middle_x, middle_y, 0) > 0x60);
+    for (uint32_t y = 0; y < STAGE_HEIGHT; y++)
+        for (uint32_t x = 0; x < STAGE_WIDTH; x++) {
+            float dx = (float)x + 0.5f - (float)middle_x, dy = (float)y + 0.5f - (float)middle_y;
+            if (dx * dx + dy * dy > 21.0f * 21.0f)
+                assert_int_equal(soft_stage_colour(&stage, x, y), BLUE);
+        }
+    /* Most of the circle of 20 pixels is smoke. */
+    assert_true(soft_stage_painted(&stage, BLUE) > 700);
+    soft_stage_close(&stage);
+}
+
+static void test_nothing_without_alpha(void **context)
+{
+    struct soft_stage stage;
+    (void)context;
+    open_stage(&stage);
+    for (uint32_t i = 0; i < PUFF_PICTURES; i++) {
+        struct scene_puff *puff = add(&stage, (float)i - 3.0f, 0.0f, 10.0f, 2.0f);
+        puff->picture = (float)i;
+        puff->colour[3] = 0.0f;
+        puff->glow = (float)i / PUFF_PICTURES;
+    }
+    draw(&stage);
+    assert_int_equal(soft_stage_painted(&stage, BLUE), 0);
+    soft_stage_close(&stage);
+}
+
+/* It is a ball: it shows before what is nearer than its middle, up to its near side. */
+static void test_depth_of_a_ball(void **context)
+{
+    struct soft_stage stage;
+    (void)context;
+    open_stage(&stage);
+    soft_stage_clear(&stage, BLUE, 9.0f);
+    add(&stage, 0.0f, 0.0f, 10.0f, 2.0f);
+    draw(&stage);
+    assert_true(soft_stage_painted(&stage, BLUE) > 0);
+    soft_stage_clear(&stage, BLUE, 7.5f);
+    draw(&stage);
+    assert_int_equal(soft_stage_painted(&stage, BLUE), 0);
+    soft_stage_close(&stage);
+}
+
+static void test_none_behind_the_eye(void **context)
+{
+    struct soft_stage stage;
+    (void)context;
+    open_stage(&stage);
+    add(&stage, 0.0f, 0.0f, -5.0f, 4.0f);
+    add(&stage, 0.0f, 0.0f, 0.5f, 4.0f);
+    struct scene_puff *streak = add(&stage, 0.0f, 0.5f, -3.0f, 0.5f);
+    streak->axis[0] = 2.0f;
+    draw(&stage);
+    assert_int_equal(soft_stage_painted(&stage, BLUE), 0);
+    soft_stage_close(&stage);
+}
+
+/* The nearer puff comes later and covers: the last colour wins where both are thick. */
+static void test_later_over_earlier(void **context)
+{
+    struct soft_stage stage;
+    (void)context;
+    open_stage(&stage);
+    struct scene_puff *red = add(&stage, 0.0f, 0.0f, 12.0f, 2.0f);
+    struct scene_puff *green = add(&stage, 0.0f, 0.0f, 10.0f, 2.0f);
+    red->colour[1] = red->colour[2] = green->colour[0] = green->colour[2] = 0.0f;
+    draw(&stage);
+    uint32_t x = STAGE_WIDTH / 2, y = STAGE_HEIGHT / 2;
+    assert_true(byte_at(&stage, x, y, 8) > byte_at(&stage, x, y, 0) + 40);
+    soft_stage_close(&stage);
+}
+
+static void test_glow_adds(void **context)
+{
+    struct soft_stage stage;
+    (void)context;
+    open_stage(&stage);
+    struct scene_puff *glow = add(&stage, 0.0f, 0.0f, 10.0f, 2.0f);
+    glow->picture = (float)PUFF_GLOW;
+    glow->glow = 1.0f;
+    glow->colour[2] = 0.0f;
+    draw(&stage);
+    uint32_t painted = 0;
+    for (uint32_t y = 0; y < STAGE_HEIGHT; y++)
+        for (uint32_t x = 0; x < STAGE_WIDTH; x++) {
+            assert_true(byte_at(&stage, x, y, 0) >= 0x20 && byte_at(&stage, x, y, 8) >= 0x40 &&
+                        byte_at(&stage, x, y, 16) >= 0x80);
+            painted += byte_at(&stage, x, y, 0) > 0x20;
+        }
+    assert_true(painted > 500);
+    soft_stage_close(&stage);
+}
+
+/* A streak along x: long there, narrow across; one that comes from behind the eye is cut. */
+static void test_streak(void **context)
+{
+    struct soft_stage stage;
+    (void)context;
+    open_stage(&stage);
+    struct scene_puff *streak = add(&stage, 0.0f, 0.0f, 20.0f, 0.3f);
+    streak->picture = (float)PUFF_GLOW;
+    streak->glow = 1.0f;
+    streak->axis[0] = 4.0f;
+    draw(&stage);
+    uint32_t x = STAGE_WIDTH / 2, y = STAGE_HEIGHT / 2;
+    assert_true(byte_at(&stage, x - 20, y, 0) > 0x28);
+    assert_true(byte_at(&stage, x + 19, y, 0) > 0x28);
+    assert_int_equal(soft_stage_colour(&stage, x, y - 5), BLUE);
+    assert_int_equal(soft_stage_colour(&stage, x, y + 5), BLUE);
+    assert_int_equal(soft_stage_colour(&stage, x - 45, y), BLUE);
+
+    soft_stage_clear(&stage, BLUE, FAR_M);
+    streak->axis[0] = 0.0f;
+    streak->axis[1] = -1.0f;
+    streak->axis[2] = 25.0f;
+    draw(&stage);
+    assert_true(soft_stage_painted(&stage, BLUE) > 20);
+    soft_stage_close(&stage);
+}
+
+static void random_puffs(struct soft_stage *stage, uint64_t seed)
+{
+    for (uint32_t i = 0; i < 300; i++) {
+        float far_m = 100.0f / (float)fixture_uniform(&seed, 1.0, 60.0);
+        float aside = (float)fixture_uniform(&seed, -0.7, 0.7) * far_m;
+        struct scene_puff *puff =
+            add(stage, aside, (float)fixture_uniform(&seed, -0.4, 0.4) * far_m, far_m,
+                (float)fixture_uniform(&seed, 0.01, 3.0));
+        puff->picture = (float)(i % PUFF_PICTURES);
+        puff->turn_rad = (float)fixture_uniform(&seed, -10.0, 10.0);
+        puff->glow = i % 3 == 0 ? (float)fixture_uniform(&seed, 0.0, 1.0) : 0.0f;
+        for (uint32_t c = 0; c < 4; c++)
+            puff->colour[c] = (float)fixture_uniform(&seed, 0.0, 1.0);
+        for (uint32_t c = 0; c < 3 && i % 7 == 0; c++)
+            puff->axis[c] = (float)fixture_uniform(&seed, -5.0, 5.0);
+    }
+}
+
+/* Both builds of the kernels, and bands in any order, give the same bits. */
+static void test_same_everywhere(void **context)
+{
+    const struct soft_kernels *builds[2];
+    struct soft_stage stages[2];
+    uint64_t seed = fixture_seed(11);
+    (void)context;
+    soft_stage_builds(builds);
+    for (uint32_t i = 0; i < 2; i++) {
+        soft_stage_open(&stages[i], builds[i]);
+        soft_stage_clear(&stages[i], BLUE, 12.0f);
+        random_puffs(&stages[i], seed);
+    }
+    draw(&stages[0]);
+    assert_int_equal(soft_particles_prepare(puffs, &stages[1].frame), 0);
+    for (uint32_t band = stages[1].frame.bands; band-- > 0;) {
+        struct soft_target target = soft_stage_band(&stages[1], band);
+        builds[1]->soft_puffs_fill(puffs, &stages[1].frame, &target);
+    }
+    assert_true(soft_stage_painted(&stages[0], BLUE) > 5000);
+    soft_stage_assert_same(&stages[0], &stages[1]);
+    soft_stage_close(&stages[0]);
+    soft_stage_close(&stages[1]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_covers_its_circle),
+        cmocka_unit_test(test_nothing_without_alpha),
+        cmocka_unit_test(test_depth_of_a_ball),
+        cmocka_unit_test(test_none_behind_the_eye),
+        cmocka_unit_test(test_later_over_earlier),
+        cmocka_unit_test(test_glow_adds),
+        cmocka_unit_test(test_streak),
+        cmocka_unit_test(test_same_everywhere),
+    };
+    return cmocka_run_group_tests_name("soft_puffs", tests, open_puffs, close_puffs);
+}

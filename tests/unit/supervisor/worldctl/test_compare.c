@@ -1,0 +1,137 @@
+/* Comparing two frames: whatever differs is found and named. */
+#include "supervisor/worldctl/compare.h"
+
+#include "tests/support/steps.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static struct fixture f, g;
+
+static void begin(struct fixture *fixture)
+{
+    fixture_open(fixture, "");
+    for (int i = 0; i < 5; i++)
+        fixture_put(fixture,
+                    (struct fixture_entity){.kind = "tank",
+                                            .at = {25000.0 + 50.0 * i, FIXTURE_GROUND_M, 25000.0}});
+    fixture_run(fixture, 2);
+}
+
+static int open_both(void **state)
+{
+    (void)state;
+    begin(&f);
+    begin(&g);
+    return 0;
+}
+
+static int close_both(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_close(&g);
+    return 0;
+}
+
+static bool differ(struct difference *difference)
+{
+    const struct compared a = {&f.view.world, fixture_state(&f)};
+    const struct compared b = {&g.view.world, fixture_state(&g)};
+    return compare_states(&a, &b, difference);
+}
+
+static void differs_in(const char *field)
+{
+    struct difference difference;
+    assert_true(differ(&difference));
+    assert_string_equal(difference.field, field);
+    assert_string_not_equal(difference.a, difference.b);
+}
+
+static void test_equal_frames_are_equal(void **state)
+{
+    struct difference difference;
+    (void)state;
+    assert_false(differ(&difference));
+}
+
+static void test_every_column_is_looked_at(void **state)
+{
+    const struct entities e = steps_rows(&g);
+    struct difference difference;
+    (void)state;
+#define X(type, name)                                                                              \
+    {                                                                                              \
+        unsigned char *byte = (unsigned char *)&e.name[3] + sizeof(type) - 1;                      \
+        *byte ^= 1;                                                                                \
+        assert_true(differ(&difference));                                                          \
+        assert_string_equal(difference.column, #name);                                             \
+        assert_int_equal(difference.row, 3);                                                       \
+        assert_int_equal(difference.columns, 1);                                                   \
+        *byte ^= 1;                                                                                \
+    }
+    ENTITY_COLUMNS(X)
+#undef X
+}
+
+static void test_the_smallest_difference_is_named_with_both_values(void **state)
+{
+    struct difference difference;
+    (void)state;
+    steps_rows(&f).x[1] = 0.1;
+    steps_rows(&g).x[1] = 0.1 + 1e-17 + 2e-17;
+    steps_rows(&g).z[4] = 7.0;
+    assert_true(differ(&difference));
+    assert_string_equal(difference.field, "x of entity 2 (row 1)");
+    assert_string_equal(difference.a, "0.10000000000000001");
+    assert_string_equal(difference.b, "0.10000000000000003");
+    assert_int_equal(difference.columns, 2);
+}
+
+static void test_craters_dents_and_the_head_are_looked_at(void **state)
+{
+    struct state p = fixture_state(&f), q = fixture_state(&g);
+    (void)state;
+    q.head->paused = 1;
+    differs_in("paused of the head");
+    q.head->paused = 0;
+    q.head->command_cursor[RING_RECORDER] = 1;
+    differs_in("command_cursor[RING_RECORDER] of the head");
+    p.head->dent_count = q.head->dent_count = 2;
+    q.dents[1].plastic_m = 0.5f;
+    differs_in("plastic_m of dent 1 (entity 0)");
+    p.head->crater_count = q.head->crater_count = 1;
+    q.craters[0].radius_m = 3.0f;
+    differs_in("radius_m of crater 0");
+}
+
+static void test_what_worlds_are_made_of(void **state)
+{
+    struct difference difference;
+    (void)state;
+    assert_false(compare_worlds(&f.view.world, &g.view.world, &difference));
+    steps_params(&g)->seed = 7;
+    assert_true(compare_worlds(&f.view.world, &g.view.world, &difference));
+    assert_string_equal(difference.field, "seed");
+    assert_string_equal(difference.a, "1");
+    assert_string_equal(difference.b, "7");
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_both, close_both)
+    const struct CMUnitTest tests[] = {
+        TEST(test_equal_frames_are_equal),
+        TEST(test_every_column_is_looked_at),
+        TEST(test_the_smallest_difference_is_named_with_both_values),
+        TEST(test_craters_dents_and_the_head_are_looked_at),
+        TEST(test_what_worlds_are_made_of),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,123 @@
+/* Routes along roads: from a few points to all those of the ways between them. */
+#include "world/making/road_routing.h"
+
+#include "tests/support/fixture.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* A cross of two roads about (1000, 1000), and one far away that meets neither. */
+static struct road_point cross[] = {{0, 1000, 0, 0},   {1000, 1000, 0, 0}, {2000, 1000, 0, 0},
+                                    {1000, 0, 1, 0},   {1000, 2000, 1, 0}, {9000, 9000, 2, 0},
+                                    {9000, 9500, 2, 0}};
+
+static char message[512];
+
+/* Builds the routes of a scenario with one vehicle on the cross. */
+static int build(struct world_build *genesis, struct scenario *scenario, const char *route)
+{
+    char text[512];
+    struct error_text to = {message, sizeof message};
+    snprintf(text, sizeof text,
+             "vehicles = (\n{ kind = \"truck\"; roads = true;\nroute = ( %s ); },\n"
+             "{ kind = \"jeep\"; route = ( [1, 2], [3, 4], [5, 6] ); } );",
+             route);
+    fixture_scenario(scenario, text);
+    *genesis = (struct world_build){.scenario = scenario, .roads = cross};
+    genesis->counts.road_points = sizeof cross / sizeof cross[0];
+    return road_routing_build(genesis, &to);
+}
+
+static void finish(struct world_build *genesis, struct scenario *scenario)
+{
+    genesis->roads = NULL; /* not of the heap */
+    world_build_free(genesis);
+    scenario_free(scenario);
+}
+
+static void check_point(const struct world_build *genesis, uint32_t index, double x, double z)
+{
+    const struct route_point *p = &genesis->route_points[index];
+    if (!(fabs(p->x - x) < 1e-6 && fabs(p->z - z) < 1e-6))
+        fail_msg("point %u is (%.3f, %.3f), not (%.3f, %.3f)", index, p->x, p->z, x, z);
+}
+
+static void test_the_way_goes_over_the_crossing_and_back(void **state)
+{
+    struct world_build genesis;
+    struct scenario scenario;
+    (void)state;
+    assert_int_equal(build(&genesis, &scenario, "[100, 1200], [1150, 1900]"), 0);
+    /* Feet on the roads, the crossing between them, and home. */
+    assert_int_equal(genesis.routes[0].first, 0);
+    assert_int_equal(genesis.routes[0].count, 4);
+    check_point(&genesis, 0, 100, 1000);
+    check_point(&genesis, 1, 1000, 1000);
+    check_point(&genesis, 2, 1000, 1900);
+    check_point(&genesis, 3, 1000, 1000);
+    /* A route without roads is as it was given. */
+    assert_int_equal(genesis.routes[1].first, 4);
+    assert_int_equal(genesis.routes[1].count, 3);
+    check_point(&genesis, 6, 5, 6);
+    assert_int_equal(genesis.counts.route_points, 7);
+    assert_true(fabs(road_routing_length(&genesis, &genesis.routes[0]) - 3600.0) < 1e-9);
+    struct route_place place = road_routing_place(&genesis, &genesis.routes[0], 1000.0);
+    assert_true(fabs(place.x - 1000.0) < 1e-9 && fabs(place.z - 1100.0) < 1e-9);
+    assert_true(fabs(place.heading - PI) < 1e-9);
+    assert_int_equal(place.next, 2);
+    place = road_routing_place(&genesis, &genesis.routes[0], -100.0); /* before its beginning */
+    assert_true(fabs(place.x - 200.0) < 1e-9 && fabs(place.z - 1000.0) < 1e-9);
+    assert_int_equal(place.next, 0);
+    finish(&genesis, &scenario);
+}
+
+static void check_refusal(const char *route, const char *words)
+{
+    struct world_build genesis;
+    struct scenario scenario;
+    assert_int_equal(build(&genesis, &scenario, route), -1);
+    if (!strstr(message, words))
+        fail_msg("\"%s\" is not in: %s", words, message);
+    finish(&genesis, &scenario);
+}
+
+static void test_what_no_road_leads_to_is_refused(void **state)
+{
+    (void)state;
+    check_refusal("[100, 1000], [500, 1251]",
+                  ":5: vehicles.route: point 2, [500, 1251], is 251 m from the nearest road; "
+                  "allowed: up to 250 m; right would be: near [500, 1000]");
+    check_refusal("[100, 1000], [9000, 9200]",
+                  ":5: vehicles.route: no road leads from point 1, [100, 1000], to point 2, [9000, "
+                  "9200]; right would be: points on roads that meet");
+}
+
+static void test_ground_without_roads_is_refused(void **state)
+{
+    struct scenario scenario;
+    struct world_build genesis;
+    (void)state;
+    fixture_scenario(&scenario, "vehicles = ( { kind = \"truck\"; roads = true; route = ( [1, 2], "
+                                "[3, 4] ); } );");
+    assert_int_equal(world_build_build(&genesis, &scenario, message, sizeof message), -1);
+    assert_non_null(strstr(message, "vehicles.roads = true: this ground has no roads; right would "
+                                    "be: terrain.source = \"generated\""));
+    scenario_free(&scenario);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_way_goes_over_the_crossing_and_back),
+        cmocka_unit_test(test_what_no_road_leads_to_is_refused),
+        cmocka_unit_test(test_ground_without_roads_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,162 @@
+/* Where a scenario's vehicles start in formation, whom they follow, and where their base is. */
+#include "world/making/vehicle_placement.h"
+
+#include "tests/support/fixture.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static struct fixture f;
+
+static void check_near(double value, double wanted)
+{
+    if (!(fabs(value - wanted) < 1e-6))
+        fail_msg("%.9f is not %.9f", value, wanted);
+}
+
+static void test_every_shape_has_a_place_of_its_own_for_each(void **state)
+{
+    (void)state;
+    for (int shape = 0; shape < FORMATION_SHAPE_COUNT; shape++) {
+        double ahead[40], right[40];
+        for (uint32_t i = 0; i < 40; i++) {
+            formation_place((enum formation_shape)shape, 30.0, i, &ahead[i], &right[i]);
+            assert_true(ahead[i] <= 0.0);
+            for (uint32_t j = 0; j < i; j++) {
+                double dx = ahead[i] - ahead[j], dz = right[i] - right[j];
+                if (!(dx * dx + dz * dz > 30.0 * 30.0 - 1e-6))
+                    fail_msg("%s: %u and %u are too near", formation_shape_name(shape), i, j);
+            }
+        }
+        check_near(ahead[0], 0.0);
+        check_near(right[0], 0.0);
+    }
+}
+
+/* A leader that heads east: ahead is +x, right is +z. */
+static void test_members_start_in_their_places(void **state)
+{
+    static const struct {
+        const char *shape;
+        double x[4], z[4]; /* off the leader */
+    } rows[] = {
+        {"column", {0, -50, -100, -150}, {0, 0, 0, 0}},
+        {"line", {0, 0, 0, 0}, {0, 50, -50, 100}},
+        {"wedge", {0, -35.355339, -35.355339, -70.710678}, {0, 35.355339, -35.355339, 70.710678}},
+        {"echelon-left",
+         {0, -35.355339, -70.710678, -106.066017},
+         {0, -35.355339, -70.710678, -106.066017}},
+        {"echelon-right",
+         {0, -35.355339, -70.710678, -106.066017},
+         {0, 35.355339, 70.710678, 106.066017}},
+    };
+    (void)state;
+    for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
+        char text[256];
+        snprintf(text, sizeof text,
+                 "vehicles = ( { kind = \"tank\"; count = 4; name = \"T\"; formation = \"%s\"; "
+                 "at = [25000.0, 24000.0]; heading_deg = 90.0; behaviour = \"patrol\"; "
+                 "area = [1.0, 2.0, 3.0, 4.0]; } );",
+                 rows[r].shape);
+        fixture_open(&f, text);
+        struct state now = fixture_state(&f);
+        const struct entities *e = &now.entities;
+        assert_int_equal(f.view.world.counts.formations, 1);
+        const struct formation *formation = &f.view.world.formations[0];
+        assert_string_equal(formation_shape_name(formation->shape), rows[r].shape);
+        assert_int_equal(formation->first, 0);
+        assert_int_equal(formation->count, 4);
+        assert_int_equal(formation->order, BEHAVIOUR_PATROL);
+        assert_int_equal(formation->order_arg, 1);
+        check_near(formation->spacing_m, 50.0);
+        for (uint32_t i = 0; i < 4; i++) {
+            check_near(e->x[i] - 25000.0, rows[r].x[i]);
+            check_near(e->z[i] - 24000.0, rows[r].z[i]);
+            check_near(e->heading[i], HALF_PI);
+            assert_int_equal(e->order[i], i == 0 ? BEHAVIOUR_PATROL : BEHAVIOUR_FOLLOW);
+            assert_int_equal(e->behaviour[i], e->order[i]);
+            assert_int_equal(e->order_arg[i], i == 0 ? 1 : 0);
+        }
+        fixture_close(&f);
+    }
+}
+
+/* The entries behind continue the formation; the next that does not follow ends it. */
+static void test_who_follows_stands_behind(void **state)
+{
+    (void)state;
+    fixture_open(&f, "vehicles = ( { kind = \"jeep\"; },\n"
+                     "{ kind = \"tank\"; count = 2; formation = \"column\"; spacing_m = 20.0; "
+                     "at = [25000.0, 24000.0]; heading_deg = 0.0; engage = \"hold\"; },\n"
+                     "{ kind = \"truck\"; count = 3; behaviour = \"follow\"; stand = true; },\n"
+                     "{ kind = \"jeep\"; formation = \"wedge\"; at = [20000.0, 20000.0]; } );");
+    struct state now = fixture_state(&f);
+    const struct entities *e = &now.entities;
+    assert_int_equal(f.view.world.counts.formations, 2);
+    assert_int_equal(f.view.world.formations[0].first, 1);
+    assert_int_equal(f.view.world.formations[0].count, 5);
+    assert_int_equal(f.view.world.formations[1].first, 6);
+    assert_int_equal(f.view.world.formations[1].count, 1);
+    for (uint32_t i = 0; i < 5; i++) {
+        check_near(e->x[1 + i], 25000.0);
+        check_near(e->z[1 + i], 24000.0 + 20.0 * i);
+        assert_int_equal(e->flags[1 + i], i < 2 ? ENTITY_FLAG_HOLD_FIRE : ENTITY_FLAG_STAND);
+    }
+    assert_int_equal(e->order[1], BEHAVIOUR_IDLE);
+    assert_int_equal(e->order[5], BEHAVIOUR_FOLLOW);
+    assert_int_equal(e->order_arg[5], 0);
+    assert_int_equal(e->order[6], BEHAVIOUR_IDLE);
+    fixture_close(&f);
+}
+
+/* A watertower stands where the second of a column would: it starts beside its place. */
+static void test_a_taken_place_gives_one_near_it(void **state)
+{
+    (void)state;
+    fixture_open(&f, "objects = ( { kind = \"watertower\"; at = [25000.0, 24050.0]; } );\n"
+                     "vehicles = ( { kind = \"tank\"; count = 3; formation = \"column\"; "
+                     "at = [25000.0, 24000.0]; heading_deg = 0.0; } );");
+    struct state now = fixture_state(&f);
+    const struct entities *e = &now.entities;
+    double dx = e->x[1] - 25000.0, dz = e->z[1] - 24050.0, off = sqrt(dx * dx + dz * dz);
+    assert_true(off > 3.0 && off < 60.0);
+    check_near(e->z[2], 24100.0);
+    fixture_close(&f);
+}
+
+static void test_a_base_is_amid_its_force(void **state)
+{
+    (void)state;
+    fixture_open(&f, "vehicles = ( { kind = \"tank\"; force = \"blue\"; at = [1000.0, 2000.0]; }, "
+                     "{ kind = \"tank\"; force = \"blue\"; at = [3000.0, 2600.0]; }, "
+                     "{ kind = \"jet\"; force = \"blue\"; at = [1850.0, 2500.0]; }, "
+                     "{ kind = \"truck\"; force = \"blue\"; at = [2150.0, 2100.0]; }, "
+                     "{ kind = \"jet\"; force = \"red\"; at = [7000.0, 8000.0]; }, "
+                     "{ kind = \"jet\"; force = \"red\"; at = [9000.0, 8000.0]; } );");
+    const struct params *params = f.view.world.params;
+    check_near(params->base[FORCE_BLUE].x, 2150.0); /* the truck's: aircraft need no road */
+    check_near(params->base[FORCE_BLUE].z, 2100.0);
+    check_near(params->base[FORCE_RED].x, 8000.0);
+    check_near(params->base[FORCE_RED].z, 8000.0);
+    check_near(params->base[FORCE_NEUTRAL].x, 25000.0);
+    check_near(params->base[FORCE_NEUTRAL].z, 25000.0);
+    fixture_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_shape_has_a_place_of_its_own_for_each),
+        cmocka_unit_test(test_members_start_in_their_places),
+        cmocka_unit_test(test_who_follows_stands_behind),
+        cmocka_unit_test(test_a_taken_place_gives_one_near_it),
+        cmocka_unit_test(test_a_base_is_amid_its_force),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

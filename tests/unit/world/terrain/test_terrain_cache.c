@@ -1,0 +1,119 @@
+/* The ground under eight bodies is, to the bit, what one point at a time finds. */
+#include "world/terrain/terrain_cache.h"
+
+#include "tests/support/fixture.h"
+#include "world/terrain/gridsquare.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define SIDE    401u
+#define SPACING 125.0
+
+static float posts[SIDE * SIDE];
+static uint8_t cover[SIDE * SIDE];
+static const struct terrain terrain = {posts, cover, SIDE, SPACING};
+static struct terrain_cache_entry patches[LANE_COUNT];
+
+static void roughen(uint64_t *random)
+{
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        posts[i] = (float)fixture_uniform(random, -50.0, 1500.0);
+        cover[i] = (uint8_t)(fixture_random(random) % COVER_COUNT);
+    }
+}
+
+/* Anywhere, on posts and edges, outside the world. */
+static double place(uint64_t *random)
+{
+    double metres = fixture_uniform(random, -500.0, WORLD_SIDE_M + 500.0);
+    switch (fixture_random(random) % 6) {
+    case 0:
+        return SPACING * floor(metres / SPACING);
+    case 1:
+        return SPACING * (floor(metres / SPACING) + 0.5);
+    case 2:
+        return metres < WORLD_SIDE_M * 0.5 ? 0.0 : WORLD_SIDE_M;
+    default:
+        return metres;
+    }
+}
+
+static void check(const struct terrain_cache *footing, const union simd_lanes *x,
+                  const union simd_lanes *z)
+{
+    union simd_lanes height;
+    union lane_masks water;
+    terrain_cache_heights(&terrain, footing, x, z, &height);
+    terrain_cache_water(&terrain, footing, x, z, &water);
+    for (int l = 0; l < LANE_COUNT; l++) {
+        bool wet = cover_is_water(terrain_cover(&terrain, x->lane[l], z->lane[l]));
+        assert_true(height.lane[l] == terrain_base_height(&terrain, x->lane[l], z->lane[l]));
+        assert_int_equal(water.lane[l], wet ? -1 : 0);
+    }
+}
+
+static void test_lanes_are_one_point_at_a_time(void **state)
+{
+    uint64_t random = fixture_seed(1);
+    struct terrain_cache footing = {.patch = {NULL}};
+    (void)state;
+    roughen(&random);
+    memset(patches, 0, sizeof patches);
+    for (int l = 0; l < LANE_COUNT; l++)
+        footing.patch[l] = &patches[l];
+    union simd_lanes x, z, px, pz;
+    for (int i = 0; i < 20000; i++) {
+        for (int l = 0; l < LANE_COUNT; l++) {
+            if (i % 4 == 0 || l % 3 == 0) { /* others stay, and so do their patches */
+                x.lane[l] = place(&random);
+                z.lane[l] = l % 4 == 0 ? x.lane[l] : place(&random);
+            }
+            double reach = i % 5 ? 60.0 : 600.0; /* within the patch, or far outside */
+            px.lane[l] = x.lane[l] + fixture_uniform(&random, -reach, reach);
+            pz.lane[l] = z.lane[l] + fixture_uniform(&random, -reach, reach);
+        }
+        terrain_cache_find(&terrain, &footing, &x, &z);
+        check(&footing, &x, &z);
+        check(&footing, &px, &pz);
+    }
+}
+
+static void test_a_body_near_its_place_needs_its_patch_alone(void **state)
+{
+    uint64_t random = fixture_seed(2);
+    struct terrain_cache footing = {.patch = {NULL}};
+    union simd_lanes x, z, height, before;
+    (void)state;
+    roughen(&random);
+    memset(patches, 0, sizeof patches);
+    for (int l = 0; l < LANE_COUNT; l++) {
+        footing.patch[l] = &patches[l];
+        x.lane[l] = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
+        z.lane[l] = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
+    }
+    terrain_cache_find(&terrain, &footing, &x, &z);
+    for (int l = 0; l < LANE_COUNT; l++) /* less than half a cell */
+        x.lane[l] =
+            maths_clamp(x.lane[l] + fixture_uniform(&random, -62.0, 62.0), 0.0, WORLD_SIDE_M);
+    terrain_cache_heights(&terrain, &footing, &x, &z, &before);
+    for (uint32_t i = 0; i < SIDE * SIDE; i++)
+        posts[i] = NAN;
+    terrain_cache_heights(&terrain, &footing, &x, &z, &height);
+    assert_memory_equal(&height, &before, sizeof height);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_lanes_are_one_point_at_a_time),
+        cmocka_unit_test(test_a_body_near_its_place_needs_its_patch_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,220 @@
+/* Hashes by piece and column, and tables that take from each other what differs. */
+#include "world/checksum.h"
+
+#include "tests/support/fixture.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define ROWS (2 * CHECKSUM_ROWS + 100) /* two whole pieces and a short one */
+
+struct own_table {
+    struct entities rows;
+    struct piece_hashes hashes[3];
+    unsigned char *memory;
+};
+
+static struct own_table a, b;
+
+static struct table table_of(struct own_table *own)
+{
+    return (struct table){&own->rows, own->hashes};
+}
+
+static void make_table(struct own_table *own)
+{
+    size_t bytes = entities_bytes(ROWS);
+    own->memory = aligned_alloc(COLUMN_ALIGN, bytes);
+    assert_non_null(own->memory);
+    entities_bind(&own->rows, ROWS, own->memory);
+}
+
+static int make_tables(void **state)
+{
+    uint64_t seed = fixture_seed(1);
+    (void)state;
+    make_table(&a);
+    make_table(&b);
+    for (size_t i = 0; i < entities_bytes(ROWS); i++)
+        a.memory[i] = (unsigned char)fixture_random(&seed);
+    memcpy(b.memory, a.memory, entities_bytes(ROWS));
+    table_hash(table_of(&a), ROWS, NULL, NULL);
+    table_hash(table_of(&b), ROWS, NULL, NULL);
+    return 0;
+}
+
+static int free_tables(void **state)
+{
+    (void)state;
+    free(a.memory);
+    free(b.memory);
+    return 0;
+}
+
+static void take_all(bool known)
+{
+    for (uint32_t piece = 0; piece < piece_count(ROWS); piece++)
+        table_take(table_of(&b), table_of(&a), piece, ROWS, known);
+}
+
+static bool same(void)
+{
+    return memcmp(a.memory, b.memory, entities_bytes(ROWS)) == 0 &&
+           memcmp(a.hashes, b.hashes, sizeof a.hashes) == 0;
+}
+
+static void test_a_table_takes_what_differs(void **state)
+{
+    (void)state;
+    a.rows.x[0] += 1.0;
+    a.rows.rounds[CHECKSUM_ROWS - 1]++;
+    a.rows.kind[CHECKSUM_ROWS]++;
+    a.rows.trigger[ROWS - 1]++;
+    table_hash(table_of(&a), ROWS, NULL, NULL);
+    take_all(true);
+    assert_true(same());
+}
+
+static void test_what_is_known_to_be_the_same_is_not_copied(void **state)
+{
+    (void)state;
+    b.rows.kind[7] ^= 1; /* behind its hash's back: who copied it would put it right */
+    take_all(true);
+    assert_false(same());
+    take_all(false);
+    assert_true(same());
+}
+
+static void test_only_the_columns_named_are_hashed(void **state)
+{
+    const uint64_t columns[3] = {0, COLUMN_BIT(kind), 0};
+    struct piece_hashes before[3];
+    (void)state;
+    memcpy(before, a.hashes, sizeof before);
+    for (uint32_t i = 0; i < ROWS; i++) {
+        a.rows.kind[i] ^= 1;
+        a.rows.id[i] ^= 1;
+    }
+    table_hash(table_of(&a), ROWS, columns, NULL);
+    for (int piece = 0; piece < 3; piece++) {
+        for (int column = 0; column < ENTITY_COLUMN_COUNT; column++)
+            assert_int_equal(a.hashes[piece].column[column] != before[piece].column[column],
+                             piece == 1 && column == COLUMN_kind);
+    }
+}
+
+/* Rows behind the last one that is used count for nothing. */
+static void test_the_hash_ends_with_the_rows_in_use(void **state)
+{
+    uint64_t whole = rows_hash(a.hashes, ROWS);
+    (void)state;
+    assert_true(rows_hash_again(&a.rows, ROWS) == whole);
+    uint64_t part = rows_hash_again(&a.rows, ROWS - 1);
+    assert_true(part != whole);
+    a.rows.id[ROWS - 1] ^= 1;
+    assert_true(rows_hash_again(&a.rows, ROWS - 1) == part);
+    assert_true(rows_hash_again(&a.rows, ROWS) != whole);
+}
+
+static void test_threads_make_the_same_hashes(void **state)
+{
+    struct thread_pool *workers = thread_pool_create(3);
+    (void)state;
+    assert_non_null(workers);
+    memset(b.hashes, 0, sizeof b.hashes);
+    table_hash(table_of(&b), ROWS, NULL, workers);
+    assert_true(same());
+    thread_pool_destroy(workers);
+}
+
+/* --- worlds ------------------------------------------------------------------------------------*/
+
+/* Does every flipped bit of the bytes make it fail? */
+static bool each_bit_counts(struct fixture *f, void *at, size_t bytes)
+{
+    unsigned char *byte = at;
+    struct state now = fixture_state(f);
+    for (size_t i = 0; i < bytes * 8; i++) {
+        byte[i / 8] ^= (unsigned char)(1u << i % 8);
+        bool whole = state_whole(&now, f->view.world.counts.fixed) && moved_whole(&f->view.m);
+        byte[i / 8] ^= (unsigned char)(1u << i % 8);
+        if (whole)
+            return false;
+    }
+    return true;
+}
+
+static void test_a_flipped_bit_of_the_hashes_is_found(void **state)
+{
+    struct fixture f;
+    (void)state;
+    fixture_open(&f, "vehicles = ( { kind = \"tank\"; count = 20; } );");
+    fixture_run(&f, 3);
+    assert_true(each_bit_counts(&f, fixture_state(&f).hashes, sizeof(struct piece_hashes)));
+    assert_true(each_bit_counts(&f, f.view.m.hashes, sizeof(struct piece_hashes)));
+    assert_true(each_bit_counts(&f, fixture_state(&f).entities.x, 8));
+    assert_true(each_bit_counts(&f, f.view.m.entities.flags, 8));
+    fixture_close(&f);
+}
+
+/* A step that has taken over does not believe what it finds in the table that it writes. */
+static void test_who_takes_over_copies_everything(void **state)
+{
+    struct fixture f;
+    (void)state;
+    fixture_open(&f, "vehicles = ( { kind = \"tank\"; count = 20; } );");
+    fixture_run(&f, 4);
+    uint8_t *moved = &f.view.m.entities.force[3];
+    uint64_t commit = fixture_state(&f).head->frame;
+    uint8_t *next = &f.view.w[(commit + 1) & 1].entities.force[3];
+    uint8_t right = *moved;
+    *moved = *next = (uint8_t)(right ^ 1);
+    fixture_threads(&f, 1); /* other processes */
+    fixture_go_on(&f, 1);
+    assert_int_equal(*moved, right);
+    assert_int_equal(*next, right);
+    fixture_close(&f);
+}
+
+#define TABLES(function) cmocka_unit_test_setup_teardown(function, make_tables, free_tables)
+
+static void test_a_blank_column_is_known_by_its_hash(void **state)
+{
+    struct piece_hashes blank;
+    const uint32_t few[] = {CHECKSUM_ROWS, 2 * CHECKSUM_ROWS - 1};
+    const uint64_t both = COLUMN_BIT(spin_y) | COLUMN_BIT(target_id);
+    (void)state;
+    piece_hashes_blank(&blank);
+    memset(a.rows.spin_y, 0, ROWS * sizeof *a.rows.spin_y);
+    memset(a.rows.target_id, 0, ROWS * sizeof *a.rows.target_id);
+    memset(a.rows.bumped, 0, ROWS * sizeof *a.rows.bumped);
+    a.rows.target_id[few[1]] = 1u << 31;
+    table_hash(table_of(&a), ROWS, NULL, NULL);
+    assert_true(table_blank(table_of(&a), 0, ROWS, &blank) == (both | COLUMN_BIT(bumped)));
+    assert_true(table_blank(table_of(&a), 1, ROWS, &blank) ==
+                (COLUMN_BIT(spin_y) | COLUMN_BIT(bumped)));
+    assert_true(table_blank(table_of(&a), 2, ROWS, &blank) == 0); /* a short one */
+    assert_true(table_zero(table_of(&a), both | COLUMN_BIT(kind), few, 1) == both);
+    assert_true(table_zero(table_of(&a), both, few, 2) == COLUMN_BIT(spin_y));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TABLES(test_a_table_takes_what_differs),
+        TABLES(test_what_is_known_to_be_the_same_is_not_copied),
+        TABLES(test_only_the_columns_named_are_hashed),
+        TABLES(test_the_hash_ends_with_the_rows_in_use),
+        TABLES(test_threads_make_the_same_hashes),
+        cmocka_unit_test(test_a_flipped_bit_of_the_hashes_is_found),
+        cmocka_unit_test(test_who_takes_over_copies_everything),
+        TABLES(test_a_blank_column_is_known_by_its_hash),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,76 @@
+/* Commands: what players and outside programs ask of the world. They reach the mover through one
+ * ring a writing process; each is applied in exactly one frame and answered by an EVENT_COMMAND of
+ * that frame. Key (source, sequence): the sender's own, repeats are dropped by it. */
+#ifndef JOLON_WORLD_ENTITY_COMMAND_H
+#define JOLON_WORLD_ENTITY_COMMAND_H
+
+#include <stdint.h>
+
+/* The command rings, each with one writing process. */
+enum command_ring {
+    RING_CLIENTS, /* of all who command over the command socket */
+    RING_GATEWAY,
+    RING_CONSOLE,
+    RING_RECORDER, /* pauses and resumes, where recorder.when_full says so */
+    COMMAND_RING_COUNT
+};
+
+enum command_type {
+    COMMAND_NONE,
+    COMMAND_PAUSE,
+    COMMAND_RESUME,
+    COMMAND_STEP,    /* amount: frames to advance while paused */
+    COMMAND_SCALE,   /* value[0]: simulated seconds a second of the clock */
+    COMMAND_DRIVE,   /* entity; value: throttle, steer, climb, traverse, elevate, each -1..1, and
+                        brake, 0..1; force: enum gearing; amount: frames for which the source alone
+                        drives it, after which it goes back to its agent; 0: anybody, without end */
+    COMMAND_RELEASE, /* entity: back to its agent; amount 1: whoever drives it */
+    COMMAND_FIRE,    /* entity shoots: at target if not 0, else ahead; entity 0: kind detonates a
+                        munition falling on value[0], value[1] (x, z) */
+    COMMAND_SPAWN,   /* kind, force, value: x, z, altitude above ground, heading, speed; amount:
+                        enum behaviour */
+    COMMAND_REMOVE,  /* entity */
+    COMMAND_QUIT,    /* the run ends with this frame */
+    COMMAND_TYPE_COUNT
+};
+
+enum command_result {
+    COMMAND_DONE,
+    COMMAND_NO_SUCH_ENTITY,
+    COMMAND_NO_SUCH_KIND,
+    COMMAND_OUT_OF_RANGE,
+    COMMAND_TABLE_FULL,
+    COMMAND_CANNOT,  /* no rounds, destroyed, still reloading, not paused; the spot is crowded */
+    COMMAND_UNKNOWN, /* not a type */
+    COMMAND_TAKEN,   /* another source drives it */
+    COMMAND_RESULT_COUNT
+};
+
+struct command {
+    uint64_t sequence;        /* place in its ring's whole row, from 0; set with the slot */
+    uint64_t source;          /* who sent it: any number that is its own */
+    uint64_t source_sequence; /* counted by the sender, from 1 */
+    uint32_t type;            /* enum command_type */
+    uint32_t entity;
+    uint32_t target;
+    uint32_t amount;
+    uint16_t kind, force;
+    uint32_t reserved;
+    double value[6];
+    uint64_t spare[4];
+};
+
+_Static_assert(sizeof(struct command) == 128, "two cache lines a slot");
+
+/* Frames of simulation for which a DRIVE can hold a vehicle, at most. */
+#define COMMAND_LEASE_MAX 1000000u
+
+/* A vehicle is not spawned where so many stand already within so many metres. */
+#define COMMAND_SPOT_VEHICLES 8u
+#define COMMAND_SPOT_M        10.0
+
+const char *command_ring_name(enum command_ring ring);
+const char *command_type_name(enum command_type type);
+const char *command_result_name(enum command_result result);
+
+#endif

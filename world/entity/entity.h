@@ -1,0 +1,200 @@
+/* Entities: vehicles and munitions as a structure of arrays.
+ *
+ * The same columns make up each of the world's two buffers (written by the collider alone) and the
+ * moved table (written by the mover alone). A slot is a row; slots are used again, ids never are:
+ * a reference is (slot, id) and is dead when id[slot] differs. Id 0 is nobody. */
+#ifndef JOLON_WORLD_ENTITY_ENTITY_H
+#define JOLON_WORLD_ENTITY_ENTITY_H
+
+#include "world/maths/maths.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define SLOT_NONE       UINT32_MAX
+#define CAPACITY_MAX    1048576u
+#define CAPACITY_MIN    16u
+#define COLUMN_ALIGN    64u
+#define ENTITY_NAME_MAX 24u
+
+enum entity_state {
+    ENTITY_FREE,   /* the slot is empty; its other columns mean nothing */
+    ENTITY_ACTIVE, /* moves by its behaviour */
+    ENTITY_WRECK,  /* destroyed; slides to rest and stays, an obstacle */
+};
+
+enum behaviour {
+    BEHAVIOUR_IDLE,     /* stands; reacts when fired upon */
+    BEHAVIOUR_HOLD,     /* keeps heading and speed, reacts to nothing */
+    BEHAVIOUR_PATROL,   /* from goal to random goal within its area */
+    BEHAVIOUR_ROUTE,    /* along its route's points, again and again */
+    BEHAVIOUR_ATTACK,   /* returns fire at its target */
+    BEHAVIOUR_FLEE,     /* away from its target */
+    BEHAVIOUR_BACK_OFF, /* away from what it ran into */
+    BEHAVIOUR_DRIVEN,   /* by commands: a player or an outside program */
+    BEHAVIOUR_FLIGHT,   /* a munition */
+    BEHAVIOUR_FOLLOW,   /* keeps its place in its formation */
+    BEHAVIOUR_SCRIPT,   /* by the steps of its script */
+    BEHAVIOUR_WITHDRAW, /* to its force's base, for rounds or fuel, or hurt */
+    BEHAVIOUR_RESUPPLY, /* there, until it has them */
+    BEHAVIOUR_COUNT
+};
+
+enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
+
+/* X(type, name): every column once. Rates of the body, then what an agent remembers.
+ * Who writes: M all of it by the mover; W all of it by the collider, which copies M and changes
+ * what collisions change: motion, state, damage, harm_j, threat_*, bump*, touch_*. */
+#define ENTITY_COLUMNS(X)                                                                          \
+    X(double, x)           /* [m] world frame: east; metres to better than 1e-10 */                \
+    X(double, y)           /* [m] up */                                                            \
+    X(double, z)           /* [m] south */                                                         \
+    X(double, vx)          /* [m/s] */                                                             \
+    X(double, vy)          /* [m/s] */                                                             \
+    X(double, vz)          /* [m/s] */                                                             \
+    X(double, heading)     /* [rad] clockwise from north, 0..2 pi */                               \
+    X(double, pitch)       /* [rad] nose up */                                                     \
+    X(double, roll)        /* [rad] right side down */                                             \
+    X(double, spin_x)      /* [rad/s, world axes] turning that collisions gave it; what its driver \
+                              steers comes on top */                                               \
+    X(double, spin_y)      /* [rad/s] */                                                           \
+    X(double, spin_z)      /* [rad/s] */                                                           \
+    X(double, harm_j)      /* [J] energy taken; at the kind's resistance_j it is destroyed */      \
+    X(double, goal_x)      /* [m] where the behaviour is going */                                  \
+    X(double, goal_z)      /* [m] */                                                               \
+    X(double, fuel_l)      /* [l] */                                                               \
+    X(float, throttle)     /* -1..1, by its driver or its agent */                                 \
+    X(float, steer)        /* -1..1, likewise: right */                                            \
+    X(float, climb)        /* -1..1, when driven: up (aircraft) */                                 \
+    X(float, brake)        /* 0..1, when driven */                                                 \
+    X(float, traverse)     /* -1..1, likewise: turret to the right */                              \
+    X(float, elevate)      /* -1..1, likewise: gun up */                                           \
+    X(float, turret)       /* [rad] clockwise off the heading, -pi..pi */                          \
+    X(float, gun)          /* [rad] up off the body's own plane */                                 \
+    X(float, dodge)        /* [rad] to the right of its goal, around what is in its way */         \
+    X(float, ease)         /* 0..1: share of its speed that it does without for what is ahead */   \
+    X(float, bump_heading) /* [rad] away from what it ran into this frame */                       \
+    X(uint64_t, driver) /* who drives it alone until until_tick: a command's source, 0: nobody */  \
+    X(uint32_t, id)                                                                                \
+    X(uint32_t, target_slot) /* what it attacks, flees, or homes on */                             \
+    X(uint32_t, target_id)                                                                         \
+    X(uint32_t, owner_slot) /* a munition's shooter */                                             \
+    X(uint32_t, owner_id)                                                                          \
+    X(uint32_t, threat_slot) /* who fired at it since its agent last looked */                     \
+    X(uint32_t, threat_id)                                                                         \
+    X(uint32_t, until_tick)  /* when the present behaviour ends, a munition's life likewise */     \
+    X(uint32_t, reload_tick) /* when it may fire again */                                          \
+    X(uint32_t, seen_tick)   /* when it last saw its target */                                     \
+    X(uint32_t, touch_body)  /* what it touched last: an id, or a fixed object with the top bit */ \
+    X(uint32_t, touch_tick)  /* when; a press that goes on is no new collision */                  \
+    X(uint32_t, born_tick)                                                                         \
+    X(uint32_t, changed_tick) /* when its damage last grew; for fire and smoke */                  \
+    X(uint32_t, order_arg)    /* its area (patrol), route, formation or script */                  \
+    X(uint32_t, leg)          /* its next route point or step of its script */                     \
+    X(uint32_t, rounds)                                                                            \
+    X(uint16_t, kind)                                                                              \
+    X(uint8_t, state)                                                                              \
+    X(uint8_t, force)                                                                              \
+    X(uint8_t, behaviour)                                                                          \
+    X(uint8_t, order)   /* the behaviour it goes back to */                                        \
+    X(uint8_t, damage)  /* enum damage */                                                          \
+    X(uint8_t, bumped)  /* ran into something this frame */                                        \
+    X(uint8_t, flags)   /* ENTITY_FLAG_* */                                                        \
+    X(uint8_t, trigger) /* mover's own: wants to fire this frame */
+
+/* clang-format off */
+enum entity_column {
+#define X(type, name) COLUMN_##name,
+    ENTITY_COLUMNS(X)
+#undef X
+    ENTITY_COLUMN_COUNT
+};
+/* clang-format on */
+
+/* Sets of columns. */
+#define COLUMN_BIT(name) ((uint64_t)1 << COLUMN_##name)
+#define COLUMNS_ALL      (UINT64_MAX >> (64 - ENTITY_COLUMN_COUNT))
+_Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
+
+#define ENTITY_FLAG_FIRE_AT_WILL 1u /* engages enemies that it sees, not only who fires at it */
+#define ENTITY_FLAG_HOLD_FIRE    2u /* fires at nobody, whatever happens to it */
+#define ENTITY_FLAG_STAND        4u /* never flees or withdraws */
+
+/* How a driven vehicle's throttle goes to its wheels; a driver's choice, in flags. */
+enum gearing {
+    GEAR_AUTOMATIC, /* forwards, or backwards when the throttle is negative */
+    GEAR_REVERSE,   /* the throttle drives backwards */
+    GEAR_NEUTRAL,   /* not at all: it rolls */
+    GEAR_LOW,       /* slow and strong */
+    GEAR_COUNT
+};
+#define ENTITY_GEAR_SHIFT 4u
+#define ENTITY_GEAR_MASK  0x30u
+
+static inline enum gearing entity_gear(uint8_t flags)
+{
+    return (enum gearing)((flags & ENTITY_GEAR_MASK) >> ENTITY_GEAR_SHIFT);
+}
+
+struct entities {
+    uint32_t capacity;
+#define X(type, name) type *name;
+    ENTITY_COLUMNS(X)
+#undef X
+};
+
+/* Bytes of a table of capacity rows, each column on a boundary of COLUMN_ALIGN. */
+size_t entities_bytes(uint32_t capacity);
+
+/* Bytes one row takes in one table. */
+size_t entities_row_bytes(void);
+
+/* Points the columns into base (aligned to COLUMN_ALIGN, entities_bytes() long). */
+void entities_bind(struct entities *entities, uint32_t capacity, void *base);
+
+/* Copies rows first .. first + count - 1 of every column. */
+void entities_copy(const struct entities *to, const struct entities *from, uint32_t first,
+                   uint32_t count);
+
+/* Sets row to zero in every column: a free slot. */
+void entities_clear(const struct entities *entities, uint32_t row);
+
+/* Row of the entity with this id among the first used rows, SLOT_NONE when it is gone. */
+uint32_t entities_find(const struct entities *entities, uint32_t used, uint32_t id);
+
+static inline bool entities_alive(const struct entities *e, uint32_t slot, uint32_t id)
+{
+    return slot < e->capacity && id != 0 && e->id[slot] == id && e->state[slot] != ENTITY_FREE;
+}
+
+static inline struct vec3 entities_position(const struct entities *e, uint32_t i)
+{
+    return (struct vec3){e->x[i], e->y[i], e->z[i]};
+}
+
+static inline struct vec3 entities_velocity(const struct entities *e, uint32_t i)
+{
+    return (struct vec3){e->vx[i], e->vy[i], e->vz[i]};
+}
+
+static inline void entities_set_position(const struct entities *e, uint32_t i, struct vec3 p)
+{
+    e->x[i] = p.x;
+    e->y[i] = p.y;
+    e->z[i] = p.z;
+}
+
+static inline void entities_set_velocity(const struct entities *e, uint32_t i, struct vec3 v)
+{
+    e->vx[i] = v.x;
+    e->vy[i] = v.y;
+    e->vz[i] = v.z;
+}
+
+const char *entity_state_name(enum entity_state state);
+const char *behaviour_name(enum behaviour behaviour);
+const char *gear_name(enum gearing gear);
+const char *force_name(enum force force);
+
+#endif

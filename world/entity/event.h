@@ -1,0 +1,137 @@
+/* Events: what happened in a frame, in the order it happened. Key (frame, index). Collisions and
+ * what follows from them come from the collider; shots, agents' changes and answers to commands
+ * are intents of the mover that the collider puts first. The collider alone writes the ring. */
+#ifndef JOLON_WORLD_ENTITY_EVENT_H
+#define JOLON_WORLD_ENTITY_EVENT_H
+
+#include <stdint.h>
+
+enum event_type {
+    EVENT_NONE,
+    EVENT_COLLISION,
+    EVENT_FIRE,
+    EVENT_DETONATION,
+    EVENT_CRATER,
+    EVENT_AGENT,
+    EVENT_COMMAND,
+    EVENT_TYPE_COUNT
+};
+
+enum response {
+    RESPONSE_NONE,
+    RESPONSE_BOUNCE,
+    RESPONSE_STOP,
+    RESPONSE_SLOW,
+    RESPONSE_DESTROYED,
+    RESPONSE_COUNT
+};
+
+enum struck { STRUCK_VEHICLE, STRUCK_FIXED, STRUCK_GROUND, STRUCK_WATER, STRUCK_AIR, STRUCK_COUNT };
+
+/* Why an agent changed its behaviour. */
+enum agent_reason {
+    REASON_FIRED_UPON,
+    REASON_TARGET_GONE,
+    REASON_OUT_OF_ROUNDS,
+    REASON_TIME_OVER,
+    REASON_COLLISION,
+    REASON_ENEMY_SEEN,
+    REASON_COMMAND,
+    REASON_OUT_OF_FUEL,
+    REASON_LOST_SIGHT,
+    REASON_HURT,
+    REASON_OUTNUMBERED,
+    REASON_LOW_FUEL,
+    REASON_SUPPLIED,
+    REASON_ARRIVED,
+    REASON_LEADER_LOST,
+    REASON_SCRIPT,     /* a step of its script says so */
+    REASON_LEASE_OVER, /* its driver was not heard from any more */
+    REASON_COUNT
+};
+
+/* One side of an event: an entity (id) or a fixed object (its index + 1). */
+struct event_party {
+    uint32_t id;
+    uint16_t kind;
+    uint8_t fixed;  /* 1: a fixed object */
+    uint8_t damage; /* enum damage, after the event */
+};
+
+struct event_collision {
+    struct event_party a, b;
+    double point[3];      /* [m, world] where the bodies touch */
+    double toi;           /* 0..1 of the frame */
+    float normal[3];      /* unit, from a towards b */
+    float closing_mps;    /* along the normal, before */
+    float angle_deg;      /* 0..360: b's heading off a's */
+    float impulse_ns;     /* on each of them, friction included */
+    float direction_a[3]; /* unit direction of travel, 0 when at rest (thesis row 34) */
+    uint32_t response;    /* enum response */
+};
+
+struct event_fire {
+    struct event_party shooter, target, munition; /* target id 0: the ground or the sky */
+    double point[3];                              /* [m, world] muzzle */
+};
+
+struct event_detonation {
+    struct event_party munition, struck_party;
+    double point[3];
+    float explosive_kg;
+    uint32_t struck; /* enum struck */
+};
+
+struct event_crater {
+    double point[3];
+    float radius_m, depth_m;
+};
+
+struct event_agent {
+    struct event_party agent;
+    uint32_t from, to; /* enum behaviour */
+    uint32_t because;  /* enum agent_reason */
+};
+
+/* The whole command, as it was taken: a run's commands can be sent again from its events. */
+struct event_command {
+    uint64_t source, sequence; /* the sender's own key */
+    double value[6];           /* this and what follows: as sent, see struct command */
+    uint32_t type;             /* enum command_type */
+    uint32_t given;            /* entity */
+    uint32_t target, amount;
+    uint16_t kind, force;
+    uint8_t result; /* enum command_result */
+    uint8_t ring;   /* enum command_ring that brought it */
+    uint8_t reserved[2];
+    uint32_t entity; /* the entity it made or changed, 0 for none */
+    uint32_t number; /* commands of the run before it, modulo 2^32 */
+};
+
+struct event {
+    uint64_t sequence; /* place in the run's whole row of events, from 0 */
+    uint64_t frame;
+    uint64_t tick;  /* steps of simulated time at that frame */
+    uint32_t index; /* within the frame, from 0 */
+    uint32_t type;  /* enum event_type */
+    union {
+        struct event_collision collision;
+        struct event_fire fire;
+        struct event_detonation detonation;
+        struct event_crater crater;
+        struct event_agent agent;
+        struct event_command command;
+        uint8_t bytes[96];
+    };
+};
+
+_Static_assert(sizeof(struct event_collision) == 88, "shared layout");
+_Static_assert(sizeof(struct event_command) == 96, "shared layout");
+_Static_assert(sizeof(struct event) == 128, "two cache lines a slot");
+
+const char *event_type_name(enum event_type type);
+const char *response_name(enum response response);
+const char *struck_name(enum struck struck);
+const char *agent_reason_name(enum agent_reason reason);
+
+#endif

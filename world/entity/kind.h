@@ -1,0 +1,102 @@
+/* Kinds: what every vehicle, munition and fixed object of one sort shares (thesis row 49:
+ * physical attributes in the object file). Written once at creation, read-only to all. */
+#ifndef JOLON_WORLD_ENTITY_KIND_H
+#define JOLON_WORLD_ENTITY_KIND_H
+
+#include <stdint.h>
+
+#define KIND_NAME_MAX  24
+#define KIND_COUNT_MAX 64
+#define KIND_NONE      UINT16_MAX
+
+enum domain { DOMAIN_LAND, DOMAIN_SEA, DOMAIN_AIR, DOMAIN_MUNITION, DOMAIN_FIXED, DOMAIN_COUNT };
+
+/* How a munition flies. */
+enum guidance { GUIDANCE_BALLISTIC, GUIDANCE_HOMING };
+
+/* What a vehicle does about what it notices: mover/agent/behaviour_table.c. */
+enum doctrine {
+    DOCTRINE_ARMOUR,
+    DOCTRINE_LIGHT,
+    DOCTRINE_SOFT,
+    DOCTRINE_HELICOPTER,
+    DOCTRINE_JET,
+    DOCTRINE_WARSHIP,
+    DOCTRINE_BEAST,
+    DOCTRINE_COUNT
+};
+
+/* The rows of Table 1. */
+enum object_class {
+    OBJECT_TREE,
+    OBJECT_BUSH,
+    OBJECT_POLE,
+    OBJECT_BUILDING,
+    OBJECT_WATERTOWER,
+    OBJECT_OTHER_MANMADE,
+    OBJECT_OTHER_NATURAL,
+    OBJECT_CLASS_COUNT
+};
+
+struct kind {
+    char name[KIND_NAME_MAX];
+    uint8_t domain;       /* enum domain */
+    uint8_t guidance;     /* enum guidance; munitions */
+    uint8_t object_class; /* enum object_class; fixed objects */
+    uint8_t craters;      /* munitions: digs a crater where it strikes the ground */
+    uint16_t model;       /* index into the world's models */
+    uint16_t munition;    /* kind it fires, KIND_NONE for none */
+    double mass_kg;
+    double radius_m; /* of the bounding sphere, whose centre is the position */
+    double max_speed_mps;
+    double min_speed_mps;     /* aircraft that cannot hover */
+    double acceleration_mps2; /* braking is twice as hard */
+    double turn_rate_rps;     /* [rad/s] */
+    double max_slope_rad;     /* steepest ground a land vehicle climbs */
+    double length_m, width_m, height_m;
+    double cruise_altitude_m; /* aircraft: above the ground */
+    double climb_rate_mps;    /* aircraft */
+    double rigidity;          /* 0..1: share of an impact that goes into harm at once */
+    double moldability;       /* 0..1: share of a dent that stays */
+    double restitution;       /* 0..1: closing speed that comes back */
+    double friction;          /* 0..2: Coulomb's coefficient of its skin */
+    double resistance_j;      /* energy that destroys it */
+    double stiffness_npm;     /* [N/m] of its skin, for the response "spring" */
+    double severe_rad;        /* Fig. 8: how near a quarter turn an impact counts as square */
+    double bounce_keep;       /* Fig. 8: 0..1 of its speed that a bounce leaves it */
+    double fast_mps;          /* Fig. 8: from here a square impact kills; 0: the scenario's */
+    double damage_high;       /* fixed objects, Fig. 8 c1 > c2 > c3: impact energy over its */
+    double damage_med;        /* resistance_j from which damage is high, medium, low; 0: the */
+    double damage_low;        /* scenario's */
+    double debris_keep;       /* fixed objects: 0..1 of its speed that a vehicle keeps on what is
+                                 left of one */
+    double explosive_kg;      /* TNT; of a vehicle: what burns when it is destroyed */
+    double range_m;           /* vehicles: how far they shoot */
+    double sight_m;           /* vehicles: how far they see enemies */
+    double view_rad;          /* vehicles: how wide, about where the turret points */
+    uint32_t doctrine;        /* enum doctrine; vehicles */
+    double reload_s;          /* vehicles: between two rounds */
+    double turret_rate_rps;   /* vehicles: 0: no turret, it aims with the hull */
+    double gun_rate_rps;      /* up and down; 0: the gun does not move */
+    double gun_low_rad, gun_high_rad; /* how far, off the hull's own plane */
+    double seeker_rad;                /* homing munitions: how far off their way they see */
+    double dispersion_rad;            /* munitions: one standard error */
+    double life_s;                    /* munitions: end of flight */
+    double courage;                   /* 0..1: how often it returns fire rather than flee */
+    double fuel_l, fuel_lps;          /* tank, and burnt at full throttle a second */
+    uint32_t rounds;
+    /* What follows comes from the model's hulls. */
+    uint32_t first_hull, hull_count; /* index into the world's hulls */
+    uint32_t outer_hull;             /* the one around all of them */
+    double bound_m;       /* radius about the position that holds every hull, however turned */
+    double level_m;       /* the same on the map, upright */
+    double low_m, high_m; /* lowest and highest point over the position, upright */
+};
+
+const char *domain_name(enum domain domain);
+const char *object_class_name(enum object_class object_class);
+
+/* Index of the kind called name, KIND_NONE when there is none. */
+uint16_t kind_find(const struct kind *kinds, uint32_t count, const char *name);
+
+#endif

@@ -1,0 +1,53 @@
+/* A kind's box: its moments, and their inverse on world axes. */
+#include "world/entity/mass_properties.h"
+
+#include <stdbool.h>
+
+static double square(double value)
+{
+    return value * value;
+}
+
+struct mass_properties mass_properties_of(const struct kind *kind)
+{
+    double length2 = square(kind->length_m), height2 = square(kind->height_m);
+    double width2 = square(kind->width_m), twelfth = kind->mass_kg / 12.0;
+    bool stands = kind->domain == DOMAIN_LAND || kind->domain == DOMAIN_FIXED;
+    return (struct mass_properties){
+        .mass_kg = kind->mass_kg,
+        .moment = {twelfth * (height2 + width2), twelfth * (length2 + width2),
+                   twelfth * (length2 + height2)},
+        .centre_m = stands ? 0.5 * kind->height_m : 0.0,
+    };
+}
+
+struct mat3 mass_properties_inverse_world(const struct mass_properties *inertia,
+                                          const struct mat3 *turn)
+{
+    const double inverse[3] = {1.0 / inertia->moment.x, 1.0 / inertia->moment.y,
+                               1.0 / inertia->moment.z};
+    struct mat3 world;
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column <= row; column++) {
+            double sum = 0.0;
+            for (int axis = 0; axis < 3; axis++)
+                sum += turn->m[row][axis] * turn->m[column][axis] * inverse[axis];
+            world.m[row][column] = world.m[column][row] = sum;
+        }
+    }
+    return world;
+}
+
+struct vec3 mass_properties_carried(const struct mass_properties *inertia,
+                                    const struct mat3 *before, struct vec3 spin_rps,
+                                    const struct mat3 *after)
+{
+    struct vec3 body = rotation_back(before, spin_rps);
+    const struct vec3 momentum =
+        rotation_apply(before, (struct vec3){inertia->moment.x * body.x, inertia->moment.y * body.y,
+                                             inertia->moment.z * body.z});
+    body = rotation_back(after, momentum);
+    return rotation_apply(after,
+                          (struct vec3){body.x / inertia->moment.x, body.y / inertia->moment.y,
+                                        body.z / inertia->moment.z});
+}

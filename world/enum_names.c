@@ -1,0 +1,60 @@
+/* The words for every enumeration: one table each, one look-up. */
+#include "world/making/scenario.h"
+#include "world/world.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+static const char *word(const char *const *words, size_t count, size_t index)
+{
+    return index < count && words[index] ? words[index] : "?";
+}
+
+#define WORDS(function, type, ...)                                                                 \
+    const char *function(enum type value)                                                          \
+    {                                                                                              \
+        static const char *const words[] = {__VA_ARGS__};                                          \
+        return word(words, COUNT(words), (size_t)value);                                           \
+    }
+
+WORDS(cover_name, cover, "grass", "chaparral", "forest", "rock", "sand", "road", "sea", "lake")
+WORDS(domain_name, domain, "land", "sea", "air", "munition", "fixed")
+WORDS(object_class_name, object_class, "tree", "bush", "pole", "building", "watertower",
+      "other_manmade", "other_natural")
+WORDS(damage_name, damage, "none", "low", "med", "high", "destroyed")
+WORDS(entity_state_name, entity_state, "free", "active", "wreck")
+WORDS(behaviour_name, behaviour, "idle", "hold", "patrol", "route", "attack", "flee", "back_off",
+      "driven", "flight", "follow", "script", "withdraw", "resupply")
+WORDS(formation_shape_name, formation_shape, "column", "line", "wedge", "echelon-left",
+      "echelon-right")
+WORDS(gear_name, gearing, "automatic", "reverse", "neutral", "low")
+WORDS(force_name, force, "neutral", "blue", "red")
+WORDS(event_type_name, event_type, "none", "collision", "fire", "detonation", "crater", "agent",
+      "command")
+WORDS(response_name, response, "none", "bounce", "stop", "slow", "destroyed")
+WORDS(struck_name, struck, "vehicle", "fixed", "ground", "water", "air")
+WORDS(agent_reason_name, agent_reason, "fired upon", "target gone", "out of rounds", "time over",
+      "collision", "enemy seen", "command", "out of fuel", "lost sight", "hurt", "outnumbered",
+      "low fuel", "supplied", "arrived", "leader lost", "script", "lease over")
+WORDS(command_ring_name, command_ring, "clients", "gateway", "console", "recorder")
+WORDS(command_type_name, command_type, "none", "pause", "resume", "step", "scale", "drive",
+      "release", "fire", "spawn", "remove", "quit")
+WORDS(command_result_name, command_result, "done", "no such entity", "no such kind",
+      "value out of range", "table full", "cannot do that now", "unknown command",
+      "somebody else drives it")
+WORDS(method_name, method, "swept", "npsnet2", "mps", "occupancy", "hopcroft", "brute")
+WORDS(shape_name, shape, "sphere", "model")
+WORDS(response_model_name, response_model, "figure8", "impulse", "none", "spring", "mps")
+WORDS(view_mode_name, view_mode, "chase", "map", "inside", "orbit", "free", "overhead")
+WORDS(back_end_name, back_end, "auto", "gl", "soft")
+
+uint16_t kind_find(const struct kind *kinds, uint32_t count, const char *name)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (strncmp(kinds[i].name, name, KIND_NAME_MAX) == 0)
+            return (uint16_t)i;
+    }
+    return KIND_NONE;
+}

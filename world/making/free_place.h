@@ -1,0 +1,57 @@
+/* Places for vehicles at genesis: random points of an area on ground that suits the kind, clear of
+ * each other and of fixed objects as far as either reaches (world/terrain/fixed_index.h). */
+#ifndef JOLON_WORLD_MAKING_FREE_PLACE_H
+#define JOLON_WORLD_MAKING_FREE_PLACE_H
+
+#include "world/terrain/fixed.h"
+#include "world/entity/kind.h"
+#include "world/terrain/terrain.h"
+#include "world/world.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What is taken is found by cells finer than gridsquares: a crowd of a million in one part of the
+ * map has thousands in a gridsquare, and at most some fifteen in a cell. */
+#define FREE_PLACE_CELL_M 25.0
+#define FREE_PLACE_CELLS  ((uint32_t)(WORLD_SIDE_M / FREE_PLACE_CELL_M))
+
+struct free_place_taken {
+    double x, z, reach_m;
+    uint32_t next; /* index + 1 in the same cell, 0 ends */
+};
+
+struct free_place {
+    struct terrain terrain;
+    const struct fixed_object *fixed;
+    const struct kind *kinds; /* of the fixed objects */
+    const uint32_t *reach_start, *reach;
+    uint64_t seed;
+    uint32_t *head; /* [FREE_PLACE_CELLS * FREE_PLACE_CELLS] taken + 1 */
+    struct free_place_taken *taken;
+    uint32_t count, capacity;
+    double largest_m; /* reach taken so far */
+};
+
+/* 0, or -1 with errno ENOMEM. */
+int free_place_init(struct free_place *place, const struct terrain *terrain,
+                    const struct fixed_object *fixed, const struct kind *kinds,
+                    const uint32_t *reach_start, const uint32_t *reach, uint64_t seed);
+void free_place_free(struct free_place *place);
+
+/* Is this what the kind goes on: water for ships, dry land for what drives? Aircraft go anywhere.
+ */
+bool free_place_carries(const struct terrain *terrain, const struct kind *kind, double x, double z);
+
+/* May a vehicle of this kind stand here? */
+bool free_place_suits(const struct free_place *place, const struct kind *kind, double x, double z);
+
+/* A place for entity number slot; 0, or -1 after 1,000 tries. */
+int free_place_find(struct free_place *place, const struct area *area, const struct kind *kind,
+                    uint32_t slot, double *x, double *z);
+
+/* Marks a place as taken, for a body of fixed_index_of_kind() reach_m; 0, or -1 with errno ENOMEM.
+ */
+int free_place_take(struct free_place *place, double x, double z, double reach_m);
+
+#endif

@@ -1,0 +1,275 @@
+/* Trees and bushes: squares by how well they suit, how many in each, where, and which is a tree. */
+#include "world/making/plant_placement.h"
+
+#include "world/making/generate.h"
+#include "world/maths/maths.h"
+#include "world/maths/noise.h"
+#include "world/maths/random.h"
+#include "world/terrain/gridsquare.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+
+#define TRIES 400u
+
+/* Groves are thickest around the fort: vehicles go there. */
+#define FORT_X_M     28000.0
+#define FORT_Z_M     23000.0
+#define FORT_REACH_M 15000.0
+
+enum { NOISE_GROVE = 1500, NOISE_THICKET = 1540 };
+
+/* A square and how well trees and bushes do in it. */
+struct stand {
+    double score;
+    uint32_t square;
+    uint32_t count; /* of objects it gets */
+};
+
+/* A place for a tree or bush. */
+struct spot {
+    double x, z;
+    double treeness; /* the highest are trees */
+    uint32_t number;
+};
+
+struct plant_placement {
+    struct object_placement *planter;
+    uint32_t growing;     /* trees and bushes */
+    uint32_t built;       /* objects there before */
+    uint8_t *taken;       /* [GRIDSQUARE_COUNT] something stands there before */
+    struct stand *stands; /* [GRIDSQUARE_COUNT] best first, then in the order of squares */
+    uint32_t stand_count;
+    uint32_t *first;    /* [GRIDSQUARE_COUNT] first spot */
+    uint8_t *held;      /* [GRIDSQUARE_COUNT] spots */
+    struct spot *spots; /* [growing] */
+};
+
+/* How well trees and bushes do on a cover. */
+static double cover_suits(enum cover cover)
+{
+    switch (cover) {
+    case COVER_FOREST:
+        return 1.0;
+    case COVER_CHAPARRAL:
+        return 0.62;
+    case COVER_GRASS:
+        return 0.34;
+    case COVER_ROCK:
+        return 0.12;
+    case COVER_SAND:
+    case COVER_ROAD:
+    case COVER_SEA:
+    case COVER_LAKE:
+    case COVER_COUNT:
+        break;
+    }
+    return 0.0;
+}
+
+/* Mean over a square, on a raster as fine as the densest posts; -1 when any of it is water. */
+static double square_suits(const struct object_placement *p, uint32_t square)
+{
+    double x0 = square % GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M, sum = 0.0;
+    double z0 = square / GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M;
+    for (int i = 0; i < 25; i++) {
+        double x = x0 + (i % 5) * (GRIDSQUARE_SIDE_M / 4.0),
+               z = z0 + (i / 5) * (GRIDSQUARE_SIDE_M / 4.0);
+        enum cover cover = terrain_cover(p->terrain, x, z);
+        if (cover_is_water(cover))
+            return -1.0;
+        sum += cover_suits(cover);
+    }
+    return sum / 25.0;
+}
+
+static double square_score(const struct object_placement *p, uint32_t square, double suits)
+{
+    double x = (square % GRIDSQUARE_PER_SIDE + 0.5) * GRIDSQUARE_SIDE_M;
+    double z = (square / GRIDSQUARE_PER_SIDE + 0.5) * GRIDSQUARE_SIDE_M;
+    double dx = (x - FORT_X_M) / FORT_REACH_M, dz = (z - FORT_Z_M) / FORT_REACH_M;
+    double near = 1.0 / (1.0 + dx * dx + dz * dz);
+    double grove = noise_fractal(p->seed + NOISE_GROVE, x / 1900.0, z / 1900.0, 3);
+    double chance = random_unit(p->seed, square, 0, RANDOM_FOREST);
+    return (0.15 + suits) * (0.35 + near) * (1.0 + 0.9 * grove) + 0.30 * chance;
+}
+
+static int by_score(const void *left, const void *right)
+{
+    const struct stand *a = left, *b = right;
+    if (a->score > b->score || a->score < b->score)
+        return a->score > b->score ? -1 : 1;
+    return (a->square > b->square) - (a->square < b->square);
+}
+
+static int by_square(const void *left, const void *right)
+{
+    const struct stand *a = left, *b = right;
+    return (a->square > b->square) - (a->square < b->square);
+}
+
+static int by_treeness(const void *left, const void *right)
+{
+    const struct spot *a = left, *b = right;
+    if (a->treeness > b->treeness || a->treeness < b->treeness)
+        return a->treeness > b->treeness ? -1 : 1;
+    return (a->number > b->number) - (a->number < b->number);
+}
+
+/* The best free squares, as many as are still to be occupied. */
+static int choose_squares(struct plant_placement *g)
+{
+    const struct object_placement *p = g->planter;
+    uint32_t occupied = 0, dry = 0;
+    for (uint32_t i = 0; i < p->used; i++) {
+        uint32_t square = gridsquare_of(p->objects[i].x, p->objects[i].z);
+        occupied += g->taken[square] == 0;
+        g->taken[square] = 1;
+    }
+    for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++) {
+        double suits = g->taken[square] ? -1.0 : square_suits(p, square);
+        if (suits >= 0.0)
+            g->stands[dry++] = (struct stand){square_score(p, square, suits), square, 0};
+    }
+    g->stand_count = PLANT_PLACEMENT_SQUARES - occupied;
+    if (dry < g->stand_count) {
+        errno = ENOSPC;
+        return -1;
+    }
+    qsort(g->stands, dry, sizeof *g->stands, by_score);
+    return 0;
+}
+
+/* How many each square gets: one, and more the better it is, mostly few, seldom many; the best gets
+ * the maximum. Then one more or less here and there until the sum is right. */
+static void share_out(struct plant_placement *g)
+{
+    const struct object_placement *p = g->planter;
+    double mean = (double)g->growing / g->stand_count;
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < g->stand_count; i++) {
+        struct stand *stand = &g->stands[i];
+        double u = random_unit(p->seed, stand->square, 0, RANDOM_SQUARE_SIZE);
+        double rank = 1.0 - (double)i / g->stand_count;
+        double more = floor(2.0 * (mean - 1.0) * rank * 3.0 * u * u + 0.5);
+        stand->count = 1 + (uint32_t)maths_min(more, PLANT_PLACEMENT_SQUARE_MAX - 1.0);
+        if (i == 0)
+            stand->count = PLANT_PLACEMENT_SQUARE_MAX;
+        sum += stand->count;
+    }
+    for (uint32_t i = 0; g->stand_count > 1 && sum != g->growing; i++) {
+        uint64_t draw = random_u64(p->seed, 1, i, RANDOM_SQUARE_SIZE);
+        struct stand *stand = &g->stands[1 + draw % (g->stand_count - 1)];
+        if (sum < g->growing && stand->count < PLANT_PLACEMENT_SQUARE_MAX) {
+            stand->count++;
+            sum++;
+        } else if (sum > g->growing && stand->count > 1) {
+            stand->count--;
+            sum--;
+        }
+    }
+}
+
+/* No spot of the square or its neighbours is so near that the largest of two would touch. */
+static int apart(const struct plant_placement *g, double x, double z)
+{
+    double apart_m = 2.0 * g->planter->grown_m + 0.5;
+    struct gridsquare_box box =
+        gridsquare_box_of(x - apart_m, z - apart_m, x + apart_m, z + apart_m);
+    for (int32_t row = box.z0; row <= box.z1; row++) {
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            uint32_t square = gridsquare_index(column, row);
+            for (uint32_t i = 0; i < g->held[square]; i++) {
+                const struct spot *spot = &g->spots[g->first[square] + i];
+                double dx = spot->x - x, dz = spot->z - z;
+                if (dx * dx + dz * dz < apart_m * apart_m)
+                    return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* Trees prefer forest, in grass they stand alone; bushes prefer chaparral. */
+static double treeness(const struct object_placement *p, double x, double z, uint32_t number)
+{
+    static const double of_cover[COVER_COUNT] = {
+        [COVER_GRASS] = 0.62, [COVER_CHAPARRAL] = 0.1, [COVER_FOREST] = 1.0, [COVER_ROCK] = 0.2};
+    double thicket = noise_at(p->seed + NOISE_THICKET, x / 420.0, z / 420.0);
+    double chance = random_unit(p->seed, 3, number, RANDOM_FOREST);
+    return of_cover[terrain_cover(p->terrain, x, z)] + 0.55 * chance + 0.25 * thicket;
+}
+
+static int find_spot(struct plant_placement *g, uint32_t square, uint32_t number)
+{
+    const struct object_placement *p = g->planter;
+    double x0 = square % GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M;
+    double z0 = square / GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M;
+    for (uint32_t try = 0; try < TRIES; try++) {
+        uint64_t entity = (uint64_t)number << 16 | try;
+        double x =
+            x0 + random_between(p->seed, square, entity, RANDOM_OBJECT_X, 0, GRIDSQUARE_SIDE_M);
+        double z =
+            z0 + random_between(p->seed, square, entity, RANDOM_OBJECT_Z, 0, GRIDSQUARE_SIDE_M);
+        if (gridsquare_of(x, z) != square || !object_placement_allows(p, x, z, p->grown_m) ||
+            !apart(g, x, z) || !object_placement_clear(p, g->built, x, z, p->grown_m))
+            continue;
+        g->spots[number] = (struct spot){x, z, treeness(p, x, z, number), number};
+        if (g->held[square]++ == 0)
+            g->first[square] = number;
+        return 0;
+    }
+    errno = ENOSPC;
+    return -1;
+}
+
+static int find_spots(struct plant_placement *g)
+{
+    uint32_t number = 0;
+    qsort(g->stands, g->stand_count, sizeof *g->stands, by_square);
+    for (uint32_t i = 0; i < g->stand_count; i++)
+        for (uint32_t k = 0; k < g->stands[i].count; k++)
+            if (find_spot(g, g->stands[i].square, number++) != 0)
+                return -1;
+    return 0;
+}
+
+static void plant_spots(struct plant_placement *g)
+{
+    struct object_placement *p = g->planter;
+    qsort(g->spots, g->growing, sizeof *g->spots, by_treeness);
+    for (uint32_t i = 0; i < g->growing; i++) {
+        const struct spot *spot = &g->spots[i];
+        enum object_class of = i < generate_table1[OBJECT_TREE] ? OBJECT_TREE : OBJECT_BUSH;
+        uint16_t kind = object_placement_mixed_kind(p, of, spot->x, spot->z, spot->number);
+        double size =
+            random_between(p->seed, 4, spot->number, RANDOM_OBJECT_SHAPE,
+                           1.0 - OBJECT_PLACEMENT_SIZE_SPREAD, 1.0 + OBJECT_PLACEMENT_SIZE_SPREAD);
+        object_placement_add(p, spot->x, spot->z, kind, size);
+    }
+}
+
+int plant_placement_plant(struct object_placement *planter)
+{
+    struct plant_placement g = {.planter = planter, .built = planter->used};
+    g.growing = generate_table1[OBJECT_TREE] + generate_table1[OBJECT_BUSH];
+    g.taken = calloc(GRIDSQUARE_COUNT, sizeof *g.taken);
+    g.stands = malloc(GRIDSQUARE_COUNT * sizeof *g.stands);
+    g.first = calloc(GRIDSQUARE_COUNT, sizeof *g.first);
+    g.held = calloc(GRIDSQUARE_COUNT, sizeof *g.held);
+    g.spots = malloc(g.growing * sizeof *g.spots);
+    int result = -1;
+    if (g.taken && g.stands && g.first && g.held && g.spots && choose_squares(&g) == 0) {
+        share_out(&g);
+        result = find_spots(&g);
+        if (result == 0)
+            plant_spots(&g);
+    }
+    free(g.taken);
+    free(g.stands);
+    free(g.first);
+    free(g.held);
+    free(g.spots);
+    return result;
+}

@@ -1,0 +1,175 @@
+/* From a route's few points to all those of the roads between them. */
+#include "world/making/road_routing.h"
+
+#include "world/maths/maths.h"
+#include "world/making/road_graph.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A route on its way onto the roads. */
+struct laying {
+    struct world_build *genesis;
+    const struct road_graph *net;
+    const struct scenario_group *group;
+    const struct error_text *to;
+    uint32_t room; /* of the genesis's route points */
+};
+
+static int add_points(struct laying *laying, const struct route_point *points, uint32_t count)
+{
+    struct world_build *genesis = laying->genesis;
+    uint32_t used = genesis->counts.route_points;
+    if (used + count > ROUTE_POINTS_MAX)
+        return error_text_say(laying->to,
+                              "%s:%d: vehicles.route: the routes have more than %u points along "
+                              "the roads; right would be: shorter or fewer ones",
+                              genesis->scenario->params.scenario, laying->group->line,
+                              ROUTE_POINTS_MAX);
+    if (used + count > laying->room) {
+        uint32_t room = 2 * (used + count) + 256;
+        struct route_point *grown = realloc(genesis->route_points, room * sizeof *grown);
+        if (!grown)
+            return error_text_memory(laying->to);
+        genesis->route_points = grown;
+        laying->room = room;
+    }
+    if (count > 0)
+        memcpy(genesis->route_points + used, points, count * sizeof *points);
+    genesis->counts.route_points += count;
+    return 0;
+}
+
+static int find_road(const struct laying *laying, const struct route_point *point, uint32_t number,
+                     struct road_place *place)
+{
+    const char *file = laying->genesis->scenario->params.scenario;
+    if (!road_graph_place(laying->net, point->x, point->z, place))
+        return error_text_say(laying->to,
+                              "%s:%d: vehicles.roads = true: this ground has no roads; right would "
+                              "be: terrain.source = \"generated\", or a route without roads",
+                              file, laying->group->line);
+    if (place->off_m > ROAD_ROUTE_OFF_M)
+        return error_text_say(laying->to,
+                              "%s:%d: vehicles.route: point %u, [%.0f, %.0f], is %.0f m from the "
+                              "nearest road; allowed: up to %.0f m; right would be: near [%.0f, "
+                              "%.0f]",
+                              file, laying->group->line, number, point->x, point->z, place->off_m,
+                              ROAD_ROUTE_OFF_M, place->x, place->z);
+    return 0;
+}
+
+/* The way from one point to the next, without the latter: the next way begins with it. */
+static int lay_leg(struct laying *laying, const struct route_point *points, uint32_t count,
+                   uint32_t leg)
+{
+    const struct route_point *a = &points[leg], *b = &points[(leg + 1) % count];
+    struct road_place from, to;
+    struct route_point *way = NULL;
+    uint32_t length = 0;
+    double metres;
+    if (find_road(laying, a, leg + 1, &from) != 0 ||
+        find_road(laying, b, (leg + 1) % count + 1, &to) != 0)
+        return -1;
+    if (road_graph_way(laying->net, &from, &to, &way, &length, &metres) != 0)
+        return errno == ENOMEM
+                   ? error_text_memory(laying->to)
+                   : error_text_say(laying->to,
+                                    "%s:%d: vehicles.route: no road leads from point %u, [%.0f, "
+                                    "%.0f], to point %u, [%.0f, %.0f]; right would be: points on "
+                                    "roads that meet",
+                                    laying->genesis->scenario->params.scenario, laying->group->line,
+                                    leg + 1, a->x, a->z, (leg + 1) % count + 1, b->x, b->z);
+    int result = add_points(laying, way, length - 1);
+    free(way);
+    return result;
+}
+
+/* The points of one route, of which none is where the one before it is. */
+static int lay_route(struct laying *laying)
+{
+    const struct scenario *scenario = laying->genesis->scenario;
+    struct world_build *genesis = laying->genesis;
+    const struct route *given = &scenario->routes[laying->group->route];
+    struct route *route = &genesis->routes[laying->group->route];
+    const struct route_point *points = &scenario->route_points[given->first];
+    uint32_t first = genesis->counts.route_points, kept = first;
+    for (uint32_t i = 0; i < given->count && laying->group->roads; i++) {
+        if (lay_leg(laying, points, given->count, i) != 0)
+            return -1;
+    }
+    if (!laying->group->roads && add_points(laying, points, given->count) != 0)
+        return -1;
+    for (uint32_t i = first; i < genesis->counts.route_points && laying->group->roads; i++) {
+        const struct route_point p = genesis->route_points[i];
+        const struct route_point *last = &genesis->route_points[kept > first ? kept - 1 : first];
+        if (kept > first && p.x == last->x && p.z == last->z)
+            continue;
+        genesis->route_points[kept++] = p;
+    }
+    if (laying->group->roads)
+        genesis->counts.route_points = kept;
+    *route = (struct route){first, genesis->counts.route_points - first};
+    return 0;
+}
+
+int road_routing_build(struct world_build *genesis, const struct error_text *to)
+{
+    const struct scenario *scenario = genesis->scenario;
+    struct road_graph net = {0};
+    struct laying laying = {.genesis = genesis, .net = &net, .to = to};
+    int result = 0;
+    bool roads = false;
+    genesis->counts.routes = scenario->route_count;
+    genesis->routes = calloc(scenario->route_count + 1, sizeof *genesis->routes);
+    for (uint32_t g = 0; g < scenario->group_count; g++)
+        roads |= scenario->groups[g].roads != 0;
+    if (!genesis->routes ||
+        (roads && road_graph_build(&net, genesis->roads, genesis->counts.road_points) != 0))
+        return error_text_memory(to);
+    for (uint32_t g = 0; g < scenario->group_count && result == 0; g++) {
+        laying.group = &scenario->groups[g];
+        if (laying.group->route != UINT32_MAX)
+            result = lay_route(&laying);
+    }
+    road_graph_free(&net);
+    return result;
+}
+
+static double step_of(const struct route_point *a, const struct route_point *b)
+{
+    return sqrt((b->x - a->x) * (b->x - a->x) + (b->z - a->z) * (b->z - a->z));
+}
+
+double road_routing_length(const struct world_build *genesis, const struct route *route)
+{
+    const struct route_point *points = &genesis->route_points[route->first];
+    double length = 0.0;
+    for (uint32_t i = 0; i < route->count; i++)
+        length += step_of(&points[i], &points[(i + 1) % route->count]);
+    return length;
+}
+
+struct route_place road_routing_place(const struct world_build *genesis, const struct route *route,
+                                      double along_m)
+{
+    const struct route_point *points = &genesis->route_points[route->first];
+    double length = road_routing_length(genesis, route);
+    struct route_place place = {points[0].x, points[0].z, 0.0, 1 % route->count};
+    if (!(length > 0.0))
+        return place;
+    along_m -= length * floor(along_m / length);
+    for (uint32_t i = 0; i < route->count; i++) {
+        const struct route_point *a = &points[i], *b = &points[(i + 1) % route->count];
+        double step = step_of(a, b);
+        if (along_m < step) {
+            double share = along_m / step;
+            return (struct route_place){a->x + (b->x - a->x) * share, a->z + (b->z - a->z) * share,
+                                        maths_heading(b->x - a->x, b->z - a->z),
+                                        (i + 1) % route->count};
+        }
+        along_m -= step;
+    }
+    return place;
+}

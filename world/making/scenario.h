@@ -1,0 +1,116 @@
+/* A scenario as data: what config/ read from files, before there is a world. Plain memory owned by
+ * struct scenario; strings are bounded; references between parts are indices. */
+#ifndef JOLON_WORLD_MAKING_SCENARIO_H
+#define JOLON_WORLD_MAKING_SCENARIO_H
+
+#include "world/provenance.h"
+#include "world/world.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define ROUTE_POINTS_MAX 1048576u /* of all routes together */
+
+enum terrain_source { TERRAIN_GENERATED, TERRAIN_FLAT };
+enum object_source { OBJECTS_TABLE1, OBJECTS_NONE, OBJECTS_LIST };
+
+/* One entry of "vehicles": count of them in an area, or one at a place. */
+struct scenario_group {
+    char name[ENTITY_NAME_MAX]; /* "" for none; with count > 1 "-1", "-2", ... is added */
+    uint16_t kind;
+    uint8_t force, behaviour;
+    uint8_t flags;    /* ENTITY_FLAG_* */
+    uint8_t roads;    /* 1: its route goes along roads */
+    uint8_t formed;   /* 1: in a formation: leads it, or follows the group before */
+    uint8_t placed;   /* 1: at x, z; 0: anywhere in the area where its kind can be */
+    uint8_t turned;   /* 1: heading_rad was given */
+    uint8_t moving;   /* 1: speed_mps was given */
+    uint8_t floating; /* 1: altitude_m was given */
+    uint32_t count;
+    uint32_t area;   /* index into areas */
+    uint32_t route;  /* index into routes, UINT32_MAX for none */
+    uint32_t script; /* index into scripts, UINT32_MAX for none */
+    uint32_t shape;  /* enum formation_shape */
+    int line;        /* of the file, for messages */
+    double x, z, altitude_m, heading_rad, speed_mps, spacing_m;
+};
+
+/* A step of a script, as it stands in the file. */
+struct scenario_step {
+    struct script_step step;      /* target_slot and order_arg follow at genesis */
+    char target[ENTITY_NAME_MAX]; /* whom it fires at */
+    int line;                     /* of the script's file, for messages */
+};
+
+#define SCRIPT_FILE_MAX  64
+#define SCRIPT_STEPS_MAX 1048576u /* of all vehicles together */
+
+struct scenario_script {
+    char name[ENTITY_NAME_MAX];
+    char file[SCRIPT_FILE_MAX]; /* of its waypoints, beside the scenario; "": in the scenario */
+    uint32_t first, count;      /* steps */
+    uint8_t reacts, repeats;
+    int line;
+};
+
+struct scenario_object {
+    uint16_t kind;
+    double x, z, heading_rad;
+};
+
+struct scenario_fire {
+    double at_s;
+    char shooter[ENTITY_NAME_MAX]; /* "" for none: out of the sky */
+    char target[ENTITY_NAME_MAX];  /* "" for the point */
+    uint16_t munition;             /* KIND_NONE: the shooter's own */
+    double x, z;
+    int line; /* of the file, for messages */
+};
+
+struct scenario {
+    struct params params; /* capacity, seed, hz, collision, renderer, ... */
+    enum terrain_source terrain;
+    double flat_height_m;
+    double spacing_m; /* between posts: 125, 62.5 or 31.25 */
+    enum object_source objects;
+    uint8_t based[FORCE_COUNT]; /* 1: params.base was given */
+
+    struct kind *kinds;
+    uint32_t kind_count;
+    struct model *models;
+    uint32_t model_count;
+    struct model_vertex *vertices;
+    uint32_t vertex_count;
+    struct model_triangle *triangles;
+    uint32_t triangle_count;
+    struct hull *hulls;
+    uint32_t hull_count;
+    struct vec3 *hull_vertices;
+    uint32_t hull_vertex_count;
+    struct hull_plane *hull_planes;
+    uint32_t hull_plane_count;
+
+    struct scenario_group *groups;
+    uint32_t group_count;
+    struct scenario_object *object_list;
+    uint32_t object_count;
+    struct scenario_fire *fires;
+    uint32_t fire_count;
+    struct area *areas;
+    uint32_t area_count;
+    struct scenario_script *scripts;
+    uint32_t script_count;
+    struct scenario_step *steps;
+    uint32_t step_count;
+    struct route *routes;
+    uint32_t route_count;
+    struct route_point *route_points;
+    uint32_t route_point_count;
+    struct provenance recipe;
+    /* Told now and then how many vehicles have their place, of how many; NULL: nobody is. */
+    void (*placing)(uint32_t placed, uint32_t of);
+};
+
+void scenario_free(struct scenario *scenario);
+
+#endif

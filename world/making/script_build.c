@@ -1,0 +1,249 @@
+/* One script for each vehicle, or for the leader of a formation. */
+#include "world/making/script_build.h"
+
+#include "world/maths/maths.h"
+#include "world/terrain/gridsquare.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define IN_TIME_SHARE 1.001 /* of full speed: what rounding may add */
+#define THERE_M       1.0   /* as near to its first point it is there at time 0 */
+
+/* A script on its way to a vehicle. */
+struct copy {
+    struct world_build *genesis;
+    const struct scenario_script *from;
+    const struct scenario_group *group;
+    const struct callsigns *callsigns;
+    const struct error_text *to;
+    uint32_t slot;       /* whose it will be */
+    double off_x, off_z; /* its place off the group's first vehicle's */
+};
+
+static bool goes(const struct script_step *step)
+{
+    return step->type == STEP_GO || step->type == STEP_ARRIVE;
+}
+
+/* Steps that are done standing, or are the last. */
+static bool stands(const struct scenario_script *script, const struct scenario_step *steps,
+                   uint32_t index)
+{
+    if (index + 1 == script->count)
+        return !script->repeats;
+    enum step_type type = (enum step_type)steps[index + 1].step.type;
+    return type == STEP_FACE || type == STEP_STOP || type == STEP_WAIT || type == STEP_FIRE_AT;
+}
+
+static const char *file_of(const struct copy *copy)
+{
+    return copy->from->file[0] != '\0' ? copy->from->file
+                                       : copy->genesis->scenario->params.scenario;
+}
+
+bool script_build_start(const struct scenario *scenario, uint32_t script, double first[2],
+                        double next[2])
+{
+    const struct scenario_script *from = &scenario->scripts[script];
+    uint32_t found = 0;
+    for (uint32_t i = from->first; i < from->first + from->count && found < 2; i++) {
+        const struct script_step *step = &scenario->steps[i].step;
+        if (!goes(step))
+            continue;
+        double *point = found++ == 0 ? first : next;
+        point[0] = step->x;
+        point[1] = step->z;
+    }
+    if (found == 1)
+        memcpy(next, first, 2 * sizeof *next);
+    return found > 0;
+}
+
+static int check_ground(const struct copy *copy, const struct scenario_step *from,
+                        const struct script_step *step)
+{
+    const struct kind *kind = &copy->genesis->scenario->kinds[copy->group->kind];
+    struct terrain terrain = world_build_terrain(copy->genesis);
+    bool water = cover_is_water(terrain_cover(&terrain, step->x, step->z));
+    if (!goes(step) || kind->domain == DOMAIN_AIR || (kind->domain == DOMAIN_SEA) == water)
+        return 0;
+    return error_text_say(copy->to,
+                          "%s:%d: script \"%s\": [%.0f, %.0f] is %s, where no %s goes; right would "
+                          "be: a point on %s",
+                          file_of(copy), from->line, copy->from->name, step->x, step->z,
+                          water ? "water" : "land", kind->name, water ? "land" : "water");
+}
+
+/* Can it be here at this time, when it was there at that? */
+static int check_pace(const struct copy *copy, const struct scenario_step *from, double x, double z,
+                      double time_s)
+{
+    const struct kind *kind = &copy->genesis->scenario->kinds[copy->group->kind];
+    double dx = from->step.x - x, dz = from->step.z - z, metres = sqrt(dx * dx + dz * dz);
+    double seconds = from->step.at_s - time_s;
+    if (metres <= kind->max_speed_mps * seconds * IN_TIME_SHARE + THERE_M)
+        return 0;
+    return error_text_say(copy->to,
+                          "%s:%d: script \"%s\": %.0f m in %.15g s is more than the %.4g m/s of a "
+                          "%s; right would be: there at %.1f s or later",
+                          file_of(copy), from->line, copy->from->name, metres, seconds,
+                          kind->max_speed_mps, kind->name,
+                          time_s + ceil(10.0 * metres / kind->max_speed_mps) / 10.0);
+}
+
+/* From one arrival to the next right behind it; the first from where the vehicle starts. */
+static int check_paces(const struct copy *copy)
+{
+    const struct scenario *scenario = copy->genesis->scenario;
+    const struct entities *e = &copy->genesis->first;
+    double x = e->x[copy->slot] - copy->off_x, z = e->z[copy->slot] - copy->off_z, time_s = 0.0;
+    bool known = true;
+    for (uint32_t i = 0; i < copy->from->count; i++) {
+        const struct scenario_step *from = &scenario->steps[copy->from->first + i];
+        bool arrives = from->step.type == STEP_ARRIVE;
+        if (arrives && known && check_pace(copy, from, x, z, time_s) != 0)
+            return -1;
+        known = arrives;
+        x = from->step.x;
+        z = from->step.z;
+        time_s = from->step.at_s;
+    }
+    return 0;
+}
+
+static int give_order(const struct copy *copy, const struct scenario_step *from,
+                      struct script_step *step)
+{
+    const struct scenario_group *group = copy->group;
+    if (step->behaviour != BEHAVIOUR_ROUTE) {
+        step->order_arg = group->area;
+        return 0;
+    }
+    step->order_arg = group->route;
+    return group->route != UINT32_MAX
+               ? 0
+               : error_text_say(copy->to,
+                                "%s:%d: script \"%s\": behaviour = \"route\" has no route; right "
+                                "would be: route = ( [x, z], [x, z] ) with the vehicle",
+                                file_of(copy), from->line, copy->from->name);
+}
+
+static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m,
+                     struct script_step *step)
+{
+    const struct scenario *scenario = copy->genesis->scenario;
+    const struct scenario_step *steps = &scenario->steps[copy->from->first];
+    const struct scenario_step *from = &steps[index];
+    *step = from->step;
+    if (goes(step)) {
+        step->x = maths_clamp(step->x + copy->off_x, 0.0, WORLD_SIDE_M);
+        step->z = maths_clamp(step->z + copy->off_z, 0.0, WORLD_SIDE_M);
+        step->halt = stands(copy->from, steps, index);
+    }
+    if (step->altitude_m >= 0.0)
+        *altitude_m = step->altitude_m;
+    step->altitude_m = *altitude_m;
+    step->target_slot = SLOT_NONE;
+    step->next_due = UINT32_MAX;
+    if (name_index_find(copy->callsigns, from->target, &step->target_slot) != 0)
+        return error_text_say(copy->to,
+                              "%s:%d: script \"%s\": fire = \"%s\": no vehicle has that name",
+                              file_of(copy), from->line, copy->from->name, from->target);
+    if (step->type == STEP_BEHAVIOUR && give_order(copy, from, step) != 0)
+        return -1;
+    return check_ground(copy, from, step);
+}
+
+/* Which step each is cut off by; the last time of all. */
+static double link_dues(struct script_step *steps, uint32_t count)
+{
+    uint32_t due = UINT32_MAX;
+    double last_s = 0.0;
+    for (uint32_t i = count; i-- > 0;) {
+        steps[i].next_due = due;
+        if (steps[i].at_s >= 0.0 && steps[i].type != STEP_ARRIVE)
+            due = i;
+        last_s = maths_max(last_s, steps[i].at_s);
+    }
+    return last_s;
+}
+
+static int copy_script(const struct copy *copy)
+{
+    struct world_build *genesis = copy->genesis;
+    const struct kind *kind = &genesis->scenario->kinds[copy->group->kind];
+    struct counts *counts = &genesis->counts;
+    struct script *script = &genesis->scripts[counts->scripts];
+    struct script_step *steps = &genesis->steps[counts->script_steps];
+    double altitude = copy->group->floating ? copy->group->altitude_m : kind->cruise_altitude_m;
+    *script = (struct script){.first = counts->script_steps,
+                              .count = copy->from->count,
+                              .reacts = copy->from->reacts,
+                              .repeats = copy->from->repeats};
+    memcpy(script->name, copy->from->name, sizeof script->name);
+    for (uint32_t i = 0; i < script->count; i++) {
+        if (copy_step(copy, i, &altitude, &steps[i]) != 0)
+            return -1;
+    }
+    double last_s = link_dues(steps, script->count);
+    script->period_s = script->repeats ? last_s : 0.0;
+    genesis->first.order_arg[copy->slot] = counts->scripts++;
+    counts->script_steps += script->count;
+    return check_paces(copy);
+}
+
+/* The scripts of one group, whose first vehicle is in this slot. */
+static int give_scripts(struct copy *copy, uint32_t first)
+{
+    struct world_build *genesis = copy->genesis;
+    const struct entities *e = &genesis->first;
+    uint32_t count = copy->group->formed ? 1 : copy->group->count;
+    copy->from = &genesis->scenario->scripts[copy->group->script];
+    for (uint32_t i = 0; i < count; i++) {
+        copy->slot = first + i;
+        copy->off_x = e->x[first + i] - e->x[first];
+        copy->off_z = e->z[first + i] - e->z[first];
+        if (copy_script(copy) != 0)
+            return -1;
+    }
+    for (uint32_t f = 0; f < genesis->counts.formations; f++) {
+        if (genesis->formations[f].first == first)
+            genesis->formations[f].order_arg = e->order_arg[first];
+    }
+    return 0;
+}
+
+int script_build_build(struct world_build *genesis, const struct callsigns *callsigns,
+                       const struct error_text *to)
+{
+    const struct scenario *scenario = genesis->scenario;
+    struct copy copy = {.genesis = genesis, .callsigns = callsigns, .to = to};
+    uint64_t steps = 0, scripts = 0;
+    uint32_t slot = 0;
+    for (uint32_t g = 0; g < scenario->group_count; g++) {
+        const struct scenario_group *group = &scenario->groups[g];
+        uint64_t count = group->formed ? 1 : group->count;
+        if (group->script == UINT32_MAX)
+            continue;
+        scripts += count;
+        steps += count * scenario->scripts[group->script].count;
+    }
+    if (steps > SCRIPT_STEPS_MAX)
+        return error_text_say(
+            to,
+            "%s: the vehicles' scripts have %llu steps; allowed: up to %u in all; "
+            "right would be: formations, whose leader alone has one",
+            scenario->params.scenario, (unsigned long long)steps, SCRIPT_STEPS_MAX);
+    genesis->scripts = calloc(scripts + 1, sizeof *genesis->scripts);
+    genesis->steps = calloc(steps + 1, sizeof *genesis->steps);
+    if (!genesis->scripts || !genesis->steps)
+        return error_text_memory(to);
+    for (uint32_t g = 0; g < scenario->group_count; g++) {
+        copy.group = &scenario->groups[g];
+        if (copy.group->script != UINT32_MAX && give_scripts(&copy, slot) != 0)
+            return -1;
+        slot += copy.group->count;
+    }
+    return 0;
+}

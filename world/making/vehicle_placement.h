@@ -1,0 +1,12 @@
+/* Muster: a scenario's vehicles take their places for frame 0, alone or in formation. */
+#ifndef JOLON_WORLD_MAKING_VEHICLE_PLACEMENT_H
+#define JOLON_WORLD_MAKING_VEHICLE_PLACEMENT_H
+
+#include "world/runtime/error_text.h"
+#include "world/making/world_build.h"
+
+/* Fills the genesis's first entities, names, formations and bases; its ground and objects must be
+ * there. 0, or -1 with the complaint: no room in the table, no place on the map, out of memory. */
+int vehicle_placement_build(struct world_build *genesis, const struct error_text *to);
+
+#endif

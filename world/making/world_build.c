@@ -1,0 +1,261 @@
+/* From a scenario to a world's static parts and its frame 0. */
+#include "world/making/world_build.h"
+
+#include "world/runtime/error_text.h"
+#include "world/making/generate.h"
+#include "world/making/vehicle_placement.h"
+#include "world/terrain/fixed_index.h"
+#include "world/making/road_routing.h"
+#include "world/name_index.h"
+#include "world/making/script_build.h"
+#include "world/terrain/gridsquare.h"
+#include "world/checksum.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int build_ground(struct world_build *genesis, const struct error_text *to)
+{
+    const struct scenario *scenario = genesis->scenario;
+    uint32_t side = (uint32_t)(WORLD_SIDE_M / scenario->spacing_m) + 1;
+    size_t posts = (size_t)side * side;
+    genesis->counts.posts_side = side;
+    genesis->posts = malloc(posts * sizeof *genesis->posts);
+    genesis->cover = malloc(posts);
+    genesis->roads = malloc(GENERATE_ROAD_MAX * sizeof *genesis->roads);
+    if (!genesis->posts || !genesis->cover || !genesis->roads)
+        return error_text_memory(to);
+    if (scenario->terrain == TERRAIN_FLAT) {
+        generate_flat(genesis->posts, genesis->cover, side, scenario->flat_height_m);
+        return 0;
+    }
+    if (generate_hunter_liggett(genesis->posts, genesis->cover, side, scenario->params.seed,
+                                genesis->roads, GENERATE_ROAD_MAX,
+                                &genesis->counts.road_points) != 0)
+        return error_text_say(to, "the ground could not be generated: %s", strerror(errno));
+    return 0;
+}
+
+static int by_square(const void *a, const void *b)
+{
+    const struct fixed_object *p = a, *q = b;
+    uint32_t sp = gridsquare_of(p->x, p->z), sq = gridsquare_of(q->x, q->z);
+    if (sp != sq)
+        return sp < sq ? -1 : 1;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    if (p->z != q->z)
+        return p->z < q->z ? -1 : 1;
+    return p->kind < q->kind ? -1 : p->kind > q->kind;
+}
+
+static void list_objects(struct world_build *genesis, const struct terrain *terrain)
+{
+    const struct scenario *scenario = genesis->scenario;
+    for (uint32_t i = 0; i < scenario->object_count; i++) {
+        const struct scenario_object *from = &scenario->object_list[i];
+        const struct kind *kind = &scenario->kinds[from->kind];
+        genesis->fixed[i] = (struct fixed_object){
+            .x = from->x,
+            .z = from->z,
+            .y = (float)terrain_base_height(terrain, from->x, from->z),
+            .radius_m = (float)kind->radius_m,
+            .height_m = (float)kind->height_m,
+            .kind = from->kind,
+            .turn = (uint16_t)(maths_wrap_turn(from->heading_rad) * (65536.0 / TWO_PI)),
+        };
+    }
+    qsort(genesis->fixed, scenario->object_count, sizeof *genesis->fixed, by_square);
+}
+
+static int build_objects(struct world_build *genesis, const struct error_text *to)
+{
+    const struct scenario *scenario = genesis->scenario;
+    struct terrain terrain = world_build_terrain(genesis);
+    uint32_t count = scenario->objects == OBJECTS_TABLE1 ? GENERATE_TABLE1_TOTAL
+                     : scenario->objects == OBJECTS_LIST ? scenario->object_count
+                                                         : 0;
+    genesis->counts.fixed = count;
+    genesis->fixed = calloc(count + 1, sizeof *genesis->fixed);
+    if (!genesis->fixed)
+        return error_text_memory(to);
+    if (scenario->objects == OBJECTS_LIST)
+        list_objects(genesis, &terrain);
+    if (scenario->objects == OBJECTS_TABLE1 &&
+        generate_table1_objects(genesis->fixed, &terrain, scenario->kinds, scenario->kind_count,
+                                genesis->roads, genesis->counts.road_points,
+                                scenario->params.seed) != 0)
+        return errno == EINVAL
+                   ? error_text_say(to, "objects: a class of Table 1 has no kind in config/kinds")
+                   : error_text_memory(to);
+    if (fixed_index_build(genesis->fixed, count, scenario->kinds, &genesis->reach_start,
+                          &genesis->reach) != 0)
+        return error_text_memory(to);
+    genesis->counts.reach = genesis->reach_start[GRIDSQUARE_COUNT];
+    return 0;
+}
+
+static int by_tick(const void *a, const void *b)
+{
+    const struct fire_order *p = a, *q = b;
+    if (p->tick != q->tick)
+        return p->tick < q->tick ? -1 : 1;
+    return p->reserved < q->reserved ? -1 : p->reserved > q->reserved; /* the file's order */
+}
+
+static int build_fire(struct world_build *genesis, uint32_t index,
+                      const struct callsigns *callsigns, const struct error_text *to)
+{
+    const struct scenario *scenario = genesis->scenario;
+    const struct scenario_fire *from = &scenario->fires[index];
+    struct fire_order *order = &genesis->fires[index];
+    double tick = floor(from->at_s * scenario->params.hz + 0.5);
+    order->tick = tick < 1.0 ? 1 : (uint64_t)tick;
+    order->kind = from->munition;
+    order->reserved = (uint16_t)index;
+    order->x = from->x;
+    order->z = from->z;
+    if (name_index_find(callsigns, from->shooter, &order->shooter_slot) != 0)
+        return error_text_say(to, "%s:%d: fires.shooter = \"%s\": no vehicle has that name",
+                              scenario->params.scenario, from->line, from->shooter);
+    if (name_index_find(callsigns, from->target, &order->target_slot) != 0)
+        return error_text_say(to, "%s:%d: fires.target = \"%s\": no vehicle has that name",
+                              scenario->params.scenario, from->line, from->target);
+    return 0;
+}
+
+static int build_fires(struct world_build *genesis, const struct callsigns *callsigns,
+                       const struct error_text *to)
+{
+    uint32_t count = genesis->scenario->fire_count;
+    genesis->fires = calloc(count + 1, sizeof *genesis->fires);
+    if (!genesis->fires)
+        return error_text_memory(to);
+    for (uint32_t i = 0; i < count; i++) {
+        if (build_fire(genesis, i, callsigns, to) != 0)
+            return -1;
+    }
+    qsort(genesis->fires, count, sizeof *genesis->fires, by_tick);
+    genesis->counts.fires = count;
+    return 0;
+}
+
+/* What goes by vehicles' names: ordered shots, and those of scripts. */
+static int build_orders(struct world_build *genesis, const struct error_text *to)
+{
+    struct callsigns callsigns;
+    if (name_index_init(&callsigns, genesis->names, genesis->used) != 0)
+        return error_text_memory(to);
+    int result = script_build_build(genesis, &callsigns, to);
+    if (result == 0)
+        result = build_fires(genesis, &callsigns, to);
+    name_index_free(&callsigns);
+    return result;
+}
+
+struct terrain world_build_terrain(const struct world_build *genesis)
+{
+    return (struct terrain){genesis->posts, genesis->cover, genesis->counts.posts_side,
+                            WORLD_SIDE_M / (double)(genesis->counts.posts_side - 1)};
+}
+
+int world_build_build(struct world_build *genesis, const struct scenario *scenario, char *text,
+                      size_t bytes)
+{
+    struct error_text to = {text, bytes};
+    *genesis = (struct world_build){.scenario = scenario};
+    genesis->counts = (struct counts){
+        .kinds = scenario->kind_count,
+        .models = scenario->model_count,
+        .model_vertices = scenario->vertex_count,
+        .model_triangles = scenario->triangle_count,
+        .hulls = scenario->hull_count,
+        .hull_vertices = scenario->hull_vertex_count,
+        .hull_planes = scenario->hull_plane_count,
+        .areas = scenario->area_count,
+        .recipe = provenance_room(scenario->recipe.bytes),
+    };
+    if (build_ground(genesis, &to) != 0 || build_objects(genesis, &to) != 0 ||
+        road_routing_build(genesis, &to) != 0 || vehicle_placement_build(genesis, &to) != 0 ||
+        build_orders(genesis, &to) != 0) {
+        world_build_free(genesis);
+        return -1;
+    }
+    return 0;
+}
+
+void world_build_free(struct world_build *genesis)
+{
+    free(genesis->posts);
+    free(genesis->cover);
+    free(genesis->fixed);
+    free(genesis->reach_start);
+    free(genesis->reach);
+    free(genesis->roads);
+    free(genesis->fires);
+    free(genesis->routes);
+    free(genesis->route_points);
+    free(genesis->formations);
+    free(genesis->scripts);
+    free(genesis->steps);
+    free(genesis->names);
+    free(genesis->first_memory);
+    *genesis = (struct world_build){0};
+}
+
+/* Static parts are const to everybody after this one writer. */
+static void fill(const void *to, const void *from, size_t count, size_t size)
+{
+    if (count > 0)
+        memcpy((void *)(uintptr_t)to, from, count * size);
+}
+
+static void fill_state(const struct world_build *genesis, struct state *state)
+{
+    struct state_head *head = state->head;
+    uint32_t vehicles = 0;
+    *head = (struct state_head){.time_scale = 1.0,
+                                .used = genesis->used,
+                                .alloc_next = genesis->used,
+                                .next_id = genesis->used + 1};
+    entities_copy(&state->entities, &genesis->first, 0, genesis->used);
+    for (uint32_t i = 0; i < genesis->used; i++)
+        vehicles += genesis->first.state[i] != ENTITY_FREE;
+    head->vehicles = vehicles;
+    memset(state->fixed_damage, DAMAGE_NONE, genesis->counts.fixed);
+    state_seal(state, genesis->counts.fixed);
+}
+
+void world_build_fill(const struct world_build *genesis, struct world *world, struct state state[2])
+{
+    const struct scenario *s = genesis->scenario;
+    const struct counts *n = &genesis->counts;
+    size_t posts = (size_t)n->posts_side * n->posts_side;
+    fill(world->kinds, s->kinds, n->kinds, sizeof *s->kinds);
+    fill(world->models, s->models, n->models, sizeof *s->models);
+    fill(world->model_vertices, s->vertices, n->model_vertices, sizeof *s->vertices);
+    fill(world->model_triangles, s->triangles, n->model_triangles, sizeof *s->triangles);
+    fill(world->hulls, s->hulls, n->hulls, sizeof *s->hulls);
+    fill(world->hull_vertices, s->hull_vertices, n->hull_vertices, sizeof *s->hull_vertices);
+    fill(world->hull_planes, s->hull_planes, n->hull_planes, sizeof *s->hull_planes);
+    fill(world->terrain.posts, genesis->posts, posts, sizeof *genesis->posts);
+    fill(world->terrain.cover, genesis->cover, posts, 1);
+    fill(world->fixed, genesis->fixed, n->fixed, sizeof *genesis->fixed);
+    fill(world->reach_start, genesis->reach_start, GRIDSQUARE_COUNT + 1, sizeof(uint32_t));
+    fill(world->reach, genesis->reach, n->reach, sizeof(uint32_t));
+    fill(world->areas, s->areas, n->areas, sizeof *s->areas);
+    fill(world->routes, genesis->routes, n->routes, sizeof *genesis->routes);
+    fill(world->route_points, genesis->route_points, n->route_points,
+         sizeof *genesis->route_points);
+    fill(world->fires, genesis->fires, n->fires, sizeof *genesis->fires);
+    fill(world->road_points, genesis->roads, n->road_points, sizeof *genesis->roads);
+    fill(world->formations, genesis->formations, n->formations, sizeof *genesis->formations);
+    fill(world->scripts, genesis->scripts, n->scripts, sizeof *genesis->scripts);
+    fill(world->script_steps, genesis->steps, n->script_steps, sizeof *genesis->steps);
+    fill(world->names, genesis->names, n->names, sizeof *genesis->names);
+    fill(world->recipe, s->recipe.text, s->recipe.bytes, 1);
+    for (int i = 0; i < 2; i++)
+        fill_state(genesis, &state[i]);
+}

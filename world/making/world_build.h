@@ -1,0 +1,48 @@
+/* Genesis: a scenario becomes a world and its frame 0. Runs once, at creation, in one process. */
+#ifndef JOLON_WORLD_MAKING_WORLD_BUILD_H
+#define JOLON_WORLD_MAKING_WORLD_BUILD_H
+
+#include "world/making/scenario.h"
+#include "world/world.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The generated parts in plain memory, from which counts (and so a segment's size) follow. */
+struct world_build {
+    const struct scenario *scenario;
+    struct counts counts;
+    float *posts;
+    uint8_t *cover;
+    struct fixed_object *fixed;
+    uint32_t *reach_start, *reach;
+    struct road_point *roads;
+    struct fire_order *fires;
+    struct route *routes;
+    struct route_point *route_points;
+    struct formation *formations;
+    struct script *scripts;
+    struct script_step *steps;
+    struct entity_name *names;
+    struct force_base base[FORCE_COUNT];
+    struct entities first; /* frame 0's entities, rows 0 .. used - 1 */
+    void *first_memory;
+    uint32_t used;
+};
+
+/* 0, or -1 with a message of at most bytes in text: no room for the vehicles, an unknown name in
+ * a fire order, no place found for a vehicle, out of memory. */
+int world_build_build(struct world_build *genesis, const struct scenario *scenario, char *text,
+                      size_t bytes);
+/* The ground as built so far. */
+struct terrain world_build_terrain(const struct world_build *genesis);
+
+void world_build_free(struct world_build *genesis);
+
+/* Copies everything into a world whose pointers lead to writable memory of the counts' sizes, and
+ * frame 0 into both states. world->params must already hold scenario->params with the genesis's
+ * bases. */
+void world_build_fill(const struct world_build *genesis, struct world *world,
+                      struct state state[2]);
+
+#endif

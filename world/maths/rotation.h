@@ -1,0 +1,61 @@
+/* Rotations as unit quaternions and matrices. Body axes: x forward, y up, z right; world axes: x
+ * east, y up, z south. Only + - * / sqrt and maths_sincos: the same bits everywhere. Pure; any
+ * thread. */
+#ifndef JOLON_WORLD_MATHS_ROTATION_H
+#define JOLON_WORLD_MATHS_ROTATION_H
+
+#include "world/maths/maths.h"
+
+struct quat {
+    double w, x, y, z; /* unit */
+};
+
+/* Row by row: world = turn * body. The columns are the body's forward, up and right. */
+struct mat3 {
+    double m[3][3];
+};
+
+/* Heading clockwise from north, then pitch nose up, then roll right side down [rad]. */
+struct quat rotation_of(double heading_rad, double pitch_rad, double roll_rad);
+
+/* Back: heading 0..2 pi, pitch -pi/2..pi/2, roll -pi..pi; roll is 0 when the nose is straight up
+ * or down. rotation_of() of the three is the same turn to within 1e-14 of a radian everywhere, near
+ * straight up and down too, where heading and roll by themselves mean little. */
+void rotation_angles(struct quat q, double *heading_rad, double *pitch_rad, double *roll_rad);
+
+struct mat3 rotation_matrix(struct quat q);
+
+/* Body to world. */
+static inline struct vec3 rotation_apply(const struct mat3 *turn, struct vec3 body)
+{
+    const double(*m)[3] = turn->m;
+    return (struct vec3){m[0][0] * body.x + m[0][1] * body.y + m[0][2] * body.z,
+                         m[1][0] * body.x + m[1][1] * body.y + m[1][2] * body.z,
+                         m[2][0] * body.x + m[2][1] * body.y + m[2][2] * body.z};
+}
+
+/* World to body. */
+static inline struct vec3 rotation_back(const struct mat3 *turn, struct vec3 world)
+{
+    const double(*m)[3] = turn->m;
+    return (struct vec3){m[0][0] * world.x + m[1][0] * world.y + m[2][0] * world.z,
+                         m[0][1] * world.x + m[1][1] * world.y + m[2][1] * world.z,
+                         m[0][2] * world.x + m[1][2] * world.y + m[2][2] * world.z};
+}
+
+/* The shorter way from a to b, t in 0..1, by normalised linear interpolation: about one axis that
+ * stands still in the world and in the body, a little faster in the middle than at the ends. Of the
+ * two ways of half a turn the one that rotation_of gave the signs for. */
+struct quat rotation_between(struct quat a, struct quat b, double t);
+
+/* The fastest turning on that way [rad over the whole of it]: 4 tan(angle / 4); INFINITY-free:
+ * at most 4 for half a turn. A point r from the axis is never accelerated by more than rate^2 r. */
+double rotation_rate(struct quat a, struct quat b);
+
+/* How it turns on that way at t [rad over the whole of it, world axes]; rotation_rate at most. */
+struct vec3 rotation_speed(struct quat a, struct quat b, double t);
+
+/* q turned by spin (world axes, [rad/s]) for dt seconds: exact for a constant spin. */
+struct quat rotation_spun(struct quat q, struct vec3 spin_rps, double dt_s);
+
+#endif

@@ -1,0 +1,22 @@
+/* Callsigns: a world's vehicles by their names. */
+#ifndef JOLON_WORLD_NAME_INDEX_H
+#define JOLON_WORLD_NAME_INDEX_H
+
+#include "world/world.h"
+
+#include <stdint.h>
+
+struct callsigns {
+    const struct entity_name *names;   /* the caller's, of the initial slots */
+    const struct entity_name **sorted; /* orders may be as many as vehicles */
+    uint32_t count;
+};
+
+/* 0, or -1 with errno ENOMEM. */
+int name_index_init(struct callsigns *callsigns, const struct entity_name *names, uint32_t count);
+void name_index_free(struct callsigns *callsigns);
+
+/* The slot of the vehicle called name, SLOT_NONE for "". 0, or -1: nobody is called so. */
+int name_index_find(const struct callsigns *callsigns, const char *name, uint32_t *slot);
+
+#endif

@@ -1,0 +1,237 @@
+/* A fork-join pool: the caller opens a job and works on it too; helpers go in while it is open.
+ *
+ * Jobs follow each other within microseconds, and to put a thread to sleep and wake it costs tens
+ * of them: so who waits looks for a short while before he sleeps. Nobody waits for a helper that
+ * woke when all was done. */
+#include "world/runtime/thread_pool.h"
+
+#include "world/runtime/work_done.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#define LOOKS 1500 /* before sleeping: some 40 us */
+
+/* The gate: the job's number, whether it is open, and how many helpers are in it. */
+#define GATE_IN   0xffu
+#define GATE_OPEN 0x100u
+#define GATE_JOB  0x200u
+
+struct thread_pool {
+    uint32_t threads;
+    uint32_t looks; /* 0: fewer processors than threads, who waits gives way */
+    pthread_t thread[THREAD_POOL_MAX];
+    pthread_mutex_t mutex;
+    pthread_cond_t begin, done;
+    _Atomic uint32_t names; /* next helper's number */
+    _Atomic uint64_t gate;
+    _Atomic uint32_t asleep; /* helpers that are, or about to be; changed under mutex */
+    _Atomic bool waiting;    /* the caller sleeps, or is about to; changed under mutex */
+    _Atomic bool stop;       /* changed under mutex */
+    /* Of the job; written while the gate is shut and nobody is in. */
+    thread_pool_function *function;
+    void *context;
+    uint32_t count, grain;
+    _Atomic uint32_t next;
+};
+
+static void look_again(void)
+{
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#else
+    sched_yield();
+#endif
+}
+
+static void work(struct thread_pool *workers, uint32_t worker)
+{
+    for (;;) {
+        uint32_t first =
+            atomic_fetch_add_explicit(&workers->next, workers->grain, memory_order_relaxed);
+        if (first >= workers->count)
+            return;
+        uint32_t left = workers->count - first;
+        workers->function(workers->context, first,
+                          first + (left < workers->grain ? left : workers->grain), worker);
+        work_done();
+    }
+}
+
+/* --- helpers -----------------------------------------------------------------------------------*/
+
+/* Is a job open that the helper has not seen, or none to come? */
+static bool has_news(struct thread_pool *workers, uint64_t seen)
+{
+    uint64_t gate = atomic_load(&workers->gate);
+    return (gate & GATE_OPEN && gate / GATE_JOB != seen) || atomic_load(&workers->stop);
+}
+
+static void wait_for_news(struct thread_pool *workers, uint64_t seen)
+{
+    for (uint32_t i = 0; i < workers->looks; i++) {
+        if (has_news(workers, seen))
+            return;
+        look_again();
+    }
+    pthread_mutex_lock(&workers->mutex);
+    atomic_fetch_add(&workers->asleep, 1);
+    while (!has_news(workers, seen))
+        pthread_cond_wait(&workers->begin, &workers->mutex);
+    atomic_fetch_sub(&workers->asleep, 1);
+    pthread_mutex_unlock(&workers->mutex);
+}
+
+/* Goes into the open job; false when it is shut. */
+static bool enter(struct thread_pool *workers, uint64_t *seen)
+{
+    uint64_t gate = atomic_load(&workers->gate);
+    while (gate & GATE_OPEN) {
+        if (atomic_compare_exchange_weak(&workers->gate, &gate, gate + 1)) {
+            *seen = gate / GATE_JOB;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The last one out of a shut job wakes the caller if he sleeps. */
+static void leave(struct thread_pool *workers)
+{
+    uint64_t gate = atomic_fetch_sub(&workers->gate, 1) - 1;
+    if (gate & (GATE_OPEN | GATE_IN) || !atomic_load(&workers->waiting))
+        return;
+    pthread_mutex_lock(&workers->mutex);
+    pthread_cond_signal(&workers->done);
+    pthread_mutex_unlock(&workers->mutex);
+}
+
+static void *helper(void *argument)
+{
+    struct thread_pool *workers = argument;
+    uint32_t worker = atomic_fetch_add(&workers->names, 1) + 1;
+    uint64_t seen = 0;
+    for (;;) {
+        wait_for_news(workers, seen);
+        if (atomic_load(&workers->stop))
+            return NULL;
+        if (enter(workers, &seen)) {
+            work(workers, worker);
+            leave(workers);
+        }
+    }
+}
+
+/* --- the caller --------------------------------------------------------------------------------*/
+
+/* From now on helpers go in; those that sleep are woken. */
+static void open_job(struct thread_pool *workers)
+{
+    uint64_t job = atomic_load(&workers->gate) / GATE_JOB + 1;
+    atomic_store(&workers->gate, job * GATE_JOB | GATE_OPEN);
+    if (atomic_load(&workers->asleep) > 0) {
+        pthread_mutex_lock(&workers->mutex);
+        pthread_cond_broadcast(&workers->begin);
+        pthread_mutex_unlock(&workers->mutex);
+    }
+}
+
+static bool is_empty(struct thread_pool *workers)
+{
+    return (atomic_load(&workers->gate) & GATE_IN) == 0;
+}
+
+/* Nobody goes in any more; returns when nobody is. */
+static void shut_job(struct thread_pool *workers)
+{
+    atomic_fetch_and(&workers->gate, ~(uint64_t)GATE_OPEN);
+    for (uint32_t i = 0; i < workers->looks; i++) {
+        if (is_empty(workers))
+            return;
+        look_again();
+    }
+    pthread_mutex_lock(&workers->mutex);
+    atomic_store(&workers->waiting, true);
+    while (!is_empty(workers))
+        pthread_cond_wait(&workers->done, &workers->mutex);
+    atomic_store(&workers->waiting, false);
+    pthread_mutex_unlock(&workers->mutex);
+}
+
+static uint32_t looks_for(uint32_t threads)
+{
+    cpu_set_t processors;
+    if (sched_getaffinity(0, sizeof processors, &processors) != 0)
+        return 0;
+    return (uint32_t)CPU_COUNT(&processors) >= threads ? LOOKS : 0;
+}
+
+struct thread_pool *thread_pool_create(uint32_t threads)
+{
+    if (threads < 1 || threads > THREAD_POOL_MAX) {
+        errno = EINVAL;
+        return NULL;
+    }
+    struct thread_pool *workers = calloc(1, sizeof *workers);
+    if (!workers)
+        return NULL;
+    workers->threads = 1;
+    workers->looks = looks_for(threads);
+    pthread_mutex_init(&workers->mutex, NULL);
+    pthread_cond_init(&workers->begin, NULL);
+    pthread_cond_init(&workers->done, NULL);
+    while (workers->threads < threads) {
+        int error = pthread_create(&workers->thread[workers->threads], NULL, helper, workers);
+        if (error != 0) {
+            thread_pool_destroy(workers);
+            errno = error;
+            return NULL;
+        }
+        workers->threads++;
+    }
+    return workers;
+}
+
+void thread_pool_destroy(struct thread_pool *workers)
+{
+    if (!workers)
+        return;
+    pthread_mutex_lock(&workers->mutex);
+    atomic_store(&workers->stop, true);
+    pthread_cond_broadcast(&workers->begin);
+    pthread_mutex_unlock(&workers->mutex);
+    for (uint32_t i = 1; i < workers->threads; i++)
+        pthread_join(workers->thread[i], NULL);
+    pthread_cond_destroy(&workers->begin);
+    pthread_cond_destroy(&workers->done);
+    pthread_mutex_destroy(&workers->mutex);
+    free(workers);
+}
+
+uint32_t thread_pool_threads(const struct thread_pool *workers)
+{
+    return workers ? workers->threads : 1;
+}
+
+void thread_pool_run(struct thread_pool *workers, thread_pool_function *function, void *context,
+                     uint32_t count, uint32_t grain)
+{
+    grain = grain > 0 ? grain : 1;
+    if (!workers || workers->threads == 1 || count <= grain) {
+        if (count > 0)
+            function(context, 0, count, 0);
+        return;
+    }
+    workers->function = function;
+    workers->context = context;
+    workers->count = count;
+    workers->grain = grain;
+    atomic_store_explicit(&workers->next, 0, memory_order_relaxed);
+    open_job(workers);
+    work(workers, 0);
+    shut_job(workers);
+}

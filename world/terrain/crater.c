@@ -1,0 +1,96 @@
+/* The private index over the shared list of craters, and the ground they leave. */
+#include "world/terrain/crater.h"
+
+#include "world/maths/maths.h"
+#include "world/runtime/reserve.h"
+#include "world/terrain/gridsquare.h"
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+int crater_index_init(struct crater_index *index, const struct crater *craters)
+{
+    *index = (struct crater_index){.craters = craters};
+    index->head = calloc(GRIDSQUARE_COUNT, sizeof *index->head);
+    index->links = reserve_take(CRATER_SLOTS_MAX * CRATER_SQUARES, sizeof *index->links);
+    if (index->head && index->links)
+        return 0;
+    crater_index_free(index);
+    errno = ENOMEM;
+    return -1;
+}
+
+void crater_index_free(struct crater_index *index)
+{
+    free(index->head);
+    reserve_free(index->links);
+    *index = (struct crater_index){0};
+}
+
+static struct gridsquare_box reach_of(const struct crater *crater)
+{
+    double reach = maths_min((double)crater->radius_m, CRATER_RADIUS_MAX) * CRATER_RIM;
+    return gridsquare_box_of(crater->x - reach, crater->z - reach, crater->x + reach,
+                             crater->z + reach);
+}
+
+void crater_index_update(struct crater_index *index, uint32_t count)
+{
+    if (count < index->count) {
+        memset(index->head, 0, GRIDSQUARE_COUNT * sizeof *index->head);
+        index->link_count = 0;
+        index->count = 0;
+        index->rim_m = 0.0;
+    }
+    while (index->count < count) {
+        struct gridsquare_box box = reach_of(&index->craters[index->count]);
+        for (int32_t row = box.z0; row <= box.z1; row++) {
+            for (int32_t column = box.x0; column <= box.x1; column++) {
+                uint32_t *head = &index->head[gridsquare_index(column, row)];
+                index->links[index->link_count] = (struct crater_link){index->count, *head};
+                *head = ++index->link_count;
+            }
+        }
+        index->rim_m = maths_max(index->rim_m,
+                                 (double)index->craters[index->count].depth_m * CRATER_RIM_HEIGHT);
+        index->count++;
+    }
+}
+
+/* A paraboloid bowl, then a rim that rises and falls off to CRATER_RIM radii. */
+static double profile(const struct crater *crater, double x, double z)
+{
+    double radius = (double)crater->radius_m;
+    double depth = (double)crater->depth_m;
+    if (!(radius > 0.0))
+        return 0.0;
+    double dx = (x - crater->x) / radius;
+    double dz = (z - crater->z) / radius;
+    double square = dx * dx + dz * dz;
+    if (square >= CRATER_RIM * CRATER_RIM)
+        return 0.0;
+    double rim = depth * CRATER_RIM_HEIGHT;
+    if (square < 1.0)
+        return -depth + (depth + rim) * square;
+    double t = (CRATER_RIM - sqrt(square)) / (CRATER_RIM - 1.0);
+    return rim * t * t;
+}
+
+double crater_offset(const struct crater_index *index, double x, double z)
+{
+    double deepest = 0.0;
+    double highest = 0.0;
+    if (index->count == 0)
+        return 0.0;
+    uint32_t link = index->head[gridsquare_of(x, z)];
+    while (link != 0) {
+        const struct crater_link *entry = &index->links[link - 1];
+        double offset = profile(&index->craters[entry->crater], x, z);
+        deepest = maths_min(deepest, offset);
+        highest = maths_max(highest, offset);
+        link = entry->next;
+    }
+    return deepest < 0.0 ? deepest : highest;
+}

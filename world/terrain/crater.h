@@ -1,0 +1,59 @@
+/* Craters: an append-only list in shared memory and a private index over it by gridsquare.
+ *
+ * The list is part of the world (written by the collider, committed by its count); the index is
+ * a cache that each process builds for itself from the committed entries, so it is never shared
+ * and never wrong after a kill. */
+#ifndef JOLON_WORLD_TERRAIN_CRATER_H
+#define JOLON_WORLD_TERRAIN_CRATER_H
+
+#include <stdint.h>
+
+struct crater {
+    double x, z;    /* [m] centre */
+    float radius_m; /* of the bowl; the rim reaches CRATER_RIM times as far */
+    float depth_m;  /* below the ground that was there */
+    uint64_t frame; /* that dug it */
+};
+
+_Static_assert(sizeof(struct crater) == 32, "shared layout");
+
+/* The rim's outer radius over the bowl's; its height over the depth. Ejecta profiles of small
+ * explosion craters: rim about a fifth of the depth, blanket to about 1.5 radii (Cooper 1996). */
+#define CRATER_RIM        1.5
+#define CRATER_RIM_HEIGHT 0.2
+
+/* [m] More than the bowl of the largest charge that a kind can have
+ * (collider/response/explosion.c): nothing is wider. So a crater reaches into CRATER_SQUARES
+ * gridsquares at most. */
+#define CRATER_RADIUS_MAX 60.0
+#define CRATER_SQUARES    9u
+
+#define CRATER_SLOTS_MAX (1u << 20)
+
+struct crater_link {
+    uint32_t crater; /* index into the list */
+    uint32_t next;   /* link + 1, 0 ends */
+};
+
+struct crater_index {
+    const struct crater *craters;
+    uint32_t count;            /* craters indexed so far */
+    uint32_t *head;            /* [GRIDSQUARE_COUNT] link + 1, 0 for none */
+    struct crater_link *links; /* CRATER_SQUARES for each of CRATER_SLOTS_MAX craters */
+    uint32_t link_count;
+    double rim_m; /* the highest rim that any of them raises the ground by */
+};
+
+/* 0, or -1 with errno ENOMEM. The list must outlive the index. */
+int crater_index_init(struct crater_index *index, const struct crater *craters);
+void crater_index_free(struct crater_index *index);
+
+/* Takes the list's entries up to count in, at most CRATER_SLOTS_MAX. A count below what was indexed
+ * (another world's past) rebuilds from the start. It takes no memory. */
+void crater_index_update(struct crater_index *index, uint32_t count);
+
+/* What the craters add to the ground at (x, z) [m]: the deepest bowl, else the highest rim, else
+ * 0. Does not depend on the order of the craters. */
+double crater_offset(const struct crater_index *index, double x, double z);
+
+#endif

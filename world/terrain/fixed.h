@@ -1,0 +1,45 @@
+/* Fixed objects: trees, bushes, poles, buildings (Table 1), in gridsquare order, and the reach of
+ * each square: every object that overlaps it, also those that stand in a neighbour (thesis row 37:
+ * none near a border is found late). Written once at creation, read-only to all. */
+#ifndef JOLON_WORLD_TERRAIN_FIXED_H
+#define JOLON_WORLD_TERRAIN_FIXED_H
+
+#include "world/entity/kind.h"
+#include "world/maths/maths.h"
+
+#include <stdint.h>
+
+struct fixed_object {
+    double x, z;    /* [m] */
+    float y;        /* [m] of the ground it stands on; centre of its bounding sphere */
+    float radius_m; /* of the bounding sphere */
+    float height_m; /* for drawing */
+    uint16_t kind;
+    uint16_t turn; /* heading, 65536 a full turn, for drawing */
+};
+
+_Static_assert(sizeof(struct fixed_object) == 32, "shared layout");
+
+/* Where it stands [m, world], how it is turned [rad, heading], and its size over its kind's, which
+ * is kinds[object->kind] of the world. */
+static inline struct vec3 fixed_position(const struct fixed_object *object)
+{
+    return (struct vec3){object->x, (double)object->y, object->z};
+}
+
+static inline double fixed_heading(const struct fixed_object *object)
+{
+    return (double)object->turn * (TWO_PI / 65536.0);
+}
+
+static inline double fixed_scale(const struct fixed_object *object, const struct kind *kind)
+{
+    return (double)object->radius_m / kind->radius_m;
+}
+
+/* Damage of anything, fixed or moving (thesis rows 27, 33). */
+enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED, DAMAGE_COUNT };
+
+const char *damage_name(enum damage damage);
+
+#endif

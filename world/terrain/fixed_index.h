@@ -1,0 +1,33 @@
+/* The reach of every gridsquare: which fixed objects overlap it (thesis row 37). Genesis only. */
+#ifndef JOLON_WORLD_TERRAIN_FIXED_INDEX_H
+#define JOLON_WORLD_TERRAIN_FIXED_INDEX_H
+
+#include "world/terrain/fixed.h"
+#include "world/entity/kind.h"
+#include "world/maths/maths.h"
+
+#include <stdint.h>
+
+/* How far over the map an upright body is from its position at most [m], whichever shape it is
+ * given: the sphere's radius, or the hulls'. */
+static inline double fixed_index_of_kind(const struct kind *kind)
+{
+    return maths_max(kind->radius_m, kind->level_m);
+}
+
+/* The same of a fixed object, whose size varies about its kind's. */
+static inline double fixed_index_of_fixed(const struct fixed_object *object,
+                                          const struct kind *kinds)
+{
+    const struct kind *kind = &kinds[object->kind];
+    return kind->level_m > kind->radius_m ? kind->level_m * fixed_scale(object, kind)
+                                          : (double)object->radius_m;
+}
+
+/* Builds start [GRIDSQUARE_COUNT + 1] and items [start[GRIDSQUARE_COUNT]] on the heap; the caller
+ * frees both. Objects ascend within a square. kinds are the objects'. 0, or -1 with errno ENOMEM.
+ */
+int fixed_index_build(const struct fixed_object *objects, uint32_t count, const struct kind *kinds,
+                      uint32_t **start, uint32_t **items);
+
+#endif

@@ -1,0 +1,69 @@
+/* Heights, normals and cover of the ground. */
+#include "world/terrain/terrain.h"
+
+#include <stddef.h>
+
+/* The cell's column or row and how far into it, 0..1; outside the square the edge. Without
+ * branches: where a vehicle stands no processor can guess. */
+static inline uint32_t cell_of(const struct terrain *terrain, double metres, double *fraction)
+{
+    uint32_t last = terrain->side - 2;
+    double cells = maths_max(metres / terrain->spacing_m, 0.0);
+    cells = maths_min(cells, (double)last + 1.0);
+    uint32_t cell = (uint32_t)cells;
+    cell = cell < last ? cell : last;
+    *fraction = cells - (double)cell;
+    return cell;
+}
+
+static inline double base_height(const struct terrain *terrain, double x, double z)
+{
+    double u, v;
+    uint32_t column = cell_of(terrain, x, &u);
+    uint32_t row = cell_of(terrain, z, &v);
+    const float *north = terrain->posts + (size_t)row * terrain->side + column;
+    /* The edges of the triangle: north and east of the diagonal, or south and west of it. */
+    size_t north_east = u >= v;
+    const float *across = north + (1 - north_east) * terrain->side;
+    const float *down = north + north_east;
+    return (double)north[0] + ((double)across[1] - (double)across[0]) * u +
+           ((double)down[terrain->side] - (double)down[0]) * v;
+}
+
+double terrain_base_height(const struct terrain *terrain, double x, double z)
+{
+    return base_height(terrain, x, z);
+}
+
+double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
+                      double z)
+{
+    double height = base_height(terrain, x, z);
+    return craters ? height + crater_offset(craters, x, z) : height;
+}
+
+struct terrain_posts terrain_posts(const struct terrain *terrain, double from_m, double metres)
+{
+    uint32_t most = terrain->side - 1, first = (uint32_t)(from_m / terrain->spacing_m);
+    uint32_t last = (uint32_t)((from_m + metres) / terrain->spacing_m) + 1;
+    return (struct terrain_posts){first < most ? first : most, last < most ? last : most};
+}
+
+struct vec3 terrain_normal(const struct terrain *terrain, const struct crater_index *craters,
+                           double x, double z)
+{
+    double west = terrain_height(terrain, craters, x - 0.5, z);
+    double east = terrain_height(terrain, craters, x + 0.5, z);
+    double north = terrain_height(terrain, craters, x, z - 0.5);
+    double south = terrain_height(terrain, craters, x, z + 0.5);
+    struct vec3 n = {west - east, 1.0, north - south};
+    return vec3_scale(n, 1.0 / vec3_length(n));
+}
+
+enum cover terrain_cover(const struct terrain *terrain, double x, double z)
+{
+    double u, v;
+    uint32_t column = cell_of(terrain, x, &u) + (u >= 0.5);
+    uint32_t row = cell_of(terrain, z, &v) + (v >= 0.5);
+    return (enum cover)terrain->cover[(size_t)row * terrain->side + column];
+}

@@ -1,0 +1,63 @@
+/* The ground: heights and cover at posts of a regular grid, with craters dug into it.
+ *
+ * Between posts the ground is two flat triangles a cell, split along the diagonal from the
+ * north-west to the south-east post; renderers that draw the same triangles draw the same ground.
+ * Post (column, row) lies at x = column * spacing_m, z = row * spacing_m. Outside the square the
+ * edge's height goes on. Pure; any thread. */
+#ifndef JOLON_WORLD_TERRAIN_TERRAIN_H
+#define JOLON_WORLD_TERRAIN_TERRAIN_H
+
+#include "world/terrain/crater.h"
+#include "world/maths/maths.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What lies on the ground around a post. */
+enum cover {
+    COVER_GRASS,
+    COVER_CHAPARRAL,
+    COVER_FOREST,
+    COVER_ROCK,
+    COVER_SAND,
+    COVER_ROAD,
+    COVER_SEA,  /* height is the water's: 0 m */
+    COVER_LAKE, /* height is the water's */
+    COVER_COUNT
+};
+
+struct terrain {
+    const float *posts;   /* [side * side, m] row by row from the north-west */
+    const uint8_t *cover; /* [side * side] enum cover */
+    uint32_t side;        /* posts along one edge */
+    double spacing_m;
+};
+
+/* Height of the uncratered ground [m]. */
+double terrain_base_height(const struct terrain *terrain, double x, double z);
+
+/* Height of the ground with its craters [m]; craters may be NULL. */
+double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
+                      double z);
+
+/* The first and last posts along one axis whose cells reach into so many metres from a place on. */
+struct terrain_posts {
+    uint32_t first, last;
+};
+struct terrain_posts terrain_posts(const struct terrain *terrain, double from_m, double metres);
+
+/* Unit normal of the ground with its craters, from heights one metre apart. */
+struct vec3 terrain_normal(const struct terrain *terrain, const struct crater_index *craters,
+                           double x, double z);
+
+/* Cover at the nearest post. */
+enum cover terrain_cover(const struct terrain *terrain, double x, double z);
+
+static inline bool cover_is_water(enum cover cover)
+{
+    return cover == COVER_SEA || cover == COVER_LAKE;
+}
+
+const char *cover_name(enum cover cover);
+
+#endif

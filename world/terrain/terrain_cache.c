@@ -1,0 +1,154 @@
+/* Heights and water at points under eight bodies at once. */
+#include "world/terrain/terrain_cache.h"
+
+#include "world/maths/cpu_dispatch.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+#define PATCH_CELLS (TERRAIN_CACHE_SIDE - 1)
+
+/* cell_of() of four. */
+static inline void cells_of(const struct terrain *terrain, const f64x4 *metres, four_cells *cell,
+                            f64x4 *fraction)
+{
+    const double last = (double)(terrain->side - 2);
+    f64x4 cells = *metres / terrain->spacing_m;
+    cells = SIMD_MAX(cells, SIMD_EVERY(0.0));
+    cells = SIMD_MIN(cells, SIMD_EVERY(last + 1.0));
+    *cell = __builtin_convertvector(SIMD_MIN(cells, SIMD_EVERY(last)), four_cells);
+    *fraction = cells - __builtin_convertvector(*cell, f64x4);
+}
+
+/* The nearest post's column or row. */
+static inline void nearest_of(const struct terrain *terrain, const f64x4 *metres, four_cells *post)
+{
+    f64x4 fraction;
+    cells_of(terrain, metres, post, &fraction);
+    *post -= __builtin_convertvector(fraction >= 0.5, four_cells); /* of which true is -1 */
+}
+
+/* The first column or row of the patch in whose middle a post is, as far as the world goes. */
+static inline void patch_begin(const struct terrain *terrain, four_cells *post)
+{
+    const int32_t last = (int32_t)terrain->side - TERRAIN_CACHE_SIDE;
+    four_cells begin = *post - TERRAIN_CACHE_SIDE / 2;
+    begin &= begin > 0;
+    four_cells within = begin < last;
+    *post = (begin & within) | (last & ~within);
+}
+
+static void copy_posts(const struct terrain *terrain, struct terrain_cache_entry *patch,
+                       uint32_t column, uint32_t row)
+{
+    *patch = (struct terrain_cache_entry){
+        .column = (uint16_t)column, .row = (uint16_t)row, .held = true};
+    for (uint32_t i = 0; i < TERRAIN_CACHE_SIDE * TERRAIN_CACHE_SIDE; i++) {
+        size_t post = (size_t)(row + i / TERRAIN_CACHE_SIDE) * terrain->side + column +
+                      i % TERRAIN_CACHE_SIDE;
+        patch->post[i] = terrain->posts[post];
+        if (cover_is_water((enum cover)terrain->cover[post]))
+            patch->water |= (uint16_t)(1u << i);
+    }
+}
+
+VECTOR_CLONES
+void terrain_cache_find(const struct terrain *terrain, struct terrain_cache *footing,
+                        const union simd_lanes *x, const union simd_lanes *z)
+{
+    for (int h = 0; h < LANE_FOURS; h++) {
+        nearest_of(terrain, &x->f64x4[h], &footing->column.f64x4[h]);
+        nearest_of(terrain, &z->f64x4[h], &footing->row.f64x4[h]);
+        patch_begin(terrain, &footing->column.f64x4[h]);
+        patch_begin(terrain, &footing->row.f64x4[h]);
+    }
+    for (int l = 0; l < LANE_COUNT; l++) {
+        struct terrain_cache_entry *patch = footing->patch[l];
+        if (patch->column != footing->column.lane[l] || patch->row != footing->row.lane[l] ||
+            !patch->held)
+            copy_posts(terrain, patch, (uint32_t)footing->column.lane[l],
+                       (uint32_t)footing->row.lane[l]);
+    }
+}
+
+/* Where points lie in their patches, counted in posts, and which lie outside: they get 0. */
+static inline void find_in_patches(const struct terrain_cache *footing, int h, uint32_t side,
+                                   const four_cells *column, const four_cells *row,
+                                   four_cells *post, four_cells *outside)
+{
+    four_cells right = *column - footing->column.f64x4[h], down = *row - footing->row.f64x4[h];
+    *outside = ((four_counts)right >= side) | ((four_counts)down >= side);
+    *post = (down * TERRAIN_CACHE_SIDE + right) & ~*outside;
+}
+
+/* Two posts side by side of each of four cells, from these on. */
+static inline void two_posts(const float *a, const float *b, const float *c, const float *d,
+                             f64x4 *west, f64x4 *east)
+{
+    double pair[4]; /* their bits */
+    memcpy(&pair[0], a, sizeof pair[0]);
+    memcpy(&pair[1], b, sizeof pair[1]);
+    memcpy(&pair[2], c, sizeof pair[2]);
+    memcpy(&pair[3], d, sizeof pair[3]);
+    f64x4 even = __builtin_convertvector((four_floats)(two_doubles){pair[0], pair[2]}, f64x4);
+    f64x4 odd = __builtin_convertvector((four_floats)(two_doubles){pair[1], pair[3]}, f64x4);
+    *west = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    *east = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+}
+
+/* Heights of four points at once, as base_height() does it. */
+static inline void heights_four(const struct terrain *terrain, const struct terrain_cache *footing,
+                                int h, const f64x4 *x, const f64x4 *z, f64x4 *height)
+{
+    f64x4 u, v, nw, ne, sw, se;
+    four_cells column, row, post, outside;
+    cells_of(terrain, x, &column, &u);
+    cells_of(terrain, z, &row, &v);
+    find_in_patches(footing, h, PATCH_CELLS, &column, &row, &post, &outside);
+    struct terrain_cache_entry *const *patch = footing->patch + (ptrdiff_t)h * 4;
+    const float *a = patch[0]->post + post[0], *b = patch[1]->post + post[1];
+    const float *c = patch[2]->post + post[2], *d = patch[3]->post + post[3];
+    two_posts(a, b, c, d, &nw, &ne);
+    two_posts(a + TERRAIN_CACHE_SIDE, b + TERRAIN_CACHE_SIDE, c + TERRAIN_CACHE_SIDE,
+              d + TERRAIN_CACHE_SIDE, &sw, &se);
+    four_masks north_east = u >= v;
+    f64x4 across = SIMD_CHOOSE(north_east, ne - nw, se - sw);
+    f64x4 down = SIMD_CHOOSE(north_east, se - ne, sw - nw);
+    *height = nw + across * u + down * v;
+    for (int i = 0; SIMD_ANY_CELL(outside) && i < 4; i++) {
+        if (outside[i])
+            (*height)[i] = terrain_base_height(terrain, (*x)[i], (*z)[i]);
+    }
+}
+
+VECTOR_CLONES
+void terrain_cache_heights(const struct terrain *terrain, const struct terrain_cache *footing,
+                           const union simd_lanes *x, const union simd_lanes *z,
+                           union simd_lanes *height)
+{
+    for (int h = 0; h < LANE_FOURS; h++)
+        heights_four(terrain, footing, h, &x->f64x4[h], &z->f64x4[h], &height->f64x4[h]);
+}
+
+VECTOR_CLONES
+void terrain_cache_water(const struct terrain *terrain, const struct terrain_cache *footing,
+                         const union simd_lanes *x, const union simd_lanes *z,
+                         union lane_masks *water)
+{
+    for (int h = 0; h < LANE_FOURS; h++) {
+        four_cells column, row, post, outside;
+        nearest_of(terrain, &x->f64x4[h], &column);
+        nearest_of(terrain, &z->f64x4[h], &row);
+        find_in_patches(footing, h, TERRAIN_CACHE_SIDE, &column, &row, &post, &outside);
+        struct terrain_cache_entry *const *patch = footing->patch + (ptrdiff_t)h * 4;
+        water->f64x4[h] =
+            -((four_masks){patch[0]->water >> post[0] & 1, patch[1]->water >> post[1] & 1,
+                           patch[2]->water >> post[2] & 1, patch[3]->water >> post[3] & 1});
+        for (int i = 0; SIMD_ANY_CELL(outside) && i < 4; i++) {
+            if (outside[i])
+                water->f64x4[h][i] = -(int64_t)cover_is_water(
+                    terrain_cover(terrain, x->f64x4[h][i], z->f64x4[h][i]));
+        }
+    }
+}
