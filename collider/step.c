@@ -206,7 +206,7 @@ struct response_context collider_respond(struct collider *collider, struct state
         .path = collider->motion.path,
         .charges = &collider->charges,
         .island = &collider->island,
-        .changed = collider->changed,
+        .writer = {&next->entities, collider->changed},
     };
 }
 

@@ -9,11 +9,9 @@
 #ifndef JOLON_WORLD_CHECKSUM_H
 #define JOLON_WORLD_CHECKSUM_H
 
+#include "world/entity/table_write.h"
 #include "world/runtime/thread_pool.h"
 #include "world/world.h"
-
-#define CHECKSUM_ROWS   1024u /* of a piece; docs/decisions/019 has what others cost */
-#define CHECKSUM_PIECES (CAPACITY_MAX / CHECKSUM_ROWS)
 
 /* XXH3-64 of each column of one piece. */
 struct piece_hashes {

@@ -7,10 +7,6 @@
 #define SHARE_MED  0.3
 #define SHARE_LOW  0.1
 
-#define DAMAGE_COLUMNS                                                                             \
-    (COLUMN_BIT(harm_j) | COLUMN_BIT(damage) | COLUMN_BIT(changed_tick) | COLUMN_BIT(state) |      \
-     COLUMN_BIT(behaviour) | COLUMN_BIT(order))
-
 static enum damage level(double share)
 {
     if (share >= 1.0)
@@ -22,17 +18,23 @@ static enum damage level(double share)
     return share >= SHARE_LOW ? DAMAGE_LOW : DAMAGE_NONE;
 }
 
+static void set_damage(struct response_context *respond, uint32_t row, enum damage damage)
+{
+    table_set_damage(&respond->writer, row, (uint8_t)damage);
+    table_set_changed_tick(&respond->writer, row, (uint32_t)respond->next->head->tick);
+}
+
 void damage_destroy(struct response_context *respond, uint32_t row, double time)
 {
-    const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
-    if (respond->next->entities.state[row] != ENTITY_ACTIVE)
+    const struct entities *e = &respond->next->entities;
+    const struct kind *kind = &respond->world->kinds[e->kind[row]];
+    if (e->state[row] != ENTITY_ACTIVE)
         return;
-    struct entities *e = response_change(respond, row, DAMAGE_COLUMNS);
-    e->state[row] = ENTITY_WRECK;
-    e->behaviour[row] = e->order[row] = BEHAVIOUR_IDLE;
-    e->damage[row] = DAMAGE_DESTROYED;
-    e->harm_j[row] = maths_max(e->harm_j[row], kind->resistance_j);
-    e->changed_tick[row] = (uint32_t)respond->next->head->tick;
+    table_set_state(&respond->writer, row, ENTITY_WRECK);
+    table_set_behaviour(&respond->writer, row, BEHAVIOUR_IDLE);
+    table_set_order(&respond->writer, row, BEHAVIOUR_IDLE);
+    table_set_harm_j(&respond->writer, row, maths_max(e->harm_j[row], kind->resistance_j));
+    set_damage(respond, row, DAMAGE_DESTROYED);
     respond->next->head->tally.destroyed++;
     struct charge charge = {.point = path_at(&respond->path[row], time),
                             .time = time,
@@ -43,18 +45,16 @@ void damage_destroy(struct response_context *respond, uint32_t row, double time)
 
 void damage_row(struct response_context *respond, uint32_t row, double joules, double time)
 {
-    const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
-    if (respond->next->entities.state[row] != ENTITY_ACTIVE || !(joules > 0.0))
+    const struct entities *e = &respond->next->entities;
+    const struct kind *kind = &respond->world->kinds[e->kind[row]];
+    if (e->state[row] != ENTITY_ACTIVE || !(joules > 0.0))
         return;
-    struct entities *e = response_change(respond, row, DAMAGE_COLUMNS);
-    e->harm_j[row] += joules;
+    table_set_harm_j(&respond->writer, row, e->harm_j[row] + joules);
     enum damage damage = level(e->harm_j[row] / kind->resistance_j);
-    if (damage == DAMAGE_DESTROYED) {
+    if (damage == DAMAGE_DESTROYED)
         damage_destroy(respond, row, time);
-    } else if (damage > e->damage[row]) {
-        e->damage[row] = (uint8_t)damage;
-        e->changed_tick[row] = (uint32_t)respond->next->head->tick;
-    }
+    else if (damage > e->damage[row])
+        set_damage(respond, row, damage);
 }
 
 /* It never heals; the hardest blow counts. */

@@ -71,12 +71,8 @@ static void explosion_row(struct response_context *respond, const struct charge 
     uint32_t owner = charge->owner_slot;
     bool known = entities_alive(e, owner, charge->owner_id);
     bool friend = known && e->force[owner] != FORCE_NEUTRAL && e->force[owner] == e->force[row];
-    if (joules > 0.0 && known && owner != row && !friend) {
-        struct entities *change =
-            response_change(respond, row, COLUMN_BIT(threat_slot) | COLUMN_BIT(threat_id));
-        change->threat_slot[row] = charge->owner_slot;
-        change->threat_id[row] = charge->owner_id;
-    }
+    if (joules > 0.0 && known && owner != row && !friend)
+        table_set_threat(&respond->writer, row, owner, charge->owner_id);
     damage_row(respond, row, joules, charge->time);
 }
 
@@ -233,7 +229,7 @@ void explosion_munition(struct response_context *respond, uint32_t row, uint32_t
     }
     if (what == STRUCK_GROUND && kind->craters)
         dig(respond, point, kind->explosive_kg);
-    entities_clear(response_change(respond, row, COLUMNS_ALL), row);
+    table_clear_row(&respond->writer, row);
     head->munitions--;
     contact_queue_drop(respond->contacts, row);
     if (charge.explosive_kg > 0.0)

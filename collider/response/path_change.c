@@ -7,11 +7,6 @@
 /* A wreck this near the ground lies on it [m]. */
 #define LIES_M 0.05
 
-#define PATH_CHANGE_COLUMNS                                                                        \
-    (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(vx) | COLUMN_BIT(vy) |             \
-     COLUMN_BIT(vz) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) | COLUMN_BIT(roll))
-#define SPIN_COLUMNS (COLUMN_BIT(spin_x) | COLUMN_BIT(spin_y) | COLUMN_BIT(spin_z))
-
 bool path_change_grounded(const struct response_context *respond, uint32_t row)
 {
     const struct entities *e = &respond->next->entities;
@@ -66,12 +61,15 @@ static struct path within_world(struct path path)
 static void take_way(struct response_context *respond, uint32_t row, const struct path *path,
                      const struct rotation_path *turning, struct vec3 velocity)
 {
-    struct entities *e = response_change(respond, row, PATH_CHANGE_COLUMNS);
+    double heading, pitch, roll;
     struct path way = within_world(*path);
     body_motion_change(respond->motion, row, &way, turning);
-    entities_set_position(e, row, path_at(&way, 1.0));
-    entities_set_velocity(e, row, velocity);
-    rotation_angles(turning->to, &e->heading[row], &e->pitch[row], &e->roll[row]);
+    rotation_angles(turning->to, &heading, &pitch, &roll);
+    table_set_position(&respond->writer, row, path_at(&way, 1.0));
+    table_set_velocity(&respond->writer, row, velocity);
+    table_set_heading(&respond->writer, row, heading);
+    table_set_pitch(&respond->writer, row, pitch);
+    table_set_roll(&respond->writer, row, roll);
 }
 
 void path_change_swept(struct response_context *respond, const uint32_t *rows, uint32_t count,
@@ -105,7 +103,6 @@ void path_change_slow(struct response_context *respond, uint32_t row, double tim
 void path_change_leave(struct response_context *respond, uint32_t row, double time, struct vec3 at,
                        struct vec3 velocity, struct vec3 spin_rps, bool stays)
 {
-    struct entities *e = response_change(respond, row, SPIN_COLUMNS);
     double dt_s = respond->world->params->dt_s;
     struct quat turned = body_motion_turned(respond->motion, row, time);
     const struct rotation_path turning = {
@@ -117,12 +114,11 @@ void path_change_leave(struct response_context *respond, uint32_t row, double ti
     if (!path_change_grounded(respond, row)) {
         /* Its axes turn with it, its angular momentum does not. */
         const struct mass_properties inertia =
-            mass_properties_of(&respond->world->kinds[e->kind[row]]);
+            mass_properties_of(&respond->world->kinds[respond->next->entities.kind[row]]);
         struct mat3 before = rotation_matrix(turned), after = rotation_matrix(turning.to);
         spin_rps = mass_properties_carried(&inertia, &before, spin_rps, &after);
     }
-    e->spin_x[row] = spin_rps.x;
-    e->spin_y[row] = spin_rps.y - turning.driven_rps;
-    e->spin_z[row] = spin_rps.z;
+    spin_rps.y -= turning.driven_rps;
+    table_set_spin(&respond->writer, row, spin_rps);
     take_way(respond, row, &path, &turning, velocity);
 }

@@ -15,10 +15,8 @@
 /* Tells the agent which way leads away from what it ran into. */
 static void bump(struct response_context *respond, uint32_t row, double away_x, double away_z)
 {
-    struct entities *e =
-        response_change(respond, row, COLUMN_BIT(bumped) | COLUMN_BIT(bump_heading));
-    e->bumped[row] = 1;
-    e->bump_heading[row] = (float)maths_heading(away_x, away_z);
+    table_set_bumped(&respond->writer, row, 1);
+    table_set_bump_heading(&respond->writer, row, (float)maths_heading(away_x, away_z));
 }
 
 /* Bodies that the ground holds push each other on the level only: along the normal, or, where that
@@ -120,15 +118,12 @@ static bool touched(const struct response_context *respond, uint32_t row, uint32
 
 static void remember(struct response_context *respond, const struct impact *impact)
 {
-    const uint64_t columns = COLUMN_BIT(touch_body) | COLUMN_BIT(touch_tick);
-    struct entities *e = response_change(respond, impact->a, columns);
     uint32_t tick = (uint32_t)respond->next->head->tick;
-    e->touch_body[impact->a] = body_mark(respond, impact->b);
-    e->touch_tick[impact->a] = tick;
+    table_set_touch_body(&respond->writer, impact->a, body_mark(respond, impact->b));
+    table_set_touch_tick(&respond->writer, impact->a, tick);
     if (!(impact->b & PAIR_FIXED)) {
-        e = response_change(respond, impact->b, columns);
-        e->touch_body[impact->b] = body_mark(respond, impact->a);
-        e->touch_tick[impact->b] = tick;
+        table_set_touch_body(&respond->writer, impact->b, body_mark(respond, impact->a));
+        table_set_touch_tick(&respond->writer, impact->b, tick);
     }
 }
 

@@ -8,7 +8,7 @@
 #include "collider/motion/body_motion.h"
 #include "collider/response/event_writer.h"
 #include "collider/response/contact_solver.h"
-#include "world/checksum.h"
+#include "world/entity/table_write.h"
 
 /* A charge that goes off in this frame. */
 struct charge {
@@ -42,18 +42,9 @@ struct response_context {
     struct path *path; /* motion's */
     struct event_writer sink;
     struct charges *charges;
-    struct island *island; /* island.h */
-    uint64_t *changed;     /* [CHECKSUM_PIECES] columns of next's pieces that answers changed */
+    struct island *island;      /* island.h */
+    struct table_writer writer; /* by which every answer changes next's rows */
 };
-
-/* The rows, for an answer that changes these columns (COLUMN_BIT) of one: every write to next's
- * rows goes by this, so that what was changed is hashed again at the step's end. */
-static inline struct entities *response_change(struct response_context *respond, uint32_t row,
-                                               uint64_t columns)
-{
-    respond->changed[row / CHECKSUM_ROWS] |= columns;
-    return &respond->next->entities;
-}
 
 /* What a collision's answer works with. */
 struct impact {

@@ -1,0 +1,84 @@
+/* Writes single cells of a table of rows and notes in which blocks of rows which columns were
+ * written, so that their hashes are computed again (world/checksum.h). A block's word has a bit for
+ * each column. Code that changes a row by these functions alone never names columns.
+ *
+ * Each function writes its cell and sets one bit. Not thread-safe: one writer a block. */
+#ifndef JOLON_WORLD_ENTITY_TABLE_WRITE_H
+#define JOLON_WORLD_ENTITY_TABLE_WRITE_H
+
+#include "world/entity/entity.h"
+
+#define CHECKSUM_ROWS   1024u /* of a block; docs/decisions/019 has what others cost */
+#define CHECKSUM_PIECES (CAPACITY_MAX / CHECKSUM_ROWS)
+
+struct table_writer {
+    const struct entities *entities;
+    uint64_t *changed; /* [CHECKSUM_PIECES] the columns written in each block */
+};
+
+/* table_set_x(writer, row, x) and so on: one for each column. */
+#define X(type, name)                                                                              \
+    static inline void table_set_##name(const struct table_writer *writer, uint32_t row,           \
+                                        type value)                                                \
+    {                                                                                              \
+        writer->changed[row / CHECKSUM_ROWS] |= COLUMN_BIT(name);                                  \
+        writer->entities->name[row] = value;                                                       \
+    }
+ENTITY_COLUMNS(X)
+#undef X
+
+static inline void table_set_position(const struct table_writer *writer, uint32_t row,
+                                      struct vec3 position)
+{
+    table_set_x(writer, row, position.x);
+    table_set_y(writer, row, position.y);
+    table_set_z(writer, row, position.z);
+}
+
+static inline void table_set_velocity(const struct table_writer *writer, uint32_t row,
+                                      struct vec3 velocity)
+{
+    table_set_vx(writer, row, velocity.x);
+    table_set_vy(writer, row, velocity.y);
+    table_set_vz(writer, row, velocity.z);
+}
+
+static inline void table_set_spin(const struct table_writer *writer, uint32_t row,
+                                  struct vec3 spin_rps)
+{
+    table_set_spin_x(writer, row, spin_rps.x);
+    table_set_spin_y(writer, row, spin_rps.y);
+    table_set_spin_z(writer, row, spin_rps.z);
+}
+
+/* Sets what the row attacks. */
+static inline void table_set_target(const struct table_writer *writer, uint32_t row, uint32_t slot,
+                                    uint32_t id)
+{
+    table_set_target_slot(writer, row, slot);
+    table_set_target_id(writer, row, id);
+}
+
+/* Sets who has fired at the row. */
+static inline void table_set_threat(const struct table_writer *writer, uint32_t row, uint32_t slot,
+                                    uint32_t id)
+{
+    table_set_threat_slot(writer, row, slot);
+    table_set_threat_id(writer, row, id);
+}
+
+/* Notes that code which writes the cells itself, such as that of a new row, may change any column
+ * of the row. */
+static inline void table_row_changes(const struct table_writer *writer, uint32_t row)
+{
+    writer->changed[row / CHECKSUM_ROWS] = COLUMNS_ALL;
+}
+
+/* Sets the row to zero in every column: a free slot. */
+static inline void table_clear_row(const struct table_writer *writer, uint32_t row)
+{
+    table_row_changes(writer, row);
+    entities_clear(writer->entities, row);
+}
+
+#endif
