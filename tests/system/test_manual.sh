@@ -4,7 +4,7 @@
 # there is.
 top=$(cd "$(dirname "$0")/../.." && pwd)
 . "$(dirname "$0")/lib.sh"
-pages=$top/man
+pages=$top/docs/man
 
 sound() { # mandoc does not look for other pages here
     ! mandoc -Tlint "$1" | grep -v 'referenced manual not found' | grep .
