@@ -1,13 +1,12 @@
 /* Errors in words, and numbers of an address. */
 #include "clients/console/http_answer.h"
 
+#include "world/runtime/parse_number.h"
 #include "world/runtime/utf8.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #define SHOWN_MAX 40 /* letters of a wrong value that are shown again */
 
@@ -37,12 +36,8 @@ bool query_number(const struct query *query, const char *key, double low, double
                   double fallback, double *value, struct http_answer *answer)
 {
     const char *text = query->value(query->context, key);
-    char *end;
     *value = fallback;
-    if (!text || !*text)
-        return true;
-    *value = strtod(text, &end);
-    if (end != text && !*end && *value >= low && *value <= high)
+    if (!text || !*text || parse_real(text, low, high, value))
         return true;
     http_answer_error(answer, HTTP_ANSWER_BAD, "ask with another value",
                       "%s=%.*s: a number from %g to %g", key, SHOWN_MAX, text, low, high);
@@ -53,13 +48,8 @@ bool query_whole(const struct query *query, const char *key, uint64_t low, uint6
                  uint64_t fallback, uint64_t *value, struct http_answer *answer)
 {
     const char *text = query->value(query->context, key);
-    char *end;
     *value = fallback;
-    if (!text || !*text)
-        return true;
-    errno = 0;
-    *value = strtoull(text, &end, 10);
-    if (text[0] >= '0' && text[0] <= '9' && !*end && !errno && *value >= low && *value <= high)
+    if (!text || !*text || parse_whole(text, low, high, value))
         return true;
     http_answer_error(answer, HTTP_ANSWER_BAD, "ask with another value",
                       "%s=%.*s: a whole number from %llu to %llu", key, SHOWN_MAX, text,

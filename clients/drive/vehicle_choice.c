@@ -2,9 +2,8 @@
 #include "clients/drive/vehicle_choice.h"
 
 #include "world/entity/entity.h"
+#include "world/runtime/parse_number.h"
 
-#include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 
 bool vehicle_choice_drivable(const struct world_mirror *mirror, const jolon_Entity *entity)
@@ -88,11 +87,9 @@ static int find_force(const char *text)
 uint32_t vehicle_choice_called(const struct world_mirror *mirror, const struct choice *choice,
                                const char *text, struct reason *reason)
 {
-    char *end;
     struct choice narrowed = *choice;
-    errno = 0;
-    unsigned long number = strtoul(text, &end, 10);
-    bool is_number = *text >= '0' && *text <= '9' && *end == '\0' && errno == 0;
+    uint64_t number;
+    bool is_number = parse_whole(text, 0, UINT64_MAX, &number);
     uint32_t id = is_number && number <= UINT32_MAX ? (uint32_t)number : 0;
     if (!is_number)
         id = name_table_find(&mirror->names, text);

@@ -1,7 +1,8 @@
 /* Devices by EGL, and what the system says of them. */
 #include "renderer/gl/gl_devices.h"
 
-#include <ctype.h>
+#include "world/runtime/parse_number.h"
+
 #include <dlfcn.h>
 #include <errno.h>
 #include <glob.h>
@@ -120,9 +121,8 @@ int gl_library(struct reason *reason)
 /* A number, when the wish is nothing else; -1 else. */
 static int number_of(const char *device)
 {
-    char *end = NULL;
-    long number = isdigit((unsigned char)device[0]) ? strtol(device, &end, 10) : -1;
-    return end != NULL && *end == '\0' && number < GL_CANDIDATES_MAX ? (int)number : -1;
+    uint64_t number;
+    return parse_whole(device, 0, GL_CANDIDATES_MAX - 1, &number) ? (int)number : -1;
 }
 
 bool gl_may_be(const struct gl_candidate *candidate, const struct gl_wish *wish)
