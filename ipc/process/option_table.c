@@ -1,0 +1,249 @@
+/* The reader of command lines, around getopt_long(). */
+#include "ipc/process/option_table.h"
+
+#include "ipc/process/log.h"
+#include "world/runtime/parse_number.h"
+
+#include <ctype.h>
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ROWS_MAX    64
+#define FIRST_VALUE 256 /* of the first long option; a letter is less */
+#define HELP_COLUMN 25
+#define HELP_WIDTH  80
+
+/* The table as getopt_long() wants it. */
+struct known {
+    const struct option_row *row[ROWS_MAX + 1]; /* ends with NULL, as option does */
+    struct option option[ROWS_MAX + 1];
+    char letters[2 * ROWS_MAX + 3];
+    int count;
+};
+
+static const struct option_row help_row = {"help", NULL, NULL, .letter = 'h'};
+
+/* --- what there is -----------------------------------------------------------------------------*/
+
+static void add_row(struct known *known, const struct option_row *row)
+{
+    size_t used = strlen(known->letters);
+    CHECK(known->count < ROWS_MAX);
+    known->row[known->count] = row;
+    known->option[known->count] =
+        (struct option){.name = row->name,
+                        .has_arg = row->argument ? required_argument : no_argument,
+                        .val = FIRST_VALUE + known->count};
+    known->count++;
+    if (row->letter)
+        (void)snprintf(known->letters + used, sizeof known->letters - used, "%c%s", row->letter,
+                       row->argument ? ":" : "");
+}
+
+/* order: "+" makes getopt stop at the first argument that is no option; else "". */
+static void know(struct known *known, const struct option_table *table, const char *order)
+{
+    *known = (struct known){.count = 0};
+    (void)snprintf(known->letters, sizeof known->letters, "%s:", order);
+    for (const struct option_row *row = table->rows; row->name; row++)
+        add_row(known, row);
+    for (const struct option_row *row = table->more; row && row->name; row++)
+        add_row(known, row);
+    if (table->usage)
+        add_row(known, &help_row);
+    optind = 0; /* makes getopt begin anew */
+    opterr = 0; /* getopt prints nothing */
+}
+
+/* value: what getopt returns for the option. NULL: there is none. */
+static const struct option_row *find_row(const struct known *known, int value)
+{
+    int i = 0;
+    while (known->row[i] && value != FIRST_VALUE + i &&
+           (value == 0 || value != known->row[i]->letter))
+        i++;
+    return known->row[i];
+}
+
+/* --- values ------------------------------------------------------------------------------------*/
+
+static int take_whole(const struct option_row *row, const char *text, const struct error_text *why)
+{
+    uint64_t value;
+    if (!parse_whole(text, row->least, row->most, &value))
+        return error_text_say(why, "must be a whole number from %llu to %llu",
+                              (unsigned long long)row->least, (unsigned long long)row->most);
+    if (row->integer)
+        *row->integer = (int)value;
+    else if (row->u32)
+        *row->u32 = (uint32_t)value;
+    else
+        *row->u64 = value;
+    return 0;
+}
+
+static int take_size(const struct option_row *row, const char *text, const struct error_text *why)
+{
+    struct option_size size;
+    int used = 0;
+    if (sscanf(text, "%5ux%5u%n", &size.width, &size.height, &used) != 2 || text[used] != '\0' ||
+        size.width < row->least || size.width > row->most || size.height < row->least ||
+        size.height > row->most)
+        return error_text_say(why, "not WxH with each from %llu to %llu, as 1280x720",
+                              (unsigned long long)row->least, (unsigned long long)row->most);
+    *row->size = size;
+    return 0;
+}
+
+static int take_choice(const struct option_row *row, const char *text, const struct error_text *why)
+{
+    char words[160] = "";
+    int place = (int)row->least;
+    for (const char *word = row->argument; word; place++) {
+        size_t length = strcspn(word, "|"), used = strlen(words);
+        if (strlen(text) == length && strncmp(word, text, length) == 0) {
+            *row->choice = place;
+            return 0;
+        }
+        (void)snprintf(words + used, sizeof words - used, "%s%.*s", used ? ", " : "", (int)length,
+                       word);
+        word = word[length] ? word + length + 1 : NULL;
+    }
+    return error_text_say(why, "not one of %s", words);
+}
+
+static int take_value(const struct option_row *row, const char *value, const struct error_text *why)
+{
+    if (row->flag)
+        *row->flag = true;
+    if (row->text)
+        *row->text = row->argument ? value : row->name;
+    if (row->choice && take_choice(row, value, why) != 0)
+        return -1;
+    if ((row->integer || row->u32 || row->u64) && take_whole(row, value, why) != 0)
+        return -1;
+    if (row->size && take_size(row, value, why) != 0)
+        return -1;
+    if (row->real && !parse_real(value, row->low, row->high, row->real))
+        return error_text_say(why, "must be a number from %g to %g", row->low, row->high);
+    return row->take ? row->take(value, why) : 0;
+}
+
+/* --- help --------------------------------------------------------------------------------------*/
+
+static void show_row(const struct option_row *row)
+{
+    const char *text = row->help;
+    int room = HELP_WIDTH - HELP_COLUMN;
+    char letter[] = "-?, ";
+    letter[1] = row->letter;
+    int used = printf("  %s--%s%s%s", row->letter ? letter : "", row->name,
+                      row->argument ? " " : "", row->argument ? row->argument : "");
+    if (used > HELP_COLUMN - 2) {
+        printf("\n");
+        used = 0;
+    }
+    printf("%*s", HELP_COLUMN - used, "");
+    while (strlen(text) > (size_t)room) {
+        int end = room;
+        while (text[end] != ' ')
+            end--;
+        printf("%.*s\n%*s", end, text, HELP_COLUMN, "");
+        text += end + 1;
+    }
+    printf("%s\n", text);
+}
+
+static void show_help(const struct option_table *table)
+{
+    printf("usage: %s %s\n", table->program, table->usage);
+    for (const struct option_row *row = table->rows; row->name; row++) {
+        if (row->help)
+            show_row(row);
+    }
+    printf("%s", table->ending ? table->ending : "");
+}
+
+/* --- reading -----------------------------------------------------------------------------------*/
+
+/* word: the argument that getopt refused. optopt is the letter or value of its option, or 0. */
+static int refuse(const struct option_table *table, const struct known *known, int result,
+                  const char *word, const struct error_text *why)
+{
+    const struct option_row *row = find_row(known, optopt);
+    const char *wrong = "no such option";
+    char letter[] = "-?";
+    int alike = 0;
+    if (row)
+        wrong = result == ':' ? "its value is missing" : "takes no value";
+    else if (optopt) {
+        letter[1] = (char)optopt;
+        word = letter;
+    } else {
+        for (int i = 0; known->row[i]; i++)
+            alike += strncmp(known->row[i]->name, word + 2, strcspn(word + 2, "=")) == 0;
+        if (alike > 1)
+            wrong = "the beginning of several options";
+    }
+    return error_text_say(why, "%.200s: %s; see %s --help", word, wrong, table->program);
+}
+
+static bool usage_names(const char *usage, const char *name)
+{
+    char word[64];
+    size_t length = (size_t)snprintf(word, sizeof word, "--%s", name);
+    for (const char *at = strstr(usage, word); at; at = strstr(at + 1, word)) {
+        if (at[length] != '-' && !isalnum((unsigned char)at[length]))
+            return true;
+    }
+    return false;
+}
+
+int option_table_try(const struct option_table *table, int argc, char **argv,
+                     const struct error_text *why)
+{
+    struct known known;
+    char wrong[512];
+    const struct error_text of_value = {wrong, sizeof wrong};
+    int result;
+    know(&known, table, "");
+    while ((result = getopt_long(argc, argv, known.letters, known.option, NULL)) != -1) {
+        const struct option_row *row = find_row(&known, result);
+        if (!row)
+            return refuse(table, &known, result, argv[optind - 1], why);
+        if (row == &help_row) {
+            show_help(table);
+            exit(EXIT_OK);
+        }
+        if (table->usage_rows && !usage_names(table->usage, row->name))
+            return error_text_say(why, "--%s: %s does not take it; see %s --help", row->name,
+                                  table->program, table->program);
+        const char *value = optarg ? optarg : "";
+        if (take_value(row, value, &of_value) != 0)
+            return error_text_say(why, "--%s %.200s: %s", row->name, value, wrong);
+    }
+    if (argc - optind > table->plain)
+        return error_text_say(why, "'%.200s': one argument too many; see %s --help",
+                              argv[optind + table->plain], table->program);
+    return argc - optind;
+}
+
+int option_table_read(const struct option_table *table, int argc, char **argv)
+{
+    char wrong[512];
+    int plain = option_table_try(table, argc, argv, &(struct error_text){wrong, sizeof wrong});
+    if (plain < 0)
+        die_usage("%s", wrong);
+    return plain;
+}
+
+int option_table_verb(const struct option_table *table, int argc, char **argv)
+{
+    struct known known;
+    know(&known, table, "+");
+    while (getopt_long(argc, argv, known.letters, known.option, NULL) != -1)
+        continue;
+    return optind;
+}
