@@ -97,15 +97,14 @@ int main(int argc, char **argv)
     struct reason reason, second;
 
     log_open("renderer");
-    options_read(&options, argc, argv);
+    options_read(&options, NULL, argc, argv);
     if (options.list_devices)
         return back_end_list();
     bool snapping = options.snap != NULL;
     log_open(snapping ? "renderer" : role_name(options.role));
     process_close_inherited();
     process_signals();
-    if (options.parent_pid != 0)
-        process_die_with_parent(options.parent_pid);
+    process_die_with_parent(options.parent);
     if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &reason) != 0)
         die_refused("%s", reason.text);
     find_followed(&options, &view);

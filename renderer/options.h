@@ -2,6 +2,7 @@
 #ifndef JOLON_RENDERER_OPTIONS_H
 #define JOLON_RENDERER_OPTIONS_H
 
+#include "ipc/process/option_table.h"
 #include "ipc/segment/role.h"
 #include "renderer/output/output_set.h"
 #include "renderer/scene/camera/view_camera.h"
@@ -15,12 +16,12 @@
 
 struct options {
     const char *world, *out, *snap; /* out, snap: NULL when not given */
-    enum role role;
-    double fps;              /* pictures a second; below 0: the world's */
-    uint32_t width, height;  /* 0: the world's */
-    struct views views;      /* none: the world's */
-    uint32_t follow;         /* entity id, 0: picks one */
-    const char *follow_name; /* or its name, NULL */
+    int role;                       /* enum role */
+    double fps;                     /* pictures a second; below 0: the world's */
+    uint32_t width, height;         /* 0: the world's */
+    struct views views;             /* none: the world's */
+    uint32_t follow;                /* entity id, 0: picks one */
+    const char *follow_name;        /* or its name, NULL */
     bool follow_given; /* follows it even as a wreck; else the world's choice while it lives */
     double field_rad;  /* of view */
     struct view_camera_stand stand; /* of the free camera */
@@ -32,11 +33,14 @@ struct options {
     bool exact; /* committed frames alone, nothing between them */
     bool list_devices;
     struct output_set_wish outlets; /* where pictures go, when out is given */
-    int parent_pid;                 /* 0: none */
+    int parent;                     /* 0: none */
     bool sandbox_off;
 };
 
-/* Ends the process on wrong usage (exit 2) and on --help and --version (exit 0). */
-void options_read(struct options *options, int argc, char **argv);
+/* Ends the process on wrong usage (exit 2) and on --help (exit 0). own is the table of another
+ * program that draws, where these options are read too: it needs no --out, and its view is chase
+ * unless another is given; NULL: the renderer's. Returns how many arguments are no options, as
+ * option_table_read(). */
+int options_read(struct options *options, const struct option_table *own, int argc, char **argv);
 
 #endif

@@ -2,120 +2,88 @@
 #include "supervisor/options.h"
 
 #include "ipc/process/log.h"
-#include "ipc/process/process.h"
+#include "ipc/process/option_table.h"
 
-#include <getopt.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include <string.h>
 
-static const char usage[] =
-    "usage: jolon-keeper --out DIR --log FILE --commands FILE --hang-ms N [options]\n"
-    "The keeper of a world's processes; jolon run and jolon start turn into it.\n";
+static struct plan plan = {.world = "default", .threads = "1"};
 
-#define PASSED 1000 /* with the role added: an option of that role's */
+/* Options that a role reads itself, and says what is wrong with them. */
+static const struct passing {
+    const char *name;
+    enum role role;
+    const char *argument; /* NULL: it takes none */
+    const char *as;       /* the role's name for it */
+} passing[] = {{"fps", ROLE_RENDERER, "F", "--fps"},
+               {"video", ROLE_RENDERER, "FILE", "--video"},
+               {"video-view", ROLE_RENDERER, "V", "--video-view"},
+               {"video-fps", ROLE_RENDERER, "F", "--video-fps"},
+               {"stream", ROLE_RENDERER, "PORT", "--stream"},
+               {"stream-address", ROLE_RENDERER, "A", "--stream-address"},
+               {"interface", ROLE_REPORTER, "A", "--interface"},
+               {"domain", ROLE_REPORTER, "N", "--domain"},
+               {"dds-config", ROLE_REPORTER, "FILE", "--dds-config"},
+               {"remote-commands", ROLE_REPORTER, NULL, "--remote-commands"},
+               {"console", ROLE_CONSOLE, "PORT", "--port"}, /* asks for a console at all */
+               {"console-address", ROLE_CONSOLE, "A", "--address"},
+               {"console-token", ROLE_CONSOLE, "FILE", "--token-file"}};
+#define PASSINGS (sizeof passing / sizeof passing[0])
 
-static const struct option known[] = {
-    {"world", required_argument, NULL, 'w'},
-    {"out", required_argument, NULL, 'o'},
-    {"log", required_argument, NULL, 'l'},
-    {"ready", required_argument, NULL, 'r'},
-    {"commands", required_argument, NULL, 'm'},
-    {"events", required_argument, NULL, 'e'},
-    {"checkpoint", required_argument, NULL, 'c'},
-    {"every", required_argument, NULL, 'n'},
-    {"threads", required_argument, NULL, 't'},
-    {"without", required_argument, NULL, 'x'},
-    {"hang-ms", required_argument, NULL, 'H'},
-    {"fps", required_argument, NULL, PASSED + ROLE_RENDERER},
-    {"video", required_argument, NULL, PASSED + ROLE_RENDERER},
-    {"video-view", required_argument, NULL, PASSED + ROLE_RENDERER},
-    {"video-fps", required_argument, NULL, PASSED + ROLE_RENDERER},
-    {"stream", required_argument, NULL, PASSED + ROLE_RENDERER},
-    {"stream-address", required_argument, NULL, PASSED + ROLE_RENDERER},
-    {"interface", required_argument, NULL, PASSED + ROLE_REPORTER},
-    {"domain", required_argument, NULL, PASSED + ROLE_REPORTER},
-    {"dds-config", required_argument, NULL, PASSED + ROLE_REPORTER},
-    {"remote-commands", no_argument, NULL, PASSED + ROLE_REPORTER},
-    {"console", required_argument, NULL, 'C'},
-    {"console-address", required_argument, NULL, 'A'},
-    {"console-token", required_argument, NULL, 'K'},
-    {"background", no_argument, NULL, 'b'},
-    {"json", no_argument, NULL, 'j'},
-    {"no-sandbox", no_argument, NULL, 's'},
-    {"help", no_argument, NULL, 'h'},
-    {NULL, 0, NULL, 0}};
+static const char *passed_value[PASSINGS]; /* NULL: not given */
 
-static void leave_out(struct plan *plan, const char *name)
+static int leave_out(const char *name, const struct error_text *why)
 {
     enum role role = role_find(name);
     if (role == ROLE_NONE || role == ROLE_INTAKE || restart_policy_makes_frames(role))
-        die_usage("--without %s: there are renderer, reporter, recorder", name);
-    plan->left_out[role] = true;
+        return error_text_say(why, "there are renderer, reporter, recorder");
+    plan.left_out[role] = true;
+    return 0;
 }
 
-/* The role reads it itself, and says what is wrong with it. value NULL: it has none. */
-static void pass_on(struct passed *passed, const char *option, const char *value)
+static const struct option_row rows[] = {
+    {"world", "NAME", NULL, .text = &plan.world, .letter = 'w'},
+    {"out", "DIR", NULL, .text = &plan.out},
+    {"log", "FILE", NULL, .text = &plan.log},
+    {"ready", "FILE", NULL, .text = &plan.ready},
+    {"commands", "FILE", NULL, .text = &plan.commands},
+    {"events", "FILE", NULL, .text = &plan.events},
+    {"checkpoint", "FILE", NULL, .text = &plan.checkpoint},
+    {"every", "N", NULL, .text = &plan.every},
+    {"threads", "N", NULL, .text = &plan.threads},
+    {"without", "ROLE", NULL, .take = leave_out},
+    {"hang-ms", "N", NULL, .u64 = &plan.hang_ms, .least = 20, .most = 3600000},
+    {"background", NULL, NULL, .flag = &plan.background},
+    {"json", NULL, NULL, .flag = &plan.json},
+    {"no-sandbox", NULL, NULL, .flag = &plan.sandbox_off},
+    OPTION_ROWS_END};
+
+static void pass_on(const struct passing *option, const char *value)
 {
-    if (passed->count + 2 > PLAN_PASSED_MAX)
-        die_usage("%s: too many options of one role", option);
-    passed->argument[passed->count++] = option;
-    if (value)
+    struct passed *passed = &plan.passed[option->role];
+    plan.console |= strcmp(option->name, "console") == 0;
+    passed->argument[passed->count++] = option->as;
+    if (option->argument)
         passed->argument[passed->count++] = value;
-}
-
-/* The console's own options, by their names there; --console is what asks for one at all. */
-static bool console_option(struct plan *plan, int option, const char *value)
-{
-    const char *name = option == 'C'   ? "--port"
-                       : option == 'A' ? "--address"
-                       : option == 'K' ? "--token-file"
-                                       : NULL;
-    if (!name)
-        return false;
-    plan->console |= option == 'C';
-    pass_on(&plan->passed[ROLE_CONSOLE], name, value);
-    return true;
 }
 
 struct plan options_plan(int argc, char **argv)
 {
-    struct plan plan = {.world = "default", .threads = "1"};
-    int option;
-    opterr = 0; /* we say it, in one line */
-    while ((option = getopt_long(argc, argv, "w:h", known, NULL)) != -1) {
-        const char **text = option == 'w'   ? &plan.world
-                            : option == 'o' ? &plan.out
-                            : option == 'l' ? &plan.log
-                            : option == 'r' ? &plan.ready
-                            : option == 'm' ? &plan.commands
-                            : option == 'e' ? &plan.events
-                            : option == 'c' ? &plan.checkpoint
-                            : option == 'n' ? &plan.every
-                            : option == 't' ? &plan.threads
-                                            : NULL;
-        if (console_option(&plan, option, optarg))
-            continue;
-        if (text)
-            *text = optarg;
-        else if (option == 'x')
-            leave_out(&plan, optarg);
-        else if (option >= PASSED)
-            pass_on(&plan.passed[option - PASSED], argv[optind - (optarg ? 2 : 1)], optarg);
-        else if (option == 'H')
-            plan.hang_ms = process_whole("hang-ms", optarg, 20, 3600000);
-        else if (option == 'b')
-            plan.background = true;
-        else if (option == 'j')
-            plan.json = true;
-        else if (option == 's')
-            plan.sandbox_off = true;
-        else if (option == 'h') {
-            (void)fputs(usage, stdout);
-            exit(EXIT_OK);
-        } else
-            die_usage("%s: no such option; jolon-keeper is started by jolon", argv[optind - 1]);
-    }
-    if (!plan.out || !plan.log || !plan.commands || plan.hang_ms == 0 || optind < argc)
+    static struct option_row passed_rows[PASSINGS + 1];
+    static const struct option_table table = {
+        .program = "jolon-keeper",
+        .usage = "--out DIR --log FILE --commands FILE --hang-ms N [options]\n"
+                 "The keeper of a world's processes; jolon run and jolon start turn into it.",
+        .rows = rows,
+        .more = passed_rows};
+    for (size_t i = 0; i < PASSINGS; i++)
+        passed_rows[i] = (struct option_row){
+            .name = passing[i].name, .argument = passing[i].argument, .text = &passed_value[i]};
+    option_table_read(&table, argc, argv);
+    if (!plan.out || !plan.log || !plan.commands || plan.hang_ms == 0)
         die_usage("jolon-keeper is started by jolon, with --out, --log, --commands and --hang-ms");
+    for (size_t i = 0; i < PASSINGS; i++) {
+        if (passed_value[i])
+            pass_on(&passing[i], passed_value[i]);
+    }
     return plan;
 }

@@ -89,7 +89,7 @@ int main(int argc, char **argv)
     const struct http_listen_options where = {.address_option = "--address",
                                               .port_option = "--port",
                                               .address = options.address,
-                                              .port = options.port};
+                                              .port = (uint16_t)options.port};
     world_reader_open(&console.watch, options.world);
     if (runtime_folder(folder, &reason) != 0 || choose_token(&options, &reason) != 0 ||
         (options.role && segment_attach(&set, options.world, ROLE_CONSOLE, &reason) != 0) ||

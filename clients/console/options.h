@@ -10,7 +10,7 @@
 struct options {
     const char *world;
     const char *address;
-    uint16_t port;
+    uint32_t port;          /* 0..65535 */
     const char *token_file; /* NULL: a new token */
     int parent;             /* process id, 0: none */
     bool role;              /* it is its set's console: has the role's lock and slot */

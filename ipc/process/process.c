@@ -2,10 +2,10 @@
 #include "ipc/process/process.h"
 
 #include "ipc/process/log.h"
+#include "ipc/process/option_table.h"
 #include "world/runtime/thread_pool.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -135,43 +135,6 @@ char process_state(int pid)
     return end && end[1] == ' ' ? end[2] : '\0';
 }
 
-uint64_t process_whole(const char *option, const char *text, uint64_t low, uint64_t high)
-{
-    char *end;
-    errno = 0;
-    unsigned long long value = strtoull(text, &end, 10);
-    if (text[0] < '0' || text[0] > '9' || *end != '\0' || errno != 0 || value < low || value > high)
-        die_usage("--%s %s: must be a whole number from %llu to %llu", option, text,
-                  (unsigned long long)low, (unsigned long long)high);
-    return value;
-}
-
-struct process_size process_size(const char *option, const char *text, uint32_t low, uint32_t high)
-{
-    struct process_size size;
-    int used = 0;
-    if (sscanf(text, "%5ux%5u%n", &size.width, &size.height, &used) != 2 || text[used] != '\0' ||
-        size.width < low || size.width > high || size.height < low || size.height > high)
-        die_usage("--%s %s: not WxH with each from %u to %u, as 1280x720", option, text, low, high);
-    return size;
-}
-
-bool process_number_read(const char *text, double low, double high, double *value)
-{
-    char *end;
-    errno = 0;
-    *value = strtod(text, &end);
-    return errno == 0 && end != text && *end == '\0' && *value >= low && *value <= high;
-}
-
-double process_number(const char *option, const char *text, double low, double high)
-{
-    double value;
-    if (!process_number_read(text, low, high, &value))
-        die_usage("--%s %s: must be a number from %g to %g", option, text, low, high);
-    return value;
-}
-
 void process_refuse_memory(uint32_t capacity)
 {
     die_refused("cannot take the memory of the steps of a world of capacity %u: %s; allow more "
@@ -182,46 +145,19 @@ void process_refuse_memory(uint32_t capacity)
 
 struct stage_options process_stage_options(int argc, char **argv, const char *program)
 {
-    static const struct option options[] = {{"world", required_argument, NULL, 'w'},
-                                            {"threads", required_argument, NULL, 't'},
-                                            {"parent", required_argument, NULL, 'p'},
-                                            {"stand-by", no_argument, NULL, 's'},
-                                            {"no-sandbox", no_argument, NULL, 'n'},
-                                            {"help", no_argument, NULL, 'h'},
-                                            {NULL, 0, NULL, 0}};
-    struct stage_options chosen = {.world = "default", .threads = 1};
-    int option;
-    opterr = 0; /* we say it, in one line */
-    while ((option = getopt_long(argc, argv, "w:h", options, NULL)) != -1) {
-        switch (option) {
-        case 'w':
-            chosen.world = optarg;
-            break;
-        case 't':
-            chosen.threads = (uint32_t)process_whole("threads", optarg, 1, THREAD_POOL_MAX);
-            break;
-        case 'p':
-            chosen.parent = (int)process_whole("parent", optarg, 1, INT32_MAX);
-            break;
-        case 's':
-            chosen.stand_by = true;
-            break;
-        case 'n':
-            chosen.sandbox_off = true;
-            break;
-        case 'h':
-            printf("usage: %s [--world NAME] [--threads 1..16] [--parent PID] [--stand-by] "
-                   "[--no-sandbox]\n",
-                   program);
-            exit(EXIT_OK);
-        default:
-            die_usage("%s: no such option, or its value is missing; try %s --help",
-                      argv[optind - 1], program);
-        }
-    }
-    if (optind < argc)
-        die_usage("%s: takes no arguments; try %s --help", argv[optind], program);
-    return chosen;
+    static struct stage_options given = {.world = "default", .threads = 1};
+    static const struct option_row rows[] = {
+        OPTION_ROW_WORLD(given, NULL),
+        {"threads", "N", "1 to 16 (default 1)", .u32 = &given.threads, .least = 1,
+         .most = THREAD_POOL_MAX},
+        OPTION_ROW_PARENT(given),
+        {"stand-by", NULL, "take the role over when the process that has it dies",
+         .flag = &given.stand_by},
+        OPTION_ROW_NO_SANDBOX(given),
+        OPTION_ROWS_END};
+    const struct option_table table = {.program = program, .usage = "[options]", .rows = rows};
+    option_table_read(&table, argc, argv);
+    return given;
 }
 
 static bool holds_kinds(const char *directory)

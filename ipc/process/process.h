@@ -41,20 +41,6 @@ void process_close_inherited(void);
 /* Asks the kernel for SIGKILL when the parent dies; ends at once when it is dead already. */
 void process_die_with_parent(int parent_pid);
 
-/* The value of a program's option, a number within a range; anything else ends the process with
- * what would be right (exit 2). */
-uint64_t process_whole(const char *option, const char *text, uint64_t low, uint64_t high);
-double process_number(const char *option, const char *text, double low, double high);
-
-/* The same of a size in pixels, WIDTHxHEIGHT, each within low..high. */
-struct process_size {
-    uint32_t width, height;
-};
-struct process_size process_size(const char *option, const char *text, uint32_t low, uint32_t high);
-
-/* The same number of a text from elsewhere: false when it is none, or not within low..high. */
-bool process_number_read(const char *text, double low, double high, double *value);
-
 /* State letter of a process as the kernel tells it (R, S, D, T, Z ...); '\0' when it is gone. A
  * child that its parent has not waited for yet is a zombie (Z) and keeps its number. */
 char process_state(int pid);

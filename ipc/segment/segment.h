@@ -18,6 +18,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+struct error_text;
+
 #define SEGMENT_NAME_MAX 32 /* of a world, with the NUL */
 #define SEGMENT_PATH_MAX (RUNTIME_FOLDER_MAX + 64)
 
@@ -82,6 +84,9 @@ int reason_set(struct reason *reason, const char *format, ...)
  * reason. */
 bool segment_name_ok(const char *name);
 int segment_name_check(const char *name, struct reason *reason);
+
+/* The same as the check of an option's value: why does not repeat the name. */
+int segment_name_option(const char *name, const struct error_text *why);
 
 /* Where a world is in the file system. */
 struct segment_paths {

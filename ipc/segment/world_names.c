@@ -5,6 +5,7 @@
  * dead process's and never a live creator's. */
 #include "ipc/process/crash_point.h"
 #include "ipc/segment/segment_internal.h"
+#include "world/runtime/error_text.h"
 #include "world/runtime/utf8.h"
 
 #include <dirent.h>
@@ -46,6 +47,14 @@ int segment_name_check(const char *name, struct reason *reason)
                ? 0
                : reason_set(reason, "\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -",
                             name, SEGMENT_NAME_MAX - 1);
+}
+
+int segment_name_option(const char *name, const struct error_text *why)
+{
+    return segment_name_ok(name)
+               ? 0
+               : error_text_say(why, "no name for a world: 1 to %d of a-z A-Z 0-9 _ -",
+                                SEGMENT_NAME_MAX - 1);
 }
 
 /* --- where a name leads ------------------------------------------------------------------------*/

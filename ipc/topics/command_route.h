@@ -7,12 +7,13 @@
 #include "ipc/topics/command_dds.h"
 #include "ipc/topics/command_socket.h"
 
-/* The option --remote, for getopt_long; its value is COMMAND_ROUTE_OPTION. */
-#define COMMAND_ROUTE_OPTION (DDS_LINK_OPTION_FIRST + 100)
-#define COMMAND_ROUTE_LONG_OPTION                                                                  \
-    {                                                                                              \
-        "remote", no_argument, NULL, COMMAND_ROUTE_OPTION                                          \
-    }
+/* clang-format off */
+/* The option that makes the choice, for a bool. */
+#define COMMAND_ROUTE_OPTION_ROW(remote)                                                           \
+    {"remote", NULL,                                                                               \
+     "commands go over DDS, to a set elsewhere that takes such commands; else to your own world "  \
+     "on this machine", .flag = &(remote)}
+/* clang-format on */
 
 struct command_route {
     struct command_socket socket;

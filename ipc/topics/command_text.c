@@ -1,14 +1,12 @@
 /* Orders: the tables of verbs and arguments, and their checks. */
 #include "ipc/topics/command_text.h"
 
-#include "ipc/process/process.h"
 #include "world/maths/random.h"
+#include "world/runtime/parse_number.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-#include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define LEASE_MIN_S 0.1
@@ -216,7 +214,7 @@ static int take_number(double *number, enum command_text_field field,
     bool whole = fields[field].sort == SORT_WHOLE || fields[field].sort == SORT_ENTITY;
     bool good = false;
     if (value->text) {
-        good = value->loose && process_number_read(value->text, low, high, number);
+        good = value->loose && parse_real(value->text, low, high, number);
     } else if (!value->is_truth) {
         *number = value->number;
         good = *number >= low && *number <= high;

@@ -61,29 +61,6 @@ static int refuse(struct reason *reason, const char *what, dds_return_t code)
     return result;
 }
 
-bool dds_link_option(struct dds_link_options *options, int option, const char *argument)
-{
-    char *end;
-    unsigned long number;
-    switch (option) {
-    case DDS_LINK_OPTION_FIRST:
-        options->config = argument;
-        return true;
-    case DDS_LINK_OPTION_FIRST + 1:
-        options->interface = argument;
-        return true;
-    case DDS_LINK_OPTION_FIRST + 2:
-        errno = 0;
-        number = strtoul(argument, &end, 10);
-        if (errno || end == argument || *end || *argument == '-' || number > DDS_LINK_DOMAIN_MAX)
-            die_usage("--domain %s: not a DDS domain; 0 to %u", argument, DDS_LINK_DOMAIN_MAX);
-        options->domain = (uint32_t)number;
-        return true;
-    default:
-        return false;
-    }
-}
-
 static int configure(char *text, size_t bytes, const struct dds_link_options *options,
                      struct reason *reason)
 {
@@ -114,13 +91,6 @@ static int join_partition(struct dds_link *link, const char *world, struct reaso
     if (link->subscriber < 0)
         return refuse(reason, "subscriber", link->subscriber);
     return 0;
-}
-
-void dds_link_check_world(const char *name)
-{
-    if (!segment_name_ok(name))
-        die_usage("--world %s: no name for a world: 1 to %d of a-z A-Z 0-9 _ -", name,
-                  SEGMENT_NAME_MAX - 1);
 }
 
 int dds_link_open(struct dds_link *link, const struct dds_link_options *options, const char *world,

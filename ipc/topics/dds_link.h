@@ -5,6 +5,7 @@
 #ifndef JOLON_IPC_TOPICS_DDS_LINK_H
 #define JOLON_IPC_TOPICS_DDS_LINK_H
 
+#include "ipc/process/option_table.h"
 #include "ipc/segment/segment.h"
 #include "ipc/topics/dds_config.h"
 
@@ -21,27 +22,21 @@ struct dds_link_options {
 
 #define DDS_LINK_DOMAIN_MAX 230u
 
-/* Options of the command line that every program with a link has: --dds-config, --interface and
- * --domain. For getopt_long; dds_link_option takes one, and ends the program on a wrong value. */
-#define DDS_LINK_OPTION_FIRST 1000
-#define DDS_LINK_LONG_OPTIONS                                                                      \
-    {"dds-config", required_argument, NULL, DDS_LINK_OPTION_FIRST},                                \
-        {"interface", required_argument, NULL, DDS_LINK_OPTION_FIRST + 1},                         \
-    {                                                                                              \
-        "domain", required_argument, NULL, DDS_LINK_OPTION_FIRST + 2                               \
-    }
+/* clang-format off */
+/* The options of every program with a link, which fill its struct dds_link_options. */
+#define DDS_LINK_OPTION_ROWS(link)                                                                 \
+    {"dds-config", "FILE", "a Cyclone DDS configuration instead of the built-in one",              \
+     .text = &(link).config},                                                                      \
+    {"interface", "ADDRESS", "DDS over this interface (address or name) instead of loopback",      \
+     .text = &(link).interface},                                                                   \
+    {"domain", "N", "DDS domain, 0 to 230 (default 0)", .u32 = &(link).domain,                     \
+     .most = DDS_LINK_DOMAIN_MAX}
+/* clang-format on */
 
 struct dds_link {
     dds_entity_t domain, participant, publisher, subscriber;
     bool secure; /* by DDS Security: nobody is heard whose certificate does not allow it */
 };
-
-/* True when option was one of them. */
-bool dds_link_option(struct dds_link_options *options, int option, const char *argument);
-
-/* Ends the program, with one line that says what would be right, when no world can have the name
- * that --world gave. */
-void dds_link_check_world(const char *name);
 
 /* Opens the link; 0, or -1 with the reason: no such interface, a wrong configuration, no socket.
  * Blocks for some milliseconds. */

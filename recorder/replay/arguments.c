@@ -2,13 +2,13 @@
 #include "recorder/replay/arguments.h"
 
 #include "ipc/process/log.h"
-#include "ipc/process/process.h"
+#include "ipc/process/option_table.h"
 #include "world/maths/random.h"
 #include "world/runtime/thread_pool.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 void arguments_set(struct arguments *arguments, const char *text)
@@ -20,128 +20,52 @@ void arguments_set(struct arguments *arguments, const char *text)
     arguments->set[arguments->sets++] = text;
 }
 
-static const struct option known[] = {{"world", required_argument, NULL, 'w'},
-                                      {"terrain", required_argument, NULL, 't'},
-                                      {"events", required_argument, NULL, 'e'},
-                                      {"frames", required_argument, NULL, 'n'},
-                                      {"threads", required_argument, NULL, 'T'},
-                                      {"set", required_argument, NULL, 's'},
-                                      {"from", required_argument, NULL, 'F'},
-                                      {"wall", required_argument, NULL, 'W'},
-                                      {"seconds", required_argument, NULL, 'S'},
-                                      {"json", no_argument, NULL, 'j'},
-                                      {"follow", no_argument, NULL, 'f'},
-                                      {"fixed", no_argument, NULL, 'x'},
-                                      {"force", no_argument, NULL, '!'},
-                                      {"adopt", no_argument, NULL, 'a'},
-                                      {"inputs", no_argument, NULL, 'I'},
-                                      {"help", no_argument, NULL, 'h'},
-                                      {NULL, 0, NULL, 0}};
+static struct arguments given = {.world = "default", .threads = 1};
 
-static const char *option_name(int letter)
+static int take_set(const char *text, const struct error_text *why)
 {
-    const struct option *option = known;
-    while (option->val != letter)
-        option++;
-    return option->name;
+    (void)why;
+    arguments_set(&given, text);
+    return 0;
 }
 
-/* Options without a value; false for any other. */
-static bool take_flag(struct arguments *arguments, int option)
+static const struct option_row rows[] = {
+    {"world", "NAME", NULL, .text = &given.world, .letter = 'w'},
+    {"terrain", "X0,Z0,X1,Z1,STEP", NULL, .text = &given.terrain},
+    {"events", "FILE", NULL, .text = &given.events},
+    {"frames", "N", NULL, .u64 = &given.frames, .least = 1, .most = UINT64_MAX},
+    {"threads", "N", NULL, .u32 = &given.threads, .least = 1, .most = THREAD_POOL_MAX},
+    {"set", "KEY=VALUE", NULL, .take = take_set},
+    {"from", "FROM", NULL, .text = &given.from},
+    {"wall", "SECONDS", NULL, .real = &given.wall_s, .high = 1e12},
+    {"seconds", "S", NULL, .real = &given.seconds, .low = 0.001, .high = 1e9},
+    {"json", NULL, NULL, .flag = &given.json},
+    {"follow", NULL, NULL, .flag = &given.follow},
+    {"fixed", NULL, NULL, .flag = &given.fixed},
+    {"force", NULL, NULL, .flag = &given.force},
+    {"adopt", NULL, NULL, .flag = &given.adopt},
+    {"inputs", NULL, NULL, .flag = &given.inputs},
+    OPTION_ROWS_END};
+
+int arguments_verb(int argc, char **argv)
 {
-    switch (option) {
-    case 'j':
-        return arguments->json = true;
-    case 'f':
-        return arguments->follow = true;
-    case 'x':
-        return arguments->fixed = true;
-    case '!':
-        return arguments->force = true;
-    case 'a':
-        return arguments->adopt = true;
-    case 'I':
-        return arguments->inputs = true;
-    default:
-        return false;
-    }
+    static const struct option_table table = {.rows = rows};
+    return option_table_verb(&table, argc, argv);
 }
 
-static void take_value(struct arguments *arguments, int option, const char *value)
+struct arguments arguments_read(int argc, char **argv, const char *verb, const char *usage,
+                                int plain_max)
 {
-    switch (option) {
-    case 'w':
-        arguments->world = value;
-        break;
-    case 't':
-        arguments->terrain = value;
-        break;
-    case 'e':
-        arguments->events = value;
-        break;
-    case 'n':
-        arguments->frames = process_whole("frames", value, 1, UINT64_MAX);
-        break;
-    case 'T':
-        arguments->threads = (uint32_t)process_whole("threads", value, 1, THREAD_POOL_MAX);
-        break;
-    case 's':
-        arguments_set(arguments, value);
-        break;
-    case 'F':
-        arguments->from = value;
-        break;
-    case 'W':
-        arguments->wall_s = process_number("wall", value, 0, 1e12);
-        break;
-    default:
-        arguments->seconds = process_number("seconds", value, 0.001, 1e9);
-        break;
-    }
-}
-
-/* Ends the process when the verb does not take that option. */
-static void check_option(const char *verb, const char *name, const struct accepted *accepted)
-{
-    size_t length = strlen(name);
-    for (const char *at = accepted->options; *at != '\0'; at = strchr(at, ' ') + 1) {
-        if (strncmp(at, name, length) == 0 && at[length] == ' ')
-            return;
-    }
-    die_usage("%s: does not take --%s; try jolon-world %s --help", verb, name, verb);
-}
-
-static void take_plain(struct arguments *arguments, int count, char **plain, const char *verb,
-                       const struct accepted *accepted)
-{
-    if (count > accepted->plain)
-        die_usage("%s: \"%s\" is one argument too many; try jolon-world %s --help", verb,
-                  plain[accepted->plain], verb);
-    if (count > 0)
-        arguments->path = plain[0];
-    if (count > 1)
-        arguments->other = plain[1];
-}
-
-struct arguments arguments_read(int argc, char **argv, const struct accepted *accepted)
-{
-    struct arguments arguments = {.world = "default", .threads = 1};
-    int option;
-    opterr = 0; /* we say it, in one line */
-    while ((option = getopt_long(argc, argv, "w:h", known, NULL)) != -1) {
-        if (option == '?' || option == ':')
-            die_usage("%s: no such option, or its value is missing; try jolon-world %s --help",
-                      argv[optind - 1], argv[0]);
-        if (option == 'h') {
-            arguments.help = true;
-            return arguments;
-        }
-        check_option(argv[0], option_name(option), accepted);
-        if (!take_flag(&arguments, option))
-            take_value(&arguments, option, optarg);
-    }
-    take_plain(&arguments, argc - optind, argv + optind, argv[0], accepted);
-    return arguments;
+    char program[64];
+    (void)snprintf(program, sizeof program, "jolon-world %s", verb);
+    const struct option_table table = {
+        .program = program, .usage = usage, .rows = rows, .usage_rows = true, .plain = plain_max};
+    int plain = option_table_read(&table, argc, argv);
+    if (plain > 0)
+        given.path = argv[argc - plain];
+    if (plain > 1)
+        given.other = argv[argc - 1];
+    return given;
 }
 
 void arguments_seconds(const struct arguments *arguments, struct params *params)

@@ -12,7 +12,7 @@
 
 struct arguments {
     const char *world; /* "default" */
-    bool json, follow, fixed, force, adopt, inputs, help;
+    bool json, follow, fixed, force, adopt, inputs;
     const char *terrain, *events, *path; /* NULL when not given; path is the one plain argument */
     const char *other;                   /* the second one, of verbs that take two */
     const char *from; /* a frame or an image's file, as the verb means it; NULL when not given */
@@ -23,15 +23,15 @@ struct arguments {
     int sets;
 };
 
-/* What a verb takes. */
-struct accepted {
-    const char *options; /* names of options, each with a space after it: "world json " */
-    int plain;           /* plain arguments at most */
-};
+/* The place of the verb in the command line: the first word that is no option nor an option's
+ * value; argc when there is none. */
+int arguments_verb(int argc, char **argv);
 
-/* Reads a verb's arguments (argv[0] is the verb); what it does not take ends the process with what
- * would be right (exit 2). With --help or -h among them nothing is said, and help is true. */
-struct arguments arguments_read(int argc, char **argv, const struct accepted *accepted);
+/* Reads a verb's arguments: the options that its usage names, and at most plain_max others. Ends
+ * the process with the usage on standard output for --help (exit 0), and with what would be right
+ * for anything else (exit 2). argv[0] is not looked at. */
+struct arguments arguments_read(int argc, char **argv, const char *verb, const char *usage,
+                                int plain_max);
 
 /* Adds one --set; wrong usage ends the process (exit 2). */
 void arguments_set(struct arguments *arguments, const char *text);

@@ -3,8 +3,8 @@
 
 #include "recorder/archive/image.h"
 #include "ipc/process/log.h"
-#include "ipc/process/process.h"
 #include "world/provenance.h"
+#include "world/runtime/parse_number.h"
 #include "recorder/replay/scenario_load.h"
 #include "recorder/replay/image_resume.h"
 
@@ -29,7 +29,7 @@ static void arguments_of(struct arguments *arguments, const struct log_replay *t
                                     .path = log_replay_recipe(tape, "scenario"),
                                     .from = log_replay_recipe(tape, "image")};
     const char *seconds = log_replay_recipe(tape, "seconds");
-    if (seconds && !process_number_read(seconds, 0.001, 1e9, &arguments->seconds))
+    if (seconds && !parse_real(seconds, 0.001, 1e9, &arguments->seconds))
         die_refused("%s:1: recipe: seconds=%s: must be a number from 0.001 to 1e9", tape->path,
                     seconds);
     cJSON_ArrayForEach(text, cJSON_GetObjectItemCaseSensitive(tape->begin, "recipe"))

@@ -3,10 +3,10 @@
  * It is the only writer of the clients' ring, and it knows neither DDS nor any other network: what
  * comes from other machines reaches it through the reporter, which is a client like any other. */
 #include "reporter/intake/command_intake.h"
-#include "reporter/intake/options.h"
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
+#include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
 #include "ipc/sandbox/sandbox.h"
 
@@ -14,6 +14,19 @@
  * Both leave the heart beating more often than every 20 ms. */
 #define WAIT_NS      (10 * (uint64_t)NS_PER_MS)
 #define WAIT_BUSY_NS ((uint64_t)NS_PER_MS)
+
+static struct {
+    const char *world;
+    int parent; /* process id, 0: none */
+    bool sandbox_off;
+} options = {.world = "default"};
+
+static const struct option_row rows[] = {OPTION_ROW_WORLD(options, NULL),
+                                         OPTION_ROW_PARENT(options), OPTION_ROW_NO_SANDBOX(options),
+                                         OPTION_ROWS_END};
+
+static const struct option_table table = {
+    .program = "jolon-intake", .usage = "[options]", .rows = rows};
 
 static void turn(struct command_intake *intake, struct view *view)
 {
@@ -35,9 +48,8 @@ int main(int argc, char **argv)
     static struct view view;
     struct sandbox sandbox;
     struct reason reason;
-    struct options options;
     log_open("intake");
-    options_parse(&options, argc, argv);
+    option_table_read(&table, argc, argv);
     process_close_inherited();
     process_die_with_parent(options.parent);
     process_signals();

@@ -7,6 +7,7 @@
 #include "ipc/process/process.h"
 #include "recorder/replay/arguments.h"
 #include "ipc/json/world_json.h"
+#include "world/runtime/parse_number.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -41,7 +42,9 @@ static void print_gap(const struct arguments *arguments, uint64_t gap)
 int verb_events(const struct arguments *arguments)
 {
     static struct event events[BATCH];
-    uint64_t from = arguments->from ? process_whole("from", arguments->from, 0, UINT64_MAX) : 0;
+    uint64_t from = 0;
+    if (arguments->from && !parse_whole(arguments->from, 0, UINT64_MAX, &from))
+        die_usage("--from %s: must be a frame's number", arguments->from);
     struct event_cursor cursor = {0};
     struct view view;
     arguments_attach(arguments, &view);

@@ -11,82 +11,41 @@
 struct verb {
     const char *name;
     int (*run)(const struct arguments *arguments);
-    struct accepted accepted;
-    const char *usage;
+    int plain;         /* arguments that are no options, at most */
+    const char *usage; /* the options that it names are those that the verb takes */
 };
 
 static const struct verb verbs[] = {
-    {"create",
-     verb_create,
-     {"world seconds adopt set from ", 1},
+    {"create", verb_create, 1,
      "[--world NAME] [--seconds S] [--adopt] [--set KEY=VALUE]... [SCENARIO | --from FILE]     "
      "make a world, or go on from an image"},
-    {"check",
-     verb_check,
-     {"world set ", 1},
+    {"check", verb_check, 1,
      "[--world NAME | [--set KEY=VALUE]... SCENARIO]     check a world's memory, or a scenario"},
-    {"repair",
-     verb_repair,
-     {"world ", 0},
+    {"repair", verb_repair, 0,
      "[--world NAME]     go back to a damaged world's newest whole frame, while nobody runs it"},
-    {"info",
-     verb_info,
-     {"world json ", 0},
-     "[--world NAME] [--json]     what the world is made of"},
-    {"status",
-     verb_status,
-     {"world json ", 0},
-     "[--world NAME] [--json]     who runs it and how far it is"},
-    {"summary",
-     verb_summary,
-     {"world json wall ", 0},
-     "[--world NAME] [--json] [--wall SECONDS]     what happened"},
-    {"digest",
-     verb_digest,
-     {"world json ", 0},
-     "[--world NAME] [--json]     digests of the last committed frame"},
-    {"dump",
-     verb_dump,
-     {"world json fixed terrain ", 0},
+    {"info", verb_info, 0, "[--world NAME] [--json]     what the world is made of"},
+    {"status", verb_status, 0, "[--world NAME] [--json]     who runs it and how far it is"},
+    {"summary", verb_summary, 0, "[--world NAME] [--json] [--wall SECONDS]     what happened"},
+    {"digest", verb_digest, 0, "[--world NAME] [--json]     digests of the last committed frame"},
+    {"dump", verb_dump, 0,
      "[--world NAME] [--json] [--fixed | --terrain X0,Z0,X1,Z1,STEP]     every entity"},
-    {"events",
-     verb_events,
-     {"world follow from json ", 0},
+    {"events", verb_events, 0,
      "[--world NAME] [--follow] [--from FRAME] [--json]     what happened, in order"},
-    {"replay",
-     verb_replay,
-     {"frames json events threads ", 1},
+    {"replay", verb_replay, 1,
      "[--frames N] [--json] [--events FILE] [--threads N] LOG     run a log of commands again"},
-    {"diff",
-     verb_diff,
-     {"json threads ", 2},
+    {"diff", verb_diff, 2,
      "[--json] [--threads N] A B     first difference of two logs of commands, images, worlds"},
-    {"list",
-     verb_list,
-     {"", 1},
+    {"list", verb_list, 1,
      "[worlds | all | lost]     this user's worlds; all: what is left of dead ones too; lost: "
      "files in /dev/shm that no name leads to"},
-    {"paths",
-     verb_paths,
-     {"world ", 1},
+    {"paths", verb_paths, 1,
      "[--world NAME] [name | lock | object]     where the world is in the file system"},
-    {"remove",
-     verb_remove,
-     {"world force ", 0},
-     "[--world NAME] [--force]     free a world's shared memory"},
-    {"sweep",
-     verb_sweep,
-     {"world ", 0},
-     "[--world NAME]     remove what a dead process left under the name"},
-    {"pid", verb_pid, {"world ", 1}, "[--world NAME] ROLE     pid of a role's live process"},
-    {"frame", verb_frame, {"world ", 0}, "[--world NAME]     the last committed frame"},
-    {"save",
-     verb_save,
-     {"world inputs ", 1},
-     "[--world NAME] [--inputs] FILE     write an image of the world"},
-    {"replay-frame",
-     verb_replay_frame,
-     {"", 1},
+    {"remove", verb_remove, 0, "[--world NAME] [--force]     free a world's shared memory"},
+    {"sweep", verb_sweep, 0, "[--world NAME]     remove what a dead process left under the name"},
+    {"pid", verb_pid, 1, "[--world NAME] ROLE     pid of a role's live process"},
+    {"frame", verb_frame, 0, "[--world NAME]     the last committed frame"},
+    {"save", verb_save, 1, "[--world NAME] [--inputs] FILE     write an image of the world"},
+    {"replay-frame", verb_replay_frame, 1,
      "DUMP     run the frame after an image's in this process, for a debugger"},
 };
 
@@ -101,13 +60,13 @@ static int usage(FILE *to, int code)
     return code;
 }
 
-static int run(const struct verb *verb, int argc, char **argv)
+/* at: the verb's place. Options before it are the verb's too. */
+static int run(const struct verb *verb, int argc, char **argv, int at)
 {
-    struct arguments arguments = arguments_read(argc, argv, &verb->accepted);
-    if (!arguments.help)
-        return verb->run(&arguments);
-    printf("usage: jolon-world %s %s\n", verb->name, verb->usage);
-    return EXIT_OK;
+    memmove(argv + 2, argv + 1, (size_t)(at - 1) * sizeof *argv);
+    struct arguments arguments =
+        arguments_read(argc - 1, argv + 1, verb->name, verb->usage, verb->plain);
+    return verb->run(&arguments);
 }
 
 int main(int argc, char **argv)
@@ -122,9 +81,11 @@ int main(int argc, char **argv)
             die_usage("%s %s: takes no argument; try jolon-world VERB --help", argv[1], argv[2]);
         return usage(stdout, EXIT_OK);
     }
+    int at = arguments_verb(argc, argv);
+    const char *name = argv[at < argc ? at : 1];
     for (size_t i = 0; i < VERBS; i++) {
-        if (strcmp(argv[1], verbs[i].name) == 0)
-            return run(&verbs[i], argc - 1, argv + 1);
+        if (strcmp(name, verbs[i].name) == 0)
+            return run(&verbs[i], argc, argv, at);
     }
-    die_usage("%s: no such verb; try jolon-world help", argv[1]);
+    die_usage("%s: no such verb; try jolon-world help", name);
 }

@@ -120,10 +120,8 @@ static uint32_t steps_for(uint32_t vehicles)
     return vehicles <= 100000 ? STEPS_MOST : STEPS_MOST / 5;
 }
 
-int bench_detect(int argc, char **argv)
+int bench_detect(struct bench_options options)
 {
-    struct bench_options options =
-        bench_options(argc, argv, (struct bench_options){.vehicles = 500, .threads = 1});
     struct workload workload;
     /* One arena, so that mallinfo2 sees what every thread takes. */
     mallopt(M_ARENA_MAX, 1);

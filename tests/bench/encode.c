@@ -12,7 +12,6 @@
 #include "renderer/output/video.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -152,39 +151,11 @@ static void tell(struct encoding *encoding, bool json)
     free(encoding);
 }
 
-struct options {
-    struct process_size size;
-    uint32_t frames;
-    bool json;
-};
-
-static struct options read_options(int argc, char **argv)
-{
-    static const struct option known[] = {{"size", required_argument, NULL, 'z'},
-                                          {"frames", required_argument, NULL, 'f'},
-                                          {"json", no_argument, NULL, 'j'},
-                                          {NULL, 0, NULL, 0}};
-    struct options o = {.size = {1280, 720}, .frames = 120};
-    int letter;
-    while ((letter = getopt_long(argc, argv, "", known, NULL)) != -1) {
-        if (letter == 'z')
-            o.size = process_size("size", optarg, BENCH_SIDE_MIN, BENCH_SIDE_MAX);
-        else if (letter == 'f')
-            o.frames = (uint32_t)process_whole("frames", optarg, 2, ENCODED_MAX);
-        else if (letter == 'j')
-            o.json = true;
-        else
-            bench_refuse(argv[optind - 1]);
-    }
-    if (optind < argc)
-        die_usage("%s: one argument too many; try jolon-bench help", argv[optind]);
-    return o;
-}
-
-int bench_encode(int argc, char **argv)
+int bench_encode(struct bench_options options)
 {
     static struct bench_scene scene;
-    struct options options = read_options(argc, argv);
+    if (options.frames < 2 || options.frames > ENCODED_MAX)
+        die_usage("--frames %u: must be from 2 to %u", options.frames, ENCODED_MAX);
     struct encoding *encoding = begin();
     bench_scene_open(&scene, &(struct bench_scene_wish){.frame = FIRST_FRAME,
                                                         .width = options.size.width,

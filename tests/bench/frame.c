@@ -36,11 +36,8 @@ static void run(struct view *view, const struct bench_options *options, struct t
     frame_stepper_free(&player);
 }
 
-int bench_frame(int argc, char **argv)
+int bench_frame(struct bench_options options)
 {
-    struct bench_options options = bench_options(
-        argc, argv,
-        (struct bench_options){.vehicles = BENCH_SCENARIO_VEHICLES, .threads = 1, .frames = 1200});
     struct view view;
     if (options.agents)
         bench_world_agents(&view, options.vehicles);

@@ -134,10 +134,8 @@ static void futex_between(struct shared *shared, uint32_t frames)
     waitpid(child, NULL, 0);
 }
 
-int bench_handover(int argc, char **argv)
+int bench_handover(struct bench_options options)
 {
-    struct bench_options options =
-        bench_options(argc, argv, (struct bench_options){.frames = 20000});
     struct shared *frames = share(options.frames), *bare = share(options.frames);
     frames_between(options.frames, frames->us);
     futex_between(bare, options.frames);

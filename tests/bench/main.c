@@ -2,56 +2,11 @@
 #include "tests/bench/bench.h"
 
 #include "ipc/process/log.h"
-#include "ipc/process/process.h"
+#include "tests/bench/world.h"
 
-#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-_Noreturn void bench_refuse(const char *option)
-{
-    die_usage("%s: no such option, or its value is missing; try jolon-bench help", option);
-}
-
-struct bench_options bench_options(int argc, char **argv, struct bench_options chosen)
-{
-    static const struct option options[] = {{"vehicles", required_argument, NULL, 'v'},
-                                            {"threads", required_argument, NULL, 't'},
-                                            {"frames", required_argument, NULL, 'f'},
-                                            {"peers", no_argument, NULL, 'p'},
-                                            {"json", no_argument, NULL, 'j'},
-                                            {"agents", no_argument, NULL, 'a'},
-                                            {NULL, 0, NULL, 0}};
-    int option;
-    while ((option = getopt_long(argc, argv, "", options, NULL)) != -1) {
-        switch (option) {
-        case 'v':
-            chosen.vehicles = (uint32_t)process_whole("vehicles", optarg, 1, 1000000);
-            break;
-        case 't':
-            chosen.threads = (uint32_t)process_whole("threads", optarg, 1, 16);
-            break;
-        case 'f':
-            chosen.frames = (uint32_t)process_whole("frames", optarg, 1, 10000000);
-            break;
-        case 'p':
-            chosen.peers = true;
-            break;
-        case 'j':
-            chosen.json = true;
-            break;
-        case 'a':
-            chosen.agents = true;
-            break;
-        default:
-            bench_refuse(argv[optind - 1]);
-        }
-    }
-    if (optind < argc)
-        die_usage("%s: one argument too many; try jolon-bench help", argv[optind]);
-    return chosen;
-}
 
 static int ascending(const void *a, const void *b)
 {
@@ -65,57 +20,99 @@ double bench_quantile(double *values, uint32_t count, double fraction)
     return count ? values[(uint32_t)(fraction * (double)(count - 1) + 0.5)] : 0.0;
 }
 
-static const struct {
+static const struct bench {
     const char *name;
-    int (*run)(int argc, char **argv);
-    const char *usage;
+    int (*run)(struct bench_options options);
+    const char *usage; /* the options that it names are those that the benchmark takes */
+    struct bench_options defaults;
 } benches[] = {
-    {"handover", bench_handover,
-     "[--frames F] [--json]     a frame without work, beside a bare futex ping-pong"},
-    {"detect", bench_detect,
+    {"handover",
+     bench_handover,
+     "[--frames F] [--json]     a frame without work, beside a bare futex ping-pong",
+     {.frames = 20000}},
+    {"detect",
+     bench_detect,
      "[--vehicles N] [--threads T] [--frames F] [--peers] [--json]     detection beside ODE, "
-     "Bullet"},
-    {"encode", bench_encode,
-     "[--size WxH] [--frames F] [--json]     a picture as PNG, JPEG and video"},
-    {"frame", bench_frame,
+     "Bullet",
+     {.vehicles = 500, .threads = 1}},
+    {"encode",
+     bench_encode,
+     "[--size WxH] [--frames F] [--json]     a picture as PNG, JPEG and video",
+     {.size = {1280, 720}, .frames = 120}},
+    {"frame",
+     bench_frame,
      "[--vehicles N [--agents]] [--threads T] [--frames F] [--json]     the steps of a frame; "
-     "--agents: of two forces at war"},
-    {"methods", bench_methods,
-     "[--vehicles N] [--json]     the ways to detect, for a thousand bodies up to N"},
-    {"models", bench_models, "[--kind NAME] [--size WxH] [--gl] FILE     what models look like"},
-    {"render", bench_render,
+     "--agents: of two forces at war",
+     {.vehicles = BENCH_SCENARIO_VEHICLES, .threads = 1, .frames = 1200}},
+    {"methods",
+     bench_methods,
+     "[--vehicles N] [--json]     the ways to detect, for a thousand bodies up to N",
+     {.vehicles = 1000000}},
+    {"models",
+     bench_models,
+     "[--kind NAME] [--size WxH] [--gl] FILE     what models look like",
+     {.size = {320, 240}}},
+    {"render",
+     bench_render,
      "[--gl] [--size WxH] [--seconds S] [--threads T] [--beside] [--follow ID] [--out DIR "
      "[--all]] "
-     "[--json]     a picture's stages"},
-    {"shapes", bench_shapes, "[--frames SAMPLES] [--json]     what spheres get wrong"},
-    {"traffic", bench_traffic,
-     "[--vehicles N] [--threads T] [--frames F] [--json]     what agents run into"},
+     "[--json]     a picture's stages",
+     {.size = {1280, 720}, .threads = 1, .seconds = 5.0}},
+    {"shapes",
+     bench_shapes,
+     "[--frames SAMPLES] [--json]     what spheres get wrong",
+     {.frames = 20000}},
+    {"traffic",
+     bench_traffic,
+     "[--vehicles N] [--threads T] [--frames F] [--json]     what agents run into",
+     {.vehicles = BENCH_SCENARIO_VEHICLES, .threads = 1, .frames = 36000}},
 };
 
 #define BENCHES (sizeof benches / sizeof benches[0])
 
-static bool asks_help(int argc, char **argv)
+static struct bench_options given;
+
+static const struct option_row rows[] = {
+    {"vehicles", "N", NULL, .u32 = &given.vehicles, .least = 1, .most = 1000000},
+    {"threads", "T", NULL, .u32 = &given.threads, .least = 1, .most = 16},
+    {"frames", "F", NULL, .u32 = &given.frames, .least = 1, .most = 10000000},
+    {"size", "WxH", NULL, .size = &given.size, .least = 64, .most = 4096},
+    {"seconds", "S", NULL, .real = &given.seconds, .high = 3600.0},
+    {"follow", "ID", NULL, .u32 = &given.follow, .most = UINT32_MAX},
+    {"kind", "NAME", NULL, .text = &given.kind},
+    {"out", "DIR", NULL, .text = &given.out},
+    {"peers", NULL, NULL, .flag = &given.peers},
+    {"agents", NULL, NULL, .flag = &given.agents},
+    {"beside", NULL, NULL, .flag = &given.beside},
+    {"all", NULL, NULL, .flag = &given.all},
+    {"gl", NULL, NULL, .flag = &given.gl},
+    {"json", NULL, NULL, .flag = &given.json},
+    OPTION_ROWS_END};
+
+static int run(const struct bench *bench, int argc, char **argv)
 {
-    for (int i = 0; i < argc; i++) {
-        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)
-            return true;
-    }
-    return false;
+    char program[64];
+    (void)snprintf(program, sizeof program, "jolon-bench %s", bench->name);
+    const struct option_table table = {.program = program,
+                                       .usage = bench->usage,
+                                       .rows = rows,
+                                       .usage_rows = true,
+                                       .plain = bench->run == bench_models};
+    given = bench->defaults;
+    if (option_table_read(&table, argc, argv) > 0)
+        given.file = argv[argc - 1];
+    return bench->run(given);
 }
 
 int main(int argc, char **argv)
 {
     log_open("bench");
-    opterr = 0; /* we say it, in one line */
     for (size_t i = 0; argc > 1 && i < BENCHES; i++) {
-        if (strcmp(argv[1], benches[i].name) != 0)
-            continue;
-        if (!asks_help(argc - 1, argv + 1))
-            return benches[i].run(argc - 1, argv + 1);
-        printf("usage: jolon-bench %s %s\n", benches[i].name, benches[i].usage);
-        return EXIT_OK;
+        if (strcmp(argv[1], benches[i].name) == 0)
+            return run(&benches[i], argc - 1, argv + 1);
     }
-    if (argc > 1 && strcmp(argv[1], "help") != 0 && !asks_help(2, argv))
+    if (argc > 1 && strcmp(argv[1], "help") != 0 && strcmp(argv[1], "--help") != 0 &&
+        strcmp(argv[1], "-h") != 0)
         die_usage("%s: no such benchmark; try jolon-bench help", argv[1]);
     FILE *to = argc > 1 ? stdout : stderr;
     fprintf(to, "usage: jolon-bench BENCHMARK ...\n");

@@ -232,10 +232,8 @@ static void measure_size(struct finder finders[METHOD_COUNT], uint32_t bodies, b
     free_field(&field);
 }
 
-int bench_methods(int argc, char **argv)
+int bench_methods(struct bench_options options)
 {
-    struct bench_options options =
-        bench_options(argc, argv, (struct bench_options){.vehicles = 1000000});
     struct finder finders[METHOD_COUNT] = {0};
     if (options.vehicles < FEWEST)
         die_usage("--vehicles %u: must be at least %u", options.vehicles, FEWEST);

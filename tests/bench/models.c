@@ -10,7 +10,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <getopt.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,13 +20,7 @@
 
 enum { BEFORE, BEHIND, LOW, MED, HIGH, WRECK, SMALL, COLUMNS };
 
-struct options {
-    const char *kind, *out;   /* kind: NULL for all */
-    struct process_size size; /* of one picture */
-    bool gl;
-};
-
-static uint32_t per_row(const struct options *options)
+static uint32_t per_row(const struct bench_options *options)
 {
     return options->kind != NULL ? ALONE_PER_ROW : COLUMNS;
 }
@@ -108,7 +101,7 @@ static double size_of(const struct mesh_frame *frame)
     return sqrt(sum);
 }
 
-static void draw(struct bench_scene *s, struct image *sheet, const struct options *options,
+static void draw(struct bench_scene *s, struct image *sheet, const struct bench_options *options,
                  uint32_t kind, uint32_t column, uint32_t row)
 {
     static const double turns[COLUMNS] = {[BEFORE] = -0.65, [BEHIND] = 4.2, [LOW] = -0.65,
@@ -140,30 +133,6 @@ static void draw(struct bench_scene *s, struct image *sheet, const struct option
     }
 }
 
-static struct options read_options(int argc, char **argv)
-{
-    static const struct option known[] = {{"kind", required_argument, NULL, 'k'},
-                                          {"size", required_argument, NULL, 'z'},
-                                          {"gl", no_argument, NULL, 'g'},
-                                          {NULL, 0, NULL, 0}};
-    struct options o = {.size = {320, 240}};
-    int letter;
-    while ((letter = getopt_long(argc, argv, "", known, NULL)) != -1) {
-        if (letter == 'k')
-            o.kind = optarg;
-        else if (letter == 'g')
-            o.gl = true;
-        else if (letter == 'z')
-            o.size = process_size("size", optarg, BENCH_SIDE_MIN, BENCH_SIDE_MAX);
-        else
-            bench_refuse(argv[optind - 1]);
-    }
-    if (optind != argc - 1)
-        die_usage("models: needs one FILE; try jolon-bench help");
-    o.out = argv[optind];
-    return o;
-}
-
 /* The kinds to show; how many. */
 static uint32_t choose(const struct world *world, const char *name, uint32_t kinds[KINDS_MAX])
 {
@@ -176,12 +145,13 @@ static uint32_t choose(const struct world *world, const char *name, uint32_t kin
     return count;
 }
 
-int bench_models(int argc, char **argv)
+int bench_models(struct bench_options options)
 {
     static struct bench_scene scene;
-    struct options options = read_options(argc, argv);
     struct image sheet;
     uint32_t kinds[KINDS_MAX];
+    if (!options.file)
+        die_usage("models: needs one FILE; see jolon-bench models --help");
     struct bench_scene_wish wish = {.scenario = "parade",
                                     .width = options.size.width,
                                     .height = options.size.height,
@@ -195,8 +165,8 @@ int bench_models(int argc, char **argv)
     for (uint32_t row = 0; row < count; row++)
         for (uint32_t column = 0; column < COLUMNS; column++)
             draw(&scene, &sheet, &options, kinds[row], column, row);
-    if (png_write_file(AT_FDCWD, options.out, &sheet, "jolon-bench models") != 0)
-        die_refused("%s: %s", options.out, strerror(errno));
+    if (png_write_file(AT_FDCWD, options.file, &sheet, "jolon-bench models") != 0)
+        die_refused("%s: %s", options.file, strerror(errno));
     image_free(&sheet);
     bench_scene_close(&scene);
     return EXIT_OK;

@@ -13,7 +13,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <getopt.h>
 #include <sched.h>
 #include <signal.h>
 #include <stdio.h>
@@ -26,15 +25,6 @@
 
 #define FIRST_FRAME  1800u /* by then they are at each other */
 #define PICTURES_MAX 100000u
-
-struct options {
-    struct process_size size;
-    uint32_t threads;
-    double seconds;
-    uint32_t follow; /* entity id, 0: the liveliest */
-    const char *out; /* folder for one picture in so many, NULL: none */
-    bool beside, json, all, gl;
-};
 
 struct bench {
     struct bench_scene scene;
@@ -109,7 +99,7 @@ static void draw_one(struct bench *bench, struct times *times, uint32_t number)
     times->cpu_ms[STAGE_TOTAL][number] = (double)(cpu[3] - cpu[0]) / 1e6;
 }
 
-static void open_bench(struct bench *bench, const struct options *options)
+static void open_bench(struct bench *bench, const struct bench_options *options)
 {
     const struct bench_scene_wish wish = {.frame = FIRST_FRAME,
                                           .width = options->size.width,
@@ -127,7 +117,7 @@ static void open_bench(struct bench *bench, const struct options *options)
         die_refused("%s", reason.text);
 }
 
-static void run(struct bench *bench, const struct options *options, struct times *times)
+static void run(struct bench *bench, const struct bench_options *options, struct times *times)
 {
     double spent_ms = 0.0;
     while (spent_ms < 1e3 * options->seconds && times->count < PICTURES_MAX) {
@@ -182,59 +172,7 @@ static void end_beside(pid_t child)
 
 /* --- reading and telling -----------------------------------------------------------------------*/
 
-static struct options read_options(int argc, char **argv)
-{
-    static const struct option known[] = {{"size", required_argument, NULL, 'z'},
-                                          {"seconds", required_argument, NULL, 's'},
-                                          {"threads", required_argument, NULL, 't'},
-                                          {"follow", required_argument, NULL, 'F'},
-                                          {"out", required_argument, NULL, 'o'},
-                                          {"all", no_argument, NULL, 'a'},
-                                          {"beside", no_argument, NULL, 'b'},
-                                          {"json", no_argument, NULL, 'j'},
-                                          {"gl", no_argument, NULL, 'g'},
-                                          {NULL, 0, NULL, 0}};
-    struct options o = {.size = {1280, 720}, .threads = 1, .seconds = 5.0};
-    int letter;
-    while ((letter = getopt_long(argc, argv, "", known, NULL)) != -1) {
-        switch (letter) {
-        case 'z':
-            o.size = process_size("size", optarg, BENCH_SIDE_MIN, BENCH_SIDE_MAX);
-            break;
-        case 's':
-            o.seconds = process_number("seconds", optarg, 0.0, 3600.0);
-            break;
-        case 't':
-            o.threads = (uint32_t)process_whole("threads", optarg, 1, 16);
-            break;
-        case 'F':
-            o.follow = (uint32_t)process_whole("follow", optarg, 0, UINT32_MAX);
-            break;
-        case 'o':
-            o.out = optarg;
-            break;
-        case 'a':
-            o.all = true;
-            break;
-        case 'b':
-            o.beside = true;
-            break;
-        case 'j':
-            o.json = true;
-            break;
-        case 'g':
-            o.gl = true;
-            break;
-        default:
-            bench_refuse(argv[optind - 1]);
-        }
-    }
-    if (optind < argc)
-        die_usage("%s: one argument too many; try jolon-bench help", argv[optind]);
-    return o;
-}
-
-static void tell(const struct options *options, struct times *times)
+static void tell(const struct bench_options *options, struct times *times)
 {
     /* The first picture fills caches. */
     uint32_t skip = times->count > 1 ? 1 : 0, n = times->count - skip;
@@ -263,10 +201,9 @@ static void tell(const struct options *options, struct times *times)
         printf("}}\n");
 }
 
-int bench_render(int argc, char **argv)
+int bench_render(struct bench_options options)
 {
     static struct bench bench;
-    struct options options = read_options(argc, argv);
     struct times times = {.count = 0};
     double *values =
         calloc((size_t)(2 * STAGE_COUNT + BACK_END_STAGES_MAX) * PICTURES_MAX, sizeof *values);

@@ -79,10 +79,8 @@ static double percent(uint32_t part, uint32_t rest)
     return part + rest > 0 ? 100.0 * part / (part + rest) : 0.0;
 }
 
-int bench_shapes(int argc, char **argv)
+int bench_shapes(struct bench_options options)
 {
-    struct bench_options options =
-        bench_options(argc, argv, (struct bench_options){.frames = 20000});
     struct scenario scenario;
     struct loader_message message;
     char data_dir[512];

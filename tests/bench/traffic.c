@@ -58,11 +58,8 @@ static void take(const struct view *view, const struct state *state, uint64_t fr
     }
 }
 
-int bench_traffic(int argc, char **argv)
+int bench_traffic(struct bench_options options)
 {
-    struct bench_options options = bench_options(
-        argc, argv,
-        (struct bench_options){.vehicles = BENCH_SCENARIO_VEHICLES, .threads = 1, .frames = 36000});
     struct view view;
     struct frame_stepper player;
     struct traffic traffic = {0, 0, 0, 0, 0.0};

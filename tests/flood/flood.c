@@ -10,13 +10,13 @@
 #include "ipc/process/clock.h"
 #include "ipc/segment/local_socket.h"
 #include "ipc/process/log.h"
+#include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
 #include "ipc/topics/command_client.h"
 #include "ipc/topics/command_packet.h"
 #include "ipc/topics/command_socket.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,41 +43,27 @@ struct flood {
     uint32_t answers, unanswered;
 };
 
+static int print_packet(const char *value, const struct error_text *why)
+{
+    (void)value;
+    (void)why;
+    printf("%zu\n", sizeof(struct command_packet));
+    exit(EXIT_OK);
+}
+
 static struct flood parse(int argc, char **argv)
 {
-    static const struct option known[] = {{"world", required_argument, NULL, 'w'},
-                                          {"seconds", required_argument, NULL, 's'},
-                                          {"vehicle", required_argument, NULL, 'v'},
-                                          {"idle", required_argument, NULL, 'i'},
-                                          {"spawn", no_argument, NULL, 'p'},
-                                          {"packet", no_argument, NULL, 'P'},
-                                          {NULL, 0, NULL, 0}};
-    struct flood flood = {.world = "default", .seconds = 2.0, .vehicle = 1};
-    int option;
-    while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
-        switch (option) {
-        case 'w':
-            flood.world = optarg;
-            break;
-        case 's':
-            flood.seconds = process_number("seconds", optarg, 0.1, 3600.0);
-            break;
-        case 'v':
-            flood.vehicle = (uint32_t)process_whole("vehicle", optarg, 1, UINT32_MAX);
-            break;
-        case 'i':
-            flood.idle = (uint32_t)process_whole("idle", optarg, 0, 1000);
-            break;
-        case 'p':
-            flood.spawn = true;
-            break;
-        case 'P':
-            printf("%zu\n", sizeof(struct command_packet));
-            exit(EXIT_OK);
-        default:
-            die_usage("flood: no such option");
-        }
-    }
+    static struct flood flood = {.world = "default", .seconds = 2.0, .vehicle = 1};
+    static const struct option_row rows[] = {
+        {"world", "NAME", NULL, .text = &flood.world, .letter = 'w'},
+        {"seconds", "S", NULL, .real = &flood.seconds, .low = 0.1, .high = 3600.0},
+        {"vehicle", "ID", NULL, .u32 = &flood.vehicle, .least = 1, .most = UINT32_MAX},
+        {"idle", "N", NULL, .u32 = &flood.idle, .most = 1000},
+        {"spawn", NULL, NULL, .flag = &flood.spawn},
+        {"packet", NULL, NULL, .take = print_packet},
+        OPTION_ROWS_END};
+    static const struct option_table table = {.program = "flood", .rows = rows};
+    option_table_read(&table, argc, argv);
     return flood;
 }
 

@@ -6,7 +6,6 @@
 #include "ipc/process/log.h"
 #include "tests/fuzz/ending.h"
 
-#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,7 +66,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         *at++ = '\0';
     }
     arguments[count] = NULL;
-    optind = 0; /* getopt forgets the last line */
     if (ENDING_CATCH() == 0) {
         ctl_parse(&request, count, arguments);
         check(&request);

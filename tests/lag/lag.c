@@ -9,11 +9,11 @@
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
+#include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <getopt.h>
 #include <poll.h>
 #include <pty.h>
 #include <signal.h>
@@ -51,30 +51,25 @@ struct lag {
 
 static void parse(struct lag *lag, int argc, char **argv)
 {
-    static const struct option known[] = {{"world", required_argument, NULL, 'w'},
-                                          {"input", required_argument, NULL, 'i'},
-                                          {"presses", required_argument, NULL, 'n'},
-                                          {"seed", required_argument, NULL, 's'},
-                                          {NULL, 0, NULL, 0}};
-    int option;
-    *lag = (struct lag){.world = "default", .presses = 100, .random = 1, .device = -1};
-    while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
-        if (option == 'w')
-            lag->world = optarg;
-        else if (option == 'i' && strcmp(optarg, "spacemouse") == 0)
-            lag->spacemouse = true;
-        else if (option == 'n')
-            lag->presses = (uint32_t)process_whole("presses", optarg, 1, PRESSES_MAX);
-        else if (option == 's')
-            lag->random = process_whole("seed", optarg, 1, UINT32_MAX);
-        else if (option != 'i' || strcmp(optarg, "keys") != 0)
-            die_usage("usage: lag [--world NAME] [--input keys|spacemouse] [--presses N] "
-                      "[--seed N] JOLON-DRIVE ID");
-    }
-    if (argc - optind != 2)
+    static int input;
+    static struct lag given = {.world = "default", .presses = 100, .random = 1, .device = -1};
+    static const struct option_row rows[] = {
+        {"world", "NAME", NULL, .text = &given.world, .letter = 'w'},
+        {"input", "keys|spacemouse", NULL, .choice = &input},
+        {"presses", "N", NULL, .u32 = &given.presses, .least = 1, .most = PRESSES_MAX},
+        {"seed", "N", NULL, .u64 = &given.random, .least = 1, .most = UINT32_MAX},
+        OPTION_ROWS_END};
+    static const struct option_table table = {
+        .program = "lag",
+        .usage = "[--world NAME] [--input keys|spacemouse] [--presses N] [--seed N] JOLON-DRIVE ID",
+        .rows = rows,
+        .plain = 2};
+    if (option_table_read(&table, argc, argv) != 2)
         die_usage("lag: wants the program jolon-drive and a vehicle's id");
-    lag->program = argv[optind];
-    lag->vehicle = argv[optind + 1];
+    given.spacemouse = input == 1;
+    given.program = argv[argc - 2];
+    given.vehicle = argv[argc - 1];
+    *lag = given;
 }
 
 static uint32_t random_below(struct lag *lag, uint32_t end)

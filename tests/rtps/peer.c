@@ -18,7 +18,6 @@
 
 #include "status.h"
 
-#include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -120,22 +119,16 @@ static void say(bool yes, const char *word, const char *otherwise)
 
 int main(int argc, char **argv)
 {
-    static const struct option known[] = {
-        {"world", required_argument, NULL, 'w'}, DDS_LINK_LONG_OPTIONS, {NULL, 0, NULL, 0}};
-    static struct peer peer;
-    struct dds_link_options options = {.part = DDS_PEER};
+    static struct peer peer = {.world = "default"};
+    static struct dds_link_options options = {.part = DDS_PEER};
+    static const struct option_row rows[] = {OPTION_ROW_WORLD(peer, NULL),
+                                             DDS_LINK_OPTION_ROWS(options), OPTION_ROWS_END};
+    static const struct option_table table = {.program = "peer", .rows = rows, .plain = 2};
     struct reason reason;
-    int option;
     log_open("peer");
-    peer.world = "default";
-    while ((option = getopt_long(argc, argv, "w:", known, NULL)) != -1) {
-        if (option == 'w')
-            peer.world = optarg;
-        else if (!dds_link_option(&options, option, optarg))
-            die_usage("tests/rtps/peer.c says how to call it");
-    }
-    const char *verb = optind < argc ? argv[optind] : "";
-    const char *value = optind + 1 < argc ? argv[optind + 1] : NULL;
+    int count = option_table_read(&table, argc, argv);
+    const char *verb = count > 0 ? argv[argc - count] : "";
+    const char *value = count > 1 ? argv[argc - 1] : NULL;
     bool captures = strcmp(verb, "capture") == 0, hostile = strcmp(verb, "hostile") == 0;
     if ((captures || hostile) != (value != NULL))
         die_usage("tests/rtps/peer.c says how to call it");

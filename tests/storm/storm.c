@@ -3,13 +3,14 @@
 
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
+#include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
 #include "tests/storm/report.h"
 #include "tests/storm/sender.h"
 #include "world/maths/random.h"
+#include "world/runtime/parse_number.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,10 +41,10 @@ uint64_t chance_below(struct chance *chance, uint64_t end)
 /* --- options -----------------------------------------------------------------------------------*/
 
 static const char usage[] =
-    "usage: storm [--kills N] [--seed N] [--gap-ms X] [--scenario FILE] [--commands N]\n"
+    "[--kills N] [--seed N] [--gap-ms X] [--scenario FILE] [--commands N]\n"
     "             [--renderer] [--world NAME] [--out DIR] [--json]\n"
     "  kills, stops and continues the processes of a set of its own at random; see\n"
-    "  tests/storm/README.md. JOLON_HANG_MS is the keeper's limit, as for jolon.\n";
+    "  tests/storm/README.md. JOLON_HANG_MS is the keeper's limit, as for jolon.";
 
 static void find_programs(char *path, size_t bytes)
 {
@@ -64,64 +65,27 @@ static void find_programs(char *path, size_t bytes)
 
 static void read_options(struct storm_options *options, int argc, char **argv)
 {
-    static const struct option known[] = {{"kills", required_argument, NULL, 'k'},
-                                          {"seed", required_argument, NULL, 's'},
-                                          {"gap-ms", required_argument, NULL, 'g'},
-                                          {"scenario", required_argument, NULL, 'f'},
-                                          {"commands", required_argument, NULL, 'c'},
-                                          {"renderer", no_argument, NULL, 'r'},
-                                          {"world", required_argument, NULL, 'w'},
-                                          {"out", required_argument, NULL, 'o'},
-                                          {"json", no_argument, NULL, 'j'},
-                                          {"help", no_argument, NULL, 'h'},
-                                          {NULL, 0, NULL, 0}};
+    static struct storm_options given = {
+        .kills = 1000, .gap_ms = 40.0, .hang_ms = 100.0, .scenario = "tests/storm/crowd.cfg"};
+    static const struct option_row rows[] = {
+        {"kills", "N", NULL, .u64 = &given.kills, .least = 1, .most = 1000000000},
+        {"seed", "N", NULL, .u64 = &given.seed, .most = UINT64_MAX - 1},
+        {"gap-ms", "X", NULL, .real = &given.gap_ms, .high = 60000.0},
+        {"scenario", "FILE", NULL, .text = &given.scenario},
+        {"commands", "N", NULL, .u64 = &given.commands, .most = 1000000},
+        {"renderer", NULL, NULL, .flag = &given.renderer},
+        {"world", "NAME", NULL, .text = &given.world, .letter = 'w'},
+        {"out", "DIR", NULL, .text = &given.out},
+        {"json", NULL, NULL, .flag = &given.json},
+        OPTION_ROWS_END};
+    static const struct option_table table = {.program = "storm", .usage = usage, .rows = rows};
     const char *hang = getenv("JOLON_HANG_MS");
-    *options = (struct storm_options){
-        .kills = 1000, .seed = clock_now_ns() % 1000000, .gap_ms = 40.0, .hang_ms = 100.0};
-    options->scenario = "tests/storm/crowd.cfg";
-    if (hang)
-        options->hang_ms = process_number("JOLON_HANG_MS", hang, 1.0, 1e6);
-    int option;
-    while ((option = getopt_long(argc, argv, "w:h", known, NULL)) != -1) {
-        switch (option) {
-        case 'k':
-            options->kills = process_whole("kills", optarg, 1, 1000000000);
-            break;
-        case 's':
-            options->seed = process_whole("seed", optarg, 0, UINT64_MAX - 1);
-            break;
-        case 'g':
-            options->gap_ms = process_number("gap-ms", optarg, 0.0, 60000.0);
-            break;
-        case 'c':
-            options->commands = process_whole("commands", optarg, 0, 1000000);
-            break;
-        case 'f':
-            options->scenario = optarg;
-            break;
-        case 'w':
-            options->world = optarg;
-            break;
-        case 'o':
-            options->out = optarg;
-            options->keep = true;
-            break;
-        case 'r':
-            options->renderer = true;
-            break;
-        case 'j':
-            options->json = true;
-            break;
-        case 'h':
-            fputs(usage, stdout);
-            exit(EXIT_OK);
-        default:
-            fputs(usage, stderr);
-            exit(EXIT_USAGE);
-        }
-    }
-    if (optind < argc)
-        die_usage("%s: takes no arguments; try --help", argv[optind]);
+    given.seed = clock_now_ns() % 1000000;
+    if (hang && !parse_real(hang, 1.0, 1e6, &given.hang_ms))
+        die_usage("JOLON_HANG_MS %s: must be a number from 1 to 1e6", hang);
+    option_table_read(&table, argc, argv);
+    given.keep = given.out != NULL;
+    *options = given;
     /* A file; else it is the name of one that comes with Jolon. */
     char *path = realpath(options->scenario, NULL);
     if (path)

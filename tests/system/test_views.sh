@@ -121,7 +121,7 @@ refuses "a place without its view" 2 'give --view free too' "$renderer" --snap x
 refuses "a place off the map" 2 'X is from 0 to 50000' "$renderer" --snap x.png --eye 60000,1
 refuses "a back end that is none" 2 'not one of auto, gl, soft' "$renderer" --snap x.png --backend d3d
 refuses "a device for the own rasteriser" 2 'needs none' "$renderer" --snap x.png --backend soft --device 0
-refuses "a quality that is none" 2 'not one of hold, fixed' "$renderer" --snap x.png --quality best
+refuses "a quality that is none" 2 'not one of fixed, hold' "$renderer" --snap x.png --quality best
 refuses "a rate too high" 2 'fps' "$renderer" --out o --fps 121
 refuses "a view that is none, in a scenario" 1 'renderer.view = bird: unknown; allowed: chase, map' \
     "$jolon" run -w "$name" --set renderer.view=bird duel
