@@ -71,6 +71,11 @@ meant() { "$jolon" "$@" 2>&1 | grep -q "\"$name-a\""; }
 check "-w NAME" meant status -w "$name-a"
 check "-wNAME" meant status "-w$name-a"
 check "--world=NAME" meant status "--world=$name-a"
+check "-w NAME before the verb" meant -w "$name-a" status
+check "--world=NAME before the verb" meant "--world=$name-a" status
+check "-w NAME before a verb of jolon world" eval '"$jolon" -w "$name-a" world info | grep -q "$name-a"'
+check "-w NAME before a verb of jolon-world" eval '"$bin/jolon-world" -w "$name-a" info | grep -q "$name-a"'
+check "-w NAME and no verb is refused" eval '! "$jolon" -w "$name-a" 2>err && grep -q "wants a name, and a verb" err'
 check "worlds -w NAME is that one alone" eval '[ "$("$jolon" worlds -w "$name-a" | cut -d\" -f2)" = "$name-a" ]'
 
 # --- clean --------------------------------------------------------------------------------------------
