@@ -1,8 +1,12 @@
 /* Players' and programs' commands: applied once, in the order of the rings, each with its answer.
  */
-#include "mover/context/serial_context.h"
-#include "mover/weapon/turret.h"
+#include "mover/command_apply.h"
 
+#include "mover/motion/driver_controls.h"
+#include "mover/motion/kinematics.h"
+#include "mover/weapon/fire.h"
+#include "mover/weapon/spawn.h"
+#include "mover/weapon/turret.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stddef.h>
@@ -23,50 +27,50 @@ static bool within(double value, double low, double high)
     return value >= low && value <= high;
 }
 
-static uint32_t vehicle_row(const struct serial_context *serial, uint32_t id)
+static uint32_t vehicle_row(const struct serial_context *context, uint32_t id)
 {
-    const struct entities *m = &serial->moved->entities;
-    uint32_t row = entities_find(m, serial->moved->head->used, id);
+    const struct entities *m = &context->moved->entities;
+    uint32_t row = entities_find(m, context->moved->head->used, id);
     return row != SLOT_NONE && m->behaviour[row] == BEHAVIOUR_FLIGHT ? SLOT_NONE : row;
 }
 
-static enum command_result set_behaviour(struct serial_context *serial, uint32_t row,
+static enum command_result set_behaviour(struct serial_context *context, uint32_t row,
                                          uint8_t behaviour)
 {
-    struct entities *m = &serial->moved->entities;
+    struct entities *m = &context->moved->entities;
     uint8_t from = m->behaviour[row];
     if (from == behaviour)
         return COMMAND_DONE;
-    struct event *event = serial_context_intent(serial, EVENT_AGENT);
+    struct event *event = serial_context_intent(context, EVENT_AGENT);
     if (event) {
-        event->agent = (struct event_agent){serial_context_party(serial, row), from, behaviour,
+        event->agent = (struct event_agent){serial_context_party(context, row), from, behaviour,
                                             REASON_COMMAND};
-        serial->moved->head->tally.agent_changes++;
+        context->moved->head->tally.agent_changes++;
     }
-    serial_context_changes(serial, row, COLUMN_BIT(behaviour) | COLUMN_BIT(trigger));
+    serial_context_changes(context, row, COLUMN_BIT(behaviour) | COLUMN_BIT(trigger));
     m->behaviour[row] = behaviour;
     m->trigger[row] = 0;
     return COMMAND_DONE;
 }
 
 /* Has another source this vehicle for itself? */
-static bool taken(const struct serial_context *serial, uint32_t row, const struct command *command)
+static bool taken(const struct serial_context *context, uint32_t row, const struct command *command)
 {
-    const struct entities *m = &serial->moved->entities;
+    const struct entities *m = &context->moved->entities;
     return m->behaviour[row] == BEHAVIOUR_DRIVEN && m->driver[row] != 0 &&
            m->driver[row] != command->source;
 }
 
-static enum command_result drive(struct serial_context *serial, const struct command *command)
+static enum command_result drive(struct serial_context *context, const struct command *command)
 {
-    struct entities *m = &serial->moved->entities;
+    struct entities *m = &context->moved->entities;
     const double *v = command->value;
-    uint32_t row = vehicle_row(serial, command->entity);
+    uint32_t row = vehicle_row(context, command->entity);
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
     if (m->state[row] != ENTITY_ACTIVE)
         return COMMAND_CANNOT;
-    if (taken(serial, row, command))
+    if (taken(context, row, command))
         return COMMAND_TAKEN;
     for (int i = 0; i < 5; i++) {
         if (!within(v[i], -1.0, 1.0))
@@ -75,7 +79,7 @@ static enum command_result drive(struct serial_context *serial, const struct com
     if (!within(v[5], 0.0, 1.0) || command->force >= GEAR_COUNT ||
         command->amount > COMMAND_LEASE_MAX)
         return COMMAND_OUT_OF_RANGE;
-    serial_context_changes(serial, row, DRIVEN_COLUMNS);
+    serial_context_changes(context, row, DRIVEN_COLUMNS);
     m->throttle[row] = (float)v[0];
     m->steer[row] = (float)v[1];
     m->climb[row] = (float)v[2];
@@ -85,30 +89,30 @@ static enum command_result drive(struct serial_context *serial, const struct com
     m->flags[row] = (uint8_t)((m->flags[row] & ~ENTITY_GEAR_MASK) | (unsigned)command->force
                                                                         << ENTITY_GEAR_SHIFT);
     m->driver[row] = command->amount > 0 ? command->source : 0;
-    m->until_tick[row] = (uint32_t)(serial->move->tick + command->amount);
-    return set_behaviour(serial, row, BEHAVIOUR_DRIVEN);
+    m->until_tick[row] = (uint32_t)(context->step->tick + command->amount);
+    return set_behaviour(context, row, BEHAVIOUR_DRIVEN);
 }
 
-static enum command_result release(struct serial_context *serial, const struct command *command)
+static enum command_result release(struct serial_context *context, const struct command *command)
 {
-    struct entities *m = &serial->moved->entities;
-    uint32_t row = vehicle_row(serial, command->entity);
+    struct entities *m = &context->moved->entities;
+    uint32_t row = vehicle_row(context, command->entity);
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
     if (m->behaviour[row] != BEHAVIOUR_DRIVEN)
         return COMMAND_CANNOT;
-    if (command->amount == 0 && taken(serial, row, command))
+    if (command->amount == 0 && taken(context, row, command))
         return COMMAND_TAKEN;
-    serial_context_changes(serial, row, DRIVEN_COLUMNS);
-    driver_controls_let_go(m, row);
-    m->until_tick[row] = (uint32_t)serial->move->tick; /* no longer its driver's */
-    return set_behaviour(serial, row, m->order[row]);
+    serial_context_changes(context, row, DRIVEN_COLUMNS);
+    driver_controls_release(m, row);
+    m->until_tick[row] = (uint32_t)context->step->tick; /* no longer its driver's */
+    return set_behaviour(context, row, m->order[row]);
 }
 
-static enum command_result fire(struct serial_context *serial, const struct command *command)
+static enum command_result fire(struct serial_context *context, const struct command *command)
 {
-    const struct world *world = serial->move->world;
-    struct entities *m = &serial->moved->entities;
+    const struct world *world = context->step->world;
+    struct entities *m = &context->moved->entities;
     if (command->entity == 0) {
         if (command->kind >= world->counts.kinds ||
             world->kinds[command->kind].domain != DOMAIN_MUNITION)
@@ -116,44 +120,45 @@ static enum command_result fire(struct serial_context *serial, const struct comm
         if (!within(command->value[0], 0.0, WORLD_SIDE_M) ||
             !within(command->value[1], 0.0, WORLD_SIDE_M))
             return COMMAND_OUT_OF_RANGE;
-        return fire_drop_bomb(serial, command->kind, command->value[0], command->value[1])
+        return fire_drop_bomb(context, command->kind, command->value[0], command->value[1])
                    ? COMMAND_DONE
                    : COMMAND_TABLE_FULL;
     }
-    uint32_t row = vehicle_row(serial, command->entity);
+    uint32_t row = vehicle_row(context, command->entity);
     uint32_t target = SLOT_NONE;
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
     if (command->target != 0) {
-        target = vehicle_row(serial, command->target);
+        target = vehicle_row(context, command->target);
         if (target == SLOT_NONE)
             return COMMAND_NO_SUCH_ENTITY;
         if (target == row)
             return COMMAND_OUT_OF_RANGE;
     }
-    if (taken(serial, row, command))
+    if (taken(context, row, command))
         return COMMAND_TAKEN;
-    if (m->state[row] != ENTITY_ACTIVE || serial->move->tick < m->reload_tick[row] ||
+    if (m->state[row] != ENTITY_ACTIVE || context->step->tick < m->reload_tick[row] ||
         m->rounds[row] == 0 || world->kinds[m->kind[row]].munition == KIND_NONE)
         return COMMAND_CANNOT;
     if (target != SLOT_NONE) { /* the gunner lays his gun on it, if it is not yet */
         m->target_slot[row] = target;
         m->target_id[row] = m->id[target];
-        serial_context_changes(serial, row, COLUMN_BIT(target_slot) | COLUMN_BIT(target_id));
-        if (target >= serial->move->committed->head->used ||
-            !turret_bears(serial->move, m, row, target))
+        serial_context_changes(context, row, COLUMN_BIT(target_slot) | COLUMN_BIT(target_id));
+        if (target >= context->step->committed->head->used ||
+            !turret_bears(context->step, m, row, target))
             return COMMAND_CANNOT;
     }
-    return fire_shoot(serial, row, target, KIND_NONE) ? COMMAND_DONE : COMMAND_TABLE_FULL;
+    return fire_shoot(context, row, target, KIND_NONE) ? COMMAND_DONE : COMMAND_TABLE_FULL;
 }
 
 /* Do as many vehicles as may stand within COMMAND_SPOT_M of this place already? Bodies that are
  * spawned into one another cost the collider the square of their number. */
-static bool crowded(const struct serial_context *serial, struct vec3 place)
+static bool crowded(const struct serial_context *context, struct vec3 place)
 {
-    const struct entities *m = &serial->moved->entities;
+    const struct entities *m = &context->moved->entities;
     uint32_t near = 0;
-    for (uint32_t row = 0; row < serial->moved->head->used && near < COMMAND_SPOT_VEHICLES; row++) {
+    for (uint32_t row = 0; row < context->moved->head->used && near < COMMAND_SPOT_VEHICLES;
+         row++) {
         if (m->state[row] == ENTITY_FREE || m->behaviour[row] == BEHAVIOUR_FLIGHT)
             continue;
         struct vec3 away = vec3_sub(entities_position(m, row), place);
@@ -162,11 +167,11 @@ static bool crowded(const struct serial_context *serial, struct vec3 place)
     return near == COMMAND_SPOT_VEHICLES;
 }
 
-static enum command_result spawn(struct serial_context *serial, const struct command *command,
+static enum command_result spawn(struct serial_context *context, const struct command *command,
                                  uint32_t *made)
 {
-    const struct world *world = serial->move->world;
-    struct entities *m = &serial->moved->entities;
+    const struct world *world = context->step->world;
+    struct entities *m = &context->moved->entities;
     const double *v = command->value;
     if (command->kind >= world->counts.kinds || world->kinds[command->kind].domain > DOMAIN_AIR)
         return COMMAND_NO_SUCH_KIND;
@@ -179,12 +184,12 @@ static enum command_result spawn(struct serial_context *serial, const struct com
     bool water = cover_is_water(terrain_cover(&world->terrain, v[0], v[1]));
     if (kind->domain != DOMAIN_AIR && (kind->domain == DOMAIN_SEA) != water)
         return COMMAND_OUT_OF_RANGE;
-    struct vec3 position = {v[0], kinematics_ground(serial->move, v[0], v[1]), v[1]};
+    struct vec3 position = {v[0], kinematics_ground(context->step, v[0], v[1]), v[1]};
     if (kind->domain == DOMAIN_AIR)
         position.y += v[2] > 0.0 ? v[2] : kind->cruise_altitude_m;
-    if (crowded(serial, position))
+    if (crowded(context, position))
         return COMMAND_CANNOT;
-    uint32_t row = spawn_entity(serial, command->kind, (uint8_t)command->force);
+    uint32_t row = spawn_entity(context, command->kind, (uint8_t)command->force);
     if (row == SLOT_NONE)
         return COMMAND_TABLE_FULL;
     double sine, cosine;
@@ -199,9 +204,9 @@ static enum command_result spawn(struct serial_context *serial, const struct com
     return COMMAND_DONE;
 }
 
-static enum command_result control(struct serial_context *serial, const struct command *command)
+static enum command_result control(struct serial_context *context, const struct command *command)
 {
-    struct state_head *head = serial->moved->head;
+    struct state_head *head = context->moved->head;
     switch ((enum command_type)command->type) {
     case COMMAND_PAUSE:
         head->paused = 1;
@@ -233,28 +238,28 @@ static enum command_result control(struct serial_context *serial, const struct c
     }
 }
 
-static enum command_result apply(struct serial_context *serial, const struct command *command,
+static enum command_result apply(struct serial_context *context, const struct command *command,
                                  uint32_t *entity)
 {
     uint32_t row;
     *entity = command->entity;
     switch ((enum command_type)command->type) {
     case COMMAND_DRIVE:
-        return drive(serial, command);
+        return drive(context, command);
     case COMMAND_RELEASE:
-        return release(serial, command);
+        return release(context, command);
     case COMMAND_FIRE:
-        return fire(serial, command);
+        return fire(context, command);
     case COMMAND_SPAWN:
-        return spawn(serial, command, entity);
+        return spawn(context, command, entity);
     case COMMAND_REMOVE:
-        row = vehicle_row(serial, command->entity);
+        row = vehicle_row(context, command->entity);
         if (row == SLOT_NONE)
             return COMMAND_NO_SUCH_ENTITY;
-        spawn_remove(serial, row);
+        spawn_remove(context, row);
         return COMMAND_DONE;
     default:
-        return control(serial, command);
+        return control(context, command);
     }
 }
 
@@ -275,11 +280,11 @@ static void put_answer(struct event *event, const struct command *command,
     memcpy(event->command.value, command->value, sizeof command->value);
 }
 
-static void apply_ring(struct serial_context *serial, const struct command_source *source,
+static void apply_ring(struct serial_context *context, const struct command_source *source,
                        uint32_t ring)
 {
-    const struct params *params = serial->move->world->params;
-    struct state_head *head = serial->moved->head;
+    const struct params *params = context->step->world->params;
+    struct state_head *head = context->moved->head;
     uint32_t most = params->intents_per_frame < params->events_per_frame ? params->intents_per_frame
                                                                          : params->events_per_frame;
     uint64_t *cursor = &head->command_cursor[ring];
@@ -291,8 +296,8 @@ static void apply_ring(struct serial_context *serial, const struct command_sourc
         if (head->intent_count + 2 > most)
             return;
         uint32_t entity = 0;
-        enum command_result result = apply(serial, &command, &entity);
-        struct event *event = serial_context_intent(serial, EVENT_COMMAND);
+        enum command_result result = apply(context, &command, &entity);
+        struct event *event = serial_context_intent(context, EVENT_COMMAND);
         put_answer(event, &command, head);
         event->command.result = (uint8_t)result;
         event->command.ring = (uint8_t)ring;
@@ -302,8 +307,8 @@ static void apply_ring(struct serial_context *serial, const struct command_sourc
     }
 }
 
-void command_apply_all(struct serial_context *serial, const struct command_source *sources)
+void command_apply_all(struct serial_context *context, const struct command_source *sources)
 {
     for (uint32_t ring = 0; ring < COMMAND_RING_COUNT; ring++)
-        apply_ring(serial, &sources[ring], ring);
+        apply_ring(context, &sources[ring], ring);
 }

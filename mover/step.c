@@ -1,36 +1,43 @@
 /* The mover's step: copy, commands, every row for itself, then what reaches beyond a row. */
 #include "mover/step.h"
 
-#include "mover/motion/aircraft.h"
+#include "mover/agent/agent.h"
 #include "mover/agent/attack.h"
+#include "mover/agent/goal.h"
+#include "mover/agent/perception.h"
+#include "mover/agent/think_schedule.h"
+#include "mover/motion/aircraft.h"
 #include "mover/motion/constant_course.h"
 #include "mover/motion/ground_vehicle.h"
-#include "mover/agent/perception.h"
-#include "mover/context/serial_context.h"
-#include "mover/agent/think_schedule.h"
-#include "mover/weapon/turret.h"
+#include "mover/motion/projectile.h"
+#include "mover/motion/ship.h"
 #include "mover/motion/wreck.h"
+#include "mover/weapon/fire.h"
+#include "mover/weapon/turret.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define PIECES_A_WORKER 2u /* at a time */
-#define ROWS_A_WORKER   (PIECES_A_WORKER * CHECKSUM_ROWS)
+#define BLOCKS_A_WORKER 2u /* at a time */
+#define ROWS_A_WORKER   (BLOCKS_A_WORKER * CHECKSUM_ROWS)
 
 int mover_init(struct mover *mover, const struct world *world, const struct crater *craters,
                struct thread_pool *workers)
 {
     *mover = (struct mover){.world = world, .workers = workers};
     piece_hashes_blank(&mover->blank);
-    avoidance_init(&mover->avoid, world);
-    mover->patches = calloc(world->params->capacity + GROUND_POSE_AHEAD, sizeof *mover->patches);
-    mover->patches_ahead = calloc(world->params->capacity, sizeof *mover->patches_ahead);
-    if (mover->patches && mover->patches_ahead && ground_marks_init(&mover->scars, world) == 0 &&
-        slope_max_map_init(&mover->easy, &world->terrain) == 0 &&
+    avoidance_init(&mover->avoidance, world);
+    mover->terrain_entries =
+        calloc(world->params->capacity + GROUND_POSE_AHEAD, sizeof *mover->terrain_entries);
+    mover->terrain_entries_ahead =
+        calloc(world->params->capacity, sizeof *mover->terrain_entries_ahead);
+    if (mover->terrain_entries && mover->terrain_entries_ahead &&
+        ground_marks_init(&mover->ground_marks, world) == 0 &&
+        slope_max_map_init(&mover->slope_max_map, &world->terrain) == 0 &&
         crater_index_init(&mover->craters, craters) == 0 &&
-        neighbour_index_init(&mover->near, world->params->capacity) == 0 &&
-        neighbour_lists_init(&mover->company, world->params->capacity) == 0 &&
-        line_of_sight_init(&mover->outlook, world, &mover->craters) == 0)
+        neighbour_index_init(&mover->neighbours, world->params->capacity) == 0 &&
+        neighbour_lists_init(&mover->neighbour_lists, world->params->capacity) == 0 &&
+        line_of_sight_init(&mover->line_of_sight, world, &mover->craters) == 0)
         return 0;
     mover_free(mover);
     return -1;
@@ -39,27 +46,27 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
 void mover_free(struct mover *mover)
 {
     crater_index_free(&mover->craters);
-    neighbour_index_free(&mover->near);
-    neighbour_lists_free(&mover->company);
-    line_of_sight_free(&mover->outlook);
-    ground_marks_free(&mover->scars);
-    slope_max_map_free(&mover->easy);
-    free(mover->patches);
-    free(mover->patches_ahead);
+    neighbour_index_free(&mover->neighbours);
+    neighbour_lists_free(&mover->neighbour_lists);
+    line_of_sight_free(&mover->line_of_sight);
+    ground_marks_free(&mover->ground_marks);
+    slope_max_map_free(&mover->slope_max_map);
+    free(mover->terrain_entries);
+    free(mover->terrain_entries_ahead);
 }
 
 struct rows {
-    const struct step_context *move;
+    const struct step_context *context;
     struct table committed, moved;
     const struct state_head *head; /* of moved */
-    struct moved_pieces *pieces;
+    struct moved_blocks *blocks;
     const struct piece_hashes *blank;
     bool known; /* moved is what this process left: the rows before collisions changed some */
 };
 
 /* Rows that move together: those of a piece of the table that have yet to. */
-struct together {
-    const struct row_block *piece;
+struct batches {
+    const struct row_block *block;
     uint8_t motion[CHECKSUM_ROWS];
     struct ground_vehicle land;
     struct aircraft air;
@@ -68,133 +75,134 @@ struct together {
 };
 
 /* What follows a vehicle's own motion. */
-static void after_motion(const struct step_context *move, struct together *together, uint32_t i,
+static void after_motion(const struct step_context *context, struct batches *batches, uint32_t i,
                          bool blocked)
 {
-    uint8_t *motion = &together->motion[i - together->piece->first];
+    uint8_t *motion = &batches->motion[i - batches->block->first];
     if (blocked) {
-        agent_blocked(move, i);
+        goal_blocked(context, i);
         *motion = MOTION_AGENT;
     }
-    if (*motion == MOTION_COURSE && piece_lacks(together->piece, GUN_COLUMNS))
+    if (*motion == MOTION_COURSE && row_block_lacks(batches->block, GUN_COLUMNS))
         return;
     struct turret_solution solution;
-    turret_turn(move, i, &solution);
-    turret_hold_fire(move, i, &solution);
+    turret_turn(context, i, &solution);
+    turret_hold_fire(context, i, &solution);
 }
 
-static void move_land(const struct step_context *move, struct together *together)
+static void move_land(const struct step_context *context, struct batches *batches)
 {
-    struct ground_vehicle *land = &together->land;
-    ground_vehicle_move(move, land);
+    struct ground_vehicle *land = &batches->land;
+    ground_vehicle_move(context, land);
     for (int l = 0; l < land->count; l++)
-        after_motion(move, together, land->row[l], land->blocked.lane[l] != 0);
+        after_motion(context, batches, land->row[l], land->blocked.lane[l] != 0);
     land->count = 0;
 }
 
-static void move_air(const struct step_context *move, struct together *together)
+static void move_air(const struct step_context *context, struct batches *batches)
 {
-    struct aircraft *air = &together->air;
-    aircraft_move(move, air);
+    struct aircraft *air = &batches->air;
+    aircraft_move(context, air);
     for (int l = 0; l < air->count; l++)
-        after_motion(move, together, air->row[l], air->blocked.lane[l] != 0);
+        after_motion(context, batches, air->row[l], air->blocked.lane[l] != 0);
     air->count = 0;
 }
 
-static void move_hold(const struct step_context *move, struct together *together)
+static void move_hold(const struct step_context *context, struct batches *batches)
 {
-    struct constant_course *hold = &together->hold;
-    const bool guns = !piece_lacks(together->piece, GUN_COLUMNS);
-    constant_course_pose(move, hold);
+    struct constant_course *hold = &batches->hold;
+    const bool guns = !row_block_lacks(batches->block, GUN_COLUMNS);
+    constant_course_set_down(context, hold);
     for (int l = 0; l < hold->count; l++) {
-        if (guns && move->m->state[hold->row[l]] != ENTITY_WRECK)
-            turret_turn(move, hold->row[l], &(struct turret_solution){0});
+        if (guns && context->m->state[hold->row[l]] != ENTITY_WRECK)
+            turret_turn(context, hold->row[l], &(struct turret_solution){0});
     }
     hold->count = 0;
 }
 
-static void move_wrecks(const struct step_context *move, struct together *together)
+static void move_wrecks(const struct step_context *context, struct batches *batches)
 {
-    struct wrecks *wrecks = &together->wrecks;
-    wrecks_find_ground(move, wrecks);
+    struct wrecks *wrecks = &batches->wrecks;
+    wrecks_find_ground(context, wrecks);
     for (int l = 0; l < wrecks->count; l++) {
         uint32_t i = wrecks->row[l];
-        if (wreck_row(move, i, wrecks->y.lane[l]) && constant_course_take(move, &together->hold, i))
-            move_hold(move, together);
+        if (wreck_row(context, i, wrecks->y.lane[l]) &&
+            constant_course_take(context, &batches->hold, i))
+            move_hold(context, batches);
     }
     wrecks->count = 0;
 }
 
-static void move_by_wish(const struct step_context *move, uint32_t i,
-                         const struct desired_motion *wish, struct together *together)
+static void move_by_wish(const struct step_context *context, uint32_t i,
+                         const struct desired_motion *desired, struct batches *batches)
 {
-    switch ((enum domain)move->world->kinds[move->m->kind[i]].domain) {
+    switch ((enum domain)context->world->kinds[context->m->kind[i]].domain) {
     case DOMAIN_SEA:
-        after_motion(move, together, i, ship_move(move, i, wish));
+        after_motion(context, batches, i, ship_move(context, i, desired));
         break;
     case DOMAIN_AIR:
-        if (aircraft_take(move, &together->air, i, wish))
-            move_air(move, together);
+        if (aircraft_take(context, &batches->air, i, desired))
+            move_air(context, batches);
         break;
     default:
-        if (ground_vehicle_take(move, &together->land, i, wish))
-            move_land(move, together);
+        if (ground_vehicle_take(context, &batches->land, i, desired))
+            move_land(context, batches);
         break;
     }
 }
 
 /* By the controls that its agent set. */
-static void move_held(const struct step_context *move, uint32_t i, struct together *together)
+static void move_held(const struct step_context *context, uint32_t i, struct batches *batches)
 {
-    struct desired_motion wish;
-    if (move->world->kinds[move->m->kind[i]].domain != DOMAIN_LAND) {
-        agent_hold(move, i, &wish);
-        move_by_wish(move, i, &wish, together);
-    } else if (ground_vehicle_take_held(move, &together->land, i)) {
-        move_land(move, together);
+    struct desired_motion desired;
+    if (context->world->kinds[context->m->kind[i]].domain != DOMAIN_LAND) {
+        agent_controls_motion(context, i, &desired);
+        move_by_wish(context, i, &desired, batches);
+    } else if (ground_vehicle_take_held(context, &batches->land, i)) {
+        move_land(context, batches);
     }
 }
 
-static void move_row(const struct step_context *move, uint32_t i, struct together *together)
+static void move_row(const struct step_context *context, uint32_t i, struct batches *batches)
 {
-    struct desired_motion wish;
-    switch ((enum motion)together->motion[i - together->piece->first]) {
+    struct desired_motion desired;
+    switch ((enum motion)batches->motion[i - batches->block->first]) {
     case MOTION_NONE:
         break;
     case MOTION_WRECK:
-        if (wrecks_take(move, &together->wrecks, i))
-            move_wrecks(move, together);
+        if (wrecks_take(context, &batches->wrecks, i))
+            move_wrecks(context, batches);
         break;
     case MOTION_FLIGHT:
-        projectile_move(move, i);
+        projectile_move(context, i);
         break;
     case MOTION_HOLD:
-        if (!constant_course_row(move, i))
-            turret_turn(move, i, &(struct turret_solution){0});
-        else if (constant_course_take(move, &together->hold, i))
-            move_hold(move, together);
+        if (!constant_course_row(context, i))
+            turret_turn(context, i, &(struct turret_solution){0});
+        else if (constant_course_take(context, &batches->hold, i))
+            move_hold(context, batches);
         break;
     case MOTION_ALONE:
-        agent_alone(move, i, &wish);
-        move_by_wish(move, i, &wish, together);
+        agent_direct(context, i, &desired);
+        move_by_wish(context, i, &desired, batches);
         break;
     case MOTION_COURSE:
     case MOTION_AGENT:
-        move_held(move, i, together);
+        move_held(context, i, batches);
         break;
     }
 }
 
-static void move_rest(const struct step_context *move, struct together *together)
+static void move_rest(const struct step_context *context, struct batches *batches)
 {
-    if (together->land.count > 0)
-        move_land(move, together);
-    if (together->air.count > 0)
-        move_air(move, together);
-    if (together->wrecks.count > 0)
-        move_wrecks(move, together);
-    if (together->hold.count > 0)
-        move_hold(move, together);
+    if (batches->land.count > 0)
+        move_land(context, batches);
+    if (batches->air.count > 0)
+        move_air(context, batches);
+    if (batches->wrecks.count > 0)
+        move_wrecks(context, batches);
+    if (batches->hold.count > 0)
+        move_hold(context, batches);
 }
 
 /* What no row changes of itself: commands, shots and collisions do. */
@@ -213,17 +221,17 @@ static void move_rest(const struct step_context *move, struct together *together
 
 /* Columns that are as blank as they were: those in which nobody has written who did more than go
  * on, or only zeros. */
-static uint64_t still_blank(const struct rows *rows, const struct together *together)
+static uint64_t still_blank(const struct rows *rows, const struct batches *batches)
 {
-    const struct row_block *piece = together->piece;
-    uint64_t columns = piece->blank & ~STILL_COLUMNS & ~MOTION_COLUMNS & ~SPIN_COLUMNS;
+    const struct row_block *block = batches->block;
+    uint64_t columns = block->blank & ~STILL_COLUMNS & ~MOTION_COLUMNS & ~SPIN_COLUMNS;
     /* What does not turn does not begin to; what turns may turn about another axis. */
-    uint64_t spins = piece_lacks(piece, SPIN_COLUMNS) ? SPIN_COLUMNS : 0;
+    uint64_t spins = row_block_lacks(block, SPIN_COLUMNS) ? SPIN_COLUMNS : 0;
     uint32_t row[CHECKSUM_ROWS], count = 0;
-    if (!piece_lacks(piece, GUN_COLUMNS))
+    if (!row_block_lacks(block, GUN_COLUMNS))
         columns &= ~LAID_COLUMNS;
-    for (uint32_t i = piece->first; i < piece->end; i++) {
-        enum motion how = (enum motion)together->motion[i - piece->first];
+    for (uint32_t i = block->first; i < block->end; i++) {
+        enum motion how = (enum motion)batches->motion[i - block->first];
         if (how != MOTION_NONE && how != MOTION_HOLD && how != MOTION_COURSE)
             row[count++] = i;
     }
@@ -231,20 +239,20 @@ static uint64_t still_blank(const struct rows *rows, const struct together *toge
 }
 
 /* Returns the columns that are as they were. */
-static uint64_t move_piece(const struct rows *rows, const struct row_block *piece)
+static uint64_t move_block(const struct rows *rows, const struct row_block *block)
 {
-    const struct step_context *move = rows->move;
-    struct together together;
-    together.piece = piece;
-    think_schedule_take(move, piece, together.motion);
-    ground_vehicle_begin(&together.land);
-    aircraft_begin(&together.air);
-    constant_course_begin(&together.hold);
-    wrecks_begin(&together.wrecks);
-    for (uint32_t i = piece->first; i < piece->end; i++)
-        move_row(move, i, &together);
-    move_rest(move, &together);
-    return still_blank(rows, &together);
+    const struct step_context *context = rows->context;
+    struct batches batches;
+    batches.block = block;
+    think_schedule_run(context, block, batches.motion);
+    ground_vehicle_begin(&batches.land);
+    aircraft_begin(&batches.air);
+    constant_course_begin(&batches.hold);
+    wrecks_begin(&batches.wrecks);
+    for (uint32_t i = block->first; i < block->end; i++)
+        move_row(context, i, &batches);
+    move_rest(context, &batches);
+    return still_blank(rows, &batches);
 }
 
 /* Rows that the committed world has; one spawned by a command of this frame moves from the next. A
@@ -255,15 +263,15 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
     (void)worker;
     for (; first < end; first += CHECKSUM_ROWS) {
         uint32_t number = first / CHECKSUM_ROWS;
-        uint64_t *changed = &rows->pieces->changed[number];
-        const struct row_block piece = {
+        uint64_t *changed = &rows->blocks->changed[number];
+        const struct row_block block = {
             .first = first,
             .end = end - first < CHECKSUM_ROWS ? end : first + CHECKSUM_ROWS,
             .changed = *changed,
             .blank = ~*changed & table_blank(rows->committed, number,
-                                             rows->move->committed->head->used, rows->blank),
+                                             rows->context->committed->head->used, rows->blank),
         };
-        uint64_t same = move_piece(rows, &piece);
+        uint64_t same = move_block(rows, &block);
         table_hash_piece(rows->moved, number, rows->head->used,
                          *changed | (COLUMNS_ALL & ~STILL_COLUMNS & ~same));
         *changed = 0;
@@ -271,28 +279,28 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
 }
 
 /* Of a table of which nothing is known the hashes are not either. */
-static void take_pieces(void *context, uint32_t first, uint32_t end, uint32_t worker)
+static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct rows *rows = context;
     (void)worker;
-    for (uint32_t piece = first; piece < end; piece++) {
-        table_take(rows->moved, rows->committed, piece, rows->move->committed->head->used,
+    for (uint32_t block = first; block < end; block++) {
+        table_take(rows->moved, rows->committed, block, rows->context->committed->head->used,
                    rows->known);
-        rows->pieces->changed[piece] = rows->known ? 0 : COLUMNS_ALL;
+        rows->blocks->changed[block] = rows->known ? 0 : COLUMNS_ALL;
     }
 }
 
-static void scenario_fires(struct serial_context *serial)
+static void scenario_fires(struct serial_context *context)
 {
-    const struct world *world = serial->move->world;
-    struct state_head *head = serial->moved->head;
-    const struct entities *m = &serial->moved->entities;
+    const struct world *world = context->step->world;
+    struct state_head *head = context->moved->head;
+    const struct entities *m = &context->moved->entities;
     while (head->fire_cursor < world->counts.fires &&
            world->fires[head->fire_cursor].tick <= head->tick) {
         const struct fire_order *order = &world->fires[head->fire_cursor++];
         uint32_t shooter = order->shooter_slot, target = order->target_slot;
         if (shooter == SLOT_NONE) {
-            fire_drop_bomb(serial, order->kind, order->x, order->z);
+            fire_drop_bomb(context, order->kind, order->x, order->z);
             continue;
         }
         /* Initial slots hold their first owner while the id is slot + 1. */
@@ -301,45 +309,45 @@ static void scenario_fires(struct serial_context *serial)
         if (target != SLOT_NONE && !entities_alive(m, target, target + 1))
             continue;
         if (target != SLOT_NONE)
-            fire_shoot(serial, shooter, target, order->kind);
+            fire_shoot(context, shooter, target, order->kind);
         else
-            fire_shoot_at(serial, shooter, order->x, order->z, order->kind);
+            fire_shoot_at(context, shooter, order->x, order->z, order->kind);
     }
 }
 
-static void pull_trigger(struct serial_context *serial, uint32_t i)
+static void pull_trigger(struct serial_context *context, uint32_t i)
 {
-    const struct entities *w = &serial->move->committed->entities;
-    struct entities *m = &serial->moved->entities;
+    const struct entities *w = &context->step->committed->entities;
+    struct entities *m = &context->moved->entities;
     uint8_t trigger = m->trigger[i];
     m->trigger[i] = 0;
-    serial_context_changes(serial, i, COLUMN_BIT(trigger));
+    serial_context_changes(context, i, COLUMN_BIT(trigger));
     if (trigger >> TRIGGER_REASON_SHIFT) {
-        struct event *event = serial_context_intent(serial, EVENT_AGENT);
+        struct event *event = serial_context_intent(context, EVENT_AGENT);
         if (event)
-            event->agent = (struct event_agent){serial_context_party(serial, i), w->behaviour[i],
+            event->agent = (struct event_agent){serial_context_party(context, i), w->behaviour[i],
                                                 m->behaviour[i],
                                                 (uint32_t)(trigger >> TRIGGER_REASON_SHIFT) - 1};
-        serial->moved->head->tally.agent_changes++;
+        context->moved->head->tally.agent_changes++;
     }
     if ((trigger & TRIGGER_FIRE) && entities_alive(m, m->target_slot[i], m->target_id[i]))
-        fire_shoot(serial, i, m->target_slot[i], KIND_NONE);
+        fire_shoot(context, i, m->target_slot[i], KIND_NONE);
     if (trigger & TRIGGER_FIRE_AT)
-        fire_shoot_at(serial, i, m->goal_x[i], m->goal_z[i], KIND_NONE);
+        fire_shoot_at(context, i, m->goal_x[i], m->goal_z[i], KIND_NONE);
 }
 
 /* Few rows have one: those that do not are passed over eight at a time. */
-static void pull_triggers(struct serial_context *serial)
+static void pull_triggers(struct serial_context *context)
 {
-    const uint8_t *trigger = serial->moved->entities.trigger;
-    uint32_t used = serial->move->committed->head->used;
+    const uint8_t *trigger = context->moved->entities.trigger;
+    uint32_t used = context->step->committed->head->used;
     for (uint32_t first = 0; first < used; first += 8) {
         uint32_t end = used - first < 8 ? used : first + 8;
         uint64_t eight = 0;
         memcpy(&eight, trigger + first, end - first);
         for (uint32_t i = first; i < end && eight != 0; i++) {
             if (trigger[i] != 0)
-                pull_trigger(serial, i);
+                pull_trigger(context, i);
         }
     }
 }
@@ -367,61 +375,70 @@ static bool is_own(const struct mover *mover, const struct state *committed,
 static uint64_t checksum(struct mover *mover, const struct moved *moved)
 {
     uint32_t used = moved->head->used;
-    table_hash(moved_table(moved), used, mover->pieces.changed, mover->workers);
-    memset(mover->pieces.changed, 0, sizeof mover->pieces.changed);
+    table_hash(moved_table(moved), used, mover->blocks.changed, mover->workers);
+    memset(mover->blocks.changed, 0, sizeof mover->blocks.changed);
     return moved_checksum_of(moved, rows_hash(moved->hashes, used));
+}
+
+struct step_context mover_context(const struct mover *mover, const struct state *committed,
+                                  struct moved *moved)
+{
+    const struct params *params = mover->world->params;
+    uint32_t used = committed->head->used;
+    return (struct step_context){
+        .world = mover->world,
+        .committed = committed,
+        .m = &moved->entities,
+        .craters = &mover->craters,
+        .neighbours = &mover->neighbours,
+        .neighbour_lists = &mover->neighbour_lists,
+        .line_of_sight = &mover->line_of_sight,
+        .ground_marks = &mover->ground_marks,
+        .slope_max_map = &mover->slope_max_map,
+        .avoidance = &mover->avoidance,
+        .terrain_entries = mover->terrain_entries,
+        .terrain_entries_ahead = mover->terrain_entries_ahead,
+        .tick = committed->head->tick + 1,
+        .think_frames = perception_think_frames(params, used),
+        .look_frames = perception_look_frames(params, used),
+        .aim_frames = attack_aim_frames(params),
+        .dt_s = params->dt_s,
+    };
 }
 
 void mover_step(struct mover *mover, const struct state *committed, struct moved *moved,
                 const struct command_source sources[COMMAND_RING_COUNT])
 {
     struct state_head *head = moved->head;
-    struct step_context move = {
-        .world = mover->world,
-        .craters = &mover->craters,
-        .near = &mover->near,
-        .outlook = &mover->outlook,
-        .avoid = &mover->avoid,
-        .company = &mover->company,
-        .committed = committed,
-        .scars = &mover->scars,
-        .easy = &mover->easy,
-        .m = &moved->entities,
-        .patches = mover->patches,
-        .patches_ahead = mover->patches_ahead,
-        .tick = committed->head->tick + 1,
-        .think = perception_think(mover->world->params, committed->head->used),
-        .turn = perception_turn(mover->world->params, committed->head->used),
-        .aim = attack_aim(mover->world->params),
-        .dt_s = mover->world->params->dt_s,
-    };
-    struct serial_context serial = {.move = &move, .moved = moved, .pieces = &mover->pieces};
-    struct rows rows = {.move = &move,
+    const struct step_context context = mover_context(mover, committed, moved);
+    struct serial_context serial_context = {
+        .step = &context, .moved = moved, .blocks = &mover->blocks};
+    struct rows rows = {.context = &context,
                         .committed = state_table(committed),
                         .moved = moved_table(moved),
                         .head = head,
-                        .pieces = &mover->pieces,
+                        .blocks = &mover->blocks,
                         .blank = &mover->blank,
                         .known = is_own(mover, committed, moved)};
     uint32_t used = committed->head->used;
     crater_index_update(&mover->craters, committed->head->crater_count);
     begin_head(moved, committed->head);
-    thread_pool_run(mover->workers, take_pieces, &rows, piece_count(used), PIECES_A_WORKER);
-    command_apply_all(&serial, sources);
+    thread_pool_run(mover->workers, take_blocks, &rows, piece_count(used), BLOCKS_A_WORKER);
+    command_apply_all(&serial_context, sources);
     if (!head->paused || head->steps_left > 0) {
         if (head->paused)
             head->steps_left--;
         head->advanced = 1;
-        head->tick = move.tick;
-        neighbour_index_build(&mover->near, &committed->entities, used, (uint32_t)move.tick,
-                              move.think, mover->workers);
-        neighbour_lists_gather(&mover->company, &mover->near, mover->world, &mover->avoid,
-                               mover->workers);
-        mover->outlook.fixed_damage = committed->fixed_damage;
-        ground_marks_update(&mover->scars, mover->world, committed);
+        head->tick = context.tick;
+        neighbour_index_build(&mover->neighbours, &committed->entities, used,
+                              (uint32_t)context.tick, context.think_frames, mover->workers);
+        neighbour_lists_gather(&mover->neighbour_lists, &mover->neighbours, mover->world,
+                               &mover->avoidance, mover->workers);
+        mover->line_of_sight.fixed_damage = committed->fixed_damage;
+        ground_marks_update(&mover->ground_marks, mover->world, committed);
         thread_pool_run(mover->workers, move_rows, &rows, used, ROWS_A_WORKER);
-        scenario_fires(&serial);
-        pull_triggers(&serial);
+        scenario_fires(&serial_context);
+        pull_triggers(&serial_context);
     }
     mover->left = head->checksum = checksum(mover, moved);
 }

@@ -5,41 +5,28 @@
 
 #include "mover/agent/avoidance.h"
 #include "mover/agent/neighbour_lists.h"
-#include "mover/query/neighbour_index.h"
-#include "mover/query/line_of_sight.h"
-#include "mover/query/slope_max_map.h"
+#include "mover/command_apply.h"
 #include "mover/query/ground_marks.h"
+#include "mover/query/slope_max_map.h"
 #include "world/checksum.h"
 #include "world/runtime/thread_pool.h"
 #include "world/world.h"
 
-/* One command ring as the step sees it: commands sequence .. end - 1 may be taken. */
-struct command_source {
-    const struct command *slot;
-    uint64_t slots; /* power of two */
-    uint64_t end;
-};
-
-/* Columns of the moved table's pieces that changed since they were hashed. */
-struct moved_pieces {
-    uint64_t changed[CHECKSUM_PIECES];
-};
-
 struct mover {
     const struct world *world;
-    struct crater_index craters;    /* cache of the committed craters */
-    struct neighbour_index near;    /* of the committed vehicles; of this frame */
-    struct line_of_sight outlook;   /* over the committed ground; of this frame */
-    struct neighbour_lists company; /* likewise */
-    struct avoidance avoid;         /* of the kinds */
-    struct ground_marks scars;      /* cache of the committed craters and damage */
-    struct slope_max_map easy;      /* cache of the ground's slopes and water */
+    struct crater_index craters;            /* cache of the committed craters */
+    struct neighbour_index neighbours;      /* of the committed vehicles; of this frame */
+    struct line_of_sight line_of_sight;     /* over the committed ground; of this frame */
+    struct neighbour_lists neighbour_lists; /* likewise */
+    struct avoidance avoidance;             /* of the kinds */
+    struct ground_marks ground_marks;       /* cache of the committed craters and damage */
+    struct slope_max_map slope_max_map;     /* cache of the ground's slopes and water */
     struct terrain_cache_entry
-        *patches; /* [capacity + GROUND_POSE_AHEAD] cache of the ground about each row */
-    struct terrain_cache_entry *patches_ahead; /* [capacity] where aircraft soon will be */
-    struct thread_pool *workers;               /* NULL: alone */
-    struct moved_pieces pieces;                /* of this frame */
-    struct piece_hashes blank;                 /* of a piece that is all zero */
+        *terrain_entries; /* [capacity + GROUND_POSE_AHEAD] cache of the ground about each row */
+    struct terrain_cache_entry *terrain_entries_ahead; /* [capacity] where aircraft soon will be */
+    struct thread_pool *workers;                       /* NULL: alone */
+    struct moved_blocks blocks;                        /* of this frame */
+    struct piece_hashes blank;                         /* of a piece that is all zero */
     uint64_t left; /* checksum of the moved table that it left; 0: none */
 };
 
@@ -48,6 +35,10 @@ struct mover {
 int mover_init(struct mover *mover, const struct world *world, const struct crater *craters,
                struct thread_pool *workers);
 void mover_free(struct mover *mover);
+
+/* The context of the frame after committed. */
+struct step_context mover_context(const struct mover *mover, const struct state *committed,
+                                  struct moved *moved);
 
 /* Fills moved from the committed state and the commands. It takes no memory and asks the kernel for
  * nothing but to wake the workers. */

@@ -18,47 +18,48 @@ struct aim {
 };
 
 static void stand_off(const struct kind *kind, const struct aim *aim, double share,
-                      struct desired_motion *wish)
+                      struct desired_motion *desired)
 {
     bool there = aim->seen && aim->distance <= share * kind->range_m;
-    wish->heading_rad = aim->heading;
-    wish->speed_mps = there ? 0.0 : kind->max_speed_mps;
+    desired->heading_rad = aim->heading;
+    desired->speed_mps = there ? 0.0 : kind->max_speed_mps;
 }
 
-static void hover(const struct step_context *move, uint32_t i, const struct kind *kind,
-                  const struct aim *aim, double share, struct desired_motion *wish)
+static void hover(const struct step_context *context, uint32_t i, const struct kind *kind,
+                  const struct aim *aim, double share, struct desired_motion *desired)
 {
-    double round = ((double)move->tick * move->dt_s + (double)(move->m->id[i] % 12u)) / HOVER_S;
+    double round =
+        ((double)context->tick * context->dt_s + (double)(context->m->id[i] % 12u)) / HOVER_S;
     double phase = round - floor(round);
-    stand_off(kind, aim, share, wish);
-    if (wish->speed_mps > 0.0 || phase < HOVER_SHARE)
+    stand_off(kind, aim, share, desired);
+    if (desired->speed_mps > 0.0 || phase < HOVER_SHARE)
         return;
     double side = (uint64_t)floor(round) % 2 ? SIDE_RAD : -SIDE_RAD;
     if (aim->distance < TOO_NEAR_SHARE * kind->range_m)
         side = PI;
-    wish->heading_rad = maths_wrap_turn(aim->heading + side);
-    wish->speed_mps = 0.5 * kind->max_speed_mps;
+    desired->heading_rad = maths_wrap_turn(aim->heading + side);
+    desired->speed_mps = 0.5 * kind->max_speed_mps;
 }
 
 /* Towards it from afar, straight on when near or past it, until there is room to turn. */
-static void pass(const struct step_context *move, uint32_t i, const struct kind *kind,
-                 const struct aim *aim, double share, struct desired_motion *wish)
+static void pass(const struct step_context *context, uint32_t i, const struct kind *kind,
+                 const struct aim *aim, double share, struct desired_motion *desired)
 {
-    double heading = move->m->heading[i];
+    double heading = context->m->heading[i];
     bool ahead = fabs(maths_wrap_half(aim->heading - heading)) < HALF_PI;
     bool inbound =
         ahead ? aim->distance > BREAK_OFF * kind->range_m : aim->distance > share * kind->range_m;
-    wish->heading_rad = inbound ? aim->heading : heading;
-    wish->speed_mps = kind->max_speed_mps;
+    desired->heading_rad = inbound ? aim->heading : heading;
+    desired->speed_mps = kind->max_speed_mps;
 }
 
-void attack_wish(const struct step_context *move, uint32_t i,
-                 const struct behaviour_table_table *table, struct desired_motion *wish)
+void attack_motion(const struct step_context *context, uint32_t i,
+                   const struct behaviour_table *table, struct desired_motion *desired)
 {
-    struct entities *m = move->m;
-    const struct entities *w = &move->committed->entities;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
-    struct aim aim = {.seen = perception_in_sight(move, i)};
+    struct entities *m = context->m;
+    const struct entities *w = &context->committed->entities;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    struct aim aim = {.seen = perception_in_sight(context, i)};
     if (aim.seen) { /* it follows it with its eyes */
         m->goal_x[i] = w->x[m->target_slot[i]];
         m->goal_z[i] = w->z[m->target_slot[i]];
@@ -68,31 +69,31 @@ void attack_wish(const struct step_context *move, uint32_t i,
     aim.distance = sqrt(dx * dx + dz * dz);
     switch (table->manner) {
     case MANNER_HOVER:
-        hover(move, i, kind, &aim, table->stand_off, wish);
+        hover(context, i, kind, &aim, table->stand_off, desired);
         break;
     case MANNER_PASS:
-        pass(move, i, kind, &aim, table->stand_off, wish);
+        pass(context, i, kind, &aim, table->stand_off, desired);
         break;
     default: /* a charge is a stand-off at no distance */
-        stand_off(kind, &aim, table->stand_off, wish);
+        stand_off(kind, &aim, table->stand_off, desired);
         break;
     }
 }
 
-uint32_t attack_aim(const struct params *params)
+uint32_t attack_aim_frames(const struct params *params)
 {
     return (uint32_t)maths_max(1.0, params->hz / AIM_HZ);
 }
 
-bool attack_ready(const struct step_context *move, uint32_t i)
+bool attack_ready(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m;
-    if (m->behaviour[i] != BEHAVIOUR_ATTACK || move->tick < m->reload_tick[i] ||
-        !perception_in_sight(move, i) || !perception_armed(move, i))
+    const struct entities *m = context->m;
+    if (m->behaviour[i] != BEHAVIOUR_ATTACK || context->tick < m->reload_tick[i] ||
+        !perception_in_sight(context, i) || !perception_armed(context, i))
         return false;
-    double range = move->world->kinds[m->kind[i]].range_m + NEARLY_M;
+    double range = context->world->kinds[m->kind[i]].range_m + NEARLY_M;
     double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
-    const struct entities *w = &move->committed->entities;
+    const struct entities *w = &context->committed->entities;
     uint32_t target = m->target_slot[i];
     return dx * dx + dz * dz < range * range && entities_alive(w, target, m->target_id[i]) &&
            w->state[target] == ENTITY_ACTIVE;

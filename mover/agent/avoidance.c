@@ -1,9 +1,9 @@
 /* Avoiding: a fan of directions, how far each is free, and the best of them. */
 #include "mover/agent/avoidance.h"
 
-#include "mover/query/slope_max_map.h"
-
 #include "mover/agent/neighbour_lists.h"
+#include "mover/motion/kinematics.h"
+#include "mover/query/slope_max_map.h"
 #include "world/terrain/fixed_index.h"
 #include "world/terrain/gridsquare.h"
 
@@ -147,29 +147,29 @@ static double slope_of(const struct kind *kind)
     return sine / maths_max(cosine, 1e-9);
 }
 
-void avoidance_init(struct avoidance *avoid, const struct world *world)
+void avoidance_init(struct avoidance *avoidance, const struct world *world)
 {
-    *avoid = (struct avoidance){.reach_m = {0.0}};
+    *avoidance = (struct avoidance){.reach_m = {0.0}};
     for (uint32_t k = 0; k < world->counts.kinds; k++) {
         const struct kind *kind = &world->kinds[k];
         if (kind->domain == DOMAIN_FIXED)
-            avoid->reach_m[k] = reach_of(world, kind);
+            avoidance->reach_m[k] = reach_of(world, kind);
         for (uint32_t o = 0; o < world->counts.kinds && kind->domain != DOMAIN_FIXED; o++) {
             if (world->kinds[o].domain == DOMAIN_FIXED && does_no_harm(kind, &world->kinds[o]))
-                avoid->harmless[k] |= UINT64_C(1) << o;
+                avoidance->harmless[k] |= UINT64_C(1) << o;
         }
         if (kind->domain < DOMAIN_MUNITION) {
-            avoid->reach_m[k] =
+            avoidance->reach_m[k] =
                 0.5 * sqrt(kind->length_m * kind->length_m + kind->width_m * kind->width_m);
-            avoid->high_m[k] = (float)(0.5 * kind->height_m + AVOIDANCE_ROUNDED_M);
-            avoid->gap_m[k] = (float)(gap_of(kind) + AVOIDANCE_ROUNDED_M);
-            avoid->around_m[k] = around_of(horizon_of(kind, kind->max_speed_mps));
-            avoid->slope[k] = slope_of(kind);
+            avoidance->high_m[k] = (float)(0.5 * kind->height_m + AVOIDANCE_ROUNDED_M);
+            avoidance->gap_m[k] = (float)(gap_of(kind) + AVOIDANCE_ROUNDED_M);
+            avoidance->around_m[k] = around_of(horizon_of(kind, kind->max_speed_mps));
+            avoidance->slope[k] = slope_of(kind);
         }
     }
     for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++) {
         if (world->reach_start[square + 1] > world->reach_start[square])
-            avoid->stands[square / 64] |= UINT64_C(1) << square % 64;
+            avoidance->stands[square / 64] |= UINT64_C(1) << square % 64;
     }
 }
 
@@ -182,21 +182,21 @@ static void direct(struct look *look, int k)
     look->free_m[k] = look->horizon_m;
 }
 
-static void begin(struct look *look, const struct step_context *move, uint32_t i,
-                  const struct desired_motion *wish)
+static void begin(struct look *look, const struct step_context *context, uint32_t i,
+                  const struct desired_motion *desired)
 {
-    const struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
-    double speed = fabs(wish->speed_mps), sine, cosine, forward, rightward;
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    double speed = fabs(desired->speed_mps), sine, cosine, forward, rightward;
     look->kind = kind;
     look->step = PRESENT;
-    look->way = wish->speed_mps < 0.0 ? -1.0 : 1.0;
+    look->way = desired->speed_mps < 0.0 ? -1.0 : 1.0;
     look->wish_mps = speed;
     look->half_width = 0.5 * kind->width_m;
     look->half_length = 0.5 * kind->length_m;
     look->gap = gap_of(kind);
     look->horizon_m = horizon_of(kind, speed);
-    maths_sincos(wish->heading_rad, &look->sine, &look->cosine);
+    maths_sincos(desired->heading_rad, &look->sine, &look->cosine);
     direct(look, 0);
     maths_sincos(m->heading[i], &sine, &cosine);
     kinematics_along(m, i, sine, cosine, &forward, &rightward);
@@ -287,13 +287,13 @@ static void goes(struct look *look, double dx, double dz, double vx, double vz, 
 
 /* --- what is there -----------------------------------------------------------------------------*/
 
-static void see_square(const struct step_context *move, uint32_t i, struct look *look,
+static void see_square(const struct step_context *context, uint32_t i, struct look *look,
                        uint32_t square)
 {
-    const struct world *world = move->world;
-    const struct entities *m = move->m;
-    const uint8_t *damage = move->committed->fixed_damage;
-    uint64_t harmless = move->avoid->harmless[m->kind[i]];
+    const struct world *world = context->world;
+    const struct entities *m = context->m;
+    const uint8_t *damage = context->committed->fixed_damage;
+    uint64_t harmless = context->avoidance->harmless[m->kind[i]];
     bool flies = look->kind->domain == DOMAIN_AIR;
     const uint32_t *objects;
     uint32_t count = world_reach(world, square, &objects);
@@ -310,30 +310,31 @@ static void see_square(const struct step_context *move, uint32_t i, struct look 
         const struct kind *kind = &world->kinds[object->kind];
         stands(look, dx, dz,
                flies ? fixed_index_of_fixed(object, world->kinds)
-                     : move->avoid->reach_m[object->kind] * fixed_scale(object, kind));
+                     : context->avoidance->reach_m[object->kind] * fixed_scale(object, kind));
     }
 }
 
-static void see_fixed(const struct step_context *move, uint32_t i, struct look *look)
+static void see_fixed(const struct step_context *context, uint32_t i, struct look *look)
 {
-    const struct entities *m = move->m;
+    const struct entities *m = context->m;
     double most = look->horizon_m;
     struct gridsquare_box box =
         gridsquare_box_of(m->x[i] - most, m->z[i] - most, m->x[i] + most, m->z[i] + most);
     for (int32_t row = box.z0; row <= box.z1; row++)
         for (int32_t column = box.x0; column <= box.x1; column++) {
             uint32_t square = gridsquare_index(column, row);
-            if (move->avoid->stands[square / 64] >> square % 64 & 1u)
-                see_square(move, i, look, square);
+            if (context->avoidance->stands[square / 64] >> square % 64 & 1u)
+                see_square(context, i, look, square);
         }
 }
 
-static void see_vehicle(const struct step_context *move, uint32_t i, struct look *look,
+static void see_vehicle(const struct step_context *context, uint32_t i, struct look *look,
                         const struct neighbour_index_entry *at)
 {
-    const struct entities *m = move->m, *w = &move->committed->entities;
-    double apart = 0.5 * (look->kind->height_m + move->world->kinds[at->kind].height_m) + look->gap;
-    double reach = move->avoid->reach_m[at->kind];
+    const struct entities *m = context->m, *w = &context->committed->entities;
+    double apart =
+        0.5 * (look->kind->height_m + context->world->kinds[at->kind].height_m) + look->gap;
+    double reach = context->avoidance->reach_m[at->kind];
     double dx = (double)at->x - m->x[i], dz = (double)at->z - m->z[i];
     double vx = (double)at->vx, vz = (double)at->vz;
     uint32_t j = at->row;
@@ -346,24 +347,24 @@ static void see_vehicle(const struct step_context *move, uint32_t i, struct look
         goes(look, w->x[j] - m->x[i], w->z[j] - m->z[i], w->vx[j], w->vz[j], reach);
 }
 
-static void see_vehicles(const struct step_context *move, uint32_t i, struct look *look)
+static void see_vehicles(const struct step_context *context, uint32_t i, struct look *look)
 {
-    const struct entities *m = move->m;
+    const struct entities *m = context->m;
     const struct neighbour_index_entry *entry;
     double most = around_of(look->horizon_m);
-    const struct neighbour_lists_list *list = &move->company->list[i];
-    if (list->count != NEIGHBOUR_LISTS_NONE && most <= move->avoid->around_m[m->kind[i]]) {
-        entry = &move->company->entries[list->first];
+    const struct neighbour_list *list = &context->neighbour_lists->list[i];
+    if (list->count != NEIGHBOUR_LISTS_NONE && most <= context->avoidance->around_m[m->kind[i]]) {
+        entry = &context->neighbour_lists->entries[list->first];
         for (const struct neighbour_index_entry *end = entry + list->count; entry < end; entry++) {
             if (neighbour_index_within(entry, m->x[i], m->z[i], most * most))
-                see_vehicle(move, i, look, entry);
+                see_vehicle(context, i, look, entry);
         }
         return;
     }
-    struct neighbour_query walk =
-        neighbour_index_begin(move->near, NEIGHBOUR_INDEX_ALL, m->x[i], m->z[i], most);
-    while ((entry = neighbour_index_next(&walk)) != NULL)
-        see_vehicle(move, i, look, entry);
+    struct neighbour_query query =
+        neighbour_query_begin(context->neighbours, NEIGHBOUR_INDEX_ALL, m->x[i], m->z[i], most);
+    while ((entry = neighbour_query_next(&query)) != NULL)
+        see_vehicle(context, i, look, entry);
 }
 
 static bool in_world(double x, double z)
@@ -372,25 +373,25 @@ static bool in_world(double x, double z)
 }
 
 /* How far the ground lets it go that way: two soundings, where it is not known to be easy. */
-static double ground_free(const struct step_context *move, uint32_t i, const struct look *look,
+static double ground_free(const struct step_context *context, uint32_t i, const struct look *look,
                           int k)
 {
-    const struct entities *m = move->m;
+    const struct entities *m = context->m;
     double before_m = 0.0, before_y = m->y[i];
     double end_x = m->x[i] + look->horizon_m * look->x[k];
     double end_z = m->z[i] + look->horizon_m * look->z[k];
     if (look->kind->domain == DOMAIN_LAND && in_world(end_x, end_z) &&
-        slope_max_map_between(move->easy, move->scars, m->x[i], m->z[i], end_x, end_z,
-                              move->avoid->slope[m->kind[i]]))
+        slope_max_map_between(context->slope_max_map, context->ground_marks, m->x[i], m->z[i],
+                              end_x, end_z, context->avoidance->slope[m->kind[i]]))
         return look->horizon_m;
     for (int n = 1; n <= 2; n++) {
         double way = 0.5 * n * look->horizon_m;
         double x = m->x[i] + way * look->x[k], z = m->z[i] + way * look->z[k];
-        if (!in_world(x, z) || cover_is_water(terrain_cover(&move->world->terrain, x, z)) !=
+        if (!in_world(x, z) || cover_is_water(terrain_cover(&context->world->terrain, x, z)) !=
                                    (look->kind->domain == DOMAIN_SEA))
             return before_m;
         if (look->kind->domain == DOMAIN_LAND) {
-            double y = kinematics_ground(move, x, z);
+            double y = kinematics_ground(context, x, z);
             if (y > before_y &&
                 maths_atan2(y - before_y, way - before_m) >= look->kind->max_slope_rad)
                 return before_m;
@@ -426,35 +427,36 @@ static double stopping_speed(const struct look *look, double free_m)
 }
 
 /* Share of its speed that aircraft do without, to be over the ground ahead when they are there. */
-static double climbing_ease(const struct step_context *move, uint32_t i, const struct look *look,
-                            const struct desired_motion *wish)
+static double climbing_ease(const struct step_context *context, uint32_t i, const struct look *look,
+                            const struct desired_motion *desired)
 {
-    const struct entities *m = move->m;
+    const struct entities *m = context->m;
     double way = look->wish_mps * CLIMB_AHEAD_S;
-    double ground = kinematics_ground(move, m->x[i] + way * look->x[0], m->z[i] + way * look->z[0]);
-    double climb = ground + 0.5 * wish->altitude_m - m->y[i];
+    double ground =
+        kinematics_ground(context, m->x[i] + way * look->x[0], m->z[i] + way * look->z[0]);
+    double climb = ground + 0.5 * desired->altitude_m - m->y[i];
     double most = look->kind->climb_rate_mps * CLIMB_AHEAD_S;
     return climb > most ? 1.0 - most / climb : 0.0;
 }
 
 /* --- it looks ----------------------------------------------------------------------------------*/
 
-static void see(const struct step_context *move, uint32_t i, struct look *look, bool low)
+static void see(const struct step_context *context, uint32_t i, struct look *look, bool low)
 {
-    see_vehicles(move, i, look);
+    see_vehicles(context, i, look);
     if (low)
-        see_fixed(move, i, look);
+        see_fixed(context, i, look);
 }
 
 /* Which direction it takes when something is in the way of the wished one. */
-static int choose(const struct step_context *move, uint32_t i, struct look *look, bool low)
+static int choose(const struct step_context *context, uint32_t i, struct look *look, bool low)
 {
-    double dodge = (double)move->m->dodge[i];
+    double dodge = (double)context->m->dodge[i];
     open_fan(look);
-    see(move, i, look, low);
+    see(context, i, look, low);
     int way = best(look, dodge);
     for (int tries = 0; tries < FAN && look->kind->domain != DOMAIN_AIR; tries++) {
-        double free_m = ground_free(move, i, look, way);
+        double free_m = ground_free(context, i, look, way);
         if (free_m >= look->free_m[way])
             break;
         look->free_m[way] = free_m;
@@ -464,20 +466,20 @@ static int choose(const struct step_context *move, uint32_t i, struct look *look
 }
 
 /* First along the wished direction alone: where that is free no other is better. */
-static void look_ahead(const struct step_context *move, uint32_t i,
-                       const struct desired_motion *wish)
+static void look_ahead(const struct step_context *context, uint32_t i,
+                       const struct desired_motion *desired)
 {
-    struct entities *m = move->m;
+    struct entities *m = context->m;
     struct look look;
-    begin(&look, move, i, wish);
+    begin(&look, context, i, desired);
     bool flies = look.kind->domain == DOMAIN_AIR;
-    bool low = !flies || m->y[i] - kinematics_ground(move, m->x[i], m->z[i]) < LOW_FLIGHT_M;
-    double ease = flies ? climbing_ease(move, i, &look, wish) : 0.0;
-    int way = wish->speed_mps < 0.0 ? PRESENT : 0;
-    see(move, i, &look, low);
+    bool low = !flies || m->y[i] - kinematics_ground(context, m->x[i], m->z[i]) < LOW_FLIGHT_M;
+    double ease = flies ? climbing_ease(context, i, &look, desired) : 0.0;
+    int way = desired->speed_mps < 0.0 ? PRESENT : 0;
+    see(context, i, &look, low);
     if (way == 0 && (look.free_m[0] < look.horizon_m ||
-                     (!flies && ground_free(move, i, &look, 0) < look.horizon_m)))
-        way = choose(move, i, &look, low);
+                     (!flies && ground_free(context, i, &look, 0) < look.horizon_m)))
+        way = choose(context, i, &look, low);
     double free_m = look.free_m[way];
     if (look.x[way] * look.x[PRESENT] + look.z[way] * look.z[PRESENT] < fan_cosine[1])
         free_m = maths_min(free_m, look.free_m[PRESENT]); /* it is not turned there yet */
@@ -487,20 +489,20 @@ static void look_ahead(const struct step_context *move, uint32_t i,
     m->ease[i] = (float)maths_max(ease, 0.0);
 }
 
-void avoidance_steer(const struct step_context *move, uint32_t i, struct desired_motion *wish)
+void avoidance_steer(const struct step_context *context, uint32_t i, struct desired_motion *desired)
 {
-    struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
-    if (wish->driven || !(fabs(wish->speed_mps) > 0.0)) {
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    if (desired->driven || !(fabs(desired->speed_mps) > 0.0)) {
         m->dodge[i] = m->ease[i] = 0.0f;
         return;
     }
-    if (step_context_thinks(move, i))
-        look_ahead(move, i, wish);
-    wish->heading_rad = maths_wrap_turn(wish->heading_rad + (double)m->dodge[i]);
-    wish->speed_mps *= 1.0 - (double)m->ease[i];
-    if (wish->speed_mps > 0.0 && kind->domain != DOMAIN_SEA && kind->min_speed_mps <= 0.0) {
-        double off = maths_cos(wish->heading_rad - m->heading[i]);
-        wish->speed_mps *= maths_clamp(off, SHARP_SHARE, 1.0);
+    if (step_context_thinks(context, i))
+        look_ahead(context, i, desired);
+    desired->heading_rad = maths_wrap_turn(desired->heading_rad + (double)m->dodge[i]);
+    desired->speed_mps *= 1.0 - (double)m->ease[i];
+    if (desired->speed_mps > 0.0 && kind->domain != DOMAIN_SEA && kind->min_speed_mps <= 0.0) {
+        double off = maths_cos(desired->heading_rad - m->heading[i]);
+        desired->speed_mps *= maths_clamp(off, SHARP_SHARE, 1.0);
     }
 }

@@ -33,9 +33,10 @@ struct avoidance {
     uint64_t stands[GRIDSQUARE_COUNT / 64];
 };
 
-void avoidance_init(struct avoidance *avoid, const struct world *world);
+void avoidance_init(struct avoidance *avoidance, const struct world *world);
 
 /* Looks, if it is row i's turn, and changes what an agent wishes by what it remembers. */
-void avoidance_steer(const struct step_context *move, uint32_t i, struct desired_motion *wish);
+void avoidance_steer(const struct step_context *context, uint32_t i,
+                     struct desired_motion *desired);
 
 #endif

@@ -166,7 +166,7 @@ static const struct behaviour_table_row beast[] = {
         .manner = (how), .stand_off = (share)                                                      \
     }
 
-const struct behaviour_table_table behaviour_table_tables[DOCTRINE_COUNT] = {
+const struct behaviour_table behaviour_tables[DOCTRINE_COUNT] = {
     [DOCTRINE_ARMOUR] = TABLE(armour, MANNER_STAND_OFF, 0.5),
     [DOCTRINE_LIGHT] = TABLE(light, MANNER_STAND_OFF, 0.7),
     [DOCTRINE_SOFT] = TABLE(soft, MANNER_STAND_OFF, 0.8),
@@ -176,7 +176,7 @@ const struct behaviour_table_table behaviour_table_tables[DOCTRINE_COUNT] = {
     [DOCTRINE_BEAST] = TABLE(beast, MANNER_CHARGE, 0.0),
 };
 
-const struct behaviour_table_row *behaviour_table_next(const struct behaviour_table_table *table,
+const struct behaviour_table_row *behaviour_table_next(const struct behaviour_table *table,
                                                        enum behaviour behaviour, uint32_t percepts)
 {
     for (uint32_t n = 0; n < table->rows; n++) {

@@ -58,7 +58,7 @@ enum manner {
     MANNER_COUNT
 };
 
-struct behaviour_table_table {
+struct behaviour_table {
     const char *name; /* as in a kind's file */
     const struct behaviour_table_row *row;
     uint32_t rows;
@@ -66,10 +66,10 @@ struct behaviour_table_table {
     double stand_off; /* share of its range at which it fights */
 };
 
-extern const struct behaviour_table_table behaviour_table_tables[DOCTRINE_COUNT];
+extern const struct behaviour_table behaviour_tables[DOCTRINE_COUNT];
 
 /* The row that applies to a behaviour and what is noticed, NULL when none does. */
-const struct behaviour_table_row *behaviour_table_next(const struct behaviour_table_table *table,
+const struct behaviour_table_row *behaviour_table_next(const struct behaviour_table *table,
                                                        enum behaviour behaviour, uint32_t percepts);
 
 #endif

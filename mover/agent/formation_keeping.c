@@ -17,13 +17,13 @@
 /* --- who ---------------------------------------------------------------------------------------*/
 
 /* A member that drives with the others. */
-static bool present(const struct step_context *move, uint32_t slot)
+static bool present(const struct step_context *context, uint32_t slot)
 {
-    const struct entities *w = &move->committed->entities;
+    const struct entities *w = &context->committed->entities;
     enum behaviour behaviour = (enum behaviour)w->behaviour[slot];
     if (!entities_alive(w, slot, slot + 1) || w->state[slot] != ENTITY_ACTIVE)
         return false;
-    const struct kind *kind = &move->world->kinds[w->kind[slot]];
+    const struct kind *kind = &context->world->kinds[w->kind[slot]];
     return behaviour != BEHAVIOUR_FLEE && behaviour != BEHAVIOUR_WITHDRAW &&
            behaviour != BEHAVIOUR_RESUPPLY && (kind->fuel_l <= 0.0 || w->fuel_l[slot] > 0.0);
 }
@@ -34,13 +34,13 @@ struct post {
     uint32_t rank;   /* of row i, 1: the first behind the leader */
 };
 
-static struct post post_of(const struct step_context *move, const struct formation *formation,
+static struct post post_of(const struct step_context *context, const struct formation *formation,
                            uint32_t i)
 {
-    const struct entities *w = &move->committed->entities;
+    const struct entities *w = &context->committed->entities;
     struct post post = {SLOT_NONE, SLOT_NONE, 1};
     for (uint32_t slot = formation->first; slot < formation->first + formation->count; slot++) {
-        if (slot == i || !present(move, slot))
+        if (slot == i || !present(context, slot))
             continue;
         if (w->order[slot] != BEHAVIOUR_FOLLOW) {
             post.leader = slot;
@@ -57,13 +57,14 @@ static struct post post_of(const struct step_context *move, const struct formati
 }
 
 /* The point of a route after the one that is nearest to it: where it goes on. */
-static uint32_t nearest_leg(const struct step_context *move, uint32_t i, const struct route *route)
+static uint32_t nearest_leg(const struct step_context *context, uint32_t i,
+                            const struct route *route)
 {
-    const struct entities *m = move->m;
+    const struct entities *m = context->m;
     double least = INFINITY;
     uint32_t nearest = 0;
     for (uint32_t n = 0; n < route->count; n++) {
-        const struct route_point *point = &move->world->route_points[route->first + n];
+        const struct route_point *point = &context->world->route_points[route->first + n];
         double dx = point->x - m->x[i], dz = point->z - m->z[i];
         if (dx * dx + dz * dz < least) {
             least = dx * dx + dz * dz;
@@ -73,57 +74,58 @@ static uint32_t nearest_leg(const struct step_context *move, uint32_t i, const s
     return nearest + 1 < route->count ? nearest + 1 : 0;
 }
 
-static void take_the_lead(const struct step_context *move, uint32_t i,
+static void take_the_lead(const struct step_context *context, uint32_t i,
                           const struct formation *formation)
 {
-    struct entities *m = move->m;
+    struct entities *m = context->m;
     m->order[i] = (uint8_t)formation->order;
     m->order_arg[i] = formation->order_arg;
     m->behaviour[i] = m->order[i];
     m->trigger[i] = (uint8_t)((REASON_LEADER_LOST + 1u) << TRIGGER_REASON_SHIFT);
     if (m->order[i] == BEHAVIOUR_ROUTE)
-        m->leg[i] = nearest_leg(move, i, &move->world->routes[m->order_arg[i]]);
-    goal_next(move, i);
+        m->leg[i] = nearest_leg(context, i, &context->world->routes[m->order_arg[i]]);
+    goal_next(context, i);
 }
 
 /* --- where -------------------------------------------------------------------------------------*/
 
 /* To a place that moves on at speed along (sine, -cosine). */
-static void keep_place(const struct step_context *move, uint32_t i, double speed, double sine,
-                       double cosine, struct desired_motion *wish)
+static void keep_place(const struct step_context *context, uint32_t i, double speed, double sine,
+                       double cosine, struct desired_motion *desired)
 {
-    const struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
     double along = dx * sine - dz * cosine, off = sqrt(dx * dx + dz * dz);
     double ahead = maths_max(AHEAD_M, AHEAD_S * speed);
     if (speed < STANDS_MPS && kind->min_speed_mps <= 0.0) { /* there, and no circles about it */
-        wish->speed_mps =
+        desired->speed_mps =
             off < IN_PLACE_M ? 0.0 : maths_min(CATCH_UP_PS * off, kind->max_speed_mps);
-        wish->heading_rad = off < IN_PLACE_M ? m->heading[i] : maths_heading(dx, dz);
+        desired->heading_rad = off < IN_PLACE_M ? m->heading[i] : maths_heading(dx, dz);
         return;
     }
     if (off > FAR_M && along > 0.0)
         ahead = 0.0;
-    wish->heading_rad = maths_heading(dx + ahead * sine, dz - ahead * cosine);
-    wish->speed_mps = maths_clamp(speed + CATCH_UP_PS * along, 0.0, kind->max_speed_mps);
+    desired->heading_rad = maths_heading(dx + ahead * sine, dz - ahead * cosine);
+    desired->speed_mps = maths_clamp(speed + CATCH_UP_PS * along, 0.0, kind->max_speed_mps);
     if (off > FAR_M && along < 0.0 && kind->min_speed_mps <= 0.0)
-        wish->speed_mps = maths_max(wish->speed_mps, STANDS_MPS); /* it lets the others pass */
+        desired->speed_mps =
+            maths_max(desired->speed_mps, STANDS_MPS); /* it lets the others pass */
 }
 
-void formation_keeping_wish(const struct step_context *move, uint32_t i,
-                            struct desired_motion *wish)
+void formation_keeping_follow(const struct step_context *context, uint32_t i,
+                              struct desired_motion *desired)
 {
-    struct entities *m = move->m;
-    const struct entities *w = &move->committed->entities;
-    if (m->order_arg[i] >= move->world->counts.formations)
+    struct entities *m = context->m;
+    const struct entities *w = &context->committed->entities;
+    if (m->order_arg[i] >= context->world->counts.formations)
         return;
-    const struct formation *formation = &move->world->formations[m->order_arg[i]];
+    const struct formation *formation = &context->world->formations[m->order_arg[i]];
     if (i < formation->first || i - formation->first >= formation->count)
         return;
-    struct post post = post_of(move, formation, i);
+    struct post post = post_of(context, formation, i);
     if (post.leader == SLOT_NONE) {
-        take_the_lead(move, i, formation);
+        take_the_lead(context, i, formation);
         return;
     }
     /* A column bends as its road does: each follows the one before it. */
@@ -136,18 +138,18 @@ void formation_keeping_wish(const struct step_context *move, uint32_t i,
     m->goal_x[i] = w->x[by] + ahead * sine + right * cosine;
     m->goal_z[i] = w->z[by] - ahead * cosine + right * sine;
     double speed = maths_max(0.0, w->vx[by] * sine - w->vz[by] * cosine);
-    keep_place(move, i, speed, sine, cosine, wish);
+    keep_place(context, i, speed, sine, cosine, desired);
 }
 
 /* --- routes ------------------------------------------------------------------------------------*/
 
-void formation_keeping_lane(const struct step_context *move, uint32_t i,
-                            struct desired_motion *wish)
+void formation_keeping_route(const struct step_context *context, uint32_t i,
+                             struct desired_motion *desired)
 {
-    const struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
-    const struct route *route = &move->world->routes[m->order_arg[i]];
-    const struct route_point *points = &move->world->route_points[route->first];
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct route *route = &context->world->routes[m->order_arg[i]];
+    const struct route_point *points = &context->world->route_points[route->first];
     const struct route_point *from = &points[(m->leg[i] + route->count - 2) % route->count];
     double dx = m->goal_x[i] - from->x, dz = m->goal_z[i] - from->z;
     double length = sqrt(dx * dx + dz * dz);
@@ -157,10 +159,10 @@ void formation_keeping_lane(const struct step_context *move, uint32_t i,
     dz /= length;
     double x = m->x[i] - from->x, z = m->z[i] - from->z;
     double along = x * dx + z * dz, right = z * dx - x * dz;
-    double next = along + maths_max(LANE_AHEAD_M, LANE_AHEAD_S * wish->speed_mps);
+    double next = along + maths_max(LANE_AHEAD_M, LANE_AHEAD_S * desired->speed_mps);
     if (along < 0.0 || next > length || fabs(right) > LANE_STRAYS_M)
         return;
     double lane = 0.5 * kind->width_m + LANE_GAP_M;
-    wish->heading_rad = maths_heading((next - along) * dx - (lane - right) * dz,
-                                      (next - along) * dz + (lane - right) * dx);
+    desired->heading_rad = maths_heading((next - along) * dx - (lane - right) * dz,
+                                         (next - along) * dz + (lane - right) * dx);
 }

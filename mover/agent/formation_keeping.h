@@ -11,11 +11,11 @@
  * of several, the last to have taken the lead. He does not while he flees, withdraws, is supplied
  * or has no fuel: then, and when he is lost, the first follower who can takes over his order
  * (REASON_LEADER_LOST) and keeps it; the old one, should he come back, goes on alone. */
-void formation_keeping_wish(const struct step_context *move, uint32_t i,
-                            struct desired_motion *wish);
+void formation_keeping_follow(const struct step_context *context, uint32_t i,
+                              struct desired_motion *desired);
 
 /* BEHAVIOUR_ROUTE: along the present leg, a vehicle's width to the right of it. */
-void formation_keeping_lane(const struct step_context *move, uint32_t i,
-                            struct desired_motion *wish);
+void formation_keeping_route(const struct step_context *context, uint32_t i,
+                             struct desired_motion *desired);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "mover/agent/perception.h"
 #include "mover/agent/script_player.h"
+#include "mover/motion/kinematics.h"
 #include "world/maths/random.h"
 #include "world/terrain/gridsquare.h"
 
@@ -12,106 +13,107 @@
 #define DETOUR_M   400.0 /* around what blocks the way home */
 #define GOAL_DRAWS 8
 
-static double unit(const struct step_context *move, uint32_t i, enum random_purpose purpose)
+static double unit(const struct step_context *context, uint32_t i, enum random_purpose purpose)
 {
-    return random_unit(move->world->params->seed, move->tick, move->m->id[i], purpose);
+    return random_unit(context->world->params->seed, context->tick, context->m->id[i], purpose);
 }
 
 /* --- orders ------------------------------------------------------------------------------------*/
 
-static bool suits(const struct step_context *move, uint32_t i, double x, double z)
+static bool suits(const struct step_context *context, uint32_t i, double x, double z)
 {
-    const struct kind *kind = &move->world->kinds[move->m->kind[i]];
-    bool water = cover_is_water(terrain_cover(&move->world->terrain, x, z));
+    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    bool water = cover_is_water(terrain_cover(&context->world->terrain, x, z));
     return kind->domain == DOMAIN_AIR || (kind->domain == DOMAIN_SEA) == water;
 }
 
 /* A random point of its area, on ground that it can use. */
-static void patrol(const struct step_context *move, uint32_t i)
+static void patrol(const struct step_context *context, uint32_t i)
 {
-    struct entities *m = move->m;
-    const struct area *area = &move->world->areas[m->order_arg[i]];
+    struct entities *m = context->m;
+    const struct area *area = &context->world->areas[m->order_arg[i]];
     for (int draw = 0; draw < GOAL_DRAWS; draw++) {
-        double u = unit(move, i, RANDOM_GOAL_X) + (double)draw * 0.618033988749895;
-        double v = unit(move, i, RANDOM_GOAL_Z) + (double)draw * 0.754877666246693;
+        double u = unit(context, i, RANDOM_GOAL_X) + (double)draw * 0.618033988749895;
+        double v = unit(context, i, RANDOM_GOAL_Z) + (double)draw * 0.754877666246693;
         m->goal_x[i] = area->x0 + (area->x1 - area->x0) * (u - floor(u));
         m->goal_z[i] = area->z0 + (area->z1 - area->z0) * (v - floor(v));
-        if (suits(move, i, m->goal_x[i], m->goal_z[i]))
+        if (suits(context, i, m->goal_x[i], m->goal_z[i]))
             return;
     }
 }
 
-static void route(const struct step_context *move, uint32_t i)
+static void route(const struct step_context *context, uint32_t i)
 {
-    struct entities *m = move->m;
-    const struct route *route = &move->world->routes[m->order_arg[i]];
+    struct entities *m = context->m;
+    const struct route *route = &context->world->routes[m->order_arg[i]];
     uint32_t leg = m->leg[i] % route->count;
-    m->goal_x[i] = move->world->route_points[route->first + leg].x;
-    m->goal_z[i] = move->world->route_points[route->first + leg].z;
+    m->goal_x[i] = context->world->route_points[route->first + leg].x;
+    m->goal_z[i] = context->world->route_points[route->first + leg].z;
     m->leg[i] = (leg + 1) % route->count;
 }
 
-void goal_next(const struct step_context *move, uint32_t i)
+void goal_next(const struct step_context *context, uint32_t i)
 {
-    if (move->m->behaviour[i] == BEHAVIOUR_PATROL)
-        patrol(move, i);
-    else if (move->m->behaviour[i] == BEHAVIOUR_ROUTE)
-        route(move, i);
+    if (context->m->behaviour[i] == BEHAVIOUR_PATROL)
+        patrol(context, i);
+    else if (context->m->behaviour[i] == BEHAVIOUR_ROUTE)
+        route(context, i);
 }
 
-void goal_again(const struct step_context *move, uint32_t i)
+void goal_resume(const struct step_context *context, uint32_t i)
 {
-    struct entities *m = move->m;
+    struct entities *m = context->m;
     if (m->behaviour[i] == BEHAVIOUR_SCRIPT)
-        script_player_again(move, i);
+        script_player_resume(context, i);
     if (m->behaviour[i] == BEHAVIOUR_ROUTE) {
-        uint32_t count = move->world->routes[m->order_arg[i]].count;
+        uint32_t count = context->world->routes[m->order_arg[i]].count;
         m->leg[i] = (m->leg[i] + count - 1) % count;
     }
-    goal_next(move, i);
+    goal_next(context, i);
 }
 
 /* --- enemies -----------------------------------------------------------------------------------*/
 
-static void along(const struct step_context *move, uint32_t i, double heading, double distance,
+static void along(const struct step_context *context, uint32_t i, double heading, double distance,
                   double *x, double *z)
 {
     double sine, cosine;
     maths_sincos(heading, &sine, &cosine);
-    *x = maths_clamp(move->m->x[i] + distance * sine, 0.0, WORLD_SIDE_M);
-    *z = maths_clamp(move->m->z[i] - distance * cosine, 0.0, WORLD_SIDE_M);
+    *x = maths_clamp(context->m->x[i] + distance * sine, 0.0, WORLD_SIDE_M);
+    *z = maths_clamp(context->m->z[i] - distance * cosine, 0.0, WORLD_SIDE_M);
 }
 
-void goal_away(const struct step_context *move, uint32_t i, double heading, double distance)
+void goal_away(const struct step_context *context, uint32_t i, double heading, double distance)
 {
-    along(move, i, heading, distance, &move->m->goal_x[i], &move->m->goal_z[i]);
+    along(context, i, heading, distance, &context->m->goal_x[i], &context->m->goal_z[i]);
 }
 
-void goal_cover(const struct step_context *move, uint32_t i, uint32_t enemy)
+void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy)
 {
     static const double turns[] = {0.0, 0.6, -0.6, 1.2, -1.2}, ways[] = {300.0, 700.0, 1400.0};
-    struct entities *m = move->m;
-    const struct entities *w = &move->committed->entities;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    struct entities *m = context->m;
+    const struct entities *w = &context->committed->entities;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     double away = maths_heading(m->x[i] - w->x[enemy], m->z[i] - w->z[enemy]);
-    struct vec3 eye = perception_eye(move, enemy), to;
+    struct vec3 eye = perception_eye(context, enemy), to;
     for (int n = 0; n < 15; n++) {
-        along(move, i, away + turns[n % 5], ways[n / 5], &to.x, &to.z);
-        to.y = kinematics_ground(move, to.x, to.z) + kind->height_m +
+        along(context, i, away + turns[n % 5], ways[n / 5], &to.x, &to.z);
+        to.y = kinematics_ground(context, to.x, to.z) + kind->height_m +
                (kind->domain == DOMAIN_AIR ? kind->cruise_altitude_m : 0.0);
-        if (suits(move, i, to.x, to.z) && !line_of_sight_clear(move->outlook, eye, to)) {
+        if (suits(context, i, to.x, to.z) &&
+            !line_of_sight_clear(context->line_of_sight, eye, to)) {
             m->goal_x[i] = to.x;
             m->goal_z[i] = to.z;
             return;
         }
     }
-    goal_away(move, i, away, FLEE_M);
+    goal_away(context, i, away, FLEE_M);
 }
 
-void goal_target(const struct step_context *move, uint32_t i, uint32_t row, uint32_t id)
+void goal_target(const struct step_context *context, uint32_t i, uint32_t row, uint32_t id)
 {
-    struct entities *m = move->m;
-    const struct entities *w = &move->committed->entities;
+    struct entities *m = context->m;
+    const struct entities *w = &context->committed->entities;
     m->target_slot[i] = row;
     m->target_id[i] = id;
     m->goal_x[i] = w->x[row];
@@ -120,18 +122,19 @@ void goal_target(const struct step_context *move, uint32_t i, uint32_t row, uint
 
 /* --- home --------------------------------------------------------------------------------------*/
 
-void goal_base(const struct step_context *move, uint32_t i)
+void goal_base(const struct step_context *context, uint32_t i)
 {
-    struct entities *m = move->m;
-    const struct force_base *base = &move->world->params->base[m->force[i] % FORCE_COUNT];
+    struct entities *m = context->m;
+    const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
     m->goal_x[i] = base->x;
     m->goal_z[i] = base->z;
 }
 
-static bool within(const struct step_context *move, uint32_t i, double x, double z, double metres)
+static bool within(const struct step_context *context, uint32_t i, double x, double z,
+                   double metres)
 {
-    const struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     double dx = x - m->x[i], dz = z - m->z[i];
     /* A fast body cannot turn tighter than speed over turn rate. */
     if (kind->min_speed_mps > 0.0)
@@ -141,36 +144,36 @@ static bool within(const struct step_context *move, uint32_t i, double x, double
     return dx * dx + dz * dz < metres * metres;
 }
 
-bool goal_arrived(const struct step_context *move, uint32_t i)
+bool goal_arrived(const struct step_context *context, uint32_t i)
 {
-    return within(move, i, move->m->goal_x[i], move->m->goal_z[i], ARRIVED_M);
+    return within(context, i, context->m->goal_x[i], context->m->goal_z[i], ARRIVED_M);
 }
 
-bool goal_home(const struct step_context *move, uint32_t i)
+bool goal_at_base(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m;
-    const struct force_base *base = &move->world->params->base[m->force[i] % FORCE_COUNT];
-    if (within(move, i, base->x, base->z, HOME_M))
+    const struct entities *m = context->m;
+    const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
+    if (within(context, i, base->x, base->z, HOME_M))
         return true;
-    return move->world->kinds[m->kind[i]].domain == DOMAIN_SEA && m->goal_x[i] != base->x &&
-           goal_arrived(move, i);
+    return context->world->kinds[m->kind[i]].domain == DOMAIN_SEA && m->goal_x[i] != base->x &&
+           goal_arrived(context, i);
 }
 
-void goal_blocked(const struct step_context *move, uint32_t i)
+void goal_blocked(const struct step_context *context, uint32_t i)
 {
-    struct entities *m = move->m;
+    struct entities *m = context->m;
     switch ((enum behaviour)m->behaviour[i]) {
     case BEHAVIOUR_FLEE: /* any way out is good */
-        goal_away(move, i, TWO_PI * unit(move, i, RANDOM_GOAL_X), FLEE_M);
+        goal_away(context, i, TWO_PI * unit(context, i, RANDOM_GOAL_X), FLEE_M);
         break;
     case BEHAVIOUR_WITHDRAW:
-        if (move->world->kinds[m->kind[i]].domain == DOMAIN_SEA)
-            goal_away(move, i, 0.0, 0.0);
+        if (context->world->kinds[m->kind[i]].domain == DOMAIN_SEA)
+            goal_away(context, i, 0.0, 0.0);
         else
-            goal_away(move, i, TWO_PI * unit(move, i, RANDOM_GOAL_X), DETOUR_M);
+            goal_away(context, i, TWO_PI * unit(context, i, RANDOM_GOAL_X), DETOUR_M);
         break;
     default:
-        goal_next(move, i);
+        goal_next(context, i);
         break;
     }
 }

@@ -12,7 +12,7 @@
 
 struct avoidance;
 
-struct neighbour_lists_list {
+struct neighbour_list {
     uint32_t first, count; /* of entries; count NEIGHBOUR_LISTS_NONE: none was made */
 };
 
@@ -21,17 +21,17 @@ struct neighbour_lists_list {
 struct neighbour_lists {
     uint32_t capacity;
     struct neighbour_index_entry
-        *entries;                      /* each row of cells has room by how many vehicles it has */
-    struct neighbour_lists_list *list; /* [capacity] of rows whose entry says that they are due */
+        *entries;                /* each row of cells has room by how many vehicles it has */
+    struct neighbour_list *list; /* [capacity] of rows whose entry says that they are due */
 };
 
 /* 0, or -1 with errno ENOMEM. */
-int neighbour_lists_init(struct neighbour_lists *company, uint32_t capacity);
-void neighbour_lists_free(struct neighbour_lists *company);
+int neighbour_lists_init(struct neighbour_lists *lists, uint32_t capacity);
+void neighbour_lists_free(struct neighbour_lists *lists);
 
 /* Gathers for all whose entry is due, from the index of this frame. workers may be NULL. */
-void neighbour_lists_gather(struct neighbour_lists *company, const struct neighbour_index *near,
-                            const struct world *world, const struct avoidance *avoid,
+void neighbour_lists_gather(struct neighbour_lists *lists, const struct neighbour_index *index,
+                            const struct world *world, const struct avoidance *avoidance,
                             struct thread_pool *workers);
 
 #endif

@@ -3,6 +3,7 @@
 #include "mover/agent/perception.h"
 
 #include "mover/agent/goal.h"
+#include "mover/motion/kinematics.h"
 #include "world/maths/random.h"
 
 #define THINK_HZ         10.0   /* how often each agent thinks */
@@ -28,45 +29,45 @@ static const double heart[DAMAGE_COUNT] = {1.0, 0.95, 0.6, 0.3, 0.0};
     (PERCEPTION_BIT(SHOT) | PERCEPTION_BIT(HURT) | PERCEPTION_BIT(OUTNUMBERED) |                   \
      PERCEPTION_BIT(TIME_OVER))
 
-static const struct behaviour_table_table *table_of(const struct step_context *move, uint32_t i)
+static const struct behaviour_table *table_of(const struct step_context *context, uint32_t i)
 {
-    return &behaviour_table_tables[move->world->kinds[move->m->kind[i]].doctrine];
+    return &behaviour_tables[context->world->kinds[context->m->kind[i]].doctrine];
 }
 
-uint32_t perception_think(const struct params *params, uint32_t used)
+uint32_t perception_think_frames(const struct params *params, uint32_t used)
 {
-    uint32_t think = (uint32_t)maths_max(1.0, params->hz / THINK_HZ);
-    return think > used / THOUGHTS_A_FRAME ? think : used / THOUGHTS_A_FRAME;
+    uint32_t think_frames = (uint32_t)maths_max(1.0, params->hz / THINK_HZ);
+    return think_frames > used / THOUGHTS_A_FRAME ? think_frames : used / THOUGHTS_A_FRAME;
 }
 
-uint32_t perception_turn(const struct params *params, uint32_t used)
+uint32_t perception_look_frames(const struct params *params, uint32_t used)
 {
-    uint32_t turn = (uint32_t)maths_max(1.0, LOOK_S * params->hz);
-    uint32_t think = perception_think(params, used);
-    turn = turn > used / LOOKS_A_FRAME ? turn : used / LOOKS_A_FRAME;
-    return turn < think ? think : turn / think * think;
+    uint32_t look_frames = (uint32_t)maths_max(1.0, LOOK_S * params->hz);
+    uint32_t think_frames = perception_think_frames(params, used);
+    look_frames = look_frames > used / LOOKS_A_FRAME ? look_frames : used / LOOKS_A_FRAME;
+    return look_frames < think_frames ? think_frames : look_frames / think_frames * think_frames;
 }
 
-static bool its_turn(const struct step_context *move, uint32_t i)
+static bool its_turn(const struct step_context *context, uint32_t i)
 {
-    return ((uint32_t)move->tick + move->m->id[i]) % move->turn == 0;
+    return ((uint32_t)context->tick + context->m->id[i]) % context->look_frames == 0;
 }
 
 /* --- seeing ------------------------------------------------------------------------------------*/
 
-struct vec3 perception_eye(const struct step_context *move, uint32_t i)
+struct vec3 perception_eye(const struct step_context *context, uint32_t i)
 {
-    struct vec3 at = entities_position(&move->committed->entities, i);
-    const struct kind *kind = &move->world->kinds[move->committed->entities.kind[i]];
+    struct vec3 at = entities_position(&context->committed->entities, i);
+    const struct kind *kind = &context->world->kinds[context->committed->entities.kind[i]];
     if (kind->domain != DOMAIN_AIR)
         at.y += EYE_SHARE * kind->height_m;
     return at;
 }
 
-struct vec3 perception_middle(const struct step_context *move, uint32_t i)
+struct vec3 perception_middle(const struct step_context *context, uint32_t i)
 {
-    struct vec3 at = entities_position(&move->committed->entities, i);
-    at.y += kinematics_aim_height(move, move->committed->entities.kind[i]);
+    struct vec3 at = entities_position(&context->committed->entities, i);
+    at.y += kinematics_aim_height(context, context->committed->entities.kind[i]);
     return at;
 }
 
@@ -76,10 +77,10 @@ struct sector {
     double sine, cosine, edge; /* of its middle; cosine of half its width */
 };
 
-static struct sector sector_of(const struct step_context *move, uint32_t i)
+static struct sector sector_of(const struct step_context *context, uint32_t i)
 {
-    const struct entities *w = &move->committed->entities;
-    double wide = move->world->kinds[w->kind[i]].view_rad;
+    const struct entities *w = &context->committed->entities;
+    double wide = context->world->kinds[w->kind[i]].view_rad;
     struct sector view = {.around = wide >= TWO_PI - 1e-9};
     if (!view.around) {
         maths_sincos(w->heading[i] + (double)w->turret[i], &view.sine, &view.cosine);
@@ -94,16 +95,17 @@ static bool in_view(const struct sector *view, double dx, double dz)
            dx * view->sine - dz * view->cosine >= view->edge * sqrt(dx * dx + dz * dz);
 }
 
-bool perception_sees(const struct step_context *move, uint32_t i, uint32_t other)
+bool perception_sees(const struct step_context *context, uint32_t i, uint32_t other)
 {
-    const struct entities *w = &move->committed->entities;
+    const struct entities *w = &context->committed->entities;
     double dx = w->x[other] - w->x[i], dz = w->z[other] - w->z[i];
-    double sight = move->world->kinds[w->kind[i]].sight_m;
+    double sight = context->world->kinds[w->kind[i]].sight_m;
     if (!(dx * dx + dz * dz < sight * sight))
         return false;
-    struct sector view = sector_of(move, i);
-    return in_view(&view, dx, dz) && line_of_sight_clear(move->outlook, perception_eye(move, i),
-                                                         perception_middle(move, other));
+    struct sector view = sector_of(context, i);
+    return in_view(&view, dx, dz) &&
+           line_of_sight_clear(context->line_of_sight, perception_eye(context, i),
+                               perception_middle(context, other));
 }
 
 struct candidates {
@@ -128,16 +130,17 @@ static void consider(struct candidates *c, uint32_t row, double square)
     c->row[n] = row;
 }
 
-static void gather(const struct step_context *move, uint32_t i, const struct sector *view,
+static void gather(const struct step_context *context, uint32_t i, const struct sector *view,
                    double radius, struct candidates *c)
 {
-    const struct entities *w = &move->committed->entities;
+    const struct entities *w = &context->committed->entities;
     const struct neighbour_index_entry *entry;
-    struct neighbour_query walk = neighbour_index_begin(
-        move->near, neighbour_index_enemies((enum force)w->force[i]), w->x[i], w->z[i], radius);
+    struct neighbour_query query =
+        neighbour_query_begin(context->neighbours, neighbour_index_enemies((enum force)w->force[i]),
+                              w->x[i], w->z[i], radius);
     c->count = 0;
-    while ((entry = neighbour_index_next(&walk))) {
-        double dx = (double)entry->x - walk.x, dz = (double)entry->z - walk.z;
+    while ((entry = neighbour_query_next(&query))) {
+        double dx = (double)entry->x - query.x, dz = (double)entry->z - query.z;
         if (in_view(view, dx, dz))
             consider(c, entry->row, dx * dx + dz * dz);
     }
@@ -145,108 +148,111 @@ static void gather(const struct step_context *move, uint32_t i, const struct sec
 
 /* The nearest enemy that it sees, SLOT_NONE: none. Looks near first. The very nearest are tried in
  * each look, those behind them by turns, so that one behind a hill does not hide the others. */
-static uint32_t look_out(const struct step_context *move, uint32_t i)
+static uint32_t look_out(const struct step_context *context, uint32_t i)
 {
-    double sight = move->world->kinds[move->m->kind[i]].sight_m;
-    enum force force = (enum force)move->committed->entities.force[i];
+    double sight = context->world->kinds[context->m->kind[i]].sight_m;
+    enum force force = (enum force)context->committed->entities.force[i];
     struct candidates c = {0};
-    if (!(neighbour_index_enemies(force) & move->near->present))
+    if (!(neighbour_index_enemies(force) & context->neighbours->present))
         return SLOT_NONE;
-    struct sector view = sector_of(move, i);
+    struct sector view = sector_of(context, i);
     for (double radius = 0.25 * sight;; radius = maths_min(2.0 * radius, sight)) {
-        gather(move, i, &view, radius, &c);
+        gather(context, i, &view, radius, &c);
         if (c.count == CANDIDATES || radius >= sight)
             break;
     }
     uint32_t others = c.count > LINES - 1 ? c.count - (LINES - 1) : 0;
     for (uint32_t n = 0; n < c.count && n < LINES; n++) {
-        uint32_t at = n < LINES - 1 ? n : n + (uint32_t)(move->tick / move->turn) % others;
-        if (perception_sees(move, i, c.row[at]))
+        uint32_t at =
+            n < LINES - 1 ? n : n + (uint32_t)(context->tick / context->look_frames) % others;
+        if (perception_sees(context, i, c.row[at]))
             return c.row[at];
     }
     return SLOT_NONE;
 }
 
-bool perception_in_sight(const struct step_context *move, uint32_t i)
+bool perception_in_sight(const struct step_context *context, uint32_t i)
 {
-    return (uint32_t)move->tick - move->m->seen_tick[i] <= SEEN_LOOKS * move->turn;
+    return (uint32_t)context->tick - context->m->seen_tick[i] <= SEEN_LOOKS * context->look_frames;
 }
 
 /* --- odds and courage --------------------------------------------------------------------------*/
 
-static uint32_t count_near(const struct step_context *move, uint32_t i, uint32_t layers)
+static uint32_t count_near(const struct step_context *context, uint32_t i, uint32_t layers)
 {
-    const struct entities *w = &move->committed->entities;
-    struct neighbour_query walk =
-        neighbour_index_begin(move->near, layers, w->x[i], w->z[i], ODDS_M);
+    const struct entities *w = &context->committed->entities;
+    struct neighbour_query query =
+        neighbour_query_begin(context->neighbours, layers, w->x[i], w->z[i], ODDS_M);
     uint32_t count = 0;
-    while (count < ODDS_MOST && neighbour_index_next(&walk))
+    while (count < ODDS_MOST && neighbour_query_next(&query))
         count++;
     return count;
 }
 
 /* Friends near it, itself among them, and enemies; at least one each. */
-static void odds(const struct step_context *move, uint32_t i, uint32_t *friends, uint32_t *enemies)
+static void odds(const struct step_context *context, uint32_t i, uint32_t *friends,
+                 uint32_t *enemies)
 {
-    uint8_t force = move->committed->entities.force[i];
+    uint8_t force = context->committed->entities.force[i];
     *friends = force == FORCE_NEUTRAL || force >= FORCE_COUNT
                    ? 1
-                   : count_near(move, i, NEIGHBOUR_INDEX_LAYER(force));
-    *enemies = count_near(move, i, neighbour_index_enemies((enum force)force));
+                   : count_near(context, i, NEIGHBOUR_INDEX_LAYER(force));
+    *enemies = count_near(context, i, neighbour_index_enemies((enum force)force));
     *friends = *friends > 0 ? *friends : 1;
     *enemies = *enemies > 0 ? *enemies : 1;
 }
 
-static bool brave(const struct step_context *move, uint32_t i)
+static bool brave(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m;
-    double courage = move->world->kinds[m->kind[i]].courage;
+    const struct entities *m = context->m;
+    double courage = context->world->kinds[m->kind[i]].courage;
     uint32_t friends, enemies;
-    odds(move, i, &friends, &enemies);
+    odds(context, i, &friends, &enemies);
     if (m->damage[i] < DAMAGE_COUNT)
         courage *= heart[m->damage[i]];
     courage *= maths_min(1.0, (double)friends / (double)enemies);
-    return random_unit(move->world->params->seed, move->tick, m->id[i], RANDOM_COURAGE) < courage;
+    return random_unit(context->world->params->seed, context->tick, m->id[i], RANDOM_COURAGE) <
+           courage;
 }
 
 /* --- its own state -----------------------------------------------------------------------------*/
 
-bool perception_armed(const struct step_context *move, uint32_t i)
+bool perception_armed(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m;
-    return move->world->kinds[m->kind[i]].munition != KIND_NONE && m->rounds[i] > 0 &&
+    const struct entities *m = context->m;
+    return context->world->kinds[m->kind[i]].munition != KIND_NONE && m->rounds[i] > 0 &&
            !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE);
 }
 
 /* Is what is left of its fuel just enough for the way home? */
-static bool low_fuel(const struct step_context *move, uint32_t i)
+static bool low_fuel(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     if (!(kind->fuel_l > 0.0))
         return false;
-    const struct force_base *base = &move->world->params->base[m->force[i] % FORCE_COUNT];
+    const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
     double dx = base->x - m->x[i], dz = base->z - m->z[i];
     double way = sqrt(dx * dx + dz * dz) * kind->fuel_lps / maths_max(kind->max_speed_mps, 1e-9);
     return m->fuel_l[i] < FUEL_MARGIN * way + FUEL_RESERVE * kind->fuel_l;
 }
 
-static bool has_arrived(const struct step_context *move, uint32_t i)
+static bool has_arrived(const struct step_context *context, uint32_t i)
 {
-    return move->m->behaviour[i] == BEHAVIOUR_WITHDRAW && goal_home(move, i);
+    return context->m->behaviour[i] == BEHAVIOUR_WITHDRAW && goal_at_base(context, i);
 }
 
-static uint32_t notice_state(const struct step_context *move, uint32_t i)
+static uint32_t notice_state(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m, *w = &move->committed->entities;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    const struct entities *m = context->m, *w = &context->committed->entities;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     uint32_t target = m->target_slot[i], percepts = 0;
     uint8_t flags = m->flags[i];
     if (kind->fuel_l > 0.0 && m->fuel_l[i] <= 0.0)
         percepts |= PERCEPTION_BIT(NO_FUEL);
     if (kind->munition != KIND_NONE && m->rounds[i] == 0 && kind->rounds > 0)
         percepts |= PERCEPTION_BIT(NO_ROUNDS);
-    if (perception_armed(move, i))
+    if (perception_armed(context, i))
         percepts |= PERCEPTION_BIT(ARMED);
     if (flags & ENTITY_FLAG_FIRE_AT_WILL)
         percepts |= PERCEPTION_BIT(AT_WILL);
@@ -256,30 +262,32 @@ static uint32_t notice_state(const struct step_context *move, uint32_t i)
         percepts |= entities_alive(w, target, m->target_id[i]) && w->state[target] == ENTITY_ACTIVE
                         ? PERCEPTION_BIT(TARGET)
                         : PERCEPTION_BIT(TARGET_GONE);
-    if (move->tick >= m->until_tick[i])
+    if (context->tick >= m->until_tick[i])
         percepts |= PERCEPTION_BIT(TIME_OVER);
-    if (m->behaviour[i] == BEHAVIOUR_DRIVEN && m->driver[i] != 0 && move->tick > m->until_tick[i])
+    if (m->behaviour[i] == BEHAVIOUR_DRIVEN && m->driver[i] != 0 &&
+        context->tick > m->until_tick[i])
         percepts |= PERCEPTION_BIT(LEASE_OVER);
-    if (has_arrived(move, i))
+    if (has_arrived(context, i))
         percepts |= PERCEPTION_BIT(ARRIVED);
     return percepts;
 }
 
-static bool hurt(const struct step_context *move, uint32_t i)
+static bool hurt(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m;
-    return (uint32_t)move->tick - m->changed_tick[i] <= HURT_FRAMES && m->damage[i] >= DAMAGE_MED;
+    const struct entities *m = context->m;
+    return (uint32_t)context->tick - m->changed_tick[i] <= HURT_FRAMES &&
+           m->damage[i] >= DAMAGE_MED;
 }
 
-bool perception_event(const struct step_context *move, uint32_t i)
+bool perception_event(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m;
-    return m->threat_id[i] != 0 || m->bumped[i] != 0 || hurt(move, i);
+    const struct entities *m = context->m;
+    return m->threat_id[i] != 0 || m->bumped[i] != 0 || hurt(context, i);
 }
 
-static void notice_events(const struct step_context *move, uint32_t i, struct notice *notice)
+static void notice_events(const struct step_context *context, uint32_t i, struct notice *notice)
 {
-    const struct entities *m = move->m, *w = &move->committed->entities;
+    const struct entities *m = context->m, *w = &context->committed->entities;
     uint32_t slot = m->threat_slot[i];
     if (m->threat_id[i] != 0 && entities_alive(w, slot, m->threat_id[i]) &&
         w->state[slot] == ENTITY_ACTIVE) {
@@ -288,7 +296,7 @@ static void notice_events(const struct step_context *move, uint32_t i, struct no
     }
     if (m->bumped[i] != 0)
         notice->percepts |= PERCEPTION_BIT(BUMP);
-    if (hurt(move, i))
+    if (hurt(context, i))
         notice->percepts |= PERCEPTION_BIT(HURT);
     m->threat_slot[i] = m->threat_id[i] = 0;
     m->bumped[i] = 0;
@@ -297,82 +305,85 @@ static void notice_events(const struct step_context *move, uint32_t i, struct no
 /* --- in its turn -------------------------------------------------------------------------------*/
 
 /* Would its table do something else if it noticed this too? */
-static bool matters(const struct step_context *move, uint32_t i, uint32_t percepts, uint32_t also)
+static bool matters(const struct step_context *context, uint32_t i, uint32_t percepts,
+                    uint32_t also)
 {
-    const struct behaviour_table_table *table = table_of(move, i);
-    enum behaviour behaviour = (enum behaviour)move->m->behaviour[i];
+    const struct behaviour_table *table = table_of(context, i);
+    enum behaviour behaviour = (enum behaviour)context->m->behaviour[i];
     return behaviour_table_next(table, behaviour, percepts | also) !=
            behaviour_table_next(table, behaviour, percepts);
 }
 
-static void fight_on(const struct step_context *move, uint32_t i, uint32_t enemy)
+static void fight_on(const struct step_context *context, uint32_t i, uint32_t enemy)
 {
-    const struct entities *m = move->m;
-    goal_target(move, i, enemy, move->committed->entities.id[enemy]);
-    m->seen_tick[i] = (uint32_t)move->tick;
-    m->until_tick[i] = (uint32_t)(move->tick + (uint64_t)(BEHAVIOUR_TABLE_FIGHT_S / move->dt_s));
+    const struct entities *m = context->m;
+    goal_target(context, i, enemy, context->committed->entities.id[enemy]);
+    m->seen_tick[i] = (uint32_t)context->tick;
+    m->until_tick[i] =
+        (uint32_t)(context->tick + (uint64_t)(BEHAVIOUR_TABLE_FIGHT_S / context->dt_s));
 }
 
 /* In a fight: does it see its target, else somebody else to fight? */
-static void watch_target(const struct step_context *move, uint32_t i)
+static void watch_target(const struct step_context *context, uint32_t i)
 {
-    uint32_t seen = move->m->target_slot[i];
-    if (!perception_sees(move, i, seen))
-        seen = look_out(move, i);
+    uint32_t seen = context->m->target_slot[i];
+    if (!perception_sees(context, i, seen))
+        seen = look_out(context, i);
     if (seen != SLOT_NONE)
-        fight_on(move, i, seen);
+        fight_on(context, i, seen);
 }
 
 /* Its target is gone. Whom its order would have it attack on sight it attacks at once. */
-static void next_target(const struct step_context *move, uint32_t i, struct notice *notice)
+static void next_target(const struct step_context *context, uint32_t i, struct notice *notice)
 {
     const uint32_t over = PERCEPTION_BIT(TARGET_GONE) | PERCEPTION_BIT(TIME_OVER);
     uint32_t percepts = notice->percepts & ~over;
-    const struct behaviour_table_row *row = behaviour_table_next(
-        table_of(move, i), (enum behaviour)move->m->order[i], percepts | PERCEPTION_BIT(ENEMY));
+    const struct behaviour_table_row *row =
+        behaviour_table_next(table_of(context, i), (enum behaviour)context->m->order[i],
+                             percepts | PERCEPTION_BIT(ENEMY));
     if (!row || row->to != BEHAVIOUR_ATTACK || row->because != REASON_ENEMY_SEEN)
         return;
-    uint32_t seen = look_out(move, i);
+    uint32_t seen = look_out(context, i);
     if (seen == SLOT_NONE)
         return;
-    fight_on(move, i, seen);
+    fight_on(context, i, seen);
     notice->percepts = percepts | PERCEPTION_BIT(TARGET);
 }
 
-static void notice_turn(const struct step_context *move, uint32_t i, struct notice *notice)
+static void notice_turn(const struct step_context *context, uint32_t i, struct notice *notice)
 {
     uint32_t friends, enemies;
-    if (low_fuel(move, i))
+    if (low_fuel(context, i))
         notice->percepts |= PERCEPTION_BIT(LOW_FUEL);
-    if (move->m->behaviour[i] == BEHAVIOUR_ATTACK) {
+    if (context->m->behaviour[i] == BEHAVIOUR_ATTACK) {
         if (!(notice->percepts & PERCEPTION_BIT(TARGET)))
             return;
-        watch_target(move, i);
-        odds(move, i, &friends, &enemies);
+        watch_target(context, i);
+        odds(context, i, &friends, &enemies);
         if (enemies >= OUTNUMBERED * friends)
             notice->percepts |= PERCEPTION_BIT(OUTNUMBERED);
-    } else if (matters(move, i, notice->percepts, PERCEPTION_BIT(ENEMY))) {
-        notice->enemy = look_out(move, i);
+    } else if (matters(context, i, notice->percepts, PERCEPTION_BIT(ENEMY))) {
+        notice->enemy = look_out(context, i);
         if (notice->enemy != SLOT_NONE)
             notice->percepts |= PERCEPTION_BIT(ENEMY);
     }
 }
 
-struct notice perception_notice(const struct step_context *move, uint32_t i)
+struct notice perception_notice(const struct step_context *context, uint32_t i)
 {
-    struct notice notice = {notice_state(move, i), SLOT_NONE, SLOT_NONE};
-    notice_events(move, i, &notice);
+    struct notice notice = {notice_state(context, i), SLOT_NONE, SLOT_NONE};
+    notice_events(context, i, &notice);
     if (notice.percepts & PERCEPTION_BIT(NO_FUEL)) { /* it can do nothing about all the rest */
         notice.percepts &= PERCEPTION_BIT(NO_FUEL) | PERCEPTION_BIT(LEASE_OVER);
         return notice;
     }
-    if (move->m->behaviour[i] == BEHAVIOUR_ATTACK &&
+    if (context->m->behaviour[i] == BEHAVIOUR_ATTACK &&
         (notice.percepts & PERCEPTION_BIT(TARGET_GONE)))
-        next_target(move, i, &notice);
-    if (its_turn(move, i))
-        notice_turn(move, i, &notice);
-    if ((notice.percepts & TESTS) && matters(move, i, notice.percepts, PERCEPTION_BIT(BRAVE)) &&
-        ((notice.percepts & PERCEPTION_BIT(STAND)) || brave(move, i)))
+        next_target(context, i, &notice);
+    if (its_turn(context, i))
+        notice_turn(context, i, &notice);
+    if ((notice.percepts & TESTS) && matters(context, i, notice.percepts, PERCEPTION_BIT(BRAVE)) &&
+        ((notice.percepts & PERCEPTION_BIT(STAND)) || brave(context, i)))
         notice.percepts |= PERCEPTION_BIT(BRAVE);
     return notice;
 }

@@ -2,6 +2,8 @@
 #include "mover/agent/script_player.h"
 
 #include "mover/agent/perception.h"
+#include "mover/motion/driver_controls.h"
+#include "mover/motion/kinematics.h"
 
 #define CRUISE_SHARE  0.75 /* of full speed, where a step gives none */
 #define THERE_M       1.0  /* as near to its point it is there, and a frame's way */
@@ -14,7 +16,7 @@
 
 /* A row on its script. */
 struct reading {
-    const struct step_context *move;
+    const struct step_context *context;
     const struct script *script;
     const struct script_step *steps;
     const struct kind *kind;
@@ -22,28 +24,28 @@ struct reading {
     double now_s; /* that the frame reaches */
 };
 
-static struct reading read_row(const struct step_context *move, uint32_t i)
+static struct reading read_row(const struct step_context *context, uint32_t i)
 {
-    const struct world *world = move->world;
-    const struct script *script = &world->scripts[move->m->order_arg[i]];
+    const struct world *world = context->world;
+    const struct script *script = &world->scripts[context->m->order_arg[i]];
     return (struct reading){
-        .move = move,
+        .context = context,
         .script = script,
         .steps = world->script_steps + script->first,
-        .kind = &world->kinds[move->m->kind[i]],
+        .kind = &world->kinds[context->m->kind[i]],
         .i = i,
-        .now_s = (double)move->tick * move->dt_s,
+        .now_s = (double)context->tick * context->dt_s,
     };
 }
 
 static uint32_t pass_of(const struct reading *r)
 {
-    return r->move->m->leg[r->i] / r->script->count;
+    return r->context->m->leg[r->i] / r->script->count;
 }
 
 static const struct script_step *step_of(const struct reading *r)
 {
-    return &r->steps[r->move->m->leg[r->i] % r->script->count];
+    return &r->steps[r->context->m->leg[r->i] % r->script->count];
 }
 
 static double seconds_to(const struct reading *r, const struct script_step *step)
@@ -54,17 +56,17 @@ static double seconds_to(const struct reading *r, const struct script_step *step
 /* Half a frame early is nearer to its time than half a frame late. */
 static bool is_time(const struct reading *r, double seconds)
 {
-    return seconds < 0.5 * r->move->dt_s;
+    return seconds < 0.5 * r->context->dt_s;
 }
 
 static uint32_t tick_after(const struct reading *r, double seconds)
 {
-    return (uint32_t)(r->move->tick + (uint64_t)(seconds / r->move->dt_s + 0.5));
+    return (uint32_t)(r->context->tick + (uint64_t)(seconds / r->context->dt_s + 0.5));
 }
 
 static void say(const struct reading *r, enum behaviour behaviour, enum agent_reason reason)
 {
-    struct entities *m = r->move->m;
+    struct entities *m = r->context->m;
     m->behaviour[r->i] = (uint8_t)behaviour;
     m->trigger[r->i] = (uint8_t)((m->trigger[r->i] & (TRIGGER_FIRE | TRIGGER_FIRE_AT)) |
                                  (unsigned)(reason + 1) << TRIGGER_REASON_SHIFT);
@@ -74,7 +76,7 @@ static void say(const struct reading *r, enum behaviour behaviour, enum agent_re
 
 static void begin(const struct reading *r, uint32_t leg)
 {
-    struct entities *m = r->move->m;
+    struct entities *m = r->context->m;
     m->leg[r->i] = leg;
     m->until_tick[r->i] = 0;
     m->throttle[r->i] = m->steer[r->i] = m->climb[r->i] = 0.0f;
@@ -83,7 +85,7 @@ static void begin(const struct reading *r, uint32_t leg)
 /* The step after this one; false: there is none, and the vehicle is idle. */
 static bool go_on(const struct reading *r)
 {
-    struct entities *m = r->move->m;
+    struct entities *m = r->context->m;
     uint32_t leg = m->leg[r->i] + 1;
     if (leg % r->script->count == 0 && !r->script->repeats) {
         m->order[r->i] = BEHAVIOUR_IDLE;
@@ -101,7 +103,7 @@ static bool go_on(const struct reading *r)
  * reached by now is given up for the next. False: nothing is cut off. */
 static bool cut_off(const struct reading *r)
 {
-    const struct entities *m = r->move->m;
+    const struct entities *m = r->context->m;
     const struct script_step *step = step_of(r);
     uint32_t index = m->leg[r->i] % r->script->count, first = m->leg[r->i] - index;
     if (r->script->period_s > 0.0 &&
@@ -125,14 +127,14 @@ static bool cut_off(const struct reading *r)
 
 static double distance_to(const struct reading *r, const struct script_step *step)
 {
-    const struct entities *m = r->move->m;
+    const struct entities *m = r->context->m;
     double dx = step->x - m->x[r->i], dz = step->z - m->z[r->i];
     return sqrt(dx * dx + dz * dz);
 }
 
 static double speed_now(const struct reading *r)
 {
-    const struct entities *m = r->move->m;
+    const struct entities *m = r->context->m;
     return sqrt(m->vx[r->i] * m->vx[r->i] + m->vz[r->i] * m->vz[r->i]);
 }
 
@@ -166,24 +168,24 @@ static double timed_speed(const struct reading *r, const struct script_step *ste
 }
 
 static void wish_point(const struct reading *r, const struct script_step *step, double speed,
-                       struct desired_motion *wish)
+                       struct desired_motion *desired)
 {
-    struct entities *m = r->move->m;
+    struct entities *m = r->context->m;
     double metres = distance_to(r, step);
     m->goal_x[r->i] = step->x;
     m->goal_z[r->i] = step->z;
     if (metres > THERE_M)
-        wish->heading_rad = maths_heading(step->x - m->x[r->i], step->z - m->z[r->i]);
+        desired->heading_rad = maths_heading(step->x - m->x[r->i], step->z - m->z[r->i]);
     if (step->halt)
         speed = maths_min(speed, sqrt(2.0 * slowing(r) * metres));
-    double off = maths_wrap_half(wish->heading_rad - m->heading[r->i]);
-    wish->speed_mps = maths_min(speed, turning_speed(r, metres, off));
+    double off = maths_wrap_half(desired->heading_rad - m->heading[r->i]);
+    desired->speed_mps = maths_min(speed, turning_speed(r, metres, off));
 }
 
 /* Is it at its point? One that goes on from there need only pass it, as near as it can turn. */
 static bool is_there(const struct reading *r, const struct script_step *step)
 {
-    double near = THERE_M + speed_now(r) * r->move->dt_s;
+    double near = THERE_M + speed_now(r) * r->context->dt_s;
     if (r->kind->min_speed_mps > 0.0)
         near += 2.0 * r->kind->max_speed_mps / maths_max(r->kind->turn_rate_rps, 0.01);
     else if (!step->halt)
@@ -193,10 +195,11 @@ static bool is_there(const struct reading *r, const struct script_step *step)
 
 /* --- steps: each wishes, and says whether it is over -------------------------------------------*/
 
-static bool go(const struct reading *r, const struct script_step *step, struct desired_motion *wish)
+static bool go(const struct reading *r, const struct script_step *step,
+               struct desired_motion *desired)
 {
     wish_point(r, step, step->amount > 0.0 ? step->amount : CRUISE_SHARE * r->kind->max_speed_mps,
-               wish);
+               desired);
     if (!is_there(r, step))
         return false;
     say(r, BEHAVIOUR_SCRIPT, REASON_ARRIVED);
@@ -205,58 +208,60 @@ static bool go(const struct reading *r, const struct script_step *step, struct d
 
 /* The frame reaches its time: where it is then was settled in the frames before. */
 static bool arrive(const struct reading *r, const struct script_step *step,
-                   struct desired_motion *wish)
+                   struct desired_motion *desired)
 {
     double seconds = seconds_to(r, step);
     /* The way of this frame is yet to come: it is that much nearer the time, not the place. */
-    wish_point(r, step, timed_speed(r, step, distance_to(r, step), seconds + r->move->dt_s), wish);
+    wish_point(r, step, timed_speed(r, step, distance_to(r, step), seconds + r->context->dt_s),
+               desired);
     if (!is_time(r, seconds) ||
-        (!is_there(r, step) && distance_to(r, step) > wish->speed_mps * r->move->dt_s + THERE_M))
+        (!is_there(r, step) &&
+         distance_to(r, step) > desired->speed_mps * r->context->dt_s + THERE_M))
         return false;
     say(r, BEHAVIOUR_SCRIPT, REASON_ARRIVED);
     return true;
 }
 
 static bool face(const struct reading *r, const struct script_step *step,
-                 struct desired_motion *wish)
+                 struct desired_motion *desired)
 {
-    wish->heading_rad = step->amount;
-    wish->speed_mps = 0.0;
-    return fabs(maths_wrap_half(step->amount - r->move->m->heading[r->i])) < FACED_RAD;
+    desired->heading_rad = step->amount;
+    desired->speed_mps = 0.0;
+    return fabs(maths_wrap_half(step->amount - r->context->m->heading[r->i])) < FACED_RAD;
 }
 
 /* Until its own time, or for so long since it began. */
 static bool wait(const struct reading *r, const struct script_step *step)
 {
-    uint32_t *until = &r->move->m->until_tick[r->i];
+    uint32_t *until = &r->context->m->until_tick[r->i];
     if (step->at_s >= 0.0)
         return is_time(r, seconds_to(r, step) + step->amount);
     if (*until == 0)
         *until = tick_after(r, step->amount);
-    return r->move->tick >= *until;
+    return r->context->tick >= *until;
 }
 
 static bool controls(const struct reading *r, const struct script_step *step,
-                     struct desired_motion *wish)
+                     struct desired_motion *desired)
 {
-    struct entities *m = r->move->m;
+    struct entities *m = r->context->m;
     if (wait(r, step))
         return true;
     m->throttle[r->i] = step->throttle;
     m->steer[r->i] = step->steer;
     m->climb[r->i] = step->climb;
-    driver_controls_motion(r->move, r->i, wish);
+    driver_controls_motion(r->context, r->i, desired);
     return false;
 }
 
 /* Asks for a shot until it has been fired, or could not be for too long. Who has no turret aims
  * with the hull, and turns it there. */
 static bool fire(const struct reading *r, const struct script_step *step,
-                 struct desired_motion *wish)
+                 struct desired_motion *desired)
 {
-    struct entities *m = r->move->m;
-    const struct entities *w = &r->move->committed->entities;
-    uint32_t i = r->i, tick = (uint32_t)r->move->tick, target = step->target_slot;
+    struct entities *m = r->context->m;
+    const struct entities *w = &r->context->committed->entities;
+    uint32_t i = r->i, tick = (uint32_t)r->context->tick, target = step->target_slot;
     bool loaded = tick >= m->reload_tick[i];
     if (r->kind->munition == KIND_NONE || m->rounds[i] == 0 ||
         (m->until_tick[i] != 0 && !loaded)) /* fired: it loads */
@@ -276,23 +281,23 @@ static bool fire(const struct reading *r, const struct script_step *step,
     m->goal_x[i] = step->type == STEP_FIRE ? m->goal_x[i] : step->x;
     m->goal_z[i] = step->type == STEP_FIRE ? m->goal_z[i] : step->z;
     if (!(r->kind->turret_rate_rps > 0.0))
-        wish->heading_rad = step->type == STEP_FIRE
-                                ? maths_heading(w->x[target] - m->x[i], w->z[target] - m->z[i])
-                                : maths_heading(step->x - m->x[i], step->z - m->z[i]);
+        desired->heading_rad = step->type == STEP_FIRE
+                                   ? maths_heading(w->x[target] - m->x[i], w->z[target] - m->z[i])
+                                   : maths_heading(step->x - m->x[i], step->z - m->z[i]);
     return tick >= m->until_tick[i];
 }
 
 static bool climb(const struct reading *r, const struct script_step *step)
 {
-    const struct entities *m = r->move->m;
-    double height = m->y[r->i] - kinematics_ground(r->move, m->x[r->i], m->z[r->i]);
+    const struct entities *m = r->context->m;
+    double height = m->y[r->i] - kinematics_ground(r->context, m->x[r->i], m->z[r->i]);
     return r->kind->domain != DOMAIN_AIR || fabs(height - step->altitude_m) < LEVEL_M;
 }
 
 /* Back to its agent; who withdraws stays at the base. */
 static void order(const struct reading *r, const struct script_step *step)
 {
-    struct entities *m = r->move->m;
+    struct entities *m = r->context->m;
     bool home = step->behaviour == BEHAVIOUR_WITHDRAW;
     m->order[r->i] = (uint8_t)(home ? BEHAVIOUR_IDLE : step->behaviour);
     m->order_arg[r->i] = step->order_arg;
@@ -301,7 +306,7 @@ static void order(const struct reading *r, const struct script_step *step)
     m->goal_x[r->i] = m->x[r->i]; /* reached: its agent chooses the next */
     m->goal_z[r->i] = m->z[r->i];
     if (home) {
-        const struct force_base *base = &r->move->world->params->base[m->force[r->i]];
+        const struct force_base *base = &r->context->world->params->base[m->force[r->i]];
         m->goal_x[r->i] = base->x;
         m->goal_z[r->i] = base->z;
     }
@@ -309,29 +314,29 @@ static void order(const struct reading *r, const struct script_step *step)
 }
 
 /* True when the step is over and the next can begin in the same frame. */
-static bool do_step(const struct reading *r, struct desired_motion *wish)
+static bool do_step(const struct reading *r, struct desired_motion *desired)
 {
     const struct script_step *step = step_of(r);
-    *wish = (struct desired_motion){.heading_rad = r->move->m->heading[r->i],
-                                    .altitude_m = step->altitude_m};
+    *desired = (struct desired_motion){.heading_rad = r->context->m->heading[r->i],
+                                       .altitude_m = step->altitude_m};
     if (step->type != STEP_ARRIVE && step->at_s >= 0.0 && !is_time(r, seconds_to(r, step)))
         return false; /* not yet: it stands and waits */
     switch ((enum step_type)step->type) {
     case STEP_GO:
-        return go(r, step, wish);
+        return go(r, step, desired);
     case STEP_ARRIVE:
-        return arrive(r, step, wish);
+        return arrive(r, step, desired);
     case STEP_FACE:
-        return face(r, step, wish);
+        return face(r, step, desired);
     case STEP_STOP:
         return speed_now(r) <= maths_max(STANDS_MPS, r->kind->min_speed_mps);
     case STEP_WAIT:
         return wait(r, step);
     case STEP_FIRE:
     case STEP_FIRE_AT:
-        return fire(r, step, wish);
+        return fire(r, step, desired);
     case STEP_CONTROLS:
-        return controls(r, step, wish);
+        return controls(r, step, desired);
     case STEP_ALTITUDE:
         return climb(r, step);
     default:
@@ -341,25 +346,26 @@ static bool do_step(const struct reading *r, struct desired_motion *wish)
 }
 
 /* A frame says one arrival at most: who says it goes on in the next. */
-void script_player_wish(const struct step_context *move, uint32_t i, struct desired_motion *wish)
+void script_player_motion(const struct step_context *context, uint32_t i,
+                          struct desired_motion *desired)
 {
-    const struct reading r = read_row(move, i);
+    const struct reading r = read_row(context, i);
     for (int n = 0; n < STEPS_A_FRAME && cut_off(&r); n++)
         continue;
-    for (int n = 0; n < STEPS_A_FRAME && do_step(&r, wish); n++) {
-        if (!go_on(&r) || move->m->trigger[i] != 0)
+    for (int n = 0; n < STEPS_A_FRAME && do_step(&r, desired); n++) {
+        if (!go_on(&r) || context->m->trigger[i] != 0)
             return;
     }
 }
 
-void script_player_again(const struct step_context *move, uint32_t i)
+void script_player_resume(const struct step_context *context, uint32_t i)
 {
-    move->m->until_tick[i] = (uint32_t)move->tick;
+    context->m->until_tick[i] = (uint32_t)context->tick;
 }
 
-uint32_t script_player_minds(const struct step_context *move, uint32_t i)
+uint32_t script_player_percepts(const struct step_context *context, uint32_t i)
 {
-    const struct script *script = &move->world->scripts[move->m->order_arg[i]];
+    const struct script *script = &context->world->scripts[context->m->order_arg[i]];
     return script->reacts ? UINT32_MAX
                           : PERCEPTION_BIT(NO_FUEL) | PERCEPTION_BIT(BUMP) |
                                 PERCEPTION_BIT(TIME_OVER) | PERCEPTION_BIT(LEASE_OVER);

@@ -10,14 +10,15 @@
 
 /* Does the steps whose time has come and wishes for the one at hand. May change the behaviour: at
  * a step that says so, and to idle after the last. */
-void script_player_wish(const struct step_context *move, uint32_t i, struct desired_motion *wish);
+void script_player_motion(const struct step_context *context, uint32_t i,
+                          struct desired_motion *desired);
 
 /* After an interruption it goes on with the step that the clock says; a wait or controls without a
  * time of their own are over. */
-void script_player_again(const struct step_context *move, uint32_t i);
+void script_player_resume(const struct step_context *context, uint32_t i);
 
 /* The percepts that a vehicle under a script minds: all of them if the script reacts, else those
  * that its body cannot help. */
-uint32_t script_player_minds(const struct step_context *move, uint32_t i);
+uint32_t script_player_percepts(const struct step_context *context, uint32_t i);
 
 #endif

@@ -1,8 +1,10 @@
 /* Turns: two passes over a piece, the thinkers and who is about to fire. */
 #include "mover/agent/think_schedule.h"
 
+#include "mover/agent/agent.h"
 #include "mover/agent/attack.h"
 #include "mover/agent/perception.h"
+#include "mover/motion/spin.h"
 
 #include <string.h>
 
@@ -17,17 +19,18 @@ struct think_schedule {
 /* --- who ---------------------------------------------------------------------------------------*/
 
 /* Follows one on a script, which it goes on with when it has to lead. */
-static bool follows_script(const struct step_context *move, uint32_t i)
+static bool follows_script(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m;
-    return m->order[i] == BEHAVIOUR_FOLLOW && m->order_arg[i] < move->world->counts.formations &&
-           agent_at_once((enum behaviour)move->world->formations[m->order_arg[i]].order);
+    const struct entities *m = context->m;
+    return m->order[i] == BEHAVIOUR_FOLLOW && m->order_arg[i] < context->world->counts.formations &&
+           agent_thinks_each_frame(
+               (enum behaviour)context->world->formations[m->order_arg[i]].order);
 }
 
 /* Of a row that was there before this frame. */
-static enum motion motion_of(const struct step_context *move, uint32_t i)
+static enum motion motion_of(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m;
+    const struct entities *m = context->m;
     if (m->state[i] == ENTITY_FREE)
         return MOTION_NONE;
     if (m->state[i] == ENTITY_WRECK)
@@ -36,78 +39,79 @@ static enum motion motion_of(const struct step_context *move, uint32_t i)
         return MOTION_FLIGHT;
     if (m->behaviour[i] == BEHAVIOUR_HOLD)
         return MOTION_HOLD;
-    return agent_at_once((enum behaviour)m->behaviour[i]) ||
-                   agent_at_once((enum behaviour)m->order[i]) || follows_script(move, i)
+    return agent_thinks_each_frame((enum behaviour)m->behaviour[i]) ||
+                   agent_thinks_each_frame((enum behaviour)m->order[i]) ||
+                   follows_script(context, i)
                ? MOTION_ALONE
                : MOTION_AGENT;
 }
 
 /* Commands made rows, or removed some. */
-static bool is_new(const struct step_context *move, uint32_t i)
+static bool is_new(const struct step_context *context, uint32_t i)
 {
-    const struct entities *w = &move->committed->entities;
-    return w->state[i] == ENTITY_FREE || move->m->id[i] != w->id[i];
+    const struct entities *w = &context->committed->entities;
+    return w->state[i] == ENTITY_FREE || context->m->id[i] != w->id[i];
 }
 
-static void sort(const struct step_context *move, const struct row_block *piece, uint8_t *motion,
+static void sort(const struct step_context *context, const struct row_block *block, uint8_t *motion,
                  struct think_schedule *thinkers)
 {
-    const struct entities *m = move->m;
-    const bool news = (piece->changed & COLUMN_BIT(id)) != 0;
-    const bool spins = !piece_lacks(piece, SPIN_COLUMNS);
-    const bool events = !piece_lacks(piece, EVENT_COLUMNS);
+    const struct entities *m = context->m;
+    const bool news = (block->changed & COLUMN_BIT(id)) != 0;
+    const bool spins = !row_block_lacks(block, SPIN_COLUMNS);
+    const bool events = !row_block_lacks(block, EVENT_COLUMNS);
     thinkers->count = 0;
-    for (uint32_t i = piece->first; i < piece->end; i++) {
-        enum motion how = news && is_new(move, i) ? MOTION_NONE : motion_of(move, i);
+    for (uint32_t i = block->first; i < block->end; i++) {
+        enum motion how = news && is_new(context, i) ? MOTION_NONE : motion_of(context, i);
         if (how >= MOTION_HOLD && spins)
-            spin_row(move, i);
+            spin_row(context, i);
         if (how == MOTION_HOLD) { /* it notices nothing */
             m->bumped[i] = 0;
             m->threat_slot[i] = m->threat_id[i] = 0;
         }
         if (how == MOTION_AGENT) {
-            if (step_context_thinks(move, i) || (events && perception_event(move, i)))
+            if (step_context_thinks(context, i) || (events && perception_event(context, i)))
                 thinkers->row[thinkers->count++] = i;
             else
                 how = MOTION_COURSE;
         }
-        motion[i - piece->first] = (uint8_t)how;
+        motion[i - block->first] = (uint8_t)how;
     }
 }
 
 /* --- they think --------------------------------------------------------------------------------*/
 
-static void think(const struct step_context *move, const struct think_schedule *thinkers)
+static void think(const struct step_context *context, const struct think_schedule *thinkers)
 {
     for (uint32_t n = 0; n < thinkers->count; n++) {
-        struct desired_motion wish;
-        agent_think(move, thinkers->row[n], &wish);
+        struct desired_motion desired;
+        agent_think(context, thinkers->row[n], &desired);
     }
 }
 
 /* --- and fire ----------------------------------------------------------------------------------*/
 
-static void aim(const struct step_context *move, const struct row_block *piece,
+static void aim(const struct step_context *context, const struct row_block *block,
                 const uint8_t *motion)
 {
-    const struct entities *m = move->m;
-    uint64_t divisor = neighbour_index_divisor(move->aim);
-    for (uint32_t i = piece->first; i < piece->end; i++) {
-        enum motion how = (enum motion)motion[i - piece->first];
+    const struct entities *m = context->m;
+    uint64_t divisor = neighbour_index_divisor(context->aim_frames);
+    for (uint32_t i = block->first; i < block->end; i++) {
+        enum motion how = (enum motion)motion[i - block->first];
         if ((how == MOTION_COURSE || how == MOTION_AGENT) && m->behaviour[i] == BEHAVIOUR_ATTACK &&
-            neighbour_index_divides(divisor, (uint32_t)move->tick + m->id[i]) &&
-            attack_ready(move, i))
+            neighbour_index_divides(divisor, (uint32_t)context->tick + m->id[i]) &&
+            attack_ready(context, i))
             m->trigger[i] |= TRIGGER_FIRE;
     }
 }
 
-void think_schedule_take(const struct step_context *move, const struct row_block *piece,
-                         uint8_t motion[CHECKSUM_ROWS])
+void think_schedule_run(const struct step_context *context, const struct row_block *block,
+                        uint8_t motion[CHECKSUM_ROWS])
 {
     struct think_schedule thinkers;
-    if (!piece_lacks(piece, COLUMN_BIT(trigger)))
-        memset(move->m->trigger + piece->first, 0, piece->end - piece->first);
-    sort(move, piece, motion, &thinkers);
-    think(move, &thinkers);
-    aim(move, piece, motion);
+    if (!row_block_lacks(block, COLUMN_BIT(trigger)))
+        memset(context->m->trigger + block->first, 0, block->end - block->first);
+    sort(context, block, motion, &thinkers);
+    think(context, &thinkers);
+    aim(context, block, motion);
 }

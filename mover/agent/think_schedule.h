@@ -32,14 +32,14 @@ struct row_block {
     (COLUMN_BIT(turret) | COLUMN_BIT(gun) | COLUMN_BIT(traverse) | COLUMN_BIT(elevate) |           \
      COLUMN_BIT(target_id))
 
-static inline bool piece_lacks(const struct row_block *piece, uint64_t columns)
+static inline bool row_block_lacks(const struct row_block *block, uint64_t columns)
 {
-    return (piece->blank & columns) == columns;
+    return (block->blank & columns) == columns;
 }
 
 /* Sets motion[0 ..] of the piece's rows; turns those that spin, and lets those think whose turn it
  * is or to whom something happened. */
-void think_schedule_take(const struct step_context *move, const struct row_block *piece,
-                         uint8_t motion[CHECKSUM_ROWS]);
+void think_schedule_run(const struct step_context *context, const struct row_block *block,
+                        uint8_t motion[CHECKSUM_ROWS]);
 
 #endif

@@ -2,6 +2,7 @@
  * above the ground ahead of them. */
 #include "mover/motion/aircraft.h"
 
+#include "mover/motion/kinematics.h"
 #include "mover/motion/kinematics_simd.h"
 #include "world/maths/cpu_dispatch.h"
 #include "world/terrain/gridsquare.h"
@@ -14,65 +15,65 @@
 #define BANK_RATE_RPS  1.5
 #define EDGE_M         200.0 /* turns back this far before the world's edge */
 
-void aircraft_begin(struct aircraft *air)
+void aircraft_begin(struct aircraft *batch)
 {
-    memset(air, 0, sizeof *air);
+    memset(batch, 0, sizeof *batch);
     for (int l = 0; l < LANE_COUNT; l++)
-        air->here.patch[l] = air->ahead.patch[l] = &air->idle;
+        batch->here.patch[l] = batch->ahead.patch[l] = &batch->idle;
 }
 
-static void take_kind(struct aircraft *air, int l, const struct kind *kind)
+static void take_kind(struct aircraft *batch, int l, const struct kind *kind)
 {
-    air->full_mps.lane[l] = kind->max_speed_mps;
-    air->least_mps.lane[l] = kind->min_speed_mps;
-    air->acceleration.lane[l] = kind->acceleration_mps2;
-    air->turn_rate.lane[l] = kind->turn_rate_rps;
-    air->climb_rate.lane[l] = kind->climb_rate_mps;
-    air->burn_lps.lane[l] = kind->fuel_lps;
-    air->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
+    batch->full_mps.lane[l] = kind->max_speed_mps;
+    batch->least_mps.lane[l] = kind->min_speed_mps;
+    batch->acceleration.lane[l] = kind->acceleration_mps2;
+    batch->turn_rate.lane[l] = kind->turn_rate_rps;
+    batch->climb_rate.lane[l] = kind->climb_rate_mps;
+    batch->burn_lps.lane[l] = kind->fuel_lps;
+    batch->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
 }
 
-bool aircraft_take(const struct step_context *move, struct aircraft *air, uint32_t i,
-                   const struct desired_motion *wish)
+bool aircraft_take(const struct step_context *context, struct aircraft *batch, uint32_t i,
+                   const struct desired_motion *desired)
 {
-    const struct entities *m = move->m;
-    int l = air->count++;
-    air->row[l] = i;
-    air->here.patch[l] = &move->patches[i];
-    air->ahead.patch[l] = &move->patches_ahead[i];
-    __builtin_prefetch(air->ahead.patch[l]);
-    air->driven.lane[l] = -(int64_t)wish->driven;
-    air->wanted_heading.lane[l] = wish->heading_rad;
-    air->wanted_mps.lane[l] = wish->speed_mps;
-    air->altitude.lane[l] = wish->altitude_m;
-    air->turn.lane[l] = wish->turn;
-    air->climb.lane[l] = wish->climb_mps;
-    air->brake.lane[l] = wish->brake;
-    air->x.lane[l] = m->x[i];
-    air->y.lane[l] = m->y[i];
-    air->z.lane[l] = m->z[i];
-    air->vx.lane[l] = m->vx[i];
-    air->vy.lane[l] = m->vy[i];
-    air->vz.lane[l] = m->vz[i];
-    air->heading.lane[l] = m->heading[i];
-    air->pitch.lane[l] = m->pitch[i];
-    air->roll.lane[l] = m->roll[i];
-    air->fuel.lane[l] = m->fuel_l[i];
-    take_kind(air, l, &move->world->kinds[m->kind[i]]);
-    return air->count == LANE_COUNT;
+    const struct entities *m = context->m;
+    int l = batch->count++;
+    batch->row[l] = i;
+    batch->here.patch[l] = &context->terrain_entries[i];
+    batch->ahead.patch[l] = &context->terrain_entries_ahead[i];
+    __builtin_prefetch(batch->ahead.patch[l]);
+    batch->driven.lane[l] = -(int64_t)desired->driven;
+    batch->wanted_heading.lane[l] = desired->heading_rad;
+    batch->wanted_mps.lane[l] = desired->speed_mps;
+    batch->altitude.lane[l] = desired->altitude_m;
+    batch->turn.lane[l] = desired->turn;
+    batch->climb.lane[l] = desired->climb_mps;
+    batch->brake.lane[l] = desired->brake;
+    batch->x.lane[l] = m->x[i];
+    batch->y.lane[l] = m->y[i];
+    batch->z.lane[l] = m->z[i];
+    batch->vx.lane[l] = m->vx[i];
+    batch->vy.lane[l] = m->vy[i];
+    batch->vz.lane[l] = m->vz[i];
+    batch->heading.lane[l] = m->heading[i];
+    batch->pitch.lane[l] = m->pitch[i];
+    batch->roll.lane[l] = m->roll[i];
+    batch->fuel.lane[l] = m->fuel_l[i];
+    take_kind(batch, l, &context->world->kinds[m->kind[i]]);
+    return batch->count == LANE_COUNT;
 }
 
 /* The higher of the ground here and ahead. */
-static inline void find_highest(const struct step_context *move, struct aircraft *air,
+static inline void find_highest(const struct step_context *context, struct aircraft *batch,
                                 union simd_lanes *highest)
 {
     union simd_lanes x, z, ahead;
     for (int h = 0; h < LANE_FOURS; h++) {
-        x.f64x4[h] = air->x.f64x4[h] + air->vx.f64x4[h] * LOOK_AHEAD_S;
-        z.f64x4[h] = air->z.f64x4[h] + air->vz.f64x4[h] * LOOK_AHEAD_S;
+        x.f64x4[h] = batch->x.f64x4[h] + batch->vx.f64x4[h] * LOOK_AHEAD_S;
+        z.f64x4[h] = batch->z.f64x4[h] + batch->vz.f64x4[h] * LOOK_AHEAD_S;
     }
-    kinematics_ground_lanes(move, &air->here, &air->x, &air->z, highest);
-    kinematics_ground_lanes(move, &air->ahead, &x, &z, &ahead);
+    kinematics_ground_lanes(context, &batch->here, &batch->x, &batch->z, highest);
+    kinematics_ground_lanes(context, &batch->ahead, &x, &z, &ahead);
     for (int h = 0; h < LANE_FOURS; h++)
         highest->f64x4[h] = SIMD_MAX(highest->f64x4[h], ahead.f64x4[h]);
 }
@@ -82,23 +83,23 @@ static inline void find_highest(const struct step_context *move, struct aircraft
 /* Each of these does for the four lanes from 4 h on what its comment says of one aircraft. */
 
 /* Speed and climb that it wants, and gets fuel for; without, it glides down. */
-static inline void want(struct aircraft *air, int h, const f64x4 *ground, double dt_s,
+static inline void want(struct aircraft *batch, int h, const f64x4 *ground, double dt_s,
                         f64x4 *wanted, f64x4 *climb)
 {
     const f64x4 none = SIMD_EVERY(0.0);
-    four_masks driven = air->driven.f64x4[h], dry;
-    f64x4 full = air->full_mps.f64x4[h], most = air->climb_rate.f64x4[h];
+    four_masks driven = batch->driven.f64x4[h], dry;
+    f64x4 full = batch->full_mps.f64x4[h], most = batch->climb_rate.f64x4[h];
     f64x4 least = SIMD_NEGATIVE(most);
-    f64x4 by_agent = SIMD_CLAMP(air->wanted_mps.f64x4[h], air->least_mps.f64x4[h], full);
+    f64x4 by_agent = SIMD_CLAMP(batch->wanted_mps.f64x4[h], batch->least_mps.f64x4[h], full);
     *wanted =
-        SIMD_CHOOSE(driven, air->wanted_mps.f64x4[h], by_agent); /* who hovers goes back too */
-    f64x4 off = (*ground + air->altitude.f64x4[h] - air->y.f64x4[h]) * 0.8;
+        SIMD_CHOOSE(driven, batch->wanted_mps.f64x4[h], by_agent); /* who hovers goes back too */
+    f64x4 off = (*ground + batch->altitude.f64x4[h] - batch->y.f64x4[h]) * 0.8;
     off = SIMD_CLAMP(off, least, most);
-    *climb = SIMD_CHOOSE(driven, air->climb.f64x4[h], off);
+    *climb = SIMD_CHOOSE(driven, batch->climb.f64x4[h], off);
     f64x4 share = SIMD_ABS(*wanted) / SIMD_MAX(full, SIMD_EVERY(1e-9));
     share = SIMD_CLAMP(share, SIMD_EVERY(0.2), SIMD_EVERY(1.0));
-    kinematics_simd_burn(&air->fuel.f64x4[h], &air->burn_lps.f64x4[h], &share, &air->tank.f64x4[h],
-                         dt_s, &dry);
+    kinematics_simd_burn(&batch->fuel.f64x4[h], &batch->burn_lps.f64x4[h], &share,
+                         &batch->tank.f64x4[h], dt_s, &dry);
     *wanted = SIMD_CHOOSE(dry, none, *wanted);
     *climb = SIMD_CHOOSE(dry, least, *climb);
 }
@@ -112,14 +113,14 @@ static inline void advance(f64x4 *metres, f64x4 *speed_mps, double dt_s)
 }
 
 /* There; is it near the edge? */
-static inline void go(struct aircraft *air, int h, double dt_s)
+static inline void go(struct aircraft *batch, int h, double dt_s)
 {
     const f64x4 last = SIMD_EVERY(WORLD_SIDE_M - EDGE_M);
-    advance(&air->x.f64x4[h], &air->vx.f64x4[h], dt_s);
-    advance(&air->z.f64x4[h], &air->vz.f64x4[h], dt_s);
-    air->y.f64x4[h] += air->vy.f64x4[h] * dt_s;
-    air->blocked.f64x4[h] = (air->x.f64x4[h] < EDGE_M) | (air->z.f64x4[h] < EDGE_M) |
-                            (air->x.f64x4[h] > last) | (air->z.f64x4[h] > last);
+    advance(&batch->x.f64x4[h], &batch->vx.f64x4[h], dt_s);
+    advance(&batch->z.f64x4[h], &batch->vz.f64x4[h], dt_s);
+    batch->y.f64x4[h] += batch->vy.f64x4[h] * dt_s;
+    batch->blocked.f64x4[h] = (batch->x.f64x4[h] < EDGE_M) | (batch->z.f64x4[h] < EDGE_M) |
+                              (batch->x.f64x4[h] > last) | (batch->z.f64x4[h] > last);
 }
 
 /* --- lanes -------------------------------------------------------------------------------------*/
@@ -129,80 +130,81 @@ struct lean {
     union simd_lanes turning, weight, rising, level, hover;
 };
 
-static inline void lean(const struct step_context *move, struct aircraft *air,
+static inline void lean(const struct step_context *context, struct aircraft *batch,
                         const struct lean *lean)
 {
     const f64x4 most = SIMD_EVERY(BANK_LIMIT), least = SIMD_EVERY(-BANK_LIMIT);
-    const f64x4 step = SIMD_EVERY(BANK_RATE_RPS * move->dt_s);
+    const f64x4 step = SIMD_EVERY(BANK_RATE_RPS * context->dt_s);
     union simd_lanes bank, nose;
     maths_slopes_lanes(&lean->turning, &lean->weight, &bank);
     maths_slopes_lanes(&lean->rising, &lean->level, &nose);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 to = SIMD_CLAMP(bank.f64x4[h], least, most);
-        kinematics_simd_approach(&air->roll.f64x4[h], &to, &step);
-        to = SIMD_CHOOSE(air->least_mps.f64x4[h] > 0.0, nose.f64x4[h], lean->hover.f64x4[h]);
-        kinematics_simd_approach(&air->pitch.f64x4[h], &to, &step);
+        kinematics_simd_approach(&batch->roll.f64x4[h], &to, &step);
+        to = SIMD_CHOOSE(batch->least_mps.f64x4[h] > 0.0, nose.f64x4[h], lean->hover.f64x4[h]);
+        kinematics_simd_approach(&batch->pitch.f64x4[h], &to, &step);
     }
 }
 
-static void write_rows(const struct step_context *move, const struct aircraft *air)
+static void write_rows(const struct step_context *context, const struct aircraft *batch)
 {
-    struct entities *m = move->m;
-    for (int l = 0; l < air->count; l++) {
-        uint32_t i = air->row[l];
-        m->x[i] = air->x.lane[l];
-        m->y[i] = air->y.lane[l];
-        m->z[i] = air->z.lane[l];
-        m->vx[i] = air->vx.lane[l];
-        m->vy[i] = air->vy.lane[l];
-        m->vz[i] = air->vz.lane[l];
-        m->heading[i] = air->heading.lane[l];
-        m->pitch[i] = air->pitch.lane[l];
-        m->roll[i] = air->roll.lane[l];
-        m->fuel_l[i] = air->fuel.lane[l];
+    struct entities *m = context->m;
+    for (int l = 0; l < batch->count; l++) {
+        uint32_t i = batch->row[l];
+        m->x[i] = batch->x.lane[l];
+        m->y[i] = batch->y.lane[l];
+        m->z[i] = batch->z.lane[l];
+        m->vx[i] = batch->vx.lane[l];
+        m->vy[i] = batch->vy.lane[l];
+        m->vz[i] = batch->vz.lane[l];
+        m->heading[i] = batch->heading.lane[l];
+        m->pitch[i] = batch->pitch.lane[l];
+        m->roll[i] = batch->roll.lane[l];
+        m->fuel_l[i] = batch->fuel.lane[l];
     }
 }
 
 VECTOR_CLONES
-void aircraft_move(const struct step_context *move, struct aircraft *air)
+void aircraft_move(const struct step_context *context, struct aircraft *batch)
 {
     const f64x4 none = SIMD_EVERY(0.0), least = SIMD_EVERY(1e-9), one = SIMD_EVERY(1.0);
-    const f64x4 drag = SIMD_EVERY(SIDE_DRAG_MPS2 * move->dt_s);
+    const f64x4 drag = SIMD_EVERY(SIDE_DRAG_MPS2 * context->dt_s);
     union simd_lanes ground, sine, cosine, forward, rightward, turned;
     struct lean leaning;
-    find_highest(move, air, &ground);
-    maths_sincos_lanes(&air->heading, &sine, &cosine);
+    find_highest(context, batch, &ground);
+    maths_sincos_lanes(&batch->heading, &sine, &cosine);
     for (int h = 0; h < LANE_FOURS; h++) {
-        f64x4 vx = air->vx.f64x4[h], vz = air->vz.f64x4[h], before = air->heading.f64x4[h];
-        struct kinematics_simd_helm helm = {air->wanted_heading.f64x4[h], air->turn.f64x4[h],
-                                            air->driven.f64x4[h]};
+        f64x4 vx = batch->vx.f64x4[h], vz = batch->vz.f64x4[h], before = batch->heading.f64x4[h];
+        struct kinematics_simd_helm helm = {batch->wanted_heading.f64x4[h], batch->turn.f64x4[h],
+                                            batch->driven.f64x4[h]};
         forward.f64x4[h] = vx * sine.f64x4[h] - vz * cosine.f64x4[h];
         rightward.f64x4[h] = vx * cosine.f64x4[h] + vz * sine.f64x4[h];
-        kinematics_simd_steer(&air->heading.f64x4[h], &helm, &air->turn_rate.f64x4[h], move->dt_s);
-        turned.f64x4[h] = air->heading.f64x4[h] - before;
+        kinematics_simd_steer(&batch->heading.f64x4[h], &helm, &batch->turn_rate.f64x4[h],
+                              context->dt_s);
+        turned.f64x4[h] = batch->heading.f64x4[h] - before;
         kinematics_simd_wrap_half(&turned.f64x4[h]);
     }
-    maths_sincos_lanes(&air->heading, &sine, &cosine);
+    maths_sincos_lanes(&batch->heading, &sine, &cosine);
     for (int h = 0; h < LANE_FOURS; h++) {
-        f64x4 wanted, climb, gain = air->acceleration.f64x4[h] * move->dt_s;
+        f64x4 wanted, climb, gain = batch->acceleration.f64x4[h] * context->dt_s;
         f64x4 speed = forward.f64x4[h], before = speed;
-        want(air, h, &ground.f64x4[h], move->dt_s, &wanted, &climb);
-        f64x4 faster = gain * (1.0 + air->brake.f64x4[h]), steeper = 2.0 * gain;
+        want(batch, h, &ground.f64x4[h], context->dt_s, &wanted, &climb);
+        f64x4 faster = gain * (1.0 + batch->brake.f64x4[h]), steeper = 2.0 * gain;
         kinematics_simd_approach(&speed, &wanted, &faster);
         kinematics_simd_approach(&rightward.f64x4[h], &none, &drag);
-        air->vx.f64x4[h] = speed * sine.f64x4[h] + rightward.f64x4[h] * cosine.f64x4[h];
-        air->vz.f64x4[h] =
+        batch->vx.f64x4[h] = speed * sine.f64x4[h] + rightward.f64x4[h] * cosine.f64x4[h];
+        batch->vz.f64x4[h] =
             SIMD_NEGATIVE(speed) * cosine.f64x4[h] + rightward.f64x4[h] * sine.f64x4[h];
-        kinematics_simd_approach(&air->vy.f64x4[h], &climb, &steeper);
-        go(air, h, move->dt_s);
-        f64x4 full = SIMD_MAX(air->full_mps.f64x4[h], least);
-        leaning.turning.f64x4[h] = turned.f64x4[h] / move->dt_s * speed;
+        kinematics_simd_approach(&batch->vy.f64x4[h], &climb, &steeper);
+        go(batch, h, context->dt_s);
+        f64x4 full = SIMD_MAX(batch->full_mps.f64x4[h], least);
+        leaning.turning.f64x4[h] = turned.f64x4[h] / context->dt_s * speed;
         leaning.weight.f64x4[h] = SIMD_EVERY(GRAVITY_MPS2);
-        leaning.rising.f64x4[h] = air->vy.f64x4[h];
+        leaning.rising.f64x4[h] = batch->vy.f64x4[h];
         leaning.level.f64x4[h] = SIMD_MAX(speed, one);
         leaning.hover.f64x4[h] =
             -0.12 * speed / full - 0.1 * (speed - before) / SIMD_MAX(gain, least);
     }
-    lean(move, air, &leaning);
-    write_rows(move, air);
+    lean(context, batch, &leaning);
+    write_rows(context, batch);
 }

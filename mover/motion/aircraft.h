@@ -21,13 +21,13 @@ struct aircraft {
 };
 
 /* Without anybody. */
-void aircraft_begin(struct aircraft *air);
+void aircraft_begin(struct aircraft *batch);
 
 /* Row i, by its wish, takes a lane: true when that was the last. */
-bool aircraft_take(const struct step_context *move, struct aircraft *air, uint32_t i,
-                   const struct desired_motion *wish);
+bool aircraft_take(const struct step_context *context, struct aircraft *batch, uint32_t i,
+                   const struct desired_motion *desired);
 
 /* Moves those who have a lane; their lanes stay taken. */
-void aircraft_move(const struct step_context *move, struct aircraft *air);
+void aircraft_move(const struct step_context *context, struct aircraft *batch);
 
 #endif

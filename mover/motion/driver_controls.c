@@ -1,5 +1,5 @@
 /* Driven vehicles: from the controls that a player or an outside program set to what they ask. */
-#include "mover/context/step_context.h"
+#include "mover/motion/driver_controls.h"
 
 #define REVERSE_SHARE 0.4  /* of full speed, backwards */
 #define LOW_SHARE     0.35 /* of full speed, in low gear */
@@ -34,14 +34,14 @@ static double airspeed(const struct kind *kind, double throttle)
     return kind->max_speed_mps * (throttle < 0.0 ? HOVER_BACK * throttle : throttle);
 }
 
-void driver_controls_motion(const struct step_context *move, uint32_t i,
-                            struct desired_motion *wish)
+void driver_controls_motion(const struct step_context *context, uint32_t i,
+                            struct desired_motion *desired)
 {
-    const struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     double throttle = (double)m->throttle[i], brake = (double)m->brake[i];
     enum gearing gear = entity_gear(m->flags[i]);
-    *wish = (struct desired_motion){
+    *desired = (struct desired_motion){
         .heading_rad = m->heading[i],
         .driven = true,
         .gear = kind->domain == DOMAIN_AIR ? GEAR_AUTOMATIC : gear,
@@ -51,13 +51,13 @@ void driver_controls_motion(const struct step_context *move, uint32_t i,
     };
     /* Whoever brakes means it, whatever the other foot does. */
     if (kind->domain == DOMAIN_AIR)
-        wish->speed_mps = airspeed(kind, throttle * (1.0 - brake));
+        desired->speed_mps = airspeed(kind, throttle * (1.0 - brake));
     else
-        wish->speed_mps = geared(gear, throttle * (1.0 - brake), kind->max_speed_mps,
-                                 kind->domain == DOMAIN_SEA ? ASTERN_SHARE : REVERSE_SHARE);
+        desired->speed_mps = geared(gear, throttle * (1.0 - brake), kind->max_speed_mps,
+                                    kind->domain == DOMAIN_SEA ? ASTERN_SHARE : REVERSE_SHARE);
 }
 
-void driver_controls_let_go(const struct entities *m, uint32_t i)
+void driver_controls_release(const struct entities *m, uint32_t i)
 {
     m->throttle[i] = m->steer[i] = m->climb[i] = 0.0f;
     m->traverse[i] = m->elevate[i] = m->brake[i] = 0.0f;

@@ -2,6 +2,7 @@
  */
 #include "mover/motion/ground_vehicle.h"
 
+#include "mover/motion/kinematics.h"
 #include "mover/motion/kinematics_simd.h"
 #include "mover/query/ground_marks.h"
 #include "world/maths/cpu_dispatch.h"
@@ -18,10 +19,10 @@
 #define ROLLING       0.03 /* of the weight: how it slows in neutral */
 
 /* Share of full speed that what is left of fallen objects here allows; 1 where nothing fell. */
-static double debris_share(const struct step_context *move, double x, double z)
+static double debris_share(const struct step_context *context, double x, double z)
 {
-    const struct world *world = move->world;
-    const struct state *committed = move->committed;
+    const struct world *world = context->world;
+    const struct state *committed = context->committed;
     double share = 1.0;
     const uint32_t *objects;
     uint32_t count = world_reach(world, gridsquare_of(x, z), &objects);
@@ -36,149 +37,150 @@ static double debris_share(const struct step_context *move, double x, double z)
     return share;
 }
 
-void ground_vehicle_begin(struct ground_vehicle *land)
+void ground_vehicle_begin(struct ground_vehicle *batch)
 {
-    memset(land, 0, sizeof *land);
-    ground_pose_begin(&land->stand);
+    memset(batch, 0, sizeof *batch);
+    ground_pose_begin(&batch->pose);
 }
 
-static void find_scars(const struct step_context *move, struct ground_vehicle *land)
+static void find_scars(const struct step_context *context, struct ground_vehicle *batch)
 {
-    const struct ground_pose *stand = &land->stand;
+    const struct ground_pose *pose = &batch->pose;
     union lane_masks debris;
-    ground_marks_find(move->scars, &stand->x, &stand->z, &land->stand.scarred, &debris);
+    ground_marks_find(context->ground_marks, &pose->x, &pose->z, &batch->pose.cratered, &debris);
     for (int l = 0; l < LANE_COUNT; l++)
-        land->debris.lane[l] =
-            debris.lane[l] ? debris_share(move, stand->x.lane[l], stand->z.lane[l]) : 1.0;
+        batch->debris.lane[l] =
+            debris.lane[l] ? debris_share(context, pose->x.lane[l], pose->z.lane[l]) : 1.0;
 }
 
-static void take_kind(struct ground_vehicle *land, int l, const struct kind *kind)
+static void take_kind(struct ground_vehicle *batch, int l, const struct kind *kind)
 {
-    land->full_mps.lane[l] = kind->max_speed_mps;
-    land->acceleration.lane[l] = kind->acceleration_mps2;
-    land->turn_rate.lane[l] = kind->turn_rate_rps;
-    land->max_slope.lane[l] = kind->max_slope_rad;
-    land->half_length.lane[l] = kind->length_m * 0.5;
-    land->burn_lps.lane[l] = kind->fuel_lps;
-    land->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
+    batch->full_mps.lane[l] = kind->max_speed_mps;
+    batch->acceleration.lane[l] = kind->acceleration_mps2;
+    batch->turn_rate.lane[l] = kind->turn_rate_rps;
+    batch->max_slope.lane[l] = kind->max_slope_rad;
+    batch->half_length.lane[l] = kind->length_m * 0.5;
+    batch->burn_lps.lane[l] = kind->fuel_lps;
+    batch->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
 }
 
 /* What does not depend on its wish; the lane. */
-static inline int take_row(const struct step_context *move, struct ground_vehicle *land, uint32_t i)
+static inline int take_row(const struct step_context *context, struct ground_vehicle *batch,
+                           uint32_t i)
 {
-    const struct entities *m = move->m;
-    int l = land->count++;
-    if (ground_pose_take(move, &land->stand, l, i))
-        take_kind(land, l, &move->world->kinds[m->kind[i]]);
-    land->row[l] = i;
-    land->y.lane[l] = m->y[i];
-    land->vx.lane[l] = m->vx[i];
-    land->vz.lane[l] = m->vz[i];
-    land->heading.lane[l] = m->heading[i];
-    land->pitch.lane[l] = m->pitch[i];
-    land->fuel.lane[l] = m->fuel_l[i];
+    const struct entities *m = context->m;
+    int l = batch->count++;
+    if (ground_pose_take(context, &batch->pose, l, i))
+        take_kind(batch, l, &context->world->kinds[m->kind[i]]);
+    batch->row[l] = i;
+    batch->y.lane[l] = m->y[i];
+    batch->vx.lane[l] = m->vx[i];
+    batch->vz.lane[l] = m->vz[i];
+    batch->heading.lane[l] = m->heading[i];
+    batch->pitch.lane[l] = m->pitch[i];
+    batch->fuel.lane[l] = m->fuel_l[i];
     return l;
 }
 
-bool ground_vehicle_take(const struct step_context *move, struct ground_vehicle *land, uint32_t i,
-                         const struct desired_motion *wish)
+bool ground_vehicle_take(const struct step_context *context, struct ground_vehicle *batch,
+                         uint32_t i, const struct desired_motion *desired)
 {
-    int l = take_row(move, land, i);
-    land->held.lane[l] = 0;
-    land->out_of_gear[l] = wish->gear == GEAR_NEUTRAL;
-    land->low_gear.lane[l] = -(int64_t)(wish->gear == GEAR_LOW);
-    land->driven.lane[l] = -(int64_t)wish->driven;
-    land->wanted_heading.lane[l] = wish->heading_rad;
-    land->wanted_mps.lane[l] = wish->speed_mps;
-    land->turn.lane[l] = wish->turn;
-    land->brake.lane[l] = wish->brake;
-    return land->count == LANE_COUNT;
+    int l = take_row(context, batch, i);
+    batch->held.lane[l] = 0;
+    batch->out_of_gear[l] = desired->gear == GEAR_NEUTRAL;
+    batch->low_gear.lane[l] = -(int64_t)(desired->gear == GEAR_LOW);
+    batch->driven.lane[l] = -(int64_t)desired->driven;
+    batch->wanted_heading.lane[l] = desired->heading_rad;
+    batch->wanted_mps.lane[l] = desired->speed_mps;
+    batch->turn.lane[l] = desired->turn;
+    batch->brake.lane[l] = desired->brake;
+    return batch->count == LANE_COUNT;
 }
 
-bool ground_vehicle_take_held(const struct step_context *move, struct ground_vehicle *land,
+bool ground_vehicle_take_held(const struct step_context *context, struct ground_vehicle *batch,
                               uint32_t i)
 {
-    int l = take_row(move, land, i);
-    land->turn.lane[l] = (double)move->m->steer[i];
-    land->wanted_mps.lane[l] = (double)move->m->throttle[i];
-    if (land->held.lane[l] == 0) {
-        land->held.lane[l] = -1;
-        land->out_of_gear[l] = false;
-        land->low_gear.lane[l] = land->driven.lane[l] = 0;
-        land->brake.lane[l] = 0.0;
+    int l = take_row(context, batch, i);
+    batch->turn.lane[l] = (double)context->m->steer[i];
+    batch->wanted_mps.lane[l] = (double)context->m->throttle[i];
+    if (batch->held.lane[l] == 0) {
+        batch->held.lane[l] = -1;
+        batch->out_of_gear[l] = false;
+        batch->low_gear.lane[l] = batch->driven.lane[l] = 0;
+        batch->brake.lane[l] = 0.0;
     }
-    return land->count == LANE_COUNT;
+    return batch->count == LANE_COUNT;
 }
 
 /* --- four at once ------------------------------------------------------------------------------*/
 
 /* Each of these does for the four lanes from 4 h on what its comment says of one vehicle. */
 
-/* Of those who hold their controls, what these ask: agent_hold(). */
-static inline void find_wish(struct ground_vehicle *land, int h, double dt_s)
+/* Of those who hold their controls, what these ask: agent_controls_motion(). */
+static inline void find_wish(struct ground_vehicle *batch, int h, double dt_s)
 {
-    four_masks held = land->held.f64x4[h];
-    f64x4 full = land->full_mps.f64x4[h], most = land->turn_rate.f64x4[h] * dt_s;
-    f64x4 heading = land->heading.f64x4[h] + land->turn.f64x4[h] * most;
-    f64x4 speed = land->wanted_mps.f64x4[h] * full;
-    land->wanted_heading.f64x4[h] = SIMD_CHOOSE(held, heading, land->wanted_heading.f64x4[h]);
-    land->wanted_mps.f64x4[h] = SIMD_CHOOSE(held, speed, land->wanted_mps.f64x4[h]);
+    four_masks held = batch->held.f64x4[h];
+    f64x4 full = batch->full_mps.f64x4[h], most = batch->turn_rate.f64x4[h] * dt_s;
+    f64x4 heading = batch->heading.f64x4[h] + batch->turn.f64x4[h] * most;
+    f64x4 speed = batch->wanted_mps.f64x4[h] * full;
+    batch->wanted_heading.f64x4[h] = SIMD_CHOOSE(held, heading, batch->wanted_heading.f64x4[h]);
+    batch->wanted_mps.f64x4[h] = SIMD_CHOOSE(held, speed, batch->wanted_mps.f64x4[h]);
 }
 
 /* The heading turned as the wish asks: kinematics_steer(). */
-static inline void steer(struct ground_vehicle *land, int h, const f64x4 *forward, double dt_s)
+static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forward, double dt_s)
 {
     f64x4 agility = STANDING_TURN + (1.0 - STANDING_TURN) * SIMD_ABS(*forward) / FULL_TURN_MPS;
     agility = SIMD_CLAMP(agility, SIMD_EVERY(0.0), SIMD_EVERY(1.0));
-    f64x4 rate = land->turn_rate.f64x4[h] * agility;
-    struct kinematics_simd_helm helm = {land->wanted_heading.f64x4[h], land->turn.f64x4[h],
-                                        land->driven.f64x4[h]};
-    kinematics_simd_steer(&land->heading.f64x4[h], &helm, &rate, dt_s);
+    f64x4 rate = batch->turn_rate.f64x4[h] * agility;
+    struct kinematics_simd_helm helm = {batch->wanted_heading.f64x4[h], batch->turn.f64x4[h],
+                                        batch->driven.f64x4[h]};
+    kinematics_simd_steer(&batch->heading.f64x4[h], &helm, &rate, dt_s);
 }
 
 /* The speed that it wants and gets fuel for: kinematics_burn(). */
-static inline void burn(struct ground_vehicle *land, int h, f64x4 *wanted, double dt_s)
+static inline void burn(struct ground_vehicle *batch, int h, f64x4 *wanted, double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), least = SIMD_EVERY(1e-9);
-    f64x4 share = SIMD_ABS(*wanted) / SIMD_MAX(land->full_mps.f64x4[h], least);
+    f64x4 share = SIMD_ABS(*wanted) / SIMD_MAX(batch->full_mps.f64x4[h], least);
     four_masks dry;
-    kinematics_simd_burn(&land->fuel.f64x4[h], &land->burn_lps.f64x4[h], &share,
-                         &land->tank.f64x4[h], dt_s, &dry);
+    kinematics_simd_burn(&batch->fuel.f64x4[h], &batch->burn_lps.f64x4[h], &share,
+                         &batch->tank.f64x4[h], dt_s, &dry);
     *wanted = SIMD_CHOOSE(dry, none, *wanted);
 }
 
 /* Within what slope and debris allow; 0 beyond what the kind climbs, and then it is blocked. */
-static inline void limit(struct ground_vehicle *land, int h, f64x4 *wanted)
+static inline void limit(struct ground_vehicle *batch, int h, f64x4 *wanted)
 {
     const f64x4 none = SIMD_EVERY(0.0);
-    f64x4 full = land->full_mps.f64x4[h], max_slope = land->max_slope.f64x4[h];
-    f64x4 pitch = land->pitch.f64x4[h];
+    f64x4 full = batch->full_mps.f64x4[h], max_slope = batch->max_slope.f64x4[h];
+    f64x4 pitch = batch->pitch.f64x4[h];
     f64x4 climb = SIMD_CHOOSE(*wanted < 0.0, SIMD_NEGATIVE(pitch), pitch);
     f64x4 crawling = full * (1.0 - (1.0 - CRAWL_SHARE) * climb / max_slope);
     crawling = SIMD_CHOOSE(climb >= max_slope, none, crawling);
     f64x4 low = SIMD_CHOOSE(climb < LOW_CLIMB * max_slope, full, none);
-    f64x4 most = SIMD_CHOOSE(land->low_gear.f64x4[h], low, crawling);
+    f64x4 most = SIMD_CHOOSE(batch->low_gear.f64x4[h], low, crawling);
     most = SIMD_CHOOSE(climb <= none, full, most);
-    land->blocked.f64x4[h] = (SIMD_ABS(*wanted) > none) & (most <= none);
-    f64x4 in_debris = land->debris.f64x4[h] * full;
+    batch->blocked.f64x4[h] = (SIMD_ABS(*wanted) > none) & (most <= none);
+    f64x4 in_debris = batch->debris.f64x4[h] * full;
     most = SIMD_MIN(most, in_debris);
     f64x4 least = SIMD_NEGATIVE(most);
     *wanted = SIMD_CLAMP(*wanted, least, most);
 }
 
 /* Speed along the heading a step later, under power: it brakes by kinematics_slowing(). */
-static inline void power(const struct ground_vehicle *land, int h, const f64x4 *wanted,
+static inline void power(const struct ground_vehicle *batch, int h, const f64x4 *wanted,
                          f64x4 *forward, double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), grip = SIMD_EVERY(TYRE_FRICTION * GRAVITY_MPS2);
-    f64x4 wish = land->wanted_mps.f64x4[h], rate = land->acceleration.f64x4[h];
+    f64x4 desired = batch->wanted_mps.f64x4[h], rate = batch->acceleration.f64x4[h];
     four_masks braking = (SIMD_ABS(*wanted) < SIMD_ABS(*forward)) | (*wanted * *forward < none);
-    four_masks held = SIMD_ABS(*wanted) < SIMD_ABS(wish); /* the ground slows it as well */
+    four_masks held = SIMD_ABS(*wanted) < SIMD_ABS(desired); /* the ground slows it as well */
     f64x4 hardest = BRAKES * rate;
     f64x4 drag = SIMD_CHOOSE(held, hardest, ENGINE_DRAG * rate);
     f64x4 rest = hardest - drag;
-    f64x4 slowing = drag + land->brake.f64x4[h] * SIMD_MAX(none, rest);
-    slowing = SIMD_CHOOSE(land->driven.f64x4[h] & ~(wish * *forward < none), slowing, hardest);
+    f64x4 slowing = drag + batch->brake.f64x4[h] * SIMD_MAX(none, rest);
+    slowing = SIMD_CHOOSE(batch->driven.f64x4[h] & ~(desired * *forward < none), slowing, hardest);
     slowing = SIMD_MIN(slowing, grip);
     f64x4 step = SIMD_CHOOSE(braking, slowing, rate) * dt_s;
     kinematics_simd_approach(forward, wanted, &step);
@@ -187,14 +189,14 @@ static inline void power(const struct ground_vehicle *land, int h, const f64x4 *
 /* --- lanes -------------------------------------------------------------------------------------*/
 
 /* And out of gear: the slope pulls, the wheels' own resistance and the brake hold. */
-static double rolling(const struct step_context *move, const struct ground_vehicle *land, int l,
+static double rolling(const struct step_context *context, const struct ground_vehicle *batch, int l,
                       double forward)
 {
-    double pull = -GRAVITY_MPS2 * maths_sin(land->pitch.lane[l]);
+    double pull = -GRAVITY_MPS2 * maths_sin(batch->pitch.lane[l]);
     double hold =
-        ROLLING * GRAVITY_MPS2 + land->brake.lane[l] * (BRAKES * land->acceleration.lane[l]);
-    forward = kinematics_approach(forward + pull * move->dt_s, 0.0, hold * move->dt_s);
-    return maths_clamp(forward, -land->full_mps.lane[l], land->full_mps.lane[l]);
+        ROLLING * GRAVITY_MPS2 + batch->brake.lane[l] * (BRAKES * batch->acceleration.lane[l]);
+    forward = kinematics_approach(forward + pull * context->dt_s, 0.0, hold * context->dt_s);
+    return maths_clamp(forward, -batch->full_mps.lane[l], batch->full_mps.lane[l]);
 }
 
 /* Where it would be a step later, where its nose or its tail, whichever leads. */
@@ -202,20 +204,20 @@ struct ahead {
     union simd_lanes x, z, lead_x, lead_z;
 };
 
-static inline void find_ahead(const struct step_context *move, struct ground_vehicle *land,
+static inline void find_ahead(const struct step_context *context, struct ground_vehicle *batch,
                               const union simd_lanes *forward, union simd_lanes *rightward,
                               struct ahead *ahead)
 {
     const f64x4 none = SIMD_EVERY(0.0);
-    const f64x4 grip = SIMD_EVERY(TYRE_FRICTION * GRAVITY_MPS2 * move->dt_s);
+    const f64x4 grip = SIMD_EVERY(TYRE_FRICTION * GRAVITY_MPS2 * context->dt_s);
     for (int h = 0; h < LANE_FOURS; h++) {
-        f64x4 sine = land->stand.sine.f64x4[h], cosine = land->stand.cosine.f64x4[h];
-        f64x4 speed = forward->f64x4[h], half = land->half_length.f64x4[h];
+        f64x4 sine = batch->pose.sine.f64x4[h], cosine = batch->pose.cosine.f64x4[h];
+        f64x4 speed = forward->f64x4[h], half = batch->half_length.f64x4[h];
         kinematics_simd_approach(&rightward->f64x4[h], &none, &grip);
-        land->vx.f64x4[h] = speed * sine + rightward->f64x4[h] * cosine;
-        land->vz.f64x4[h] = SIMD_NEGATIVE(speed) * cosine + rightward->f64x4[h] * sine;
-        ahead->x.f64x4[h] = land->stand.x.f64x4[h] + land->vx.f64x4[h] * move->dt_s;
-        ahead->z.f64x4[h] = land->stand.z.f64x4[h] + land->vz.f64x4[h] * move->dt_s;
+        batch->vx.f64x4[h] = speed * sine + rightward->f64x4[h] * cosine;
+        batch->vz.f64x4[h] = SIMD_NEGATIVE(speed) * cosine + rightward->f64x4[h] * sine;
+        ahead->x.f64x4[h] = batch->pose.x.f64x4[h] + batch->vx.f64x4[h] * context->dt_s;
+        ahead->z.f64x4[h] = batch->pose.z.f64x4[h] + batch->vz.f64x4[h] * context->dt_s;
         f64x4 lead = SIMD_CHOOSE(speed < none, SIMD_NEGATIVE(half), half);
         ahead->lead_x.f64x4[h] = ahead->x.f64x4[h] + sine * lead;
         ahead->lead_z.f64x4[h] = ahead->z.f64x4[h] - cosine * lead;
@@ -223,85 +225,85 @@ static inline void find_ahead(const struct step_context *move, struct ground_veh
 }
 
 /* Is the point in the world, and no water? */
-static inline void passable(const struct step_context *move, const struct ground_vehicle *land,
+static inline void passable(const struct step_context *context, const struct ground_vehicle *batch,
                             const union simd_lanes *x, const union simd_lanes *z,
                             union lane_masks *pass)
 {
-    terrain_cache_water(&move->world->terrain, &land->stand.ground, x, z, pass);
+    terrain_cache_water(&context->world->terrain, &batch->pose.ground, x, z, pass);
     for (int h = 0; h < LANE_FOURS; h++)
         pass->f64x4[h] = ~pass->f64x4[h] & (x->f64x4[h] >= 0.0) & (z->f64x4[h] >= 0.0) &
                          (x->f64x4[h] <= WORLD_SIDE_M) & (z->f64x4[h] <= WORLD_SIDE_M);
 }
 
 /* There, unless the way is blocked. */
-static inline void go(const struct step_context *move, struct ground_vehicle *land,
+static inline void go(const struct step_context *context, struct ground_vehicle *batch,
                       const struct ahead *ahead)
 {
     const f64x4 none = SIMD_EVERY(0.0);
     union lane_masks pass, lead_pass;
-    terrain_cache_find(&move->world->terrain, &land->stand.ground, &ahead->x, &ahead->z);
-    passable(move, land, &ahead->x, &ahead->z, &pass);
-    passable(move, land, &ahead->lead_x, &ahead->lead_z, &lead_pass);
+    terrain_cache_find(&context->world->terrain, &batch->pose.ground, &ahead->x, &ahead->z);
+    passable(context, batch, &ahead->x, &ahead->z, &pass);
+    passable(context, batch, &ahead->lead_x, &ahead->lead_z, &lead_pass);
     for (int h = 0; h < LANE_FOURS; h++) {
-        f64x4 x = land->stand.x.f64x4[h], z = land->stand.z.f64x4[h];
+        f64x4 x = batch->pose.x.f64x4[h], z = batch->pose.z.f64x4[h];
         four_masks goes = (ahead->x.f64x4[h] != x) | (ahead->z.f64x4[h] != z);
         four_masks stays = goes & ~(pass.f64x4[h] & lead_pass.f64x4[h]);
-        land->blocked.f64x4[h] |= stays;
-        land->stand.x.f64x4[h] = SIMD_CHOOSE(stays, x, ahead->x.f64x4[h]);
-        land->stand.z.f64x4[h] = SIMD_CHOOSE(stays, z, ahead->z.f64x4[h]);
-        land->vx.f64x4[h] = SIMD_CHOOSE(stays, none, land->vx.f64x4[h]);
-        land->vz.f64x4[h] = SIMD_CHOOSE(stays, none, land->vz.f64x4[h]);
+        batch->blocked.f64x4[h] |= stays;
+        batch->pose.x.f64x4[h] = SIMD_CHOOSE(stays, x, ahead->x.f64x4[h]);
+        batch->pose.z.f64x4[h] = SIMD_CHOOSE(stays, z, ahead->z.f64x4[h]);
+        batch->vx.f64x4[h] = SIMD_CHOOSE(stays, none, batch->vx.f64x4[h]);
+        batch->vz.f64x4[h] = SIMD_CHOOSE(stays, none, batch->vz.f64x4[h]);
         /* Beyond this the map of scars says nothing. */
-        f64x4 far = SIMD_ABS(land->stand.x.f64x4[h] - x) + SIMD_ABS(land->stand.z.f64x4[h] - z) +
-                    land->stand.half_length.f64x4[h] + land->stand.half_width.f64x4[h];
-        land->stand.scarred.f64x4[h] |= ~(far < GROUND_MARKS_NEAR_M);
+        f64x4 far = SIMD_ABS(batch->pose.x.f64x4[h] - x) + SIMD_ABS(batch->pose.z.f64x4[h] - z) +
+                    batch->pose.half_length.f64x4[h] + batch->pose.half_width.f64x4[h];
+        batch->pose.cratered.f64x4[h] |= ~(far < GROUND_MARKS_NEAR_M);
     }
 }
 
-static void write_rows(const struct step_context *move, const struct ground_vehicle *land)
+static void write_rows(const struct step_context *context, const struct ground_vehicle *batch)
 {
-    struct entities *m = move->m;
-    for (int l = 0; l < land->count; l++) {
-        uint32_t i = land->row[l];
-        m->x[i] = land->stand.x.lane[l];
-        m->y[i] = land->stand.y.lane[l];
-        m->z[i] = land->stand.z.lane[l];
-        m->vx[i] = land->vx.lane[l];
-        m->vy[i] = (land->stand.y.lane[l] - land->y.lane[l]) / move->dt_s;
-        m->vz[i] = land->vz.lane[l];
-        m->heading[i] = land->heading.lane[l];
-        m->pitch[i] = land->stand.pitch.lane[l];
-        m->roll[i] = land->stand.roll.lane[l];
-        m->fuel_l[i] = land->fuel.lane[l];
+    struct entities *m = context->m;
+    for (int l = 0; l < batch->count; l++) {
+        uint32_t i = batch->row[l];
+        m->x[i] = batch->pose.x.lane[l];
+        m->y[i] = batch->pose.y.lane[l];
+        m->z[i] = batch->pose.z.lane[l];
+        m->vx[i] = batch->vx.lane[l];
+        m->vy[i] = (batch->pose.y.lane[l] - batch->y.lane[l]) / context->dt_s;
+        m->vz[i] = batch->vz.lane[l];
+        m->heading[i] = batch->heading.lane[l];
+        m->pitch[i] = batch->pose.pitch.lane[l];
+        m->roll[i] = batch->pose.roll.lane[l];
+        m->fuel_l[i] = batch->fuel.lane[l];
     }
 }
 
 VECTOR_CLONES
-void ground_vehicle_move(const struct step_context *move, struct ground_vehicle *land)
+void ground_vehicle_move(const struct step_context *context, struct ground_vehicle *batch)
 {
     union simd_lanes sine, cosine, forward, rightward, under_power;
     struct ahead ahead;
-    find_scars(move, land);
-    maths_sincos_lanes(&land->heading, &sine, &cosine);
+    find_scars(context, batch);
+    maths_sincos_lanes(&batch->heading, &sine, &cosine);
     for (int h = 0; h < LANE_FOURS; h++) {
-        find_wish(land, h, move->dt_s);
-        f64x4 wanted = land->wanted_mps.f64x4[h];
-        f64x4 vx = land->vx.f64x4[h], vz = land->vz.f64x4[h];
+        find_wish(batch, h, context->dt_s);
+        f64x4 wanted = batch->wanted_mps.f64x4[h];
+        f64x4 vx = batch->vx.f64x4[h], vz = batch->vz.f64x4[h];
         forward.f64x4[h] = vx * sine.f64x4[h] - vz * cosine.f64x4[h];
         rightward.f64x4[h] = vx * cosine.f64x4[h] + vz * sine.f64x4[h];
-        steer(land, h, &forward.f64x4[h], move->dt_s);
-        burn(land, h, &wanted, move->dt_s);
-        limit(land, h, &wanted);
+        steer(batch, h, &forward.f64x4[h], context->dt_s);
+        burn(batch, h, &wanted, context->dt_s);
+        limit(batch, h, &wanted);
         under_power.f64x4[h] = forward.f64x4[h];
-        power(land, h, &wanted, &under_power.f64x4[h], move->dt_s);
+        power(batch, h, &wanted, &under_power.f64x4[h], context->dt_s);
     }
-    for (int l = 0; l < land->count; l++) {
-        if (land->out_of_gear[l])
-            under_power.lane[l] = rolling(move, land, l, forward.lane[l]);
+    for (int l = 0; l < batch->count; l++) {
+        if (batch->out_of_gear[l])
+            under_power.lane[l] = rolling(context, batch, l, forward.lane[l]);
     }
-    maths_sincos_lanes(&land->heading, &land->stand.sine, &land->stand.cosine);
-    find_ahead(move, land, &under_power, &rightward, &ahead);
-    go(move, land, &ahead);
-    ground_pose_pose(move, &land->stand);
-    write_rows(move, land);
+    maths_sincos_lanes(&batch->heading, &batch->pose.sine, &batch->pose.cosine);
+    find_ahead(context, batch, &under_power, &rightward, &ahead);
+    go(context, batch, &ahead);
+    ground_pose_move(context, &batch->pose);
+    write_rows(context, batch);
 }

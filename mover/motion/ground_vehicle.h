@@ -18,22 +18,22 @@ struct ground_vehicle {
     union lane_masks tank;    /* it has one */
     union simd_lanes debris;  /* share of full speed that what fell here allows */
     union lane_masks blocked; /* what comes out: the way is: water, a slope, the world's edge */
-    struct ground_pose stand; /* with its place */
+    struct ground_pose pose;  /* with its place */
 };
 
 /* Without anybody. */
-void ground_vehicle_begin(struct ground_vehicle *land);
+void ground_vehicle_begin(struct ground_vehicle *batch);
 
 /* Row i, by its wish, takes a lane: true when that was the last. */
-bool ground_vehicle_take(const struct step_context *move, struct ground_vehicle *land, uint32_t i,
-                         const struct desired_motion *wish);
+bool ground_vehicle_take(const struct step_context *context, struct ground_vehicle *batch,
+                         uint32_t i, const struct desired_motion *desired);
 
-/* The same by its controls as its agent set them: what agent_hold() would wish. */
-bool ground_vehicle_take_held(const struct step_context *move, struct ground_vehicle *land,
+/* The same by its controls as its agent set them: what agent_controls_motion() would wish. */
+bool ground_vehicle_take_held(const struct step_context *context, struct ground_vehicle *batch,
                               uint32_t i);
 
 /* Moves those who have a lane; their lanes stay taken, so that the caller can see who is blocked.
  */
-void ground_vehicle_move(const struct step_context *move, struct ground_vehicle *land);
+void ground_vehicle_move(const struct step_context *context, struct ground_vehicle *batch);
 
 #endif

@@ -1,5 +1,5 @@
 /* Parts of motion that the domains share. */
-#include "mover/context/step_context.h"
+#include "mover/motion/kinematics.h"
 
 #include "mover/query/ground_marks.h"
 #include "world/terrain/terrain_cache.h"
@@ -8,27 +8,27 @@
 /* Of a sphere's radius: clear of the ground, well within it. */
 #define AIM_SHARE 0.35
 
-double kinematics_ground(const struct step_context *move, double x, double z)
+double kinematics_ground(const struct step_context *context, double x, double z)
 {
-    return terrain_height(&move->world->terrain, move->craters, x, z);
+    return terrain_height(&context->world->terrain, context->craters, x, z);
 }
 
-void kinematics_ground_lanes(const struct step_context *move, struct terrain_cache *footing,
+void kinematics_ground_lanes(const struct step_context *context, struct terrain_cache *footing,
                              const union simd_lanes *x, const union simd_lanes *z,
                              union simd_lanes *ground)
 {
-    terrain_cache_find(&move->world->terrain, footing, x, z);
-    terrain_cache_heights(&move->world->terrain, footing, x, z, ground);
-    for (int l = 0; move->craters->count > 0 && l < LANE_COUNT; l++) {
-        if (ground_marks_at(move->scars, x->lane[l], z->lane[l]) & GROUND_MARKS_CRATER)
-            ground->lane[l] += crater_offset(move->craters, x->lane[l], z->lane[l]);
+    terrain_cache_find(&context->world->terrain, footing, x, z);
+    terrain_cache_heights(&context->world->terrain, footing, x, z, ground);
+    for (int l = 0; context->craters->count > 0 && l < LANE_COUNT; l++) {
+        if (ground_marks_at(context->ground_marks, x->lane[l], z->lane[l]) & GROUND_MARKS_CRATER)
+            ground->lane[l] += crater_offset(context->craters, x->lane[l], z->lane[l]);
     }
 }
 
-double kinematics_aim_height(const struct step_context *move, uint16_t kind)
+double kinematics_aim_height(const struct step_context *context, uint16_t kind)
 {
-    const struct kind *k = &move->world->kinds[kind];
-    bool hulls = move->world->params->collision.shape == SHAPE_MODEL;
+    const struct kind *k = &context->world->kinds[kind];
+    bool hulls = context->world->params->collision.shape == SHAPE_MODEL;
     return hulls ? 0.5 * (k->low_m + k->high_m) : AIM_SHARE * k->radius_m;
 }
 
@@ -39,23 +39,23 @@ double kinematics_turn(double heading, double wanted, double rate_rps, double dt
     return maths_wrap_turn(heading + maths_clamp(off, -most, most));
 }
 
-void kinematics_steer(const struct step_context *move, uint32_t i,
-                      const struct desired_motion *wish, double rate_rps)
+void kinematics_steer(const struct step_context *context, uint32_t i,
+                      const struct desired_motion *desired, double rate_rps)
 {
-    double *heading = &move->m->heading[i];
-    if (wish->driven)
-        *heading = maths_wrap_turn(*heading + wish->turn * rate_rps * move->dt_s);
+    double *heading = &context->m->heading[i];
+    if (desired->driven)
+        *heading = maths_wrap_turn(*heading + desired->turn * rate_rps * context->dt_s);
     else
-        *heading = kinematics_turn(*heading, wish->heading_rad, rate_rps, move->dt_s);
+        *heading = kinematics_turn(*heading, desired->heading_rad, rate_rps, context->dt_s);
 }
 
-double kinematics_slowing(const struct kind *kind, const struct desired_motion *wish,
+double kinematics_slowing(const struct kind *kind, const struct desired_motion *desired,
                           double forward, double drag_mps2)
 {
     double hardest = BRAKES * kind->acceleration_mps2;
-    if (!wish->driven || wish->speed_mps * forward < 0.0)
+    if (!desired->driven || desired->speed_mps * forward < 0.0)
         return hardest;
-    return drag_mps2 + wish->brake * maths_max(0.0, hardest - drag_mps2);
+    return drag_mps2 + desired->brake * maths_max(0.0, hardest - drag_mps2);
 }
 
 void kinematics_along(const struct entities *m, uint32_t i, double sine, double cosine,
@@ -78,12 +78,12 @@ void kinematics_advance(double *metres, double *speed_mps, double dt_s)
         *speed_mps = 0.0;
 }
 
-bool kinematics_burn(const struct step_context *move, uint32_t i, double share)
+bool kinematics_burn(const struct step_context *context, uint32_t i, double share)
 {
-    struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     if (!(kind->fuel_l > 0.0))
         return true;
-    m->fuel_l[i] = maths_max(0.0, m->fuel_l[i] - kind->fuel_lps * share * move->dt_s);
+    m->fuel_l[i] = maths_max(0.0, m->fuel_l[i] - kind->fuel_lps * share * context->dt_s);
     return m->fuel_l[i] > 0.0;
 }

@@ -1,5 +1,7 @@
 /* Munitions: ballistic under gravity alone, or homing on their target. */
-#include "mover/context/step_context.h"
+#include "mover/motion/projectile.h"
+
+#include "mover/motion/kinematics.h"
 
 #define BOOST_MPS2 300.0 /* a missile's acceleration to full speed */
 #define NAVIGATION                                                                                 \
@@ -48,44 +50,44 @@ static struct vec3 navigated(struct vec3 velocity, struct vec3 to, struct vec3 c
     return vec3_scale(next, 1.0 / maths_max(vec3_length(next), 1e-9));
 }
 
-static void home(const struct step_context *move, uint32_t i, const struct kind *kind)
+static void home(const struct step_context *context, uint32_t i, const struct kind *kind)
 {
-    struct entities *m = move->m;
-    const struct entities *w = &move->committed->entities;
+    struct entities *m = context->m;
+    const struct entities *w = &context->committed->entities;
     uint32_t target = m->target_slot[i];
     struct vec3 velocity = entities_velocity(m, i);
     double speed = vec3_length(velocity);
-    double faster = kinematics_approach(speed, kind->max_speed_mps, BOOST_MPS2 * move->dt_s);
+    double faster = kinematics_approach(speed, kind->max_speed_mps, BOOST_MPS2 * context->dt_s);
     if (speed > 0.0)
         velocity = vec3_scale(velocity, faster / speed);
     if (m->target_id[i] != 0 && entities_alive(w, target, m->target_id[i])) {
         struct vec3 to = vec3_sub(entities_position(w, target), entities_position(m, i));
-        to.y += kinematics_aim_height(move, w->kind[target]);
+        to.y += kinematics_aim_height(context, w->kind[target]);
         if (sees(kind, velocity, to))
             velocity =
                 turned(velocity,
                        navigated(velocity, to, vec3_sub(entities_velocity(w, target), velocity),
-                                 move->dt_s),
-                       kind->turn_rate_rps * move->dt_s);
+                                 context->dt_s),
+                       kind->turn_rate_rps * context->dt_s);
         else /* what left the seeker's cone is lost for good */
             m->target_slot[i] = m->target_id[i] = 0;
     }
     entities_set_velocity(m, i, velocity);
     entities_set_position(m, i,
-                          vec3_add(entities_position(m, i), vec3_scale(velocity, move->dt_s)));
+                          vec3_add(entities_position(m, i), vec3_scale(velocity, context->dt_s)));
 }
 
-void projectile_move(const struct step_context *move, uint32_t i)
+void projectile_move(const struct step_context *context, uint32_t i)
 {
-    struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     if (kind->guidance == GUIDANCE_HOMING) {
-        home(move, i, kind);
+        home(context, i, kind);
     } else { /* exact for constant gravity */
-        m->x[i] += m->vx[i] * move->dt_s;
-        m->y[i] += (m->vy[i] - 0.5 * GRAVITY_MPS2 * move->dt_s) * move->dt_s;
-        m->z[i] += m->vz[i] * move->dt_s;
-        m->vy[i] -= GRAVITY_MPS2 * move->dt_s;
+        m->x[i] += m->vx[i] * context->dt_s;
+        m->y[i] += (m->vy[i] - 0.5 * GRAVITY_MPS2 * context->dt_s) * context->dt_s;
+        m->z[i] += m->vz[i] * context->dt_s;
+        m->vy[i] -= GRAVITY_MPS2 * context->dt_s;
     }
     double level = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
     if (level > 0.0)

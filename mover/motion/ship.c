@@ -1,21 +1,22 @@
 /* Ships: they keep to the water. */
-#include "mover/context/step_context.h"
+#include "mover/motion/ship.h"
 
+#include "mover/motion/kinematics.h"
 #include "world/terrain/gridsquare.h"
 
 #define KEEL_DRAG_MPS2 2.0  /* how hard a sideways slide is braked */
 #define HULL_DRAG      0.35 /* of its acceleration: how it slows when its screws stand still */
 
-static bool navigable(const struct step_context *move, double x, double z)
+static bool navigable(const struct step_context *context, double x, double z)
 {
     return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M &&
-           cover_is_water(terrain_cover(&move->world->terrain, x, z));
+           cover_is_water(terrain_cover(&context->world->terrain, x, z));
 }
 
-bool ship_move(const struct step_context *move, uint32_t i, const struct desired_motion *wish)
+bool ship_move(const struct step_context *context, uint32_t i, const struct desired_motion *desired)
 {
-    struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     double forward, rightward, sine, cosine;
     bool blocked = false;
     maths_sincos(m->heading[i], &sine, &cosine);
@@ -24,25 +25,26 @@ bool ship_move(const struct step_context *move, uint32_t i, const struct desired
 
     /* A rudder bites with the way a ship has. */
     double bite = maths_clamp(fabs(forward) / maths_max(kind->max_speed_mps, 1e-9), 0.15, 1.0);
-    kinematics_steer(move, i, wish, kind->turn_rate_rps * bite);
+    kinematics_steer(context, i, desired, kind->turn_rate_rps * bite);
     if (m->heading[i] != before)
         maths_sincos(m->heading[i], &sine, &cosine);
 
-    double wanted = maths_clamp(wish->speed_mps, -0.5 * kind->max_speed_mps, kind->max_speed_mps);
-    if (!kinematics_burn(move, i, fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9)))
+    double wanted =
+        maths_clamp(desired->speed_mps, -0.5 * kind->max_speed_mps, kind->max_speed_mps);
+    if (!kinematics_burn(context, i, fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9)))
         wanted = 0.0;
     double rate = kind->acceleration_mps2;
-    if (wish->driven && fabs(wanted) < fabs(forward))
-        rate = kinematics_slowing(kind, wish, forward, HULL_DRAG * rate);
-    forward = kinematics_approach(forward, wanted, rate * move->dt_s);
-    rightward = kinematics_approach(rightward, 0.0, KEEL_DRAG_MPS2 * move->dt_s);
+    if (desired->driven && fabs(wanted) < fabs(forward))
+        rate = kinematics_slowing(kind, desired, forward, HULL_DRAG * rate);
+    forward = kinematics_approach(forward, wanted, rate * context->dt_s);
+    rightward = kinematics_approach(rightward, 0.0, KEEL_DRAG_MPS2 * context->dt_s);
 
     double vx = forward * sine + rightward * cosine;
     double vz = -forward * cosine + rightward * sine;
-    double x = m->x[i] + vx * move->dt_s;
-    double z = m->z[i] + vz * move->dt_s;
+    double x = m->x[i] + vx * context->dt_s;
+    double z = m->z[i] + vz * context->dt_s;
     double bow = (forward < 0.0 ? -0.5 : 0.5) * kind->length_m;
-    if (!navigable(move, x + sine * bow, z - cosine * bow)) {
+    if (!navigable(context, x + sine * bow, z - cosine * bow)) {
         blocked = true;
         x = m->x[i];
         z = m->z[i];
@@ -53,7 +55,7 @@ bool ship_move(const struct step_context *move, uint32_t i, const struct desired
     m->vz[i] = vz;
     m->x[i] = x;
     m->z[i] = z;
-    m->y[i] = kinematics_ground(move, x, z); /* water's posts hold the surface */
+    m->y[i] = kinematics_ground(context, x, z); /* water's posts hold the surface */
     m->pitch[i] = 0.0;
     m->roll[i] = 0.0;
     return blocked;

@@ -1,52 +1,56 @@
 /* Turning that collisions gave a body: what stands on something turns about the vertical until its
  * tyres or the water have stopped it, what flies turns about its centre of mass. */
-#include "mover/context/step_context.h"
+#include "mover/motion/spin.h"
 
+#include "mover/motion/kinematics.h"
 #include "world/entity/mass_properties.h"
 
 #define TYRE_SCRUB      0.7 /* of the weight, at a quarter of the length from the middle */
 #define WATER_DRAG_MPS2 2.0 /* the same of a hull in the water */
 #define PILOT_RPS2      1.5 /* how fast a pilot gets his aircraft out of a spin */
 
-static void turn_standing(const struct step_context *move, uint32_t i, const struct kind *kind)
+static void turn_standing(const struct step_context *context, uint32_t i, const struct kind *kind)
 {
-    struct entities *m = move->m;
+    struct entities *m = context->m;
     double drag = kind->domain == DOMAIN_SEA ? WATER_DRAG_MPS2 : TYRE_SCRUB * GRAVITY_MPS2;
     double brake = drag / (0.25 * maths_max(kind->length_m, 1.0));
-    m->heading[i] = maths_wrap_turn(m->heading[i] - m->spin_y[i] * move->dt_s);
+    m->heading[i] = maths_wrap_turn(m->heading[i] - m->spin_y[i] * context->dt_s);
     m->spin_x[i] = m->spin_z[i] = 0.0;
-    m->spin_y[i] = kinematics_approach(m->spin_y[i], 0.0, brake * move->dt_s);
+    m->spin_y[i] = kinematics_approach(m->spin_y[i], 0.0, brake * context->dt_s);
 }
 
-static void turn_flying(const struct step_context *move, uint32_t i, const struct kind *kind)
+static void turn_flying(const struct step_context *context, uint32_t i, const struct kind *kind)
 {
-    struct entities *m = move->m;
+    struct entities *m = context->m;
     const struct mass_properties inertia =
         mass_properties_of(kind); /* its middle is the position */
     struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
     struct quat from = rotation_of(m->heading[i], m->pitch[i], m->roll[i]);
-    struct quat to = rotation_spun(from, spin, move->dt_s);
+    struct quat to = rotation_spun(from, spin, context->dt_s);
     struct mat3 before = rotation_matrix(from), after = rotation_matrix(to);
     rotation_angles(to, &m->heading[i], &m->pitch[i], &m->roll[i]);
     spin = mass_properties_carried(&inertia, &before, spin, &after);
     if (m->state[i] == ENTITY_ACTIVE && m->behaviour[i] != BEHAVIOUR_HOLD) { /* somebody flies it */
         double rate = vec3_length(spin);
-        spin = vec3_scale(spin, maths_max(0.0, rate - PILOT_RPS2 * move->dt_s) / rate);
+        spin = vec3_scale(spin, maths_max(0.0, rate - PILOT_RPS2 * context->dt_s) / rate);
     }
     m->spin_x[i] = spin.x;
     m->spin_y[i] = spin.y;
     m->spin_z[i] = spin.z;
 }
 
-void spin_turn(const struct step_context *move, uint32_t i)
+bool spin_row(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    const struct entities *m = context->m;
+    if (m->spin_x[i] == 0.0 && m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0)
+        return false;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     bool flies =
         kind->domain == DOMAIN_AIR &&
-        (m->state[i] == ENTITY_ACTIVE || m->y[i] > kinematics_ground(move, m->x[i], m->z[i]));
+        (m->state[i] == ENTITY_ACTIVE || m->y[i] > kinematics_ground(context, m->x[i], m->z[i]));
     if (flies)
-        turn_flying(move, i, kind);
+        turn_flying(context, i, kind);
     else
-        turn_standing(move, i, kind);
+        turn_standing(context, i, kind);
+    return true;
 }

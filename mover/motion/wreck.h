@@ -19,13 +19,13 @@ struct wrecks {
 void wrecks_begin(struct wrecks *wrecks);
 
 /* Row i takes a lane: true when that was the last. */
-bool wrecks_take(const struct step_context *move, struct wrecks *wrecks, uint32_t i);
+bool wrecks_take(const struct step_context *context, struct wrecks *wrecks, uint32_t i);
 
 /* Finds the ground under those who have a lane; their lanes stay taken. */
-void wrecks_find_ground(const struct step_context *move, struct wrecks *wrecks);
+void wrecks_find_ground(const struct step_context *context, struct wrecks *wrecks);
 
 /* Moves row i, a wreck over ground of this height. True when it is then to be set on the ground as
- * constant_course_pose() does it: one at rest is not. */
-bool wreck_row(const struct step_context *move, uint32_t i, double ground);
+ * constant_course_set_down() does it: one at rest is not. */
+bool wreck_row(const struct step_context *context, uint32_t i, double ground);
 
 #endif

@@ -10,82 +10,82 @@
 
 #define STRIDE 64u /* bytes of damage compared at once */
 
-int ground_marks_init(struct ground_marks *scars, const struct world *world)
+int ground_marks_init(struct ground_marks *marks, const struct world *world)
 {
-    memset(scars, 0, sizeof *scars);
-    scars->damage = calloc(world->counts.fixed + 1, 1);
-    return scars->damage ? 0 : -1;
+    memset(marks, 0, sizeof *marks);
+    marks->damage = calloc(world->counts.fixed + 1, 1);
+    return marks->damage ? 0 : -1;
 }
 
-void ground_marks_free(struct ground_marks *scars)
+void ground_marks_free(struct ground_marks *marks)
 {
-    free(scars->damage);
-    scars->damage = NULL;
+    free(marks->damage);
+    marks->damage = NULL;
 }
 
-static void mark(struct ground_marks *scars, double x, double z, double reach, uint64_t scar)
+static void mark(struct ground_marks *marks, double x, double z, double reach, uint64_t bits)
 {
     struct gridsquare_box box = gridsquare_box_of(x - reach, z - reach, x + reach, z + reach);
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
             uint32_t bit = gridsquare_index(column, row) * GROUND_MARKS_BITS;
-            scars->square[bit / 64] |= scar << bit % 64;
+            marks->square[bit / 64] |= bits << bit % 64;
         }
     }
-    scars->any = true;
+    marks->any = true;
 }
 
-static void forget(struct ground_marks *scars, const struct world *world)
+static void forget(struct ground_marks *marks, const struct world *world)
 {
-    memset(scars->square, 0, sizeof scars->square);
-    memset(scars->damage, 0, world->counts.fixed);
-    scars->craters = 0;
-    scars->any = false;
+    memset(marks->square, 0, sizeof marks->square);
+    memset(marks->damage, 0, world->counts.fixed);
+    marks->craters = 0;
+    marks->any = false;
 }
 
 /* False when something stands again that had fallen. */
-static bool take_damage(struct ground_marks *scars, const struct world *world,
+static bool take_damage(struct ground_marks *marks, const struct world *world,
                         const uint8_t *damage, uint32_t first, uint32_t end)
 {
     for (uint32_t i = first; i < end; i++) {
         const struct fixed_object *object = &world->fixed[i];
-        if (damage[i] < DAMAGE_HIGH && scars->damage[i] >= DAMAGE_HIGH)
+        if (damage[i] < DAMAGE_HIGH && marks->damage[i] >= DAMAGE_HIGH)
             return false;
-        if (damage[i] >= DAMAGE_HIGH && scars->damage[i] < DAMAGE_HIGH)
-            mark(scars, object->x, object->z, fixed_index_of_fixed(object, world->kinds),
+        if (damage[i] >= DAMAGE_HIGH && marks->damage[i] < DAMAGE_HIGH)
+            mark(marks, object->x, object->z, fixed_index_of_fixed(object, world->kinds),
                  GROUND_MARKS_DEBRIS);
-        scars->damage[i] = damage[i];
+        marks->damage[i] = damage[i];
     }
     return true;
 }
 
-static bool take_in(struct ground_marks *scars, const struct world *world,
+static bool take_in(struct ground_marks *marks, const struct world *world,
                     const struct state *committed)
 {
     uint32_t craters = committed->head->crater_count, fixed = world->counts.fixed;
-    if (craters < scars->craters)
+    if (craters < marks->craters)
         return false;
-    for (; scars->craters < craters; scars->craters++) {
-        const struct crater *crater = &committed->craters[scars->craters];
-        mark(scars, crater->x, crater->z,
+    for (; marks->craters < craters; marks->craters++) {
+        const struct crater *crater = &committed->craters[marks->craters];
+        mark(marks, crater->x, crater->z,
              (double)crater->radius_m * CRATER_RIM + GROUND_MARKS_NEAR_M, GROUND_MARKS_CRATER);
     }
     for (uint32_t i = 0; i < fixed; i += STRIDE) {
         uint32_t count = fixed - i < STRIDE ? fixed - i : STRIDE;
-        if (memcmp(scars->damage + i, committed->fixed_damage + i, count) != 0 &&
-            !take_damage(scars, world, committed->fixed_damage, i, i + count))
+        if (memcmp(marks->damage + i, committed->fixed_damage + i, count) != 0 &&
+            !take_damage(marks, world, committed->fixed_damage, i, i + count))
             return false;
     }
     return true;
 }
 
-void ground_marks_update(struct ground_marks *scars, const struct world *world,
+void ground_marks_update(struct ground_marks *marks, const struct world *world,
                          const struct state *committed)
 {
-    if (take_in(scars, world, committed))
+    if (take_in(marks, world, committed))
         return;
-    forget(scars, world);
-    take_in(scars, world, committed);
+    forget(marks, world);
+    take_in(marks, world, committed);
 }
 
 /* gridsquare_axis() of four. */
@@ -98,7 +98,7 @@ static inline void axes_of(const f64x4 *metres, four_cells *square)
 }
 
 VECTOR_CLONES
-void ground_marks_find(const struct ground_marks *scars, const union simd_lanes *x,
+void ground_marks_find(const struct ground_marks *marks, const union simd_lanes *x,
                        const union simd_lanes *z, union lane_masks *crater,
                        union lane_masks *debris)
 {
@@ -108,8 +108,8 @@ void ground_marks_find(const struct ground_marks *scars, const union simd_lanes 
         axes_of(&z->f64x4[h], &row);
         four_cells bit = (row * GRIDSQUARE_PER_SIDE + column) * (int32_t)GROUND_MARKS_BITS;
         four_masks found = {0, 0, 0, 0};
-        for (int i = 0; scars->any && i < 4; i++)
-            found[i] = (int64_t)(scars->square[bit[i] / 64] >> bit[i] % 64);
+        for (int i = 0; marks->any && i < 4; i++)
+            found[i] = (int64_t)(marks->square[bit[i] / 64] >> bit[i] % 64);
         crater->f64x4[h] = (found & GROUND_MARKS_CRATER) != 0;
         debris->f64x4[h] = (found & GROUND_MARKS_DEBRIS) != 0;
     }

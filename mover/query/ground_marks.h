@@ -25,27 +25,27 @@ struct ground_marks {
 };
 
 /* 0, or -1 with errno ENOMEM. */
-int ground_marks_init(struct ground_marks *scars, const struct world *world);
-void ground_marks_free(struct ground_marks *scars);
+int ground_marks_init(struct ground_marks *marks, const struct world *world);
+void ground_marks_free(struct ground_marks *marks);
 
 /* Takes in what the committed world has more. */
-void ground_marks_update(struct ground_marks *scars, const struct world *world,
+void ground_marks_update(struct ground_marks *marks, const struct world *world,
                          const struct state *committed);
 
-static inline uint8_t ground_marks_of(const struct ground_marks *scars, uint32_t square)
+static inline uint8_t ground_marks_of(const struct ground_marks *marks, uint32_t square)
 {
     uint32_t bit = square * GROUND_MARKS_BITS;
-    return (uint8_t)(scars->square[bit / 64] >> bit % 64 &
+    return (uint8_t)(marks->square[bit / 64] >> bit % 64 &
                      (GROUND_MARKS_DEBRIS | GROUND_MARKS_CRATER));
 }
 
-static inline uint8_t ground_marks_at(const struct ground_marks *scars, double x, double z)
+static inline uint8_t ground_marks_at(const struct ground_marks *marks, double x, double z)
 {
-    return ground_marks_of(scars, gridsquare_of(x, z));
+    return ground_marks_of(marks, gridsquare_of(x, z));
 }
 
 /* Which of eight places have which of them. */
-void ground_marks_find(const struct ground_marks *scars, const union simd_lanes *x,
+void ground_marks_find(const struct ground_marks *marks, const union simd_lanes *x,
                        const union simd_lanes *z, union lane_masks *crater,
                        union lane_masks *debris);
 

@@ -13,7 +13,7 @@
 #define LEAST_M        1.0 /* on the map; whoever is nearer sees */
 
 struct line {
-    const struct line_of_sight *outlook;
+    const struct line_of_sight *sight;
     struct vec3 from, way; /* all of it, for t 0..1 */
     double level;          /* its length on the map */
 };
@@ -46,9 +46,9 @@ static double object_height(const struct world *world, const struct fixed_object
 }
 
 /* Fixed objects by the squares that the boxes of what is seen of them reach into. */
-static int build_reach(struct line_of_sight *outlook)
+static int build_reach(struct line_of_sight *sight)
 {
-    const struct world *world = outlook->world;
+    const struct world *world = sight->world;
     struct kind *kinds = calloc(world->counts.kinds + 1, sizeof *kinds);
     if (!kinds)
         return -1;
@@ -57,24 +57,24 @@ static int build_reach(struct line_of_sight *outlook)
         kinds[k] = world->kinds[k];
         kinds[k].level_m = 0.5 * sqrt(length * length + width * width);
     }
-    int result = fixed_index_build(world->fixed, world->counts.fixed, kinds, &outlook->reach_start,
-                                   &outlook->reach);
+    int result = fixed_index_build(world->fixed, world->counts.fixed, kinds, &sight->reach_start,
+                                   &sight->reach);
     free(kinds);
     return result;
 }
 
-static uint32_t objects_of(const struct line_of_sight *outlook, uint32_t square,
+static uint32_t objects_of(const struct line_of_sight *sight, uint32_t square,
                            const uint32_t **objects)
 {
-    *objects = outlook->reach + outlook->reach_start[square];
-    return outlook->reach_start[square + 1] - outlook->reach_start[square];
+    *objects = sight->reach + sight->reach_start[square];
+    return sight->reach_start[square + 1] - sight->reach_start[square];
 }
 
-static float square_top(const struct line_of_sight *outlook, uint32_t square)
+static float square_top(const struct line_of_sight *sight, uint32_t square)
 {
-    const struct world *world = outlook->world;
+    const struct world *world = sight->world;
     const uint32_t *objects;
-    uint32_t count = objects_of(outlook, square, &objects);
+    uint32_t count = objects_of(sight, square, &objects);
     float top =
         ground_top(&world->terrain, square % GRIDSQUARE_PER_SIDE, square / GRIDSQUARE_PER_SIDE);
     for (uint32_t n = 0; n < count; n++) {
@@ -85,26 +85,26 @@ static float square_top(const struct line_of_sight *outlook, uint32_t square)
     return top;
 }
 
-int line_of_sight_init(struct line_of_sight *outlook, const struct world *world,
+int line_of_sight_init(struct line_of_sight *sight, const struct world *world,
                        const struct crater_index *craters)
 {
-    *outlook = (struct line_of_sight){.world = world, .craters = craters};
-    outlook->top = malloc(GRIDSQUARE_COUNT * sizeof *outlook->top);
-    if (!outlook->top || build_reach(outlook) != 0) {
-        line_of_sight_free(outlook);
+    *sight = (struct line_of_sight){.world = world, .craters = craters};
+    sight->top = malloc(GRIDSQUARE_COUNT * sizeof *sight->top);
+    if (!sight->top || build_reach(sight) != 0) {
+        line_of_sight_free(sight);
         return -1;
     }
     for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++)
-        outlook->top[square] = square_top(outlook, square);
+        sight->top[square] = square_top(sight, square);
     return 0;
 }
 
-void line_of_sight_free(struct line_of_sight *outlook)
+void line_of_sight_free(struct line_of_sight *sight)
 {
-    free(outlook->top);
-    free(outlook->reach_start);
-    free(outlook->reach);
-    *outlook = (struct line_of_sight){0};
+    free(sight->top);
+    free(sight->reach_start);
+    free(sight->reach);
+    *sight = (struct line_of_sight){0};
 }
 
 /* --- the ground --------------------------------------------------------------------------------*/
@@ -116,7 +116,7 @@ static double height_at(const struct line *line, double t)
 
 static bool ground_above(const struct line *line, double t)
 {
-    return terrain_height(&line->outlook->world->terrain, line->outlook->craters,
+    return terrain_height(&line->sight->world->terrain, line->sight->craters,
                           line->from.x + line->way.x * t,
                           line->from.z + line->way.z * t) > height_at(line, t);
 }
@@ -124,7 +124,7 @@ static bool ground_above(const struct line *line, double t)
 /* Is the ground above the line where start + way * t is a whole number of spacings, t0..t1? */
 static bool edges_above(const struct line *line, double start, double way, double t0, double t1)
 {
-    double spacing = line->outlook->world->terrain.spacing_m;
+    double spacing = line->sight->world->terrain.spacing_m;
     double a = (start + way * t0) / spacing, b = (start + way * t1) / spacing;
     int64_t last = (int64_t)floor(maths_max(a, b));
     if (way == 0.0)
@@ -160,7 +160,7 @@ static bool crater_above(const struct line *line, const struct crater *crater, d
 
 static bool ground_hides(const struct line *line, uint32_t square, double t0, double t1)
 {
-    const struct crater_index *craters = line->outlook->craters;
+    const struct crater_index *craters = line->sight->craters;
     const struct vec3 *from = &line->from, *way = &line->way;
     if (ground_above(line, t1) || edges_above(line, from->x, way->x, t0, t1) ||
         edges_above(line, from->z, way->z, t0, t1) ||
@@ -188,7 +188,7 @@ static bool within_side(double start, double way, double half, double *t0, doubl
 
 static bool object_hides(const struct line *line, uint32_t index)
 {
-    const struct world *world = line->outlook->world;
+    const struct world *world = line->sight->world;
     const struct fixed_object *object = &world->fixed[index];
     const struct kind *kind = &world->kinds[object->kind];
     double scale = fixed_scale(object, kind);
@@ -198,8 +198,8 @@ static bool object_hides(const struct line *line, uint32_t index)
     if (across * across > length * length + width * width || kind->object_class == OBJECT_POLE)
         return false;
     double top =
-        (double)object->y + scale * kind->height_m *
-                                line_of_sight_kept((enum damage)line->outlook->fixed_damage[index]);
+        (double)object->y +
+        scale * kind->height_m * line_of_sight_kept((enum damage)line->sight->fixed_damage[index]);
     double sine, cosine, t0 = 0.0, t1 = 1.0;
     maths_sincos(fixed_heading(object), &sine, &cosine);
     if (!within_side(dx * sine - dz * cosine, line->way.x * sine - line->way.z * cosine, length,
@@ -215,7 +215,7 @@ static bool object_hides(const struct line *line, uint32_t index)
 static bool objects_hide(const struct line *line, uint32_t square)
 {
     const uint32_t *objects;
-    uint32_t count = objects_of(line->outlook, square, &objects);
+    uint32_t count = objects_of(line->sight, square, &objects);
     for (uint32_t n = 0; n < count; n++) {
         if (object_hides(line, objects[n]))
             return true;
@@ -229,7 +229,7 @@ static bool square_hides(const struct line *line, int32_t column, int32_t row, d
 {
     uint32_t square = gridsquare_index(column, row);
     double lowest = maths_min(height_at(line, t0), height_at(line, t1));
-    if (lowest > (double)line->outlook->top[square] && line->outlook->craters->head[square] == 0)
+    if (lowest > (double)line->sight->top[square] && line->sight->craters->head[square] == 0)
         return false;
     return ground_hides(line, square, t0, t1) || objects_hide(line, square);
 }
@@ -242,9 +242,9 @@ static double border(double start, double way, int32_t axis)
     return ((double)(way > 0.0 ? axis + 1 : axis) * GRIDSQUARE_SIDE_M - start) / way;
 }
 
-bool line_of_sight_clear(const struct line_of_sight *outlook, struct vec3 from, struct vec3 to)
+bool line_of_sight_clear(const struct line_of_sight *sight, struct vec3 from, struct vec3 to)
 {
-    struct line line = {.outlook = outlook, .from = from, .way = vec3_sub(to, from)};
+    struct line line = {.sight = sight, .from = from, .way = vec3_sub(to, from)};
     int32_t column = gridsquare_axis(from.x), row = gridsquare_axis(from.z);
     double t = 0.0;
     line.level = sqrt(line.way.x * line.way.x + line.way.z * line.way.z);

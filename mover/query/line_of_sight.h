@@ -20,14 +20,14 @@ struct line_of_sight {
 };
 
 /* 0, or -1 with errno ENOMEM. */
-int line_of_sight_init(struct line_of_sight *outlook, const struct world *world,
+int line_of_sight_init(struct line_of_sight *sight, const struct world *world,
                        const struct crater_index *craters);
-void line_of_sight_free(struct line_of_sight *outlook);
+void line_of_sight_free(struct line_of_sight *sight);
 
 /* Is nothing between two points [m, world]? The ground hides whatever is below it; a fixed object
  * hides as a box of its kind's length, width and height, turned and sized as it stands, lower the
  * more it is damaged. Poles hide nothing, nor does what an end of the line stands in or under. */
-bool line_of_sight_clear(const struct line_of_sight *outlook, struct vec3 from, struct vec3 to);
+bool line_of_sight_clear(const struct line_of_sight *sight, struct vec3 from, struct vec3 to);
 
 /* Share of its height that a fixed object keeps. */
 double line_of_sight_kept(enum damage damage);

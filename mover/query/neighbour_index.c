@@ -16,12 +16,12 @@
 #define FEW_ROWS  4096u
 #define MORE_ROWS 131072u
 
-#define PIECE_ROWS 2048u /* of a piece: they fit a second-level cache */
+#define BLOCK_ROWS 2048u /* of a piece: they fit a second-level cache */
 #define HUGE_PAGE  (UINT64_C(2) << 20)
 
-static uint32_t pieces_of(uint32_t rows)
+static uint32_t blocks_of(uint32_t rows)
 {
-    return (rows + PIECE_ROWS - 1) / PIECE_ROWS;
+    return (rows + BLOCK_ROWS - 1) / BLOCK_ROWS;
 }
 
 /* Walks come to any part of it at any time: in large pages, where there are, it costs fewer misses
@@ -37,67 +37,67 @@ static void *large(size_t bytes)
     return memory;
 }
 
-int neighbour_index_init(struct neighbour_index *near, uint32_t capacity)
+int neighbour_index_init(struct neighbour_index *index, uint32_t capacity)
 {
-    *near = (struct neighbour_index){.capacity = capacity};
-    near->start = calloc(NEIGHBOUR_INDEX_LAYERS * SIDE_MANY * SIDE_MANY + 1, sizeof *near->start);
-    near->entries = large(capacity * sizeof *near->entries);
-    near->sorted = malloc(capacity * sizeof *near->sorted);
-    near->slot = malloc(capacity * sizeof *near->slot);
-    near->first = calloc(pieces_of(capacity) * (SIDE_MANY + 1), sizeof *near->first);
-    near->band = calloc(SIDE_MANY + 1, sizeof *near->band);
-    near->layers = calloc(SIDE_MANY, sizeof *near->layers);
-    if (near->start && near->entries && near->sorted && near->slot && near->first && near->band &&
-        near->layers)
+    *index = (struct neighbour_index){.capacity = capacity};
+    index->start = calloc(NEIGHBOUR_INDEX_LAYERS * SIDE_MANY * SIDE_MANY + 1, sizeof *index->start);
+    index->entries = large(capacity * sizeof *index->entries);
+    index->sorted = malloc(capacity * sizeof *index->sorted);
+    index->slot = malloc(capacity * sizeof *index->slot);
+    index->first = calloc(blocks_of(capacity) * (SIDE_MANY + 1), sizeof *index->first);
+    index->band = calloc(SIDE_MANY + 1, sizeof *index->band);
+    index->layers = calloc(SIDE_MANY, sizeof *index->layers);
+    if (index->start && index->entries && index->sorted && index->slot && index->first &&
+        index->band && index->layers)
         return 0;
-    neighbour_index_free(near);
+    neighbour_index_free(index);
     return -1;
 }
 
-void neighbour_index_free(struct neighbour_index *near)
+void neighbour_index_free(struct neighbour_index *index)
 {
-    free(near->start);
-    free(near->entries);
-    free(near->sorted);
-    free(near->slot);
-    free(near->first);
-    free(near->band);
-    free(near->layers);
-    *near = (struct neighbour_index){0};
+    free(index->start);
+    free(index->entries);
+    free(index->sorted);
+    free(index->slot);
+    free(index->first);
+    free(index->band);
+    free(index->layers);
+    *index = (struct neighbour_index){0};
 }
 
-static int32_t cell_axis(const struct neighbour_index *near, double metres)
+static int32_t cell_axis(const struct neighbour_index *index, double metres)
 {
-    double cells = metres * near->cells_per_m;
+    double cells = metres * index->cells_per_m;
     if (!(cells > 0.0))
         return 0;
-    return cells >= (double)near->side ? (int32_t)near->side - 1 : (int32_t)cells;
+    return cells >= (double)index->side ? (int32_t)index->side - 1 : (int32_t)cells;
 }
 
 /* --- rows by rows of cells ---------------------------------------------------------------------*/
 
 /* Which row of cells a row belongs to; side: to none. */
-static uint32_t band_of(const struct neighbour_index *near, const struct entities *w, uint32_t i)
+static uint32_t band_of(const struct neighbour_index *index, const struct entities *w, uint32_t i)
 {
     if (w->state[i] == ENTITY_FREE || w->behaviour[i] == BEHAVIOUR_FLIGHT)
-        return near->side;
+        return index->side;
     /* By the position as the entry has it, so that a walk's box holds it. */
-    return (uint32_t)cell_axis(near, (double)(float)w->z[i]);
+    return (uint32_t)cell_axis(index, (double)(float)w->z[i]);
 }
 
-static uint16_t slot_of(const struct neighbour_index *near, const struct entities *w, uint32_t i)
+static uint16_t slot_of(const struct neighbour_index *index, const struct entities *w, uint32_t i)
 {
     uint32_t layer = w->force[i] < FORCE_COUNT ? w->force[i] : FORCE_NEUTRAL;
     if (w->state[i] == ENTITY_WRECK)
         layer = NEIGHBOUR_INDEX_WRECKS;
-    return (uint16_t)((uint32_t)cell_axis(near, (double)(float)w->x[i]) * NEIGHBOUR_INDEX_LAYERS +
+    return (uint16_t)((uint32_t)cell_axis(index, (double)(float)w->x[i]) * NEIGHBOUR_INDEX_LAYERS +
                       layer);
 }
 
-static struct neighbour_index_entry entry_of(const struct neighbour_index *near,
+static struct neighbour_index_entry entry_of(const struct neighbour_index *index,
                                              const struct entities *w, uint32_t i)
 {
-    bool due = neighbour_index_divides(near->thoughts, near->tick + w->id[i]) &&
+    bool due = neighbour_index_divides(index->think_divisor, index->tick + w->id[i]) &&
                w->state[i] == ENTITY_ACTIVE;
     return (struct neighbour_index_entry){.x = (float)w->x[i],
                                           .z = (float)w->z[i],
@@ -109,61 +109,61 @@ static struct neighbour_index_entry entry_of(const struct neighbour_index *near,
                                           .due = due};
 }
 
-static void sort_piece(struct neighbour_index *near, uint32_t piece)
+static void sort_block(struct neighbour_index *index, uint32_t block)
 {
-    const struct entities *w = near->committed;
-    uint32_t begin = piece * PIECE_ROWS;
-    uint32_t end = begin + PIECE_ROWS < near->used ? begin + PIECE_ROWS : near->used;
-    uint32_t *first = near->first + piece * (SIDE_MANY + 1), next[SIDE_MANY + 2] = {0};
-    uint16_t band[PIECE_ROWS];
+    const struct entities *w = index->committed;
+    uint32_t begin = block * BLOCK_ROWS;
+    uint32_t end = begin + BLOCK_ROWS < index->used ? begin + BLOCK_ROWS : index->used;
+    uint32_t *first = index->first + block * (SIDE_MANY + 1), next[SIDE_MANY + 2] = {0};
+    uint16_t band[BLOCK_ROWS];
     for (uint32_t i = begin; i < end; i++) {
-        band[i - begin] = (uint16_t)band_of(near, w, i);
+        band[i - begin] = (uint16_t)band_of(index, w, i);
         next[band[i - begin] + 1]++;
     }
-    for (uint32_t b = 0; b <= near->side; b++) {
+    for (uint32_t b = 0; b <= index->side; b++) {
         first[b] = begin + next[b];
         next[b + 1] += next[b];
     }
     for (uint32_t i = begin; i < end; i++) {
-        if (band[i - begin] == near->side)
+        if (band[i - begin] == index->side)
             continue;
         uint32_t at = begin + next[band[i - begin]]++;
-        near->sorted[at] = entry_of(near, w, i);
-        near->slot[at] = slot_of(near, w, i);
+        index->sorted[at] = entry_of(index, w, i);
+        index->slot[at] = slot_of(index, w, i);
     }
 }
 
-static void sort_pieces(void *context, uint32_t begin, uint32_t end, uint32_t worker)
+static void sort_blocks(void *context, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
-    for (uint32_t piece = begin; piece < end; piece++)
-        sort_piece(context, piece);
+    for (uint32_t block = begin; block < end; block++)
+        sort_block(context, block);
 }
 
 /* --- a row of cells ----------------------------------------------------------------------------*/
 
-static void fill_band(struct neighbour_index *near, uint32_t band)
+static void fill_band(struct neighbour_index *index, uint32_t band)
 {
-    uint32_t slots = near->side * NEIGHBOUR_INDEX_LAYERS, pieces = pieces_of(near->used),
+    uint32_t slots = index->side * NEIGHBOUR_INDEX_LAYERS, blocks = blocks_of(index->used),
              layers = 0;
     uint32_t next[SIDE_MANY * NEIGHBOUR_INDEX_LAYERS + 1] = {0};
-    uint32_t *start = near->start + band * slots;
-    for (uint32_t p = 0; p < pieces; p++) {
-        const uint32_t *first = near->first + p * (SIDE_MANY + 1) + band;
+    uint32_t *start = index->start + band * slots;
+    for (uint32_t p = 0; p < blocks; p++) {
+        const uint32_t *first = index->first + p * (SIDE_MANY + 1) + band;
         for (uint32_t n = first[0]; n < first[1]; n++)
-            next[near->slot[n] + 1u]++;
+            next[index->slot[n] + 1u]++;
     }
-    next[0] = near->band[band];
+    next[0] = index->band[band];
     for (uint32_t s = 0; s < slots; s++) {
         start[s] = next[s];
         layers |= (next[s + 1] > 0 ? 1u : 0u) << s % NEIGHBOUR_INDEX_LAYERS;
         next[s + 1] += next[s];
     }
-    near->layers[band] = layers;
-    for (uint32_t p = 0; p < pieces; p++) {
-        const uint32_t *first = near->first + p * (SIDE_MANY + 1) + band;
+    index->layers[band] = layers;
+    for (uint32_t p = 0; p < blocks; p++) {
+        const uint32_t *first = index->first + p * (SIDE_MANY + 1) + band;
         for (uint32_t n = first[0]; n < first[1]; n++)
-            near->entries[next[near->slot[n]]++] = near->sorted[n];
+            index->entries[next[index->slot[n]]++] = index->sorted[n];
     }
 }
 
@@ -174,88 +174,88 @@ static void fill_bands(void *context, uint32_t begin, uint32_t end, uint32_t wor
         fill_band(context, band);
 }
 
-void neighbour_index_build(struct neighbour_index *near, const struct entities *committed,
-                           uint32_t used, uint32_t tick, uint32_t think,
+void neighbour_index_build(struct neighbour_index *index, const struct entities *committed,
+                           uint32_t used, uint32_t tick, uint32_t think_frames,
                            struct thread_pool *workers)
 {
-    near->side = used <= FEW_ROWS ? SIDE_FEW : used <= MORE_ROWS ? SIDE_MORE : SIDE_MANY;
-    near->cells_per_m = (double)near->side / WORLD_SIDE_M;
-    near->committed = committed;
-    near->used = used;
-    near->tick = tick;
-    near->thoughts = neighbour_index_divisor(think);
-    near->present = 0;
-    thread_pool_run(workers, sort_pieces, near, pieces_of(used), 1);
-    memset(near->band, 0, (SIDE_MANY + 1) * sizeof *near->band);
-    for (uint32_t p = 0; p < pieces_of(used); p++) {
-        const uint32_t *first = near->first + p * (SIDE_MANY + 1);
-        for (uint32_t b = 0; b < near->side; b++)
-            near->band[b + 1] += first[b + 1] - first[b];
+    index->side = used <= FEW_ROWS ? SIDE_FEW : used <= MORE_ROWS ? SIDE_MORE : SIDE_MANY;
+    index->cells_per_m = (double)index->side / WORLD_SIDE_M;
+    index->committed = committed;
+    index->used = used;
+    index->tick = tick;
+    index->think_divisor = neighbour_index_divisor(think_frames);
+    index->present = 0;
+    thread_pool_run(workers, sort_blocks, index, blocks_of(used), 1);
+    memset(index->band, 0, (SIDE_MANY + 1) * sizeof *index->band);
+    for (uint32_t p = 0; p < blocks_of(used); p++) {
+        const uint32_t *first = index->first + p * (SIDE_MANY + 1);
+        for (uint32_t b = 0; b < index->side; b++)
+            index->band[b + 1] += first[b + 1] - first[b];
     }
-    for (uint32_t b = 0; b < near->side; b++)
-        near->band[b + 1] += near->band[b];
-    thread_pool_run(workers, fill_bands, near, near->side, 1);
-    near->start[near->side * near->side * NEIGHBOUR_INDEX_LAYERS] = near->band[near->side];
-    for (uint32_t b = 0; b < near->side; b++)
-        near->present |= near->layers[b];
+    for (uint32_t b = 0; b < index->side; b++)
+        index->band[b + 1] += index->band[b];
+    thread_pool_run(workers, fill_bands, index, index->side, 1);
+    index->start[index->side * index->side * NEIGHBOUR_INDEX_LAYERS] = index->band[index->side];
+    for (uint32_t b = 0; b < index->side; b++)
+        index->present |= index->layers[b];
 }
 
 /* --- walks -------------------------------------------------------------------------------------*/
 
-struct neighbour_query neighbour_index_begin(const struct neighbour_index *near, uint32_t layers,
+struct neighbour_query neighbour_query_begin(const struct neighbour_index *index, uint32_t layers,
                                              double x, double z, double radius_m)
 {
-    struct neighbour_query walk = {
-        .near = near,
+    struct neighbour_query query = {
+        .index = index,
         .x = x,
         .z = z,
         .square = radius_m * radius_m,
-        .x0 = cell_axis(near, x - radius_m),
-        .x1 = cell_axis(near, x + radius_m),
-        .z0 = cell_axis(near, z - radius_m),
-        .z1 = cell_axis(near, z + radius_m),
-        .left = layers & near->present,
+        .x0 = cell_axis(index, x - radius_m),
+        .x1 = cell_axis(index, x + radius_m),
+        .z0 = cell_axis(index, z - radius_m),
+        .z1 = cell_axis(index, z + radius_m),
+        .left = layers & index->present,
     };
-    walk.row = walk.z1 + 1;
-    walk.column = walk.x0;
-    if (walk.left == near->present && walk.left != 0) { /* it need not tell them apart */
-        walk.all = true;
-        walk.left = 0;
-        walk.row = walk.z0;
+    query.row = query.z1 + 1;
+    query.column = query.x0;
+    if (query.left == index->present && query.left != 0) { /* it need not tell them apart */
+        query.all = true;
+        query.left = 0;
+        query.row = query.z0;
     }
-    return walk;
+    return query;
 }
 
 /* The lowest of the layers that are left, and those that follow it without a gap. */
-static bool next_layers(struct neighbour_query *walk)
+static bool next_layers(struct neighbour_query *query)
 {
-    if (walk->left == 0)
+    if (query->left == 0)
         return false;
-    walk->low = (uint32_t)__builtin_ctz(walk->left);
-    walk->high = walk->low + (uint32_t)__builtin_ctz(~(walk->left >> walk->low));
-    walk->left &= ~((1u << walk->high) - 1u);
-    walk->row = walk->z0;
+    query->low = (uint32_t)__builtin_ctz(query->left);
+    query->high = query->low + (uint32_t)__builtin_ctz(~(query->left >> query->low));
+    query->left &= ~((1u << query->high) - 1u);
+    query->row = query->z0;
     return true;
 }
 
-bool neighbour_index_turn(struct neighbour_query *walk)
+bool neighbour_query_next_span(struct neighbour_query *query)
 {
-    const struct neighbour_index *near = walk->near;
+    const struct neighbour_index *index = query->index;
     do {
-        for (; walk->row <= walk->z1; walk->row++, walk->column = walk->x0) {
-            uint32_t first = (uint32_t)walk->row * near->side;
-            while (walk->column <= walk->x1) {
+        for (; query->row <= query->z1; query->row++, query->column = query->x0) {
+            uint32_t first = (uint32_t)query->row * index->side;
+            while (query->column <= query->x1) {
                 const uint32_t *cell =
-                    near->start + (first + (uint32_t)walk->column) * NEIGHBOUR_INDEX_LAYERS;
-                uint32_t cells = walk->all ? (uint32_t)(walk->x1 - walk->x0) + 1 : 1;
-                walk->column += (int32_t)cells;
-                walk->at = near->entries + cell[walk->all ? 0 : walk->low];
-                walk->end = near->entries +
-                            (walk->all ? cell[cells * NEIGHBOUR_INDEX_LAYERS] : cell[walk->high]);
-                if (walk->at < walk->end)
+                    index->start + (first + (uint32_t)query->column) * NEIGHBOUR_INDEX_LAYERS;
+                uint32_t cells = query->all ? (uint32_t)(query->x1 - query->x0) + 1 : 1;
+                query->column += (int32_t)cells;
+                query->at = index->entries + cell[query->all ? 0 : query->low];
+                query->end = index->entries + (query->all ? cell[cells * NEIGHBOUR_INDEX_LAYERS]
+                                                          : cell[query->high]);
+                if (query->at < query->end)
                     return true;
             }
         }
-    } while (next_layers(walk));
+    } while (next_layers(query));
     return false;
 }

@@ -3,7 +3,7 @@
  * Built anew each frame by a counting sort into square cells of the map: cell by cell, and within a
  * cell first the living by force, then the wrecks, so that looking for enemies passes over nobody
  * else and looking at everybody reads on and on. Of one sort in one cell rows ascend. The order in
- * which neighbour_index_next() gives them follows from the world alone: not from the number of
+ * which neighbour_query_next() gives them follows from the world alone: not from the number of
  * threads, nor from what was asked before. Read by all threads at once. */
 #ifndef JOLON_MOVER_QUERY_NEIGHBOUR_INDEX_H
 #define JOLON_MOVER_QUERY_NEIGHBOUR_INDEX_H
@@ -15,11 +15,11 @@
 #include <stdint.h>
 
 /* A layer for the living of each force, and one for all wrecks. Munitions are in none. */
-#define NEIGHBOUR_INDEX_WRECKS     FORCE_COUNT
-#define NEIGHBOUR_INDEX_LAYERS     (FORCE_COUNT + 1)
-#define NEIGHBOUR_INDEX_LAYER(n)   (1u << (n))
-#define NEIGHBOUR_INDEX_THE_LIVING (NEIGHBOUR_INDEX_LAYER(FORCE_COUNT) - 1u)
-#define NEIGHBOUR_INDEX_ALL        (NEIGHBOUR_INDEX_LAYER(NEIGHBOUR_INDEX_LAYERS) - 1u)
+#define NEIGHBOUR_INDEX_WRECKS   FORCE_COUNT
+#define NEIGHBOUR_INDEX_LAYERS   (FORCE_COUNT + 1)
+#define NEIGHBOUR_INDEX_LAYER(n) (1u << (n))
+#define NEIGHBOUR_INDEX_LIVING   (NEIGHBOUR_INDEX_LAYER(FORCE_COUNT) - 1u)
+#define NEIGHBOUR_INDEX_ALL      (NEIGHBOUR_INDEX_LAYER(NEIGHBOUR_INDEX_LAYERS) - 1u)
 
 #define NEIGHBOUR_INDEX_KINDS 0x7ffu
 struct neighbour_index_entry {
@@ -56,7 +56,7 @@ struct neighbour_index {
     /* While it is built: each piece of rows for itself by rows of cells, then each row of cells. */
     const struct entities *committed;
     uint32_t used, tick;
-    uint64_t thoughts;                    /* neighbour_index_divisor() of a thought's frames */
+    uint64_t think_divisor;               /* neighbour_index_divisor() of a thought's frames */
     struct neighbour_index_entry *sorted; /* [capacity] */
     uint16_t *slot;   /* [capacity] of sorted: column and layer within a row of cells */
     uint32_t *first;  /* [pieces][side + 1] into a piece's part of sorted */
@@ -65,13 +65,13 @@ struct neighbour_index {
 };
 
 /* For tables of up to capacity rows. 0, or -1 with errno ENOMEM. */
-int neighbour_index_init(struct neighbour_index *near, uint32_t capacity);
-void neighbour_index_free(struct neighbour_index *near);
+int neighbour_index_init(struct neighbour_index *index, uint32_t capacity);
+void neighbour_index_free(struct neighbour_index *index);
 
 /* Indexes rows 0 .. used - 1: active vehicles by force, wrecks; those are due whose id and tick add
  * up to a whole number of thoughts. workers may be NULL. */
-void neighbour_index_build(struct neighbour_index *near, const struct entities *committed,
-                           uint32_t used, uint32_t tick, uint32_t think,
+void neighbour_index_build(struct neighbour_index *index, const struct entities *committed,
+                           uint32_t used, uint32_t tick, uint32_t think_frames,
                            struct thread_pool *workers);
 
 /* The layers of a force's enemies; neither has the neutral any nor is it one. */
@@ -85,12 +85,12 @@ static inline uint32_t neighbour_index_enemies(enum force force)
 /* A walk over all vehicles of some layers within radius_m of (x, z), on the map; the one that asks
  * is met too, where its layer is asked for:
  *
- *     struct neighbour_query walk = neighbour_index_begin(near, NEIGHBOUR_INDEX_ALL, x, z, 50.0);
- *     while ((entry = neighbour_index_next(&walk)))
+ *     struct neighbour_query walk = neighbour_query_begin(near, NEIGHBOUR_INDEX_ALL, x, z, 50.0);
+ *     while ((entry = neighbour_query_next(&walk)))
  *         ... entry->row ...
  */
 struct neighbour_query {
-    const struct neighbour_index *near;
+    const struct neighbour_index *index;
     const struct neighbour_index_entry *at, *end; /* of the present span */
     double x, z, square;                          /* radius squared */
     int32_t x0, x1, z0, z1;                       /* cells, inclusive */
@@ -99,7 +99,7 @@ struct neighbour_query {
     uint32_t low, high, left;                     /* left: layers that come after them */
 };
 
-struct neighbour_query neighbour_index_begin(const struct neighbour_index *near, uint32_t layers,
+struct neighbour_query neighbour_query_begin(const struct neighbour_index *index, uint32_t layers,
                                              double x, double z, double radius_m);
 
 /* Is an entry within the radius of a point that is squared here? */
@@ -111,17 +111,18 @@ static inline bool neighbour_index_within(const struct neighbour_index_entry *en
 }
 
 /* The next span of entries; false at the end. */
-bool neighbour_index_turn(struct neighbour_query *walk);
+bool neighbour_query_next_span(struct neighbour_query *query);
 
 /* The next one, NULL at the end. */
-static inline const struct neighbour_index_entry *neighbour_index_next(struct neighbour_query *walk)
+static inline const struct neighbour_index_entry *
+neighbour_query_next(struct neighbour_query *query)
 {
     do {
-        for (; walk->at < walk->end; walk->at++) {
-            if (neighbour_index_within(walk->at, walk->x, walk->z, walk->square))
-                return walk->at++;
+        for (; query->at < query->end; query->at++) {
+            if (neighbour_index_within(query->at, query->x, query->z, query->square))
+                return query->at++;
         }
-    } while (neighbour_index_turn(walk));
+    } while (neighbour_query_next_span(query));
     return NULL;
 }
 

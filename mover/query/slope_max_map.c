@@ -7,17 +7,17 @@
 #define BARRED       UINT8_MAX
 #define SQUARES_MOST 9 /* a way over more of them is looked at itself */
 
-int slope_max_map_init(struct slope_max_map *easy, const struct terrain *terrain)
+int slope_max_map_init(struct slope_max_map *map, const struct terrain *terrain)
 {
-    easy->terrain = terrain;
-    easy->steps = calloc(GRIDSQUARE_COUNT, sizeof *easy->steps);
-    return easy->steps ? 0 : -1;
+    map->terrain = terrain;
+    map->steps = calloc(GRIDSQUARE_COUNT, sizeof *map->steps);
+    return map->steps ? 0 : -1;
 }
 
-void slope_max_map_free(struct slope_max_map *easy)
+void slope_max_map_free(struct slope_max_map *map)
 {
-    free(easy->steps);
-    *easy = (struct slope_max_map){0};
+    free(map->steps);
+    *map = (struct slope_max_map){0};
 }
 
 /* Square of the steeper of a cell's two triangles' slopes; post is its north-west one. */
@@ -49,18 +49,18 @@ static uint8_t steps_of(const struct terrain *terrain, int32_t column, int32_t r
     return steps < (double)BARRED ? (uint8_t)steps : BARRED;
 }
 
-static uint8_t steps_at(const struct slope_max_map *easy, int32_t column, int32_t row)
+static uint8_t steps_at(const struct slope_max_map *map, int32_t column, int32_t row)
 {
-    _Atomic uint8_t *known = &easy->steps[gridsquare_index(column, row)];
+    _Atomic uint8_t *known = &map->steps[gridsquare_index(column, row)];
     uint8_t steps = atomic_load_explicit(known, memory_order_relaxed);
     if (steps == 0) {
-        steps = steps_of(easy->terrain, column, row);
+        steps = steps_of(map->terrain, column, row);
         atomic_store_explicit(known, steps, memory_order_relaxed);
     }
     return steps;
 }
 
-bool slope_max_map_between(const struct slope_max_map *easy, const struct ground_marks *scars,
+bool slope_max_map_between(const struct slope_max_map *map, const struct ground_marks *marks,
                            double x0, double z0, double x1, double z1, double slope)
 {
     struct gridsquare_box box = gridsquare_box_of(maths_min(x0, x1), maths_min(z0, z1),
@@ -69,9 +69,9 @@ bool slope_max_map_between(const struct slope_max_map *easy, const struct ground
         return false;
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
-            uint8_t steps = steps_at(easy, column, row);
+            uint8_t steps = steps_at(map, column, row);
             if (steps == BARRED || SLOPE_MAX_MAP_STEP * steps > slope ||
-                ground_marks_of(scars, gridsquare_index(column, row)) & GROUND_MARKS_CRATER)
+                ground_marks_of(marks, gridsquare_index(column, row)) & GROUND_MARKS_CRATER)
                 return false;
         }
     }

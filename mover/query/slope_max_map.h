@@ -20,13 +20,13 @@ struct slope_max_map {
 };
 
 /* 0, or -1 with errno ENOMEM. The terrain stays the caller's. */
-int slope_max_map_init(struct slope_max_map *easy, const struct terrain *terrain);
-void slope_max_map_free(struct slope_max_map *easy);
+int slope_max_map_init(struct slope_max_map *map, const struct terrain *terrain);
+void slope_max_map_free(struct slope_max_map *map);
 
 /* Is the ground from (x0, z0) to (x1, z1), both in the world, surely dry, without craters, and
  * everywhere less steep than slope (a tangent) by half an SLOPE_MAX_MAP_STEP at least? May be false
  * when it is. Any thread; what it tells does not depend on what was asked before. */
-bool slope_max_map_between(const struct slope_max_map *easy, const struct ground_marks *scars,
+bool slope_max_map_between(const struct slope_max_map *map, const struct ground_marks *marks,
                            double x0, double z0, double x1, double z1, double slope);
 
 #endif

@@ -1,6 +1,8 @@
 /* Shots: aim, dispersion, the new munition, and the target's alarm. */
-#include "mover/context/serial_context.h"
+#include "mover/weapon/fire.h"
 
+#include "mover/motion/kinematics.h"
+#include "mover/weapon/spawn.h"
 #include "mover/weapon/turret.h"
 #include "world/maths/random.h"
 
@@ -10,24 +12,25 @@
 #define DROP_HEIGHT_M 300.0 /* rounds out of the sky come from this far above the point */
 
 /* About normal, standard deviation 1: the sum of twelve uniforms would do, four are enough. */
-static double spread(const struct serial_context *serial, uint32_t row, enum random_purpose purpose)
+static double spread(const struct serial_context *context, uint32_t row,
+                     enum random_purpose purpose)
 {
-    uint64_t bits = random_u64(serial->move->world->params->seed, serial->move->tick,
-                               serial->moved->entities.id[row], purpose);
+    uint64_t bits = random_u64(context->step->world->params->seed, context->step->tick,
+                               context->moved->entities.id[row], purpose);
     double sum = 0.0;
     for (int i = 0; i < 4; i++)
         sum += (double)(bits >> (16 * i) & 0xffff) * (1.0 / 65536.0);
     return (sum - 2.0) * 1.7320508075688772;
 }
 
-static struct vec3 dispersed(const struct serial_context *serial, uint32_t row,
+static struct vec3 dispersed(const struct serial_context *context, uint32_t row,
                              struct vec3 direction, double error_rad)
 {
     double level = sqrt(direction.x * direction.x + direction.z * direction.z);
     double heading = maths_heading(direction.x, direction.z) +
-                     error_rad * spread(serial, row, RANDOM_DISPERSION_AZIMUTH);
+                     error_rad * spread(context, row, RANDOM_DISPERSION_AZIMUTH);
     double pitch = maths_atan2(direction.y, level) +
-                   error_rad * spread(serial, row, RANDOM_DISPERSION_ELEVATION);
+                   error_rad * spread(context, row, RANDOM_DISPERSION_ELEVATION);
     double sine, cosine, sine_pitch, cosine_pitch;
     maths_sincos(heading, &sine, &cosine);
     maths_sincos(pitch, &sine_pitch, &cosine_pitch);
@@ -46,27 +49,27 @@ static void point_munition(struct entities *m, uint32_t row, struct vec3 positio
 
 /* The new munition, its shooter's loss and the event; the row target, if any, is told. Directed at
  * point, if not NULL, instead. */
-static bool launch(struct serial_context *serial, uint32_t shooter, uint32_t target,
+static bool launch(struct serial_context *context, uint32_t shooter, uint32_t target,
                    const struct vec3 *point, uint16_t munition)
 {
-    struct entities *m = &serial->moved->entities;
-    const struct world *world = serial->move->world;
+    struct entities *m = &context->moved->entities;
+    const struct world *world = context->step->world;
     const struct kind *kind = &world->kinds[m->kind[shooter]];
     if (munition == KIND_NONE)
         munition = kind->munition;
     if (munition == KIND_NONE || m->rounds[shooter] == 0 ||
-        serial->moved->head->intent_count >= world->params->intents_per_frame)
+        context->moved->head->intent_count >= world->params->intents_per_frame)
         return false;
-    uint32_t row = spawn_entity(serial, munition, m->force[shooter]);
+    uint32_t row = spawn_entity(context, munition, m->force[shooter]);
     if (row == SLOT_NONE)
         return false;
     const struct kind *round = &world->kinds[munition];
-    struct vec3 position = turret_muzzle(serial->move, m, shooter);
+    struct vec3 position = turret_muzzle(context->step, m, shooter);
     struct vec3 direction = point ? turret_lead_point(position, round, *point)
                             : target != SLOT_NONE
-                                ? turret_lead(serial->move, position, round, m, target)
+                                ? turret_lead(context->step, position, round, m, target)
                                 : turret_barrel(m, shooter);
-    direction = dispersed(serial, row, direction, round->dispersion_rad);
+    direction = dispersed(context, row, direction, round->dispersion_rad);
     double clear = kind->radius_m + round->radius_m + 0.5;
     struct vec3 muzzle = vec3_add(position, vec3_scale(direction, clear));
     double speed = round->max_speed_mps;
@@ -78,57 +81,58 @@ static bool launch(struct serial_context *serial, uint32_t shooter, uint32_t tar
     m->owner_slot[row] = shooter;
     m->owner_id[row] = m->id[shooter];
     m->rounds[shooter]--;
-    serial_context_changes(serial, shooter, COLUMN_BIT(rounds) | COLUMN_BIT(reload_tick));
+    serial_context_changes(context, shooter, COLUMN_BIT(rounds) | COLUMN_BIT(reload_tick));
     m->reload_tick[shooter] =
-        (uint32_t)(serial->move->tick + (uint64_t)(kind->reload_s / serial->move->dt_s));
+        (uint32_t)(context->step->tick + (uint64_t)(kind->reload_s / context->step->dt_s));
 
-    struct event *event = serial_context_intent(serial, EVENT_FIRE);
-    event->fire.shooter = serial_context_party(serial, shooter);
-    event->fire.munition = serial_context_party(serial, row);
+    struct event *event = serial_context_intent(context, EVENT_FIRE);
+    event->fire.shooter = serial_context_party(context, shooter);
+    event->fire.munition = serial_context_party(context, row);
     event->fire.point[0] = muzzle.x;
     event->fire.point[1] = muzzle.y;
     event->fire.point[2] = muzzle.z;
-    serial->moved->head->tally.fires++;
+    context->moved->head->tally.fires++;
     if (target != SLOT_NONE) {
-        event->fire.target = serial_context_party(serial, target);
+        event->fire.target = serial_context_party(context, target);
         m->target_slot[row] = target;
         m->target_id[row] = m->id[target];
         m->threat_slot[target] = shooter;
         m->threat_id[target] = m->id[shooter];
-        serial_context_changes(serial, target, COLUMN_BIT(threat_slot) | COLUMN_BIT(threat_id));
+        serial_context_changes(context, target, COLUMN_BIT(threat_slot) | COLUMN_BIT(threat_id));
     }
     return true;
 }
 
-bool fire_shoot(struct serial_context *serial, uint32_t shooter, uint32_t target, uint16_t munition)
+bool fire_shoot(struct serial_context *context, uint32_t shooter, uint32_t target,
+                uint16_t munition)
 {
-    return launch(serial, shooter, target, NULL, munition);
+    return launch(context, shooter, target, NULL, munition);
 }
 
-bool fire_shoot_at(struct serial_context *serial, uint32_t shooter, double x, double z,
+bool fire_shoot_at(struct serial_context *context, uint32_t shooter, double x, double z,
                    uint16_t munition)
 {
-    const struct vec3 point = {x, kinematics_ground(serial->move, x, z), z};
-    return launch(serial, shooter, SLOT_NONE, &point, munition);
+    const struct vec3 point = {x, kinematics_ground(context->step, x, z), z};
+    return launch(context, shooter, SLOT_NONE, &point, munition);
 }
 
-bool fire_drop_bomb(struct serial_context *serial, uint16_t munition, double x, double z)
+bool fire_drop_bomb(struct serial_context *context, uint16_t munition, double x, double z)
 {
-    struct entities *m = &serial->moved->entities;
-    const struct world *world = serial->move->world;
-    if (serial->moved->head->intent_count >= world->params->intents_per_frame)
+    struct entities *m = &context->moved->entities;
+    const struct world *world = context->step->world;
+    if (context->moved->head->intent_count >= world->params->intents_per_frame)
         return false;
-    uint32_t row = spawn_entity(serial, munition, FORCE_NEUTRAL);
+    uint32_t row = spawn_entity(context, munition, FORCE_NEUTRAL);
     if (row == SLOT_NONE)
         return false;
-    struct vec3 position = {x, kinematics_ground(serial->move, x, z) + DROP_HEIGHT_M, z};
+    struct vec3 position = {x, kinematics_ground(context->step, x, z) + DROP_HEIGHT_M, z};
     struct vec3 velocity = {0.0, -world->kinds[munition].max_speed_mps, 0.0};
     point_munition(m, row, position, velocity);
-    struct event *event = serial_context_intent(serial, EVENT_FIRE);
-    event->fire.munition = serial_context_party(serial, row);
+    struct event *event = serial_context_intent(context, EVENT_FIRE);
+    event->fire.munition = serial_context_party(context, row);
     event->fire.point[0] = position.x;
     event->fire.point[1] = position.y;
     event->fire.point[2] = position.z;
-    serial->moved->head->tally.fires++;
+    context->moved->head->tally.fires++;
     return true;
 }

@@ -1,14 +1,10 @@
-/* Rows for new entities, and the frame's list of intents. */
-#include "mover/context/serial_context.h"
+/* Rows for new entities. */
+#include "mover/weapon/spawn.h"
 
-#include "world/terrain/gridsquare.h"
-
-#include <string.h>
-
-static uint32_t free_row(struct serial_context *serial)
+static uint32_t free_row(struct serial_context *context)
 {
-    struct state_head *head = serial->moved->head;
-    const struct entities *m = &serial->moved->entities;
+    struct state_head *head = context->moved->head;
+    const struct entities *m = &context->moved->entities;
     if (head->vehicles + head->munitions >= m->capacity)
         return SLOT_NONE;
     for (uint32_t n = 0; n < m->capacity; n++) {
@@ -22,17 +18,17 @@ static uint32_t free_row(struct serial_context *serial)
     return SLOT_NONE;
 }
 
-uint32_t spawn_entity(struct serial_context *serial, uint16_t kind_index, uint8_t force)
+uint32_t spawn_entity(struct serial_context *context, uint16_t kind_index, uint8_t force)
 {
-    struct state_head *head = serial->moved->head;
-    struct entities *m = &serial->moved->entities;
-    const struct kind *kind = &serial->move->world->kinds[kind_index];
-    uint32_t row = free_row(serial);
+    struct state_head *head = context->moved->head;
+    struct entities *m = &context->moved->entities;
+    const struct kind *kind = &context->step->world->kinds[kind_index];
+    uint32_t row = free_row(context);
     if (row == SLOT_NONE) {
         head->tally.spawns_refused++;
         return SLOT_NONE;
     }
-    serial_context_changes(serial, row, COLUMNS_ALL);
+    serial_context_changes(context, row, COLUMNS_ALL);
     head->used = row < head->used ? head->used : row + 1;
     head->alloc_next = (row + 1) % m->capacity;
     entities_clear(m, row);
@@ -40,48 +36,28 @@ uint32_t spawn_entity(struct serial_context *serial, uint16_t kind_index, uint8_
     m->kind[row] = kind_index;
     m->state[row] = ENTITY_ACTIVE;
     m->force[row] = force;
-    m->born_tick[row] = (uint32_t)serial->move->tick;
+    m->born_tick[row] = (uint32_t)context->step->tick;
     m->fuel_l[row] = kind->fuel_l;
     m->rounds[row] = kind->rounds;
     if (kind->domain == DOMAIN_MUNITION) {
         head->munitions++;
         m->behaviour[row] = m->order[row] = BEHAVIOUR_FLIGHT;
         m->until_tick[row] =
-            (uint32_t)(serial->move->tick + (uint64_t)(kind->life_s / serial->move->dt_s));
+            (uint32_t)(context->step->tick + (uint64_t)(kind->life_s / context->step->dt_s));
     } else {
         head->vehicles++;
     }
     return row;
 }
 
-void spawn_remove(struct serial_context *serial, uint32_t row)
+void spawn_remove(struct serial_context *context, uint32_t row)
 {
-    struct state_head *head = serial->moved->head;
-    const struct entities *m = &serial->moved->entities;
-    if (serial->move->world->kinds[m->kind[row]].domain == DOMAIN_MUNITION)
+    struct state_head *head = context->moved->head;
+    const struct entities *m = &context->moved->entities;
+    if (context->step->world->kinds[m->kind[row]].domain == DOMAIN_MUNITION)
         head->munitions--;
     else
         head->vehicles--;
-    serial_context_changes(serial, row, COLUMNS_ALL);
+    serial_context_changes(context, row, COLUMNS_ALL);
     entities_clear(m, row);
-}
-
-struct event *serial_context_intent(struct serial_context *serial, enum event_type type)
-{
-    struct state_head *head = serial->moved->head;
-    if (head->intent_count >= serial->move->world->params->intents_per_frame) {
-        head->tally.events_dropped++;
-        return NULL;
-    }
-    struct event *intent = &serial->moved->intents[head->intent_count++];
-    memset(intent, 0, sizeof *intent); /* every byte: the digest sees them all */
-    intent->type = type;
-    return intent;
-}
-
-struct event_party serial_context_party(const struct serial_context *serial, uint32_t row)
-{
-    const struct entities *m = &serial->moved->entities;
-    return (struct event_party){
-        .id = m->id[row], .kind = m->kind[row], .fixed = 0, .damage = m->damage[row]};
 }

@@ -1,7 +1,7 @@
 /* Turrets and guns: where they point, where they should, and whether a shot would go there. */
-#include "mover/context/step_context.h"
-
 #include "mover/weapon/turret.h"
+
+#include "mover/motion/kinematics.h"
 #include "world/maths/rotation.h"
 
 #define MUZZLE_SHARE   0.7   /* of the shooter's height */
@@ -11,9 +11,9 @@
 #define FRIEND_CLEAR_M 1.0   /* beside their radius */
 #define LEAD_STEPS     4 /* of the flight time's fixed point: 1e-4 of it at a tenth of the speed */
 
-struct vec3 turret_muzzle(const struct step_context *move, const struct entities *e, uint32_t i)
+struct vec3 turret_muzzle(const struct step_context *context, const struct entities *e, uint32_t i)
 {
-    const struct kind *kind = &move->world->kinds[e->kind[i]];
+    const struct kind *kind = &context->world->kinds[e->kind[i]];
     struct vec3 position = entities_position(e, i);
     position.y += kind->domain == DOMAIN_AIR ? 0.0 : MUZZLE_SHARE * kind->height_m;
     return position;
@@ -35,11 +35,11 @@ static struct vec3 lead_on(const struct kind *munition, struct vec3 to, struct v
     return distance > 0.0 ? vec3_scale(lead, 1.0 / distance) : (struct vec3){0.0, 1.0, 0.0};
 }
 
-struct vec3 turret_lead(const struct step_context *move, struct vec3 muzzle,
+struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle,
                         const struct kind *munition, const struct entities *e, uint32_t target)
 {
     struct vec3 to = vec3_sub(entities_position(e, target), muzzle);
-    to.y += kinematics_aim_height(move, e->kind[target]);
+    to.y += kinematics_aim_height(context, e->kind[target]);
     return lead_on(munition, to, entities_velocity(e, target));
 }
 
@@ -69,43 +69,45 @@ struct vec3 turret_barrel(const struct entities *e, uint32_t i)
 }
 
 /* Both at once to these angles, by no more than their rates and within the gun's limits. */
-static void lay(const struct step_context *move, uint32_t i, const struct kind *kind, double turret,
-                double gun)
+static void lay(const struct step_context *context, uint32_t i, const struct kind *kind,
+                double turret, double gun)
 {
-    struct entities *m = move->m;
-    double most = kind->turret_rate_rps * move->dt_s;
+    struct entities *m = context->m;
+    double most = kind->turret_rate_rps * context->dt_s;
     double off = maths_wrap_half(turret - (double)m->turret[i]);
     gun = maths_clamp(gun, kind->gun_low_rad, kind->gun_high_rad);
     m->turret[i] = (float)maths_wrap_half((double)m->turret[i] + maths_clamp(off, -most, most));
-    m->gun[i] = (float)kinematics_approach((double)m->gun[i], gun, kind->gun_rate_rps * move->dt_s);
+    m->gun[i] =
+        (float)kinematics_approach((double)m->gun[i], gun, kind->gun_rate_rps * context->dt_s);
 }
 
-static bool has_target(const struct step_context *move, uint32_t i)
+static bool has_target(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = move->m, *w = &move->committed->entities;
+    const struct entities *m = context->m, *w = &context->committed->entities;
     return m->target_id[i] != 0 && entities_alive(w, m->target_slot[i], m->target_id[i]);
 }
 
 /* Towards its goal, a point on the ground. */
-static struct vec3 lead_goal(const struct step_context *move, uint32_t i,
+static struct vec3 lead_goal(const struct step_context *context, uint32_t i,
                              const struct kind *munition)
 {
-    const struct entities *m = move->m;
-    struct vec3 goal = {m->goal_x[i], kinematics_ground(move, m->goal_x[i], m->goal_z[i]),
+    const struct entities *m = context->m;
+    struct vec3 goal = {m->goal_x[i], kinematics_ground(context, m->goal_x[i], m->goal_z[i]),
                         m->goal_z[i]};
-    return turret_lead_point(turret_muzzle(move, m, i), munition, goal);
+    return turret_lead_point(turret_muzzle(context, m, i), munition, goal);
 }
 
 /* The solution on its target, or on the point that it is to fire at, in the body's own axes. */
-static void solve(const struct step_context *move, uint32_t i, const struct kind *kind,
+static void solve(const struct step_context *context, uint32_t i, const struct kind *kind,
                   struct turret_solution *solution, double *turret, double *gun)
 {
-    const struct entities *m = move->m, *w = &move->committed->entities;
-    const struct kind *munition = &move->world->kinds[kind->munition];
+    const struct entities *m = context->m, *w = &context->committed->entities;
+    const struct kind *munition = &context->world->kinds[kind->munition];
     solution->body = pose_matrix(m, i);
-    solution->lead = m->trigger[i] & TRIGGER_FIRE_AT ? lead_goal(move, i, munition)
-                                                     : turret_lead(move, turret_muzzle(move, m, i),
-                                                                   munition, w, m->target_slot[i]);
+    solution->lead =
+        m->trigger[i] & TRIGGER_FIRE_AT
+            ? lead_goal(context, i, munition)
+            : turret_lead(context, turret_muzzle(context, m, i), munition, w, m->target_slot[i]);
     solution->found = true;
     struct vec3 lead = rotation_back(&solution->body, solution->lead);
     double level = sqrt(lead.x * lead.x + lead.z * lead.z);
@@ -114,12 +116,12 @@ static void solve(const struct step_context *move, uint32_t i, const struct kind
 }
 
 /* By traverse and elevate. */
-static void lay_by_rates(const struct step_context *move, uint32_t i, const struct kind *kind)
+static void lay_by_rates(const struct step_context *context, uint32_t i, const struct kind *kind)
 {
-    const struct entities *m = move->m;
-    lay(move, i, kind,
-        (double)m->turret[i] + (double)m->traverse[i] * kind->turret_rate_rps * move->dt_s,
-        (double)m->gun[i] + (double)m->elevate[i] * kind->gun_rate_rps * move->dt_s);
+    const struct entities *m = context->m;
+    lay(context, i, kind,
+        (double)m->turret[i] + (double)m->traverse[i] * kind->turret_rate_rps * context->dt_s,
+        (double)m->gun[i] + (double)m->elevate[i] * kind->gun_rate_rps * context->dt_s);
 }
 
 static float share_of(double off, double most)
@@ -128,11 +130,11 @@ static float share_of(double off, double most)
 }
 
 /* Rates that bring both to these angles by its agent's next thought. */
-static void set_rates(const struct step_context *move, uint32_t i, const struct kind *kind,
+static void set_rates(const struct step_context *context, uint32_t i, const struct kind *kind,
                       double turret, double gun)
 {
-    struct entities *m = move->m;
-    double time_s = (double)move->think * move->dt_s;
+    struct entities *m = context->m;
+    double time_s = (double)context->think_frames * context->dt_s;
     m->traverse[i] =
         share_of(maths_wrap_half(turret - (double)m->turret[i]), kind->turret_rate_rps * time_s);
     m->elevate[i] = share_of(gun - (double)m->gun[i], kind->gun_rate_rps * time_s);
@@ -140,52 +142,52 @@ static void set_rates(const struct step_context *move, uint32_t i, const struct 
 
 /* Its crew lays it: exactly when it is about to fire or has nothing to aim at, else by rates that
  * they think of in their turn. */
-static void by_agent(const struct step_context *move, uint32_t i, const struct kind *kind,
+static void by_agent(const struct step_context *context, uint32_t i, const struct kind *kind,
                      struct turret_solution *solution)
 {
-    struct entities *m = move->m;
+    struct entities *m = context->m;
     double turret, gun;
     if (m->trigger[i] & TRIGGER_FIRE_AT) {
-        solve(move, i, kind, solution, &turret, &gun);
-        lay(move, i, kind, turret, gun);
+        solve(context, i, kind, solution, &turret, &gun);
+        lay(context, i, kind, turret, gun);
         return;
     }
     if (m->target_id[i] == 0) {
         m->traverse[i] = m->elevate[i] = 0.0f;
         if (m->turret[i] != 0.0f || m->gun[i] != 0.0f)
-            lay(move, i, kind, 0.0, 0.0);
+            lay(context, i, kind, 0.0, 0.0);
         return;
     }
     bool fires = (m->trigger[i] & TRIGGER_FIRE) != 0;
-    if ((fires || step_context_thinks(move, i)) && has_target(move, i)) {
-        solve(move, i, kind, solution, &turret, &gun);
-        set_rates(move, i, kind, turret, gun);
+    if ((fires || step_context_thinks(context, i)) && has_target(context, i)) {
+        solve(context, i, kind, solution, &turret, &gun);
+        set_rates(context, i, kind, turret, gun);
         if (fires) {
-            lay(move, i, kind, turret, gun);
+            lay(context, i, kind, turret, gun);
             return;
         }
     }
     if (m->traverse[i] != 0.0f || m->elevate[i] != 0.0f)
-        lay_by_rates(move, i, kind);
+        lay_by_rates(context, i, kind);
 }
 
-void turret_turn(const struct step_context *move, uint32_t i, struct turret_solution *solution)
+void turret_turn(const struct step_context *context, uint32_t i, struct turret_solution *solution)
 {
-    struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     solution->found = false;
     if (kind->munition == KIND_NONE)
         return;
     if (m->behaviour[i] != BEHAVIOUR_DRIVEN) {
-        by_agent(move, i, kind, solution);
+        by_agent(context, i, kind, solution);
     } else if (m->traverse[i] != 0.0f ||
                m->elevate[i] != 0.0f) { /* by hand: of no target any more */
         m->target_slot[i] = m->target_id[i] = 0;
-        lay_by_rates(move, i, kind);
-    } else if (has_target(move, i)) {
+        lay_by_rates(context, i, kind);
+    } else if (has_target(context, i)) {
         double turret, gun;
-        solve(move, i, kind, solution, &turret, &gun);
-        lay(move, i, kind, turret, gun);
+        solve(context, i, kind, solution, &turret, &gun);
+        lay(context, i, kind, turret, gun);
     }
 }
 
@@ -200,47 +202,48 @@ static double angle_between(struct vec3 a, struct vec3 b)
 }
 
 /* As turret_bears() says, of a gun that points along barrel. Its solution, or NULL. */
-static bool bears(const struct step_context *move, const struct entities *rows, uint32_t i,
+static bool bears(const struct step_context *context, const struct entities *rows, uint32_t i,
                   uint32_t target, struct vec3 barrel, const struct turret_solution *solution)
 {
-    const struct kind *kind = &move->world->kinds[rows->kind[i]];
-    const struct kind *munition = &move->world->kinds[kind->munition];
-    struct vec3 muzzle = turret_muzzle(move, rows, i), to;
+    const struct kind *kind = &context->world->kinds[rows->kind[i]];
+    const struct kind *munition = &context->world->kinds[kind->munition];
+    struct vec3 muzzle = turret_muzzle(context, rows, i), to;
     double most = laid_rad(kind);
     if (munition->guidance == GUIDANCE_HOMING) {
         most = munition->seeker_rad;
-        to = vec3_sub(entities_position(&move->committed->entities, target), muzzle);
+        to = vec3_sub(entities_position(&context->committed->entities, target), muzzle);
     } else {
-        to = solution ? solution->lead
-                      : turret_lead(move, muzzle, munition, &move->committed->entities, target);
+        to = solution
+                 ? solution->lead
+                 : turret_lead(context, muzzle, munition, &context->committed->entities, target);
     }
     return angle_between(barrel, to) <= most;
 }
 
-bool turret_bears(const struct step_context *move, const struct entities *rows, uint32_t i,
+bool turret_bears(const struct step_context *context, const struct entities *rows, uint32_t i,
                   uint32_t target)
 {
-    return bears(move, rows, i, target, turret_barrel(rows, i), NULL);
+    return bears(context, rows, i, target, turret_barrel(rows, i), NULL);
 }
 
 /* Would the round pass a friend, or somebody who has no part in it, on its way to the target? */
-static bool friend_ahead(const struct step_context *move, uint32_t i, uint32_t target,
+static bool friend_ahead(const struct step_context *context, uint32_t i, uint32_t target,
                          struct vec3 barrel)
 {
-    const struct entities *m = move->m, *w = &move->committed->entities;
+    const struct entities *m = context->m, *w = &context->committed->entities;
     uint32_t layers = NEIGHBOUR_INDEX_LAYER(m->force[i]) | NEIGHBOUR_INDEX_LAYER(FORCE_NEUTRAL);
-    struct vec3 muzzle = turret_muzzle(move, m, i);
+    struct vec3 muzzle = turret_muzzle(context, m, i);
     double reach =
         maths_min(FRIEND_AHEAD_M,
                   vec3_length(vec3_sub(entities_position(w, target), entities_position(m, i))));
-    struct neighbour_query walk =
-        neighbour_index_begin(move->near, layers, m->x[i], m->z[i], reach);
+    struct neighbour_query query =
+        neighbour_query_begin(context->neighbours, layers, m->x[i], m->z[i], reach);
     const struct neighbour_index_entry *entry;
-    while ((entry = neighbour_index_next(&walk)) != NULL) {
+    while ((entry = neighbour_query_next(&query)) != NULL) {
         uint32_t j = entry->row;
         if (j == i || j == target)
             continue;
-        double clear = move->world->kinds[w->kind[j]].radius_m + FRIEND_CLEAR_M;
+        double clear = context->world->kinds[w->kind[j]].radius_m + FRIEND_CLEAR_M;
         struct vec3 to = vec3_sub(entities_position(w, j), muzzle);
         double along = vec3_dot(to, barrel);
         if (along > 0.0 && vec3_dot(to, to) - along * along < clear * clear)
@@ -249,28 +252,29 @@ static bool friend_ahead(const struct step_context *move, uint32_t i, uint32_t t
     return false;
 }
 
-void turret_hold_fire(const struct step_context *move, uint32_t i,
+void turret_hold_fire(const struct step_context *context, uint32_t i,
                       const struct turret_solution *solution)
 {
-    struct entities *m = move->m;
-    const struct entities *w = &move->committed->entities;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    struct entities *m = context->m;
+    const struct entities *w = &context->committed->entities;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     bool at_target = solution->found && !(m->trigger[i] & TRIGGER_FIRE_AT);
     if (m->trigger[i] & TRIGGER_FIRE_AT && kind->munition != KIND_NONE &&
         angle_between(turret_barrel(m, i),
-                      lead_goal(move, i, &move->world->kinds[kind->munition])) > laid_rad(kind))
+                      lead_goal(context, i, &context->world->kinds[kind->munition])) >
+            laid_rad(kind))
         m->trigger[i] &= (uint8_t)~TRIGGER_FIRE_AT;
     if (!(m->trigger[i] & TRIGGER_FIRE))
         return;
-    if (kind->munition != KIND_NONE && m->rounds[i] > 0 && has_target(move, i) &&
-        move->tick >= m->reload_tick[i] && !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE)) {
+    if (kind->munition != KIND_NONE && m->rounds[i] > 0 && has_target(context, i) &&
+        context->tick >= m->reload_tick[i] && !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE)) {
         uint32_t target = m->target_slot[i];
         struct vec3 to = vec3_sub(entities_position(w, target), entities_position(m, i));
         struct vec3 barrel =
             solution->found ? barrel_of(m, i, &solution->body) : turret_barrel(m, i);
         if (vec3_length(to) < kind->range_m &&
-            bears(move, m, i, target, barrel, at_target ? solution : NULL) &&
-            !friend_ahead(move, i, target, barrel))
+            bears(context, m, i, target, barrel, at_target ? solution : NULL) &&
+            !friend_ahead(context, i, target, barrel))
             return;
     }
     m->trigger[i] &= (uint8_t)~TRIGGER_FIRE;

@@ -1,6 +1,7 @@
 /* Tests' hands on the inside of a frame. */
 #include "tests/support/steps.h"
 
+#include "mover/motion/kinematics.h"
 #include "mover/weapon/turret.h"
 #include "world/terrain/terrain_cache.h"
 #include "world/maths/rotation.h"
@@ -36,8 +37,8 @@ static void forget_ground(const struct fixture *fixture)
 {
     const struct mover *mover = &fixture->player.mover;
     uint32_t capacity = mover->world->params->capacity;
-    memset(mover->patches, 0, capacity * sizeof *mover->patches);
-    memset(mover->patches_ahead, 0, capacity * sizeof *mover->patches_ahead);
+    memset(mover->terrain_entries, 0, capacity * sizeof *mover->terrain_entries);
+    memset(mover->terrain_entries_ahead, 0, capacity * sizeof *mover->terrain_entries_ahead);
 }
 
 void steps_ground(const struct fixture *fixture, steps_height *height, const void *context)
@@ -162,9 +163,9 @@ void steps_lay(const struct fixture *fixture, uint32_t row, uint32_t target)
 {
     struct entities e = steps_rows(fixture);
     const struct kind *kinds = fixture->view.world.kinds;
-    struct step_context move = {.world = &fixture->view.world};
+    struct step_context context = {.world = &fixture->view.world};
     struct mat3 body = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
-    struct vec3 lead = turret_lead(&move, turret_muzzle(&move, &e, row),
+    struct vec3 lead = turret_lead(&context, turret_muzzle(&context, &e, row),
                                    &kinds[kinds[e.kind[row]].munition], &e, target);
     lead = rotation_back(&body, lead);
     e.turret[row] = (float)maths_atan2(lead.z, lead.x);
@@ -173,29 +174,16 @@ void steps_lay(const struct fixture *fixture, uint32_t row, uint32_t target)
 
 /* --- the middle of a frame ---------------------------------------------------------------------*/
 
-void steps_serial(struct fixture *fixture, struct step_context *move, struct serial_context *serial)
+void steps_serial_context(struct fixture *fixture, struct step_context *step,
+                          struct serial_context *context)
 {
     struct view *view = &fixture->view;
     const struct state *committed = &view->w[atomic_load(&view->commit->commit) & 1];
-    *move = (struct step_context){
-        .world = &view->world,
-        .craters = &fixture->player.mover.craters,
-        .near = &fixture->player.mover.near,
-        .outlook = &fixture->player.mover.outlook,
-        .avoid = &fixture->player.mover.avoid,
-        .scars = &fixture->player.mover.scars,
-        .easy = &fixture->player.mover.easy,
-        .patches = fixture->player.mover.patches,
-        .patches_ahead = fixture->player.mover.patches_ahead,
-        .committed = committed,
-        .m = &view->m.entities,
-        .tick = committed->head->tick + 1,
-        .dt_s = view->world.params->dt_s,
-    };
+    *step = mover_context(&fixture->player.mover, committed, &view->m);
     *view->m.head = *committed->head;
     entities_copy(&view->m.entities, &committed->entities, 0, committed->head->used);
-    *serial = (struct serial_context){
-        .move = move, .moved = &view->m, .pieces = &fixture->player.mover.pieces};
+    *context = (struct serial_context){
+        .step = step, .moved = &view->m, .blocks = &fixture->player.mover.blocks};
 }
 
 void steps_respond(struct fixture *fixture, struct response_context *respond)

@@ -61,9 +61,9 @@ void steps_lay(const struct fixture *fixture, uint32_t row, uint32_t target);
 /* --- the middle of a frame ---------------------------------------------------------------------*/
 
 /* The mover's serial half at the next frame's tick: the moved table is a copy of the committed
- * frame, and nothing has moved. move must live as long as serial. */
-void steps_serial(struct fixture *fixture, struct step_context *move,
-                  struct serial_context *serial);
+ * frame, and nothing has moved. step must live as long as context. */
+void steps_serial_context(struct fixture *fixture, struct step_context *step,
+                          struct serial_context *context);
 
 /* The collider with the next frame's buffer a copy of the committed one, every row at rest and
  * nothing to meet. Free with steps_respond_end. */

@@ -1,9 +1,11 @@
 /* What moves eight at a time goes, to the bit, where each would go by itself: on slopes, over
  * craters and in debris, at shores and at the world's edge, with agents and drivers at the
  * controls. The oracle moves one at a time, by the same model. SEED=n tries others. */
+#include "mover/agent/agent.h"
 #include "mover/motion/aircraft.h"
 #include "mover/motion/constant_course.h"
 #include "mover/motion/ground_vehicle.h"
+#include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
 #include "mover/motion/wreck.h"
 #include "tests/support/steps.h"
@@ -41,62 +43,64 @@ static double slope_speed(const struct kind *kind, double climb_rad, enum gearin
 }
 
 /* Of every object that fell. */
-static double debris_share(const struct step_context *move, double x, double z)
+static double debris_share(const struct step_context *context, double x, double z)
 {
-    const struct world *world = move->world;
+    const struct world *world = context->world;
     double share = 1.0;
     for (uint32_t n = 0; n < world->counts.fixed; n++) {
         const struct fixed_object *object = &world->fixed[n];
         double dx = x - object->x, dz = z - object->z, radius = (double)object->radius_m;
-        if (move->committed->fixed_damage[n] >= DAMAGE_HIGH && dx * dx + dz * dz < radius * radius)
+        if (context->committed->fixed_damage[n] >= DAMAGE_HIGH &&
+            dx * dx + dz * dz < radius * radius)
             share = maths_min(share, world->kinds[object->kind].debris_keep);
     }
     return share;
 }
 
-static bool passable(const struct step_context *move, double x, double z)
+static bool passable(const struct step_context *context, double x, double z)
 {
     return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M &&
-           !cover_is_water(terrain_cover(&move->world->terrain, x, z));
+           !cover_is_water(terrain_cover(&context->world->terrain, x, z));
 }
 
-static double powered(const struct step_context *move, const struct kind *kind,
-                      const struct desired_motion *wish, double forward, double wanted)
+static double powered(const struct step_context *context, const struct kind *kind,
+                      const struct desired_motion *desired, double forward, double wanted)
 {
     bool braking = fabs(wanted) < fabs(forward) || wanted * forward < 0.0;
-    bool held = fabs(wanted) < fabs(wish->speed_mps);
+    bool held = fabs(wanted) < fabs(desired->speed_mps);
     double rate = kind->acceleration_mps2;
     if (braking)
-        rate = maths_min(kinematics_slowing(kind, wish, forward, (held ? BRAKES : 0.5) * rate),
+        rate = maths_min(kinematics_slowing(kind, desired, forward, (held ? BRAKES : 0.5) * rate),
                          0.7 * GRAVITY_MPS2);
-    return kinematics_approach(forward, wanted, rate * move->dt_s);
+    return kinematics_approach(forward, wanted, rate * context->dt_s);
 }
 
-static double rolling(const struct step_context *move, uint32_t i, const struct kind *kind,
-                      const struct desired_motion *wish, double forward)
+static double rolling(const struct step_context *context, uint32_t i, const struct kind *kind,
+                      const struct desired_motion *desired, double forward)
 {
-    double pull = -GRAVITY_MPS2 * maths_sin(move->m->pitch[i]);
-    double hold = 0.03 * GRAVITY_MPS2 +
-                  wish->brake * kinematics_slowing(kind, &(struct desired_motion){.driven = false},
-                                                   forward, 0.0);
-    forward = kinematics_approach(forward + pull * move->dt_s, 0.0, hold * move->dt_s);
+    double pull = -GRAVITY_MPS2 * maths_sin(context->m->pitch[i]);
+    double hold =
+        0.03 * GRAVITY_MPS2 +
+        desired->brake *
+            kinematics_slowing(kind, &(struct desired_motion){.driven = false}, forward, 0.0);
+    forward = kinematics_approach(forward + pull * context->dt_s, 0.0, hold * context->dt_s);
     return maths_clamp(forward, -kind->max_speed_mps, kind->max_speed_mps);
 }
 
-static void stand_on_ground(const struct step_context *move, uint32_t i)
+static void stand_on_ground(const struct step_context *context, uint32_t i)
 {
-    struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     double half_length = maths_max(kind->length_m * 0.5, 0.5);
     double half_width = maths_max(kind->width_m * 0.5, 0.5);
     double sine, cosine, x = m->x[i], z = m->z[i];
     maths_sincos(m->heading[i], &sine, &cosine);
     double length_x = sine * half_length, length_z = cosine * half_length;
     double width_x = cosine * half_width, width_z = sine * half_width;
-    double front = kinematics_ground(move, x + length_x, z - length_z);
-    double back = kinematics_ground(move, x - length_x, z + length_z);
-    double right = kinematics_ground(move, x + width_x, z + width_z);
-    double left = kinematics_ground(move, x - width_x, z - width_z);
+    double front = kinematics_ground(context, x + length_x, z - length_z);
+    double back = kinematics_ground(context, x - length_x, z + length_z);
+    double right = kinematics_ground(context, x + width_x, z + width_z);
+    double left = kinematics_ground(context, x - width_x, z - width_z);
     m->pitch[i] = maths_atan2(front - back, 2.0 * half_length);
     m->roll[i] = maths_atan2(left - right, 2.0 * half_width);
 }
@@ -108,95 +112,98 @@ static void speeds_of(const struct entities *m, uint32_t i, double *forward, dou
     kinematics_along(m, i, sine, cosine, forward, rightward);
 }
 
-static bool drive_one(const struct step_context *move, uint32_t i,
-                      const struct desired_motion *wish)
+static bool drive_one(const struct step_context *context, uint32_t i,
+                      const struct desired_motion *desired)
 {
-    struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     double forward, rightward, sine, cosine;
     bool blocked = false;
     speeds_of(m, i, &forward, &rightward);
     double agility = maths_clamp(0.35 + (1.0 - 0.35) * fabs(forward) / 4.0, 0.0, 1.0);
-    kinematics_steer(move, i, wish, kind->turn_rate_rps * agility);
+    kinematics_steer(context, i, desired, kind->turn_rate_rps * agility);
     maths_sincos(m->heading[i], &sine, &cosine);
 
-    double wanted = wish->speed_mps;
-    if (!kinematics_burn(move, i, fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9)))
+    double wanted = desired->speed_mps;
+    if (!kinematics_burn(context, i, fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9)))
         wanted = 0.0;
-    double limit = slope_speed(kind, wanted < 0.0 ? -m->pitch[i] : m->pitch[i], wish->gear);
+    double limit = slope_speed(kind, wanted < 0.0 ? -m->pitch[i] : m->pitch[i], desired->gear);
     if (fabs(wanted) > 0.0 && limit <= 0.0)
         blocked = true;
-    limit = maths_min(limit, debris_share(move, m->x[i], m->z[i]) * kind->max_speed_mps);
+    limit = maths_min(limit, debris_share(context, m->x[i], m->z[i]) * kind->max_speed_mps);
     wanted = maths_clamp(wanted, -limit, limit);
-    forward = wish->gear == GEAR_NEUTRAL ? rolling(move, i, kind, wish, forward)
-                                         : powered(move, kind, wish, forward, wanted);
-    rightward = kinematics_approach(rightward, 0.0, 0.7 * GRAVITY_MPS2 * move->dt_s);
+    forward = desired->gear == GEAR_NEUTRAL ? rolling(context, i, kind, desired, forward)
+                                            : powered(context, kind, desired, forward, wanted);
+    rightward = kinematics_approach(rightward, 0.0, 0.7 * GRAVITY_MPS2 * context->dt_s);
 
     double vx = forward * sine + rightward * cosine;
     double vz = -forward * cosine + rightward * sine;
-    double x = m->x[i] + vx * move->dt_s, z = m->z[i] + vz * move->dt_s;
+    double x = m->x[i] + vx * context->dt_s, z = m->z[i] + vz * context->dt_s;
     double lead = forward < 0.0 ? -kind->length_m * 0.5 : kind->length_m * 0.5;
     bool goes = x != m->x[i] || z != m->z[i];
-    if (goes && (!passable(move, x + sine * lead, z - cosine * lead) || !passable(move, x, z))) {
+    if (goes &&
+        (!passable(context, x + sine * lead, z - cosine * lead) || !passable(context, x, z))) {
         blocked = true;
         x = m->x[i], z = m->z[i];
         vx = vz = 0.0;
     }
-    double y = kinematics_ground(move, x, z);
-    entities_set_velocity(m, i, (struct vec3){vx, (y - m->y[i]) / move->dt_s, vz});
+    double y = kinematics_ground(context, x, z);
+    entities_set_velocity(m, i, (struct vec3){vx, (y - m->y[i]) / context->dt_s, vz});
     entities_set_position(m, i, (struct vec3){x, y, z});
-    stand_on_ground(move, i);
+    stand_on_ground(context, i);
     return blocked;
 }
 
-static void hold_one(const struct step_context *move, uint32_t i)
+static void hold_one(const struct step_context *context, uint32_t i)
 {
-    struct entities *m = move->m;
-    double y = kinematics_ground(move, m->x[i], m->z[i]);
-    m->vy[i] = m->state[i] == ENTITY_WRECK ? 0.0 : (y - m->y[i]) / move->dt_s;
+    struct entities *m = context->m;
+    double y = kinematics_ground(context, m->x[i], m->z[i]);
+    m->vy[i] = m->state[i] == ENTITY_WRECK ? 0.0 : (y - m->y[i]) / context->dt_s;
     m->y[i] = y;
-    stand_on_ground(move, i);
+    stand_on_ground(context, i);
 }
 
-static bool fly_one(const struct step_context *move, uint32_t i, const struct desired_motion *wish)
+static bool fly_one(const struct step_context *context, uint32_t i,
+                    const struct desired_motion *desired)
 {
-    struct entities *m = move->m;
-    const struct kind *kind = &move->world->kinds[m->kind[i]];
-    double full = maths_max(kind->max_speed_mps, 1e-9), gain = kind->acceleration_mps2 * move->dt_s;
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    double full = maths_max(kind->max_speed_mps, 1e-9),
+           gain = kind->acceleration_mps2 * context->dt_s;
     double forward, rightward, sine, cosine, before = m->heading[i];
     double ground =
-        maths_max(kinematics_ground(move, m->x[i], m->z[i]),
-                  kinematics_ground(move, m->x[i] + m->vx[i] * 3.0, m->z[i] + m->vz[i] * 3.0));
+        maths_max(kinematics_ground(context, m->x[i], m->z[i]),
+                  kinematics_ground(context, m->x[i] + m->vx[i] * 3.0, m->z[i] + m->vz[i] * 3.0));
     speeds_of(m, i, &forward, &rightward);
-    kinematics_steer(move, i, wish, kind->turn_rate_rps);
+    kinematics_steer(context, i, desired, kind->turn_rate_rps);
     maths_sincos(m->heading[i], &sine, &cosine);
 
-    double wanted = wish->speed_mps, climb = wish->climb_mps, limit = kind->climb_rate_mps;
-    if (!wish->driven) {
+    double wanted = desired->speed_mps, climb = desired->climb_mps, limit = kind->climb_rate_mps;
+    if (!desired->driven) {
         wanted = maths_clamp(wanted, kind->min_speed_mps, kind->max_speed_mps);
-        climb = maths_clamp((ground + wish->altitude_m - m->y[i]) * 0.8, -limit, limit);
+        climb = maths_clamp((ground + desired->altitude_m - m->y[i]) * 0.8, -limit, limit);
     }
-    if (!kinematics_burn(move, i, maths_clamp(fabs(wanted) / full, 0.2, 1.0))) {
+    if (!kinematics_burn(context, i, maths_clamp(fabs(wanted) / full, 0.2, 1.0))) {
         wanted = 0.0;
         climb = -limit;
     }
     double speed = forward;
-    forward = kinematics_approach(forward, wanted, gain * (1.0 + wish->brake));
-    rightward = kinematics_approach(rightward, 0.0, 6.0 * move->dt_s);
+    forward = kinematics_approach(forward, wanted, gain * (1.0 + desired->brake));
+    rightward = kinematics_approach(rightward, 0.0, 6.0 * context->dt_s);
     m->vx[i] = forward * sine + rightward * cosine;
     m->vz[i] = -forward * cosine + rightward * sine;
     m->vy[i] = kinematics_approach(m->vy[i], climb, 2.0 * gain);
-    kinematics_advance(&m->x[i], &m->vx[i], move->dt_s);
-    kinematics_advance(&m->z[i], &m->vz[i], move->dt_s);
-    m->y[i] += m->vy[i] * move->dt_s;
+    kinematics_advance(&m->x[i], &m->vx[i], context->dt_s);
+    kinematics_advance(&m->z[i], &m->vz[i], context->dt_s);
+    m->y[i] += m->vy[i] * context->dt_s;
 
-    double rate = maths_wrap_half(m->heading[i] - before) / move->dt_s;
+    double rate = maths_wrap_half(m->heading[i] - before) / context->dt_s;
     double bank = maths_clamp(maths_atan2(rate * forward, GRAVITY_MPS2), -1.0, 1.0);
     double nose = kind->min_speed_mps > 0.0
                       ? maths_atan2(m->vy[i], maths_max(forward, 1.0))
                       : -0.12 * forward / full - 0.1 * (forward - speed) / maths_max(gain, 1e-9);
-    m->roll[i] = kinematics_approach(m->roll[i], bank, 1.5 * move->dt_s);
-    m->pitch[i] = kinematics_approach(m->pitch[i], nose, 1.5 * move->dt_s);
+    m->roll[i] = kinematics_approach(m->roll[i], bank, 1.5 * context->dt_s);
+    m->pitch[i] = kinematics_approach(m->pitch[i], nose, 1.5 * context->dt_s);
     return m->x[i] < 200.0 || m->z[i] < 200.0 || m->x[i] > WORLD_SIDE_M - 200.0 ||
            m->z[i] > WORLD_SIDE_M - 200.0;
 }
@@ -252,108 +259,108 @@ static struct desired_motion draw_wish(const struct entities *e, uint64_t *rando
 {
     const struct kind *kind = &f.view.world.kinds[e->kind[i]];
     double most = kind->max_speed_mps;
-    struct desired_motion wish = {
+    struct desired_motion desired = {
         .heading_rad = e->heading[i] + some(random, 0.7, -7.0, 7.0),
         .speed_mps = some(random, 0.8, -most, 1.2 * most),
         .altitude_m = some(random, 0.8, 0.0, 150.0),
     };
     if (fixture_random(random) % 3 == 0) {
-        wish.driven = true;
-        wish.gear = (enum gearing)(fixture_random(random) % GEAR_COUNT);
-        wish.turn = some(random, 0.7, -1.0, 1.0);
-        wish.brake = some(random, 0.5, 0.0, 1.0);
-        wish.climb_mps = some(random, 0.5, -10.0, 10.0);
+        desired.driven = true;
+        desired.gear = (enum gearing)(fixture_random(random) % GEAR_COUNT);
+        desired.turn = some(random, 0.7, -1.0, 1.0);
+        desired.brake = some(random, 0.5, 0.0, 1.0);
+        desired.climb_mps = some(random, 0.5, -10.0, 10.0);
     }
-    return wish;
+    return desired;
 }
 
 /* Craters all over the middle and objects that fell, or neither. */
-static void scar(uint64_t *random, bool scarred)
+static void scar(uint64_t *random, bool cratered)
 {
     struct mover *mover = &f.player.mover;
     struct state now = fixture_state(&f);
-    now.head->crater_count = scarred ? CRATERS : 0;
+    now.head->crater_count = cratered ? CRATERS : 0;
     for (uint32_t n = 0; n < now.head->crater_count; n++)
         now.craters[n] = (struct crater){fixture_uniform(random, 24900.0, 25200.0),
                                          fixture_uniform(random, 24900.0, 25200.0),
                                          (float)fixture_uniform(random, 1.0, 12.0), 1.5f, 1};
     for (uint32_t n = 0; n < f.view.world.counts.fixed; n++)
-        now.fixed_damage[n] = scarred && fixture_random(random) % 4 ? DAMAGE_HIGH : DAMAGE_LOW;
+        now.fixed_damage[n] = cratered && fixture_random(random) % 4 ? DAMAGE_HIGH : DAMAGE_LOW;
     crater_index_update(&mover->craters, 0);
     crater_index_update(&mover->craters, now.head->crater_count);
-    mover->scars.craters = UINT32_MAX; /* they are another world's */
-    ground_marks_update(&mover->scars, &f.view.world, &now);
+    mover->ground_marks.craters = UINT32_MAX; /* they are another world's */
+    ground_marks_update(&mover->ground_marks, &f.view.world, &now);
 }
 
 /* --- the two beside each other -----------------------------------------------------------------*/
 
 struct drawn {
-    uint32_t moved, flown, blocked, steep, scarred, partial;
+    uint32_t moved, flown, blocked, steep, cratered, partial;
 };
 
 /* The mover's table, and the oracle's: a copy. */
 struct both {
-    const struct step_context *move;
+    const struct step_context *context;
     struct step_context alone;
     struct entities rows; /* of alone */
 };
 
 static void compare(const struct both *both, uint32_t i)
 {
-    const struct entities *one = &both->rows, *many = both->move->m;
+    const struct entities *one = &both->rows, *many = both->context->m;
 #define X(type, name) assert_true(one->name[i] == many->name[i]);
     ENTITY_COLUMNS(X)
 #undef X
 }
 
 static void draw_rows(struct both *both, uint64_t *random, uint32_t used, bool flies,
-                      struct desired_motion wish[LANE_COUNT])
+                      struct desired_motion desired[LANE_COUNT])
 {
     for (uint32_t i = 0; i < used; i++) {
-        draw_row(both->move->m, random, i, flies);
-        wish[i] = draw_wish(both->move->m, random, i);
-        both->move->m->steer[i] = (float)some(random, 0.7, -1.0, 1.0);
-        both->move->m->throttle[i] = (float)some(random, 0.8, -1.0, 1.0);
+        draw_row(both->context->m, random, i, flies);
+        desired[i] = draw_wish(both->context->m, random, i);
+        both->context->m->steer[i] = (float)some(random, 0.7, -1.0, 1.0);
+        both->context->m->throttle[i] = (float)some(random, 0.8, -1.0, 1.0);
     }
-    entities_copy(&both->rows, both->move->m, 0, used);
+    entities_copy(&both->rows, both->context->m, 0, used);
 }
 
 static void drive(struct both *both, uint64_t *random, struct ground_vehicle *land, uint32_t used,
                   struct drawn *drawn)
 {
-    struct desired_motion wish[LANE_COUNT];
-    draw_rows(both, random, used, false, wish);
+    struct desired_motion desired[LANE_COUNT];
+    draw_rows(both, random, used, false, desired);
     for (uint32_t i = 0; i < used; i++) {
         bool held = fixture_random(random) % 2 != 0;
-        bool full = held ? ground_vehicle_take_held(both->move, land, i)
-                         : ground_vehicle_take(both->move, land, i, &wish[i]);
+        bool full = held ? ground_vehicle_take_held(both->context, land, i)
+                         : ground_vehicle_take(both->context, land, i, &desired[i]);
         if (held)
-            agent_hold(&both->alone, i, &wish[i]);
+            agent_controls_motion(&both->alone, i, &desired[i]);
         assert_int_equal(full, i + 1 == LANE_COUNT);
     }
-    ground_vehicle_move(both->move, land);
+    ground_vehicle_move(both->context, land);
     for (uint32_t i = 0; i < used; i++) {
-        bool blocked = drive_one(&both->alone, i, &wish[i]);
+        bool blocked = drive_one(&both->alone, i, &desired[i]);
         compare(both, i);
         assert_int_equal(land->blocked.lane[i], blocked ? -1 : 0);
         drawn->blocked += blocked;
         drawn->steep += fabs(both->rows.pitch[i]) > 0.45;
-        drawn->scarred += land->stand.scarred.lane[i] != 0;
+        drawn->cratered += land->pose.cratered.lane[i] != 0;
     }
     drawn->moved += used;
     drawn->partial += used < LANE_COUNT;
     land->count = 0;
 }
 
-static void stand(struct both *both, struct constant_course *hold, struct wrecks *wrecks,
-                  uint32_t used)
+static void pose(struct both *both, struct constant_course *hold, struct wrecks *wrecks,
+                 uint32_t used)
 {
     for (uint32_t i = 0; i < used; i++) {
-        assert_int_equal(constant_course_take(both->move, hold, i), i + 1 == LANE_COUNT);
-        wrecks_take(both->move, wrecks, i);
+        assert_int_equal(constant_course_take(both->context, hold, i), i + 1 == LANE_COUNT);
+        wrecks_take(both->context, wrecks, i);
     }
-    constant_course_pose(both->move, hold);
-    wrecks_find_ground(both->move, wrecks);
+    constant_course_set_down(both->context, hold);
+    wrecks_find_ground(both->context, wrecks);
     for (uint32_t i = 0; i < used; i++) {
         hold_one(&both->alone, i);
         compare(both, i);
@@ -366,13 +373,13 @@ static void stand(struct both *both, struct constant_course *hold, struct wrecks
 static void fly(struct both *both, uint64_t *random, struct aircraft *air, uint32_t used,
                 struct drawn *drawn)
 {
-    struct desired_motion wish[LANE_COUNT];
-    draw_rows(both, random, used, true, wish);
+    struct desired_motion desired[LANE_COUNT];
+    draw_rows(both, random, used, true, desired);
     for (uint32_t i = 0; i < used; i++)
-        assert_int_equal(aircraft_take(both->move, air, i, &wish[i]), i + 1 == LANE_COUNT);
-    aircraft_move(both->move, air);
+        assert_int_equal(aircraft_take(both->context, air, i, &desired[i]), i + 1 == LANE_COUNT);
+    aircraft_move(both->context, air);
     for (uint32_t i = 0; i < used; i++) {
-        bool blocked = fly_one(&both->alone, i, &wish[i]);
+        bool blocked = fly_one(&both->alone, i, &desired[i]);
         compare(both, i);
         assert_int_equal(air->blocked.lane[i], blocked ? -1 : 0);
     }
@@ -394,7 +401,7 @@ static void move_some(struct both *both, uint64_t *random, struct drawn *drawn)
     for (int again = 0; again < 3; again++) {
         uint32_t used = 1 + (uint32_t)fixture_random(random) % LANE_COUNT;
         drive(both, random, &land, used, drawn);
-        stand(both, &hold, &wrecks, used);
+        pose(both, &hold, &wrecks, used);
         fly(both, random, &air, used, drawn);
     }
 }
@@ -404,9 +411,9 @@ static void test_lanes_go_where_one_would(void **state)
     static const double heights[] = {0.0, 3.0, 15.0, 60.0};
     uint64_t random = fixture_seed(50);
     struct drawn drawn = {0};
-    struct serial_context serial;
-    struct step_context move;
-    struct both both = {.move = &move};
+    struct serial_context serial_context;
+    struct step_context context;
+    struct both both = {.context = &context};
     (void)state;
     fixture_open(&f, scene);
     assert_true(f.view.world.counts.fixed == 3);
@@ -421,18 +428,18 @@ static void test_lanes_go_where_one_would(void **state)
         }
         if (i % 50 == 0)
             scar(&random, i % 100 == 0);
-        steps_serial(&f, &move, &serial);
-        both.alone = move;
+        steps_serial_context(&f, &context, &serial_context);
+        both.alone = context;
         both.alone.m = &both.rows;
         move_some(&both, &random, &drawn);
     }
     free(memory);
     fixture_close(&f);
-    print_message("%u drove: %u blocked, %u on steep ground, %u scarred; %u batches not full; "
+    print_message("%u drove: %u blocked, %u on steep ground, %u cratered; %u batches not full; "
                   "%u flew\n",
-                  drawn.moved, drawn.blocked, drawn.steep, drawn.scarred, drawn.partial,
+                  drawn.moved, drawn.blocked, drawn.steep, drawn.cratered, drawn.partial,
                   drawn.flown);
-    assert_true(drawn.blocked > 500 && drawn.steep > 100 && drawn.scarred > 500 &&
+    assert_true(drawn.blocked > 500 && drawn.steep > 100 && drawn.cratered > 500 &&
                 drawn.partial > 500);
 }
 

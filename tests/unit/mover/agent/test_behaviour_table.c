@@ -32,7 +32,7 @@ static const char *said(uint32_t percepts)
 }
 
 /* Of every set of percepts, in every behaviour: the row that wins, by the definition alone. */
-static const struct behaviour_table_row *oracle(const struct behaviour_table_table *table,
+static const struct behaviour_table_row *oracle(const struct behaviour_table *table,
                                                 uint32_t behaviour, uint32_t percepts)
 {
     const struct behaviour_table_row *found = NULL;
@@ -50,7 +50,7 @@ static void test_row_9_every_row_of_every_table_can_win(void **state)
 {
     (void)state;
     for (uint32_t d = 0; d < DOCTRINE_COUNT; d++) {
-        const struct behaviour_table_table *table = &behaviour_table_tables[d];
+        const struct behaviour_table *table = &behaviour_tables[d];
         uint32_t won[ROWS_MAX] = {0}, behaviours[ROWS_MAX] = {0};
         assert_true(table->rows > 0 && table->rows <= ROWS_MAX);
         for (uint32_t b = 0; b < BEHAVIOUR_COUNT; b++) {
@@ -79,7 +79,7 @@ static void test_rows_are_sound(void **state)
                                   1u << BEHAVIOUR_BACK_OFF | 1u << BEHAVIOUR_RESUPPLY;
     (void)state;
     for (uint32_t d = 0; d < DOCTRINE_COUNT; d++) {
-        const struct behaviour_table_table *table = &behaviour_table_tables[d];
+        const struct behaviour_table *table = &behaviour_tables[d];
         assert_non_null(table->name);
         for (uint32_t n = 0; n < table->rows; n++) {
             const struct behaviour_table_row *row = &table->row[n];
@@ -147,7 +147,7 @@ static void test_row_9_each_sort_does_its_own_about_it(void **state)
     (void)state;
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
         const struct behaviour_table_row *row = behaviour_table_next(
-            &behaviour_table_tables[cases[n].doctrine], cases[n].from, cases[n].percepts);
+            &behaviour_tables[cases[n].doctrine], cases[n].from, cases[n].percepts);
         if (cases[n].to == cases[n].from ? row && row->to != cases[n].from : !row)
             fail_msg("case %zu", n);
         if (row && cases[n].to != cases[n].from) {

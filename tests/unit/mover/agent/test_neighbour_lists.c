@@ -14,24 +14,25 @@
 #define VEHICLES 1500
 
 static struct fixture f;
-static struct avoidance avoid;
-static struct neighbour_index near;
-static struct neighbour_lists company;
+static struct avoidance avoidance;
+static struct neighbour_index neighbours;
+static struct neighbour_lists lists;
 
 static int open_world(void **state)
 {
     (void)state;
     fixture_open(&f, "world = { seed = 1; capacity = 2048; hz = 20.0; };");
-    avoidance_init(&avoid, &f.view.world);
-    return neighbour_index_init(&near, 2048) == 0 && neighbour_lists_init(&company, 2048) == 0 ? 0
-                                                                                               : -1;
+    avoidance_init(&avoidance, &f.view.world);
+    return neighbour_index_init(&neighbours, 2048) == 0 && neighbour_lists_init(&lists, 2048) == 0
+               ? 0
+               : -1;
 }
 
 static int close_world(void **state)
 {
     (void)state;
-    neighbour_index_free(&near);
-    neighbour_lists_free(&company);
+    neighbour_index_free(&neighbours);
+    neighbour_lists_free(&lists);
     fixture_close(&f);
     return 0;
 }
@@ -49,18 +50,18 @@ static void scatter(uint64_t *random, double side_m)
 }
 
 /* By the rows themselves: near enough to be looked at, and not over or under it. */
-static bool in_company(const struct entities *e, uint32_t i, uint32_t j)
+static bool is_neighbour(const struct entities *e, uint32_t i, uint32_t j)
 {
     const struct kind *kinds = f.view.world.kinds;
-    double dx = e->x[j] - e->x[i], dz = e->z[j] - e->z[i], far = avoid.around_m[e->kind[i]];
+    double dx = e->x[j] - e->x[i], dz = e->z[j] - e->z[i], far = avoidance.around_m[e->kind[i]];
     double apart = 0.5 * (kinds[e->kind[i]].height_m + kinds[e->kind[j]].height_m) + 1.0;
     return i != j && dx * dx + dz * dz <= far * far && fabs(e->y[i] - e->y[j]) <= apart;
 }
 
-static bool lists(const struct neighbour_lists_list *list, uint32_t row)
+static bool holds(const struct neighbour_list *list, uint32_t row)
 {
     for (uint32_t n = 0; n < list->count; n++) {
-        if (company.entries[list->first + n].row == row)
+        if (lists.entries[list->first + n].row == row)
             return true;
     }
     return false;
@@ -71,16 +72,16 @@ static uint32_t gather(uint32_t think, struct thread_pool *workers)
 {
     struct entities e = steps_rows(&f);
     uint32_t made = 0;
-    neighbour_index_build(&near, &e, VEHICLES, 0, think, workers);
-    neighbour_lists_gather(&company, &near, &f.view.world, &avoid, workers);
+    neighbour_index_build(&neighbours, &e, VEHICLES, 0, think, workers);
+    neighbour_lists_gather(&lists, &neighbours, &f.view.world, &avoidance, workers);
     for (uint32_t i = 0; i < VEHICLES; i++) {
-        const struct neighbour_lists_list *list = &company.list[i];
+        const struct neighbour_list *list = &lists.list[i];
         if (e.id[i] % think != 0 || list->count == NEIGHBOUR_LISTS_NONE)
             continue;
         made++;
-        assert_false(lists(list, i));
+        assert_false(holds(list, i));
         for (uint32_t j = 0; j < VEHICLES; j++)
-            assert_true(!in_company(&e, i, j) || lists(list, j));
+            assert_true(!is_neighbour(&e, i, j) || holds(list, j));
     }
     return made;
 }

@@ -215,7 +215,7 @@ static void test_row_9_who_flees_goes_where_it_is_not_seen(void **state)
     struct vec3 eye = {e.x[enemy], e.y[enemy] + 2.0, e.z[enemy]};
     struct vec3 to = {e.goal_x[row], steps_ground_at(&f, e.goal_x[row], e.goal_z[row]) + 1.0,
                       e.goal_z[row]};
-    assert_false(line_of_sight_clear(&f.player.mover.outlook, eye, to));
+    assert_false(line_of_sight_clear(&f.player.mover.line_of_sight, eye, to));
 }
 
 /* --- home and back -----------------------------------------------------------------------------*/
@@ -274,10 +274,10 @@ static void test_supplies_come_evenly(void **state)
 static void test_a_turn_is_a_second_or_longer_in_a_crowd(void **state)
 {
     (void)state;
-    assert_int_equal(perception_think(steps_params(&f), 100), 2);
-    assert_int_equal(perception_think(steps_params(&f), 3072 * 12), 12);
-    assert_int_equal(perception_turn(steps_params(&f), 100), 20);
-    assert_int_equal(perception_turn(steps_params(&f), 768 * 50), 48);
+    assert_int_equal(perception_think_frames(steps_params(&f), 100), 2);
+    assert_int_equal(perception_think_frames(steps_params(&f), 3072 * 12), 12);
+    assert_int_equal(perception_look_frames(steps_params(&f), 100), 20);
+    assert_int_equal(perception_look_frames(steps_params(&f), 768 * 50), 48);
 }
 
 int main(void)

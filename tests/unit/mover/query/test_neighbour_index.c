@@ -15,7 +15,7 @@
 
 static struct entities rows;
 static void *memory;
-static struct neighbour_index near;
+static struct neighbour_index neighbours;
 static bool met[ROWS_MAX];
 
 static int open_table(void **state)
@@ -25,13 +25,13 @@ static int open_table(void **state)
     assert_non_null(memory);
     memset(memory, 0, entities_bytes(ROWS_MAX));
     entities_bind(&rows, ROWS_MAX, memory);
-    return neighbour_index_init(&near, ROWS_MAX);
+    return neighbour_index_init(&neighbours, ROWS_MAX);
 }
 
 static int close_table(void **state)
 {
     (void)state;
-    neighbour_index_free(&near);
+    neighbour_index_free(&neighbours);
     free(memory);
     return 0;
 }
@@ -78,8 +78,8 @@ static void agrees(uint32_t count, uint32_t layers, double x, double z, double r
 {
     const struct neighbour_index_entry *entry;
     memset(met, 0, sizeof met);
-    struct neighbour_query walk = neighbour_index_begin(&near, layers, x, z, radius);
-    while ((entry = neighbour_index_next(&walk))) {
+    struct neighbour_query query = neighbour_query_begin(&neighbours, layers, x, z, radius);
+    while ((entry = neighbour_query_next(&query))) {
         assert_true(entry->row < count && !met[entry->row]);
         met[entry->row] = true;
     }
@@ -94,7 +94,7 @@ static void test_a_walk_meets_exactly_who_is_within_the_radius(void **state)
     for (int trial = 0; trial < 60; trial++) {
         uint32_t count = (uint32_t)(fixture_random(&random) % ROWS_MAX);
         scatter(&random, count, trial % 2 ? WORLD_SIDE_M : 3000.0);
-        neighbour_index_build(&near, &rows, count, 0, 1, NULL);
+        neighbour_index_build(&neighbours, &rows, count, 0, 1, NULL);
         for (int n = 0; n < 6; n++)
             agrees(count, (uint32_t)(fixture_random(&random) % (NEIGHBOUR_INDEX_ALL + 1)),
                    fixture_uniform(&random, -100.0, 6000.0), fixture_uniform(&random, 0.0, 6000.0),
@@ -107,18 +107,19 @@ static uint32_t walk_all(uint32_t layers, struct neighbour_index_entry *met_in_o
 {
     const struct neighbour_index_entry *entry;
     uint32_t count = 0;
-    struct neighbour_query walk = neighbour_index_begin(&near, layers, 25000.0, 25000.0, 1e6);
-    while ((entry = neighbour_index_next(&walk)))
+    struct neighbour_query query =
+        neighbour_query_begin(&neighbours, layers, 25000.0, 25000.0, 1e6);
+    while ((entry = neighbour_query_next(&query)))
         met_in_order[count++] = *entry;
     return count;
 }
 
 static uint32_t cell_of(const struct neighbour_index_entry *entry)
 {
-    uint32_t column = (uint32_t)((double)entry->x * near.cells_per_m);
-    uint32_t row = (uint32_t)((double)entry->z * near.cells_per_m);
-    row = row < near.side ? row : near.side - 1;
-    return row * near.side + (column < near.side ? column : near.side - 1);
+    uint32_t column = (uint32_t)((double)entry->x * neighbours.cells_per_m);
+    uint32_t row = (uint32_t)((double)entry->z * neighbours.cells_per_m);
+    row = row < neighbours.side ? row : neighbours.side - 1;
+    return row * neighbours.side + (column < neighbours.side ? column : neighbours.side - 1);
 }
 
 static void test_rows_ascend_in_a_cell_on_any_number_of_threads(void **state)
@@ -127,9 +128,9 @@ static void test_rows_ascend_in_a_cell_on_any_number_of_threads(void **state)
     uint64_t random = fixture_seed(4);
     (void)state;
     scatter(&random, ROWS_MAX, 9000.0);
-    neighbour_index_build(&near, &rows, ROWS_MAX, 0, 1, NULL);
+    neighbour_index_build(&neighbours, &rows, ROWS_MAX, 0, 1, NULL);
     for (uint32_t layers = 1; layers <= NEIGHBOUR_INDEX_ALL; layers++) {
-        neighbour_index_build(&near, &rows, ROWS_MAX, 0, 1, NULL);
+        neighbour_index_build(&neighbours, &rows, ROWS_MAX, 0, 1, NULL);
         uint32_t count = walk_all(layers, one);
         for (uint32_t n = 1; n < count && layers == NEIGHBOUR_INDEX_LAYER(FORCE_RED); n++)
             assert_true(cell_of(&one[n - 1]) < cell_of(&one[n]) ||
@@ -137,7 +138,7 @@ static void test_rows_ascend_in_a_cell_on_any_number_of_threads(void **state)
         for (uint32_t threads = 2; threads <= 3; threads++) {
             struct thread_pool *workers = thread_pool_create(threads);
             assert_non_null(workers);
-            neighbour_index_build(&near, &rows, ROWS_MAX, 0, 1, workers);
+            neighbour_index_build(&neighbours, &rows, ROWS_MAX, 0, 1, workers);
             assert_int_equal(walk_all(layers, other), count);
             for (uint32_t n = 0; n < count; n++)
                 assert_int_equal(one[n].row, other[n].row);
@@ -154,7 +155,7 @@ static void test_those_are_due_whose_turn_it_is(void **state)
     scatter(&random, 1000, 9000.0);
     for (uint32_t think = 1; think < 40; think += 6) {
         uint32_t tick = (uint32_t)fixture_random(&random);
-        neighbour_index_build(&near, &rows, 1000, tick, think, NULL);
+        neighbour_index_build(&neighbours, &rows, 1000, tick, think, NULL);
         uint32_t count = walk_all(NEIGHBOUR_INDEX_ALL, all);
         for (uint32_t n = 0; n < count; n++)
             assert_int_equal(all[n].due, rows.state[all[n].row] == ENTITY_ACTIVE &&
@@ -165,14 +166,14 @@ static void test_those_are_due_whose_turn_it_is(void **state)
 static void test_an_empty_world_and_an_empty_layer_meet_nobody(void **state)
 {
     (void)state;
-    neighbour_index_build(&near, &rows, 0, 0, 1, NULL);
+    neighbour_index_build(&neighbours, &rows, 0, 0, 1, NULL);
     agrees(0, NEIGHBOUR_INDEX_ALL, 25000.0, 25000.0, 1e6);
     put(0, 25000.0, 25000.0, FORCE_BLUE);
-    neighbour_index_build(&near, &rows, 1, 0, 1, NULL);
-    agrees(1, NEIGHBOUR_INDEX_THE_LIVING, 25000.0, 25000.0, 0.0);
+    neighbour_index_build(&neighbours, &rows, 1, 0, 1, NULL);
+    agrees(1, NEIGHBOUR_INDEX_LIVING, 25000.0, 25000.0, 0.0);
     agrees(1, neighbour_index_enemies(FORCE_BLUE), 25000.0, 25000.0, 1e6);
     agrees(1, neighbour_index_enemies(FORCE_NEUTRAL), 25000.0, 25000.0, 1e6);
-    assert_int_equal(near.present, NEIGHBOUR_INDEX_LAYER(FORCE_BLUE));
+    assert_int_equal(neighbours.present, NEIGHBOUR_INDEX_LAYER(FORCE_BLUE));
 }
 
 static void test_the_neutral_are_nobodys_enemies(void **state)

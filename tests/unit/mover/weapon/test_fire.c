@@ -1,4 +1,5 @@
 /* Shots: aim, dispersion, reloading, rounds, and what happens when there is no room. */
+#include "mover/weapon/fire.h"
 #include "tests/support/steps.h"
 
 #include <stdarg.h>
@@ -89,11 +90,11 @@ static void test_dispersion_is_the_kinds_standard_error(void **state)
     tank->rounds = 1000;
     uint32_t shooter =
         fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 5000.0, 25000.0}});
-    struct step_context move;
-    struct serial_context serial;
-    steps_serial(&f, &move, &serial);
+    struct step_context step;
+    struct serial_context context;
+    steps_serial_context(&f, &step, &context);
     for (int n = 0; n < shots; n++) {
-        assert_true(fire_shoot(&serial, shooter, SLOT_NONE, KIND_NONE));
+        assert_true(fire_shoot(&context, shooter, SLOT_NONE, KIND_NONE));
         const struct entities *m = &f.view.m.entities;
         uint32_t row = (uint32_t)(1 + n);
         double angle[2] = {maths_wrap_half(m->heading[row]), m->pitch[row]};
@@ -176,20 +177,20 @@ static void test_a_wreck_and_the_unarmed_cannot_fire(void **state)
 
 static void test_a_full_table_refuses_a_shot_and_changes_nothing(void **state)
 {
-    struct step_context move;
-    struct serial_context serial;
+    struct step_context step;
+    struct serial_context context;
     (void)state;
     fixture_close(&f);
     fixture_open(&f, "world = { seed = 1; capacity = 16; };");
     for (uint32_t n = 0; n < 16; n++)
         put("tank", 24000.0 + 50.0 * n, 25000.0, (struct vec3){0.0, 0.0, 0.0});
-    steps_serial(&f, &move, &serial);
+    steps_serial_context(&f, &step, &context);
     uint64_t before = steps_moved_hash(&f);
-    assert_false(fire_shoot(&serial, 3, 4, KIND_NONE));
+    assert_false(fire_shoot(&context, 3, 4, KIND_NONE));
     assert_int_equal(f.view.m.head->tally.spawns_refused, 1);
     f.view.m.head->tally.spawns_refused = 0; /* the count is all that it leaves */
     assert_true(steps_moved_hash(&f) == before);
-    assert_false(fire_drop_bomb(&serial, fixture_kind(&f, "bomb"), 25000.0, 25000.0));
+    assert_false(fire_drop_bomb(&context, fixture_kind(&f, "bomb"), 25000.0, 25000.0));
     f.view.m.head->tally.spawns_refused = 0;
     assert_true(steps_moved_hash(&f) == before);
 }
@@ -197,14 +198,14 @@ static void test_a_full_table_refuses_a_shot_and_changes_nothing(void **state)
 static void test_a_frame_full_of_intents_refuses_a_shot_and_changes_nothing(void **state)
 {
     uint32_t shooter = put("tank", 25000.0, 25000.0, (struct vec3){0.0, 0.0, 0.0});
-    struct step_context move;
-    struct serial_context serial;
+    struct step_context step;
+    struct serial_context context;
     (void)state;
-    steps_serial(&f, &move, &serial);
+    steps_serial_context(&f, &step, &context);
     f.view.m.head->intent_count = f.view.world.params->intents_per_frame;
     uint64_t before = steps_moved_hash(&f);
-    assert_false(fire_shoot(&serial, shooter, SLOT_NONE, KIND_NONE));
-    assert_false(fire_drop_bomb(&serial, fixture_kind(&f, "bomb"), 25000.0, 25000.0));
+    assert_false(fire_shoot(&context, shooter, SLOT_NONE, KIND_NONE));
+    assert_false(fire_drop_bomb(&context, fixture_kind(&f, "bomb"), 25000.0, 25000.0));
     assert_true(steps_moved_hash(&f) == before);
 }
 

@@ -1,4 +1,5 @@
 /* Rows for new entities: used again, with ids that never are. */
+#include "mover/weapon/spawn.h"
 #include "tests/support/steps.h"
 
 #include <stdarg.h>
@@ -12,14 +13,14 @@
 #define CAPACITY 16
 
 static struct fixture f;
-static struct step_context move;
-static struct serial_context serial;
+static struct step_context step;
+static struct serial_context context;
 
 static int open_world(void **state)
 {
     (void)state;
     fixture_open(&f, "world = { seed = 1; capacity = 16; };");
-    steps_serial(&f, &move, &serial);
+    steps_serial_context(&f, &step, &context);
     return 0;
 }
 
@@ -32,7 +33,7 @@ static int close_world(void **state)
 
 static uint32_t spawn(const char *kind)
 {
-    return spawn_entity(&serial, fixture_kind(&f, kind), FORCE_BLUE);
+    return spawn_entity(&context, fixture_kind(&f, kind), FORCE_BLUE);
 }
 
 static void test_a_new_row_is_clean_whatever_lay_there(void **state)
@@ -66,7 +67,7 @@ static void test_a_munition_flies_and_has_a_life(void **state)
     assert_int_equal(m->until_tick[row], 1 + (uint32_t)(20.0 * 60.0));
     assert_int_equal(head->munitions, 1);
     assert_int_equal(head->vehicles, 0);
-    spawn_remove(&serial, row);
+    spawn_remove(&context, row);
     assert_int_equal(head->munitions, 0);
 }
 
@@ -80,7 +81,7 @@ static void test_a_full_table_refuses_and_counts(void **state)
     assert_int_equal(spawn("shell"), SLOT_NONE);
     assert_int_equal(head->tally.spawns_refused, 2);
     assert_int_equal(head->next_id, CAPACITY + 1);
-    spawn_remove(&serial, 5);
+    spawn_remove(&context, 5);
     assert_int_equal(spawn("jeep"), 5);
     assert_int_equal(f.view.m.entities.id[5], CAPACITY + 1);
 }
@@ -90,7 +91,7 @@ static void test_freed_rows_rest_while_there_are_others(void **state)
     (void)state;
     for (uint32_t n = 0; n < 4; n++)
         spawn("jeep");
-    spawn_remove(&serial, 1);
+    spawn_remove(&context, 1);
     /* The search goes on from where it was: a row's late references die out meanwhile. */
     for (uint32_t n = 4; n < CAPACITY; n++)
         assert_int_equal(spawn("jeep"), n);
@@ -120,7 +121,7 @@ static void test_random_comings_and_goings_keep_ids_and_counts(void **state)
             live++;
             rounds += round;
         } else if (id[at] != 0) {
-            spawn_remove(&serial, at);
+            spawn_remove(&context, at);
             id[at] = 0;
             live--;
             rounds -= round_at[at];
@@ -137,14 +138,14 @@ static void test_intents_end_when_the_frame_is_full(void **state)
     uint32_t most = f.view.world.params->intents_per_frame;
     (void)state;
     for (uint32_t n = 0; n < most; n++) {
-        struct event *intent = serial_context_intent(&serial, EVENT_AGENT);
+        struct event *intent = serial_context_intent(&context, EVENT_AGENT);
         assert_non_null(intent);
         memset(intent->bytes, 0xa5, sizeof intent->bytes);
     }
-    assert_null(serial_context_intent(&serial, EVENT_AGENT));
+    assert_null(serial_context_intent(&context, EVENT_AGENT));
     assert_int_equal(f.view.m.head->intent_count, most);
     f.view.m.head->intent_count = 0;
-    const struct event *again = serial_context_intent(&serial, EVENT_FIRE);
+    const struct event *again = serial_context_intent(&context, EVENT_FIRE);
     for (size_t n = 0; n < sizeof again->bytes; n++) /* nothing of the last frame is left */
         assert_int_equal(again->bytes[n], 0);
 }

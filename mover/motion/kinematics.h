@@ -1,0 +1,47 @@
+/* Parts of motion that the domains share, for one body. kinematics_simd.h has them for four. */
+#ifndef JOLON_MOVER_MOTION_KINEMATICS_H
+#define JOLON_MOVER_MOTION_KINEMATICS_H
+
+#include "mover/context/step_context.h"
+
+struct terrain_cache;
+union simd_lanes;
+
+/* Height of the ground [m], craters included; and of eight points. */
+double kinematics_ground(const struct step_context *context, double x, double z);
+void kinematics_ground_lanes(const struct step_context *context, struct terrain_cache *cache,
+                             const union simd_lanes *x, const union simd_lanes *z,
+                             union simd_lanes *ground);
+
+/* Height of the aim point above a body's position [m]: the middle of what can be hit. */
+double kinematics_aim_height(const struct step_context *context, uint16_t kind);
+
+/* The heading turned towards wanted by at most rate_rps * dt_s. */
+double kinematics_turn(double heading, double wanted, double rate_rps, double dt_s);
+
+/* Turns row i as desired, by at most rate_rps. */
+void kinematics_steer(const struct step_context *context, uint32_t i,
+                      const struct desired_motion *desired, double rate_rps);
+
+/* Braking [m/s2] of a vehicle whose speed is forward. Agents brake as hard as their kind can, and
+ * so does a driver who brakes or reverses. A driver who releases the throttle slows by drag_mps2.
+ */
+double kinematics_slowing(const struct kind *kind, const struct desired_motion *desired,
+                          double forward, double drag_mps2);
+
+/* Speed [m/s] along the heading and to its right. */
+void kinematics_along(const struct entities *m, uint32_t i, double sine, double cosine,
+                      double *forward, double *rightward);
+
+/* The value moved towards wanted by at most step. */
+double kinematics_approach(double value, double wanted, double step);
+
+/* Moves a map coordinate by its speed. At the edge of the world the coordinate and the speed stop.
+ */
+void kinematics_advance(double *metres, double *speed_mps, double dt_s);
+
+/* Burns fuel at a share of full throttle. False when the tank is empty. A kind without a tank
+ * (fuel_l 0) always has fuel. */
+bool kinematics_burn(const struct step_context *context, uint32_t i, double share);
+
+#endif

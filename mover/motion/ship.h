@@ -1,0 +1,11 @@
+/* Motion of ships: they stay on the water. */
+#ifndef JOLON_MOVER_MOTION_SHIP_H
+#define JOLON_MOVER_MOTION_SHIP_H
+
+#include "mover/context/step_context.h"
+
+/* True when land or the edge of the world blocks the ship. */
+bool ship_move(const struct step_context *context, uint32_t i,
+               const struct desired_motion *desired);
+
+#endif
