@@ -1,5 +1,4 @@
-/* Players' and programs' commands: applied once, in the order of the rings, each with its answer.
- */
+/* Commands: a function a type, and the loop over the rings. */
 #include "mover/command_apply.h"
 
 #include "mover/motion/driver_controls.h"
@@ -9,23 +8,28 @@
 #include "mover/weapon/turret.h"
 #include "world/terrain/gridsquare.h"
 
-#include <stddef.h>
 #include <string.h>
 
-#define COMMAND_APPLY_A_FRAME 256 /* of one ring; the rest waits for the next frame */
-#define TIME_SCALE_MIN        0.01
-#define TIME_SCALE_MAX        100.0
+#define COMMANDS_A_FRAME 256 /* of one ring; the rest waits for the next frame */
+#define TIME_SCALE_MIN   0.01
+#define TIME_SCALE_MAX   100.0
+#define STEPS_MAX        1000000u
 
-/* What driving and letting go change. */
-#define DRIVEN_COLUMNS                                                                             \
-    (COLUMN_BIT(throttle) | COLUMN_BIT(steer) | COLUMN_BIT(climb) | COLUMN_BIT(brake) |            \
-     COLUMN_BIT(traverse) | COLUMN_BIT(elevate) | COLUMN_BIT(flags) | COLUMN_BIT(driver) |         \
-     COLUMN_BIT(until_tick))
+/* Applies a command. entity is the command's own, or becomes the id of the entity that it makes. */
+typedef enum command_result apply(struct serial_context *context, const struct command *command,
+                                  uint32_t *entity);
 
 static bool within(double value, double low, double high)
 {
     return value >= low && value <= high;
 }
+
+static bool in_world(const double point[2])
+{
+    return within(point[0], 0.0, WORLD_SIDE_M) && within(point[1], 0.0, WORLD_SIDE_M);
+}
+
+/* --- vehicles ----------------------------------------------------------------------------------*/
 
 static uint32_t vehicle_row(const struct serial_context *context, uint32_t id)
 {
@@ -37,8 +41,7 @@ static uint32_t vehicle_row(const struct serial_context *context, uint32_t id)
 static enum command_result set_behaviour(struct serial_context *context, uint32_t row,
                                          uint8_t behaviour)
 {
-    struct entities *m = &context->moved->entities;
-    uint8_t from = m->behaviour[row];
+    uint8_t from = context->moved->entities.behaviour[row];
     if (from == behaviour)
         return COMMAND_DONE;
     struct event *event = serial_context_intent(context, EVENT_AGENT);
@@ -47,13 +50,12 @@ static enum command_result set_behaviour(struct serial_context *context, uint32_
                                             REASON_COMMAND};
         context->moved->head->tally.agent_changes++;
     }
-    serial_context_changes(context, row, COLUMN_BIT(behaviour) | COLUMN_BIT(trigger));
-    m->behaviour[row] = behaviour;
-    m->trigger[row] = 0;
+    table_set_behaviour(&context->writer, row, behaviour);
+    table_set_trigger(&context->writer, row, 0);
     return COMMAND_DONE;
 }
 
-/* Has another source this vehicle for itself? */
+/* Does another source have this vehicle to itself? */
 static bool taken(const struct serial_context *context, uint32_t row, const struct command *command)
 {
     const struct entities *m = &context->moved->entities;
@@ -61,11 +63,13 @@ static bool taken(const struct serial_context *context, uint32_t row, const stru
            m->driver[row] != command->source;
 }
 
-static enum command_result drive(struct serial_context *context, const struct command *command)
+static enum command_result drive(struct serial_context *context, const struct command *command,
+                                 uint32_t *entity)
 {
-    struct entities *m = &context->moved->entities;
+    const struct entities *m = &context->moved->entities;
+    const struct table_writer *writer = &context->writer;
     const double *v = command->value;
-    uint32_t row = vehicle_row(context, command->entity);
+    uint32_t row = vehicle_row(context, *entity);
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
     if (m->state[row] != ENTITY_ACTIVE)
@@ -79,53 +83,58 @@ static enum command_result drive(struct serial_context *context, const struct co
     if (!within(v[5], 0.0, 1.0) || command->force >= GEAR_COUNT ||
         command->amount > COMMAND_LEASE_MAX)
         return COMMAND_OUT_OF_RANGE;
-    serial_context_changes(context, row, DRIVEN_COLUMNS);
-    m->throttle[row] = (float)v[0];
-    m->steer[row] = (float)v[1];
-    m->climb[row] = (float)v[2];
-    m->traverse[row] = (float)v[3];
-    m->elevate[row] = (float)v[4];
-    m->brake[row] = (float)v[5];
-    m->flags[row] = (uint8_t)((m->flags[row] & ~ENTITY_GEAR_MASK) | (unsigned)command->force
-                                                                        << ENTITY_GEAR_SHIFT);
-    m->driver[row] = command->amount > 0 ? command->source : 0;
-    m->until_tick[row] = (uint32_t)(context->step->tick + command->amount);
+    table_set_throttle(writer, row, (float)v[0]);
+    table_set_steer(writer, row, (float)v[1]);
+    table_set_climb(writer, row, (float)v[2]);
+    table_set_traverse(writer, row, (float)v[3]);
+    table_set_elevate(writer, row, (float)v[4]);
+    table_set_brake(writer, row, (float)v[5]);
+    table_set_flags(writer, row,
+                    (uint8_t)((m->flags[row] & ~ENTITY_GEAR_MASK) | (unsigned)command->force
+                                                                        << ENTITY_GEAR_SHIFT));
+    table_set_driver(writer, row, command->amount > 0 ? command->source : 0);
+    table_set_until_tick(writer, row, (uint32_t)(context->step->tick + command->amount));
     return set_behaviour(context, row, BEHAVIOUR_DRIVEN);
 }
 
-static enum command_result release(struct serial_context *context, const struct command *command)
+static enum command_result release(struct serial_context *context, const struct command *command,
+                                   uint32_t *entity)
 {
-    struct entities *m = &context->moved->entities;
-    uint32_t row = vehicle_row(context, command->entity);
+    const struct entities *m = &context->moved->entities;
+    uint32_t row = vehicle_row(context, *entity);
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
     if (m->behaviour[row] != BEHAVIOUR_DRIVEN)
         return COMMAND_CANNOT;
     if (command->amount == 0 && taken(context, row, command))
         return COMMAND_TAKEN;
-    serial_context_changes(context, row, DRIVEN_COLUMNS);
+    table_row_changes(&context->writer, row);
     driver_controls_release(m, row);
-    m->until_tick[row] = (uint32_t)context->step->tick; /* no longer its driver's */
+    m->until_tick[row] = (uint32_t)context->step->tick; /* the driver's lease is over */
     return set_behaviour(context, row, m->order[row]);
 }
 
-static enum command_result fire(struct serial_context *context, const struct command *command)
+static enum command_result drop_bomb(struct serial_context *context, const struct command *command)
 {
     const struct world *world = context->step->world;
-    struct entities *m = &context->moved->entities;
-    if (command->entity == 0) {
-        if (command->kind >= world->counts.kinds ||
-            world->kinds[command->kind].domain != DOMAIN_MUNITION)
-            return COMMAND_NO_SUCH_KIND;
-        if (!within(command->value[0], 0.0, WORLD_SIDE_M) ||
-            !within(command->value[1], 0.0, WORLD_SIDE_M))
-            return COMMAND_OUT_OF_RANGE;
-        return fire_drop_bomb(context, command->kind, command->value[0], command->value[1])
-                   ? COMMAND_DONE
-                   : COMMAND_TABLE_FULL;
-    }
-    uint32_t row = vehicle_row(context, command->entity);
-    uint32_t target = SLOT_NONE;
+    if (command->kind >= world->counts.kinds ||
+        world->kinds[command->kind].domain != DOMAIN_MUNITION)
+        return COMMAND_NO_SUCH_KIND;
+    if (!in_world(command->value))
+        return COMMAND_OUT_OF_RANGE;
+    return fire_drop_bomb(context, command->kind, command->value[0], command->value[1])
+               ? COMMAND_DONE
+               : COMMAND_TABLE_FULL;
+}
+
+static enum command_result fire(struct serial_context *context, const struct command *command,
+                                uint32_t *entity)
+{
+    const struct step_context *step = context->step;
+    const struct entities *m = &context->moved->entities;
+    if (*entity == 0)
+        return drop_bomb(context, command);
+    uint32_t row = vehicle_row(context, *entity), target = SLOT_NONE;
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
     if (command->target != 0) {
@@ -137,38 +146,35 @@ static enum command_result fire(struct serial_context *context, const struct com
     }
     if (taken(context, row, command))
         return COMMAND_TAKEN;
-    if (m->state[row] != ENTITY_ACTIVE || context->step->tick < m->reload_tick[row] ||
-        m->rounds[row] == 0 || world->kinds[m->kind[row]].munition == KIND_NONE)
+    if (m->state[row] != ENTITY_ACTIVE || step->tick < m->reload_tick[row] || m->rounds[row] == 0 ||
+        step->world->kinds[m->kind[row]].munition == KIND_NONE)
         return COMMAND_CANNOT;
-    if (target != SLOT_NONE) { /* the gunner lays his gun on it, if it is not yet */
-        m->target_slot[row] = target;
-        m->target_id[row] = m->id[target];
-        serial_context_changes(context, row, COLUMN_BIT(target_slot) | COLUMN_BIT(target_id));
-        if (target >= context->step->committed->head->used ||
-            !turret_bears(context->step, m, row, target))
+    if (target != SLOT_NONE) { /* the gun turns to the target even if it cannot fire yet */
+        table_set_target(&context->writer, row, target, m->id[target]);
+        if (target >= step->committed->head->used || !turret_bears(step, m, row, target))
             return COMMAND_CANNOT;
     }
     return fire_shoot(context, row, target, KIND_NONE) ? COMMAND_DONE : COMMAND_TABLE_FULL;
 }
 
-/* Do as many vehicles as may stand within COMMAND_SPOT_M of this place already? Bodies that are
- * spawned into one another cost the collider the square of their number. */
+/* Are there COMMAND_SPOT_VEHICLES vehicles within COMMAND_SPOT_M of this place? The collider's time
+ * for bodies that are spawned into one another grows with the square of their number. */
 static bool crowded(const struct serial_context *context, struct vec3 place)
 {
     const struct entities *m = &context->moved->entities;
-    uint32_t near = 0;
-    for (uint32_t row = 0; row < context->moved->head->used && near < COMMAND_SPOT_VEHICLES;
+    uint32_t count = 0;
+    for (uint32_t row = 0; row < context->moved->head->used && count < COMMAND_SPOT_VEHICLES;
          row++) {
         if (m->state[row] == ENTITY_FREE || m->behaviour[row] == BEHAVIOUR_FLIGHT)
             continue;
         struct vec3 away = vec3_sub(entities_position(m, row), place);
-        near += vec3_dot(away, away) < COMMAND_SPOT_M * COMMAND_SPOT_M;
+        count += vec3_dot(away, away) < COMMAND_SPOT_M * COMMAND_SPOT_M;
     }
-    return near == COMMAND_SPOT_VEHICLES;
+    return count == COMMAND_SPOT_VEHICLES;
 }
 
 static enum command_result spawn(struct serial_context *context, const struct command *command,
-                                 uint32_t *made)
+                                 uint32_t *entity)
 {
     const struct world *world = context->step->world;
     struct entities *m = &context->moved->entities;
@@ -176,8 +182,7 @@ static enum command_result spawn(struct serial_context *context, const struct co
     if (command->kind >= world->counts.kinds || world->kinds[command->kind].domain > DOMAIN_AIR)
         return COMMAND_NO_SUCH_KIND;
     const struct kind *kind = &world->kinds[command->kind];
-    if (!within(v[0], 0.0, WORLD_SIDE_M) || !within(v[1], 0.0, WORLD_SIDE_M) ||
-        !within(v[2], 0.0, 20000.0) || !within(v[3], -TWO_PI, TWO_PI) ||
+    if (!in_world(v) || !within(v[2], 0.0, 20000.0) || !within(v[3], -TWO_PI, TWO_PI) ||
         !within(v[4], 0.0, 10000.0) || command->force >= FORCE_COUNT ||
         command->amount > BEHAVIOUR_PATROL)
         return COMMAND_OUT_OF_RANGE;
@@ -200,67 +205,88 @@ static enum command_result spawn(struct serial_context *context, const struct co
     m->behaviour[row] = m->order[row] = (uint8_t)command->amount;
     m->goal_x[row] = v[0];
     m->goal_z[row] = v[1];
-    *made = m->id[row];
+    *entity = m->id[row];
     return COMMAND_DONE;
 }
 
-static enum command_result control(struct serial_context *context, const struct command *command)
+static enum command_result remove_vehicle(struct serial_context *context,
+                                          const struct command *command, uint32_t *entity)
 {
-    struct state_head *head = context->moved->head;
-    switch ((enum command_type)command->type) {
-    case COMMAND_PAUSE:
-        head->paused = 1;
-        head->steps_left = 0;
-        return COMMAND_DONE;
-    case COMMAND_RESUME:
-        head->paused = 0;
-        head->steps_left = 0;
-        return COMMAND_DONE;
-    case COMMAND_STEP:
-        if (!head->paused)
-            return COMMAND_CANNOT;
-        if (command->amount < 1 || command->amount > 1000000)
-            return COMMAND_OUT_OF_RANGE;
-        head->steps_left = command->amount < UINT32_MAX - head->steps_left
-                               ? head->steps_left + command->amount
-                               : UINT32_MAX;
-        return COMMAND_DONE;
-    case COMMAND_SCALE:
-        if (!within(command->value[0], TIME_SCALE_MIN, TIME_SCALE_MAX))
-            return COMMAND_OUT_OF_RANGE;
-        head->time_scale = command->value[0];
-        return COMMAND_DONE;
-    case COMMAND_QUIT:
-        head->quit = 1;
-        return COMMAND_DONE;
-    default:
-        return COMMAND_UNKNOWN;
-    }
+    (void)command;
+    uint32_t row = vehicle_row(context, *entity);
+    if (row == SLOT_NONE)
+        return COMMAND_NO_SUCH_ENTITY;
+    spawn_remove(context, row);
+    return COMMAND_DONE;
 }
 
-static enum command_result apply(struct serial_context *context, const struct command *command,
+/* --- the run -----------------------------------------------------------------------------------*/
+
+static enum command_result pause(struct serial_context *context, const struct command *command,
                                  uint32_t *entity)
 {
-    uint32_t row;
-    *entity = command->entity;
-    switch ((enum command_type)command->type) {
-    case COMMAND_DRIVE:
-        return drive(context, command);
-    case COMMAND_RELEASE:
-        return release(context, command);
-    case COMMAND_FIRE:
-        return fire(context, command);
-    case COMMAND_SPAWN:
-        return spawn(context, command, entity);
-    case COMMAND_REMOVE:
-        row = vehicle_row(context, command->entity);
-        if (row == SLOT_NONE)
-            return COMMAND_NO_SUCH_ENTITY;
-        spawn_remove(context, row);
-        return COMMAND_DONE;
-    default:
-        return control(context, command);
+    (void)entity;
+    context->moved->head->paused = command->type == COMMAND_PAUSE;
+    context->moved->head->steps_left = 0;
+    return COMMAND_DONE;
+}
+
+static enum command_result step(struct serial_context *context, const struct command *command,
+                                uint32_t *entity)
+{
+    struct state_head *head = context->moved->head;
+    (void)entity;
+    if (!head->paused)
+        return COMMAND_CANNOT;
+    if (command->amount < 1 || command->amount > STEPS_MAX)
+        return COMMAND_OUT_OF_RANGE;
+    head->steps_left = command->amount < UINT32_MAX - head->steps_left
+                           ? head->steps_left + command->amount
+                           : UINT32_MAX;
+    return COMMAND_DONE;
+}
+
+static enum command_result scale(struct serial_context *context, const struct command *command,
+                                 uint32_t *entity)
+{
+    (void)entity;
+    if (!within(command->value[0], TIME_SCALE_MIN, TIME_SCALE_MAX))
+        return COMMAND_OUT_OF_RANGE;
+    context->moved->head->time_scale = command->value[0];
+    return COMMAND_DONE;
+}
+
+static enum command_result quit(struct serial_context *context, const struct command *command,
+                                uint32_t *entity)
+{
+    (void)command;
+    (void)entity;
+    context->moved->head->quit = 1;
+    return COMMAND_DONE;
+}
+
+/* --- all of them -------------------------------------------------------------------------------*/
+
+static const struct {
+    enum command_type type;
+    apply *apply;
+} registry[] = {
+    {COMMAND_PAUSE, pause}, {COMMAND_RESUME, pause}, {COMMAND_STEP, step},
+    {COMMAND_SCALE, scale}, {COMMAND_DRIVE, drive},  {COMMAND_RELEASE, release},
+    {COMMAND_FIRE, fire},   {COMMAND_SPAWN, spawn},  {COMMAND_REMOVE, remove_vehicle},
+    {COMMAND_QUIT, quit},
+};
+#define ROWS (sizeof registry / sizeof *registry)
+_Static_assert(ROWS == COMMAND_TYPE_COUNT - 1, "a row for each type but COMMAND_NONE");
+
+static enum command_result apply_one(struct serial_context *context, const struct command *command,
+                                     uint32_t *entity)
+{
+    for (size_t row = 0; row < ROWS; row++) {
+        if (registry[row].type == command->type)
+            return registry[row].apply(context, command, entity);
     }
+    return COMMAND_UNKNOWN;
 }
 
 static void put_answer(struct event *event, const struct command *command,
@@ -288,15 +314,15 @@ static void apply_ring(struct serial_context *context, const struct command_sour
     uint32_t most = params->intents_per_frame < params->events_per_frame ? params->intents_per_frame
                                                                          : params->events_per_frame;
     uint64_t *cursor = &head->command_cursor[ring];
-    for (int n = 0; n < COMMAND_APPLY_A_FRAME && *cursor < source->end; n++) {
-        /* A copy: the ring's writer must not change it between a check and its use. */
+    for (int n = 0; n < COMMANDS_A_FRAME && *cursor < source->end; n++) {
+        /* A copy, because the ring's writer could change the slot between a check and its use. */
         const struct command command = source->slot[*cursor & (source->slots - 1)];
-        /* An answer must have room in the frame, with one more for what the command itself says:
-         * one that is taken is always told of, or else it stays in its ring. */
+        /* The answer needs room in the frame, and so does the command's own event. Without room the
+         * command stays in its ring, so that every command taken is answered. */
         if (head->intent_count + 2 > most)
             return;
-        uint32_t entity = 0;
-        enum command_result result = apply(context, &command, &entity);
+        uint32_t entity = command.entity;
+        enum command_result result = apply_one(context, &command, &entity);
         struct event *event = serial_context_intent(context, EVENT_COMMAND);
         put_answer(event, &command, head);
         event->command.result = (uint8_t)result;

@@ -59,7 +59,7 @@ struct rows {
     const struct step_context *context;
     struct table committed, moved;
     const struct state_head *head; /* of moved */
-    struct moved_blocks *blocks;
+    uint64_t *changed;             /* [CHECKSUM_PIECES] columns to hash again */
     const struct piece_hashes *blank;
     bool known; /* moved is what this process left: the rows before collisions changed some */
 };
@@ -263,7 +263,7 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
     (void)worker;
     for (; first < end; first += CHECKSUM_ROWS) {
         uint32_t number = first / CHECKSUM_ROWS;
-        uint64_t *changed = &rows->blocks->changed[number];
+        uint64_t *changed = &rows->changed[number];
         const struct row_block block = {
             .first = first,
             .end = end - first < CHECKSUM_ROWS ? end : first + CHECKSUM_ROWS,
@@ -286,7 +286,7 @@ static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t wo
     for (uint32_t block = first; block < end; block++) {
         table_take(rows->moved, rows->committed, block, rows->context->committed->head->used,
                    rows->known);
-        rows->blocks->changed[block] = rows->known ? 0 : COLUMNS_ALL;
+        rows->changed[block] = rows->known ? 0 : COLUMNS_ALL;
     }
 }
 
@@ -318,10 +318,9 @@ static void scenario_fires(struct serial_context *context)
 static void pull_trigger(struct serial_context *context, uint32_t i)
 {
     const struct entities *w = &context->step->committed->entities;
-    struct entities *m = &context->moved->entities;
+    const struct entities *m = &context->moved->entities;
     uint8_t trigger = m->trigger[i];
-    m->trigger[i] = 0;
-    serial_context_changes(context, i, COLUMN_BIT(trigger));
+    table_set_trigger(&context->writer, i, 0);
     if (trigger >> TRIGGER_REASON_SHIFT) {
         struct event *event = serial_context_intent(context, EVENT_AGENT);
         if (event)
@@ -375,8 +374,8 @@ static bool is_own(const struct mover *mover, const struct state *committed,
 static uint64_t checksum(struct mover *mover, const struct moved *moved)
 {
     uint32_t used = moved->head->used;
-    table_hash(moved_table(moved), used, mover->blocks.changed, mover->workers);
-    memset(mover->blocks.changed, 0, sizeof mover->blocks.changed);
+    table_hash(moved_table(moved), used, mover->changed, mover->workers);
+    memset(mover->changed, 0, sizeof mover->changed);
     return moved_checksum_of(moved, rows_hash(moved->hashes, used));
 }
 
@@ -412,12 +411,12 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
     struct state_head *head = moved->head;
     const struct step_context context = mover_context(mover, committed, moved);
     struct serial_context serial_context = {
-        .step = &context, .moved = moved, .blocks = &mover->blocks};
+        .step = &context, .moved = moved, .writer = {&moved->entities, mover->changed}};
     struct rows rows = {.context = &context,
                         .committed = state_table(committed),
                         .moved = moved_table(moved),
                         .head = head,
-                        .blocks = &mover->blocks,
+                        .changed = mover->changed,
                         .blank = &mover->blank,
                         .known = is_own(mover, committed, moved)};
     uint32_t used = committed->head->used;

@@ -25,7 +25,7 @@ struct mover {
         *terrain_entries; /* [capacity + GROUND_POSE_AHEAD] cache of the ground about each row */
     struct terrain_cache_entry *terrain_entries_ahead; /* [capacity] where aircraft soon will be */
     struct thread_pool *workers;                       /* NULL: alone */
-    struct moved_blocks blocks;                        /* of this frame */
+    uint64_t changed[CHECKSUM_PIECES];                 /* of this frame */
     struct piece_hashes blank;                         /* of a piece that is all zero */
     uint64_t left; /* checksum of the moved table that it left; 0: none */
 };

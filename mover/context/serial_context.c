@@ -3,11 +3,6 @@
 
 #include <string.h>
 
-void serial_context_changes(struct serial_context *context, uint32_t row, uint64_t columns)
-{
-    context->blocks->changed[row / CHECKSUM_ROWS] |= columns;
-}
-
 struct event *serial_context_intent(struct serial_context *context, enum event_type type)
 {
     struct state_head *head = context->moved->head;

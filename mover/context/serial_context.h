@@ -4,22 +4,13 @@
 #define JOLON_MOVER_CONTEXT_SERIAL_CONTEXT_H
 
 #include "mover/context/step_context.h"
-#include "world/checksum.h"
-
-/* Columns of the moved table's blocks that changed since they were hashed. */
-struct moved_blocks {
-    uint64_t changed[CHECKSUM_PIECES];
-};
+#include "world/entity/table_write.h"
 
 struct serial_context {
     const struct step_context *step;
     struct moved *moved;
-    struct moved_blocks *blocks;
+    struct table_writer writer; /* by which everything changes rows of moved */
 };
-
-/* A function that writes columns of a row (COLUMN_BIT) calls this, so that they are hashed again.
- */
-void serial_context_changes(struct serial_context *context, uint32_t row, uint64_t columns);
 
 /* Appends an intent and returns it, zero but for its type. NULL when the frame has no room. */
 struct event *serial_context_intent(struct serial_context *context, enum event_type type);

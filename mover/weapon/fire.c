@@ -80,10 +80,10 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
     point_munition(m, row, muzzle, vec3_scale(direction, speed));
     m->owner_slot[row] = shooter;
     m->owner_id[row] = m->id[shooter];
-    m->rounds[shooter]--;
-    serial_context_changes(context, shooter, COLUMN_BIT(rounds) | COLUMN_BIT(reload_tick));
-    m->reload_tick[shooter] =
-        (uint32_t)(context->step->tick + (uint64_t)(kind->reload_s / context->step->dt_s));
+    table_set_rounds(&context->writer, shooter, m->rounds[shooter] - 1);
+    table_set_reload_tick(
+        &context->writer, shooter,
+        (uint32_t)(context->step->tick + (uint64_t)(kind->reload_s / context->step->dt_s)));
 
     struct event *event = serial_context_intent(context, EVENT_FIRE);
     event->fire.shooter = serial_context_party(context, shooter);
@@ -96,9 +96,7 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
         event->fire.target = serial_context_party(context, target);
         m->target_slot[row] = target;
         m->target_id[row] = m->id[target];
-        m->threat_slot[target] = shooter;
-        m->threat_id[target] = m->id[shooter];
-        serial_context_changes(context, target, COLUMN_BIT(threat_slot) | COLUMN_BIT(threat_id));
+        table_set_threat(&context->writer, target, shooter, m->id[shooter]);
     }
     return true;
 }

@@ -28,10 +28,9 @@ uint32_t spawn_entity(struct serial_context *context, uint16_t kind_index, uint8
         head->tally.spawns_refused++;
         return SLOT_NONE;
     }
-    serial_context_changes(context, row, COLUMNS_ALL);
     head->used = row < head->used ? head->used : row + 1;
     head->alloc_next = (row + 1) % m->capacity;
-    entities_clear(m, row);
+    table_clear_row(&context->writer, row);
     m->id[row] = head->next_id++;
     m->kind[row] = kind_index;
     m->state[row] = ENTITY_ACTIVE;
@@ -58,6 +57,5 @@ void spawn_remove(struct serial_context *context, uint32_t row)
         head->munitions--;
     else
         head->vehicles--;
-    serial_context_changes(context, row, COLUMNS_ALL);
-    entities_clear(m, row);
+    table_clear_row(&context->writer, row);
 }

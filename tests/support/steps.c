@@ -182,8 +182,10 @@ void steps_serial_context(struct fixture *fixture, struct step_context *step,
     *step = mover_context(&fixture->player.mover, committed, &view->m);
     *view->m.head = *committed->head;
     entities_copy(&view->m.entities, &committed->entities, 0, committed->head->used);
-    *context = (struct serial_context){
-        .step = step, .moved = &view->m, .blocks = &fixture->player.mover.blocks};
+    *context =
+        (struct serial_context){.step = step,
+                                .moved = &view->m,
+                                .writer = {&view->m.entities, fixture->player.mover.changed}};
 }
 
 void steps_respond(struct fixture *fixture, struct response_context *respond)
