@@ -15,7 +15,7 @@ int collider_init(struct collider *collider, const struct world *world,
     *collider =
         (struct collider){.world = world, .workers = workers, .fixed_hash_frame = UINT64_MAX};
     if (crater_index_init(&collider->craters, craters) != 0 ||
-        height_max_map_init(&collider->crest, &world->terrain) != 0 ||
+        square_bounds_init(&collider->heights, square_bounds_height, &world->terrain) != 0 ||
         body_motion_init(&collider->motion, world) != 0 ||
         broad_phase_init(&collider->broad, world, workers) != 0 ||
         contact_queue_init(&collider->contacts, world, workers) != 0 ||
@@ -33,7 +33,7 @@ int collider_init(struct collider *collider, const struct world *world,
 void collider_free(struct collider *collider)
 {
     crater_index_free(&collider->craters);
-    height_max_map_free(&collider->crest);
+    square_bounds_free(&collider->heights);
     body_motion_free(&collider->motion);
     broad_phase_free(&collider->broad);
     contact_queue_free(&collider->contacts);
@@ -196,7 +196,7 @@ struct response_context collider_respond(struct collider *collider, struct state
                              .path = collider->motion.path,
                              .fixed_damage = next->fixed_damage,
                              .craters = &collider->craters,
-                             .crest = &collider->crest,
+                             .heights = &collider->heights,
                              .rows = next->head->used},
                   .motion = &collider->motion,
                   .broad = &collider->broad,

@@ -8,20 +8,20 @@
 
 #include "collider/broad_phase/broad_phase.h"
 #include "collider/narrow_phase/contact_queue.h"
-#include "collider/motion/height_max_map.h"
 #include "collider/motion/pair_filter.h"
 #include "collider/response/island.h"
 #include "collider/motion/body_motion.h"
 #include "collider/response/response.h"
 #include "world/checksum.h"
 #include "world/runtime/thread_pool.h"
+#include "world/terrain/square_bounds.h"
 #include "world/world.h"
 
 struct collider {
     const struct world *world;
-    struct crater_index craters; /* cache of the committed craters */
-    struct height_max_map crest;
-    struct thread_pool *workers; /* NULL: alone */
+    struct crater_index craters;  /* cache of the committed craters */
+    struct square_bounds heights; /* of the ground */
+    struct thread_pool *workers;  /* NULL: alone */
     struct broad_phase broad;
     struct contact_queue contacts;
     struct body_motion motion;

@@ -33,7 +33,7 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
         calloc(world->params->capacity, sizeof *mover->terrain_entries_ahead);
     if (mover->terrain_entries && mover->terrain_entries_ahead &&
         ground_marks_init(&mover->ground_marks, world) == 0 &&
-        slope_max_map_init(&mover->slope_max_map, &world->terrain) == 0 &&
+        square_bounds_init(&mover->slopes, square_bounds_slope, &world->terrain) == 0 &&
         crater_index_init(&mover->craters, craters) == 0 &&
         neighbour_index_init(&mover->neighbours, world->params->capacity) == 0 &&
         neighbour_lists_init(&mover->neighbour_lists, world->params->capacity) == 0 &&
@@ -50,7 +50,7 @@ void mover_free(struct mover *mover)
     neighbour_lists_free(&mover->neighbour_lists);
     line_of_sight_free(&mover->line_of_sight);
     ground_marks_free(&mover->ground_marks);
-    slope_max_map_free(&mover->slope_max_map);
+    square_bounds_free(&mover->slopes);
     free(mover->terrain_entries);
     free(mover->terrain_entries_ahead);
 }
@@ -393,7 +393,7 @@ struct step_context mover_context(const struct mover *mover, const struct state 
         .neighbour_lists = &mover->neighbour_lists,
         .line_of_sight = &mover->line_of_sight,
         .ground_marks = &mover->ground_marks,
-        .slope_max_map = &mover->slope_max_map,
+        .slopes = &mover->slopes,
         .avoidance = &mover->avoidance,
         .terrain_entries = mover->terrain_entries,
         .terrain_entries_ahead = mover->terrain_entries_ahead,

@@ -7,9 +7,9 @@
 #include "mover/agent/neighbour_lists.h"
 #include "mover/command_apply.h"
 #include "mover/query/ground_marks.h"
-#include "mover/query/slope_max_map.h"
 #include "world/checksum.h"
 #include "world/runtime/thread_pool.h"
+#include "world/terrain/square_bounds.h"
 #include "world/world.h"
 
 struct mover {
@@ -20,7 +20,7 @@ struct mover {
     struct neighbour_lists neighbour_lists; /* likewise */
     struct avoidance avoidance;             /* of the kinds */
     struct ground_marks ground_marks;       /* cache of the committed craters and damage */
-    struct slope_max_map slope_max_map;     /* cache of the ground's slopes and water */
+    struct square_bounds slopes;            /* of the ground; squares with water have none */
     struct terrain_cache_entry
         *terrain_entries; /* [capacity + GROUND_POSE_AHEAD] cache of the ground about each row */
     struct terrain_cache_entry *terrain_entries_ahead; /* [capacity] where aircraft soon will be */

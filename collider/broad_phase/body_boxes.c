@@ -119,8 +119,8 @@ static void take_kinds(const struct body_boxes *rows, struct block *block, uint3
         uint32_t kind = state[k] != ENTITY_FREE ? kinds[k] : 0;
         block->grow[k] = rows->grow[kind];
         block->tag[k] = (first + k) | rows->flags[kind];
-        if (rows->flags[kind] & BIN_AIR && rows->input->crest)
-            __builtin_prefetch(height_max_map_at(rows->input->crest, x[k], z[k]));
+        if (rows->flags[kind] & BIN_AIR && rows->input->heights)
+            __builtin_prefetch(&rows->input->heights->bound[gridsquare_of(x[k], z[k])]);
     }
 }
 
@@ -239,8 +239,8 @@ static void add_flier(const struct body_boxes *rows, struct sweep_worker *lane,
     struct vec3 at = {ends->at[0][k], ends->at[1][k], ends->at[2][k]};
     struct vec3 to = {ends->to[0][k], ends->to[1][k], ends->to[2][k]};
     if (input->entities->state[row] != ENTITY_ACTIVE ||
-        (!(tag & BIN_ROUND) && input->crest &&
-         height_max_map_below(input->crest, input->craters, at, to)))
+        (!(tag & BIN_ROUND) && input->heights &&
+         square_bounds_clear(input->heights, input->craters, at, to)))
         return;
     if (rows->motion)
         body_motion_draw(rows->motion, row);

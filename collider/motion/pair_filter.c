@@ -76,8 +76,8 @@ struct path_box pair_filter_box(const struct method_input *input, uint32_t row)
 
 bool pair_filter_ground(const struct method_input *input, const struct path *path, double *toi)
 {
-    if (input->crest &&
-        height_max_map_below(input->crest, input->craters, path->at, path_at(path, 1.0)))
+    if (input->heights &&
+        square_bounds_clear(input->heights, input->craters, path->at, path_at(path, 1.0)))
         return false;
     return analytic_impact_ground(&input->world->terrain, input->craters, path, toi);
 }

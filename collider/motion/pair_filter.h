@@ -13,8 +13,8 @@
 #ifndef JOLON_COLLIDER_MOTION_PAIR_FILTER_H
 #define JOLON_COLLIDER_MOTION_PAIR_FILTER_H
 
-#include "collider/motion/height_max_map.h"
 #include "collider/geometry/analytic_impact.h"
+#include "world/terrain/square_bounds.h"
 #include "world/world.h"
 
 #include <stdbool.h>
@@ -67,7 +67,7 @@ struct method_input {
     const struct path *path;         /* [rows] */
     const uint8_t *fixed_damage;
     const struct crater_index *craters;
-    const struct height_max_map *crest; /* NULL: every way is held against the ground itself */
+    const struct square_bounds *heights; /* NULL: each path is tested against the ground itself */
     uint32_t rows;
 };
 

@@ -3,9 +3,9 @@
 
 #include "mover/agent/neighbour_lists.h"
 #include "mover/motion/kinematics.h"
-#include "mover/query/slope_max_map.h"
+#include "mover/query/ground_marks.h"
 #include "world/terrain/fixed_index.h"
-#include "world/terrain/gridsquare.h"
+#include "world/terrain/square_bounds.h"
 
 #include <stddef.h>
 
@@ -372,7 +372,19 @@ static bool in_world(double x, double z)
     return x > 0.0 && z > 0.0 && x < WORLD_SIDE_M && z < WORLD_SIDE_M;
 }
 
-/* How far the ground lets it go that way: two soundings, where it is not known to be easy. */
+/* Returns true if the ground on the way to (x, z) is surely dry, without craters and no steeper
+ * than the vehicle can climb. */
+static bool surely_passable(const struct step_context *context, uint32_t i, double x, double z)
+{
+    const struct entities *m = context->m;
+    struct gridsquare_box box = gridsquare_box_of(maths_min(m->x[i], x), maths_min(m->z[i], z),
+                                                  maths_max(m->x[i], x), maths_max(m->z[i], z));
+    uint16_t most = square_bounds_below_slope(context->avoidance->slope[m->kind[i]]);
+    return square_bounds_within(context->slopes, box, most) &&
+           !ground_marks_within(context->ground_marks, box, GROUND_MARKS_CRATER);
+}
+
+/* How far the ground lets it go that way: two soundings, where it is not surely passable. */
 static double ground_free(const struct step_context *context, uint32_t i, const struct look *look,
                           int k)
 {
@@ -381,8 +393,7 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
     double end_x = m->x[i] + look->horizon_m * look->x[k];
     double end_z = m->z[i] + look->horizon_m * look->z[k];
     if (look->kind->domain == DOMAIN_LAND && in_world(end_x, end_z) &&
-        slope_max_map_between(context->slope_max_map, context->ground_marks, m->x[i], m->z[i],
-                              end_x, end_z, context->avoidance->slope[m->kind[i]]))
+        surely_passable(context, i, end_x, end_z))
         return look->horizon_m;
     for (int n = 1; n <= 2; n++) {
         double way = 0.5 * n * look->horizon_m;

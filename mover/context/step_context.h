@@ -11,7 +11,7 @@
 struct avoidance;
 struct ground_marks;
 struct neighbour_lists;
-struct slope_max_map;
+struct square_bounds;
 struct terrain_cache_entry;
 
 struct step_context {
@@ -24,7 +24,7 @@ struct step_context {
     const struct neighbour_lists *neighbour_lists;
     const struct line_of_sight *line_of_sight;
     const struct ground_marks *ground_marks;
-    const struct slope_max_map *slope_max_map;
+    const struct square_bounds *slopes;
     const struct avoidance *avoidance;
     /* [capacity] Caches of the ground: about row i's position, and where an aircraft soon will be.
      * Written with row i. */

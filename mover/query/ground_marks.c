@@ -35,6 +35,17 @@ static void mark(struct ground_marks *marks, double x, double z, double reach, u
     marks->any = true;
 }
 
+bool ground_marks_within(const struct ground_marks *marks, struct gridsquare_box box, uint8_t any)
+{
+    for (int32_t row = box.z0; row <= box.z1; row++) {
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            if (ground_marks_of(marks, gridsquare_index(column, row)) & any)
+                return true;
+        }
+    }
+    return false;
+}
+
 static void forget(struct ground_marks *marks, const struct world *world)
 {
     memset(marks->square, 0, sizeof marks->square);

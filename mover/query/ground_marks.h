@@ -44,6 +44,9 @@ static inline uint8_t ground_marks_at(const struct ground_marks *marks, double x
     return ground_marks_of(marks, gridsquare_of(x, z));
 }
 
+/* Returns true if a square that the box touches has one of these marks. */
+bool ground_marks_within(const struct ground_marks *marks, struct gridsquare_box box, uint8_t any);
+
 /* Which of eight places have which of them. */
 void ground_marks_find(const struct ground_marks *marks, const union simd_lanes *x,
                        const union simd_lanes *z, union lane_masks *crater,

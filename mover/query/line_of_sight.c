@@ -26,19 +26,6 @@ double line_of_sight_kept(enum damage damage)
 
 /* --- the skyline -------------------------------------------------------------------------------*/
 
-static float ground_top(const struct terrain *terrain, uint32_t column, uint32_t row)
-{
-    uint32_t cells = (terrain->side - 1) / GRIDSQUARE_PER_SIDE;
-    const float *post = terrain->posts + (size_t)row * cells * terrain->side + column * cells;
-    float top = post[0];
-    for (uint32_t r = 0; r <= cells; r++) {
-        for (uint32_t c = 0; c <= cells; c++)
-            top = post[(size_t)r * terrain->side + c] > top ? post[(size_t)r * terrain->side + c]
-                                                            : top;
-    }
-    return top;
-}
-
 static double object_height(const struct world *world, const struct fixed_object *object)
 {
     const struct kind *kind = &world->kinds[object->kind];
@@ -70,16 +57,19 @@ static uint32_t objects_of(const struct line_of_sight *sight, uint32_t square,
     return sight->reach_start[square + 1] - sight->reach_start[square];
 }
 
-static float square_top(const struct line_of_sight *sight, uint32_t square)
+/* The height of a square's uncratered ground and of what stands in it, undamaged; the context is a
+ * struct line_of_sight. */
+static uint16_t skyline(const void *context, uint32_t square)
 {
+    const struct line_of_sight *sight = context;
     const struct world *world = sight->world;
     const uint32_t *objects;
     uint32_t count = objects_of(sight, square, &objects);
-    float top =
-        ground_top(&world->terrain, square % GRIDSQUARE_PER_SIDE, square / GRIDSQUARE_PER_SIDE);
+    uint16_t top = square_bounds_height(&world->terrain, square);
     for (uint32_t n = 0; n < count; n++) {
         const struct fixed_object *object = &world->fixed[objects[n]];
-        float high = (float)((double)object->y + object_height(world, object) + 0.01);
+        uint16_t high =
+            square_bounds_above_height((double)object->y + object_height(world, object));
         top = high > top ? high : top;
     }
     return top;
@@ -89,19 +79,15 @@ int line_of_sight_init(struct line_of_sight *sight, const struct world *world,
                        const struct crater_index *craters)
 {
     *sight = (struct line_of_sight){.world = world, .craters = craters};
-    sight->top = malloc(GRIDSQUARE_COUNT * sizeof *sight->top);
-    if (!sight->top || build_reach(sight) != 0) {
-        line_of_sight_free(sight);
-        return -1;
-    }
-    for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++)
-        sight->top[square] = square_top(sight, square);
-    return 0;
+    if (square_bounds_init(&sight->skyline, skyline, sight) == 0 && build_reach(sight) == 0)
+        return 0;
+    line_of_sight_free(sight);
+    return -1;
 }
 
 void line_of_sight_free(struct line_of_sight *sight)
 {
-    free(sight->top);
+    square_bounds_free(&sight->skyline);
     free(sight->reach_start);
     free(sight->reach);
     *sight = (struct line_of_sight){0};
@@ -229,7 +215,8 @@ static bool square_hides(const struct line *line, int32_t column, int32_t row, d
 {
     uint32_t square = gridsquare_index(column, row);
     double lowest = maths_min(height_at(line, t0), height_at(line, t1));
-    if (lowest > (double)line->sight->top[square] && line->sight->craters->head[square] == 0)
+    if (square_bounds_of(&line->sight->skyline, square) <= square_bounds_below_height(lowest) &&
+        line->sight->craters->head[square] == 0)
         return false;
     return ground_hides(line, square, t0, t1) || objects_hide(line, square);
 }

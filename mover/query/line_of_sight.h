@@ -3,6 +3,7 @@
 #ifndef JOLON_MOVER_QUERY_LINE_OF_SIGHT_H
 #define JOLON_MOVER_QUERY_LINE_OF_SIGHT_H
 
+#include "world/terrain/square_bounds.h"
 #include "world/world.h"
 
 #include <stdbool.h>
@@ -15,8 +16,8 @@ struct line_of_sight {
     uint32_t *reach_start;       /* as the world's, but by what is seen of an object: the crown of a
                                     tree reaches further than its trunk */
     uint32_t *reach;
-    float *top; /* [GRIDSQUARE_COUNT, m] highest point of the uncratered ground and of
-                   what stands in the square, undamaged */
+    struct square_bounds skyline; /* height of the uncratered ground and of what stands in the
+                                     square, undamaged */
 };
 
 /* 0, or -1 with errno ENOMEM. */

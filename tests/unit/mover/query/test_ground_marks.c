@@ -150,6 +150,19 @@ static void test_no_crater_is_missed(void **state)
     assert_true(scarred(GROUND_MARKS_CRATER) < 20 * 4 + 1);
 }
 
+static void test_a_box_has_the_marks_of_its_squares(void **state)
+{
+    (void)state;
+    struct gridsquare_box with = gridsquare_box_of(19000.0, 20000.0, 20000.0, 20000.0);
+    struct gridsquare_box without = gridsquare_box_of(19000.0, 20000.0, 19800.0, 20000.0);
+    assert_false(ground_marks_within(&scars, with, GROUND_MARKS_CRATER));
+    dig(20000.0, 20000.0, 2.0f);
+    update();
+    assert_true(ground_marks_within(&scars, with, GROUND_MARKS_CRATER));
+    assert_false(ground_marks_within(&scars, with, GROUND_MARKS_DEBRIS));
+    assert_false(ground_marks_within(&scars, without, GROUND_MARKS_CRATER));
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -158,6 +171,7 @@ int main(void)
         TEST(test_what_fell_is_where_it_reaches),
         TEST(test_another_worlds_past_is_forgotten),
         TEST(test_no_crater_is_missed),
+        TEST(test_a_box_has_the_marks_of_its_squares),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
