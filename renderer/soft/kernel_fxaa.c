@@ -195,7 +195,7 @@ static void take_row(struct alphas *alphas, struct image *to, const struct image
         v8u tops = simd8_top_bytes(f64x4);
         memcpy(alphas->of + column, &tops, sizeof tops);
         for (uint32_t i = 0; copy != NULL && i < 4; i++)
-            simd8_store_u((uint32_t *)(copy + (size_t)(column + i * LANES) * 4),
+            simd8_store_u((uint32_t *)(void *)(copy + (size_t)(column + i * LANES) * 4),
                           f64x4[i] | 0xff000000u);
     }
     for (; column < from->width; column++) {

@@ -226,7 +226,7 @@ static void draw_bands(void *context, uint32_t first, uint32_t end, uint32_t wor
         uint8_t *rows = soft->drawn.pixels + (size_t)target.first * row_bytes;
         bool whole = target.stride == target.width; /* the picture's rows are a band's */
         if (whole)
-            target.colour = (uint32_t *)rows;
+            target.colour = (uint32_t *)(void *)rows;
         fill_band(soft, &soft->worker[worker], &target);
         for (int32_t y = target.first; y < target.end && !whole; y++)
             memcpy(rows + (size_t)(y - target.first) * row_bytes,
