@@ -23,7 +23,6 @@ static const char usage[] =
     "view, VIEW-FRAME.png are the last 120.";
 
 static struct options given = {.world = "default",
-                               .role = ROLE_RENDERER,
                                .fps = -1.0,
                                .field_rad = CAMERA_FIELD_OF_VIEW_RAD,
                                .stand.pitch_rad = -6.0 * RAD_PER_DEG,
@@ -33,6 +32,7 @@ static struct options given = {.world = "default",
                                            .video_fps = 30.0,
                                            .stream_port = -1,
                                            .stream_address = HTTP_LISTEN_ADDRESS}};
+static int role = ROLE_RENDERER;
 static struct option_size size;
 static double field_deg;
 
@@ -110,8 +110,8 @@ static const struct option_row rows[] = {
     {"out", "DIR", "where the pictures go; made if it is not there", .text = &given.out},
     {"snap", "FILE", "draw the present frame into FILE and end; takes no role",
      .text = &given.snap},
-    {"role", "renderer|renderer-2|renderer-3|renderer-4", "(default renderer)",
-     .choice = &given.role, .least = ROLE_RENDERER},
+    {"role", "renderer|renderer-2|renderer-3|renderer-4", "(default renderer)", .choice = &role,
+     .least = ROLE_RENDERER},
     {"fps", "F",
      "pictures a second, 0 to 120; 0 draws one at the end (default: the scenario's renderer.fps)",
      .real = &given.fps, .high = FPS_MAX},
@@ -209,6 +209,7 @@ int options_read(struct options *options, const struct option_table *own, int ar
     int plain = option_table_read(&table, argc, argv);
     if (given.views.count == 0 && (given.stand.given || own))
         views_of_bits(&given.views, 1u << (given.stand.given ? VIEW_FREE : VIEW_CHASE));
+    given.role = (enum role)role;
     given.width = size.width;
     given.height = size.height;
     if (field_deg > 0.0)

@@ -16,12 +16,12 @@
 
 struct options {
     const char *world, *out, *snap; /* out, snap: NULL when not given */
-    int role;                       /* enum role */
-    double fps;                     /* pictures a second; below 0: the world's */
-    uint32_t width, height;         /* 0: the world's */
-    struct views views;             /* none: the world's */
-    uint32_t follow;                /* entity id, 0: picks one */
-    const char *follow_name;        /* or its name, NULL */
+    enum role role;
+    double fps;              /* pictures a second; below 0: the world's */
+    uint32_t width, height;  /* 0: the world's */
+    struct views views;      /* none: the world's */
+    uint32_t follow;         /* entity id, 0: picks one */
+    const char *follow_name; /* or its name, NULL */
     bool follow_given; /* follows it even as a wreck; else the world's choice while it lives */
     double field_rad;  /* of view */
     struct view_camera_stand stand; /* of the free camera */

@@ -10,11 +10,12 @@
 #define LINES_HZ  1.0
 
 static struct options given = {.world = "default"};
+static int input = INPUTS_AUTO;
 
 static const struct option_row rows[] = {
     OPTION_ROW_WORLD(given, segment_name_option),
     {"input", "auto|keys|gamepad|spacemouse", "(default auto: keys and what else is there)",
-     .choice = &given.input},
+     .choice = &input},
     {"device", "PATH", "the gamepad: /dev/input/event*", .text = &given.device},
     {"plain", NULL, "no screen: lines on standard output; keys may come from a pipe",
      .flag = &given.plain},
@@ -37,6 +38,7 @@ void options_parse(struct options *options, int argc, char **argv)
         .plain = 1};
     if (option_table_read(&table, argc, argv) > 0)
         given.wanted = argv[argc - 1];
+    given.input = (enum inputs_choice)input;
     if (given.device && given.input != INPUTS_AUTO && given.input != INPUTS_GAMEPAD)
         die_usage("--device %s: is a gamepad's; not together with another --input", given.device);
     given.plain = given.plain || !isatty(STDOUT_FILENO) || !isatty(STDIN_FILENO);

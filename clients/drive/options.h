@@ -10,7 +10,7 @@
 struct options {
     const char *world;
     const char *wanted; /* id, name, kind or force; NULL: any vehicle */
-    int input;          /* enum inputs_choice */
+    enum inputs_choice input;
     const char *device; /* of the gamepad, NULL: any */
     bool plain;
     double rate_hz; /* of the screen, or of the lines */
