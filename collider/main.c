@@ -1,12 +1,11 @@
 /* jolon-collider: finds and answers every collision of a frame and commits it. Writes both world
  * buffers, the craters and the event ring. */
-#include "collider/array.h"
 #include "collider/step.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "ipc/sandbox/sandbox.h"
-
+#include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
 
 #include <errno.h>
@@ -16,7 +15,7 @@
 /* Says when the frame has needed more memory than was set aside, which costs it time. */
 static void tell_growth(uint64_t *told)
 {
-    uint64_t growths = array_growths();
+    uint64_t growths = reserve_growths();
     if (growths == *told)
         return;
     log_info("%" PRIu64 " array(s) of a step had to grow beyond what is set aside: "

@@ -1,8 +1,7 @@
 /* Chunks for bins, one after the other. */
 #include "collider/broad_phase/strip_bins.h"
 
-#include "collider/array.h"
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
 
 #include <string.h>
@@ -51,7 +50,7 @@ static void next_slab(struct strip_bins *bins)
     bins->chunks = 0;
     if (*slab)
         return;
-    *slab = array_take(chunks, sizeof **slab);
+    *slab = reserve_more(chunks, sizeof **slab);
     advise(*slab, chunks);
 }
 

@@ -4,8 +4,8 @@
  * bucket of its east edge, and the comparison looks at both sides. */
 #include "collider/broad_phase/sweep_and_prune.h"
 
-#include "ipc/process/log.h"
 #include "world/maths/cpu_dispatch.h"
+#include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
 

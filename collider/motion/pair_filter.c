@@ -1,8 +1,7 @@
 /* What the methods of detection share: boxes, and who can never collide. */
 #include "collider/motion/pair_filter.h"
 
-#include "collider/array.h"
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
 #include "world/terrain/gridsquare.h"
 
@@ -34,7 +33,7 @@ static void grow_list(struct pair_list *list)
 {
     CHECK(list->count < PAIRS_MAX);
     uint32_t more = 2 * list->capacity + 1;
-    list->pair = array_grow(list->pair, list->count, more, sizeof *list->pair);
+    list->pair = reserve_grow(list->pair, list->count, more, sizeof *list->pair);
     list->capacity = more;
 }
 
@@ -183,7 +182,7 @@ void *pair_filter_block(struct method_workspace *workspace, uint32_t block, size
     if (count > workspace->bytes[block] / size) {
         workspace->bytes[block] = 2 * count * size;
         workspace->block[block] =
-            array_grow(workspace->block[block], 0, workspace->bytes[block], 1);
+            reserve_grow(workspace->block[block], 0, workspace->bytes[block], 1);
     }
     return workspace->block[block];
 }

@@ -1,8 +1,7 @@
 /* The frame's contacts in a heap, and their renewal. */
 #include "collider/narrow_phase/contact_queue.h"
 
-#include "collider/array.h"
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
 
@@ -76,11 +75,11 @@ static void more_pairs(struct contact_queue *contacts)
 {
     uint32_t held = contacts->pair_count, more = 2 * contacts->pair_capacity + 1;
     CHECK(held < PAIRS_MAX);
-    contacts->pair = array_grow(contacts->pair, held, more, sizeof *contacts->pair);
-    contacts->met = array_grow(contacts->met, held, more, sizeof *contacts->met);
-    contacts->swept = array_grow(contacts->swept, held, more, sizeof *contacts->swept);
-    contacts->link = array_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
-                                sizeof *contacts->link);
+    contacts->pair = reserve_grow(contacts->pair, held, more, sizeof *contacts->pair);
+    contacts->met = reserve_grow(contacts->met, held, more, sizeof *contacts->met);
+    contacts->swept = reserve_grow(contacts->swept, held, more, sizeof *contacts->swept);
+    contacts->link = reserve_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
+                                  sizeof *contacts->link);
     contacts->pair_capacity = more;
 }
 
@@ -182,7 +181,7 @@ static void make_room(struct contact_list *heap, uint32_t more)
     if (needed <= heap->capacity)
         return;
     CHECK(needed <= HEAP_MAX);
-    heap->contact = array_grow(heap->contact, heap->count, 2 * needed, sizeof *heap->contact);
+    heap->contact = reserve_grow(heap->contact, heap->count, 2 * needed, sizeof *heap->contact);
     heap->capacity = (uint32_t)(2 * needed);
 }
 

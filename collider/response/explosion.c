@@ -1,7 +1,7 @@
 /* Detonations: blast over what is near, craters in the ground, chains of what explodes in turn. */
 #include "collider/response/response.h"
+#include "world/runtime/check.h"
 
-#include "ipc/process/log.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
 

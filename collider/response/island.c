@@ -1,7 +1,6 @@
 /* From contacts of one moment to islands, through the solver, to the bodies' new ways. */
 #include "collider/response/island.h"
 
-#include "collider/array.h"
 #include "world/entity/mass_properties.h"
 #include "world/runtime/reserve.h"
 
@@ -78,10 +77,11 @@ static void more_meetings(struct island *island)
 {
     uint32_t more = 2 * island->meeting_capacity + 1;
     uint64_t solved = (uint64_t)island->rows + more;
-    island->meeting = array_grow(island->meeting, island->meetings, more, sizeof *island->meeting);
-    island->solve = array_grow(island->solve, 0, solved, sizeof *island->solve);
-    island->solve_of = array_grow(island->solve_of, 0, solved, sizeof *island->solve_of);
-    island->contact = array_grow(island->contact, 0, more, sizeof *island->contact);
+    island->meeting =
+        reserve_grow(island->meeting, island->meetings, more, sizeof *island->meeting);
+    island->solve = reserve_grow(island->solve, 0, solved, sizeof *island->solve);
+    island->solve_of = reserve_grow(island->solve_of, 0, solved, sizeof *island->solve_of);
+    island->contact = reserve_grow(island->contact, 0, more, sizeof *island->contact);
     island->meeting_capacity = more;
 }
 

@@ -6,6 +6,7 @@
 #include "ipc/process/crash_point.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "world/runtime/check.h"
 
 #include <errno.h>
 #include <linux/futex.h>

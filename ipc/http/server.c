@@ -5,7 +5,7 @@
 #include "ipc/http/host_check.h"
 #include "ipc/process/clock.h"
 #include "ipc/segment/local_socket.h"
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <errno.h>
 #include <microhttpd.h>

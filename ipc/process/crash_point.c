@@ -2,6 +2,7 @@
 #include "ipc/process/crash_point.h"
 
 #include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <inttypes.h>
 #include <signal.h>

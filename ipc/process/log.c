@@ -3,6 +3,7 @@
 
 #include "ipc/process/clock.h"
 #include "ipc/process/crash_point.h"
+#include "world/runtime/check.h"
 #include "world/runtime/utf8.h"
 
 #include <stdarg.h>
@@ -19,6 +20,7 @@ static uint64_t log_frame_number;
 void log_open(const char *role)
 {
     log_role = role;
+    check_report = log_warn;
     CRASH_POINT_ROLE(role);
 }
 
@@ -126,10 +128,4 @@ void die_at_once(const char *text)
     ssize_t written = write(STDERR_FILENO, line, length);
     (void)written;
     _exit(EXIT_REFUSED);
-}
-
-void check_failed(const char *condition, const char *file, int line)
-{
-    log_warn("bug: %s does not hold at %s:%d", condition, file, line);
-    abort();
 }

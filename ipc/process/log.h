@@ -24,12 +24,4 @@ _Noreturn void die_usage(const char *format, ...) __attribute__((format(printf, 
 /* The same from within a signal handler: writes at once and ends the process without clean-up. */
 _Noreturn void die_at_once(const char *text);
 
-/* A bug: always on, aborts with the place. */
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition))                                                                          \
-            check_failed(#condition, __FILE__, __LINE__);                                          \
-    } while (0)
-_Noreturn void check_failed(const char *condition, const char *file, int line);
-
 #endif

@@ -2,6 +2,7 @@
 #include "ipc/process/option_table.h"
 
 #include "ipc/process/log.h"
+#include "world/runtime/check.h"
 #include "world/runtime/parse_number.h"
 
 #include <ctype.h>

@@ -2,9 +2,9 @@
  * is short, and a socket's address has room for 107 bytes only. */
 #include "ipc/segment/local_socket.h"
 
-#include "ipc/process/log.h"
 #include "ipc/segment/runtime_folder.h"
 #include "ipc/segment/segment.h"
+#include "world/runtime/check.h"
 
 #include <errno.h>
 #include <fcntl.h>

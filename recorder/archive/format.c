@@ -1,7 +1,6 @@
 /* Which parts an image has, and how large they are. */
 #include "recorder/archive/format.h"
-
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <xxhash.h>
 

@@ -5,7 +5,7 @@
 #include "ipc/process/crash_point.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/stale_files.h"
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <errno.h>
 #include <fcntl.h>

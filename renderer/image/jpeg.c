@@ -1,7 +1,6 @@
 /* libjpeg-turbo, which takes our pixels as they are. */
 #include "renderer/image/jpeg.h"
-
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <errno.h>
 #include <setjmp.h>

@@ -1,7 +1,6 @@
 /* The queue and its thread. */
 #include "renderer/output/output_queue.h"
-
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <errno.h>
 #include <signal.h>

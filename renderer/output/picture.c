@@ -1,7 +1,6 @@
 /* The pool of pictures. */
 #include "renderer/output/picture.h"
-
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 
 #include "ipc/process/log.h"
 #include "ipc/segment/picture_socket.h"
+#include "world/runtime/check.h"
 
 #include <errno.h>
 #include <stdio.h>

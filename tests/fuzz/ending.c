@@ -2,6 +2,7 @@
 #include "tests/fuzz/ending.h"
 
 #include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <stdbool.h>
 

@@ -5,8 +5,8 @@
 #include "tests/fuzz/support.h"
 
 #include "collider/step.h"
-#include "ipc/process/log.h"
 #include "mover/step.h"
+#include "world/runtime/check.h"
 
 #include <math.h>
 #include <stdio.h>

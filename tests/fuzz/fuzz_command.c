@@ -3,10 +3,10 @@
  * lie in a ring, whoever wrote them there: a replayed log, a damaged page. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/process/log.h"
 #include "ipc/segment/segment.h"
 #include "mover/step.h"
 #include "reporter/intake/command_check.h"
+#include "world/runtime/check.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -4,7 +4,7 @@
 #include "tests/fuzz/support.h"
 
 #include "clients/console/request.h"
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <stdio.h>
 #include <string.h>

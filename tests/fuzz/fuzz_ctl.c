@@ -3,8 +3,8 @@
 #include "tests/fuzz/support.h"
 
 #include "clients/ctl/parse.h"
-#include "ipc/process/log.h"
 #include "tests/fuzz/ending.h"
+#include "world/runtime/check.h"
 
 #include <math.h>
 #include <stdio.h>

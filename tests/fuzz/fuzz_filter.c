@@ -1,8 +1,8 @@
 /* What is typed into the monitor's filter: which vehicles of a small world suit it. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/process/log.h"
 #include "clients/monitor/vehicle_table.h"
+#include "world/runtime/check.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "tests/fuzz/support.h"
 
 #include "config/mesh/hulls.h"
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <stdlib.h>
 #include <string.h>

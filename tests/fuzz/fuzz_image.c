@@ -5,7 +5,7 @@
 #include "tests/fuzz/support.h"
 
 #include "recorder/archive/image.h"
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <fcntl.h>
 #include <stdlib.h>

@@ -3,11 +3,11 @@
  * that a log's line has, so that what is behind it is reached. Refusals end the process. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/process/log.h"
 #include "recorder/log/command_log.h"
 #include "recorder/log/event_log.h"
 #include "recorder/replay/log_replay.h"
 #include "tests/fuzz/ending.h"
+#include "world/runtime/check.h"
 
 #include <fcntl.h>
 #include <stdio.h>

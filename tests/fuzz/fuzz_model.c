@@ -3,7 +3,7 @@
 #include "tests/fuzz/support.h"
 
 #include "config/mesh/models.h"
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <string.h>
 

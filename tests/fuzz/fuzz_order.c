@@ -1,8 +1,8 @@
 /* Orders as JSON, as jolon harness and jolon console take them from anybody. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/process/log.h"
 #include "ipc/topics/command_json.h"
+#include "world/runtime/check.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* Datagrams of any bytes through the filter in front of Cyclone DDS: it reads nothing beyond them,
  * leaves no type information in discovery, and what it lets pass once it lets pass again as it is.
  */
-#include "ipc/process/log.h"
 #include "ipc/topics/rtps_filter.h"
+#include "world/runtime/check.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -2,7 +2,6 @@
 #include "tests/fuzz/support.h"
 
 #include "ipc/process/clock.h"
-#include "ipc/process/log.h"
 #include "clients/monitor/json.h"
 #include "clients/monitor/status_lines.h"
 #include "clients/monitor/character_map.h"
@@ -11,6 +10,7 @@
 #include "ipc/topics/event_json.h"
 #include "ipc/topics/samples.h"
 #include "ipc/topics/event_lines.h"
+#include "world/runtime/check.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>

@@ -2,9 +2,9 @@
 #include "tests/fuzz/support.h"
 
 #include "config/syntax/literals.h"
-#include "ipc/process/log.h"
 #include "ipc/segment/segment.h"
 #include "world/making/world_build.h"
+#include "world/runtime/check.h"
 #include "world/terrain/gridsquare.h"
 
 #include <string.h>

@@ -3,8 +3,8 @@
  * what else is done; then come changes of 6 bytes: what is changed, which word, to what. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/process/log.h"
 #include "ipc/segment/segment.h"
+#include "world/runtime/check.h"
 
 #include <fcntl.h>
 #include <stdio.h>

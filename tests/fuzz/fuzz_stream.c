@@ -3,8 +3,8 @@
 #include "tests/fuzz/http_client.h"
 #include "tests/fuzz/support.h"
 
-#include "ipc/process/log.h"
 #include "renderer/output/stream_internal.h"
+#include "world/runtime/check.h"
 
 #include <string.h>
 

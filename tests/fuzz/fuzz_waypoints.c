@@ -2,7 +2,7 @@
 #include "tests/fuzz/support.h"
 
 #include "config/waypoints.h"
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 #include "world/terrain/gridsquare.h"
 
 #include <math.h>

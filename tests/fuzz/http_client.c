@@ -1,7 +1,6 @@
 /* One connection an input. */
 #include "tests/fuzz/http_client.h"
-
-#include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <poll.h>
 #include <stdio.h>

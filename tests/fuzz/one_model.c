@@ -1,7 +1,8 @@
 /* assimp in the place of itself, for harnesses whose model never changes: it clears 16 MB for each
  * file that it reads, which takes longer than all the rest. Linked with --wrap (see the Makefile);
  * what models are made of is fuzz_model.c's. */
-#include "ipc/process/log.h"
+
+#include "world/runtime/check.h"
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>

@@ -1,8 +1,8 @@
 /* The harnesses' folder, and what an accepted scenario must be. */
 #include "tests/fuzz/support.h"
 
-#include "ipc/process/log.h"
 #include "world/making/world_build.h"
+#include "world/runtime/check.h"
 #include "world/terrain/gridsquare.h"
 
 #include <fcntl.h>

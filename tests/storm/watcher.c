@@ -4,6 +4,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
+#include "world/runtime/check.h"
 
 #include <stdlib.h>
 

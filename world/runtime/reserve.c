@@ -1,12 +1,18 @@
 /* Mappings that the kernel backs page by page. */
 #include "world/runtime/reserve.h"
 
+#include "world/runtime/check.h"
+
 #include <errno.h>
+#include <inttypes.h>
+#include <stdatomic.h>
 #include <string.h>
 #include <sys/mman.h>
 
 /* A large page of memory for an array that holds a few items would cost more than the items. */
 #define SMALL_PAGES_BYTES (UINT64_C(2) << 20)
+
+static _Atomic uint64_t growths;
 
 /* Lies in RESERVE_ALIGN bytes before the memory. */
 struct reservation {
@@ -38,11 +44,26 @@ void *reserve_take(uint64_t count, size_t size)
     return memory;
 }
 
+void *reserve_more(uint64_t count, size_t size)
+{
+    void *memory = reserve_take(count, size);
+    if (!memory)
+        check_report("this frame needs an array of %" PRIu64 " items of %zu bytes, and the kernel "
+                     "refuses the address space: %s; allow more (ulimit -v, vm.overcommit_memory)",
+                     count, size, strerror(errno));
+    CHECK(memory != NULL);
+    atomic_fetch_add_explicit(&growths, 1, memory_order_relaxed);
+    return memory;
+}
+
+uint64_t reserve_growths(void)
+{
+    return atomic_load_explicit(&growths, memory_order_relaxed);
+}
+
 void *reserve_grow(void *memory, uint64_t held, uint64_t count, size_t size)
 {
-    void *larger = reserve_take(count, size);
-    if (!larger)
-        return NULL;
+    void *larger = reserve_more(count, size);
     memcpy(larger, memory, (size_t)held * size);
     reserve_free(memory);
     return larger;

@@ -16,11 +16,19 @@
 #define RESERVE_ALIGN 65536u
 void *reserve_take(uint64_t count, size_t size);
 
-/* A larger array instead of memory: it begins with the same held items and goes on with zeros.
- * memory is given back then, so no pointer into it may be kept. NULL with errno, and memory as it
- * was, where reserve_take(count, size) would be refused. Any thread; one at a time for one array.
- * It maps, copies and unmaps, and makes no other system call but madvise. */
+/* For a step that needs more than was set aside. A kernel that refuses the address space ends the
+ * process, and the log says so. Any thread; one at a time for one array. */
+
+/* Returns a larger array instead of memory, which begins with the same held items and goes on with
+ * zeros. memory is given back, so the caller keeps no pointer into it. It maps, copies and unmaps,
+ * and makes no other system call but madvise. */
 void *reserve_grow(void *memory, uint64_t held, uint64_t count, size_t size);
+
+/* Returns one more array, of count items that are zero. */
+void *reserve_more(uint64_t count, size_t size);
+
+/* How many arrays reserve_grow() and reserve_more() have returned in this process. */
+uint64_t reserve_growths(void);
 
 /* Gives it back; NULL is allowed. */
 void reserve_free(void *memory);

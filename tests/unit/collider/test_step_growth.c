@@ -1,6 +1,5 @@
 /* A frame that needs more than the collider has set aside: its arrays grow, and the world is the
  * same to the bit. Here each array begins with one item. */
-#include "collider/array.h"
 #include "tests/support/child.h"
 #include "tests/support/steps.h"
 #include "world/runtime/reserve.h"
@@ -130,7 +129,7 @@ static void run(uint32_t threads, bool shrunk, bool swept, uint64_t digest[FRAME
     fixture_threads(&f, threads);
     if (shrunk)
         shrink(&f.player.collider);
-    uint64_t before = array_growths();
+    uint64_t before = reserve_growths();
     for (uint32_t i = 0; i < FRAMES; i++) {
         fixture_run(&f, 1);
         digest[i] = fixture_digest(&f);
@@ -139,7 +138,7 @@ static void run(uint32_t threads, bool shrunk, bool swept, uint64_t digest[FRAME
     if (shrunk)
         assert_grown(&f.player.collider, swept);
     else
-        assert_int_equal(array_growths(), before);
+        assert_int_equal(reserve_growths(), before);
     fixture_close(&f);
 }
 
@@ -175,11 +174,11 @@ static void test_a_block_of_a_method_grows(void **state)
     fixture_open(&f, "");
     struct method_workspace *workspace = method_workspace_create(&f.view.world);
     assert_non_null(workspace);
-    uint64_t before = array_growths();
+    uint64_t before = reserve_growths();
     assert_non_null(pair_filter_block(workspace, 2, 1000, 8));
-    assert_int_equal(array_growths(), before);
+    assert_int_equal(reserve_growths(), before);
     uint64_t *block = pair_filter_block(workspace, 2, 1000000, sizeof *block);
-    assert_int_equal(array_growths(), before + 1);
+    assert_int_equal(reserve_growths(), before + 1);
     block[0] = block[999999] = 7;
     assert_ptr_equal(pair_filter_block(workspace, 2, 1000000, sizeof *block), block);
     method_workspace_free(workspace);

@@ -4,6 +4,7 @@
 
 #include "ipc/process/clock.h"
 #include "tests/support/child.h"
+#include "world/runtime/check.h"
 
 #include <setjmp.h>
 #include <signal.h>

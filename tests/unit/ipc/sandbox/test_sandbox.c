@@ -6,6 +6,7 @@
 #include "ipc/process/process.h"
 #include "tests/support/child.h"
 #include "tests/support/confined.h"
+#include "world/runtime/check.h"
 #include "world/runtime/thread_pool.h"
 
 #include <dds/ddsrt/threads.h>
