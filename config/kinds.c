@@ -33,7 +33,7 @@ static int compare_names(const void *a, const void *b)
 }
 
 static int add_name(struct names *names, const char *file, struct key_place place,
-                    struct loader_message *message)
+                    struct config_message *message)
 {
     size_t length = strlen(file);
 
@@ -54,7 +54,7 @@ static int add_name(struct names *names, const char *file, struct key_place plac
     return 0;
 }
 
-static int list_names(struct names *names, const char *data_dir, struct loader_message *message)
+static int list_names(struct names *names, const char *data_dir, struct config_message *message)
 {
     char path[PATH_MAX];
     const struct key_place place = {path, 0};
@@ -82,7 +82,7 @@ static int list_names(struct names *names, const char *data_dir, struct loader_m
 
 /* Refuses a value that is in range but does not fit the other values. */
 static int refuse_pair(const struct key_reading *keys, const char *name, double value,
-                       const char *why, struct loader_message *message)
+                       const char *why, struct config_message *message)
 {
     int index = key_table_find(keys->table, name);
     struct key_place place = {keys->file, index >= 0 ? keys->line[index] : 0};
@@ -92,7 +92,7 @@ static int refuse_pair(const struct key_reading *keys, const char *name, double 
     return key_table_refuse(message, place, name, text, "%s", why);
 }
 
-static int refuse_no_class(const struct key_reading *keys, struct loader_message *message)
+static int refuse_no_class(const struct key_reading *keys, struct config_message *message)
 {
     const struct key_place place = {keys->file, 1};
     char allowed[128];
@@ -104,7 +104,7 @@ static int refuse_no_class(const struct key_reading *keys, struct loader_message
 }
 
 static int check_domain(const struct kind *kind, const struct key_reading *keys, bool has_class,
-                        struct loader_message *message)
+                        struct config_message *message)
 {
     switch ((enum domain)kind->domain) {
     case DOMAIN_LAND:
@@ -141,7 +141,7 @@ static int check_domain(const struct kind *kind, const struct key_reading *keys,
 
 /* A kind has all three ratios of damage, each below the one before, or none. */
 static int check_damage(const struct kind *kind, const struct key_reading *keys,
-                        struct loader_message *message)
+                        struct config_message *message)
 {
     double high = kind->damage_high, med = kind->damage_med, low = kind->damage_low;
 
@@ -165,7 +165,7 @@ static int check_damage(const struct kind *kind, const struct key_reading *keys,
 /* Only an armed kind has a turret or a gun that moves. A gun that moves has a range of elevation,
  * and a homing munition has a seeker and turns. */
 static int check_gun(const struct kind *kind, const struct key_reading *keys, bool has_munition,
-                     struct loader_message *message)
+                     struct config_message *message)
 {
     if (kind->turret_rate_rps > 0 && !has_munition)
         return refuse_pair(keys, "turret_rate_dps", kind->turret_rate_rps * DEG_PER_RAD,
@@ -193,7 +193,7 @@ static int check_gun(const struct kind *kind, const struct key_reading *keys, bo
 }
 
 static int check_kind(const struct kind *kind, const struct key_reading *keys, const char *name,
-                      struct loader_message *message)
+                      struct config_message *message)
 {
     bool has_class = (keys->given >> key_table_find(keys->table, "class") & 1u) != 0;
     bool has_munition = (keys->given >> key_table_find(keys->table, "munition") & 1u) != 0;
@@ -255,10 +255,10 @@ static void take_hulls(struct kind *kind, const struct hulls *hulls)
 
 /* Index of the kind's model; -1 with a message that names the kind as well as the model. */
 static int find_model(struct models *models, const struct key_reading *keys, const char *name,
-                      struct loader_message *message)
+                      struct config_message *message)
 {
     const struct key_place place = {keys->file, keys->line[key_table_find(keys->table, "model")]};
-    struct loader_message why;
+    struct config_message why;
     int model;
 
     if (name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_")] != '\0')
@@ -271,7 +271,7 @@ static int find_model(struct models *models, const struct key_reading *keys, con
 }
 
 static int read_kind(struct reading *reading, struct kind *kind, const char *name,
-                     struct models *models, struct loader_message *message)
+                     struct models *models, struct config_message *message)
 {
     char folder[PATH_MAX], file[KIND_NAME_MAX + sizeof(SUFFIX)];
     struct kind_entry entry;
@@ -314,7 +314,7 @@ err_config:
 
 /* Looks up the kind's munition, which may be a kind with a later name. */
 static int resolve_munition(struct scenario *scenario, uint32_t index,
-                            const struct reading *reading, struct loader_message *message)
+                            const struct reading *reading, struct config_message *message)
 {
     const struct key_place place = {reading->path, reading->munition_line};
     struct kind *kind = &scenario->kinds[index];
@@ -332,7 +332,7 @@ static int resolve_munition(struct scenario *scenario, uint32_t index,
 }
 
 int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *hash,
-               struct loader_message *message)
+               struct config_message *message)
 {
     const struct key_place place = {data_dir, 0};
     struct names names = {0};

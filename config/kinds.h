@@ -2,7 +2,8 @@
 #ifndef JOLON_CONFIG_KINDS_H
 #define JOLON_CONFIG_KINDS_H
 
-#include "config/loader.h"
+#include "config/syntax/config_message.h"
+#include "world/making/scenario.h"
 
 #include <xxhash.h>
 
@@ -10,6 +11,6 @@
  * -1 with the message: a wrong key, a name that is not the file's, values that do not fit each
  * other, an unknown model or munition. */
 int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *hash,
-               struct loader_message *message);
+               struct config_message *message);
 
 #endif

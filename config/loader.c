@@ -3,10 +3,11 @@
 #include "config/loader.h"
 
 #include "config/kinds.h"
+#include "config/scripts.h"
 #include "config/syntax/lists.h"
 #include "config/syntax/schema.h"
-#include "config/scripts.h"
 #include "config/syntax/source.h"
+#include "config/vehicles.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -38,12 +39,12 @@ struct load {
     XXH3_state_t *hash;
     struct key_place origin[64]; /* where each key of schema_scenario was last set */
     bool objects_chosen;
-    struct loader_message *message;
+    struct config_message *message;
 };
 
 /* Finds the scenario's file: the path itself, else NAME or NAME.cfg in data_dir/scenarios. */
 static int find_scenario(const char *data_dir, const char *path, char *found, size_t bytes,
-                         struct loader_message *message)
+                         struct config_message *message)
 {
     const char *name = path != NULL ? path : DEFAULT_SCENARIO;
     const struct key_place place = {name, 0};
@@ -193,7 +194,7 @@ static int read_lists(struct load *load)
     if (scripts_read(scenario, config_setting_get_member(root, "scripts"), file, load->hash,
                      load->message) != 0 ||
         lists_bases(scenario, config_setting_get_member(root, "bases"), file, load->message) != 0 ||
-        lists_vehicles(scenario, vehicles, file, load->message) != 0 ||
+        vehicles_read(scenario, vehicles, file, load->message) != 0 ||
         lists_objects(scenario, objects, file, load->message) != 0 ||
         lists_fires(scenario, fires, vehicles, file, load->message) != 0)
         return -1;
@@ -275,7 +276,7 @@ static int read_scenario(struct load *load, const char *const *overrides, int ov
 
 int loader_scenario(struct scenario *scenario, const char *data_dir, const char *path,
                     const char *const *overrides, int override_count,
-                    struct loader_message *message)
+                    struct config_message *message)
 {
     struct load load = {.scenario = scenario, .data_dir = data_dir, .message = message};
     char found[PATH_MAX];
@@ -311,7 +312,7 @@ static bool changeable(const struct key *key)
 }
 
 int loader_branch(struct params *params, const char *const *overrides, int override_count,
-                  struct loader_message *message)
+                  struct config_message *message)
 {
     struct scenario scenario = {.params = *params};
     struct load load = {.scenario = &scenario, .message = message};

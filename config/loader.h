@@ -3,11 +3,8 @@
 #ifndef JOLON_CONFIG_LOADER_H
 #define JOLON_CONFIG_LOADER_H
 
+#include "config/syntax/config_message.h"
 #include "world/making/scenario.h"
-
-struct loader_message {
-    char text[1024]; /* "file:line: key = value: what is wrong; what would be right" */
-};
 
 /* Sets the default of every key, then reads the scenario file, then the overrides "group.key=value"
  * in order, then every data_dir/kinds/ *.cfg in order of their names with the models they name,
@@ -17,12 +14,12 @@ struct loader_message {
  * empty. */
 int loader_scenario(struct scenario *scenario, const char *data_dir, const char *path,
                     const char *const *overrides, int override_count,
-                    struct loader_message *message);
+                    struct config_message *message);
 
 /* Applies overrides to the parameters of a world that exists. Refuses keys from which a count, a
  * capacity or an object of the world follows. Each override that changes a value changes
  * scenario_hash. 0; -1 with the message, and params as they were. */
 int loader_branch(struct params *params, const char *const *overrides, int override_count,
-                  struct loader_message *message);
+                  struct config_message *message);
 
 #endif

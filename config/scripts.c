@@ -27,7 +27,7 @@ static const struct {
 
 /* Makes room for `more` steps. 0; -1 with the message. */
 static int reserve_steps(struct scenario *scenario, uint64_t more, const char *file,
-                         struct loader_message *message)
+                         struct config_message *message)
 {
     const struct key_place place = {file, 0};
     uint64_t count = scenario->step_count + more;
@@ -272,7 +272,7 @@ uint32_t scripts_find(const struct scenario *scenario, const char *name)
 }
 
 int scripts_read(struct scenario *scenario, const config_setting_t *list, const char *file,
-                 XXH3_state_t *hash, struct loader_message *message)
+                 XXH3_state_t *hash, struct config_message *message)
 {
     struct entry entry = {
         .scenario = scenario, .keys = {.file = file, .skip = is_steps}, .message = message};

@@ -1,8 +1,9 @@
 /* Reads the list of vehicles. */
-#include "config/syntax/entry.h"
-#include "config/syntax/lists.h"
-#include "config/syntax/schema.h"
+#include "config/vehicles.h"
+
 #include "config/scripts.h"
+#include "config/syntax/entry.h"
+#include "config/syntax/schema.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdio.h>
@@ -194,8 +195,8 @@ static uint32_t count_points(const config_setting_t *list)
     return points > ROUTE_POINTS_MAX ? UINT32_MAX : (uint32_t)points;
 }
 
-int lists_vehicles(struct scenario *scenario, const config_setting_t *list, const char *file,
-                   struct loader_message *message)
+int vehicles_read(struct scenario *scenario, const config_setting_t *list, const char *file,
+                  struct config_message *message)
 {
     struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
     int length = list != NULL ? entry_count(list, file, SCHEMA_GROUPS_MAX, message) : 0;

@@ -23,7 +23,7 @@ static const struct {
 /* A file while it is read. */
 struct reading {
     const struct source *source;
-    struct loader_message *message;
+    struct config_message *message;
     struct key_place place; /* the current line */
     const char *next;       /* the line after it */
     char line[ROW_MAX];
@@ -131,7 +131,7 @@ static int refuse_time(const struct reading *reading, double time_s, double befo
 }
 
 int waypoints_read(const struct source *source, struct scenario_step *steps,
-                   struct loader_message *message)
+                   struct config_message *message)
 {
     struct reading reading = {
         .source = source, .message = message, .place = {source->path, 0}, .next = source->text};

@@ -2,8 +2,8 @@
 #ifndef JOLON_CONFIG_WAYPOINTS_H
 #define JOLON_CONFIG_WAYPOINTS_H
 
-#include "config/loader.h"
 #include "config/syntax/source.h"
+#include "world/making/scenario.h"
 
 #define WAYPOINTS_BYTES_MAX (4u * 1024u * 1024u)
 #define WAYPOINTS_HEADER    "time_s,x,z[,altitude_m]"
@@ -16,6 +16,6 @@ uint32_t waypoints_lines(const char *text);
  * message.
  */
 int waypoints_read(const struct source *source, struct scenario_step *steps,
-                   struct loader_message *message);
+                   struct config_message *message);
 
 #endif

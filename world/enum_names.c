@@ -23,6 +23,7 @@ WORDS(cover_name, cover, "grass", "chaparral", "forest", "rock", "sand", "road",
 WORDS(domain_name, domain, "land", "sea", "air", "munition", "fixed")
 WORDS(object_class_name, object_class, "tree", "bush", "pole", "building", "watertower",
       "other_manmade", "other_natural")
+WORDS(doctrine_name, doctrine, "armour", "light", "soft", "helicopter", "jet", "warship", "beast")
 WORDS(damage_name, damage, "none", "low", "med", "high", "destroyed")
 WORDS(entity_state_name, entity_state, "free", "active", "wreck")
 WORDS(behaviour_name, behaviour, "idle", "hold", "patrol", "route", "attack", "flee", "back_off",

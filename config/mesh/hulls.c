@@ -423,7 +423,7 @@ static int build(struct hulls *hulls, struct scenario *scenario, const struct mo
     return result;
 }
 
-static int refuse(struct key_place place, struct loader_message *message, int error)
+static int refuse(struct key_place place, struct config_message *message, int error)
 {
     switch (error) {
     case E2BIG:
@@ -441,7 +441,7 @@ static int refuse(struct key_place place, struct loader_message *message, int er
 }
 
 int hulls_build(struct hulls *hulls, struct scenario *scenario, const struct model *model,
-                struct key_place place, struct loader_message *message)
+                struct key_place place, struct config_message *message)
 {
     struct connected_pieces *pieces = malloc(sizeof(*pieces));
     int result = -1, error;

@@ -59,7 +59,7 @@ void models_close(struct models *models)
 /* An obj_file_open: the file of this name in the folder of models, which is read at most once. NULL
  * with the message. */
 static const struct source *find_file(void *context, const char *name,
-                                      struct loader_message *message)
+                                      struct config_message *message)
 {
     struct models *models = context;
     char folder[PATH_MAX], path[PATH_MAX];
@@ -150,7 +150,7 @@ static const char *base_name(const char *path)
 static struct aiFile *open_reader(struct aiFileIO *io, const char *path, const char *mode)
 {
     struct models *models = (struct models *)(void *)io->UserData;
-    struct loader_message ignored; /* obj_file_check() has read the file before */
+    struct config_message ignored; /* obj_file_check() has read the file before */
     struct reader *reader;
     const struct source *source;
 
@@ -183,7 +183,7 @@ struct taking {
     struct key_place place;
     struct model *model;
     uint32_t joints; /* used, that of the turret included */
-    struct loader_message *message;
+    struct config_message *message;
 };
 
 static int take_vertices(struct taking *taking, const struct aiMesh *mesh)
@@ -345,7 +345,7 @@ static int take_node(struct taking *taking, const struct aiNode *node, bool soli
 }
 
 static int take_scene(struct models *models, const struct aiScene *scene, const char *name,
-                      struct key_place place, struct loader_message *message)
+                      struct key_place place, struct config_message *message)
 {
     struct scenario *scenario = models->scenario;
     void *table = scenario->models;
@@ -373,7 +373,7 @@ static int take_scene(struct models *models, const struct aiScene *scene, const 
     return (int)scenario->model_count - 1;
 }
 
-int models_find(struct models *models, const char *name, struct loader_message *message)
+int models_find(struct models *models, const char *name, struct config_message *message)
 {
     const struct scenario *scenario = models->scenario;
     struct aiFileIO io = {open_reader, close_reader, (aiUserData)(void *)models};

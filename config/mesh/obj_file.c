@@ -29,7 +29,7 @@ struct materials {
 /* A file while it is checked, and its current line. */
 struct checking {
     struct key_place place;
-    struct loader_message *message;
+    struct config_message *message;
     struct word word[WORDS_MAX];
     uint32_t words; /* may be above WORDS_MAX, which is too many for any rule */
     obj_file_open *open;
@@ -272,7 +272,7 @@ static int check_shine(struct checking *checking)
 }
 
 static int check_library(struct materials *materials, const struct source *source,
-                         struct loader_message *message)
+                         struct config_message *message)
 {
     static const struct statement statements[] = {
         {"newmtl", check_newmtl}, {"Kd", check_color},    {"Ka", check_color}, {"Ks", check_color},
@@ -408,7 +408,7 @@ static int check_face(struct checking *checking)
 }
 
 int obj_file_check(const struct source *source, obj_file_open *open, void *context,
-                   struct loader_message *message)
+                   struct config_message *message)
 {
     static const struct statement statements[] = {
         {"v", check_vertex}, {"vt", check_texture},    {"vn", check_normal},

@@ -82,7 +82,7 @@ int entry_read(struct entry *entry, const struct key_table *table, int index,
 }
 
 int entry_count(const config_setting_t *list, const char *file, int max,
-                struct loader_message *message)
+                struct config_message *message)
 {
     const struct key_place place = {file, (int)config_setting_source_line(list)};
     char value[80];
@@ -98,7 +98,7 @@ int entry_count(const config_setting_t *list, const char *file, int max,
     return config_setting_length(list);
 }
 
-void *entry_allocate(uint32_t count, size_t size, const char *file, struct loader_message *message)
+void *entry_allocate(uint32_t count, size_t size, const char *file, struct config_message *message)
 {
     const struct key_place place = {file, 0};
     void *memory = calloc((size_t)count + 1, size);

@@ -19,7 +19,7 @@ struct given {
     const char *path;
     const char *value;
     struct key_place place;
-    struct loader_message *message;
+    struct config_message *message;
 };
 
 /* Appends to a text of size bytes, and cuts off what does not fit. */
@@ -50,7 +50,7 @@ static void append_escaped(char *text, size_t bytes, const char *raw)
     }
 }
 
-int key_table_refuse(struct loader_message *message, struct key_place place, const char *path,
+int key_table_refuse(struct config_message *message, struct key_place place, const char *path,
                      const char *value, const char *format, ...)
 {
     char text[sizeof(message->text)];
@@ -84,6 +84,16 @@ int key_table_find(const struct key_table *table, const char *name)
             return (int)i;
     }
     return -1;
+}
+
+struct key_choice key_table_choice(const struct key *key, uint32_t n)
+{
+    struct key_choice choice =
+        key->choices != NULL ? key->choices[n] : (struct key_choice){.value = n};
+
+    if (choice.name == NULL)
+        choice.name = key->word(choice.value);
+    return choice;
 }
 
 const char *key_type_name(enum key_type type)
@@ -137,14 +147,14 @@ void key_table_allowed(const struct key *key, char *text, size_t bytes)
     case KEY_NUMBER:
     case KEY_CHOICE:
     case KEY_CHOICES:
-        if (key->choices != NULL) {
-            for (const struct key_choice *choice = key->choices; choice->name != NULL; choice++) {
-                if (choice->value != KEY_LATER)
-                    append(text, bytes, "%s%s", text[0] == '\0' ? "" : ", ", choice->name);
-            }
-        } else {
-            append_range(text, bytes, key);
+        for (uint32_t n = 0; n < key->choice_count; n++) {
+            const struct key_choice choice = key_table_choice(key, n);
+
+            if (choice.value != KEY_LATER)
+                append(text, bytes, "%s%s", text[0] == '\0' ? "" : ", ", choice.name);
         }
+        if (key->choice_count == 0)
+            append_range(text, bytes, key);
         break;
     case KEY_POINT:
         append(text, bytes, "[x, z], each ");
@@ -211,30 +221,40 @@ static int store_number(const struct given *given, void *destination, double val
 
 static int store_number_choice(const struct given *given, void *destination, double value)
 {
-    for (const struct key_choice *choice = given->key->choices; choice->name != NULL; choice++) {
-        if (strtod(choice->name, NULL) == value)
+    for (uint32_t n = 0; n < given->key->choice_count; n++) {
+        if (strtod(key_table_choice(given->key, n).name, NULL) == value)
             return store_number(given, destination, value);
     }
     return refuse_value(given, "is not one of these");
 }
 
+/* Finds the choice whose word is the first `length` bytes of text. False: there is none. */
+static bool find_choice(const struct key *key, const char *text, size_t length,
+                        struct key_choice *choice)
+{
+    for (uint32_t n = 0; n < key->choice_count; n++) {
+        *choice = key_table_choice(key, n);
+        if (strncmp(choice->name, text, length) == 0 && choice->name[length] == '\0')
+            return true;
+    }
+    return false;
+}
+
 static int store_choice(const struct given *given, void *destination, const char *word)
 {
     const struct key *key = given->key;
+    char *to = (char *)destination + key->offset;
+    struct key_choice choice;
 
-    for (const struct key_choice *choice = key->choices; choice->name != NULL; choice++) {
-        if (strcmp(choice->name, word) != 0)
-            continue;
-        if (choice->value == KEY_LATER)
-            return refuse_value(given, "not in this version");
-        char *to = (char *)destination + key->offset;
-        if (key->store == STORE_U8)
-            *to = (char)choice->value;
-        else
-            memcpy(to, &choice->value, sizeof(choice->value));
-        return 0;
-    }
-    return refuse_value(given, "unknown");
+    if (!find_choice(key, word, strlen(word), &choice))
+        return refuse_value(given, "unknown");
+    if (choice.value == KEY_LATER)
+        return refuse_value(given, "not in this version");
+    if (key->store == STORE_U8)
+        *to = (char)choice.value;
+    else
+        memcpy(to, &choice.value, sizeof(choice.value));
+    return 0;
 }
 
 /* Stores the words of "word, word". Blanks before a word are ignored. */
@@ -243,16 +263,13 @@ static int store_choices(const struct given *given, void *destination, const cha
     uint32_t all = 0;
 
     for (const char *at = words; at != NULL;) {
-        const struct key_choice *choice = given->key->choices;
+        struct key_choice choice;
 
         at += strspn(at, " ");
         size_t length = strcspn(at, ",");
-        while (choice->name != NULL &&
-               (strncmp(choice->name, at, length) != 0 || choice->name[length] != '\0'))
-            choice++;
-        if (choice->name == NULL)
+        if (!find_choice(given->key, at, length, &choice))
             return refuse_value(given, "unknown");
-        all |= choice->value;
+        all |= choice.value;
         at = at[length] == ',' ? at + length + 1 : NULL;
     }
     memcpy((char *)destination + given->key->offset, &all, sizeof(all));
@@ -278,7 +295,7 @@ static int store_text(const struct given *given, void *destination, const char *
 }
 
 int key_table_set_text(const struct key *key, void *destination, const char *text,
-                       struct key_place place, struct loader_message *message)
+                       struct key_place place, struct config_message *message)
 {
     struct given given = {key, key->name, text, place, message};
     char *end = NULL;
@@ -297,8 +314,8 @@ int key_table_set_text(const struct key *key, void *destination, const char *tex
         value = strtod(text, &end);
         if (end == text || *end != '\0' || !isfinite(value))
             return refuse_value(&given, "is not a number");
-        return key->choices != NULL ? store_number_choice(&given, destination, value)
-                                    : store_number(&given, destination, value);
+        return key->choice_count > 0 ? store_number_choice(&given, destination, value)
+                                     : store_number(&given, destination, value);
     case KEY_TEXT:
         return store_text(&given, destination, text);
     case KEY_CHOICE:
@@ -315,7 +332,7 @@ int key_table_set_text(const struct key *key, void *destination, const char *tex
 }
 
 int key_table_defaults(const struct key_table *table, void *destination,
-                       struct loader_message *message)
+                       struct config_message *message)
 {
     const struct key_place place = {"default", 0};
 
@@ -491,8 +508,8 @@ static int store_setting(const struct given *given, void *destination,
     case KEY_NUMBER:
         if (!is_number(setting))
             return refuse_value(given, "is not a number");
-        return key->choices != NULL ? store_number_choice(given, destination, number_of(setting))
-                                    : store_number(given, destination, number_of(setting));
+        return key->choice_count > 0 ? store_number_choice(given, destination, number_of(setting))
+                                     : store_number(given, destination, number_of(setting));
     case KEY_TEXT:
     case KEY_CHOICE:
     case KEY_CHOICES:
@@ -549,7 +566,7 @@ static void list_names(const struct key_table *table, const char *prefix, char *
 }
 
 static int read_setting(struct key_reading *reading, const config_setting_t *setting,
-                        const char *name, const char *shown, struct loader_message *message)
+                        const char *name, const char *shown, struct config_message *message)
 {
     const struct key_place place = {reading->file, (int)config_setting_source_line(setting)};
     char value[VALUE_TEXT_MAX];
@@ -589,7 +606,7 @@ static int group_line(const config_setting_t *group)
 }
 
 int key_table_read(struct key_reading *reading, const config_setting_t *group, const char *prefix,
-                   const char *shown, struct loader_message *message)
+                   const char *shown, struct config_message *message)
 {
     const char *dot = prefix[0] == '\0' ? "" : ".";
     const char *shown_dot = shown[0] == '\0' ? "" : ".";

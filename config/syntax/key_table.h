@@ -8,7 +8,7 @@
 #ifndef JOLON_CONFIG_SYNTAX_KEY_TABLE_H
 #define JOLON_CONFIG_SYNTAX_KEY_TABLE_H
 
-#include "config/loader.h"
+#include "config/syntax/config_message.h"
 
 #include <libconfig.h>
 #include <stdbool.h>
@@ -42,7 +42,7 @@ enum key_store {
 
 /* One allowed word. */
 struct key_choice {
-    const char *name;
+    const char *name;    /* NULL: key.word has it */
     uint32_t value;      /* KEY_LATER: the word is refused as not in this version */
     const char *meaning; /* a sentence for documents; NULL where the key's meaning says it */
 };
@@ -59,10 +59,12 @@ struct key {
     double scale;         /* of STORE_DOUBLE: the stored value is the file's times this */
     const char *fallback; /* the default, as in an override; NULL: nothing is stored */
     bool required;
-    const struct key_choice *choices; /* ends with a NULL name */
-    const char *unit;                 /* in the file, of the value: "m"; NULL: it has none */
-    const char *meaning;              /* what the value does: sentences, in Markdown */
-    const char *unset;                /* what holds when nothing is stored; NULL: "none" */
+    const struct key_choice *choices; /* NULL: 0..choice_count - 1, with the words of word */
+    uint32_t choice_count;            /* 0: any value that is in range */
+    const char *(*word)(uint32_t value);
+    const char *unit;    /* in the file, of the value: "m"; NULL: it has none */
+    const char *meaning; /* what the value does: sentences, in Markdown */
+    const char *unset;   /* what holds when nothing is stored; NULL: "none" */
 };
 
 struct key_table {
@@ -79,12 +81,15 @@ struct key_place {
 
 /* Writes "file:line: path = value: text" into the message and returns -1. Leaves out a line of 0, a
  * path of NULL and a value of NULL. Escapes control characters. */
-int key_table_refuse(struct loader_message *message, struct key_place place, const char *path,
+int key_table_refuse(struct config_message *message, struct key_place place, const char *path,
                      const char *value, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
 /* Index of the key called name; -1: there is none. */
 int key_table_find(const struct key_table *table, const char *name);
+
+/* Choice n of a key, with its name. n < key->choice_count. */
+struct key_choice key_table_choice(const struct key *key, uint32_t n);
 
 /* What is allowed, for messages and documents: "1..1000 Hz", "real, max", "true, false". */
 void key_table_allowed(const struct key *key, char *text, size_t bytes);
@@ -95,11 +100,11 @@ void key_table_range(const struct key *key, char *text, size_t bytes);
 
 /* Stores every fallback. 0; -1 when a fallback breaks the rule of its key (a bug in the table). */
 int key_table_defaults(const struct key_table *table, void *destination,
-                       struct loader_message *message);
+                       struct config_message *message);
 
 /* Stores a value that is written as in an override: text has no quotes. 0; -1 with the message. */
 int key_table_set_text(const struct key *key, void *destination, const char *text,
-                       struct key_place place, struct loader_message *message);
+                       struct key_place place, struct config_message *message);
 
 /* The input and the output of key_table_read(). */
 struct key_reading {
@@ -116,7 +121,7 @@ struct key_reading {
  * shown: the path of the group in messages. Refuses unknown keys, and with prefix "" also required
  * keys that are missing. 0; -1 with the message. */
 int key_table_read(struct key_reading *reading, const config_setting_t *group, const char *prefix,
-                   const char *shown, struct loader_message *message);
+                   const char *shown, struct config_message *message);
 
 /* Reads a setting that is [x, z] or (x, z). Returns false for any other. */
 bool key_table_point(const config_setting_t *setting, double point[2]);

@@ -12,7 +12,7 @@
  */
 
 int lists_objects(struct scenario *scenario, const config_setting_t *list, const char *file,
-                  struct loader_message *message)
+                  struct config_message *message)
 {
     struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
     int length = list != NULL ? entry_count(list, file, SCHEMA_OBJECTS_MAX, message) : 0;
@@ -42,7 +42,7 @@ int lists_objects(struct scenario *scenario, const config_setting_t *list, const
  */
 
 int lists_bases(struct scenario *scenario, const config_setting_t *list, const char *file,
-                struct loader_message *message)
+                struct config_message *message)
 {
     struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
     int length = list != NULL ? entry_count(list, file, FORCE_COUNT, message) : 0;
@@ -127,7 +127,7 @@ static const struct scenario_group *find_vehicle(const struct named *named, cons
 /* Sorts the named groups, and refuses a name that two vehicles would share. */
 static int collect_names(struct named *named, const struct scenario *scenario,
                          const config_setting_t *vehicles, const char *file,
-                         struct loader_message *message)
+                         struct config_message *message)
 {
     named->count = 0;
     named->group = entry_allocate(scenario->group_count, sizeof(*named->group), file, message);
@@ -197,7 +197,7 @@ static int check_fire(const struct entry *entry, const struct fire_entry *fire,
 }
 
 int lists_fires(struct scenario *scenario, const config_setting_t *list,
-                const config_setting_t *vehicles, const char *file, struct loader_message *message)
+                const config_setting_t *vehicles, const char *file, struct config_message *message)
 {
     struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
     int length = list != NULL ? entry_count(list, file, SCHEMA_FIRES_MAX, message) : 0;

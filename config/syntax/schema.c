@@ -1,68 +1,61 @@
 /* The schema of a scenario's groups. `make docs` writes these rows into docs/scenario.md. */
-#include "config/schema_internal.h"
+#include "config/syntax/schema_internal.h"
 
 _Static_assert(sizeof(enum terrain_source) == sizeof(uint32_t), "choices store 32-bit words");
 _Static_assert(sizeof(enum object_source) == sizeof(uint32_t), "choices store 32-bit words");
 
-static const struct key_choice paces[] = {
-    {"real", PACE_REAL, NULL}, {"max", PACE_MAX, NULL}, {NULL, 0, NULL}};
-static const struct key_choice terrains[] = {{"generated", TERRAIN_GENERATED, NULL},
-                                             {"flat", TERRAIN_FLAT, NULL},
-                                             {"dem", KEY_LATER, NULL},
-                                             {NULL, 0, NULL}};
+static const struct key_choice paces[] = {{"real", PACE_REAL, NULL}, {"max", PACE_MAX, NULL}};
+static const struct key_choice terrains[] = {
+    {"generated", TERRAIN_GENERATED, NULL}, {"flat", TERRAIN_FLAT, NULL}, {"dem", KEY_LATER, NULL}};
 static const struct key_choice spacings[] = {
-    {"125", 0, NULL}, {"62.5", 0, NULL}, {"31.25", 0, NULL}, {NULL, 0, NULL}};
-static const struct key_choice object_sources[] = {
-    {"table1", OBJECTS_TABLE1, NULL}, {"none", OBJECTS_NONE, NULL}, {NULL, 0, NULL}};
+    {"125", 0, NULL}, {"62.5", 0, NULL}, {"31.25", 0, NULL}};
+static const struct key_choice object_sources[] = {{"table1", OBJECTS_TABLE1, NULL},
+                                                   {"none", OBJECTS_NONE, NULL}};
 static const struct key_choice methods[] = {
-    {"swept", METHOD_SWEPT,
+    {NULL, METHOD_SWEPT,
      "Tests the whole path of a frame, so that no collision is missed at any speed. Bodies are "
      "sorted by gridsquare."},
-    {"npsnet2", METHOD_NPSNET2,
+    {NULL, METHOD_NPSNET2,
      "The thesis's own method: lists of gridsquares, the 100 m test, radii and rays, all at the "
      "end of the frame. Bodies that pass through each other between two frames are missed."},
-    {"mps", METHOD_MPS,
+    {NULL, METHOD_MPS,
      "The method of MPS, which came before NPSNET: two vehicles collide when they are near each "
      "other on the map at the end of the frame. Fixed objects are not tested."},
-    {"occupancy", METHOD_OCCUPANCY,
+    {NULL, METHOD_OCCUPANCY,
      "Tests the whole path of a frame; bodies claim the space that they occupy. It finds what "
      "`swept` finds, more slowly."},
-    {"hopcroft", METHOD_HOPCROFT,
+    {NULL, METHOD_HOPCROFT,
      "Tests the whole path of a frame; it sorts all bodies of the world together. It finds what "
      "`swept` finds, more slowly."},
-    {"brute", METHOD_BRUTE,
+    {NULL, METHOD_BRUTE,
      "Tests the whole path of a frame for every pair of bodies. It finds what `swept` finds, more "
-     "slowly."},
-    {NULL, 0, NULL}};
-static const struct key_choice shapes[] = {
-    {"model", SHAPE_MODEL, NULL}, {"sphere", SHAPE_SPHERE, NULL}, {NULL, 0, NULL}};
+     "slowly."}};
+static const struct key_choice shapes[] = {{.value = SHAPE_MODEL}, {.value = SHAPE_SPHERE}};
 static const struct key_choice responses[] = {
-    {"impulse", MODEL_IMPULSE, "Momentum is conserved. The energy that is lost causes damage."},
-    {"figure8", MODEL_FIGURE8, "The rules of the thesis's Figure 8."},
-    {"spring", MODEL_SPRING, "Bodies are pushed apart by the stiffness of their skins."},
-    {"mps", MODEL_MPS,
+    {NULL, MODEL_IMPULSE, "Momentum is conserved. The energy that is lost causes damage."},
+    {NULL, MODEL_FIGURE8, "The rules of the thesis's Figure 8."},
+    {NULL, MODEL_SPRING, "Bodies are pushed apart by the stiffness of their skins."},
+    {NULL, MODEL_MPS,
      "Both vehicles are destroyed. Fixed objects are not damaged, and vehicles pass through them."},
-    {"none", MODEL_NONE,
-     "Collisions are only reported. Vehicles pass through each other and through fixed objects."},
-    {NULL, 0, NULL}};
-static const struct key_choice nearnesses[] = {
-    {"and", NEARNESS_AND, NULL}, {"or", NEARNESS_OR, NULL}, {NULL, 0, NULL}};
-static const struct key_choice measures[] = {
-    {"energy", MEASURE_ENERGY, NULL}, {"mass", MEASURE_MASS, NULL}, {NULL, 0, NULL}};
-static const struct key_choice views[] = {{"chase", 1u << VIEW_CHASE, NULL},
-                                          {"map", 1u << VIEW_MAP, NULL},
-                                          {"inside", 1u << VIEW_INSIDE, NULL},
-                                          {"orbit", 1u << VIEW_ORBIT, NULL},
-                                          {"free", 1u << VIEW_FREE, NULL},
-                                          {"overhead", 1u << VIEW_OVERHEAD, NULL},
-                                          {"both", 1u << VIEW_CHASE | 1u << VIEW_MAP, NULL},
-                                          {NULL, 0, NULL}};
-static const struct key_choice back_ends[] = {{"auto", BACK_END_AUTO, NULL},
-                                              {"gl", BACK_END_GL, NULL},
-                                              {"soft", BACK_END_SOFT, NULL},
-                                              {NULL, 0, NULL}};
-static const struct key_choice whens_full[] = {
-    {"gap", WHEN_FULL_GAP, NULL}, {"pause", WHEN_FULL_PAUSE, NULL}, {NULL, 0, NULL}};
+    {NULL, MODEL_NONE,
+     "Collisions are only reported. Vehicles pass through each other and through fixed objects."}};
+static const struct key_choice nearnesses[] = {{"and", NEARNESS_AND, NULL},
+                                               {"or", NEARNESS_OR, NULL}};
+static const struct key_choice measures[] = {{"energy", MEASURE_ENERGY, NULL},
+                                             {"mass", MEASURE_MASS, NULL}};
+static const char *view_bit_name(uint32_t bit)
+{
+    return view_mode_name((enum view_mode)__builtin_ctz(bit));
+}
+static const struct key_choice views[] = {{.value = 1u << VIEW_CHASE},
+                                          {.value = 1u << VIEW_MAP},
+                                          {.value = 1u << VIEW_INSIDE},
+                                          {.value = 1u << VIEW_ORBIT},
+                                          {.value = 1u << VIEW_FREE},
+                                          {.value = 1u << VIEW_OVERHEAD},
+                                          {"both", 1u << VIEW_CHASE | 1u << VIEW_MAP, NULL}};
+static const struct key_choice whens_full[] = {{"gap", WHEN_FULL_GAP, NULL},
+                                               {"pause", WHEN_FULL_PAUSE, NULL}};
 
 #define S struct scenario
 static const struct key scenario_keys[] = {
@@ -77,33 +70,36 @@ static const struct key scenario_keys[] = {
             .meaning = "How many vehicles and munitions the world can hold at one time."),
     WHOLE64("world.frames", S, params.frame_limit, 0, SCHEMA_WHOLE_MAX, "0",
             .meaning = "The run ends with this frame. 0: the run has no last frame."),
-    CHOICE("world.pace", S, params.pace, STORE_U32, paces, "real",
+    CHOICE("world.pace", S, params.pace, STORE_U32, WORDS(paces), "real",
            .meaning = "`real`: a second of simulated time takes a second of the clock. `max`: the "
                       "run goes as fast as it can."),
-    CHOICE("terrain.source", S, terrain, STORE_U32, terrains, "generated",
+    CHOICE("terrain.source", S, terrain, STORE_U32, WORDS(terrains), "generated",
            .meaning = "`generated`: Fort Hunter Liggett, made from its real places, with hills "
                       "that follow from the seed. `flat`: level grass."),
     NUMBER("terrain.height_m", S, flat_height_m, -400, 8000, "0", .unit = "m",
            .meaning = "The height of `flat` ground."),
     ROW("terrain.spacing_m", KEY_NUMBER, STORE_DOUBLE, S, spacing_m, .scale = 1.0, .low = 31.25,
-        .high = 125, .fallback = "31.25", .choices = spacings, .unit = "m",
+        .high = 125, .fallback = "31.25", WORDS(spacings), .unit = "m",
         .meaning = "The distance between neighbouring posts, the points whose height is known."),
-    CHOICE("objects.source", S, objects, STORE_U32, object_sources, NULL,
+    CHOICE("objects.source", S, objects, STORE_U32, WORDS(object_sources), NULL,
            .unset = "table1 on generated ground, none on flat",
            .meaning = "`table1`: the objects of the thesis's Table 1. `none`: no objects. "
                       "`objects` is either this group or a list of objects."),
-    CHOICE("collision.method", S, params.collision.method, STORE_U32, methods, "swept",
-           .meaning = "How collisions are found: see below."),
-    CHOICE("collision.shape", S, params.collision.shape, STORE_U32, shapes, "model",
+    CHOICE("collision.method", S, params.collision.method, STORE_U32, SOME(methods, method_name),
+           "swept", .meaning = "How collisions are found: see below."),
+    CHOICE("collision.shape", S, params.collision.shape, STORE_U32, SOME(shapes, shape_name),
+           "model",
            .meaning = "The shape of bodies. `model`: the convex hulls of their model. `sphere`: a "
                       "sphere with the `radius_m` of their kind."),
-    CHOICE("collision.response", S, params.collision.response, STORE_U32, responses, "impulse",
+    CHOICE("collision.response", S, params.collision.response, STORE_U32,
+           SOME(responses, response_model_name), "impulse",
            .meaning = "What a collision does to vehicles: see below."),
     NUMBER("collision.threshold_height_m", S, params.collision.threshold_height_m, 0, 1000, "60",
            .unit = "m",
            .meaning = "A height above the ground. An aircraft that stays higher during the whole "
                       "frame is not tested against fixed objects."),
-    CHOICE("collision.npsnet2.nearness", S, params.collision.nearness, STORE_U32, nearnesses, "and",
+    CHOICE("collision.npsnet2.nearness", S, params.collision.nearness, STORE_U32, WORDS(nearnesses),
+           "and",
            .meaning = "The first test of method `npsnet2` keeps pairs of bodies that are within "
                       "100 m. `and`: both in x and in z, as the thesis surely meant. `or`: in x "
                       "or in z, as it is printed."),
@@ -123,7 +119,8 @@ static const struct key scenario_keys[] = {
                       "both masses."),
     NUMBER("collision.figure8.large_fixed_kg", S, params.collision.large_fixed_kg, 0, 1e9, "20000",
            .unit = "kg", .meaning = "A fixed object of this mass or more is large."),
-    CHOICE("collision.figure8.measure", S, params.collision.measure, STORE_U32, measures, "energy",
+    CHOICE("collision.figure8.measure", S, params.collision.measure, STORE_U32, WORDS(measures),
+           "energy",
            .meaning = "What the damage of a fixed object follows from. `energy`: the energy of the "
                       "impact, compared with the three `damage_` constants. `mass`: the mass of "
                       "the vehicle alone, as printed, compared with the three `mass_` constants."),
@@ -147,7 +144,7 @@ static const struct key scenario_keys[] = {
            .unit = "kg",
            .meaning = "The thesis's c3: a vehicle of this mass or more does low damage, a lighter "
                       "one none. It must be below `mass_c2_kg`."),
-    CHOICE("recorder.when_full", S, params.when_full, STORE_U32, whens_full, "gap",
+    CHOICE("recorder.when_full", S, params.when_full, STORE_U32, WORDS(whens_full), "gap",
            .meaning = "What happens when the recorder cannot write, because the disk is full or "
                       "time is short, and the event ring fills up. `gap`: new events overwrite old "
                       "ones, and the log counts the lost events as a gap. `pause`: the world is "
@@ -159,8 +156,8 @@ static const struct key scenario_keys[] = {
             .meaning = "The height of a picture."),
     NUMBER("renderer.fps", S, params.renderer.fps, 0, 120, "2",
            .meaning = "Pictures per second of the clock. 0: one picture at the end."),
-    ROW("renderer.view", KEY_CHOICES, STORE_U32, S, params.renderer.views, .choices = views,
-        .fallback = "both",
+    ROW("renderer.view", KEY_CHOICES, STORE_U32, S, params.renderer.views,
+        SOME(views, view_bit_name), .fallback = "both",
         .meaning = "The views that are drawn of each frame, with commas between them "
                    "([pictures.md](pictures.md)). `both`: `chase` and `map`."),
     WHOLE32("renderer.follow", S, params.renderer.follow, 0, UINT32_MAX, "0",
@@ -172,7 +169,8 @@ static const struct key scenario_keys[] = {
             .meaning = "true: the horizon is hazy."),
     BOOLEAN("renderer.texture", S, params.renderer.texture, STORE_U32, "true",
             .meaning = "true: the ground has texture."),
-    CHOICE("renderer.backend", S, params.renderer.back_end, STORE_U32, back_ends, "auto",
+    CHOICE("renderer.backend", S, params.renderer.back_end, STORE_U32,
+           ALL(back_end_name, BACK_END_COUNT), "auto",
            .meaning = "What draws. `gl`: OpenGL. `soft`: the project's own rasteriser. `auto`: "
                       "OpenGL on a machine with graphics hardware, the rasteriser on any other."),
     BOOLEAN("renderer.hold", S, params.renderer.hold, STORE_U32, "true",

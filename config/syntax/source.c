@@ -27,7 +27,7 @@ static const char *type_of(mode_t mode)
     return "a device";
 }
 
-static int read_all(struct source *source, int fd, struct loader_message *message)
+static int read_all(struct source *source, int fd, struct config_message *message)
 {
     const struct key_place place = {source->path, 0};
     size_t used = 0;
@@ -49,7 +49,7 @@ static int read_all(struct source *source, int fd, struct loader_message *messag
 }
 
 static int check_status(const struct stat *status, size_t most, struct key_place place,
-                        struct loader_message *message)
+                        struct config_message *message)
 {
     if (!S_ISREG(status->st_mode))
         return key_table_refuse(message, place, NULL, NULL, "is %s; allowed: a regular file",
@@ -64,7 +64,7 @@ static int check_status(const struct stat *status, size_t most, struct key_place
  * is opened, because opening a device may have an effect, and again after, because the name may
  * have changed its meaning. follow: 0 or AT_SYMLINK_NOFOLLOW. -1 with the message. */
 static int open_checked(int folder, const char *name, int follow, struct key_place place,
-                        size_t most, struct stat *status, struct loader_message *message)
+                        size_t most, struct stat *status, struct config_message *message)
 {
     int flags = O_RDONLY | O_CLOEXEC | O_NOCTTY;
 
@@ -89,7 +89,7 @@ err_open:
 
 /* Reads an open file whole, and closes it. */
 static int take(struct source *source, int fd, const struct stat *status,
-                struct loader_message *message)
+                struct config_message *message)
 {
     const struct key_place place = {source->path, 0};
     int result = -1;
@@ -109,7 +109,7 @@ static int take(struct source *source, int fd, const struct stat *status,
 }
 
 int source_read(struct source *source, const char *path, size_t most,
-                struct loader_message *message)
+                struct config_message *message)
 {
     const struct key_place place = {path, 0};
     struct stat status;
@@ -123,7 +123,7 @@ int source_read(struct source *source, const char *path, size_t most,
 }
 
 int source_read_in(struct source *source, const char *folder, const char *name, size_t most,
-                   struct loader_message *message)
+                   struct config_message *message)
 {
     const struct key_place place = {source->path, 0};
     struct stat status;
@@ -155,7 +155,7 @@ void source_free(struct source *source)
 }
 
 /* libconfig would read any file that an @include at the start of a line names. */
-static int refuse_includes(const struct source *source, struct loader_message *message)
+static int refuse_includes(const struct source *source, struct config_message *message)
 {
     int line = 1;
 
@@ -179,7 +179,7 @@ static int refuse_includes(const struct source *source, struct loader_message *m
 /* Refuses trees that no schema has before libconfig builds them: it keeps every part in memory, and
  * each key added to a group costs a search of the group. It also takes a string that never ends for
  * the end of the file. */
-static int check_shape(const struct source *source, struct loader_message *message)
+static int check_shape(const struct source *source, struct config_message *message)
 {
     struct literals_shape shape;
 
@@ -215,7 +215,7 @@ static void parse(void *context)
     parsing->result = config_read_string(parsing->config, parsing->text);
 }
 
-int source_parse(const struct source *source, config_t *config, struct loader_message *message)
+int source_parse(const struct source *source, config_t *config, struct config_message *message)
 {
     struct key_place place = {source->path, 0};
 

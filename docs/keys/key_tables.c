@@ -107,15 +107,17 @@ static int write_words(struct writing *writing, const char *name)
     const struct key *key = find_key(name);
     const char *dot = strrchr(name, '.');
 
-    if (key == NULL || key->choices == NULL)
+    if (key == NULL || key->choice_count == 0)
         return fail(writing, name, "is no key with allowed words");
     fprintf(writing->to, "| %s | meaning |\n|---|---|\n", dot != NULL ? dot + 1 : name);
-    for (const struct key_choice *choice = key->choices; choice->name != NULL; choice++) {
-        if (choice->value == KEY_LATER)
+    for (uint32_t n = 0; n < key->choice_count; n++) {
+        const struct key_choice choice = key_table_choice(key, n);
+
+        if (choice.value == KEY_LATER)
             continue;
-        if (choice->meaning == NULL)
-            return fail(writing, choice->name, "has no meaning in the schema");
-        fprintf(writing->to, "| `%s` | %s |\n", choice->name, choice->meaning);
+        if (choice.meaning == NULL)
+            return fail(writing, choice.name, "has no meaning in the schema");
+        fprintf(writing->to, "| `%s` | %s |\n", choice.name, choice.meaning);
     }
     return 0;
 }

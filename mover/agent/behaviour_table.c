@@ -162,8 +162,8 @@ static const struct behaviour_table_row beast[] = {
 
 #define TABLE(rows_of, how, share)                                                                 \
     {                                                                                              \
-        .name = #rows_of, .row = (rows_of), .rows = sizeof(rows_of) / sizeof((rows_of)[0]),        \
-        .manner = (how), .stand_off = (share)                                                      \
+        .row = (rows_of), .rows = sizeof(rows_of) / sizeof((rows_of)[0]), .manner = (how),         \
+        .stand_off = (share)                                                                       \
     }
 
 const struct behaviour_table behaviour_tables[DOCTRINE_COUNT] = {

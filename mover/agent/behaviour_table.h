@@ -59,7 +59,6 @@ enum manner {
 };
 
 struct behaviour_table {
-    const char *name; /* as in a kind's file */
     const struct behaviour_table_row *row;
     uint32_t rows;
     enum manner manner;

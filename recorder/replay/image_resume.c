@@ -16,7 +16,7 @@
 
 static void change_settings(const struct arguments *arguments, struct image *image)
 {
-    struct loader_message message;
+    struct config_message message;
     if (loader_branch(&image->params, arguments->set, arguments->sets, &message) != 0)
         die_refused("%s", message.text);
     arguments_seconds(arguments, &image->params);

@@ -36,7 +36,7 @@ static void tell_placing(uint32_t placed, uint32_t of)
 void scenario_load_scenario(const struct arguments *arguments, struct scenario *scenario)
 {
     char data_dir[512];
-    struct loader_message message;
+    struct config_message message;
     if (process_data_dir(data_dir, sizeof data_dir) != 0)
         die_refused("cannot find the data (kinds, models, scenarios) beside the programs; set "
                     "JOLON_DATA to the folder that holds kinds/");

@@ -82,7 +82,7 @@ static double percent(uint32_t part, uint32_t rest)
 int bench_shapes(struct bench_options options)
 {
     struct scenario scenario;
-    struct loader_message message;
+    struct config_message message;
     char data_dir[512];
     if (process_data_dir(data_dir, sizeof data_dir) != 0)
         die_refused("cannot find the data; set JOLON_DATA");

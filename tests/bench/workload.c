@@ -19,7 +19,7 @@ static void take_fixed(struct engine_scene *scene)
     char data_dir[512], text[512];
     struct scenario scenario;
     struct world_build genesis;
-    struct loader_message message;
+    struct config_message message;
     if (process_data_dir(data_dir, sizeof data_dir) != 0)
         die_refused("cannot find the data; set JOLON_DATA");
     if (loader_scenario(&scenario, data_dir, NULL, NULL, 0, &message) != 0)

@@ -71,7 +71,7 @@ static void open_world(struct view *view, const char *path, uint32_t vehicles,
     const char *const overrides[] = {capacity};
     struct scenario scenario;
     struct world_build genesis;
-    struct loader_message message;
+    struct config_message message;
     struct reason reason;
     uint32_t room = vehicles + vehicles / 4 + 4096;
     snprintf(capacity, sizeof capacity, "world.capacity=%u",

@@ -31,7 +31,7 @@ static void open_world(void)
     static char text[16384];
     struct scenario scenario;
     struct world_build genesis;
-    struct loader_message message;
+    struct config_message message;
     struct reason reason;
     size_t at = (size_t)snprintf(text, sizeof text, "%sobjects = (\n", begin);
     for (int i = 0; i < GRID * GRID; i++)

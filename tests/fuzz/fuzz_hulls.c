@@ -47,7 +47,7 @@ static void take_model(struct scenario *s, struct model *model, const uint8_t *d
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct scenario scenario = {0};
-    struct loader_message message = {""};
+    struct config_message message = {""};
     struct hulls hulls;
     scenario.models = calloc(1, sizeof *scenario.models);
     CHECK(scenario.models);

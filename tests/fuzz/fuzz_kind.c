@@ -3,7 +3,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct loader_message message;
+    struct config_message message;
     struct scenario scenario;
     support_put("kinds/k.cfg", data, size);
     if (loader_scenario(&scenario, support_data_dir(), support_file("", 0), NULL, 0, &message) !=

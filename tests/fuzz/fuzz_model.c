@@ -24,7 +24,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static struct models models;
     struct scenario scenario = {0};
-    struct loader_message message;
+    struct config_message message;
     XXH3_state_t *hash = XXH3_createState();
     CHECK(hash && XXH3_64bits_reset(hash) == XXH_OK);
     put(data, size);

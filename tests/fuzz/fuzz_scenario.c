@@ -59,7 +59,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static char text[65536];
     static const struct scenario empty;
     const char *overrides[OVERRIDES_MAX], *rest;
-    struct loader_message message;
+    struct config_message message;
     struct scenario scenario;
     if (size >= sizeof text)
         return 0;

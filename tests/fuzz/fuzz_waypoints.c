@@ -26,7 +26,7 @@ static void check_steps(const struct scenario_step *steps, int count)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct loader_message message;
+    struct config_message message;
     char *text = malloc(size + 1);
     CHECK(text);
     memcpy(text, data, size);

@@ -122,7 +122,7 @@ void support_world(struct view *view)
 {
     struct scenario scenario;
     struct world_build genesis;
-    struct loader_message message;
+    struct config_message message;
     struct reason reason;
     char text[512];
     const char *path = support_file(battle, strlen(battle));
@@ -137,7 +137,7 @@ void support_world(struct view *view)
 
 /* --- what must hold ----------------------------------------------------------------------------*/
 
-void support_check_line(const struct loader_message *message)
+void support_check_line(const struct config_message *message)
 {
     size_t length = strnlen(message->text, sizeof message->text);
     CHECK(length > 0 && length < sizeof message->text);
@@ -147,7 +147,7 @@ void support_check_line(const struct loader_message *message)
     }
 }
 
-void support_check_message(const struct loader_message *message)
+void support_check_message(const struct config_message *message)
 {
     support_check_line(message);
     /* The parser's own words when it tries to read another file. */

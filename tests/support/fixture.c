@@ -128,7 +128,7 @@ static const char *unless(const char *text, const char *group, const char *fallb
 
 void fixture_scenario(struct scenario *scenario, const char *text)
 {
-    struct loader_message message;
+    struct config_message message;
     char path[PATH_MAX];
     snprintf(path, sizeof path, "%s/scenario-XXXXXX", fixture_data_dir());
     int fd = mkstemp(path);

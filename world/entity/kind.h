@@ -94,6 +94,7 @@ struct kind {
 };
 
 const char *domain_name(enum domain domain);
+const char *doctrine_name(enum doctrine doctrine);
 const char *object_class_name(enum object_class object_class);
 
 /* Index of the kind called name, KIND_NONE when there is none. */

@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 static struct params made;
-static struct loader_message message;
+static struct config_message message;
 
 static int make_params(void **state)
 {

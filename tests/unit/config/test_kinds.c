@@ -2,6 +2,7 @@
  * 49). What is refused is in test_refusals.c. */
 #include "config/kinds.h"
 
+#include "config/loader.h"
 #include "config/syntax/schema.h"
 #include "tests/support/quick_config.h"
 
@@ -26,7 +27,7 @@
     "domain = \"fixed\"; class = \"tree\"; mass_kg = 1; radius_m = 1; resistance_j = 5000;\n"      \
     "length_m = 4; width_m = 2; height_m = 8; model = "
 
-static struct loader_message message;
+static struct config_message message;
 
 static void write_in(const char *folder, const char *file, const char *text)
 {

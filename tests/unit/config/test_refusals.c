@@ -17,7 +17,7 @@
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-static struct loader_message message;
+static struct config_message message;
 
 static int load_with(struct scenario *scenario, const char *text, const char *override)
 {

@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-static struct loader_message message;
+static struct config_message message;
 static struct scenario_step steps[16];
 
 static int read_text(const char *text)

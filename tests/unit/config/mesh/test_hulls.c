@@ -20,7 +20,7 @@
 #define HALF_STEP 0.5e-6 /* what the lattice may move a corner */
 #define NEAR_M    1e-6
 
-static struct loader_message message;
+static struct config_message message;
 
 /* --- shapes ------------------------------------------------------------------------------------
  */

@@ -23,7 +23,7 @@
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 static struct scenario shipped;
-static struct loader_message message;
+static struct config_message message;
 
 static int load_shipped(void **state)
 {

@@ -1,7 +1,7 @@
-/* The schema: its words are the world's, and docs/scenario.md is made of its rows. */
+/* The schema: its choices have words, and docs/scenario.md is made of its rows. */
 #include "config/syntax/schema.h"
 #include "docs/keys/key_tables.h"
-#include "world/entity/entity.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,72 +16,26 @@
 
 #define DOCUMENT "docs/scenario.md"
 
-/* The schema's words are the world's own. */
-static void check_words(const struct key_table *table, const char *key,
-                        const char *(*name_of)(uint32_t))
-{
-    const struct key *row = &table->keys[key_table_find(table, key)];
+static const struct key_table *const tables[] = {&schema_scenario, &schema_vehicle, &schema_object,
+                                                 &schema_script,   &schema_step,    &schema_base,
+                                                 &schema_fire,     &schema_kind};
 
-    for (const struct key_choice *choice = row->choices; choice->name != NULL; choice++) {
-        if (choice->value != KEY_LATER)
-            assert_string_equal(choice->name, name_of(choice->value));
-    }
-}
-
-static const char *force_word(uint32_t v)
-{
-    return force_name((enum force)v);
-}
-static const char *behaviour_word(uint32_t v)
-{
-    return behaviour_name((enum behaviour)v);
-}
-static const char *domain_word(uint32_t v)
-{
-    return domain_name((enum domain)v);
-}
-static const char *class_word(uint32_t v)
-{
-    return object_class_name((enum object_class)v);
-}
-static const char *method_word(uint32_t v)
-{
-    return method_name((enum method)v);
-}
-static const char *shape_word(uint32_t v)
-{
-    return shape_name((enum shape)v);
-}
-static const char *response_word(uint32_t v)
-{
-    return response_model_name((enum response_model)v);
-}
-static const char *view_word(uint32_t v)
-{
-    uint32_t view = 0;
-    if (v == (1u << VIEW_CHASE | 1u << VIEW_MAP))
-        return "both";
-    while (v != 1u << view)
-        assert_true(++view < VIEW_COUNT);
-    return view_mode_name((enum view_mode)view);
-}
-static const char *back_end_word(uint32_t v)
-{
-    return back_end_name((enum back_end)v);
-}
-
-static void test_words_are_the_worlds(void **state)
+/* Every choice has a word of its own. */
+static void test_choices_have_words(void **state)
 {
     (void)state;
-    check_words(&schema_vehicle, "force", force_word);
-    check_words(&schema_vehicle, "behaviour", behaviour_word);
-    check_words(&schema_kind, "domain", domain_word);
-    check_words(&schema_kind, "class", class_word);
-    check_words(&schema_scenario, "collision.method", method_word);
-    check_words(&schema_scenario, "collision.shape", shape_word);
-    check_words(&schema_scenario, "collision.response", response_word);
-    check_words(&schema_scenario, "renderer.view", view_word);
-    check_words(&schema_scenario, "renderer.backend", back_end_word);
+    for (size_t t = 0; t < COUNT(tables); t++) {
+        for (uint32_t i = 0; i < tables[t]->count; i++) {
+            const struct key *key = &tables[t]->keys[i];
+
+            for (uint32_t n = 0; n < key->choice_count; n++) {
+                assert_string_not_equal(key_table_choice(key, n).name, "?");
+                for (uint32_t m = 0; m < n; m++)
+                    assert_string_not_equal(key_table_choice(key, m).name,
+                                            key_table_choice(key, n).name);
+            }
+        }
+    }
 }
 
 /* --- the document ------------------------------------------------------------------------------
@@ -133,9 +87,6 @@ static bool has_example(const char *text, const char *name)
 
 static void test_document_has_examples(void **state)
 {
-    static const struct key_table *const tables[] = {
-        &schema_scenario, &schema_vehicle, &schema_object, &schema_script,
-        &schema_step,     &schema_base,    &schema_fire,   &schema_kind};
     char *document = read_document();
 
     (void)state;
@@ -183,7 +134,7 @@ static void test_tables_of_a_document_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_words_are_the_worlds),
+        cmocka_unit_test(test_choices_have_words),
         cmocka_unit_test(test_document_is_made_of_the_schema),
         cmocka_unit_test(test_document_has_examples),
         cmocka_unit_test(test_tables_of_a_document_are_refused),

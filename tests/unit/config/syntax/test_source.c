@@ -21,7 +21,7 @@
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-static struct loader_message message;
+static struct config_message message;
 
 /* --- names that came out of files --------------------------------------------------------------*/
 

@@ -67,8 +67,9 @@ static void test_row_9_every_row_of_every_table_can_win(void **state)
         for (uint32_t n = 0; n < table->rows; n++) {
             if (won[n] == 0 || behaviours[n] != table->row[n].from)
                 fail_msg("%s: row %u (to %s when %s) never wins, or from %x of %x only",
-                         table->name, n, behaviour_name((enum behaviour)table->row[n].to),
-                         said(table->row[n].when), behaviours[n], table->row[n].from);
+                         doctrine_name((enum doctrine)d), n,
+                         behaviour_name((enum behaviour)table->row[n].to), said(table->row[n].when),
+                         behaviours[n], table->row[n].from);
         }
     }
 }
@@ -80,7 +81,7 @@ static void test_rows_are_sound(void **state)
     (void)state;
     for (uint32_t d = 0; d < DOCTRINE_COUNT; d++) {
         const struct behaviour_table *table = &behaviour_tables[d];
-        assert_non_null(table->name);
+        assert_string_not_equal(doctrine_name((enum doctrine)d), "?");
         for (uint32_t n = 0; n < table->rows; n++) {
             const struct behaviour_table_row *row = &table->row[n];
             assert_true(row->to <= BEHAVIOUR_TABLE_ORDER && row->because < REASON_COUNT);

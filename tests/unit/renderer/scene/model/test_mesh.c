@@ -29,7 +29,7 @@ static struct world world;
 
 static int load_shipped(void **state)
 {
-    struct loader_message message;
+    struct config_message message;
     (void)state;
     if (loader_scenario(&shipped, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &message) != 0)
         return -1;

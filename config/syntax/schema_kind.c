@@ -1,39 +1,24 @@
 /* The schema of a kind's file. `make docs` writes these rows into docs/scenario.md. */
-#include "config/schema_internal.h"
+#include "config/syntax/schema_internal.h"
 
-static const struct key_choice domains[] = {
-    {"land", DOMAIN_LAND, NULL},         {"sea", DOMAIN_SEA, NULL},     {"air", DOMAIN_AIR, NULL},
-    {"munition", DOMAIN_MUNITION, NULL}, {"fixed", DOMAIN_FIXED, NULL}, {NULL, 0, NULL}};
-static const struct key_choice guidances[] = {
-    {"ballistic", GUIDANCE_BALLISTIC, NULL}, {"homing", GUIDANCE_HOMING, NULL}, {NULL, 0, NULL}};
-static const struct key_choice doctrines[] = {
-    {"armour", DOCTRINE_ARMOUR, NULL}, {"light", DOCTRINE_LIGHT, NULL},
-    {"soft", DOCTRINE_SOFT, NULL},     {"helicopter", DOCTRINE_HELICOPTER, NULL},
-    {"jet", DOCTRINE_JET, NULL},       {"warship", DOCTRINE_WARSHIP, NULL},
-    {"beast", DOCTRINE_BEAST, NULL},   {NULL, 0, NULL}};
-static const struct key_choice classes[] = {{"tree", OBJECT_TREE, NULL},
-                                            {"bush", OBJECT_BUSH, NULL},
-                                            {"pole", OBJECT_POLE, NULL},
-                                            {"building", OBJECT_BUILDING, NULL},
-                                            {"watertower", OBJECT_WATERTOWER, NULL},
-                                            {"other_manmade", OBJECT_OTHER_MANMADE, NULL},
-                                            {"other_natural", OBJECT_OTHER_NATURAL, NULL},
-                                            {NULL, 0, NULL}};
+static const struct key_choice guidances[] = {{"ballistic", GUIDANCE_BALLISTIC, NULL},
+                                              {"homing", GUIDANCE_HOMING, NULL}};
 
 #define K struct kind_entry
 static const struct key kind_keys[] = {
     TEXT("name", K, kind.name, NULL, .required = true,
          .meaning = "The name of the file, without `.cfg`."),
-    CHOICE("domain", K, kind.domain, STORE_U8, domains, NULL, .required = true,
-           .meaning = "What the kind is, and where it moves."),
-    CHOICE("class", K, kind.object_class, STORE_U8, classes, NULL,
+    CHOICE("domain", K, kind.domain, STORE_U8, ALL(domain_name, DOMAIN_COUNT), NULL,
+           .required = true, .meaning = "What the kind is, and where it moves."),
+    CHOICE("class", K, kind.object_class, STORE_U8, ALL(object_class_name, OBJECT_CLASS_COUNT),
+           NULL,
            .meaning = "Fixed objects, which must have it: their row of the thesis's Table 1. Kinds "
                       "of one class are mixed at random. Other kinds must not have it."),
     TEXT("model", K, model, NULL, .required = true,
          .meaning = "The shape: the name of a file of `config/models`, without `.obj`."),
     TEXT("munition", K, munition, NULL,
          .meaning = "Vehicles: the kind that they fire. A vehicle without it is unarmed."),
-    CHOICE("guidance", K, kind.guidance, STORE_U8, guidances, "ballistic",
+    CHOICE("guidance", K, kind.guidance, STORE_U8, WORDS(guidances), "ballistic",
            .meaning = "Munitions. `ballistic`: the munition falls freely. `homing`: it follows its "
                       "target."),
     BOOLEAN("craters", K, kind.craters, STORE_U8, "false",
@@ -117,7 +102,8 @@ static const struct key kind_keys[] = {
            .meaning = "Vehicles: the angle of view around the direction of the turret, or of the "
                       "hull where there is no turret. 360: all round, as from the cupola of a "
                       "tank."),
-    CHOICE("doctrine", K, kind.doctrine, STORE_U32, doctrines, NULL, .unset = "by domain",
+    CHOICE("doctrine", K, kind.doctrine, STORE_U32, ALL(doctrine_name, DOCTRINE_COUNT), NULL,
+           .unset = "by domain",
            .meaning = "Vehicles: how they react to what they notice (Minds, below). A land vehicle "
                       "without this key is `light`, or `soft` when it is unarmed; a ship is "
                       "`warship`; an aircraft is `helicopter`, or `jet` with a `min_speed_mps`."),

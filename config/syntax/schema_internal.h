@@ -1,7 +1,7 @@
 /* The schema's rows by type, for a destination D and its field. What follows the positional
  * arguments are members of struct key: .unit, .meaning, .required, .unset. */
-#ifndef JOLON_CONFIG_SCHEMA_INTERNAL_H
-#define JOLON_CONFIG_SCHEMA_INTERNAL_H
+#ifndef JOLON_CONFIG_SYNTAX_SCHEMA_INTERNAL_H
+#define JOLON_CONFIG_SYNTAX_SCHEMA_INTERNAL_H
 
 #include "config/syntax/schema.h"
 #include "world/terrain/gridsquare.h"
@@ -24,8 +24,14 @@
         .fallback = (value), __VA_ARGS__)
 #define NUMBER(key, D, field, min, max, value, ...)                                                \
     SCALED(key, D, field, min, max, 1.0, value, __VA_ARGS__)
+/* The choices of a CHOICE. ALL: the words of a function of world/, for 0..count - 1. SOME: an
+ * array, where the function has the words of the choices without a name. WORDS: an array with
+ * names. */
+#define ALL(function, count)  .choice_count = (count), .word = (function)
+#define SOME(array, function) .choices = (array), .choice_count = COUNT(array), .word = (function)
+#define WORDS(array)          .choices = (array), .choice_count = COUNT(array)
 #define CHOICE(key, D, field, how, words, value, ...)                                              \
-    ROW(key, KEY_CHOICE, how, D, field, .choices = (words), .fallback = (value), __VA_ARGS__)
+    ROW(key, KEY_CHOICE, how, D, field, words, .fallback = (value), __VA_ARGS__)
 #define BOOLEAN(key, D, field, how, value, ...)                                                    \
     ROW(key, KEY_BOOLEAN, how, D, field, .low = 0.0, .high = 1.0, .fallback = (value), __VA_ARGS__)
 #define TEXT(key, D, field, value, ...)                                                            \

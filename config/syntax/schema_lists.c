@@ -1,43 +1,37 @@
 /* The schema of the entries of a scenario's lists. `make docs` writes these rows into
  * docs/scenario.md. */
-#include "config/schema_internal.h"
+#include "config/syntax/schema_internal.h"
 
-static const struct key_choice forces[] = {{"neutral", FORCE_NEUTRAL, NULL},
-                                           {"blue", FORCE_BLUE, NULL},
-                                           {"red", FORCE_RED, NULL},
-                                           {NULL, 0, NULL}};
 static const struct key_choice behaviours[] = {
-    {"idle", BEHAVIOUR_IDLE, "The vehicle stands still. It reacts when it is fired upon."},
-    {"hold", BEHAVIOUR_HOLD,
+    {NULL, BEHAVIOUR_IDLE, "The vehicle stands still. It reacts when it is fired upon."},
+    {NULL, BEHAVIOUR_HOLD,
      "The vehicle keeps its heading and speed and reacts to nothing. This makes planned "
      "collisions."},
-    {"patrol", BEHAVIOUR_PATROL, "The vehicle goes from one random goal in its area to the next."},
-    {"route", BEHAVIOUR_ROUTE, "The vehicle goes along its route again and again."},
-    {"follow", BEHAVIOUR_FOLLOW,
+    {NULL, BEHAVIOUR_PATROL, "The vehicle goes from one random goal in its area to the next."},
+    {NULL, BEHAVIOUR_ROUTE, "The vehicle goes along its route again and again."},
+    {NULL, BEHAVIOUR_FOLLOW,
      "The vehicle keeps its place in the formation of the entry before it, behind that entry's "
      "own vehicles."},
-    {"script", BEHAVIOUR_SCRIPT, "The vehicle does what its script says, and then is idle."},
-    {NULL, 0, NULL}};
-static const struct key_choice orders[] = {
-    {"idle", BEHAVIOUR_IDLE, NULL},         {"hold", BEHAVIOUR_HOLD, NULL},
-    {"patrol", BEHAVIOUR_PATROL, NULL},     {"route", BEHAVIOUR_ROUTE, NULL},
-    {"withdraw", BEHAVIOUR_WITHDRAW, NULL}, {NULL, 0, NULL}};
+    {NULL, BEHAVIOUR_SCRIPT, "The vehicle does what its script says, and then is idle."}};
+static const struct key_choice orders[] = {{.value = BEHAVIOUR_IDLE},
+                                           {.value = BEHAVIOUR_HOLD},
+                                           {.value = BEHAVIOUR_PATROL},
+                                           {.value = BEHAVIOUR_ROUTE},
+                                           {.value = BEHAVIOUR_WITHDRAW}};
 static const struct key_choice engagements[] = {{"free", ENTITY_FLAG_FIRE_AT_WILL, NULL},
                                                 {"return", 0, NULL},
-                                                {"hold", ENTITY_FLAG_HOLD_FIRE, NULL},
-                                                {NULL, 0, NULL}};
+                                                {"hold", ENTITY_FLAG_HOLD_FIRE, NULL}};
 static const struct key_choice formations[] = {
-    {"column", FORMATION_COLUMN, "The vehicles are one behind the other."},
-    {"line", FORMATION_LINE,
+    {NULL, FORMATION_COLUMN, "The vehicles are one behind the other."},
+    {NULL, FORMATION_LINE,
      "The vehicles are beside the leader, alternately on its right and on its left."},
-    {"wedge", FORMATION_WEDGE,
+    {NULL, FORMATION_WEDGE,
      "The vehicles are behind the leader at 45 degrees, alternately on its right and on its "
      "left."},
-    {"echelon-left", FORMATION_ECHELON_LEFT,
+    {NULL, FORMATION_ECHELON_LEFT,
      "Each vehicle is behind the one before it, at 45 degrees to its left."},
-    {"echelon-right", FORMATION_ECHELON_RIGHT,
-     "Each vehicle is behind the one before it, at 45 degrees to its right."},
-    {NULL, 0, NULL}};
+    {NULL, FORMATION_ECHELON_RIGHT,
+     "Each vehicle is behind the one before it, at 45 degrees to its right."}};
 
 #define V struct vehicle_entry
 static const struct key vehicle_keys[] = {
@@ -47,11 +41,11 @@ static const struct key vehicle_keys[] = {
         WHOLE32("count", V, count, 1, CAPACITY_MAX, "1",
                 .meaning = "How many vehicles the entry makes. With `at` it is 1, unless they are "
                            "in formation. All entries together make at most `world.capacity`."),
-    [VEHICLE_FORCE] = CHOICE("force", V, force, STORE_U32, forces, "neutral",
+    [VEHICLE_FORCE] = CHOICE("force", V, force, STORE_U32, ALL(force_name, FORCE_COUNT), "neutral",
                              .meaning = "Blue and red are each other's enemies. Neutral vehicles "
                                         "have no enemies."),
     [VEHICLE_BEHAVIOUR] =
-        CHOICE("behaviour", V, behaviour, STORE_U32, behaviours, NULL,
+        CHOICE("behaviour", V, behaviour, STORE_U32, SOME(behaviours, behaviour_name), NULL,
                .unset = "patrol; idle with `at`; route with `route`; script with `script`",
                .meaning = "What the vehicles do: see below."),
     [VEHICLE_AREA] = PLACE("area", KEY_AREA, STORE_DOUBLE, V, area, .unset = "the whole square",
@@ -90,14 +84,14 @@ static const struct key vehicle_keys[] = {
                 .meaning = "An older spelling: true is `engage = \"free\"`. The two keys must not "
                            "contradict each other."),
     [VEHICLE_ENGAGE] =
-        CHOICE("engage", V, engage, STORE_U32, engagements, NULL,
+        CHOICE("engage", V, engage, STORE_U32, WORDS(engagements), NULL,
                .unset = "free with `fire_at_will`, else return",
                .meaning = "Whom the vehicle fires at. `free`: every enemy that it sees. `return`: "
                           "only enemies that fire at it. `hold`: nobody."),
     [VEHICLE_STAND] = BOOLEAN("stand", V, stand, STORE_U32, "false",
                               .meaning = "true: the vehicle never flees or withdraws."),
     [VEHICLE_FORMATION] =
-        CHOICE("formation", V, formation, STORE_U32, formations, NULL,
+        CHOICE("formation", V, formation, STORE_U32, SOME(formations, formation_shape_name), NULL,
                .meaning = "The vehicles start and move in this formation: see below."),
     [VEHICLE_SPACING] = NUMBER("spacing_m", V, spacing_m, 1, 5000, "50", .unit = "m",
                                .meaning = "The distance between neighbours in a formation."),
@@ -161,7 +155,7 @@ static const struct key step_keys[] = {
         PLACE("fire_at", KEY_POINT, STORE_DOUBLE, T, fire_at,
               .meaning = "The vehicle fires one shot at this point on the ground."),
     [STEP_KEY_BEHAVIOUR] =
-        CHOICE("behaviour", T, behaviour, STORE_U32, orders, NULL,
+        CHOICE("behaviour", T, behaviour, STORE_U32, SOME(orders, behaviour_name), NULL,
                .meaning = "The script ends, and the vehicle's agent takes over with this order. A "
                           "patrol is in the vehicle's own `area`. `withdraw`: the vehicle goes to "
                           "its base."),
@@ -191,8 +185,9 @@ _Static_assert(COUNT(step_keys) == STEP_KEY_COUNT, "a row for each step_key");
 
 #define B struct base_entry
 static const struct key base_keys[] = {
-    [BASE_FORCE] = CHOICE("force", B, force, STORE_U32, forces, NULL, .required = true,
-                          .meaning = "The force whose base it is. A force has one base at most."),
+    [BASE_FORCE] =
+        CHOICE("force", B, force, STORE_U32, ALL(force_name, FORCE_COUNT), NULL, .required = true,
+               .meaning = "The force whose base it is. A force has one base at most."),
     [BASE_AT] = PLACE("at", KEY_POINT, STORE_DOUBLE, B, at, .required = true,
                       .meaning = "Where the vehicles of the force withdraw to. The base of a force "
                                  "without an entry is where its land vehicle starts that is "
