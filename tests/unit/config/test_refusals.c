@@ -184,10 +184,9 @@ static const struct refusal refusals[] = {
      "script"},
     /* Kinds. */
     {"vehicles = ( { kind = \"tonk\"; } );", 1,
-     "vehicles[0].kind = \"tonk\": unknown kind; allowed: attack-tomato, carrier, hamburger, "
-     "helicopter, helo-cow, jeep, jet, ship, tank, truck, wishbone"},
+     "vehicles[0].kind = \"tonk\": unknown kind; allowed: ..."},
     {"vehicles = ( { kind = \"tree\"; } );", 1,
-     "vehicles[0].kind = \"tree\": is not a kind for this list; allowed: attack-tomato, ..."},
+     "vehicles[0].kind = \"tree\": is not a kind for this list; allowed: ..."},
     {"vehicles = ( { count = 2; } );", 1,
      "vehicles[0].kind: is missing; allowed: 1..23 characters"},
     {"vehicles = ( { kind = \"\"; } );", 1,
