@@ -1,4 +1,4 @@
-/* The map of craters and of what fell. */
+/* Keeps the marks up to date, and finds those of eight points at once. */
 #include "mover/query/ground_marks.h"
 
 #include "world/maths/cpu_dispatch.h"
@@ -54,7 +54,7 @@ static void forget(struct ground_marks *marks, const struct world *world)
     marks->any = false;
 }
 
-/* False when something stands again that had fallen. */
+/* False when an object stands again that had fallen: the marks must then be built again. */
 static bool take_damage(struct ground_marks *marks, const struct world *world,
                         const uint8_t *damage, uint32_t first, uint32_t end)
 {

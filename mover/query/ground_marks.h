@@ -1,6 +1,6 @@
-/* Where craters are and where objects fell, by gridsquare: most bodies are near neither, and one
- * look tells. A cache of the committed world, which the mover keeps for itself; made anew from it
- * after a start, and when the world is another one's past. */
+/* The gridsquares that have craters or the debris of objects. Most bodies are near neither, and one
+ * look at a bit says so. This is the mover's own cache of the committed world. It is built again
+ * after a start, and after the world has been set back to an earlier frame. */
 #ifndef JOLON_MOVER_QUERY_GROUND_MARKS_H
 #define JOLON_MOVER_QUERY_GROUND_MARKS_H
 
@@ -8,27 +8,28 @@
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-#define GROUND_MARKS_DEBRIS 1u /* what is left of a fixed object reaches into the square */
-#define GROUND_MARKS_CRATER 2u /* a crater is in it, or within GROUND_MARKS_NEAR_M of it */
-
+#define GROUND_MARKS_DEBRIS 1u /* the debris of a fixed object reaches into the square */
+#define GROUND_MARKS_CRATER                                                                        \
+    2u /* a crater is in the square, or within GROUND_MARKS_NEAR_M of it                           \
+        */
 #define GROUND_MARKS_BITS 2u
 
-/* How far from a place in the square one may look for craters [m]. */
+/* The crater bit of a position's square covers all points so near to the position [m]. */
 #define GROUND_MARKS_NEAR_M 24.0
 
 struct ground_marks {
-    uint64_t square[GRIDSQUARE_COUNT * GROUND_MARKS_BITS /
-                    64]; /* SCARS_..., packed to stay in a cache */
-    uint8_t *damage;     /* [counts.fixed] as of the last update */
-    uint32_t craters;
-    bool any; /* square has a bit set */
+    /* Marks, packed so that they stay in the processor's cache. */
+    uint64_t square[GRIDSQUARE_COUNT * GROUND_MARKS_BITS / 64];
+    uint8_t *damage;  /* [counts.fixed] as of the last update */
+    uint32_t craters; /* as of the last update */
+    bool any;         /* some square has a mark */
 };
 
 /* 0, or -1 with errno ENOMEM. */
 int ground_marks_init(struct ground_marks *marks, const struct world *world);
 void ground_marks_free(struct ground_marks *marks);
 
-/* Takes in what the committed world has more. */
+/* Adds what is new in the committed world. Serial, before the frame's queries. */
 void ground_marks_update(struct ground_marks *marks, const struct world *world,
                          const struct state *committed);
 
@@ -47,7 +48,7 @@ static inline uint8_t ground_marks_at(const struct ground_marks *marks, double x
 /* Returns true if a square that the box touches has one of these marks. */
 bool ground_marks_within(const struct ground_marks *marks, struct gridsquare_box box, uint8_t any);
 
-/* Which of eight places have which of them. */
+/* The marks of the squares of eight points. */
 void ground_marks_find(const struct ground_marks *marks, const union simd_lanes *x,
                        const union simd_lanes *z, union lane_masks *crater,
                        union lane_masks *debris);

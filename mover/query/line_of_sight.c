@@ -1,6 +1,6 @@
-/* Lines of outlook. The ground between posts is flat triangles, so the line is above all of it when
- * it is above it wherever it crosses an edge of one; craters are curved and are sampled. Squares
- * whose highest point the line passes above are passed at once. */
+/* Tests a line square by square. The ground between posts is flat triangles, so a line that is
+ * above their edges is above the ground; craters are curved and are sampled. A square is skipped
+ * when the line is above everything in it. */
 #include "mover/query/line_of_sight.h"
 
 #include "world/terrain/fixed_index.h"
@@ -8,14 +8,14 @@
 
 #include <stdlib.h>
 
-#define CRATER_SAMPLES 12  /* along the way over one */
-#define FIRST_LOOKS    7   /* points of the line that are tried first: most hills are wide */
-#define LEAST_M        1.0 /* on the map; whoever is nearer sees */
+#define CRATER_SAMPLES 12 /* along the part of the line that is over a crater */
+#define FIRST_LOOKS    7  /* points of the line that are tried first, because most hills are wide */
+#define LEAST_M        1.0 /* on the map: nearer points always see each other */
 
 struct line {
     const struct line_of_sight *sight;
-    struct vec3 from, way; /* all of it, for t 0..1 */
-    double level;          /* its length on the map */
+    struct vec3 from, way; /* the point at t 0..1 is from + way * t */
+    double level;          /* length on the map */
 };
 
 double line_of_sight_kept(enum damage damage)
@@ -32,7 +32,7 @@ static double object_height(const struct world *world, const struct fixed_object
     return kind->height_m * fixed_scale(object, kind);
 }
 
-/* Fixed objects by the squares that the boxes of what is seen of them reach into. */
+/* Builds the lists of the objects whose visible box reaches into each square. */
 static int build_reach(struct line_of_sight *sight)
 {
     const struct world *world = sight->world;
@@ -57,8 +57,7 @@ static uint32_t objects_of(const struct line_of_sight *sight, uint32_t square,
     return sight->reach_start[square + 1] - sight->reach_start[square];
 }
 
-/* The height of a square's uncratered ground and of what stands in it, undamaged; the context is a
- * struct line_of_sight. */
+/* A square_bounds_function: the context is a struct line_of_sight. */
 static uint16_t skyline(const void *context, uint32_t square)
 {
     const struct line_of_sight *sight = context;
@@ -122,7 +121,7 @@ static bool edges_above(const struct line *line, double start, double way, doubl
     return false;
 }
 
-/* The line's way over one crater, rim included. */
+/* Is the ground above the line within one crater, rim included? */
 static bool crater_above(const struct line *line, const struct crater *crater, double t0, double t1)
 {
     double reach = CRATER_RIM * (double)crater->radius_m, square = line->level * line->level;
@@ -137,7 +136,7 @@ static bool crater_above(const struct line *line, const struct crater *crater, d
         if (ground_above(line, first + (last - first) * (double)n / CRATER_SAMPLES))
             return true;
     }
-    /* The crest itself lies a bowl's radius off the centre. */
+    /* The crest of the rim is one bowl radius from the centre. */
     double bowl = (double)crater->radius_m * (double)crater->radius_m - off;
     double crest = bowl > 0.0 ? sqrt(bowl / square) : 0.0;
     return (middle - crest > t0 && middle - crest < t1 && ground_above(line, middle - crest)) ||
@@ -159,9 +158,9 @@ static bool ground_hides(const struct line *line, uint32_t square, double t0, do
     return false;
 }
 
-/* --- what stands on it -------------------------------------------------------------------------*/
+/* --- fixed objects -----------------------------------------------------------------------------*/
 
-/* Narrows t0..t1 to where the line is within half of a side's middle; false when it never is. */
+/* Narrows t0..t1 to where the line is between two parallel sides of a box. False: it never is. */
 static bool within_side(double start, double way, double half, double *t0, double *t1)
 {
     if (way == 0.0)
@@ -193,7 +192,7 @@ static bool object_hides(const struct line *line, uint32_t index)
         !within_side(dx * cosine + dz * sine, line->way.x * cosine + line->way.z * sine, width, &t0,
                      &t1))
         return false;
-    if (t0 <= 0.0 || t1 >= 1.0) /* one of the two is in it */
+    if (t0 <= 0.0 || t1 >= 1.0) /* an end of the line is in the box */
         return false;
     return maths_min(height_at(line, t0), height_at(line, t1)) < top;
 }
@@ -221,7 +220,7 @@ static bool square_hides(const struct line *line, int32_t column, int32_t row, d
     return ground_hides(line, square, t0, t1) || objects_hide(line, square);
 }
 
-/* Where the line leaves the column or row of squares that holds coordinate metres at t. */
+/* The t at which the line leaves this column or row of squares. */
 static double border(double start, double way, int32_t axis)
 {
     if (way == 0.0)

@@ -1,5 +1,4 @@
-/* The index of who is where: a counting sort a frame, in two passes of which all threads do a part.
- */
+/* Builds the index by a counting sort in two parallel passes, and goes through it. */
 #include "mover/query/neighbour_index.h"
 
 #include "world/checksum.h"
@@ -9,14 +8,14 @@
 #include <string.h>
 #include <sys/mman.h>
 
-/* Cells along an edge: 781 m, 391 m or 195 m each. More cells than vehicles only cost. */
+/* Cells along an edge, of 781 m, 391 m or 195 m. More cells than vehicles only cost time. */
 #define SIDE_FEW  64u
 #define SIDE_MORE 128u
 #define SIDE_MANY 256u
 #define FEW_ROWS  4096u
 #define MORE_ROWS 131072u
 
-#define BLOCK_ROWS 2048u /* of a piece: they fit a second-level cache */
+#define BLOCK_ROWS 2048u /* fit a second-level cache */
 #define HUGE_PAGE  (UINT64_C(2) << 20)
 
 static uint32_t blocks_of(uint32_t rows)
@@ -24,8 +23,8 @@ static uint32_t blocks_of(uint32_t rows)
     return (rows + BLOCK_ROWS - 1) / BLOCK_ROWS;
 }
 
-/* Walks come to any part of it at any time: in large pages, where there are, it costs fewer misses
- * of the table of pages. */
+/* Queries read all parts of the entries. Large pages, where the kernel has them, make fewer misses
+ * of the translation buffer. */
 static void *large(size_t bytes)
 {
     if (bytes < HUGE_PAGE)
@@ -33,7 +32,7 @@ static void *large(size_t bytes)
     bytes = (bytes + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
     void *memory = aligned_alloc(HUGE_PAGE, bytes);
     if (memory)
-        madvise(memory, bytes, MADV_HUGEPAGE); /* or else not */
+        madvise(memory, bytes, MADV_HUGEPAGE); /* a kernel without them refuses: no harm */
     return memory;
 }
 
@@ -74,14 +73,14 @@ static int32_t cell_axis(const struct neighbour_index *index, double metres)
     return cells >= (double)index->side ? (int32_t)index->side - 1 : (int32_t)cells;
 }
 
-/* --- rows by rows of cells ---------------------------------------------------------------------*/
+/* --- first pass: the rows of a block, by row of cells ------------------------------------------*/
 
-/* Which row of cells a row belongs to; side: to none. */
+/* The row of cells of a table row; side: none. */
 static uint32_t band_of(const struct neighbour_index *index, const struct entities *w, uint32_t i)
 {
     if (w->state[i] == ENTITY_FREE || w->behaviour[i] == BEHAVIOUR_FLIGHT)
         return index->side;
-    /* By the position as the entry has it, so that a walk's box holds it. */
+    /* The position rounded as in the entry, so that the box of a query holds it. */
     return (uint32_t)cell_axis(index, (double)(float)w->z[i]);
 }
 
@@ -140,7 +139,7 @@ static void sort_blocks(void *context, uint32_t begin, uint32_t end, uint32_t wo
         sort_block(context, block);
 }
 
-/* --- a row of cells ----------------------------------------------------------------------------*/
+/* --- second pass: the entries of a row of cells, by cell and layer -----------------------------*/
 
 static void fill_band(struct neighbour_index *index, uint32_t band)
 {
@@ -200,7 +199,7 @@ void neighbour_index_build(struct neighbour_index *index, const struct entities 
         index->present |= index->layers[b];
 }
 
-/* --- walks -------------------------------------------------------------------------------------*/
+/* --- queries -----------------------------------------------------------------------------------*/
 
 struct neighbour_query neighbour_query_begin(const struct neighbour_index *index, uint32_t layers,
                                              double x, double z, double radius_m)
@@ -218,7 +217,7 @@ struct neighbour_query neighbour_query_begin(const struct neighbour_index *index
     };
     query.row = query.z1 + 1;
     query.column = query.x0;
-    if (query.left == index->present && query.left != 0) { /* it need not tell them apart */
+    if (query.left == index->present && query.left != 0) { /* all layers that there are */
         query.all = true;
         query.left = 0;
         query.row = query.z0;
@@ -226,7 +225,7 @@ struct neighbour_query neighbour_query_begin(const struct neighbour_index *index
     return query;
 }
 
-/* The lowest of the layers that are left, and those that follow it without a gap. */
+/* Goes to the lowest of the layers that are left, and those that follow it without a gap. */
 static bool next_layers(struct neighbour_query *query)
 {
     if (query->left == 0)

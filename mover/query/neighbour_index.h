@@ -1,10 +1,10 @@
-/* Near: which vehicles are near a point, from an index over the committed world's rows.
+/* Finds the vehicles near a point, by an index over the committed rows.
  *
- * Built anew each frame by a counting sort into square cells of the map: cell by cell, and within a
- * cell first the living by force, then the wrecks, so that looking for enemies passes over nobody
- * else and looking at everybody reads on and on. Of one sort in one cell rows ascend. The order in
- * which neighbour_query_next() gives them follows from the world alone: not from the number of
- * threads, nor from what was asked before. Read by all threads at once. */
+ * The index is built in each frame by a counting sort into square cells of the map. Within a cell
+ * the active vehicles of each force come first and then the wrecks, so that a search for enemies
+ * reads only the entries of enemies, and a search for all reads consecutive entries. Within a cell
+ * and a force rows ascend. The order of neighbour_query_next() follows from the world alone, not
+ * from the number of threads or from earlier queries. All threads may query at once. */
 #ifndef JOLON_MOVER_QUERY_NEIGHBOUR_INDEX_H
 #define JOLON_MOVER_QUERY_NEIGHBOUR_INDEX_H
 
@@ -14,7 +14,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A layer for the living of each force, and one for all wrecks. Munitions are in none. */
+/* A layer for the active vehicles of each force, and one for all wrecks. Munitions are in none. */
 #define NEIGHBOUR_INDEX_WRECKS   FORCE_COUNT
 #define NEIGHBOUR_INDEX_LAYERS   (FORCE_COUNT + 1)
 #define NEIGHBOUR_INDEX_LAYER(n) (1u << (n))
@@ -23,17 +23,17 @@
 
 #define NEIGHBOUR_INDEX_KINDS 0x7ffu
 struct neighbour_index_entry {
-    float x, z;      /* [m] to 2 mm; who needs it better reads the row */
+    float x, z;      /* [m] to 2 mm; the row has the exact position */
     float y, vx, vz; /* [m, m/s] */
     uint32_t row : 20;
     uint32_t kind : 11;
-    uint32_t due : 1; /* its agent thinks in this frame */
+    uint32_t due : 1; /* the agent decides in this frame */
 };
 
 _Static_assert(CAPACITY_MAX <= 1u << 20 && KIND_COUNT_MAX <= NEIGHBOUR_INDEX_KINDS,
                "an entry holds both");
 
-/* A step of so many frames, for neighbour_index_divides(). */
+/* A number of frames as neighbour_index_divides() takes it. */
 static inline uint64_t neighbour_index_divisor(uint32_t frames)
 {
     return UINT64_MAX / frames + 1;
@@ -47,20 +47,19 @@ static inline bool neighbour_index_divides(uint64_t divisor, uint32_t number)
 
 struct neighbour_index {
     uint32_t side;      /* cells along an edge of the map */
-    double cells_per_m; /* along it */
-    uint32_t capacity;  /* of entries */
-    uint32_t *start;    /* [side * side * NEIGHBOUR_INDEX_LAYERS + 1] into entries: by row of cells,
-                           column,    layer */
+    double cells_per_m; /* along an edge */
+    uint32_t capacity;  /* entries */
+    uint32_t *start;    /* [side][side][NEIGHBOUR_INDEX_LAYERS], and the end: index of entries */
     struct neighbour_index_entry *entries;
     uint32_t present; /* the layers that have an entry */
-    /* While it is built: each piece of rows for itself by rows of cells, then each row of cells. */
+    /* Used while the index is built: blocks of rows are sorted first, then each row of cells. */
     const struct entities *committed;
     uint32_t used, tick;
-    uint64_t think_divisor;               /* neighbour_index_divisor() of a thought's frames */
-    struct neighbour_index_entry *sorted; /* [capacity] */
+    uint64_t think_divisor;               /* neighbour_index_divisor() of think_frames */
+    struct neighbour_index_entry *sorted; /* [capacity] by block and row of cells */
     uint16_t *slot;   /* [capacity] of sorted: column and layer within a row of cells */
-    uint32_t *first;  /* [pieces][side + 1] into a piece's part of sorted */
-    uint32_t *band;   /* [side + 1] into entries: where each row of cells begins */
+    uint32_t *first;  /* [blocks][side + 1] index of sorted: where a block's row of cells begins */
+    uint32_t *band;   /* [side + 1] index of entries: where each row of cells begins */
     uint32_t *layers; /* [side] the layers that a row of cells has */
 };
 
@@ -68,13 +67,13 @@ struct neighbour_index {
 int neighbour_index_init(struct neighbour_index *index, uint32_t capacity);
 void neighbour_index_free(struct neighbour_index *index);
 
-/* Indexes rows 0 .. used - 1: active vehicles by force, wrecks; those are due whose id and tick add
- * up to a whole number of thoughts. workers may be NULL. */
+/* Indexes rows 0 .. used - 1. The entries of active vehicles for which tick + id is a multiple of
+ * think_frames are due. workers may be NULL. */
 void neighbour_index_build(struct neighbour_index *index, const struct entities *committed,
                            uint32_t used, uint32_t tick, uint32_t think_frames,
                            struct thread_pool *workers);
 
-/* The layers of a force's enemies; neither has the neutral any nor is it one. */
+/* The layers of a force's enemies. Neutral vehicles have no enemies and are nobody's enemy. */
 static inline uint32_t neighbour_index_enemies(enum force force)
 {
     return force == FORCE_BLUE  ? NEIGHBOUR_INDEX_LAYER(FORCE_RED)
@@ -82,27 +81,27 @@ static inline uint32_t neighbour_index_enemies(enum force force)
                                 : 0u;
 }
 
-/* A walk over all vehicles of some layers within radius_m of (x, z), on the map; the one that asks
- * is met too, where its layer is asked for:
+/* A query for all vehicles of some layers within radius_m of (x, z), which is on the map. A vehicle
+ * that asks also finds itself if its layer is asked for:
  *
- *     struct neighbour_query walk = neighbour_query_begin(near, NEIGHBOUR_INDEX_ALL, x, z, 50.0);
- *     while ((entry = neighbour_query_next(&walk)))
+ *     struct neighbour_query query = neighbour_query_begin(index, NEIGHBOUR_INDEX_ALL, x, z, 50.0);
+ *     while ((entry = neighbour_query_next(&query)))
  *         ... entry->row ...
  */
 struct neighbour_query {
     const struct neighbour_index *index;
-    const struct neighbour_index_entry *at, *end; /* of the present span */
-    double x, z, square;                          /* radius squared */
+    const struct neighbour_index_entry *at, *end; /* the present span */
+    double x, z, square;                          /* square: of the radius */
     int32_t x0, x1, z0, z1;                       /* cells, inclusive */
-    int32_t row, column;                          /* of the cell that comes next */
-    bool all;                                     /* layers; else low .. high - 1 at a time */
-    uint32_t low, high, left;                     /* left: layers that come after them */
+    int32_t row, column;                          /* the next cell */
+    bool all;                                     /* all layers at once; else low .. high - 1 */
+    uint32_t low, high, left;                     /* left: the layers that follow */
 };
 
 struct neighbour_query neighbour_query_begin(const struct neighbour_index *index, uint32_t layers,
                                              double x, double z, double radius_m);
 
-/* Is an entry within the radius of a point that is squared here? */
+/* Is an entry within a distance of a point, given the square of the distance? */
 static inline bool neighbour_index_within(const struct neighbour_index_entry *entry, double x,
                                           double z, double square)
 {
@@ -110,10 +109,10 @@ static inline bool neighbour_index_within(const struct neighbour_index_entry *en
     return dx * dx + dz * dz <= square;
 }
 
-/* The next span of entries; false at the end. */
+/* Goes to the next consecutive entries, at .. end. False: there are none left. */
 bool neighbour_query_next_span(struct neighbour_query *query);
 
-/* The next one, NULL at the end. */
+/* The next entry; NULL: there are none left. */
 static inline const struct neighbour_index_entry *
 neighbour_query_next(struct neighbour_query *query)
 {
