@@ -2,7 +2,10 @@
 #include "collider/step.h"
 
 #include "collider/response/response.h"
+#include "world/params.h"
 #include "world/runtime/work_done.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #include <errno.h>
 #include <string.h>

@@ -14,8 +14,13 @@
 #include "collider/response/response.h"
 #include "world/checksum.h"
 #include "world/runtime/thread_pool.h"
+#include "world/terrain/crater.h"
 #include "world/terrain/square_bounds.h"
-#include "world/world.h"
+
+struct event;
+struct moved;
+struct state;
+struct world;
 
 struct collider {
     const struct world *world;

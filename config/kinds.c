@@ -4,6 +4,10 @@
 #include "config/mesh/models.h"
 #include "config/syntax/schema.h"
 #include "config/syntax/source.h"
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
+#include "world/making/scenario.h"
+#include "world/maths/maths.h"
 
 #include <dirent.h>
 #include <errno.h>

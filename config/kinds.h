@@ -3,9 +3,10 @@
 #define JOLON_CONFIG_KINDS_H
 
 #include "config/syntax/config_message.h"
-#include "world/making/scenario.h"
 
 #include <xxhash.h>
+
+struct scenario;
 
 /* Reads every kind into the scenario, in order of their names, and adds their files to the hash. 0;
  * -1 with the message: a wrong key, a name that is not the file's, values that do not fit each

@@ -8,6 +8,8 @@
 #include "config/syntax/schema.h"
 #include "config/syntax/source.h"
 #include "config/vehicles.h"
+#include "world/making/scenario.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -4,7 +4,9 @@
 #define JOLON_CONFIG_LOADER_H
 
 #include "config/syntax/config_message.h"
-#include "world/making/scenario.h"
+
+struct params;
+struct scenario;
 
 /* Sets the default of every key, then reads the scenario file, then the overrides "group.key=value"
  * in order, then every data_dir/kinds/ *.cfg in order of their names with the models they name,

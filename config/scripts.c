@@ -4,6 +4,8 @@
 #include "config/syntax/entry.h"
 #include "config/syntax/schema.h"
 #include "config/waypoints.h"
+#include "world/entity/script.h"
+#include "world/making/scenario.h"
 
 #include <stdio.h>
 #include <stdlib.h>

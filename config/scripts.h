@@ -3,9 +3,10 @@
 #define JOLON_CONFIG_SCRIPTS_H
 
 #include "config/syntax/key_table.h"
-#include "world/making/scenario.h"
 
 #include <xxhash.h>
+
+struct scenario;
 
 /* Reads the setting "scripts" of a file; NULL is an empty list. Files of waypoints are in the
  * file's folder, and their text is added to the hash. 0; -1 with the message. */

@@ -4,7 +4,12 @@
 #include "config/scripts.h"
 #include "config/syntax/entry.h"
 #include "config/syntax/schema.h"
+#include "world/entity/entity.h"
+#include "world/entity/kind.h"
+#include "world/making/scenario.h"
+#include "world/maths/maths.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <stdio.h>
 #include <string.h>

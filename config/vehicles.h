@@ -3,7 +3,8 @@
 #define JOLON_CONFIG_VEHICLES_H
 
 #include "config/syntax/key_table.h"
-#include "world/making/scenario.h"
+
+struct scenario;
 
 /* Reads the setting "vehicles" of a file; NULL is an empty list. The scenario's kinds, scripts and
  * params.capacity must be read before. 0; -1 with the message. */

@@ -2,6 +2,8 @@
 #include "config/waypoints.h"
 
 #include "config/syntax/schema.h"
+#include "world/entity/script.h"
+#include "world/making/scenario.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,10 @@
 #define JOLON_CONFIG_WAYPOINTS_H
 
 #include "config/syntax/source.h"
-#include "world/making/scenario.h"
+
+#include <stdint.h>
+
+struct scenario_step;
 
 #define WAYPOINTS_BYTES_MAX (4u * 1024u * 1024u)
 #define WAYPOINTS_HEADER    "time_s,x,z[,altitude_m]"

@@ -6,7 +6,11 @@
 #include "mover/weapon/fire.h"
 #include "mover/weapon/spawn.h"
 #include "mover/weapon/turret.h"
+#include "world/entity/event.h"
+#include "world/params.h"
+#include "world/state.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <string.h>
 

@@ -5,6 +5,7 @@
 #include "ipc/sandbox/sandbox.h"
 #include "mover/step.h"
 
+#include "world/params.h"
 #include "world/runtime/work_done.h"
 
 #include <errno.h>

@@ -14,6 +14,10 @@
 #include "mover/motion/wreck.h"
 #include "mover/weapon/fire.h"
 #include "mover/weapon/turret.h"
+#include "world/entity/event.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -8,9 +8,15 @@
 #include "mover/command_apply.h"
 #include "mover/query/ground_marks.h"
 #include "world/checksum.h"
+#include "world/entity/command.h"
 #include "world/runtime/thread_pool.h"
+#include "world/terrain/crater.h"
 #include "world/terrain/square_bounds.h"
-#include "world/world.h"
+
+struct moved;
+struct state;
+struct terrain_cache_entry;
+struct world;
 
 struct mover {
     const struct world *world;

@@ -3,6 +3,9 @@
 
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
+#include "world/entity/event.h"
+#include "world/param_values.h"
+#include "world/params.h"
 
 #include <inttypes.h>
 

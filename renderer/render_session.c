@@ -5,6 +5,8 @@
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
 #include "renderer/back_end.h"
+#include "world/entity/event.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <stdio.h>

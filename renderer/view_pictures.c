@@ -5,6 +5,7 @@
 #include "ipc/process/log.h"
 #include "renderer/image/upscale.h"
 #include "renderer/scene/terrain/terrain_tiles.h"
+#include "world/enum_names.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -24,7 +25,7 @@ static double show_time(struct render_session *studio, const struct frame_view *
         return studio->at_s;
     double rate = latest->head->paused != 0 ? 0.0 : latest->head->time_scale;
     return frame_interpolation_time(&studio->clock, (double)clock_now_ns() / 1e9,
-                                    frame_view_time_s(latest), studio->view->world.params->dt_s,
+                                    frame_view_time_s(latest), world_dt_s(&studio->view->world),
                                     rate);
 }
 

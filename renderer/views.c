@@ -1,6 +1,8 @@
 /* Reading lists of views. */
 #include "renderer/views.h"
 
+#include "world/enum_names.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>

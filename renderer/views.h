@@ -3,7 +3,7 @@
 #define JOLON_RENDERER_VIEWS_H
 
 #include "ipc/segment/segment.h"
-#include "world/world.h"
+#include "world/param_values.h"
 
 #include <stdint.h>
 

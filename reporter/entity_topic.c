@@ -21,7 +21,7 @@ int entity_topic_open(struct entity_topic *batch, const struct view *view,
     *batch =
         (struct entity_topic){.room = capacity < ENTITY_TOPIC_PART ? capacity : ENTITY_TOPIC_PART};
     batch->wire.run = run;
-    batch->dt_s = view->world.params->dt_s;
+    batch->dt_s = world_dt_s(&view->world);
     batch->writer = dds_topics_writer(link, TOPIC_ENTITIES, reason);
     if (batch->writer < 0)
         return -1;

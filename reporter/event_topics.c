@@ -6,6 +6,10 @@
 #include "ipc/process/log.h"
 
 #include "status.h"
+#include "world/entity/event.h"
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
+#include "world/params.h"
 
 #include <string.h>
 

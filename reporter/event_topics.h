@@ -7,6 +7,7 @@
 
 #include "ipc/frame/snapshot.h"
 #include "ipc/topics/dds_topics.h"
+#include "world/entity/event.h"
 
 #define EVENT_TOPICS_AGAIN   4096u
 #define EVENT_TOPICS_AGAIN_S 1.0 /* [s of simulation] before the predecessor's last frame */

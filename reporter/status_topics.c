@@ -5,6 +5,9 @@
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/frame/snapshot.h"
 #include "ipc/topics/name_table.h"
+#include "world/entity/kind.h"
+#include "world/param_values.h"
+#include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
 #include <errno.h>

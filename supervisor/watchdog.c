@@ -25,7 +25,7 @@ static uint64_t most(uint64_t a, uint64_t b)
 static uint64_t allowed_ns(const struct process_set *set, enum role role)
 {
     const struct role_slot *slot = set->view.slot[role];
-    uint64_t frames_ns = (uint64_t)(5e9 * set->view.world.params->dt_s);
+    uint64_t frames_ns = (uint64_t)(5e9 * world_dt_s(&set->view.world));
     uint64_t allowed = most(set->plan->hang_ms * NS_PER_MS, frames_ns);
     if (atomic_load(&slot->state) == ROLE_STARTING || atomic_load(&slot->frame) == 0)
         return STARTING_NS;

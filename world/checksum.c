@@ -1,7 +1,11 @@
 /* Checksums by pieces and columns of rows and by entries of lists. */
 #include "world/checksum.h"
 
+#include "world/entity/dent.h"
+#include "world/entity/event.h"
 #include "world/maths/hash.h"
+#include "world/state.h"
+#include "world/terrain/crater.h"
 
 #include <stddef.h>
 #include <string.h>

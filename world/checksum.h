@@ -9,9 +9,10 @@
 #ifndef JOLON_WORLD_CHECKSUM_H
 #define JOLON_WORLD_CHECKSUM_H
 
+#include "world/entity/entity.h"
 #include "world/entity/table_write.h"
 #include "world/runtime/thread_pool.h"
-#include "world/world.h"
+#include "world/state.h"
 
 /* XXH3-64 of each column of one piece. */
 struct piece_hashes {

@@ -1,9 +1,7 @@
 /* The words for every enumeration: one table each, one look-up. */
-#include "world/making/scenario.h"
-#include "world/world.h"
+#include "world/enum_names.h"
 
 #include <stddef.h>
-#include <string.h>
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
@@ -50,12 +48,3 @@ WORDS(shape_name, shape, "sphere", "model")
 WORDS(response_model_name, response_model, "figure8", "impulse", "none", "spring", "mps")
 WORDS(view_mode_name, view_mode, "chase", "map", "inside", "orbit", "free", "overhead")
 WORDS(back_end_name, back_end, "auto", "gl", "soft")
-
-uint16_t kind_find(const struct kind *kinds, uint32_t count, const char *name)
-{
-    for (uint32_t i = 0; i < count; i++) {
-        if (strncmp(kinds[i].name, name, KIND_NAME_MAX) == 0)
-            return (uint16_t)i;
-    }
-    return KIND_NONE;
-}

@@ -2,6 +2,7 @@
 #include "world/event_text.h"
 
 #include "world/entity/entity.h"
+#include "world/enum_names.h"
 
 #include <stdio.h>
 

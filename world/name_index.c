@@ -1,6 +1,8 @@
 /* Names in their order, and the search among them. */
 #include "world/name_index.h"
 
+#include "world/entity/entity.h"
+
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,9 +2,9 @@
 #ifndef JOLON_WORLD_NAME_INDEX_H
 #define JOLON_WORLD_NAME_INDEX_H
 
-#include "world/world.h"
-
 #include <stdint.h>
+
+struct entity_name;
 
 struct callsigns {
     const struct entity_name *names;   /* the caller's, of the initial slots */

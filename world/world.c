@@ -1,10 +1,20 @@
 /* Digest, and small questions about a world. */
 #include "world/world.h"
 
+#include "world/entity/dent.h"
+#include "world/entity/entity.h"
 #include "world/maths/hash.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/terrain/crater.h"
 
 #include <stddef.h>
 #include <string.h>
+
+double world_dt_s(const struct world *world)
+{
+    return world->params->dt_s;
+}
 
 double world_time_s(const struct world *world, const struct state_head *head)
 {

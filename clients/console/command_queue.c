@@ -3,6 +3,9 @@
 
 #include "clients/console/result_text.h"
 #include "ipc/process/clock.h"
+#include "world/enum_names.h"
+#include "world/param_values.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,6 +1,8 @@
 /* What happened, in words, out of the event ring. */
 #include "clients/console/tell.h"
 
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
 #include "world/event_text.h"
 
 #include <string.h>
@@ -110,7 +112,7 @@ static void put_event(struct json_writer *text, const struct world *world,
     json_writer_begin(text, '{');
     json_writer_key_whole(text, "sequence", event->sequence);
     json_writer_key_whole(text, "frame", event->frame);
-    json_writer_key_number(text, "time_s", (double)event->tick * world->params->dt_s, 2);
+    json_writer_key_number(text, "time_s", (double)event->tick * world_dt_s(world), 2);
     json_writer_key_word(text, "type", event_type_name((enum event_type)event->type));
     json_writer_key_word(text, "text", words);
     json_writer_key(text, "ids");

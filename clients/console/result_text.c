@@ -1,6 +1,9 @@
 /* Words of replies. */
 #include "clients/console/result_text.h"
 
+#include "world/entity/command.h"
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
 #include "world/world.h"
 
 #include <stdio.h>

@@ -1,6 +1,8 @@
 /* The moment: the frame, its numbers, who is in an area, and the vehicle that is asked for. */
 #include "clients/console/tell.h"
 
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
 #include "world/terrain/gridsquare.h"
 
 #include <math.h>
@@ -157,7 +159,7 @@ static void put_me(struct json_writer *text, const struct tell *tell, uint32_t r
     const struct world *world = &watch->view.world;
     const struct kind *kind = &world->kinds[e->kind[row]];
     double reload_s =
-        ((double)e->reload_tick[row] - (double)watch->snapshot.head.tick) * world->params->dt_s;
+        ((double)e->reload_tick[row] - (double)watch->snapshot.head.tick) * world_dt_s(world);
     json_writer_key(text, "me");
     json_writer_begin(text, '{');
     json_writer_key_whole(text, "id", e->id[row]);

@@ -2,6 +2,8 @@
  * the end of that page are kept, in a heap. */
 #include "clients/console/tell.h"
 
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdio.h>

@@ -1,6 +1,10 @@
 /* What of a world never changes. */
 #include "clients/console/tell.h"
 
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
+#include "world/param_values.h"
+#include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdio.h>

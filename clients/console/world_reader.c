@@ -4,6 +4,8 @@
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
+#include "world/entity/kind.h"
+#include "world/model.h"
 
 #include <string.h>
 

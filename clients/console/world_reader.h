@@ -8,6 +8,7 @@
 #define JOLON_CLIENTS_CONSOLE_WORLD_READER_H
 
 #include "ipc/frame/snapshot.h"
+#include "world/entity/kind.h"
 
 #include <stdbool.h>
 

@@ -3,6 +3,8 @@
 
 #include "ipc/process/clock.h"
 #include "ipc/process/process.h"
+#include "world/entity/kind.h"
+#include "world/params.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,8 @@
 /* Answers as text. */
 #include "clients/ctl/result_text.h"
 
-#include "world/world.h"
+#include "world/entity/command.h"
+#include "world/enum_names.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>

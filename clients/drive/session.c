@@ -4,6 +4,7 @@
 #include "clients/drive/vehicle_choice.h"
 #include "ipc/process/clock.h"
 #include "world/entity/command.h"
+#include "world/enum_names.h"
 #include "world/runtime/utf8.h"
 
 #include <stdarg.h>

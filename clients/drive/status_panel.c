@@ -3,7 +3,9 @@
 
 #include "clients/drive/vehicle_choice.h"
 #include "ipc/topics/event_lines.h"
-#include "world/world.h"
+#include "world/entity/entity.h"
+#include "world/enum_names.h"
+#include "world/maths/maths.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,6 +2,7 @@
 #include "clients/drive/vehicle_choice.h"
 
 #include "world/entity/entity.h"
+#include "world/enum_names.h"
 #include "world/runtime/parse_number.h"
 
 #include <string.h>

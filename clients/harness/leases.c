@@ -3,7 +3,8 @@
 
 #include "ipc/process/clock.h"
 #include "ipc/topics/json_members.h"
-#include "world/world.h"
+#include "world/entity/command.h"
+#include "world/enum_names.h"
 
 #include <string.h>
 

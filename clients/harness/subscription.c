@@ -5,7 +5,9 @@
 #include "ipc/topics/entity_json.h"
 #include "ipc/topics/event_json.h"
 #include "ipc/topics/json_members.h"
-#include "world/world.h"
+#include "world/entity/event.h"
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,9 @@
 /* Rows of vehicles: filtered, sorted, written. */
 #include "clients/monitor/vehicle_table.h"
 
+#include "world/entity/entity.h"
+#include "world/enum_names.h"
 #include "world/maths/maths.h"
-#include "world/world.h"
 
 #include <ctype.h>
 #include <math.h>

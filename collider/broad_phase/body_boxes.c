@@ -4,6 +4,7 @@
 
 #include "world/maths/cpu_dispatch.h"
 #include "world/entity/entity.h"
+#include "world/state.h"
 
 #include <string.h>
 

@@ -3,8 +3,12 @@
 
 #include "collider/broad_phase/body_boxes.h"
 #include "world/entity/entity.h"
+#include "world/entity/kind.h"
 #include "world/maths/sort.h"
+#include "world/params.h"
 #include "world/runtime/work_done.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 
 #include <errno.h>
 #include <stdlib.h>

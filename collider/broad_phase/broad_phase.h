@@ -12,9 +12,10 @@
 #include "collider/broad_phase/static_boxes.h"
 #include "collider/broad_phase/sweep_and_prune.h"
 #include "world/runtime/thread_pool.h"
-#include "world/world.h"
 
 #include <stdint.h>
+
+struct world;
 
 struct broad_phase {
     const struct world *world;

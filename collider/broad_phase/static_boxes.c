@@ -3,6 +3,7 @@
 #include "collider/broad_phase/static_boxes.h"
 
 #include "world/terrain/fixed_index.h"
+#include "world/world.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,9 +5,11 @@
 #define JOLON_COLLIDER_BROAD_PHASE_STATIC_BOXES_H
 
 #include "collider/broad_phase/strip_bins.h"
-#include "world/world.h"
 
 #include <stdint.h>
+
+struct fixed_object;
+struct world;
 
 #define STATIC_BOXES_COLUMN_BITS 18 /* columns of 512 m, in steps */
 #define STATIC_BOXES_COLUMNS     (1 << (BIN_BITS - STATIC_BOXES_COLUMN_BITS))

@@ -8,6 +8,8 @@
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 
 #include <string.h>
 

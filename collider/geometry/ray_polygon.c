@@ -23,6 +23,8 @@
 #include "collider/geometry/ray_polygon.h"
 
 #include "collider/geometry/point_in_polygon.h"
+#include "world/model.h"
+#include "world/world.h"
 
 /* A ray in a model's axes and unscaled units; times along it are metres of the world. */
 struct beam {

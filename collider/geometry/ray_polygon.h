@@ -4,11 +4,13 @@
 #ifndef JOLON_COLLIDER_GEOMETRY_RAY_POLYGON_H
 #define JOLON_COLLIDER_GEOMETRY_RAY_POLYGON_H
 
+#include "world/maths/maths.h"
 #include "world/maths/rotation.h"
-#include "world/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+struct world;
 
 /* A model where it stands. */
 struct ray_polygon_model {

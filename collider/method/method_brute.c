@@ -2,6 +2,8 @@
 #include "collider/motion/pair_filter.h"
 
 #include "world/runtime/work_done.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 
 static void meet_rows(const struct method_input *input, const struct path_box *box, uint32_t a,
                       struct pair_list *pairs)

@@ -3,7 +3,10 @@
  * trees are looked at, and only where the frame ends. */
 #include "collider/motion/pair_filter.h"
 
+#include "world/entity/kind.h"
+#include "world/params.h"
 #include "world/runtime/work_done.h"
+#include "world/world.h"
 
 /* A platform's place on the map. */
 struct spot {

@@ -11,8 +11,11 @@
 
 #include "collider/geometry/ray_polygon.h"
 #include "world/entity/mass_properties.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 #include "world/runtime/work_done.h"
+#include "world/world.h"
 
 struct body {
     struct vec3 at;

@@ -10,6 +10,8 @@
 
 #include "world/maths/random.h"
 #include "world/runtime/work_done.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 
 #include <string.h>
 

@@ -2,7 +2,13 @@
 #include "collider/motion/body_motion.h"
 
 #include "collider/motion/pair_filter.h"
+#include "world/entity/kind.h"
+#include "world/maths/maths.h"
+#include "world/params.h"
 #include "world/runtime/reserve.h"
+#include "world/state.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +48,7 @@ void body_motion_begin(struct body_motion *motion, const struct state *committed
     memset(motion->drawn, 0, motion->world->params->capacity * sizeof *motion->drawn);
     motion->committed = committed;
     motion->next = next;
+    motion->models = motion->world->params->collision.shape == SHAPE_MODEL;
 }
 
 struct path body_motion_way(const struct body_motion *motion, uint32_t row)

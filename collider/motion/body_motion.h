@@ -5,9 +5,13 @@
 #define JOLON_COLLIDER_MOTION_BODY_MOTION_H
 
 #include "collider/geometry/time_of_impact.h"
-#include "world/world.h"
+#include "world/entity/entity.h"
+#include "world/maths/rotation.h"
+#include "world/state.h"
 
 #include <stdint.h>
+
+struct world;
 
 /* Turned at path.since and at 1. */
 struct rotation_path {
@@ -19,6 +23,7 @@ struct body_motion {
     const struct world *world;
     const struct state *committed;
     const struct state *next;
+    bool models;                   /* bodies collide by their models, not as spheres */
     struct path *path;             /* [capacity] of rows whose way is drawn */
     uint8_t *drawn;                /* [capacity] 1: it is */
     struct rotation_path *changed; /* turnings that answers gave */
@@ -69,8 +74,7 @@ static inline bool body_motion_old_turns(const struct body_motion *motion, uint3
 /* Does a row whose way has no length move, since its shape turns? */
 static inline bool body_motion_turns(const struct body_motion *motion, uint32_t row)
 {
-    return motion->world->params->collision.shape == SHAPE_MODEL &&
-           body_motion_old_turns(motion, row);
+    return motion->models && body_motion_old_turns(motion, row);
 }
 
 struct rotation_path body_motion_turning(const struct body_motion *motion, uint32_t row);

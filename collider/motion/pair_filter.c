@@ -1,9 +1,14 @@
 /* What the methods of detection share: boxes, and who can never collide. */
 #include "collider/motion/pair_filter.h"
 
+#include "ipc/process/log.h"
+#include "world/entity/kind.h"
+#include "world/params.h"
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -14,12 +14,19 @@
 #define JOLON_COLLIDER_MOTION_PAIR_FILTER_H
 
 #include "collider/geometry/analytic_impact.h"
+#include "world/entity/entity.h"
+#include "world/maths/maths.h"
+#include "world/param_values.h"
 #include "world/terrain/square_bounds.h"
-#include "world/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+struct crater_index;
+struct fixed_object;
+struct kind;
+struct world;
 
 /* What a pair's second side is. */
 #define PAIR_FIXED 0x80000000u /* flag: the rest is a fixed object's index */

@@ -1,9 +1,13 @@
 /* The frame's contacts in a heap, and their renewal. */
 #include "collider/narrow_phase/contact_queue.h"
 
+#include "ipc/process/log.h"
+#include "world/entity/kind.h"
+#include "world/params.h"
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
+#include "world/world.h"
 
 #include <errno.h>
 #include <stdatomic.h>

@@ -1,6 +1,12 @@
 /* One pair at a time: spheres in closed form, hulls by conservative advancement. */
 #include "collider/narrow_phase/narrow_phase.h"
 
+#include "world/entity/kind.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
+
 /* The touch of two spheres at its time. Centre in centre any normal would do: it is upwards. */
 static void touch_of_spheres(struct vec3 a, struct vec3 b, double radius_a, double reach,
                              struct hull_contact *touch)

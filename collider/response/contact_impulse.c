@@ -1,6 +1,11 @@
 /* What becomes of single contacts under impulses: fixed objects that give way, how bouncy and rough
  * a contact is, and what the lost energy does. */
 #include "collider/response/island.h"
+#include "world/entity/kind.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 
 /* What would leave slower than this along the normal does not bounce at all. */
 #define STOP_MPS 0.2

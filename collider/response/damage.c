@@ -1,6 +1,11 @@
 /* Energy into damage (thesis rows 26, 27, 30). A body takes harm until its kind's resistance_j is
  * reached; a fixed object is damaged by the single hardest blow, as in figure 8. */
 #include "collider/response/response_figure8.h"
+#include "world/entity/kind.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 
 /* A body's levels, as shares of resistance_j: those in between only show how much is left. */
 #define SHARE_HIGH 0.6

@@ -1,6 +1,8 @@
 /* Events into the ring. */
 #include "collider/response/event_writer.h"
 
+#include "world/state.h"
+
 #include <stddef.h>
 #include <string.h>
 #include <xxhash.h>

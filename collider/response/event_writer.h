@@ -3,7 +3,9 @@
 #ifndef JOLON_COLLIDER_RESPONSE_EVENT_WRITER_H
 #define JOLON_COLLIDER_RESPONSE_EVENT_WRITER_H
 
-#include "world/world.h"
+#include "world/entity/event.h"
+
+struct tally;
 
 struct event_writer {
     struct event *slot;

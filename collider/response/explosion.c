@@ -2,8 +2,14 @@
 #include "collider/response/response.h"
 #include "world/runtime/check.h"
 
+#include "ipc/process/log.h"
+#include "world/entity/kind.h"
+#include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
+#include "world/state.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 
 #include <errno.h>
 

@@ -2,6 +2,10 @@
 #include "collider/response/deformation.h"
 #include "collider/response/response.h"
 #include "collider/response/contact_spring.h"
+#include "world/entity/dent.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/world.h"
 
 /* inwards: unit, world axes. */
 static void dent(struct response_context *respond, uint32_t row, const struct impact *impact,

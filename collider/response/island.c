@@ -2,7 +2,10 @@
 #include "collider/response/island.h"
 
 #include "world/entity/mass_properties.h"
+#include "world/params.h"
 #include "world/runtime/reserve.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -2,7 +2,9 @@
 #include "collider/response/response.h"
 
 #include "world/entity/mass_properties.h"
+#include "world/state.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 /* A wreck this near the ground lies on it [m]. */
 #define LIES_M 0.05
@@ -29,7 +31,7 @@ struct vec3 path_change_spin(const struct response_context *respond, uint32_t ro
     if (motion->change[row] != 0)
         yaw += body_motion_turning(motion, row).driven_rps;
     else if (body_motion_old(motion, row))
-        yaw = -maths_wrap_half(n->heading[row] - w->heading[row]) / respond->world->params->dt_s;
+        yaw = -maths_wrap_half(n->heading[row] - w->heading[row]) / world_dt_s(respond->world);
     return (struct vec3){0.0, yaw, 0.0};
 }
 
@@ -103,7 +105,7 @@ void path_change_slow(struct response_context *respond, uint32_t row, double tim
 void path_change_leave(struct response_context *respond, uint32_t row, double time, struct vec3 at,
                        struct vec3 velocity, struct vec3 spin_rps, bool stays)
 {
-    double dt_s = respond->world->params->dt_s;
+    double dt_s = world_dt_s(respond->world);
     struct quat turned = body_motion_turned(respond->motion, row, time);
     const struct rotation_path turning = {
         .from = turned,

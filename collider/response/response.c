@@ -2,6 +2,12 @@
 #include "collider/response/response.h"
 
 #include "collider/response/response_mps.h"
+#include "world/entity/kind.h"
+#include "world/maths/maths.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 
 /* Bodies that touched within this time and close no faster than this lean on each other, or rub
  * along: that is one long contact, told of when it began. An engine adds far less within the time;

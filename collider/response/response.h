@@ -8,7 +8,9 @@
 #include "collider/motion/body_motion.h"
 #include "collider/response/event_writer.h"
 #include "collider/response/contact_solver.h"
+#include "world/checksum.h"
 #include "world/entity/table_write.h"
+#include "world/state.h"
 
 /* A charge that goes off in this frame. */
 struct charge {

@@ -6,6 +6,11 @@
  * kind's bounce_keep. So no rule asks who of the two comes first or is the heavier. "Large",
  * "moving quickly" and constant1..3 are the scenario's, the last also a kind's own (damage.c). */
 #include "collider/response/response_mps.h"
+#include "world/entity/kind.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 #include "collider/response/response_figure8.h"
 
 /* Angles come from headings, which are never exact to the last bit: a ten-thousandth of a degree

@@ -2,6 +2,8 @@
 #include "config/mesh/connected_pieces.h"
 
 #include "config/syntax/table.h"
+#include "world/making/scenario.h"
+#include "world/model.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -5,9 +5,11 @@
 #define JOLON_CONFIG_MESH_CONNECTED_PIECES_H
 
 #include "config/mesh/convex_hull.h"
-#include "world/making/scenario.h"
 
 #include <stdint.h>
+
+struct model;
+struct scenario;
 
 /* A piece flatter than this becomes CONNECTED_PIECES_THICKNESS_M thick, half of it to either side,
  * so that every hull has a volume: bodies collide with a rotor blade that is one quad [m]. */

@@ -4,6 +4,8 @@
 
 #include "config/mesh/connected_pieces.h"
 #include "config/syntax/table.h"
+#include "world/entity/hull.h"
+#include "world/making/scenario.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -10,9 +10,11 @@
 #define JOLON_CONFIG_MESH_HULLS_H
 
 #include "config/syntax/key_table.h"
-#include "world/making/scenario.h"
 
 #include <stdint.h>
+
+struct model;
+struct scenario;
 
 /* Two pieces are always joined when that adds no more volume than this [m3], the volume of a can of
  * fuel: fewer hulls make a faster narrow phase. */

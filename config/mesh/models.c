@@ -7,6 +7,9 @@
 #include "config/syntax/key_table.h"
 #include "config/syntax/memory.h"
 #include "config/syntax/table.h"
+#include "world/entity/kind.h"
+#include "world/making/scenario.h"
+#include "world/model.h"
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>

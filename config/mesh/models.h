@@ -7,7 +7,7 @@
 #include "config/mesh/hulls.h"
 #include "config/mesh/obj_file.h"
 #include "config/syntax/source.h"
-#include "world/making/scenario.h"
+#include "world/entity/kind.h"
 
 #include <stdint.h>
 #include <xxhash.h>

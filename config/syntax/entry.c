@@ -2,6 +2,8 @@
 #include "config/syntax/entry.h"
 
 #include "config/syntax/schema.h"
+#include "world/entity/kind.h"
+#include "world/making/scenario.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -4,6 +4,7 @@
 #define JOLON_CONFIG_SYNTAX_ENTRY_H
 
 #include "config/syntax/key_table.h"
+#include "world/entity/kind.h"
 
 #define DOMAIN_BIT(domain) (1u << (domain))
 #define DOMAINS_VEHICLE    (DOMAIN_BIT(DOMAIN_LAND) | DOMAIN_BIT(DOMAIN_SEA) | DOMAIN_BIT(DOMAIN_AIR))

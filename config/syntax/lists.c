@@ -3,6 +3,10 @@
 
 #include "config/syntax/entry.h"
 #include "config/syntax/schema.h"
+#include "world/entity/entity.h"
+#include "world/entity/kind.h"
+#include "world/making/scenario.h"
+#include "world/params.h"
 
 #include <stdio.h>
 #include <stdlib.h>

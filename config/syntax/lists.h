@@ -4,7 +4,8 @@
 #define JOLON_CONFIG_SYNTAX_LISTS_H
 
 #include "config/syntax/key_table.h"
-#include "world/making/scenario.h"
+
+struct scenario;
 
 /* Each reads the setting of its name of a file; NULL is an empty list. The scenario's kinds
  * must be read before. 0; -1 with the message. */

@@ -8,7 +8,9 @@
 #define JOLON_CONFIG_SYNTAX_SCHEMA_H
 
 #include "config/syntax/key_table.h"
-#include "world/making/scenario.h"
+#include "world/entity/entity.h"
+#include "world/entity/kind.h"
+#include "world/entity/script.h"
 
 /* Limits of files. They are checked before memory of that size is allocated. */
 #define SCHEMA_SCENARIO_BYTES_MAX (4u * 1024u * 1024u)

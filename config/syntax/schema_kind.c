@@ -1,5 +1,8 @@
 /* The schema of a kind's file. `make docs` writes these rows into docs/scenario.md. */
 #include "config/syntax/schema_internal.h"
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
+#include "world/maths/maths.h"
 
 static const struct key_choice guidances[] = {{"ballistic", GUIDANCE_BALLISTIC, NULL},
                                               {"homing", GUIDANCE_HOMING, NULL}};

@@ -1,6 +1,10 @@
 /* The schema of the entries of a scenario's lists. `make docs` writes these rows into
  * docs/scenario.md. */
 #include "config/syntax/schema_internal.h"
+#include "world/entity/entity.h"
+#include "world/entity/formation.h"
+#include "world/enum_names.h"
+#include "world/maths/maths.h"
 
 static const struct key_choice behaviours[] = {
     {NULL, BEHAVIOUR_IDLE, "The vehicle stands still. It reacts when it is fired upon."},

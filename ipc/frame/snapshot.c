@@ -2,6 +2,8 @@
 #include "ipc/frame/snapshot.h"
 
 #include "ipc/process/crash_point.h"
+#include "world/entity/event.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <stdlib.h>

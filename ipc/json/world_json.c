@@ -2,6 +2,12 @@
 #include "ipc/json/world_json.h"
 
 #include "ipc/process/log.h"
+#include "world/entity/command.h"
+#include "world/entity/entity.h"
+#include "world/entity/event.h"
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -180,7 +186,7 @@ cJSON *json_event(const struct world *world, const struct event *event)
     need(object);
     json_whole(object, "frame", event->frame);
     json_whole(object, "index", event->index);
-    json_number(object, "time_s", (double)event->tick * world->params->dt_s);
+    json_number(object, "time_s", (double)event->tick * world_dt_s(world));
     json_text(object, "type", event_type_name((enum event_type)event->type));
     switch ((enum event_type)event->type) {
     case EVENT_COLLISION:

@@ -3,10 +3,11 @@
 #ifndef JOLON_IPC_JSON_WORLD_JSON_H
 #define JOLON_IPC_JSON_WORLD_JSON_H
 
-#include "world/world.h"
-
 #include <cjson/cJSON.h>
 #include <stdint.h>
+
+struct event;
+struct world;
 
 void json_text(cJSON *object, const char *key, const char *text);
 void json_number(cJSON *object, const char *key, double value); /* null when not finite */

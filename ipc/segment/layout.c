@@ -4,11 +4,23 @@
 #include "ipc/segment/doorbell.h"
 #include "ipc/segment/segment.h"
 #include "world/checksum.h"
+#include "world/entity/dent.h"
+#include "world/entity/event.h"
+#include "world/entity/formation.h"
+#include "world/entity/hull.h"
+#include "world/entity/kind.h"
+#include "world/entity/script.h"
+#include "world/model.h"
+#include "world/param_values.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 
 #include <errno.h>
 #include <string.h>
 #include <xxhash.h>
+
+_Static_assert(sizeof(struct state_head) <= LAYOUT_HEAD_BYTES, "columns begin after the head");
 
 /* Bounds that a header from elsewhere cannot pass; each is far above what a world needs. */
 #define POSTS_SIDE_MAX 4097u

@@ -7,6 +7,7 @@
 #define JOLON_IPC_SEGMENT_LAYOUT_H
 
 #include "ipc/segment/role.h"
+#include "world/entity/command.h"
 #include "world/world.h"
 
 #include <stdbool.h>
@@ -22,7 +23,6 @@
 
 /* A table's head has this much room before its columns begin. */
 #define LAYOUT_HEAD_BYTES 512u
-_Static_assert(sizeof(struct state_head) <= LAYOUT_HEAD_BYTES, "columns begin after the head");
 
 enum region {
     REGION_HEADER, /* struct segment_header; written at creation only, like all up to REACH */

@@ -4,6 +4,9 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/crash_point.h"
 #include "ipc/segment/segment_internal.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
+#include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
 #include <errno.h>

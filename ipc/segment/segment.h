@@ -11,7 +11,8 @@
 #include "ipc/segment/layout.h"
 #include "ipc/segment/role.h"
 #include "ipc/segment/runtime_folder.h"
-#include "world/making/world_build.h"
+#include "world/entity/command.h"
+#include "world/state.h"
 #include "world/world.h"
 
 #include <stdatomic.h>
@@ -19,6 +20,9 @@
 #include <stdint.h>
 
 struct error_text;
+struct event;
+struct params;
+struct world_build;
 
 #define SEGMENT_NAME_MAX 32 /* of a world, with the NUL */
 #define SEGMENT_PATH_MAX (RUNTIME_FOLDER_MAX + 64)

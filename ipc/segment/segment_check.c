@@ -1,6 +1,7 @@
 /* Is this a world, and is it whole? */
 #include "ipc/segment/segment_internal.h"
 #include "world/maths/hash.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <inttypes.h>

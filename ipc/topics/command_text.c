@@ -1,10 +1,13 @@
 /* Orders: the tables of verbs and arguments, and their checks. */
 #include "ipc/topics/command_text.h"
 
+#include "world/entity/command.h"
+#include "world/entity/entity.h"
+#include "world/enum_names.h"
+#include "world/maths/maths.h"
 #include "world/maths/random.h"
 #include "world/runtime/parse_number.h"
 #include "world/terrain/gridsquare.h"
-#include "world/world.h"
 
 #include <stdio.h>
 #include <string.h>

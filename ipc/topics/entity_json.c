@@ -2,8 +2,9 @@
 #include "ipc/topics/entity_json.h"
 
 #include "ipc/topics/json_members.h"
+#include "world/entity/entity.h"
+#include "world/enum_names.h"
 #include "world/maths/maths.h"
-#include "world/world.h"
 
 cJSON *entity_json(const struct world_mirror *mirror, const jolon_Entity *entity)
 {

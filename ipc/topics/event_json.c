@@ -2,7 +2,9 @@
 #include "ipc/topics/event_json.h"
 
 #include "ipc/topics/json_members.h"
-#include "world/world.h"
+#include "world/entity/entity.h"
+#include "world/entity/event.h"
+#include "world/enum_names.h"
 
 #include <stdio.h>
 

@@ -10,6 +10,9 @@
 #include "mover/agent/perception.h"
 #include "mover/agent/script_player.h"
 #include "mover/motion/driver_controls.h"
+#include "world/state.h"
+#include "world/world.h"
+#include <stddef.h>
 
 #define CRUISE_SHARE  0.75 /* of full speed, on patrol and route */
 #define BACK_OFF_M    80.0

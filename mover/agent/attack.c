@@ -2,6 +2,9 @@
 #include "mover/agent/attack.h"
 
 #include "mover/agent/perception.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #define HOVER_S        12.0 /* a helicopter's round: it hovers, then flies to another side */
 #define HOVER_SHARE    0.6  /* of it that it hovers */

@@ -5,6 +5,8 @@
 #include "mover/agent/behaviour_table.h"
 #include "mover/context/step_context.h"
 
+struct params;
+
 /* What it wants of its body, in the manner of its doctrine. */
 void attack_motion(const struct step_context *context, uint32_t i,
                    const struct behaviour_table *table, struct desired_motion *desired);

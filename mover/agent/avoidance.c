@@ -4,8 +4,14 @@
 #include "mover/agent/neighbour_lists.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
+#include "world/entity/hull.h"
+#include "world/param_values.h"
+#include "world/params.h"
+#include "world/state.h"
 #include "world/terrain/fixed_index.h"
+#include "world/terrain/gridsquare.h"
 #include "world/terrain/square_bounds.h"
+#include "world/world.h"
 
 #include <stddef.h>
 

@@ -2,6 +2,10 @@
 #include "mover/agent/formation_keeping.h"
 
 #include "mover/agent/goal.h"
+#include "world/entity/event.h"
+#include "world/entity/formation.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #define CATCH_UP_PS   0.5  /* [1/s] of the way to its place, on top of its leader's speed */
 #define AHEAD_S       1.5  /* it steers for where its place will be */

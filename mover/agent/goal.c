@@ -5,7 +5,10 @@
 #include "mover/agent/script_player.h"
 #include "mover/motion/kinematics.h"
 #include "world/maths/random.h"
+#include "world/params.h"
+#include "world/state.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #define ARRIVED_M  25.0
 #define HOME_M     150.0 /* a base has room for many */

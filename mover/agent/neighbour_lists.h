@@ -11,6 +11,7 @@
 #include "mover/query/neighbour_index.h"
 
 struct avoidance;
+struct world;
 
 struct neighbour_list {
     uint32_t first, count; /* of entries; count NEIGHBOUR_LISTS_NONE: none was made */

@@ -5,6 +5,9 @@
 #include "mover/agent/goal.h"
 #include "mover/motion/kinematics.h"
 #include "world/maths/random.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #define THINK_HZ         10.0   /* how often each agent thinks */
 #define THOUGHTS_A_FRAME 3072u  /* of all agents together, about */

@@ -6,6 +6,8 @@
 #include "mover/agent/behaviour_table.h"
 #include "mover/context/step_context.h"
 
+struct params;
+
 struct notice {
     uint32_t percepts;      /* bits 1 << enum percept */
     uint32_t threat, enemy; /* rows: who fired, whom it sees; SLOT_NONE */

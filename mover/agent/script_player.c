@@ -4,6 +4,10 @@
 #include "mover/agent/perception.h"
 #include "mover/motion/driver_controls.h"
 #include "mover/motion/kinematics.h"
+#include "world/entity/script.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #define CRUISE_SHARE  0.75 /* of full speed, where a step gives none */
 #define THERE_M       1.0  /* as near to its point it is there, and a frame's way */

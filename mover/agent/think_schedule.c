@@ -5,6 +5,9 @@
 #include "mover/agent/attack.h"
 #include "mover/agent/perception.h"
 #include "mover/motion/spin.h"
+#include "world/entity/formation.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #include <string.h>
 

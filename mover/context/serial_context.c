@@ -1,6 +1,11 @@
 /* The list of intents of the frame. */
 #include "mover/context/serial_context.h"
 
+#include "world/entity/event.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/world.h"
+
 #include <string.h>
 
 struct event *serial_context_intent(struct serial_context *context, enum event_type type)

@@ -4,6 +4,7 @@
 #define JOLON_MOVER_CONTEXT_SERIAL_CONTEXT_H
 
 #include "mover/context/step_context.h"
+#include "world/entity/event.h"
 #include "world/entity/table_write.h"
 
 struct serial_context {

@@ -6,13 +6,16 @@
 
 #include "mover/query/line_of_sight.h"
 #include "mover/query/neighbour_index.h"
-#include "world/world.h"
+#include "world/entity/entity.h"
 
 struct avoidance;
+struct crater_index;
 struct ground_marks;
 struct neighbour_lists;
 struct square_bounds;
+struct state;
 struct terrain_cache_entry;
+struct world;
 
 struct step_context {
     const struct world *world;

@@ -6,6 +6,7 @@
 #include "mover/motion/kinematics_simd.h"
 #include "world/maths/cpu_dispatch.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <string.h>
 

@@ -3,6 +3,7 @@
 
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
+#include "world/world.h"
 
 bool constant_course_row(const struct step_context *context, uint32_t i)
 {

@@ -1,5 +1,7 @@
 /* Driven vehicles: from the controls that a player or an outside program set to what they ask. */
+#include "mover/context/step_context.h"
 #include "mover/motion/driver_controls.h"
+#include "world/world.h"
 
 #define REVERSE_SHARE 0.4  /* of full speed, backwards */
 #define LOW_SHARE     0.35 /* of full speed, in low gear */

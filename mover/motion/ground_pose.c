@@ -2,6 +2,7 @@
 #include "mover/motion/ground_pose.h"
 
 #include "world/maths/cpu_dispatch.h"
+#include "world/world.h"
 
 #include <string.h>
 

@@ -6,7 +6,10 @@
 #include "mover/motion/kinematics_simd.h"
 #include "mover/query/ground_marks.h"
 #include "world/maths/cpu_dispatch.h"
+#include "world/state.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <string.h>
 

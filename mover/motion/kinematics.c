@@ -2,8 +2,11 @@
 #include "mover/motion/kinematics.h"
 
 #include "mover/query/ground_marks.h"
+#include "world/param_values.h"
+#include "world/params.h"
 #include "world/terrain/terrain_cache.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 /* Of a sphere's radius: clear of the ground, well within it. */
 #define AIM_SHARE 0.35

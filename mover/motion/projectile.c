@@ -1,7 +1,9 @@
 /* Munitions: ballistic under gravity alone, or homing on their target. */
-#include "mover/motion/projectile.h"
-
+#include "mover/context/step_context.h"
 #include "mover/motion/kinematics.h"
+#include "mover/motion/projectile.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #define BOOST_MPS2 300.0 /* a missile's acceleration to full speed */
 #define NAVIGATION                                                                                 \

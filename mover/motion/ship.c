@@ -3,6 +3,7 @@
 
 #include "mover/motion/kinematics.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #define KEEL_DRAG_MPS2 2.0  /* how hard a sideways slide is braked */
 #define HULL_DRAG      0.35 /* of its acceleration: how it slows when its screws stand still */

@@ -4,6 +4,7 @@
 
 #include "mover/motion/kinematics.h"
 #include "world/entity/mass_properties.h"
+#include "world/world.h"
 
 #define TYRE_SCRUB      0.7 /* of the weight, at a quarter of the length from the middle */
 #define WATER_DRAG_MPS2 2.0 /* the same of a hull in the water */

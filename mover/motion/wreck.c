@@ -3,6 +3,7 @@
 
 #include "mover/motion/kinematics.h"
 #include "mover/motion/spin.h"
+#include "world/world.h"
 
 #define WRECK_FRICTION 0.6 /* of the weight */
 

@@ -1,9 +1,14 @@
 /* Keeps the marks up to date, and finds those of eight points at once. */
 #include "mover/query/ground_marks.h"
 
+#include "world/entity/entity.h"
 #include "world/maths/cpu_dispatch.h"
+#include "world/state.h"
+#include "world/terrain/crater.h"
 #include "world/terrain/fixed_index.h"
+#include "world/world.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>

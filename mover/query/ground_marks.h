@@ -6,7 +6,11 @@
 
 #include "world/maths/simd.h"
 #include "world/terrain/gridsquare.h"
-#include "world/world.h"
+
+#include <stdbool.h>
+
+struct state;
+struct world;
 
 #define GROUND_MARKS_DEBRIS 1u /* the debris of a fixed object reaches into the square */
 #define GROUND_MARKS_CRATER                                                                        \

@@ -3,8 +3,11 @@
  * when the line is above everything in it. */
 #include "mover/query/line_of_sight.h"
 
+#include "world/terrain/crater.h"
 #include "world/terrain/fixed_index.h"
 #include "world/terrain/gridsquare.h"
+#include "world/terrain/terrain.h"
+#include "world/world.h"
 
 #include <stdlib.h>
 

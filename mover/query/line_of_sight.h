@@ -3,11 +3,15 @@
 #ifndef JOLON_MOVER_QUERY_LINE_OF_SIGHT_H
 #define JOLON_MOVER_QUERY_LINE_OF_SIGHT_H
 
+#include "world/entity/entity.h"
+#include "world/maths/maths.h"
 #include "world/terrain/square_bounds.h"
-#include "world/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+struct crater_index;
+struct world;
 
 struct line_of_sight {
     const struct world *world;

@@ -8,8 +8,9 @@
 #ifndef JOLON_MOVER_QUERY_NEIGHBOUR_INDEX_H
 #define JOLON_MOVER_QUERY_NEIGHBOUR_INDEX_H
 
+#include "world/entity/entity.h"
+#include "world/entity/kind.h"
 #include "world/runtime/thread_pool.h"
-#include "world/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>

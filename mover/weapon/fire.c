@@ -4,7 +4,12 @@
 #include "mover/motion/kinematics.h"
 #include "mover/weapon/spawn.h"
 #include "mover/weapon/turret.h"
+#include "world/entity/event.h"
+#include "world/maths/maths.h"
 #include "world/maths/random.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #include <stddef.h>
 

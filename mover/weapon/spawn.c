@@ -1,6 +1,14 @@
 /* Rows for new entities. */
 #include "mover/weapon/spawn.h"
 
+#include "world/entity/event.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/terrain/gridsquare.h"
+#include "world/world.h"
+
+#include <string.h>
+
 static uint32_t free_row(struct serial_context *context)
 {
     struct state_head *head = context->moved->head;

@@ -3,6 +3,8 @@
 
 #include "mover/motion/kinematics.h"
 #include "world/maths/rotation.h"
+#include "world/state.h"
+#include "world/world.h"
 
 #define MUZZLE_SHARE   0.7   /* of the shooter's height */
 #define LAID_RAD       0.004 /* off its solution a turret's gun fires */

@@ -2,6 +2,7 @@
 #include "recorder/archive/capture.h"
 
 #include "ipc/frame/frame_protocol.h"
+#include "world/entity/event.h"
 
 #include <errno.h>
 #include <stdlib.h>

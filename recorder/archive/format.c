@@ -1,5 +1,8 @@
 /* Which parts an image has, and how large they are. */
 #include "recorder/archive/format.h"
+#include "ipc/process/log.h"
+#include "world/entity/dent.h"
+#include "world/entity/event.h"
 #include "world/runtime/check.h"
 
 #include <xxhash.h>

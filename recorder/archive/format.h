@@ -9,6 +9,7 @@
 #define JOLON_RECORDER_ARCHIVE_FORMAT_H
 
 #include "ipc/segment/segment.h"
+#include "world/params.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -8,6 +8,7 @@
 #include "recorder/archive/capture.h"
 #include "recorder/archive/format.h"
 #include "ipc/segment/segment.h"
+#include "world/params.h"
 
 #include <limits.h>
 #include <stdint.h>

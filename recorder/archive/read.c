@@ -4,6 +4,7 @@
 #include "ipc/process/crash_point.h"
 #include "ipc/process/regular_file.h"
 #include "world/checksum.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -5,6 +5,8 @@
 #include "ipc/process/crash_point.h"
 #include "ipc/process/log.h"
 #include "ipc/json/world_json.h"
+#include "world/params.h"
+#include "world/provenance.h"
 
 #include <errno.h>
 #include <inttypes.h>

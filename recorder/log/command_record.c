@@ -2,6 +2,8 @@
 #include "recorder/log/command_record.h"
 
 #include "ipc/json/world_json.h"
+#include "world/entity/command.h"
+#include "world/enum_names.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,6 +4,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 #include "world/maths/random.h"
+#include "world/params.h"
 #include "world/runtime/thread_pool.h"
 
 #include <errno.h>

@@ -8,6 +8,7 @@
 #include "world/checksum.h"
 #include "recorder/replay/world_adopt.h"
 #include "recorder/replay/scenario_load.h"
+#include "world/provenance.h"
 
 #include <inttypes.h>
 #include <stdio.h>

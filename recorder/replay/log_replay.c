@@ -3,6 +3,7 @@
 
 #include "ipc/process/regular_file.h"
 #include "recorder/log/journal.h"
+#include "world/params.h"
 #include "world/provenance.h"
 
 #include <errno.h>

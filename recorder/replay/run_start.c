@@ -3,6 +3,8 @@
 
 #include "recorder/archive/image.h"
 #include "ipc/process/log.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
 #include "world/provenance.h"
 #include "world/runtime/parse_number.h"
 #include "recorder/replay/scenario_load.h"

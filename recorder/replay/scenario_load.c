@@ -5,6 +5,8 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -2,8 +2,10 @@
 #ifndef JOLON_RECORDER_REPLAY_SCENARIO_LOAD_H
 #define JOLON_RECORDER_REPLAY_SCENARIO_LOAD_H
 
-#include "world/making/world_build.h"
 #include "recorder/replay/arguments.h"
+
+struct provenance;
+struct scenario;
 
 /* Reads the scenario path with the overrides set and the length seconds of the arguments; the
  * caller's to free. Ends the process with the reason (exit 1). */

@@ -3,9 +3,10 @@
 #define JOLON_RECORDER_REPLAY_WORLD_ADOPT_H
 
 #include "recorder/archive/format.h"
-#include "world/world.h"
 
 #include <stdbool.h>
+
+struct params;
 
 /* True, having said so, when the world called name is the one that would be made now: of the same
  * scenario and settings, and where image is not NULL either made from that very image or the one

@@ -3,6 +3,7 @@
 
 #include "renderer/scene/terrain/terrain_colour.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 #include "renderer/chart/legend.h"
 
 #include "renderer/chart/statistics_bar.h"
+#include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
 #include <math.h>

@@ -1,7 +1,9 @@
 /* Drawing what moves on the map. */
 #include "renderer/chart/map.h"
 
+#include "world/entity/kind.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <math.h>
 
@@ -129,7 +131,7 @@ void map_tracks(struct image *image, const struct map_view *view, const struct f
 static bool burns(const struct frame_view *moment, uint32_t slot)
 {
     uint64_t ticks = moment->head->tick - moment->entities->changed_tick[slot];
-    return (double)ticks * moment->world->params->dt_s < FIRE_LIFE_S;
+    return (double)ticks * world_dt_s(moment->world) < FIRE_LIFE_S;
 }
 
 enum rank { RANK_WRECK, RANK_FIRE, RANK_MUNITION, RANK_VEHICLE, RANK_COUNT };

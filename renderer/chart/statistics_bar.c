@@ -1,6 +1,8 @@
 /* The fields of the statistics bar. */
 #include "renderer/chart/statistics_bar.h"
 
+#include "world/enum_names.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,10 @@
  * gives both its rim's coverage and its own. */
 #include "renderer/chart/symbol.h"
 
+#include "world/entity/kind.h"
 #include "world/maths/maths.h"
+#include "world/model.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,9 +5,12 @@
 #define JOLON_RENDERER_CHART_SYMBOL_H
 
 #include "renderer/image/image.h"
-#include "world/world.h"
+#include "world/entity/entity.h"
 
 #include <stdint.h>
+
+struct kind;
+struct world;
 
 #define SYMBOL_KINDS_PIXELS 8.5 /* smaller ones tell land, air and sea apart, no more */
 

@@ -1,6 +1,7 @@
 /* Reading queries, from whoever they come. */
 #include "renderer/output/query.h"
 
+#include "world/enum_names.h"
 #include "world/terrain/gridsquare.h"
 
 #include <errno.h>

@@ -4,7 +4,9 @@
 #include "renderer/scene/scene.h"
 
 #include "renderer/scene/noise/value_noise.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <string.h>
 

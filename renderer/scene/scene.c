@@ -6,7 +6,9 @@
 #include "renderer/scene/frame/body_axes.h"
 #include "renderer/scene/terrain/terrain_tiles.h"
 #include "renderer/scene/plants/grass.h"
+#include "world/params.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <stdlib.h>
 #include <string.h>

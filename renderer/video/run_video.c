@@ -66,7 +66,7 @@ static void open_studio(struct run_video *film)
     struct reason reason;
     struct options *drawn = &film->options.renderer;
     drawn->hold = 0; /* nobody waits */
-    double hz = 1.0 / film->view.world.params->dt_s;
+    double hz = 1.0 / world_dt_s(&film->view.world);
     if (drawn->fps <= 0.0)
         drawn->fps = hz < VIDEO_FPS_MAX ? hz : VIDEO_FPS_MAX;
     const struct output_set_wish wish = {.world = film->view.name,
@@ -89,7 +89,7 @@ static void open_studio(struct run_video *film)
 static bool play_to(struct run_video *film, uint64_t frame, enum log_replay_step *step)
 {
     struct reason reason;
-    uint64_t looks = (uint64_t)(LOOK_S / film->view.world.params->dt_s) + 1;
+    uint64_t looks = (uint64_t)(LOOK_S / world_dt_s(&film->view.world)) + 1;
     while (frame_stepper_frame(&film->player) < frame && !process_stopping()) {
         *step = log_replay_step(&film->tape, &film->player, &reason);
         if (*step == LOG_REPLAY_WRONG)
@@ -135,7 +135,7 @@ static bool go_to(struct run_video *film, uint64_t frame, enum log_replay_step *
 static void show_before(struct run_video *film, double frames)
 {
     struct frame_view latest = render_session_moment(&film->studio, film->studio.latest);
-    film->studio.at_s = frame_view_time_s(&latest) - frames * film->view.world.params->dt_s;
+    film->studio.at_s = frame_view_time_s(&latest) - frames * world_dt_s(&film->view.world);
 }
 
 /* Every picture at its time. */
@@ -143,7 +143,7 @@ static enum log_replay_step shoot(struct run_video *film)
 {
     struct reason reason;
     enum log_replay_step step = LOG_REPLAY_STEPPED;
-    double frames = 1.0 / (film->studio.options.fps * film->view.world.params->dt_s);
+    double frames = 1.0 / (film->studio.options.fps * world_dt_s(&film->view.world));
     film->between = fabs(frames - round(frames)) > WHOLE;
     film->studio.smooth = film->between;
     film->begun_ns = film->told_ns = clock_now_ns();

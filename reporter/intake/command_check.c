@@ -1,7 +1,10 @@
 /* The check of commands from outside: key, type, names, numbers and their ranges. */
 #include "reporter/intake/command_check.h"
 
+#include "world/entity/entity.h"
+#include "world/entity/kind.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <math.h>
 

@@ -7,7 +7,9 @@
 #define JOLON_REPORTER_INTAKE_COMMAND_CHECK_H
 
 #include "status.h"
-#include "world/world.h"
+#include "world/entity/command.h"
+
+struct world;
 
 #define COMMAND_CHECK_FRAMES_MAX   1000000u
 #define COMMAND_CHECK_SCALE_MIN    0.01

@@ -6,6 +6,8 @@
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
+#include "world/entity/event.h"
+#include "world/enum_names.h"
 
 #include <errno.h>
 #include <sys/random.h>
@@ -149,7 +151,7 @@ static bool strained(const struct view *view)
     uint64_t work_ns = atomic_load_explicit(&mover->stage_ns, memory_order_relaxed) +
                        atomic_load_explicit(&collider->stage_ns, memory_order_relaxed);
     uint64_t beat_ns = atomic_load_explicit(&collider->beat_ns, memory_order_relaxed);
-    return (double)work_ns > ADMISSION_STRAIN_SHARE * view->world.params->dt_s * NS_PER_S ||
+    return (double)work_ns > ADMISSION_STRAIN_SHARE * world_dt_s(&view->world) * NS_PER_S ||
            clock_now_ns() > beat_ns + LONG_FRAME_NS;
 }
 

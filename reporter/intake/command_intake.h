@@ -9,6 +9,7 @@
 #include "reporter/intake/client_sockets.h"
 #include "reporter/intake/command_history.h"
 #include "ipc/frame/snapshot.h"
+#include "world/entity/event.h"
 
 #define INTAKE_EVENTS_AT_ONCE 128u
 

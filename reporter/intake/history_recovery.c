@@ -2,6 +2,7 @@
 #include "reporter/intake/history_recovery.h"
 
 #include "ipc/frame/snapshot.h"
+#include "world/entity/event.h"
 
 #include <errno.h>
 

@@ -1,6 +1,12 @@
 /* Two frames, field by field. */
 #include "supervisor/worldctl/compare.h"
 
+#include "world/entity/dent.h"
+#include "world/enum_names.h"
+#include "world/params.h"
+#include "world/terrain/crater.h"
+#include "world/world.h"
+
 #include <inttypes.h>
 #include <stddef.h>
 #include <stdio.h>

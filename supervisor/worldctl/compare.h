@@ -2,10 +2,12 @@
 #ifndef JOLON_SUPERVISOR_WORLDCTL_COMPARE_H
 #define JOLON_SUPERVISOR_WORLDCTL_COMPARE_H
 
-#include "world/world.h"
+#include "world/state.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+struct world;
 
 /* One frame: what never changes and what does. */
 struct compared {

@@ -3,6 +3,7 @@
 
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "world/making/scenario.h"
 #include "world/making/world_build.h"
 #include "recorder/replay/world_adopt.h"
 #include "recorder/replay/arguments.h"

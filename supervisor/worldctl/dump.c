@@ -4,6 +4,9 @@
 #include "ipc/process/log.h"
 #include "recorder/replay/arguments.h"
 #include "ipc/json/world_json.h"
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
+#include "world/terrain/fixed.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +14,7 @@
 /* Until it may fire again. */
 static double reload_s(const struct world *world, const struct state_head *head, uint32_t tick)
 {
-    return tick > head->tick ? (double)(tick - head->tick) * world->params->dt_s : 0.0;
+    return tick > head->tick ? (double)(tick - head->tick) * world_dt_s(world) : 0.0;
 }
 
 static cJSON *entity_json(const struct world *world, const struct state_head *head,

@@ -7,6 +7,8 @@
 #include "ipc/process/process.h"
 #include "recorder/replay/arguments.h"
 #include "ipc/json/world_json.h"
+#include "world/entity/event.h"
+#include "world/enum_names.h"
 #include "world/runtime/parse_number.h"
 
 #include <inttypes.h>

@@ -3,6 +3,11 @@
 
 #include "collider/broad_phase/broad_phase.h"
 #include "ipc/process/log.h"
+#include "world/entity/entity.h"
+#include "world/entity/kind.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
+#include "world/world.h"
 
 #include <errno.h>
 #include <sys/mman.h>

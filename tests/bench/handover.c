@@ -7,6 +7,8 @@
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "world/param_values.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <linux/futex.h>

@@ -7,6 +7,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "renderer/image/png.h"
+#include "world/terrain/fixed.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -3,6 +3,7 @@
 
 #include "tests/bench/world.h"
 #include "ipc/process/log.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <string.h>

@@ -6,6 +6,8 @@
 #include "config/loader.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "world/entity/kind.h"
+#include "world/making/scenario.h"
 #include "world/maths/random.h"
 
 #include <stdio.h>

@@ -38,7 +38,7 @@ static void take(const struct view *view, const struct state *state, uint64_t fr
 {
     const struct entities *e = &state->entities;
     for (uint32_t i = 0; i < state->head->used; i++)
-        traffic->hours += counts(e, i) ? view->world.params->dt_s / 3600.0 : 0.0;
+        traffic->hours += counts(e, i) ? world_dt_s(&view->world) / 3600.0 : 0.0;
     for (uint64_t n = from; n < state->head->event_end; n++) {
         const struct event *event = &view->events[n & (view->header->event_slots - 1)];
         if (event->type != EVENT_COLLISION)

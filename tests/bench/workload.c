@@ -4,8 +4,10 @@
 #include "config/loader.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "world/making/scenario.h"
 #include "world/making/world_build.h"
 #include "world/maths/random.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdlib.h>

@@ -4,6 +4,9 @@
 #include "config/loader.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "world/entity/kind.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
 
 #include <stdio.h>
 #include <stdlib.h>

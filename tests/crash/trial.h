@@ -4,8 +4,8 @@
 #define JOLON_TESTS_CRASH_TRIAL_H
 
 #include "ipc/segment/segment.h"
-#include "world/making/world_build.h"
 #include "world/making/scenario.h"
+#include "world/making/world_build.h"
 
 #include <stdbool.h>
 #include <stddef.h>

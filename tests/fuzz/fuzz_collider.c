@@ -6,6 +6,9 @@
 
 #include "collider/step.h"
 #include "mover/step.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
+#include "world/params.h"
 #include "world/runtime/check.h"
 
 #include <math.h>

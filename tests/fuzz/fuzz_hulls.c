@@ -3,6 +3,9 @@
 #include "tests/fuzz/support.h"
 
 #include "config/mesh/hulls.h"
+#include "ipc/process/log.h"
+#include "world/making/scenario.h"
+#include "world/model.h"
 #include "world/runtime/check.h"
 
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* Kind files, beside the few that support.c has. */
 #include "tests/fuzz/support.h"
+#include "world/making/scenario.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -3,6 +3,8 @@
 #include "tests/fuzz/support.h"
 
 #include "config/mesh/models.h"
+#include "ipc/process/log.h"
+#include "world/making/scenario.h"
 #include "world/runtime/check.h"
 
 #include <string.h>

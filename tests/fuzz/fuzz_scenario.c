@@ -3,6 +3,7 @@
 
 #include "config/syntax/literals.h"
 #include "ipc/segment/segment.h"
+#include "world/making/scenario.h"
 #include "world/making/world_build.h"
 #include "world/runtime/check.h"
 #include "world/terrain/gridsquare.h"

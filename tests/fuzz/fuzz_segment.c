@@ -4,6 +4,7 @@
 #include "tests/fuzz/support.h"
 
 #include "ipc/segment/segment.h"
+#include "world/params.h"
 #include "world/runtime/check.h"
 
 #include <fcntl.h>

@@ -2,6 +2,9 @@
 #include "tests/fuzz/support.h"
 
 #include "config/waypoints.h"
+#include "ipc/process/log.h"
+#include "world/entity/script.h"
+#include "world/making/scenario.h"
 #include "world/runtime/check.h"
 #include "world/terrain/gridsquare.h"
 

@@ -1,7 +1,12 @@
 /* The harnesses' folder, and what an accepted scenario must be. */
 #include "tests/fuzz/support.h"
 
+#include "ipc/process/log.h"
+#include "world/entity/hull.h"
+#include "world/entity/kind.h"
+#include "world/making/scenario.h"
 #include "world/making/world_build.h"
+#include "world/model.h"
 #include "world/runtime/check.h"
 #include "world/terrain/gridsquare.h"
 

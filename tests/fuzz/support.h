@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+struct scenario;
+
 /* libFuzzer's; every harness defines it. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

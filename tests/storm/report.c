@@ -42,7 +42,7 @@ static const char *victim_name(uint32_t victim)
 
 static double frame_ms(const struct outcome *outcome)
 {
-    return outcome->band->view.world.params->dt_s * 1e3;
+    return world_dt_s(&outcome->band->view.world) * 1e3;
 }
 
 static void print_strikes(const struct outcome *outcome)

@@ -3,6 +3,8 @@
 
 #include "ipc/frame/frame_protocol.h"
 #include "world/checksum.h"
+#include "world/param_values.h"
+#include "world/params.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,6 +2,8 @@
 #include "tests/support/fixture.h"
 
 #include "config/loader.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
 #include "world/maths/random.h"
 #include "world/checksum.h"
 
@@ -152,14 +154,18 @@ void fixture_open(struct fixture *fixture, const char *text)
     struct reason reason;
     char message[512];
     memset(fixture, 0, sizeof *fixture);
-    fixture_scenario(&fixture->scenario, text);
-    if (world_build_build(&fixture->genesis, &fixture->scenario, message, sizeof message) != 0)
+    fixture->scenario = calloc(1, sizeof *fixture->scenario);
+    fixture->genesis = calloc(1, sizeof *fixture->genesis);
+    assert_non_null(fixture->scenario);
+    assert_non_null(fixture->genesis);
+    fixture_scenario(fixture->scenario, text);
+    if (world_build_build(fixture->genesis, fixture->scenario, message, sizeof message) != 0)
         fail_msg("the test's world is refused: %s", message);
     struct segment_header header =
-        segment_header_for(&fixture->scenario.params, &fixture->genesis.counts);
+        segment_header_for(&fixture->scenario->params, &fixture->genesis->counts);
     if (segment_private(&fixture->view, &header, &reason) != 0)
         fail_msg("%s", reason.text);
-    segment_fill(&fixture->view, &fixture->genesis);
+    segment_fill(&fixture->view, fixture->genesis);
     fixture_threads(fixture, 1);
 }
 
@@ -173,8 +179,10 @@ void fixture_close(struct fixture *fixture)
 {
     frame_stepper_free(&fixture->player);
     segment_abandon(&fixture->view);
-    world_build_free(&fixture->genesis);
-    scenario_free(&fixture->scenario);
+    world_build_free(fixture->genesis);
+    scenario_free(fixture->scenario);
+    free(fixture->genesis);
+    free(fixture->scenario);
 }
 
 /* --- entities ----------------------------------------------------------------------------------*/

@@ -15,16 +15,14 @@
 
 #include "ipc/segment/segment.h"
 #include "recorder/replay/frame_stepper.h"
-#include "world/making/world_build.h"
-#include "world/making/scenario.h"
 
 #include <stdint.h>
 
 #define FIXTURE_GROUND_M 100.0 /* height of the default scenario's level ground */
 
 struct fixture {
-    struct scenario scenario;
-    struct world_build genesis;
+    struct scenario *scenario;
+    struct world_build *genesis;
     struct view view; /* private; mapped shared, so that children of fork see it */
     struct frame_stepper player;
 };

@@ -2,6 +2,8 @@
 #include "tests/support/named_world.h"
 
 #include "tests/support/fixture.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
 
 #include <dirent.h>
 #include <setjmp.h>
@@ -39,7 +41,7 @@ void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text)
     struct fixture f;
     named_world_name(name);
     fixture_open(&f, scenario_text);
-    named_world_publish(name, &f.scenario, &f.genesis);
+    named_world_publish(name, f.scenario, f.genesis);
     fixture_close(&f);
 }
 

@@ -5,6 +5,8 @@
 
 #include "ipc/segment/segment.h"
 
+struct scenario;
+
 /* A name that no other world has: "test-PID-N". */
 void named_world_name(char name[SEGMENT_NAME_MAX]);
 

@@ -1,8 +1,10 @@
 /* Small worlds for tests of detection. */
 #include "tests/support/small_world.h"
 
+#include "world/params.h"
 #include "world/terrain/fixed_index.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,10 +31,12 @@ void small_world_begin(struct small_world *w, uint32_t rows, uint32_t fixed)
     w->kinds[SMALL_JET].domain = DOMAIN_AIR;
     w->kinds[SMALL_ROUND].domain = DOMAIN_MUNITION;
     w->kinds[SMALL_TREE].domain = DOMAIN_FIXED;
-    w->params.capacity = rows;
-    w->params.hz = 60.0;
-    w->params.dt_s = 1.0 / 60.0;
-    w->params.collision.threshold_height_m = 60.0;
+    w->params = calloc(1, sizeof *w->params);
+    assert_non_null(w->params);
+    w->params->capacity = rows;
+    w->params->hz = 60.0;
+    w->params->dt_s = 1.0 / 60.0;
+    w->params->collision.threshold_height_m = 60.0;
     w->fixed_most = fixed;
     w->fixed = calloc(fixed + 1, sizeof *w->fixed);
     w->damage = calloc(fixed + 1, sizeof *w->damage);
@@ -40,7 +44,7 @@ void small_world_begin(struct small_world *w, uint32_t rows, uint32_t fixed)
     w->memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(rows));
     assert_true(w->fixed && w->damage && w->path && w->memory);
     entities_bind(&w->e, rows, w->memory);
-    w->world = (struct world){.params = &w->params,
+    w->world = (struct world){.params = w->params,
                               .counts = {.kinds = SMALL_KINDS},
                               .terrain = {w->posts, w->cover, 2, WORLD_SIDE_M},
                               .kinds = w->kinds,
@@ -63,6 +67,7 @@ void small_world_end(struct small_world *w)
     free(w->damage);
     free(w->path);
     free(w->memory);
+    free(w->params);
 }
 
 void small_world_move(struct small_world *w, uint32_t row, struct vec3 at, struct vec3 along)
@@ -75,7 +80,7 @@ uint32_t small_world_row(struct small_world *w, enum small_kind kind, struct vec
                          struct vec3 along)
 {
     uint32_t row = w->rows++;
-    assert_true(row < w->params.capacity);
+    assert_true(row < w->params->capacity);
     entities_clear(&w->e, row);
     w->e.id[row] = row + 1;
     w->e.kind[row] = (uint16_t)kind;

@@ -4,6 +4,8 @@
 #define JOLON_TESTS_SUPPORT_SMALL_WORLD_H
 
 #include "collider/motion/pair_filter.h"
+#include "world/entity/kind.h"
+#include "world/world.h"
 
 #include <stdint.h>
 
@@ -21,7 +23,7 @@ enum small_kind {
 };
 
 struct small_world {
-    struct params params; /* 60 Hz, spheres, threshold height 60 m */
+    struct params *params; /* 60 Hz, spheres, threshold height 60 m */
     struct kind kinds[SMALL_KINDS];
     struct fixed_object *fixed;
     uint8_t *damage; /* of the fixed */

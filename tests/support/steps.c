@@ -3,6 +3,7 @@
 
 #include "mover/motion/kinematics.h"
 #include "mover/weapon/turret.h"
+#include "world/params.h"
 #include "world/terrain/terrain_cache.h"
 #include "world/maths/rotation.h"
 

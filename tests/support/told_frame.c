@@ -1,6 +1,12 @@
 /* Frames whose every value follows from their number. */
 #include "tests/support/told_frame.h"
 
+#include "world/entity/entity.h"
+#include "world/state.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
 static uint64_t value_of(uint64_t frame, uint32_t row)
 {
     return frame * 2654435761u + row;

@@ -3,7 +3,11 @@
 #ifndef JOLON_TESTS_SUPPORT_TOLD_FRAME_H
 #define JOLON_TESTS_SUPPORT_TOLD_FRAME_H
 
-#include "world/world.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+struct entities;
+struct state_head;
 
 /* Fills rows 0 .. rows - 1 and what the head says of them, for the frame that head->frame is. */
 void told_frame_fill(struct state_head *head, struct entities *entities, uint32_t rows);

@@ -69,8 +69,4 @@ _Static_assert(sizeof(struct command) == 128, "two cache lines a slot");
 #define COMMAND_SPOT_VEHICLES 8u
 #define COMMAND_SPOT_M        10.0
 
-const char *command_ring_name(enum command_ring ring);
-const char *command_type_name(enum command_type type);
-const char *command_result_name(enum command_result result);
-
 #endif

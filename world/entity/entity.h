@@ -43,6 +43,9 @@ enum behaviour {
 
 enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
 
+/* Damage of anything, fixed or moving (thesis rows 27, 33). */
+enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED, DAMAGE_COUNT };
+
 /* X(type, name): every column once. Rates of the body, then what an agent remembers.
  * Who writes: M all of it by the mover; W all of it by the collider, which copies M and changes
  * what collisions change: motion, state, damage, harm_j, threat_*, bump*, touch_*. */
@@ -137,6 +140,11 @@ static inline enum gearing entity_gear(uint8_t flags)
     return (enum gearing)((flags & ENTITY_GEAR_MASK) >> ENTITY_GEAR_SHIFT);
 }
 
+/* A name that the scenario gave an entity; "" for none. */
+struct entity_name {
+    char text[ENTITY_NAME_MAX];
+};
+
 struct entities {
     uint32_t capacity;
 #define X(type, name) type *name;
@@ -191,10 +199,5 @@ static inline void entities_set_velocity(const struct entities *e, uint32_t i, s
     e->vy[i] = v.y;
     e->vz[i] = v.z;
 }
-
-const char *entity_state_name(enum entity_state state);
-const char *behaviour_name(enum behaviour behaviour);
-const char *gear_name(enum gearing gear);
-const char *force_name(enum force force);
 
 #endif

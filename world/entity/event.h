@@ -129,9 +129,4 @@ _Static_assert(sizeof(struct event_collision) == 88, "shared layout");
 _Static_assert(sizeof(struct event_command) == 96, "shared layout");
 _Static_assert(sizeof(struct event) == 128, "two cache lines a slot");
 
-const char *event_type_name(enum event_type type);
-const char *response_name(enum response response);
-const char *struck_name(enum struck struck);
-const char *agent_reason_name(enum agent_reason reason);
-
 #endif

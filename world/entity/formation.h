@@ -29,6 +29,4 @@ _Static_assert(sizeof(struct formation) == 32, "shared layout");
 void formation_place(enum formation_shape shape, double spacing_m, uint32_t member, double *ahead_m,
                      double *right_m);
 
-const char *formation_shape_name(enum formation_shape shape);
-
 #endif

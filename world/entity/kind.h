@@ -93,10 +93,6 @@ struct kind {
     double low_m, high_m; /* lowest and highest point over the position, upright */
 };
 
-const char *domain_name(enum domain domain);
-const char *doctrine_name(enum doctrine doctrine);
-const char *object_class_name(enum object_class object_class);
-
 /* Index of the kind called name, KIND_NONE when there is none. */
 uint16_t kind_find(const struct kind *kinds, uint32_t count, const char *name);
 

@@ -7,6 +7,8 @@
 
 #include <stdint.h>
 
+#define SCRIPT_FILE_MAX 64 /* [byte] of a waypoint file's name, with the NUL */
+
 enum step_type {
     STEP_GO,        /* to a point, at its speed */
     STEP_ARRIVE,    /* to a point, there at its time */

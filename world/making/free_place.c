@@ -4,6 +4,7 @@
 #include "world/maths/random.h"
 #include "world/terrain/fixed_index.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <stdlib.h>

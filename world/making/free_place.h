@@ -5,11 +5,13 @@
 
 #include "world/terrain/fixed.h"
 #include "world/entity/kind.h"
+#include "world/terrain/gridsquare.h"
 #include "world/terrain/terrain.h"
-#include "world/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+struct area;
 
 /* What is taken is found by cells finer than gridsquares: a crowd of a million in one part of the
  * map has thousands in a gridsquare, and at most some fifteen in a cell. */

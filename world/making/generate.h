@@ -7,9 +7,10 @@
 #include "world/terrain/fixed.h"
 #include "world/entity/kind.h"
 #include "world/terrain/terrain.h"
-#include "world/world.h"
 
 #include <stdint.h>
+
+struct road_point;
 
 /* Local metres of a place on WGS 84 near the square: its centre is 35.95 N, 121.25 W. Second-order
  * series with the radii of curvature there; within 2 m of ECEF's tangent plane over the square. */

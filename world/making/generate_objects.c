@@ -8,6 +8,7 @@
 #include "world/making/object_placement.h"
 #include "world/maths/random.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <errno.h>
 #include <math.h>

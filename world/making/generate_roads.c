@@ -6,6 +6,7 @@
 #include "world/maths/maths.h"
 #include "world/maths/noise.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <errno.h>
 #include <math.h>

@@ -3,9 +3,10 @@
 #define JOLON_WORLD_MAKING_GENERATE_ROADS_H
 
 #include "world/making/elevation_grid.h"
-#include "world/world.h"
 
 #include <stdint.h>
+
+struct road_point;
 
 /* Writes at most road_max points, 60 m apart and within the square, road after road; none in
  * water. 0, or -1 with errno ENOMEM or ENOBUFS. */

@@ -9,6 +9,7 @@
 #include "world/maths/noise.h"
 #include "world/maths/random.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <stdlib.h>

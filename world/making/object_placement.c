@@ -5,6 +5,7 @@
 #include "world/maths/noise.h"
 #include "world/maths/random.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -6,10 +6,11 @@
 #include "world/terrain/fixed.h"
 #include "world/entity/kind.h"
 #include "world/terrain/terrain.h"
-#include "world/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+struct road_point;
 
 /* Free ground between a road's middle and an object's sphere [m]. */
 #define OBJECT_PLACEMENT_ROAD_FREE_M 8.0

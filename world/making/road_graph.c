@@ -2,9 +2,11 @@
 #include "world/making/road_graph.h"
 
 #include "world/maths/maths.h"
+#include "world/world.h"
 
 #include <errno.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 /* A place on a stretch of road, which begins with a point and ends with the next. */

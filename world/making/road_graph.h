@@ -2,9 +2,11 @@
 #ifndef JOLON_WORLD_MAKING_ROAD_GRAPH_H
 #define JOLON_WORLD_MAKING_ROAD_GRAPH_H
 
-#include "world/world.h"
-
+#include <stdbool.h>
 #include <stdint.h>
+
+struct road_point;
+struct route_point;
 
 /* Roads that come as near to each other as this are one at that place [m]: drawn, both are wider.
  * Less would part roads that share a stretch and are rounded each for itself. */

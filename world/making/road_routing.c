@@ -1,10 +1,14 @@
 /* From a route's few points to all those of the roads between them. */
 #include "world/making/road_routing.h"
 
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
 #include "world/maths/maths.h"
 #include "world/making/road_graph.h"
+#include "world/world.h"
 
 #include <errno.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -3,7 +3,11 @@
 #define JOLON_WORLD_MAKING_ROAD_ROUTING_H
 
 #include "world/runtime/error_text.h"
-#include "world/making/world_build.h"
+
+#include <stdint.h>
+
+struct route;
+struct world_build;
 
 /* How far from a road a point of a route along roads may be [m]. */
 #define ROAD_ROUTE_OFF_M 250.0

@@ -3,11 +3,24 @@
 #ifndef JOLON_WORLD_MAKING_SCENARIO_H
 #define JOLON_WORLD_MAKING_SCENARIO_H
 
+#include "world/entity/entity.h"
+#include "world/entity/script.h"
+#include "world/params.h"
 #include "world/provenance.h"
-#include "world/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+struct area;
+struct hull;
+struct hull_plane;
+struct kind;
+struct model;
+struct model_triangle;
+struct model_vertex;
+struct route;
+struct route_point;
+struct vec3;
 
 #define ROUTE_POINTS_MAX 1048576u /* of all routes together */
 
@@ -42,7 +55,6 @@ struct scenario_step {
     int line;                     /* of the script's file, for messages */
 };
 
-#define SCRIPT_FILE_MAX  64
 #define SCRIPT_STEPS_MAX 1048576u /* of all vehicles together */
 
 struct scenario_script {

@@ -1,9 +1,17 @@
 /* One script for each vehicle, or for the leader of a formation. */
 #include "world/making/script_build.h"
 
+#include "world/entity/entity.h"
+#include "world/entity/formation.h"
+#include "world/entity/kind.h"
+#include "world/entity/script.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
 #include "world/maths/maths.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

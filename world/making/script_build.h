@@ -3,8 +3,12 @@
 #define JOLON_WORLD_MAKING_SCRIPT_BUILD_H
 
 #include "world/runtime/error_text.h"
-#include "world/making/world_build.h"
 #include "world/name_index.h"
+
+#include <stdbool.h>
+
+struct scenario;
+struct world_build;
 
 /* The first point that a script goes to, and the next; false when it goes nowhere. With one point
  * only the next is the same. */

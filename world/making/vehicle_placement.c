@@ -1,8 +1,13 @@
 /* Places for vehicles, one group of the scenario after the other. */
 #include "world/making/vehicle_placement.h"
 
+#include "world/entity/entity.h"
+#include "world/entity/formation.h"
 #include "world/making/free_place.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
 #include "world/maths/random.h"
+#include "world/params.h"
 #include "world/terrain/fixed_index.h"
 #include "world/making/road_routing.h"
 #include "world/making/script_build.h"

@@ -3,7 +3,8 @@
 #define JOLON_WORLD_MAKING_VEHICLE_PLACEMENT_H
 
 #include "world/runtime/error_text.h"
-#include "world/making/world_build.h"
+
+struct world_build;
 
 /* Fills the genesis's first entities, names, formations and bases; its ground and objects must be
  * there. 0, or -1 with the complaint: no room in the table, no place on the map, out of memory. */

@@ -1,6 +1,11 @@
 /* From a scenario to a world's static parts and its frame 0. */
 #include "world/making/world_build.h"
 
+#include "world/entity/formation.h"
+#include "world/entity/hull.h"
+#include "world/entity/script.h"
+#include "world/making/scenario.h"
+#include "world/model.h"
 #include "world/runtime/error_text.h"
 #include "world/making/generate.h"
 #include "world/making/vehicle_placement.h"

@@ -2,11 +2,20 @@
 #ifndef JOLON_WORLD_MAKING_WORLD_BUILD_H
 #define JOLON_WORLD_MAKING_WORLD_BUILD_H
 
-#include "world/making/scenario.h"
+#include "world/entity/entity.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/terrain/terrain.h"
 #include "world/world.h"
 
 #include <stddef.h>
 #include <stdint.h>
+
+struct fixed_object;
+struct formation;
+struct scenario;
+struct script;
+struct script_step;
 
 /* The generated parts in plain memory, from which counts (and so a segment's size) follow. */
 struct world_build {

@@ -37,9 +37,4 @@ static inline double fixed_scale(const struct fixed_object *object, const struct
     return (double)object->radius_m / kind->radius_m;
 }
 
-/* Damage of anything, fixed or moving (thesis rows 27, 33). */
-enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED, DAMAGE_COUNT };
-
-const char *damage_name(enum damage damage);
-
 #endif

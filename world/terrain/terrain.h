@@ -58,6 +58,4 @@ static inline bool cover_is_water(enum cover cover)
     return cover == COVER_SEA || cover == COVER_LAKE;
 }
 
-const char *cover_name(enum cover cover);
-
 #endif

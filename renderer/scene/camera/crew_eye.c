@@ -1,6 +1,13 @@
 /* The crew's place, found on the model itself. */
 #include "renderer/scene/camera/crew_eye.h"
 
+#include "world/entity/kind.h"
+#include "world/model.h"
+#include "world/world.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
 #define REACH_M 0.45 /* of the ground plan around the place, that must all lie beneath the eye */
 #define SAMPLES 3    /* a side of that plan */
 #define CAB_SHARE                                                                                  \

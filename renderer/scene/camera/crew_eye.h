@@ -2,7 +2,12 @@
 #ifndef JOLON_RENDERER_SCENE_CAMERA_CREW_EYE_H
 #define JOLON_RENDERER_SCENE_CAMERA_CREW_EYE_H
 
-#include "world/world.h"
+#include "world/maths/maths.h"
+
+#include <stdbool.h>
+
+struct kind;
+struct world;
 
 #define CREW_EYE_CLEARANCE_M 0.5 /* the eye is so far above the polygons beneath it */
 

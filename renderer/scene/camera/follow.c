@@ -1,7 +1,9 @@
 /* The choice of the followed vehicle. */
 #include "renderer/scene/camera/follow.h"
 
+#include "world/entity/kind.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <string.h>
@@ -95,7 +97,7 @@ static bool worth_following(const struct frame_view *moment, uint32_t slot)
 {
     const struct entities *e = moment->entities;
     double dead_s =
-        (double)(moment->head->tick - e->changed_tick[slot]) * moment->world->params->dt_s;
+        (double)(moment->head->tick - e->changed_tick[slot]) * world_dt_s(moment->world);
     return e->state[slot] == ENTITY_ACTIVE || dead_s < FOLLOW_WRECK_S;
 }
 

@@ -4,7 +4,10 @@
 #include "renderer/scene/camera/crew_eye.h"
 #include "renderer/scene/frame/articulation.h"
 #include "renderer/scene/frame/body_axes.h"
+#include "world/entity/kind.h"
+#include "world/param_values.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #define TANK_RADIUS_M 3.0 /* the body that the lengths below are for */
 #define SCALE_LEAST   0.75

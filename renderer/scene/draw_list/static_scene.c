@@ -2,7 +2,9 @@
 #include "renderer/scene/draw_list/static_scene.h"
 
 #include "renderer/scene/noise/value_noise.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,9 +7,11 @@
 #include "renderer/scene/terrain/terrain_quadtree.h"
 #include "renderer/scene/model/mesh.h"
 #include "world/terrain/gridsquare.h"
-#include "world/world.h"
 
 #include <stdint.h>
+
+struct terrain;
+struct world;
 
 /* How a fixed object is drawn. */
 #define LOOK_MODEL 255u /* by its kind's polygons; anything less is an enum plant_impostors */

@@ -3,6 +3,8 @@
 
 #include "renderer/scene/frame/frame_view.h"
 #include "renderer/scene/frame/body_axes.h"
+#include "world/entity/kind.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <stdlib.h>

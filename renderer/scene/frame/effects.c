@@ -1,6 +1,10 @@
 /* Events turned into things to see. */
 #include "renderer/scene/frame/effects.h"
 
+#include "world/entity/event.h"
+#include "world/entity/kind.h"
+#include "world/world.h"
+
 #define MUZZLE_SHARE     0.7 /* of the shooter's height: there its gun is (mover/weapon/fire.c) */
 #define FLASH_M          0.9 /* of a shot of a megajoule */
 #define FLASH_LEAST_M    0.35
@@ -44,7 +48,7 @@ static struct effect *add(struct effects *effects, const struct frame_view *mome
     struct effect *effect = place(effects);
     *effect = (struct effect){
         .point = {point[0], point[1], point[2]},
-        .time_s = (double)event->tick * moment->world->params->dt_s,
+        .time_s = (double)event->tick * world_dt_s(moment->world),
         .size_m = (float)size_m,
         .type = (uint32_t)type,
         .seed = (uint32_t)event->frame * 64u + event->index,
@@ -105,7 +109,7 @@ static void take_detonation(struct effects *effects, const struct frame_view *mo
     };
     const struct event_detonation *blast = &event->detonation;
     motion_trails_end(&effects->spoors, blast->munition.id, blast->point,
-                      (double)event->tick * moment->world->params->dt_s);
+                      (double)event->tick * world_dt_s(moment->world));
     if (blast->struck >= STRUCK_COUNT)
         return;
     if (blast->explosive_kg > 0.0f)
@@ -156,7 +160,7 @@ static void take_wrecks(struct effects *effects, const struct frame_view *moment
         const struct kind *kind = kind_of(moment, e->kind[slot]);
         if (e->state[slot] != ENTITY_WRECK || spoor->wrecked || kind == NULL)
             continue;
-        double time_s = (double)e->changed_tick[slot] * moment->world->params->dt_s;
+        double time_s = (double)e->changed_tick[slot] * world_dt_s(moment->world);
         spoor->wrecked = true;
         if (now_s - time_s > effects_life_s(EFFECT_WRECK))
             continue;

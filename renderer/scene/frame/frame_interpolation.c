@@ -1,6 +1,8 @@
 /* Blending two frames. */
 #include "renderer/scene/frame/frame_interpolation.h"
 
+#include "world/world.h"
+
 #include <stdlib.h>
 
 #define COLUMNS     6
@@ -70,7 +72,7 @@ struct frame_view frame_interpolation_between(struct frame_interpolation *blend,
                                               const struct frame_view *later, double share)
 {
     double passed_s = frame_view_time_s(later) - frame_view_time_s(earlier);
-    double most_s = FRAME_INTERPOLATION_STEPS_MOST * earlier->world->params->dt_s;
+    double most_s = FRAME_INTERPOLATION_STEPS_MOST * world_dt_s(earlier->world);
     if (!(share < 1.0) || passed_s <= 0.0 || passed_s > most_s ||
         later->head->used < earlier->head->used)
         return *later;

@@ -5,9 +5,13 @@
 
 #include "renderer/scene/frame/dent_index.h"
 #include "renderer/scene/frame/articulation.h"
-#include "world/world.h"
+#include "world/state.h"
 
 #include <stdint.h>
+
+struct crater_index;
+struct entities;
+struct world;
 
 struct frame_view {
     const struct world *world;

@@ -1,6 +1,9 @@
 /* Noting places, and the curve through them. */
 #include "renderer/scene/frame/motion_trails.h"
 
+#include "world/entity/kind.h"
+#include "world/world.h"
+
 #include <math.h>
 
 #define SEA_INTERVAL_S      1.5 /* wakes are long */
@@ -74,7 +77,7 @@ void motion_trails_note(struct motion_trails *spoors, const struct frame_view *m
         }
         if (e->state[slot] == ENTITY_ACTIVE && e->damage[slot] >= DAMAGE_MED)
             spoor->smokes_s =
-                fmin(spoor->smokes_s, (double)e->changed_tick[slot] * moment->world->params->dt_s);
+                fmin(spoor->smokes_s, (double)e->changed_tick[slot] * world_dt_s(moment->world));
         if (e->state[slot] == ENTITY_ACTIVE && leaves(&moment->world->kinds[spoor->kind]))
             note(spoor, moment, slot, now_s);
     }

@@ -1,6 +1,10 @@
 /* Statistics from the snapshot's columns. */
 #include "renderer/scene/frame/statistics.h"
 
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
+#include "world/world.h"
+
 #include <stdio.h>
 
 void statistics_of(struct statistics *statistics, const struct frame_view *moment, uint32_t slot)

@@ -3,8 +3,10 @@
 
 #include "renderer/scene/model/track_outline.h"
 #include "renderer/scene/model/mesh_facets.h"
+#include "world/world.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -8,9 +8,12 @@
 #ifndef JOLON_RENDERER_SCENE_MODEL_MESH_H
 #define JOLON_RENDERER_SCENE_MODEL_MESH_H
 
-#include "world/world.h"
+#include "world/model.h"
 
+#include <stdbool.h>
 #include <stdint.h>
+
+struct world;
 
 #define MESH_FULL_PIXELS   150.0 /* a body that shows larger is drawn MESH_FULL ... */
 #define MESH_MIDDLE_PIXELS 56.0  /* ... larger than this MESH_MIDDLE ... */

@@ -1,7 +1,10 @@
 /* Facets: the list, which corners are one, and normals. */
 #include "renderer/scene/model/mesh_facets.h"
 
+#include "world/model.h"
+
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

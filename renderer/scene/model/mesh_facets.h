@@ -3,9 +3,9 @@
 #ifndef JOLON_RENDERER_SCENE_MODEL_MESH_FACETS_H
 #define JOLON_RENDERER_SCENE_MODEL_MESH_FACETS_H
 
-#include "world/world.h"
-
 #include <stdint.h>
+
+struct model_triangle;
 
 struct facet {
     float corner[3][3]; /* [m, body axes] */

@@ -3,8 +3,10 @@
  * belonged to (M. Garland, P. Heckbert, Surface simplification using quadric error metrics, 1997);
  * where a colour or a sheet ends, a plane through that edge keeps it where it is. */
 #include "renderer/scene/model/mesh_facets.h"
+#include "world/model.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

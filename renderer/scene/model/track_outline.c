@@ -1,6 +1,9 @@
 /* The convex line by Andrew's monotone chain. */
 #include "renderer/scene/model/track_outline.h"
 
+#include "world/model.h"
+#include "world/world.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,9 +3,9 @@
 #ifndef JOLON_RENDERER_SCENE_MODEL_TRACK_OUTLINE_H
 #define JOLON_RENDERER_SCENE_MODEL_TRACK_OUTLINE_H
 
-#include "world/world.h"
-
 #include <stdint.h>
+
+struct world;
 
 #define TRACK_OUTLINE_LINK_M 0.22 /* about; a whole number of them goes around */
 

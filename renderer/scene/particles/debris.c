@@ -3,6 +3,7 @@
 #include "renderer/scene/scene.h"
 
 #include "renderer/scene/noise/value_noise.h"
+#include "world/world.h"
 
 #include <math.h>
 

@@ -1,6 +1,7 @@
 /* Puffs: their list and its order. Everything is a function of the moment and of the effects
  * remembered: the same moment draws the same picture. */
 #include "renderer/scene/particles/particles.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,6 +3,7 @@
 #include "renderer/scene/particles/particles.h"
 
 #include "renderer/scene/frame/body_axes.h"
+#include "world/world.h"
 
 #define DISC_ALPHA   0.52f
 #define FLAT_SHARE   0.03 /* of its radius a disc is seen to be thick */

@@ -1,5 +1,6 @@
 /* What burns: flames and columns of smoke. */
 #include "renderer/scene/particles/particles.h"
+#include "world/world.h"
 
 #include <math.h>
 
@@ -144,7 +145,7 @@ void smoke_entity(struct scene *scene, const struct frame_view *moment,
     if (kind->domain == DOMAIN_MUNITION || (!dead && e->damage[slot] < DAMAGE_MED))
         return;
     struct vec3 at = entities_position(e, slot);
-    double changed_s = (double)e->changed_tick[slot] * moment->world->params->dt_s;
+    double changed_s = (double)e->changed_tick[slot] * world_dt_s(moment->world);
     double began_s = spoor != NULL ? maths_min(spoor->smokes_s, changed_s) : changed_s;
     struct shade thin = {0.25f, 0.24f, 0.23f, THIN_SMOKE},
                  thick = {0.20f, 0.19f, 0.18f, THICK_SMOKE};

@@ -2,6 +2,7 @@
  * tracers, the wash of rotors. It lies along the way that they came, and stays where it was left.
  */
 #include "renderer/scene/particles/particles.h"
+#include "world/world.h"
 
 #include <math.h>
 
@@ -120,7 +121,7 @@ static void dust(struct scene *scene, const struct frame_view *moment,
     const struct terrain *terrain = &moment->world->terrain;
     struct trail trail = {.spoor = spoor,
                           .now = point_of(e, slot, scene->time_s),
-                          .born_s = (double)e->born_tick[slot] * moment->world->params->dt_s,
+                          .born_s = (double)e->born_tick[slot] * world_dt_s(moment->world),
                           .rate_hz = DUST_HZ,
                           .life_s = DUST_LIFE_S,
                           .size_m = 0.20 * kind->width_m + 0.25,
@@ -161,7 +162,7 @@ static void foam(struct scene *scene, const struct frame_view *moment,
     const struct entities *e = moment->entities;
     struct trail trail = {.spoor = spoor,
                           .now = point_of(e, slot, scene->time_s),
-                          .born_s = (double)e->born_tick[slot] * moment->world->params->dt_s,
+                          .born_s = (double)e->born_tick[slot] * world_dt_s(moment->world),
                           .rate_hz = side == 0 ? WAKE_HZ : BOW_HZ,
                           .life_s = side == 0 ? WAKE_LIFE_S : BOW_LIFE_S,
                           .size_m = (side == 0 ? 0.26 : 0.12) * kind->width_m,
@@ -225,7 +226,7 @@ static void missile(struct scene *scene, const struct frame_view *moment,
 {
     const struct entities *e = moment->entities;
     struct trail trail = missile_trail(spoor, point_of(e, slot, scene->time_s), e->id[slot]);
-    trail.born_s = (double)e->born_tick[slot] * moment->world->params->dt_s;
+    trail.born_s = (double)e->born_tick[slot] * world_dt_s(moment->world);
     missile_smoke(scene, &trail);
     struct vec3 velocity = entities_velocity(e, slot);
     double speed = maths_max(vec3_length(velocity), 1.0), half = 0.5 * kind->length_m;

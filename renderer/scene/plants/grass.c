@@ -3,6 +3,7 @@
 
 #include "renderer/scene/noise/value_noise.h"
 #include "renderer/scene/scene.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <stdlib.h>

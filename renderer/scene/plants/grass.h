@@ -4,15 +4,15 @@
 #ifndef JOLON_RENDERER_SCENE_PLANTS_GRASS_H
 #define JOLON_RENDERER_SCENE_PLANTS_GRASS_H
 
-#include "world/world.h"
-
 #include <stdint.h>
 
 #define GRASS_RANGE_M 170.0 /* at full detail */
 
+struct crater_index;
 struct scene;
 struct scene_plant;
 struct grass;
+struct world;
 
 /* NULL when there is no memory. */
 struct grass *grass_new(void);

@@ -4,7 +4,9 @@
 
 #include "renderer/scene/noise/value_noise.h"
 #include "renderer/scene/plants/grass.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <math.h>
 

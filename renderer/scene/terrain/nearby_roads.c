@@ -2,8 +2,10 @@
 #include "renderer/scene/terrain/nearby_roads.h"
 
 #include "world/maths/maths.h"
+#include "world/world.h"
 
 #include <math.h>
+#include <stddef.h>
 
 struct block {
     double x, z, step_m, reach_m;

@@ -2,10 +2,10 @@
 #ifndef JOLON_RENDERER_SCENE_TERRAIN_NEARBY_ROADS_H
 #define JOLON_RENDERER_SCENE_TERRAIN_NEARBY_ROADS_H
 
-#include "world/world.h"
-
 #include <stdbool.h>
 #include <stdint.h>
+
+struct world;
 
 /* Fills off[row * stride + column] with how far [m] each texel is from the middle of the nearest
  * road, or with more than reach_m where none is so near. The first texel lies at (x, z), the others

@@ -7,6 +7,7 @@
 #include "renderer/scene/noise/value_noise_rows.h"
 #include "renderer/scene/frame/light.h"
 #include "renderer/scene/terrain/nearby_roads.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,6 +3,7 @@
 
 #include "renderer/scene/frame/light.h"
 #include "renderer/scene/terrain/terrain_colour.h"
+#include "world/world.h"
 
 #include <stdlib.h>
 

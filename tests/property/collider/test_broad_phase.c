@@ -4,6 +4,7 @@
 
 #include "tests/support/fixture.h"
 #include "tests/support/spread.h"
+#include "world/params.h"
 #include "world/terrain/fixed_index.h"
 #include "world/terrain/gridsquare.h"
 

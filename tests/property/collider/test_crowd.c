@@ -3,6 +3,7 @@
  * nobody, is the same on any number of threads and is done in time. SEED=n runs another crowd. */
 #include "tests/support/steps.h"
 #include "world/entity/mass_properties.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -5,6 +5,7 @@
 #include "tests/support/fixture.h"
 #include "tests/support/small_world.h"
 #include "tests/support/spread.h"
+#include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdarg.h>
@@ -76,7 +77,7 @@ static void draw_world(struct small_world *w, uint32_t rows, uint32_t fixed, dou
     static const double radii[] = {0.01, 0.4, 1.8, 9.0, 130.0};
     struct spread place = spread_draw(random, widest);
     small_world_empty(w);
-    w->params.collision.shape = fixture_random(random) % 3 == 0 ? SHAPE_MODEL : SHAPE_SPHERE;
+    w->params->collision.shape = fixture_random(random) % 3 == 0 ? SHAPE_MODEL : SHAPE_SPHERE;
     for (uint32_t i = 0; i < fixed; i++) {
         struct vec3 p = spread_point(&place, random);
         p.x = maths_clamp(p.x, 0.0, WORLD_SIDE_M);
@@ -149,7 +150,7 @@ static uint64_t check_touching(const struct small_world *w, uint64_t world,
     const struct method_input input = small_world_input(w);
     uint64_t touching = 0;
     double toi;
-    if (w->params.collision.shape != SHAPE_SPHERE)
+    if (w->params->collision.shape != SHAPE_SPHERE)
         return 0;
     count_pairs(wanted);
     for (uint32_t a = 0; a < w->rows; a++) {

@@ -2,6 +2,7 @@
  * cannot tell (the line grazes what is in its way) it says nothing. */
 #include "mover/query/line_of_sight.h"
 #include "tests/support/steps.h"
+#include "world/terrain/fixed.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -9,6 +9,7 @@
 #include "mover/query/ground_marks.h"
 #include "mover/motion/wreck.h"
 #include "tests/support/steps.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 
 #include <setjmp.h>

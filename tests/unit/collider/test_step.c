@@ -1,6 +1,7 @@
 /* The collider's step as a whole: pure, repeatable, nothing missed, everything in order of time. */
 #include "tests/support/steps.h"
 #include "world/checksum.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>

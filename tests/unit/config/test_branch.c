@@ -2,6 +2,8 @@
 #include "config/loader.h"
 
 #include "tests/support/fixture.h"
+#include "world/making/scenario.h"
+#include "world/params.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

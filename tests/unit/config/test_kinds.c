@@ -5,6 +5,9 @@
 #include "config/loader.h"
 #include "config/syntax/schema.h"
 #include "tests/support/quick_config.h"
+#include "world/entity/kind.h"
+#include "world/making/scenario.h"
+#include "world/maths/maths.h"
 
 #include <math.h>
 #include <setjmp.h>

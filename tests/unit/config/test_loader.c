@@ -3,6 +3,13 @@
 
 #include "config/syntax/schema.h"
 #include "tests/support/quick_config.h"
+#include "world/entity/entity.h"
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
+#include "world/making/scenario.h"
+#include "world/maths/maths.h"
+#include "world/param_values.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <setjmp.h>

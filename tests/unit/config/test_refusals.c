@@ -3,6 +3,7 @@
 
 #include "config/syntax/schema.h"
 #include "tests/support/quick_config.h"
+#include "world/making/scenario.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

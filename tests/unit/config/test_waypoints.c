@@ -3,6 +3,9 @@
 #include "config/waypoints.h"
 
 #include "tests/support/fixture.h"
+#include "world/entity/script.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,6 @@
 /* Commands: every type, every answer, applied once and in order. */
 #include "tests/support/steps.h"
+#include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdarg.h>

@@ -1,5 +1,6 @@
 /* The mover's step as a whole: pure, repeatable, and on time with the scenario's shots. */
 #include "tests/support/steps.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -6,6 +6,7 @@
 #include "recorder/replay/log_replay.h"
 #include "tests/support/child.h"
 #include "tests/support/steps.h"
+#include "world/params.h"
 
 #include <fcntl.h>
 #include <setjmp.h>

@@ -1,4 +1,16 @@
 /* The digest and the checksum: what they cover and what they leave out; words and names. */
+#include "world/entity/command.h"
+#include "world/entity/dent.h"
+#include "world/entity/entity.h"
+#include "world/entity/event.h"
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
+#include "world/param_values.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/terrain/crater.h"
+#include "world/terrain/fixed.h"
+#include "world/terrain/terrain.h"
 #include "world/world.h"
 
 #include "tests/support/fixture.h"

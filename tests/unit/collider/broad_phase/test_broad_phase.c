@@ -3,6 +3,8 @@
 #include "collider/broad_phase/broad_phase.h"
 
 #include "tests/support/steps.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdarg.h>

@@ -2,6 +2,7 @@
 #include "collider/geometry/ray_polygon.h"
 
 #include "tests/support/fixture.h"
+#include "world/model.h"
 
 #include <stdarg.h>
 #include <stddef.h>

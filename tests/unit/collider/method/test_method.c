@@ -3,6 +3,7 @@
 #include "collider/motion/pair_filter.h"
 
 #include "tests/support/small_world.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -229,7 +230,7 @@ static void test_row_17_above_the_threshold_only_munitions_are_tested(void **sta
 static void test_row_42_mps_finds_platforms_near_on_the_map_where_the_frame_ends(void **state)
 {
     (void)state;
-    w.params.collision.mps_near_m = 10.0;
+    w.params->collision.mps_near_m = 10.0;
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, (struct vec3){6, 0, 0});
     small_world_row(&w, SMALL_CAR, (struct vec3){25006, 0, 25010}, still);
     assert_int_equal(run(method_mps_pairs), 1); /* at the end 10 m, at the start more */
@@ -244,7 +245,7 @@ static void test_row_42_mps_finds_platforms_near_on_the_map_where_the_frame_ends
 static void test_row_42_mps_looks_at_no_height(void **state)
 {
     (void)state;
-    w.params.collision.mps_near_m = 10.0;
+    w.params->collision.mps_near_m = 10.0;
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
     small_world_row(&w, SMALL_JET, (struct vec3){24900, 5000, 25000}, (struct vec3){100, 0, 0});
     assert_int_equal(run(method_mps_pairs), 1);
@@ -253,7 +254,7 @@ static void test_row_42_mps_looks_at_no_height(void **state)
 static void test_row_42_mps_checks_nothing_but_platforms(void **state)
 {
     (void)state;
-    w.params.collision.mps_near_m = 10.0;
+    w.params->collision.mps_near_m = 10.0;
     small_world_tree(&w, (struct vec3){25000, 0, 25000}, 2.0);
     small_world_row(&w, SMALL_ROUND, (struct vec3){25000, 0, 25000}, (struct vec3){1, 0, 0});
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, (struct vec3){1, 0, 0});

@@ -3,6 +3,9 @@
 
 #include "tests/support/small_world.h"
 #include "tests/support/steps.h"
+#include "world/model.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,9 +30,9 @@ static int open_world(void **state)
 {
     (void)state;
     small_world_begin(&w, 512, 16);
-    w.params.hz = 1.0 / DT_S;
-    w.params.dt_s = DT_S;
-    w.params.collision.nearness = NEARNESS_AND;
+    w.params->hz = 1.0 / DT_S;
+    w.params->dt_s = DT_S;
+    w.params->collision.nearness = NEARNESS_AND;
     w.kinds[SMALL_TANK].radius_m = 3.0 / METHOD_NPSNET2_RADIUS_SHARE;
     workspace = method_workspace_create(&w.world);
     return workspace ? pair_list_init(&pairs, 512 * 512) : -1;
@@ -218,9 +221,9 @@ static void test_row_19_level_1_is_100_m_in_x_or_z(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         small_world_move(&w, 1, (struct vec3){25000.0 + cases[i].dx, -8, 25000.0 + cases[i].dz},
                          (struct vec3){0, 8, 0});
-        w.params.collision.nearness = NEARNESS_OR;
+        w.params->collision.nearness = NEARNESS_OR;
         assert_int_equal(run(method_npsnet2_pairs), cases[i].by_or);
-        w.params.collision.nearness = NEARNESS_AND;
+        w.params->collision.nearness = NEARNESS_AND;
         assert_int_equal(run(method_npsnet2_pairs), cases[i].by_and);
     }
 }
@@ -337,7 +340,7 @@ static const struct model_triangle faces[] = {
 
 static void make_cubes(void)
 {
-    w.params.collision.shape = SHAPE_MODEL;
+    w.params->collision.shape = SHAPE_MODEL;
     w.world.counts.models = 1;
     w.world.counts.model_vertices = 8;
     w.world.counts.model_triangles = 12;
@@ -360,9 +363,9 @@ static void test_row_21_spheres_that_overlap_without_the_objects_are_no_collisio
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
     small_world_row(&w, SMALL_CAR, (struct vec3){25001.5, 0, 25000}, eastward);
     assert_int_equal(run(method_npsnet2_pairs), 0); /* 2.5 m: half a metre between them */
-    w.params.collision.shape = SHAPE_SPHERE;
+    w.params->collision.shape = SHAPE_SPHERE;
     assert_int_equal(run(method_npsnet2_pairs), 1);
-    w.params.collision.shape = SHAPE_MODEL;
+    w.params->collision.shape = SHAPE_MODEL;
     small_world_move(&w, 1, (struct vec3){25000.9, 0, 25000}, eastward);
     assert_int_equal(run(method_npsnet2_pairs), 1); /* 1.9 m */
 }

@@ -2,6 +2,7 @@
 #include "collider/motion/body_motion.h"
 
 #include "tests/support/steps.h"
+#include "world/terrain/fixed.h"
 
 #include <stdarg.h>
 #include <stddef.h>

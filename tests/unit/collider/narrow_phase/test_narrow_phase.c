@@ -2,6 +2,7 @@
 #include "collider/narrow_phase/narrow_phase.h"
 
 #include "tests/support/steps.h"
+#include "world/terrain/fixed.h"
 
 #include <stdarg.h>
 #include <stddef.h>

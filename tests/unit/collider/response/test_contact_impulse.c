@@ -2,6 +2,8 @@
  * tests/property/collider/test_collide.c. */
 #include "collider/response/deformation.h"
 #include "tests/support/steps.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
 
 #include <stdarg.h>
 #include <stddef.h>

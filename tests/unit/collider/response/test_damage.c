@@ -2,6 +2,7 @@
 #include "collider/response/response_figure8.h"
 
 #include "tests/support/steps.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -2,6 +2,7 @@
 #include "collider/response/event_writer.h"
 
 #include "tests/support/steps.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>

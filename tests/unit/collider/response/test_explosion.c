@@ -1,5 +1,6 @@
 /* Detonations: what a round strikes, blast around it, craters, chains (thesis row 31). */
 #include "tests/support/steps.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -2,6 +2,7 @@
 #include "collider/response/deformation.h"
 #include "collider/response/contact_spring.h"
 #include "tests/support/steps.h"
+#include "world/entity/dent.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -3,6 +3,9 @@
 #include "collider/response/deformation.h"
 #include "collider/response/contact_spring.h"
 #include "tests/support/steps.h"
+#include "world/entity/dent.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
 
 #include <stdarg.h>
 #include <stddef.h>

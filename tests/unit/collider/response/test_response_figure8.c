@@ -2,6 +2,8 @@
 #include "collider/response/response_figure8.h"
 
 #include "tests/support/steps.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
 
 #include <stdarg.h>
 #include <stddef.h>

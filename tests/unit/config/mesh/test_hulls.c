@@ -5,6 +5,10 @@
 #include "config/loader.h"
 #include "config/mesh/connected_pieces.h"
 #include "tests/support/quick_config.h"
+#include "world/entity/hull.h"
+#include "world/entity/kind.h"
+#include "world/making/scenario.h"
+#include "world/model.h"
 
 #include <math.h>
 #include <setjmp.h>

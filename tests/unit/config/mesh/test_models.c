@@ -4,6 +4,9 @@
 
 #include "config/mesh/models.h"
 #include "tests/support/quick_config.h"
+#include "world/entity/kind.h"
+#include "world/making/scenario.h"
+#include "world/model.h"
 
 #include <math.h>
 #include <setjmp.h>

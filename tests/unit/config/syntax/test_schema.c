@@ -1,7 +1,10 @@
 /* The schema: its choices have words, and docs/scenario.md is made of its rows. */
 #include "config/syntax/schema.h"
 #include "docs/keys/key_tables.h"
-
+#include "world/entity/entity.h"
+#include "world/entity/kind.h"
+#include "world/enum_names.h"
+#include "world/param_values.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

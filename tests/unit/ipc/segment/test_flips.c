@@ -4,6 +4,7 @@
 
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
+#include "world/params.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

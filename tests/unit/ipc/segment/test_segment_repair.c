@@ -5,6 +5,7 @@
 #include "ipc/frame/snapshot.h"
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
+#include "world/entity/dent.h"
 
 #include <fcntl.h>
 #include <setjmp.h>

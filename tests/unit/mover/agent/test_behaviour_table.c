@@ -1,6 +1,7 @@
 /* The tables of the doctrines: every row can win, and each is exercised. */
 #include "mover/agent/behaviour_table.h"
 #include "tests/support/fixture.h"
+#include "world/enum_names.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -2,6 +2,7 @@
  */
 #include "mover/agent/perception.h"
 #include "tests/support/steps.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>

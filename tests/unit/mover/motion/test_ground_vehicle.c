@@ -1,5 +1,7 @@
 /* Ground vehicles: the terrain under them, slopes, water, the world's edge, the brakes. */
 #include "tests/support/steps.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdarg.h>

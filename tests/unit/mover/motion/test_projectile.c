@@ -1,5 +1,6 @@
 /* Munitions: parabolas to the last digit, and missiles that find what moves. */
 #include "tests/support/steps.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -2,6 +2,7 @@
 #include "mover/query/ground_marks.h"
 
 #include "tests/support/steps.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 
 #include <setjmp.h>

@@ -1,6 +1,7 @@
 /* Shots: aim, dispersion, reloading, rounds, and what happens when there is no room. */
 #include "mover/weapon/fire.h"
 #include "tests/support/steps.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>

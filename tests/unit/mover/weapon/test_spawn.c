@@ -1,6 +1,8 @@
 /* Rows for new entities: used again, with ids that never are. */
 #include "mover/weapon/spawn.h"
 #include "tests/support/steps.h"
+#include "world/entity/event.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -9,6 +9,7 @@
 #include "tests/support/image_file.h"
 #include "tests/support/stage.h"
 #include "tests/support/steps.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <setjmp.h>

@@ -199,7 +199,7 @@ static void test_wrecks_burn_and_then_are_crosses(void **context)
     map_vehicles(&image, &view, &stage->moment, SLOT_NONE, 12.0);
     assert_true(count_red_over_blue(&image) > 10 * stage->state.head->used);
     memset(image.pixels, 0, (size_t)700 * 700 * 4);
-    stage->state.head->tick = (uint64_t)(1000.0 / stage->moment.world->params->dt_s);
+    stage->state.head->tick = (uint64_t)(1000.0 / world_dt_s(stage->moment.world));
     map_vehicles(&image, &view, &stage->moment, SLOT_NONE, 12.0);
     assert_int_equal(count_red_over_blue(&image), 0);
     image_free(&image);

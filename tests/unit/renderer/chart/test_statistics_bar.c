@@ -2,6 +2,7 @@
 #include "renderer/chart/statistics_bar.h"
 
 #include "tests/support/map_stage.h"
+#include "world/enum_names.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -66,7 +67,7 @@ static void test_fields_equal_the_table(void **context)
                             damage_name((enum damage)e->damage[slot]));
         assert_string_equal(find(gauges, n, "BEHAVIOUR")->value,
                             behaviour_name((enum behaviour)e->behaviour[slot]));
-        assert_true(fabs(number(gauges, n, "TIME s") - i * stage.moment.world->params->dt_s) <=
+        assert_true(fabs(number(gauges, n, "TIME s") - i * world_dt_s(stage.moment.world)) <=
                     0.00501);
         assert_true(number(gauges, n, "FRAME") == i);
         assert_string_equal(find(gauges, n, "FPS")->value, "59.9");

@@ -7,8 +7,13 @@
 #include "renderer/scene/frame/body_axes.h"
 #include "renderer/scene/frame/statistics.h"
 #include "renderer/chart/track.h"
+#include "world/entity/event.h"
+#include "world/enum_names.h"
 #include "world/maths/random.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

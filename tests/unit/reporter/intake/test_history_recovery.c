@@ -6,6 +6,7 @@
 
 #include "reporter/intake/command_history.c" /* the unit tests are not linked with the processes */
 #include "reporter/intake/history_recovery.c"
+#include "world/entity/event.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,6 +2,8 @@
 #include "supervisor/worldctl/compare.h"
 
 #include "tests/support/steps.h"
+#include "world/entity/dent.h"
+#include "world/params.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,6 +2,8 @@
 #include "world/making/road_routing.h"
 
 #include "tests/support/fixture.h"
+#include "world/making/scenario.h"
+#include "world/making/world_build.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

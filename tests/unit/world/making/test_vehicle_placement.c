@@ -1,7 +1,10 @@
 /* Where a scenario's vehicles start in formation, whom they follow, and where their base is. */
+#include "world/entity/formation.h"
+#include "world/enum_names.h"
 #include "world/making/vehicle_placement.h"
 
 #include "tests/support/fixture.h"
+#include "world/params.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,10 @@
 /* Genesis: from a scenario to a world and its frame 0, and what it refuses. */
+#include "world/making/scenario.h"
 #include "world/making/world_build.h"
 
 #include "tests/support/fixture.h"
+#include "world/model.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 #include "world/checksum.h"
 
@@ -263,7 +266,7 @@ static void test_static_parts_are_copied_whole(void **state)
                  "vehicles = ( { kind = \"truck\"; route = ( [1000.0, 1000.0], [2000.0, 1000.0], "
                  "[2000.0, 3000.0] ); area = [500.0, 500.0, 900.0, 900.0]; } );");
     const struct world *world = &f.view.world;
-    const struct scenario *s = &f.scenario;
+    const struct scenario *s = f.scenario;
     assert_int_equal(world->counts.kinds, s->kind_count);
     assert_memory_equal(world->kinds, s->kinds, s->kind_count * sizeof *s->kinds);
     assert_memory_equal(world->models, s->models, s->model_count * sizeof *s->models);
@@ -278,7 +281,7 @@ static void test_static_parts_are_copied_whole(void **state)
     assert_memory_equal(world->hull_planes, s->hull_planes,
                         s->hull_plane_count * sizeof *s->hull_planes);
     struct params params = s->params;
-    memcpy(params.base, f.genesis.base, sizeof params.base);
+    memcpy(params.base, f.genesis->base, sizeof params.base);
     assert_memory_equal(world->params, &params, sizeof params);
     assert_int_equal(world->counts.routes, 1);
     assert_int_equal(world->routes[0].count, 3);

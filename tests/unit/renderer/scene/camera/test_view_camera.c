@@ -4,6 +4,9 @@
 #include "renderer/scene/camera/crew_eye.h"
 #include "renderer/scene/frame/body_axes.h"
 #include "tests/support/fixture.h"
+#include "world/enum_names.h"
+#include "world/model.h"
+#include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
 #include <setjmp.h>

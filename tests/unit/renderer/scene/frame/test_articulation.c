@@ -2,7 +2,10 @@
 #include "renderer/scene/frame/articulation.h"
 
 #include "renderer/scene/frame/frame_view.h"
+#include "world/entity/kind.h"
 #include "world/maths/maths.h"
+#include "world/params.h"
+#include "world/world.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

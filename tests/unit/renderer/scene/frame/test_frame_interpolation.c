@@ -2,6 +2,7 @@
 #include "renderer/scene/frame/frame_interpolation.h"
 
 #include "tests/support/fixture.h"
+#include "world/params.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -5,7 +5,9 @@
 #include "config/loader.h"
 #include "renderer/scene/model/track_outline.h"
 #include "tests/support/quick_config.h"
+#include "world/making/scenario.h"
 #include "world/maths/maths.h"
+#include "world/world.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,6 +3,8 @@
 #include "renderer/scene/scene.h"
 
 #include "tests/support/fixture.h"
+#include "world/params.h"
+#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 
 #include <setjmp.h>

@@ -3,6 +3,7 @@
 #include "renderer/scene/terrain/terrain_tiles.h"
 
 #include "renderer/scene/terrain/terrain_colour.h"
+#include "world/world.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,0 +1,74 @@
+/* Parameters of a run: what a scenario sets once for the whole world. A new scenario key changes
+ * this header, so only .c files that read or write parameters include it. Headers declare `struct
+ * params;`. */
+#ifndef JOLON_WORLD_PARAMS_H
+#define JOLON_WORLD_PARAMS_H
+
+#include "world/entity/entity.h"
+#include "world/param_values.h"
+
+#include <stdint.h>
+
+#define WORLD_NAME_MAX 48
+#define PATH_TEXT_MAX  256
+
+/* Constants of the collision response; docs/scenario.md says what each does. */
+struct collision_params {
+    uint32_t method;   /* enum method */
+    uint32_t shape;    /* enum shape */
+    uint32_t response; /* enum response_model */
+    uint32_t nearness; /* enum nearness; method npsnet2 */
+    uint32_t measure;  /* enum figure8_measure */
+    uint32_t reserved;
+    double mps_near_m;                         /* method mps: this near on the map is a collision */
+    double mass_c1_kg, mass_c2_kg, mass_c3_kg; /* Fig. 8 by mass alone: c1 > c2 > c3 */
+    double threshold_height_m;                 /* above it nothing fixed is tested (row 17) */
+    double fast_vehicle_mps;                   /* Fig. 8 "speed of colliding vehicle > constant" */
+    double fast_fixed_mps; /* Fig. 8 "moving quickly", against a large fixed object */
+    double large_fixed_kg; /* Fig. 8 "large" */
+    double damage_high, damage_med, damage_low; /* Fig. 8 c1 > c2 > c3, impact energy over the
+                                                   fixed object's resistance (row 27) */
+};
+
+/* What the renderer is told; the simulation does not read it. */
+struct renderer_params {
+    uint32_t width, height; /* [pixel] */
+    double fps;             /* pictures a second of the clock, 0..120 */
+    uint32_t views;         /* 1 << enum view_mode of each that is wanted */
+    uint32_t follow;        /* entity id, 0: picks one */
+    uint32_t fog, haze, texture;
+    uint32_t back_end; /* enum back_end */
+    uint32_t hold;     /* 1: less detail, then smaller, rather than fewer pictures */
+    uint32_t reserved;
+};
+
+/* Where vehicles of a force withdraw to. */
+struct force_base {
+    double x, z; /* [m] */
+};
+
+struct params {
+    char name[WORLD_NAME_MAX];    /* of the ground: "hunter-liggett" */
+    char scenario[PATH_TEXT_MAX]; /* the file it came from, for people */
+    uint64_t seed;
+    uint64_t scenario_hash; /* of the text and the overrides */
+    uint64_t frame_limit;   /* the run ends with this frame, 0: never */
+    double hz;
+    double dt_s;   /* 1 / hz */
+    uint32_t pace; /* enum pace */
+    uint32_t capacity;
+    uint32_t event_slots;       /* power of two */
+    uint32_t events_per_frame;  /* at most; 1 .. event_slots / 2, the loader sets / 8 */
+    uint32_t intents_per_frame; /* at most */
+    uint32_t command_slots;     /* power of two, of each ring */
+    uint32_t crater_slots;
+    uint32_t dent_slots;
+    uint32_t when_full; /* enum when_full */
+    uint32_t initial_entities;
+    struct collision_params collision;
+    struct force_base
+        base[FORCE_COUNT]; /* a scenario's, or the mean of the force's initial places */
+    struct renderer_params renderer;
+};
+
+#endif

@@ -1,0 +1,76 @@
+/* The state of a world: what a frame changes. The structs point into memory that somebody else
+ * owns: the shared segment, or a test's heap. */
+#ifndef JOLON_WORLD_STATE_H
+#define JOLON_WORLD_STATE_H
+
+#include "world/entity/command.h"
+#include "world/entity/entity.h"
+
+#include <stdint.h>
+
+struct crater;
+struct dent;
+struct event;
+struct piece_hashes;
+struct world;
+
+/* Counters since the world began; part of the digest. */
+struct tally {
+    uint64_t collisions, fires, detonations, destroyed, fixed_damaged, agent_changes, commands;
+    uint64_t events_dropped;  /* more in a frame than events_per_frame: counted, never silent */
+    uint64_t craters_refused; /* no room in the list of craters */
+    uint64_t spawns_refused;  /* no free slot */
+    uint64_t dents_refused;   /* no room in the list of dents */
+};
+
+/* The head of a world buffer and, as the mover stages it, of the moved table. */
+struct state_head {
+    uint64_t frame;        /* this buffer holds this frame */
+    uint64_t tick;         /* steps of simulated time: frames less those that stood paused */
+    uint64_t event_end;    /* events of the run so far */
+    uint64_t event_digest; /* over all of them, in order */
+    uint64_t command_cursor[COMMAND_RING_COUNT]; /* commands taken from each ring */
+    double time_scale; /* simulated seconds a second of the clock; pacing only */
+    uint32_t paused;
+    uint32_t steps_left; /* frames to advance while paused */
+    uint32_t quit;
+    uint32_t used;       /* slots 0 .. used - 1 have ever held an entity */
+    uint32_t alloc_next; /* where the search for a free slot goes on */
+    uint32_t next_id;
+    uint32_t vehicles, munitions; /* active or wrecks; in flight */
+    uint32_t crater_count;
+    uint32_t dent_count;
+    uint32_t reserved;
+    uint32_t fire_cursor;  /* scenario fires done */
+    uint32_t intent_count; /* M only: events the mover hands to the collider */
+    uint32_t advanced;     /* 1: simulated time moved in this frame */
+    uint64_t mover_ns;     /* M only: what moving took; not in the digest */
+    struct tally tally;
+    uint64_t checksum; /* state_checksum(), moved_checksum() */
+};
+
+/* One buffer of the world. fixed_damage and the crater list belong to W only. */
+struct state {
+    struct state_head *head;
+    struct entities entities;
+    struct piece_hashes *hashes; /* of the rows (checksum.h); a reader's copy has none: NULL */
+    uint8_t *fixed_damage;       /* [counts.fixed] enum damage */
+    struct crater *craters; /* shared by both buffers, append-only: committed by crater_count */
+    struct dent *dents;     /* likewise, by dent_count */
+};
+
+/* The mover's output. */
+struct moved {
+    struct state_head *head;
+    struct entities entities;
+    struct piece_hashes *hashes; /* as in struct state */
+    struct event *intents; /* [params.intents_per_frame]; sequence, frame, index not yet set */
+};
+
+double world_time_s(const struct world *world, const struct state_head *head);
+
+/* Digest of a frame: everything that the next frame depends on, in a fixed order, as XXH3-64.
+ * Not in it: pacing, stage times, slots beyond used. */
+uint64_t world_digest(const struct world *world, const struct state *state);
+
+#endif
