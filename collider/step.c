@@ -187,10 +187,11 @@ static uint64_t checksum(struct collider *collider, const struct state *committe
 struct response_context collider_respond(struct collider *collider, struct state *next)
 {
     const struct world *world = collider->world;
-    enum response_model model = (enum response_model)world->params->collision.response;
-    bool impulses = model == MODEL_IMPULSE || model == MODEL_SPRING;
+    const struct response_functions *functions =
+        response_of((enum response_model)world->params->collision.response);
     return (struct response_context){
         .world = world,
+        .functions = functions,
         .broad = &collider->broad,
         .contacts = &collider->contacts,
         .motion = &collider->motion,
@@ -203,8 +204,8 @@ struct response_context collider_respond(struct collider *collider, struct state
                              .rows = next->head->used},
                   .motion = &collider->motion,
                   .broad = &collider->broad,
-                  .meets = impulses ? CONTACT_MEETS_MAX : 1,
-                  .through_fixed = !impulses},
+                  .meets = functions->joint ? CONTACT_MEETS_MAX : 1,
+                  .through_fixed = !functions->joint},
         .next = next,
         .path = collider->motion.path,
         .charges = &collider->charges,

@@ -11,7 +11,7 @@
 #include "collider/motion/pair_filter.h"
 #include "collider/response/island.h"
 #include "collider/motion/body_motion.h"
-#include "collider/response/response.h"
+#include "collider/response/explosion.h"
 #include "world/checksum.h"
 #include "world/runtime/thread_pool.h"
 #include "world/terrain/crater.h"

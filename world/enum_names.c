@@ -43,8 +43,12 @@ WORDS(command_type_name, command_type, "none", "pause", "resume", "step", "scale
 WORDS(command_result_name, command_result, "done", "no such entity", "no such kind",
       "value out of range", "table full", "cannot do that now", "unknown command",
       "somebody else drives it")
-WORDS(method_name, method, "swept", "npsnet2", "mps", "occupancy", "hopcroft", "brute")
+#define X(name, value, word, text) [METHOD_##name] = #word,
+WORDS(method_name, method, METHODS(X))
+#undef X
 WORDS(shape_name, shape, "sphere", "model")
-WORDS(response_model_name, response_model, "figure8", "impulse", "none", "spring", "mps")
+#define X(name, value, word, text) [MODEL_##name] = #word,
+WORDS(response_model_name, response_model, RESPONSE_MODELS(X))
+#undef X
 WORDS(view_mode_name, view_mode, "chase", "map", "inside", "orbit", "free", "overhead")
 WORDS(back_end_name, back_end, "auto", "gl", "soft")

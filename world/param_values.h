@@ -3,27 +3,9 @@
 #ifndef JOLON_WORLD_PARAM_VALUES_H
 #define JOLON_WORLD_PARAM_VALUES_H
 
-/* How collisions are found. Swept, occupancy, hopcroft and brute find the same collisions by
- * different algorithms; npsnet2 and mps test the positions at the frame's end only, as published.
- */
-enum method {
-    METHOD_SWEPT,
-    METHOD_NPSNET2,
-    METHOD_MPS,
-    METHOD_OCCUPANCY,
-    METHOD_HOPCROFT,
-    METHOD_BRUTE,
-    METHOD_COUNT
-};
+#include "world/collision_models.h"
+
 enum shape { SHAPE_SPHERE, SHAPE_MODEL, SHAPE_COUNT };
-enum response_model {
-    MODEL_FIGURE8,
-    MODEL_IMPULSE,
-    MODEL_NONE,
-    MODEL_SPRING,
-    MODEL_MPS,
-    MODEL_COUNT
-};
 /* Figure 8's "colliding mass": the mass alone, as printed, or the impact's energy. */
 enum figure8_measure { MEASURE_ENERGY, MEASURE_MASS, MEASURE_COUNT };
 /* NPSNET-2's 100 m test: X or Z within it, as printed, or both. */

@@ -1,6 +1,11 @@
 /* What becomes of single contacts under impulses: fixed objects that give way, how bouncy and rough
  * a contact is, and what the lost energy does. */
-#include "collider/response/island.h"
+#include "collider/response/contact_impulse.h"
+
+#include "collider/response/damage.h"
+#include "collider/response/impact_damage.h"
+#include "collider/response/path_change.h"
+#include "collider/response/response.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -20,7 +25,7 @@ static const struct kind *fixed_kind_of(const struct response_context *respond, 
     return &respond->world->kinds[respond->world->fixed[body & ~PAIR_FIXED].kind];
 }
 
-static const struct kind *other_kind(const struct response_context *respond, uint32_t body)
+const struct kind *contact_impulse_kind(const struct response_context *respond, uint32_t body)
 {
     return body & PAIR_FIXED ? fixed_kind_of(respond, body) : kind_of(respond, body);
 }
@@ -77,7 +82,7 @@ bool contact_impulse_gives_way(struct response_context *respond, struct island_m
 
 /* --- contacts for the solver -------------------------------------------------------------------*/
 
-static struct vec3 velocity_at(const struct solver_body *body, struct vec3 point)
+struct vec3 contact_impulse_velocity(const struct solver_body *body, struct vec3 point)
 {
     struct vec3 r = vec3_sub(point, body->centre), w = body->spin;
     return vec3_add(body->velocity, vec3_cross(w, r));
@@ -88,80 +93,17 @@ struct solver_contact contact_impulse_contact(const struct response_context *res
                                               const struct solver_body bodies[2])
 {
     const struct impact *impact = &meeting->impact;
-    const struct kind *ka = kind_of(respond, impact->a), *kb = other_kind(respond, impact->b);
+    const struct kind *ka = kind_of(respond, impact->a),
+                      *kb = contact_impulse_kind(respond, impact->b);
     struct solver_contact contact = {.point = impact->point,
                                      .normal = impact->normal,
                                      .friction = sqrt(ka->friction * kb->friction)};
-    struct vec3 closing =
-        vec3_sub(velocity_at(&bodies[0], contact.point), velocity_at(&bodies[1], contact.point));
+    struct vec3 closing = vec3_sub(contact_impulse_velocity(&bodies[0], contact.point),
+                                   contact_impulse_velocity(&bodies[1], contact.point));
     double restitution = maths_min(ka->restitution, kb->restitution);
     if (!meeting->leans && restitution * vec3_dot(closing, contact.normal) > STOP_MPS)
         contact.restitution = restitution;
     return contact;
-}
-
-/* --- solving -----------------------------------------------------------------------------------*/
-
-/* What a unit impulse at the contact changes of the speed along the normal there [1/kg]. */
-static double mobility(const struct solver_body *body, const struct solver_contact *contact)
-{
-    struct vec3 n = contact->normal, r = vec3_sub(contact->point, body->centre);
-    struct vec3 moment = vec3_cross(r, n);
-    struct vec3 spin = rotation_apply(&body->inverse_inertia, moment);
-    return n.x * n.x * body->inverse_mass.x + n.y * n.y * body->inverse_mass.y +
-           n.z * n.z * body->inverse_mass.z + vec3_dot(moment, spin);
-}
-
-static void strike(struct solver_body *body, struct vec3 point, struct vec3 impulse)
-{
-    struct vec3 r = vec3_sub(point, body->centre);
-    struct vec3 moment = vec3_cross(r, impulse);
-    body->velocity = vec3_add(body->velocity, (struct vec3){body->inverse_mass.x * impulse.x,
-                                                            body->inverse_mass.y * impulse.y,
-                                                            body->inverse_mass.z * impulse.z});
-    body->spin = vec3_add(body->spin, rotation_apply(&body->inverse_inertia, moment));
-}
-
-/* A spring between the two skins: no friction, one contact after the other. */
-static void by_spring(const struct response_context *respond, struct island_meeting *meeting,
-                      struct solver_body *bodies, struct solver_contact *contact)
-{
-    struct solver_body *a = &bodies[contact->a], *b = &bodies[contact->b];
-    const struct impact *impact = &meeting->impact;
-    const struct kind *ka = kind_of(respond, impact->a);
-    const struct kind *kb = other_kind(respond, impact->b);
-    struct vec3 relative = vec3_sub(velocity_at(a, contact->point), velocity_at(b, contact->point));
-    double gives = mobility(a, contact) + mobility(b, contact);
-    contact->closing_mps = vec3_dot(relative, contact->normal);
-    contact->impulse = (struct vec3){0.0, 0.0, 0.0};
-    contact->lost_j = 0.0;
-    if (!(contact->closing_mps > 0.0) || !(gives > 0.0))
-        return;
-    const struct contact_spring spring = {
-        .reduced_kg = 1.0 / gives,
-        .closing_mps = contact->closing_mps,
-        .stiffness_npm = contact_spring_in_series(ka->stiffness_npm, kb->stiffness_npm),
-        .restitution = contact->restitution};
-    meeting->blow = spring_impact(&spring);
-    double out = contact->closing_mps * contact->restitution;
-    contact->lost_j = 0.5 / gives * (contact->closing_mps * contact->closing_mps - out * out);
-    contact->impulse = vec3_scale(contact->normal, meeting->blow.impulse_ns);
-    strike(a, contact->point, vec3_scale(contact->impulse, -1.0));
-    strike(b, contact->point, contact->impulse);
-}
-
-void contact_impulse_solve(struct response_context *respond, uint32_t first, uint32_t bodies)
-{
-    struct island *island = respond->island;
-    bool springs = respond->world->params->collision.response == MODEL_SPRING;
-    uint32_t contacts = 0;
-    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
-        if (springs)
-            by_spring(respond, &island->meeting[i - 1], island->solve, &island->contact[contacts]);
-        contacts++;
-    }
-    if (!springs)
-        contact_solver_island(island->solve, bodies, island->contact, contacts);
 }
 
 /* --- afterwards --------------------------------------------------------------------------------*/

@@ -1,6 +1,8 @@
 /* Energy into damage (thesis rows 26, 27, 30). A body takes harm until its kind's resistance_j is
  * reached; a fixed object is damaged by the single hardest blow, as in figure 8. */
-#include "collider/response/response_figure8.h"
+#include "collider/response/damage.h"
+
+#include "collider/response/explosion.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -62,7 +64,6 @@ void damage_row(struct response_context *respond, uint32_t row, double joules, d
         set_damage(respond, row, damage);
 }
 
-/* It never heals; the hardest blow counts. */
 static enum damage damage_fixed(struct response_context *respond, uint32_t object,
                                 enum damage damage)
 {

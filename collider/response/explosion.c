@@ -1,10 +1,10 @@
 /* Detonations: blast over what is near, craters in the ground, chains of what explodes in turn. */
-#include "collider/response/response.h"
-#include "world/runtime/check.h"
+#include "collider/response/explosion.h"
 
-#include "ipc/process/log.h"
+#include "collider/response/damage.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
+#include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
 #include "world/state.h"

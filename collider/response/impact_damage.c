@@ -1,7 +1,9 @@
 /* What a collision's energy does to one body: harm, and a dent where it was struck. */
-#include "collider/response/deformation.h"
-#include "collider/response/response.h"
+#include "collider/response/impact_damage.h"
+
 #include "collider/response/contact_spring.h"
+#include "collider/response/damage.h"
+#include "collider/response/deformation.h"
 #include "world/entity/dent.h"
 #include "world/params.h"
 #include "world/state.h"

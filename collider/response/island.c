@@ -1,6 +1,9 @@
 /* From contacts of one moment to islands, through the solver, to the bodies' new ways. */
 #include "collider/response/island.h"
 
+#include "collider/response/contact_impulse.h"
+#include "collider/response/path_change.h"
+#include "collider/response/response.h"
 #include "world/entity/mass_properties.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
@@ -251,7 +254,7 @@ static void solve_group(struct response_context *respond, uint32_t first, double
         contact->a = a;
         contact->b = b;
     }
-    contact_impulse_solve(respond, first, bodies);
+    respond->functions->joint(respond, first, bodies);
     contacts = 0;
     for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
         const struct island_meeting *meeting = &island->meeting[i - 1];

@@ -51,23 +51,8 @@ struct island {
 int island_init(struct island *island, const struct world *world);
 void island_free(struct island *island);
 
-/* contact_impulse.c: what becomes of single contacts. */
-
-/* Does the fixed object bend aside or break, so that the row goes on, slowed? Then it is answered.
- */
-bool contact_impulse_gives_way(struct response_context *respond, struct island_meeting *meeting);
-
-/* The solver's contact: normal, restitution, friction. bodies are those of the contact. */
-struct solver_contact contact_impulse_contact(const struct response_context *respond,
-                                              const struct island_meeting *meeting,
-                                              const struct solver_body bodies[2]);
-
-/* Gives each contact its impulse, by the response model: all together, or spring by spring. first
- * is the group's first meeting + 1. */
-void contact_impulse_solve(struct response_context *respond, uint32_t first, uint32_t bodies);
-
-/* What the lost energy does to both sides, and the outcome. */
-void contact_impulse_harm(struct response_context *respond, struct island_meeting *meeting,
-                          const struct solver_contact *contact);
+/* Answers this contact, which was just taken from the queue, and with it those of the same moment
+ * that impulses answer. */
+void island_answer(struct response_context *respond, const struct contact *contact);
 
 #endif

@@ -1,5 +1,5 @@
 /* How an answer to a contact changes a body's way through the rest of the frame. */
-#include "collider/response/response.h"
+#include "collider/response/path_change.h"
 
 #include "world/entity/mass_properties.h"
 #include "world/state.h"

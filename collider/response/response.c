@@ -1,7 +1,10 @@
 /* One contact at a time, in the order of time: who met whom, which model answers, and the event. */
 #include "collider/response/response.h"
 
-#include "collider/response/response_mps.h"
+#include "collider/response/damage.h"
+#include "collider/response/explosion.h"
+#include "collider/response/island.h"
+#include "collider/response/path_change.h"
 #include "world/entity/kind.h"
 #include "world/maths/maths.h"
 #include "world/params.h"
@@ -17,6 +20,15 @@
 
 /* A normal with less of it on the level is too steep to push what the ground holds. */
 #define LEVEL_MIN 0.2
+
+const struct response_functions *response_of(enum response_model model)
+{
+#define X(name, value, word, text) [MODEL_##name] = &response_##word,
+    static const struct response_functions *const functions[] = {RESPONSE_MODELS(X)};
+#undef X
+    _Static_assert(sizeof functions / sizeof functions[0] == MODEL_COUNT, "a row each");
+    return functions[model];
+}
 
 /* Tells the agent which way leads away from what it ran into. */
 static void bump(struct response_context *respond, uint32_t row, double away_x, double away_z)
@@ -77,17 +89,6 @@ struct impact response_impact(const struct response_context *respond, const stru
     impact.closing_mps = maths_max(0.0, vec3_dot(vec3_sub(va, vb), impact.normal));
     impact.angle_rad = maths_wrap_turn(other_heading - e->heading[contact->a]);
     return impact;
-}
-
-static void answer(struct response_context *respond, const struct impact *impact,
-                   struct outcome *outcome)
-{
-    bool fixed = impact->b & PAIR_FIXED;
-    enum response_model model = (enum response_model)respond->world->params->collision.response;
-    if (model == MODEL_FIGURE8)
-        (fixed ? response_figure8_fixed : response_figure8_moving)(respond, impact, outcome);
-    else if (model == MODEL_MPS && !fixed)
-        response_mps_moving(respond, impact, outcome);
 }
 
 static struct event_party party_of(const struct response_context *respond, uint32_t body)
@@ -219,26 +220,22 @@ static void lean(struct response_context *respond, const struct impact *impact)
     path_change_swept(respond, rows, fixed ? 1 : 2, impact->time);
 }
 
-/* Does the model do anything about this collision? */
-static bool answered(const struct response_context *respond, const struct impact *impact)
-{
-    enum response_model model = (enum response_model)respond->world->params->collision.response;
-    return model != MODEL_NONE && !(model == MODEL_MPS && impact->b & PAIR_FIXED);
-}
-
 static void collide(struct response_context *respond, const struct contact *contact)
 {
+    const struct response_functions *functions = respond->functions;
+    response_function *answer = contact->b & PAIR_FIXED ? functions->fixed : functions->moving;
     struct impact impact = response_impact(respond, contact);
     struct outcome outcome = {RESPONSE_NONE, 0.0};
     if (passes_through(respond, &impact))
         return;
     if (contact_persists(respond, &impact)) {
-        if (answered(respond, &impact))
+        if (answer)
             lean(respond, &impact);
         return;
     }
     struct report report = response_report(respond, &impact);
-    answer(respond, &impact, &outcome);
+    if (answer)
+        answer(respond, &impact, &outcome);
     write_collision_event(respond, &report, &impact, &outcome);
 }
 
@@ -277,12 +274,6 @@ static bool is_round(const struct response_context *respond, uint32_t body)
     return body < PAIR_FIXED && respond->next->entities.behaviour[body] == BEHAVIOUR_FLIGHT;
 }
 
-static bool by_impulse(const struct response_context *respond)
-{
-    enum response_model model = (enum response_model)respond->world->params->collision.response;
-    return model == MODEL_IMPULSE || model == MODEL_SPRING;
-}
-
 void response_contact(struct response_context *respond, const struct contact *contact)
 {
     bool round_a = is_round(respond, contact->a), round_b = is_round(respond, contact->b);
@@ -299,7 +290,7 @@ void response_contact(struct response_context *respond, const struct contact *co
         explosion_munition(respond, contact->b, contact->a, time);
     } else if (contact->b >= CONTACT_AIR) {
         crash(respond, contact);
-    } else if (by_impulse(respond)) {
+    } else if (respond->functions->joint) {
         island_answer(respond, contact);
     } else {
         collide(respond, contact);

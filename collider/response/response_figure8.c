@@ -5,13 +5,15 @@
  * are killed when either goes faster than its own kind's fast_mps; a bounce leaves each its own
  * kind's bounce_keep. So no rule asks who of the two comes first or is the heavier. "Large",
  * "moving quickly" and constant1..3 are the scenario's, the last also a kind's own (damage.c). */
-#include "collider/response/response_mps.h"
+#include "collider/response/damage.h"
+#include "collider/response/impact_damage.h"
+#include "collider/response/path_change.h"
+#include "collider/response/response.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/state.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
-#include "collider/response/response_figure8.h"
 
 /* Angles come from headings, which are never exact to the last bit: a ten-thousandth of a degree
  * keeps 5 and 85 degrees on the severe side. */
@@ -48,8 +50,8 @@ static double energy_of(const struct kind *kind, struct vec3 velocity)
     return 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
 }
 
-void response_figure8_moving(struct response_context *respond, const struct impact *impact,
-                             struct outcome *outcome)
+static void meet_moving(struct response_context *respond, const struct impact *impact,
+                        struct outcome *outcome)
 {
     const struct entities *e = &respond->next->entities;
     const struct kind *ka = kind_of(respond, impact->a), *kb = kind_of(respond, impact->b);
@@ -57,7 +59,7 @@ void response_figure8_moving(struct response_context *respond, const struct impa
     double before = energy_of(ka, va) + energy_of(kb, vb);
     if (severe(ka, kb, impact->angle_rad)) {
         if (fast(respond, ka, vec3_length(va)) || fast(respond, kb, vec3_length(vb))) {
-            response_mps_moving(respond, impact, outcome); /* "Kill both" */
+            response_mps.moving(respond, impact, outcome); /* "Kill both" */
             return;
         }
         outcome->response = RESPONSE_STOP;
@@ -85,8 +87,8 @@ static void damage_object(struct response_context *respond, uint32_t object, dou
         damage_fixed_object(respond, object, joules);
 }
 
-void response_figure8_fixed(struct response_context *respond, const struct impact *impact,
-                            struct outcome *outcome)
+static void meet_fixed(struct response_context *respond, const struct impact *impact,
+                       struct outcome *outcome)
 {
     const struct world *world = respond->world;
     const struct collision_params *limits = &world->params->collision;
@@ -108,3 +110,5 @@ void response_figure8_fixed(struct response_context *respond, const struct impac
     impact_damage_row(respond, impact->a, impact, -1.0, energy * fixed_kg / (mass_kg + fixed_kg),
                       NULL);
 }
+
+const struct response_functions response_figure8 = {.moving = meet_moving, .fixed = meet_fixed};

@@ -1,7 +1,11 @@
-/* Platforms that meet are lost. */
-#include "collider/response/response_mps.h"
+/* The response "mps" (thesis row 42): what MPS II and III did with platforms that came near each
+ * other. Both are destroyed and stay where they are, whatever their speeds, angle and masses. Fixed
+ * objects had no part in it: a platform passes through them. */
+#include "collider/response/damage.h"
+#include "collider/response/path_change.h"
+#include "collider/response/response.h"
 
-void response_mps_moving(struct response_context *respond, const struct impact *impact,
+static void destroy_both(struct response_context *respond, const struct impact *impact,
                          struct outcome *outcome)
 {
     const struct vec3 still = {0.0, 0.0, 0.0};
@@ -11,3 +15,5 @@ void response_mps_moving(struct response_context *respond, const struct impact *
     damage_destroy(respond, impact->a, impact->time);
     damage_destroy(respond, impact->b, impact->time);
 }
+
+const struct response_functions response_mps = {.moving = destroy_both};

@@ -15,34 +15,13 @@ static const struct key_choice spacings[] = {
     {"125", 0, NULL}, {"62.5", 0, NULL}, {"31.25", 0, NULL}};
 static const struct key_choice object_sources[] = {{"table1", OBJECTS_TABLE1, NULL},
                                                    {"none", OBJECTS_NONE, NULL}};
-static const struct key_choice methods[] = {
-    {NULL, METHOD_SWEPT,
-     "Tests the whole path of a frame, so that no collision is missed at any speed. Bodies are "
-     "sorted by gridsquare."},
-    {NULL, METHOD_NPSNET2,
-     "The thesis's own method: lists of gridsquares, the 100 m test, radii and rays, all at the "
-     "end of the frame. Bodies that pass through each other between two frames are missed."},
-    {NULL, METHOD_MPS,
-     "The method of MPS, which came before NPSNET: two vehicles collide when they are near each "
-     "other on the map at the end of the frame. Fixed objects are not tested."},
-    {NULL, METHOD_OCCUPANCY,
-     "Tests the whole path of a frame; bodies claim the space that they occupy. It finds what "
-     "`swept` finds, more slowly."},
-    {NULL, METHOD_HOPCROFT,
-     "Tests the whole path of a frame; it sorts all bodies of the world together. It finds what "
-     "`swept` finds, more slowly."},
-    {NULL, METHOD_BRUTE,
-     "Tests the whole path of a frame for every pair of bodies. It finds what `swept` finds, more "
-     "slowly."}};
+#define X(name, value, word, text) {NULL, METHOD_##name, text},
+static const struct key_choice methods[] = {METHODS(X)};
+#undef X
 static const struct key_choice shapes[] = {{.value = SHAPE_MODEL}, {.value = SHAPE_SPHERE}};
-static const struct key_choice responses[] = {
-    {NULL, MODEL_IMPULSE, "Momentum is conserved. The energy that is lost causes damage."},
-    {NULL, MODEL_FIGURE8, "The rules of the thesis's Figure 8."},
-    {NULL, MODEL_SPRING, "Bodies are pushed apart by the stiffness of their skins."},
-    {NULL, MODEL_MPS,
-     "Both vehicles are destroyed. Fixed objects are not damaged, and vehicles pass through them."},
-    {NULL, MODEL_NONE,
-     "Collisions are only reported. Vehicles pass through each other and through fixed objects."}};
+#define X(name, value, word, text) {NULL, MODEL_##name, text},
+static const struct key_choice responses[] = {RESPONSE_MODELS(X)};
+#undef X
 static const struct key_choice nearnesses[] = {{"and", NEARNESS_AND, NULL},
                                                {"or", NEARNESS_OR, NULL}};
 static const struct key_choice measures[] = {{"energy", MEASURE_ENERGY, NULL},

@@ -1,5 +1,7 @@
 /* Impulses on cases that can be worked out by hand. Momentum and energy over random ones are in
  * tests/property/collider/test_collide.c. */
+#include "collider/response/damage.h"
+#include "collider/response/contact_impulse.h"
 #include "collider/response/deformation.h"
 #include "tests/support/steps.h"
 #include "world/params.h"

@@ -1,5 +1,5 @@
 /* Energy into damage: rows 26, 27, 30, 33. */
-#include "collider/response/response_figure8.h"
+#include "collider/response/damage.h"
 
 #include "tests/support/steps.h"
 #include "world/params.h"

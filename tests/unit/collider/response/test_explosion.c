@@ -1,4 +1,5 @@
 /* Detonations: what a round strikes, blast around it, craters, chains (thesis row 31). */
+#include "collider/response/explosion.h"
 #include "tests/support/steps.h"
 #include "world/params.h"
 

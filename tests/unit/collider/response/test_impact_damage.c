@@ -1,4 +1,5 @@
 /* One blow on one body: harm, and a dent where it was struck (thesis rows 33, 47). */
+#include "collider/response/impact_damage.h"
 #include "collider/response/deformation.h"
 #include "collider/response/contact_spring.h"
 #include "tests/support/steps.h"

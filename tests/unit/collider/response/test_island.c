@@ -1,5 +1,6 @@
 /* Several bodies at one moment, overlaps, dents and springs, in whole frames (thesis rows 33, 36,
  * 43, 46, 47). */
+#include "collider/response/island.h"
 #include "collider/response/deformation.h"
 #include "collider/response/contact_spring.h"
 #include "tests/support/steps.h"

@@ -1,4 +1,5 @@
 /* What an answer makes of a body's way through the rest of the frame. */
+#include "collider/response/path_change.h"
 #include "tests/support/steps.h"
 
 #include <stdarg.h>

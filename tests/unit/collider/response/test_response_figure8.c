@@ -1,5 +1,5 @@
 /* Figure 8 of the thesis, branch by branch and at its borders (rows 26 to 30). */
-#include "collider/response/response_figure8.h"
+#include "collider/response/response.h"
 
 #include "tests/support/steps.h"
 #include "world/params.h"
@@ -60,7 +60,7 @@ static enum response meet(double angle_deg, double speed_a, double speed_b)
                                   .normal = {1.0, 0.0, 0.0},
                                   .closing_mps = speed_a + speed_b,
                                   .angle_rad = angle_deg * RAD_PER_DEG};
-    response_figure8_moving(&respond, &impact, &outcome);
+    response_figure8.moving(&respond, &impact, &outcome);
     const struct entities *e = &respond.next->entities;
     struct vec3 va = entities_velocity(e, a), vb = entities_velocity(e, b);
     bool wrecks = e->state[a] == ENTITY_WRECK && e->state[b] == ENTITY_WRECK;
@@ -159,7 +159,7 @@ static struct meeting mixed(double angle_deg, double speed_tank, double speed_je
                                   .normal = {swapped ? -1.0 : 1.0, 0.0, 0.0},
                                   .closing_mps = speed_tank + speed_jeep,
                                   .angle_rad = angle_deg * RAD_PER_DEG};
-    response_figure8_moving(&respond, &impact, &outcome);
+    response_figure8.moving(&respond, &impact, &outcome);
     const struct entities *e = &respond.next->entities;
     struct meeting meeting = {.response = outcome.response,
                               .speed_tank = vec3_length(entities_velocity(e, tank)),
@@ -247,7 +247,7 @@ static void test_row_30_the_larger_mass_hurts_the_smaller_more(void **state)
         steps_respond(&f, &respond);
         const struct impact impact = {
             .a = tank, .b = jeep, .normal = {1, 0, 0}, .closing_mps = 10.0, .angle_rad = PI};
-        response_figure8_moving(&respond, &impact, &outcome);
+        response_figure8.moving(&respond, &impact, &outcome);
         const struct entities *e = &respond.next->entities;
         if (mass > 1000.0)
             assert_true(e->harm_j[jeep] > e->harm_j[tank]);
@@ -282,7 +282,7 @@ static struct aftermath strike(uint32_t object, double mass_kg, double speed_mps
     steps_respond(&f, &respond);
     const struct impact impact = {
         .a = row, .b = object | PAIR_FIXED, .normal = {1, 0, 0}, .closing_mps = speed_mps};
-    response_figure8_fixed(&respond, &impact, &outcome);
+    response_figure8.fixed(&respond, &impact, &outcome);
     const struct entities *e = &respond.next->entities;
     struct aftermath struck = {outcome.response, (enum damage)respond.next->fixed_damage[object],
                                (enum entity_state)e->state[row],

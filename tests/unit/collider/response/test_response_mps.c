@@ -1,5 +1,5 @@
 /* The response of MPS II and III: row 42. */
-#include "collider/response/response_mps.h"
+#include "collider/response/response.h"
 
 #include "tests/support/steps.h"
 
@@ -34,7 +34,7 @@ static void test_row_42_platforms_that_meet_are_both_destroyed(void **state)
                                       .normal = {1.0, 0.0, 0.0},
                                       .closing_mps = speeds[n / 3] + 1.0,
                                       .angle_rad = angles_deg[n % 3] * RAD_PER_DEG};
-        response_mps_moving(&respond, &impact, &outcome);
+        response_mps.moving(&respond, &impact, &outcome);
         const struct entities *e = &respond.next->entities;
         assert_int_equal(outcome.response, RESPONSE_DESTROYED);
         assert_int_equal(e->state[ship], ENTITY_WRECK);

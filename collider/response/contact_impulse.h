@@ -1,0 +1,26 @@
+/* What becomes of single contacts under impulses. */
+#ifndef JOLON_COLLIDER_RESPONSE_CONTACT_IMPULSE_H
+#define JOLON_COLLIDER_RESPONSE_CONTACT_IMPULSE_H
+
+#include "collider/response/island.h"
+
+/* Returns true if the fixed object bends aside or breaks, so that the row goes on, slowed. The
+ * contact is then answered. */
+bool contact_impulse_gives_way(struct response_context *respond, struct island_meeting *meeting);
+
+/* Returns the solver's contact: normal, restitution, friction. bodies are those of the contact. */
+struct solver_contact contact_impulse_contact(const struct response_context *respond,
+                                              const struct island_meeting *meeting,
+                                              const struct solver_body bodies[2]);
+
+/* Applies the lost energy to both sides and writes the event. */
+void contact_impulse_harm(struct response_context *respond, struct island_meeting *meeting,
+                          const struct solver_contact *contact);
+
+/* Returns the kind of a row, or of a fixed object with PAIR_FIXED. */
+const struct kind *contact_impulse_kind(const struct response_context *respond, uint32_t body);
+
+/* Returns the velocity of the body at a point [m/s]. */
+struct vec3 contact_impulse_velocity(const struct solver_body *body, struct vec3 point);
+
+#endif

@@ -1,0 +1,27 @@
+/* Energy becomes damage (thesis rows 26, 27, 30). */
+#ifndef JOLON_COLLIDER_RESPONSE_DAMAGE_H
+#define JOLON_COLLIDER_RESPONSE_DAMAGE_H
+
+#include "collider/response/response_context.h"
+
+/* The row takes this energy. It is destroyed when all that it has taken reaches its kind's
+ * resistance_j. */
+void damage_row(struct response_context *respond, uint32_t row, double joules, double time);
+void damage_destroy(struct response_context *respond, uint32_t row, double time);
+
+/* Each of these two damages a fixed object and returns the damage that it has now. It never heals:
+ * the hardest blow counts.
+ *
+ * By the energy of the blow: the measure "energy". */
+enum damage damage_fixed_object(struct response_context *respond, uint32_t object, double joules);
+
+/* By the mass of what struck it, as figure 8 is printed: the measure "mass" (thesis row 27). Damage
+ * is high from mass_c1_kg on, medium from mass_c2_kg, low from mass_c3_kg and none below. The
+ * figure's fourth constant only repeats where none begins; what it leaves open between the third
+ * and the fourth is none, too. */
+enum damage damage_fixed_mass(struct response_context *respond, uint32_t object, double mass_kg);
+
+/* Returns the energy over a fixed kind's resistance_j from which its damage is high. */
+double damage_high_share(const struct response_context *respond, const struct kind *kind);
+
+#endif

@@ -1,0 +1,36 @@
+/* The end of a munition, and the blasts of a frame. */
+#ifndef JOLON_COLLIDER_RESPONSE_EXPLOSION_H
+#define JOLON_COLLIDER_RESPONSE_EXPLOSION_H
+
+#include "collider/response/response_context.h"
+#include "world/maths/maths.h"
+
+/* A charge that explodes in this frame. */
+struct charge {
+    struct vec3 point;
+    double time; /* 0..1 */
+    double explosive_kg;
+    uint32_t owner_slot, owner_id; /* who fired it; 0 for nobody */
+};
+
+/* Charges that wait. A blast that destroys something explosive adds one. The collider's own memory.
+ */
+struct charges {
+    struct charge *charge;
+    uint32_t count, capacity;
+    struct pair_list near; /* what a blast reaches */
+};
+
+/* Returns 0, or -1 with errno ENOMEM. */
+int charges_init(struct charges *charges, const struct world *world);
+void charges_free(struct charges *charges);
+
+/* The munition explodes where it is; struck is a contact's second side. */
+void explosion_munition(struct response_context *respond, uint32_t row, uint32_t struck,
+                        double time);
+
+/* Adds a charge, which explodes with the next explosion_all(). */
+void explosion_charge(struct response_context *respond, const struct charge *charge);
+void explosion_all(struct response_context *respond);
+
+#endif

@@ -1,0 +1,14 @@
+/* What the energy of a collision does to one body. */
+#ifndef JOLON_COLLIDER_RESPONSE_IMPACT_DAMAGE_H
+#define JOLON_COLLIDER_RESPONSE_IMPACT_DAMAGE_H
+
+#include "collider/response/response_context.h"
+
+struct spring_impact;
+
+/* The row takes this energy as damage and a dent at the impact's point. side is 1 if the normal
+ * points into the row, -1 if it points out of it. spring: what struck it; NULL for no spring. */
+void impact_damage_row(struct response_context *respond, uint32_t row, const struct impact *impact,
+                       double side, double joules, const struct spring_impact *spring);
+
+#endif

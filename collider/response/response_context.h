@@ -1,0 +1,48 @@
+/* What the answers to a frame's contacts work on, and with. They change the frame being made and
+ * nothing else. */
+#ifndef JOLON_COLLIDER_RESPONSE_RESPONSE_CONTEXT_H
+#define JOLON_COLLIDER_RESPONSE_RESPONSE_CONTEXT_H
+
+#include "collider/motion/body_motion.h"
+#include "collider/narrow_phase/contact_queue.h"
+#include "collider/response/event_writer.h"
+#include "world/entity/table_write.h"
+#include "world/state.h"
+
+struct charges;
+struct island;
+struct response_functions;
+
+struct response_context {
+    const struct world *world;
+    const struct response_functions *functions; /* of the world's response */
+    struct broad_phase *broad;
+    struct contact_queue *contacts;
+    struct body_motion *motion;
+    struct contact_input input;
+    struct state *next;
+    struct path *path; /* motion's */
+    struct event_writer sink;
+    struct charges *charges;
+    struct island *island;
+    struct table_writer writer; /* by which every answer changes next's rows */
+};
+
+/* A collision to be answered. */
+struct impact {
+    uint32_t a, b;      /* rows; b has PAIR_FIXED for a fixed object */
+    double time;        /* 0..1 */
+    struct vec3 point;  /* [m, world] where the bodies touch */
+    struct vec3 normal; /* unit, from a towards b; horizontal between bodies on the ground */
+    double depth_m;     /* how far they overlap along the hulls' own normal */
+    double closing_mps; /* at the point, along the normal, >= 0 */
+    double angle_rad;   /* b's heading relative to a's, 0..2 pi */
+};
+
+/* What an answer did, for the event. */
+struct outcome {
+    enum response response;
+    double impulse_ns;
+};
+
+#endif
