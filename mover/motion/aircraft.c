@@ -1,5 +1,4 @@
-/* Aircraft: helicopters hover (min_speed_mps 0), jets keep their speed; both keep their height
- * above the ground ahead of them. */
+/* Moves aircraft: steering, speed, climb and lean. */
 #include "mover/motion/aircraft.h"
 
 #include "mover/motion/kinematics.h"
@@ -14,7 +13,7 @@
 #define SIDE_DRAG_MPS2 6.0
 #define BANK_LIMIT     1.0 /* [rad] */
 #define BANK_RATE_RPS  1.5
-#define EDGE_M         200.0 /* turns back this far before the world's edge */
+#define EDGE_M         200.0 /* an aircraft turns back so far from the edge of the world */
 
 void aircraft_begin(struct aircraft *batch)
 {
@@ -81,9 +80,9 @@ static inline void find_highest(const struct step_context *context, struct aircr
 
 /* --- four at once ------------------------------------------------------------------------------*/
 
-/* Each of these does for the four lanes from 4 h on what its comment says of one aircraft. */
+/* Comments describe one aircraft. Each function treats the four of vector h. */
 
-/* Speed and climb that it wants, and gets fuel for; without, it glides down. */
+/* The speed and the climb that it wants and has fuel for. Without fuel it glides down. */
 static inline void want(struct aircraft *batch, int h, const f64x4 *ground, double dt_s,
                         f64x4 *wanted, f64x4 *climb)
 {
@@ -92,8 +91,8 @@ static inline void want(struct aircraft *batch, int h, const f64x4 *ground, doub
     f64x4 full = batch->full_mps.f64x4[h], most = batch->climb_rate.f64x4[h];
     f64x4 least = SIMD_NEGATIVE(most);
     f64x4 by_agent = SIMD_CLAMP(batch->wanted_mps.f64x4[h], batch->least_mps.f64x4[h], full);
-    *wanted =
-        SIMD_CHOOSE(driven, batch->wanted_mps.f64x4[h], by_agent); /* who hovers goes back too */
+    /* A driver's speed is not clamped: helicopters also fly backwards. */
+    *wanted = SIMD_CHOOSE(driven, batch->wanted_mps.f64x4[h], by_agent);
     f64x4 off = (*ground + batch->altitude.f64x4[h] - batch->y.f64x4[h]) * 0.8;
     off = SIMD_CLAMP(off, least, most);
     *climb = SIMD_CHOOSE(driven, batch->climb.f64x4[h], off);
@@ -113,7 +112,7 @@ static inline void advance(f64x4 *metres, f64x4 *speed_mps, double dt_s)
     *speed_mps = SIMD_CHOOSE(to != *metres, SIMD_EVERY(0.0), *speed_mps);
 }
 
-/* There; is it near the edge? */
+/* Moves it, and notes whether it is near the edge. */
 static inline void go(struct aircraft *batch, int h, double dt_s)
 {
     const f64x4 last = SIMD_EVERY(WORLD_SIDE_M - EDGE_M);
@@ -126,7 +125,8 @@ static inline void go(struct aircraft *batch, int h, double dt_s)
 
 /* --- lanes -------------------------------------------------------------------------------------*/
 
-/* What a body leans by: a hovering one into its acceleration, a wing with its climb. */
+/* What the lean follows from. A helicopter pitches with its speed and acceleration, a jet with its
+ * climb. */
 struct lean {
     union simd_lanes turning, weight, rising, level, hover;
 };

@@ -1,4 +1,6 @@
-/* Aircraft, eight at a time, as land vehicles are (ground_vehicle.h). */
+/* Motion of aircraft, in batches of eight as for land vehicles (ground_vehicle.h). Helicopters
+ * hover (min_speed_mps 0) and jets keep their speed; both keep their height above the ground ahead.
+ */
 #ifndef JOLON_MOVER_MOTION_AIRCRAFT_H
 #define JOLON_MOVER_MOTION_AIRCRAFT_H
 
@@ -8,26 +10,27 @@
 struct aircraft {
     int count; /* lanes taken */
     uint32_t row[LANE_COUNT];
-    union lane_masks driven; /* of the wish */
+    /* The desired motion. */
+    union lane_masks driven;
     union simd_lanes wanted_heading, wanted_mps, altitude, turn, climb, brake;
-    union simd_lanes x, y, z, vx, vy, vz, heading, pitch, roll,
-        fuel; /* of the row, before and after */
-    union simd_lanes full_mps, least_mps, acceleration, turn_rate, climb_rate,
-        burn_lps; /* of its kind */
-    union lane_masks tank;
-    union lane_masks blocked;         /* what comes out: it is at the world's edge */
+    /* The row, before and after. */
+    union simd_lanes x, y, z, vx, vy, vz, heading, pitch, roll, fuel;
+    /* The kind. */
+    union simd_lanes full_mps, least_mps, acceleration, turn_rate, climb_rate, burn_lps;
+    union lane_masks tank;            /* it has one */
+    union lane_masks blocked;         /* result: it is at the edge of the world */
     struct terrain_cache here, ahead; /* the ground under it, and where it soon will be */
-    struct terrain_cache_entry idle;  /* of lanes that are nobody's yet */
+    struct terrain_cache_entry idle;  /* of free lanes */
 };
 
-/* Without anybody. */
+/* Empties the batch. */
 void aircraft_begin(struct aircraft *batch);
 
-/* Row i, by its wish, takes a lane: true when that was the last. */
+/* Gives row i a lane. True when the batch is full. */
 bool aircraft_take(const struct step_context *context, struct aircraft *batch, uint32_t i,
                    const struct desired_motion *desired);
 
-/* Moves those who have a lane; their lanes stay taken. */
+/* Moves the rows of the batch; their lanes stay taken. */
 void aircraft_move(const struct step_context *context, struct aircraft *batch);
 
 #endif

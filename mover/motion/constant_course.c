@@ -1,4 +1,4 @@
-/* Motion without a will: vehicles told to hold their course; and setting bodies on the ground. */
+/* Moves rows that hold their course, and sets bodies down on the ground. */
 #include "mover/motion/constant_course.h"
 
 #include "mover/motion/kinematics.h"
@@ -43,14 +43,14 @@ void constant_course_set_down(const struct step_context *context, struct constan
 {
     struct entities *m = context->m;
     struct ground_pose *pose = &batch->pose;
-    union lane_masks debris; /* stops nobody who holds */
+    union lane_masks debris; /* not used: it slows no row that holds its course */
     maths_sincos_lanes(&batch->heading, &pose->sine, &pose->cosine);
     ground_marks_find(context->ground_marks, &pose->x, &pose->z, &pose->cratered, &debris);
     for (int h = 0; h < LANE_FOURS; h++)
         pose->cratered.f64x4[h] |=
             pose->half_length.f64x4[h] + pose->half_width.f64x4[h] > GROUND_MARKS_NEAR_M;
     terrain_cache_find(&context->world->terrain, &pose->ground, &pose->x, &pose->z);
-    ground_pose_move(context, pose);
+    ground_pose_find(context, pose);
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
         double y = pose->y.lane[l];

@@ -1,13 +1,11 @@
-/* Motion without a will. A row goes by itself; those that then stand on the ground take a lane, and
- * are set upon it together. */
+/* Motion of rows without an agent: vehicles with BEHAVIOUR_HOLD, and wrecks. Rows on the ground are
+ * then set down on it in batches of eight. */
 #ifndef JOLON_MOVER_MOTION_CONSTANT_COURSE_H
 #define JOLON_MOVER_MOTION_CONSTANT_COURSE_H
 
 #include "mover/motion/ground_pose.h"
 
-/* Row i keeps heading and speed and reacts to nothing, save that what ran into it may have set it
- * turning; a land vehicle's height is the ground's, a ship's the water's. True when it is to take a
- * lane. */
+/* Moves row i by its heading and speed. True for a land vehicle, which then takes a lane. */
 bool constant_course_row(const struct step_context *context, uint32_t i);
 
 struct constant_course {
@@ -17,14 +15,14 @@ struct constant_course {
     struct ground_pose pose;
 };
 
-/* Without anybody. */
+/* Empties the batch. */
 void constant_course_begin(struct constant_course *batch);
 
-/* Row i takes a lane: true when that was the last. */
+/* Gives row i a lane. True when the batch is full. */
 bool constant_course_take(const struct step_context *context, struct constant_course *batch,
                           uint32_t i);
 
-/* Sets those who have a lane on the ground; their lanes stay taken. */
+/* Sets the rows of the batch down on the ground; their lanes stay taken. */
 void constant_course_set_down(const struct step_context *context, struct constant_course *batch);
 
 #endif

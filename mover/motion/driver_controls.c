@@ -1,6 +1,6 @@
-/* Driven vehicles: from the controls that a player or an outside program set to what they ask. */
-#include "mover/context/step_context.h"
+/* From the controls of a driven vehicle to its desired motion. */
 #include "mover/motion/driver_controls.h"
+
 #include "world/world.h"
 
 #define REVERSE_SHARE 0.4  /* of full speed, backwards */
@@ -8,12 +8,11 @@
 #define ASTERN_SHARE  0.5  /* of full speed, ships backwards */
 #define HOVER_BACK    0.25 /* of full speed, helicopters backwards */
 
-/* Speed [m/s] that a throttle asks for: full is what its gear allows, back the share of it that it
- * does backwards. */
+/* The speed [m/s] for a throttle. full: the kind's top speed; back: the share of it backwards. */
 static double geared(enum gearing gear, double throttle, double full, double back)
 {
     switch (gear) {
-    case GEAR_REVERSE: /* the pedal alone: pulled back it does nothing */
+    case GEAR_REVERSE: /* a negative throttle has no effect */
         return -back * full * maths_max(throttle, 0.0);
     case GEAR_NEUTRAL:
         return 0.0;
@@ -26,8 +25,8 @@ static double geared(enum gearing gear, double throttle, double full, double bac
     return full * (throttle < 0.0 ? back * throttle : throttle);
 }
 
-/* A helicopter's stick is its speed, forwards and backwards; a wing needs its least speed, and its
- * throttle is what comes on top. */
+/* The throttle of a helicopter is its speed, forwards or backwards. That of a jet is its speed
+ * above the least speed at which it flies. */
 static double airspeed(const struct kind *kind, double throttle)
 {
     if (kind->min_speed_mps > 0.0)
@@ -51,7 +50,7 @@ void driver_controls_motion(const struct step_context *context, uint32_t i,
         .climb_mps = (double)m->climb[i] * kind->climb_rate_mps,
         .brake = brake,
     };
-    /* Whoever brakes means it, whatever the other foot does. */
+    /* The brake overrides the throttle. */
     if (kind->domain == DOMAIN_AIR)
         desired->speed_mps = airspeed(kind, throttle * (1.0 - brake));
     else

@@ -1,4 +1,4 @@
-/* Heights under eight bodies at once. */
+/* Finds the heights under eight bodies at once. */
 #include "mover/motion/ground_pose.h"
 
 #include "world/maths/cpu_dispatch.h"
@@ -6,9 +6,8 @@
 
 #include <string.h>
 
-#define LEAST_HALF_M 0.5 /* from the middle: nearer the slope of a post's edge says nothing */
+#define LEAST_HALF_M 0.5 /* over a shorter distance rounding dominates the slope */
 
-/* Points under a body. */
 enum { MIDDLE, FRONT, BACK, RIGHT, LEFT, POINTS };
 
 void ground_pose_begin(struct ground_pose *pose)
@@ -63,7 +62,7 @@ static void dig(const struct step_context *context, const struct ground_pose *po
 }
 
 VECTOR_CLONES
-void ground_pose_move(const struct step_context *context, struct ground_pose *pose)
+void ground_pose_find(const struct step_context *context, struct ground_pose *pose)
 {
     const struct terrain *terrain = &context->world->terrain;
     union simd_lanes x[POINTS], z[POINTS], height[POINTS], pitch_rise, pitch_run, roll_rise,

@@ -1,5 +1,4 @@
-/* Ground vehicles: they follow the terrain, slopes and debris limit their speed, water stops them.
- */
+/* Moves land vehicles: steering, power and brakes, slopes, debris and water. */
 #include "mover/motion/ground_vehicle.h"
 
 #include "mover/motion/kinematics.h"
@@ -13,15 +12,15 @@
 
 #include <string.h>
 
-#define TYRE_FRICTION 0.7  /* of the weight: how hard a sideways slide is braked */
-#define CRAWL_SHARE   0.1  /* of full speed: what is left on the steepest slope */
-#define STANDING_TURN 0.35 /* share of the turn rate that is there at rest */
-#define FULL_TURN_MPS 4.0  /* speed from which the whole turn rate is */
-#define LOW_CLIMB     1.2  /* of max_slope_rad: what low gear climbs, and no slower for it */
-#define ENGINE_DRAG   0.5  /* of its acceleration: how it slows when the throttle is let go */
-#define ROLLING       0.03 /* of the weight: how it slows in neutral */
+#define TYRE_FRICTION 0.7  /* share of the weight: brakes a sideways slide */
+#define CRAWL_SHARE   0.1  /* share of full speed that is left on the steepest slope */
+#define STANDING_TURN 0.35 /* share of the turn rate at rest */
+#define FULL_TURN_MPS 4.0  /* from this speed on the turn rate is full */
+#define LOW_CLIMB     1.2  /* share of max_slope_rad that low gear climbs at full speed */
+#define ENGINE_DRAG   0.5  /* share of the acceleration: braking when the throttle is released */
+#define ROLLING       0.03 /* share of the weight: braking in neutral */
 
-/* Share of full speed that what is left of fallen objects here allows; 1 where nothing fell. */
+/* The share of full speed that the debris of fallen objects allows here; 1: there is none. */
 static double debris_share(const struct step_context *context, double x, double z)
 {
     const struct world *world = context->world;
@@ -67,7 +66,7 @@ static void take_kind(struct ground_vehicle *batch, int l, const struct kind *ki
     batch->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
 }
 
-/* What does not depend on its wish; the lane. */
+/* Fills what does not depend on the desired motion, and returns the lane. */
 static inline int take_row(const struct step_context *context, struct ground_vehicle *batch,
                            uint32_t i)
 {
@@ -117,9 +116,9 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
 
 /* --- four at once ------------------------------------------------------------------------------*/
 
-/* Each of these does for the four lanes from 4 h on what its comment says of one vehicle. */
+/* Comments describe one vehicle. Each function treats the four of vector h. */
 
-/* Of those who hold their controls, what these ask: agent_controls_motion(). */
+/* agent_controls_motion(), for held lanes. */
 static inline void find_wish(struct ground_vehicle *batch, int h, double dt_s)
 {
     four_masks held = batch->held.f64x4[h];
@@ -130,7 +129,7 @@ static inline void find_wish(struct ground_vehicle *batch, int h, double dt_s)
     batch->wanted_mps.f64x4[h] = SIMD_CHOOSE(held, speed, batch->wanted_mps.f64x4[h]);
 }
 
-/* The heading turned as the wish asks: kinematics_steer(). */
+/* kinematics_steer() */
 static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forward, double dt_s)
 {
     f64x4 agility = STANDING_TURN + (1.0 - STANDING_TURN) * SIMD_ABS(*forward) / FULL_TURN_MPS;
@@ -141,7 +140,7 @@ static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forwa
     kinematics_simd_steer(&batch->heading.f64x4[h], &helm, &rate, dt_s);
 }
 
-/* The speed that it wants and gets fuel for: kinematics_burn(). */
+/* The speed that it wants and has fuel for: kinematics_burn(). */
 static inline void burn(struct ground_vehicle *batch, int h, f64x4 *wanted, double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), least = SIMD_EVERY(1e-9);
@@ -152,7 +151,8 @@ static inline void burn(struct ground_vehicle *batch, int h, f64x4 *wanted, doub
     *wanted = SIMD_CHOOSE(dry, none, *wanted);
 }
 
-/* Within what slope and debris allow; 0 beyond what the kind climbs, and then it is blocked. */
+/* Limits the speed by slope and debris. On a slope that the kind cannot climb the speed is 0 and
+ * the vehicle is blocked. */
 static inline void limit(struct ground_vehicle *batch, int h, f64x4 *wanted)
 {
     const f64x4 none = SIMD_EVERY(0.0);
@@ -171,7 +171,7 @@ static inline void limit(struct ground_vehicle *batch, int h, f64x4 *wanted)
     *wanted = SIMD_CLAMP(*wanted, least, most);
 }
 
-/* Speed along the heading a step later, under power: it brakes by kinematics_slowing(). */
+/* The speed along the heading after the step, in gear. Braking is as in kinematics_slowing(). */
 static inline void power(const struct ground_vehicle *batch, int h, const f64x4 *wanted,
                          f64x4 *forward, double dt_s)
 {
@@ -191,7 +191,7 @@ static inline void power(const struct ground_vehicle *batch, int h, const f64x4 
 
 /* --- lanes -------------------------------------------------------------------------------------*/
 
-/* And out of gear: the slope pulls, the wheels' own resistance and the brake hold. */
+/* The same out of gear, where the slope accelerates and the wheels and the brake slow. */
 static double rolling(const struct step_context *context, const struct ground_vehicle *batch, int l,
                       double forward)
 {
@@ -202,7 +202,7 @@ static double rolling(const struct step_context *context, const struct ground_ve
     return maths_clamp(forward, -batch->full_mps.lane[l], batch->full_mps.lane[l]);
 }
 
-/* Where it would be a step later, where its nose or its tail, whichever leads. */
+/* The position after the step, and that of the end of the body that leads. */
 struct ahead {
     union simd_lanes x, z, lead_x, lead_z;
 };
@@ -227,7 +227,7 @@ static inline void find_ahead(const struct step_context *context, struct ground_
     }
 }
 
-/* Is the point in the world, and no water? */
+/* Is the point in the world and on dry land? */
 static inline void passable(const struct step_context *context, const struct ground_vehicle *batch,
                             const union simd_lanes *x, const union simd_lanes *z,
                             union lane_masks *pass)
@@ -238,7 +238,7 @@ static inline void passable(const struct step_context *context, const struct gro
                          (x->f64x4[h] <= WORLD_SIDE_M) & (z->f64x4[h] <= WORLD_SIDE_M);
 }
 
-/* There, unless the way is blocked. */
+/* Moves the vehicle there unless it is blocked. */
 static inline void go(const struct step_context *context, struct ground_vehicle *batch,
                       const struct ahead *ahead)
 {
@@ -256,7 +256,7 @@ static inline void go(const struct step_context *context, struct ground_vehicle 
         batch->pose.z.f64x4[h] = SIMD_CHOOSE(stays, z, ahead->z.f64x4[h]);
         batch->vx.f64x4[h] = SIMD_CHOOSE(stays, none, batch->vx.f64x4[h]);
         batch->vz.f64x4[h] = SIMD_CHOOSE(stays, none, batch->vz.f64x4[h]);
-        /* Beyond this the map of scars says nothing. */
+        /* Points that are further from the start are beyond the start square's crater mark. */
         f64x4 far = SIMD_ABS(batch->pose.x.f64x4[h] - x) + SIMD_ABS(batch->pose.z.f64x4[h] - z) +
                     batch->pose.half_length.f64x4[h] + batch->pose.half_width.f64x4[h];
         batch->pose.cratered.f64x4[h] |= ~(far < GROUND_MARKS_NEAR_M);
@@ -307,6 +307,6 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
     maths_sincos_lanes(&batch->heading, &batch->pose.sine, &batch->pose.cosine);
     find_ahead(context, batch, &under_power, &rightward, &ahead);
     go(context, batch, &ahead);
-    ground_pose_move(context, &batch->pose);
+    ground_pose_find(context, &batch->pose);
     write_rows(context, batch);
 }

@@ -1,5 +1,6 @@
-/* Ground vehicles, eight at a time: each fills a lane with what it wishes, then all of them move.
- * What a vehicle does depends on nothing in the other lanes. */
+/* Motion of land vehicles, in batches of eight: each row takes a lane, then all lanes move. The
+ * result of a lane does not depend on the other lanes. Vehicles follow the terrain; slopes and
+ * debris limit their speed, and water stops them. */
 #ifndef JOLON_MOVER_MOTION_GROUND_VEHICLE_H
 #define JOLON_MOVER_MOTION_GROUND_VEHICLE_H
 
@@ -9,31 +10,32 @@ struct ground_vehicle {
     int count; /* lanes taken */
     uint32_t row[LANE_COUNT];
     bool out_of_gear[LANE_COUNT];
-    union lane_masks held; /* its wish is what its controls ask: turn and wanted_mps are these */
-    union lane_masks driven, low_gear; /* of the wish */
+    union lane_masks held; /* turn and wanted_mps are the row's controls (steer, throttle) */
+    /* The desired motion. */
+    union lane_masks driven, low_gear;
     union simd_lanes wanted_heading, wanted_mps, turn, brake;
-    union simd_lanes y, vx, vz, heading, pitch, fuel; /* of the row, before and after */
-    union simd_lanes full_mps, acceleration, turn_rate, max_slope, half_length,
-        burn_lps;             /* of its kind */
+    /* The row, before and after; its place is in pose. */
+    union simd_lanes y, vx, vz, heading, pitch, fuel;
+    struct ground_pose pose;
+    /* The kind. */
+    union simd_lanes full_mps, acceleration, turn_rate, max_slope, half_length, burn_lps;
     union lane_masks tank;    /* it has one */
-    union simd_lanes debris;  /* share of full speed that what fell here allows */
-    union lane_masks blocked; /* what comes out: the way is: water, a slope, the world's edge */
-    struct ground_pose pose;  /* with its place */
+    union simd_lanes debris;  /* the share of full speed that debris at its place allows */
+    union lane_masks blocked; /* result: water, a slope or the edge of the world blocks it */
 };
 
-/* Without anybody. */
+/* Empties the batch. */
 void ground_vehicle_begin(struct ground_vehicle *batch);
 
-/* Row i, by its wish, takes a lane: true when that was the last. */
+/* Gives row i a lane. True when the batch is full. */
 bool ground_vehicle_take(const struct step_context *context, struct ground_vehicle *batch,
                          uint32_t i, const struct desired_motion *desired);
 
-/* The same by its controls as its agent set them: what agent_controls_motion() would wish. */
+/* The same with the motion of agent_controls_motion(), computed here for eight rows at once. */
 bool ground_vehicle_take_held(const struct step_context *context, struct ground_vehicle *batch,
                               uint32_t i);
 
-/* Moves those who have a lane; their lanes stay taken, so that the caller can see who is blocked.
- */
+/* Moves the rows of the batch. Their lanes stay taken, so that the caller can read blocked. */
 void ground_vehicle_move(const struct step_context *context, struct ground_vehicle *batch);
 
 #endif

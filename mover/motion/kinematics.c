@@ -8,8 +8,7 @@
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-/* Of a sphere's radius: clear of the ground, well within it. */
-#define AIM_SHARE 0.35
+#define AIM_SHARE 0.35 /* of a sphere's radius: above the ground and well within the sphere */
 
 double kinematics_ground(const struct step_context *context, double x, double z)
 {

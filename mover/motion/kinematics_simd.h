@@ -1,5 +1,6 @@
-/* Parts of motion that land vehicles and aircraft share, for four bodies at once; each to the bit
- * what its namesake of one body gives (kinematics.c, world/maths/maths.h). Angles are of up to 1e6.
+/* Parts of motion that land vehicles and aircraft share, for four bodies at once. Each gives to the
+ * bit what its namesake for one body gives (kinematics.h, world/maths/maths.h), for angles up to
+ * 1e6.
  */
 #ifndef JOLON_MOVER_MOTION_KINEMATICS_SIMD_H
 #define JOLON_MOVER_MOTION_KINEMATICS_SIMD_H
@@ -30,7 +31,7 @@ static inline void kinematics_simd_approach(f64x4 *value, const f64x4 *wanted, c
     *value += SIMD_CLAMP(off, back, *step);
 }
 
-/* What kinematics_steer() asks of the wish. */
+/* The desired motion as kinematics_steer() reads it. */
 struct kinematics_simd_helm {
     f64x4 wanted_heading, turn;
     four_masks driven;
@@ -48,7 +49,7 @@ static inline void kinematics_simd_steer(f64x4 *heading, const struct kinematics
     kinematics_simd_wrap_turn(heading);
 }
 
-/* Burns at a share of full throttle where there is a tank; who has run dry. */
+/* Burns fuel at a share of full throttle where there is a tank. dry: the tank is empty. */
 static inline void kinematics_simd_burn(f64x4 *fuel, const f64x4 *burn_lps, const f64x4 *share,
                                         const four_masks *tank, double dt_s, four_masks *dry)
 {

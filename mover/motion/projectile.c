@@ -1,14 +1,12 @@
-/* Munitions: ballistic under gravity alone, or homing on their target. */
-#include "mover/context/step_context.h"
-#include "mover/motion/kinematics.h"
+/* Moves munitions: ballistic under gravity alone, or homing by proportional navigation. */
 #include "mover/motion/projectile.h"
+
+#include "mover/motion/kinematics.h"
 #include "world/state.h"
 #include "world/world.h"
 
 #define BOOST_MPS2 300.0 /* a missile's acceleration to full speed */
-#define NAVIGATION                                                                                 \
-    4.0 /* of proportional navigation: its way turns so much faster than the sight                 \
-         */
+#define NAVIGATION 4.0   /* the path turns so many times as fast as the line of sight */
 
 /* Turns velocity towards direction (unit) by at most most_rad, keeping its length. */
 static struct vec3 turned(struct vec3 velocity, struct vec3 direction, double most_rad)
@@ -23,7 +21,7 @@ static struct vec3 turned(struct vec3 velocity, struct vec3 direction, double mo
     double angle = maths_atan2(across, along);
     if (angle <= most_rad)
         return vec3_scale(direction, speed);
-    if (across <= 0.0) { /* straight behind: any way round will do */
+    if (across <= 0.0) { /* straight behind: either side will do */
         side = (struct vec3){-ahead.z, 0.0, ahead.x};
         across = maths_max(vec3_length(side), 1e-12);
     }
@@ -32,17 +30,17 @@ static struct vec3 turned(struct vec3 velocity, struct vec3 direction, double mo
     return vec3_add(vec3_scale(ahead, speed * cosine), vec3_scale(side, speed * sine / across));
 }
 
-/* Does the seeker see the target from here? Straight ahead it sees at any distance. */
+/* Is the target in the seeker's cone? Its range is not limited. */
 static bool sees(const struct kind *kind, struct vec3 velocity, struct vec3 to)
 {
     double across = vec3_length(vec3_cross(velocity, to)), along = vec3_dot(velocity, to);
     return maths_atan2(across, along) <= kind->seeker_rad;
 }
 
-/* Where to fly (unit) to meet what is at to and moves at closing, seen from the missile: turning
- * its way NAVIGATION times as fast as the line of sight turns makes that line stand still, so that
- * a crossing target is met without a guess at the time of flight (Zarchan, Tactical and Strategic
- * Missile Guidance, chapter 2). */
+/* The direction (unit) to fly for a target at `to` that moves at `closing`, relative to the
+ * missile. A path that turns NAVIGATION times as fast as the line of sight stops that line from
+ * turning, and so meets a crossing target without an estimate of the time of flight (Zarchan,
+ * Tactical and Strategic Missile Guidance, chapter 2). */
 static struct vec3 navigated(struct vec3 velocity, struct vec3 to, struct vec3 closing, double dt_s)
 {
     double square = maths_max(vec3_dot(to, to), 1e-6);
@@ -71,7 +69,7 @@ static void home(const struct step_context *context, uint32_t i, const struct ki
                        navigated(velocity, to, vec3_sub(entities_velocity(w, target), velocity),
                                  context->dt_s),
                        kind->turn_rate_rps * context->dt_s);
-        else /* what left the seeker's cone is lost for good */
+        else /* a target that has left the seeker's cone is lost for good */
             m->target_slot[i] = m->target_id[i] = 0;
     }
     entities_set_velocity(m, i, velocity);

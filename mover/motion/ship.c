@@ -1,12 +1,12 @@
-/* Ships: they keep to the water. */
+/* Moves ships. */
 #include "mover/motion/ship.h"
 
 #include "mover/motion/kinematics.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-#define KEEL_DRAG_MPS2 2.0  /* how hard a sideways slide is braked */
-#define HULL_DRAG      0.35 /* of its acceleration: how it slows when its screws stand still */
+#define KEEL_DRAG_MPS2 2.0  /* brakes a sideways slide */
+#define HULL_DRAG      0.35 /* share of the acceleration: braking when the screws stand still */
 
 static bool navigable(const struct step_context *context, double x, double z)
 {
@@ -24,7 +24,7 @@ bool ship_move(const struct step_context *context, uint32_t i, const struct desi
     kinematics_along(m, i, sine, cosine, &forward, &rightward);
     double before = m->heading[i];
 
-    /* A rudder bites with the way a ship has. */
+    /* The effect of the rudder grows with the speed. */
     double bite = maths_clamp(fabs(forward) / maths_max(kind->max_speed_mps, 1e-9), 0.15, 1.0);
     kinematics_steer(context, i, desired, kind->turn_rate_rps * bite);
     if (m->heading[i] != before)
@@ -56,7 +56,7 @@ bool ship_move(const struct step_context *context, uint32_t i, const struct desi
     m->vz[i] = vz;
     m->x[i] = x;
     m->z[i] = z;
-    m->y[i] = kinematics_ground(context, x, z); /* water's posts hold the surface */
+    m->y[i] = kinematics_ground(context, x, z); /* the height of a post in water is the surface's */
     m->pitch[i] = 0.0;
     m->roll[i] = 0.0;
     return blocked;

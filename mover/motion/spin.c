@@ -1,14 +1,13 @@
-/* Turning that collisions gave a body: what stands on something turns about the vertical until its
- * tyres or the water have stopped it, what flies turns about its centre of mass. */
+/* Turns bodies by their spin. Tyres, the water or a pilot slow it. */
 #include "mover/motion/spin.h"
 
 #include "mover/motion/kinematics.h"
 #include "world/entity/mass_properties.h"
 #include "world/world.h"
 
-#define TYRE_SCRUB      0.7 /* of the weight, at a quarter of the length from the middle */
-#define WATER_DRAG_MPS2 2.0 /* the same of a hull in the water */
-#define PILOT_RPS2      1.5 /* how fast a pilot gets his aircraft out of a spin */
+#define TYRE_SCRUB      0.7 /* share of the weight, acting at a quarter of the length */
+#define WATER_DRAG_MPS2 2.0 /* the same for a hull in the water */
+#define PILOT_RPS2      1.5 /* how fast a pilot stops the spin of an aircraft */
 
 static void turn_standing(const struct step_context *context, uint32_t i, const struct kind *kind)
 {
@@ -23,15 +22,14 @@ static void turn_standing(const struct step_context *context, uint32_t i, const 
 static void turn_flying(const struct step_context *context, uint32_t i, const struct kind *kind)
 {
     struct entities *m = context->m;
-    const struct mass_properties inertia =
-        mass_properties_of(kind); /* its middle is the position */
+    const struct mass_properties inertia = mass_properties_of(kind);
     struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
     struct quat from = rotation_of(m->heading[i], m->pitch[i], m->roll[i]);
     struct quat to = rotation_spun(from, spin, context->dt_s);
     struct mat3 before = rotation_matrix(from), after = rotation_matrix(to);
     rotation_angles(to, &m->heading[i], &m->pitch[i], &m->roll[i]);
     spin = mass_properties_carried(&inertia, &before, spin, &after);
-    if (m->state[i] == ENTITY_ACTIVE && m->behaviour[i] != BEHAVIOUR_HOLD) { /* somebody flies it */
+    if (m->state[i] == ENTITY_ACTIVE && m->behaviour[i] != BEHAVIOUR_HOLD) { /* a pilot */
         double rate = vec3_length(spin);
         spin = vec3_scale(spin, maths_max(0.0, rate - PILOT_RPS2 * context->dt_s) / rate);
     }

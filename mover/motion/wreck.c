@@ -1,11 +1,11 @@
-/* Wrecks: what lies, slides or falls. */
+/* Moves wrecks that slide or fall. */
 #include "mover/motion/wreck.h"
 
 #include "mover/motion/kinematics.h"
 #include "mover/motion/spin.h"
 #include "world/world.h"
 
-#define WRECK_FRICTION 0.6 /* of the weight */
+#define WRECK_FRICTION 0.6 /* share of the weight */
 
 bool wreck_row(const struct step_context *context, uint32_t i, double ground)
 {
