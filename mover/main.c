@@ -12,7 +12,7 @@
 #include <string.h>
 #include <sys/prctl.h>
 
-/* The frames, until the process is asked to stop or the run is over. */
+/* Runs frames until the process is asked to stop or the run is over. */
 static void move_frames(struct mover *mover, struct view *view)
 {
     struct command_source sources[COMMAND_RING_COUNT];
@@ -51,7 +51,7 @@ int main(int argc, char **argv)
         process_refuse_memory(view.world.params->capacity);
     if (sandbox_enter(&sandbox, &reason) != 0)
         die_refused("%s", reason.text);
-    /* It may have been asked to stop, or the run may have ended, while another had the role. */
+    /* A stand-by process may be asked to stop, or the run may end, before it gets the role. */
     if (segment_take(&view) == 0 && !(options.stand_by && frame_protocol_finished(&view))) {
         segment_ready(&view);
         log_info("moves world \"%s\" on %u thread(s)", view.name, options.threads);

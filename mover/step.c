@@ -1,4 +1,5 @@
-/* The mover's step: copy, commands, every row for itself, then what reaches beyond a row. */
+/* The step: take the committed table, apply commands, move every row in parallel, then do serially
+ * what changes other rows. */
 #include "mover/step.h"
 
 #include "mover/agent/agent.h"
@@ -22,7 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BLOCKS_A_WORKER 2u /* at a time */
+#define BLOCKS_A_WORKER 2u
 #define ROWS_A_WORKER   (BLOCKS_A_WORKER * CHECKSUM_ROWS)
 
 int mover_init(struct mover *mover, const struct world *world, const struct crater *craters,
@@ -65,10 +66,10 @@ struct rows {
     const struct state_head *head; /* of moved */
     uint64_t *changed;             /* [CHECKSUM_PIECES] columns to hash again */
     const struct piece_hashes *blank;
-    bool known; /* moved is what this process left: the rows before collisions changed some */
+    bool known; /* is_own() */
 };
 
-/* Rows that move together: those of a piece of the table that have yet to. */
+/* The rows of a block that wait for their batch to fill up. */
 struct batches {
     const struct row_block *block;
     uint8_t motion[CHECKSUM_ROWS];
@@ -78,7 +79,7 @@ struct batches {
     struct wrecks wrecks;
 };
 
-/* What follows a vehicle's own motion. */
+/* After a vehicle has moved: its agent reacts to a blocked path, and its gun turns. */
 static void after_motion(const struct step_context *context, struct batches *batches, uint32_t i,
                          bool blocked)
 {
@@ -155,7 +156,7 @@ static void move_by_wish(const struct step_context *context, uint32_t i,
     }
 }
 
-/* By the controls that its agent set. */
+/* Moves a row by the controls that its agent set. */
 static void move_held(const struct step_context *context, uint32_t i, struct batches *batches)
 {
     struct desired_motion desired;
@@ -209,27 +210,27 @@ static void move_rest(const struct step_context *context, struct batches *batche
         move_hold(context, batches);
 }
 
-/* What no row changes of itself: commands, shots and collisions do. */
+/* Columns that only commands, shots and collisions change. */
 #define STILL_COLUMNS                                                                              \
     (COLUMN_BIT(harm_j) | COLUMN_BIT(bump_heading) | COLUMN_BIT(id) | COLUMN_BIT(owner_slot) |     \
      COLUMN_BIT(owner_id) | COLUMN_BIT(touch_body) | COLUMN_BIT(touch_tick) |                      \
      COLUMN_BIT(born_tick) | COLUMN_BIT(changed_tick) | COLUMN_BIT(kind) | COLUMN_BIT(state) |     \
      COLUMN_BIT(force) | COLUMN_BIT(damage))
 
-/* Columns that motion changes; and those of a gun that is laid. */
+/* Columns that motion changes, and those that laying a gun changes. */
 #define MOTION_COLUMNS                                                                             \
     (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(vx) | COLUMN_BIT(vy) |             \
      COLUMN_BIT(vz) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) | COLUMN_BIT(roll) |                 \
      COLUMN_BIT(fuel_l))
 #define LAID_COLUMNS (GUN_COLUMNS | COLUMN_BIT(trigger))
 
-/* Columns that are as blank as they were: those in which nobody has written who did more than go
- * on, or only zeros. */
+/* The columns of the block that were zero in every row and still are. Only rows that did more than
+ * move can have written to them. */
 static uint64_t still_blank(const struct rows *rows, const struct batches *batches)
 {
     const struct row_block *block = batches->block;
     uint64_t columns = block->blank & ~STILL_COLUMNS & ~MOTION_COLUMNS & ~SPIN_COLUMNS;
-    /* What does not turn does not begin to; what turns may turn about another axis. */
+    /* No row begins to spin in a step. A row that spins may change its axis. */
     uint64_t spins = row_block_lacks(block, SPIN_COLUMNS) ? SPIN_COLUMNS : 0;
     uint32_t row[CHECKSUM_ROWS], count = 0;
     if (!row_block_lacks(block, GUN_COLUMNS))
@@ -242,7 +243,7 @@ static uint64_t still_blank(const struct rows *rows, const struct batches *batch
     return spins | table_zero(rows->moved, columns, row, count);
 }
 
-/* Returns the columns that are as they were. */
+/* Returns the columns that have not changed. */
 static uint64_t move_block(const struct rows *rows, const struct row_block *block)
 {
     const struct step_context *context = rows->context;
@@ -259,8 +260,8 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     return still_blank(rows, &batches);
 }
 
-/* Rows that the committed world has; one spawned by a command of this frame moves from the next. A
- * piece is hashed while it is in the cache. */
+/* Moves the committed rows; a row that a command has spawned moves from the next frame on. A block
+ * is hashed while it is in the processor's cache. */
 static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct rows *rows = context;
@@ -282,7 +283,8 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
     }
 }
 
-/* Of a table of which nothing is known the hashes are not either. */
+/* Copies the committed rows. The hashes of a table whose content is unknown must all be computed.
+ */
 static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct rows *rows = context;
@@ -307,7 +309,7 @@ static void scenario_fires(struct serial_context *context)
             fire_drop_bomb(context, order->kind, order->x, order->z);
             continue;
         }
-        /* Initial slots hold their first owner while the id is slot + 1. */
+        /* An initial slot still holds its first entity if the id is slot + 1. */
         if (!entities_alive(m, shooter, shooter + 1) || m->state[shooter] != ENTITY_ACTIVE)
             continue;
         if (target != SLOT_NONE && !entities_alive(m, target, target + 1))
@@ -339,7 +341,7 @@ static void pull_trigger(struct serial_context *context, uint32_t i)
         fire_shoot_at(context, i, m->goal_x[i], m->goal_z[i], KIND_NONE);
 }
 
-/* Few rows have one: those that do not are passed over eight at a time. */
+/* Few rows have a trigger; rows without one are skipped eight at a time. */
 static void pull_triggers(struct serial_context *context)
 {
     const uint8_t *trigger = context->moved->entities.trigger;
@@ -364,8 +366,8 @@ static void begin_head(struct moved *moved, const struct state_head *committed)
     moved->head->checksum = 0;
 }
 
-/* Does the moved table hold what this process left in it for the frame that is now committed? Then
- * it differs from that frame only where collisions changed it. */
+/* Is the moved table the one that this process left for the frame that is now committed? Then it
+ * differs from that frame only where collisions changed rows. */
 static bool is_own(const struct mover *mover, const struct state *committed,
                    const struct moved *moved)
 {
@@ -374,7 +376,7 @@ static bool is_own(const struct mover *mover, const struct state *committed,
            moved->head->used == committed->head->used;
 }
 
-/* The checksum of the table that is now whole. */
+/* Hashes the columns that the serial part changed, and returns the checksum of the table. */
 static uint64_t checksum(struct mover *mover, const struct moved *moved)
 {
     uint32_t used = moved->head->used;

@@ -1,4 +1,4 @@
-/* Shots: aim, dispersion, the new munition, and the target's alarm. */
+/* Fires shots. */
 #include "mover/weapon/fire.h"
 
 #include "mover/motion/kinematics.h"
@@ -13,10 +13,10 @@
 
 #include <stddef.h>
 
-#define LAUNCH_SHARE  0.3   /* of a missile's full speed: how it leaves */
-#define DROP_HEIGHT_M 300.0 /* rounds out of the sky come from this far above the point */
+#define LAUNCH_SHARE  0.3   /* share of full speed with which a missile starts */
+#define DROP_HEIGHT_M 300.0 /* height above the point from which bombs fall */
 
-/* About normal, standard deviation 1: the sum of twelve uniforms would do, four are enough. */
+/* A random number with standard deviation 1: the sum of four uniforms is nearly normal. */
 static double spread(const struct serial_context *context, uint32_t row,
                      enum random_purpose purpose)
 {
@@ -52,8 +52,8 @@ static void point_munition(struct entities *m, uint32_t row, struct vec3 positio
     m->pitch[row] = maths_atan2(velocity.y, level);
 }
 
-/* The new munition, its shooter's loss and the event; the row target, if any, is told. Directed at
- * point, if not NULL, instead. */
+/* Makes the munition and the event, takes a round from the shooter, and alarms the row target
+ * unless it is SLOT_NONE. point: where to aim instead of at a target; NULL: none. */
 static bool launch(struct serial_context *context, uint32_t shooter, uint32_t target,
                    const struct vec3 *point, uint16_t munition)
 {
@@ -78,7 +78,7 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
     double clear = kind->radius_m + round->radius_m + 0.5;
     struct vec3 muzzle = vec3_add(position, vec3_scale(direction, clear));
     double speed = round->max_speed_mps;
-    if (round->guidance == GUIDANCE_HOMING) { /* its motor burns from here on */
+    if (round->guidance == GUIDANCE_HOMING) { /* its motor starts now */
         double carried = maths_max(0.0, vec3_dot(direction, entities_velocity(m, shooter)));
         speed = maths_min(speed, LAUNCH_SHARE * speed + carried);
     }

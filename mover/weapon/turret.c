@@ -1,4 +1,4 @@
-/* Turrets and guns: where they point, where they should, and whether a shot would go there. */
+/* Finds firing solutions, lays guns, and checks shots. */
 #include "mover/weapon/turret.h"
 
 #include "mover/motion/kinematics.h"
@@ -7,11 +7,11 @@
 #include "world/world.h"
 
 #define MUZZLE_SHARE   0.7   /* of the shooter's height */
-#define LAID_RAD       0.004 /* off its solution a turret's gun fires */
-#define HULL_LAID_RAD  0.06  /* likewise one that aims with the hull */
-#define FRIEND_AHEAD_M 300.0 /* how far ahead a gunner looks for friends */
-#define FRIEND_CLEAR_M 1.0   /* beside their radius */
-#define LEAD_STEPS     4 /* of the flight time's fixed point: 1e-4 of it at a tenth of the speed */
+#define LAID_RAD       0.004 /* a turret's gun fires when it is so near to its solution */
+#define HULL_LAID_RAD  0.06  /* the same where the hull aims */
+#define FRIEND_AHEAD_M 300.0 /* a gunner looks for friends so far ahead */
+#define FRIEND_CLEAR_M 1.0   /* added to the radius of a friend */
+#define LEAD_STEPS     4     /* iterations for the flight time: its error is then about 1e-4 */
 
 struct vec3 turret_muzzle(const struct step_context *context, const struct entities *e, uint32_t i)
 {
@@ -21,7 +21,7 @@ struct vec3 turret_muzzle(const struct step_context *context, const struct entit
     return position;
 }
 
-/* Towards what is at to, off the muzzle, and goes on at velocity. */
+/* The direction for a target that is at `to`, relative to the muzzle, and moves at velocity. */
 static struct vec3 lead_on(const struct kind *munition, struct vec3 to, struct vec3 velocity)
 {
     double speed = maths_max(munition->max_speed_mps, 1.0);
@@ -55,7 +55,7 @@ static struct mat3 pose_matrix(const struct entities *e, uint32_t i)
     return rotation_matrix(rotation_of(e->heading[i], e->pitch[i], e->roll[i]));
 }
 
-/* Where the gun points in a body that is turned so. */
+/* The direction of the gun for this rotation of the body. */
 static struct vec3 barrel_of(const struct entities *e, uint32_t i, const struct mat3 *body)
 {
     double sine, cosine, sine_up, cosine_up;
@@ -70,7 +70,7 @@ struct vec3 turret_barrel(const struct entities *e, uint32_t i)
     return barrel_of(e, i, &body);
 }
 
-/* Both at once to these angles, by no more than their rates and within the gun's limits. */
+/* Turns turret and gun towards these angles, at most at their rates and within the gun's limits. */
 static void lay(const struct step_context *context, uint32_t i, const struct kind *kind,
                 double turret, double gun)
 {
@@ -89,7 +89,7 @@ static bool has_target(const struct step_context *context, uint32_t i)
     return m->target_id[i] != 0 && entities_alive(w, m->target_slot[i], m->target_id[i]);
 }
 
-/* Towards its goal, a point on the ground. */
+/* The direction for its goal, a point on the ground. */
 static struct vec3 lead_goal(const struct step_context *context, uint32_t i,
                              const struct kind *munition)
 {
@@ -99,7 +99,8 @@ static struct vec3 lead_goal(const struct step_context *context, uint32_t i,
     return turret_lead_point(turret_muzzle(context, m, i), munition, goal);
 }
 
-/* The solution on its target, or on the point that it is to fire at, in the body's own axes. */
+/* Finds the solution for its target, or for its goal with TRIGGER_FIRE_AT. turret, gun: the angles
+ * of the solution. */
 static void solve(const struct step_context *context, uint32_t i, const struct kind *kind,
                   struct turret_solution *solution, double *turret, double *gun)
 {
@@ -117,7 +118,7 @@ static void solve(const struct step_context *context, uint32_t i, const struct k
     *gun = maths_atan2(lead.y, level);
 }
 
-/* By traverse and elevate. */
+/* Turns turret and gun by the columns traverse and elevate. */
 static void lay_by_rates(const struct step_context *context, uint32_t i, const struct kind *kind)
 {
     const struct entities *m = context->m;
@@ -131,7 +132,7 @@ static float share_of(double off, double most)
     return (float)maths_clamp(off / maths_max(most, 1e-9), -1.0, 1.0);
 }
 
-/* Rates that bring both to these angles by its agent's next thought. */
+/* Sets the rates that reach these angles by the next decision of the agent. */
 static void set_rates(const struct step_context *context, uint32_t i, const struct kind *kind,
                       double turret, double gun)
 {
@@ -142,8 +143,8 @@ static void set_rates(const struct step_context *context, uint32_t i, const stru
     m->elevate[i] = share_of(gun - (double)m->gun[i], kind->gun_rate_rps * time_s);
 }
 
-/* Its crew lays it: exactly when it is about to fire or has nothing to aim at, else by rates that
- * they think of in their turn. */
+/* An agent's gun. It is laid exactly when it is about to fire or returns to rest, else by the rates
+ * that the agent sets when it decides. */
 static void by_agent(const struct step_context *context, uint32_t i, const struct kind *kind,
                      struct turret_solution *solution)
 {
@@ -183,7 +184,7 @@ void turret_turn(const struct step_context *context, uint32_t i, struct turret_s
     if (m->behaviour[i] != BEHAVIOUR_DRIVEN) {
         by_agent(context, i, kind, solution);
     } else if (m->traverse[i] != 0.0f ||
-               m->elevate[i] != 0.0f) { /* by hand: of no target any more */
+               m->elevate[i] != 0.0f) { /* a driver's hand cancels the target */
         m->target_slot[i] = m->target_id[i] = 0;
         lay_by_rates(context, i, kind);
     } else if (has_target(context, i)) {
@@ -203,7 +204,7 @@ static double angle_between(struct vec3 a, struct vec3 b)
     return maths_atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b));
 }
 
-/* As turret_bears() says, of a gun that points along barrel. Its solution, or NULL. */
+/* turret_bears() for a barrel's direction. solution: this frame's, or NULL. */
 static bool bears(const struct step_context *context, const struct entities *rows, uint32_t i,
                   uint32_t target, struct vec3 barrel, const struct turret_solution *solution)
 {
@@ -228,7 +229,7 @@ bool turret_bears(const struct step_context *context, const struct entities *row
     return bears(context, rows, i, target, turret_barrel(rows, i), NULL);
 }
 
-/* Would the round pass a friend, or somebody who has no part in it, on its way to the target? */
+/* Would the round pass near a friend or a neutral vehicle on its way to the target? */
 static bool friend_ahead(const struct step_context *context, uint32_t i, uint32_t target,
                          struct vec3 barrel)
 {
