@@ -9,7 +9,7 @@
 #include "config/syntax/source.h"
 #include "config/vehicles.h"
 #include "world/making/scenario.h"
-#include "world/params.h"
+#include "world/making/scenario_settings.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -83,7 +83,7 @@ static bool is_list(const config_setting_t *setting)
 static int read_file(struct load *load)
 {
     struct key_reading keys = {.table = &schema_scenario,
-                               .destination = load->scenario,
+                               .destination = load->scenario->settings,
                                .file = load->source.path,
                                .skip = is_list};
     const config_setting_t *root = config_root_setting(&load->config);
@@ -98,7 +98,7 @@ static int read_file(struct load *load)
             load->origin[i] = (struct key_place){"default", 0};
     }
     if (objects != NULL && objects->type == CONFIG_TYPE_LIST) {
-        load->scenario->objects = OBJECTS_LIST;
+        load->scenario->settings->objects = OBJECTS_LIST;
         load->objects_chosen = true;
     }
     if ((keys.given >> key_table_find(&schema_scenario, "objects.source") & 1u) != 0)
@@ -138,7 +138,7 @@ static int apply_override(struct load *load, const char *text)
     if (strcmp(schema_scenario.keys[index].name, "objects.source") == 0)
         load->objects_chosen = true;
     XXH3_64bits_update(load->hash, text, strlen(text) + 1);
-    return key_table_set_text(&schema_scenario.keys[index], load->scenario, value,
+    return key_table_set_text(&schema_scenario.keys[index], load->scenario->settings, value,
                               load->origin[index], load->message);
 }
 
@@ -167,7 +167,7 @@ static int check_levels(const struct load *load, const struct levels *levels)
 /* Checks values that are in range but may not fit each other. */
 static int check_together(const struct load *load)
 {
-    const struct collision_params *collision = &load->scenario->params.collision;
+    const struct collision_params *collision = &load->scenario->settings->params.collision;
     const struct levels damage = {
         {"collision.figure8.damage_high", "collision.figure8.damage_med",
          "collision.figure8.damage_low"},
@@ -190,7 +190,8 @@ static int read_lists(struct load *load)
     const char *file = load->source.path;
 
     if (!load->objects_chosen)
-        scenario->objects = scenario->terrain == TERRAIN_GENERATED ? OBJECTS_TABLE1 : OBJECTS_NONE;
+        scenario->settings->objects =
+            scenario->settings->terrain == TERRAIN_GENERATED ? OBJECTS_TABLE1 : OBJECTS_NONE;
     if (objects != NULL && objects->type != CONFIG_TYPE_LIST)
         objects = NULL;
     if (scripts_read(scenario, config_setting_get_member(root, "scripts"), file, load->hash,
@@ -201,7 +202,7 @@ static int read_lists(struct load *load)
         lists_fires(scenario, fires, vehicles, file, load->message) != 0)
         return -1;
     /* A list is checked even when an override replaces it. */
-    if (scenario->objects != OBJECTS_LIST)
+    if (scenario->settings->objects != OBJECTS_LIST)
         scenario->object_count = 0;
     return 0;
 }
@@ -217,7 +218,7 @@ static uint32_t event_slots_for(uint32_t capacity)
 
 static void derive(struct load *load)
 {
-    struct params *params = &load->scenario->params;
+    struct params *params = &load->scenario->settings->params;
     const char *path = load->source.path;
     size_t length = strlen(path);
     uint64_t intents = (uint64_t)INTENTS_PER_ENTITY * params->capacity + INTENTS_EXTRA;
@@ -261,7 +262,7 @@ static int read_scenario(struct load *load, const char *const *overrides, int ov
     if (source_parse(&load->source, &load->config, load->message) != 0)
         return -1;
     XXH3_64bits_update(load->hash, load->source.text, load->source.bytes);
-    if (key_table_defaults(&schema_scenario, load->scenario, load->message) != 0 ||
+    if (key_table_defaults(&schema_scenario, load->scenario->settings, load->message) != 0 ||
         read_file(load) != 0)
         return -1;
     for (int i = 0; i < override_count; i++) {
@@ -289,16 +290,17 @@ int loader_scenario(struct scenario *scenario, const char *data_dir, const char 
     if (find_scenario(data_dir, path, found, sizeof(found), message) != 0 ||
         source_read(&load.source, found, SCHEMA_SCENARIO_BYTES_MAX, message) != 0)
         return -1;
+    scenario->settings = calloc(1, sizeof(*scenario->settings));
     load.hash = XXH3_createState();
-    if (load.hash == NULL || XXH3_64bits_reset(load.hash) != XXH_OK) {
+    if (scenario->settings == NULL || load.hash == NULL || XXH3_64bits_reset(load.hash) != XXH_OK) {
         key_table_refuse(message, (struct key_place){found, 0}, NULL, NULL, "no memory to read it");
         goto err_source;
     }
     result = read_scenario(&load, overrides, override_count);
     config_destroy(&load.config);
+err_source:
     if (result != 0)
         scenario_free(scenario);
-err_source:
     XXH3_freeState(load.hash);
     source_free(&load.source);
     return result;
@@ -308,21 +310,22 @@ err_source:
  * objects of the world were made from the other keys. */
 static bool changeable(const struct key *key)
 {
-    _Static_assert(offsetof(struct scenario, params) == 0, "keys of params come first");
+    _Static_assert(offsetof(struct scenario_settings, params) == 0, "keys of params come first");
     return key->offset < sizeof(struct params) &&
-           key->offset != offsetof(struct scenario, params.capacity);
+           key->offset != offsetof(struct scenario_settings, params.capacity);
 }
 
 int loader_branch(struct params *params, const char *const *overrides, int override_count,
                   struct config_message *message)
 {
-    struct scenario scenario = {.params = *params};
+    struct scenario_settings settings = {.params = *params};
+    struct scenario scenario = {.settings = &settings};
     struct load load = {.scenario = &scenario, .message = message};
 
     for (uint32_t i = 0; i < schema_scenario.count; i++)
         load.origin[i] = (struct key_place){OVERRIDE_PLACE, 0};
     for (int i = 0; i < override_count; i++) {
-        uint64_t before = XXH3_64bits(&scenario.params, sizeof(scenario.params));
+        uint64_t before = XXH3_64bits(&settings.params, sizeof(settings.params));
         const char *value = NULL;
         int index = find_override(&load, overrides[i], &value);
 
@@ -334,15 +337,15 @@ int loader_branch(struct params *params, const char *const *overrides, int overr
                 message, load.origin[index], key->name, value,
                 "cannot change in a world that exists; allowed: "
                 "world.seed, hz, frames, pace and name, collision.*, renderer.*");
-        if (key_table_set_text(key, &scenario, value, load.origin[index], message) != 0)
+        if (key_table_set_text(key, &settings, value, load.origin[index], message) != 0)
             return -1;
-        scenario.params.dt_s = 1.0 / scenario.params.hz;
-        if (before != XXH3_64bits(&scenario.params, sizeof(scenario.params)))
-            scenario.params.scenario_hash = XXH3_64bits_withSeed(
-                overrides[i], strlen(overrides[i]) + 1, scenario.params.scenario_hash);
+        settings.params.dt_s = 1.0 / settings.params.hz;
+        if (before != XXH3_64bits(&settings.params, sizeof(settings.params)))
+            settings.params.scenario_hash = XXH3_64bits_withSeed(
+                overrides[i], strlen(overrides[i]) + 1, settings.params.scenario_hash);
     }
     if (check_together(&load) != 0)
         return -1;
-    *params = scenario.params;
+    *params = settings.params;
     return 0;
 }

@@ -7,6 +7,7 @@
 #include "world/entity/entity.h"
 #include "world/entity/kind.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/maths/maths.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
@@ -26,10 +27,10 @@ static int check_vehicle(const struct entry *entry, const struct vehicle_entry *
         return entry_refuse(entry, VEHICLE_COUNT,
                             "is not 1, but at places one vehicle; allowed: 1, or a formation");
     total += vehicle->count;
-    if (total > entry->scenario->params.capacity)
+    if (total > entry->scenario->settings->params.capacity)
         return entry_refuse(entry, VEHICLE_COUNT,
                             "makes %llu vehicles in all; allowed: up to world.capacity, %u",
-                            (unsigned long long)total, entry->scenario->params.capacity);
+                            (unsigned long long)total, entry->scenario->settings->params.capacity);
     if (vehicle->count > 1 && strlen(vehicle->name) > SHARED_NAME_MAX)
         return entry_refuse(
             entry, VEHICLE_NAME,
@@ -140,7 +141,7 @@ static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
 {
     struct scenario *scenario = entry->scenario;
     struct scenario_group *group = &scenario->groups[scenario->group_count];
-    uint32_t total = scenario->params.initial_entities;
+    uint32_t total = scenario->settings->params.initial_entities;
 
     if (choose_behaviour(entry, vehicle) != 0 || check_vehicle(entry, vehicle, total) != 0 ||
         choose_engagement(entry, vehicle, group) != 0 ||
@@ -179,7 +180,7 @@ static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
         scenario->areas[group->area] = (struct area){area[0], area[1], area[2], area[3]};
     }
     group->route = vehicle->route != NULL ? add_route(scenario, vehicle->route) : UINT32_MAX;
-    scenario->params.initial_entities += vehicle->count;
+    scenario->settings->params.initial_entities += vehicle->count;
     scenario->group_count++;
     return 0;
 }
@@ -225,7 +226,7 @@ int vehicles_read(struct scenario *scenario, const config_setting_t *list, const
         scenario->route_points == NULL)
         return -1;
     scenario->areas[scenario->area_count++] = (struct area){0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M};
-    scenario->params.initial_entities = 0;
+    scenario->settings->params.initial_entities = 0;
     for (int i = 0; i < length; i++) {
         struct vehicle_entry vehicle;
 

@@ -6,7 +6,7 @@
 #include "world/entity/entity.h"
 #include "world/entity/kind.h"
 #include "world/making/scenario.h"
-#include "world/params.h"
+#include "world/making/scenario_settings.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -61,7 +61,7 @@ int lists_bases(struct scenario *scenario, const config_setting_t *list, const c
             return entry_refuse(&entry, BASE_FORCE,
                                 "has a base already; allowed: one base for each force");
         scenario->based[base.force] = 1;
-        scenario->params.base[base.force] = (struct force_base){base.at[0], base.at[1]};
+        scenario->settings->params.base[base.force] = (struct force_base){base.at[0], base.at[1]};
     }
     return length < 0 ? -1 : 0;
 }

@@ -3,6 +3,7 @@
 #include "world/entity/entity.h"
 #include "world/enum_names.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/param_values.h"
 
 _Static_assert(sizeof(enum terrain_source) == sizeof(uint32_t), "choices store 32-bit words");
@@ -40,7 +41,7 @@ static const struct key_choice views[] = {{.value = 1u << VIEW_CHASE},
 static const struct key_choice whens_full[] = {{"gap", WHEN_FULL_GAP, NULL},
                                                {"pause", WHEN_FULL_PAUSE, NULL}};
 
-#define S struct scenario
+#define S struct scenario_settings
 static const struct key scenario_keys[] = {
     TEXT("world.name", S, params.name, "unnamed",
          .meaning = "The name of the ground in titles and reports."),

@@ -1,9 +1,10 @@
 /* The schema: every key of the files of scenarios and kinds, its type, range, default, meaning and
- * destination. A scenario's groups are read into struct scenario. Entries of lists and kinds are
- * read into the structs below; the names in them are looked up afterwards.
+ * destination. A scenario's groups are read into struct scenario_settings. Entries of lists and
+ * kinds are read into the structs below; the names in them are looked up afterwards.
  *
- * To add a key, add a member to its destination (struct params for a scenario's groups) and a row
- * to its table. Show it in an example of docs/scenario.md, and run `make docs`. */
+ * To add a key, add a member to its destination (struct params or struct scenario_settings for a
+ * scenario's groups) and a row to its table. Show it in an example of docs/scenario.md, and run
+ * `make docs`. */
 #ifndef JOLON_CONFIG_SYNTAX_SCHEMA_H
 #define JOLON_CONFIG_SYNTAX_SCHEMA_H
 
@@ -25,7 +26,7 @@
 /* The largest whole number up to which all are exact in a double, the number of JSON. */
 #define SCHEMA_WHOLE_MAX 9007199254740991.0
 
-/* Destination: struct scenario. These are the keys that an override can set. */
+/* Destination: struct scenario_settings. These are the keys that an override can set. */
 extern const struct key_table schema_scenario;
 
 /* Rows of schema_vehicle, for key_reading.given and .line. */

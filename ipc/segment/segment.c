@@ -5,8 +5,8 @@
 #include "ipc/process/crash_point.h"
 #include "ipc/segment/segment_internal.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
-#include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
 #include <errno.h>
@@ -195,7 +195,7 @@ void segment_fill(struct view *view, const struct world_build *genesis)
 {
     struct params *params = segment_part(view, REGION_PARAMS);
     CRASH_POINT("parameters");
-    *params = genesis->scenario->params;
+    *params = genesis->scenario->settings->params;
     memcpy(params->base, genesis->base, sizeof params->base);
     CRASH_POINT_GUARD_PAGES(view->base, view->layout.total);
     world_build_fill(genesis, &view->world, view->w);

@@ -2,7 +2,6 @@
 #include "mover/weapon/spawn.h"
 
 #include "world/entity/event.h"
-#include "world/params.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"

@@ -4,6 +4,7 @@
 #include "recorder/archive/image.h"
 #include "ipc/process/log.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/provenance.h"
 #include "world/runtime/parse_number.h"
@@ -85,11 +86,13 @@ static void from_scenario(struct view *view, const struct log_replay *tape,
     struct world_build genesis;
     struct reason reason;
     scenario_load_scenario(arguments, &scenario);
-    check_hash(tape, &scenario.params, arguments->path);
-    memset(scenario.params.scenario, 0, sizeof scenario.params.scenario); /* every byte counts */
-    snprintf(scenario.params.scenario, sizeof scenario.params.scenario, "%s", scenario_text(tape));
+    check_hash(tape, &scenario.settings->params, arguments->path);
+    memset(scenario.settings->params.scenario, 0,
+           sizeof scenario.settings->params.scenario); /* every byte counts */
+    snprintf(scenario.settings->params.scenario, sizeof scenario.settings->params.scenario, "%s",
+             scenario_text(tape));
     scenario_load_generate(&scenario, &genesis);
-    struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
+    struct segment_header header = segment_header_for(&scenario.settings->params, &genesis.counts);
     if (segment_private(view, &header, &reason) != 0)
         die_refused("%s", reason.text);
     segment_fill(view, &genesis);

@@ -6,6 +6,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 
 #include <errno.h>
@@ -47,7 +48,7 @@ void scenario_load_scenario(const struct arguments *arguments, struct scenario *
         die_refused("%s", message.text);
     if (isatty(STDERR_FILENO))
         scenario->placing = tell_placing;
-    arguments_seconds(arguments, &scenario->params);
+    arguments_seconds(arguments, &scenario->settings->params);
     scenario_load_recipe_seconds(arguments, &scenario->recipe);
 }
 
@@ -58,5 +59,5 @@ void scenario_load_generate(const struct scenario *scenario, struct world_build 
     if (placing_told_ns > 0)
         (void)fputs("\r\033[K", stderr);
     if (built != 0)
-        die_refused("%s: %s", scenario->params.scenario, text);
+        die_refused("%s: %s", scenario->settings->params.scenario, text);
 }

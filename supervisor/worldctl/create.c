@@ -4,6 +4,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "recorder/replay/world_adopt.h"
 #include "recorder/replay/arguments.h"
@@ -23,12 +24,12 @@ int verb_create(const struct arguments *arguments)
     if (arguments->from)
         return image_resume_world(arguments);
     scenario_load_scenario(arguments, &scenario);
-    if (arguments->adopt && world_adopt_world(arguments->world, &scenario.params, NULL)) {
+    if (arguments->adopt && world_adopt_world(arguments->world, &scenario.settings->params, NULL)) {
         scenario_free(&scenario);
         return EXIT_OK;
     }
     scenario_load_generate(&scenario, &genesis);
-    struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
+    struct segment_header header = segment_header_for(&scenario.settings->params, &genesis.counts);
     if (segment_begin(&view, arguments->world, &header, &reason) != 0)
         die_refused("%s", reason.text);
     segment_fill(&view, &genesis);
@@ -55,9 +56,9 @@ int verb_check(const struct arguments *arguments)
         scenario_load_scenario(arguments, &scenario);
         scenario_load_generate(&scenario, &genesis);
         printf("%s: good: %u vehicles, %u fixed objects, seed %llu, hash %016llx\n",
-               scenario.params.scenario, genesis.used, genesis.counts.fixed,
-               (unsigned long long)scenario.params.seed,
-               (unsigned long long)scenario.params.scenario_hash);
+               scenario.settings->params.scenario, genesis.used, genesis.counts.fixed,
+               (unsigned long long)scenario.settings->params.seed,
+               (unsigned long long)scenario.settings->params.scenario_hash);
         world_build_free(&genesis);
         scenario_free(&scenario);
         return EXIT_OK;

@@ -6,6 +6,7 @@
 #include "ipc/process/process.h"
 #include "world/entity/kind.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 
 #include <stdio.h>
@@ -87,7 +88,7 @@ static void open_world(struct view *view, const char *path, uint32_t vehicles,
         replace_groups(&scenario, vehicles, shares);
     if (world_build_build(&genesis, &scenario, text, sizeof text) != 0)
         die_refused("%s", text);
-    struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
+    struct segment_header header = segment_header_for(&scenario.settings->params, &genesis.counts);
     if (segment_private(view, &header, &reason) != 0)
         die_refused("%s", reason.text);
     segment_fill(view, &genesis);

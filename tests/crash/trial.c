@@ -1,4 +1,5 @@
 /* One run: a world, its processes, their small parent. */
+#include "world/making/scenario_settings.h"
 #include "tests/crash/trial.h"
 
 #include "ipc/process/clock.h"
@@ -60,7 +61,7 @@ void plan_make(struct plan *plan, const char *text, uint32_t event_slots)
     char message[512];
     *plan = (struct plan){0};
     fixture_scenario(&plan->scenario, text);
-    struct params *params = &plan->scenario.params;
+    struct params *params = &plan->scenario.settings->params;
     params->event_slots = event_slots;
     params->events_per_frame = event_slots / 2;
     params->intents_per_frame = event_slots / 4;

@@ -7,8 +7,8 @@
 #include "collider/step.h"
 #include "mover/step.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
-#include "world/params.h"
 #include "world/runtime/check.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ static void open_world(void)
     CHECK(loader_scenario(&scenario, support_data_dir(), support_file(text, at), NULL, 0,
                           &message) == 0);
     CHECK(world_build_build(&genesis, &scenario, text, sizeof text) == 0);
-    struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
+    struct segment_header header = segment_header_for(&scenario.settings->params, &genesis.counts);
     CHECK(segment_private(&view, &header, &reason) == 0);
     segment_fill(&view, &genesis);
     world_build_free(&genesis);

@@ -4,6 +4,7 @@
 #include "config/syntax/literals.h"
 #include "ipc/segment/segment.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/runtime/check.h"
 #include "world/terrain/gridsquare.h"
@@ -30,9 +31,10 @@ static int take_overrides(char *text, const char *overrides[OVERRIDES_MAX], cons
 /* The shipped sizes would take seconds. */
 static bool is_small(const struct scenario *scenario)
 {
-    return scenario->terrain == TERRAIN_FLAT && scenario->objects != OBJECTS_TABLE1 &&
-           scenario->spacing_m > 100.0 && scenario->params.capacity <= 4096 &&
-           scenario->params.initial_entities <= 64;
+    return scenario->settings->terrain == TERRAIN_FLAT &&
+           scenario->settings->objects != OBJECTS_TABLE1 && scenario->settings->spacing_m > 100.0 &&
+           scenario->settings->params.capacity <= 4096 &&
+           scenario->settings->params.initial_entities <= 64;
 }
 
 static void make_world(const struct scenario *scenario)
@@ -44,9 +46,9 @@ static void make_world(const struct scenario *scenario)
         CHECK(text[0] != '\0');
         return;
     }
-    struct segment_header header = segment_header_for(&scenario->params, &genesis.counts);
+    struct segment_header header = segment_header_for(&scenario->settings->params, &genesis.counts);
     CHECK(layout_compute(&layout, &header) == 0);
-    CHECK(genesis.used == scenario->params.initial_entities);
+    CHECK(genesis.used == scenario->settings->params.initial_entities);
     for (uint32_t i = 0; i < genesis.used; i++) {
         CHECK(genesis.first.x[i] >= 0.0 && genesis.first.x[i] <= WORLD_SIDE_M);
         CHECK(genesis.first.z[i] >= 0.0 && genesis.first.z[i] <= WORLD_SIDE_M);

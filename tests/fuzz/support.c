@@ -5,6 +5,7 @@
 #include "world/entity/hull.h"
 #include "world/entity/kind.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/model.h"
 #include "world/runtime/check.h"
@@ -133,7 +134,7 @@ void support_world(struct view *view)
     const char *path = support_file(battle, strlen(battle));
     CHECK(loader_scenario(&scenario, support_data_dir(), path, NULL, 0, &message) == 0);
     CHECK(world_build_build(&genesis, &scenario, text, sizeof text) == 0);
-    struct segment_header header = segment_header_for(&scenario.params, &genesis.counts);
+    struct segment_header header = segment_header_for(&scenario.settings->params, &genesis.counts);
     CHECK(segment_private(view, &header, &reason) == 0);
     segment_fill(view, &genesis);
     world_build_free(&genesis);
@@ -239,7 +240,7 @@ static void check_groups(const struct scenario *s)
         check_on_map(group->x, group->z);
         total += group->count;
     }
-    CHECK(total == s->params.initial_entities && total <= s->params.capacity);
+    CHECK(total == s->settings->params.initial_entities && total <= s->settings->params.capacity);
     for (uint32_t i = 0; i < s->route_count; i++)
         CHECK(s->routes[i].count >= 2 &&
               s->routes[i].first + s->routes[i].count <= s->route_point_count);
@@ -249,9 +250,9 @@ static void check_groups(const struct scenario *s)
 
 void support_check_scenario(const struct scenario *s)
 {
-    CHECK(s->params.capacity >= 16 && s->params.capacity <= CAPACITY_MAX);
-    CHECK(s->params.dt_s > 0.0 && s->params.dt_s <= 1.0);
-    CHECK(s->params.intents_per_frame <= s->params.events_per_frame / 2);
+    CHECK(s->settings->params.capacity >= 16 && s->settings->params.capacity <= CAPACITY_MAX);
+    CHECK(s->settings->params.dt_s > 0.0 && s->settings->params.dt_s <= 1.0);
+    CHECK(s->settings->params.intents_per_frame <= s->settings->params.events_per_frame / 2);
     for (uint32_t i = 0; i < s->kind_count; i++)
         check_kind(s, &s->kinds[i]);
     check_hulls(s);

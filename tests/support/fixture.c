@@ -3,6 +3,7 @@
 
 #include "config/loader.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/maths/random.h"
 #include "world/checksum.h"
@@ -162,7 +163,7 @@ void fixture_open(struct fixture *fixture, const char *text)
     if (world_build_build(fixture->genesis, fixture->scenario, message, sizeof message) != 0)
         fail_msg("the test's world is refused: %s", message);
     struct segment_header header =
-        segment_header_for(&fixture->scenario->params, &fixture->genesis->counts);
+        segment_header_for(&fixture->scenario->settings->params, &fixture->genesis->counts);
     if (segment_private(&fixture->view, &header, &reason) != 0)
         fail_msg("%s", reason.text);
     segment_fill(&fixture->view, fixture->genesis);

@@ -3,6 +3,7 @@
 
 #include "tests/support/fixture.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 
 #include <dirent.h>
@@ -27,7 +28,8 @@ void named_world_publish(const char *name, const struct scenario *scenario,
 {
     struct view view;
     struct reason reason;
-    struct segment_header header = segment_header_for(&scenario->params, &genesis->counts);
+    struct segment_header header =
+        segment_header_for(&scenario->settings->params, &genesis->counts);
     if (segment_begin(&view, name, &header, &reason) != 0)
         fail_msg("%s", reason.text);
     segment_fill(&view, genesis);

@@ -2,6 +2,7 @@
 #include "world/making/road_routing.h"
 
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/maths/maths.h"
 #include "world/making/road_graph.h"
@@ -29,7 +30,7 @@ static int add_points(struct laying *laying, const struct route_point *points, u
         return error_text_say(laying->to,
                               "%s:%d: vehicles.route: the routes have more than %u points along "
                               "the roads; right would be: shorter or fewer ones",
-                              genesis->scenario->params.scenario, laying->group->line,
+                              genesis->scenario->settings->params.scenario, laying->group->line,
                               ROUTE_POINTS_MAX);
     if (used + count > laying->room) {
         uint32_t room = 2 * (used + count) + 256;
@@ -48,7 +49,7 @@ static int add_points(struct laying *laying, const struct route_point *points, u
 static int find_road(const struct laying *laying, const struct route_point *point, uint32_t number,
                      struct road_place *place)
 {
-    const char *file = laying->genesis->scenario->params.scenario;
+    const char *file = laying->genesis->scenario->settings->params.scenario;
     if (!road_graph_place(laying->net, point->x, point->z, place))
         return error_text_say(laying->to,
                               "%s:%d: vehicles.roads = true: this ground has no roads; right would "
@@ -83,8 +84,9 @@ static int lay_leg(struct laying *laying, const struct route_point *points, uint
                                     "%s:%d: vehicles.route: no road leads from point %u, [%.0f, "
                                     "%.0f], to point %u, [%.0f, %.0f]; right would be: points on "
                                     "roads that meet",
-                                    laying->genesis->scenario->params.scenario, laying->group->line,
-                                    leg + 1, a->x, a->z, (leg + 1) % count + 1, b->x, b->z);
+                                    laying->genesis->scenario->settings->params.scenario,
+                                    laying->group->line, leg + 1, a->x, a->z, (leg + 1) % count + 1,
+                                    b->x, b->z);
     int result = add_points(laying, way, length - 1);
     free(way);
     return result;

@@ -6,6 +6,7 @@
 
 void scenario_free(struct scenario *scenario)
 {
+    free(scenario->settings);
     free(scenario->kinds);
     free(scenario->models);
     free(scenario->vertices);

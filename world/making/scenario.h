@@ -5,7 +5,6 @@
 
 #include "world/entity/entity.h"
 #include "world/entity/script.h"
-#include "world/params.h"
 #include "world/provenance.h"
 
 #include <stdbool.h>
@@ -23,9 +22,6 @@ struct route_point;
 struct vec3;
 
 #define ROUTE_POINTS_MAX 1048576u /* of all routes together */
-
-enum terrain_source { TERRAIN_GENERATED, TERRAIN_FLAT };
-enum object_source { OBJECTS_TABLE1, OBJECTS_NONE, OBJECTS_LIST };
 
 /* One entry of "vehicles": count of them in an area, or one at a place. */
 struct scenario_group {
@@ -80,12 +76,8 @@ struct scenario_fire {
 };
 
 struct scenario {
-    struct params params; /* capacity, seed, hz, collision, renderer, ... */
-    enum terrain_source terrain;
-    double flat_height_m;
-    double spacing_m; /* between posts: 125, 62.5 or 31.25 */
-    enum object_source objects;
-    uint8_t based[FORCE_COUNT]; /* 1: params.base was given */
+    struct scenario_settings *settings; /* of its own */
+    uint8_t based[FORCE_COUNT];         /* 1: settings->params.base was given */
 
     struct kind *kinds;
     uint32_t kind_count;

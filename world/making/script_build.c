@@ -6,6 +6,7 @@
 #include "world/entity/kind.h"
 #include "world/entity/script.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/maths/maths.h"
 #include "world/terrain/gridsquare.h"
@@ -47,7 +48,7 @@ static bool stands(const struct scenario_script *script, const struct scenario_s
 static const char *file_of(const struct copy *copy)
 {
     return copy->from->file[0] != '\0' ? copy->from->file
-                                       : copy->genesis->scenario->params.scenario;
+                                       : copy->genesis->scenario->settings->params.scenario;
 }
 
 bool script_build_start(const struct scenario *scenario, uint32_t script, double first[2],
@@ -242,7 +243,7 @@ int script_build_build(struct world_build *genesis, const struct callsigns *call
             to,
             "%s: the vehicles' scripts have %llu steps; allowed: up to %u in all; "
             "right would be: formations, whose leader alone has one",
-            scenario->params.scenario, (unsigned long long)steps, SCRIPT_STEPS_MAX);
+            scenario->settings->params.scenario, (unsigned long long)steps, SCRIPT_STEPS_MAX);
     genesis->scripts = calloc(scripts + 1, sizeof *genesis->scripts);
     genesis->steps = calloc(steps + 1, sizeof *genesis->steps);
     if (!genesis->scripts || !genesis->steps)

@@ -5,9 +5,9 @@
 #include "world/entity/formation.h"
 #include "world/making/free_place.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/maths/random.h"
-#include "world/params.h"
 #include "world/terrain/fixed_index.h"
 #include "world/making/road_routing.h"
 #include "world/making/script_build.h"
@@ -48,7 +48,7 @@ struct vehicle_placement {
 static double heading_of(const struct vehicle_placement *muster, uint32_t slot)
 {
     const struct scenario_group *group = muster->rank.group;
-    uint64_t seed = muster->genesis->scenario->params.seed;
+    uint64_t seed = muster->genesis->scenario->settings->params.seed;
     return group->turned ? maths_wrap_turn(group->heading_rad)
                          : random_between(seed, 0, slot, RANDOM_HEADING, 0, TWO_PI);
 }
@@ -254,7 +254,7 @@ static int check_ground(const struct vehicle_placement *muster)
         muster->to,
         "%s:%d: vehicles.at = [%.15g, %.15g]: a %s would stand %s; right would be: a "
         "place %s",
-        scenario->params.scenario, group->line, group->x, group->z, kind->name,
+        scenario->settings->params.scenario, group->line, group->x, group->z, kind->name,
         sails ? "on dry land" : "in the water", sails ? "on water" : "on land");
 }
 
@@ -269,12 +269,12 @@ static int build_group(struct vehicle_placement *muster, const struct scenario_g
         uint32_t slot = genesis->used;
         struct stand stand;
         if (scenario->placing && slot % PLACING_STEP == 0)
-            scenario->placing(slot, scenario->params.initial_entities);
-        if (slot >= scenario->params.capacity)
+            scenario->placing(slot, scenario->settings->params.initial_entities);
+        if (slot >= scenario->settings->params.capacity)
             return error_text_say(muster->to,
                                   "vehicles: more than world.capacity = %u; raise it (at most %u) "
                                   "or lower a count",
-                                  scenario->params.capacity, CAPACITY_MAX);
+                                  scenario->settings->params.capacity, CAPACITY_MAX);
         if (find_stand(muster, slot, &stand) != 0)
             return no_stand(muster, i + 1);
         if (free_place_take(&muster->place, stand.x, stand.z,
@@ -328,14 +328,14 @@ static void set_bases(struct world_build *genesis)
 {
     for (uint32_t force = 0; force < FORCE_COUNT; force++)
         genesis->base[force] = genesis->scenario->based[force]
-                                   ? genesis->scenario->params.base[force]
+                                   ? genesis->scenario->settings->params.base[force]
                                    : base_of(genesis, force);
 }
 
 int vehicle_placement_build(struct world_build *genesis, const struct error_text *to)
 {
     const struct scenario *scenario = genesis->scenario;
-    uint32_t capacity = scenario->params.capacity;
+    uint32_t capacity = scenario->settings->params.capacity;
     struct terrain terrain = world_build_terrain(genesis);
     struct vehicle_placement muster = {.genesis = genesis, .to = to};
     int result = 0;
@@ -347,7 +347,7 @@ int vehicle_placement_build(struct world_build *genesis, const struct error_text
     memset(genesis->first_memory, 0, entities_bytes(capacity));
     entities_bind(&genesis->first, capacity, genesis->first_memory);
     if (free_place_init(&muster.place, &terrain, genesis->fixed, scenario->kinds,
-                        genesis->reach_start, genesis->reach, scenario->params.seed) != 0)
+                        genesis->reach_start, genesis->reach, scenario->settings->params.seed) != 0)
         return error_text_memory(to);
     for (uint32_t g = 0; g < scenario->group_count && result == 0; g++)
         result = build_group(&muster, &scenario->groups[g]);

@@ -5,6 +5,7 @@
 #include "world/entity/hull.h"
 #include "world/entity/script.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/model.h"
 #include "world/runtime/error_text.h"
 #include "world/making/generate.h"
@@ -24,7 +25,7 @@
 static int build_ground(struct world_build *genesis, const struct error_text *to)
 {
     const struct scenario *scenario = genesis->scenario;
-    uint32_t side = (uint32_t)(WORLD_SIDE_M / scenario->spacing_m) + 1;
+    uint32_t side = (uint32_t)(WORLD_SIDE_M / scenario->settings->spacing_m) + 1;
     size_t posts = (size_t)side * side;
     genesis->counts.posts_side = side;
     genesis->posts = malloc(posts * sizeof *genesis->posts);
@@ -32,12 +33,12 @@ static int build_ground(struct world_build *genesis, const struct error_text *to
     genesis->roads = malloc(GENERATE_ROAD_MAX * sizeof *genesis->roads);
     if (!genesis->posts || !genesis->cover || !genesis->roads)
         return error_text_memory(to);
-    if (scenario->terrain == TERRAIN_FLAT) {
-        generate_flat(genesis->posts, genesis->cover, side, scenario->flat_height_m);
+    if (scenario->settings->terrain == TERRAIN_FLAT) {
+        generate_flat(genesis->posts, genesis->cover, side, scenario->settings->flat_height_m);
         return 0;
     }
-    if (generate_hunter_liggett(genesis->posts, genesis->cover, side, scenario->params.seed,
-                                genesis->roads, GENERATE_ROAD_MAX,
+    if (generate_hunter_liggett(genesis->posts, genesis->cover, side,
+                                scenario->settings->params.seed, genesis->roads, GENERATE_ROAD_MAX,
                                 &genesis->counts.road_points) != 0)
         return error_text_say(to, "the ground could not be generated: %s", strerror(errno));
     return 0;
@@ -79,19 +80,19 @@ static int build_objects(struct world_build *genesis, const struct error_text *t
 {
     const struct scenario *scenario = genesis->scenario;
     struct terrain terrain = world_build_terrain(genesis);
-    uint32_t count = scenario->objects == OBJECTS_TABLE1 ? GENERATE_TABLE1_TOTAL
-                     : scenario->objects == OBJECTS_LIST ? scenario->object_count
-                                                         : 0;
+    uint32_t count = scenario->settings->objects == OBJECTS_TABLE1 ? GENERATE_TABLE1_TOTAL
+                     : scenario->settings->objects == OBJECTS_LIST ? scenario->object_count
+                                                                   : 0;
     genesis->counts.fixed = count;
     genesis->fixed = calloc(count + 1, sizeof *genesis->fixed);
     if (!genesis->fixed)
         return error_text_memory(to);
-    if (scenario->objects == OBJECTS_LIST)
+    if (scenario->settings->objects == OBJECTS_LIST)
         list_objects(genesis, &terrain);
-    if (scenario->objects == OBJECTS_TABLE1 &&
+    if (scenario->settings->objects == OBJECTS_TABLE1 &&
         generate_table1_objects(genesis->fixed, &terrain, scenario->kinds, scenario->kind_count,
                                 genesis->roads, genesis->counts.road_points,
-                                scenario->params.seed) != 0)
+                                scenario->settings->params.seed) != 0)
         return errno == EINVAL
                    ? error_text_say(to, "objects: a class of Table 1 has no kind in config/kinds")
                    : error_text_memory(to);
@@ -116,7 +117,7 @@ static int build_fire(struct world_build *genesis, uint32_t index,
     const struct scenario *scenario = genesis->scenario;
     const struct scenario_fire *from = &scenario->fires[index];
     struct fire_order *order = &genesis->fires[index];
-    double tick = floor(from->at_s * scenario->params.hz + 0.5);
+    double tick = floor(from->at_s * scenario->settings->params.hz + 0.5);
     order->tick = tick < 1.0 ? 1 : (uint64_t)tick;
     order->kind = from->munition;
     order->reserved = (uint16_t)index;
@@ -124,10 +125,10 @@ static int build_fire(struct world_build *genesis, uint32_t index,
     order->z = from->z;
     if (name_index_find(callsigns, from->shooter, &order->shooter_slot) != 0)
         return error_text_say(to, "%s:%d: fires.shooter = \"%s\": no vehicle has that name",
-                              scenario->params.scenario, from->line, from->shooter);
+                              scenario->settings->params.scenario, from->line, from->shooter);
     if (name_index_find(callsigns, from->target, &order->target_slot) != 0)
         return error_text_say(to, "%s:%d: fires.target = \"%s\": no vehicle has that name",
-                              scenario->params.scenario, from->line, from->target);
+                              scenario->settings->params.scenario, from->line, from->target);
     return 0;
 }
 

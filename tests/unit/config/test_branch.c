@@ -3,7 +3,7 @@
 
 #include "tests/support/fixture.h"
 #include "world/making/scenario.h"
-#include "world/params.h"
+#include "world/making/scenario_settings.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@ static int make_params(void **state)
     struct scenario scenario;
     (void)state;
     fixture_scenario(&scenario, "");
-    made = scenario.params;
+    made = scenario.settings->params;
     scenario_free(&scenario);
     return 0;
 }

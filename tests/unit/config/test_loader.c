@@ -7,6 +7,7 @@
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/maths/maths.h"
 #include "world/param_values.h"
 #include "world/world.h"
@@ -56,46 +57,46 @@ static void test_empty_file_has_defaults(void **state)
 
     (void)state;
     must_load(&s, "# nothing\n", NULL);
-    assert_string_equal(s.params.name, "unnamed");
-    assert_string_equal(s.params.scenario, quick_config.scenario_path);
-    assert_int_equal(s.params.seed, 1991);
-    assert_true(s.params.hz == 60.0 && s.params.dt_s == 1.0 / 60.0);
-    assert_int_equal(s.params.capacity, 4096);
-    assert_int_equal(s.params.frame_limit, 0);
-    assert_int_equal(s.params.pace, PACE_REAL);
-    assert_int_equal(s.params.event_slots, 65536);
-    assert_int_equal(s.params.events_per_frame, 8192);
-    assert_int_equal(s.params.intents_per_frame, 4096);
-    assert_int_equal(s.params.command_slots, 1024);
-    assert_int_equal(s.params.crater_slots, 65536);
-    assert_int_equal(s.params.initial_entities, 0);
-    assert_int_equal(s.terrain, TERRAIN_GENERATED);
-    assert_true(s.spacing_m == 31.25);
-    assert_int_equal(s.objects, OBJECTS_TABLE1);
-    assert_int_equal(s.params.collision.method, METHOD_SWEPT);
-    assert_int_equal(s.params.collision.shape, SHAPE_MODEL);
-    assert_int_equal(s.params.collision.response, MODEL_IMPULSE);
-    assert_true(s.params.collision.threshold_height_m == 60.0);
-    assert_true(s.params.collision.fast_vehicle_mps == 8.0);
-    assert_true(s.params.collision.fast_fixed_mps == 8.0);
-    assert_true(s.params.collision.large_fixed_kg == 20000.0);
-    assert_true(s.params.collision.damage_high == 1.0);
-    assert_true(s.params.collision.damage_med == 0.3);
-    assert_true(s.params.collision.damage_low == 0.1);
-    assert_int_equal(s.params.collision.nearness, NEARNESS_AND);
-    assert_true(s.params.collision.mps_near_m == 10.0);
-    assert_int_equal(s.params.collision.measure, MEASURE_ENERGY);
-    assert_true(s.params.collision.mass_c1_kg == 20000.0);
-    assert_true(s.params.collision.mass_c2_kg == 8000.0);
-    assert_true(s.params.collision.mass_c3_kg == 1000.0);
-    assert_int_equal(s.params.renderer.width, 1280);
-    assert_int_equal(s.params.renderer.height, 720);
-    assert_true(s.params.renderer.fps == 2.0);
-    assert_int_equal(s.params.renderer.views, 1u << VIEW_CHASE | 1u << VIEW_MAP);
-    assert_int_equal(s.params.renderer.follow, 0);
-    assert_int_equal(s.params.renderer.fog, 1);
-    assert_int_equal(s.params.renderer.haze, 1);
-    assert_int_equal(s.params.renderer.texture, 1);
+    assert_string_equal(s.settings->params.name, "unnamed");
+    assert_string_equal(s.settings->params.scenario, quick_config.scenario_path);
+    assert_int_equal(s.settings->params.seed, 1991);
+    assert_true(s.settings->params.hz == 60.0 && s.settings->params.dt_s == 1.0 / 60.0);
+    assert_int_equal(s.settings->params.capacity, 4096);
+    assert_int_equal(s.settings->params.frame_limit, 0);
+    assert_int_equal(s.settings->params.pace, PACE_REAL);
+    assert_int_equal(s.settings->params.event_slots, 65536);
+    assert_int_equal(s.settings->params.events_per_frame, 8192);
+    assert_int_equal(s.settings->params.intents_per_frame, 4096);
+    assert_int_equal(s.settings->params.command_slots, 1024);
+    assert_int_equal(s.settings->params.crater_slots, 65536);
+    assert_int_equal(s.settings->params.initial_entities, 0);
+    assert_int_equal(s.settings->terrain, TERRAIN_GENERATED);
+    assert_true(s.settings->spacing_m == 31.25);
+    assert_int_equal(s.settings->objects, OBJECTS_TABLE1);
+    assert_int_equal(s.settings->params.collision.method, METHOD_SWEPT);
+    assert_int_equal(s.settings->params.collision.shape, SHAPE_MODEL);
+    assert_int_equal(s.settings->params.collision.response, MODEL_IMPULSE);
+    assert_true(s.settings->params.collision.threshold_height_m == 60.0);
+    assert_true(s.settings->params.collision.fast_vehicle_mps == 8.0);
+    assert_true(s.settings->params.collision.fast_fixed_mps == 8.0);
+    assert_true(s.settings->params.collision.large_fixed_kg == 20000.0);
+    assert_true(s.settings->params.collision.damage_high == 1.0);
+    assert_true(s.settings->params.collision.damage_med == 0.3);
+    assert_true(s.settings->params.collision.damage_low == 0.1);
+    assert_int_equal(s.settings->params.collision.nearness, NEARNESS_AND);
+    assert_true(s.settings->params.collision.mps_near_m == 10.0);
+    assert_int_equal(s.settings->params.collision.measure, MEASURE_ENERGY);
+    assert_true(s.settings->params.collision.mass_c1_kg == 20000.0);
+    assert_true(s.settings->params.collision.mass_c2_kg == 8000.0);
+    assert_true(s.settings->params.collision.mass_c3_kg == 1000.0);
+    assert_int_equal(s.settings->params.renderer.width, 1280);
+    assert_int_equal(s.settings->params.renderer.height, 720);
+    assert_true(s.settings->params.renderer.fps == 2.0);
+    assert_int_equal(s.settings->params.renderer.views, 1u << VIEW_CHASE | 1u << VIEW_MAP);
+    assert_int_equal(s.settings->params.renderer.follow, 0);
+    assert_int_equal(s.settings->params.renderer.fog, 1);
+    assert_int_equal(s.settings->params.renderer.haze, 1);
+    assert_int_equal(s.settings->params.renderer.texture, 1);
     scenario_free(&s);
 }
 
@@ -116,9 +117,9 @@ static void test_sizes_follow_capacity(void **state)
         struct scenario s;
 
         must_load(&s, "", rows[i].override);
-        assert_int_equal(s.params.event_slots, rows[i].event_slots);
-        assert_int_equal(s.params.events_per_frame, rows[i].event_slots / 8);
-        assert_int_equal(s.params.intents_per_frame, rows[i].intents);
+        assert_int_equal(s.settings->params.event_slots, rows[i].event_slots);
+        assert_int_equal(s.settings->params.events_per_frame, rows[i].event_slots / 8);
+        assert_int_equal(s.settings->params.intents_per_frame, rows[i].intents);
         scenario_free(&s);
     }
 }
@@ -146,7 +147,7 @@ static void test_objects_follow_ground(void **state)
         struct scenario s;
 
         must_load(&s, rows[i].text, rows[i].override);
-        assert_int_equal(s.objects, rows[i].objects);
+        assert_int_equal(s.settings->objects, rows[i].objects);
         assert_int_equal(s.object_count, rows[i].count);
         scenario_free(&s);
     }
@@ -169,7 +170,7 @@ static void test_vehicle_entry(void **state)
               "          { munition = \"artillery\"; point = [30, 40]; } );\n",
               NULL);
     assert_int_equal(s.group_count, 4);
-    assert_int_equal(s.params.initial_entities, 6);
+    assert_int_equal(s.settings->params.initial_entities, 6);
     assert_int_equal(s.groups[0].kind, kind_find(s.kinds, s.kind_count, "tank"));
     assert_int_equal(s.groups[0].count, 3);
     assert_int_equal(s.groups[0].force, FORCE_BLUE);
@@ -264,12 +265,17 @@ static void test_override_is_file(void **state)
 
         must_load(&with, "", rows[i].override);
         must_load(&file, rows[i].text, NULL);
-        assert_int_not_equal(with.params.scenario_hash, plain.params.scenario_hash);
-        assert_int_not_equal(file.params.scenario_hash, plain.params.scenario_hash);
-        with.params.scenario_hash = file.params.scenario_hash;
-        assert_memory_equal(&with.params, &file.params, sizeof(with.params));
-        assert_true(with.terrain == file.terrain && with.objects == file.objects &&
-                    with.spacing_m == file.spacing_m && with.flat_height_m == file.flat_height_m);
+        assert_int_not_equal(with.settings->params.scenario_hash,
+                             plain.settings->params.scenario_hash);
+        assert_int_not_equal(file.settings->params.scenario_hash,
+                             plain.settings->params.scenario_hash);
+        with.settings->params.scenario_hash = file.settings->params.scenario_hash;
+        assert_memory_equal(&with.settings->params, &file.settings->params,
+                            sizeof(with.settings->params));
+        assert_true(with.settings->terrain == file.settings->terrain &&
+                    with.settings->objects == file.settings->objects &&
+                    with.settings->spacing_m == file.settings->spacing_m &&
+                    with.settings->flat_height_m == file.settings->flat_height_m);
         scenario_free(&with);
         scenario_free(&file);
     }
@@ -295,8 +301,8 @@ static void test_last_override_counts(void **state)
     assert_int_equal(loader_scenario(&s, quick_config.data_dir, quick_config.scenario_path,
                                      overrides, 3, &message),
                      0);
-    assert_int_equal(s.params.seed, 6);
-    assert_true(s.params.hz == 30.0);
+    assert_int_equal(s.settings->params.seed, 6);
+    assert_true(s.settings->params.hz == 30.0);
     scenario_free(&s);
 }
 
@@ -307,10 +313,10 @@ static void test_same_input_same_hash(void **state)
     (void)state;
     must_load(&a, "world = { seed = 4; };", NULL);
     must_load(&b, "world = { seed = 4; };", NULL);
-    assert_int_equal(a.params.scenario_hash, b.params.scenario_hash);
+    assert_int_equal(a.settings->params.scenario_hash, b.settings->params.scenario_hash);
     scenario_free(&b);
     must_load(&b, "world = { seed = 4; }; ", NULL);
-    assert_int_not_equal(a.params.scenario_hash, b.params.scenario_hash);
+    assert_int_not_equal(a.settings->params.scenario_hash, b.settings->params.scenario_hash);
     scenario_free(&a);
     scenario_free(&b);
 }
@@ -330,9 +336,9 @@ static void test_methods_shapes_and_responses_combine(void **state)
                          method_name((enum method)method), shape_name((enum shape)shape),
                          response_model_name((enum response_model)response));
                 must_load(&s, text, NULL);
-                assert_int_equal(s.params.collision.method, method);
-                assert_int_equal(s.params.collision.shape, shape);
-                assert_int_equal(s.params.collision.response, response);
+                assert_int_equal(s.settings->params.collision.method, method);
+                assert_int_equal(s.settings->params.collision.shape, shape);
+                assert_int_equal(s.settings->params.collision.response, response);
                 scenario_free(&s);
             }
         }
@@ -386,9 +392,9 @@ static void test_shipped_scenarios(void **state)
 
     (void)state;
     assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, NULL, NULL, 0, &message), 0);
-    assert_string_equal(s.params.name, "hunter-liggett");
-    assert_int_equal(s.params.initial_entities, 500);
-    assert_int_equal(s.objects, OBJECTS_TABLE1);
+    assert_string_equal(s.settings->params.name, "hunter-liggett");
+    assert_int_equal(s.settings->params.initial_entities, 500);
+    assert_int_equal(s.settings->objects, OBJECTS_TABLE1);
     for (uint32_t i = 0; i < s.group_count; i++)
         seen[s.groups[i].kind] = true;
     for (size_t i = 0; i < COUNT(vehicles); i++) {
@@ -397,12 +403,12 @@ static void test_shipped_scenarios(void **state)
     }
     scenario_free(&s);
     assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &message), 0);
-    assert_int_equal(s.params.initial_entities, 2);
-    assert_int_equal(s.terrain, TERRAIN_FLAT);
+    assert_int_equal(s.settings->params.initial_entities, 2);
+    assert_int_equal(s.settings->terrain, TERRAIN_FLAT);
     scenario_free(&s);
     assert_int_equal(
         loader_scenario(&s, QUICK_CONFIG_SHIPPED, "proving-ground.cfg", NULL, 0, &message), 0);
-    assert_int_equal(s.objects, OBJECTS_LIST);
+    assert_int_equal(s.settings->objects, OBJECTS_LIST);
     assert_int_equal(s.object_count, 15);
     scenario_free(&s);
 }

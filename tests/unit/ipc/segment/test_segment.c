@@ -6,6 +6,7 @@
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 
 #include <fcntl.h>
@@ -59,7 +60,8 @@ static void attach(struct view *view, enum role role)
 static void begin(struct view *view, struct fixture *f)
 {
     fixture_open(f, SCENARIO);
-    struct segment_header header = segment_header_for(&f->scenario->params, &f->genesis->counts);
+    struct segment_header header =
+        segment_header_for(&f->scenario->settings->params, &f->genesis->counts);
     assert_int_equal(segment_begin(view, name, &header, &reason), 0);
     segment_fill(view, f->genesis);
 }
@@ -103,7 +105,8 @@ static void test_world_is_not_there_before_it_is_published(void **state)
     named_world_name(unborn);
     int before = named_world_leftovers();
     fixture_open(&f, SCENARIO);
-    struct segment_header header = segment_header_for(&f.scenario->params, &f.genesis->counts);
+    struct segment_header header =
+        segment_header_for(&f.scenario->settings->params, &f.genesis->counts);
     assert_int_equal(segment_begin(&made, unborn, &header, &reason), 0);
     segment_fill(&made, f.genesis);
     assert_int_equal(named_world_leftovers(), before); /* a kill here leaves nothing */
@@ -156,7 +159,8 @@ static void test_second_world_of_the_name_is_refused(void **state)
     struct view second, first;
     (void)state;
     fixture_open(&f, "world = { seed = 99; capacity = 16; };");
-    struct segment_header header = segment_header_for(&f.scenario->params, &f.genesis->counts);
+    struct segment_header header =
+        segment_header_for(&f.scenario->settings->params, &f.genesis->counts);
     assert_int_equal(segment_begin(&second, name, &header, &reason), 0);
     segment_fill(&second, f.genesis);
     assert_int_equal(segment_publish(&second, &reason), -1);
@@ -306,7 +310,8 @@ static int create_once(void *context)
 {
     struct view view;
     struct fixture *f = context;
-    struct segment_header header = segment_header_for(&f->scenario->params, &f->genesis->counts);
+    struct segment_header header =
+        segment_header_for(&f->scenario->settings->params, &f->genesis->counts);
     if (segment_begin(&view, name, &header, &reason) != 0)
         return 2;
     segment_fill(&view, f->genesis);
@@ -555,7 +560,8 @@ static void test_removed_name_can_be_made_again(void **state)
     attach(&old, ROLE_MOVER);
     assert_int_equal(segment_remove(name, true, &reason), 0);
     fixture_open(&f, SCENARIO);
-    struct segment_header header = segment_header_for(&f.scenario->params, &f.genesis->counts);
+    struct segment_header header =
+        segment_header_for(&f.scenario->settings->params, &f.genesis->counts);
     assert_int_equal(segment_begin(&new, name, &header, &reason), 0);
     segment_fill(&new, f.genesis);
     assert_int_equal(segment_publish(&new, &reason), 0);

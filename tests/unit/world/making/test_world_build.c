@@ -1,5 +1,6 @@
 /* Genesis: from a scenario to a world and its frame 0, and what it refuses. */
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 
 #include "tests/support/fixture.h"
@@ -280,7 +281,7 @@ static void test_static_parts_are_copied_whole(void **state)
     assert_int_equal(world->counts.hull_planes, s->hull_plane_count);
     assert_memory_equal(world->hull_planes, s->hull_planes,
                         s->hull_plane_count * sizeof *s->hull_planes);
-    struct params params = s->params;
+    struct params params = s->settings->params;
     memcpy(params.base, f.genesis->base, sizeof params.base);
     assert_memory_equal(world->params, &params, sizeof params);
     assert_int_equal(world->counts.routes, 1);
@@ -349,11 +350,11 @@ static void test_scenario_that_does_not_fit_is_refused(void **state)
     fixture_scenario(&scenario,
                      "vehicles = ( { kind = \"tank\"; name = \"A\"; count = 20; } );"
                      "fires = ( { at_s = 1.0; shooter = \"A-1\"; target = \"A-2\"; } );");
-    scenario.params.capacity = 19;
+    scenario.settings->params.capacity = 19;
     assert_int_equal(world_build_build(&genesis, &scenario, message, sizeof message), -1);
     assert_non_null(strstr(message, "world.capacity = 19"));
     assert_null(genesis.posts); /* nothing is left to free */
-    scenario.params.capacity = 20;
+    scenario.settings->params.capacity = 20;
     snprintf(scenario.fires[0].shooter, sizeof scenario.fires[0].shooter, "nobody");
     assert_int_equal(world_build_build(&genesis, &scenario, message, sizeof message), -1);
     assert_non_null(strstr(message, "fires.shooter = \"nobody\""));

@@ -1,0 +1,21 @@
+/* What the groups of a scenario say: one value for each key. A new key of a group changes this
+ * header or world/params.h, so only the .c files that read the settings include it. */
+#ifndef JOLON_WORLD_MAKING_SCENARIO_SETTINGS_H
+#define JOLON_WORLD_MAKING_SCENARIO_SETTINGS_H
+
+#include "world/params.h"
+
+#include <stdint.h>
+
+enum terrain_source { TERRAIN_GENERATED, TERRAIN_FLAT };
+enum object_source { OBJECTS_TABLE1, OBJECTS_NONE, OBJECTS_LIST };
+
+struct scenario_settings {
+    struct params params;
+    enum terrain_source terrain;
+    double flat_height_m;
+    double spacing_m; /* between posts: 125, 62.5 or 31.25 */
+    enum object_source objects;
+};
+
+#endif
