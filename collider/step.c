@@ -25,7 +25,7 @@ int collider_init(struct collider *collider, const struct world *world,
         island_init(&collider->island, world) != 0 ||
         charges_init(&collider->charges, world) != 0 ||
         pair_list_init(&collider->pairs, pair_filter_pairs_first(world)) != 0 ||
-        !(collider->workspace = method_workspace_create(world))) {
+        !(collider->workspace = method_workspace_create(world, &collider->broad))) {
         collider_free(collider);
         errno = ENOMEM;
         return -1;
@@ -107,34 +107,19 @@ static void draw_pairs(struct body_motion *motion, const struct pair_list *list)
     }
 }
 
-/* The default: rows are copied on the way, while they are at hand, and only the ways of who comes
- * near something are drawn. */
-static void find_pairs_swept(struct stage *stage, const struct method_input *input)
-{
-    struct collider *collider = stage->collider;
-    broad_phase_pairs_moved(&collider->broad, input, &collider->motion, take_rows, stage);
-    for (int i = 0; i < THREAD_POOL_MAX; i++)
-        draw_pairs(&collider->motion, &collider->broad.list[i]);
-    contact_queue_begin(&collider->contacts, collider->broad.list, THREAD_POOL_MAX);
-}
-
-/* Copies the moved rows and finds the frame's pairs by the method chosen. The broad phase runs with
- * every method: blasts and changed ways look up what is near in it. */
+/* Copies the moved rows, while the broad phase looks at them, and finds the frame's pairs by the
+ * method chosen. Few paths are drawn: those of pairs, if the method needs no others. */
 static void find_pairs(struct stage *stage, const struct method_input *input)
 {
     struct collider *collider = stage->collider;
-    method_pairs_function *method =
+    const struct method_functions *method =
         method_of((enum method)collider->world->params->collision.method);
-    if (!method) {
-        find_pairs_swept(stage, input);
-        return;
-    }
-    take_all(stage);
-    for (uint32_t i = 0; i < input->rows; i++)
-        body_motion_take(&collider->motion, i);
+    broad_phase_pairs_moved(&collider->broad, input, &collider->motion, take_rows, stage);
+    for (uint32_t row = 0; method->test != METHOD_TESTS_NEAR && row < input->rows; row++)
+        body_motion_draw(&collider->motion, row);
     collider->pairs.count = 0;
-    broad_phase_pairs(&collider->broad, input);
-    method(input, collider->workspace, &collider->pairs);
+    method->pairs(input, collider->workspace, &collider->pairs);
+    draw_pairs(&collider->motion, &collider->pairs);
     contact_queue_begin(&collider->contacts, &collider->pairs, 1);
 }
 

@@ -8,7 +8,7 @@
 
 #include "collider/broad_phase/broad_phase.h"
 #include "collider/narrow_phase/contact_queue.h"
-#include "collider/motion/pair_filter.h"
+#include "collider/method/method.h"
 #include "collider/response/island.h"
 #include "collider/motion/body_motion.h"
 #include "collider/response/explosion.h"
@@ -32,8 +32,8 @@ struct collider {
     struct body_motion motion;
     struct island island;
     struct charges charges;
-    struct method_workspace *workspace; /* of a method beside the broad phase */
-    struct pair_list pairs;             /* its pairs */
+    struct method_workspace *workspace;
+    struct pair_list pairs; /* what the method found */
     /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: of none yet */
     uint64_t fixed_hash, fixed_hash_frame;
     struct list_hashes lists;          /* of the committed craters and dents */

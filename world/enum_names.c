@@ -43,7 +43,7 @@ WORDS(command_type_name, command_type, "none", "pause", "resume", "step", "scale
 WORDS(command_result_name, command_result, "done", "no such entity", "no such kind",
       "value out of range", "table full", "cannot do that now", "unknown command",
       "somebody else drives it")
-#define X(name, value, word, text) [METHOD_##name] = #word,
+#define X(name, value, word, test, text) [METHOD_##name] = #word,
 WORDS(method_name, method, METHODS(X))
 #undef X
 WORDS(shape_name, shape, "sphere", "model")

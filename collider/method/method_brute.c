@@ -1,5 +1,5 @@
 /* Every body with every other: slow, and right by inspection. The oracle of the other methods. */
-#include "collider/motion/pair_filter.h"
+#include "collider/method/method.h"
 
 #include "world/runtime/work_done.h"
 #include "world/terrain/fixed.h"
@@ -30,7 +30,7 @@ static void meet_fixed(const struct method_input *input, const struct path_box *
 void method_brute_pairs(const struct method_input *input, struct method_workspace *workspace,
                         struct pair_list *pairs)
 {
-    struct path_box *box = pair_filter_block(workspace, 0, input->rows, sizeof *box);
+    struct path_box *box = method_block(workspace, 0, input->rows, sizeof *box);
     for (uint32_t i = 0; i < input->rows; i++) {
         if (pair_filter_there(input, i))
             box[i] = pair_filter_box(input, i);

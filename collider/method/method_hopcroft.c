@@ -7,7 +7,7 @@
  * report of all intersecting boxes (1982), but without a further tree for the heights: on terrain
  * few pairs that overlap on the map are apart by height. So a frame is O((n + k) log n), k the
  * pairs of boxes that overlap on the map. */
-#include "collider/motion/pair_filter.h"
+#include "collider/method/method.h"
 
 #include "world/maths/random.h"
 #include "world/maths/sort.h"
@@ -35,7 +35,7 @@ struct node {
 
 struct sweep {
     const struct method_input *input;
-    struct pair_filter_bodies bodies;
+    struct method_bodies bodies;
     struct node *node;      /* [bodies] */
     uint32_t moving, fixed; /* roots */
     struct pair_list *pairs;
@@ -146,7 +146,7 @@ static void meet(const struct sweep *sweep, uint32_t root, uint32_t i)
     if (other->min_z > node->max_z)
         return; /* and so are all to its right */
     if (other->max_z >= node->min_z)
-        pair_filter_meet(sweep->input, &sweep->bodies, other->body, node->body, sweep->pairs);
+        method_meet(sweep->input, &sweep->bodies, other->body, node->body, sweep->pairs);
     meet(sweep, other->right, i);
 }
 
@@ -206,11 +206,11 @@ void method_hopcroft_pairs(const struct method_input *input, struct method_works
                            struct pair_list *pairs)
 {
     struct sweep sweep = {.input = input, .moving = NOBODY, .fixed = NOBODY, .pairs = pairs};
-    pair_filter_bodies(input, workspace, &sweep.bodies);
+    method_bodies(input, workspace, &sweep.bodies);
     uint32_t count = sweep.bodies.count;
-    struct mark *starts = pair_filter_block(workspace, BLOCK_STARTS, count, sizeof *starts);
-    struct mark *ends = pair_filter_block(workspace, BLOCK_ENDS, count, sizeof *ends);
-    sweep.node = pair_filter_block(workspace, BLOCK_NODE, count, sizeof *sweep.node);
+    struct mark *starts = method_block(workspace, BLOCK_STARTS, count, sizeof *starts);
+    struct mark *ends = method_block(workspace, BLOCK_ENDS, count, sizeof *ends);
+    sweep.node = method_block(workspace, BLOCK_NODE, count, sizeof *sweep.node);
     put_in_order(&sweep, starts, ends);
     pass(&sweep, starts, ends);
 }

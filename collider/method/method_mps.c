@@ -1,7 +1,7 @@
 /* MPS II and III (Winn and Strong 1989, Cheeseman 1990, as Osborne 1991, p. 6, tells of them): a
  * platform within a certain range of another on the map, and both are killed. Neither heights nor
  * trees are looked at, and only where the frame ends. */
-#include "collider/motion/pair_filter.h"
+#include "collider/method/method.h"
 
 #include "world/entity/kind.h"
 #include "world/params.h"
@@ -28,7 +28,7 @@ static uint32_t list_platforms(const struct method_input *input, struct spot *sp
 void method_mps_pairs(const struct method_input *input, struct method_workspace *workspace,
                       struct pair_list *pairs)
 {
-    struct spot *spot = pair_filter_block(workspace, 0, input->rows, sizeof *spot);
+    struct spot *spot = method_block(workspace, 0, input->rows, sizeof *spot);
     double near = input->world->params->collision.mps_near_m;
     uint32_t count = list_platforms(input, spot);
     for (uint32_t a = 0; a < count; a++) {

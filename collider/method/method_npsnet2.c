@@ -166,7 +166,7 @@ void method_npsnet2_pairs(const struct method_input *input, struct method_worksp
                           struct pair_list *pairs)
 {
     enum nearness nearness = (enum nearness)input->world->params->collision.nearness;
-    struct vehicle *vehicle = pair_filter_block(workspace, 0, input->rows, sizeof *vehicle);
+    struct vehicle *vehicle = method_block(workspace, 0, input->rows, sizeof *vehicle);
     size_t count = list_vehicles(input, vehicle, pairs);
     for (size_t a = 0; a < count; a++) {
         work_done();

@@ -1,9 +1,9 @@
 /* NPSNET-2's way to find collisions (Osborne 1991, ch. III.C), as published: its constants, and
- * what its first level keeps. The method itself is method_npsnet2_pairs (pair_filter.h). */
+ * what its first level keeps. The method itself is method_npsnet2_pairs (method.h). */
 #ifndef JOLON_COLLIDER_METHOD_METHOD_NPSNET2_H
 #define JOLON_COLLIDER_METHOD_METHOD_NPSNET2_H
 
-#include "collider/motion/pair_filter.h"
+#include "collider/method/method.h"
 
 #include <stdint.h>
 

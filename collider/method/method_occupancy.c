@@ -6,7 +6,7 @@
  * of all bodies are wide. A body that would need more than CLAIMS_MAX of them claims cells of twice
  * the side, or four times and so on: nobody claims more, however large or fast. The coarse claim
  * first, and each also asks at every coarser level in use, so that all meet. */
-#include "collider/motion/pair_filter.h"
+#include "collider/method/method.h"
 
 #include "world/maths/random.h"
 #include "world/runtime/work_done.h"
@@ -33,7 +33,7 @@ struct claim {
 
 struct space {
     const struct method_input *input;
-    struct pair_filter_bodies bodies;
+    struct method_bodies bodies;
     uint8_t *level;  /* [bodies] of the cells that it claims */
     uint32_t *order; /* bodies, the coarsest level first */
     struct claim *claim;
@@ -157,7 +157,7 @@ static void visit_cell(struct space *space, uint32_t body, uint64_t cell, uint32
     for (uint32_t n = *head; n != NOBODY; n = space->claim[n].next) {
         const struct claim *claim = &space->claim[n];
         if (claim->cell == cell && first_shared(space, body, claim->body, cell, level))
-            pair_filter_meet(space->input, &space->bodies, body, claim->body, pairs);
+            method_meet(space->input, &space->bodies, body, claim->body, pairs);
     }
     if (level == space->level[body]) {
         space->claim[space->claims] = (struct claim){cell, body, *head};
@@ -192,17 +192,14 @@ void method_occupancy_pairs(const struct method_input *input, struct method_work
                             struct pair_list *pairs)
 {
     struct space space = {.input = input};
-    pair_filter_bodies(input, workspace, &space.bodies);
-    space.level =
-        pair_filter_block(workspace, BLOCK_LEVEL, space.bodies.count, sizeof *space.level);
-    space.order =
-        pair_filter_block(workspace, BLOCK_ORDER, space.bodies.count, sizeof *space.order);
+    method_bodies(input, workspace, &space.bodies);
+    space.level = method_block(workspace, BLOCK_LEVEL, space.bodies.count, sizeof *space.level);
+    space.order = method_block(workspace, BLOCK_ORDER, space.bodies.count, sizeof *space.order);
     uint32_t claims = choose_levels(&space);
     while (space.mask < claims)
         space.mask = 2 * space.mask + 1;
-    space.claim = pair_filter_block(workspace, BLOCK_CLAIM, claims, sizeof *space.claim);
-    space.head =
-        pair_filter_block(workspace, BLOCK_HEAD, (size_t)space.mask + 1, sizeof *space.head);
+    space.claim = method_block(workspace, BLOCK_CLAIM, claims, sizeof *space.claim);
+    space.head = method_block(workspace, BLOCK_HEAD, (size_t)space.mask + 1, sizeof *space.head);
     memset(space.head, 0xff, ((size_t)space.mask + 1) * sizeof *space.head);
     put_in_order(&space);
     claim_all(&space, pairs);

@@ -1,7 +1,6 @@
 /* What the methods of detection share: boxes, and who can never collide. */
 #include "collider/motion/pair_filter.h"
 
-#include "ipc/process/log.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/runtime/check.h"
@@ -47,6 +46,15 @@ void pair_list_add(struct pair_list *list, uint32_t a, uint32_t b)
     if (list->count == list->capacity)
         grow_list(list);
     list->pair[list->count++] = (struct pair){a, b};
+}
+
+void pair_list_append(struct pair_list *list, const struct pair_list *from)
+{
+    while (list->capacity - list->count < from->count)
+        grow_list(list);
+    if (from->count > 0)
+        memcpy(list->pair + list->count, from->pair, from->count * sizeof *from->pair);
+    list->count += from->count;
 }
 
 static double kind_reach(const struct world *world, const struct kind *kind)
@@ -146,62 +154,7 @@ bool pair_filter_box_meets_fixed(const struct method_input *input, const struct 
            (double)box->min_y <= y + e.high && y + e.low <= (double)box->max_y;
 }
 
-/* --- the methods -------------------------------------------------------------------------------*/
-
-method_pairs_function *method_of(enum method method)
-{
-    static method_pairs_function *const methods[METHOD_COUNT] = {
-        [METHOD_NPSNET2] = method_npsnet2_pairs,     [METHOD_MPS] = method_mps_pairs,
-        [METHOD_OCCUPANCY] = method_occupancy_pairs, [METHOD_HOPCROFT] = method_hopcroft_pairs,
-        [METHOD_BRUTE] = method_brute_pairs,
-    };
-    return methods[method];
-}
-
-struct method_workspace {
-    void *block[PAIR_FILTER_BLOCKS];
-    size_t bytes[PAIR_FILTER_BLOCKS];
-};
-
-struct method_workspace *method_workspace_create(const struct world *world)
-{
-    struct method_workspace *workspace = calloc(1, sizeof *workspace);
-    uint64_t bodies = (uint64_t)world->params->capacity + world->counts.fixed;
-    if (!workspace)
-        return NULL;
-    for (int i = 0; i < PAIR_FILTER_BLOCKS; i++) {
-        workspace->bytes[i] = (size_t)bodies * PAIR_FILTER_BODY_BYTES + GRIDSQUARE_COUNT;
-        workspace->block[i] = reserve_take(workspace->bytes[i], 1);
-        if (!workspace->block[i]) {
-            method_workspace_free(workspace);
-            errno = ENOMEM;
-            return NULL;
-        }
-    }
-    return workspace;
-}
-
-void *pair_filter_block(struct method_workspace *workspace, uint32_t block, size_t count,
-                        size_t size)
-{
-    if (count > workspace->bytes[block] / size) {
-        workspace->bytes[block] = 2 * count * size;
-        workspace->block[block] =
-            reserve_grow(workspace->block[block], 0, workspace->bytes[block], 1);
-    }
-    return workspace->block[block];
-}
-
-void method_workspace_free(struct method_workspace *workspace)
-{
-    for (int i = 0; workspace && i < PAIR_FILTER_BLOCKS; i++)
-        reserve_free(workspace->block[i]);
-    free(workspace);
-}
-
-/* --- bodies ------------------------------------------------------------------------------------*/
-
-static struct path_box box_of_fixed(const struct world *world, const struct fixed_object *object)
+struct path_box pair_filter_fixed_box(const struct world *world, const struct fixed_object *object)
 {
     struct extent e = extent_of(world, object);
     double reach = e.reach + BOX_SLACK_M, y = (double)object->y;
@@ -209,68 +162,4 @@ static struct path_box box_of_fixed(const struct world *world, const struct fixe
         (float)(object->x - reach), (float)(y + e.low - BOX_SLACK_M),  (float)(object->z - reach),
         (float)(object->x + reach), (float)(y + e.high + BOX_SLACK_M), (float)(object->z + reach),
     };
-}
-
-/* Does the box touch a marked square? mark: marks them all. */
-static bool squares_marked(uint8_t *marked, const struct path_box *box, bool mark)
-{
-    struct gridsquare_box squares = gridsquare_box_of((double)box->min_x, (double)box->min_z,
-                                                      (double)box->max_x, (double)box->max_z);
-    for (int32_t row = squares.z0; row <= squares.z1; row++) {
-        for (int32_t column = squares.x0; column <= squares.x1; column++) {
-            uint32_t square = gridsquare_index(column, row);
-            if (mark)
-                marked[square] = 1;
-            else if (marked[square])
-                return true;
-        }
-    }
-    return false;
-}
-
-void pair_filter_bodies(const struct method_input *input, struct method_workspace *workspace,
-                        struct pair_filter_bodies *bodies)
-{
-    const struct world *world = input->world;
-    size_t most = (size_t)input->rows + world->counts.fixed;
-    uint32_t *what = pair_filter_block(workspace, PAIR_FILTER_BODIES, most, sizeof *what);
-    struct path_box *box = pair_filter_block(workspace, PAIR_FILTER_BODIES + 1, most, sizeof *box);
-    uint8_t *tests_fixed = pair_filter_block(workspace, PAIR_FILTER_BODIES + 2, input->rows, 1);
-    uint8_t *marked = pair_filter_block(workspace, PAIR_FILTER_BODIES + 3, GRIDSQUARE_COUNT, 1);
-    uint32_t count = 0, moving;
-    memset(marked, 0, GRIDSQUARE_COUNT);
-    for (uint32_t row = 0; row < input->rows; row++) {
-        if (!pair_filter_there(input, row))
-            continue;
-        what[count] = row;
-        box[count] = pair_filter_box(input, row);
-        tests_fixed[count] = pair_filter_tests_fixed(input, row);
-        if (tests_fixed[count])
-            squares_marked(marked, &box[count], true);
-        count++;
-    }
-    moving = count;
-    for (uint32_t object = 0; object < world->counts.fixed; object++) {
-        box[count] = box_of_fixed(world, &world->fixed[object]);
-        if (pair_filter_stands(input, object) && squares_marked(marked, &box[count], false))
-            what[count++] = object | PAIR_FIXED;
-    }
-    *bodies = (struct pair_filter_bodies){count, moving, what, box, tests_fixed};
-}
-
-void pair_filter_meet(const struct method_input *input, const struct pair_filter_bodies *bodies,
-                      uint32_t i, uint32_t j, struct pair_list *pairs)
-{
-    uint32_t first = i < j ? i : j, second = i < j ? j : i;
-    uint32_t a = bodies->what[first], b = bodies->what[second];
-    bool meet = false;
-    if (second < bodies->moving)
-        meet = pair_filter_boxes_meet(&bodies->box[first], &bodies->box[second]) &&
-               !pair_excluded(input, a, b);
-    else if (first < bodies->moving)
-        meet = bodies->tests_fixed[first] &&
-               pair_filter_box_meets_fixed(input, &bodies->box[first],
-                                           &input->world->fixed[b & ~PAIR_FIXED]);
-    if (meet)
-        pair_list_add(pairs, a, b);
 }

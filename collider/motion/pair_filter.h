@@ -1,15 +1,5 @@
-/* Ways to find who can meet whom in a frame. Each method is one file behind one function:
- *
- *     swept (broad_phase.c)   strips of gridsquares, sort and sweep: the default
- *     method_occupancy.c       Uchiki, Ohashi and Tokoro 1983: who claims an occupied space is told
- *     method_hopcroft.c        Hopcroft, Schwartz and Sharir 1983: sort and sweep over the whole
- * world method_brute.c           every pair: the oracle method_npsnet2.c         Osborne 1991:
- * gridsquare lists, 100 m test, radii, rays; at the frame's end method_mps.c             MPS II:
- * near on the map; at the frame's end
- *
- * The first four find candidates whose exact contact is then found in time; what they find in the
- * end is the same to the bit. The last two decide themselves, by where the bodies are when the
- * frame ends, and miss what passed through in between. */
+/* What all methods of finding collisions share: lists of pairs, boxes, and which pairs can never
+ * collide. Pure; any thread. */
 #ifndef JOLON_COLLIDER_MOTION_PAIR_FILTER_H
 #define JOLON_COLLIDER_MOTION_PAIR_FILTER_H
 
@@ -58,6 +48,7 @@ void pair_list_free(struct pair_list *list);
 
 /* A full list grows. PAIRS_MAX pairs end the process. */
 void pair_list_add(struct pair_list *list, uint32_t a, uint32_t b);
+void pair_list_append(struct pair_list *list, const struct pair_list *from);
 
 /* Half a float's step at 50 km is 2 mm; 1 cm keeps every box outside [m]. */
 #define BOX_SLACK_M 0.01
@@ -77,8 +68,6 @@ struct method_input {
     const struct square_bounds *heights; /* NULL: each path is tested against the ground itself */
     uint32_t rows;
 };
-
-/* pair_filter.c: what the methods share. */
 
 /* How far from its position a row, or a fixed object, reaches: its sphere's radius, or its hulls'
  * bound, by collision.shape [m]. */
@@ -133,62 +122,14 @@ bool pair_same_shooter(const struct entities *entities, uint32_t a, uint32_t b);
 /* Can these two rows never collide? Kin, and two that rest. */
 bool pair_excluded(const struct method_input *input, uint32_t a, uint32_t b);
 
-/* The methods beside broad_phase.c. Each adds every pair that it finds once, in any order;
- * workspace is its own memory. */
-struct method_workspace;
-typedef void method_pairs_function(const struct method_input *input,
-                                   struct method_workspace *workspace, struct pair_list *pairs);
-method_pairs_function method_brute_pairs, method_hopcroft_pairs, method_occupancy_pairs,
-    method_npsnet2_pairs, method_mps_pairs;
-
-/* What any method needs in this world. NULL with errno ENOMEM. */
-struct method_workspace *method_workspace_create(const struct world *world);
-void method_workspace_free(struct method_workspace *workspace);
-
-/* The function of a method; NULL for METHOD_SWEPT. */
-method_pairs_function *method_of(enum method method);
-
-/* For the methods: room for count items of size bytes in the workspace's block with this number, of
- * PAIR_FILTER_BLOCKS; PAIR_FILTER_BODIES and up are pair_filter_bodies'. What the block held may be
- * lost. Set aside are PAIR_FILTER_BODY_BYTES for each body and GRIDSQUARE_COUNT more; a block that
- * needs more grows.
- */
-#define PAIR_FILTER_BLOCKS     13
-#define PAIR_FILTER_BODIES     9
-#define PAIR_FILTER_BODY_BYTES 64u
-void *pair_filter_block(struct method_workspace *workspace, uint32_t block, size_t count,
-                        size_t size);
-
-/* All that can be met in the frame, numbered through: first the rows that are there, then the fixed
- * objects that stand in gridsquares which a row that tests them touches. */
-struct pair_filter_bodies {
-    uint32_t count, moving;     /* the first moving are rows */
-    const uint32_t *what;       /* [count] a row, or a fixed object with PAIR_FIXED */
-    const struct path_box *box; /* [count] a fixed object's is a little larger than it is */
-    const uint8_t *tests_fixed; /* [moving] */
-};
-
-/* Lists them in the workspace, for as long as pair_filter_bodies is not called again. */
-void pair_filter_bodies(const struct method_input *input, struct method_workspace *workspace,
-                        struct pair_filter_bodies *bodies);
-
-/* Adds the pair of two bodies if they can meet, by the same predicates as method_brute.c. Two fixed
- * ones cannot. */
-void pair_filter_meet(const struct method_input *input, const struct pair_filter_bodies *bodies,
-                      uint32_t i, uint32_t j, struct pair_list *pairs);
-
-/* Does this method decide by itself at the frame's end (npsnet2, mps)? The others' pairs are
- * candidates. */
-static inline bool pair_filter_discrete(enum method method)
-{
-    return method == METHOD_NPSNET2 || method == METHOD_MPS;
-}
-
 static inline bool pair_filter_boxes_meet(const struct path_box *a, const struct path_box *b)
 {
     return a->min_x <= b->max_x && b->min_x <= a->max_x && a->min_z <= b->max_z &&
            b->min_z <= a->max_z && a->min_y <= b->max_y && b->min_y <= a->max_y;
 }
+
+/* The box around a fixed object, rounded outwards. */
+struct path_box pair_filter_fixed_box(const struct world *world, const struct fixed_object *object);
 
 bool pair_filter_box_meets_fixed(const struct method_input *input, const struct path_box *box,
                                  const struct fixed_object *object);

@@ -1,7 +1,7 @@
 /* The frame's contacts in a heap, and their renewal. */
 #include "collider/narrow_phase/contact_queue.h"
 
-#include "ipc/process/log.h"
+#include "collider/method/method.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/runtime/check.h"
@@ -466,7 +466,7 @@ void contact_queue_change(struct contact_queue *contacts, const struct contact_i
     for (uint32_t i = 0; i < count; i++)
         contacts->version[rows[i]]++;
     for (uint32_t i = 0; i < count; i++) {
-        if (!pair_filter_discrete(method))
+        if (!method_discrete(method))
             look_around(contacts, input, rows[i]);
         sweep_row(contacts, input, rows[i], time);
         work_done();

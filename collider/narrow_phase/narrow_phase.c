@@ -1,6 +1,7 @@
 /* One pair at a time: spheres in closed form, hulls by conservative advancement. */
 #include "collider/narrow_phase/narrow_phase.h"
 
+#include "collider/method/method.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -99,7 +100,7 @@ bool narrow_phase_touch(const struct method_input *input, const struct body_moti
 {
     const struct world *world = input->world;
     const struct collision_params *how = &world->params->collision;
-    bool discrete = pair_filter_discrete((enum method)how->method);
+    bool discrete = method_discrete((enum method)how->method);
     bool hulls = how->shape == SHAPE_MODEL && !discrete;
     if (hulls ? !touch_hulls(motion, pair, from, touch)
               : !touch_spheres(input, pair, from, discrete, touch))

@@ -16,7 +16,7 @@ static const struct key_choice spacings[] = {
     {"125", 0, NULL}, {"62.5", 0, NULL}, {"31.25", 0, NULL}};
 static const struct key_choice object_sources[] = {{"table1", OBJECTS_TABLE1, NULL},
                                                    {"none", OBJECTS_NONE, NULL}};
-#define X(name, value, word, text) {NULL, METHOD_##name, text},
+#define X(name, value, word, test, text) {NULL, METHOD_##name, text},
 static const struct key_choice methods[] = {METHODS(X)};
 #undef X
 static const struct key_choice shapes[] = {{.value = SHAPE_MODEL}, {.value = SHAPE_SPHERE}};

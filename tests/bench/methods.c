@@ -126,19 +126,17 @@ struct finder {
     enum method method;
     struct broad_phase broad; /* swept's */
     struct method_workspace *workspace;
-    struct pair_list pairs;      /* the others' */
+    struct pair_list pairs;
     double last_ms, last_growth; /* at the size before; 0: there was none */
 };
 
 static const struct pair_list *find(struct finder *finder, const struct field *field)
 {
-    method_pairs_function *method = method_of(finder->method);
     finder->pairs.count = 0;
-    if (method)
-        method(&field->input, finder->workspace, &finder->pairs);
-    else
+    if (finder->method == METHOD_SWEPT)
         broad_phase_pairs(&finder->broad, &field->input);
-    return method ? &finder->pairs : &finder->broad.list[0];
+    method_of(finder->method)->pairs(&field->input, finder->workspace, &finder->pairs);
+    return &finder->pairs;
 }
 
 /* The median of some runs; of one when it is long. */
@@ -220,7 +218,7 @@ static void measure_size(struct finder finders[METHOD_COUNT], uint32_t bodies, b
         struct finder *finder = &finders[method];
         if (too_long(finder))
             continue;
-        finder->workspace = method_workspace_create(&field.world);
+        finder->workspace = method_workspace_create(&field.world, &finder->broad);
         if (!finder->workspace || broad_phase_init(&finder->broad, &field.world, NULL) != 0 ||
             pair_list_init(&finder->pairs, pair_filter_pairs_first(&field.world)) != 0)
             die_refused("out of memory");

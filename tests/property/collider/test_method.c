@@ -1,6 +1,7 @@
 /* Occupancy, hopcroft and swept against brute force on random worlds (thesis rows 44, 45): the same
  * pairs, each once. SEED=n runs another set. */
 #include "collider/broad_phase/broad_phase.h"
+#include "collider/method/method.h"
 
 #include "tests/support/fixture.h"
 #include "tests/support/small_world.h"
@@ -182,7 +183,7 @@ static void begin_lists(struct lists *lists, const struct small_world *w, uint32
 {
     struct world world = w->world; /* its objects are yet to come */
     world.counts.fixed = fixed;
-    *lists = (struct lists){.workspace = method_workspace_create(&world)};
+    *lists = (struct lists){.workspace = method_workspace_create(&world, NULL)};
     assert_non_null(lists->workspace);
     assert_int_equal(pair_list_init(&lists->wanted, pair_filter_pairs_first(&world)), 0);
     assert_int_equal(pair_list_init(&lists->found, pair_filter_pairs_first(&world)), 0);

@@ -172,15 +172,15 @@ static void test_a_block_of_a_method_grows(void **state)
     struct fixture f;
     (void)state;
     fixture_open(&f, "");
-    struct method_workspace *workspace = method_workspace_create(&f.view.world);
+    struct method_workspace *workspace = method_workspace_create(&f.view.world, NULL);
     assert_non_null(workspace);
     uint64_t before = reserve_growths();
-    assert_non_null(pair_filter_block(workspace, 2, 1000, 8));
+    assert_non_null(method_block(workspace, 2, 1000, 8));
     assert_int_equal(reserve_growths(), before);
-    uint64_t *block = pair_filter_block(workspace, 2, 1000000, sizeof *block);
+    uint64_t *block = method_block(workspace, 2, 1000000, sizeof *block);
     assert_int_equal(reserve_growths(), before + 1);
     block[0] = block[999999] = 7;
-    assert_ptr_equal(pair_filter_block(workspace, 2, 1000000, sizeof *block), block);
+    assert_ptr_equal(method_block(workspace, 2, 1000000, sizeof *block), block);
     method_workspace_free(workspace);
     fixture_close(&f);
 }

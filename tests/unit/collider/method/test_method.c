@@ -1,6 +1,6 @@
 /* The rules of brute, occupancy, hopcroft and mps, one at a time (thesis rows 42, 44, 45). Random
  * worlds are in tests/property/collider/test_method.c, npsnet2 in test_method_npsnet2.c. */
-#include "collider/motion/pair_filter.h"
+#include "collider/method/method.h"
 
 #include "tests/support/small_world.h"
 #include "world/params.h"
@@ -29,7 +29,7 @@ static int open_world(void **state)
 {
     (void)state;
     small_world_begin(&w, ROWS, 64);
-    workspace = method_workspace_create(&w.world);
+    workspace = method_workspace_create(&w.world, NULL);
     return workspace ? pair_list_init(&pairs, ROWS * ROWS) : -1;
 }
 
@@ -70,15 +70,18 @@ static bool has(uint32_t a, uint32_t b)
 
 /* --- choosing ----------------------------------------------------------------------------------*/
 
-static void test_every_method_but_swept_has_its_function(void **state)
+static void test_every_method_has_its_function(void **state)
 {
     (void)state;
-    assert_null(method_of(METHOD_SWEPT));
-    assert_ptr_equal(method_of(METHOD_NPSNET2), method_npsnet2_pairs);
-    assert_ptr_equal(method_of(METHOD_MPS), method_mps_pairs);
-    assert_ptr_equal(method_of(METHOD_OCCUPANCY), method_occupancy_pairs);
-    assert_ptr_equal(method_of(METHOD_HOPCROFT), method_hopcroft_pairs);
-    assert_ptr_equal(method_of(METHOD_BRUTE), method_brute_pairs);
+    assert_ptr_equal(method_of(METHOD_SWEPT)->pairs, method_swept_pairs);
+    assert_ptr_equal(method_of(METHOD_NPSNET2)->pairs, method_npsnet2_pairs);
+    assert_ptr_equal(method_of(METHOD_MPS)->pairs, method_mps_pairs);
+    assert_ptr_equal(method_of(METHOD_OCCUPANCY)->pairs, method_occupancy_pairs);
+    assert_ptr_equal(method_of(METHOD_HOPCROFT)->pairs, method_hopcroft_pairs);
+    assert_ptr_equal(method_of(METHOD_BRUTE)->pairs, method_brute_pairs);
+    for (uint32_t method = 0; method < METHOD_COUNT; method++)
+        assert_true(method_discrete((enum method)method) ==
+                    (method == METHOD_NPSNET2 || method == METHOD_MPS));
 }
 
 static void test_pairs_are_added_to_what_the_list_has(void **state)
@@ -273,7 +276,7 @@ int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
-        TEST(test_every_method_but_swept_has_its_function),
+        TEST(test_every_method_has_its_function),
         TEST(test_pairs_are_added_to_what_the_list_has),
         TEST(test_an_empty_world_has_no_pairs),
         TEST(test_two_at_rest_are_no_pair_and_one_that_moves_makes_it_one),

@@ -34,7 +34,7 @@ static int open_world(void **state)
     w.params->dt_s = DT_S;
     w.params->collision.nearness = NEARNESS_AND;
     w.kinds[SMALL_TANK].radius_m = 3.0 / METHOD_NPSNET2_RADIUS_SHARE;
-    workspace = method_workspace_create(&w.world);
+    workspace = method_workspace_create(&w.world, NULL);
     return workspace ? pair_list_init(&pairs, 512 * 512) : -1;
 }
 

@@ -1,0 +1,79 @@
+/* Ways to find which bodies can meet in a frame. Each is a row of METHODS
+ * (world/collision_models.h) and a file:
+ *
+ *     method_swept      strips of gridsquares, sort and sweep (the broad phase): the default
+ *     method_occupancy  Uchiki, Ohashi and Tokoro 1983: bodies claim the space that they occupy
+ *     method_hopcroft   Hopcroft, Schwartz and Sharir 1983: sort and sweep over the whole world
+ *     method_brute      every pair: the oracle of the others
+ *     method_npsnet2    Osborne 1991: gridsquare lists, 100 m test, radii, rays
+ *     method_mps        MPS II: near each other on the map
+ *
+ * The first four find candidates whose exact contact is then found in time; what they find in the
+ * end is the same to the bit. The last two decide themselves, by where the bodies are when the
+ * frame ends, and miss what passed through in between. */
+#ifndef JOLON_COLLIDER_METHOD_METHOD_H
+#define JOLON_COLLIDER_METHOD_METHOD_H
+
+#include "collider/motion/pair_filter.h"
+#include "world/collision_models.h"
+
+struct broad_phase;
+
+/* A method's own memory. */
+struct method_workspace;
+
+/* Adds every pair that the method finds once, in any order. */
+typedef void method_pairs_function(const struct method_input *input,
+                                   struct method_workspace *workspace, struct pair_list *pairs);
+
+struct method_functions {
+    method_pairs_function *pairs;
+    enum method_test test;
+};
+
+/* method_swept_pairs() and so on, each in its own file. */
+#define X(name, value, word, test, text) method_pairs_function method_##word##_pairs;
+METHODS(X)
+#undef X
+
+const struct method_functions *method_of(enum method method);
+
+/* Returns true for a method that decides by itself at the frame's end. The others' pairs are
+ * candidates. */
+bool method_discrete(enum method method);
+
+/* Returns what any method needs in this world, NULL with errno ENOMEM. broad is what the method
+ * "swept" takes its pairs from; it stays the caller's. */
+struct method_workspace *method_workspace_create(const struct world *world,
+                                                 const struct broad_phase *broad);
+void method_workspace_free(struct method_workspace *workspace);
+const struct broad_phase *method_broad_phase(const struct method_workspace *workspace);
+
+/* Returns room for count items of size bytes in the workspace's block with this number, of
+ * METHOD_BLOCKS; METHOD_BODIES and up are method_bodies()'s. What the block held may be lost. Set
+ * aside are METHOD_BODY_BYTES for each body and GRIDSQUARE_COUNT more; a block that needs more
+ * grows. */
+#define METHOD_BLOCKS     13
+#define METHOD_BODIES     9
+#define METHOD_BODY_BYTES 64u
+void *method_block(struct method_workspace *workspace, uint32_t block, size_t count, size_t size);
+
+/* All that can be met in the frame, numbered through: first the rows that are there, then the fixed
+ * objects that stand in gridsquares which a row that tests them touches. */
+struct method_bodies {
+    uint32_t count, moving;     /* the first moving are rows */
+    const uint32_t *what;       /* [count] a row, or a fixed object with PAIR_FIXED */
+    const struct path_box *box; /* [count] a fixed object's is a little larger than it is */
+    const uint8_t *tests_fixed; /* [moving] */
+};
+
+/* Lists them in the workspace, until method_bodies() is called again. */
+void method_bodies(const struct method_input *input, struct method_workspace *workspace,
+                   struct method_bodies *bodies);
+
+/* Adds the pair of two bodies if they can meet, by the same predicates as method_brute.c. Two fixed
+ * objects cannot. */
+void method_meet(const struct method_input *input, const struct method_bodies *bodies, uint32_t i,
+                 uint32_t j, struct pair_list *pairs);
+
+#endif

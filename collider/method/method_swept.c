@@ -1,0 +1,13 @@
+/* The method "swept": the pairs that the broad phase has found. It runs in each frame, under every
+ * method, because blasts and changed paths look up in it what is near. */
+#include "collider/broad_phase/broad_phase.h"
+#include "collider/method/method.h"
+
+void method_swept_pairs(const struct method_input *input, struct method_workspace *workspace,
+                        struct pair_list *pairs)
+{
+    const struct broad_phase *broad = method_broad_phase(workspace);
+    (void)input;
+    for (uint32_t i = 0; i < THREAD_POOL_MAX; i++)
+        pair_list_append(pairs, &broad->list[i]);
+}
