@@ -1,6 +1,4 @@
-/* Agents: what an autonomous vehicle wants. What it notices (perception.c) and its doctrine's table
- * (behaviour_table.c) give its behaviour, the behaviour its goal (goal.c) and what it asks of its
- * body. Rows are thought for independently, from the committed world. */
+/* Changes the behaviour of agents, and sets their controls. */
 #include "mover/agent/agent.h"
 
 #include "mover/agent/attack.h"
@@ -14,9 +12,9 @@
 #include "world/world.h"
 #include <stddef.h>
 
-#define CRUISE_SHARE  0.75 /* of full speed, on patrol and route */
+#define CRUISE_SHARE  0.75 /* share of full speed on patrol and route */
 #define BACK_OFF_M    80.0
-#define REVERSE_SHARE 0.4 /* of its speed, backwards */
+#define REVERSE_SHARE 0.4 /* share of the speed when it drives backwards */
 
 static uint32_t after(const struct step_context *context, double seconds)
 {
@@ -42,7 +40,7 @@ static void begin_attack(const struct step_context *context, uint32_t i,
     const struct entities *w = &context->committed->entities;
     uint32_t target = notice->threat != SLOT_NONE ? notice->threat : notice->enemy;
     if (target == SLOT_NONE || (before == BEHAVIOUR_ATTACK && perception_in_sight(context, i)))
-        return; /* it has one */
+        return; /* it keeps its target */
     goal_target(context, i, target, w->id[target]);
     bool seen = target == notice->enemy || perception_sees(context, i, target);
     m->seen_tick[i] = (uint32_t)context->tick - (seen ? 0 : UINT32_MAX / 2);
@@ -103,7 +101,7 @@ static void take(const struct step_context *context, uint32_t i,
         m->target_slot[i] = m->target_id[i] = 0;
         goal_base(context, i);
         break;
-    case BEHAVIOUR_IDLE: /* it can neither fight nor flee */
+    case BEHAVIOUR_IDLE: /* without fuel it can neither fight nor flee */
         m->order[i] = BEHAVIOUR_IDLE;
         m->target_slot[i] = m->target_id[i] = 0;
         break;
@@ -117,44 +115,44 @@ static void take(const struct step_context *context, uint32_t i,
 
 /* --- behaviours --------------------------------------------------------------------------------*/
 
-static void wish_goal(const struct step_context *context, uint32_t i, double speed,
-                      struct desired_motion *desired)
+static void drive_to_goal(const struct step_context *context, uint32_t i, double speed,
+                          struct desired_motion *desired)
 {
     const struct entities *m = context->m;
     desired->heading_rad = maths_heading(m->goal_x[i] - m->x[i], m->goal_z[i] - m->z[i]);
     desired->speed_mps = speed;
 }
 
-/* What it ran into is behind: drives there forwards, or backwards when that is nearer. */
-static void wish_back_off(const struct step_context *context, uint32_t i, double speed,
-                          struct desired_motion *desired)
+/* Drives away from what it ran into: forwards, or backwards where that needs a smaller turn. */
+static void drive_back_off(const struct step_context *context, uint32_t i, double speed,
+                           struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    wish_goal(context, i, speed, desired);
+    drive_to_goal(context, i, speed, desired);
     if (fabs(maths_wrap_half(desired->heading_rad - m->heading[i])) > HALF_PI) {
         desired->heading_rad = maths_wrap_turn(desired->heading_rad + PI);
         desired->speed_mps = -REVERSE_SHARE * speed;
     }
 }
 
-/* To cover, and no further. */
-static void wish_flee(const struct step_context *context, uint32_t i, const struct kind *kind,
-                      struct desired_motion *desired)
+/* Drives to cover and stops there. */
+static void drive_to_cover(const struct step_context *context, uint32_t i, const struct kind *kind,
+                           struct desired_motion *desired)
 {
-    wish_goal(context, i, goal_arrived(context, i) ? 0.0 : kind->max_speed_mps, desired);
+    drive_to_goal(context, i, goal_arrived(context, i) ? 0.0 : kind->max_speed_mps, desired);
 }
 
-static void wish_withdraw(const struct step_context *context, uint32_t i, const struct kind *kind,
+static void drive_to_base(const struct step_context *context, uint32_t i, const struct kind *kind,
                           struct desired_motion *desired)
 {
-    if (goal_arrived(context, i)) /* a detour's end */
+    if (goal_arrived(context, i)) /* at the end of a detour */
         goal_base(context, i);
-    wish_goal(context, i, kind->max_speed_mps, desired);
+    drive_to_goal(context, i, kind->max_speed_mps, desired);
 }
 
-/* Tank and racks fill evenly. Who cannot stand still goes round the base. */
-static void wish_resupply(const struct step_context *context, uint32_t i, const struct kind *kind,
-                          struct desired_motion *desired)
+/* Fuel and rounds fill up evenly. An aircraft that cannot hover circles over the base. */
+static void drive_resupply(const struct step_context *context, uint32_t i, const struct kind *kind,
+                           struct desired_motion *desired)
 {
     struct entities *m = context->m;
     double left = (double)(m->until_tick[i] - (uint32_t)context->tick) * context->dt_s;
@@ -163,11 +161,11 @@ static void wish_resupply(const struct step_context *context, uint32_t i, const 
     m->rounds[i] = rounds > m->rounds[i] ? rounds : m->rounds[i];
     m->fuel_l[i] = maths_max(m->fuel_l[i], share * kind->fuel_l);
     if (kind->min_speed_mps > 0.0)
-        wish_goal(context, i, kind->min_speed_mps, desired);
+        drive_to_goal(context, i, kind->min_speed_mps, desired);
 }
 
-static void wish_behaviour(const struct step_context *context, uint32_t i,
-                           struct desired_motion *desired)
+static void drive_by_behaviour(const struct step_context *context, uint32_t i,
+                               struct desired_motion *desired)
 {
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
@@ -177,7 +175,7 @@ static void wish_behaviour(const struct step_context *context, uint32_t i,
     case BEHAVIOUR_ROUTE:
         if (goal_arrived(context, i))
             goal_next(context, i);
-        wish_goal(context, i, cruise, desired);
+        drive_to_goal(context, i, cruise, desired);
         if (m->behaviour[i] == BEHAVIOUR_ROUTE)
             formation_keeping_route(context, i, desired);
         break;
@@ -188,10 +186,10 @@ static void wish_behaviour(const struct step_context *context, uint32_t i,
         attack_motion(context, i, &behaviour_tables[kind->doctrine], desired);
         break;
     case BEHAVIOUR_FLEE:
-        wish_flee(context, i, kind, desired);
+        drive_to_cover(context, i, kind, desired);
         break;
     case BEHAVIOUR_BACK_OFF:
-        wish_back_off(context, i, cruise, desired);
+        drive_back_off(context, i, cruise, desired);
         break;
     case BEHAVIOUR_SCRIPT:
         script_player_motion(context, i, desired);
@@ -200,10 +198,10 @@ static void wish_behaviour(const struct step_context *context, uint32_t i,
         driver_controls_motion(context, i, desired);
         break;
     case BEHAVIOUR_WITHDRAW:
-        wish_withdraw(context, i, kind, desired);
+        drive_to_base(context, i, kind, desired);
         break;
     case BEHAVIOUR_RESUPPLY:
-        wish_resupply(context, i, kind, desired);
+        drive_resupply(context, i, kind, desired);
         break;
     default:
         break;
@@ -212,7 +210,7 @@ static void wish_behaviour(const struct step_context *context, uint32_t i,
 
 /* --- its controls ------------------------------------------------------------------------------*/
 
-/* So that it has turned as it wishes by its next thought. */
+/* Sets the steering so that the turn is complete at its next decision. */
 static void set_controls(const struct step_context *context, uint32_t i, const struct kind *kind,
                          const struct desired_motion *desired)
 {
@@ -249,7 +247,7 @@ static void think(const struct step_context *context, uint32_t i, const struct k
         &behaviour_tables[kind->doctrine], (enum behaviour)m->behaviour[i], notice.percepts);
     if (row)
         take(context, i, row, &notice);
-    wish_behaviour(context, i, desired);
+    drive_by_behaviour(context, i, desired);
     avoidance_steer(context, i, desired);
 }
 

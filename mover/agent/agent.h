@@ -6,8 +6,8 @@
 
 #include "mover/context/step_context.h"
 
-/* Row i's agent decides. Unless a script or a driver has the controls, it sets them; else wish
- * is what the script or the driver wants. */
+/* Row i's agent decides: it perceives, changes its behaviour, chooses its desired motion and steers
+ * around obstacles. Unless a script or a driver has the controls it sets them, too. */
 void agent_think(const struct step_context *context, uint32_t i, struct desired_motion *desired);
 
 /* The desired motion of a row that is on a script or driven, or is returning to its script. It

@@ -1,4 +1,4 @@
-/* The manners of fighting. */
+/* The manners of fighting (enum manner). */
 #include "mover/agent/attack.h"
 
 #include "mover/agent/perception.h"
@@ -6,15 +6,15 @@
 #include "world/state.h"
 #include "world/world.h"
 
-#define HOVER_S        12.0 /* a helicopter's round: it hovers, then flies to another side */
-#define HOVER_SHARE    0.6  /* of it that it hovers */
-#define TOO_NEAR_SHARE 0.25 /* of its range: nearer than that it backs away */
-#define SIDE_RAD       1.7  /* off its target, when it flies to another side */
-#define NEARLY_M       50.0 /* beyond its range it gets ready to fire */
-#define BREAK_OFF      0.2  /* of its range: a jet's pass is over */
-#define AIM_HZ         20.0 /* how often a loaded gun is laid, and tried */
+#define HOVER_S        12.0 /* a helicopter's cycle: it hovers, then flies to another side */
+#define HOVER_SHARE    0.6  /* share of the cycle in which it hovers */
+#define TOO_NEAR_SHARE 0.25 /* share of the range: if the target is nearer it backs away */
+#define SIDE_RAD       1.7  /* direction to the other side, off its target */
+#define NEARLY_M       50.0 /* so far out of range it begins to lay its gun */
+#define BREAK_OFF      0.2  /* share of the range at which a jet's pass ends */
+#define AIM_HZ         20.0 /* how often an agent tries to fire a loaded gun */
 
-/* Its target as it knows it: where it last saw it. */
+/* The target where the agent last saw it. */
 struct aim {
     double heading, distance;
     bool seen;
@@ -44,7 +44,8 @@ static void hover(const struct step_context *context, uint32_t i, const struct k
     desired->speed_mps = 0.5 * kind->max_speed_mps;
 }
 
-/* Towards it from afar, straight on when near or past it, until there is room to turn. */
+/* A jet flies to the target from afar. Near the target and past it, it flies straight on until
+ * there is room to turn. */
 static void pass(const struct step_context *context, uint32_t i, const struct kind *kind,
                  const struct aim *aim, double share, struct desired_motion *desired)
 {
@@ -63,7 +64,7 @@ void attack_motion(const struct step_context *context, uint32_t i,
     const struct entities *w = &context->committed->entities;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     struct aim aim = {.seen = perception_in_sight(context, i)};
-    if (aim.seen) { /* it follows it with its eyes */
+    if (aim.seen) {
         m->goal_x[i] = w->x[m->target_slot[i]];
         m->goal_z[i] = w->z[m->target_slot[i]];
     }
@@ -77,7 +78,7 @@ void attack_motion(const struct step_context *context, uint32_t i,
     case MANNER_PASS:
         pass(context, i, kind, &aim, table->stand_off, desired);
         break;
-    default: /* a charge is a stand-off at no distance */
+    default: /* a charge is a stand-off at distance 0 */
         stand_off(kind, &aim, table->stand_off, desired);
         break;
     }

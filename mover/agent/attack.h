@@ -1,4 +1,4 @@
-/* Fights: how row i moves and fires in an attack. Any thread, each its own row. */
+/* How row i moves and fires in an attack. Any thread, each its own row. */
 #ifndef JOLON_MOVER_AGENT_ATTACK_H
 #define JOLON_MOVER_AGENT_ATTACK_H
 
@@ -7,15 +7,15 @@
 
 struct params;
 
-/* What it wants of its body, in the manner of its doctrine. */
+/* The desired motion, in the manner of its doctrine's table. */
 void attack_motion(const struct step_context *context, uint32_t i,
                    const struct behaviour_table *table, struct desired_motion *desired);
 
-/* Frames between two shots that an agent with a loaded gun tries. */
+/* The number of frames from one attempt to fire to the next. */
 uint32_t attack_aim_frames(const struct params *params);
 
-/* Is it about to fire: in an attack, its target in sight and about within range, its gun loaded?
- * Costs next to nothing; whether the gun bears is turret.h's. */
+/* Is it about to fire: in an attack, with the target in sight and nearly in range and the gun
+ * loaded? turret_hold_fire() then checks whether the gun bears. */
 bool attack_ready(const struct step_context *context, uint32_t i);
 
 #endif

@@ -1,4 +1,4 @@
-/* Formations: who leads, who is where, and how to get there and stay. */
+/* Finds the leader of a formation and the place of each follower, and steers to it. */
 #include "mover/agent/formation_keeping.h"
 
 #include "mover/agent/goal.h"
@@ -7,20 +7,20 @@
 #include "world/state.h"
 #include "world/world.h"
 
-#define CATCH_UP_PS   0.5  /* [1/s] of the way to its place, on top of its leader's speed */
-#define AHEAD_S       1.5  /* it steers for where its place will be */
-#define AHEAD_M       12.0 /* at least */
-#define IN_PLACE_M    4.0  /* near enough, once its leader stands */
+#define CATCH_UP_PS   0.5  /* [1/s] of the distance to its place, added to its leader's speed */
+#define AHEAD_S       1.5  /* it steers for the place where its place will be after this time */
+#define AHEAD_M       12.0 /* at least so far ahead of its place */
+#define IN_PLACE_M    4.0  /* near enough when its leader stands */
 #define STANDS_MPS    0.5
-#define FAR_M         30.0 /* from its place: it drives straight there */
+#define FAR_M         30.0 /* further from its place it drives straight there */
 #define LANE_GAP_M    1.0  /* between the vehicle and the middle of its route */
-#define LANE_AHEAD_M  20.0 /* at least */
+#define LANE_AHEAD_M  20.0 /* it steers for a point of its lane at least so far ahead */
 #define LANE_AHEAD_S  2.0
-#define LANE_STRAYS_M 60.0 /* from its leg: it drives straight for the goal */
+#define LANE_STRAYS_M 60.0 /* further from its leg it drives straight to the goal */
 
-/* --- who ---------------------------------------------------------------------------------------*/
+/* --- leaders -----------------------------------------------------------------------------------*/
 
-/* A member that drives with the others. */
+/* Does the member drive with the others? */
 static bool present(const struct step_context *context, uint32_t slot)
 {
     const struct entities *w = &context->committed->entities;
@@ -33,9 +33,9 @@ static bool present(const struct step_context *context, uint32_t slot)
 }
 
 struct post {
-    uint32_t leader; /* slot, SLOT_NONE: row i is to lead */
-    uint32_t before; /* slot of who stands before it, the leader or a follower */
-    uint32_t rank;   /* of row i, 1: the first behind the leader */
+    uint32_t leader; /* slot; SLOT_NONE: row i must lead */
+    uint32_t before; /* slot of the member before it: the leader or a follower */
+    uint32_t rank;   /* of row i; 1: the first behind the leader */
 };
 
 static struct post post_of(const struct step_context *context, const struct formation *formation,
@@ -54,13 +54,13 @@ static struct post post_of(const struct step_context *context, const struct form
         }
     }
     if (post.leader == SLOT_NONE && post.rank > 1)
-        post.leader = post.before; /* the first of these takes over in this frame */
+        post.leader = post.before; /* the first follower takes over in this frame */
     if (post.before == SLOT_NONE)
         post.before = post.leader;
     return post;
 }
 
-/* The point of a route after the one that is nearest to it: where it goes on. */
+/* The point after the route's nearest point: where a new leader goes on. */
 static uint32_t nearest_leg(const struct step_context *context, uint32_t i,
                             const struct route *route)
 {
@@ -91,9 +91,9 @@ static void take_the_lead(const struct step_context *context, uint32_t i,
     goal_next(context, i);
 }
 
-/* --- where -------------------------------------------------------------------------------------*/
+/* --- places ------------------------------------------------------------------------------------*/
 
-/* To a place that moves on at speed along (sine, -cosine). */
+/* Steers to a place that moves at a speed along (sine, -cosine). */
 static void keep_place(const struct step_context *context, uint32_t i, double speed, double sine,
                        double cosine, struct desired_motion *desired)
 {
@@ -102,7 +102,7 @@ static void keep_place(const struct step_context *context, uint32_t i, double sp
     double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
     double along = dx * sine - dz * cosine, off = sqrt(dx * dx + dz * dz);
     double ahead = maths_max(AHEAD_M, AHEAD_S * speed);
-    if (speed < STANDS_MPS && kind->min_speed_mps <= 0.0) { /* there, and no circles about it */
+    if (speed < STANDS_MPS && kind->min_speed_mps <= 0.0) {
         desired->speed_mps =
             off < IN_PLACE_M ? 0.0 : maths_min(CATCH_UP_PS * off, kind->max_speed_mps);
         desired->heading_rad = off < IN_PLACE_M ? m->heading[i] : maths_heading(dx, dz);
@@ -113,8 +113,7 @@ static void keep_place(const struct step_context *context, uint32_t i, double sp
     desired->heading_rad = maths_heading(dx + ahead * sine, dz - ahead * cosine);
     desired->speed_mps = maths_clamp(speed + CATCH_UP_PS * along, 0.0, kind->max_speed_mps);
     if (off > FAR_M && along < 0.0 && kind->min_speed_mps <= 0.0)
-        desired->speed_mps =
-            maths_max(desired->speed_mps, STANDS_MPS); /* it lets the others pass */
+        desired->speed_mps = maths_max(desired->speed_mps, STANDS_MPS); /* the others catch up */
 }
 
 void formation_keeping_follow(const struct step_context *context, uint32_t i,
@@ -132,7 +131,8 @@ void formation_keeping_follow(const struct step_context *context, uint32_t i,
         take_the_lead(context, i, formation);
         return;
     }
-    /* A column bends as its road does: each follows the one before it. */
+    /* In a column each vehicle follows the one before it, so that the column bends with its road.
+     */
     bool column = formation->shape == FORMATION_COLUMN;
     uint32_t by = column ? post.before : post.leader;
     double ahead, right, sine, cosine;

@@ -1,4 +1,4 @@
-/* Where agents go. */
+/* Chooses goals. */
 #include "mover/agent/goal.h"
 
 #include "mover/agent/perception.h"
@@ -11,9 +11,9 @@
 #include "world/world.h"
 
 #define ARRIVED_M  25.0
-#define HOME_M     150.0 /* a base has room for many */
+#define HOME_M     150.0 /* a base has room for many vehicles */
 #define FLEE_M     2000.0
-#define DETOUR_M   400.0 /* around what blocks the way home */
+#define DETOUR_M   400.0 /* around what blocks the path to the base */
 #define GOAL_DRAWS 8
 
 static double unit(const struct step_context *context, uint32_t i, enum random_purpose purpose)
@@ -30,7 +30,7 @@ static bool suits(const struct step_context *context, uint32_t i, double x, doub
     return kind->domain == DOMAIN_AIR || (kind->domain == DOMAIN_SEA) == water;
 }
 
-/* A random point of its area, on ground that it can use. */
+/* A random point of its area on ground that suits its kind. */
 static void patrol(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
@@ -139,7 +139,7 @@ static bool within(const struct step_context *context, uint32_t i, double x, dou
     const struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     double dx = x - m->x[i], dz = z - m->z[i];
-    /* A fast body cannot turn tighter than speed over turn rate. */
+    /* A jet's turning radius is speed over turn rate. */
     if (kind->min_speed_mps > 0.0)
         metres =
             maths_max(metres, 2.0 * kind->max_speed_mps / maths_max(kind->turn_rate_rps, 0.01));
@@ -166,7 +166,7 @@ void goal_blocked(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     switch ((enum behaviour)m->behaviour[i]) {
-    case BEHAVIOUR_FLEE: /* any way out is good */
+    case BEHAVIOUR_FLEE:
         goal_away(context, i, TWO_PI * unit(context, i, RANDOM_GOAL_X), FLEE_M);
         break;
     case BEHAVIOUR_WITHDRAW:

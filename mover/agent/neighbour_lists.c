@@ -1,11 +1,11 @@
-/* Gathering: a row of cells at a time. */
+/* Gathers the lists, a row of cells at a time. */
 #include "mover/agent/neighbour_lists.h"
 
 #include "mover/agent/avoidance.h"
 
 #include <stdlib.h>
 
-#define ROOM 2u /* entries of a row of cells, over its vehicles */
+#define ROOM 2u /* times the vehicles of a row of cells: the entries of its lists */
 
 int neighbour_lists_init(struct neighbour_lists *lists, uint32_t capacity)
 {
@@ -32,9 +32,9 @@ struct gathering {
     const struct avoidance *avoidance;
 };
 
-/* Whom one meets that looks as far as its kind ever does, into entries first .. end - 1; how many,
- * or NEIGHBOUR_LISTS_NONE when there may be too many. Without branches: who is near enough and
- * about as high nobody can guess. */
+/* Gathers the vehicles within the farthest look of the looker's kind into entries first .. end - 1.
+ * Returns how many, or NEIGHBOUR_LISTS_NONE when there may be no room. The inner loop has no
+ * branch, because the processor could not predict it. */
 static uint32_t gather(const struct gathering *g, const struct neighbour_index_entry *looker,
                        uint32_t first, uint32_t end)
 {

@@ -1,10 +1,9 @@
-/* Company: who is about those that think in this frame, gathered place by place.
+/* A list of neighbours for each agent that decides in this frame.
  *
- * Whoever looks ahead looks at everybody about it. One after the other in the order of their rows,
- * lookers come from all over the map and find nothing of its index in the cache; in the order of
- * its cells each finds what the one before it has just read. So they are gathered in that order,
- * and the look reads a short list. A look that finds no list asks the index itself, and sees the
- * same. */
+ * Agents that follow each other in the table are far from each other on the map, so that each would
+ * read other parts of the index, which are not in the processor's cache. The lists are gathered in
+ * the order of the index's cells. Each look-up then reads entries that the previous one has put
+ * into the cache. An agent without a list queries the index and finds the same vehicles. */
 #ifndef JOLON_MOVER_AGENT_NEIGHBOUR_LISTS_H
 #define JOLON_MOVER_AGENT_NEIGHBOUR_LISTS_H
 
@@ -14,23 +13,22 @@ struct avoidance;
 struct world;
 
 struct neighbour_list {
-    uint32_t first, count; /* of entries; count NEIGHBOUR_LISTS_NONE: none was made */
+    uint32_t first, count; /* entries; count NEIGHBOUR_LISTS_NONE: there was no room for the list */
 };
 
 #define NEIGHBOUR_LISTS_NONE UINT32_MAX
 
 struct neighbour_lists {
     uint32_t capacity;
-    struct neighbour_index_entry
-        *entries;                /* each row of cells has room by how many vehicles it has */
-    struct neighbour_list *list; /* [capacity] of rows whose entry says that they are due */
+    struct neighbour_index_entry *entries; /* of all lists */
+    struct neighbour_list *list;           /* [capacity] set for the rows that are due */
 };
 
 /* 0, or -1 with errno ENOMEM. */
 int neighbour_lists_init(struct neighbour_lists *lists, uint32_t capacity);
 void neighbour_lists_free(struct neighbour_lists *lists);
 
-/* Gathers for all whose entry is due, from the index of this frame. workers may be NULL. */
+/* Gathers the lists of all rows whose entry is due. workers may be NULL. */
 void neighbour_lists_gather(struct neighbour_lists *lists, const struct neighbour_index *index,
                             const struct world *world, const struct avoidance *avoidance,
                             struct thread_pool *workers);

@@ -1,5 +1,5 @@
-/* What agents notice. What costs next to nothing is noticed in every frame; looking, which costs
- * lines of sight, in turns (mover/README.md). */
+/* Finds the percepts. Those that are cheap are found with each decision. Looks need lines of sight
+ * and are less frequent (mover/README.md). */
 #include "mover/agent/perception.h"
 
 #include "mover/agent/goal.h"
@@ -9,25 +9,25 @@
 #include "world/state.h"
 #include "world/world.h"
 
-#define THINK_HZ         10.0   /* how often each agent thinks */
-#define THOUGHTS_A_FRAME 3072u  /* of all agents together, about */
+#define THINK_HZ         10.0   /* decisions of each agent */
+#define THOUGHTS_A_FRAME 3072u  /* decisions of all agents, about */
 #define LOOK_S           1.0    /* between two looks of an agent */
-#define LOOKS_A_FRAME    768u   /* of all agents together, about */
-#define CANDIDATES       8u     /* the nearest enemies that a look considers */
-#define LINES            3u     /* of sight, that it spends on them */
-#define SEEN_LOOKS       2u     /* for so many looks it knows where its target is */
-#define EYE_SHARE        0.9    /* of its height; aircraft: where they are */
-#define ODDS_M           1500.0 /* who is nearer counts when it weighs the odds */
+#define LOOKS_A_FRAME    768u   /* of all agents, about */
+#define CANDIDATES       8u     /* a look considers so many of the nearest enemies */
+#define LINES            3u     /* lines of sight of a look */
+#define SEEN_LOOKS       2u     /* a target stays in sight for so many looks */
+#define EYE_SHARE        0.9    /* height of the eye as a share of the height; not of aircraft */
+#define ODDS_M           1500.0 /* vehicles in this radius count in the odds */
 #define ODDS_MOST        16u    /* of either side: more make no difference */
-#define OUTNUMBERED      3u     /* enemies to a friend, itself one of them */
-#define FUEL_MARGIN      1.5    /* times what the straight way home takes */
-#define FUEL_RESERVE     0.03   /* of the tank, on top */
-#define HURT_FRAMES      1u     /* within which damage is news */
+#define OUTNUMBERED      3u     /* enemies to each friend; the agent is a friend, too */
+#define FUEL_MARGIN      1.5    /* times the fuel for the straight path to the base */
+#define FUEL_RESERVE     0.03   /* share of the tank, added to it */
+#define HURT_FRAMES      1u     /* damage is an event for so many frames */
 
-/* Of its courage that is left, by its own damage. */
+/* The share of its courage that is left, by its damage. */
 static const double heart[DAMAGE_COUNT] = {1.0, 0.95, 0.6, 0.3, 0.0};
 
-/* Events that make it draw its courage. */
+/* Percepts that test its courage. */
 #define TESTS                                                                                      \
     (PERCEPTION_BIT(SHOT) | PERCEPTION_BIT(HURT) | PERCEPTION_BIT(OUTNUMBERED) |                   \
      PERCEPTION_BIT(TIME_OVER))
@@ -51,7 +51,7 @@ uint32_t perception_look_frames(const struct params *params, uint32_t used)
     return look_frames < think_frames ? think_frames : look_frames / think_frames * think_frames;
 }
 
-static bool its_turn(const struct step_context *context, uint32_t i)
+static bool looks_now(const struct step_context *context, uint32_t i)
 {
     return ((uint32_t)context->tick + context->m->id[i]) % context->look_frames == 0;
 }
@@ -74,10 +74,11 @@ struct vec3 perception_middle(const struct step_context *context, uint32_t i)
     return at;
 }
 
-/* Its view: all around, or about where its turret points. */
+/* Its view: all round, or a sector around the direction of its turret. */
 struct sector {
     bool around;
-    double sine, cosine, edge; /* of its middle; cosine of half its width */
+    double sine, cosine; /* of the middle */
+    double edge;         /* cosine of half the width */
 };
 
 static struct sector sector_of(const struct step_context *context, uint32_t i)
@@ -149,8 +150,9 @@ static void gather(const struct step_context *context, uint32_t i, const struct 
     }
 }
 
-/* The nearest enemy that it sees, SLOT_NONE: none. Looks near first. The very nearest are tried in
- * each look, those behind them by turns, so that one behind a hill does not hide the others. */
+/* The nearest enemy that it sees; SLOT_NONE: none. The two nearest candidates are tried in each
+ * look. The third line of sight goes to another candidate each time, so that an enemy behind a hill
+ * does not hide those further away. */
 static uint32_t look_out(const struct step_context *context, uint32_t i)
 {
     double sight = context->world->kinds[context->m->kind[i]].sight_m;
@@ -192,7 +194,7 @@ static uint32_t count_near(const struct step_context *context, uint32_t i, uint3
     return count;
 }
 
-/* Friends near it, itself among them, and enemies; at least one each. */
+/* The friends near it, of which it is one itself, and the enemies; at least one each. */
 static void odds(const struct step_context *context, uint32_t i, uint32_t *friends,
                  uint32_t *enemies)
 {
@@ -227,7 +229,7 @@ bool perception_armed(const struct step_context *context, uint32_t i)
            !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE);
 }
 
-/* Is what is left of its fuel just enough for the way home? */
+/* Is its fuel only just enough for the path to its base? */
 static bool low_fuel(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
@@ -305,9 +307,9 @@ static void notice_events(const struct step_context *context, uint32_t i, struct
     m->bumped[i] = 0;
 }
 
-/* --- in its turn -------------------------------------------------------------------------------*/
+/* --- looks -------------------------------------------------------------------------------------*/
 
-/* Would its table do something else if it noticed this too? */
+/* Would its table choose another row with these percepts added? */
 static bool matters(const struct step_context *context, uint32_t i, uint32_t percepts,
                     uint32_t also)
 {
@@ -326,7 +328,7 @@ static void fight_on(const struct step_context *context, uint32_t i, uint32_t en
         (uint32_t)(context->tick + (uint64_t)(BEHAVIOUR_TABLE_FIGHT_S / context->dt_s));
 }
 
-/* In a fight: does it see its target, else somebody else to fight? */
+/* In a fight: looks for its target, and for another enemy if it does not see the target. */
 static void watch_target(const struct step_context *context, uint32_t i)
 {
     uint32_t seen = context->m->target_slot[i];
@@ -336,7 +338,9 @@ static void watch_target(const struct step_context *context, uint32_t i)
         fight_on(context, i, seen);
 }
 
-/* Its target is gone. Whom its order would have it attack on sight it attacks at once. */
+/* Its target is gone. If its order is to attack enemies on sight, it looks for the next one at
+ * once.
+ */
 static void next_target(const struct step_context *context, uint32_t i, struct notice *notice)
 {
     const uint32_t over = PERCEPTION_BIT(TARGET_GONE) | PERCEPTION_BIT(TIME_OVER);
@@ -353,7 +357,7 @@ static void next_target(const struct step_context *context, uint32_t i, struct n
     notice->percepts = percepts | PERCEPTION_BIT(TARGET);
 }
 
-static void notice_turn(const struct step_context *context, uint32_t i, struct notice *notice)
+static void notice_look(const struct step_context *context, uint32_t i, struct notice *notice)
 {
     uint32_t friends, enemies;
     if (low_fuel(context, i))
@@ -376,15 +380,15 @@ struct notice perception_notice(const struct step_context *context, uint32_t i)
 {
     struct notice notice = {notice_state(context, i), SLOT_NONE, SLOT_NONE};
     notice_events(context, i, &notice);
-    if (notice.percepts & PERCEPTION_BIT(NO_FUEL)) { /* it can do nothing about all the rest */
+    if (notice.percepts & PERCEPTION_BIT(NO_FUEL)) { /* no other percept matters now */
         notice.percepts &= PERCEPTION_BIT(NO_FUEL) | PERCEPTION_BIT(LEASE_OVER);
         return notice;
     }
     if (context->m->behaviour[i] == BEHAVIOUR_ATTACK &&
         (notice.percepts & PERCEPTION_BIT(TARGET_GONE)))
         next_target(context, i, &notice);
-    if (its_turn(context, i))
-        notice_turn(context, i, &notice);
+    if (looks_now(context, i))
+        notice_look(context, i, &notice);
     if ((notice.percepts & TESTS) && matters(context, i, notice.percepts, PERCEPTION_BIT(BRAVE)) &&
         ((notice.percepts & PERCEPTION_BIT(STAND)) || brave(context, i)))
         notice.percepts |= PERCEPTION_BIT(BRAVE);

@@ -1,4 +1,4 @@
-/* Steps, one after the other or by the clock. */
+/* Plays the steps of a script, one after the other or by the clock. */
 #include "mover/agent/script_player.h"
 
 #include "mover/agent/perception.h"
@@ -9,14 +9,14 @@
 #include "world/state.h"
 #include "world/world.h"
 
-#define CRUISE_SHARE  0.75 /* of full speed, where a step gives none */
-#define THERE_M       1.0  /* as near to its point it is there, and a frame's way */
-#define FACED_RAD     0.01 /* off the heading that it shall face */
+#define CRUISE_SHARE  0.75 /* share of full speed where a step gives no speed */
+#define THERE_M       1.0  /* it has arrived within this and the path of a frame */
+#define FACED_RAD     0.01 /* it faces a heading within this */
 #define STANDS_MPS    0.05
-#define LEVEL_M       2.0  /* off the height that it shall have */
-#define AGILE_SHARE   0.35 /* of its turn rate: what a slow body surely has */
+#define LEVEL_M       2.0  /* it has a height within this */
+#define AGILE_SHARE   0.35 /* share of the turn rate that a body has even at rest */
 #define SHOT_WAIT_S   20.0 /* a shot that is not possible for so long is given up */
-#define STEPS_A_FRAME 64   /* what is over at once; more go on in the next frame */
+#define STEPS_A_FRAME 64   /* more steps that end at once go on in the next frame */
 
 /* A row on its script. */
 struct reading {
@@ -25,7 +25,7 @@ struct reading {
     const struct script_step *steps;
     const struct kind *kind;
     uint32_t i;
-    double now_s; /* that the frame reaches */
+    double now_s; /* simulated time at the end of the frame */
 };
 
 static struct reading read_row(const struct step_context *context, uint32_t i)
@@ -57,7 +57,7 @@ static double seconds_to(const struct reading *r, const struct script_step *step
     return step->at_s + (double)pass_of(r) * r->script->period_s - r->now_s;
 }
 
-/* Half a frame early is nearer to its time than half a frame late. */
+/* Has the time come, rounded to frames? */
 static bool is_time(const struct reading *r, double seconds)
 {
     return seconds < 0.5 * r->context->dt_s;
@@ -86,14 +86,14 @@ static void begin(const struct reading *r, uint32_t leg)
     m->throttle[r->i] = m->steer[r->i] = m->climb[r->i] = 0.0f;
 }
 
-/* The step after this one; false: there is none, and the vehicle is idle. */
+/* Begins the next step. False: there is none, and the row is now idle. */
 static bool go_on(const struct reading *r)
 {
     struct entities *m = r->context->m;
     uint32_t leg = m->leg[r->i] + 1;
     if (leg % r->script->count == 0 && !r->script->repeats) {
         m->order[r->i] = BEHAVIOUR_IDLE;
-        if (m->trigger[r->i] >> TRIGGER_REASON_SHIFT) /* it has just arrived */
+        if (m->trigger[r->i] >> TRIGGER_REASON_SHIFT) /* its arrival is this frame's event */
             m->behaviour[r->i] = BEHAVIOUR_IDLE;
         else
             say(r, BEHAVIOUR_IDLE, REASON_SCRIPT);
@@ -103,8 +103,8 @@ static bool go_on(const struct reading *r)
     return true;
 }
 
-/* Steps that begin at a time which has come cut off what is before them; a point that is to be
- * reached by now is given up for the next. False: nothing is cut off. */
+/* A step with a time that has come cuts off the steps before it. A point whose time has passed is
+ * given up when the next is due. False: nothing is cut off. */
 static bool cut_off(const struct reading *r)
 {
     const struct entities *m = r->context->m;
@@ -127,7 +127,7 @@ static bool cut_off(const struct reading *r)
     return false;
 }
 
-/* --- on the way --------------------------------------------------------------------------------*/
+/* --- speed -------------------------------------------------------------------------------------*/
 
 static double distance_to(const struct reading *r, const struct script_step *step)
 {
@@ -142,14 +142,14 @@ static double speed_now(const struct reading *r)
     return sqrt(m->vx[r->i] * m->vx[r->i] + m->vz[r->i] * m->vz[r->i]);
 }
 
-/* How hard it slows [m/s2], with something in hand. */
+/* Braking that it can rely on [m/s2]. */
 static double slowing(const struct reading *r)
 {
     double share = r->kind->domain == DOMAIN_LAND ? 0.8 * BRAKES : 0.8;
     return maths_max(share * r->kind->acceleration_mps2, 0.01);
 }
 
-/* The speed at which its turning circle still meets a point so far away and so far to the side. */
+/* The highest speed at which it can still turn to a point at this distance and angle. */
 static double turning_speed(const struct reading *r, double metres, double off_rad)
 {
     double sine, cosine;
@@ -158,8 +158,8 @@ static double turning_speed(const struct reading *r, double metres, double off_r
     return AGILE_SHARE * r->kind->turn_rate_rps * metres / maths_max(2.0 * across, 1e-6);
 }
 
-/* Speed that brings it over so many metres in so many seconds, at rest at their end if it halts:
- * v s - v^2 / 2 b is the way at v for s seconds of which the last are spent braking at b. */
+/* The speed for a distance and a time. If it halts at the end it brakes at b in the last part of
+ * the s seconds, so the distance at speed v is v s - v^2 / 2 b. */
 static double timed_speed(const struct reading *r, const struct script_step *step, double metres,
                           double seconds)
 {
@@ -186,7 +186,7 @@ static void wish_point(const struct reading *r, const struct script_step *step, 
     desired->speed_mps = maths_min(speed, turning_speed(r, metres, off));
 }
 
-/* Is it at its point? One that goes on from there need only pass it, as near as it can turn. */
+/* Is it at its point? A row that goes on from there need only pass as near as it can turn. */
 static bool is_there(const struct reading *r, const struct script_step *step)
 {
     double near = THERE_M + speed_now(r) * r->context->dt_s;
@@ -197,7 +197,7 @@ static bool is_there(const struct reading *r, const struct script_step *step)
     return distance_to(r, step) < near;
 }
 
-/* --- steps: each wishes, and says whether it is over -------------------------------------------*/
+/* --- steps: each sets the desired motion and returns true when it is over ----------------------*/
 
 static bool go(const struct reading *r, const struct script_step *step,
                struct desired_motion *desired)
@@ -210,12 +210,12 @@ static bool go(const struct reading *r, const struct script_step *step,
     return true;
 }
 
-/* The frame reaches its time: where it is then was settled in the frames before. */
+/* The step ends at its time. */
 static bool arrive(const struct reading *r, const struct script_step *step,
                    struct desired_motion *desired)
 {
     double seconds = seconds_to(r, step);
-    /* The way of this frame is yet to come: it is that much nearer the time, not the place. */
+    /* The distance is measured before the motion of this frame, the time after it. */
     wish_point(r, step, timed_speed(r, step, distance_to(r, step), seconds + r->context->dt_s),
                desired);
     if (!is_time(r, seconds) ||
@@ -234,7 +234,7 @@ static bool face(const struct reading *r, const struct script_step *step,
     return fabs(maths_wrap_half(step->amount - r->context->m->heading[r->i])) < FACED_RAD;
 }
 
-/* Until its own time, or for so long since it began. */
+/* Until its own time, or for a duration since it began. */
 static bool wait(const struct reading *r, const struct script_step *step)
 {
     uint32_t *until = &r->context->m->until_tick[r->i];
@@ -258,8 +258,8 @@ static bool controls(const struct reading *r, const struct script_step *step,
     return false;
 }
 
-/* Asks for a shot until it has been fired, or could not be for too long. Who has no turret aims
- * with the hull, and turns it there. */
+/* Asks for a shot until it has been fired or has been impossible for too long. A vehicle without a
+ * turret turns its hull to the target. */
 static bool fire(const struct reading *r, const struct script_step *step,
                  struct desired_motion *desired)
 {
@@ -268,7 +268,7 @@ static bool fire(const struct reading *r, const struct script_step *step,
     uint32_t i = r->i, tick = (uint32_t)r->context->tick, target = step->target_slot;
     bool loaded = tick >= m->reload_tick[i];
     if (r->kind->munition == KIND_NONE || m->rounds[i] == 0 ||
-        (m->until_tick[i] != 0 && !loaded)) /* fired: it loads */
+        (m->until_tick[i] != 0 && !loaded)) /* it has fired and is loading */
         return true;
     if (step->type == STEP_FIRE &&
         (!entities_alive(w, target, target + 1) || w->state[target] != ENTITY_ACTIVE))
@@ -298,7 +298,8 @@ static bool climb(const struct reading *r, const struct script_step *step)
     return r->kind->domain != DOMAIN_AIR || fabs(height - step->altitude_m) < LEVEL_M;
 }
 
-/* Back to its agent; who withdraws stays at the base. */
+/* Returns the vehicle to its agent with an order. A vehicle that withdraws then stays at its base.
+ */
 static void order(const struct reading *r, const struct script_step *step)
 {
     struct entities *m = r->context->m;
@@ -307,7 +308,7 @@ static void order(const struct reading *r, const struct script_step *step)
     m->order_arg[r->i] = step->order_arg;
     m->leg[r->i] = 0;
     m->until_tick[r->i] = 0;
-    m->goal_x[r->i] = m->x[r->i]; /* reached: its agent chooses the next */
+    m->goal_x[r->i] = m->x[r->i]; /* has arrived, so its agent chooses the next goal */
     m->goal_z[r->i] = m->z[r->i];
     if (home) {
         const struct force_base *base = &r->context->world->params->base[m->force[r->i]];
@@ -317,14 +318,14 @@ static void order(const struct reading *r, const struct script_step *step)
     say(r, (enum behaviour)step->behaviour, REASON_SCRIPT);
 }
 
-/* True when the step is over and the next can begin in the same frame. */
+/* Does the present step. True: it is over, and the next can begin in the same frame. */
 static bool do_step(const struct reading *r, struct desired_motion *desired)
 {
     const struct script_step *step = step_of(r);
     *desired = (struct desired_motion){.heading_rad = r->context->m->heading[r->i],
                                        .altitude_m = step->altitude_m};
     if (step->type != STEP_ARRIVE && step->at_s >= 0.0 && !is_time(r, seconds_to(r, step)))
-        return false; /* not yet: it stands and waits */
+        return false; /* it stands until its time */
     switch ((enum step_type)step->type) {
     case STEP_GO:
         return go(r, step, desired);
@@ -349,7 +350,7 @@ static bool do_step(const struct reading *r, struct desired_motion *desired)
     }
 }
 
-/* A frame says one arrival at most: who says it goes on in the next. */
+/* A row has one event a frame at most. After an arrival the script goes on in the next frame. */
 void script_player_motion(const struct step_context *context, uint32_t i,
                           struct desired_motion *desired)
 {

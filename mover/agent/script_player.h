@@ -1,24 +1,24 @@
-/* Scripts: what the steps of row i's script want of its body. Any thread, each its own row.
+/* The desired motion of a row on a script. Any thread, each its own row.
  *
- * A row's leg is its step: pass * count + step, passes counted where its script repeats. Its
- * until_tick is the step's own: when a wait or held controls end, or since when a shot is wanted;
- * 0: the step has just begun. */
+ * The column leg is the step: pass * count + step, where passes are counted if the script repeats.
+ * The column until_tick is when a wait, held controls or the attempt to fire ends; 0: the step has
+ * just begun. */
 #ifndef JOLON_MOVER_AGENT_SCRIPT_PLAYER_H
 #define JOLON_MOVER_AGENT_SCRIPT_PLAYER_H
 
 #include "mover/context/step_context.h"
 
-/* Does the steps whose time has come and wishes for the one at hand. May change the behaviour: at
- * a step that says so, and to idle after the last. */
+/* Does the steps whose time has come, and sets the desired motion of the present one. A step may
+ * change the behaviour, and after the last step the row is idle. */
 void script_player_motion(const struct step_context *context, uint32_t i,
                           struct desired_motion *desired);
 
-/* After an interruption it goes on with the step that the clock says; a wait or controls without a
- * time of their own are over. */
+/* After an interruption the row goes on with the step for the present time. A wait or controls
+ * without a time of their own are over. */
 void script_player_resume(const struct step_context *context, uint32_t i);
 
-/* The percepts that a vehicle under a script minds: all of them if the script reacts, else those
- * that its body cannot help. */
+/* The percepts to which a row on a script reacts: all if the script reacts, else only those that
+ * stop its body. */
 uint32_t script_player_percepts(const struct step_context *context, uint32_t i);
 
 #endif

@@ -1,4 +1,4 @@
-/* Turns: two passes over a piece, the thinkers and who is about to fire. */
+/* Sorts the rows of a block by how they move, and lets agents decide and fire. */
 #include "mover/agent/think_schedule.h"
 
 #include "mover/agent/agent.h"
@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-/* Without these nothing happened to anybody: perception_event(). */
+/* Columns that perception_event() reads: when they are zero, there is no event. */
 #define EVENT_COLUMNS (COLUMN_BIT(threat_id) | COLUMN_BIT(bumped) | COLUMN_BIT(damage))
 
 struct think_schedule {
@@ -19,9 +19,9 @@ struct think_schedule {
     uint32_t row[CHECKSUM_ROWS];
 };
 
-/* --- who ---------------------------------------------------------------------------------------*/
+/* --- how rows move -----------------------------------------------------------------------------*/
 
-/* Follows one on a script, which it goes on with when it has to lead. */
+/* Does it follow a leader on a script? It carries the script on when it has to lead. */
 static bool follows_script(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
@@ -30,7 +30,7 @@ static bool follows_script(const struct step_context *context, uint32_t i)
                (enum behaviour)context->world->formations[m->order_arg[i]].order);
 }
 
-/* Of a row that was there before this frame. */
+/* How a row moves that existed before this frame. */
 static enum motion motion_of(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
@@ -49,7 +49,7 @@ static enum motion motion_of(const struct step_context *context, uint32_t i)
                : MOTION_AGENT;
 }
 
-/* Commands made rows, or removed some. */
+/* Has a command of this frame made the row? */
 static bool is_new(const struct step_context *context, uint32_t i)
 {
     const struct entities *w = &context->committed->entities;
@@ -68,7 +68,7 @@ static void sort(const struct step_context *context, const struct row_block *blo
         enum motion how = news && is_new(context, i) ? MOTION_NONE : motion_of(context, i);
         if (how >= MOTION_HOLD && spins)
             spin_row(context, i);
-        if (how == MOTION_HOLD) { /* it notices nothing */
+        if (how == MOTION_HOLD) { /* it reacts to nothing */
             m->bumped[i] = 0;
             m->threat_slot[i] = m->threat_id[i] = 0;
         }
@@ -82,7 +82,7 @@ static void sort(const struct step_context *context, const struct row_block *blo
     }
 }
 
-/* --- they think --------------------------------------------------------------------------------*/
+/* --- decisions and shots -----------------------------------------------------------------------*/
 
 static void think(const struct step_context *context, const struct think_schedule *thinkers)
 {
@@ -91,8 +91,6 @@ static void think(const struct step_context *context, const struct think_schedul
         agent_think(context, thinkers->row[n], &desired);
     }
 }
-
-/* --- and fire ----------------------------------------------------------------------------------*/
 
 static void aim(const struct step_context *context, const struct row_block *block,
                 const uint8_t *motion)

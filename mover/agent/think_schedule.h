@@ -1,7 +1,6 @@
-/* Turns: whose turn it is among the rows of a piece of the table. They think, and try to fire,
- * before the piece is moved, so that the loop that moves it only asks what their controls ask. What
- * a row thinks follows from the committed world and its own row: it does not matter when it does.
- */
+/* Which rows of a block decide in this frame. They decide, and try to fire, before the block moves,
+ * so that the loop that moves it only reads their controls. A decision follows from the committed
+ * world and the agent's own row, so the order of decisions does not matter. */
 #ifndef JOLON_MOVER_AGENT_THINK_SCHEDULE_H
 #define JOLON_MOVER_AGENT_THINK_SCHEDULE_H
 
@@ -14,19 +13,19 @@ enum motion {
     MOTION_WRECK,
     MOTION_FLIGHT,
     MOTION_HOLD,
-    MOTION_COURSE, /* an agent that has not thought: by its controls */
-    MOTION_AGENT,  /* one that has: likewise */
-    MOTION_ALONE,  /* on a script or driven: has the controls to itself and thinks as it moves */
+    MOTION_COURSE, /* an agent that has not decided: by its controls */
+    MOTION_AGENT,  /* an agent that has decided: also by its controls */
+    MOTION_ALONE,  /* on a script or driven: it decides as it moves */
 };
 
-/* A piece before it moves. */
+/* A block of rows before it moves. */
 struct row_block {
     uint32_t first, end; /* rows; at most CHECKSUM_ROWS */
     uint64_t changed;    /* columns that commands of this frame changed */
-    uint64_t blank;      /* others that are zero in every row; those need not be read */
+    uint64_t blank;      /* other columns, which are zero in every row and need not be read */
 };
 
-/* Columns that say whether anybody spins, and whether any gun moves, is to or has a target. */
+/* Columns that are zero unless a row spins, and unless a gun moves or has a target. */
 #define SPIN_COLUMNS (COLUMN_BIT(spin_x) | COLUMN_BIT(spin_y) | COLUMN_BIT(spin_z))
 #define GUN_COLUMNS                                                                                \
     (COLUMN_BIT(turret) | COLUMN_BIT(gun) | COLUMN_BIT(traverse) | COLUMN_BIT(elevate) |           \
@@ -37,8 +36,8 @@ static inline bool row_block_lacks(const struct row_block *block, uint64_t colum
     return (block->blank & columns) == columns;
 }
 
-/* Sets motion[0 ..] of the piece's rows; turns those that spin, and lets those think whose turn it
- * is or to whom something happened. */
+/* Sets motion[] of the block's rows, turns the rows that spin, and lets the agents decide that are
+ * due or that must react to an event. */
 void think_schedule_run(const struct step_context *context, const struct row_block *block,
                         uint8_t motion[CHECKSUM_ROWS]);
 
