@@ -1,4 +1,4 @@
-/* Avoiding: a fan of directions, how far each is free, and the best of them. */
+/* Finds how far each direction of the fan is free, and takes the best. */
 #include "mover/agent/avoidance.h"
 
 #include "mover/agent/neighbour_lists.h"
@@ -15,87 +15,61 @@
 
 #include <stddef.h>
 
-#define REACT_S        0.6  /* until a look has turned or slowed it */
-#define TURNS_AHEAD    1.5  /* turning circles that it looks ahead at least */
-#define HORIZON_M      12.0 /* and in any case */
+#define REACT_S        0.6  /* time until a look has turned or slowed the vehicle */
+#define TURNS_AHEAD    1.5  /* least horizon in turning circles */
+#define HORIZON_M      12.0 /* added to the horizon */
 #define FARTHEST_M     600.0
-#define TALL_M         3.0   /* above this nothing is in a land vehicle's way */
-#define GAP_M          1.0   /* kept clear to the side and ahead */
-#define AIR_GAP_M      8.0   /* likewise in the air, and above and below */
-#define LOW_FLIGHT_M   40.0  /* above it nothing fixed is in an aircraft's way */
-#define BRAKE_SHARE    0.8   /* of how hard it can slow, counted on */
-#define HARMLESS_SHARE 0.005 /* of its resistance_j that an object may cost a vehicle */
-#define YIELDS         0.1   /* fixed kinds with less rigidity bend, whatever runs into them */
-#define TURN_COST      0.25  /* a radian off its way, in shares of the horizon */
-#define CHANGE_COST    0.10  /* a radian off what it did before: it makes up its mind */
-#define LEFT_COST      0.03  /* turning left: of equals everybody takes the right */
-#define SHARP_SHARE    0.25 /* of its speed in turns of a quarter and more: it sweeps less ground */
-#define STRAYS         0.05 /* over distance: what bodies stray from the course that they have now */
-#define GIVEN_WAY_S    2.5  /* until when it counts on who must give way to do so */
-#define CROSSING       0.94 /* cosine of 20 degrees: courses that differ by less do not cross */
-#define ROUNDED_MPS    1e-4 /* more than the index rounds velocities */
-#define CLIMB_AHEAD_S  6.0  /* how far ahead aircraft see that they must climb */
+#define TALL_M         3.0   /* parts above this height are no obstacle for land vehicles */
+#define GAP_M          1.0   /* gap to obstacles at the sides and ahead */
+#define AIR_GAP_M      8.0   /* the same in the air, and above and below */
+#define LOW_FLIGHT_M   40.0  /* above this height no fixed object is an obstacle */
+#define BRAKE_SHARE    0.8   /* share of the hardest braking that it relies on */
+#define HARMLESS_SHARE 0.005 /* share of its resistance_j that a harmless object may cost */
+#define YIELDS         0.1   /* fixed kinds with less rigidity bend aside */
+#define TURN_COST      0.25  /* of each radian of turning, in shares of the horizon */
+#define CHANGE_COST    0.10  /* of each radian off the last dodge, so that it does not waver */
+#define LEFT_COST      0.03  /* of turning left, so that two vehicles that meet both turn right */
+#define SHARP_SHARE    0.25  /* share of its speed in turns of 90 degrees and more */
+#define STRAYS         0.05  /* how far bodies stray from their course, over the distance */
+#define GIVEN_WAY_S    2.5   /* it relies on the other to give way if they meet after this time */
+#define CROSSING       0.94  /* cosine of 20 degrees: courses that differ by less do not cross */
+#define ROUNDED_MPS    1e-4  /* more than the index rounds velocities */
+#define CLIMB_AHEAD_S  6.0   /* how far ahead aircraft look at the ground */
 
-/* The fan [rad] off the wished heading, and its sines and cosines; the last is the present heading,
- * set by the look. */
-#define FAN     13
-#define PRESENT FAN
-static const double fan_rad[FAN] = {0.0,
-                                    10 * RAD_PER_DEG,
-                                    -10 * RAD_PER_DEG,
-                                    20 * RAD_PER_DEG,
-                                    -20 * RAD_PER_DEG,
-                                    35 * RAD_PER_DEG,
-                                    -35 * RAD_PER_DEG,
-                                    55 * RAD_PER_DEG,
-                                    -55 * RAD_PER_DEG,
-                                    80 * RAD_PER_DEG,
-                                    -80 * RAD_PER_DEG,
-                                    115 * RAD_PER_DEG,
-                                    -115 * RAD_PER_DEG};
-static const double fan_sine[FAN] = {0.0,
-                                     0.17364817766693033,
-                                     -0.17364817766693033,
-                                     0.3420201433256687,
-                                     -0.3420201433256687,
-                                     0.573576436351046,
-                                     -0.573576436351046,
-                                     0.8191520442889918,
-                                     -0.8191520442889918,
-                                     0.984807753012208,
-                                     -0.984807753012208,
-                                     0.9063077870366499,
-                                     -0.9063077870366499};
-static const double fan_cosine[FAN] = {1.0,
-                                       0.984807753012208,
-                                       0.984807753012208,
-                                       0.9396926207859084,
-                                       0.9396926207859084,
-                                       0.8191520442889918,
-                                       0.8191520442889918,
-                                       0.5735764363510461,
-                                       0.5735764363510461,
-                                       0.17364817766693041,
-                                       0.17364817766693041,
-                                       -0.42261826174069944,
-                                       -0.42261826174069944};
+/* The fan: angles off the desired heading, with their sines and cosines. Direction PRESENT is the
+ * present heading. */
+#define FAN             13
+#define PRESENT         FAN
+#define BOTH(value)     (value), (value)
+#define OPPOSITE(value) (value), -(value)
+/* clang-format off */
+static const double fan_rad[FAN] = {
+    0.0, OPPOSITE(10 * RAD_PER_DEG), OPPOSITE(20 * RAD_PER_DEG), OPPOSITE(35 * RAD_PER_DEG),
+    OPPOSITE(55 * RAD_PER_DEG), OPPOSITE(80 * RAD_PER_DEG), OPPOSITE(115 * RAD_PER_DEG)};
+static const double fan_sine[FAN] = {
+    0.0, OPPOSITE(0.17364817766693033), OPPOSITE(0.3420201433256687), OPPOSITE(0.573576436351046),
+    OPPOSITE(0.8191520442889918), OPPOSITE(0.984807753012208), OPPOSITE(0.9063077870366499)};
+static const double fan_cosine[FAN] = {
+    1.0, BOTH(0.984807753012208), BOTH(0.9396926207859084), BOTH(0.8191520442889918),
+    BOTH(0.5735764363510461), BOTH(0.17364817766693041), BOTH(-0.42261826174069944)};
+/* clang-format on */
 
 struct look {
     const struct kind *kind;
-    int step; /* 1: looks along all of the fan; PRESENT: along the wished and the present heading */
-    double sine, cosine; /* of the wished heading */
-    double way;          /* 1, backwards -1 */
-    double wish_mps, present_mps;
-    double speed_mps; /* along the fan: that it comes to within a second */
+    int step; /* 1: looks along all of the fan; PRESENT: only along directions 0 and PRESENT */
+    double sine, cosine; /* of the desired heading */
+    double way;          /* 1; backwards -1 */
+    double desired_mps, present_mps;
+    double speed_mps; /* along the fan: the speed that it can reach within a second */
     double horizon_m;
     double half_width, half_length, gap;
     double x[FAN + 1], z[FAN + 1]; /* the fan's directions, unit */
-    double free_m[FAN + 1];        /* how far it can go along each; the horizon when farther */
+    double free_m[FAN + 1];        /* how far each is free; at most the horizon */
 };
 
 /* --- what follows from the kinds ---------------------------------------------------------------*/
 
-/* Of its model's hulls that begin below TALL_M, upright; the sphere where spheres collide. */
+/* The radius of the model's hulls that begin below TALL_M; the sphere's where spheres collide. */
 static double reach_of(const struct world *world, const struct kind *kind)
 {
     double farthest = 0.0;
@@ -115,7 +89,8 @@ static double reach_of(const struct world *world, const struct kind *kind)
     return sqrt(farthest);
 }
 
-/* The collider's impulses: a bush bends; what breaks costs its resistance, times its rigidity. */
+/* By the collider's impulses a bush bends, and an object that breaks costs the vehicle the object's
+ * resistance times its rigidity. */
 static bool does_no_harm(const struct kind *vehicle, const struct kind *fixed)
 {
     if (fixed->rigidity < YIELDS)
@@ -140,7 +115,7 @@ static double horizon_of(const struct kind *kind, double speed)
                      horizon + speed * REACT_S + HORIZON_M + 2.0 * (0.5 * kind->length_m));
 }
 
-/* And for others: they come to meet it. */
+/* How far it looks for other vehicles, which may come towards it [m]. */
 static double around_of(double horizon_m)
 {
     return maths_min(FARTHEST_M, 2.0 * horizon_m);
@@ -197,7 +172,7 @@ static void begin(struct look *look, const struct step_context *context, uint32_
     look->kind = kind;
     look->step = PRESENT;
     look->way = desired->speed_mps < 0.0 ? -1.0 : 1.0;
-    look->wish_mps = speed;
+    look->desired_mps = speed;
     look->half_width = 0.5 * kind->width_m;
     look->half_length = 0.5 * kind->length_m;
     look->gap = gap_of(kind);
@@ -213,7 +188,8 @@ static void begin(struct look *look, const struct step_context *context, uint32_
     look->free_m[PRESENT] = look->horizon_m;
 }
 
-/* All of the fan, for what is in the way of the wished direction: mostly nothing is. */
+/* Extends the look to all of the fan. Mostly the desired direction is free and this is not needed.
+ */
 static void open_fan(struct look *look)
 {
     look->step = 1;
@@ -222,7 +198,7 @@ static void open_fan(struct look *look)
     look->free_m[PRESENT] = look->horizon_m;
 }
 
-/* Something that stands at (dx, dz) from here, reach_m about its middle. */
+/* Limits the directions by an obstacle of radius reach_m at (dx, dz), relative to the vehicle. */
 static void stands(struct look *look, double dx, double dz, double reach_m)
 {
     double beside = reach_m + look->half_width + look->gap;
@@ -235,7 +211,8 @@ static void stands(struct look *look, double dx, double dz, double reach_m)
     }
 }
 
-/* Must the other give way? As at sea: who has the other on his right, and who comes from behind. */
+/* Must the other vehicle give way? As at sea, a vehicle gives way to one on its right and to one
+ * that it overtakes. */
 static bool gives_way(const struct look *look, double dx, double dz, double vx, double vz)
 {
     double ahead = dx * look->x[0] + dz * look->z[0];
@@ -249,8 +226,8 @@ static bool gives_way(const struct look *look, double dx, double dz, double vx, 
     return same > -CROSSING * speed && to_right < 0.0;
 }
 
-/* Can it meet something that goes on at (vx, vz) before the horizon, if it goes along direction k?
- * On the safe side by more than what the index rounds, and without a division. */
+/* Can it meet an obstacle that moves at (vx, vz) before the horizon, along direction k? False is
+ * certain, also for the rounded values of the index. Needs no division. */
 static bool may_meet(const struct look *look, int k, double dx, double dz, double vx, double vz,
                      double reach_m)
 {
@@ -267,7 +244,8 @@ static bool may_meet(const struct look *look, int k, double dx, double dz, doubl
                look->horizon_m * (square + ROUNDED_MPS * (closing + 1.0));
 }
 
-/* Something that goes on at (vx, vz): as far as it comes itself until they meet. */
+/* Limits the directions by an obstacle that moves at (vx, vz): to the distance that the vehicle
+ * goes until they meet. */
 static void goes(struct look *look, double dx, double dz, double vx, double vz, double reach_m)
 {
     double beside = reach_m + look->half_width + look->gap;
@@ -281,7 +259,7 @@ static void goes(struct look *look, double dx, double dz, double vx, double vz, 
             continue;
         double along = (dx * ux + dz * uz) / closing;
         double across = fabs(dx * uz - dz * ux) / closing;
-        double askew = fabs(ux * look->z[k] - uz * look->x[k]) / closing; /* it meets it so */
+        double askew = fabs(ux * look->z[k] - uz * look->x[k]) / closing; /* 0: head on */
         double wide = beside + askew * (look->half_length - look->half_width);
         if (along > 0.0 && across < wide + STRAYS * along) {
             double meets_s = maths_max(0.0, along - ahead) / closing;
@@ -291,7 +269,7 @@ static void goes(struct look *look, double dx, double dz, double vx, double vz, 
     }
 }
 
-/* --- what is there -----------------------------------------------------------------------------*/
+/* --- obstacles ---------------------------------------------------------------------------------*/
 
 static void see_square(const struct step_context *context, uint32_t i, struct look *look,
                        uint32_t square)
@@ -390,7 +368,8 @@ static bool surely_passable(const struct step_context *context, uint32_t i, doub
            !ground_marks_within(context->ground_marks, box, GROUND_MARKS_CRATER);
 }
 
-/* How far the ground lets it go that way: two soundings, where it is not surely passable. */
+/* How far the ground allows it to go in direction k. Where the ground is not surely passable, two
+ * points of it are tested. */
 static double ground_free(const struct step_context *context, uint32_t i, const struct look *look,
                           int k)
 {
@@ -419,7 +398,7 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
     return look->horizon_m;
 }
 
-/* --- what it does about it ---------------------------------------------------------------------*/
+/* --- the choice --------------------------------------------------------------------------------*/
 
 static int best(const struct look *look, double dodge_rad)
 {
@@ -437,18 +416,18 @@ static int best(const struct look *look, double dodge_rad)
     return found;
 }
 
-/* Speed from which it stops within free_m. */
+/* The speed from which it can stop within free_m. */
 static double stopping_speed(const struct look *look, double free_m)
 {
     return sqrt(2.0 * BRAKE_SHARE * BRAKES * look->kind->acceleration_mps2 * free_m);
 }
 
-/* Share of its speed that aircraft do without, to be over the ground ahead when they are there. */
+/* The share of its speed that an aircraft gives up so that it can climb over the ground ahead. */
 static double climbing_ease(const struct step_context *context, uint32_t i, const struct look *look,
                             const struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    double way = look->wish_mps * CLIMB_AHEAD_S;
+    double way = look->desired_mps * CLIMB_AHEAD_S;
     double ground =
         kinematics_ground(context, m->x[i] + way * look->x[0], m->z[i] + way * look->z[0]);
     double climb = ground + 0.5 * desired->altitude_m - m->y[i];
@@ -456,7 +435,7 @@ static double climbing_ease(const struct step_context *context, uint32_t i, cons
     return climb > most ? 1.0 - most / climb : 0.0;
 }
 
-/* --- it looks ----------------------------------------------------------------------------------*/
+/* --- the look ----------------------------------------------------------------------------------*/
 
 static void see(const struct step_context *context, uint32_t i, struct look *look, bool low)
 {
@@ -465,7 +444,7 @@ static void see(const struct step_context *context, uint32_t i, struct look *loo
         see_fixed(context, i, look);
 }
 
-/* Which direction it takes when something is in the way of the wished one. */
+/* Chooses a direction when the desired one is not free. */
 static int choose(const struct step_context *context, uint32_t i, struct look *look, bool low)
 {
     double dodge = (double)context->m->dodge[i];
@@ -482,7 +461,7 @@ static int choose(const struct step_context *context, uint32_t i, struct look *l
     return way;
 }
 
-/* First along the wished direction alone: where that is free no other is better. */
+/* Looks along the desired direction first: when it is free no other is better. */
 static void look_ahead(const struct step_context *context, uint32_t i,
                        const struct desired_motion *desired)
 {
@@ -499,9 +478,9 @@ static void look_ahead(const struct step_context *context, uint32_t i,
         way = choose(context, i, &look, low);
     double free_m = look.free_m[way];
     if (look.x[way] * look.x[PRESENT] + look.z[way] * look.z[PRESENT] < fan_cosine[1])
-        free_m = maths_min(free_m, look.free_m[PRESENT]); /* it is not turned there yet */
+        free_m = maths_min(free_m, look.free_m[PRESENT]); /* it has not turned there yet */
     if (free_m < look.horizon_m)
-        ease = maths_max(ease, 1.0 - stopping_speed(&look, free_m) / look.wish_mps);
+        ease = maths_max(ease, 1.0 - stopping_speed(&look, free_m) / look.desired_mps);
     m->dodge[i] = way < FAN ? (float)fan_rad[way] : 0.0f; /* backwards it only slows */
     m->ease[i] = (float)maths_max(ease, 0.0);
 }

@@ -1,5 +1,5 @@
-/* The tables. What most doctrines share is written once, above; a row earlier in a table goes
- * before those below it. */
+/* The tables of behaviour. Rows that most doctrines share are macros. An earlier row of a table
+ * takes precedence over the later ones. */
 #include "mover/agent/behaviour_table.h"
 
 #include <stddef.h>
@@ -11,9 +11,9 @@
 #define B(name) (1u << BEHAVIOUR_##name)
 #define P(name) (1u << PERCEPT_##name)
 
-/* On its order: nothing is happening to it. */
+/* It carries out its order. */
 #define CALM (B(IDLE) | B(PATROL) | B(ROUTE) | B(FOLLOW) | B(SCRIPT))
-/* By its own mind, wherever it is: neither driven nor passive. */
+/* Its agent is in control: it is neither driven nor holding a course. */
 #define OWN    (CALM | B(ATTACK) | B(FLEE) | B(BACK_OFF) | B(WITHDRAW) | B(RESUPPLY))
 #define MOVING (OWN & ~(B(IDLE) | B(RESUPPLY)))
 
@@ -21,14 +21,14 @@
 #define TO(name) BEHAVIOUR_##name
 #define AS(name) REASON_##name
 
-/* Nobody goes on without fuel, nor drives itself against a driver's will. */
+/* An agent without fuel stops, and a driver who sends no more commands loses the vehicle. */
 #define BY_NECESSITY                                                                               \
     {OWN & ~B(IDLE), P(NO_FUEL), 0, TO(IDLE), AS(OUT_OF_FUEL), 0},                                 \
     {                                                                                              \
         B(DRIVEN), P(LEASE_OVER), 0, ORDER, AS(LEASE_OVER), 0                                      \
     }
 
-/* A fight's ends. */
+/* The ends of a fight. */
 #define FIGHTS_END                                                                                 \
     {B(ATTACK), P(TARGET_GONE), 0, ORDER, AS(TARGET_GONE), 0},                                     \
         {B(ATTACK), P(TIME_OVER), 0, ORDER, AS(LOST_SIGHT), 0},                                    \
@@ -36,7 +36,7 @@
         B(ATTACK), 0, P(ARMED) | P(NO_ROUNDS), ORDER, AS(COMMAND), 0                               \
     }
 
-/* Home for rounds and fuel, and back. */
+/* It goes to its base for rounds and fuel, and back. */
 #define SUPPLIES                                                                                   \
     {B(WITHDRAW), P(ARRIVED), 0, TO(RESUPPLY), AS(ARRIVED), BEHAVIOUR_TABLE_RESUPPLY_S},           \
         {B(RESUPPLY), P(TIME_OVER), 0, ORDER, AS(SUPPLIED), 0},                                    \
@@ -46,7 +46,7 @@
         CALM | B(ATTACK), P(LOW_FUEL), P(STAND), TO(WITHDRAW), AS(LOW_FUEL), 0                     \
     }
 
-/* What it ran into is behind, after a while; then it goes on with what it was at. */
+/* It backs off from what it ran into for a while, and then goes on. */
 #define BUMPS                                                                                      \
     {MOVING, P(BUMP), 0, TO(BACK_OFF), AS(COLLISION), BACK_OFF_S},                                 \
         {B(BACK_OFF),                                                                              \
@@ -61,7 +61,7 @@
         B(FLEE), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0                                          \
     }
 
-/* Shot at. In a fight it fights on, the longer for it; one that flees goes on from the last. */
+/* It is fired upon. A fight then lasts longer, and so does a flight, away from the last shooter. */
 #define SHOT_AT(fleeing, time_s)                                                                   \
     {B(ATTACK), P(SHOT), 0, TO(ATTACK), AS(FIRED_UPON), BEHAVIOUR_TABLE_FIGHT_S},                  \
         {CALM | B(RESUPPLY) | B(BACK_OFF),                                                         \
@@ -81,7 +81,7 @@
             TO(ATTACK), AS(ENEMY_SEEN), BEHAVIOUR_TABLE_FIGHT_S                                    \
     }
 
-/* Too much for its courage: away for a while, or all the way home. */
+/* When its courage fails it withdraws, or flees for a while. */
 #define HURT_GOES_HOME                                                                             \
     {                                                                                              \
         CALM | B(ATTACK), P(HURT), P(BRAVE) | P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0        \
@@ -91,7 +91,7 @@
         B(ATTACK), P(OUTNUMBERED), P(BRAVE) | P(STAND), TO(to), AS(OUTNUMBERED), time_s            \
     }
 
-/* Tanks and carriers: they give way to odds and damage, into cover. */
+/* Tanks and carriers flee from odds and damage, into cover. */
 static const struct behaviour_table_row armour[] = {
     BY_NECESSITY,
     FIGHTS_END,
@@ -103,7 +103,7 @@ static const struct behaviour_table_row armour[] = {
     SEES_ENEMY,
 };
 
-/* Jeeps: out of sight at once; when hit or outnumbered, home. */
+/* Jeeps withdraw when they are hit or outnumbered. */
 static const struct behaviour_table_row light[] = {
     BY_NECESSITY,
     FIGHTS_END,
@@ -115,7 +115,7 @@ static const struct behaviour_table_row light[] = {
     SEES_ENEMY,
 };
 
-/* Trucks: they have no business with an enemy, and go before he sees them. */
+/* Trucks flee when they see an enemy. */
 static const struct behaviour_table_row soft[] = {
     BY_NECESSITY,
     FIGHTS_END,
@@ -127,13 +127,13 @@ static const struct behaviour_table_row soft[] = {
     SEES_ENEMY,
 };
 
-/* Helicopters: hit, they are gone behind the nearest hill. */
+/* Helicopters flee only for a short time, and withdraw when they are hit. */
 static const struct behaviour_table_row helicopter[] = {
     BY_NECESSITY,          FIGHTS_END,         SUPPLIES, HURT_GOES_HOME,
     SHOT_AT(FLEE, DASH_S), ODDS(FLEE, DASH_S), BUMPS,    SEES_ENEMY,
 };
 
-/* Jets: too fast to be counted by, or to count; fuel is what ends their fights. */
+/* Jets do not react to odds and do not back off. Low fuel ends their fights. */
 static const struct behaviour_table_row jet[] = {
     BY_NECESSITY,
     FIGHTS_END,
@@ -144,12 +144,12 @@ static const struct behaviour_table_row jet[] = {
     SEES_ENEMY,
 };
 
-/* Ships: they cannot hide. They fight, or keep their distance. */
+/* Ships cannot hide. They fight, or keep their distance. */
 static const struct behaviour_table_row warship[] = {
     BY_NECESSITY, FIGHTS_END, SUPPLIES, HURT_GOES_HOME, SHOT_AT(FLEE, FLEE_S), BUMPS, SEES_ENEMY,
 };
 
-/* Whatever the laboratory let out: no odds, no wounds and no empty guns impress it. */
+/* Beasts do not react to odds, damage or empty guns. */
 static const struct behaviour_table_row beast[] = {
     BY_NECESSITY,
     {B(ATTACK), P(TARGET_GONE), 0, ORDER, AS(TARGET_GONE), 0},

@@ -1,7 +1,7 @@
-/* Doctrines: what each sort of vehicle does about what it notices. A doctrine is a table of rows
- * {from these behaviours, when all of this is noticed, unless any of that is, to this behaviour,
- * for this reason, for so long}; the first row that applies wins, and is an event when the
- * behaviour changes. What is not in a table does not happen. Pure data; any thread. */
+/* The tables of behaviour, one for each doctrine. A row is {from these behaviours, when there are
+ * all of these percepts, unless there is one of those, to this behaviour, for this reason, for this
+ * time}. The first row that applies wins, and a change of behaviour is an event. Behaviour changes
+ * only by a row. Constant data; any thread. */
 #ifndef JOLON_MOVER_AGENT_BEHAVIOUR_TABLE_H
 #define JOLON_MOVER_AGENT_BEHAVIOUR_TABLE_H
 
@@ -11,33 +11,33 @@
 
 #include <stdint.h>
 
-/* What an agent notices: perception.c says when. Events last for one frame, states as long as they
- * hold; those marked * are looked for in its turn only. */
+/* What an agent perceives (perception.c). Events last for one frame, states as long as they are
+ * true. Percepts marked * are found only when the agent looks. */
 enum percept {
     PERCEPT_NO_FUEL,     /* its tank is empty */
-    PERCEPT_SHOT,        /* event: somebody who still lives has fired at it */
+    PERCEPT_SHOT,        /* event: an active vehicle has fired at it */
     PERCEPT_BUMP,        /* event: it ran into something */
     PERCEPT_HURT,        /* event: its damage grew, to med or more */
-    PERCEPT_TIME_OVER,   /* its behaviour's time is up */
-    PERCEPT_TARGET,      /* who it attacks or flees is alive */
-    PERCEPT_TARGET_GONE, /* it is not: destroyed, or removed */
-    PERCEPT_ARRIVED,     /* where it withdraws to */
-    PERCEPT_LEASE_OVER,  /* event: its driver was not heard from any more */
+    PERCEPT_TIME_OVER,   /* the time of its behaviour is over */
+    PERCEPT_TARGET,      /* the vehicle that it attacks or flees from is active */
+    PERCEPT_TARGET_GONE, /* that vehicle was destroyed or removed */
+    PERCEPT_ARRIVED,     /* it withdraws and is at its base */
+    PERCEPT_LEASE_OVER,  /* event: its driver has sent no command in time */
     PERCEPT_ENEMY,       /* *event: it sees an enemy */
     PERCEPT_OUTNUMBERED, /* *event: many more enemies than friends are near */
-    PERCEPT_NO_ROUNDS,   /* it has fired all that it had */
-    PERCEPT_LOW_FUEL,    /* *just enough is left to get home */
-    PERCEPT_ARMED,       /* it can fire, and may: not under orders to hold its fire */
-    PERCEPT_AT_WILL,     /* its orders are to engage whom it sees */
+    PERCEPT_NO_ROUNDS,   /* it has no rounds left */
+    PERCEPT_LOW_FUEL,    /* *its fuel is only just enough for the path to its base */
+    PERCEPT_ARMED,       /* it can fire, and its orders are not to hold fire */
+    PERCEPT_AT_WILL,     /* its orders are to attack enemies on sight */
     PERCEPT_STAND,       /* its orders are never to flee or withdraw */
-    PERCEPT_BRAVE,       /* its courage holds this time: drawn when one of the events needs it */
+    PERCEPT_BRAVE,       /* its courage holds: drawn at random when an event tests it */
     PERCEPT_COUNT
 };
 
-#define BEHAVIOUR_TABLE_FIGHT_S    45 /* without a sight of the target or another shot at it */
-#define BEHAVIOUR_TABLE_RESUPPLY_S 20 /* in which an empty tank and empty racks are filled */
+#define BEHAVIOUR_TABLE_FIGHT_S    45 /* an attack ends so long after the target was last seen */
+#define BEHAVIOUR_TABLE_RESUPPLY_S 20 /* fills an empty tank and empty racks */
 
-/* A row's goal that is no behaviour: what it was ordered to do. */
+/* As the behaviour of a row: the agent's order. */
 #define BEHAVIOUR_TABLE_ORDER BEHAVIOUR_COUNT
 
 struct behaviour_table_row {
@@ -46,15 +46,15 @@ struct behaviour_table_row {
     uint32_t unless; /* none of them */
     uint8_t to;      /* enum behaviour, or BEHAVIOUR_TABLE_ORDER */
     uint8_t because; /* enum agent_reason */
-    uint16_t time_s; /* how long, 0: until something ends it */
+    uint16_t time_s; /* how long; 0: until another row applies */
 };
 
-/* How it fights: attack.c. */
+/* How an agent fights (attack.c). */
 enum manner {
     MANNER_STAND_OFF, /* drives up to its distance, stops, and fires */
-    MANNER_HOVER,     /* the same in the air, and to another side now and then */
-    MANNER_PASS,      /* flies at its target, over it and away, and turns for the next pass */
-    MANNER_CHARGE,    /* straight into it */
+    MANNER_HOVER,     /* the same in the air, changing sides now and then */
+    MANNER_PASS,      /* flies over its target and away, and turns for the next pass */
+    MANNER_CHARGE,    /* drives straight into its target */
     MANNER_COUNT
 };
 
@@ -67,7 +67,7 @@ struct behaviour_table {
 
 extern const struct behaviour_table behaviour_tables[DOCTRINE_COUNT];
 
-/* The row that applies to a behaviour and what is noticed, NULL when none does. */
+/* The row that applies to a behaviour and percepts; NULL: none does. */
 const struct behaviour_table_row *behaviour_table_next(const struct behaviour_table *table,
                                                        enum behaviour behaviour, uint32_t percepts);
 

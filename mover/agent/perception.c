@@ -25,7 +25,7 @@
 #define HURT_FRAMES      1u     /* damage is an event for so many frames */
 
 /* The share of its courage that is left, by its damage. */
-static const double heart[DAMAGE_COUNT] = {1.0, 0.95, 0.6, 0.3, 0.0};
+static const double courage_left[DAMAGE_COUNT] = {1.0, 0.95, 0.6, 0.3, 0.0};
 
 /* Percepts that test its courage. */
 #define TESTS                                                                                      \
@@ -214,7 +214,7 @@ static bool brave(const struct step_context *context, uint32_t i)
     uint32_t friends, enemies;
     odds(context, i, &friends, &enemies);
     if (m->damage[i] < DAMAGE_COUNT)
-        courage *= heart[m->damage[i]];
+        courage *= courage_left[m->damage[i]];
     courage *= maths_min(1.0, (double)friends / (double)enemies);
     return random_unit(context->world->params->seed, context->tick, m->id[i], RANDOM_COURAGE) <
            courage;
