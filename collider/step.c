@@ -69,13 +69,13 @@ static void take_pieces(void *context, uint32_t first, uint32_t end, uint32_t wo
 /* Copies moved rows when they are about to be looked at. */
 static void take_rows(void *context, uint32_t first, uint32_t end)
 {
-    take_pieces(context, first / CHECKSUM_ROWS, piece_count(end), 0);
+    take_pieces(context, first / CHECKSUM_ROWS, block_count(end), 0);
 }
 
 /* Copies all moved rows. */
 static void take_all(struct stage *stage)
 {
-    thread_pool_run(stage->collider->workers, take_pieces, stage, piece_count(stage->used),
+    thread_pool_run(stage->collider->workers, take_pieces, stage, block_count(stage->used),
                     PIECES_A_WORKER);
 }
 
@@ -85,7 +85,7 @@ static uint32_t known_pieces(const struct collider *collider, const struct moved
 {
     uint64_t frame = moved->head->frame, left = collider->left[frame & 1];
     bool own = left != 0 && next->head->checksum == left && next->head->frame + 2 == frame;
-    return own ? piece_count(next->head->used) : 0;
+    return own ? block_count(next->head->used) : 0;
 }
 
 static void put_intents(struct event_writer *sink, const struct moved *moved)

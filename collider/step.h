@@ -38,7 +38,7 @@ struct collider {
     uint64_t fixed_hash, fixed_hash_frame;
     struct list_hashes lists;          /* of the committed craters and dents */
     uint64_t left[2];                  /* checksums of the buffers that it left; 0: none */
-    uint64_t changed[CHECKSUM_PIECES]; /* columns that answers changed in this frame */
+    uint64_t changed[CHECKSUM_BLOCKS]; /* columns that answers changed in this frame */
 };
 
 /* Where the frame's events go: the ring from the committed end on. */

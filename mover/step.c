@@ -30,7 +30,7 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
                struct thread_pool *workers)
 {
     *mover = (struct mover){.world = world, .workers = workers};
-    piece_hashes_blank(&mover->blank);
+    block_hashes_blank(&mover->blank);
     avoidance_init(&mover->avoidance, world);
     mover->terrain_entries =
         calloc(world->params->capacity + GROUND_POSE_AHEAD, sizeof *mover->terrain_entries);
@@ -64,8 +64,8 @@ struct rows {
     const struct step_context *context;
     struct table committed, moved;
     const struct state_head *head; /* of moved */
-    uint64_t *changed;             /* [CHECKSUM_PIECES] columns to hash again */
-    const struct piece_hashes *blank;
+    uint64_t *changed;             /* [CHECKSUM_BLOCKS] columns to hash again */
+    const struct block_hashes *blank;
     bool known; /* is_own() */
 };
 
@@ -277,7 +277,7 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
                                              rows->context->committed->head->used, rows->blank),
         };
         uint64_t same = move_block(rows, &block);
-        table_hash_piece(rows->moved, number, rows->head->used,
+        table_hash_block(rows->moved, number, rows->head->used,
                          *changed | (COLUMNS_ALL & ~STILL_COLUMNS & ~same));
         *changed = 0;
     }
@@ -428,7 +428,7 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
     uint32_t used = committed->head->used;
     crater_index_update(&mover->craters, committed->head->crater_count);
     begin_head(moved, committed->head);
-    thread_pool_run(mover->workers, take_blocks, &rows, piece_count(used), BLOCKS_A_WORKER);
+    thread_pool_run(mover->workers, take_blocks, &rows, block_count(used), BLOCKS_A_WORKER);
     command_apply_all(&serial_context, sources);
     if (!head->paused || head->steps_left > 0) {
         if (head->paused)

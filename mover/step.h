@@ -34,8 +34,8 @@ struct mover {
     struct terrain_cache_entry *terrain_entries;       /* [capacity + GROUND_POSE_AHEAD] */
     struct terrain_cache_entry *terrain_entries_ahead; /* [capacity] */
     /* The moved table. */
-    uint64_t changed[CHECKSUM_PIECES]; /* columns of each block that must be hashed again */
-    struct piece_hashes blank;         /* of a block that is all zero */
+    uint64_t changed[CHECKSUM_BLOCKS]; /* columns of each block that must be hashed again */
+    struct block_hashes blank;         /* of a block that is all zero */
     uint64_t left;                     /* checksum that the last step left; 0: none */
 };
 

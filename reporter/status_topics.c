@@ -251,7 +251,7 @@ void status_topics_frame(struct status_topics *report, const struct view *view, 
     uint64_t moved = atomic_load_explicit(&view->moved_word->moved, memory_order_acquire);
     if (snapshot_head(&head, view) != 0)
         return; /* the next call finds a frame that stands still for long enough */
-    const struct tally *tally = &head.tally;
+    const struct counters *tally = &head.tally;
     const struct role_slot *collider = view->slot[ROLE_COLLIDER];
     const struct role_slot *mover = view->slot[ROLE_MOVER];
     jolon_FrameStatus status = {

@@ -1,4 +1,4 @@
-/* Checksums by pieces and columns of rows and by entries of lists. */
+/* Checksums by blocks and columns of rows and by entries of lists. */
 #include "world/checksum.h"
 
 #include "world/entity/dent.h"
@@ -12,22 +12,22 @@
 
 #define PIECES_A_WORKER 2u /* at a time */
 
-/* --- pieces ------------------------------------------------------------------------------------*/
+/* --- blocks ------------------------------------------------------------------------------------*/
 
-uint32_t piece_count(uint32_t rows)
+uint32_t block_count(uint32_t rows)
 {
     return (rows + CHECKSUM_ROWS - 1) / CHECKSUM_ROWS;
 }
 
-size_t piece_hashes_bytes(uint32_t capacity)
+size_t block_hashes_bytes(uint32_t capacity)
 {
-    size_t bytes = piece_count(capacity) * sizeof(struct piece_hashes);
+    size_t bytes = block_count(capacity) * sizeof(struct block_hashes);
     return (bytes + COLUMN_ALIGN - 1) / COLUMN_ALIGN * COLUMN_ALIGN;
 }
 
-static uint32_t piece_rows(uint32_t piece, uint32_t used)
+static uint32_t block_rows(uint32_t block, uint32_t used)
 {
-    uint32_t first = piece * CHECKSUM_ROWS;
+    uint32_t first = block * CHECKSUM_ROWS;
     return used - first < CHECKSUM_ROWS ? used - first : CHECKSUM_ROWS;
 }
 
@@ -37,14 +37,14 @@ static const uint8_t cell_bytes[ENTITY_COLUMN_COUNT] = {
 #undef X
 };
 
-/* Where a piece begins in each column. */
+/* Where a block begins in each column. */
 struct cells {
     void *column[ENTITY_COLUMN_COUNT];
 };
 
-static struct cells cells_of(const struct entities *e, uint32_t piece)
+static struct cells cells_of(const struct entities *e, uint32_t block)
 {
-    uint32_t first = piece * CHECKSUM_ROWS;
+    uint32_t first = block * CHECKSUM_ROWS;
     return (struct cells){{
 #define X(type, name) e->name + first,
         ENTITY_COLUMNS(X)
@@ -52,20 +52,20 @@ static struct cells cells_of(const struct entities *e, uint32_t piece)
     }};
 }
 
-static void hash_columns(const struct entities *e, uint32_t piece, uint32_t used, uint64_t columns,
-                         struct piece_hashes *hashes)
+static void hash_columns(const struct entities *e, uint32_t block, uint32_t used, uint64_t columns,
+                         struct block_hashes *hashes)
 {
-    const struct cells cells = cells_of(e, piece);
-    uint32_t rows = piece_rows(piece, used);
+    const struct cells cells = cells_of(e, block);
+    uint32_t rows = block_rows(block, used);
     for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++) {
         if (columns >> c & 1)
             hashes->column[c] = XXH3_64bits(cells.column[c], (size_t)rows * cell_bytes[c]);
     }
 }
 
-void table_hash_piece(struct table table, uint32_t piece, uint32_t used, uint64_t columns)
+void table_hash_block(struct table table, uint32_t block, uint32_t used, uint64_t columns)
 {
-    hash_columns(table.entities, piece, used, columns, &table.hashes[piece]);
+    hash_columns(table.entities, block, used, columns, &table.hashes[block]);
 }
 
 struct hashing {
@@ -78,10 +78,10 @@ static void hash_pieces(void *context, uint32_t first, uint32_t end, uint32_t wo
 {
     const struct hashing *job = context;
     (void)worker;
-    for (uint32_t piece = first; piece < end; piece++) {
-        uint64_t columns = job->columns ? job->columns[piece] : COLUMNS_ALL;
+    for (uint32_t block = first; block < end; block++) {
+        uint64_t columns = job->columns ? job->columns[block] : COLUMNS_ALL;
         if (columns != 0)
-            table_hash_piece(job->table, piece, job->used, columns);
+            table_hash_block(job->table, block, job->used, columns);
     }
 }
 
@@ -89,24 +89,24 @@ void table_hash(struct table table, uint32_t used, const uint64_t *columns,
                 struct thread_pool *workers)
 {
     struct hashing job = {table, used, columns};
-    thread_pool_run(workers, hash_pieces, &job, piece_count(used), PIECES_A_WORKER);
+    thread_pool_run(workers, hash_pieces, &job, block_count(used), PIECES_A_WORKER);
 }
 
-void piece_hashes_blank(struct piece_hashes *blank)
+void block_hashes_blank(struct block_hashes *blank)
 {
     static const uint64_t zeros[CHECKSUM_ROWS];
     for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++)
         blank->column[c] = XXH3_64bits(zeros, (size_t)CHECKSUM_ROWS * cell_bytes[c]);
 }
 
-uint64_t table_blank(struct table table, uint32_t piece, uint32_t used,
-                     const struct piece_hashes *blank)
+uint64_t table_blank(struct table table, uint32_t block, uint32_t used,
+                     const struct block_hashes *blank)
 {
     uint64_t columns = 0;
-    if (piece_rows(piece, used) < CHECKSUM_ROWS)
+    if (block_rows(block, used) < CHECKSUM_ROWS)
         return 0;
     for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++)
-        columns |= (uint64_t)(table.hashes[piece].column[c] == blank->column[c]) << c;
+        columns |= (uint64_t)(table.hashes[block].column[c] == blank->column[c]) << c;
     return columns;
 }
 
@@ -138,13 +138,13 @@ uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, 
     return columns;
 }
 
-void table_take(struct table to, struct table from, uint32_t piece, uint32_t used, bool known)
+void table_take(struct table to, struct table from, uint32_t block, uint32_t used, bool known)
 {
-    const struct cells into = cells_of(to.entities, piece);
-    const struct cells source = cells_of(from.entities, piece);
-    struct piece_hashes *has = &to.hashes[piece];
-    const struct piece_hashes *wants = &from.hashes[piece];
-    uint32_t rows = piece_rows(piece, used);
+    const struct cells into = cells_of(to.entities, block);
+    const struct cells source = cells_of(from.entities, block);
+    struct block_hashes *has = &to.hashes[block];
+    const struct block_hashes *wants = &from.hashes[block];
+    uint32_t rows = block_rows(block, used);
     for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++) {
         if (!known || has->column[c] != wants->column[c])
             memcpy(into.column[c], source.column[c], (size_t)rows * cell_bytes[c]);
@@ -154,26 +154,26 @@ void table_take(struct table to, struct table from, uint32_t piece, uint32_t use
 
 /* --- checksums ---------------------------------------------------------------------------------*/
 
-/* Each piece's hashes are chained into the whole. */
-static uint64_t add_piece(uint64_t hash, const struct piece_hashes *hashes)
+/* Each block's hashes are chained into the whole. */
+static uint64_t add_piece(uint64_t hash, const struct block_hashes *hashes)
 {
     return XXH3_64bits_withSeed(hashes, sizeof *hashes, hash);
 }
 
-uint64_t rows_hash(const struct piece_hashes *hashes, uint32_t used)
+uint64_t rows_hash(const struct block_hashes *hashes, uint32_t used)
 {
     uint64_t hash = 0;
-    for (uint32_t piece = 0; piece < piece_count(used); piece++)
-        hash = add_piece(hash, &hashes[piece]);
+    for (uint32_t block = 0; block < block_count(used); block++)
+        hash = add_piece(hash, &hashes[block]);
     return hash;
 }
 
 uint64_t rows_hash_again(const struct entities *entities, uint32_t used)
 {
     uint64_t hash = 0;
-    for (uint32_t piece = 0; piece < piece_count(used); piece++) {
-        struct piece_hashes hashes;
-        hash_columns(entities, piece, used, COLUMNS_ALL, &hashes);
+    for (uint32_t block = 0; block < block_count(used); block++) {
+        struct block_hashes hashes;
+        hash_columns(entities, block, used, COLUMNS_ALL, &hashes);
         hash = add_piece(hash, &hashes);
     }
     return hash;

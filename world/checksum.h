@@ -1,9 +1,9 @@
 /* Checksums of what one process leaves in shared memory for another: a world buffer, and the moved
  * table. They are looked at by whoever takes over, not in every frame.
  *
- * Rows are hashed by piece and column. The hashes stay beside the rows, and the head's checksum
+ * Rows are hashed by block and column. The hashes stay beside the rows, and the head's checksum
  * covers them: so who writes a table hashes again only what he changed, and copies from another
- * table only what differs (table_take). Pieces have a fixed size, so that threads can share the
+ * table only what differs (table_take). Blocks have a fixed size, so that threads can share the
  * work and the result does not depend on how many there are; lists that only grow are hashed entry
  * by entry, so that a frame costs what it added. Pure; any thread. */
 #ifndef JOLON_WORLD_CHECKSUM_H
@@ -14,22 +14,22 @@
 #include "world/runtime/thread_pool.h"
 #include "world/state.h"
 
-/* XXH3-64 of each column of one piece. */
-struct piece_hashes {
+/* XXH3-64 of each column of one block. */
+struct block_hashes {
     uint64_t column[ENTITY_COLUMN_COUNT];
 };
 
-/* Pieces of so many rows; the last one may be short. */
-uint32_t piece_count(uint32_t rows);
+/* Blocks of so many rows; the last one may be short. */
+uint32_t block_count(uint32_t rows);
 
 /* Bytes of a table's hashes, up to the next boundary of COLUMN_ALIGN. */
-size_t piece_hashes_bytes(uint32_t capacity);
+size_t block_hashes_bytes(uint32_t capacity);
 
 /* --- a table: rows and the hashes beside them --------------------------------------------------*/
 
 struct table {
     const struct entities *entities;
-    struct piece_hashes *hashes;
+    struct block_hashes *hashes;
 };
 
 static inline struct table state_table(const struct state *state)
@@ -42,28 +42,28 @@ static inline struct table moved_table(const struct moved *moved)
     return (struct table){&moved->entities, moved->hashes};
 }
 
-/* Hashes these columns of one piece of the first used rows; what lies behind them means nothing. */
-void table_hash_piece(struct table table, uint32_t piece, uint32_t used, uint64_t columns);
+/* Hashes these columns of one block of the first used rows; what lies behind them means nothing. */
+void table_hash_block(struct table table, uint32_t block, uint32_t used, uint64_t columns);
 
-/* ... of each piece (columns NULL: all of them), on the workers (NULL: alone). */
+/* ... of each block (columns NULL: all of them), on the workers (NULL: alone). */
 void table_hash(struct table table, uint32_t used, const uint64_t *columns,
                 struct thread_pool *workers);
 
-/* Hashes of a whole piece that is all zero. */
-void piece_hashes_blank(struct piece_hashes *blank);
+/* Hashes of a whole block that is all zero. */
+void block_hashes_blank(struct block_hashes *blank);
 
-/* Columns of a whole piece that its hashes say are all zero (a short piece: none); blank: as above.
+/* Columns of a whole block that its hashes say are all zero (a short block: none); blank: as above.
  * A column that is not has the hash of one that is once in 2^64. */
-uint64_t table_blank(struct table table, uint32_t piece, uint32_t used,
-                     const struct piece_hashes *blank);
+uint64_t table_blank(struct table table, uint32_t block, uint32_t used,
+                     const struct block_hashes *blank);
 
 /* Which of these columns are zero in each of these rows. */
 uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, uint32_t count);
 
-/* Makes a piece of `to` the same as that of `from`, rows and hashes. known: to's hashes are those
+/* Makes a block of `to` the same as that of `from`, rows and hashes. known: to's hashes are those
  * of what its rows hold, as this process itself left them; then only columns whose hashes differ
  * are copied. Two columns that differ have the same hash once in 2^64. */
-void table_take(struct table to, struct table from, uint32_t piece, uint32_t used, bool known);
+void table_take(struct table to, struct table from, uint32_t block, uint32_t used, bool known);
 
 /* --- checksums ---------------------------------------------------------------------------------*/
 
@@ -76,8 +76,8 @@ struct list_hashes {
 /* Takes in what the state's lists have more, up to its counts; begins anew when they have less. */
 void list_hashes_extend(struct list_hashes *hashes, const struct state *state);
 
-/* Hash of a table's piece_hashes: of those that it has, or of those that its rows should have. */
-uint64_t rows_hash(const struct piece_hashes *hashes, uint32_t used);
+/* Hash of a table's block_hashes: of those that it has, or of those that its rows should have. */
+uint64_t rows_hash(const struct block_hashes *hashes, uint32_t used);
 uint64_t rows_hash_again(const struct entities *entities, uint32_t used);
 
 /* The state's own checksum: head (its checksum as 0), rows, damage of the fixed objects, craters

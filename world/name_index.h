@@ -6,17 +6,17 @@
 
 struct entity_name;
 
-struct callsigns {
+struct name_index {
     const struct entity_name *names;   /* the caller's, of the initial slots */
     const struct entity_name **sorted; /* orders may be as many as vehicles */
     uint32_t count;
 };
 
 /* 0, or -1 with errno ENOMEM. */
-int name_index_init(struct callsigns *callsigns, const struct entity_name *names, uint32_t count);
-void name_index_free(struct callsigns *callsigns);
+int name_index_init(struct name_index *index, const struct entity_name *names, uint32_t count);
+void name_index_free(struct name_index *index);
 
 /* The slot of the vehicle called name, SLOT_NONE for "". 0, or -1: nobody is called so. */
-int name_index_find(const struct callsigns *callsigns, const char *name, uint32_t *slot);
+int name_index_find(const struct name_index *index, const char *name, uint32_t *slot);
 
 #endif

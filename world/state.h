@@ -11,11 +11,11 @@
 struct crater;
 struct dent;
 struct event;
-struct piece_hashes;
+struct block_hashes;
 struct world;
 
 /* Counters since the world began; part of the digest. */
-struct tally {
+struct counters {
     uint64_t collisions, fires, detonations, destroyed, fixed_damaged, agent_changes, commands;
     uint64_t events_dropped;  /* more in a frame than events_per_frame: counted, never silent */
     uint64_t craters_refused; /* no room in the list of craters */
@@ -45,7 +45,7 @@ struct state_head {
     uint32_t intent_count; /* M only: events the mover hands to the collider */
     uint32_t advanced;     /* 1: simulated time moved in this frame */
     uint64_t mover_ns;     /* M only: what moving took; not in the digest */
-    struct tally tally;
+    struct counters tally;
     uint64_t checksum; /* state_checksum(), moved_checksum() */
 };
 
@@ -53,7 +53,7 @@ struct state_head {
 struct state {
     struct state_head *head;
     struct entities entities;
-    struct piece_hashes *hashes; /* of the rows (checksum.h); a reader's copy has none: NULL */
+    struct block_hashes *hashes; /* of the rows (checksum.h); a reader's copy has none: NULL */
     uint8_t *fixed_damage;       /* [counts.fixed] enum damage */
     struct crater *craters; /* shared by both buffers, append-only: committed by crater_count */
     struct dent *dents;     /* likewise, by dent_count */
@@ -63,7 +63,7 @@ struct state {
 struct moved {
     struct state_head *head;
     struct entities entities;
-    struct piece_hashes *hashes; /* as in struct state */
+    struct block_hashes *hashes; /* as in struct state */
     struct event *intents; /* [params.intents_per_frame]; sequence, frame, index not yet set */
 };
 

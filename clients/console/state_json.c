@@ -30,7 +30,7 @@ static void put_times(struct json_writer *text, const char *key, const struct hi
 
 static void put_tally(struct json_writer *text, const struct state_head *head)
 {
-    const struct tally *tally = &head->tally;
+    const struct counters *tally = &head->tally;
     json_writer_key(text, "tally");
     json_writer_begin(text, '{');
     json_writer_key_whole(text, "collisions", tally->collisions);

@@ -5,7 +5,7 @@
 
 #include "world/entity/event.h"
 
-struct tally;
+struct counters;
 
 struct event_writer {
     struct event *slot;
@@ -13,7 +13,7 @@ struct event_writer {
     uint64_t first; /* sequence of the frame's first event */
     uint64_t frame, tick;
     uint32_t count, most;
-    struct tally *tally;
+    struct counters *tally;
 };
 
 /* A new event of this type, zeroed but for its key; NULL when the frame has no room left. */

@@ -75,7 +75,7 @@ const char *region_name(enum region region)
 
 size_t layout_table_bytes(uint32_t capacity)
 {
-    return LAYOUT_HEAD_BYTES + entities_bytes(capacity) + piece_hashes_bytes(capacity);
+    return LAYOUT_HEAD_BYTES + entities_bytes(capacity) + block_hashes_bytes(capacity);
 }
 
 static bool power_of_two(uint32_t value)

@@ -23,9 +23,9 @@ _Static_assert(sizeof(_Atomic uint64_t) == 8, "frame words are plain 64-bit word
 
 /* --- views over memory -------------------------------------------------------------------------*/
 
-static struct piece_hashes *hashes_at(unsigned char *base, uint32_t capacity)
+static struct block_hashes *hashes_at(unsigned char *base, uint32_t capacity)
 {
-    return (struct piece_hashes *)(void *)(base + LAYOUT_HEAD_BYTES + entities_bytes(capacity));
+    return (struct block_hashes *)(void *)(base + LAYOUT_HEAD_BYTES + entities_bytes(capacity));
 }
 
 static void bind_state(const struct view *view, struct state *state, int region)
@@ -191,14 +191,14 @@ err_made:
     return -1;
 }
 
-void segment_fill(struct view *view, const struct world_build *genesis)
+void segment_fill(struct view *view, const struct world_build *built)
 {
     struct params *params = segment_part(view, REGION_PARAMS);
     CRASH_POINT("parameters");
-    *params = genesis->scenario->settings->params;
-    memcpy(params->base, genesis->base, sizeof params->base);
+    *params = built->scenario->settings->params;
+    memcpy(params->base, built->base, sizeof params->base);
     CRASH_POINT_GUARD_PAGES(view->base, view->layout.total);
-    world_build_fill(genesis, &view->world, view->w);
+    world_build_fill(built, &view->world, view->w);
     CRASH_POINT_UNGUARD();
 }
 

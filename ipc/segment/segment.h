@@ -119,7 +119,7 @@ void segment_abandon(struct view *view);
  * 0, or -1 with the reason. */
 int segment_private(struct view *view, const struct segment_header *header, struct reason *reason);
 
-/* The header fields that follow from a scenario's parameters and a genesis' counts. */
+/* The header fields that follow from a scenario's parameters and the counts of a built world. */
 struct segment_header segment_header_for(const struct params *params, const struct counts *counts);
 
 /* Do the parameters that sizes and waits are computed from fit the header? path is for the message.
@@ -127,8 +127,8 @@ struct segment_header segment_header_for(const struct params *params, const stru
 int segment_params_fit(const struct params *params, const struct segment_header *header,
                        const char *path, struct reason *reason);
 
-/* Copies a genesis and its parameters into a begun or private segment, as frame 0. */
-void segment_fill(struct view *view, const struct world_build *genesis);
+/* Copies a built world and its parameters into a begun or private segment, as frame 0. */
+void segment_fill(struct view *view, const struct world_build *built);
 
 /* Attaches to a world in a role: takes the role's lock, checks magic, version, layout hash, size,
  * owner, mode and counts, maps, and marks the slot as starting. -1 with the reason when the world

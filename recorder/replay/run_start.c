@@ -83,7 +83,7 @@ static void from_scenario(struct view *view, const struct log_replay *tape,
                           const struct arguments *arguments)
 {
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     struct reason reason;
     scenario_load_scenario(arguments, &scenario);
     check_hash(tape, &scenario.settings->params, arguments->path);
@@ -91,12 +91,12 @@ static void from_scenario(struct view *view, const struct log_replay *tape,
            sizeof scenario.settings->params.scenario); /* every byte counts */
     snprintf(scenario.settings->params.scenario, sizeof scenario.settings->params.scenario, "%s",
              scenario_text(tape));
-    scenario_load_generate(&scenario, &genesis);
-    struct segment_header header = segment_header_for(&scenario.settings->params, &genesis.counts);
+    scenario_load_generate(&scenario, &built);
+    struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
     if (segment_private(view, &header, &reason) != 0)
         die_refused("%s", reason.text);
-    segment_fill(view, &genesis);
-    world_build_free(&genesis);
+    segment_fill(view, &built);
+    world_build_free(&built);
     scenario_free(&scenario);
 }
 

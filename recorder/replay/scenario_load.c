@@ -52,12 +52,12 @@ void scenario_load_scenario(const struct arguments *arguments, struct scenario *
     scenario_load_recipe_seconds(arguments, &scenario->recipe);
 }
 
-void scenario_load_generate(const struct scenario *scenario, struct world_build *genesis)
+void scenario_load_generate(const struct scenario *scenario, struct world_build *built)
 {
     char text[512];
-    int built = world_build_build(genesis, scenario, text, sizeof text);
+    int result = world_build_make(built, scenario, text, sizeof text);
     if (placing_told_ns > 0)
         (void)fputs("\r\033[K", stderr);
-    if (built != 0)
+    if (result != 0)
         die_refused("%s: %s", scenario->settings->params.scenario, text);
 }

@@ -12,7 +12,7 @@ struct scenario;
 void scenario_load_scenario(const struct arguments *arguments, struct scenario *scenario);
 
 /* Makes its world in plain memory; the caller's to free. Ends the process likewise. */
-void scenario_load_generate(const struct scenario *scenario, struct world_build *genesis);
+void scenario_load_generate(const struct scenario *scenario, struct world_build *built);
 
 /* Adds --seconds, where given, to a recipe. */
 void scenario_load_recipe_seconds(const struct arguments *arguments, struct provenance *recipe);

@@ -16,7 +16,7 @@
 int verb_create(const struct arguments *arguments)
 {
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     struct view view;
     struct reason reason;
     if (segment_name_check(arguments->world, &reason) != 0)
@@ -28,20 +28,20 @@ int verb_create(const struct arguments *arguments)
         scenario_free(&scenario);
         return EXIT_OK;
     }
-    scenario_load_generate(&scenario, &genesis);
-    struct segment_header header = segment_header_for(&scenario.settings->params, &genesis.counts);
+    scenario_load_generate(&scenario, &built);
+    struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
     if (segment_begin(&view, arguments->world, &header, &reason) != 0)
         die_refused("%s", reason.text);
-    segment_fill(&view, &genesis);
+    segment_fill(&view, &built);
     process_hold_stop();
     if (segment_publish(&view, &reason) != 0) {
         segment_abandon(&view);
         die_refused("%s", reason.text);
     }
-    printf("world \"%s\": %u vehicles, %u fixed objects, %.1f MB\n", arguments->world, genesis.used,
-           genesis.counts.fixed, (double)view.layout.total / 1e6);
+    printf("world \"%s\": %u vehicles, %u fixed objects, %.1f MB\n", arguments->world, built.used,
+           built.counts.fixed, (double)view.layout.total / 1e6);
     segment_detach(&view);
-    world_build_free(&genesis);
+    world_build_free(&built);
     scenario_free(&scenario);
     return EXIT_OK;
 }
@@ -52,14 +52,14 @@ int verb_check(const struct arguments *arguments)
     struct reason reason;
     if (arguments->path || arguments->sets > 0) {
         struct scenario scenario;
-        struct world_build genesis;
+        struct world_build built;
         scenario_load_scenario(arguments, &scenario);
-        scenario_load_generate(&scenario, &genesis);
+        scenario_load_generate(&scenario, &built);
         printf("%s: good: %u vehicles, %u fixed objects, seed %llu, hash %016llx\n",
-               scenario.settings->params.scenario, genesis.used, genesis.counts.fixed,
+               scenario.settings->params.scenario, built.used, built.counts.fixed,
                (unsigned long long)scenario.settings->params.seed,
                (unsigned long long)scenario.settings->params.scenario_hash);
-        world_build_free(&genesis);
+        world_build_free(&built);
         scenario_free(&scenario);
         return EXIT_OK;
     }

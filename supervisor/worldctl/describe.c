@@ -264,7 +264,7 @@ static uint64_t restarts_of(const struct view *view)
 static void summary_json(const struct view *view, const struct state_head *head, uint64_t digest,
                          double wall_s)
 {
-    const struct tally *tally = &head->tally;
+    const struct counters *tally = &head->tally;
     cJSON *object = cJSON_CreateObject();
     json_text(object, "world", view->name);
     json_whole(object, "frame", head->frame);
@@ -305,7 +305,7 @@ static void print_times(const char *name, const struct histogram *histogram)
 static void summary_text(const struct view *view, const struct state_head *head, uint64_t digest,
                          double wall_s)
 {
-    const struct tally *tally = &head->tally;
+    const struct counters *tally = &head->tally;
     printf("world \"%s\": %" PRIu64 " frames, %.1f s of simulation in %.1f s\n", view->name,
            head->frame, world_time_s(&view->world, head), wall_s);
     printf("  %u vehicles, %" PRIu64 " of them destroyed; %" PRIu64 " shots, %" PRIu64

@@ -20,22 +20,22 @@ static void take_fixed(struct engine_scene *scene)
 {
     char data_dir[512], text[512];
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     struct config_message message;
     if (process_data_dir(data_dir, sizeof data_dir) != 0)
         die_refused("cannot find the data; set JOLON_DATA");
     if (loader_scenario(&scenario, data_dir, NULL, NULL, 0, &message) != 0)
         die_refused("%s", message.text);
-    if (world_build_build(&genesis, &scenario, text, sizeof text) != 0)
+    if (world_build_make(&built, &scenario, text, sizeof text) != 0)
         die_refused("%s", text);
-    scene->fixed_count = genesis.counts.fixed;
-    scene->fixed = malloc(genesis.counts.fixed * sizeof *scene->fixed);
+    scene->fixed_count = built.counts.fixed;
+    scene->fixed = malloc(built.counts.fixed * sizeof *scene->fixed);
     if (!scene->fixed)
         die_refused("out of memory");
-    for (uint32_t i = 0; i < genesis.counts.fixed; i++)
-        scene->fixed[i] = (struct engine_ball){genesis.fixed[i].x, genesis.fixed[i].z,
-                                               (double)genesis.fixed[i].radius_m};
-    world_build_free(&genesis);
+    for (uint32_t i = 0; i < built.counts.fixed; i++)
+        scene->fixed[i] = (struct engine_ball){built.fixed[i].x, built.fixed[i].z,
+                                               (double)built.fixed[i].radius_m};
+    world_build_free(&built);
     scenario_free(&scenario);
 }
 

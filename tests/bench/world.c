@@ -74,7 +74,7 @@ static void open_world(struct view *view, const char *path, uint32_t vehicles,
     char data_dir[512], capacity[64], text[512];
     const char *const overrides[] = {capacity};
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     struct config_message message;
     struct reason reason;
     uint32_t room = vehicles + vehicles / 4 + 4096;
@@ -86,13 +86,13 @@ static void open_world(struct view *view, const char *path, uint32_t vehicles,
         die_refused("%s", message.text);
     if (shares)
         replace_groups(&scenario, vehicles, shares);
-    if (world_build_build(&genesis, &scenario, text, sizeof text) != 0)
+    if (world_build_make(&built, &scenario, text, sizeof text) != 0)
         die_refused("%s", text);
-    struct segment_header header = segment_header_for(&scenario.settings->params, &genesis.counts);
+    struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
     if (segment_private(view, &header, &reason) != 0)
         die_refused("%s", reason.text);
-    segment_fill(view, &genesis);
-    world_build_free(&genesis);
+    segment_fill(view, &built);
+    world_build_free(&built);
     scenario_free(&scenario);
 }
 

@@ -66,20 +66,20 @@ void plan_make(struct plan *plan, const char *text, uint32_t event_slots)
     params->events_per_frame = event_slots / 2;
     params->intents_per_frame = event_slots / 4;
     params->crater_slots = params->dent_slots = params->command_slots = 64;
-    if (world_build_build(&plan->genesis, &plan->scenario, message, sizeof message) != 0)
+    if (world_build_make(&plan->built, &plan->scenario, message, sizeof message) != 0)
         fail_msg("the test's world is refused: %s", message);
 }
 
 void plan_free(struct plan *plan)
 {
-    world_build_free(&plan->genesis);
+    world_build_free(&plan->built);
     scenario_free(&plan->scenario);
 }
 
 void plan_publish(const struct plan *plan, char name[SEGMENT_NAME_MAX])
 {
     named_world_name(name);
-    named_world_publish(name, &plan->scenario, &plan->genesis);
+    named_world_publish(name, &plan->scenario, &plan->built);
 }
 
 /* --- processes ---------------------------------------------------------------------------------*/

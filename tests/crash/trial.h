@@ -23,7 +23,7 @@ struct death {
 /* What is run. */
 struct plan {
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     bool commands;      /* a commander steers it */
     bool late_recorder; /* the recorder comes when all is over */
     /* A mover and a collider stand by and take over from the first that dies. NULL: none. Else the

@@ -33,7 +33,7 @@ static void open_world(void)
 {
     static char text[16384];
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     struct config_message message;
     struct reason reason;
     size_t at = (size_t)snprintf(text, sizeof text, "%sobjects = (\n", begin);
@@ -44,11 +44,11 @@ static void open_world(void)
     at += (size_t)snprintf(text + at, sizeof text - at, ");\n");
     CHECK(loader_scenario(&scenario, support_data_dir(), support_file(text, at), NULL, 0,
                           &message) == 0);
-    CHECK(world_build_build(&genesis, &scenario, text, sizeof text) == 0);
-    struct segment_header header = segment_header_for(&scenario.settings->params, &genesis.counts);
+    CHECK(world_build_make(&built, &scenario, text, sizeof text) == 0);
+    struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
     CHECK(segment_private(&view, &header, &reason) == 0);
-    segment_fill(&view, &genesis);
-    world_build_free(&genesis);
+    segment_fill(&view, &built);
+    world_build_free(&built);
     scenario_free(&scenario);
     CHECK(mover_init(&mover, &view.world, view.w[0].craters, NULL) == 0);
     CHECK(collider_init(&first, &view.world, view.w[0].craters, NULL) == 0);

@@ -39,22 +39,22 @@ static bool is_small(const struct scenario *scenario)
 
 static void make_world(const struct scenario *scenario)
 {
-    struct world_build genesis;
+    struct world_build built;
     struct layout layout;
     char text[512] = "";
-    if (world_build_build(&genesis, scenario, text, sizeof text) != 0) {
+    if (world_build_make(&built, scenario, text, sizeof text) != 0) {
         CHECK(text[0] != '\0');
         return;
     }
-    struct segment_header header = segment_header_for(&scenario->settings->params, &genesis.counts);
+    struct segment_header header = segment_header_for(&scenario->settings->params, &built.counts);
     CHECK(layout_compute(&layout, &header) == 0);
-    CHECK(genesis.used == scenario->settings->params.initial_entities);
-    for (uint32_t i = 0; i < genesis.used; i++) {
-        CHECK(genesis.first.x[i] >= 0.0 && genesis.first.x[i] <= WORLD_SIDE_M);
-        CHECK(genesis.first.z[i] >= 0.0 && genesis.first.z[i] <= WORLD_SIDE_M);
-        CHECK(genesis.first.y[i] >= -1e5 && genesis.first.y[i] <= 1e5);
+    CHECK(built.used == scenario->settings->params.initial_entities);
+    for (uint32_t i = 0; i < built.used; i++) {
+        CHECK(built.first.x[i] >= 0.0 && built.first.x[i] <= WORLD_SIDE_M);
+        CHECK(built.first.z[i] >= 0.0 && built.first.z[i] <= WORLD_SIDE_M);
+        CHECK(built.first.y[i] >= -1e5 && built.first.y[i] <= 1e5);
     }
-    world_build_free(&genesis);
+    world_build_free(&built);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

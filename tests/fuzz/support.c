@@ -127,17 +127,17 @@ static const char battle[] =
 void support_world(struct view *view)
 {
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     struct config_message message;
     struct reason reason;
     char text[512];
     const char *path = support_file(battle, strlen(battle));
     CHECK(loader_scenario(&scenario, support_data_dir(), path, NULL, 0, &message) == 0);
-    CHECK(world_build_build(&genesis, &scenario, text, sizeof text) == 0);
-    struct segment_header header = segment_header_for(&scenario.settings->params, &genesis.counts);
+    CHECK(world_build_make(&built, &scenario, text, sizeof text) == 0);
+    struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
     CHECK(segment_private(view, &header, &reason) == 0);
-    segment_fill(view, &genesis);
-    world_build_free(&genesis);
+    segment_fill(view, &built);
+    world_build_free(&built);
     scenario_free(&scenario);
 }
 

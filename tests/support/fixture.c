@@ -156,17 +156,17 @@ void fixture_open(struct fixture *fixture, const char *text)
     char message[512];
     memset(fixture, 0, sizeof *fixture);
     fixture->scenario = calloc(1, sizeof *fixture->scenario);
-    fixture->genesis = calloc(1, sizeof *fixture->genesis);
+    fixture->built = calloc(1, sizeof *fixture->built);
     assert_non_null(fixture->scenario);
-    assert_non_null(fixture->genesis);
+    assert_non_null(fixture->built);
     fixture_scenario(fixture->scenario, text);
-    if (world_build_build(fixture->genesis, fixture->scenario, message, sizeof message) != 0)
+    if (world_build_make(fixture->built, fixture->scenario, message, sizeof message) != 0)
         fail_msg("the test's world is refused: %s", message);
     struct segment_header header =
-        segment_header_for(&fixture->scenario->settings->params, &fixture->genesis->counts);
+        segment_header_for(&fixture->scenario->settings->params, &fixture->built->counts);
     if (segment_private(&fixture->view, &header, &reason) != 0)
         fail_msg("%s", reason.text);
-    segment_fill(&fixture->view, fixture->genesis);
+    segment_fill(&fixture->view, fixture->built);
     fixture_threads(fixture, 1);
 }
 
@@ -180,9 +180,9 @@ void fixture_close(struct fixture *fixture)
 {
     frame_stepper_free(&fixture->player);
     segment_abandon(&fixture->view);
-    world_build_free(fixture->genesis);
+    world_build_free(fixture->built);
     scenario_free(fixture->scenario);
-    free(fixture->genesis);
+    free(fixture->built);
     free(fixture->scenario);
 }
 

@@ -22,7 +22,7 @@
 
 struct fixture {
     struct scenario *scenario;
-    struct world_build *genesis;
+    struct world_build *built;
     struct view view; /* private; mapped shared, so that children of fork see it */
     struct frame_stepper player;
 };

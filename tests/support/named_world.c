@@ -24,15 +24,14 @@ void named_world_name(char name[SEGMENT_NAME_MAX])
 }
 
 void named_world_publish(const char *name, const struct scenario *scenario,
-                         const struct world_build *genesis)
+                         const struct world_build *built)
 {
     struct view view;
     struct reason reason;
-    struct segment_header header =
-        segment_header_for(&scenario->settings->params, &genesis->counts);
+    struct segment_header header = segment_header_for(&scenario->settings->params, &built->counts);
     if (segment_begin(&view, name, &header, &reason) != 0)
         fail_msg("%s", reason.text);
-    segment_fill(&view, genesis);
+    segment_fill(&view, built);
     if (segment_publish(&view, &reason) != 0)
         fail_msg("%s", reason.text);
     segment_detach(&view);
@@ -43,7 +42,7 @@ void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text)
     struct fixture f;
     named_world_name(name);
     fixture_open(&f, scenario_text);
-    named_world_publish(name, f.scenario, f.genesis);
+    named_world_publish(name, f.scenario, f.built);
     fixture_close(&f);
 }
 

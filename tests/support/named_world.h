@@ -10,9 +10,9 @@ struct scenario;
 /* A name that no other world has: "test-PID-N". */
 void named_world_name(char name[SEGMENT_NAME_MAX]);
 
-/* Creates and publishes a world of a genesis under a name. */
+/* Creates and publishes a built world under a name. */
 void named_world_publish(const char *name, const struct scenario *scenario,
-                         const struct world_build *genesis);
+                         const struct world_build *built);
 
 /* Creates and publishes a world of the scenario's text (see fixture.h) under a new name. */
 void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text);

@@ -21,11 +21,11 @@ struct mass_properties mass_properties_of(const struct kind *kind)
     };
 }
 
-struct mat3 mass_properties_inverse_world(const struct mass_properties *inertia,
+struct mat3 mass_properties_inverse_world(const struct mass_properties *properties,
                                           const struct mat3 *turn)
 {
-    const double inverse[3] = {1.0 / inertia->moment.x, 1.0 / inertia->moment.y,
-                               1.0 / inertia->moment.z};
+    const double inverse[3] = {1.0 / properties->moment.x, 1.0 / properties->moment.y,
+                               1.0 / properties->moment.z};
     struct mat3 world;
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column <= row; column++) {
@@ -38,16 +38,16 @@ struct mat3 mass_properties_inverse_world(const struct mass_properties *inertia,
     return world;
 }
 
-struct vec3 mass_properties_carried(const struct mass_properties *inertia,
+struct vec3 mass_properties_carried(const struct mass_properties *properties,
                                     const struct mat3 *before, struct vec3 spin_rps,
                                     const struct mat3 *after)
 {
     struct vec3 body = rotation_back(before, spin_rps);
-    const struct vec3 momentum =
-        rotation_apply(before, (struct vec3){inertia->moment.x * body.x, inertia->moment.y * body.y,
-                                             inertia->moment.z * body.z});
+    const struct vec3 momentum = rotation_apply(
+        before, (struct vec3){properties->moment.x * body.x, properties->moment.y * body.y,
+                              properties->moment.z * body.z});
     body = rotation_back(after, momentum);
-    return rotation_apply(after,
-                          (struct vec3){body.x / inertia->moment.x, body.y / inertia->moment.y,
-                                        body.z / inertia->moment.z});
+    return rotation_apply(after, (struct vec3){body.x / properties->moment.x,
+                                               body.y / properties->moment.y,
+                                               body.z / properties->moment.z});
 }

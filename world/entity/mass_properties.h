@@ -18,12 +18,12 @@ struct mass_properties {
 struct mass_properties mass_properties_of(const struct kind *kind);
 
 /* [1/(kg m2)] on world axes, of a body turned so (world = turn * body): symmetric to the bit. */
-struct mat3 mass_properties_inverse_world(const struct mass_properties *inertia,
+struct mat3 mass_properties_inverse_world(const struct mass_properties *properties,
                                           const struct mat3 *turn);
 
 /* The spin that keeps angular momentum when a body that nothing holds has turned from before to
  * after with this spin [rad/s, world axes]. */
-struct vec3 mass_properties_carried(const struct mass_properties *inertia,
+struct vec3 mass_properties_carried(const struct mass_properties *properties,
                                     const struct mat3 *before, struct vec3 spin_rps,
                                     const struct mat3 *after);
 

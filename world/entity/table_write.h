@@ -9,11 +9,11 @@
 #include "world/entity/entity.h"
 
 #define CHECKSUM_ROWS   1024u /* of a block; docs/decisions/019 has what others cost */
-#define CHECKSUM_PIECES (CAPACITY_MAX / CHECKSUM_ROWS)
+#define CHECKSUM_BLOCKS (CAPACITY_MAX / CHECKSUM_ROWS)
 
 struct table_writer {
     const struct entities *entities;
-    uint64_t *changed; /* [CHECKSUM_PIECES] the columns written in each block */
+    uint64_t *changed; /* [CHECKSUM_BLOCKS] the columns written in each block */
 };
 
 /* table_set_x(writer, row, x) and so on: one for each column. */

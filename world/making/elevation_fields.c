@@ -84,12 +84,12 @@ int elevation_fields_build(struct elevation_fields *s,
                            const struct anchor anchors[GEOGRAPHY_PLACE_COUNT], uint64_t seed)
 {
     *s = (struct elevation_fields){0};
-    float **fields[] = {&s->envelope, &s->relief, &s->inland, &s->beyond, &s->warp_x, &s->warp_z};
+    float **arrays[] = {&s->envelope, &s->relief, &s->inland, &s->beyond, &s->warp_x, &s->warp_z};
     s->river = malloc(ELEVATION_FIELDS_COUNT);
     int lacking = s->river == NULL;
-    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
-        *fields[i] = malloc(ELEVATION_FIELDS_COUNT * sizeof(float));
-        lacking |= *fields[i] == NULL;
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) {
+        *arrays[i] = malloc(ELEVATION_FIELDS_COUNT * sizeof(float));
+        lacking |= *arrays[i] == NULL;
     }
     if (lacking) {
         elevation_fields_free(s);

@@ -30,9 +30,9 @@ struct elevation_fields {
 };
 
 /* 0, or -1 with errno ENOMEM. */
-int elevation_fields_build(struct elevation_fields *sketch,
+int elevation_fields_build(struct elevation_fields *fields,
                            const struct anchor anchors[GEOGRAPHY_PLACE_COUNT], uint64_t seed);
-void elevation_fields_free(struct elevation_fields *sketch);
+void elevation_fields_free(struct elevation_fields *fields);
 
 /* One of the fields at a node of the land's grid. */
 float elevation_fields_at(const float *field, uint32_t column, uint32_t row);

@@ -41,8 +41,8 @@ enum {
 };
 
 struct builder {
-    struct elevation_grid *land;
-    struct elevation_fields sketch;
+    struct elevation_grid *grid;
+    struct elevation_fields fields;
     struct stream_erosion half, full;
     struct anchor anchors[GEOGRAPHY_PLACE_COUNT];
     uint64_t seed;
@@ -83,11 +83,11 @@ static void fill_row_noise(struct row_noise *noise, uint64_t seed, double z)
 static void lay_floor(struct builder *b, uint32_t node, double breadth)
 {
     uint32_t column = node % ELEVATION_GRID_SIDE, row = node / ELEVATION_GRID_SIDE;
-    double x = elevation_grid_metres(column) + elevation_fields_at(b->sketch.warp_x, column, row);
-    double z = elevation_grid_metres(row) + elevation_fields_at(b->sketch.warp_z, column, row);
+    double x = elevation_grid_metres(column) + elevation_fields_at(b->fields.warp_x, column, row);
+    double z = elevation_grid_metres(row) + elevation_fields_at(b->fields.warp_z, column, row);
     uint32_t drawn =
         row / ELEVATION_FIELDS_STEP * ELEVATION_FIELDS_SIDE + column / ELEVATION_FIELDS_STEP;
-    struct geography_near near = geography_nearest(&geography_rivers[b->sketch.river[drawn]], x, z);
+    struct geography_near near = geography_nearest(&geography_rivers[b->fields.river[drawn]], x, z);
     /* At least wide enough that the nodes of a river on the grid are neighbours. */
     double half_width = maths_max(near.half_width_m * breadth, 0.72 * ELEVATION_GRID_SPACING_M);
     if (near.distance_m > half_width)
@@ -96,26 +96,26 @@ static void lay_floor(struct builder *b, uint32_t node, double breadth)
     double rise = 0.006 * near.distance_m + 0.004 * half_width * square(square(away));
     b->full.fixed[node] = 1;
     b->full.height[node] = (float)(near.height_m + rise);
-    b->land->plain[node] = (float)(1.0 - 0.5 * square(away));
+    b->grid->plain[node] = (float)(1.0 - 0.5 * square(away));
 }
 
 static void lay_node(struct builder *b, uint32_t node, const struct row_noise *noise)
 {
     struct stream_erosion *d = &b->full;
     uint32_t column = node % ELEVATION_GRID_SIDE, row = node / ELEVATION_GRID_SIDE;
-    float envelope = elevation_fields_at(b->sketch.envelope, column, row);
-    float relief = elevation_fields_at(b->sketch.relief, column, row);
-    float inland = elevation_fields_at(b->sketch.inland, column, row);
+    float envelope = elevation_fields_at(b->fields.envelope, column, row);
+    float relief = elevation_fields_at(b->fields.relief, column, row);
+    float inland = elevation_fields_at(b->fields.inland, column, row);
     float steep = (float)ramp((relief - 150.0) / 800.0), hardness = noise->hardness[column];
     float ground = envelope + (20.0f + 0.4f * relief) * noise->relief[column];
     d->height[node] = ground > 1.0f ? ground : 1.0f;
     d->steepness[node] = (60.0f + 140.0f * steep) * (1.0f + 0.5f * hardness);
     d->slope_max[node] = (0.34f + 0.36f * steep) * (1.0f + 0.2f * hardness);
-    b->land->inland[node] = inland + 420.0f * noise->cove[column];
-    if (b->land->inland[node] <= 0.0f) {
+    b->grid->inland[node] = inland + 420.0f * noise->cove[column];
+    if (b->grid->inland[node] <= 0.0f) {
         d->fixed[node] = 1;
         d->height[node] = 0.0f;
-    } else if (elevation_fields_at(b->sketch.beyond, column, row) < 3000.0f) {
+    } else if (elevation_fields_at(b->fields.beyond, column, row) < 3000.0f) {
         lay_floor(b, node, 1.0 + 1.1 * (double)noise->breadth[column]);
     }
 }
@@ -144,7 +144,7 @@ static void lay_half(struct builder *b)
         for (int k = 0; k < 9 && !full->fixed[same]; k++) {
             uint32_t c = column + (uint32_t)(k % 3) - 1, r = row + (uint32_t)(k / 3) - 1;
             if (c >= ELEVATION_GRID_SIDE || r >= ELEVATION_GRID_SIDE ||
-                b->land->plain[r * ELEVATION_GRID_SIDE + c] <= 0.0f)
+                b->grid->plain[r * ELEVATION_GRID_SIDE + c] <= 0.0f)
                 continue;
             b->half.fixed[node] = 1;
             b->half.height[node] = full->height[r * ELEVATION_GRID_SIDE + c];
@@ -168,7 +168,7 @@ static void calibrate(struct builder *b, struct stream_erosion *d, uint32_t step
             row / ELEVATION_FIELDS_STEP * ELEVATION_FIELDS_SIDE + column / ELEVATION_FIELDS_STEP;
         if (d->fixed[node])
             continue;
-        float above = elevation_fields_at(b->sketch.envelope, column, row) - d->base_m[node];
+        float above = elevation_fields_at(b->fields.envelope, column, row) - d->base_m[node];
         want[drawn] += MEAN_SHARE * above > 8.0f ? MEAN_SHARE * above : 8.0f;
         have[drawn] += d->height[node] - d->base_m[node];
     }
@@ -233,7 +233,7 @@ static void erode(struct builder *b)
 /* Soil creeps: rounds crests and fills gullies, more where the hills are low. */
 static void creep(struct builder *b)
 {
-    float *h = b->land->height;
+    float *h = b->grid->height;
     float *p = b->full.height; /* of the pass before */
     for (int pass = 0; pass < CREEP_PASSES; pass++) {
         memcpy(p, h, ELEVATION_GRID_COUNT * sizeof *h);
@@ -241,12 +241,12 @@ static void creep(struct builder *b)
             for (uint32_t column = 1; column + 1 < ELEVATION_GRID_SIDE; column++) {
                 uint32_t i = row * ELEVATION_GRID_SIDE + column, n = i - ELEVATION_GRID_SIDE,
                          s = i + ELEVATION_GRID_SIDE;
-                float relief = elevation_fields_at(b->sketch.relief, column, row);
+                float relief = elevation_fields_at(b->fields.relief, column, row);
                 float rate = 0.55f - 0.3f * (float)ramp((relief - 200.0) / 900.0);
                 float mean = (2.0f * (p[i - 1] + p[i + 1] + p[n] + p[s]) + p[n - 1] + p[n + 1] +
                               p[s - 1] + p[s + 1]) /
                              12.0f;
-                if (b->land->inland[i] > 0.0f)
+                if (b->grid->inland[i] > 0.0f)
                     h[i] += rate * (mean - p[i]);
             }
         }
@@ -276,51 +276,51 @@ static void bend(struct builder *b, const float *from, float *to)
 /* What the streams leave, beside the heights. */
 static void take(struct builder *b)
 {
-    struct elevation_grid *land = b->land;
+    struct elevation_grid *grid = b->grid;
     for (uint32_t node = 0; node < ELEVATION_GRID_COUNT; node++) {
         double area_km2 = (double)b->full.area_m2[node] * 1e-6;
         /* The area is not needed any more. */
         b->full.area_m2[node] = b->full.fixed[node] ? 0.0f : (float)(area_km2 / (area_km2 + 2.0));
     }
-    bend(b, b->full.height, land->height);
-    bend(b, b->full.area_m2, land->stream);
+    bend(b, b->full.height, grid->height);
+    bend(b, b->full.area_m2, grid->stream);
     creep(b);
     for (uint32_t node = 0; node < ELEVATION_GRID_COUNT; node++) {
         double east, south;
-        if (land->inland[node] <= 0.0f)
-            land->height[node] = SEA_BED_SLOPE * land->inland[node];
-        elevation_grid_gradient(land, node, &east, &south);
+        if (grid->inland[node] <= 0.0f)
+            grid->height[node] = SEA_BED_SLOPE * grid->inland[node];
+        elevation_grid_gradient(grid, node, &east, &south);
         double slope = sqrt(east * east + south * south);
-        land->roughness[node] =
-            (float)(maths_min(1.2 + 30.0 * slope, 11.0) * ramp(land->inland[node] / 400.0));
+        grid->roughness[node] =
+            (float)(maths_min(1.2 + 30.0 * slope, 11.0) * ramp(grid->inland[node] / 400.0));
     }
 }
 
 static int allocate(struct builder *b)
 {
-    struct elevation_grid *land = b->land;
-    float **fields[] = {&land->height, &land->inland,    &land->roughness, &land->plain,
-                        &land->stream, &land->chaparral, &land->forest};
+    struct elevation_grid *grid = b->grid;
+    float **fields[] = {&grid->height, &grid->inland,    &grid->roughness, &grid->plain,
+                        &grid->stream, &grid->chaparral, &grid->forest};
     int lacking = 0;
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
         *fields[i] = calloc(ELEVATION_GRID_COUNT, sizeof(float));
         lacking |= *fields[i] == NULL;
     }
-    land->lake = calloc(ELEVATION_GRID_COUNT, 1);
+    grid->lake = calloc(ELEVATION_GRID_COUNT, 1);
     b->gain = malloc(ELEVATION_FIELDS_COUNT * sizeof *b->gain);
     b->have = malloc(ELEVATION_FIELDS_COUNT * sizeof *b->have);
     b->spare = malloc(ELEVATION_FIELDS_COUNT * sizeof *b->spare);
-    if (lacking || !land->lake || !b->gain || !b->have || !b->spare ||
+    if (lacking || !grid->lake || !b->gain || !b->have || !b->spare ||
         stream_erosion_init(&b->half, HALF_SIDE, 2.0 * ELEVATION_GRID_SPACING_M) != 0 ||
         stream_erosion_init(&b->full, ELEVATION_GRID_SIDE, ELEVATION_GRID_SPACING_M) != 0)
         return -1;
-    return elevation_fields_build(&b->sketch, b->anchors, b->seed);
+    return elevation_fields_build(&b->fields, b->anchors, b->seed);
 }
 
-int elevation_grid_build(struct elevation_grid *land, uint64_t seed)
+int elevation_grid_build(struct elevation_grid *grid, uint64_t seed)
 {
-    struct builder b = {.land = land, .seed = seed};
-    *land = (struct elevation_grid){0};
+    struct builder b = {.grid = grid, .seed = seed};
+    *grid = (struct elevation_grid){0};
     for (int i = 0; i < GEOGRAPHY_PLACE_COUNT; i++) {
         const struct geography_place *place = &geography_places[i];
         b.anchors[i].height_m = place->height_m;
@@ -332,32 +332,32 @@ int elevation_grid_build(struct elevation_grid *land, uint64_t seed)
         lay(&b);
         erode(&b);
         take(&b);
-        result = known_heights_set(land, b.anchors);
+        result = known_heights_set(grid, b.anchors);
     }
     if (result == 0)
-        result = plant_suitability_fill(land, seed);
+        result = plant_suitability_fill(grid, seed);
     if (result != 0)
-        elevation_grid_free(land);
+        elevation_grid_free(grid);
     stream_erosion_free(&b.half);
     stream_erosion_free(&b.full);
-    elevation_fields_free(&b.sketch);
+    elevation_fields_free(&b.fields);
     free(b.gain);
     free(b.have);
     free(b.spare);
     return result;
 }
 
-void elevation_grid_free(struct elevation_grid *land)
+void elevation_grid_free(struct elevation_grid *grid)
 {
-    free(land->height);
-    free(land->inland);
-    free(land->roughness);
-    free(land->plain);
-    free(land->stream);
-    free(land->chaparral);
-    free(land->forest);
-    free(land->lake);
-    *land = (struct elevation_grid){0};
+    free(grid->height);
+    free(grid->inland);
+    free(grid->roughness);
+    free(grid->plain);
+    free(grid->stream);
+    free(grid->chaparral);
+    free(grid->forest);
+    free(grid->lake);
+    *grid = (struct elevation_grid){0};
 }
 
 double elevation_grid_at(const float *field, double x, double z)
@@ -375,7 +375,7 @@ double elevation_grid_at(const float *field, double x, double z)
     return north + (south - north) * (v - r);
 }
 
-void elevation_grid_gradient(const struct elevation_grid *land, uint32_t node, double *east,
+void elevation_grid_gradient(const struct elevation_grid *grid, uint32_t node, double *east,
                              double *south)
 {
     uint32_t column = node % ELEVATION_GRID_SIDE, row = node / ELEVATION_GRID_SIDE;
@@ -383,7 +383,7 @@ void elevation_grid_gradient(const struct elevation_grid *land, uint32_t node, d
              e = column + 1 < ELEVATION_GRID_SIDE ? node + 1 : node;
     uint32_t n = row > 0 ? node - ELEVATION_GRID_SIDE : node;
     uint32_t s = row + 1 < ELEVATION_GRID_SIDE ? node + ELEVATION_GRID_SIDE : node;
-    *east = (double)(land->height[e] - land->height[w]) / ((e - w) * ELEVATION_GRID_SPACING_M);
-    *south = (double)(land->height[s] - land->height[n]) /
+    *east = (double)(grid->height[e] - grid->height[w]) / ((e - w) * ELEVATION_GRID_SPACING_M);
+    *south = (double)(grid->height[s] - grid->height[n]) /
              ((double)((s - n) / ELEVATION_GRID_SIDE) * ELEVATION_GRID_SPACING_M);
 }

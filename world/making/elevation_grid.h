@@ -26,8 +26,8 @@ struct elevation_grid {
 };
 
 /* 0, or -1 with errno ENOMEM. */
-int elevation_grid_build(struct elevation_grid *land, uint64_t seed);
-void elevation_grid_free(struct elevation_grid *land);
+int elevation_grid_build(struct elevation_grid *grid, uint64_t seed);
+void elevation_grid_free(struct elevation_grid *grid);
 
 /* x of a column, z of a row [m]. */
 static inline double elevation_grid_metres(uint32_t column_or_row)
@@ -39,7 +39,7 @@ static inline double elevation_grid_metres(uint32_t column_or_row)
 double elevation_grid_at(const float *field, double x, double z);
 
 /* Rise over run at a node, to the east and to the south. */
-void elevation_grid_gradient(const struct elevation_grid *land, uint32_t node, double *east,
+void elevation_grid_gradient(const struct elevation_grid *grid, uint32_t node, double *east,
                              double *south);
 
 #endif

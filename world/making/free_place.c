@@ -1,4 +1,4 @@
-/* Places for vehicles at genesis. */
+/* Places where vehicles start. */
 #include "world/making/free_place.h"
 
 #include "world/maths/random.h"

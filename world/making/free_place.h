@@ -1,4 +1,4 @@
-/* Places for vehicles at genesis: random points of an area on ground that suits the kind, clear of
+/* Places where vehicles start: random points of an area on ground that suits the kind, clear of
  * each other and of fixed objects as far as either reaches (world/terrain/fixed_index.h). */
 #ifndef JOLON_WORLD_MAKING_FREE_PLACE_H
 #define JOLON_WORLD_MAKING_FREE_PLACE_H

@@ -181,16 +181,16 @@ int generate_table1_objects(struct fixed_object *objects, const struct terrain *
                             const struct kind *kinds, uint32_t kind_count,
                             const struct road_point *roads, uint32_t road_count, uint64_t seed)
 {
-    struct object_placement planter;
+    struct object_placement placement;
     seed =
         random_u64(seed, 0, 0, RANDOM_FOREST); /* noises add to it: seeds must not be neighbours */
-    if (object_placement_init(&planter, terrain, kinds, kind_count, roads, road_count, seed,
+    if (object_placement_init(&placement, terrain, kinds, kind_count, roads, road_count, seed,
                               objects) != 0)
         return -1;
-    int result = add_built(&planter);
+    int result = add_built(&placement);
     if (result == 0)
-        result = plant_placement_plant(&planter);
-    object_placement_free(&planter);
+        result = plant_placement_plant(&placement);
+    object_placement_free(&placement);
     if (result == 0)
         qsort(objects, GENERATE_TABLE1_TOTAL, sizeof *objects, in_order);
     return result;

@@ -84,7 +84,7 @@ struct waiting {
 };
 
 struct survey {
-    const struct elevation_grid *land;
+    const struct elevation_grid *grid;
     float *height, *inland; /* [GRID_COUNT, m] */
     float *toil;            /* [GRID_COUNT] what going there takes, of plain ground */
     uint8_t *water, *road;  /* [GRID_COUNT] */
@@ -99,9 +99,9 @@ struct survey {
 
 #define LINE_MAX 16384u /* points of one road while it is rounded */
 
-static int survey_init(struct survey *s, const struct elevation_grid *land)
+static int survey_init(struct survey *s, const struct elevation_grid *grid)
 {
-    *s = (struct survey){.land = land};
+    *s = (struct survey){.grid = grid};
     s->height = malloc(GRID_COUNT * sizeof *s->height);
     s->inland = malloc(GRID_COUNT * sizeof *s->inland);
     s->toil = malloc(GRID_COUNT * sizeof *s->toil);
@@ -134,10 +134,10 @@ static void survey_free(struct survey *s)
     free(s->rounded);
 }
 
-static int wet(const struct elevation_grid *land, uint32_t node)
+static int wet(const struct elevation_grid *grid, uint32_t node)
 {
-    return land->inland[node] < (float)SHORE_FREE_M ||
-           (land->lake[node] && land->height[node] < (float)(GEOGRAPHY_LAKE_M + LAKE_FREE_M));
+    return grid->inland[node] < (float)SHORE_FREE_M ||
+           (grid->lake[node] && grid->height[node] < (float)(GEOGRAPHY_LAKE_M + LAKE_FREE_M));
 }
 
 /* Heights, and water wherever a node within two of the land's is wet: the roads' rounding and the
@@ -147,14 +147,14 @@ static void read_land(struct survey *s)
     for (uint32_t i = 0; i < GRID_COUNT; i++) {
         uint32_t column = i % GRID_SIDE * GRID_STEP + ELEVATION_GRID_MARGIN;
         uint32_t row = i / GRID_SIDE * GRID_STEP + ELEVATION_GRID_MARGIN;
-        s->height[i] = s->land->height[row * ELEVATION_GRID_SIDE + column];
-        s->inland[i] = s->land->inland[row * ELEVATION_GRID_SIDE + column];
+        s->height[i] = s->grid->height[row * ELEVATION_GRID_SIDE + column];
+        s->inland[i] = s->grid->inland[row * ELEVATION_GRID_SIDE + column];
         double bumps =
             noise_fractal(NOISE_TOIL, column * (GRID_M / 1400.0), row * (GRID_M / 1400.0), 2);
         s->toil[i] = (float)maths_max(1.0 + TOIL * bumps, ON_ROAD);
         for (uint32_t k = 0; k < 25; k++)
             s->water[i] |=
-                (uint8_t)wet(s->land, (row + k / 5 - 2) * ELEVATION_GRID_SIDE + column + k % 5 - 2);
+                (uint8_t)wet(s->grid, (row + k / 5 - 2) * ELEVATION_GRID_SIDE + column + k % 5 - 2);
     }
 }
 
@@ -337,11 +337,11 @@ static int lay_course(struct survey *s, const struct course *course)
     return 0;
 }
 
-int generate_roads(const struct elevation_grid *land, struct road_point *roads, uint32_t road_max,
+int generate_roads(const struct elevation_grid *grid, struct road_point *roads, uint32_t road_max,
                    uint32_t *road_count)
 {
     struct survey s;
-    int result = survey_init(&s, land);
+    int result = survey_init(&s, grid);
     *road_count = 0;
     if (result == 0)
         read_land(&s);

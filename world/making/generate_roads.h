@@ -10,7 +10,7 @@ struct road_point;
 
 /* Writes at most road_max points, 60 m apart and within the square, road after road; none in
  * water. 0, or -1 with errno ENOMEM or ENOBUFS. */
-int generate_roads(const struct elevation_grid *land, struct road_point *roads, uint32_t road_max,
+int generate_roads(const struct elevation_grid *grid, struct road_point *roads, uint32_t road_max,
                    uint32_t *road_count);
 
 #endif

@@ -65,7 +65,7 @@ struct between {
 
 /* One row of posts at a time: fields of the land and noise along it. */
 struct weave {
-    const struct elevation_grid *land;
+    const struct elevation_grid *grid;
     uint64_t seed;
     uint32_t side;
     double spacing_m;
@@ -91,10 +91,10 @@ static void weave_free(struct weave *w)
     free(w->between);
 }
 
-static int weave_init(struct weave *w, const struct elevation_grid *land, uint32_t side,
+static int weave_init(struct weave *w, const struct elevation_grid *grid, uint32_t side,
                       uint64_t seed)
 {
-    *w = (struct weave){.land = land, .seed = seed, .side = side};
+    *w = (struct weave){.grid = grid, .seed = seed, .side = side};
     w->spacing_m = WORLD_SIDE_M / (double)(side - 1);
     w->memory = malloc((size_t)side * WEAVE_ROWS * sizeof *w->memory);
     w->between = malloc(side * sizeof *w->between);
@@ -120,7 +120,7 @@ static int weave_init(struct weave *w, const struct elevation_grid *land, uint32
 static void weave_heights(struct weave *w, double z)
 {
     double v = z / ELEVATION_GRID_SPACING_M + ELEVATION_GRID_MARGIN, row = floor(v);
-    const float *from = w->land->height + ((size_t)row - 1) * ELEVATION_GRID_SIDE;
+    const float *from = w->grid->height + ((size_t)row - 1) * ELEVATION_GRID_SIDE;
     float line[ELEVATION_GRID_SIDE], k[4];
     cubic_weights(v - row, k);
     for (uint32_t i = 0; i < ELEVATION_GRID_SIDE; i++)
@@ -162,7 +162,7 @@ static float place_post(const struct weave *w, uint32_t i, uint32_t row, uint8_t
     float height = w->height[i] + w->roughness[i] * w->noise[i];
     uint32_t column = w->between[i].west + (w->between[i].share >= 0.5f);
     *cover = COVER_LAKE;
-    if (w->land->lake[row * ELEVATION_GRID_SIDE + column] && height < (float)GEOGRAPHY_LAKE_M)
+    if (w->grid->lake[row * ELEVATION_GRID_SIDE + column] && height < (float)GEOGRAPHY_LAKE_M)
         return (float)GEOGRAPHY_LAKE_M;
     *cover = COVER_GRASS;
     return height > LAND_MIN_M ? height : LAND_MIN_M;
@@ -175,8 +175,8 @@ static void fill_posts(struct weave *w, float *posts, uint8_t *cover)
         size_t first = (size_t)row * w->side;
         uint32_t node_row = (uint32_t)(z / ELEVATION_GRID_SPACING_M + ELEVATION_GRID_MARGIN + 0.5);
         weave_heights(w, z);
-        weave_field(w, w->land->inland, z, w->inland);
-        weave_field(w, w->land->roughness, z, w->roughness);
+        weave_field(w, w->grid->inland, z, w->inland);
+        weave_field(w, w->grid->roughness, z, w->roughness);
         weave_noise(w, NOISE_DETAIL, 430.0, 3, z);
         for (uint32_t i = 0; i < w->side; i++)
             posts[first + i] = place_post(w, i, node_row, &cover[first + i]);
@@ -214,9 +214,9 @@ static void fill_cover(struct weave *w, const float *posts, uint8_t *cover)
     for (uint32_t row = 0; row < w->side; row++) {
         double z = (double)row * w->spacing_m;
         size_t first = (size_t)row * w->side;
-        weave_field(w, w->land->inland, z, w->inland);
-        weave_field(w, w->land->forest, z, w->forest);
-        weave_field(w, w->land->chaparral, z, w->chaparral);
+        weave_field(w, w->grid->inland, z, w->inland);
+        weave_field(w, w->grid->forest, z, w->forest);
+        weave_field(w, w->grid->chaparral, z, w->chaparral);
         weave_noise(w, NOISE_EDGE, 520.0, 3, z);
         for (uint32_t i = 0; i < w->side; i++) {
             if (cover_is_water(cover[first + i]))
@@ -253,24 +253,24 @@ static void pave(const struct weave *w, uint8_t *cover, const struct road_point 
 int generate_hunter_liggett(float *posts, uint8_t *cover, uint32_t side, uint64_t seed,
                             struct road_point *roads, uint32_t road_max, uint32_t *road_count)
 {
-    struct elevation_grid land;
+    struct elevation_grid grid;
     struct weave weave;
     int result = -1;
     *road_count = 0;
     seed =
         random_u64(seed, 0, 0, RANDOM_NOISE); /* noises add to it: seeds must not be neighbours */
-    if (elevation_grid_build(&land, seed) != 0)
+    if (elevation_grid_build(&grid, seed) != 0)
         goto err_land;
-    if (weave_init(&weave, &land, side, seed) != 0)
+    if (weave_init(&weave, &grid, side, seed) != 0)
         goto err_weave;
     fill_posts(&weave, posts, cover);
     fill_cover(&weave, posts, cover);
-    result = generate_roads(&land, roads, road_max, road_count);
+    result = generate_roads(&grid, roads, road_max, road_count);
     if (result == 0)
         pave(&weave, cover, roads, *road_count);
     weave_free(&weave);
 err_weave:
-    elevation_grid_free(&land);
+    elevation_grid_free(&grid);
 err_land:
     return result;
 }

@@ -53,7 +53,7 @@ static double distance_to(const struct anchor *a, uint32_t column, uint32_t row)
 }
 
 /* Where the ground is highest within the search. */
-static void find_top(const struct elevation_grid *land, const struct anchor *a, double *x,
+static void find_top(const struct elevation_grid *grid, const struct anchor *a, double *x,
                      double *z)
 {
     struct window w = window_around(a->x, a->z, SUMMIT_SEARCH_M);
@@ -62,7 +62,7 @@ static void find_top(const struct elevation_grid *land, const struct anchor *a, 
     *z = a->z;
     for (uint32_t row = w.r0; row <= w.r1; row++) {
         for (uint32_t column = w.c0; column <= w.c1; column++) {
-            float height = land->height[row * ELEVATION_GRID_SIDE + column];
+            float height = grid->height[row * ELEVATION_GRID_SIDE + column];
             if (height > top && distance_to(a, column, row) < SUMMIT_SEARCH_M) {
                 top = height;
                 *x = elevation_grid_metres(column);
@@ -73,17 +73,17 @@ static void find_top(const struct elevation_grid *land, const struct anchor *a, 
 }
 
 /* Moves the top that the streams left to where it is, the ground around it going along. */
-static void move_top(struct elevation_grid *land, const struct anchor *a, float *spare)
+static void move_top(struct elevation_grid *grid, const struct anchor *a, float *spare)
 {
     double top_x, top_z;
-    find_top(land, a, &top_x, &top_z);
-    memcpy(spare, land->height, ELEVATION_GRID_COUNT * sizeof *spare);
+    find_top(grid, a, &top_x, &top_z);
+    memcpy(spare, grid->height, ELEVATION_GRID_COUNT * sizeof *spare);
     struct window w = window_around(a->x, a->z, SUMMIT_REACH_M);
     for (uint32_t row = w.r0; row <= w.r1; row++) {
         for (uint32_t column = w.c0; column <= w.c1; column++) {
             double share = bell(distance_to(a, column, row), SUMMIT_REACH_M);
             if (share > 0.0)
-                land->height[row * ELEVATION_GRID_SIDE + column] = (float)elevation_grid_at(
+                grid->height[row * ELEVATION_GRID_SIDE + column] = (float)elevation_grid_at(
                     spare, elevation_grid_metres(column) + share * (top_x - a->x),
                     elevation_grid_metres(row) + share * (top_z - a->z));
         }
@@ -91,16 +91,16 @@ static void move_top(struct elevation_grid *land, const struct anchor *a, float 
 }
 
 /* A top is round: nodes near it become the mean of those about them. */
-static void round_top(struct elevation_grid *land, const struct anchor *a, float *spare)
+static void round_top(struct elevation_grid *grid, const struct anchor *a, float *spare)
 {
     struct window w = window_around(a->x, a->z, TOP_M);
-    memcpy(spare, land->height, ELEVATION_GRID_COUNT * sizeof *spare);
+    memcpy(spare, grid->height, ELEVATION_GRID_COUNT * sizeof *spare);
     for (uint32_t row = w.r0; row <= w.r1; row++) {
         for (uint32_t column = w.c0; column <= w.c1; column++) {
             double sum = 0.0, x = elevation_grid_metres(column), z = elevation_grid_metres(row);
             for (int k = 0; k < 9; k++)
                 sum += elevation_grid_at(spare, x + (k % 3 - 1) * 150.0, z + (k / 3 - 1) * 150.0);
-            float *height = &land->height[row * ELEVATION_GRID_SIDE + column];
+            float *height = &grid->height[row * ELEVATION_GRID_SIDE + column];
             *height += (float)((sum / 9.0 - *height) * bell(distance_to(a, column, row), TOP_M));
         }
     }
@@ -108,14 +108,14 @@ static void round_top(struct elevation_grid *land, const struct anchor *a, float
 
 /* Raises or lowers the ground so that it is height_m at the anchor; what lies far below changes
  * less, so that valleys keep their floors. */
-static void shift(struct elevation_grid *land, const struct anchor *a, double height_m,
+static void shift(struct elevation_grid *grid, const struct anchor *a, double height_m,
                   double reach_m)
 {
-    double have = elevation_grid_at(land->height, a->x, a->z), foot = a->peak ? 0.3 * have : -have;
+    double have = elevation_grid_at(grid->height, a->x, a->z), foot = a->peak ? 0.3 * have : -have;
     struct window w = window_around(a->x, a->z, reach_m);
     for (uint32_t row = w.r0; row <= w.r1; row++) {
         for (uint32_t column = w.c0; column <= w.c1; column++) {
-            float *height = &land->height[row * ELEVATION_GRID_SIDE + column];
+            float *height = &grid->height[row * ELEVATION_GRID_SIDE + column];
             double up = maths_clamp((*height - foot) / (have - foot), 0.0, 1.0);
             *height += (float)((height_m - have) * up * bell(distance_to(a, column, row), reach_m));
         }
@@ -130,7 +130,7 @@ static double lower(double a, double b)
 }
 
 /* Nothing on its ridge is higher than a summit; the highest one tops everything. */
-static void cap(struct elevation_grid *land, const struct anchor *a, int highest)
+static void cap(struct elevation_grid *grid, const struct anchor *a, int highest)
 {
     for (uint32_t node = 0; node < ELEVATION_GRID_COUNT; node++) {
         double away = distance_to(a, node % ELEVATION_GRID_SIDE, node / ELEVATION_GRID_SIDE);
@@ -138,13 +138,13 @@ static void cap(struct elevation_grid *land, const struct anchor *a, int highest
         double ceiling = a->height_m + 0.25 * FILLET_M - 0.14 * near * near / (near + 250.0);
         if (!highest && away > 4000.0)
             ceiling += 0.3 * (away - 4000.0);
-        if (ceiling < land->height[node] + FILLET_M)
-            land->height[node] = (float)lower(land->height[node], ceiling);
+        if (ceiling < grid->height[node] + FILLET_M)
+            grid->height[node] = (float)lower(grid->height[node], ceiling);
     }
 }
 
 /* Marks every node that water reaches from the drowned river, and the shore around them. */
-static int fill_lake(struct elevation_grid *land)
+static int fill_lake(struct elevation_grid *grid)
 {
     uint32_t *todo = malloc(4u * ELEVATION_GRID_COUNT * sizeof *todo),
              count = 0; /* once a neighbour */
@@ -156,10 +156,10 @@ static int fill_lake(struct elevation_grid *land)
     while (count > 0) {
         uint32_t node = todo[--count], column = node % ELEVATION_GRID_SIDE,
                  row = node / ELEVATION_GRID_SIDE;
-        if (land->lake[node])
+        if (grid->lake[node])
             continue;
-        land->lake[node] = 1;
-        if (land->height[node] >= (float)GEOGRAPHY_LAKE_M)
+        grid->lake[node] = 1;
+        if (grid->height[node] >= (float)GEOGRAPHY_LAKE_M)
             continue;
         if (column > 0)
             todo[count++] = node - 1;
@@ -174,7 +174,7 @@ static int fill_lake(struct elevation_grid *land)
     return 0;
 }
 
-int known_heights_set(struct elevation_grid *land,
+int known_heights_set(struct elevation_grid *grid,
                       const struct anchor anchors[GEOGRAPHY_PLACE_COUNT])
 {
     float *spare = malloc(ELEVATION_GRID_COUNT * sizeof *spare);
@@ -184,20 +184,20 @@ int known_heights_set(struct elevation_grid *land,
     for (int i = 0; i < GEOGRAPHY_PLACE_COUNT; i++) {
         const struct anchor *a = &anchors[i];
         if (a->peak) {
-            move_top(land, a, spare);
-            round_top(land, a, spare);
-            shift(land, a, a->height_m + 0.25 * FILLET_M, SUMMIT_REACH_M);
-            cap(land, a, highest);
+            move_top(grid, a, spare);
+            round_top(grid, a, spare);
+            shift(grid, a, a->height_m + 0.25 * FILLET_M, SUMMIT_REACH_M);
+            cap(grid, a, highest);
             highest = 0;
         } else {
-            shift(land, a, a->height_m, PLACE_REACH_M);
+            shift(grid, a, a->height_m, PLACE_REACH_M);
         }
         struct window w = window_around(a->x, a->z, 4.0 * SMOOTH_FREE_M);
         for (uint32_t row = w.r0; row <= w.r1; row++)
             for (uint32_t column = w.c0; column <= w.c1; column++)
-                land->roughness[row * ELEVATION_GRID_SIDE + column] *=
+                grid->roughness[row * ELEVATION_GRID_SIDE + column] *=
                     (float)(1.0 - bell(distance_to(a, column, row), 4.0 * SMOOTH_FREE_M));
     }
     free(spare);
-    return fill_lake(land);
+    return fill_lake(grid);
 }

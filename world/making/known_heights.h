@@ -7,7 +7,7 @@
 
 /* Changes heights and roughness around the anchors, marks the lake. Of the anchors that are peaks
  * the first is the highest of the world. 0, or -1 with errno ENOMEM. */
-int known_heights_set(struct elevation_grid *land,
+int known_heights_set(struct elevation_grid *grid,
                       const struct anchor anchors[GEOGRAPHY_PLACE_COUNT]);
 
 #endif

@@ -37,28 +37,28 @@ struct object_placement {
 };
 
 /* 0; -1 with errno ENOMEM, or EINVAL when a class has no kind. */
-int object_placement_init(struct object_placement *planter, const struct terrain *terrain,
+int object_placement_init(struct object_placement *placement, const struct terrain *terrain,
                           const struct kind *kinds, uint32_t kind_count,
                           const struct road_point *roads, uint32_t road_count, uint64_t seed,
                           struct fixed_object *objects);
-void object_placement_free(struct object_placement *planter);
+void object_placement_free(struct object_placement *placement);
 
 /* A kind of the class for a place: low kinds in the valleys, tall ones on the heights, mixed by
  * place and by chance, which number decides. */
-uint16_t object_placement_mixed_kind(const struct object_placement *planter,
+uint16_t object_placement_mixed_kind(const struct object_placement *placement,
                                      enum object_class object_class, double x, double z,
                                      uint32_t number);
 
 /* Whether an object of this radius may stand at (x, z): dry, off the roads, within the world. */
-bool object_placement_allows(const struct object_placement *planter, double x, double z,
+bool object_placement_allows(const struct object_placement *placement, double x, double z,
                              double radius_m);
 
 /* Whether its sphere is a metre clear of the first count objects. */
-bool object_placement_clear(const struct object_placement *planter, uint32_t count, double x,
+bool object_placement_clear(const struct object_placement *placement, uint32_t count, double x,
                             double z, double radius_m);
 
 /* Adds an object of size times its kind's radius and height. */
-void object_placement_add(struct object_placement *planter, double x, double z, uint16_t kind,
+void object_placement_add(struct object_placement *placement, double x, double z, uint16_t kind,
                           double size);
 
 #endif

@@ -35,7 +35,7 @@ struct spot {
 };
 
 struct plant_placement {
-    struct object_placement *planter;
+    struct object_placement *placement;
     uint32_t growing;     /* trees and bushes */
     uint32_t built;       /* objects there before */
     uint8_t *taken;       /* [GRIDSQUARE_COUNT] something stands there before */
@@ -120,7 +120,7 @@ static int by_treeness(const void *left, const void *right)
 /* The best free squares, as many as are still to be occupied. */
 static int choose_squares(struct plant_placement *g)
 {
-    const struct object_placement *p = g->planter;
+    const struct object_placement *p = g->placement;
     uint32_t occupied = 0, dry = 0;
     for (uint32_t i = 0; i < p->used; i++) {
         uint32_t square = gridsquare_of(p->objects[i].x, p->objects[i].z);
@@ -145,7 +145,7 @@ static int choose_squares(struct plant_placement *g)
  * the maximum. Then one more or less here and there until the sum is right. */
 static void share_out(struct plant_placement *g)
 {
-    const struct object_placement *p = g->planter;
+    const struct object_placement *p = g->placement;
     double mean = (double)g->growing / g->stand_count;
     uint32_t sum = 0;
     for (uint32_t i = 0; i < g->stand_count; i++) {
@@ -174,7 +174,7 @@ static void share_out(struct plant_placement *g)
 /* No spot of the square or its neighbours is so near that the largest of two would touch. */
 static int apart(const struct plant_placement *g, double x, double z)
 {
-    double apart_m = 2.0 * g->planter->grown_m + 0.5;
+    double apart_m = 2.0 * g->placement->grown_m + 0.5;
     struct gridsquare_box box =
         gridsquare_box_of(x - apart_m, z - apart_m, x + apart_m, z + apart_m);
     for (int32_t row = box.z0; row <= box.z1; row++) {
@@ -203,7 +203,7 @@ static double treeness(const struct object_placement *p, double x, double z, uin
 
 static int find_spot(struct plant_placement *g, uint32_t square, uint32_t number)
 {
-    const struct object_placement *p = g->planter;
+    const struct object_placement *p = g->placement;
     double x0 = square % GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M;
     double z0 = square / GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M;
     for (uint32_t try = 0; try < TRIES; try++) {
@@ -237,7 +237,7 @@ static int find_spots(struct plant_placement *g)
 
 static void plant_spots(struct plant_placement *g)
 {
-    struct object_placement *p = g->planter;
+    struct object_placement *p = g->placement;
     qsort(g->spots, g->growing, sizeof *g->spots, by_treeness);
     for (uint32_t i = 0; i < g->growing; i++) {
         const struct spot *spot = &g->spots[i];
@@ -250,9 +250,9 @@ static void plant_spots(struct plant_placement *g)
     }
 }
 
-int plant_placement_plant(struct object_placement *planter)
+int plant_placement_plant(struct object_placement *placement)
 {
-    struct plant_placement g = {.planter = planter, .built = planter->used};
+    struct plant_placement g = {.placement = placement, .built = placement->used};
     g.growing = generate_table1[OBJECT_TREE] + generate_table1[OBJECT_BUSH];
     g.taken = calloc(GRIDSQUARE_COUNT, sizeof *g.taken);
     g.stands = malloc(GRIDSQUARE_COUNT * sizeof *g.stands);

@@ -13,6 +13,6 @@
 
 /* Adds Table 1's trees and bushes clear of what stands already, in squares where nothing does. 0;
  * -1 with errno ENOMEM, or ENOSPC when there is too little dry land. */
-int plant_placement_plant(struct object_placement *planter);
+int plant_placement_plant(struct object_placement *placement);
 
 #endif

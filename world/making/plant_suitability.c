@@ -24,12 +24,12 @@ static double ramp(double t)
 
 /* Mean slope around each node, from which hills and flats are told apart: crests and creek beds are
  * level too. Running sums over rows into spare and over columns back, three times. */
-static void fill_hills(const struct elevation_grid *land, float *hills, float *spare)
+static void fill_hills(const struct elevation_grid *grid, float *hills, float *spare)
 {
     const uint32_t reach = 2, width = 2 * reach + 1;
     for (uint32_t node = 0; node < ELEVATION_GRID_COUNT; node++) {
         double east, south;
-        elevation_grid_gradient(land, node, &east, &south);
+        elevation_grid_gradient(grid, node, &east, &south);
         hills[node] = (float)sqrt(east * east + south * south);
     }
     for (int pass = 0; pass < 6; pass++) {
@@ -50,34 +50,34 @@ static void fill_hills(const struct elevation_grid *land, float *hills, float *s
     }
 }
 
-static void fill_node(struct elevation_grid *land, uint32_t node, double hilliness,
+static void fill_node(struct elevation_grid *grid, uint32_t node, double hilliness,
                       const struct row_noise *noise)
 {
     uint32_t column = node % ELEVATION_GRID_SIDE;
-    double east, south, height = land->height[node], inland = land->inland[node];
-    elevation_grid_gradient(land, node, &east, &south);
+    double east, south, height = grid->height[node], inland = grid->inland[node];
+    elevation_grid_gradient(grid, node, &east, &south);
     double slope = sqrt(east * east + south * south);
     /* Ground that rises to the south faces north, away from the sun. */
     double shade = maths_clamp((0.9 * south + 0.3 * east) / (slope + 0.06), -1.0, 1.0);
     double hill = ramp((hilliness - 0.03) / 0.09), high = ramp((height - 600.0) / 800.0);
     double dry = ramp((inland - 14000.0) / 24000.0), seaward = ramp((7000.0 - inland) / 5000.0);
-    double creek = land->stream[node], stand = noise->stand[column];
+    double creek = grid->stream[node], stand = noise->stand[column];
     double forest = 0.33 + 0.28 * shade + 0.45 * creek + 0.36 * high + 0.14 * seaward - 0.22 * dry +
                     0.46 * stand;
     double savanna = 0.33 + 0.55 * (double)noise->savanna[column] + 0.35 * creek +
-                     0.12 * land->plain[node] * (1.0 - dry) - 0.22 * dry;
+                     0.12 * grid->plain[node] * (1.0 - dry) - 0.22 * dry;
     double brush = 0.42 + 0.30 * ramp((hilliness - 0.12) / 0.2) - 0.20 * shade - 0.24 * dry +
                    0.42 * (double)noise->brush[column] + 0.15 * high;
-    land->forest[node] = (float)maths_clamp(savanna + (forest - savanna) * hill, 0.0, 1.0);
-    land->chaparral[node] = (float)maths_clamp(brush * (0.25 + 0.75 * hill), 0.0, 1.0);
+    grid->forest[node] = (float)maths_clamp(savanna + (forest - savanna) * hill, 0.0, 1.0);
+    grid->chaparral[node] = (float)maths_clamp(brush * (0.25 + 0.75 * hill), 0.0, 1.0);
 }
 
-int plant_suitability_fill(struct elevation_grid *land, uint64_t seed)
+int plant_suitability_fill(struct elevation_grid *grid, uint64_t seed)
 {
     float *hills = malloc(2u * ELEVATION_GRID_COUNT * sizeof *hills);
     if (!hills)
         return -1;
-    fill_hills(land, hills, hills + ELEVATION_GRID_COUNT);
+    fill_hills(grid, hills, hills + ELEVATION_GRID_COUNT);
     for (uint32_t row = 0; row < ELEVATION_GRID_SIDE; row++) {
         struct noise_row line = {elevation_grid_metres(0), ELEVATION_GRID_SPACING_M,
                                  elevation_grid_metres(row), ELEVATION_GRID_SIDE};
@@ -87,7 +87,7 @@ int plant_suitability_fill(struct elevation_grid *land, uint64_t seed)
         noise_add_fractal_row(seed + NOISE_BRUSH, 2700.0, 1.0, 4, line, noise.brush);
         for (uint32_t column = 0; column < ELEVATION_GRID_SIDE; column++) {
             uint32_t node = row * ELEVATION_GRID_SIDE + column;
-            fill_node(land, node, (double)hills[node], &noise);
+            fill_node(grid, node, (double)hills[node], &noise);
         }
     }
     free(hills);

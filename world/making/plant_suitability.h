@@ -6,6 +6,6 @@
 
 /* Fills forest and chaparral from the heights, streams and the distance from the sea. 0, or -1 with
  * errno ENOMEM. */
-int plant_suitability_fill(struct elevation_grid *land, uint64_t seed);
+int plant_suitability_fill(struct elevation_grid *grid, uint64_t seed);
 
 #endif

@@ -15,41 +15,41 @@
 
 /* A route on its way onto the roads. */
 struct laying {
-    struct world_build *genesis;
+    struct world_build *built;
     const struct road_graph *net;
     const struct scenario_group *group;
     const struct error_text *to;
-    uint32_t room; /* of the genesis's route points */
+    uint32_t room; /* of built->route_points */
 };
 
 static int add_points(struct laying *laying, const struct route_point *points, uint32_t count)
 {
-    struct world_build *genesis = laying->genesis;
-    uint32_t used = genesis->counts.route_points;
+    struct world_build *built = laying->built;
+    uint32_t used = built->counts.route_points;
     if (used + count > ROUTE_POINTS_MAX)
         return error_text_say(laying->to,
                               "%s:%d: vehicles.route: the routes have more than %u points along "
                               "the roads; right would be: shorter or fewer ones",
-                              genesis->scenario->settings->params.scenario, laying->group->line,
+                              built->scenario->settings->params.scenario, laying->group->line,
                               ROUTE_POINTS_MAX);
     if (used + count > laying->room) {
         uint32_t room = 2 * (used + count) + 256;
-        struct route_point *grown = realloc(genesis->route_points, room * sizeof *grown);
+        struct route_point *grown = realloc(built->route_points, room * sizeof *grown);
         if (!grown)
             return error_text_memory(laying->to);
-        genesis->route_points = grown;
+        built->route_points = grown;
         laying->room = room;
     }
     if (count > 0)
-        memcpy(genesis->route_points + used, points, count * sizeof *points);
-    genesis->counts.route_points += count;
+        memcpy(built->route_points + used, points, count * sizeof *points);
+    built->counts.route_points += count;
     return 0;
 }
 
 static int find_road(const struct laying *laying, const struct route_point *point, uint32_t number,
                      struct road_place *place)
 {
-    const char *file = laying->genesis->scenario->settings->params.scenario;
+    const char *file = laying->built->scenario->settings->params.scenario;
     if (!road_graph_place(laying->net, point->x, point->z, place))
         return error_text_say(laying->to,
                               "%s:%d: vehicles.roads = true: this ground has no roads; right would "
@@ -84,7 +84,7 @@ static int lay_leg(struct laying *laying, const struct route_point *points, uint
                                     "%s:%d: vehicles.route: no road leads from point %u, [%.0f, "
                                     "%.0f], to point %u, [%.0f, %.0f]; right would be: points on "
                                     "roads that meet",
-                                    laying->genesis->scenario->settings->params.scenario,
+                                    laying->built->scenario->settings->params.scenario,
                                     laying->group->line, leg + 1, a->x, a->z, (leg + 1) % count + 1,
                                     b->x, b->z);
     int result = add_points(laying, way, length - 1);
@@ -95,44 +95,44 @@ static int lay_leg(struct laying *laying, const struct route_point *points, uint
 /* The points of one route, of which none is where the one before it is. */
 static int lay_route(struct laying *laying)
 {
-    const struct scenario *scenario = laying->genesis->scenario;
-    struct world_build *genesis = laying->genesis;
+    const struct scenario *scenario = laying->built->scenario;
+    struct world_build *built = laying->built;
     const struct route *given = &scenario->routes[laying->group->route];
-    struct route *route = &genesis->routes[laying->group->route];
+    struct route *route = &built->routes[laying->group->route];
     const struct route_point *points = &scenario->route_points[given->first];
-    uint32_t first = genesis->counts.route_points, kept = first;
+    uint32_t first = built->counts.route_points, kept = first;
     for (uint32_t i = 0; i < given->count && laying->group->roads; i++) {
         if (lay_leg(laying, points, given->count, i) != 0)
             return -1;
     }
     if (!laying->group->roads && add_points(laying, points, given->count) != 0)
         return -1;
-    for (uint32_t i = first; i < genesis->counts.route_points && laying->group->roads; i++) {
-        const struct route_point p = genesis->route_points[i];
-        const struct route_point *last = &genesis->route_points[kept > first ? kept - 1 : first];
+    for (uint32_t i = first; i < built->counts.route_points && laying->group->roads; i++) {
+        const struct route_point p = built->route_points[i];
+        const struct route_point *last = &built->route_points[kept > first ? kept - 1 : first];
         if (kept > first && p.x == last->x && p.z == last->z)
             continue;
-        genesis->route_points[kept++] = p;
+        built->route_points[kept++] = p;
     }
     if (laying->group->roads)
-        genesis->counts.route_points = kept;
-    *route = (struct route){first, genesis->counts.route_points - first};
+        built->counts.route_points = kept;
+    *route = (struct route){first, built->counts.route_points - first};
     return 0;
 }
 
-int road_routing_build(struct world_build *genesis, const struct error_text *to)
+int road_routing_build(struct world_build *built, const struct error_text *to)
 {
-    const struct scenario *scenario = genesis->scenario;
+    const struct scenario *scenario = built->scenario;
     struct road_graph net = {0};
-    struct laying laying = {.genesis = genesis, .net = &net, .to = to};
+    struct laying laying = {.built = built, .net = &net, .to = to};
     int result = 0;
     bool roads = false;
-    genesis->counts.routes = scenario->route_count;
-    genesis->routes = calloc(scenario->route_count + 1, sizeof *genesis->routes);
+    built->counts.routes = scenario->route_count;
+    built->routes = calloc(scenario->route_count + 1, sizeof *built->routes);
     for (uint32_t g = 0; g < scenario->group_count; g++)
         roads |= scenario->groups[g].roads != 0;
-    if (!genesis->routes ||
-        (roads && road_graph_build(&net, genesis->roads, genesis->counts.road_points) != 0))
+    if (!built->routes ||
+        (roads && road_graph_build(&net, built->roads, built->counts.road_points) != 0))
         return error_text_memory(to);
     for (uint32_t g = 0; g < scenario->group_count && result == 0; g++) {
         laying.group = &scenario->groups[g];
@@ -148,20 +148,20 @@ static double step_of(const struct route_point *a, const struct route_point *b)
     return sqrt((b->x - a->x) * (b->x - a->x) + (b->z - a->z) * (b->z - a->z));
 }
 
-double road_routing_length(const struct world_build *genesis, const struct route *route)
+double road_routing_length(const struct world_build *built, const struct route *route)
 {
-    const struct route_point *points = &genesis->route_points[route->first];
+    const struct route_point *points = &built->route_points[route->first];
     double length = 0.0;
     for (uint32_t i = 0; i < route->count; i++)
         length += step_of(&points[i], &points[(i + 1) % route->count]);
     return length;
 }
 
-struct route_place road_routing_place(const struct world_build *genesis, const struct route *route,
+struct route_place road_routing_place(const struct world_build *built, const struct route *route,
                                       double along_m)
 {
-    const struct route_point *points = &genesis->route_points[route->first];
-    double length = road_routing_length(genesis, route);
+    const struct route_point *points = &built->route_points[route->first];
+    double length = road_routing_length(built, route);
     struct route_place place = {points[0].x, points[0].z, 0.0, 1 % route->count};
     if (!(length > 0.0))
         return place;

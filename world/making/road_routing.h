@@ -12,9 +12,9 @@ struct world_build;
 /* How far from a road a point of a route along roads may be [m]. */
 #define ROAD_ROUTE_OFF_M 250.0
 
-/* Fills the genesis's routes and their points from the scenario's; its roads must be there. 0, or
- * -1 with the complaint: a point too far from any road, no way between two, out of memory. */
-int road_routing_build(struct world_build *genesis, const struct error_text *to);
+/* Fills the built world's routes and their points from the scenario's; its roads must be there. 0,
+ * or -1 with the complaint: a point too far from any road, no way between two, out of memory. */
+int road_routing_build(struct world_build *built, const struct error_text *to);
 
 /* Place on a closed route this far along it [m] (modulo its length), the heading of the way there,
  * and the point that comes next. */
@@ -22,8 +22,8 @@ struct route_place {
     double x, z, heading;
     uint32_t next;
 };
-struct route_place road_routing_place(const struct world_build *genesis, const struct route *route,
+struct route_place road_routing_place(const struct world_build *built, const struct route *route,
                                       double along_m);
-double road_routing_length(const struct world_build *genesis, const struct route *route);
+double road_routing_length(const struct world_build *built, const struct route *route);
 
 #endif

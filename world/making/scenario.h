@@ -46,7 +46,7 @@ struct scenario_group {
 
 /* A step of a script, as it stands in the file. */
 struct scenario_step {
-    struct script_step step;      /* target_slot and order_arg follow at genesis */
+    struct script_step step;      /* target_slot and order_arg are set when the world is built */
     char target[ENTITY_NAME_MAX]; /* whom it fires at */
     int line;                     /* of the script's file, for messages */
 };

@@ -21,10 +21,10 @@
 
 /* A script on its way to a vehicle. */
 struct copy {
-    struct world_build *genesis;
+    struct world_build *built;
     const struct scenario_script *from;
     const struct scenario_group *group;
-    const struct callsigns *callsigns;
+    const struct name_index *name_index;
     const struct error_text *to;
     uint32_t slot;       /* whose it will be */
     double off_x, off_z; /* its place off the group's first vehicle's */
@@ -48,7 +48,7 @@ static bool stands(const struct scenario_script *script, const struct scenario_s
 static const char *file_of(const struct copy *copy)
 {
     return copy->from->file[0] != '\0' ? copy->from->file
-                                       : copy->genesis->scenario->settings->params.scenario;
+                                       : copy->built->scenario->settings->params.scenario;
 }
 
 bool script_build_start(const struct scenario *scenario, uint32_t script, double first[2],
@@ -72,8 +72,8 @@ bool script_build_start(const struct scenario *scenario, uint32_t script, double
 static int check_ground(const struct copy *copy, const struct scenario_step *from,
                         const struct script_step *step)
 {
-    const struct kind *kind = &copy->genesis->scenario->kinds[copy->group->kind];
-    struct terrain terrain = world_build_terrain(copy->genesis);
+    const struct kind *kind = &copy->built->scenario->kinds[copy->group->kind];
+    struct terrain terrain = world_build_terrain(copy->built);
     bool water = cover_is_water(terrain_cover(&terrain, step->x, step->z));
     if (!goes(step) || kind->domain == DOMAIN_AIR || (kind->domain == DOMAIN_SEA) == water)
         return 0;
@@ -88,7 +88,7 @@ static int check_ground(const struct copy *copy, const struct scenario_step *fro
 static int check_pace(const struct copy *copy, const struct scenario_step *from, double x, double z,
                       double time_s)
 {
-    const struct kind *kind = &copy->genesis->scenario->kinds[copy->group->kind];
+    const struct kind *kind = &copy->built->scenario->kinds[copy->group->kind];
     double dx = from->step.x - x, dz = from->step.z - z, metres = sqrt(dx * dx + dz * dz);
     double seconds = from->step.at_s - time_s;
     if (metres <= kind->max_speed_mps * seconds * IN_TIME_SHARE + THERE_M)
@@ -104,8 +104,8 @@ static int check_pace(const struct copy *copy, const struct scenario_step *from,
 /* From one arrival to the next right behind it; the first from where the vehicle starts. */
 static int check_paces(const struct copy *copy)
 {
-    const struct scenario *scenario = copy->genesis->scenario;
-    const struct entities *e = &copy->genesis->first;
+    const struct scenario *scenario = copy->built->scenario;
+    const struct entities *e = &copy->built->first;
     double x = e->x[copy->slot] - copy->off_x, z = e->z[copy->slot] - copy->off_z, time_s = 0.0;
     bool known = true;
     for (uint32_t i = 0; i < copy->from->count; i++) {
@@ -141,7 +141,7 @@ static int give_order(const struct copy *copy, const struct scenario_step *from,
 static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m,
                      struct script_step *step)
 {
-    const struct scenario *scenario = copy->genesis->scenario;
+    const struct scenario *scenario = copy->built->scenario;
     const struct scenario_step *steps = &scenario->steps[copy->from->first];
     const struct scenario_step *from = &steps[index];
     *step = from->step;
@@ -155,7 +155,7 @@ static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m
     step->altitude_m = *altitude_m;
     step->target_slot = SLOT_NONE;
     step->next_due = UINT32_MAX;
-    if (name_index_find(copy->callsigns, from->target, &step->target_slot) != 0)
+    if (name_index_find(copy->name_index, from->target, &step->target_slot) != 0)
         return error_text_say(copy->to,
                               "%s:%d: script \"%s\": fire = \"%s\": no vehicle has that name",
                               file_of(copy), from->line, copy->from->name, from->target);
@@ -180,11 +180,11 @@ static double link_dues(struct script_step *steps, uint32_t count)
 
 static int copy_script(const struct copy *copy)
 {
-    struct world_build *genesis = copy->genesis;
-    const struct kind *kind = &genesis->scenario->kinds[copy->group->kind];
-    struct counts *counts = &genesis->counts;
-    struct script *script = &genesis->scripts[counts->scripts];
-    struct script_step *steps = &genesis->steps[counts->script_steps];
+    struct world_build *built = copy->built;
+    const struct kind *kind = &built->scenario->kinds[copy->group->kind];
+    struct counts *counts = &built->counts;
+    struct script *script = &built->scripts[counts->scripts];
+    struct script_step *steps = &built->steps[counts->script_steps];
     double altitude = copy->group->floating ? copy->group->altitude_m : kind->cruise_altitude_m;
     *script = (struct script){.first = counts->script_steps,
                               .count = copy->from->count,
@@ -197,7 +197,7 @@ static int copy_script(const struct copy *copy)
     }
     double last_s = link_dues(steps, script->count);
     script->period_s = script->repeats ? last_s : 0.0;
-    genesis->first.order_arg[copy->slot] = counts->scripts++;
+    built->first.order_arg[copy->slot] = counts->scripts++;
     counts->script_steps += script->count;
     return check_paces(copy);
 }
@@ -205,10 +205,10 @@ static int copy_script(const struct copy *copy)
 /* The scripts of one group, whose first vehicle is in this slot. */
 static int give_scripts(struct copy *copy, uint32_t first)
 {
-    struct world_build *genesis = copy->genesis;
-    const struct entities *e = &genesis->first;
+    struct world_build *built = copy->built;
+    const struct entities *e = &built->first;
     uint32_t count = copy->group->formed ? 1 : copy->group->count;
-    copy->from = &genesis->scenario->scripts[copy->group->script];
+    copy->from = &built->scenario->scripts[copy->group->script];
     for (uint32_t i = 0; i < count; i++) {
         copy->slot = first + i;
         copy->off_x = e->x[first + i] - e->x[first];
@@ -216,18 +216,18 @@ static int give_scripts(struct copy *copy, uint32_t first)
         if (copy_script(copy) != 0)
             return -1;
     }
-    for (uint32_t f = 0; f < genesis->counts.formations; f++) {
-        if (genesis->formations[f].first == first)
-            genesis->formations[f].order_arg = e->order_arg[first];
+    for (uint32_t f = 0; f < built->counts.formations; f++) {
+        if (built->formations[f].first == first)
+            built->formations[f].order_arg = e->order_arg[first];
     }
     return 0;
 }
 
-int script_build_build(struct world_build *genesis, const struct callsigns *callsigns,
+int script_build_build(struct world_build *built, const struct name_index *name_index,
                        const struct error_text *to)
 {
-    const struct scenario *scenario = genesis->scenario;
-    struct copy copy = {.genesis = genesis, .callsigns = callsigns, .to = to};
+    const struct scenario *scenario = built->scenario;
+    struct copy copy = {.built = built, .name_index = name_index, .to = to};
     uint64_t steps = 0, scripts = 0;
     uint32_t slot = 0;
     for (uint32_t g = 0; g < scenario->group_count; g++) {
@@ -244,9 +244,9 @@ int script_build_build(struct world_build *genesis, const struct callsigns *call
             "%s: the vehicles' scripts have %llu steps; allowed: up to %u in all; "
             "right would be: formations, whose leader alone has one",
             scenario->settings->params.scenario, (unsigned long long)steps, SCRIPT_STEPS_MAX);
-    genesis->scripts = calloc(scripts + 1, sizeof *genesis->scripts);
-    genesis->steps = calloc(steps + 1, sizeof *genesis->steps);
-    if (!genesis->scripts || !genesis->steps)
+    built->scripts = calloc(scripts + 1, sizeof *built->scripts);
+    built->steps = calloc(steps + 1, sizeof *built->steps);
+    if (!built->scripts || !built->steps)
         return error_text_memory(to);
     for (uint32_t g = 0; g < scenario->group_count; g++) {
         copy.group = &scenario->groups[g];

@@ -15,10 +15,10 @@ struct world_build;
 bool script_build_start(const struct scenario *scenario, uint32_t script, double first[2],
                         double next[2]);
 
-/* Fills the genesis's scripts and steps, and gives the vehicles their own; they must have their
+/* Fills the built world's scripts and steps, and gives the vehicles their own; they must have their
  * places. 0, or -1 with the complaint: an unknown name, ground or a speed that the kind cannot do,
  * too many steps, out of memory. */
-int script_build_build(struct world_build *genesis, const struct callsigns *callsigns,
+int script_build_build(struct world_build *built, const struct name_index *name_index,
                        const struct error_text *to);
 
 #endif

@@ -24,11 +24,11 @@ struct stream_erosion {
 };
 
 /* All arrays allocated and zero; 0, or -1 with errno ENOMEM. */
-int stream_erosion_init(struct stream_erosion *drainage, uint32_t side, double spacing_m);
-void stream_erosion_free(struct stream_erosion *drainage);
+int stream_erosion_init(struct stream_erosion *erosion, uint32_t side, double spacing_m);
+void stream_erosion_free(struct stream_erosion *erosion);
 
 /* One round: finds receivers on the present heights, areas, then the heights they lead to. At
  * least one node must be fixed. The network settles within some ten rounds. */
-void stream_erosion_round(struct stream_erosion *drainage, uint64_t seed);
+void stream_erosion_round(struct stream_erosion *erosion, uint64_t seed);
 
 #endif

@@ -39,33 +39,33 @@ struct stand {
 };
 
 struct vehicle_placement {
-    struct world_build *genesis;
+    struct world_build *built;
     struct free_place place;
     const struct error_text *to;
     struct rank rank; /* of the group at hand; who follows goes on with that of the one before */
 };
 
-static double heading_of(const struct vehicle_placement *muster, uint32_t slot)
+static double heading_of(const struct vehicle_placement *placement, uint32_t slot)
 {
-    const struct scenario_group *group = muster->rank.group;
-    uint64_t seed = muster->genesis->scenario->settings->params.seed;
+    const struct scenario_group *group = placement->rank.group;
+    uint64_t seed = placement->built->scenario->settings->params.seed;
     return group->turned ? maths_wrap_turn(group->heading_rad)
                          : random_between(seed, 0, slot, RANDOM_HEADING, 0, TWO_PI);
 }
 
-static bool follows(const struct vehicle_placement *muster, uint32_t slot)
+static bool follows(const struct vehicle_placement *placement, uint32_t slot)
 {
-    return muster->rank.group->formed && slot != muster->rank.leader;
+    return placement->rank.group->formed && slot != placement->rank.leader;
 }
 
-static void put_entity(const struct vehicle_placement *muster, uint32_t slot,
+static void put_entity(const struct vehicle_placement *placement, uint32_t slot,
                        const struct stand *stand)
 {
-    struct world_build *genesis = muster->genesis;
-    const struct scenario_group *group = muster->rank.group;
-    const struct kind *kind = &genesis->scenario->kinds[group->kind];
-    struct terrain terrain = world_build_terrain(genesis);
-    struct entities *e = &genesis->first;
+    struct world_build *built = placement->built;
+    const struct scenario_group *group = placement->rank.group;
+    const struct kind *kind = &built->scenario->kinds[group->kind];
+    struct terrain terrain = world_build_terrain(built);
+    struct entities *e = &built->first;
     double altitude = group->floating ? group->altitude_m : kind->cruise_altitude_m;
     double speed = group->moving ? group->speed_mps : kind->min_speed_mps;
     double sine, cosine;
@@ -75,8 +75,8 @@ static void put_entity(const struct vehicle_placement *muster, uint32_t slot,
     e->kind[slot] = group->kind;
     e->force[slot] = group->force;
     e->behaviour[slot] = e->order[slot] =
-        follows(muster, slot) ? BEHAVIOUR_FOLLOW : group->behaviour;
-    e->order_arg[slot] = follows(muster, slot)                 ? genesis->counts.formations - 1
+        follows(placement, slot) ? BEHAVIOUR_FOLLOW : group->behaviour;
+    e->order_arg[slot] = follows(placement, slot)              ? built->counts.formations - 1
                          : group->behaviour == BEHAVIOUR_ROUTE ? group->route
                                                                : group->area;
     e->flags[slot] = group->flags;
@@ -95,13 +95,13 @@ static void put_entity(const struct vehicle_placement *muster, uint32_t slot,
 }
 
 /* Where it should stand, or near that where the ground allows no vehicle. */
-static int near_stand(struct vehicle_placement *muster, uint32_t slot, double reach,
+static int near_stand(struct vehicle_placement *placement, uint32_t slot, double reach,
                       struct stand *stand)
 {
-    const struct scenario *scenario = muster->genesis->scenario;
-    const struct kind *kind = &scenario->kinds[muster->rank.group->kind];
+    const struct scenario *scenario = placement->built->scenario;
+    const struct kind *kind = &scenario->kinds[placement->rank.group->kind];
     const struct stand wanted = *stand;
-    if (free_place_suits(&muster->place, kind, stand->x, stand->z))
+    if (free_place_suits(&placement->place, kind, stand->x, stand->z))
         return 0;
     for (int i = 0; i < NEAR_TRIES; i++, reach *= 2.0) {
         const struct area near = {
@@ -110,32 +110,33 @@ static int near_stand(struct vehicle_placement *muster, uint32_t slot, double re
             maths_clamp(wanted.x + reach, 0.0, WORLD_SIDE_M),
             maths_clamp(wanted.z + reach, 0.0, WORLD_SIDE_M),
         };
-        if (free_place_find(&muster->place, &near, kind, slot, &stand->x, &stand->z) == 0)
+        if (free_place_find(&placement->place, &near, kind, slot, &stand->x, &stand->z) == 0)
             return 0;
     }
     return -1;
 }
 
-static int stand_on_route(struct vehicle_placement *muster, uint32_t slot, double along_m,
+static int stand_on_route(struct vehicle_placement *placement, uint32_t slot, double along_m,
                           struct stand *stand)
 {
-    struct route_place at = road_routing_place(muster->genesis, muster->rank.along, along_m);
+    struct route_place at = road_routing_place(placement->built, placement->rank.along, along_m);
     *stand = (struct stand){at.x, at.z, at.heading, at.next};
-    return near_stand(muster, slot, NEAR_ROAD_M, stand);
+    return near_stand(placement, slot, NEAR_ROAD_M, stand);
 }
 
 /* Its place in the formation; a column that starts on a road bends with it. */
-static int stand_in_formation(struct vehicle_placement *muster, uint32_t slot, struct stand *stand)
+static int stand_in_formation(struct vehicle_placement *placement, uint32_t slot,
+                              struct stand *stand)
 {
-    const struct world_build *genesis = muster->genesis;
-    const struct rank *rank = &muster->rank;
-    const struct formation *formation = &genesis->formations[genesis->counts.formations - 1];
-    const struct entities *e = &genesis->first;
+    const struct world_build *built = placement->built;
+    const struct rank *rank = &placement->rank;
+    const struct formation *formation = &built->formations[built->counts.formations - 1];
+    const struct entities *e = &built->first;
     double ahead, right, sine, cosine;
     formation_place((enum formation_shape)formation->shape, formation->spacing_m,
                     rank->member + (slot - rank->first), &ahead, &right);
     if (rank->along && formation->shape == FORMATION_COLUMN) {
-        if (stand_on_route(muster, slot, rank->along_m + ahead, stand) != 0)
+        if (stand_on_route(placement, slot, rank->along_m + ahead, stand) != 0)
             return -1;
         stand->leg = 0;
         return 0;
@@ -143,43 +144,43 @@ static int stand_in_formation(struct vehicle_placement *muster, uint32_t slot, s
     maths_sincos(rank->heading, &sine, &cosine);
     *stand = (struct stand){e->x[rank->leader] + ahead * sine + right * cosine,
                             e->z[rank->leader] - ahead * cosine + right * sine, rank->heading, 0};
-    return near_stand(muster, slot, formation->spacing_m / 4.0, stand);
+    return near_stand(placement, slot, formation->spacing_m / 4.0, stand);
 }
 
 /* Where its script begins, looking to where it goes next. */
-static bool stand_on_script(const struct vehicle_placement *muster, uint32_t slot,
+static bool stand_on_script(const struct vehicle_placement *placement, uint32_t slot,
                             struct stand *stand)
 {
-    const struct scenario_group *group = muster->rank.group;
+    const struct scenario_group *group = placement->rank.group;
     double first[2], next[2];
-    if (!script_build_start(muster->genesis->scenario, group->script, first, next))
+    if (!script_build_start(placement->built->scenario, group->script, first, next))
         return false;
-    *stand = (struct stand){first[0], first[1], heading_of(muster, slot), 0};
+    *stand = (struct stand){first[0], first[1], heading_of(placement, slot), 0};
     if (!group->turned && (next[0] != first[0] || next[1] != first[1]))
         stand->heading = maths_heading(next[0] - first[0], next[1] - first[1]);
     return true;
 }
 
-static int find_stand(struct vehicle_placement *muster, uint32_t slot, struct stand *stand)
+static int find_stand(struct vehicle_placement *placement, uint32_t slot, struct stand *stand)
 {
-    const struct scenario *scenario = muster->genesis->scenario;
-    const struct rank *rank = &muster->rank;
+    const struct scenario *scenario = placement->built->scenario;
+    const struct rank *rank = &placement->rank;
     const struct scenario_group *group = rank->group;
-    if (follows(muster, slot))
-        return stand_in_formation(muster, slot, stand);
-    *stand = (struct stand){group->x, group->z, heading_of(muster, slot), 0};
+    if (follows(placement, slot))
+        return stand_in_formation(placement, slot, stand);
+    *stand = (struct stand){group->x, group->z, heading_of(placement, slot), 0};
     if (group->placed)
         return 0;
-    if (group->script != UINT32_MAX && group->area == 0 && stand_on_script(muster, slot, stand))
-        return near_stand(muster, slot, NEAR_ROAD_M, stand);
+    if (group->script != UINT32_MAX && group->area == 0 && stand_on_script(placement, slot, stand))
+        return near_stand(placement, slot, NEAR_ROAD_M, stand);
     if (rank->along && group->formed)
-        return stand_on_route(muster, slot, rank->along_m, stand);
+        return stand_on_route(placement, slot, rank->along_m, stand);
     if (rank->along)
-        return stand_on_route(muster, slot,
-                              road_routing_length(muster->genesis, rank->along) *
+        return stand_on_route(placement, slot,
+                              road_routing_length(placement->built, rank->along) *
                                   (double)(slot - rank->first) / (double)group->count,
                               stand);
-    return free_place_find(&muster->place, &scenario->areas[group->area],
+    return free_place_find(&placement->place, &scenario->areas[group->area],
                            &scenario->kinds[group->kind], slot, &stand->x, &stand->z);
 }
 
@@ -195,13 +196,13 @@ static uint32_t tail_of(const struct scenario *scenario, const struct scenario_g
 }
 
 /* A new formation, or the group's vehicles behind those of the formation before it. */
-static void form(struct vehicle_placement *muster, const struct scenario_group *group)
+static void form(struct vehicle_placement *placement, const struct scenario_group *group)
 {
-    struct world_build *genesis = muster->genesis;
-    struct rank *rank = &muster->rank;
-    struct formation *formation = &genesis->formations[genesis->counts.formations];
+    struct world_build *built = placement->built;
+    struct rank *rank = &placement->rank;
+    struct formation *formation = &built->formations[built->counts.formations];
     rank->group = group;
-    rank->first = genesis->used;
+    rank->first = built->used;
     if (group->behaviour == BEHAVIOUR_FOLLOW) {
         rank->member = formation[-1].count;
         formation[-1].count += group->count;
@@ -210,7 +211,7 @@ static void form(struct vehicle_placement *muster, const struct scenario_group *
     rank->leader = rank->first;
     rank->member = 0;
     rank->along =
-        group->roads && !group->placed && group->area == 0 ? &genesis->routes[group->route] : NULL;
+        group->roads && !group->placed && group->area == 0 ? &built->routes[group->route] : NULL;
     if (!group->formed)
         return;
     *formation = (struct formation){
@@ -222,18 +223,18 @@ static void form(struct vehicle_placement *muster, const struct scenario_group *
         .spacing_m = group->spacing_m,
     };
     if (group->shape == FORMATION_COLUMN)
-        rank->along_m = (double)tail_of(genesis->scenario, group) * group->spacing_m;
+        rank->along_m = (double)tail_of(built->scenario, group) * group->spacing_m;
     else
         rank->along_m = 0.0;
-    genesis->counts.formations++;
+    built->counts.formations++;
 }
 
-static int no_stand(const struct vehicle_placement *muster, uint32_t number)
+static int no_stand(const struct vehicle_placement *placement, uint32_t number)
 {
-    const struct scenario *scenario = muster->genesis->scenario;
-    const struct scenario_group *group = muster->rank.group;
+    const struct scenario *scenario = placement->built->scenario;
+    const struct scenario_group *group = placement->rank.group;
     const struct area *area = &scenario->areas[group->area];
-    return error_text_say(muster->to,
+    return error_text_say(placement->to,
                           "vehicles: no place for %s number %u of %u in area [%.0f, %.0f, %.0f, "
                           "%.0f]: too crowded, or the wrong ground for its domain",
                           scenario->kinds[group->kind].name, number, group->count, area->x0,
@@ -242,51 +243,51 @@ static int no_stand(const struct vehicle_placement *muster, uint32_t number)
 
 /* May the group's kind stand where the scenario puts it? As for the command spawn: a ship needs
  * water, and what drives needs land. */
-static int check_ground(const struct vehicle_placement *muster)
+static int check_ground(const struct vehicle_placement *placement)
 {
-    const struct scenario *scenario = muster->genesis->scenario;
-    const struct scenario_group *group = muster->rank.group;
+    const struct scenario *scenario = placement->built->scenario;
+    const struct scenario_group *group = placement->rank.group;
     const struct kind *kind = &scenario->kinds[group->kind];
     bool sails = kind->domain == DOMAIN_SEA;
-    if (!group->placed || free_place_carries(&muster->place.terrain, kind, group->x, group->z))
+    if (!group->placed || free_place_carries(&placement->place.terrain, kind, group->x, group->z))
         return 0;
     return error_text_say(
-        muster->to,
+        placement->to,
         "%s:%d: vehicles.at = [%.15g, %.15g]: a %s would stand %s; right would be: a "
         "place %s",
         scenario->settings->params.scenario, group->line, group->x, group->z, kind->name,
         sails ? "on dry land" : "in the water", sails ? "on water" : "on land");
 }
 
-static int build_group(struct vehicle_placement *muster, const struct scenario_group *group)
+static int build_group(struct vehicle_placement *placement, const struct scenario_group *group)
 {
-    struct world_build *genesis = muster->genesis;
-    const struct scenario *scenario = genesis->scenario;
-    form(muster, group);
-    if (check_ground(muster) != 0)
+    struct world_build *built = placement->built;
+    const struct scenario *scenario = built->scenario;
+    form(placement, group);
+    if (check_ground(placement) != 0)
         return -1;
     for (uint32_t i = 0; i < group->count; i++) {
-        uint32_t slot = genesis->used;
+        uint32_t slot = built->used;
         struct stand stand;
         if (scenario->placing && slot % PLACING_STEP == 0)
             scenario->placing(slot, scenario->settings->params.initial_entities);
         if (slot >= scenario->settings->params.capacity)
-            return error_text_say(muster->to,
+            return error_text_say(placement->to,
                                   "vehicles: more than world.capacity = %u; raise it (at most %u) "
                                   "or lower a count",
                                   scenario->settings->params.capacity, CAPACITY_MAX);
-        if (find_stand(muster, slot, &stand) != 0)
-            return no_stand(muster, i + 1);
-        if (free_place_take(&muster->place, stand.x, stand.z,
+        if (find_stand(placement, slot, &stand) != 0)
+            return no_stand(placement, i + 1);
+        if (free_place_take(&placement->place, stand.x, stand.z,
                             fixed_index_of_kind(&scenario->kinds[group->kind])) != 0)
-            return error_text_memory(muster->to);
-        put_entity(muster, slot, &stand);
-        if (slot == muster->rank.leader)
-            muster->rank.heading = stand.heading;
+            return error_text_memory(placement->to);
+        put_entity(placement, slot, &stand);
+        if (slot == placement->rank.leader)
+            placement->rank.heading = stand.heading;
         if (group->name[0] != '\0')
-            snprintf(genesis->names[slot].text, ENTITY_NAME_MAX,
-                     group->count > 1 ? "%.15s-%u" : "%s", group->name, i + 1);
-        genesis->used++;
+            snprintf(built->names[slot].text, ENTITY_NAME_MAX, group->count > 1 ? "%.15s-%u" : "%s",
+                     group->name, i + 1);
+        built->used++;
     }
     return 0;
 }
@@ -307,15 +308,15 @@ static struct force_base middle_of(const struct entities *e, uint32_t used, uint
 
 /* Where that land vehicle of the force stands that is nearest to its middle: the middle itself may
  * lie in a lake or on a cliff. Without land vehicles it is the middle. */
-static struct force_base base_of(const struct world_build *genesis, uint32_t force)
+static struct force_base base_of(const struct world_build *built, uint32_t force)
 {
-    const struct entities *e = &genesis->first;
-    struct force_base middle = middle_of(e, genesis->used, force), base = middle;
+    const struct entities *e = &built->first;
+    struct force_base middle = middle_of(e, built->used, force), base = middle;
     double least = INFINITY;
-    for (uint32_t i = 0; i < genesis->used; i++) {
+    for (uint32_t i = 0; i < built->used; i++) {
         double dx = e->x[i] - middle.x, dz = e->z[i] - middle.z;
         if (e->force[i] == force && dx * dx + dz * dz < least &&
-            genesis->scenario->kinds[e->kind[i]].domain == DOMAIN_LAND) {
+            built->scenario->kinds[e->kind[i]].domain == DOMAIN_LAND) {
             least = dx * dx + dz * dz;
             base = (struct force_base){e->x[i], e->z[i]};
         }
@@ -324,35 +325,35 @@ static struct force_base base_of(const struct world_build *genesis, uint32_t for
 }
 
 /* Of forces that none was given for: in their midst; of those without vehicles amid the map. */
-static void set_bases(struct world_build *genesis)
+static void set_bases(struct world_build *built)
 {
     for (uint32_t force = 0; force < FORCE_COUNT; force++)
-        genesis->base[force] = genesis->scenario->based[force]
-                                   ? genesis->scenario->settings->params.base[force]
-                                   : base_of(genesis, force);
+        built->base[force] = built->scenario->based[force]
+                                 ? built->scenario->settings->params.base[force]
+                                 : base_of(built, force);
 }
 
-int vehicle_placement_build(struct world_build *genesis, const struct error_text *to)
+int vehicle_placement_build(struct world_build *built, const struct error_text *to)
 {
-    const struct scenario *scenario = genesis->scenario;
+    const struct scenario *scenario = built->scenario;
     uint32_t capacity = scenario->settings->params.capacity;
-    struct terrain terrain = world_build_terrain(genesis);
-    struct vehicle_placement muster = {.genesis = genesis, .to = to};
+    struct terrain terrain = world_build_terrain(built);
+    struct vehicle_placement placement = {.built = built, .to = to};
     int result = 0;
-    genesis->first_memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(capacity));
-    genesis->names = calloc(capacity, sizeof *genesis->names);
-    genesis->formations = calloc(scenario->group_count + 1, sizeof *genesis->formations);
-    if (!genesis->first_memory || !genesis->names || !genesis->formations)
+    built->first_memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(capacity));
+    built->names = calloc(capacity, sizeof *built->names);
+    built->formations = calloc(scenario->group_count + 1, sizeof *built->formations);
+    if (!built->first_memory || !built->names || !built->formations)
         return error_text_memory(to);
-    memset(genesis->first_memory, 0, entities_bytes(capacity));
-    entities_bind(&genesis->first, capacity, genesis->first_memory);
-    if (free_place_init(&muster.place, &terrain, genesis->fixed, scenario->kinds,
-                        genesis->reach_start, genesis->reach, scenario->settings->params.seed) != 0)
+    memset(built->first_memory, 0, entities_bytes(capacity));
+    entities_bind(&built->first, capacity, built->first_memory);
+    if (free_place_init(&placement.place, &terrain, built->fixed, scenario->kinds,
+                        built->reach_start, built->reach, scenario->settings->params.seed) != 0)
         return error_text_memory(to);
     for (uint32_t g = 0; g < scenario->group_count && result == 0; g++)
-        result = build_group(&muster, &scenario->groups[g]);
-    free_place_free(&muster.place);
-    set_bases(genesis);
-    genesis->counts.names = genesis->used;
+        result = build_group(&placement, &scenario->groups[g]);
+    free_place_free(&placement.place);
+    set_bases(built);
+    built->counts.names = built->used;
     return result;
 }

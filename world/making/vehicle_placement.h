@@ -6,8 +6,9 @@
 
 struct world_build;
 
-/* Fills the genesis's first entities, names, formations and bases; its ground and objects must be
- * there. 0, or -1 with the complaint: no room in the table, no place on the map, out of memory. */
-int vehicle_placement_build(struct world_build *genesis, const struct error_text *to);
+/* Fills the built world's first entities, names, formations and bases; its ground and objects must
+ * be there. 0, or -1 with the complaint: no room in the table, no place on the map, out of memory.
+ */
+int vehicle_placement_build(struct world_build *built, const struct error_text *to);
 
 #endif

@@ -22,24 +22,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int build_ground(struct world_build *genesis, const struct error_text *to)
+static int build_ground(struct world_build *built, const struct error_text *to)
 {
-    const struct scenario *scenario = genesis->scenario;
+    const struct scenario *scenario = built->scenario;
     uint32_t side = (uint32_t)(WORLD_SIDE_M / scenario->settings->spacing_m) + 1;
     size_t posts = (size_t)side * side;
-    genesis->counts.posts_side = side;
-    genesis->posts = malloc(posts * sizeof *genesis->posts);
-    genesis->cover = malloc(posts);
-    genesis->roads = malloc(GENERATE_ROAD_MAX * sizeof *genesis->roads);
-    if (!genesis->posts || !genesis->cover || !genesis->roads)
+    built->counts.posts_side = side;
+    built->posts = malloc(posts * sizeof *built->posts);
+    built->cover = malloc(posts);
+    built->roads = malloc(GENERATE_ROAD_MAX * sizeof *built->roads);
+    if (!built->posts || !built->cover || !built->roads)
         return error_text_memory(to);
     if (scenario->settings->terrain == TERRAIN_FLAT) {
-        generate_flat(genesis->posts, genesis->cover, side, scenario->settings->flat_height_m);
+        generate_flat(built->posts, built->cover, side, scenario->settings->flat_height_m);
         return 0;
     }
-    if (generate_hunter_liggett(genesis->posts, genesis->cover, side,
-                                scenario->settings->params.seed, genesis->roads, GENERATE_ROAD_MAX,
-                                &genesis->counts.road_points) != 0)
+    if (generate_hunter_liggett(built->posts, built->cover, side, scenario->settings->params.seed,
+                                built->roads, GENERATE_ROAD_MAX, &built->counts.road_points) != 0)
         return error_text_say(to, "the ground could not be generated: %s", strerror(errno));
     return 0;
 }
@@ -57,13 +56,13 @@ static int by_square(const void *a, const void *b)
     return p->kind < q->kind ? -1 : p->kind > q->kind;
 }
 
-static void list_objects(struct world_build *genesis, const struct terrain *terrain)
+static void list_objects(struct world_build *built, const struct terrain *terrain)
 {
-    const struct scenario *scenario = genesis->scenario;
+    const struct scenario *scenario = built->scenario;
     for (uint32_t i = 0; i < scenario->object_count; i++) {
         const struct scenario_object *from = &scenario->object_list[i];
         const struct kind *kind = &scenario->kinds[from->kind];
-        genesis->fixed[i] = (struct fixed_object){
+        built->fixed[i] = (struct fixed_object){
             .x = from->x,
             .z = from->z,
             .y = (float)terrain_base_height(terrain, from->x, from->z),
@@ -73,33 +72,33 @@ static void list_objects(struct world_build *genesis, const struct terrain *terr
             .turn = (uint16_t)(maths_wrap_turn(from->heading_rad) * (65536.0 / TWO_PI)),
         };
     }
-    qsort(genesis->fixed, scenario->object_count, sizeof *genesis->fixed, by_square);
+    qsort(built->fixed, scenario->object_count, sizeof *built->fixed, by_square);
 }
 
-static int build_objects(struct world_build *genesis, const struct error_text *to)
+static int build_objects(struct world_build *built, const struct error_text *to)
 {
-    const struct scenario *scenario = genesis->scenario;
-    struct terrain terrain = world_build_terrain(genesis);
+    const struct scenario *scenario = built->scenario;
+    struct terrain terrain = world_build_terrain(built);
     uint32_t count = scenario->settings->objects == OBJECTS_TABLE1 ? GENERATE_TABLE1_TOTAL
                      : scenario->settings->objects == OBJECTS_LIST ? scenario->object_count
                                                                    : 0;
-    genesis->counts.fixed = count;
-    genesis->fixed = calloc(count + 1, sizeof *genesis->fixed);
-    if (!genesis->fixed)
+    built->counts.fixed = count;
+    built->fixed = calloc(count + 1, sizeof *built->fixed);
+    if (!built->fixed)
         return error_text_memory(to);
     if (scenario->settings->objects == OBJECTS_LIST)
-        list_objects(genesis, &terrain);
+        list_objects(built, &terrain);
     if (scenario->settings->objects == OBJECTS_TABLE1 &&
-        generate_table1_objects(genesis->fixed, &terrain, scenario->kinds, scenario->kind_count,
-                                genesis->roads, genesis->counts.road_points,
+        generate_table1_objects(built->fixed, &terrain, scenario->kinds, scenario->kind_count,
+                                built->roads, built->counts.road_points,
                                 scenario->settings->params.seed) != 0)
         return errno == EINVAL
                    ? error_text_say(to, "objects: a class of Table 1 has no kind in config/kinds")
                    : error_text_memory(to);
-    if (fixed_index_build(genesis->fixed, count, scenario->kinds, &genesis->reach_start,
-                          &genesis->reach) != 0)
+    if (fixed_index_build(built->fixed, count, scenario->kinds, &built->reach_start,
+                          &built->reach) != 0)
         return error_text_memory(to);
-    genesis->counts.reach = genesis->reach_start[GRIDSQUARE_COUNT];
+    built->counts.reach = built->reach_start[GRIDSQUARE_COUNT];
     return 0;
 }
 
@@ -111,68 +110,68 @@ static int by_tick(const void *a, const void *b)
     return p->reserved < q->reserved ? -1 : p->reserved > q->reserved; /* the file's order */
 }
 
-static int build_fire(struct world_build *genesis, uint32_t index,
-                      const struct callsigns *callsigns, const struct error_text *to)
+static int build_fire(struct world_build *built, uint32_t index, const struct name_index *names,
+                      const struct error_text *to)
 {
-    const struct scenario *scenario = genesis->scenario;
+    const struct scenario *scenario = built->scenario;
     const struct scenario_fire *from = &scenario->fires[index];
-    struct fire_order *order = &genesis->fires[index];
+    struct fire_order *order = &built->fires[index];
     double tick = floor(from->at_s * scenario->settings->params.hz + 0.5);
     order->tick = tick < 1.0 ? 1 : (uint64_t)tick;
     order->kind = from->munition;
     order->reserved = (uint16_t)index;
     order->x = from->x;
     order->z = from->z;
-    if (name_index_find(callsigns, from->shooter, &order->shooter_slot) != 0)
+    if (name_index_find(names, from->shooter, &order->shooter_slot) != 0)
         return error_text_say(to, "%s:%d: fires.shooter = \"%s\": no vehicle has that name",
                               scenario->settings->params.scenario, from->line, from->shooter);
-    if (name_index_find(callsigns, from->target, &order->target_slot) != 0)
+    if (name_index_find(names, from->target, &order->target_slot) != 0)
         return error_text_say(to, "%s:%d: fires.target = \"%s\": no vehicle has that name",
                               scenario->settings->params.scenario, from->line, from->target);
     return 0;
 }
 
-static int build_fires(struct world_build *genesis, const struct callsigns *callsigns,
+static int build_fires(struct world_build *built, const struct name_index *name_index,
                        const struct error_text *to)
 {
-    uint32_t count = genesis->scenario->fire_count;
-    genesis->fires = calloc(count + 1, sizeof *genesis->fires);
-    if (!genesis->fires)
+    uint32_t count = built->scenario->fire_count;
+    built->fires = calloc(count + 1, sizeof *built->fires);
+    if (!built->fires)
         return error_text_memory(to);
     for (uint32_t i = 0; i < count; i++) {
-        if (build_fire(genesis, i, callsigns, to) != 0)
+        if (build_fire(built, i, name_index, to) != 0)
             return -1;
     }
-    qsort(genesis->fires, count, sizeof *genesis->fires, by_tick);
-    genesis->counts.fires = count;
+    qsort(built->fires, count, sizeof *built->fires, by_tick);
+    built->counts.fires = count;
     return 0;
 }
 
 /* What goes by vehicles' names: ordered shots, and those of scripts. */
-static int build_orders(struct world_build *genesis, const struct error_text *to)
+static int build_orders(struct world_build *built, const struct error_text *to)
 {
-    struct callsigns callsigns;
-    if (name_index_init(&callsigns, genesis->names, genesis->used) != 0)
+    struct name_index name_index;
+    if (name_index_init(&name_index, built->names, built->used) != 0)
         return error_text_memory(to);
-    int result = script_build_build(genesis, &callsigns, to);
+    int result = script_build_build(built, &name_index, to);
     if (result == 0)
-        result = build_fires(genesis, &callsigns, to);
-    name_index_free(&callsigns);
+        result = build_fires(built, &name_index, to);
+    name_index_free(&name_index);
     return result;
 }
 
-struct terrain world_build_terrain(const struct world_build *genesis)
+struct terrain world_build_terrain(const struct world_build *built)
 {
-    return (struct terrain){genesis->posts, genesis->cover, genesis->counts.posts_side,
-                            WORLD_SIDE_M / (double)(genesis->counts.posts_side - 1)};
+    return (struct terrain){built->posts, built->cover, built->counts.posts_side,
+                            WORLD_SIDE_M / (double)(built->counts.posts_side - 1)};
 }
 
-int world_build_build(struct world_build *genesis, const struct scenario *scenario, char *text,
-                      size_t bytes)
+int world_build_make(struct world_build *built, const struct scenario *scenario, char *text,
+                     size_t bytes)
 {
     struct error_text to = {text, bytes};
-    *genesis = (struct world_build){.scenario = scenario};
-    genesis->counts = (struct counts){
+    *built = (struct world_build){.scenario = scenario};
+    built->counts = (struct counts){
         .kinds = scenario->kind_count,
         .models = scenario->model_count,
         .model_vertices = scenario->vertex_count,
@@ -183,32 +182,32 @@ int world_build_build(struct world_build *genesis, const struct scenario *scenar
         .areas = scenario->area_count,
         .recipe = provenance_room(scenario->recipe.bytes),
     };
-    if (build_ground(genesis, &to) != 0 || build_objects(genesis, &to) != 0 ||
-        road_routing_build(genesis, &to) != 0 || vehicle_placement_build(genesis, &to) != 0 ||
-        build_orders(genesis, &to) != 0) {
-        world_build_free(genesis);
+    if (build_ground(built, &to) != 0 || build_objects(built, &to) != 0 ||
+        road_routing_build(built, &to) != 0 || vehicle_placement_build(built, &to) != 0 ||
+        build_orders(built, &to) != 0) {
+        world_build_free(built);
         return -1;
     }
     return 0;
 }
 
-void world_build_free(struct world_build *genesis)
+void world_build_free(struct world_build *built)
 {
-    free(genesis->posts);
-    free(genesis->cover);
-    free(genesis->fixed);
-    free(genesis->reach_start);
-    free(genesis->reach);
-    free(genesis->roads);
-    free(genesis->fires);
-    free(genesis->routes);
-    free(genesis->route_points);
-    free(genesis->formations);
-    free(genesis->scripts);
-    free(genesis->steps);
-    free(genesis->names);
-    free(genesis->first_memory);
-    *genesis = (struct world_build){0};
+    free(built->posts);
+    free(built->cover);
+    free(built->fixed);
+    free(built->reach_start);
+    free(built->reach);
+    free(built->roads);
+    free(built->fires);
+    free(built->routes);
+    free(built->route_points);
+    free(built->formations);
+    free(built->scripts);
+    free(built->steps);
+    free(built->names);
+    free(built->first_memory);
+    *built = (struct world_build){0};
 }
 
 /* Static parts are const to everybody after this one writer. */
@@ -218,26 +217,26 @@ static void fill(const void *to, const void *from, size_t count, size_t size)
         memcpy((void *)(uintptr_t)to, from, count * size);
 }
 
-static void fill_state(const struct world_build *genesis, struct state *state)
+static void fill_state(const struct world_build *built, struct state *state)
 {
     struct state_head *head = state->head;
     uint32_t vehicles = 0;
     *head = (struct state_head){.time_scale = 1.0,
-                                .used = genesis->used,
-                                .alloc_next = genesis->used,
-                                .next_id = genesis->used + 1};
-    entities_copy(&state->entities, &genesis->first, 0, genesis->used);
-    for (uint32_t i = 0; i < genesis->used; i++)
-        vehicles += genesis->first.state[i] != ENTITY_FREE;
+                                .used = built->used,
+                                .alloc_next = built->used,
+                                .next_id = built->used + 1};
+    entities_copy(&state->entities, &built->first, 0, built->used);
+    for (uint32_t i = 0; i < built->used; i++)
+        vehicles += built->first.state[i] != ENTITY_FREE;
     head->vehicles = vehicles;
-    memset(state->fixed_damage, DAMAGE_NONE, genesis->counts.fixed);
-    state_seal(state, genesis->counts.fixed);
+    memset(state->fixed_damage, DAMAGE_NONE, built->counts.fixed);
+    state_seal(state, built->counts.fixed);
 }
 
-void world_build_fill(const struct world_build *genesis, struct world *world, struct state state[2])
+void world_build_fill(const struct world_build *built, struct world *world, struct state state[2])
 {
-    const struct scenario *s = genesis->scenario;
-    const struct counts *n = &genesis->counts;
+    const struct scenario *s = built->scenario;
+    const struct counts *n = &built->counts;
     size_t posts = (size_t)n->posts_side * n->posts_side;
     fill(world->kinds, s->kinds, n->kinds, sizeof *s->kinds);
     fill(world->models, s->models, n->models, sizeof *s->models);
@@ -246,22 +245,21 @@ void world_build_fill(const struct world_build *genesis, struct world *world, st
     fill(world->hulls, s->hulls, n->hulls, sizeof *s->hulls);
     fill(world->hull_vertices, s->hull_vertices, n->hull_vertices, sizeof *s->hull_vertices);
     fill(world->hull_planes, s->hull_planes, n->hull_planes, sizeof *s->hull_planes);
-    fill(world->terrain.posts, genesis->posts, posts, sizeof *genesis->posts);
-    fill(world->terrain.cover, genesis->cover, posts, 1);
-    fill(world->fixed, genesis->fixed, n->fixed, sizeof *genesis->fixed);
-    fill(world->reach_start, genesis->reach_start, GRIDSQUARE_COUNT + 1, sizeof(uint32_t));
-    fill(world->reach, genesis->reach, n->reach, sizeof(uint32_t));
+    fill(world->terrain.posts, built->posts, posts, sizeof *built->posts);
+    fill(world->terrain.cover, built->cover, posts, 1);
+    fill(world->fixed, built->fixed, n->fixed, sizeof *built->fixed);
+    fill(world->reach_start, built->reach_start, GRIDSQUARE_COUNT + 1, sizeof(uint32_t));
+    fill(world->reach, built->reach, n->reach, sizeof(uint32_t));
     fill(world->areas, s->areas, n->areas, sizeof *s->areas);
-    fill(world->routes, genesis->routes, n->routes, sizeof *genesis->routes);
-    fill(world->route_points, genesis->route_points, n->route_points,
-         sizeof *genesis->route_points);
-    fill(world->fires, genesis->fires, n->fires, sizeof *genesis->fires);
-    fill(world->road_points, genesis->roads, n->road_points, sizeof *genesis->roads);
-    fill(world->formations, genesis->formations, n->formations, sizeof *genesis->formations);
-    fill(world->scripts, genesis->scripts, n->scripts, sizeof *genesis->scripts);
-    fill(world->script_steps, genesis->steps, n->script_steps, sizeof *genesis->steps);
-    fill(world->names, genesis->names, n->names, sizeof *genesis->names);
+    fill(world->routes, built->routes, n->routes, sizeof *built->routes);
+    fill(world->route_points, built->route_points, n->route_points, sizeof *built->route_points);
+    fill(world->fires, built->fires, n->fires, sizeof *built->fires);
+    fill(world->road_points, built->roads, n->road_points, sizeof *built->roads);
+    fill(world->formations, built->formations, n->formations, sizeof *built->formations);
+    fill(world->scripts, built->scripts, n->scripts, sizeof *built->scripts);
+    fill(world->script_steps, built->steps, n->script_steps, sizeof *built->steps);
+    fill(world->names, built->names, n->names, sizeof *built->names);
     fill(world->recipe, s->recipe.text, s->recipe.bytes, 1);
     for (int i = 0; i < 2; i++)
-        fill_state(genesis, &state[i]);
+        fill_state(built, &state[i]);
 }

@@ -1,4 +1,4 @@
-/* Genesis: a scenario becomes a world and its frame 0. Runs once, at creation, in one process. */
+/* Makes a world and its frame 0 from a scenario. Runs once, at creation, in one process. */
 #ifndef JOLON_WORLD_MAKING_WORLD_BUILD_H
 #define JOLON_WORLD_MAKING_WORLD_BUILD_H
 
@@ -41,17 +41,16 @@ struct world_build {
 
 /* 0, or -1 with a message of at most bytes in text: no room for the vehicles, an unknown name in
  * a fire order, no place found for a vehicle, out of memory. */
-int world_build_build(struct world_build *genesis, const struct scenario *scenario, char *text,
-                      size_t bytes);
+int world_build_make(struct world_build *built, const struct scenario *scenario, char *text,
+                     size_t bytes);
 /* The ground as built so far. */
-struct terrain world_build_terrain(const struct world_build *genesis);
+struct terrain world_build_terrain(const struct world_build *built);
 
-void world_build_free(struct world_build *genesis);
+void world_build_free(struct world_build *built);
 
 /* Copies everything into a world whose pointers lead to writable memory of the counts' sizes, and
- * frame 0 into both states. world->params must already hold scenario->params with the genesis's
+ * frame 0 into both states. world->params must already hold scenario->params with built's
  * bases. */
-void world_build_fill(const struct world_build *genesis, struct world *world,
-                      struct state state[2]);
+void world_build_fill(const struct world_build *built, struct world *world, struct state state[2]);
 
 #endif

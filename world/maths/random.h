@@ -7,7 +7,7 @@
 
 /* One name for each use of a number, so that two uses never draw the same one. */
 enum random_purpose {
-    RANDOM_PLACE_X = 1, /* genesis: where a vehicle of a group starts */
+    RANDOM_PLACE_X = 1, /* creation: where a vehicle of a group starts */
     RANDOM_PLACE_Z,
     RANDOM_HEADING,
     RANDOM_GOAL_X, /* mover: the next patrol goal */
@@ -15,12 +15,12 @@ enum random_purpose {
     RANDOM_DISPERSION_AZIMUTH, /* mover: a round's error */
     RANDOM_DISPERSION_ELEVATION,
     RANDOM_COURAGE,  /* mover: return fire or flee */
-    RANDOM_NOISE,    /* genesis: terrain */
-    RANDOM_FOREST,   /* genesis: where trees cluster */
-    RANDOM_OBJECT_X, /* genesis: a fixed object's place in its square */
+    RANDOM_NOISE,    /* creation: terrain */
+    RANDOM_FOREST,   /* creation: where trees cluster */
+    RANDOM_OBJECT_X, /* creation: a fixed object's place in its square */
     RANDOM_OBJECT_Z,
     RANDOM_OBJECT_SHAPE,
-    RANDOM_SQUARE_SIZE,   /* genesis: how many objects an occupied square holds */
+    RANDOM_SQUARE_SIZE,   /* creation: how many objects an occupied square holds */
     RANDOM_MISSION_RANGE, /* where a round of a fire mission falls */
     RANDOM_MISSION_AZIMUTH,
 };

@@ -1,4 +1,5 @@
-/* The reach of every gridsquare: which fixed objects overlap it (thesis row 37). Genesis only. */
+/* The index of fixed objects: which of them overlap each gridsquare (thesis row 37). Built once, at
+ * creation. */
 #ifndef JOLON_WORLD_TERRAIN_FIXED_INDEX_H
 #define JOLON_WORLD_TERRAIN_FIXED_INDEX_H
 

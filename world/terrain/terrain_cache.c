@@ -54,30 +54,30 @@ static void copy_posts(const struct terrain *terrain, struct terrain_cache_entry
 }
 
 VECTOR_CLONES
-void terrain_cache_find(const struct terrain *terrain, struct terrain_cache *footing,
+void terrain_cache_find(const struct terrain *terrain, struct terrain_cache *cache,
                         const union simd_lanes *x, const union simd_lanes *z)
 {
     for (int h = 0; h < LANE_FOURS; h++) {
-        nearest_of(terrain, &x->f64x4[h], &footing->column.f64x4[h]);
-        nearest_of(terrain, &z->f64x4[h], &footing->row.f64x4[h]);
-        patch_begin(terrain, &footing->column.f64x4[h]);
-        patch_begin(terrain, &footing->row.f64x4[h]);
+        nearest_of(terrain, &x->f64x4[h], &cache->column.f64x4[h]);
+        nearest_of(terrain, &z->f64x4[h], &cache->row.f64x4[h]);
+        patch_begin(terrain, &cache->column.f64x4[h]);
+        patch_begin(terrain, &cache->row.f64x4[h]);
     }
     for (int l = 0; l < LANE_COUNT; l++) {
-        struct terrain_cache_entry *patch = footing->patch[l];
-        if (patch->column != footing->column.lane[l] || patch->row != footing->row.lane[l] ||
+        struct terrain_cache_entry *patch = cache->patch[l];
+        if (patch->column != cache->column.lane[l] || patch->row != cache->row.lane[l] ||
             !patch->held)
-            copy_posts(terrain, patch, (uint32_t)footing->column.lane[l],
-                       (uint32_t)footing->row.lane[l]);
+            copy_posts(terrain, patch, (uint32_t)cache->column.lane[l],
+                       (uint32_t)cache->row.lane[l]);
     }
 }
 
 /* Where points lie in their patches, counted in posts, and which lie outside: they get 0. */
-static inline void find_in_patches(const struct terrain_cache *footing, int h, uint32_t side,
+static inline void find_in_patches(const struct terrain_cache *cache, int h, uint32_t side,
                                    const four_cells *column, const four_cells *row,
                                    four_cells *post, four_cells *outside)
 {
-    four_cells right = *column - footing->column.f64x4[h], down = *row - footing->row.f64x4[h];
+    four_cells right = *column - cache->column.f64x4[h], down = *row - cache->row.f64x4[h];
     *outside = ((four_counts)right >= side) | ((four_counts)down >= side);
     *post = (down * TERRAIN_CACHE_SIDE + right) & ~*outside;
 }
@@ -98,15 +98,15 @@ static inline void two_posts(const float *a, const float *b, const float *c, con
 }
 
 /* Heights of four points at once, as base_height() does it. */
-static inline void heights_four(const struct terrain *terrain, const struct terrain_cache *footing,
+static inline void heights_four(const struct terrain *terrain, const struct terrain_cache *cache,
                                 int h, const f64x4 *x, const f64x4 *z, f64x4 *height)
 {
     f64x4 u, v, nw, ne, sw, se;
     four_cells column, row, post, outside;
     cells_of(terrain, x, &column, &u);
     cells_of(terrain, z, &row, &v);
-    find_in_patches(footing, h, PATCH_CELLS, &column, &row, &post, &outside);
-    struct terrain_cache_entry *const *patch = footing->patch + (ptrdiff_t)h * 4;
+    find_in_patches(cache, h, PATCH_CELLS, &column, &row, &post, &outside);
+    struct terrain_cache_entry *const *patch = cache->patch + (ptrdiff_t)h * 4;
     const float *a = patch[0]->post + post[0], *b = patch[1]->post + post[1];
     const float *c = patch[2]->post + post[2], *d = patch[3]->post + post[3];
     two_posts(a, b, c, d, &nw, &ne);
@@ -123,16 +123,16 @@ static inline void heights_four(const struct terrain *terrain, const struct terr
 }
 
 VECTOR_CLONES
-void terrain_cache_heights(const struct terrain *terrain, const struct terrain_cache *footing,
+void terrain_cache_heights(const struct terrain *terrain, const struct terrain_cache *cache,
                            const union simd_lanes *x, const union simd_lanes *z,
                            union simd_lanes *height)
 {
     for (int h = 0; h < LANE_FOURS; h++)
-        heights_four(terrain, footing, h, &x->f64x4[h], &z->f64x4[h], &height->f64x4[h]);
+        heights_four(terrain, cache, h, &x->f64x4[h], &z->f64x4[h], &height->f64x4[h]);
 }
 
 VECTOR_CLONES
-void terrain_cache_water(const struct terrain *terrain, const struct terrain_cache *footing,
+void terrain_cache_water(const struct terrain *terrain, const struct terrain_cache *cache,
                          const union simd_lanes *x, const union simd_lanes *z,
                          union lane_masks *water)
 {
@@ -140,8 +140,8 @@ void terrain_cache_water(const struct terrain *terrain, const struct terrain_cac
         four_cells column, row, post, outside;
         nearest_of(terrain, &x->f64x4[h], &column);
         nearest_of(terrain, &z->f64x4[h], &row);
-        find_in_patches(footing, h, TERRAIN_CACHE_SIDE, &column, &row, &post, &outside);
-        struct terrain_cache_entry *const *patch = footing->patch + (ptrdiff_t)h * 4;
+        find_in_patches(cache, h, TERRAIN_CACHE_SIDE, &column, &row, &post, &outside);
+        struct terrain_cache_entry *const *patch = cache->patch + (ptrdiff_t)h * 4;
         water->f64x4[h] =
             -((four_masks){patch[0]->water >> post[0] & 1, patch[1]->water >> post[1] & 1,
                            patch[2]->water >> post[2] & 1, patch[3]->water >> post[3] & 1});

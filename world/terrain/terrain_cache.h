@@ -22,15 +22,15 @@ struct terrain_cache {
 };
 
 /* Makes the patches those about (x, z). */
-void terrain_cache_find(const struct terrain *terrain, struct terrain_cache *footing,
+void terrain_cache_find(const struct terrain *terrain, struct terrain_cache *cache,
                         const union simd_lanes *x, const union simd_lanes *z);
 
 /* Height of the uncratered ground [m] at a point of each body, to the bit terrain_base_height();
  * and whether there is water, as terrain_cover() says. Fast where the point is in its patch. */
-void terrain_cache_heights(const struct terrain *terrain, const struct terrain_cache *footing,
+void terrain_cache_heights(const struct terrain *terrain, const struct terrain_cache *cache,
                            const union simd_lanes *x, const union simd_lanes *z,
                            union simd_lanes *height);
-void terrain_cache_water(const struct terrain *terrain, const struct terrain_cache *footing,
+void terrain_cache_water(const struct terrain *terrain, const struct terrain_cache *cache,
                          const union simd_lanes *x, const union simd_lanes *z,
                          union lane_masks *water);
 

@@ -41,7 +41,7 @@ static uint64_t run(const char *shape, const char *method, uint64_t seed)
     fixture_open(&f, text);
     fixture_run(&f, FRAMES);
     uint64_t digest = fixture_digest(&f);
-    const struct tally *tally = &fixture_state(&f).head->tally;
+    const struct counters *tally = &fixture_state(&f).head->tally;
     print_message("%s by %s: %llu collisions, %llu detonations\n", shape, method,
                   (unsigned long long)tally->collisions, (unsigned long long)tally->detonations);
     assert_true(tally->collisions > 50 && tally->detonations > 50); /* else it proves nothing */

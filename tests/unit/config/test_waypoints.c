@@ -1,5 +1,5 @@
 /* Files of waypoints: what they say, and what is refused with line, value and what is right; and
- * what genesis refuses of scripts. */
+ * what the building of the world refuses of scripts. */
 #include "config/waypoints.h"
 
 #include "tests/support/fixture.h"
@@ -71,13 +71,13 @@ static void test_wrong_lines_are_refused(void **state)
     }
 }
 
-static void check_genesis(const char *text, const char *says)
+static void check_build(const char *text, const char *says)
 {
     static char complaint[512];
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     fixture_scenario(&scenario, text);
-    if (world_build_build(&genesis, &scenario, complaint, sizeof complaint) == 0)
+    if (world_build_make(&built, &scenario, complaint, sizeof complaint) == 0)
         fail_msg("taken: %s", text);
     if (!strstr(complaint, says))
         fail_msg("\"%s\" is not in: %s", says, complaint);
@@ -87,24 +87,23 @@ static void check_genesis(const char *text, const char *says)
 static void test_what_a_kind_cannot_do_is_refused(void **state)
 {
     (void)state;
-    check_genesis("scripts = ( { name = \"a\"; steps = ( { at_s = 0; arrive = [1000, 1000]; }, { "
-                  "at_s = 10; arrive = [2000, 1000]; } ); } );\n"
-                  "vehicles = ( { kind = \"tank\"; script = \"a\"; } );",
-                  "script \"a\": 1000 m in 10 s is more than the 16.67 m/s of a tank; right would "
-                  "be: there at 60.0 s or later");
-    check_genesis(
-        "terrain = { source = \"generated\"; }; objects = { source = \"none\"; };\n"
-        "scripts = ( { name = \"a\"; steps = ( { go = [25000, 25000]; } ); } );\n"
-        "vehicles = ( { kind = \"ship\"; at = [1500, 29000]; script = \"a\"; } );",
-        "script \"a\": [25000, 25000] is land, where no ship goes; right would be: a point "
-        "on water");
-    check_genesis("scripts = ( { name = \"a\"; steps = ( { fire = \"X\"; } ); } );\n"
-                  "vehicles = ( { kind = \"tank\"; script = \"a\"; } );",
-                  "script \"a\": fire = \"X\": no vehicle has that name");
-    check_genesis("scripts = ( { name = \"a\"; steps = ( { behaviour = \"route\"; } ); } );\n"
-                  "vehicles = ( { kind = \"tank\"; script = \"a\"; } );",
-                  "script \"a\": behaviour = \"route\" has no route; right would be: route = ( [x, "
-                  "z], [x, z] ) with the vehicle");
+    check_build("scripts = ( { name = \"a\"; steps = ( { at_s = 0; arrive = [1000, 1000]; }, { "
+                "at_s = 10; arrive = [2000, 1000]; } ); } );\n"
+                "vehicles = ( { kind = \"tank\"; script = \"a\"; } );",
+                "script \"a\": 1000 m in 10 s is more than the 16.67 m/s of a tank; right would "
+                "be: there at 60.0 s or later");
+    check_build("terrain = { source = \"generated\"; }; objects = { source = \"none\"; };\n"
+                "scripts = ( { name = \"a\"; steps = ( { go = [25000, 25000]; } ); } );\n"
+                "vehicles = ( { kind = \"ship\"; at = [1500, 29000]; script = \"a\"; } );",
+                "script \"a\": [25000, 25000] is land, where no ship goes; right would be: a point "
+                "on water");
+    check_build("scripts = ( { name = \"a\"; steps = ( { fire = \"X\"; } ); } );\n"
+                "vehicles = ( { kind = \"tank\"; script = \"a\"; } );",
+                "script \"a\": fire = \"X\": no vehicle has that name");
+    check_build("scripts = ( { name = \"a\"; steps = ( { behaviour = \"route\"; } ); } );\n"
+                "vehicles = ( { kind = \"tank\"; script = \"a\"; } );",
+                "script \"a\": behaviour = \"route\" has no route; right would be: route = ( [x, "
+                "z], [x, z] ) with the vehicle");
 }
 
 int main(void)

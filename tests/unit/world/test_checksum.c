@@ -16,7 +16,7 @@
 
 struct own_table {
     struct entities rows;
-    struct piece_hashes hashes[3];
+    struct block_hashes hashes[3];
     unsigned char *memory;
 };
 
@@ -59,8 +59,8 @@ static int free_tables(void **state)
 
 static void take_all(bool known)
 {
-    for (uint32_t piece = 0; piece < piece_count(ROWS); piece++)
-        table_take(table_of(&b), table_of(&a), piece, ROWS, known);
+    for (uint32_t block = 0; block < block_count(ROWS); block++)
+        table_take(table_of(&b), table_of(&a), block, ROWS, known);
 }
 
 static bool same(void)
@@ -94,7 +94,7 @@ static void test_what_is_known_to_be_the_same_is_not_copied(void **state)
 static void test_only_the_columns_named_are_hashed(void **state)
 {
     const uint64_t columns[3] = {0, COLUMN_BIT(kind), 0};
-    struct piece_hashes before[3];
+    struct block_hashes before[3];
     (void)state;
     memcpy(before, a.hashes, sizeof before);
     for (uint32_t i = 0; i < ROWS; i++) {
@@ -102,10 +102,10 @@ static void test_only_the_columns_named_are_hashed(void **state)
         a.rows.id[i] ^= 1;
     }
     table_hash(table_of(&a), ROWS, columns, NULL);
-    for (int piece = 0; piece < 3; piece++) {
+    for (int block = 0; block < 3; block++) {
         for (int column = 0; column < ENTITY_COLUMN_COUNT; column++)
-            assert_int_equal(a.hashes[piece].column[column] != before[piece].column[column],
-                             piece == 1 && column == COLUMN_kind);
+            assert_int_equal(a.hashes[block].column[column] != before[block].column[column],
+                             block == 1 && column == COLUMN_kind);
     }
 }
 
@@ -156,8 +156,8 @@ static void test_a_flipped_bit_of_the_hashes_is_found(void **state)
     (void)state;
     fixture_open(&f, "vehicles = ( { kind = \"tank\"; count = 20; } );");
     fixture_run(&f, 3);
-    assert_true(each_bit_counts(&f, fixture_state(&f).hashes, sizeof(struct piece_hashes)));
-    assert_true(each_bit_counts(&f, f.view.m.hashes, sizeof(struct piece_hashes)));
+    assert_true(each_bit_counts(&f, fixture_state(&f).hashes, sizeof(struct block_hashes)));
+    assert_true(each_bit_counts(&f, f.view.m.hashes, sizeof(struct block_hashes)));
     assert_true(each_bit_counts(&f, fixture_state(&f).entities.x, 8));
     assert_true(each_bit_counts(&f, f.view.m.entities.flags, 8));
     fixture_close(&f);
@@ -186,11 +186,11 @@ static void test_who_takes_over_copies_everything(void **state)
 
 static void test_a_blank_column_is_known_by_its_hash(void **state)
 {
-    struct piece_hashes blank;
+    struct block_hashes blank;
     const uint32_t few[] = {CHECKSUM_ROWS, 2 * CHECKSUM_ROWS - 1};
     const uint64_t both = COLUMN_BIT(spin_y) | COLUMN_BIT(target_id);
     (void)state;
-    piece_hashes_blank(&blank);
+    block_hashes_blank(&blank);
     memset(a.rows.spin_y, 0, ROWS * sizeof *a.rows.spin_y);
     memset(a.rows.target_id, 0, ROWS * sizeof *a.rows.target_id);
     memset(a.rows.bumped, 0, ROWS * sizeof *a.rows.bumped);

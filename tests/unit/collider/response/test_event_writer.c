@@ -15,7 +15,7 @@
 #define SLOTS 8
 
 static struct event ring[SLOTS];
-static struct tally tally;
+static struct counters tally;
 
 static struct event_writer sink_from(uint64_t first, uint32_t most)
 {
@@ -32,7 +32,7 @@ static int soil(void **state)
 {
     (void)state;
     memset(ring, 0xa5, sizeof ring);
-    tally = (struct tally){0};
+    tally = (struct counters){0};
     return 0;
 }
 

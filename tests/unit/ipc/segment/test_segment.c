@@ -61,16 +61,16 @@ static void begin(struct view *view, struct fixture *f)
 {
     fixture_open(f, SCENARIO);
     struct segment_header header =
-        segment_header_for(&f->scenario->settings->params, &f->genesis->counts);
+        segment_header_for(&f->scenario->settings->params, &f->built->counts);
     assert_int_equal(segment_begin(view, name, &header, &reason), 0);
-    segment_fill(view, f->genesis);
+    segment_fill(view, f->built);
 }
 
 static void make_again(void)
 {
     struct fixture f;
     fixture_open(&f, SCENARIO);
-    named_world_publish(name, f.scenario, f.genesis);
+    named_world_publish(name, f.scenario, f.built);
     fixture_close(&f);
 }
 
@@ -106,9 +106,9 @@ static void test_world_is_not_there_before_it_is_published(void **state)
     int before = named_world_leftovers();
     fixture_open(&f, SCENARIO);
     struct segment_header header =
-        segment_header_for(&f.scenario->settings->params, &f.genesis->counts);
+        segment_header_for(&f.scenario->settings->params, &f.built->counts);
     assert_int_equal(segment_begin(&made, unborn, &header, &reason), 0);
-    segment_fill(&made, f.genesis);
+    segment_fill(&made, f.built);
     assert_int_equal(named_world_leftovers(), before); /* a kill here leaves nothing */
     attach_refused(unborn, ROLE_NONE, "there is no world");
     assert_int_equal(segment_publish(&made, &reason), 0);
@@ -160,9 +160,9 @@ static void test_second_world_of_the_name_is_refused(void **state)
     (void)state;
     fixture_open(&f, "world = { seed = 99; capacity = 16; };");
     struct segment_header header =
-        segment_header_for(&f.scenario->settings->params, &f.genesis->counts);
+        segment_header_for(&f.scenario->settings->params, &f.built->counts);
     assert_int_equal(segment_begin(&second, name, &header, &reason), 0);
-    segment_fill(&second, f.genesis);
+    segment_fill(&second, f.built);
     assert_int_equal(segment_publish(&second, &reason), -1);
     assert_non_null(strstr(reason.text, "exists already"));
     assert_non_null(strstr(reason.text, name));
@@ -311,10 +311,10 @@ static int create_once(void *context)
     struct view view;
     struct fixture *f = context;
     struct segment_header header =
-        segment_header_for(&f->scenario->settings->params, &f->genesis->counts);
+        segment_header_for(&f->scenario->settings->params, &f->built->counts);
     if (segment_begin(&view, name, &header, &reason) != 0)
         return 2;
-    segment_fill(&view, f->genesis);
+    segment_fill(&view, f->built);
     int result = segment_publish(&view, &reason);
     if (result == 0)
         segment_detach(&view);
@@ -561,9 +561,9 @@ static void test_removed_name_can_be_made_again(void **state)
     assert_int_equal(segment_remove(name, true, &reason), 0);
     fixture_open(&f, SCENARIO);
     struct segment_header header =
-        segment_header_for(&f.scenario->settings->params, &f.genesis->counts);
+        segment_header_for(&f.scenario->settings->params, &f.built->counts);
     assert_int_equal(segment_begin(&new, name, &header, &reason), 0);
-    segment_fill(&new, f.genesis);
+    segment_fill(&new, f.built);
     assert_int_equal(segment_publish(&new, &reason), 0);
     segment_detach(&new);
     fixture_close(&f);

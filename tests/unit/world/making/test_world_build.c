@@ -1,4 +1,4 @@
-/* Genesis: from a scenario to a world and its frame 0, and what it refuses. */
+/* Building a world and its frame 0 from a scenario, and what is refused. */
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
@@ -20,14 +20,14 @@
 
 static struct fixture f;
 
-/* Builds a genesis that must be refused and gives its message. */
+/* Builds a world that must be refused and gives the message. */
 static const char *refusal(const char *text)
 {
     static char message[512];
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     fixture_scenario(&scenario, text);
-    if (world_build_build(&genesis, &scenario, message, sizeof message) == 0)
+    if (world_build_make(&built, &scenario, message, sizeof message) == 0)
         fail_msg("taken: %s", text);
     scenario_free(&scenario);
     return message;
@@ -282,7 +282,7 @@ static void test_static_parts_are_copied_whole(void **state)
     assert_memory_equal(world->hull_planes, s->hull_planes,
                         s->hull_plane_count * sizeof *s->hull_planes);
     struct params params = s->settings->params;
-    memcpy(params.base, f.genesis->base, sizeof params.base);
+    memcpy(params.base, f.built->base, sizeof params.base);
     assert_memory_equal(world->params, &params, sizeof params);
     assert_int_equal(world->counts.routes, 1);
     assert_int_equal(world->routes[0].count, 3);
@@ -327,15 +327,15 @@ static void test_no_place_is_refused_with_kind_number_and_area(void **state)
 static void test_land_vehicles_start_on_the_ground(void **state)
 {
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     char message[512];
     (void)state;
     fixture_scenario(&scenario, "vehicles = ( { kind = \"tank\"; at = [1000.0, 1000.0]; } );");
     scenario.groups[0].floating = 1;
     scenario.groups[0].altitude_m = 50.0;
-    assert_int_equal(world_build_build(&genesis, &scenario, message, sizeof message), 0);
-    assert_true(genesis.first.y[0] == FIXTURE_GROUND_M);
-    world_build_free(&genesis);
+    assert_int_equal(world_build_make(&built, &scenario, message, sizeof message), 0);
+    assert_true(built.first.y[0] == FIXTURE_GROUND_M);
+    world_build_free(&built);
     scenario_free(&scenario);
 }
 
@@ -344,23 +344,23 @@ static void test_land_vehicles_start_on_the_ground(void **state)
 static void test_scenario_that_does_not_fit_is_refused(void **state)
 {
     struct scenario scenario;
-    struct world_build genesis;
+    struct world_build built;
     char message[512];
     (void)state;
     fixture_scenario(&scenario,
                      "vehicles = ( { kind = \"tank\"; name = \"A\"; count = 20; } );"
                      "fires = ( { at_s = 1.0; shooter = \"A-1\"; target = \"A-2\"; } );");
     scenario.settings->params.capacity = 19;
-    assert_int_equal(world_build_build(&genesis, &scenario, message, sizeof message), -1);
+    assert_int_equal(world_build_make(&built, &scenario, message, sizeof message), -1);
     assert_non_null(strstr(message, "world.capacity = 19"));
-    assert_null(genesis.posts); /* nothing is left to free */
+    assert_null(built.posts); /* nothing is left to free */
     scenario.settings->params.capacity = 20;
     snprintf(scenario.fires[0].shooter, sizeof scenario.fires[0].shooter, "nobody");
-    assert_int_equal(world_build_build(&genesis, &scenario, message, sizeof message), -1);
+    assert_int_equal(world_build_make(&built, &scenario, message, sizeof message), -1);
     assert_non_null(strstr(message, "fires.shooter = \"nobody\""));
     snprintf(scenario.fires[0].shooter, sizeof scenario.fires[0].shooter, "A-1");
     snprintf(scenario.fires[0].target, sizeof scenario.fires[0].target, "A-21");
-    assert_int_equal(world_build_build(&genesis, &scenario, message, sizeof message), -1);
+    assert_int_equal(world_build_make(&built, &scenario, message, sizeof message), -1);
     assert_non_null(strstr(message, "fires.target = \"A-21\""));
     scenario_free(&scenario);
 }
