@@ -107,92 +107,68 @@ static int refuse_no_class(const struct key_reading *keys, struct config_message
                             "is missing; a fixed object needs it; allowed: %s", allowed);
 }
 
-static int check_domain(const struct kind *kind, const struct key_reading *keys, bool has_class,
+/* A rule that values keep together, and the message about the key that breaks it. */
+struct rule {
+    bool broken;
+    const char *key;
+    double value; /* in the file's unit */
+    const char *why;
+};
+
+/* The order of the rules is that of the messages when several are broken. */
+static int check_values(const struct kind *kind, const struct key_reading *keys, bool armed,
                         struct config_message *message)
 {
-    switch ((enum domain)kind->domain) {
-    case DOMAIN_LAND:
-    case DOMAIN_SEA:
-    case DOMAIN_AIR:
-        if (kind->max_speed_mps <= 0)
-            return refuse_pair(keys, "max_speed_mps", kind->max_speed_mps,
-                               "is needed by a vehicle; allowed: above 0", message);
-        if (kind->acceleration_mps2 <= 0)
-            return refuse_pair(keys, "acceleration_mps2", kind->acceleration_mps2,
-                               "is needed by a vehicle; allowed: above 0", message);
-        if (kind->turn_rate_rps <= 0)
-            return refuse_pair(keys, "turn_rate_dps", kind->turn_rate_rps * DEG_PER_RAD,
-                               "is needed by a vehicle; allowed: above 0", message);
-        if (kind->domain == DOMAIN_AIR && kind->climb_rate_mps <= 0)
-            return refuse_pair(keys, "climb_rate_mps", kind->climb_rate_mps,
-                               "is needed by an aircraft; allowed: above 0", message);
-        break;
-    case DOMAIN_MUNITION:
-        if (kind->max_speed_mps <= 0)
-            return refuse_pair(keys, "max_speed_mps", kind->max_speed_mps,
-                               "is needed by a munition; allowed: above 0", message);
-        if (kind->life_s <= 0)
-            return refuse_pair(keys, "life_s", kind->life_s,
-                               "is needed by a munition; allowed: above 0", message);
-        break;
-    case DOMAIN_FIXED:
-        return has_class ? 0 : refuse_no_class(keys, message);
-    case DOMAIN_COUNT:
-        break;
+    const bool vehicle = kind->domain <= DOMAIN_AIR, munition = kind->domain == DOMAIN_MUNITION;
+    const bool homing = munition && kind->guidance == GUIDANCE_HOMING;
+    const bool ratios = kind->damage_high > 0 || kind->damage_med > 0 || kind->damage_low > 0;
+    const bool elevates = kind->gun_low_rad < 0 || kind->gun_high_rad > 0;
+    const double degrees = DEG_PER_RAD;
+    const struct rule rules[] = {
+        {kind->min_speed_mps > kind->max_speed_mps, "min_speed_mps", kind->min_speed_mps,
+         "is above max_speed_mps; allowed: up to max_speed_mps"},
+        {armed && kind->range_m <= 0, "range_m", 0.0,
+         "is needed by an armed vehicle; allowed: above 0"},
+        {armed && kind->reload_s <= 0, "reload_s", 0.0,
+         "is needed by an armed vehicle; allowed: above 0"},
+        {ratios && kind->damage_high <= kind->damage_med, "damage_med", kind->damage_med,
+         "is not below damage_high; allowed: below it, or none of the three"},
+        {ratios && kind->damage_med <= kind->damage_low, "damage_low", kind->damage_low,
+         "is not below damage_med; allowed: below it, or none of the three"},
+        {ratios && kind->damage_low <= 0, "damage_low", kind->damage_low,
+         "is needed beside damage_high; allowed: above 0, or none of the three"},
+        {kind->turret_rate_rps > 0 && !armed, "turret_rate_dps", kind->turret_rate_rps * degrees,
+         "is only for an armed vehicle; allowed: with munition"},
+        {kind->gun_rate_rps > 0 && !armed, "gun_rate_dps", kind->gun_rate_rps * degrees,
+         "is only for an armed vehicle; allowed: with munition"},
+        {kind->gun_low_rad > 0, "gun_low_deg", kind->gun_low_rad * degrees,
+         "is above the level, at which the gun rests; allowed: 0 or below"},
+        {kind->gun_high_rad < 0, "gun_high_deg", kind->gun_high_rad * degrees,
+         "is below the level, at which the gun rests; allowed: 0 or above"},
+        {kind->gun_rate_rps <= 0 && elevates, "gun_rate_dps", 0.0,
+         "is needed beside gun_low_deg and gun_high_deg; allowed: above 0"},
+        {homing && kind->seeker_rad <= 0, "seeker_deg", 0.0,
+         "is needed by a homing munition; allowed: above 0"},
+        {homing && kind->turn_rate_rps <= 0, "turn_rate_dps", 0.0,
+         "is needed by a homing munition; allowed: above 0"},
+        {vehicle && kind->max_speed_mps <= 0, "max_speed_mps", kind->max_speed_mps,
+         "is needed by a vehicle; allowed: above 0"},
+        {vehicle && kind->acceleration_mps2 <= 0, "acceleration_mps2", kind->acceleration_mps2,
+         "is needed by a vehicle; allowed: above 0"},
+        {vehicle && kind->turn_rate_rps <= 0, "turn_rate_dps", kind->turn_rate_rps * degrees,
+         "is needed by a vehicle; allowed: above 0"},
+        {kind->domain == DOMAIN_AIR && kind->climb_rate_mps <= 0, "climb_rate_mps",
+         kind->climb_rate_mps, "is needed by an aircraft; allowed: above 0"},
+        {munition && kind->max_speed_mps <= 0, "max_speed_mps", kind->max_speed_mps,
+         "is needed by a munition; allowed: above 0"},
+        {munition && kind->life_s <= 0, "life_s", kind->life_s,
+         "is needed by a munition; allowed: above 0"},
+    };
+
+    for (size_t i = 0; i < sizeof(rules) / sizeof(rules[0]); i++) {
+        if (rules[i].broken)
+            return refuse_pair(keys, rules[i].key, rules[i].value, rules[i].why, message);
     }
-    return 0;
-}
-
-/* A kind has all three ratios of damage, each below the one before, or none. */
-static int check_damage(const struct kind *kind, const struct key_reading *keys,
-                        struct config_message *message)
-{
-    double high = kind->damage_high, med = kind->damage_med, low = kind->damage_low;
-
-    if (high <= 0 && med <= 0 && low <= 0)
-        return 0;
-    if (high <= med)
-        return refuse_pair(keys, "damage_med", med,
-                           "is not below damage_high; allowed: below it, or none of the three",
-                           message);
-    if (med <= low)
-        return refuse_pair(keys, "damage_low", low,
-                           "is not below damage_med; allowed: below it, or none of the three",
-                           message);
-    if (low <= 0)
-        return refuse_pair(keys, "damage_low", low,
-                           "is needed beside damage_high; allowed: above 0, or none of the three",
-                           message);
-    return 0;
-}
-
-/* Only an armed kind has a turret or a gun that moves. A gun that moves has a range of elevation,
- * and a homing munition has a seeker and turns. */
-static int check_gun(const struct kind *kind, const struct key_reading *keys, bool has_munition,
-                     struct config_message *message)
-{
-    if (kind->turret_rate_rps > 0 && !has_munition)
-        return refuse_pair(keys, "turret_rate_dps", kind->turret_rate_rps * DEG_PER_RAD,
-                           "is only for an armed vehicle; allowed: with munition", message);
-    if (kind->gun_rate_rps > 0 && !has_munition)
-        return refuse_pair(keys, "gun_rate_dps", kind->gun_rate_rps * DEG_PER_RAD,
-                           "is only for an armed vehicle; allowed: with munition", message);
-    if (kind->gun_low_rad > 0)
-        return refuse_pair(keys, "gun_low_deg", kind->gun_low_rad * DEG_PER_RAD,
-                           "is above the level, at which the gun rests; allowed: 0 or below",
-                           message);
-    if (kind->gun_high_rad < 0)
-        return refuse_pair(keys, "gun_high_deg", kind->gun_high_rad * DEG_PER_RAD,
-                           "is below the level, at which the gun rests; allowed: 0 or above",
-                           message);
-    if (kind->gun_rate_rps <= 0 && (kind->gun_low_rad < 0 || kind->gun_high_rad > 0))
-        return refuse_pair(keys, "gun_rate_dps", 0.0,
-                           "is needed beside gun_low_deg and gun_high_deg; allowed: above 0",
-                           message);
-    if (kind->domain == DOMAIN_MUNITION && kind->guidance == GUIDANCE_HOMING &&
-        (kind->seeker_rad <= 0 || kind->turn_rate_rps <= 0))
-        return refuse_pair(keys, kind->seeker_rad <= 0 ? "seeker_deg" : "turn_rate_dps", 0.0,
-                           "is needed by a homing munition; allowed: above 0", message);
     return 0;
 }
 
@@ -200,26 +176,20 @@ static int check_kind(const struct kind *kind, const struct key_reading *keys, c
                       struct config_message *message)
 {
     bool has_class = (keys->given >> key_table_find(keys->table, "class") & 1u) != 0;
-    bool has_munition = (keys->given >> key_table_find(keys->table, "munition") & 1u) != 0;
+    bool armed = (keys->given >> key_table_find(keys->table, "munition") & 1u) != 0;
     struct key_place place = {keys->file, keys->line[key_table_find(keys->table, "name")]};
     struct key_place class_place = {keys->file, keys->line[key_table_find(keys->table, "class")]};
 
     if (strcmp(kind->name, name) != 0)
         return key_table_refuse(message, place, "name", kind->name,
                                 "is not the name of the file; allowed: %s", name);
-    if (kind->min_speed_mps > kind->max_speed_mps)
-        return refuse_pair(keys, "min_speed_mps", kind->min_speed_mps,
-                           "is above max_speed_mps; allowed: up to max_speed_mps", message);
-    if (has_munition && (kind->range_m <= 0 || kind->reload_s <= 0))
-        return refuse_pair(keys, kind->range_m <= 0 ? "range_m" : "reload_s", 0.0,
-                           "is needed by an armed vehicle; allowed: above 0", message);
     if (has_class && kind->domain != DOMAIN_FIXED)
         return key_table_refuse(message, class_place, "class",
                                 object_class_name((enum object_class)kind->object_class),
                                 "is only for fixed objects; allowed: with domain = \"fixed\"");
-    if (check_damage(kind, keys, message) != 0 || check_gun(kind, keys, has_munition, message) != 0)
-        return -1;
-    return check_domain(kind, keys, has_class, message);
+    if (kind->domain == DOMAIN_FIXED && !has_class)
+        return refuse_no_class(keys, message);
+    return check_values(kind, keys, armed, message);
 }
 
 /* The stiffness [N/m] of a skin that takes up resistance_j when it is pressed in by d, a quarter of
