@@ -40,7 +40,6 @@ static int add_name(struct names *names, const char *file, struct key_place plac
                     struct config_message *message)
 {
     size_t length = strlen(file);
-
     if (file[0] == '.' || length <= strlen(SUFFIX) ||
         strcmp(file + length - strlen(SUFFIX), SUFFIX) != 0)
         return 0;
@@ -64,7 +63,6 @@ static int list_names(struct names *names, const char *data_dir, struct config_m
     const struct key_place place = {path, 0};
     const struct dirent *entry;
     int result = 0;
-
     snprintf(path, sizeof(path), "%s/kinds", data_dir);
     DIR *dir = opendir(path);
     if (dir == NULL)
@@ -91,7 +89,6 @@ static int refuse_pair(const struct key_reading *keys, const char *name, double 
     int index = key_table_find(keys->table, name);
     struct key_place place = {keys->file, index >= 0 ? keys->line[index] : 0};
     char text[32];
-
     snprintf(text, sizeof(text), "%.15g", value);
     return key_table_refuse(message, place, name, text, "%s", why);
 }
@@ -100,7 +97,6 @@ static int refuse_no_class(const struct key_reading *keys, struct config_message
 {
     const struct key_place place = {keys->file, 1};
     char allowed[128];
-
     key_table_allowed(&keys->table->keys[key_table_find(keys->table, "class")], allowed,
                       sizeof(allowed));
     return key_table_refuse(message, place, "class", NULL,
@@ -164,7 +160,6 @@ static int check_values(const struct kind *kind, const struct key_reading *keys,
         {munition && kind->life_s <= 0, "life_s", kind->life_s,
          "is needed by a munition; allowed: above 0"},
     };
-
     for (size_t i = 0; i < sizeof(rules) / sizeof(rules[0]); i++) {
         if (rules[i].broken)
             return refuse_pair(keys, rules[i].key, rules[i].value, rules[i].why, message);
@@ -179,7 +174,6 @@ static int check_kind(const struct kind *kind, const struct key_reading *keys, c
     bool armed = (keys->given >> key_table_find(keys->table, "munition") & 1u) != 0;
     struct key_place place = {keys->file, keys->line[key_table_find(keys->table, "name")]};
     struct key_place class_place = {keys->file, keys->line[key_table_find(keys->table, "class")]};
-
     if (strcmp(kind->name, name) != 0)
         return key_table_refuse(message, place, "name", kind->name,
                                 "is not the name of the file; allowed: %s", name);
@@ -197,7 +191,6 @@ static int check_kind(const struct kind *kind, const struct key_reading *keys, c
 static double stiffness_of(const struct kind *kind)
 {
     double depth = 0.25 * fmin(kind->length_m, fmin(kind->width_m, kind->height_m));
-
     return 2.0 * kind->resistance_j / (depth * depth);
 }
 
@@ -234,7 +227,6 @@ static int find_model(struct models *models, const struct key_reading *keys, con
     const struct key_place place = {keys->file, keys->line[key_table_find(keys->table, "model")]};
     struct config_message why;
     int model;
-
     if (name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_")] != '\0')
         return key_table_refuse(message, place, "model", name,
                                 "is not the name of a model; allowed: a-z 0-9 - _");
@@ -253,7 +245,6 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     config_t config;
     struct key_reading keys = {.table = &schema_kind, .destination = &entry, .file = reading->path};
     int result = -1, model;
-
     memset(&entry, 0, sizeof(entry));
     snprintf(folder, sizeof(folder), "%s/kinds", models->data_dir);
     snprintf(file, sizeof(file), "%s" SUFFIX, name);
@@ -292,7 +283,6 @@ static int resolve_munition(struct scenario *scenario, uint32_t index,
 {
     const struct key_place place = {reading->path, reading->munition_line};
     struct kind *kind = &scenario->kinds[index];
-
     if (reading->munition[0] == '\0')
         return 0;
     kind->munition = kind_find(scenario->kinds, scenario->kind_count, reading->munition);
@@ -313,7 +303,6 @@ int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *ha
     struct models *models = malloc(sizeof(*models));
     struct reading *readings = calloc(KIND_COUNT_MAX, sizeof(*readings));
     int result = -1;
-
     if (models == NULL || readings == NULL) {
         key_table_refuse(message, place, NULL, NULL, "no memory for the kinds");
         goto err_memory;

@@ -52,7 +52,6 @@ static int find_scenario(const char *data_dir, const char *path, char *found, si
     const struct key_place place = {name, 0};
     static const char *const suffixes[] = {"", ".cfg"};
     struct stat status;
-
     if (path != NULL && (strchr(path, '/') != NULL || stat(path, &status) == 0)) {
         if ((size_t)snprintf(found, bytes, "%s", path) >= bytes)
             return key_table_refuse(message, place, NULL, NULL, "is too long for a path");
@@ -74,7 +73,6 @@ static int find_scenario(const char *data_dir, const char *path, char *found, si
 static bool is_list(const config_setting_t *setting)
 {
     const char *name = config_setting_name(setting);
-
     return strcmp(name, "vehicles") == 0 || strcmp(name, "fires") == 0 ||
            strcmp(name, "scripts") == 0 || strcmp(name, "bases") == 0 ||
            (strcmp(name, "objects") == 0 && setting->type == CONFIG_TYPE_LIST);
@@ -88,7 +86,6 @@ static int read_file(struct load *load)
                                .skip = is_list};
     const config_setting_t *root = config_root_setting(&load->config);
     const config_setting_t *objects = config_setting_get_member(root, "objects");
-
     if (key_table_read(&keys, root, "", "", load->message) != 0)
         return -1;
     for (uint32_t i = 0; i < schema_scenario.count; i++) {
@@ -112,7 +109,6 @@ static int find_override(struct load *load, const char *text, const char **value
     const struct key_place place = {OVERRIDE_PLACE, 0};
     const char *equals = strchr(text, '=');
     char name[KEY_PATH_MAX];
-
     if (equals == NULL || equals == text)
         return key_table_refuse(load->message, place, text, NULL,
                                 "is not an override; right would be: group.key=value");
@@ -132,7 +128,6 @@ static int apply_override(struct load *load, const char *text)
 {
     const char *value = NULL;
     int index = find_override(load, text, &value);
-
     if (index < 0)
         return -1;
     if (strcmp(schema_scenario.keys[index].name, "objects.source") == 0)
@@ -153,7 +148,6 @@ static int check_levels(const struct load *load, const struct levels *levels)
     for (int i = 1; i < 3; i++) {
         const char *name = levels->name[i];
         char text[32];
-
         if (levels->value[i - 1] > levels->value[i])
             continue;
         snprintf(text, sizeof(text), "%.15g", levels->value[i]);
@@ -176,7 +170,6 @@ static int check_together(const struct load *load)
         {"collision.figure8.mass_c1_kg", "collision.figure8.mass_c2_kg",
          "collision.figure8.mass_c3_kg"},
         {collision->mass_c1_kg, collision->mass_c2_kg, collision->mass_c3_kg}};
-
     return check_levels(load, &damage) == 0 ? check_levels(load, &mass) : -1;
 }
 
@@ -188,7 +181,6 @@ static int read_lists(struct load *load)
     const config_setting_t *objects = config_setting_get_member(root, "objects");
     const config_setting_t *fires = config_setting_get_member(root, "fires");
     const char *file = load->source.path;
-
     if (!load->objects_chosen)
         scenario->settings->objects =
             scenario->settings->terrain == TERRAIN_GENERATED ? OBJECTS_TABLE1 : OBJECTS_NONE;
@@ -210,7 +202,6 @@ static int read_lists(struct load *load)
 static uint32_t event_slots_for(uint32_t capacity)
 {
     uint32_t slots = EVENT_SLOTS_MIN;
-
     while (slots < EVENT_SLOTS_MAX && slots < (uint64_t)EVENTS_PER_ENTITY * capacity)
         slots *= 2;
     return slots;
@@ -222,7 +213,6 @@ static void derive(struct load *load)
     const char *path = load->source.path;
     size_t length = strlen(path);
     uint64_t intents = (uint64_t)INTENTS_PER_ENTITY * params->capacity + INTENTS_EXTRA;
-
     params->dt_s = 1.0 / params->hz;
     params->event_slots = event_slots_for(params->capacity);
     params->events_per_frame = params->event_slots / EVENT_FRAME_SHARE;
@@ -246,7 +236,6 @@ static int write_recipe(const struct load *load, const char *const *overrides, i
     char *absolute = realpath(load->source.path, NULL);
     int result = provenance_add(&load->scenario->recipe, "scenario",
                                 absolute ? absolute : load->source.path);
-
     free(absolute);
     for (int i = 0; i < override_count && result == 0; i++)
         result = provenance_add(&load->scenario->recipe, "set", overrides[i]);
@@ -284,7 +273,6 @@ int loader_scenario(struct scenario *scenario, const char *data_dir, const char 
     struct load load = {.scenario = scenario, .data_dir = data_dir, .message = message};
     char found[PATH_MAX];
     int result = -1;
-
     memset(scenario, 0, sizeof(*scenario));
     message->text[0] = '\0';
     if (find_scenario(data_dir, path, found, sizeof(found), message) != 0 ||
@@ -321,14 +309,12 @@ int loader_branch(struct params *params, const char *const *overrides, int overr
     struct scenario_settings settings = {.params = *params};
     struct scenario scenario = {.settings = &settings};
     struct load load = {.scenario = &scenario, .message = message};
-
     for (uint32_t i = 0; i < schema_scenario.count; i++)
         load.origin[i] = (struct key_place){OVERRIDE_PLACE, 0};
     for (int i = 0; i < override_count; i++) {
         uint64_t before = XXH3_64bits(&settings.params, sizeof(settings.params));
         const char *value = NULL;
         int index = find_override(&load, overrides[i], &value);
-
         if (index < 0)
             return -1;
         const struct key *key = &schema_scenario.keys[index];

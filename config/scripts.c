@@ -33,7 +33,6 @@ static int reserve_steps(struct scenario *scenario, uint64_t more, const char *f
 {
     const struct key_place place = {file, 0};
     uint64_t count = scenario->step_count + more;
-
     if (count > SCRIPT_STEPS_MAX)
         return key_table_refuse(message, place, NULL, NULL,
                                 "gives the scripts %llu steps; allowed: up to %u in all",
@@ -50,7 +49,6 @@ static void refuse_no_action(const struct entry *entry)
 {
     char names[256];
     size_t used = 0;
-
     for (size_t i = 0; i < sizeof(actions) / sizeof(actions[0]) && used < sizeof(names); i++)
         used += (size_t)snprintf(names + used, sizeof(names) - used, "%s, ",
                                  schema_step.keys[actions[i].key].name);
@@ -64,7 +62,6 @@ static enum step_type find_action(const struct entry *entry)
 {
     enum step_type type = STEP_TYPE_COUNT;
     const char *first = NULL;
-
     for (size_t i = 0; i < sizeof(actions) / sizeof(actions[0]); i++) {
         if (!entry_given(entry, actions[i].key))
             continue;
@@ -89,7 +86,6 @@ static int check_beside(const struct entry *entry, enum step_type type)
     static const uint32_t controls[] = {STEP_KEY_THROTTLE, STEP_KEY_STEER, STEP_KEY_CLIMB};
     bool moves = type == STEP_GO || type == STEP_ARRIVE || type == STEP_FACE || type == STEP_WAIT ||
                  type == STEP_ALTITUDE;
-
     for (size_t i = 0; i < sizeof(controls) / sizeof(controls[0]); i++) {
         if (type != STEP_CONTROLS && entry_given(entry, controls[i]))
             return entry_refuse(
@@ -129,7 +125,6 @@ static void write_step(struct scenario_step *to, const struct step_entry *given,
     const double *point = type == STEP_GO       ? given->go
                           : type == STEP_ARRIVE ? given->arrive
                                                 : given->fire_at;
-
     to->step.type = type;
     to->step.x = point[0];
     to->step.z = point[1];
@@ -149,7 +144,6 @@ static int add_step(struct entry *entry, const struct step_entry *given, double 
     struct scenario *scenario = entry->scenario;
     enum step_type type = find_action(entry);
     int line = (int)config_setting_source_line(entry->setting);
-
     if (type == STEP_TYPE_COUNT || check_beside(entry, type) != 0 ||
         check_time(entry, given, type, *last_s) != 0)
         return -1;
@@ -179,14 +173,12 @@ static int read_steps(struct entry *script, const config_setting_t *list)
     char within[KEY_PATH_MAX];
     double last_s = 0.0;
     int length = entry_count(list, entry.keys.file, SCRIPT_STEPS_MAX, entry.message);
-
     if (length < 0)
         return -1;
     snprintf(within, sizeof(within), "%.60s.", script->path);
     entry.within = within;
     if (length == 0) {
         const struct key_place place = {entry.keys.file, (int)config_setting_source_line(list)};
-
         return key_table_refuse(entry.message, place, script->path, NULL,
                                 "has no steps; right would be: steps = ( { go = [x, z]; }, ... )");
     }
@@ -194,7 +186,6 @@ static int read_steps(struct entry *script, const config_setting_t *list)
         return -1;
     for (int i = 0; i < length; i++) {
         struct step_entry given;
-
         memset(&given, 0, sizeof(given));
         if (entry_read(&entry, &schema_step, i, list, &given) != 0 ||
             add_step(&entry, &given, &last_s) != 0)
@@ -207,7 +198,6 @@ static int read_steps(struct entry *script, const config_setting_t *list)
 static void folder_of(const char *file, char *folder, size_t bytes)
 {
     const char *slash = strrchr(file, '/');
-
     if (slash == NULL)
         snprintf(folder, bytes, ".");
     else
@@ -220,7 +210,6 @@ static int read_file(struct entry *entry, const char *name, XXH3_state_t *hash)
     struct source source;
     char folder[PATH_MAX];
     int count = -1;
-
     folder_of(entry->keys.file, folder, sizeof(folder));
     if (source_read_in(&source, folder, name, WAYPOINTS_BYTES_MAX, entry->message) != 0)
         return -1;
@@ -244,7 +233,6 @@ static int add_script(struct entry *entry, const struct script_entry *given, XXH
     struct scenario *scenario = entry->scenario;
     const config_setting_t *steps = config_setting_get_member(entry->setting, "steps");
     struct scenario_script *script = &scenario->scripts[scenario->script_count];
-
     if (scripts_find(scenario, given->name) != UINT32_MAX)
         return entry_refuse(entry, SCRIPT_NAME,
                             "is also the name of another script; allowed: each name once");
@@ -279,7 +267,6 @@ int scripts_read(struct scenario *scenario, const config_setting_t *list, const 
     struct entry entry = {
         .scenario = scenario, .keys = {.file = file, .skip = is_steps}, .message = message};
     int length = list != NULL ? entry_count(list, file, SCHEMA_SCRIPTS_MAX, message) : 0;
-
     if (length < 0)
         return -1;
     scenario->scripts = entry_allocate((uint32_t)length, sizeof(*scenario->scripts), file, message);
@@ -287,7 +274,6 @@ int scripts_read(struct scenario *scenario, const config_setting_t *list, const 
         return -1;
     for (int i = 0; i < length; i++) {
         struct script_entry given;
-
         memset(&given, 0, sizeof(given));
         if (entry_read(&entry, &schema_script, i, list, &given) != 0 ||
             add_script(&entry, &given, hash) != 0)

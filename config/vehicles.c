@@ -22,7 +22,6 @@ static int check_vehicle(const struct entry *entry, const struct vehicle_entry *
                          uint64_t total)
 {
     bool placed = entry_given(entry, VEHICLE_AT);
-
     if (placed && vehicle->count != 1 && !entry_given(entry, VEHICLE_FORMATION))
         return entry_refuse(entry, VEHICLE_COUNT,
                             "is not 1, but at places one vehicle; allowed: 1, or a formation");
@@ -47,7 +46,6 @@ static int choose_engagement(const struct entry *entry, const struct vehicle_ent
 {
     bool engage = entry_given(entry, VEHICLE_ENGAGE);
     bool at_will = engage ? vehicle->engage == ENTITY_FLAG_FIRE_AT_WILL : vehicle->fire_at_will;
-
     if (entry_given(entry, VEHICLE_FIRE_AT_WILL) && at_will != (vehicle->fire_at_will != 0))
         return entry_refuse(entry, VEHICLE_FIRE_AT_WILL,
                             "contradicts engage; allowed: %s here, or engage alone",
@@ -65,7 +63,6 @@ static int choose_formation(const struct entry *entry, const struct vehicle_entr
 {
     bool follows = vehicle->behaviour == BEHAVIOUR_FOLLOW;
     bool formation = entry_given(entry, VEHICLE_FORMATION);
-
     if (follows && (entry->scenario->group_count == 0 || !group[-1].formed))
         return entry_refuse(entry, VEHICLE_BEHAVIOUR,
                             "has no leader to follow; right would be: an entry directly after one "
@@ -93,7 +90,6 @@ static int choose_formation(const struct entry *entry, const struct vehicle_entr
 static int choose_behaviour(const struct entry *entry, struct vehicle_entry *vehicle)
 {
     bool route = entry_given(entry, VEHICLE_ROUTE), script = entry_given(entry, VEHICLE_SCRIPT);
-
     if (!entry_given(entry, VEHICLE_BEHAVIOUR))
         vehicle->behaviour = script                           ? BEHAVIOUR_SCRIPT
                              : route                          ? BEHAVIOUR_ROUTE
@@ -124,12 +120,10 @@ static int choose_behaviour(const struct entry *entry, struct vehicle_entry *veh
 static uint32_t add_route(struct scenario *scenario, const config_setting_t *points)
 {
     struct route *route = &scenario->routes[scenario->route_count];
-
     route->first = scenario->route_point_count;
     route->count = (uint32_t)config_setting_length(points);
     for (uint32_t i = 0; i < route->count; i++) {
         double point[2] = {0, 0};
-
         key_table_point(config_setting_get_elem(points, i), point);
         scenario->route_points[scenario->route_point_count++] =
             (struct route_point){point[0], point[1]};
@@ -142,7 +136,6 @@ static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
     struct scenario *scenario = entry->scenario;
     struct scenario_group *group = &scenario->groups[scenario->group_count];
     uint32_t total = scenario->settings->params.initial_entities;
-
     if (choose_behaviour(entry, vehicle) != 0 || check_vehicle(entry, vehicle, total) != 0 ||
         choose_engagement(entry, vehicle, group) != 0 ||
         choose_formation(entry, vehicle, group) != 0)
@@ -175,7 +168,6 @@ static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
     group->area = 0;
     if (entry_given(entry, VEHICLE_AREA)) {
         const double *area = vehicle->area;
-
         group->area = scenario->area_count++;
         scenario->areas[group->area] = (struct area){area[0], area[1], area[2], area[3]};
     }
@@ -189,12 +181,10 @@ static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
 static uint32_t count_points(const config_setting_t *list)
 {
     uint64_t points = 0;
-
     for (int i = 0; list != NULL && i < config_setting_length(list); i++) {
         const config_setting_t *entry = config_setting_get_elem(list, (unsigned)i);
         const config_setting_t *route =
             entry->type == CONFIG_TYPE_GROUP ? config_setting_get_member(entry, "route") : NULL;
-
         if (route != NULL && config_setting_length(route) > 0)
             points += (uint64_t)config_setting_length(route);
     }
@@ -207,12 +197,10 @@ int vehicles_read(struct scenario *scenario, const config_setting_t *list, const
     struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
     int length = list != NULL ? entry_count(list, file, SCHEMA_GROUPS_MAX, message) : 0;
     uint32_t points = length > 0 ? count_points(list) : 0;
-
     if (length < 0)
         return -1;
     if (points > ROUTE_POINTS_MAX) {
         const struct key_place place = {file, (int)config_setting_source_line(list)};
-
         return key_table_refuse(message, place, "vehicles", NULL,
                                 "routes have too many points; allowed: up to %u in all",
                                 ROUTE_POINTS_MAX);
@@ -229,7 +217,6 @@ int vehicles_read(struct scenario *scenario, const config_setting_t *list, const
     scenario->settings->params.initial_entities = 0;
     for (int i = 0; i < length; i++) {
         struct vehicle_entry vehicle;
-
         memset(&vehicle, 0, sizeof(vehicle));
         if (entry_read(&entry, &schema_vehicle, i, list, &vehicle) != 0 ||
             add_vehicle(&entry, &vehicle) != 0)

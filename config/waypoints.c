@@ -35,7 +35,6 @@ struct reading {
 uint32_t waypoints_lines(const char *text)
 {
     uint32_t lines = 0;
-
     for (const char *at = text; *at != '\0'; lines++) {
         at += strspn(at, "\r\n");
         at += strcspn(at, "\r\n");
@@ -50,7 +49,6 @@ static int next_line(struct reading *reading)
     while (*reading->next != '\0') {
         size_t length = strcspn(reading->next, "\n");
         const char *line = reading->next;
-
         reading->place.line++;
         reading->next += length + (line[length] == '\n');
         while (length > 0 && strchr(" \t\r", line[length - 1]) != NULL)
@@ -70,7 +68,6 @@ static int next_line(struct reading *reading)
 static int read_header(struct reading *reading)
 {
     int found = next_line(reading);
-
     if (found < 0)
         return -1;
     if (found > 0 && strcmp(reading->line, "time_s,x,z") == 0)
@@ -89,7 +86,6 @@ static int read_value(struct reading *reading, int column, const char **at, doub
     size_t length = strcspn(*at, ",");
     const struct key *key = &schema_step.keys[columns[column].key];
     char text[ROW_MAX], range[64], *end = NULL;
-
     key_table_range(key, range, sizeof(range));
     snprintf(text, sizeof(text), "%.*s", (int)length, *at);
     *value = strtod(text, &end);
@@ -106,7 +102,6 @@ static int read_value(struct reading *reading, int column, const char **at, doub
 static int read_line(struct reading *reading, double values[COLUMNS_MAX])
 {
     const char *at = reading->line;
-
     for (int column = 0; column < reading->columns; column++) {
         if (column > 0 && *at != ',')
             return key_table_refuse(reading->message, reading->place, reading->line, NULL,
@@ -126,7 +121,6 @@ static int read_line(struct reading *reading, double values[COLUMNS_MAX])
 static int refuse_time(const struct reading *reading, double time_s, double before_s)
 {
     char text[32];
-
     snprintf(text, sizeof(text), "%.15g", time_s);
     return key_table_refuse(reading->message, reading->place, columns[0].name, text,
                             "is not after the line before; allowed: above %.15g", before_s);
@@ -139,7 +133,6 @@ int waypoints_read(const struct source *source, struct scenario_step *steps,
         .source = source, .message = message, .place = {source->path, 0}, .next = source->text};
     double values[COLUMNS_MAX] = {0}, before_s = -1.0;
     int count = 0, found;
-
     if (strlen(source->text) != source->bytes)
         return key_table_refuse(message, reading.place, NULL, NULL,
                                 "is not text: it has a NUL byte");

@@ -33,7 +33,6 @@ int main(int argc, char **argv)
     struct view view;
     struct reason reason;
     struct mover mover;
-
     log_open("mover");
     process_close_inherited();
     process_signals();
@@ -57,7 +56,6 @@ int main(int argc, char **argv)
         log_info("moves world \"%s\" on %u thread(s)", view.name, options.threads);
         move_frames(&mover, &view);
     }
-
     mover_free(&mover);
     thread_pool_destroy(workers);
     segment_detach(&view);

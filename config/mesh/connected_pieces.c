@@ -36,7 +36,6 @@ static uint32_t root_of(const struct places *places, uint32_t place)
 static void join_places(const struct places *places, uint32_t a, uint32_t b)
 {
     uint32_t root_a = root_of(places, a), root_b = root_of(places, b);
-
     if (root_a < root_b)
         places->parent[root_b] = root_a;
     else
@@ -53,14 +52,12 @@ static int compare_arrivals(const void *left, const void *right)
 {
     const struct arrival *a = left, *b = right;
     int order = convex_hull_compare(&a->at, &b->at);
-
     return order != 0 ? order : (a->vertex > b->vertex) - (a->vertex < b->vertex);
 }
 
 static int find_places(struct places *places, const struct model_vertex *vertex, uint32_t count)
 {
     struct arrival *arrival = malloc(count * sizeof(*arrival));
-
     memset(places, 0, sizeof(*places));
     places->at = malloc(count * sizeof(*places->at));
     places->of = malloc(count * sizeof(*places->of));
@@ -75,7 +72,6 @@ static int find_places(struct places *places, const struct model_vertex *vertex,
     qsort(arrival, count, sizeof(*arrival), compare_arrivals);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t last = places->count - 1;
-
         if (i == 0 || convex_hull_compare(&places->at[last], &arrival[i].at) != 0) {
             last = places->count++;
             places->at[last] = arrival[i].at;
@@ -92,7 +88,6 @@ static void join_corners(const struct places *places, const struct model_triangl
 {
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t *corner = triangle[i].vertex;
-
         join_places(places, places->of[corner[0]], places->of[corner[1]]);
         join_places(places, places->of[corner[0]], places->of[corner[2]]);
     }
@@ -102,7 +97,6 @@ static int add_point(struct piece *piece, struct vec3 at)
 {
     void *table = piece->point;
     struct vec3 *point = table_extend(&table, &piece->count, 1, sizeof(*point));
-
     if (point == NULL)
         return -1;
     *point = at;
@@ -115,10 +109,8 @@ static int deal_places(struct connected_pieces *pieces, const struct places *pla
 {
     uint32_t *piece_of = calloc(places->count, sizeof(*piece_of)); /* of each root */
     int result = piece_of != NULL ? 0 : -1;
-
     for (uint32_t i = 0; result == 0 && i < places->count; i++) {
         uint32_t root = root_of(places, i);
-
         if (root == i && pieces->count == CONNECTED_PIECES_MAX) {
             errno = E2BIG;
             result = -1;
@@ -138,13 +130,11 @@ static int thicken(struct piece *piece)
 {
     struct vec3 axis[3];
     int missing = convex_hull_missing(piece->point, piece->count, CONNECTED_PIECES_FLAT_M, axis);
-
     for (int i = 0; i < missing; i++) {
         const struct vec3 half = vec3_scale(axis[i], CONNECTED_PIECES_THICKNESS_M / 2.0);
         uint32_t count = piece->count;
         void *table = piece->point;
         struct vec3 *copy = table_extend(&table, &piece->count, count, sizeof(*copy));
-
         if (copy == NULL)
             return -1;
         piece->point = table;
@@ -161,9 +151,7 @@ int connected_pieces_find(struct connected_pieces *pieces, const struct scenario
 {
     struct places places;
     int result;
-
     uint32_t vertices = model->solid_triangles > 0 ? model->solid_vertices : model->vertex_count;
-
     memset(pieces, 0, sizeof(*pieces));
     result = find_places(&places, &scenario->vertices[model->first_vertex], vertices);
     if (result == 0) {
@@ -174,7 +162,6 @@ int connected_pieces_find(struct connected_pieces *pieces, const struct scenario
     places_free(&places);
     for (uint32_t i = 0; result == 0 && i < pieces->count; i++) {
         struct piece *piece = &pieces->piece[i];
-
         result = thicken(piece);
         if (result == 0)
             result = convex_hull_points(&piece->wrap, piece->point, piece->count);
@@ -200,7 +187,6 @@ int connected_pieces_join(struct piece *piece, struct piece *other, struct conve
 {
     void *table = piece->point;
     struct vec3 *point = table_extend(&table, &piece->count, other->count, sizeof(*point));
-
     if (point == NULL)
         return -1;
     piece->point = table;

@@ -27,7 +27,6 @@ struct wrapping {
 int convex_hull_compare(const void *left, const void *right)
 {
     const struct vec3 *a = left, *b = right;
-
     if (a->x < b->x || a->x > b->x)
         return a->x < b->x ? -1 : 1;
     if (a->y < b->y || a->y > b->y)
@@ -64,14 +63,11 @@ static double distance(const struct span *span, struct vec3 from)
 static struct span span_of(const struct vec3 *point, uint32_t count, double least_m)
 {
     struct span span = {0};
-
     while (span.axes < 3) {
         double best = least_m;
         uint32_t found = 0;
-
         for (uint32_t i = 1; i < count; i++) {
             double away = distance(&span, vec3_sub(point[i], point[0]));
-
             if (away > best) {
                 best = away;
                 found = i;
@@ -94,7 +90,6 @@ int convex_hull_missing(const struct vec3 *point, uint32_t count, double least_m
 {
     const struct vec3 x = {1.0, 0.0, 0.0}, y = {0.0, 1.0, 0.0}, z = {0.0, 0.0, 1.0};
     struct span span = span_of(point, count, least_m);
-
     switch (span.axes) {
     case 0:
         axis[0] = x;
@@ -131,7 +126,6 @@ static void cross_exactly(struct vec3 u, struct vec3 v, wide product[3])
 {
     int64_t ux = steps(u.x), uy = steps(u.y), uz = steps(u.z);
     int64_t vx = steps(v.x), vy = steps(v.y), vz = steps(v.z);
-
     product[0] = (wide)uy * vz - (wide)uz * vy;
     product[1] = (wide)uz * vx - (wide)ux * vz;
     product[2] = (wide)ux * vy - (wide)uy * vx;
@@ -149,11 +143,9 @@ static void add_face(struct wrapping *w, uint32_t a, uint32_t b, uint32_t c)
     struct vec3 at = w->point[a], u = vec3_sub(w->point[b], at), v = vec3_sub(w->point[c], at);
     struct vec3 normal = vec3_cross(u, v);
     double length = vec3_length(normal);
-
     if (length < SLIM_SHARE * extent(u) * extent(v)) {
         const double square = CONVEX_HULL_STEPS * CONVEX_HULL_STEPS;
         wide product[3];
-
         cross_exactly(u, v, product);
         normal = (struct vec3){(double)product[0] / square, (double)product[1] / square,
                                (double)product[2] / square};
@@ -171,12 +163,10 @@ static void add_face(struct wrapping *w, uint32_t a, uint32_t b, uint32_t c)
 static bool is_above(const struct wrapping *w, const struct convex_hull_face *face, struct vec3 p)
 {
     double above = vec3_dot(face->normal, p) - face->offset_m;
-
     if (fabs(above) > SURE_M)
         return above > 0.0;
     struct vec3 at = w->point[face->corner[0]], to = vec3_sub(p, at);
     wide product[3];
-
     cross_exactly(vec3_sub(w->point[face->corner[1]], at), vec3_sub(w->point[face->corner[2]], at),
                   product);
     return product[0] * steps(to.x) + product[1] * steps(to.y) + product[2] * steps(to.z) > 0;
@@ -185,7 +175,6 @@ static bool is_above(const struct wrapping *w, const struct convex_hull_face *fa
 static void begin(struct wrapping *w, const struct span *span)
 {
     uint32_t a = span->corner[0], b = span->corner[1], c = span->corner[2], d = span->corner[3];
-
     /* a, b, c are counter-clockwise as seen from the side away from d. */
     if (vec3_dot(span->normal, vec3_sub(w->point[d], w->point[a])) > 0.0) {
         b = span->corner[2];
@@ -214,11 +203,9 @@ static void add_edge(struct wrapping *w, uint32_t from, uint32_t to)
 static void add_point(struct wrapping *w, uint32_t point)
 {
     struct vec3 p = w->point[point];
-
     w->edge_count = 0;
     for (uint32_t i = w->face_count; i > 0; i--) {
         const struct convex_hull_face *face = &w->face[i - 1];
-
         if (!is_above(w, face, p))
             continue;
         for (int k = 0; k < 3; k++)
@@ -247,10 +234,8 @@ static double volume_of(const struct wrapping *w)
 {
     struct vec3 tip = w->point[w->face[0].corner[0]];
     double volume = 0.0;
-
     for (uint32_t i = 0; i < w->face_count; i++) {
         const struct convex_hull_face *face = &w->face[i];
-
         volume += face->area_m2 * (face->offset_m - vec3_dot(face->normal, tip));
     }
     return volume / 3.0;
@@ -260,7 +245,6 @@ static double volume_of(const struct wrapping *w)
 static int finish(struct convex_hull *wrap, const struct wrapping *w)
 {
     uint32_t *number = calloc(w->count, sizeof(*number)); /* new index + 1; 0: not a vertex */
-
     wrap->point = malloc(w->count * sizeof(*wrap->point));
     wrap->face = malloc(w->face_count * sizeof(*wrap->face));
     if (number == NULL || wrap->point == NULL || wrap->face == NULL) {
@@ -273,7 +257,6 @@ static int finish(struct convex_hull *wrap, const struct wrapping *w)
     for (uint32_t i = 0; i < wrap->face_count; i++) {
         for (int k = 0; k < 3; k++) {
             uint32_t *corner = &wrap->face[i].corner[k];
-
             if (number[*corner] == 0) {
                 wrap->point[wrap->point_count++] = w->point[*corner];
                 number[*corner] = wrap->point_count;
@@ -294,7 +277,6 @@ static int finish(struct convex_hull *wrap, const struct wrapping *w)
 static int open_wrapping(struct wrapping *w, uint32_t count)
 {
     uint32_t faces = count < CONVEX_HULL_FACES_MAX / 2 ? 2 * count : CONVEX_HULL_FACES_MAX + 2;
-
     memset(w, 0, sizeof(*w));
     w->count = count;
     w->point = malloc(count * sizeof(*w->point));
@@ -320,7 +302,6 @@ struct ranked {
 static int compare_ranked(const void *left, const void *right)
 {
     const struct ranked *a = left, *b = right;
-
     if (a->out > b->out || a->out < b->out)
         return a->out > b->out ? -1 : 1;
     return convex_hull_compare(&a->point, &b->point);
@@ -332,7 +313,6 @@ static int rank_points(struct vec3 *to, const struct vec3 *point, uint32_t count
 {
     struct ranked *ranked = malloc(count * sizeof(*ranked));
     struct vec3 middle = {0.0, 0.0, 0.0};
-
     if (ranked == NULL)
         return -1;
     for (uint32_t i = 0; i < count; i++)
@@ -340,7 +320,6 @@ static int rank_points(struct vec3 *to, const struct vec3 *point, uint32_t count
     middle = vec3_scale(middle, 1.0 / count);
     for (uint32_t i = 0; i < count; i++) {
         struct vec3 out = vec3_sub(point[i], middle);
-
         ranked[i] = (struct ranked){point[i], vec3_dot(out, out)};
     }
     qsort(ranked, count, sizeof(*ranked), compare_ranked);
@@ -353,7 +332,6 @@ static int rank_points(struct vec3 *to, const struct vec3 *point, uint32_t count
 static int convex_hull_ranked(struct wrapping *w, struct convex_hull *wrap)
 {
     struct span span = span_of(w->point, w->count, CONVEX_HULL_THIN_M);
-
     if (span.axes < 3) {
         errno = EDOM;
         return -1;
@@ -366,7 +344,6 @@ int convex_hull_points(struct convex_hull *wrap, const struct vec3 *point, uint3
 {
     struct wrapping w;
     int result = -1;
-
     memset(wrap, 0, sizeof(*wrap));
     if (count == 0) {
         errno = EDOM;
@@ -392,7 +369,6 @@ static int add_both(struct wrapping *w, const struct convex_hull *a, const struc
 {
     const struct convex_hull *large = a->point_count >= b->point_count ? a : b;
     const struct convex_hull *small = large == a ? b : a;
-
     memcpy(w->point, large->point, large->point_count * sizeof(*w->point));
     memcpy(w->point + large->point_count, small->point, small->point_count * sizeof(*w->point));
     memcpy(w->face, large->face, large->face_count * sizeof(*w->face));
@@ -405,7 +381,6 @@ int convex_hull_both(struct convex_hull *wrap, const struct convex_hull *a,
 {
     struct wrapping w;
     int result = -1;
-
     memset(wrap, 0, sizeof(*wrap));
     if (open_wrapping(&w, a->point_count + b->point_count) == 0 && add_both(&w, a, b) == 0)
         result = finish(wrap, &w);
@@ -417,7 +392,6 @@ int convex_hull_volume(double *volume_m3, const struct convex_hull *a, const str
 {
     struct wrapping w;
     int result = -1;
-
     if (open_wrapping(&w, a->point_count + b->point_count) == 0 && add_both(&w, a, b) == 0) {
         *volume_m3 = volume_of(&w);
         result = 0;
@@ -429,11 +403,9 @@ int convex_hull_volume(double *volume_m3, const struct convex_hull *a, const str
 double convex_hull_growth(const struct convex_hull *wrap, struct vec3 point)
 {
     double growth = 0.0;
-
     for (uint32_t i = 0; i < wrap->face_count; i++) {
         const struct convex_hull_face *face = &wrap->face[i];
         double above = vec3_dot(face->normal, point) - face->offset_m;
-
         if (above > 0.0)
             growth += above * face->area_m2;
     }
@@ -446,7 +418,6 @@ bool convex_hull_holds(const struct convex_hull *outer, const struct convex_hull
     for (uint32_t i = 0; i < inner->point_count; i++) {
         for (uint32_t k = 0; k < outer->face_count; k++) {
             const struct convex_hull_face *face = &outer->face[k];
-
             if (vec3_dot(face->normal, inner->point[i]) - face->offset_m > slack_m)
                 return false;
         }

@@ -31,7 +31,6 @@ struct joining {
 static struct joint *joint_of(const struct joining *joining, uint32_t i, uint32_t j)
 {
     uint32_t count = joining->pieces->count;
-
     return i < j ? &joining->joint[i * count + j] : &joining->joint[j * count + i];
 }
 
@@ -39,7 +38,6 @@ static struct joint *joint_of(const struct joining *joining, uint32_t i, uint32_
 static int take_inside(struct joining *joining, uint32_t outer)
 {
     struct connected_pieces *pieces = joining->pieces;
-
     for (uint32_t i = 0; pieces->piece[outer].count > 0 && i < pieces->count; i++) {
         if (i == outer || pieces->piece[i].count == 0 ||
             !convex_hull_holds(&pieces->piece[outer].wrap, &pieces->piece[i].wrap, NESTED_M))
@@ -56,11 +54,9 @@ static double least_cost(const struct convex_hull *wrap, const struct convex_hul
 {
     struct vec3 furthest = other->point[0];
     double most = 0.0;
-
     for (uint32_t i = 0; i < other->point_count; i++) {
         struct vec3 out = vec3_sub(other->point[i], wrap->middle);
         double far = vec3_dot(out, out);
-
         if (far > most) {
             most = far;
             furthest = other->point[i];
@@ -73,7 +69,6 @@ static double least_cost(const struct convex_hull *wrap, const struct convex_hul
 static void guess_joints(const struct joining *joining, uint32_t i, uint32_t from)
 {
     const struct piece *piece = joining->pieces->piece;
-
     for (uint32_t j = from; piece[i].count > 0 && j < joining->pieces->count; j++) {
         if (j == i || piece[j].count == 0)
             continue;
@@ -90,7 +85,6 @@ static int measure_joint(const struct joining *joining, uint32_t i, uint32_t j)
     const struct convex_hull *a = &joining->pieces->piece[i].wrap,
                              *b = &joining->pieces->piece[j].wrap;
     double volume;
-
     if (convex_hull_volume(&volume, a, b) != 0)
         return -1;
     *joint_of(joining, i, j) = (struct joint){volume - a->volume_m3 - b->volume_m3, true};
@@ -101,7 +95,6 @@ static int join(struct joining *joining, uint32_t i, uint32_t j)
 {
     struct piece *a = &joining->pieces->piece[i], *b = &joining->pieces->piece[j];
     struct convex_hull both;
-
     if (convex_hull_both(&both, &a->wrap, &b->wrap) != 0)
         return -1;
     if (connected_pieces_join(a, b, &both) != 0) {
@@ -120,13 +113,11 @@ static const struct joint *cheapest(const struct joining *joining, uint32_t *lef
 {
     const struct piece *piece = joining->pieces->piece;
     const struct joint *best = NULL;
-
     for (uint32_t i = 0; i < joining->pieces->count; i++) {
         if (piece[i].count == 0)
             continue;
         for (uint32_t j = i + 1; j < joining->pieces->count; j++) {
             const struct joint *joint = joint_of(joining, i, j);
-
             if (piece[j].count > 0 && (best == NULL || joint->cost_m3 < best->cost_m3)) {
                 best = joint;
                 *left = i;
@@ -144,7 +135,6 @@ static int join_cheapest(struct joining *joining)
     double free_m3 = HULLS_FREE_M3;
     const struct joint *joint;
     uint32_t i = 0, j = 0;
-
     while ((joint = cheapest(joining, &i, &j)) != NULL) {
         if (!joint->exact) {
             if (measure_joint(joining, i, j) != 0)
@@ -165,7 +155,6 @@ static int join_pieces(struct connected_pieces *pieces)
 {
     struct joining joining = {.pieces = pieces, .left = pieces->count};
     int result = 0;
-
     joining.joint = malloc((size_t)pieces->count * pieces->count * sizeof(*joining.joint));
     if (joining.joint == NULL)
         return -1;
@@ -199,7 +188,6 @@ static void shell_free(struct shell *shell)
 static int compare_areas(const void *left, const void *right)
 {
     const struct convex_hull_face *a = left, *b = right;
-
     if (a->area_m2 > b->area_m2 || a->area_m2 < b->area_m2)
         return a->area_m2 > b->area_m2 ? -1 : 1;
     return convex_hull_compare(&a->normal, &b->normal);
@@ -209,7 +197,6 @@ static int compare_planes(const void *left, const void *right)
 {
     const struct hull_plane *a = left, *b = right;
     int normals = convex_hull_compare(&a->normal, &b->normal);
-
     return normals != 0 ? normals : (a->offset_m > b->offset_m) - (a->offset_m < b->offset_m);
 }
 
@@ -218,7 +205,6 @@ static bool lies_on(const struct hull_plane *plane, const struct convex_hull *wr
 {
     for (int k = 0; k < 3; k++) {
         double above = vec3_dot(plane->normal, wrap->point[face->corner[k]]) - plane->offset_m;
-
         if (fabs(above) > HULLS_FLAT_M)
             return false;
     }
@@ -232,7 +218,6 @@ static void find_planes(struct shell *shell, struct convex_hull *wrap)
     for (uint32_t i = 0; i < wrap->face_count; i++) {
         const struct convex_hull_face *face = &wrap->face[i];
         uint32_t plane = 0;
-
         while (plane < shell->planes && !lies_on(&shell->plane[plane], wrap, face))
             plane++;
         if (plane == shell->planes)
@@ -245,11 +230,9 @@ static void find_planes(struct shell *shell, struct convex_hull *wrap)
 static bool is_corner(const struct shell *shell, const struct convex_hull *wrap, uint32_t point)
 {
     uint32_t seen[2] = {UINT32_MAX, UINT32_MAX};
-
     for (uint32_t i = 0; i < wrap->face_count; i++) {
         const struct convex_hull_face *face = &wrap->face[i];
         uint32_t plane = shell->plane_of[i];
-
         if (face->corner[0] != point && face->corner[1] != point && face->corner[2] != point)
             continue;
         if (seen[0] == UINT32_MAX || seen[0] == plane)
@@ -268,7 +251,6 @@ static void hold_points(struct shell *shell, const struct piece *piece)
 {
     for (uint32_t i = 0; i < shell->planes; i++) {
         struct hull_plane *plane = &shell->plane[i];
-
         for (uint32_t k = 0; k < piece->count; k++)
             plane->offset_m = maths_max(plane->offset_m, vec3_dot(plane->normal, piece->point[k]));
     }
@@ -277,7 +259,6 @@ static void hold_points(struct shell *shell, const struct piece *piece)
 static int shell_make(struct shell *shell, struct piece *piece)
 {
     struct convex_hull *wrap = &piece->wrap;
-
     memset(shell, 0, sizeof(*shell));
     shell->vertex = malloc(wrap->point_count * sizeof(*shell->vertex));
     shell->plane = malloc(wrap->face_count * sizeof(*shell->plane));
@@ -305,10 +286,8 @@ static int shell_make(struct shell *shell, struct piece *piece)
 static void set_sphere(struct hull *hull, const struct shell *shell)
 {
     struct vec3 low = shell->vertex[0], high = low;
-
     for (uint32_t i = 1; i < shell->vertices; i++) {
         const struct vec3 *v = &shell->vertex[i];
-
         low = (struct vec3){maths_min(low.x, v->x), maths_min(low.y, v->y), maths_min(low.z, v->z)};
         high = (struct vec3){maths_max(high.x, v->x), maths_max(high.y, v->y),
                              maths_max(high.z, v->z)};
@@ -327,7 +306,6 @@ static int add_hull(struct scenario *scenario, const struct shell *shell)
                          .vertex_count = shell->vertices,
                          .first_plane = scenario->hull_plane_count,
                          .plane_count = shell->planes};
-
     set_sphere(&added, shell);
     struct hull *hull = table_extend(&hulls, &scenario->hull_count, 1, sizeof(*hull));
     scenario->hulls = hulls;
@@ -349,7 +327,6 @@ static void grow_extent(struct hulls *hulls, const struct shell *shell)
 {
     for (uint32_t i = 0; i < shell->vertices; i++) {
         const struct vec3 *v = &shell->vertex[i];
-
         hulls->bound_m = maths_max(hulls->bound_m, vec3_length(*v));
         hulls->level_m = maths_max(hulls->level_m, sqrt(v->x * v->x + v->z * v->z));
         hulls->low_m = maths_min(hulls->low_m, v->y);
@@ -364,7 +341,6 @@ static int add_pieces(struct hulls *hulls, struct scenario *scenario,
     for (uint32_t i = 0; i < pieces->count; i++) {
         struct shell shell;
         int result;
-
         if (pieces->piece[i].count == 0)
             continue;
         result = shell_make(&shell, &pieces->piece[i]);
@@ -385,7 +361,6 @@ static int outer_make(struct shell *shell, const struct connected_pieces *pieces
 {
     uint32_t count = 0, taken = 0;
     int result = -1;
-
     for (uint32_t i = 0; i < pieces->count; i++)
         count += pieces->piece[i].wrap.point_count;
     if (count == 0) {
@@ -397,7 +372,6 @@ static int outer_make(struct shell *shell, const struct connected_pieces *pieces
         return -1;
     for (uint32_t i = 0; i < pieces->count; i++) {
         const struct convex_hull *wrap = &pieces->piece[i].wrap;
-
         memcpy(point + taken, wrap->point, wrap->point_count * sizeof(*point));
         taken += wrap->point_count;
     }
@@ -415,7 +389,6 @@ static int build(struct hulls *hulls, struct scenario *scenario, const struct mo
 {
     struct shell outer = {.vertex = NULL};
     int result = -1;
-
     if (connected_pieces_find(pieces, scenario, model) == 0 && outer_make(&outer, pieces) == 0 &&
         join_pieces(pieces) == 0 && add_pieces(hulls, scenario, pieces) == 0) {
         hulls->outer = scenario->hull_count;
@@ -447,7 +420,6 @@ int hulls_build(struct hulls *hulls, struct scenario *scenario, const struct mod
 {
     struct connected_pieces *pieces = malloc(sizeof(*pieces));
     int result = -1, error;
-
     if (pieces == NULL)
         return refuse(place, message, ENOMEM);
     result = build(hulls, scenario, model, pieces);

@@ -69,7 +69,6 @@ static const struct source *find_file(void *context, const char *name,
     struct source *source = &models->file[models->file_count];
     const struct key_place place = {path, 0};
     int length = snprintf(folder, sizeof(folder), "%s/models", models->data_dir);
-
     if (length >= 0 && (size_t)length < sizeof(folder))
         length = snprintf(path, sizeof(path), "%s/%s", folder, name);
     if (length < 0 || (size_t)length >= sizeof(path)) {
@@ -98,7 +97,6 @@ static size_t reader_read(struct aiFile *file, char *to, size_t size, size_t cou
 {
     struct reader *reader = (struct reader *)(void *)file->UserData;
     size_t left = reader->source->bytes - reader->at;
-
     if (size == 0 || count == 0)
         return 0;
     if (count > left / size)
@@ -129,7 +127,6 @@ static enum aiReturn reader_seek(struct aiFile *file, size_t offset, enum aiOrig
     struct reader *reader = (struct reader *)(void *)file->UserData;
     size_t size = reader->source->bytes;
     size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? reader->at : size;
-
     /* assimp may count back from the end and from here; unsigned wrap-around subtracts. */
     if (base + offset > size)
         return aiReturn_FAILURE;
@@ -145,7 +142,6 @@ static void reader_flush(struct aiFile *file)
 static const char *base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
-
     return slash != NULL ? slash + 1 : path;
 }
 
@@ -156,7 +152,6 @@ static struct aiFile *open_reader(struct aiFileIO *io, const char *path, const c
     struct config_message ignored; /* obj_file_check() has read the file before */
     struct reader *reader;
     const struct source *source;
-
     if (mode[0] != 'r')
         return NULL;
     source = find_file(models, base_name(path), &ignored);
@@ -193,7 +188,6 @@ static int take_vertices(struct taking *taking, const struct aiMesh *mesh)
 {
     struct scenario *scenario = taking->models->scenario;
     void *table = scenario->vertices;
-
     if (mesh->mNumVertices > MODELS_VERTEX_MAX - taking->model->vertex_count)
         return key_table_refuse(taking->message, taking->place, NULL, NULL,
                                 "has too many vertices; allowed: up to %u", MODELS_VERTEX_MAX);
@@ -205,7 +199,6 @@ static int take_vertices(struct taking *taking, const struct aiMesh *mesh)
     taking->model->vertex_count += mesh->mNumVertices;
     for (uint32_t i = 0; i < mesh->mNumVertices; i++) {
         const struct aiVector3D *from = &mesh->mVertices[i];
-
         vertex[i] = (struct model_vertex){from->x, from->y, from->z};
         if (!(fabsf(from->x) <= MODELS_EXTENT_MAX && fabsf(from->y) <= MODELS_EXTENT_MAX &&
               fabsf(from->z) <= MODELS_EXTENT_MAX))
@@ -233,7 +226,6 @@ static int take_material(struct taking *taking, const struct aiMesh *mesh,
     const struct aiMaterial *material = taking->scene->mMaterials[mesh->mMaterialIndex];
     struct aiString name = {0};
     struct aiColor4D color;
-
     if (aiGetMaterialString(material, AI_MATKEY_NAME, &name) != aiReturn_SUCCESS ||
         aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &color) != aiReturn_SUCCESS)
         return key_table_refuse(
@@ -255,7 +247,6 @@ static int take_mesh(struct taking *taking, const struct aiMesh *mesh, struct mo
     struct scenario *scenario = taking->models->scenario;
     uint32_t first = taking->model->vertex_count;
     void *table = scenario->triangles;
-
     if (take_material(taking, mesh, &like) != 0 || take_vertices(taking, mesh) != 0)
         return -1;
     if (mesh->mNumFaces > MODELS_TRIANGLE_MAX - taking->model->triangle_count)
@@ -269,7 +260,6 @@ static int take_mesh(struct taking *taking, const struct aiMesh *mesh, struct mo
     taking->model->triangle_count += mesh->mNumFaces;
     for (uint32_t i = 0; i < mesh->mNumFaces; i++) {
         const struct aiFace *face = &mesh->mFaces[i];
-
         triangle[i] = like;
         if (face->mNumIndices != 3)
             return key_table_refuse(taking->message, taking->place, NULL, NULL,
@@ -291,7 +281,6 @@ static uint32_t part_of(const char *name)
 {
     size_t length = strlen(name), end = length;
     uint32_t part = 0;
-
     while (end > 0 && name[end - 1] >= '0' && name[end - 1] <= '9')
         end--;
     if (end < length && end > 0 && name[end - 1] == '_')
@@ -306,7 +295,6 @@ static uint32_t part_of(const char *name)
 static int take_part(struct taking *taking, const struct aiNode *node, struct model_triangle *like)
 {
     uint32_t part = part_of(node->mName.data);
-
     if (part == PART_COUNT)
         return key_table_refuse(
             taking->message, taking->place, NULL, NULL,
@@ -329,7 +317,6 @@ static int take_part(struct taking *taking, const struct aiNode *node, struct mo
 static int take_node(struct taking *taking, const struct aiNode *node, bool solid, int depth)
 {
     struct model_triangle like = {.part = PART_BODY};
-
     if (depth > NODE_DEPTH_MAX)
         return key_table_refuse(taking->message, taking->place, NULL, NULL, "is nested too deeply");
     if (node->mNumMeshes > 0 && (strcmp(node->mName.data, solid_name) == 0) == solid) {
@@ -353,7 +340,6 @@ static int take_scene(struct models *models, const struct aiScene *scene, const 
     struct scenario *scenario = models->scenario;
     void *table = scenario->models;
     struct model *model = table_extend(&table, &scenario->model_count, 1, sizeof(*model));
-
     if (model == NULL)
         return key_table_refuse(message, place, NULL, NULL, "no memory for it");
     scenario->models = table;
@@ -381,7 +367,6 @@ int models_find(struct models *models, const char *name, struct config_message *
     const struct scenario *scenario = models->scenario;
     struct aiFileIO io = {open_reader, close_reader, (aiUserData)(void *)models};
     char file[KIND_NAME_MAX + sizeof(".obj")];
-
     for (uint32_t i = 0; i < scenario->model_count; i++) {
         if (strcmp(scenario->models[i].name, name) == 0)
             return (int)i;

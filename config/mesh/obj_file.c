@@ -49,7 +49,6 @@ struct statement {
 static int refuse(const struct checking *checking, uint32_t index, const char *wrong)
 {
     char name[OBJ_FILE_WORD_MAX + 1], value[OBJ_FILE_WORD_MAX + 1];
-
     snprintf(name, sizeof(name), "%.*s", (int)checking->word[0].length, checking->word[0].text);
     snprintf(value, sizeof(value), "%.*s", (int)checking->word[index].length,
              checking->word[index].text);
@@ -60,7 +59,6 @@ static int refuse(const struct checking *checking, uint32_t index, const char *w
 static int refuse_many(const struct checking *checking, const char *what, uint32_t most)
 {
     char wrong[80];
-
     snprintf(wrong, sizeof(wrong), "is one of too many %s; allowed: up to %u", what, most);
     return refuse(checking, 0, wrong);
 }
@@ -83,7 +81,6 @@ static size_t number_length(const char *text)
 {
     size_t length = *text == '+' || *text == '-';
     size_t whole = digits(text + length);
-
     if (whole == 0)
         return 0;
     length += whole;
@@ -91,7 +88,6 @@ static size_t number_length(const char *text)
         length += 1 + digits(text + length + 1);
     if (text[length] == 'e' || text[length] == 'E') {
         size_t sign = text[length + 1] == '+' || text[length + 1] == '-';
-
         if (digits(text + length + 1 + sign) > 0)
             length += 1 + sign + digits(text + length + 1 + sign);
     }
@@ -102,7 +98,6 @@ static int check_number(const struct checking *checking, uint32_t index, double 
 {
     const struct word *word = &checking->word[index];
     char wrong[80];
-
     if (word->length > NUMBER_TEXT_MAX || number_length(word->text) != word->length)
         return refuse(checking, index, "is not a number; right would be: a number such as -1.25");
     double value = strtod(word->text, NULL);
@@ -115,7 +110,6 @@ static int check_numbers(const struct checking *checking, uint32_t least, uint32
                          double high)
 {
     char wrong[80];
-
     if (checking->words - 1 < least || checking->words - 1 > most) {
         snprintf(wrong, sizeof(wrong), "has %u numbers; allowed: %u..%u", checking->words - 1,
                  least, most);
@@ -132,7 +126,6 @@ static int check_numbers(const struct checking *checking, uint32_t least, uint32
 static int take_name(const struct checking *checking, char name[OBJ_FILE_WORD_MAX + 1])
 {
     const struct word *word = &checking->word[1];
-
     if (checking->words != 2)
         return refuse(checking, 0, "needs one name; right would be: one word after it");
     if (word->length > OBJ_FILE_WORD_MAX || strspn(word->text, NAME_CHARACTERS) < word->length)
@@ -148,7 +141,6 @@ static int take_name(const struct checking *checking, char name[OBJ_FILE_WORD_MA
 static void split(struct checking *checking, const char *line, size_t length)
 {
     const char *end = line + length;
-
     checking->words = 0;
     for (;;) {
         while (line < end && (*line == ' ' || *line == '\t'))
@@ -169,14 +161,12 @@ static void split(struct checking *checking, const char *line, size_t length)
 static int check_bytes(const struct checking *checking, const char *line, size_t length)
 {
     bool comment = line[strspn(line, " \t")] == '#';
-
     if (length > OBJ_FILE_LINE_MAX)
         return key_table_refuse(checking->message, checking->place, NULL, NULL,
                                 "has a line of %zu characters; allowed: up to %d", length,
                                 OBJ_FILE_LINE_MAX);
     for (size_t i = 0; i < length; i++) {
         unsigned char c = (unsigned char)line[i];
-
         if ((c < 0x20 && c != '\t') || c == 0x7f || c == '\\' || (c > 0x7f && !comment))
             return key_table_refuse(
                 checking->message, checking->place, NULL, NULL,
@@ -211,7 +201,6 @@ static int check_lines(struct checking *checking, const struct source *source,
                                 "is not text: it has a NUL byte");
     for (const char *line = source->text; *line != '\0';) {
         size_t whole = strcspn(line, "\n"), length = whole;
-
         if (line[whole] == '\n' && length > 0 && line[length - 1] == '\r')
             length--;
         checking->place.line++;
@@ -240,7 +229,6 @@ static int check_newmtl(struct checking *checking)
 {
     struct materials *materials = checking->materials;
     char name[OBJ_FILE_WORD_MAX + 1];
-
     if (take_name(checking, name) != 0)
         return -1;
     if (materials->count == OBJ_FILE_MATERIALS_MAX)
@@ -254,7 +242,6 @@ static int check_newmtl(struct checking *checking)
 static int check_color(struct checking *checking)
 {
     struct materials *materials = checking->materials;
-
     if (materials->count == 0)
         return refuse(checking, 0, "stands before any newmtl");
     if (check_numbers(checking, 3, 3, 0.0, 1.0) != 0)
@@ -279,14 +266,12 @@ static int check_library(struct materials *materials, const struct source *sourc
         {"Ke", check_color},      {"Tf", check_color},    {"Ns", check_shine}, {"Ni", check_shine},
         {"d", check_shine},       {"illum", check_shine}, {NULL, NULL}};
     struct checking checking = {.message = message, .materials = materials};
-
     return check_lines(&checking, source, statements);
 }
 
 static int check_mtllib(struct checking *checking)
 {
     char name[OBJ_FILE_WORD_MAX + 1] = "";
-
     if (checking->library)
         return refuse(checking, 0, "stands twice; allowed: once");
     if (take_name(checking, name) != 0)
@@ -331,7 +316,6 @@ static int check_smooth(struct checking *checking)
 static int check_section(struct checking *checking)
 {
     char name[OBJ_FILE_WORD_MAX + 1];
-
     if (checking->sections++ == OBJ_FILE_SECTIONS_MAX)
         return refuse_many(checking, "objects, groups and changes of material",
                            OBJ_FILE_SECTIONS_MAX);
@@ -342,7 +326,6 @@ static int check_section(struct checking *checking)
 static int check_usemtl(struct checking *checking)
 {
     char name[OBJ_FILE_WORD_MAX + 1];
-
     if (check_section(checking) != 0 || take_name(checking, name) != 0)
         return -1;
     int index = find_material(checking->materials, name);
@@ -358,7 +341,6 @@ static bool take_index(const char **at, const char *end, uint32_t count)
 {
     uint32_t value = 0;
     int digits = 0;
-
     for (; *at < end && **at >= '0' && **at <= '9' && digits < 7; ++*at, digits++)
         value = value * 10 + (uint32_t)(**at - '0');
     return digits > 0 && value >= 1 && value <= count;
@@ -368,7 +350,6 @@ static bool take_index(const char **at, const char *end, uint32_t count)
 static bool is_corner(const struct checking *checking, const struct word *word)
 {
     const char *at = word->text, *end = at + word->length;
-
     if (!take_index(&at, end, checking->vertices))
         return false;
     if (at == end)
@@ -386,7 +367,6 @@ static int check_face(struct checking *checking)
 {
     uint32_t corners = checking->words - 1;
     char wrong[80];
-
     if (corners < 3 || corners > OBJ_FILE_CORNERS_MAX) {
         snprintf(wrong, sizeof(wrong), "has %u corners; allowed: 3..%u", corners,
                  OBJ_FILE_CORNERS_MAX);
@@ -417,7 +397,6 @@ int obj_file_check(const struct source *source, obj_file_open *open, void *conte
         {NULL, NULL}};
     struct checking checking = {.message = message, .open = open, .context = context};
     int result = -1;
-
     checking.materials = calloc(1, sizeof(*checking.materials));
     if (checking.materials == NULL)
         key_table_refuse(message, (struct key_place){source->path, 0}, NULL, NULL,

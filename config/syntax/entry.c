@@ -17,7 +17,6 @@ int entry_refuse(const struct entry *entry, uint32_t key, const char *format, ..
     struct key_place place = {entry->keys.file, (int)config_setting_source_line(entry->setting)};
     char path[KEY_PATH_MAX + 24], value[80], text[512];
     va_list arguments;
-
     va_start(arguments, format);
     vsnprintf(text, sizeof(text), format, arguments);
     va_end(arguments);
@@ -34,11 +33,9 @@ int entry_refuse(const struct entry *entry, uint32_t key, const char *format, ..
 static void name_kinds(const struct scenario *scenario, unsigned domains, char *text, size_t bytes)
 {
     size_t used = 0;
-
     text[0] = '\0';
     for (uint32_t i = 0; i < scenario->kind_count && used < bytes; i++) {
         const struct kind *kind = &scenario->kinds[i];
-
         if ((domains & DOMAIN_BIT(kind->domain)) != 0)
             used += (size_t)snprintf(text + used, bytes - used, "%s%s", used > 0 ? ", " : "",
                                      kind->name);
@@ -50,7 +47,6 @@ uint16_t entry_kind(const struct entry *entry, uint32_t key, const char *name, u
     const struct scenario *scenario = entry->scenario;
     uint16_t kind = kind_find(scenario->kinds, scenario->kind_count, name);
     char names[400];
-
     if (kind != KIND_NONE && (domains & DOMAIN_BIT(scenario->kinds[kind].domain)) != 0)
         return kind;
     name_kinds(scenario, domains, names, sizeof(names));
@@ -63,7 +59,6 @@ int entry_read(struct entry *entry, const struct key_table *table, int index,
                const config_setting_t *list, void *destination)
 {
     const config_setting_t *setting = config_setting_get_elem(list, (unsigned)index);
-
     entry->setting = setting;
     entry->keys.table = table;
     entry->keys.destination = destination;
@@ -73,7 +68,6 @@ int entry_read(struct entry *entry, const struct key_table *table, int index,
     if (setting->type != CONFIG_TYPE_GROUP) {
         const struct key_place place = {entry->keys.file, (int)config_setting_source_line(setting)};
         char value[80];
-
         key_table_value_text(setting, value, sizeof(value));
         return key_table_refuse(entry->message, place, entry->path, value,
                                 "is not a group; allowed: { key = value; ... }");
@@ -88,7 +82,6 @@ int entry_count(const config_setting_t *list, const char *file, int max,
 {
     const struct key_place place = {file, (int)config_setting_source_line(list)};
     char value[80];
-
     key_table_value_text(list, value, sizeof(value));
     if (list->type != CONFIG_TYPE_LIST)
         return key_table_refuse(message, place, config_setting_name(list), value,
@@ -104,7 +97,6 @@ void *entry_allocate(uint32_t count, size_t size, const char *file, struct confi
 {
     const struct key_place place = {file, 0};
     void *memory = calloc((size_t)count + 1, size);
-
     if (memory == NULL)
         key_table_refuse(message, place, NULL, NULL, "no memory for its lists");
     return memory;

@@ -30,7 +30,6 @@ static void append(char *text, size_t bytes, const char *format, ...)
 {
     size_t used = strlen(text);
     va_list arguments;
-
     va_start(arguments, format);
     vsnprintf(text + used, bytes - used, format, arguments);
     va_end(arguments);
@@ -42,7 +41,6 @@ static void append_escaped(char *text, size_t bytes, const char *raw)
 {
     for (; *raw != '\0'; raw++) {
         unsigned char byte = (unsigned char)*raw;
-
         if (byte < 0x20 || byte == 0x7f)
             append(text, bytes, "\\x%02x", byte);
         else
@@ -55,7 +53,6 @@ int key_table_refuse(struct config_message *message, struct key_place place, con
 {
     char text[sizeof(message->text)];
     va_list arguments;
-
     message->text[0] = '\0';
     append_escaped(message->text, sizeof(message->text), place.file);
     if (place.line > 0)
@@ -90,7 +87,6 @@ struct key_choice key_table_choice(const struct key *key, uint32_t n)
 {
     struct key_choice choice =
         key->choices != NULL ? key->choices[n] : (struct key_choice){.value = n};
-
     if (choice.name == NULL)
         choice.name = key->word(choice.value);
     return choice;
@@ -103,7 +99,6 @@ const char *key_type_name(enum key_type type)
         [KEY_TEXT] = "text",       [KEY_CHOICE] = "choice",   [KEY_CHOICES] = "choices",
         [KEY_POINT] = "point",     [KEY_AREA] = "area",       [KEY_ROUTE] = "route",
     };
-
     return type < KEY_TYPE_COUNT ? names[type] : "?";
 }
 
@@ -149,7 +144,6 @@ void key_table_allowed(const struct key *key, char *text, size_t bytes)
     case KEY_CHOICES:
         for (uint32_t n = 0; n < key->choice_count; n++) {
             const struct key_choice choice = key_table_choice(key, n);
-
             if (choice.value != KEY_LATER)
                 append(text, bytes, "%s%s", text[0] == '\0' ? "" : ", ", choice.name);
         }
@@ -178,7 +172,6 @@ void key_table_allowed(const struct key *key, char *text, size_t bytes)
 static int refuse_value(const struct given *given, const char *wrong)
 {
     char allowed[ALLOWED_TEXT_MAX];
-
     key_table_allowed(given->key, allowed, sizeof(allowed));
     return key_table_refuse(given->message, given->place, given->path, given->value,
                             "%s; allowed: %s", wrong, allowed);
@@ -188,7 +181,6 @@ static int store_number(const struct given *given, void *destination, double val
 {
     const struct key *key = given->key;
     char *to = (char *)destination + key->offset;
-
     if (!(value >= key->low && value <= key->high)) /* refuses NaN too */
         return refuse_value(given, "out of range");
     switch (key->store) {
@@ -245,7 +237,6 @@ static int store_choice(const struct given *given, void *destination, const char
     const struct key *key = given->key;
     char *to = (char *)destination + key->offset;
     struct key_choice choice;
-
     if (!find_choice(key, word, strlen(word), &choice))
         return refuse_value(given, "unknown");
     if (choice.value == KEY_LATER)
@@ -261,10 +252,8 @@ static int store_choice(const struct given *given, void *destination, const char
 static int store_choices(const struct given *given, void *destination, const char *words)
 {
     uint32_t all = 0;
-
     for (const char *at = words; at != NULL;) {
         struct key_choice choice;
-
         at += strspn(at, " ");
         size_t length = strcspn(at, ",");
         if (!find_choice(given->key, at, length, &choice))
@@ -280,7 +269,6 @@ static int store_choices(const struct given *given, void *destination, const cha
 static int store_text(const struct given *given, void *destination, const char *text)
 {
     const struct key *key = given->key;
-
     if (strlen(text) >= key->size)
         return refuse_value(given, "too long");
     if (key->required && text[0] == '\0')
@@ -300,7 +288,6 @@ int key_table_set_text(const struct key *key, void *destination, const char *tex
     struct given given = {key, key->name, text, place, message};
     char *end = NULL;
     double value;
-
     switch (key->type) {
     case KEY_BOOLEAN:
         if (strcmp(text, "true") != 0 && strcmp(text, "false") != 0)
@@ -335,10 +322,8 @@ int key_table_defaults(const struct key_table *table, void *destination,
                        struct config_message *message)
 {
     const struct key_place place = {"default", 0};
-
     for (uint32_t i = 0; i < table->count; i++) {
         const struct key *key = &table->keys[i];
-
         if (key->fallback != NULL &&
             key_table_set_text(key, destination, key->fallback, place, message) != 0)
             return -1;
@@ -372,7 +357,6 @@ static bool numbers_of(const config_setting_t *setting, double *numbers, int cou
         return false;
     for (int i = 0; i < count; i++) {
         const config_setting_t *element = config_setting_get_elem(setting, (unsigned)i);
-
         if (element == NULL || !is_number(element))
             return false;
         numbers[i] = number_of(element);
@@ -389,7 +373,6 @@ bool key_table_point(const config_setting_t *setting, double point[2])
 static bool looks_like_array(const config_setting_t *setting)
 {
     bool numbers = config_setting_length(setting) > 0;
-
     for (int i = 0; i < config_setting_length(setting); i++)
         numbers &= is_number(config_setting_get_elem(setting, (unsigned)i));
     return setting->type == CONFIG_TYPE_ARRAY || numbers;
@@ -398,7 +381,6 @@ static bool looks_like_array(const config_setting_t *setting)
 void key_table_value_text(const config_setting_t *setting, char *text, size_t bytes)
 {
     bool list;
-
     text[0] = '\0';
     switch (setting->type) {
     case CONFIG_TYPE_INT:
@@ -421,7 +403,6 @@ void key_table_value_text(const config_setting_t *setting, char *text, size_t by
         for (int i = 0; i < config_setting_length(setting) && i < 4; i++) {
             char element[24];
             const config_setting_t *child = config_setting_get_elem(setting, (unsigned)i);
-
             key_table_value_text(child, element, sizeof(element));
             append(text, bytes, "%s%s", i > 0 ? ", " : "", element);
         }
@@ -438,7 +419,6 @@ static int store_area(const struct given *given, void *destination, const config
 {
     const struct key *key = given->key;
     double area[4];
-
     if (!numbers_of(setting, area, 4))
         return refuse_value(given, "is not four numbers");
     for (int i = 0; i < 4; i++) {
@@ -456,7 +436,6 @@ static int store_point(const struct given *given, void *destination,
 {
     const struct key *key = given->key;
     double point[2];
-
     if (!key_table_point(setting, point))
         return refuse_value(given, "is not two numbers");
     for (int i = 0; i < 2; i++) {
@@ -471,14 +450,12 @@ static int store_route(const struct given *given, void *destination,
                        const config_setting_t *setting)
 {
     const struct key *key = given->key;
-
     if (setting->type != CONFIG_TYPE_LIST)
         return refuse_value(given, "is not a list of points");
     if (config_setting_length(setting) < 2)
         return refuse_value(given, "has fewer than two points");
     for (int i = 0; i < config_setting_length(setting); i++) {
         double point[2];
-
         if (!key_table_point(config_setting_get_elem(setting, (unsigned)i), point))
             return refuse_value(given, "is not a list of points");
         for (int axis = 0; axis < 2; axis++) {
@@ -495,7 +472,6 @@ static int store_setting(const struct given *given, void *destination,
 {
     bool whole = setting->type == CONFIG_TYPE_INT || setting->type == CONFIG_TYPE_INT64;
     const struct key *key = given->key;
-
     switch (key->type) {
     case KEY_BOOLEAN:
         if (setting->type != CONFIG_TYPE_BOOL)
@@ -536,7 +512,6 @@ static int store_setting(const struct given *given, void *destination,
 static bool is_group(const struct key_table *table, const char *name)
 {
     size_t length = strlen(name);
-
     for (uint32_t i = 0; i < table->count; i++) {
         if (strncmp(table->keys[i].name, name, length) == 0 && table->keys[i].name[length] == '.')
             return true;
@@ -549,12 +524,10 @@ static void list_names(const struct key_table *table, const char *prefix, char *
 {
     size_t length = strlen(prefix);
     char last[KEY_PATH_MAX] = "";
-
     text[0] = '\0';
     for (uint32_t i = 0; i < table->count; i++) {
         const char *rest = table->keys[i].name;
         char name[KEY_PATH_MAX];
-
         if (length > 0 && (strncmp(rest, prefix, length) != 0 || rest[length] != '.'))
             continue;
         rest += length > 0 ? length + 1 : 0;
@@ -571,11 +544,9 @@ static int read_setting(struct key_reading *reading, const config_setting_t *set
     const struct key_place place = {reading->file, (int)config_setting_source_line(setting)};
     char value[VALUE_TEXT_MAX];
     int index = key_table_find(reading->table, name);
-
     key_table_value_text(setting, value, sizeof(value));
     if (index >= 0) {
         struct given given = {&reading->table->keys[index], shown, value, place, message};
-
         reading->given |= UINT64_C(1) << index;
         reading->line[index] = place.line;
         return store_setting(&given, reading->destination, setting);
@@ -584,7 +555,6 @@ static int read_setting(struct key_reading *reading, const config_setting_t *set
         char names[512];
         const char *dot = strrchr(name, '.');
         char parent[KEY_PATH_MAX] = "";
-
         if (dot != NULL)
             snprintf(parent, sizeof(parent), "%.*s", (int)(dot - name), name);
         list_names(reading->table, parent, names, sizeof(names));
@@ -601,7 +571,6 @@ static int read_setting(struct key_reading *reading, const config_setting_t *set
 static int group_line(const config_setting_t *group)
 {
     int line = (int)config_setting_source_line(group);
-
     return line > 0 ? line : 1;
 }
 
@@ -610,12 +579,10 @@ int key_table_read(struct key_reading *reading, const config_setting_t *group, c
 {
     const char *dot = prefix[0] == '\0' ? "" : ".";
     const char *shown_dot = shown[0] == '\0' ? "" : ".";
-
     for (int i = 0; i < config_setting_length(group); i++) {
         const config_setting_t *child = config_setting_get_elem(group, (unsigned)i);
         const char *own = config_setting_name(child);
         char name[KEY_PATH_MAX], path[KEY_PATH_MAX + KEY_PATH_MAX];
-
         if (prefix[0] == '\0' && reading->skip != NULL && reading->skip(child))
             continue;
         snprintf(name, sizeof(name), "%s%s%.40s", prefix, dot, own);
@@ -627,7 +594,6 @@ int key_table_read(struct key_reading *reading, const config_setting_t *group, c
         const struct key *key = &reading->table->keys[i];
         const struct key_place place = {reading->file, group_line(group)};
         char allowed[ALLOWED_TEXT_MAX], path[KEY_PATH_MAX + KEY_PATH_MAX];
-
         if (!key->required || (reading->given >> i & 1u) != 0)
             continue;
         key_table_allowed(key, allowed, sizeof(allowed));

@@ -12,15 +12,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- fixed objects -----------------------------------------------------------------------------
- */
+/* --- fixed objects -----------------------------------------------------------------------------*/
 
 int lists_objects(struct scenario *scenario, const config_setting_t *list, const char *file,
                   struct config_message *message)
 {
     struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
     int length = list != NULL ? entry_count(list, file, SCHEMA_OBJECTS_MAX, message) : 0;
-
     if (length < 0)
         return -1;
     scenario->object_list =
@@ -29,7 +27,6 @@ int lists_objects(struct scenario *scenario, const config_setting_t *list, const
         return -1;
     for (int i = 0; i < length; i++) {
         struct object_entry object;
-
         memset(&object, 0, sizeof(object));
         if (entry_read(&entry, &schema_object, i, list, &object) != 0)
             return -1;
@@ -42,18 +39,15 @@ int lists_objects(struct scenario *scenario, const config_setting_t *list, const
     return 0;
 }
 
-/* --- bases -------------------------------------------------------------------------------------
- */
+/* --- bases -------------------------------------------------------------------------------------*/
 
 int lists_bases(struct scenario *scenario, const config_setting_t *list, const char *file,
                 struct config_message *message)
 {
     struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
     int length = list != NULL ? entry_count(list, file, FORCE_COUNT, message) : 0;
-
     for (int i = 0; i < length; i++) {
         struct base_entry base;
-
         memset(&base, 0, sizeof(base));
         if (entry_read(&entry, &schema_base, i, list, &base) != 0)
             return -1;
@@ -66,8 +60,7 @@ int lists_bases(struct scenario *scenario, const config_setting_t *list, const c
     return length < 0 ? -1 : 0;
 }
 
-/* --- names -------------------------------------------------------------------------------------
- */
+/* --- names -------------------------------------------------------------------------------------*/
 
 /* The groups that have a name, sorted by it for binary search. */
 struct named {
@@ -78,20 +71,16 @@ struct named {
 static int compare_groups(const void *a, const void *b)
 {
     const struct scenario_group *const *left = a, *const *right = b;
-
     int order = strcmp((*left)->name, (*right)->name);
-
     return order != 0 ? order : (*left > *right) - (*left < *right); /* else in file order */
 }
 
 static const struct scenario_group *find_group(const struct named *named, const char *name)
 {
     uint32_t low = 0, high = named->count;
-
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
         int order = strcmp(named->group[middle]->name, name);
-
         if (order == 0)
             return named->group[middle];
         if (order < 0)
@@ -107,7 +96,6 @@ static const struct scenario_group *find_of_many(const struct named *named, cons
 {
     const char *dash = strrchr(name, '-');
     char base[ENTITY_NAME_MAX], again[2 * ENTITY_NAME_MAX];
-
     if (dash == NULL)
         return NULL;
     snprintf(base, sizeof(base), "%.*s", (int)(dash - name), name);
@@ -124,7 +112,6 @@ static const struct scenario_group *find_of_many(const struct named *named, cons
 static const struct scenario_group *find_vehicle(const struct named *named, const char *name)
 {
     const struct scenario_group *group = find_group(named, name);
-
     return group != NULL && group->count == 1 ? group : find_of_many(named, name);
 }
 
@@ -146,7 +133,6 @@ static int collect_names(struct named *named, const struct scenario *scenario,
         const struct scenario_group *group = named->group[i];
         uint32_t index = (uint32_t)(group - scenario->groups);
         char path[KEY_PATH_MAX];
-
         if (!(i > 0 && strcmp(named->group[i - 1]->name, group->name) == 0) &&
             !(group->count == 1 && find_of_many(named, group->name) != NULL))
             continue;
@@ -160,15 +146,13 @@ static int collect_names(struct named *named, const struct scenario *scenario,
     return 0;
 }
 
-/* --- ordered shots -----------------------------------------------------------------------------
- */
+/* --- ordered shots -----------------------------------------------------------------------------*/
 
 static int check_fire(const struct entry *entry, const struct fire_entry *fire,
                       const struct named *named, uint16_t *munition)
 {
     const struct kind *kinds = entry->scenario->kinds;
     const struct scenario_group *shooter = find_vehicle(named, fire->shooter);
-
     *munition = KIND_NONE;
     if (entry_given(entry, FIRE_SHOOTER) && shooter == NULL)
         return entry_refuse(entry, FIRE_SHOOTER,
@@ -207,7 +191,6 @@ int lists_fires(struct scenario *scenario, const config_setting_t *list,
     int length = list != NULL ? entry_count(list, file, SCHEMA_FIRES_MAX, message) : 0;
     struct named named = {NULL, 0};
     int result = -1;
-
     if (length < 0)
         return -1;
     scenario->fires = entry_allocate((uint32_t)length, sizeof(*scenario->fires), file, message);
@@ -216,7 +199,6 @@ int lists_fires(struct scenario *scenario, const config_setting_t *list,
     for (int i = 0; i < length; i++) {
         struct fire_entry fire;
         uint16_t munition;
-
         memset(&fire, 0, sizeof(fire));
         if (entry_read(&entry, &schema_fire, i, list, &fire) != 0 ||
             check_fire(&entry, &fire, &named, &munition) != 0)

@@ -29,7 +29,6 @@ static void copy(struct copying *copying, size_t count)
 static size_t string_length(const char *text, bool *ends)
 {
     size_t length = 1;
-
     while (text[length] != '\0' && text[length] != '"')
         length += text[length] == '\\' && text[length + 1] != '\0' ? 2 : 1;
     *ends = text[length] == '"';
@@ -39,7 +38,6 @@ static size_t string_length(const char *text, bool *ends)
 static size_t comment_length(const char *text, bool *ends)
 {
     const char *end = strstr(text + 2, "*/");
-
     *ends = end != NULL;
     return *ends ? (size_t)(end - text) + 2 : strlen(text);
 }
@@ -63,7 +61,6 @@ static void copy_number(struct copying *copying)
     size_t digits = hex ? strspn(text + 2, HEX_DIGITS) : strspn(text, DECIMAL_DIGITS);
     const char *end = text + digits + (hex ? 2 : 0);
     bool whole = !isalnum((unsigned char)*end) && *end != '.';
-
     if (!whole) { /* a fraction, an exponent or a suffix stays as it is */
         while (isalnum((unsigned char)*end) || *end == '.' ||
                ((*end == '+' || *end == '-') && (end[-1] == 'e' || end[-1] == 'E')))
@@ -78,7 +75,6 @@ static void copy_number(struct copying *copying)
 static bool is_number_array(const char *text)
 {
     size_t length = 1 + strspn(text + 1, HEX_DIGITS "xXL+-.,; \t\r\n");
-
     return text[length] == ']' && length > 1;
 }
 
@@ -87,12 +83,10 @@ void literals_measure(const char *text, struct literals_shape *shape)
     uint32_t members[LITERALS_DEPTH + 1] = {0};
     uint32_t depth = 0;
     int line = 1;
-
     memset(shape, 0, sizeof(*shape));
     for (const char *at = text; *at != '\0';) {
         bool ends;
         size_t length = opaque_length(at, &ends);
-
         if (length > 0) {
             if (!ends)
                 shape->open_line = line;
@@ -126,14 +120,12 @@ char *literals_widen(const char *text)
     size_t bytes = strlen(text);
     char *widened = malloc(bytes + bytes / 8 + 3);
     struct copying copying = {text, widened, false};
-
     if (widened == NULL)
         return NULL;
     while (*copying.from != '\0') {
         unsigned char c = (unsigned char)*copying.from;
         bool ends;
         size_t opaque = opaque_length(copying.from, &ends);
-
         if (opaque > 0) {
             copy(&copying, opaque);
         } else if (isalpha(c) || c == '*' || c == '_') {
@@ -146,7 +138,6 @@ char *literals_widen(const char *text)
         } else {
             bool opens = c == '[' && is_number_array(copying.from);
             bool closes = c == ']' && copying.array;
-
             copy(&copying, 1);
             if (opens || closes) {
                 copying.to[-1] = opens ? '(' : ')';

@@ -31,10 +31,8 @@ static int read_all(struct source *source, int fd, struct config_message *messag
 {
     const struct key_place place = {source->path, 0};
     size_t used = 0;
-
     while (used < source->bytes) {
         ssize_t got = read(fd, source->text + used, source->bytes - used);
-
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)
@@ -67,7 +65,6 @@ static int open_checked(int folder, const char *name, int follow, struct key_pla
                         size_t most, struct stat *status, struct config_message *message)
 {
     int flags = O_RDONLY | O_CLOEXEC | O_NOCTTY;
-
     if (fstatat(folder, name, status, follow) == 0 &&
         check_status(status, most, place, message) != 0)
         return -1;
@@ -93,7 +90,6 @@ static int take(struct source *source, int fd, const struct stat *status,
 {
     const struct key_place place = {source->path, 0};
     int result = -1;
-
     if (fd < 0)
         return -1;
     source->bytes = (size_t)status->st_size;
@@ -113,7 +109,6 @@ int source_read(struct source *source, const char *path, size_t most,
 {
     const struct key_place place = {path, 0};
     struct stat status;
-
     memset(source, 0, sizeof(*source));
     if (strlen(path) >= sizeof(source->path))
         return key_table_refuse(message, place, NULL, NULL, "is too long for a path");
@@ -127,7 +122,6 @@ int source_read_in(struct source *source, const char *folder, const char *name, 
 {
     const struct key_place place = {source->path, 0};
     struct stat status;
-
     memset(source, 0, sizeof(*source));
     int length = snprintf(source->path, sizeof(source->path), "%s/%s", folder, name);
     if (length < 0 || (size_t)length >= sizeof(source->path))
@@ -158,13 +152,10 @@ void source_free(struct source *source)
 static int refuse_includes(const struct source *source, struct config_message *message)
 {
     int line = 1;
-
     for (const char *at = source->text; at != NULL && *at != '\0'; line++) {
         const char *word = at + strspn(at, " \t");
-
         if (strncmp(word, "@include", strlen("@include")) == 0) {
             const struct key_place place = {source->path, line};
-
             return key_table_refuse(
                 message, place, NULL, NULL,
                 "@include is not supported; right would be: the included text itself");
@@ -182,7 +173,6 @@ static int refuse_includes(const struct source *source, struct config_message *m
 static int check_shape(const struct source *source, struct config_message *message)
 {
     struct literals_shape shape;
-
     literals_measure(source->text, &shape);
     const struct key_place deepest = {source->path, shape.deepest_line};
     const struct key_place open = {source->path, shape.open_line};
@@ -218,7 +208,6 @@ static void parse(void *context)
 int source_parse(const struct source *source, config_t *config, struct config_message *message)
 {
     struct key_place place = {source->path, 0};
-
     if (strlen(source->text) != source->bytes)
         return key_table_refuse(message, place, NULL, NULL, "is not text: it has a NUL byte");
     if (refuse_includes(source, message) != 0 || check_shape(source, message) != 0)

@@ -23,13 +23,11 @@ bool ship_move(const struct step_context *context, uint32_t i, const struct desi
     maths_sincos(m->heading[i], &sine, &cosine);
     kinematics_along(m, i, sine, cosine, &forward, &rightward);
     double before = m->heading[i];
-
     /* The effect of the rudder grows with the speed. */
     double bite = maths_clamp(fabs(forward) / maths_max(kind->max_speed_mps, 1e-9), 0.15, 1.0);
     kinematics_steer(context, i, desired, kind->turn_rate_rps * bite);
     if (m->heading[i] != before)
         maths_sincos(m->heading[i], &sine, &cosine);
-
     double wanted =
         maths_clamp(desired->speed_mps, -0.5 * kind->max_speed_mps, kind->max_speed_mps);
     if (!kinematics_burn(context, i, fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9)))
@@ -39,7 +37,6 @@ bool ship_move(const struct step_context *context, uint32_t i, const struct desi
         rate = kinematics_slowing(kind, desired, forward, HULL_DRAG * rate);
     forward = kinematics_approach(forward, wanted, rate * context->dt_s);
     rightward = kinematics_approach(rightward, 0.0, KEEL_DRAG_MPS2 * context->dt_s);
-
     double vx = forward * sine + rightward * cosine;
     double vz = -forward * cosine + rightward * sine;
     double x = m->x[i] + vx * context->dt_s;

@@ -89,7 +89,6 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
     table_set_reload_tick(
         &context->writer, shooter,
         (uint32_t)(context->step->tick + (uint64_t)(kind->reload_s / context->step->dt_s)));
-
     struct event *event = serial_context_intent(context, EVENT_FIRE);
     event->fire.shooter = serial_context_party(context, shooter);
     event->fire.munition = serial_context_party(context, row);

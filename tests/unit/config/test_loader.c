@@ -48,8 +48,7 @@ static const struct kind *kind_of(const struct scenario *scenario, const char *n
     return &scenario->kinds[index];
 }
 
-/* --- defaults and values -----------------------------------------------------------------------
- */
+/* --- defaults and values -----------------------------------------------------------------------*/
 
 static void test_empty_file_has_defaults(void **state)
 {
@@ -382,8 +381,7 @@ static void test_shipped_kinds(void **state)
     scenario_free(&s);
 }
 
-/* --- shipped scenarios -------------------------------------------------------------------------
- */
+/* --- shipped scenarios -------------------------------------------------------------------------*/
 
 static void test_shipped_scenarios(void **state)
 {

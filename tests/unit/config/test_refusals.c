@@ -27,8 +27,7 @@ static int load_with(struct scenario *scenario, const char *text, const char *ov
                            override != NULL, &message);
 }
 
-/* --- refusals ----------------------------------------------------------------------------------
- */
+/* --- refusals ----------------------------------------------------------------------------------*/
 
 struct refusal {
     const char *text;
@@ -447,8 +446,7 @@ static void test_file_refusals(void **state)
     check_file(path, "is not text: it has a NUL byte");
 }
 
-/* --- kinds -------------------------------------------------------------------------------------
- */
+/* --- kinds -------------------------------------------------------------------------------------*/
 
 #define KIND_BEGIN                                                                                 \
     "name = \"k\"; model = \"k\"; mass_kg = 1; radius_m = 1; resistance_j = 1; "                   \

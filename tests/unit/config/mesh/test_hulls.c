@@ -26,8 +26,7 @@
 
 static struct config_message message;
 
-/* --- shapes ------------------------------------------------------------------------------------
- */
+/* --- shapes ------------------------------------------------------------------------------------*/
 
 #define SHAPE_VERTICES  16384
 #define SHAPE_TRIANGLES 16384
@@ -330,8 +329,7 @@ static void test_what_is_the_same_on_both_sides_stays_so(void **state)
     drop();
 }
 
-/* --- flat pieces -------------------------------------------------------------------------------
- */
+/* --- flat pieces -------------------------------------------------------------------------------*/
 
 static void check_thickened(double length, double width)
 {
@@ -389,8 +387,7 @@ static void test_flat_piece_that_leans(void **state)
     drop();
 }
 
-/* --- the same from the same --------------------------------------------------------------------
- */
+/* --- the same from the same --------------------------------------------------------------------*/
 
 /* Triangles and vertices in another order are the same model. */
 static void test_order_of_triangles_changes_nothing(void **state)
@@ -428,8 +425,7 @@ static void test_order_of_triangles_changes_nothing(void **state)
     }
 }
 
-/* --- too much ----------------------------------------------------------------------------------
- */
+/* --- too much ----------------------------------------------------------------------------------*/
 
 static void test_ball_of_as_many_corners_as_a_hull_has(void **state)
 {
@@ -463,8 +459,7 @@ static void test_too_many_pieces_are_refused(void **state)
     must_be_refused("k.obj: has too many pieces; allowed: up to 256");
 }
 
-/* --- shipped -----------------------------------------------------------------------------------
- */
+/* --- shipped -----------------------------------------------------------------------------------*/
 
 static struct scenario shipped;
 

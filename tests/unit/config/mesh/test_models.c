@@ -351,8 +351,7 @@ static void test_colours_are_the_palettes(void **state)
     assert_true(red > 50);
 }
 
-/* --- bad models --------------------------------------------------------------------------------
- */
+/* --- bad models --------------------------------------------------------------------------------*/
 
 #define TOP       "mtllib k.mtl\n"
 #define TRIANGLE  "v 0 0 0\nv 1 0 0\nv 0 1 0\n"

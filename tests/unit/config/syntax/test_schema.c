@@ -41,8 +41,7 @@ static void test_choices_have_words(void **state)
     }
 }
 
-/* --- the document ------------------------------------------------------------------------------
- */
+/* --- the document ------------------------------------------------------------------------------*/
 
 static char *read_document(void)
 {
