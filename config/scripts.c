@@ -186,7 +186,6 @@ static int read_steps(struct entry *script, const config_setting_t *list)
         return -1;
     for (int i = 0; i < length; i++) {
         struct step_entry given;
-        memset(&given, 0, sizeof(given));
         if (entry_read(&entry, &schema_step, i, list, &given) != 0 ||
             add_step(&entry, &given, &last_s) != 0)
             return -1;
@@ -274,7 +273,6 @@ int scripts_read(struct scenario *scenario, const config_setting_t *list, const 
         return -1;
     for (int i = 0; i < length; i++) {
         struct script_entry given;
-        memset(&given, 0, sizeof(given));
         if (entry_read(&entry, &schema_script, i, list, &given) != 0 ||
             add_script(&entry, &given, hash) != 0)
             return -1;

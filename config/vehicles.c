@@ -217,7 +217,6 @@ int vehicles_read(struct scenario *scenario, const config_setting_t *list, const
     scenario->settings->params.initial_entities = 0;
     for (int i = 0; i < length; i++) {
         struct vehicle_entry vehicle;
-        memset(&vehicle, 0, sizeof(vehicle));
         if (entry_read(&entry, &schema_vehicle, i, list, &vehicle) != 0 ||
             add_vehicle(&entry, &vehicle) != 0)
             return -1;

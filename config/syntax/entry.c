@@ -72,6 +72,7 @@ int entry_read(struct entry *entry, const struct key_table *table, int index,
         return key_table_refuse(entry->message, place, entry->path, value,
                                 "is not a group; allowed: { key = value; ... }");
     }
+    memset(destination, 0, table->size);
     if (key_table_defaults(table, destination, entry->message) != 0)
         return -1;
     return key_table_read(&entry->keys, setting, "", entry->path, entry->message);

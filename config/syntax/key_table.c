@@ -415,41 +415,33 @@ void key_table_value_text(const config_setting_t *setting, char *text, size_t by
     }
 }
 
-static int store_area(const struct given *given, void *destination, const config_setting_t *setting)
+static bool in_range(const struct key *key, const double *numbers, int count)
 {
-    const struct key *key = given->key;
-    double area[4];
-    if (!numbers_of(setting, area, 4))
-        return refuse_value(given, "is not four numbers");
-    for (int i = 0; i < 4; i++) {
-        if (!(area[i] >= key->low && area[i] <= key->high))
-            return refuse_value(given, "out of range");
+    for (int i = 0; i < count; i++) {
+        if (!(numbers[i] >= key->low && numbers[i] <= key->high))
+            return false;
     }
-    if (!(area[0] < area[2] && area[1] < area[3]))
-        return refuse_value(given, "is empty");
-    memcpy((char *)destination + key->offset, area, sizeof(area));
-    return 0;
+    return true;
 }
 
-static int store_point(const struct given *given, void *destination,
-                       const config_setting_t *setting)
+/* Stores a point (count 2) or an area (count 4). */
+static int store_place(const struct given *given, void *destination,
+                       const config_setting_t *setting, int count)
 {
-    const struct key *key = given->key;
-    double point[2];
-    if (!key_table_point(setting, point))
-        return refuse_value(given, "is not two numbers");
-    for (int i = 0; i < 2; i++) {
-        if (!(point[i] >= key->low && point[i] <= key->high))
-            return refuse_value(given, "out of range");
-    }
-    memcpy((char *)destination + key->offset, point, sizeof(point));
+    double place[4];
+    if (!numbers_of(setting, place, count))
+        return refuse_value(given, count == 2 ? "is not two numbers" : "is not four numbers");
+    if (!in_range(given->key, place, count))
+        return refuse_value(given, "out of range");
+    if (count == 4 && !(place[0] < place[2] && place[1] < place[3]))
+        return refuse_value(given, "is empty");
+    memcpy((char *)destination + given->key->offset, place, (size_t)count * sizeof(*place));
     return 0;
 }
 
 static int store_route(const struct given *given, void *destination,
                        const config_setting_t *setting)
 {
-    const struct key *key = given->key;
     if (setting->type != CONFIG_TYPE_LIST)
         return refuse_value(given, "is not a list of points");
     if (config_setting_length(setting) < 2)
@@ -458,12 +450,10 @@ static int store_route(const struct given *given, void *destination,
         double point[2];
         if (!key_table_point(config_setting_get_elem(setting, (unsigned)i), point))
             return refuse_value(given, "is not a list of points");
-        for (int axis = 0; axis < 2; axis++) {
-            if (!(point[axis] >= key->low && point[axis] <= key->high))
-                return refuse_value(given, "has a point out of range");
-        }
+        if (!in_range(given->key, point, 2))
+            return refuse_value(given, "has a point out of range");
     }
-    memcpy((char *)destination + key->offset, &setting, sizeof(setting));
+    memcpy((char *)destination + given->key->offset, &setting, sizeof(setting));
     return 0;
 }
 
@@ -497,9 +487,9 @@ static int store_setting(const struct given *given, void *destination,
                    ? store_choice(given, destination, config_setting_get_string(setting))
                    : store_choices(given, destination, config_setting_get_string(setting));
     case KEY_POINT:
-        return store_point(given, destination, setting);
+        return store_place(given, destination, setting, 2);
     case KEY_AREA:
-        return store_area(given, destination, setting);
+        return store_place(given, destination, setting, 4);
     case KEY_ROUTE:
         return store_route(given, destination, setting);
     case KEY_TYPE_COUNT:

@@ -71,6 +71,7 @@ struct key_table {
     const char *path; /* of an entry, in messages: "", "vehicles", "kind" */
     const struct key *keys;
     uint32_t count; /* at most 64: key_reading.given is one word */
+    size_t size;    /* of the destination */
 };
 
 /* Where a value comes from. line 0: from no line of a file ("--set", a default). */

@@ -27,7 +27,6 @@ int lists_objects(struct scenario *scenario, const config_setting_t *list, const
         return -1;
     for (int i = 0; i < length; i++) {
         struct object_entry object;
-        memset(&object, 0, sizeof(object));
         if (entry_read(&entry, &schema_object, i, list, &object) != 0)
             return -1;
         uint16_t kind = entry_kind(&entry, OBJECT_KEY_KIND, object.kind, DOMAIN_BIT(DOMAIN_FIXED));
@@ -48,7 +47,6 @@ int lists_bases(struct scenario *scenario, const config_setting_t *list, const c
     int length = list != NULL ? entry_count(list, file, FORCE_COUNT, message) : 0;
     for (int i = 0; i < length; i++) {
         struct base_entry base;
-        memset(&base, 0, sizeof(base));
         if (entry_read(&entry, &schema_base, i, list, &base) != 0)
             return -1;
         if (scenario->based[base.force])
@@ -199,7 +197,6 @@ int lists_fires(struct scenario *scenario, const config_setting_t *list,
     for (int i = 0; i < length; i++) {
         struct fire_entry fire;
         uint16_t munition;
-        memset(&fire, 0, sizeof(fire));
         if (entry_read(&entry, &schema_fire, i, list, &fire) != 0 ||
             check_fire(&entry, &fire, &named, &munition) != 0)
             goto err_names;

@@ -162,5 +162,6 @@ static const struct key scenario_keys[] = {
                        "pictures, and reports it. false: it draws fewer pictures."),
 };
 #undef S
-const struct key_table schema_scenario = {"", scenario_keys, COUNT(scenario_keys)};
+const struct key_table schema_scenario = {"", scenario_keys, COUNT(scenario_keys),
+                                          sizeof(struct scenario)};
 _Static_assert(COUNT(scenario_keys) <= 64, "key_reading.given is one word");

@@ -140,5 +140,6 @@ static const struct key kind_keys[] = {
             .meaning = "The rounds of its munition at the start."),
 };
 #undef K
-const struct key_table schema_kind = {"kind", kind_keys, COUNT(kind_keys)};
+const struct key_table schema_kind = {"kind", kind_keys, COUNT(kind_keys),
+                                      sizeof(struct kind_entry)};
 _Static_assert(COUNT(kind_keys) <= 64, "key_reading.given is one word");

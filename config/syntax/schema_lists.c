@@ -101,7 +101,8 @@ static const struct key vehicle_keys[] = {
                                .meaning = "The distance between neighbours in a formation."),
 };
 #undef V
-const struct key_table schema_vehicle = {"vehicles", vehicle_keys, COUNT(vehicle_keys)};
+const struct key_table schema_vehicle = {"vehicles", vehicle_keys, COUNT(vehicle_keys),
+                                         sizeof(struct vehicle_entry)};
 _Static_assert(COUNT(vehicle_keys) == VEHICLE_KEY_COUNT, "a row for each vehicle_key");
 
 #define C struct script_entry
@@ -123,7 +124,8 @@ static const struct key script_keys[] = {
                            "collision or an empty fuel tank interrupts the script."),
 };
 #undef C
-const struct key_table schema_script = {"scripts", script_keys, COUNT(script_keys)};
+const struct key_table schema_script = {"scripts", script_keys, COUNT(script_keys),
+                                        sizeof(struct script_entry)};
 _Static_assert(COUNT(script_keys) == SCRIPT_KEY_COUNT, "a row for each script_key");
 
 #define T struct step_entry
@@ -184,7 +186,8 @@ static const struct key step_keys[] = {
                           "ends at that height."),
 };
 #undef T
-const struct key_table schema_step = {"steps", step_keys, COUNT(step_keys)};
+const struct key_table schema_step = {"steps", step_keys, COUNT(step_keys),
+                                      sizeof(struct step_entry)};
 _Static_assert(COUNT(step_keys) == STEP_KEY_COUNT, "a row for each step_key");
 
 #define B struct base_entry
@@ -198,7 +201,8 @@ static const struct key base_keys[] = {
                                  "nearest to the middle of the force."),
 };
 #undef B
-const struct key_table schema_base = {"bases", base_keys, COUNT(base_keys)};
+const struct key_table schema_base = {"bases", base_keys, COUNT(base_keys),
+                                      sizeof(struct base_entry)};
 _Static_assert(COUNT(base_keys) == BASE_KEY_COUNT, "a row for each base_key");
 
 #define O struct object_entry
@@ -212,7 +216,8 @@ static const struct key object_keys[] = {
                .meaning = "The heading of the object, clockwise from north."),
 };
 #undef O
-const struct key_table schema_object = {"objects", object_keys, COUNT(object_keys)};
+const struct key_table schema_object = {"objects", object_keys, COUNT(object_keys),
+                                        sizeof(struct object_entry)};
 _Static_assert(COUNT(object_keys) == OBJECT_KEY_COUNT, "a row for each object_key");
 
 #define F struct fire_entry
@@ -232,5 +237,6 @@ static const struct key fire_keys[] = {
                          .meaning = "The point on the ground that the shot is aimed at."),
 };
 #undef F
-const struct key_table schema_fire = {"fires", fire_keys, COUNT(fire_keys)};
+const struct key_table schema_fire = {"fires", fire_keys, COUNT(fire_keys),
+                                      sizeof(struct fire_entry)};
 _Static_assert(COUNT(fire_keys) == FIRE_KEY_COUNT, "a row for each fire_key");
