@@ -42,14 +42,31 @@ static struct vec3 dispersed(const struct serial_context *context, uint32_t row,
     return (struct vec3){sine * cosine_pitch, sine_pitch, -cosine * cosine_pitch};
 }
 
-static void point_munition(struct entities *m, uint32_t row, struct vec3 position,
-                           struct vec3 velocity)
+/* A row for a munition. SLOT_NONE: the frame has no room for the row or its event. */
+static uint32_t new_munition(struct serial_context *context, uint16_t kind, uint8_t force)
 {
+    if (context->moved->head->intent_count >= context->step->world->params->intents_per_frame)
+        return SLOT_NONE;
+    return spawn_entity(context, kind, force);
+}
+
+/* Sends the munition on its path, and returns the event, to which the caller adds the parties. */
+static struct event_fire *send_munition(struct serial_context *context, uint32_t row,
+                                        struct vec3 position, struct vec3 velocity)
+{
+    struct entities *m = &context->moved->entities;
     double level = sqrt(velocity.x * velocity.x + velocity.z * velocity.z);
     entities_set_position(m, row, position);
     entities_set_velocity(m, row, velocity);
     m->heading[row] = maths_heading(velocity.x, velocity.z);
     m->pitch[row] = maths_atan2(velocity.y, level);
+    struct event_fire *event = &serial_context_intent(context, EVENT_FIRE)->fire;
+    event->munition = serial_context_party(context, row);
+    event->point[0] = position.x;
+    event->point[1] = position.y;
+    event->point[2] = position.z;
+    context->moved->head->tally.fires++;
+    return event;
 }
 
 /* Makes the munition and the event, takes a round from the shooter, and alarms the row target
@@ -62,10 +79,9 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
     const struct kind *kind = &world->kinds[m->kind[shooter]];
     if (munition == KIND_NONE)
         munition = kind->munition;
-    if (munition == KIND_NONE || m->rounds[shooter] == 0 ||
-        context->moved->head->intent_count >= world->params->intents_per_frame)
+    if (munition == KIND_NONE || m->rounds[shooter] == 0)
         return false;
-    uint32_t row = spawn_entity(context, munition, m->force[shooter]);
+    uint32_t row = new_munition(context, munition, m->force[shooter]);
     if (row == SLOT_NONE)
         return false;
     const struct kind *round = &world->kinds[munition];
@@ -82,22 +98,16 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
         double carried = maths_max(0.0, vec3_dot(direction, entities_velocity(m, shooter)));
         speed = maths_min(speed, LAUNCH_SHARE * speed + carried);
     }
-    point_munition(m, row, muzzle, vec3_scale(direction, speed));
+    struct event_fire *event = send_munition(context, row, muzzle, vec3_scale(direction, speed));
+    event->shooter = serial_context_party(context, shooter);
     m->owner_slot[row] = shooter;
     m->owner_id[row] = m->id[shooter];
     table_set_rounds(&context->writer, shooter, m->rounds[shooter] - 1);
     table_set_reload_tick(
         &context->writer, shooter,
         (uint32_t)(context->step->tick + (uint64_t)(kind->reload_s / context->step->dt_s)));
-    struct event *event = serial_context_intent(context, EVENT_FIRE);
-    event->fire.shooter = serial_context_party(context, shooter);
-    event->fire.munition = serial_context_party(context, row);
-    event->fire.point[0] = muzzle.x;
-    event->fire.point[1] = muzzle.y;
-    event->fire.point[2] = muzzle.z;
-    context->moved->head->tally.fires++;
     if (target != SLOT_NONE) {
-        event->fire.target = serial_context_party(context, target);
+        event->target = serial_context_party(context, target);
         m->target_slot[row] = target;
         m->target_id[row] = m->id[target];
         table_set_threat(&context->writer, target, shooter, m->id[shooter]);
@@ -120,21 +130,11 @@ bool fire_shoot_at(struct serial_context *context, uint32_t shooter, double x, d
 
 bool fire_drop_bomb(struct serial_context *context, uint16_t munition, double x, double z)
 {
-    struct entities *m = &context->moved->entities;
-    const struct world *world = context->step->world;
-    if (context->moved->head->intent_count >= world->params->intents_per_frame)
-        return false;
-    uint32_t row = spawn_entity(context, munition, FORCE_NEUTRAL);
+    uint32_t row = new_munition(context, munition, FORCE_NEUTRAL);
     if (row == SLOT_NONE)
         return false;
     struct vec3 position = {x, kinematics_ground(context->step, x, z) + DROP_HEIGHT_M, z};
-    struct vec3 velocity = {0.0, -world->kinds[munition].max_speed_mps, 0.0};
-    point_munition(m, row, position, velocity);
-    struct event *event = serial_context_intent(context, EVENT_FIRE);
-    event->fire.munition = serial_context_party(context, row);
-    event->fire.point[0] = position.x;
-    event->fire.point[1] = position.y;
-    event->fire.point[2] = position.z;
-    context->moved->head->tally.fires++;
+    double speed = context->step->world->kinds[munition].max_speed_mps;
+    send_munition(context, row, position, (struct vec3){0.0, -speed, 0.0});
     return true;
 }
