@@ -21,82 +21,64 @@
 #define TO(name) BEHAVIOUR_##name
 #define AS(name) REASON_##name
 
+#define ROW(behaviours, all_of, none_of, next, reason, seconds)                                    \
+    {                                                                                              \
+        .from = (behaviours), .when = (all_of), .unless = (none_of), .to = (next),                 \
+        .because = (reason), .time_s = (seconds)                                                   \
+    }
+
 /* An agent without fuel stops, and a driver who sends no more commands loses the vehicle. */
 #define BY_NECESSITY                                                                               \
-    {OWN & ~B(IDLE), P(NO_FUEL), 0, TO(IDLE), AS(OUT_OF_FUEL), 0},                                 \
-    {                                                                                              \
-        B(DRIVEN), P(LEASE_OVER), 0, ORDER, AS(LEASE_OVER), 0                                      \
-    }
+    ROW(OWN & ~B(IDLE), P(NO_FUEL), 0, TO(IDLE), AS(OUT_OF_FUEL), 0),                              \
+        ROW(B(DRIVEN), P(LEASE_OVER), 0, ORDER, AS(LEASE_OVER), 0)
 
 /* The ends of a fight. */
 #define FIGHTS_END                                                                                 \
-    {B(ATTACK), P(TARGET_GONE), 0, ORDER, AS(TARGET_GONE), 0},                                     \
-        {B(ATTACK), P(TIME_OVER), 0, ORDER, AS(LOST_SIGHT), 0},                                    \
-    {                                                                                              \
-        B(ATTACK), 0, P(ARMED) | P(NO_ROUNDS), ORDER, AS(COMMAND), 0                               \
-    }
+    ROW(B(ATTACK), P(TARGET_GONE), 0, ORDER, AS(TARGET_GONE), 0),                                  \
+        ROW(B(ATTACK), P(TIME_OVER), 0, ORDER, AS(LOST_SIGHT), 0),                                 \
+        ROW(B(ATTACK), 0, P(ARMED) | P(NO_ROUNDS), ORDER, AS(COMMAND), 0)
 
 /* It goes to its base for rounds and fuel, and back. */
 #define SUPPLIES                                                                                   \
-    {B(WITHDRAW), P(ARRIVED), 0, TO(RESUPPLY), AS(ARRIVED), BEHAVIOUR_TABLE_RESUPPLY_S},           \
-        {B(RESUPPLY), P(TIME_OVER), 0, ORDER, AS(SUPPLIED), 0},                                    \
-        {CALM | B(ATTACK), P(NO_ROUNDS), P(STAND), TO(WITHDRAW), AS(OUT_OF_ROUNDS), 0},            \
-        {B(ATTACK), P(NO_ROUNDS), 0, ORDER, AS(OUT_OF_ROUNDS), 0},                                 \
-    {                                                                                              \
-        CALM | B(ATTACK), P(LOW_FUEL), P(STAND), TO(WITHDRAW), AS(LOW_FUEL), 0                     \
-    }
+    ROW(B(WITHDRAW), P(ARRIVED), 0, TO(RESUPPLY), AS(ARRIVED), BEHAVIOUR_TABLE_RESUPPLY_S),        \
+        ROW(B(RESUPPLY), P(TIME_OVER), 0, ORDER, AS(SUPPLIED), 0),                                 \
+        ROW(CALM | B(ATTACK), P(NO_ROUNDS), P(STAND), TO(WITHDRAW), AS(OUT_OF_ROUNDS), 0),         \
+        ROW(B(ATTACK), P(NO_ROUNDS), 0, ORDER, AS(OUT_OF_ROUNDS), 0),                              \
+        ROW(CALM | B(ATTACK), P(LOW_FUEL), P(STAND), TO(WITHDRAW), AS(LOW_FUEL), 0)
 
 /* It backs off from what it ran into for a while, and then goes on. */
 #define BUMPS                                                                                      \
-    {MOVING, P(BUMP), 0, TO(BACK_OFF), AS(COLLISION), BACK_OFF_S},                                 \
-        {B(BACK_OFF),                                                                              \
-         P(TIME_OVER) | P(TARGET) | P(ARMED) | P(BRAVE),                                           \
-         0,                                                                                        \
-         TO(ATTACK),                                                                               \
-         AS(TIME_OVER),                                                                            \
-         BEHAVIOUR_TABLE_FIGHT_S},                                                                 \
-        {B(BACK_OFF), P(TIME_OVER) | P(TARGET), P(STAND), TO(FLEE), AS(TIME_OVER), DASH_S},        \
-        {B(BACK_OFF), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0},                                   \
-    {                                                                                              \
-        B(FLEE), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0                                          \
-    }
+    ROW(MOVING, P(BUMP), 0, TO(BACK_OFF), AS(COLLISION), BACK_OFF_S),                              \
+        ROW(B(BACK_OFF), P(TIME_OVER) | P(TARGET) | P(ARMED) | P(BRAVE), 0, TO(ATTACK),            \
+            AS(TIME_OVER), BEHAVIOUR_TABLE_FIGHT_S),                                               \
+        ROW(B(BACK_OFF), P(TIME_OVER) | P(TARGET), P(STAND), TO(FLEE), AS(TIME_OVER), DASH_S),     \
+        ROW(B(BACK_OFF), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0),                                \
+        ROW(B(FLEE), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0)
 
 /* It is fired upon. A fight then lasts longer, and so does a flight, away from the last shooter. */
 #define SHOT_AT(fleeing, time_s)                                                                   \
-    {B(ATTACK), P(SHOT), 0, TO(ATTACK), AS(FIRED_UPON), BEHAVIOUR_TABLE_FIGHT_S},                  \
-        {CALM | B(RESUPPLY) | B(BACK_OFF),                                                         \
-         P(SHOT) | P(ARMED) | P(BRAVE),                                                            \
-         0,                                                                                        \
-         TO(ATTACK),                                                                               \
-         AS(FIRED_UPON),                                                                           \
-         BEHAVIOUR_TABLE_FIGHT_S},                                                                 \
-    {                                                                                              \
-        CALM | B(RESUPPLY) | B(BACK_OFF) | B(FLEE), P(SHOT), P(STAND), TO(fleeing),                \
-            AS(FIRED_UPON), time_s                                                                 \
-    }
+    ROW(B(ATTACK), P(SHOT), 0, TO(ATTACK), AS(FIRED_UPON), BEHAVIOUR_TABLE_FIGHT_S),               \
+        ROW(CALM | B(RESUPPLY) | B(BACK_OFF), P(SHOT) | P(ARMED) | P(BRAVE), 0, TO(ATTACK),        \
+            AS(FIRED_UPON), BEHAVIOUR_TABLE_FIGHT_S),                                              \
+        ROW(CALM | B(RESUPPLY) | B(BACK_OFF) | B(FLEE), P(SHOT), P(STAND), TO(fleeing),            \
+            AS(FIRED_UPON), time_s)
 
 #define SEES_ENEMY                                                                                 \
-    {                                                                                              \
-        B(IDLE) | B(PATROL) | B(ROUTE) | B(FOLLOW), P(ENEMY) | P(ARMED) | P(AT_WILL), 0,           \
-            TO(ATTACK), AS(ENEMY_SEEN), BEHAVIOUR_TABLE_FIGHT_S                                    \
-    }
+    ROW(B(IDLE) | B(PATROL) | B(ROUTE) | B(FOLLOW), P(ENEMY) | P(ARMED) | P(AT_WILL), 0,           \
+        TO(ATTACK), AS(ENEMY_SEEN), BEHAVIOUR_TABLE_FIGHT_S)
 
 /* When its courage fails it withdraws, or flees for a while. */
 #define HURT_GOES_HOME                                                                             \
-    {                                                                                              \
-        CALM | B(ATTACK), P(HURT), P(BRAVE) | P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0        \
-    }
+    ROW(CALM | B(ATTACK), P(HURT), P(BRAVE) | P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0)
 #define ODDS(to, time_s)                                                                           \
-    {                                                                                              \
-        B(ATTACK), P(OUTNUMBERED), P(BRAVE) | P(STAND), TO(to), AS(OUTNUMBERED), time_s            \
-    }
+    ROW(B(ATTACK), P(OUTNUMBERED), P(BRAVE) | P(STAND), TO(to), AS(OUTNUMBERED), time_s)
 
 /* Tanks and carriers flee from odds and damage, into cover. */
 static const struct behaviour_table_row armour[] = {
     BY_NECESSITY,
     FIGHTS_END,
     SUPPLIES,
-    {B(ATTACK), P(HURT), P(BRAVE) | P(STAND) | P(BUMP), TO(FLEE), AS(HURT), FLEE_S},
+    ROW(B(ATTACK), P(HURT), P(BRAVE) | P(STAND) | P(BUMP), TO(FLEE), AS(HURT), FLEE_S),
     SHOT_AT(FLEE, FLEE_S),
     ODDS(FLEE, FLEE_S),
     BUMPS,
@@ -108,9 +90,9 @@ static const struct behaviour_table_row light[] = {
     BY_NECESSITY,
     FIGHTS_END,
     SUPPLIES,
-    {CALM | B(ATTACK) | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0},
+    ROW(CALM | B(ATTACK) | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0),
     SHOT_AT(FLEE, FLEE_S),
-    {B(ATTACK), P(OUTNUMBERED), P(BRAVE) | P(STAND), TO(WITHDRAW), AS(OUTNUMBERED), 0},
+    ODDS(WITHDRAW, 0),
     BUMPS,
     SEES_ENEMY,
 };
@@ -120,9 +102,9 @@ static const struct behaviour_table_row soft[] = {
     BY_NECESSITY,
     FIGHTS_END,
     SUPPLIES,
-    {CALM | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0},
+    ROW(CALM | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0),
     SHOT_AT(FLEE, FLEE_S),
-    {B(PATROL) | B(ROUTE), P(ENEMY), P(STAND) | P(AT_WILL), TO(FLEE), AS(ENEMY_SEEN), DASH_S},
+    ROW(B(PATROL) | B(ROUTE), P(ENEMY), P(STAND) | P(AT_WILL), TO(FLEE), AS(ENEMY_SEEN), DASH_S),
     BUMPS,
     SEES_ENEMY,
 };
@@ -140,7 +122,7 @@ static const struct behaviour_table_row jet[] = {
     SUPPLIES,
     HURT_GOES_HOME,
     SHOT_AT(FLEE, DASH_S),
-    {B(FLEE), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0},
+    ROW(B(FLEE), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0),
     SEES_ENEMY,
 };
 
@@ -152,10 +134,11 @@ static const struct behaviour_table_row warship[] = {
 /* Beasts do not react to odds, damage or empty guns. */
 static const struct behaviour_table_row beast[] = {
     BY_NECESSITY,
-    {B(ATTACK), P(TARGET_GONE), 0, ORDER, AS(TARGET_GONE), 0},
-    {B(ATTACK), P(TIME_OVER), 0, ORDER, AS(LOST_SIGHT), 0},
-    {CALM | B(ATTACK), P(SHOT) | P(BRAVE), 0, TO(ATTACK), AS(FIRED_UPON), BEHAVIOUR_TABLE_FIGHT_S},
-    {CALM | B(FLEE), P(SHOT), P(STAND), TO(FLEE), AS(FIRED_UPON), FLEE_S},
+    ROW(B(ATTACK), P(TARGET_GONE), 0, ORDER, AS(TARGET_GONE), 0),
+    ROW(B(ATTACK), P(TIME_OVER), 0, ORDER, AS(LOST_SIGHT), 0),
+    ROW(CALM | B(ATTACK), P(SHOT) | P(BRAVE), 0, TO(ATTACK), AS(FIRED_UPON),
+        BEHAVIOUR_TABLE_FIGHT_S),
+    ROW(CALM | B(FLEE), P(SHOT), P(STAND), TO(FLEE), AS(FIRED_UPON), FLEE_S),
     BUMPS,
     SEES_ENEMY,
 };
