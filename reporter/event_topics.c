@@ -9,6 +9,7 @@
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
+#include "world/event_text.h"
 #include "world/params.h"
 
 #include <string.h>

@@ -21,7 +21,6 @@ const char *behaviour_name(enum behaviour behaviour);
 const char *formation_shape_name(enum formation_shape shape);
 const char *gear_name(enum gearing gear);
 const char *force_name(enum force force);
-const char *event_type_name(enum event_type type);
 const char *response_name(enum response response);
 const char *struck_name(enum struck struck);
 const char *agent_reason_name(enum agent_reason reason);

@@ -1,71 +1,132 @@
-/* Words of events. */
+/* The types of events: a word and a text each. */
 #include "world/event_text.h"
 
+#include "world/entity/command.h"
 #include "world/entity/entity.h"
 #include "world/enum_names.h"
 
+#include <stddef.h>
 #include <stdio.h>
 
 #define PARTY_MAX 48
 
 /* "tank 12", "tree 40211", "ground" */
-static const char *party_text(char text[PARTY_MAX], struct event_text_party party)
+static const char *party_text(char text[PARTY_MAX], const char *kind, struct event_party party)
 {
     if (party.id)
-        (void)snprintf(text, PARTY_MAX, "%s %u", party.kind, party.id);
+        (void)snprintf(text, PARTY_MAX, "%s %u", kind, party.id);
     else
-        (void)snprintf(text, PARTY_MAX, "%s", party.kind);
+        (void)snprintf(text, PARTY_MAX, "%s", kind);
     return text;
 }
 
-void event_text_collision(char text[EVENT_TEXT_MAX], struct event_text_party a,
-                          struct event_text_party b, double closing_mps, enum response response)
+static void collision_text(char *text, const struct event *event, const char *const *kind)
 {
-    char first[PARTY_MAX], second[PARTY_MAX];
-    (void)snprintf(text, EVENT_TEXT_MAX, "%s hit %s at %.1f m/s: %s", party_text(first, a),
-                   party_text(second, b), closing_mps, response_name(response));
+    const struct event_collision *collision = &event->collision;
+    char a[PARTY_MAX], b[PARTY_MAX];
+    (void)snprintf(text, EVENT_TEXT_MAX, "%s hit %s at %.1f m/s: %s",
+                   party_text(a, kind[EVENT_TEXT_FIRST], collision->a),
+                   party_text(b, kind[EVENT_TEXT_SECOND], collision->b),
+                   (double)collision->closing_mps,
+                   response_name((enum response)collision->response));
 }
 
-void event_text_fire(char text[EVENT_TEXT_MAX], struct event_text_party shooter,
-                     struct event_text_party target, const char *munition)
+static void fire_text(char *text, const struct event *event, const char *const *kind)
 {
+    const struct event_fire *fire = &event->fire;
     char by[PARTY_MAX], at[PARTY_MAX];
-    const char *who = shooter.id ? party_text(by, shooter) : "the sky";
-    if (target.id)
-        (void)snprintf(text, EVENT_TEXT_MAX, "%s fired at %s", who, party_text(at, target));
+    const char *shooter =
+        fire->shooter.id ? party_text(by, kind[EVENT_TEXT_FIRST], fire->shooter) : "the sky";
+    if (fire->target.id)
+        (void)snprintf(text, EVENT_TEXT_MAX, "%s fired at %s", shooter,
+                       party_text(at, kind[EVENT_TEXT_SECOND], fire->target));
     else
-        (void)snprintf(text, EVENT_TEXT_MAX, "%s fired a %s", who, munition);
+        (void)snprintf(text, EVENT_TEXT_MAX, "%s fired a %s", shooter, kind[EVENT_TEXT_MUNITION]);
 }
 
-void event_text_detonation(char text[EVENT_TEXT_MAX], const char *munition,
-                           struct event_text_party victim, enum struck struck, bool destroyed)
+static void detonation_text(char *text, const struct event *event, const char *const *kind)
 {
+    const struct event_detonation *detonation = &event->detonation;
+    struct event_party victim = detonation->struck_party;
     char party[PARTY_MAX];
-    (void)snprintf(text, EVENT_TEXT_MAX, "%s struck %s%s", munition,
-                   victim.id ? party_text(party, victim) : struck_name(struck),
-                   victim.id && destroyed ? ", destroyed" : "");
+    (void)snprintf(text, EVENT_TEXT_MAX, "%s struck %s%s", kind[EVENT_TEXT_MUNITION],
+                   victim.id ? party_text(party, kind[EVENT_TEXT_FIRST], victim)
+                             : struck_name((enum struck)detonation->struck),
+                   victim.id && victim.damage == DAMAGE_DESTROYED ? ", destroyed" : "");
 }
 
-void event_text_crater(char text[EVENT_TEXT_MAX], double radius_m, double depth_m)
+static void crater_text(char *text, const struct event *event, const char *const *kind)
 {
-    (void)snprintf(text, EVENT_TEXT_MAX, "crater of %.1f m, %.1f m deep", radius_m, depth_m);
+    (void)kind;
+    (void)snprintf(text, EVENT_TEXT_MAX, "crater of %.1f m, %.1f m deep",
+                   (double)event->crater.radius_m, (double)event->crater.depth_m);
 }
 
-void event_text_agent(char text[EVENT_TEXT_MAX], struct event_text_party agent, uint32_t from,
-                      uint32_t to, enum agent_reason because)
+static void agent_text(char *text, const struct event *event, const char *const *kind)
 {
+    const struct event_agent *agent = &event->agent;
     char party[PARTY_MAX];
-    (void)snprintf(text, EVENT_TEXT_MAX, "%s: %s to %s, %s", party_text(party, agent),
-                   behaviour_name((enum behaviour)from), behaviour_name((enum behaviour)to),
-                   agent_reason_name(because));
+    (void)snprintf(text, EVENT_TEXT_MAX, "%s: %s to %s, %s",
+                   party_text(party, kind[EVENT_TEXT_FIRST], agent->agent),
+                   behaviour_name((enum behaviour)agent->from),
+                   behaviour_name((enum behaviour)agent->to),
+                   agent_reason_name((enum agent_reason)agent->because));
 }
 
-void event_text_command(char text[EVENT_TEXT_MAX], enum command_type type,
-                        enum command_result result, uint32_t entity)
+static void command_text(char *text, const struct event *event, const char *const *kind)
 {
+    const struct event_command *command = &event->command;
     char about[16] = "";
-    if (entity)
-        (void)snprintf(about, sizeof about, " %u", entity);
-    (void)snprintf(text, EVENT_TEXT_MAX, "command %s%s: %s", command_type_name(type), about,
-                   command_result_name(result));
+    (void)kind;
+    if (command->entity)
+        (void)snprintf(about, sizeof about, " %u", command->entity);
+    (void)snprintf(text, EVENT_TEXT_MAX, "command %s%s: %s",
+                   command_type_name((enum command_type)command->type), about,
+                   command_result_name((enum command_result)command->result));
+}
+
+static const struct event_row {
+    const char *word;
+    void (*text)(char *text, const struct event *event, const char *const *kind);
+} rows[] = {
+    [EVENT_NONE] = {"none", NULL},
+    [EVENT_COLLISION] = {"collision", collision_text},
+    [EVENT_FIRE] = {"fire", fire_text},
+    [EVENT_DETONATION] = {"detonation", detonation_text},
+    [EVENT_CRATER] = {"crater", crater_text},
+    [EVENT_AGENT] = {"agent", agent_text},
+    [EVENT_COMMAND] = {"command", command_text},
+};
+_Static_assert(sizeof rows / sizeof rows[0] == EVENT_TYPE_COUNT, "a row for each type of event");
+
+void event_text_parties(const struct event *event,
+                        const struct event_party *parties[EVENT_TEXT_PARTIES])
+{
+    parties[EVENT_TEXT_FIRST] = parties[EVENT_TEXT_SECOND] = parties[EVENT_TEXT_MUNITION] = NULL;
+    if (event->type == EVENT_COLLISION) {
+        parties[EVENT_TEXT_FIRST] = &event->collision.a;
+        parties[EVENT_TEXT_SECOND] = &event->collision.b;
+    } else if (event->type == EVENT_FIRE) {
+        parties[EVENT_TEXT_FIRST] = &event->fire.shooter;
+        parties[EVENT_TEXT_SECOND] = &event->fire.target;
+        parties[EVENT_TEXT_MUNITION] = &event->fire.munition;
+    } else if (event->type == EVENT_DETONATION) {
+        parties[EVENT_TEXT_FIRST] = &event->detonation.struck_party;
+        parties[EVENT_TEXT_MUNITION] = &event->detonation.munition;
+    } else if (event->type == EVENT_AGENT) {
+        parties[EVENT_TEXT_FIRST] = &event->agent.agent;
+    }
+}
+
+void event_text(char text[EVENT_TEXT_MAX], const struct event *event,
+                const char *const kind[EVENT_TEXT_PARTIES])
+{
+    text[0] = '\0';
+    if (event->type < EVENT_TYPE_COUNT && rows[event->type].text)
+        rows[event->type].text(text, event, kind);
+}
+
+const char *event_type_name(enum event_type type)
+{
+    return (size_t)type < EVENT_TYPE_COUNT ? rows[type].word : "?";
 }

@@ -1,32 +1,29 @@
-/* Events in words, for people: one set, whoever shows them. Pure. */
+/* Events as text for people, the same wherever they are shown. Pure; any thread. */
 #ifndef JOLON_WORLD_EVENT_TEXT_H
 #define JOLON_WORLD_EVENT_TEXT_H
 
-#include "world/entity/command.h"
 #include "world/entity/event.h"
-
-#include <stdbool.h>
-#include <stdint.h>
 
 #define EVENT_TEXT_MAX 192u /* [byte] of any of them, with the NUL */
 
-/* One side of an event. Id 0: kind alone says what it is. */
-struct event_text_party {
-    const char *kind;
-    uint32_t id;
+/* The parties of an event; a type of event does not have all of them. */
+enum event_text_party {
+    EVENT_TEXT_FIRST,  /* the body a, the shooter, what was struck, the agent */
+    EVENT_TEXT_SECOND, /* the body b, the target */
+    EVENT_TEXT_MUNITION,
+    EVENT_TEXT_PARTIES
 };
 
-void event_text_collision(char text[EVENT_TEXT_MAX], struct event_text_party a,
-                          struct event_text_party b, double closing_mps, enum response response);
-void event_text_fire(char text[EVENT_TEXT_MAX], struct event_text_party shooter,
-                     struct event_text_party target, const char *munition);
-void event_text_detonation(char text[EVENT_TEXT_MAX], const char *munition,
-                           struct event_text_party victim, enum struck struck, bool destroyed);
-void event_text_crater(char text[EVENT_TEXT_MAX], double radius_m, double depth_m);
-void event_text_agent(char text[EVENT_TEXT_MAX], struct event_text_party agent, uint32_t from,
-                      uint32_t to, enum agent_reason because);
-/* entity: that it made or changed, 0: none. */
-void event_text_command(char text[EVENT_TEXT_MAX], enum command_type type,
-                        enum command_result result, uint32_t entity);
+/* Points to the event's parties; NULL for those that its type does not have. */
+void event_text_parties(const struct event *event,
+                        const struct event_party *parties[EVENT_TEXT_PARTIES]);
+
+/* Writes the event's text, "" for an unknown type. kind: the name of the kind of each party that
+ * the event has; of a party without an id, all that is said of it. */
+void event_text(char text[EVENT_TEXT_MAX], const struct event *event,
+                const char *const kind[EVENT_TEXT_PARTIES]);
+
+/* The word of a type; "?" for an unknown type. */
+const char *event_type_name(enum event_type type);
 
 #endif

@@ -51,64 +51,41 @@ static bool wanted(const struct event *event, uint32_t types)
     return event->type < EVENT_TYPE_COUNT && (types & 1u << event->type);
 }
 
-static struct event_text_party party_of(const struct world *world, const struct event_party *party)
+static const char *kind_of(const struct world *world, const struct event_party *party)
 {
-    const char *kind = party->fixed ? "ground" : "none"; /* nobody: the terrain, or none */
     if (party->id)
-        kind = party->kind < world->counts.kinds ? world->kinds[party->kind].name : "?";
-    return (struct event_text_party){kind, party->id};
+        return party->kind < world->counts.kinds ? world->kinds[party->kind].name : "?";
+    return party->fixed ? "ground" : "none"; /* nobody: the terrain, or none */
 }
 
-/* Words, the vehicles they are about, and where. */
-static const double *describe(const struct world *world, const struct event *event,
-                              char words[EVENT_TEXT_MAX], const struct event_party *about[2])
+/* Where it happened; NULL: the type has no place. */
+static const double *point_of(const struct event *event)
 {
     switch ((enum event_type)event->type) {
     case EVENT_COLLISION:
-        about[0] = &event->collision.a;
-        about[1] = &event->collision.b;
-        event_text_collision(words, party_of(world, about[0]), party_of(world, about[1]),
-                             (double)event->collision.closing_mps,
-                             (enum response)event->collision.response);
         return event->collision.point;
     case EVENT_FIRE:
-        about[0] = &event->fire.shooter;
-        about[1] = &event->fire.target;
-        event_text_fire(words, party_of(world, about[0]), party_of(world, about[1]),
-                        party_of(world, &event->fire.munition).kind);
         return event->fire.point;
     case EVENT_DETONATION:
-        about[0] = &event->detonation.struck_party;
-        event_text_detonation(words, party_of(world, &event->detonation.munition).kind,
-                              party_of(world, about[0]), (enum struck)event->detonation.struck,
-                              about[0]->damage == DAMAGE_DESTROYED);
         return event->detonation.point;
     case EVENT_CRATER:
-        event_text_crater(words, (double)event->crater.radius_m, (double)event->crater.depth_m);
         return event->crater.point;
-    case EVENT_AGENT:
-        about[0] = &event->agent.agent;
-        event_text_agent(words, party_of(world, about[0]), event->agent.from, event->agent.to,
-                         (enum agent_reason)event->agent.because);
+    default:
         return NULL;
-    case EVENT_COMMAND:
-        event_text_command(words, (enum command_type)event->command.type,
-                           (enum command_result)event->command.result, event->command.entity);
-        return NULL;
-    case EVENT_NONE:
-    case EVENT_TYPE_COUNT:
-        break;
     }
-    words[0] = '\0';
-    return NULL;
 }
 
 static void put_event(struct json_writer *text, const struct world *world,
                       const struct event *event)
 {
-    const struct event_party *about[2] = {NULL, NULL};
+    const struct event_party *about[EVENT_TEXT_PARTIES];
+    const char *kind[EVENT_TEXT_PARTIES] = {NULL};
+    const double *point = point_of(event);
     char words[EVENT_TEXT_MAX];
-    const double *point = describe(world, event, words, about);
+    event_text_parties(event, about);
+    for (int i = 0; i < EVENT_TEXT_PARTIES; i++)
+        kind[i] = about[i] ? kind_of(world, about[i]) : NULL;
+    event_text(words, event, kind);
     json_writer_begin(text, '{');
     json_writer_key_whole(text, "sequence", event->sequence);
     json_writer_key_whole(text, "frame", event->frame);
@@ -117,7 +94,7 @@ static void put_event(struct json_writer *text, const struct world *world,
     json_writer_key_word(text, "text", words);
     json_writer_key(text, "ids");
     json_writer_begin(text, '[');
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < EVENT_TEXT_MUNITION; i++) {
         if (about[i] && about[i]->id && !about[i]->fixed)
             json_writer_whole(text, about[i]->id);
     }

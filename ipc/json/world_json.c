@@ -7,6 +7,7 @@
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
+#include "world/event_text.h"
 #include "world/world.h"
 
 #include <math.h>

@@ -14,34 +14,55 @@ const char *event_lines_clock(char text[EVENT_LINES_CLOCK_MAX], double time_s)
     return text;
 }
 
-static struct event_text_party party(const jolon_Party *party)
+static struct event_party party(const jolon_Party *party)
 {
-    return (struct event_text_party){party->kind, party->id};
+    return (struct event_party){.id = party->id, .damage = (uint8_t)party->damage};
 }
 
 /* The event without its time. */
-static void put_words(char text[EVENT_TEXT_MAX], enum dds_topic topic, const void *event)
+static void put_words(char text[EVENT_TEXT_MAX], enum dds_topic topic, const void *sample)
 {
+    struct event event = {0};
+    const char *kind[EVENT_TEXT_PARTIES] = {NULL};
     if (topic == TOPIC_COLLISION) {
-        const jolon_CollisionEvent *collision = event;
-        event_text_collision(text, party(&collision->a), party(&collision->b),
-                             (double)collision->closing_mps, (enum response)collision->response);
+        const jolon_CollisionEvent *collision = sample;
+        event.type = EVENT_COLLISION;
+        event.collision = (struct event_collision){.a = party(&collision->a),
+                                                   .b = party(&collision->b),
+                                                   .closing_mps = collision->closing_mps,
+                                                   .response = collision->response};
+        kind[EVENT_TEXT_FIRST] = collision->a.kind;
+        kind[EVENT_TEXT_SECOND] = collision->b.kind;
     } else if (topic == TOPIC_FIRE) {
-        const jolon_FireEvent *fire = event;
-        event_text_fire(text, party(&fire->shooter), party(&fire->target), fire->munition.kind);
+        const jolon_FireEvent *fire = sample;
+        event.type = EVENT_FIRE;
+        event.fire =
+            (struct event_fire){.shooter = party(&fire->shooter), .target = party(&fire->target)};
+        kind[EVENT_TEXT_FIRST] = fire->shooter.kind;
+        kind[EVENT_TEXT_SECOND] = fire->target.kind;
+        kind[EVENT_TEXT_MUNITION] = fire->munition.kind;
     } else if (topic == TOPIC_DETONATION) {
-        const jolon_DetonationEvent *detonation = event;
-        event_text_detonation(text, detonation->munition.kind, party(&detonation->victim),
-                              (enum struck)detonation->struck,
-                              detonation->victim.damage == jolon_DAMAGE_DESTROYED);
+        const jolon_DetonationEvent *detonation = sample;
+        event.type = EVENT_DETONATION;
+        event.detonation = (struct event_detonation){.struck_party = party(&detonation->victim),
+                                                     .struck = detonation->struck};
+        kind[EVENT_TEXT_FIRST] = detonation->victim.kind;
+        kind[EVENT_TEXT_MUNITION] = detonation->munition.kind;
     } else if (topic == TOPIC_CRATER) {
-        const jolon_CraterEvent *crater = event;
-        event_text_crater(text, (double)crater->radius_m, (double)crater->depth_m);
+        const jolon_CraterEvent *crater = sample;
+        event.type = EVENT_CRATER;
+        event.crater =
+            (struct event_crater){.radius_m = crater->radius_m, .depth_m = crater->depth_m};
     } else {
-        const jolon_AgentEvent *agent = event;
-        event_text_agent(text, party(&agent->agent), (uint32_t)agent->before,
-                         (uint32_t)agent->after, (enum agent_reason)agent->because);
+        const jolon_AgentEvent *agent = sample;
+        event.type = EVENT_AGENT;
+        event.agent = (struct event_agent){.agent = party(&agent->agent),
+                                           .from = agent->before,
+                                           .to = agent->after,
+                                           .because = agent->because};
+        kind[EVENT_TEXT_FIRST] = agent->agent.kind;
     }
+    event_text(text, &event, kind);
 }
 
 void event_lines_event(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, const void *event)

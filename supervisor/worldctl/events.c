@@ -9,6 +9,7 @@
 #include "ipc/json/world_json.h"
 #include "world/entity/event.h"
 #include "world/enum_names.h"
+#include "world/event_text.h"
 #include "world/runtime/parse_number.h"
 
 #include <inttypes.h>

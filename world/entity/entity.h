@@ -22,6 +22,7 @@ enum entity_state {
     ENTITY_FREE,   /* the slot is empty; its other columns mean nothing */
     ENTITY_ACTIVE, /* moves by its behaviour */
     ENTITY_WRECK,  /* destroyed; slides to rest and stays, an obstacle */
+    ENTITY_STATE_COUNT
 };
 
 enum behaviour {

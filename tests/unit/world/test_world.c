@@ -5,6 +5,7 @@
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
+#include "world/event_text.h"
 #include "world/param_values.h"
 #include "world/params.h"
 #include "world/state.h"
