@@ -1,5 +1,5 @@
-/* Lines of sight against an oracle that walks along them in small steps. Where the oracle itself
- * cannot tell (the line grazes what is in its way) it says nothing. */
+/* Lines of sight against an oracle that follows them in small steps. Where a line grazes an
+ * obstacle the oracle cannot decide, and the line is not compared. */
 #include "mover/query/line_of_sight.h"
 #include "tests/support/steps.h"
 #include "world/terrain/fixed.h"
@@ -20,21 +20,21 @@
 enum verdict { CLEAR, HIDDEN, GRAZES };
 
 static struct fixture f;
-static struct line_of_sight outlook;
+static struct line_of_sight sight;
 static uint8_t damage[64];
 
 static void look_at(const char *text)
 {
     fixture_open(&f, text);
-    assert_int_equal(line_of_sight_init(&outlook, &f.view.world, &f.player.mover.craters), 0);
-    outlook.fixed_damage = damage;
+    assert_int_equal(line_of_sight_init(&sight, &f.view.world, &f.player.mover.craters), 0);
+    sight.fixed_damage = damage;
     memset(damage, 0, sizeof damage);
 }
 
 static int close_world(void **state)
 {
     (void)state;
-    line_of_sight_free(&outlook);
+    line_of_sight_free(&sight);
     fixture_close(&f);
     return 0;
 }
@@ -99,7 +99,7 @@ static void agree(uint64_t *random, double x, double z, double half_m, double hi
         enum verdict verdict = oracle(end[0], end[1]);
         seen[verdict]++;
         for (int e = 0; e < 2 && verdict != GRAZES; e++) {
-            if (line_of_sight_clear(&outlook, end[e], end[!e]) != (verdict == CLEAR))
+            if (line_of_sight_clear(&sight, end[e], end[!e]) != (verdict == CLEAR))
                 fail_msg("%s from (%.3f, %.3f, %.3f) to (%.3f, %.3f, %.3f)",
                          verdict == CLEAR ? "nothing is between"
                                           : "it sees through what is between",
@@ -130,9 +130,9 @@ static void test_over_rough_ground(void **state)
             close_world(NULL);
         look_at(text);
         steps_ground(&f, rough, &ground);
-        line_of_sight_free(&outlook);
-        assert_int_equal(line_of_sight_init(&outlook, &f.view.world, &f.player.mover.craters), 0);
-        outlook.fixed_damage = damage;
+        line_of_sight_free(&sight);
+        assert_int_equal(line_of_sight_init(&sight, &f.view.world, &f.player.mover.craters), 0);
+        sight.fixed_damage = damage;
         agree(&random, 25000.0, 25000.0, 400.0, 12.0, 150, 8);
         agree(&random, 49800.0, 200.0, 199.0, 12.0, 60, 0);
     }

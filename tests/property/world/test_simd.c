@@ -209,7 +209,8 @@ static bool fly_one(const struct step_context *context, uint32_t i,
            m->z[i] > WORLD_SIDE_M - 200.0;
 }
 
-/* --- worlds, vehicles and wishes ---------------------------------------------------------------*/
+/* --- worlds, vehicles and desired motion
+ * --------------------------------------------------------*/
 
 static double rough(double x, double z, const void *context)
 {

@@ -1,4 +1,4 @@
-/* Commands: every type, every answer, applied once and in order. */
+/* Commands: every type and every answer. Each command is applied once and in order. */
 #include "tests/support/steps.h"
 #include "world/params.h"
 #include "world/terrain/gridsquare.h"

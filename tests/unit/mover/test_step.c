@@ -183,9 +183,9 @@ static void test_the_dead_do_not_fire(void **state)
 
 /* --- pieces in which there is nothing of a sort ------------------------------------------------*/
 
-#define SOMEBODY 1500u /* in the second piece; the third is short */
+#define SECOND_BLOCK_ROW 1500u /* a row of the second block; the third block is short */
 
-/* A table that the mover knows nothing of has no piece of which it is sure. */
+/* In a table of unknown content the mover hashes every block. */
 static void assert_sure_or_not_the_same(struct fixture *f)
 {
     steps_move(f);
@@ -231,44 +231,44 @@ static void give(const struct fixture *f, enum news news)
     struct entities *e = &now.entities;
     switch (news) {
     case SPIN:
-        e->spin_y[SOMEBODY] = 0.5;
+        e->spin_y[SECOND_BLOCK_ROW] = 0.5;
         break;
     case TUMBLE: /* about one axis, and soon about all */
-        e->kind[SOMEBODY] = fixture_kind(f, "helicopter");
-        e->y[SOMEBODY] = 3000.0;
-        e->pitch[SOMEBODY] = 0.4;
-        e->spin_y[SOMEBODY] = 1.5;
+        e->kind[SECOND_BLOCK_ROW] = fixture_kind(f, "helicopter");
+        e->y[SECOND_BLOCK_ROW] = 3000.0;
+        e->pitch[SECOND_BLOCK_ROW] = 0.4;
+        e->spin_y[SECOND_BLOCK_ROW] = 1.5;
         break;
     case TURRET:
-        e->turret[SOMEBODY] = 0.3f;
+        e->turret[SECOND_BLOCK_ROW] = 0.3f;
         break;
     case GUN:
-        e->gun[SOMEBODY] = 0.1f;
+        e->gun[SECOND_BLOCK_ROW] = 0.1f;
         break;
     case TARGET:
-        e->target_slot[SOMEBODY] = 7;
-        e->target_id[SOMEBODY] = e->id[7];
-        e->traverse[SOMEBODY] = 0.5f;
+        e->target_slot[SECOND_BLOCK_ROW] = 7;
+        e->target_id[SECOND_BLOCK_ROW] = e->id[7];
+        e->traverse[SECOND_BLOCK_ROW] = 0.5f;
         break;
     case BUMP:
-        e->bumped[SOMEBODY] = 1;
+        e->bumped[SECOND_BLOCK_ROW] = 1;
         break;
     case SHOT:
-        e->threat_slot[SOMEBODY] = 7;
-        e->threat_id[SOMEBODY] = e->id[7];
+        e->threat_slot[SECOND_BLOCK_ROW] = 7;
+        e->threat_id[SECOND_BLOCK_ROW] = e->id[7];
         break;
     case EDGE: /* it goes over to its route's next point at once */
-        if (e->behaviour[SOMEBODY] == BEHAVIOUR_HOLD)
+        if (e->behaviour[SECOND_BLOCK_ROW] == BEHAVIOUR_HOLD)
             break;
-        e->behaviour[SOMEBODY] = e->order[SOMEBODY] = BEHAVIOUR_ROUTE;
-        e->order_arg[SOMEBODY] = e->order_arg[2100]; /* the truck's */
-        e->x[SOMEBODY] = 0.0;
-        e->heading[SOMEBODY] = 1.5 * PI;
-        e->throttle[SOMEBODY] = 1.0f;
+        e->behaviour[SECOND_BLOCK_ROW] = e->order[SECOND_BLOCK_ROW] = BEHAVIOUR_ROUTE;
+        e->order_arg[SECOND_BLOCK_ROW] = e->order_arg[2100]; /* the truck's */
+        e->x[SECOND_BLOCK_ROW] = 0.0;
+        e->heading[SECOND_BLOCK_ROW] = 1.5 * PI;
+        e->throttle[SECOND_BLOCK_ROW] = 1.0f;
         break;
     default:
-        e->damage[SOMEBODY] = DAMAGE_MED;
-        e->changed_tick[SOMEBODY] = (uint32_t)now.head->tick;
+        e->damage[SECOND_BLOCK_ROW] = DAMAGE_MED;
+        e->changed_tick[SECOND_BLOCK_ROW] = (uint32_t)now.head->tick;
         break;
     }
     state_seal(&now, f->view.world.counts.fixed);
@@ -286,9 +286,9 @@ static void test_one_row_has_what_its_piece_lacked(void **state)
             assert_sure_or_not_the_same(&f);
             const struct entities *m = &f.view.m.entities;
             if (news == SPIN)
-                assert_true(m->spin_y[SOMEBODY] < 0.5);
+                assert_true(m->spin_y[SECOND_BLOCK_ROW] < 0.5);
             if (news == TURRET)
-                assert_true(m->turret[SOMEBODY] < 0.3f);
+                assert_true(m->turret[SECOND_BLOCK_ROW] < 0.3f);
             fixture_run(&f, 1);
             go_on(&f);
         }
@@ -301,18 +301,18 @@ static void test_commands_reach_a_piece_that_lacked_what_they_change(void **stat
     struct fixture f;
     (void)state;
     open_crowd(&f, "patrol");
-    uint32_t id = fixture_state(&f).entities.id[SOMEBODY];
+    uint32_t id = fixture_state(&f).entities.id[SECOND_BLOCK_ROW];
     steps_send(&f, RING_CONSOLE,
                (struct command){.type = COMMAND_DRIVE,
                                 .source = 7,
                                 .entity = id,
                                 .value = {0.5, 0.0, 0.0, 1.0, 1.0, 0.0}});
     go_on(&f);
-    assert_true(steps_rows(&f).turret[SOMEBODY] > 0.0f);
+    assert_true(steps_rows(&f).turret[SECOND_BLOCK_ROW] > 0.0f);
     steps_send(&f, RING_CONSOLE,
                (struct command){.type = COMMAND_RELEASE, .source = 7, .entity = id});
     go_on(&f);
-    steps_lay(&f, 2099, SOMEBODY);
+    steps_lay(&f, 2099, SECOND_BLOCK_ROW);
     struct state now = fixture_state(&f);
     state_seal(&now, f.view.world.counts.fixed);
     steps_send(
@@ -320,13 +320,13 @@ static void test_commands_reach_a_piece_that_lacked_what_they_change(void **stat
         (struct command){.type = COMMAND_FIRE, .entity = now.entities.id[2099], .target = id});
     assert_sure_or_not_the_same(&f);
     assert_int_equal(f.view.m.head->tally.fires, 1);
-    assert_int_equal(f.view.m.entities.threat_id[SOMEBODY], 0); /* it has noticed */
+    assert_int_equal(f.view.m.entities.threat_id[SECOND_BLOCK_ROW], 0); /* it has noticed */
     go_on(&f);
     steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_REMOVE, .entity = id});
     go_on(&f);
     now = fixture_state(&f);
-    assert_int_equal(now.entities.state[SOMEBODY], ENTITY_FREE);
-    now.head->alloc_next = SOMEBODY;
+    assert_int_equal(now.entities.state[SECOND_BLOCK_ROW], ENTITY_FREE);
+    now.head->alloc_next = SECOND_BLOCK_ROW;
     state_seal(&now, f.view.world.counts.fixed);
     fixture_run(&f, 1);
     steps_send(&f, RING_CONSOLE,
@@ -335,7 +335,8 @@ static void test_commands_reach_a_piece_that_lacked_what_they_change(void **stat
                                 .amount = BEHAVIOUR_HOLD,
                                 .value = {25000.0, 25000.0, 0.0, 0.0, 10.0}});
     assert_sure_or_not_the_same(&f);
-    assert_true(f.view.m.entities.z[SOMEBODY] == 25000.0); /* it moves from the next frame */
+    assert_true(f.view.m.entities.z[SECOND_BLOCK_ROW] ==
+                25000.0); /* it moves from the next frame */
     go_on(&f);
     fixture_close(&f);
 }

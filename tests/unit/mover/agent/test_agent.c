@@ -1,4 +1,4 @@
-/* Agents: what makes an autonomous vehicle change its mind, and where it goes. */
+/* Agents: when an autonomous vehicle changes its behaviour, and where it then goes. */
 #include "tests/support/steps.h"
 
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* Avoiding: woods, each other, water, steep ground; the same on any number of threads. */
+/* Avoidance of woods, other vehicles, water and steep ground, on any number of threads. */
 #include "tests/support/steps.h"
 #include "world/terrain/gridsquare.h"
 

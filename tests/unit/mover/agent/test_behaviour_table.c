@@ -1,4 +1,4 @@
-/* The tables of the doctrines: every row can win, and each is exercised. */
+/* The tables of behaviour: every row can apply, and each is exercised. */
 #include "mover/agent/behaviour_table.h"
 #include "tests/support/fixture.h"
 #include "world/enum_names.h"

@@ -1,4 +1,5 @@
-/* Formations: everybody in his place on a winding route, gaps closed, somebody always leads. */
+/* Formations: vehicles keep their places on a winding route, close gaps, and always have a leader.
+ */
 #include "tests/support/steps.h"
 
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* Company: whoever a look would meet is in its list, and its order is of no account. */
+/* Lists of neighbours: a list has every vehicle that a look would find, in any order. */
 #include "mover/agent/avoidance.h"
 #include "mover/agent/neighbour_lists.h"
 #include "tests/support/steps.h"

@@ -1,5 +1,4 @@
-/* What agents notice: whom they see, what the odds are, that they must go home and when to return.
- */
+/* Perception: enemies in sight, odds, low fuel, and when agents return. */
 #include "mover/agent/perception.h"
 #include "tests/support/steps.h"
 #include "world/params.h"

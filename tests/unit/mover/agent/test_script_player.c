@@ -1,4 +1,4 @@
-/* Scripts: every step, by the clock and one after the other; interruptions; repetition. */
+/* Scripts: every step, by the clock and in sequence; interruptions; repetition. */
 #include "mover/agent/script_player.h"
 
 #include "tests/support/fixture.h"

@@ -1,4 +1,4 @@
-/* Motions without a will: hold keeps its course whatever comes; wrecks slide and fall to rest. */
+/* Constant course: vehicles hold it whatever happens; wrecks slide and fall to rest. */
 #include "tests/support/steps.h"
 #include "world/terrain/gridsquare.h"
 

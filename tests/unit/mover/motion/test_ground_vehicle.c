@@ -1,4 +1,4 @@
-/* Ground vehicles: the terrain under them, slopes, water, the world's edge, the brakes. */
+/* Land vehicles: the terrain under them, slopes, water, the edge of the world, the brakes. */
 #include "tests/support/steps.h"
 #include "world/params.h"
 #include "world/terrain/fixed.h"

@@ -1,4 +1,4 @@
-/* Munitions: parabolas to the last digit, and missiles that find what moves. */
+/* Munitions: exact parabolas, and missiles that hit moving targets. */
 #include "tests/support/steps.h"
 #include "world/params.h"
 
@@ -216,7 +216,7 @@ static void test_a_missile_without_a_target_flies_straight(void **state)
     uint32_t never = put_missile(SLOT_NONE, (struct vec3){22000.0, 800.0, 25000.0},
                                  (struct vec3){60.0, 80.0, 0.0});
     (void)state;
-    steps_rows(&f).target_id[lost] = 999; /* somebody who is no more */
+    steps_rows(&f).target_id[lost] = 999; /* an id that no row has */
     fixture_run(&f, 120);
     struct entities e = steps_rows(&f);
     assert_true(fabs(e.x[lost] - 20000.0) < 1e-9 && fabs(e.y[lost] - 800.0) < 1e-9);

@@ -1,5 +1,5 @@
-/* Turning that collisions gave a body (rows 39 and 43 of what the thesis states: new linear and
- * angular velocities): tyres and water brake it, in the air it goes on about the centre of mass. */
+/* Spin, the angular velocity that a collision gives: tyres and water brake it, and in the air it
+ * goes on about the centre of mass. */
 #include "tests/support/steps.h"
 #include "world/entity/mass_properties.h"
 

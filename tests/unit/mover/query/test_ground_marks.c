@@ -1,4 +1,4 @@
-/* The map of craters and of what fell: no scar is ever missed, and it is not all scars. */
+/* Ground marks: no crater and no debris is missed, and other squares have no mark. */
 #include "mover/query/ground_marks.h"
 
 #include "tests/support/steps.h"
@@ -13,20 +13,20 @@
 #include <cmocka.h>
 
 static struct fixture f;
-static struct ground_marks scars;
+static struct ground_marks marks;
 
 static int open_world(void **state)
 {
     (void)state;
     fixture_open(&f, "objects = ( { kind = \"building\"; at = [25003.0, 25060.0]; },\n"
                      "            { kind = \"tree\"; at = [30060.0, 30060.0]; } );\n");
-    return ground_marks_init(&scars, &f.view.world);
+    return ground_marks_init(&marks, &f.view.world);
 }
 
 static int close_world(void **state)
 {
     (void)state;
-    ground_marks_free(&scars);
+    ground_marks_free(&marks);
     fixture_close(&f);
     return 0;
 }
@@ -34,7 +34,7 @@ static int close_world(void **state)
 static struct state update(void)
 {
     struct state now = fixture_state(&f);
-    ground_marks_update(&scars, &f.view.world, &now);
+    ground_marks_update(&marks, &f.view.world, &now);
     return now;
 }
 
@@ -49,7 +49,7 @@ static uint32_t scarred(uint8_t scar)
     uint32_t count = 0;
     for (int32_t row = 0; row < GRIDSQUARE_PER_SIDE; row++) {
         for (int32_t column = 0; column < GRIDSQUARE_PER_SIDE; column++)
-            count += (ground_marks_at(&scars, (column + 0.5) * GRIDSQUARE_SIDE_M,
+            count += (ground_marks_at(&marks, (column + 0.5) * GRIDSQUARE_SIDE_M,
                                       (row + 0.5) * GRIDSQUARE_SIDE_M) &
                       scar) != 0;
     }
@@ -73,13 +73,13 @@ static void test_what_fell_is_where_it_reaches(void **state)
     assert_int_equal(scarred(GROUND_MARKS_DEBRIS), 0);
     now.fixed_damage[building ? 0 : 1] = DAMAGE_HIGH;
     update();
-    assert_int_equal(ground_marks_at(&scars, 25003.0, 25060.0), GROUND_MARKS_DEBRIS);
-    assert_int_equal(ground_marks_at(&scars, 24999.0, 25060.0),
+    assert_int_equal(ground_marks_at(&marks, 25003.0, 25060.0), GROUND_MARKS_DEBRIS);
+    assert_int_equal(ground_marks_at(&marks, 24999.0, 25060.0),
                      GROUND_MARKS_DEBRIS); /* over the border */
     assert_int_equal(scarred(GROUND_MARKS_DEBRIS), 2);
     now.fixed_damage[building ? 1 : 0] = DAMAGE_DESTROYED;
     update();
-    assert_int_equal(ground_marks_at(&scars, 30060.0, 30060.0), GROUND_MARKS_DEBRIS);
+    assert_int_equal(ground_marks_at(&marks, 30060.0, 30060.0), GROUND_MARKS_DEBRIS);
     assert_int_equal(scarred(GROUND_MARKS_DEBRIS), 3);
 }
 
@@ -126,7 +126,7 @@ static void test_no_crater_is_missed(void **state)
             crater_offset(&f.player.mover.craters, x + GROUND_MARKS_NEAR_M * maths_sin(turn),
                           z + GROUND_MARKS_NEAR_M * maths_cos(turn));
         if (there != 0.0) {
-            assert_true(ground_marks_at(&scars, x, z) & GROUND_MARKS_CRATER);
+            assert_true(ground_marks_at(&marks, x, z) & GROUND_MARKS_CRATER);
             found++;
         }
     }
@@ -141,9 +141,9 @@ static void test_no_crater_is_missed(void **state)
             z.lane[l] = l % 4 ? by->z + fixture_uniform(&random, -200.0, 200.0)
                               : GRIDSQUARE_SIDE_M * (double)(fixture_random(&random) % 401);
         }
-        ground_marks_find(&scars, &x, &z, &crater, &debris);
+        ground_marks_find(&marks, &x, &z, &crater, &debris);
         for (int l = 0; l < LANE_COUNT; l++) {
-            uint8_t there = ground_marks_at(&scars, x.lane[l], z.lane[l]);
+            uint8_t there = ground_marks_at(&marks, x.lane[l], z.lane[l]);
             assert_int_equal(crater.lane[l], there & GROUND_MARKS_CRATER ? -1 : 0);
             assert_int_equal(debris.lane[l], there & GROUND_MARKS_DEBRIS ? -1 : 0);
         }
@@ -156,12 +156,12 @@ static void test_a_box_has_the_marks_of_its_squares(void **state)
     (void)state;
     struct gridsquare_box with = gridsquare_box_of(19000.0, 20000.0, 20000.0, 20000.0);
     struct gridsquare_box without = gridsquare_box_of(19000.0, 20000.0, 19800.0, 20000.0);
-    assert_false(ground_marks_within(&scars, with, GROUND_MARKS_CRATER));
+    assert_false(ground_marks_within(&marks, with, GROUND_MARKS_CRATER));
     dig(20000.0, 20000.0, 2.0f);
     update();
-    assert_true(ground_marks_within(&scars, with, GROUND_MARKS_CRATER));
-    assert_false(ground_marks_within(&scars, with, GROUND_MARKS_DEBRIS));
-    assert_false(ground_marks_within(&scars, without, GROUND_MARKS_CRATER));
+    assert_true(ground_marks_within(&marks, with, GROUND_MARKS_CRATER));
+    assert_false(ground_marks_within(&marks, with, GROUND_MARKS_DEBRIS));
+    assert_false(ground_marks_within(&marks, without, GROUND_MARKS_CRATER));
 }
 
 int main(void)

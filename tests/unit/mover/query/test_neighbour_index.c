@@ -1,4 +1,4 @@
-/* The index of who is where, against looking at everybody. */
+/* The index of neighbours, against a search of all rows. */
 #include "mover/query/neighbour_index.h"
 #include "tests/support/steps.h"
 

@@ -1,4 +1,4 @@
-/* Rows for new entities: used again, with ids that never are. */
+/* Rows for new entities: rows are used again, ids never. */
 #include "mover/weapon/spawn.h"
 #include "tests/support/steps.h"
 #include "world/entity/event.h"
@@ -117,7 +117,7 @@ static void test_random_comings_and_goings_keep_ids_and_counts(void **state)
             assert_int_equal(row == SLOT_NONE, live == CAPACITY);
             if (row == SLOT_NONE)
                 continue;
-            assert_int_equal(id[row], 0); /* nobody was there */
+            assert_int_equal(id[row], 0); /* a row that was free */
             id[row] = next++;
             round_at[row] = round;
             live++;

@@ -1,4 +1,4 @@
-/* Turrets and guns: rates and limits, laying on what moves, and when an agent pulls the trigger. */
+/* Turrets and guns: rates and limits, laying on moving targets, and when an agent fires. */
 #include "mover/weapon/turret.h"
 
 #include "tests/support/steps.h"
