@@ -209,8 +209,7 @@ static bool fly_one(const struct step_context *context, uint32_t i,
            m->z[i] > WORLD_SIDE_M - 200.0;
 }
 
-/* --- worlds, vehicles and desired motion
- * --------------------------------------------------------*/
+/* --- worlds, vehicles and desired motion -------------------------------------------------------*/
 
 static double rough(double x, double z, const void *context)
 {

@@ -44,14 +44,14 @@ static void dig(double x, double z, float radius_m)
     now.craters[now.head->crater_count++] = (struct crater){x, z, radius_m, 1.0f, 1};
 }
 
-static uint32_t scarred(uint8_t scar)
+static uint32_t marked(uint8_t mark)
 {
     uint32_t count = 0;
     for (int32_t row = 0; row < GRIDSQUARE_PER_SIDE; row++) {
         for (int32_t column = 0; column < GRIDSQUARE_PER_SIDE; column++)
             count += (ground_marks_at(&marks, (column + 0.5) * GRIDSQUARE_SIDE_M,
                                       (row + 0.5) * GRIDSQUARE_SIDE_M) &
-                      scar) != 0;
+                      mark) != 0;
     }
     return count;
 }
@@ -60,7 +60,7 @@ static void test_a_quiet_world_has_none(void **state)
 {
     (void)state;
     update();
-    assert_int_equal(scarred(GROUND_MARKS_DEBRIS | GROUND_MARKS_CRATER), 0);
+    assert_int_equal(marked(GROUND_MARKS_DEBRIS | GROUND_MARKS_CRATER), 0);
 }
 
 static void test_what_fell_is_where_it_reaches(void **state)
@@ -70,17 +70,17 @@ static void test_what_fell_is_where_it_reaches(void **state)
     bool building = f.view.world.fixed[0].x < 26000.0;
     now.fixed_damage[building ? 0 : 1] = DAMAGE_MED; /* it still stands */
     update();
-    assert_int_equal(scarred(GROUND_MARKS_DEBRIS), 0);
+    assert_int_equal(marked(GROUND_MARKS_DEBRIS), 0);
     now.fixed_damage[building ? 0 : 1] = DAMAGE_HIGH;
     update();
     assert_int_equal(ground_marks_at(&marks, 25003.0, 25060.0), GROUND_MARKS_DEBRIS);
     assert_int_equal(ground_marks_at(&marks, 24999.0, 25060.0),
                      GROUND_MARKS_DEBRIS); /* over the border */
-    assert_int_equal(scarred(GROUND_MARKS_DEBRIS), 2);
+    assert_int_equal(marked(GROUND_MARKS_DEBRIS), 2);
     now.fixed_damage[building ? 1 : 0] = DAMAGE_DESTROYED;
     update();
     assert_int_equal(ground_marks_at(&marks, 30060.0, 30060.0), GROUND_MARKS_DEBRIS);
-    assert_int_equal(scarred(GROUND_MARKS_DEBRIS), 3);
+    assert_int_equal(marked(GROUND_MARKS_DEBRIS), 3);
 }
 
 static void test_another_worlds_past_is_forgotten(void **state)
@@ -91,15 +91,15 @@ static void test_another_worlds_past_is_forgotten(void **state)
     dig(20060.0, 20060.0, 3.0f);
     dig(21060.0, 21060.0, 3.0f);
     update();
-    assert_int_equal(scarred(GROUND_MARKS_CRATER), 2);
+    assert_int_equal(marked(GROUND_MARKS_CRATER), 2);
     now.head->crater_count = 1;
     update();
-    assert_int_equal(scarred(GROUND_MARKS_CRATER), 1);
-    assert_true(scarred(GROUND_MARKS_DEBRIS) > 0);
+    assert_int_equal(marked(GROUND_MARKS_CRATER), 1);
+    assert_true(marked(GROUND_MARKS_DEBRIS) > 0);
     now.fixed_damage[0] = DAMAGE_NONE;
     update();
-    assert_int_equal(scarred(GROUND_MARKS_DEBRIS), 0);
-    assert_int_equal(scarred(GROUND_MARKS_CRATER), 1);
+    assert_int_equal(marked(GROUND_MARKS_DEBRIS), 0);
+    assert_int_equal(marked(GROUND_MARKS_CRATER), 1);
 }
 
 /* Wherever the ground is another one within reach of a place, its square says so. */
@@ -148,7 +148,7 @@ static void test_no_crater_is_missed(void **state)
             assert_int_equal(debris.lane[l], there & GROUND_MARKS_DEBRIS ? -1 : 0);
         }
     }
-    assert_true(scarred(GROUND_MARKS_CRATER) < 20 * 4 + 1);
+    assert_true(marked(GROUND_MARKS_CRATER) < 20 * 4 + 1);
 }
 
 static void test_a_box_has_the_marks_of_its_squares(void **state)
