@@ -88,11 +88,11 @@ static uint32_t known_pieces(const struct collider *collider, const struct moved
     return own ? block_count(next->head->used) : 0;
 }
 
-static void put_intents(struct event_writer *sink, const struct moved *moved)
+static void put_intents(struct event_writer *events, const struct moved *moved)
 {
     for (uint32_t i = 0; i < moved->head->intent_count; i++) {
         const struct event *intent = &moved->intents[i];
-        struct event *event = event_writer_event(sink, (enum event_type)intent->type);
+        struct event *event = event_writer_event(events, (enum event_type)intent->type);
         if (event)
             memcpy(event->bytes, intent->bytes, sizeof event->bytes);
     }
@@ -212,21 +212,21 @@ void collider_step(struct collider *collider, const struct state *committed,
     body_motion_begin(&collider->motion, committed, next);
 
     struct response_context respond = collider_respond(collider, next);
-    respond.sink = (struct event_writer){.slot = ring->slot,
-                                         .slots = ring->slots,
-                                         .first = committed->head->event_end,
-                                         .frame = next->head->frame,
-                                         .tick = next->head->tick,
-                                         .most = world->params->events_per_frame,
-                                         .tally = &next->head->tally};
-    put_intents(&respond.sink, moved);
+    respond.events = (struct event_writer){.slot = ring->slot,
+                                           .slots = ring->slots,
+                                           .first = committed->head->event_end,
+                                           .frame = next->head->frame,
+                                           .tick = next->head->tick,
+                                           .most = world->params->events_per_frame,
+                                           .tally = &next->head->tally};
+    put_intents(&respond.events, moved);
     if (next->head->advanced) {
         collide_all(&stage, &respond);
         contact_queue_end(&collider->contacts);
     } else {
         take_all(&stage);
     }
-    next->head->event_end = respond.sink.first + respond.sink.count;
-    next->head->event_digest = event_writer_digest(&respond.sink, committed->head->event_digest);
+    next->head->event_end = respond.events.first + respond.events.count;
+    next->head->event_digest = event_writer_digest(&respond.events, committed->head->event_digest);
     *left = next->head->checksum = checksum(collider, committed, next);
 }

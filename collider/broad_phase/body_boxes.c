@@ -232,7 +232,7 @@ static void add_spanning(const struct body_boxes *rows, struct strip_bins *bins,
 }
 
 /* Who cannot reach the ground, and is no round, has no end to be looked for. */
-static void add_flier(const struct body_boxes *rows, struct sweep_worker *lane,
+static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweeper,
                       const struct ends *ends, uint32_t k, uint32_t tag)
 {
     const struct method_input *input = rows->input;
@@ -245,10 +245,10 @@ static void add_flier(const struct body_boxes *rows, struct sweep_worker *lane,
         return;
     if (rows->motion)
         body_motion_draw(rows->motion, row);
-    pair_list_add(&lane->fliers, row, 0);
+    pair_list_add(&sweeper->fliers, row, 0);
 }
 
-static void add_rows(const struct body_boxes *rows, struct sweep_worker *lane,
+static void add_rows(const struct body_boxes *rows, struct sweep_worker *sweeper,
                      const struct block *block, const struct ends *ends, uint32_t first,
                      uint32_t count)
 {
@@ -260,16 +260,16 @@ static void add_rows(const struct body_boxes *rows, struct sweep_worker *lane,
             continue;
         record.tag |= block->rests[k] | (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0);
         if (block->strip[k] < STRIP_COUNT)
-            strip_bins_add(&lane->bins, block->strip[k], record);
+            strip_bins_add(&sweeper->bins, block->strip[k], record);
         else
-            add_spanning(rows, &lane->bins, record);
+            add_spanning(rows, &sweeper->bins, record);
         if (record.tag & (BIN_ROUND | BIN_AIR))
-            add_flier(rows, lane, ends, k, record.tag);
+            add_flier(rows, sweeper, ends, k, record.tag);
     }
 }
 
-static void bin_block(const struct body_boxes *rows, struct block *block, struct sweep_worker *lane,
-                      uint32_t first, uint32_t count)
+static void bin_block(const struct body_boxes *rows, struct block *block,
+                      struct sweep_worker *sweeper, uint32_t first, uint32_t count)
 {
     struct path_box *box = rows->box + first, *to = count < BLOCK ? block->box : box;
     struct ends ends;
@@ -284,13 +284,13 @@ static void bin_block(const struct body_boxes *rows, struct block *block, struct
     }
     if (count < BLOCK)
         memcpy(box, block->box, count * sizeof *box);
-    add_rows(rows, lane, block, &ends, first, count);
+    add_rows(rows, sweeper, block, &ends, first, count);
 }
 
-VECTOR_CLONES void body_boxes_bin(const struct body_boxes *rows, struct sweep_worker *lane,
+VECTOR_CLONES void body_boxes_bin(const struct body_boxes *rows, struct sweep_worker *sweeper,
                                   uint32_t first, uint32_t end)
 {
     struct block block = {0};
     for (uint32_t row = first; row < end; row += BLOCK)
-        bin_block(rows, &block, lane, row, end - row < BLOCK ? end - row : BLOCK);
+        bin_block(rows, &block, sweeper, row, end - row < BLOCK ? end - row : BLOCK);
 }

@@ -1,5 +1,5 @@
 /* The frame's rows on their way into the strips: each row's box, its record, and who flies. Rows
- * are independent of each other; each worker has a lane to put them in. */
+ * are independent of each other; each worker has its own sweep_worker to put them in. */
 #ifndef JOLON_COLLIDER_BROAD_PHASE_BODY_BOXES_H
 #define JOLON_COLLIDER_BROAD_PHASE_BODY_BOXES_H
 
@@ -18,10 +18,10 @@ struct body_boxes {
     const uint32_t *flags;      /* [kinds] of a record's tag */
 };
 
-/* Fills the boxes of rows first .. end - 1, adds their records to the lane's bins and who may reach
- * the ground, rounds and aircraft, to its fliers. Without motion every way must be drawn; with it
- * those of fliers are drawn here, and of who is in several strips. */
-void body_boxes_bin(const struct body_boxes *rows, struct sweep_worker *lane, uint32_t first,
+/* Fills the boxes of rows first .. end - 1, adds their records to the sweeper's bins and who may
+ * reach the ground, rounds and aircraft, to its fliers. Without motion every way must be drawn;
+ * with it those of fliers are drawn here, and of who is in several strips. */
+void body_boxes_bin(const struct body_boxes *rows, struct sweep_worker *sweeper, uint32_t first,
                     uint32_t end);
 
 #endif

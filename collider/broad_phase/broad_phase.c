@@ -21,13 +21,13 @@ int broad_phase_init(struct broad_phase *broad, const struct world *world,
                      struct thread_pool *workers)
 {
     *broad = (struct broad_phase){
-        .world = world, .workers = workers, .lanes = thread_pool_threads(workers)};
+        .world = world, .workers = workers, .sweepers = thread_pool_threads(workers)};
     uint32_t rows = world->params->capacity, pairs = pair_filter_pairs_first(world);
     broad->box = malloc(rows * sizeof *broad->box);
-    broad->lane = calloc(broad->lanes, sizeof *broad->lane);
-    bool taken = broad->box && broad->lane && static_boxes_init(&broad->standing, world) == 0;
-    for (uint32_t i = 0; taken && i < broad->lanes; i++)
-        taken = sweep_worker_init(&broad->lane[i], rows, pairs) == 0;
+    broad->sweeper = calloc(broad->sweepers, sizeof *broad->sweeper);
+    bool taken = broad->box && broad->sweeper && static_boxes_init(&broad->fixed_boxes, world) == 0;
+    for (uint32_t i = 0; taken && i < broad->sweepers; i++)
+        taken = sweep_worker_init(&broad->sweeper[i], rows, pairs) == 0;
     if (taken)
         return 0;
     broad_phase_free(broad);
@@ -37,10 +37,10 @@ int broad_phase_init(struct broad_phase *broad, const struct world *world,
 
 void broad_phase_free(struct broad_phase *broad)
 {
-    for (uint32_t i = 0; broad->lane && i < broad->lanes; i++)
-        sweep_worker_free(&broad->lane[i]);
-    static_boxes_free(&broad->standing);
-    free(broad->lane);
+    for (uint32_t i = 0; broad->sweeper && i < broad->sweepers; i++)
+        sweep_worker_free(&broad->sweeper[i]);
+    static_boxes_free(&broad->fixed_boxes);
+    free(broad->sweeper);
     free(broad->box);
     *broad = (struct broad_phase){0};
 }
@@ -62,7 +62,7 @@ static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worke
         uint32_t past = end - row < BROAD_PHASE_ROWS_TAKEN ? end : row + BROAD_PHASE_ROWS_TAKEN;
         if (job->take)
             job->take(job->context, row, past);
-        body_boxes_bin(&job->rows, &job->broad->lane[worker], row, past);
+        body_boxes_bin(&job->rows, &job->broad->sweeper[worker], row, past);
         work_done();
     }
 }
@@ -70,9 +70,9 @@ static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worke
 static void meet_strips(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
-    struct sweep_worker *lane = &job->broad->lane[worker];
+    struct sweep_worker *sweeper = &job->broad->sweeper[worker];
     for (uint32_t strip = first; strip < end; strip++)
-        sweep_and_prune_pairs(&job->strips, lane, strip);
+        sweep_and_prune_pairs(&job->strips, sweeper, strip);
 }
 
 void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_input *input,
@@ -89,20 +89,20 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
         .input = input, .motion = motion, .box = broad->box, .grow = job.grow, .flags = job.flags};
     job.strips = (struct strips){.input = input,
                                  .motion = motion,
-                                 .standing = &broad->standing,
+                                 .fixed_boxes = &broad->fixed_boxes,
                                  .box = broad->box,
                                  .grow = job.grow,
-                                 .lane = broad->lane,
-                                 .lanes = broad->lanes};
-    for (uint32_t i = 0; i < broad->lanes; i++) {
-        strip_bins_clear(&broad->lane[i].bins);
-        broad->lane[i].fliers.count = 0;
-        broad->lane[i].pairs.count = 0;
+                                 .sweeper = broad->sweeper,
+                                 .sweepers = broad->sweepers};
+    for (uint32_t i = 0; i < broad->sweepers; i++) {
+        strip_bins_clear(&broad->sweeper[i].bins);
+        broad->sweeper[i].fliers.count = 0;
+        broad->sweeper[i].pairs.count = 0;
     }
     thread_pool_run(workers, bin_rows, &job, input->rows, ROWS_A_PIECE);
     thread_pool_run(workers, meet_strips, &job, STRIP_COUNT, STRIPS_A_PIECE);
-    for (uint32_t i = 0; i < broad->lanes; i++)
-        broad->list[i] = broad->lane[i].pairs;
+    for (uint32_t i = 0; i < broad->sweepers; i++)
+        broad->list[i] = broad->sweeper[i].pairs;
 }
 
 void broad_phase_pairs(struct broad_phase *broad, const struct method_input *input)
@@ -169,8 +169,8 @@ void broad_phase_query(const struct broad_phase *broad, const struct method_inpu
     uint32_t since = found->count, last = bin_strip(box->max_z);
     (void)input;
     for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
-        for (uint32_t i = 0; i < broad->lanes; i++)
-            query_strip(broad, &broad->lane[i].bins, strip, box, found, since);
+        for (uint32_t i = 0; i < broad->sweepers; i++)
+            query_strip(broad, &broad->sweeper[i].bins, strip, box, found, since);
     }
     order_found(found, since);
 }
@@ -181,7 +181,7 @@ void broad_phase_query_fixed(const struct broad_phase *broad, const struct metho
     uint32_t since = found->count, last = bin_strip(box->max_z);
     for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
         struct bin_record one = record_of(box, strip);
-        const struct bin_record *object = static_boxes_from(&broad->standing, strip, one.min_x);
+        const struct bin_record *object = static_boxes_from(&broad->fixed_boxes, strip, one.min_x);
         for (; object->min_x <= one.max_x; object++) {
             uint32_t index = object->tag & BIN_OBJECT;
             if (bin_meet(&one, object) &&

@@ -21,9 +21,9 @@ struct broad_phase {
     const struct world *world;
     struct thread_pool *workers;
     struct path_box *box; /* [capacity] of every row that is there */
-    struct static_boxes standing;
-    struct sweep_worker *lane; /* [lanes] one a worker */
-    uint32_t lanes;
+    struct static_boxes fixed_boxes;
+    struct sweep_worker *sweeper; /* [sweepers] one a worker */
+    uint32_t sweepers;
     struct pair_list list[THREAD_POOL_MAX]; /* one a worker: their order does not matter, since
                                            contacts are put in a total order */
 };

@@ -72,14 +72,14 @@ static struct place *from_west(const struct world *world)
 
 /* --- into strips -------------------------------------------------------------------------------*/
 
-static void put(const struct static_boxes *standing, const struct world *world,
+static void put(const struct static_boxes *fixed_boxes, const struct world *world,
                 const struct place *place, uint32_t *next)
 {
     const struct fixed_object *object = &world->fixed[place->object];
     double reach = reach_of(world, object);
     struct span span = strips_of(world, object);
     for (uint32_t strip = span.first; strip <= span.last; strip++)
-        standing->record[next[strip]++] = (struct bin_record){
+        fixed_boxes->record[next[strip]++] = (struct bin_record){
             .min_x = place->min_x,
             .max_x = bin_steps((float)(object->x + reach)),
             .z = bin_z((float)(object->z - reach), (float)(object->z + reach), strip),
@@ -87,21 +87,21 @@ static void put(const struct static_boxes *standing, const struct world *world,
         };
 }
 
-static void finish_strip(struct static_boxes *standing, uint32_t strip)
+static void finish_strip(struct static_boxes *fixed_boxes, uint32_t strip)
 {
-    uint32_t begin = standing->start[strip], end = standing->start[strip + 1] - STATIC_BOXES_AHEAD,
-             i = begin;
+    uint32_t begin = fixed_boxes->start[strip],
+             end = fixed_boxes->start[strip + 1] - STATIC_BOXES_AHEAD, i = begin;
     for (uint32_t n = 0; n < STATIC_BOXES_AHEAD; n++)
-        standing->record[end + n] = (struct bin_record){.min_x = INT32_MAX, .max_x = INT32_MAX};
+        fixed_boxes->record[end + n] = (struct bin_record){.min_x = INT32_MAX, .max_x = INT32_MAX};
     for (uint32_t column = 0; column < STATIC_BOXES_COLUMNS; column++) {
         while (column > 0 && i < end &&
-               (uint32_t)standing->record[i].max_x >> STATIC_BOXES_COLUMN_BITS < column)
+               (uint32_t)fixed_boxes->record[i].max_x >> STATIC_BOXES_COLUMN_BITS < column)
             i++;
-        standing->first[strip * STATIC_BOXES_COLUMNS + column] = i;
+        fixed_boxes->first[strip * STATIC_BOXES_COLUMNS + column] = i;
     }
 }
 
-int static_boxes_init(struct static_boxes *standing, const struct world *world)
+int static_boxes_init(struct static_boxes *fixed_boxes, const struct world *world)
 {
     uint32_t next[STRIP_COUNT], count[STRIP_COUNT] = {0}, total = 0;
     for (uint32_t i = 0; i < world->counts.fixed; i++) {
@@ -110,31 +110,31 @@ int static_boxes_init(struct static_boxes *standing, const struct world *world)
             count[strip]++;
     }
     for (uint32_t strip = 0; strip < STRIP_COUNT; strip++) {
-        standing->start[strip] = next[strip] = total;
+        fixed_boxes->start[strip] = next[strip] = total;
         total += count[strip] + STATIC_BOXES_AHEAD;
     }
-    standing->start[STRIP_COUNT] = total;
-    standing->record = malloc(total * sizeof *standing->record);
-    standing->first = malloc(STRIP_COUNT * STATIC_BOXES_COLUMNS * sizeof *standing->first);
+    fixed_boxes->start[STRIP_COUNT] = total;
+    fixed_boxes->record = malloc(total * sizeof *fixed_boxes->record);
+    fixed_boxes->first = malloc(STRIP_COUNT * STATIC_BOXES_COLUMNS * sizeof *fixed_boxes->first);
     struct place *place = from_west(world);
-    if (!standing->record || !standing->first || !place) {
+    if (!fixed_boxes->record || !fixed_boxes->first || !place) {
         free(place);
-        static_boxes_free(standing);
+        static_boxes_free(fixed_boxes);
         return -1;
     }
     for (uint32_t i = 0; i < world->counts.fixed; i++)
-        put(standing, world, &place[i], next);
+        put(fixed_boxes, world, &place[i], next);
     free(place);
     for (uint32_t strip = 0; strip < STRIP_COUNT; strip++)
-        finish_strip(standing, strip);
+        finish_strip(fixed_boxes, strip);
     return 0;
 }
 
-void static_boxes_free(struct static_boxes *standing)
+void static_boxes_free(struct static_boxes *fixed_boxes)
 {
-    free(standing->record);
-    free(standing->first);
-    memset(standing, 0, sizeof *standing);
+    free(fixed_boxes->record);
+    free(fixed_boxes->first);
+    memset(fixed_boxes, 0, sizeof *fixed_boxes);
 }
 
 uint32_t static_boxes_strip(const struct world *world, const struct fixed_object *object)

@@ -26,19 +26,19 @@ struct static_boxes {
 };
 
 /* 0, or -1 with errno ENOMEM. */
-int static_boxes_init(struct static_boxes *standing, const struct world *world);
-void static_boxes_free(struct static_boxes *standing);
+int static_boxes_init(struct static_boxes *fixed_boxes, const struct world *world);
+void static_boxes_free(struct static_boxes *fixed_boxes);
 
 /* The first strip that the object reaches into. */
 uint32_t static_boxes_strip(const struct world *world, const struct fixed_object *object);
 
 /* The strip's records from the first that can reach x [steps] on; the one that ends them lies
  * beyond every max_x. */
-static inline const struct bin_record *static_boxes_from(const struct static_boxes *standing,
+static inline const struct bin_record *static_boxes_from(const struct static_boxes *fixed_boxes,
                                                          uint32_t strip, int32_t x)
 {
     uint32_t column = (uint32_t)x >> STATIC_BOXES_COLUMN_BITS;
-    return standing->record + standing->first[strip * STATIC_BOXES_COLUMNS + column];
+    return fixed_boxes->record + fixed_boxes->first[strip * STATIC_BOXES_COLUMNS + column];
 }
 
 #endif

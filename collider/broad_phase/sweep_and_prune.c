@@ -24,43 +24,44 @@
 
 /* --- memory ------------------------------------------------------------------------------------*/
 
-int sweep_worker_init(struct sweep_worker *lane, uint32_t rows, uint32_t pairs)
+int sweep_worker_init(struct sweep_worker *sweeper, uint32_t rows, uint32_t pairs)
 {
     uint64_t padded = (uint64_t)rows + PADDING;
-    *lane = (struct sweep_worker){.capacity = rows};
-    if (strip_bins_init(&lane->bins, rows) != 0 || pair_list_init(&lane->pairs, pairs) != 0 ||
-        pair_list_init(&lane->fliers, rows) != 0)
+    *sweeper = (struct sweep_worker){.capacity = rows};
+    if (strip_bins_init(&sweeper->bins, rows) != 0 || pair_list_init(&sweeper->pairs, pairs) != 0 ||
+        pair_list_init(&sweeper->fliers, rows) != 0)
         return -1;
-    lane->record = reserve_take(padded, sizeof *lane->record);
-    lane->sorted = reserve_take(padded, sizeof *lane->sorted);
-    lane->min_x = reserve_take(padded, sizeof *lane->min_x);
-    lane->max_x = reserve_take(padded, sizeof *lane->max_x);
-    lane->low_z = reserve_take(padded, sizeof *lane->low_z);
-    lane->high_z = reserve_take(padded, sizeof *lane->high_z);
-    lane->tag = reserve_take(padded, sizeof *lane->tag);
-    lane->bucket = reserve_take(1u << BUCKET_BITS, sizeof *lane->bucket);
-    lane->candidate = reserve_take(SWEEP_AND_PRUNE_CANDIDATES, sizeof *lane->candidate);
-    return lane->record && lane->sorted && lane->min_x && lane->max_x && lane->low_z &&
-                   lane->high_z && lane->tag && lane->bucket && lane->candidate
+    sweeper->record = reserve_take(padded, sizeof *sweeper->record);
+    sweeper->sorted = reserve_take(padded, sizeof *sweeper->sorted);
+    sweeper->min_x = reserve_take(padded, sizeof *sweeper->min_x);
+    sweeper->max_x = reserve_take(padded, sizeof *sweeper->max_x);
+    sweeper->low_z = reserve_take(padded, sizeof *sweeper->low_z);
+    sweeper->high_z = reserve_take(padded, sizeof *sweeper->high_z);
+    sweeper->tag = reserve_take(padded, sizeof *sweeper->tag);
+    sweeper->bucket = reserve_take(1u << BUCKET_BITS, sizeof *sweeper->bucket);
+    sweeper->candidate = reserve_take(SWEEP_AND_PRUNE_CANDIDATES, sizeof *sweeper->candidate);
+    return sweeper->record && sweeper->sorted && sweeper->min_x && sweeper->max_x &&
+                   sweeper->low_z && sweeper->high_z && sweeper->tag && sweeper->bucket &&
+                   sweeper->candidate
                ? 0
                : -1;
 }
 
-void sweep_worker_free(struct sweep_worker *lane)
+void sweep_worker_free(struct sweep_worker *sweeper)
 {
-    strip_bins_free(&lane->bins);
-    reserve_free(lane->record);
-    reserve_free(lane->sorted);
-    reserve_free(lane->min_x);
-    reserve_free(lane->max_x);
-    reserve_free(lane->low_z);
-    reserve_free(lane->high_z);
-    reserve_free(lane->tag);
-    reserve_free(lane->bucket);
-    reserve_free(lane->candidate);
-    pair_list_free(&lane->pairs);
-    pair_list_free(&lane->fliers);
-    memset(lane, 0, sizeof *lane);
+    strip_bins_free(&sweeper->bins);
+    reserve_free(sweeper->record);
+    reserve_free(sweeper->sorted);
+    reserve_free(sweeper->min_x);
+    reserve_free(sweeper->max_x);
+    reserve_free(sweeper->low_z);
+    reserve_free(sweeper->high_z);
+    reserve_free(sweeper->tag);
+    reserve_free(sweeper->bucket);
+    reserve_free(sweeper->candidate);
+    pair_list_free(&sweeper->pairs);
+    pair_list_free(&sweeper->fliers);
+    memset(sweeper, 0, sizeof *sweeper);
 }
 
 /* --- long ways ---------------------------------------------------------------------------------*/
@@ -128,7 +129,7 @@ static bool met_before(const struct strips *strips, uint32_t a, uint32_t b, uint
     return false;
 }
 
-static void take_moving(const struct strips *strips, struct sweep_worker *lane, struct pair tags,
+static void take_moving(const struct strips *strips, struct sweep_worker *sweeper, struct pair tags,
                         uint32_t strip)
 {
     uint32_t p = tags.a & BIN_ROW, q = tags.b & BIN_ROW;
@@ -137,7 +138,7 @@ static void take_moving(const struct strips *strips, struct sweep_worker *lane, 
         (tags.a & tags.b & BIN_SPANS && met_before(strips, tags.a, tags.b, strip)) ||
         ((tags.a | tags.b) & BIN_ROUND && pair_same_shooter(strips->input->entities, a, b)))
         return;
-    pair_list_add(&lane->pairs, a, b);
+    pair_list_add(&sweeper->pairs, a, b);
 }
 
 static bool met_object_before(const struct strips *strips, uint32_t tag,
@@ -152,7 +153,7 @@ static bool met_object_before(const struct strips *strips, uint32_t tag,
     return false;
 }
 
-static void take_fixed(const struct strips *strips, struct sweep_worker *lane, uint32_t tag,
+static void take_fixed(const struct strips *strips, struct sweep_worker *sweeper, uint32_t tag,
                        const struct bin_record *record, uint32_t strip)
 {
     const struct method_input *input = strips->input;
@@ -168,22 +169,22 @@ static void take_fixed(const struct strips *strips, struct sweep_worker *lane, u
         body_motion_draw(strips->motion, row);
     if (tag & BIN_AIR && !pair_filter_tests_fixed(input, row))
         return;
-    pair_list_add(&lane->pairs, row, index | PAIR_FIXED);
+    pair_list_add(&sweeper->pairs, row, index | PAIR_FIXED);
 }
 
-static void take_candidates(struct sweep_worker *lane)
+static void take_candidates(struct sweep_worker *sweeper)
 {
-    const struct strips *strips = lane->strips;
-    const struct pair *candidate = lane->candidate;
-    uint32_t count = lane->candidates;
+    const struct strips *strips = sweeper->strips;
+    const struct pair *candidate = sweeper->candidate;
+    uint32_t count = sweeper->candidates;
     for (uint32_t i = 0; i < count; i++) {
         if (i + PREFETCH_PAIRS < count) {
             __builtin_prefetch(&strips->box[candidate[i + PREFETCH_PAIRS].a & BIN_ROW]);
             __builtin_prefetch(&strips->box[candidate[i + PREFETCH_PAIRS].b & BIN_ROW]);
         }
-        take_moving(strips, lane, candidate[i], lane->strip);
+        take_moving(strips, sweeper, candidate[i], sweeper->strip);
     }
-    lane->candidates = 0;
+    sweeper->candidates = 0;
     work_done();
 }
 
@@ -195,29 +196,29 @@ static void prefetch_chunk(const struct bin_chunk *chunk)
         __builtin_prefetch((const char *)chunk + line);
 }
 
-static void gather(const struct strips *strips, struct sweep_worker *lane, uint32_t strip)
+static void gather(const struct strips *strips, struct sweep_worker *sweeper, uint32_t strip)
 {
     uint32_t total = 0;
-    for (uint32_t i = 0; i < strips->lanes; i++) {
+    for (uint32_t i = 0; i < strips->sweepers; i++) {
         uint32_t count;
-        const struct bin_chunk *chunk = strip_bins_last(&strips->lane[i].bins, strip, &count);
+        const struct bin_chunk *chunk = strip_bins_last(&strips->sweeper[i].bins, strip, &count);
         for (; chunk; chunk = chunk->before, count = BIN_CHUNK_RECORDS) {
             prefetch_chunk(chunk->before_that);
-            CHECK(count <= lane->capacity - total);
-            memcpy(lane->record + total, chunk->record, count * sizeof *chunk->record);
+            CHECK(count <= sweeper->capacity - total);
+            memcpy(sweeper->record + total, chunk->record, count * sizeof *chunk->record);
             total += count;
         }
     }
-    lane->count = total;
+    sweeper->count = total;
 }
 
 /* At least as many buckets as records over all of the world. */
-static void set_buckets(struct sweep_worker *lane)
+static void set_buckets(struct sweep_worker *sweeper)
 {
     uint32_t bits = 5;
-    while (1u << bits < lane->count && bits < BUCKET_BITS)
+    while (1u << bits < sweeper->count && bits < BUCKET_BITS)
         bits++;
-    lane->shift = BIN_BITS - bits;
+    sweeper->shift = BIN_BITS - bits;
 }
 
 /* Takes the records apart, each word in a row. All four are taken, for else gcc makes no vectors.
@@ -234,30 +235,30 @@ static void spread(const uint32_t *restrict word, int32_t *restrict min_x, int32
     }
 }
 
-static void sort_records(struct sweep_worker *lane)
+static void sort_records(struct sweep_worker *sweeper)
 {
-    uint32_t count = lane->count, end = 0, tags = 0;
-    set_buckets(lane);
-    uint32_t *bucket = lane->bucket, shift = lane->shift, buckets = 1u << (BIN_BITS - shift);
-    const struct bin_record *record = lane->record;
+    uint32_t count = sweeper->count, end = 0, tags = 0;
+    set_buckets(sweeper);
+    uint32_t *bucket = sweeper->bucket, shift = sweeper->shift, buckets = 1u << (BIN_BITS - shift);
+    const struct bin_record *record = sweeper->record;
     memset(bucket, 0, buckets * sizeof *bucket);
     for (uint32_t i = 0; i < count; i++) {
         bucket[(uint32_t)record[i].min_x >> shift]++;
         tags |= record[i].tag;
     }
-    lane->tags = tags;
+    sweeper->tags = tags;
     for (uint32_t i = 0; i < buckets; i++) {
         uint32_t more = bucket[i];
         bucket[i] = end;
         end += more;
     }
     for (uint32_t i = 0; i < count; i++)
-        lane->sorted[bucket[(uint32_t)record[i].min_x >> shift]++] = record[i];
+        sweeper->sorted[bucket[(uint32_t)record[i].min_x >> shift]++] = record[i];
     for (uint32_t i = count; i < count + PADDING; i++)
-        lane->sorted[i] = (struct bin_record){.min_x = INT32_MAX, .max_x = INT32_MIN};
+        sweeper->sorted[i] = (struct bin_record){.min_x = INT32_MAX, .max_x = INT32_MIN};
     for (uint32_t i = 0; i < count + BLOCK; i += BLOCK)
-        spread((const void *)&lane->sorted[i], lane->min_x + i, lane->max_x + i, lane->low_z + i,
-               lane->high_z + i, lane->tag + i);
+        spread((const void *)&sweeper->sorted[i], sweeper->min_x + i, sweeper->max_x + i,
+               sweeper->low_z + i, sweeper->high_z + i, sweeper->tag + i);
 }
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
@@ -305,60 +306,61 @@ static uint32_t list_hits(const uint8_t *hit, uint8_t *place)
     return count;
 }
 
-static void found(struct sweep_worker *lane, uint32_t a, uint32_t b)
+static void found(struct sweep_worker *sweeper, uint32_t a, uint32_t b)
 {
     if (a & b & BIN_RESTS)
         return;
-    if (lane->candidates == SWEEP_AND_PRUNE_CANDIDATES)
-        take_candidates(lane);
-    lane->candidate[lane->candidates++] = (struct pair){a, b};
+    if (sweeper->candidates == SWEEP_AND_PRUNE_CANDIDATES)
+        take_candidates(sweeper);
+    sweeper->candidate[sweeper->candidates++] = (struct pair){a, b};
 }
 
-static void sweep_far(struct sweep_worker *lane, uint32_t i)
+static void sweep_far(struct sweep_worker *sweeper, uint32_t i)
 {
     uint8_t hit[BLOCK], place[BLOCK];
-    const struct bin_record *one = &lane->sorted[i];
-    uint32_t last = lane->bucket[(uint32_t)one->max_x >> lane->shift];
+    const struct bin_record *one = &sweeper->sorted[i];
+    uint32_t last = sweeper->bucket[(uint32_t)one->max_x >> sweeper->shift];
     for (uint32_t j = i + NEAR + 1; j < last; j += BLOCK) {
-        compare_with(lane->min_x + j, lane->max_x + j, lane->low_z + j, lane->high_z + j, one, hit);
+        compare_with(sweeper->min_x + j, sweeper->max_x + j, sweeper->low_z + j,
+                     sweeper->high_z + j, one, hit);
         uint32_t hits = list_hits(hit, place);
         for (uint32_t n = 0; n < hits; n++)
-            found(lane, one->tag, lane->tag[j + place[n]]);
+            found(sweeper, one->tag, sweeper->tag[j + place[n]]);
     }
 }
 
 /* Compares each of a block with its neighbours to the east. */
-static void sweep_block(struct sweep_worker *lane, uint32_t i)
+static void sweep_block(struct sweep_worker *sweeper, uint32_t i)
 {
     uint8_t hit[BLOCK], place[BLOCK];
     for (uint32_t offset = 1; offset <= NEAR; offset++) {
-        compare_neighbours(lane->min_x + i, lane->max_x + i, lane->low_z + i, lane->high_z + i,
-                           offset, hit);
+        compare_neighbours(sweeper->min_x + i, sweeper->max_x + i, sweeper->low_z + i,
+                           sweeper->high_z + i, offset, hit);
         uint32_t hits = list_hits(hit, place);
         for (uint32_t n = 0; n < hits; n++) {
-            const uint32_t *tag = lane->tag + i + place[n];
-            found(lane, tag[0], tag[offset]);
+            const uint32_t *tag = sweeper->tag + i + place[n];
+            found(sweeper, tag[0], tag[offset]);
         }
     }
-    compare_buckets(lane->min_x + i, lane->max_x + i, lane->shift, hit);
+    compare_buckets(sweeper->min_x + i, sweeper->max_x + i, sweeper->shift, hit);
     uint32_t hits = list_hits(hit, place);
     for (uint32_t n = 0; n < hits; n++)
-        sweep_far(lane, i + place[n]);
+        sweep_far(sweeper, i + place[n]);
 }
 
-static void sweep_sorted(struct sweep_worker *lane)
+static void sweep_sorted(struct sweep_worker *sweeper)
 {
-    for (uint32_t i = 0; i < lane->count; i += BLOCK)
-        sweep_block(lane, i);
+    for (uint32_t i = 0; i < sweeper->count; i += BLOCK)
+        sweep_block(sweeper, i);
 }
 
-static void sweep_few(struct sweep_worker *lane)
+static void sweep_few(struct sweep_worker *sweeper)
 {
-    const struct bin_record *record = lane->record;
-    for (uint32_t i = 0; i + 1 < lane->count; i++) {
-        for (uint32_t j = i + 1; j < lane->count; j++) {
+    const struct bin_record *record = sweeper->record;
+    for (uint32_t i = 0; i + 1 < sweeper->count; i++) {
+        for (uint32_t j = i + 1; j < sweeper->count; j++) {
             if (bin_meet(&record[i], &record[j]))
-                found(lane, record[i].tag, record[j].tag);
+                found(sweeper, record[i].tag, record[j].tag);
         }
     }
 }
@@ -367,74 +369,75 @@ static void sweep_few(struct sweep_worker *lane)
 
 /* Looks for the objects that one record meets: a few at a time and without branches, since none is
  * met as a rule, but how many are passed on the way east is anyone's guess. */
-static void look_around(const struct strips *strips, struct sweep_worker *lane,
+static void look_around(const struct strips *strips, struct sweep_worker *sweeper,
                         const struct bin_record *one, uint32_t strip)
 {
-    const struct bin_record *object = static_boxes_from(strips->standing, strip, one->min_x);
+    const struct bin_record *object = static_boxes_from(strips->fixed_boxes, strip, one->min_x);
     for (; object->min_x <= one->max_x; object += STATIC_BOXES_AHEAD) {
         uint32_t met = 0;
         for (uint32_t i = 0; i < STATIC_BOXES_AHEAD; i++)
             met |= (uint32_t)bin_meet(one, &object[i]) << i;
         for (; met != 0; met &= met - 1) {
             const struct bin_record *hit = &object[__builtin_ctz(met)];
-            take_fixed(strips, lane, one->tag, hit, strip);
+            take_fixed(strips, sweeper, one->tag, hit, strip);
         }
     }
 }
 
 /* Looks for the sorted records that one object meets, but for wide ones. */
-static void look_from(const struct strips *strips, struct sweep_worker *lane,
+static void look_from(const struct strips *strips, struct sweep_worker *sweeper,
                       const struct bin_record *object, uint32_t strip)
 {
     uint8_t hit[BLOCK], place[BLOCK];
     int32_t west = object->min_x - BIN_WIDE_STEPS;
-    uint32_t key = (uint32_t)(west > 0 ? west : 0) >> lane->shift;
-    uint32_t end = lane->bucket[(uint32_t)object->max_x >> lane->shift];
-    for (uint32_t i = key > 0 ? lane->bucket[key - 1] : 0; i < end; i += BLOCK) {
-        compare_with(lane->min_x + i, lane->max_x + i, lane->low_z + i, lane->high_z + i, object,
-                     hit);
+    uint32_t key = (uint32_t)(west > 0 ? west : 0) >> sweeper->shift;
+    uint32_t end = sweeper->bucket[(uint32_t)object->max_x >> sweeper->shift];
+    for (uint32_t i = key > 0 ? sweeper->bucket[key - 1] : 0; i < end; i += BLOCK) {
+        compare_with(sweeper->min_x + i, sweeper->max_x + i, sweeper->low_z + i,
+                     sweeper->high_z + i, object, hit);
         uint32_t hits = list_hits(hit, place);
         for (uint32_t n = 0; n < hits; n++) {
-            uint32_t tag = lane->tag[i + place[n]];
+            uint32_t tag = sweeper->tag[i + place[n]];
             if (!(tag & BIN_WIDE))
-                take_fixed(strips, lane, tag, object, strip);
+                take_fixed(strips, sweeper, tag, object, strip);
         }
     }
 }
 
-static void meet_fixed(const struct strips *strips, struct sweep_worker *lane, uint32_t strip)
+static void meet_fixed(const struct strips *strips, struct sweep_worker *sweeper, uint32_t strip)
 {
-    const struct static_boxes *standing = strips->standing;
-    uint32_t first = standing->start[strip], end = standing->start[strip + 1] - STATIC_BOXES_AHEAD;
-    bool crowded = lane->count >= SORT_LEAST && lane->count > end - first;
+    const struct static_boxes *fixed_boxes = strips->fixed_boxes;
+    uint32_t first = fixed_boxes->start[strip],
+             end = fixed_boxes->start[strip + 1] - STATIC_BOXES_AHEAD;
+    bool crowded = sweeper->count >= SORT_LEAST && sweeper->count > end - first;
     if (first == end)
         return;
     for (uint32_t i = first; crowded && i < end; i++)
-        look_from(strips, lane, &standing->record[i], strip);
-    if (crowded && !(lane->tags & BIN_WIDE))
+        look_from(strips, sweeper, &fixed_boxes->record[i], strip);
+    if (crowded && !(sweeper->tags & BIN_WIDE))
         return;
-    for (uint32_t i = 0; i < lane->count; i++) {
-        const struct bin_record *one = &lane->record[i];
+    for (uint32_t i = 0; i < sweeper->count; i++) {
+        const struct bin_record *one = &sweeper->record[i];
         if ((!crowded || one->tag & BIN_WIDE) && !(one->tag & BIN_RESTS))
-            look_around(strips, lane, one, strip);
+            look_around(strips, sweeper, one, strip);
     }
 }
 
-VECTOR_CLONES void sweep_and_prune_pairs(const struct strips *strips, struct sweep_worker *lane,
+VECTOR_CLONES void sweep_and_prune_pairs(const struct strips *strips, struct sweep_worker *sweeper,
                                          uint32_t strip)
 {
-    lane->strips = strips;
-    lane->strip = strip;
-    gather(strips, lane, strip);
-    if (lane->count == 0)
+    sweeper->strips = strips;
+    sweeper->strip = strip;
+    gather(strips, sweeper, strip);
+    if (sweeper->count == 0)
         return;
-    if (lane->count < SORT_LEAST) {
-        sweep_few(lane);
+    if (sweeper->count < SORT_LEAST) {
+        sweep_few(sweeper);
     } else {
-        sort_records(lane);
-        sweep_sorted(lane);
+        sort_records(sweeper);
+        sweep_sorted(sweeper);
     }
-    take_candidates(lane);
+    take_candidates(sweeper);
     if (strips->input->world->counts.fixed > 0)
-        meet_fixed(strips, lane, strip);
+        meet_fixed(strips, sweeper, strip);
 }

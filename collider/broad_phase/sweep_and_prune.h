@@ -1,5 +1,5 @@
 /* One strip of gridsquares: which of the records in it meet, and which fixed objects they meet.
- * Strips are independent of each other; each worker has a lane to work in. */
+ * Strips are independent of each other; each worker has its own sweep_worker. */
 #ifndef JOLON_COLLIDER_BROAD_PHASE_SWEEP_AND_PRUNE_H
 #define JOLON_COLLIDER_BROAD_PHASE_SWEEP_AND_PRUNE_H
 
@@ -38,16 +38,16 @@ struct sweep_worker {
 struct strips {
     const struct method_input *input;
     struct body_motion *motion; /* draws the ways; NULL: they are in input->path */
-    const struct static_boxes *standing;
-    const struct path_box *box; /* [rows] */
-    const double *grow;         /* [kinds] from a row's way to its box */
-    struct sweep_worker *lane;  /* [lanes] whose bins make up the strips */
-    uint32_t lanes;
+    const struct static_boxes *fixed_boxes;
+    const struct path_box *box;   /* [rows] */
+    const double *grow;           /* [kinds] from a row's way to its box */
+    struct sweep_worker *sweeper; /* [sweepers] whose bins make up the strips */
+    uint32_t sweepers;
 };
 
 /* For this many rows and pairs. 0, or -1 with errno ENOMEM; to be freed in either case. */
-int sweep_worker_init(struct sweep_worker *lane, uint32_t rows, uint32_t pairs);
-void sweep_worker_free(struct sweep_worker *lane);
+int sweep_worker_init(struct sweep_worker *sweeper, uint32_t rows, uint32_t pairs);
+void sweep_worker_free(struct sweep_worker *sweeper);
 
 /* The part of a row's box in which it can be while it is in the strip, from west to east: the whole
  * of it, but for long ways. */
@@ -58,7 +58,8 @@ struct sweep_and_prune_span sweep_and_prune_span(const struct path *path,
                                                  const struct path_box *box, double grow,
                                                  uint32_t strip);
 
-/* Adds to the lane's pairs what meets in this strip and in none before it. */
-void sweep_and_prune_pairs(const struct strips *strips, struct sweep_worker *lane, uint32_t strip);
+/* Adds to the sweeper's pairs what meets in this strip and in none before it. */
+void sweep_and_prune_pairs(const struct strips *strips, struct sweep_worker *sweeper,
+                           uint32_t strip);
 
 #endif

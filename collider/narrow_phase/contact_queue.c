@@ -319,15 +319,15 @@ static void find_end(struct job *job, uint32_t row)
     note(job, &contact);
 }
 
-/* Fliers first .. end - 1 of all lanes' together. */
+/* Fliers first .. end - 1 of all sweepers together. */
 static void find_some_ends(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
     const struct broad_phase *broad = job->input->broad;
     uint32_t before = 0;
     (void)worker;
-    for (uint32_t lane = 0; lane < broad->lanes; lane++) {
-        const struct pair_list *fliers = &broad->lane[lane].fliers;
+    for (uint32_t s = 0; s < broad->sweepers; s++) {
+        const struct pair_list *fliers = &broad->sweeper[s].fliers;
         uint32_t i = first > before ? first - before : 0;
         for (; i < fliers->count && before + i < end; i++)
             find_end(job, fliers->pair[i].a);
@@ -340,8 +340,8 @@ void contact_queue_find_ends(struct contact_queue *contacts, const struct contac
 {
     struct job job = {.contacts = contacts, .input = input, .tick = tick};
     uint32_t count = 0;
-    for (uint32_t lane = 0; lane < input->broad->lanes; lane++)
-        count += input->broad->lane[lane].fliers.count;
+    for (uint32_t i = 0; i < input->broad->sweepers; i++)
+        count += input->broad->sweeper[i].fliers.count;
     find_all(&job, find_some_ends, count, ENDS_A_ROW, FLIERS_A_PIECE);
 }
 

@@ -33,50 +33,50 @@ const struct kind *contact_impulse_kind(const struct response_context *respond, 
 /* --- objects that give way ---------------------------------------------------------------------*/
 
 /* A bush bends: it takes its share of the momentum. */
-static void bend(struct response_context *respond, struct island_meeting *meeting,
+static void bend(struct response_context *respond, struct island_contact *met,
                  const struct kind *fixed)
 {
-    const struct impact *impact = &meeting->impact;
+    const struct impact *impact = &met->impact;
     double mass_kg = kind_of(respond, impact->a)->mass_kg;
     double keeps = mass_kg / (mass_kg + fixed->mass_kg);
-    meeting->outcome.response = RESPONSE_SLOW;
-    meeting->outcome.impulse_ns = mass_kg * impact->closing_mps * (1.0 - keeps);
+    met->outcome.response = RESPONSE_SLOW;
+    met->outcome.impulse_ns = mass_kg * impact->closing_mps * (1.0 - keeps);
     path_change_slow(respond, impact->a, impact->time, keeps);
 }
 
 /* It breaks: that costs its resistance, the rest of the energy goes on. */
-static void break_through(struct response_context *respond, struct island_meeting *meeting,
+static void break_through(struct response_context *respond, struct island_contact *met,
                           const struct kind *fixed, double yields_j)
 {
-    const struct impact *impact = &meeting->impact;
+    const struct impact *impact = &met->impact;
     double mass_kg = kind_of(respond, impact->a)->mass_kg;
     double speed = vec3_length(entities_velocity(&respond->next->entities, impact->a));
     double whole = 0.5 * mass_kg * speed * speed;
     double share = sqrt(maths_max(0.0, 1.0 - yields_j / whole));
-    meeting->outcome.response = RESPONSE_SLOW;
-    meeting->outcome.impulse_ns = mass_kg * speed * (1.0 - share);
+    met->outcome.response = RESPONSE_SLOW;
+    met->outcome.impulse_ns = mass_kg * speed * (1.0 - share);
     path_change_slow(respond, impact->a, impact->time, share);
     impact_damage_row(respond, impact->a, impact, -1.0, yields_j * fixed->rigidity, NULL);
 }
 
-bool contact_impulse_gives_way(struct response_context *respond, struct island_meeting *meeting)
+bool contact_impulse_gives_way(struct response_context *respond, struct island_contact *met)
 {
-    const struct impact *impact = &meeting->impact;
+    const struct impact *impact = &met->impact;
     const struct kind *fixed = fixed_kind_of(respond, impact->b);
     double mass_kg = kind_of(respond, impact->a)->mass_kg;
     double energy = 0.5 * mass_kg * impact->closing_mps * impact->closing_mps;
     if (fixed->rigidity < YIELDING_RIGIDITY) {
-        bend(respond, meeting, fixed);
+        bend(respond, met, fixed);
     } else {
         double yields_j = fixed->resistance_j * damage_high_share(respond, fixed);
-        if (meeting->leans ||
+        if (met->leans ||
             damage_fixed_object(respond, impact->b & ~PAIR_FIXED, energy) < DAMAGE_HIGH ||
             energy < yields_j)
             return false;
-        break_through(respond, meeting, fixed, yields_j);
+        break_through(respond, met, fixed, yields_j);
     }
-    if (!meeting->leans)
-        write_collision_event(respond, &meeting->report, impact, &meeting->outcome);
+    if (!met->leans)
+        write_collision_event(respond, &met->report, impact, &met->outcome);
     return true;
 }
 
@@ -89,10 +89,10 @@ struct vec3 contact_impulse_velocity(const struct solver_body *body, struct vec3
 }
 
 struct solver_contact contact_impulse_contact(const struct response_context *respond,
-                                              const struct island_meeting *meeting,
+                                              const struct island_contact *met,
                                               const struct solver_body bodies[2])
 {
-    const struct impact *impact = &meeting->impact;
+    const struct impact *impact = &met->impact;
     const struct kind *ka = kind_of(respond, impact->a),
                       *kb = contact_impulse_kind(respond, impact->b);
     struct solver_contact contact = {.point = impact->point,
@@ -101,23 +101,23 @@ struct solver_contact contact_impulse_contact(const struct response_context *res
     struct vec3 closing = vec3_sub(contact_impulse_velocity(&bodies[0], contact.point),
                                    contact_impulse_velocity(&bodies[1], contact.point));
     double restitution = maths_min(ka->restitution, kb->restitution);
-    if (!meeting->leans && restitution * vec3_dot(closing, contact.normal) > STOP_MPS)
+    if (!met->leans && restitution * vec3_dot(closing, contact.normal) > STOP_MPS)
         contact.restitution = restitution;
     return contact;
 }
 
 /* --- afterwards --------------------------------------------------------------------------------*/
 
-void contact_impulse_harm(struct response_context *respond, struct island_meeting *meeting,
+void contact_impulse_harm(struct response_context *respond, struct island_contact *met,
                           const struct solver_contact *contact)
 {
-    const struct impact *impact = &meeting->impact;
+    const struct impact *impact = &met->impact;
     const struct kind *ka = kind_of(respond, impact->a);
-    const struct spring_impact *spring = meeting->blow.depth_m > 0.0 ? &meeting->blow : NULL;
-    if (meeting->leans)
+    const struct spring_impact *spring = met->spring.depth_m > 0.0 ? &met->spring : NULL;
+    if (met->leans)
         return;
-    meeting->outcome.impulse_ns = vec3_length(contact->impulse);
-    meeting->outcome.response = contact->restitution > 0.0 ? RESPONSE_BOUNCE : RESPONSE_STOP;
+    met->outcome.impulse_ns = vec3_length(contact->impulse);
+    met->outcome.response = contact->restitution > 0.0 ? RESPONSE_BOUNCE : RESPONSE_STOP;
     if (impact->b & PAIR_FIXED) {
         const struct kind *fixed = fixed_kind_of(respond, impact->b);
         impact_damage_row(respond, impact->a, impact, -1.0, contact->lost_j * fixed->rigidity,
@@ -129,5 +129,5 @@ void contact_impulse_harm(struct response_context *respond, struct island_meetin
         impact_damage_row(respond, impact->b, impact, 1.0, contact->lost_j * (1.0 - share_a),
                           spring);
     }
-    write_collision_event(respond, &meeting->report, impact, &meeting->outcome);
+    write_collision_event(respond, &met->report, impact, &met->outcome);
 }

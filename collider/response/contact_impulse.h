@@ -6,15 +6,15 @@
 
 /* Returns true if the fixed object bends aside or breaks, so that the row goes on, slowed. The
  * contact is then answered. */
-bool contact_impulse_gives_way(struct response_context *respond, struct island_meeting *meeting);
+bool contact_impulse_gives_way(struct response_context *respond, struct island_contact *met);
 
 /* Returns the solver's contact: normal, restitution, friction. bodies are those of the contact. */
 struct solver_contact contact_impulse_contact(const struct response_context *respond,
-                                              const struct island_meeting *meeting,
+                                              const struct island_contact *met,
                                               const struct solver_body bodies[2]);
 
 /* Applies the lost energy to both sides and writes the event. */
-void contact_impulse_harm(struct response_context *respond, struct island_meeting *meeting,
+void contact_impulse_harm(struct response_context *respond, struct island_contact *met,
                           const struct solver_contact *contact);
 
 /* Returns the kind of a row, or of a fixed object with PAIR_FIXED. */

@@ -10,15 +10,15 @@ static double deformation_length(const struct kind *kind)
 
 struct deformation deformation_of(const struct kind *kind, double joules)
 {
-    struct deformation crush = {0.0, 0.0, 0.0};
+    struct deformation deformation = {0.0, 0.0, 0.0};
     double gives = 1.0 - kind->rigidity;
     if (!(joules > 0.0))
-        return crush;
-    crush.harm_j = joules * (kind->rigidity + gives * kind->moldability);
+        return deformation;
+    deformation.harm_j = joules * (kind->rigidity + gives * kind->moldability);
     double depth = gives * deformation_length(kind) * maths_min(1.0, joules / kind->resistance_j);
     if (depth >= DEFORMATION_DENT_LEAST_M) {
-        crush.plastic_m = kind->moldability * depth;
-        crush.elastic_m = depth - crush.plastic_m;
+        deformation.plastic_m = kind->moldability * depth;
+        deformation.elastic_m = depth - deformation.plastic_m;
     }
-    return crush;
+    return deformation;
 }

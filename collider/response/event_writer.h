@@ -17,9 +17,9 @@ struct event_writer {
 };
 
 /* A new event of this type, zeroed but for its key; NULL when the frame has no room left. */
-struct event *event_writer_event(struct event_writer *sink, enum event_type type);
+struct event *event_writer_event(struct event_writer *events, enum event_type type);
 
 /* Chains the frame's events onto the digest of all before. */
-uint64_t event_writer_digest(const struct event_writer *sink, uint64_t digest);
+uint64_t event_writer_digest(const struct event_writer *events, uint64_t digest);
 
 #endif

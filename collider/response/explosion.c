@@ -153,7 +153,7 @@ static void dig(struct response_context *respond, struct vec3 point, double expl
     struct crater *crater = &respond->next->craters[head->crater_count++];
     *crater = (struct crater){point.x, point.z, (float)radius, (float)(radius * CRATER_DEPTH),
                               head->frame};
-    struct event *event = event_writer_event(&respond->sink, EVENT_CRATER);
+    struct event *event = event_writer_event(&respond->events, EVENT_CRATER);
     if (event) {
         event->crater.point[0] = point.x;
         event->crater.point[1] = point.y;
@@ -219,7 +219,7 @@ void explosion_munition(struct response_context *respond, uint32_t row, uint32_t
                             .explosive_kg = kind->explosive_kg,
                             .owner_slot = e->owner_slot[row],
                             .owner_id = e->owner_id[row]};
-    struct event *event = event_writer_event(&respond->sink, EVENT_DETONATION);
+    struct event *event = event_writer_event(&respond->events, EVENT_DETONATION);
     struct event_party munition = {e->id[row], e->kind[row], 0, DAMAGE_DESTROYED};
 
     head->tally.detonations++;

@@ -11,7 +11,7 @@
 
 /* inwards: unit, world axes. */
 static void dent(struct response_context *respond, uint32_t row, const struct impact *impact,
-                 struct vec3 inwards, const struct deformation *crush)
+                 struct vec3 inwards, const struct deformation *deformation)
 {
     const struct state *next = respond->next;
     struct state_head *head = next->head;
@@ -24,8 +24,8 @@ static void dent(struct response_context *respond, uint32_t row, const struct im
     struct dent *entry = &next->dents[head->dent_count++];
     *entry = (struct dent){.id = next->entities.id[row],
                            .tick = (uint32_t)head->tick,
-                           .plastic_m = (float)crush->plastic_m,
-                           .elastic_m = (float)crush->elastic_m};
+                           .plastic_m = (float)deformation->plastic_m,
+                           .elastic_m = (float)deformation->elastic_m};
     vec3_to_floats(entry->point, rotation_back(&turn, from_position));
     vec3_to_floats(entry->direction, rotation_back(&turn, inwards));
 }
@@ -34,12 +34,12 @@ void impact_damage_row(struct response_context *respond, uint32_t row, const str
                        double side, double joules, const struct spring_impact *spring)
 {
     const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
-    struct deformation crush = deformation_of(kind, joules);
+    struct deformation deformation = deformation_of(kind, joules);
     if (spring) { /* each skin gave way by half */
-        crush.plastic_m = 0.5 * spring->left_m;
-        crush.elastic_m = 0.5 * (spring->depth_m - spring->left_m);
+        deformation.plastic_m = 0.5 * spring->left_m;
+        deformation.elastic_m = 0.5 * (spring->depth_m - spring->left_m);
     }
-    if (crush.plastic_m + crush.elastic_m >= DEFORMATION_DENT_LEAST_M)
-        dent(respond, row, impact, vec3_scale(impact->normal, side), &crush);
-    damage_row(respond, row, crush.harm_j, impact->time);
+    if (deformation.plastic_m + deformation.elastic_m >= DEFORMATION_DENT_LEAST_M)
+        dent(respond, row, impact, vec3_scale(impact->normal, side), &deformation);
+    damage_row(respond, row, deformation.harm_j, impact->time);
 }

@@ -20,15 +20,15 @@ int island_init(struct island *island, const struct world *world)
 {
     uint32_t rows = world->params->capacity, most = pair_filter_pairs_first(world);
     uint64_t solved = (uint64_t)rows + most;
-    *island = (struct island){.meeting_capacity = most, .rows = rows};
-    island->meeting = reserve_take(most, sizeof *island->meeting);
+    *island = (struct island){.met_capacity = most, .rows = rows};
+    island->met = reserve_take(most, sizeof *island->met);
     island->body = reserve_take(rows, sizeof *island->body);
     island->row = reserve_take(rows, sizeof *island->row);
     island->body_of = calloc(rows, sizeof *island->body_of);
     island->solve = reserve_take(solved, sizeof *island->solve);
     island->solve_of = reserve_take(solved, sizeof *island->solve_of);
     island->contact = reserve_take(most, sizeof *island->contact);
-    if (island->meeting && island->body && island->row && island->body_of && island->solve &&
+    if (island->met && island->body && island->row && island->body_of && island->solve &&
         island->solve_of && island->contact)
         return 0;
     island_free(island);
@@ -38,7 +38,7 @@ int island_init(struct island *island, const struct world *world)
 
 void island_free(struct island *island)
 {
-    reserve_free(island->meeting);
+    reserve_free(island->met);
     reserve_free(island->body);
     reserve_free(island->row);
     free(island->body_of);
@@ -48,7 +48,8 @@ void island_free(struct island *island)
     *island = (struct island){0};
 }
 
-/* --- the moment's meetings ---------------------------------------------------------------------*/
+/* --- the contacts of one moment
+ * ---------------------------------------------------------------------*/
 
 static uint32_t body_for(struct island *island, uint32_t row)
 {
@@ -71,52 +72,51 @@ static uint32_t root_of(struct island *island, uint32_t body)
     return body;
 }
 
-/* The lower root becomes both's, so that groups come in the order of their first meeting. */
+/* The lower root becomes both's, so that groups come in the order of their first contact. */
 static void join(struct island *island, uint32_t p, uint32_t q)
 {
     uint32_t a = root_of(island, p), b = root_of(island, q);
     island->body[a > b ? a : b].parent = a > b ? b : a;
 }
 
-/* Nothing is in the solver while meetings are gathered: there is nothing to copy. */
-static void more_meetings(struct island *island)
+/* Nothing is in the solver while contacts are gathered: there is nothing to copy. */
+static void grow_contacts(struct island *island)
 {
-    uint32_t more = 2 * island->meeting_capacity + 1;
+    uint32_t more = 2 * island->met_capacity + 1;
     uint64_t solved = (uint64_t)island->rows + more;
-    island->meeting =
-        reserve_grow(island->meeting, island->meetings, more, sizeof *island->meeting);
+    island->met = reserve_grow(island->met, island->met_count, more, sizeof *island->met);
     island->solve = reserve_grow(island->solve, 0, solved, sizeof *island->solve);
     island->solve_of = reserve_grow(island->solve_of, 0, solved, sizeof *island->solve_of);
     island->contact = reserve_grow(island->contact, 0, more, sizeof *island->contact);
-    island->meeting_capacity = more;
+    island->met_capacity = more;
 }
 
-/* Takes in one contact: a lean, a fixed object that gives way, or a meeting for the solver. */
+/* Takes in one contact: a lean, a fixed object that gives way, or a contact for the solver. */
 static void take(struct response_context *respond, const struct contact *contact)
 {
     struct island *island = respond->island;
-    if (island->meetings == island->meeting_capacity)
-        more_meetings(island);
-    struct island_meeting *meeting = &island->meeting[island->meetings];
-    *meeting = (struct island_meeting){
+    if (island->met_count == island->met_capacity)
+        grow_contacts(island);
+    struct island_contact *met = &island->met[island->met_count];
+    *met = (struct island_contact){
         .contact = *contact, .impact = response_impact(respond, contact), .body_b = BODY_FIXED};
-    if (passes_through(respond, &meeting->impact))
+    if (passes_through(respond, &met->impact))
         return;
-    meeting->leans = contact_persists(respond, &meeting->impact);
-    if (!meeting->leans)
-        meeting->report = response_report(respond, &meeting->impact);
-    meeting->body_a = body_for(island, contact->a); /* it is swept with the others in any case */
-    if (contact->b & PAIR_FIXED && contact_impulse_gives_way(respond, meeting)) {
+    met->leans = contact_persists(respond, &met->impact);
+    if (!met->leans)
+        met->report = response_report(respond, &met->impact);
+    met->body_a = body_for(island, contact->a); /* it is swept with the others in any case */
+    if (contact->b & PAIR_FIXED && contact_impulse_gives_way(respond, met)) {
         contact_queue_settle(respond->contacts, contact);
         return;
     }
-    island->body[meeting->body_a].stays |= contact->last;
+    island->body[met->body_a].stays |= contact->last;
     if (!(contact->b & PAIR_FIXED)) {
-        meeting->body_b = body_for(island, contact->b);
-        island->body[meeting->body_b].stays |= contact->last;
-        join(island, meeting->body_a, meeting->body_b);
+        met->body_b = body_for(island, contact->b);
+        island->body[met->body_b].stays |= contact->last;
+        join(island, met->body_a, met->body_b);
     }
-    island->meetings++;
+    island->met_count++;
 }
 
 /* Is the next contact one of the same moment that impulses answer? Rounds and the ground are not.
@@ -146,10 +146,10 @@ static void gather(struct response_context *respond, const struct contact *first
 
 static void chain(struct island *island)
 {
-    for (uint32_t i = 0; i < island->meetings; i++) {
-        struct island_body *root = &island->body[root_of(island, island->meeting[i].body_a)];
+    for (uint32_t i = 0; i < island->met_count; i++) {
+        struct island_body *root = &island->body[root_of(island, island->met[i].body_a)];
         if (root->last != 0)
-            island->meeting[root->last - 1].next = i + 1;
+            island->met[root->last - 1].next = i + 1;
         else
             root->first = i + 1;
         root->last = i + 1;
@@ -208,24 +208,24 @@ static uint32_t local_of(const struct response_context *respond, uint32_t *count
 
 /* The backup vector (Hahn 1988; thesis row 46): bodies that overlap part along the normal, the
  * lighter by more, until their skins touch. */
-static void part(const struct response_context *respond, const struct island_meeting *meeting,
+static void part(const struct response_context *respond, const struct island_contact *met,
                  const struct solver_contact *contact)
 {
     struct island *island = respond->island;
     bool hulls = respond->world->params->collision.shape == SHAPE_MODEL;
-    double depth = meeting->impact.depth_m;
+    double depth = met->impact.depth_m;
     if (!(depth > ROUNDING_M))
         return;
     struct vec3 n = contact->normal;
-    double slant = vec3_dot(n, meeting->contact.touch.normal);
+    double slant = vec3_dot(n, met->contact.touch.normal);
     double way = (depth + (hulls ? TOUCH_M : 0.0)) / maths_max(slant, 0.5);
     const struct solver_body *a = &island->solve[contact->a], *b = &island->solve[contact->b];
     double la = a->inverse_mass.x, lb = b->inverse_mass.x;
-    struct island_body *body_a = &island->body[meeting->body_a];
+    struct island_body *body_a = &island->body[met->body_a];
     body_a->shift = vec3_sub(body_a->shift, vec3_scale(n, way * la / (la + lb)));
-    if (meeting->body_b == BODY_FIXED)
+    if (met->body_b == BODY_FIXED)
         return;
-    struct island_body *body_b = &island->body[meeting->body_b];
+    struct island_body *body_b = &island->body[met->body_b];
     body_b->shift = vec3_add(body_b->shift, vec3_scale(n, way * lb / (la + lb)));
 }
 
@@ -244,40 +244,39 @@ static void solve_group(struct response_context *respond, uint32_t first, double
 {
     struct island *island = respond->island;
     uint32_t bodies = 0, contacts = 0;
-    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
-        const struct island_meeting *meeting = &island->meeting[i - 1];
-        uint32_t a = local_of(respond, &bodies, meeting->body_a, time);
-        uint32_t b = local_of(respond, &bodies, meeting->body_b, time);
+    for (uint32_t i = first; i != 0; i = island->met[i - 1].next) {
+        const struct island_contact *met = &island->met[i - 1];
+        uint32_t a = local_of(respond, &bodies, met->body_a, time);
+        uint32_t b = local_of(respond, &bodies, met->body_b, time);
         const struct solver_body sides[2] = {island->solve[a], island->solve[b]};
         struct solver_contact *contact = &island->contact[contacts++];
-        *contact = contact_impulse_contact(respond, meeting, sides);
+        *contact = contact_impulse_contact(respond, met, sides);
         contact->a = a;
         contact->b = b;
     }
     respond->functions->joint(respond, first, bodies);
     contacts = 0;
-    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next) {
-        const struct island_meeting *meeting = &island->meeting[i - 1];
+    for (uint32_t i = first; i != 0; i = island->met[i - 1].next) {
+        const struct island_contact *met = &island->met[i - 1];
         const struct solver_contact *contact = &island->contact[contacts++];
-        part(respond, meeting, contact);
+        part(respond, met, contact);
         if (vec3_dot(contact->impulse, contact->impulse) == 0.0)
-            contact_queue_settle(respond->contacts,
-                                 &meeting->contact); /* it would be found again */
+            contact_queue_settle(respond->contacts, &met->contact); /* it would be found again */
     }
     for (uint32_t i = 0; i < bodies; i++) {
         if (island->solve_of[i] != BODY_FIXED)
             leave(respond, &island->solve[i], &island->body[island->solve_of[i]], time);
     }
     contacts = 0;
-    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next)
-        contact_impulse_harm(respond, &island->meeting[i - 1], &island->contact[contacts++]);
+    for (uint32_t i = first; i != 0; i = island->met[i - 1].next)
+        contact_impulse_harm(respond, &island->met[i - 1], &island->contact[contacts++]);
 }
 
 void island_answer(struct response_context *respond, const struct contact *contact)
 {
     struct island *island = respond->island;
     double time = contact->touch.toi;
-    island->meetings = island->bodies = 0;
+    island->met_count = island->bodies = 0;
     gather(respond, contact);
     chain(island);
     for (uint32_t i = 0; i < island->bodies; i++) {

@@ -60,8 +60,8 @@ static struct path within_world(struct path path)
 }
 
 /* Gives the row this way and what follows from it for the frame's end. */
-static void take_way(struct response_context *respond, uint32_t row, const struct path *path,
-                     const struct rotation_path *turning, struct vec3 velocity)
+static void take_path(struct response_context *respond, uint32_t row, const struct path *path,
+                      const struct rotation_path *turning, struct vec3 velocity)
 {
     double heading, pitch, roll;
     struct path way = within_world(*path);
@@ -86,7 +86,7 @@ void path_change_stay(struct response_context *respond, uint32_t row, double tim
     struct quat turned = body_motion_turned(respond->motion, row, time);
     const struct rotation_path turning = {.from = turned, .to = turned};
     const struct path path = {.at = path_at(&respond->path[row], time), .since = time};
-    take_way(respond, row, &path, &turning, velocity);
+    take_path(respond, row, &path, &turning, velocity);
     path_change_swept(respond, &row, 1, time);
 }
 
@@ -99,7 +99,7 @@ void path_change_slow(struct response_context *respond, uint32_t row, double tim
                                           .driven_rps = driven(respond, row)};
     const struct path path = {
         .at = path_at(before, time), .along = vec3_scale(before->along, share), .since = time};
-    take_way(respond, row, &path, &turning, vec3_scale(entities_velocity(e, row), share));
+    take_path(respond, row, &path, &turning, vec3_scale(entities_velocity(e, row), share));
 }
 
 void path_change_leave(struct response_context *respond, uint32_t row, double time, struct vec3 at,
@@ -122,5 +122,5 @@ void path_change_leave(struct response_context *respond, uint32_t row, double ti
     }
     spin_rps.y -= turning.driven_rps;
     table_set_spin(&respond->writer, row, spin_rps);
-    take_way(respond, row, &path, &turning, velocity);
+    take_path(respond, row, &path, &turning, velocity);
 }

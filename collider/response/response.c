@@ -167,7 +167,7 @@ struct report response_report(struct response_context *respond, const struct imp
     struct vec3 direction = entities_velocity(&respond->next->entities, impact->a);
     double speed = vec3_length(direction);
     respond->next->head->tally.collisions++;
-    return (struct report){.event = event_writer_event(&respond->sink, EVENT_COLLISION),
+    return (struct report){.event = event_writer_event(&respond->events, EVENT_COLLISION),
                            .direction_a = speed > 0.0 ? vec3_scale(direction, 1.0 / speed)
                                                       : (struct vec3){0, 0, 0}};
 }
@@ -246,7 +246,7 @@ static void crash(struct response_context *respond, const struct contact *contac
     uint32_t row = contact->a;
     double time = contact->touch.toi;
     struct vec3 velocity = entities_velocity(e, row);
-    struct event *event = event_writer_event(&respond->sink, EVENT_COLLISION);
+    struct event *event = event_writer_event(&respond->events, EVENT_COLLISION);
     struct vec3 at = path_at(&respond->path[row], time);
     struct vec3 normal =
         terrain_normal(&respond->world->terrain, respond->input.detect.craters, at.x, at.z);

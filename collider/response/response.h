@@ -16,7 +16,7 @@ struct response_functions {
      * each other. */
     response_function *moving, *fixed;
     /* Solves all contacts of a group of bodies at one moment (island.h). first is the group's first
-     * meeting + 1. NULL: contacts are answered one by one. */
+     * index into met + 1. NULL: contacts are answered one by one. */
     void (*joint)(struct response_context *respond, uint32_t first, uint32_t bodies);
 };
 

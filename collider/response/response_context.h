@@ -22,7 +22,7 @@ struct response_context {
     struct contact_input input;
     struct state *next;
     struct path *path; /* motion's */
-    struct event_writer sink;
+    struct event_writer events;
     struct charges *charges;
     struct island *island;
     struct table_writer writer; /* by which every answer changes next's rows */

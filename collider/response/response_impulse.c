@@ -6,7 +6,7 @@ static void solve(struct response_context *respond, uint32_t first, uint32_t bod
 {
     struct island *island = respond->island;
     uint32_t contacts = 0;
-    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next)
+    for (uint32_t i = first; i != 0; i = island->met[i - 1].next)
         contacts++;
     contact_solver_island(island->solve, bodies, island->contact, contacts);
 }

@@ -25,11 +25,11 @@ static void strike(struct solver_body *body, struct vec3 point, struct vec3 impu
     body->spin = vec3_add(body->spin, rotation_apply(&body->inverse_inertia, moment));
 }
 
-static void by_spring(const struct response_context *respond, struct island_meeting *meeting,
+static void by_spring(const struct response_context *respond, struct island_contact *met,
                       struct solver_body *bodies, struct solver_contact *contact)
 {
     struct solver_body *a = &bodies[contact->a], *b = &bodies[contact->b];
-    const struct impact *impact = &meeting->impact;
+    const struct impact *impact = &met->impact;
     const struct kind *ka = contact_impulse_kind(respond, impact->a);
     const struct kind *kb = contact_impulse_kind(respond, impact->b);
     struct vec3 relative = vec3_sub(contact_impulse_velocity(a, contact->point),
@@ -45,10 +45,10 @@ static void by_spring(const struct response_context *respond, struct island_meet
         .closing_mps = contact->closing_mps,
         .stiffness_npm = contact_spring_in_series(ka->stiffness_npm, kb->stiffness_npm),
         .restitution = contact->restitution};
-    meeting->blow = spring_impact(&spring);
+    met->spring = spring_impact(&spring);
     double out = contact->closing_mps * contact->restitution;
     contact->lost_j = 0.5 / gives * (contact->closing_mps * contact->closing_mps - out * out);
-    contact->impulse = vec3_scale(contact->normal, meeting->blow.impulse_ns);
+    contact->impulse = vec3_scale(contact->normal, met->spring.impulse_ns);
     strike(a, contact->point, vec3_scale(contact->impulse, -1.0));
     strike(b, contact->point, contact->impulse);
 }
@@ -58,8 +58,8 @@ static void solve(struct response_context *respond, uint32_t first, uint32_t bod
     struct island *island = respond->island;
     struct solver_contact *contact = island->contact;
     (void)bodies;
-    for (uint32_t i = first; i != 0; i = island->meeting[i - 1].next)
-        by_spring(respond, &island->meeting[i - 1], island->solve, contact++);
+    for (uint32_t i = first; i != 0; i = island->met[i - 1].next)
+        by_spring(respond, &island->met[i - 1], island->solve, contact++);
 }
 
 const struct response_functions response_spring = {.joint = solve};

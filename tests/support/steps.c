@@ -205,13 +205,13 @@ void steps_respond(struct fixture *fixture, struct response_context *respond)
     for (uint32_t i = 0; i < next->head->used; i++)
         body_motion_take(&collider->motion, i);
     *respond = collider_respond(collider, next);
-    respond->sink = (struct event_writer){.slot = view->events,
-                                          .slots = view->header->event_slots,
-                                          .first = committed->head->event_end,
-                                          .frame = next->head->frame,
-                                          .tick = next->head->tick,
-                                          .most = view->world.params->events_per_frame,
-                                          .tally = &next->head->tally};
+    respond->events = (struct event_writer){.slot = view->events,
+                                            .slots = view->header->event_slots,
+                                            .first = committed->head->event_end,
+                                            .frame = next->head->frame,
+                                            .tick = next->head->tick,
+                                            .most = view->world.params->events_per_frame,
+                                            .tally = &next->head->tally};
     broad_phase_pairs(&collider->broad, &respond->input.detect);
     contact_queue_begin(&collider->contacts, collider->broad.list, THREAD_POOL_MAX);
 }

@@ -47,19 +47,19 @@ static void shrink_contacts(struct contact_queue *contacts)
 
 static void shrink_island(struct island *island)
 {
-    SHRINK(island->meeting);
+    SHRINK(island->met);
     SHRINK(island->contact);
-    island->meeting_capacity = 1;
+    island->met_capacity = 1;
 }
 
 static void shrink(struct collider *collider)
 {
-    for (uint32_t i = 0; i < collider->broad.lanes; i++) {
-        struct sweep_worker *lane = &collider->broad.lane[i];
-        shrink_list(&lane->pairs);
-        shrink_list(&lane->fliers);
-        SHRINK(lane->bins.slab[0]);
-        lane->bins.first = 1;
+    for (uint32_t i = 0; i < collider->broad.sweepers; i++) {
+        struct sweep_worker *sweeper = &collider->broad.sweeper[i];
+        shrink_list(&sweeper->pairs);
+        shrink_list(&sweeper->fliers);
+        SHRINK(sweeper->bins.slab[0]);
+        sweeper->bins.first = 1;
     }
     shrink_contacts(&collider->contacts);
     shrink_island(&collider->island);
@@ -70,16 +70,16 @@ static void shrink(struct collider *collider)
 static void assert_grown(const struct collider *collider, bool swept)
 {
     uint32_t pairs = 0, fliers = 0, slabs = 0;
-    for (uint32_t i = 0; i < collider->broad.lanes; i++) {
-        const struct sweep_worker *lane = &collider->broad.lane[i];
-        pairs += lane->pairs.capacity > 1;
-        fliers += lane->fliers.capacity > 1;
-        slabs += lane->bins.slab[1] != NULL;
+    for (uint32_t i = 0; i < collider->broad.sweepers; i++) {
+        const struct sweep_worker *sweeper = &collider->broad.sweeper[i];
+        pairs += sweeper->pairs.capacity > 1;
+        fliers += sweeper->fliers.capacity > 1;
+        slabs += sweeper->bins.slab[1] != NULL;
     }
     assert_true(pairs > 0 && fliers > 0 && slabs > 0);
     assert_true(collider->contacts.heap.capacity > 1);
     assert_true(collider->contacts.pair_capacity > 100);
-    assert_true(collider->island.meeting_capacity > 1);
+    assert_true(collider->island.met_capacity > 1);
     assert_true(swept || collider->pairs.capacity > 100);
 }
 

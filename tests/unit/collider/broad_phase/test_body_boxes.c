@@ -103,7 +103,7 @@ static uint32_t check_fliers(const struct method_input *input)
     for (uint32_t row = 0; row < ROWS; row++) {
         bool round = e->behaviour[row] == BEHAVIOUR_FLIGHT;
         bool air = input->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
-        bool listed = ends(&broad->lane[0].fliers, row);
+        bool listed = ends(&broad->sweeper[0].fliers, row);
         double toi;
         if (e->state[row] != ENTITY_ACTIVE || !(round || air)) {
             assert_false(listed);

@@ -21,23 +21,23 @@ static bool near(double value, double right, double relative)
  */
 static struct spring_impact stepped(const struct contact_spring *s)
 {
-    struct spring_impact blow = {0};
+    struct spring_impact spring = {0};
     double back = s->stiffness_npm / (s->restitution * s->restitution);
     double dt = 1e-4 * sqrt(s->reduced_kg / back);
     double depth = 0.0, speed = s->closing_mps, force = 0.0;
     do {
         depth += dt * (speed - 0.5 * dt * force / s->reduced_kg);
-        blow.depth_m = maths_max(blow.depth_m, depth);
+        spring.depth_m = maths_max(spring.depth_m, depth);
         double before = force;
         force = speed > 0.0 ? s->stiffness_npm * depth
-                            : s->stiffness_npm * blow.depth_m - back * (blow.depth_m - depth);
+                            : s->stiffness_npm * spring.depth_m - back * (spring.depth_m - depth);
         speed -= 0.5 * dt * (before + force) / s->reduced_kg;
-        blow.force_n = maths_max(blow.force_n, force);
-        blow.impulse_ns += 0.5 * dt * (before + force);
-        blow.duration_s += dt;
+        spring.force_n = maths_max(spring.force_n, force);
+        spring.impulse_ns += 0.5 * dt * (before + force);
+        spring.duration_s += dt;
     } while (force > 0.0);
-    blow.left_m = depth;
-    return blow;
+    spring.left_m = depth;
+    return spring;
 }
 
 static void test_row_43_it_does_what_a_stepped_spring_does(void **state)
@@ -46,12 +46,12 @@ static void test_row_43_it_does_what_a_stepped_spring_does(void **state)
     (void)state;
     for (size_t n = 0; n < 4; n++) {
         const struct contact_spring s = {1078.0, 6.0, 2.0e6, restitutions[n]};
-        struct spring_impact blow = spring_impact(&s), slow = stepped(&s);
-        assert_true(near(blow.impulse_ns, slow.impulse_ns, 1e-3));
-        assert_true(near(blow.depth_m, slow.depth_m, 1e-3));
-        assert_true(near(blow.force_n, slow.force_n, 1e-3));
-        assert_true(near(blow.duration_s, slow.duration_s, 1e-3));
-        assert_true(fabs(blow.left_m - slow.left_m) < 1e-3 * blow.depth_m);
+        struct spring_impact spring = spring_impact(&s), slow = stepped(&s);
+        assert_true(near(spring.impulse_ns, slow.impulse_ns, 1e-3));
+        assert_true(near(spring.depth_m, slow.depth_m, 1e-3));
+        assert_true(near(spring.force_n, slow.force_n, 1e-3));
+        assert_true(near(spring.duration_s, slow.duration_s, 1e-3));
+        assert_true(fabs(spring.left_m - slow.left_m) < 1e-3 * spring.depth_m);
     }
 }
 
@@ -72,20 +72,20 @@ static void test_row_43_momentum_is_kept_and_restitution_comes_back(void **state
 static void test_half_a_period_when_all_comes_back(void **state)
 {
     const struct contact_spring s = {100.0, 3.0, 4e4, 1.0};
-    struct spring_impact blow = spring_impact(&s);
+    struct spring_impact spring = spring_impact(&s);
     (void)state;
-    assert_true(near(blow.duration_s, PI * 0.05, 1e-12)); /* 20 radians a second */
-    assert_true(near(blow.depth_m, 0.15, 1e-12) && blow.left_m == 0.0);
+    assert_true(near(spring.duration_s, PI * 0.05, 1e-12)); /* 20 radians a second */
+    assert_true(near(spring.depth_m, 0.15, 1e-12) && spring.left_m == 0.0);
 }
 
 static void test_nothing_comes_back_of_a_dead_blow(void **state)
 {
     const struct contact_spring s = {100.0, 3.0, 4e4, 0.0};
-    struct spring_impact blow = spring_impact(&s);
+    struct spring_impact spring = spring_impact(&s);
     (void)state;
-    assert_true(near(blow.impulse_ns, 300.0, 1e-12));
-    assert_true(near(blow.duration_s, HALF_PI * 0.05, 1e-12));
-    assert_true(blow.left_m == blow.depth_m);
+    assert_true(near(spring.impulse_ns, 300.0, 1e-12));
+    assert_true(near(spring.duration_s, HALF_PI * 0.05, 1e-12));
+    assert_true(spring.left_m == spring.depth_m);
 }
 
 static void test_row_26_the_stiffer_the_shorter_shallower_and_harder(void **state)
@@ -94,13 +94,13 @@ static void test_row_26_the_stiffer_the_shorter_shallower_and_harder(void **stat
     (void)state;
     for (double stiffness = 1e4; stiffness < 1e9; stiffness *= 3.0) {
         const struct contact_spring s = {1000.0, 5.0, stiffness, 0.3};
-        struct spring_impact blow = spring_impact(&s);
+        struct spring_impact spring = spring_impact(&s);
         if (last.depth_m > 0.0) {
-            assert_true(blow.duration_s < last.duration_s && blow.depth_m < last.depth_m);
-            assert_true(blow.force_n > last.force_n);
-            assert_true(near(blow.impulse_ns, last.impulse_ns, 1e-12));
+            assert_true(spring.duration_s < last.duration_s && spring.depth_m < last.depth_m);
+            assert_true(spring.force_n > last.force_n);
+            assert_true(near(spring.impulse_ns, last.impulse_ns, 1e-12));
         }
-        last = blow;
+        last = spring;
     }
 }
 

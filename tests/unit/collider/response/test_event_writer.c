@@ -38,10 +38,10 @@ static int soil(void **state)
 
 static void test_events_carry_their_key_and_nothing_of_the_slots_past(void **state)
 {
-    struct event_writer sink = sink_from(6, 5);
+    struct event_writer events = sink_from(6, 5);
     (void)state;
     for (uint32_t n = 0; n < 5; n++) { /* over the ring's end */
-        struct event *event = event_writer_event(&sink, EVENT_CRATER);
+        struct event *event = event_writer_event(&events, EVENT_CRATER);
         assert_ptr_equal(event, &ring[(6 + n) % SLOTS]);
         assert_int_equal(event->sequence, 6 + n);
         assert_int_equal(event->frame, 12);
@@ -55,23 +55,23 @@ static void test_events_carry_their_key_and_nothing_of_the_slots_past(void **sta
 
 static void test_what_is_more_than_a_frame_holds_is_counted(void **state)
 {
-    struct event_writer sink = sink_from(0, 3);
+    struct event_writer events = sink_from(0, 3);
     (void)state;
     for (int n = 0; n < 3; n++)
-        assert_non_null(event_writer_event(&sink, EVENT_FIRE));
+        assert_non_null(event_writer_event(&events, EVENT_FIRE));
     for (int n = 0; n < 4; n++)
-        assert_null(event_writer_event(&sink, EVENT_FIRE));
-    assert_int_equal(sink.count, 3);
+        assert_null(event_writer_event(&events, EVENT_FIRE));
+    assert_int_equal(events.count, 3);
     assert_int_equal(tally.events_dropped, 4);
     assert_int_equal(ring[3].type, 0xa5a5a5a5);
 }
 
 static uint64_t digest_of(uint64_t before, uint32_t count, uint8_t last)
 {
-    struct event_writer sink = sink_from(0, SLOTS);
+    struct event_writer events = sink_from(0, SLOTS);
     for (uint32_t n = 0; n < count; n++)
-        event_writer_event(&sink, EVENT_AGENT)->bytes[0] = n + 1 < count ? 1 : last;
-    return event_writer_digest(&sink, before);
+        event_writer_event(&events, EVENT_AGENT)->bytes[0] = n + 1 < count ? 1 : last;
+    return event_writer_digest(&events, before);
 }
 
 static void test_the_digest_chains_every_event_onto_those_before(void **state)

@@ -52,13 +52,13 @@ static const struct dent *dent(uint32_t n)
 static void test_rows_33_47_a_blow_harms_and_dents(void **state)
 {
     (void)state;
-    struct deformation crush = deformation_of(steps_kind(&f, "helicopter"), 4e5);
+    struct deformation deformation = deformation_of(steps_kind(&f, "helicopter"), 4e5);
     impact_damage_row(&respond, row, &impact, -1.0, 4e5, NULL);
-    assert_true(respond.next->entities.harm_j[row] == crush.harm_j);
+    assert_true(respond.next->entities.harm_j[row] == deformation.harm_j);
     assert_int_equal(respond.next->entities.damage[row], DAMAGE_MED);
     assert_int_equal(dent(0)->id, row + 1);
-    assert_true(fabs((double)dent(0)->plastic_m - crush.plastic_m) < 1e-6);
-    assert_true(fabs((double)dent(0)->elastic_m - crush.elastic_m) < 1e-6);
+    assert_true(fabs((double)dent(0)->plastic_m - deformation.plastic_m) < 1e-6);
+    assert_true(fabs((double)dent(0)->elastic_m - deformation.elastic_m) < 1e-6);
     /* On its own axes: x forward, y up; inwards is backwards. */
     assert_true(fabsf(dent(0)->point[0] - 6.0f) < 1e-3f && fabsf(dent(0)->point[1] - 1.0f) < 1e-3f);
     assert_true(dent(0)->direction[0] < -0.999f);

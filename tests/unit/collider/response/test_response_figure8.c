@@ -161,13 +161,13 @@ static struct meeting mixed(double angle_deg, double speed_tank, double speed_je
                                   .angle_rad = angle_deg * RAD_PER_DEG};
     response_figure8.moving(&respond, &impact, &outcome);
     const struct entities *e = &respond.next->entities;
-    struct meeting meeting = {.response = outcome.response,
-                              .speed_tank = vec3_length(entities_velocity(e, tank)),
-                              .speed_jeep = vec3_length(entities_velocity(e, jeep)),
-                              .harm_jeep = e->harm_j[jeep],
-                              .damage_jeep = (enum damage)e->damage[jeep]};
+    struct meeting met = {.response = outcome.response,
+                          .speed_tank = vec3_length(entities_velocity(e, tank)),
+                          .speed_jeep = vec3_length(entities_velocity(e, jeep)),
+                          .harm_jeep = e->harm_j[jeep],
+                          .damage_jeep = (enum damage)e->damage[jeep]};
     steps_respond_end(&respond);
-    return meeting;
+    return met;
 }
 
 static void test_row_29_the_wider_of_the_two_kinds_decides_what_is_severe(void **state)
@@ -206,10 +206,10 @@ static void test_row_29_a_bounce_leaves_each_kind_its_share(void **state)
     steps_kind(&f, "jeep")->bounce_keep = 1.0;
     steps_kind(&f, "jeep")->resistance_j = 1e12;
     for (int swapped = 0; swapped < 2; swapped++) {
-        struct meeting meeting = mixed(135.0, 8.0, 6.0, swapped);
-        assert_int_equal(meeting.response, RESPONSE_BOUNCE);
-        assert_true(fabs(meeting.speed_tank - 2.0) < 1e-12);
-        assert_true(fabs(meeting.speed_jeep - 6.0) < 1e-12);
+        struct meeting met = mixed(135.0, 8.0, 6.0, swapped);
+        assert_int_equal(met.response, RESPONSE_BOUNCE);
+        assert_true(fabs(met.speed_tank - 2.0) < 1e-12);
+        assert_true(fabs(met.speed_jeep - 6.0) < 1e-12);
     }
 }
 
