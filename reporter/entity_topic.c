@@ -96,7 +96,7 @@ static bool begin(struct entity_topic *batch, const struct view *view)
     if (snapshot_take(&batch->snapshot, view) != 0)
         return false;
     batch->wire.frame = head->frame;
-    batch->wire.sim_time_s = world_time_s(&view->world, head);
+    batch->wire.sim_time_s = state_time_s(&view->world, head);
     batch->wire.total = count_entities(&batch->snapshot);
     batch->wire.part = 0;
     batch->wire.parts = batch->wire.total ? (batch->wire.total + batch->room - 1) / batch->room : 1;

@@ -260,7 +260,7 @@ void status_topics_frame(struct status_topics *report, const struct view *view, 
         /* Read before the head, the word may be frames behind it; it is never below commit. */
         .moved = moved > head.frame ? moved : head.frame,
         .tick = head.tick,
-        .sim_time_s = world_time_s(&view->world, &head),
+        .sim_time_s = state_time_s(&view->world, &head),
         .state = run_state(report, view, &head, now_ns),
         .paused = head.paused != 0,
         .hz = view->world.params->hz,

@@ -24,7 +24,7 @@ static void show(const struct progress *progress, const struct view *view)
     fprintf(stderr,
             "%sframe %" PRIu64 "  %.1f s  %u vehicles  %u in flight  %" PRIu64
             " collisions  %" PRIu64 " shots  %" PRIu64 " destroyed  %.0f us a frame%s  %s",
-            progress->live ? "\r" : "", head.frame, world_time_s(&view->world, &head),
+            progress->live ? "\r" : "", head.frame, state_time_s(&view->world, &head),
             head.vehicles, head.munitions, head.tally.collisions, head.tally.fires,
             head.tally.destroyed, (double)histogram_quantile(whole, 0.5) / 1e3,
             head.paused ? "  paused" : "", progress->live ? "" : "\n");

@@ -1,11 +1,11 @@
 /* Checksums of what one process leaves in shared memory for another: a world buffer, and the moved
- * table. They are looked at by whoever takes over, not in every frame.
+ * table. A process checks them when it takes over, not in every frame.
  *
- * Rows are hashed by block and column. The hashes stay beside the rows, and the head's checksum
- * covers them: so who writes a table hashes again only what he changed, and copies from another
- * table only what differs (table_take). Blocks have a fixed size, so that threads can share the
- * work and the result does not depend on how many there are; lists that only grow are hashed entry
- * by entry, so that a frame costs what it added. Pure; any thread. */
+ * Rows are hashed by block and column. The hashes are kept beside the rows, and the head's checksum
+ * covers them. So the writer of a table hashes again only what it changed, and copies from another
+ * table only what differs (table_take). Blocks have a fixed size, so that the result does not
+ * depend on the number of threads. Lists that only grow are hashed entry by entry. Pure; any
+ * thread. */
 #ifndef JOLON_WORLD_CHECKSUM_H
 #define JOLON_WORLD_CHECKSUM_H
 
@@ -42,27 +42,27 @@ static inline struct table moved_table(const struct moved *moved)
     return (struct table){&moved->entities, moved->hashes};
 }
 
-/* Hashes these columns of one block of the first used rows; what lies behind them means nothing. */
+/* Hashes these columns of one block of the first used rows. */
 void table_hash_block(struct table table, uint32_t block, uint32_t used, uint64_t columns);
 
-/* ... of each block (columns NULL: all of them), on the workers (NULL: alone). */
+/* Hashes these columns of each block (columns NULL: all columns). workers NULL: on this thread. */
 void table_hash(struct table table, uint32_t used, const uint64_t *columns,
                 struct thread_pool *workers);
 
 /* Hashes of a whole block that is all zero. */
 void block_hashes_blank(struct block_hashes *blank);
 
-/* Columns of a whole block that its hashes say are all zero (a short block: none); blank: as above.
- * A column that is not has the hash of one that is once in 2^64. */
+/* The columns of a whole block that are all zero, by their hashes (of a short block: none). blank:
+ * of block_hashes_blank(). Another column has that hash with a probability of 2^-64. */
 uint64_t table_blank(struct table table, uint32_t block, uint32_t used,
                      const struct block_hashes *blank);
 
-/* Which of these columns are zero in each of these rows. */
+/* The columns of this set that are zero in each of these rows. */
 uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, uint32_t count);
 
-/* Makes a block of `to` the same as that of `from`, rows and hashes. known: to's hashes are those
- * of what its rows hold, as this process itself left them; then only columns whose hashes differ
- * are copied. Two columns that differ have the same hash once in 2^64. */
+/* Makes a block of `to` the same as that of `from`, rows and hashes. known: this process
+ * wrote to's hashes, so they are those of its rows. Then only columns whose hashes differ are
+ * copied. Two different columns have the same hash with a probability of 2^-64. */
 void table_take(struct table to, struct table from, uint32_t block, uint32_t used, bool known);
 
 /* --- checksums ---------------------------------------------------------------------------------*/
@@ -73,28 +73,29 @@ struct list_hashes {
     uint64_t crater_hash, dent_hash;
 };
 
-/* Takes in what the state's lists have more, up to its counts; begins anew when they have less. */
+/* Adds the new entries of the state's lists, up to its counts. Begins again when a list is shorter
+ * than before. */
 void list_hashes_extend(struct list_hashes *hashes, const struct state *state);
 
-/* Hash of a table's block_hashes: of those that it has, or of those that its rows should have. */
+/* Hash of a table's block_hashes: of the stored ones, or computed again from the rows. */
 uint64_t rows_hash(const struct block_hashes *hashes, uint32_t used);
 uint64_t rows_hash_again(const struct entities *entities, uint32_t used);
 
 /* The state's own checksum: head (its checksum as 0), rows, damage of the fixed objects, craters
- * and dents up to their counts, which must be within their lists. Of what the rows hold, whatever
- * the hashes beside them say. */
+ * and dents up to their counts, which must be within their lists. The rows
+ * are hashed again. */
 uint64_t state_checksum(const struct state *state, uint32_t fixed_count);
 
-/* The same of parts, for who knows some of them: hash of the rows, fixed damage as
+/* The same from parts that the caller has already: the hash of the rows, the fixed damage as
  * state_fixed_hash() has it, and the lists up to the state's counts. */
 uint64_t state_fixed_hash(const struct state *state, uint32_t fixed_count);
 uint64_t state_checksum_of(const struct state *state, uint64_t rows, uint64_t fixed_hash,
                            const struct list_hashes *lists);
 
-/* Writes hashes and checksum of a state that was made otherwise than by the collider. */
+/* Writes the hashes and the checksum of a state that the collider did not make. */
 void state_seal(struct state *state, uint32_t fixed_count);
 
-/* Is all of it as its writer left it: what its checksum covers, and the hashes beside the rows? */
+/* Returns true if the checksum and the hashes beside the rows fit the content. */
 bool state_whole(const struct state *state, uint32_t fixed_count);
 
 /* The moved table's checksum as the mover stores it: head (its checksum and mover_ns as 0), rows,

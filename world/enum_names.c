@@ -1,4 +1,4 @@
-/* The words for every enumeration: one table each, one look-up. */
+/* The words of the enumerations. */
 #include "world/enum_names.h"
 
 #include <stddef.h>

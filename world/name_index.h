@@ -1,4 +1,4 @@
-/* Callsigns: a world's vehicles by their names. */
+/* Finds the initial vehicles of a world by their names. */
 #ifndef JOLON_WORLD_NAME_INDEX_H
 #define JOLON_WORLD_NAME_INDEX_H
 
@@ -8,7 +8,7 @@ struct entity_name;
 
 struct name_index {
     const struct entity_name *names;   /* the caller's, of the initial slots */
-    const struct entity_name **sorted; /* orders may be as many as vehicles */
+    const struct entity_name **sorted; /* by name; lookups may be as many as vehicles */
     uint32_t count;
 };
 
@@ -16,7 +16,7 @@ struct name_index {
 int name_index_init(struct name_index *index, const struct entity_name *names, uint32_t count);
 void name_index_free(struct name_index *index);
 
-/* The slot of the vehicle called name, SLOT_NONE for "". 0, or -1: nobody is called so. */
+/* Sets the slot of the vehicle with this name, SLOT_NONE for "". 0, or -1: there is none. */
 int name_index_find(const struct name_index *index, const char *name, uint32_t *slot);
 
 #endif

@@ -67,10 +67,11 @@ struct moved {
     struct event *intents; /* [params.intents_per_frame]; sequence, frame, index not yet set */
 };
 
-double world_time_s(const struct world *world, const struct state_head *head);
+/* Simulated time of a state [s]. */
+double state_time_s(const struct world *world, const struct state_head *head);
 
 /* Digest of a frame: everything that the next frame depends on, in a fixed order, as XXH3-64.
  * Not in it: pacing, stage times, slots beyond used. */
-uint64_t world_digest(const struct world *world, const struct state *state);
+uint64_t state_digest(const struct world *world, const struct state *state);
 
 #endif

@@ -1,24 +1,14 @@
-/* Digest, and small questions about a world. */
+/* Questions about a world. */
 #include "world/world.h"
 
-#include "world/entity/dent.h"
 #include "world/entity/entity.h"
-#include "world/maths/hash.h"
 #include "world/params.h"
-#include "world/state.h"
-#include "world/terrain/crater.h"
 
-#include <stddef.h>
 #include <string.h>
 
 double world_dt_s(const struct world *world)
 {
     return world->params->dt_s;
-}
-
-double world_time_s(const struct world *world, const struct state_head *head)
-{
-    return (double)head->tick * world->params->dt_s;
 }
 
 const char *world_entity_name(const struct world *world, uint32_t id)
@@ -32,28 +22,4 @@ uint32_t world_entity_named(const struct world *world, const char *name)
         if (strncmp(world->names[id - 1].text, name, sizeof world->names[0].text) == 0)
             return id;
     return 0;
-}
-
-/* Rows are hashed column by column; a column's hash is chained into the whole. */
-static uint64_t hash_columns(uint64_t hash, const struct entities *e, uint32_t used)
-{
-#define X(type, name) hash = XXH3_64bits_withSeed(e->name, used * sizeof(type), hash);
-    ENTITY_COLUMNS(X)
-#undef X
-    return hash;
-}
-
-uint64_t world_digest(const struct world *world, const struct state *state)
-{
-    struct state_head head = *state->head;
-    head.checksum = 0;
-    head.mover_ns = 0;
-    head.time_scale = 0.0; /* pacing: not a property of the frame */
-    head.quit = 0;
-    uint64_t hash = XXH3_64bits(&head, sizeof head);
-    hash = XXH3_64bits_withSeed(&world->params->seed, sizeof world->params->seed, hash);
-    hash = hash_columns(hash, &state->entities, head.used);
-    hash = XXH3_64bits_withSeed(state->fixed_damage, world->counts.fixed, hash);
-    hash = XXH3_64bits_withSeed(state->craters, head.crater_count * sizeof(struct crater), hash);
-    return XXH3_64bits_withSeed(state->dents, head.dent_count * sizeof(struct dent), hash);
 }

@@ -51,7 +51,7 @@ static void put_head(struct json_writer *text, const struct tell *tell)
     const struct view *view = &watch->view;
     const struct state_head *head = &watch->snapshot.head;
     json_writer_key_whole(text, "frame", head->frame);
-    json_writer_key_number(text, "time_s", world_time_s(&view->world, head), 3);
+    json_writer_key_number(text, "time_s", state_time_s(&view->world, head), 3);
     json_writer_key_word(text, "state", world_reader_state(watch, head));
     json_writer_key_bool(text, "paused", head->paused != 0);
     json_writer_key_number(text, "scale", head->time_scale, 3);

@@ -107,7 +107,7 @@ static void note_time(struct world_reader *watch)
     struct state_head head;
     if (snapshot_head(&head, &watch->view) != 0)
         return; /* the time before is near enough */
-    watch->time_s = world_time_s(&watch->view.world, &head);
+    watch->time_s = state_time_s(&watch->view.world, &head);
     watch->scale = head.time_scale;
 }
 

@@ -29,7 +29,7 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view);
 /* Copies the head alone; same errors. */
 int snapshot_head(struct state_head *head, const struct view *view);
 
-/* The snapshot as a state, for world_digest() and the like; craters are the view's own list. */
+/* The snapshot as a state, for state_digest() and the like; craters are the view's own list. */
 struct state snapshot_state(const struct snapshot *snapshot, const struct view *view);
 
 struct event_cursor {

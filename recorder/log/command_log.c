@@ -224,7 +224,7 @@ static int take_end(struct command_log *log, const struct view *view)
         take_mark(log, &snapshot.head);
         log->mark.type = RECORD_END;
         log->mark.digested = true;
-        log->mark.digest = world_digest(&view->world, &state);
+        log->mark.digest = state_digest(&view->world, &state);
     }
     snapshot_free(&snapshot);
     return result;

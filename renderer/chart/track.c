@@ -19,7 +19,7 @@ void tracks_free(struct tracks *tracks)
 
 void tracks_note(struct tracks *tracks, const struct frame_view *moment)
 {
-    double now = world_time_s(moment->world, moment->head);
+    double now = state_time_s(moment->world, moment->head);
     if (now - tracks->last_s < TRACK_INTERVAL_S)
         return;
     tracks->last_s = now;

@@ -213,7 +213,7 @@ static bool compare_dents(const struct compared *a, const struct compared *b,
     return false;
 }
 
-/* As in world_digest(): without pacing, quit, stage times and the checksum. */
+/* As in state_digest(): without pacing, quit, stage times and the checksum. */
 static bool compare_heads(const struct compared *a, const struct compared *b,
                           struct difference *difference)
 {

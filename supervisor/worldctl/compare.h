@@ -24,7 +24,7 @@ struct difference {
 };
 
 /* The first field that differs: of the entities column by column, then of the fixed objects, the
- * craters, the dents and the head. Everything that world_digest() is taken over but the seed.
+ * craters, the dents and the head. Everything that state_digest() is taken over but the seed.
  * False when all is equal. */
 bool compare_states(const struct compared *a, const struct compared *b,
                     struct difference *difference);

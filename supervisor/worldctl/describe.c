@@ -169,7 +169,7 @@ int verb_status(const struct arguments *arguments)
     struct state_head head;
     arguments_attach(arguments, &view);
     snapshot_head_or_refuse(&view, &head);
-    double time_s = world_time_s(&view.world, &head);
+    double time_s = state_time_s(&view.world, &head);
     if (arguments->json) {
         cJSON *object = cJSON_CreateObject();
         json_text(object, "world", view.name);
@@ -227,7 +227,7 @@ int verb_digest(const struct arguments *arguments)
     struct snapshot snapshot;
     arguments_snapshot(arguments, &view, &snapshot);
     struct state state = snapshot_state(&snapshot, &view);
-    uint64_t digest = world_digest(&view.world, &state);
+    uint64_t digest = state_digest(&view.world, &state);
     if (arguments->json) {
         cJSON *object = cJSON_CreateObject();
         json_whole(object, "frame", snapshot.head.frame);
@@ -268,7 +268,7 @@ static void summary_json(const struct view *view, const struct state_head *head,
     cJSON *object = cJSON_CreateObject();
     json_text(object, "world", view->name);
     json_whole(object, "frame", head->frame);
-    json_number(object, "sim_time_s", world_time_s(&view->world, head));
+    json_number(object, "sim_time_s", state_time_s(&view->world, head));
     json_hex(object, "digest", digest);
     json_hex(object, "event_digest", head->event_digest);
     json_whole(object, "vehicles", head->vehicles);
@@ -307,7 +307,7 @@ static void summary_text(const struct view *view, const struct state_head *head,
 {
     const struct counters *tally = &head->tally;
     printf("world \"%s\": %" PRIu64 " frames, %.1f s of simulation in %.1f s\n", view->name,
-           head->frame, world_time_s(&view->world, head), wall_s);
+           head->frame, state_time_s(&view->world, head), wall_s);
     printf("  %u vehicles, %" PRIu64 " of them destroyed; %" PRIu64 " shots, %" PRIu64
            " detonations, %u craters\n",
            head->vehicles, tally->destroyed, tally->fires, tally->detonations, head->crater_count);
@@ -328,7 +328,7 @@ int verb_summary(const struct arguments *arguments)
     struct snapshot snapshot;
     arguments_snapshot(arguments, &view, &snapshot);
     struct state state = snapshot_state(&snapshot, &view);
-    uint64_t digest = world_digest(&view.world, &state);
+    uint64_t digest = state_digest(&view.world, &state);
     if (arguments->json)
         summary_json(&view, &snapshot.head, digest, arguments->wall_s);
     else

@@ -93,7 +93,7 @@ static struct replayed judge(const struct log_replay *tape, const struct frame_s
     const struct command_record *end = log_replay_end(tape);
     struct replayed outcome = {.frame = state->head->frame,
                                .commands = state->head->tally.commands,
-                               .digest = world_digest(&view->world, state),
+                               .digest = state_digest(&view->world, state),
                                .event_digest = state->head->event_digest,
                                .equal = met};
     outcome.held = end && end->at.frame == outcome.frame;

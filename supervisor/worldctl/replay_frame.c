@@ -69,7 +69,7 @@ int verb_replay_frame(const struct arguments *arguments)
     const struct state *state = &view.w[frame_stepper_frame(&player) & 1];
     printf("frame %" PRIu64 ": %s, digest %016" PRIx64 ", %" PRIu64 " events, %u entities\n",
            state->head->frame, moved ? "collided" : "moved and collided",
-           world_digest(&view.world, state), state->head->event_end - image.header.event_end,
+           state_digest(&view.world, state), state->head->event_end - image.header.event_end,
            state->head->vehicles + state->head->munitions);
     frame_stepper_free(&player);
     segment_abandon(&view);

@@ -324,7 +324,7 @@ static void take_result(struct trial *trial)
     } else {
         struct state state = snapshot_state(&snapshot, &trial->view);
         ending->frame = snapshot.head.frame;
-        ending->digest = world_digest(&trial->view.world, &state);
+        ending->digest = state_digest(&trial->view.world, &state);
         ending->event_digest = snapshot.head.event_digest;
     }
     snapshot_free(&snapshot);

@@ -27,7 +27,7 @@ int accounts_world(struct accounts *accounts, const struct band *band, struct re
     accounts->events = snapshot.head.event_end;
     accounts->collisions = snapshot.head.tally.collisions;
     accounts->event_digest = snapshot.head.event_digest;
-    accounts->digest = world_digest(&band->view.world, &state);
+    accounts->digest = state_digest(&band->view.world, &state);
     snapshot_free(&snapshot);
     return 0;
 }

@@ -286,7 +286,7 @@ void fixture_go_on(struct fixture *fixture, uint32_t frames)
 uint64_t fixture_digest(const struct fixture *fixture)
 {
     struct state state = fixture_state(fixture);
-    return world_digest(&fixture->view.world, &state);
+    return state_digest(&fixture->view.world, &state);
 }
 
 static uint64_t oldest_event(const struct fixture *fixture, uint64_t end)

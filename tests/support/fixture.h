@@ -85,7 +85,7 @@ void fixture_written(struct fixture *fixture);
 /* The committed frame's buffer. */
 struct state fixture_state(const struct fixture *fixture);
 
-/* world_digest() of the committed frame. */
+/* state_digest() of the committed frame. */
 uint64_t fixture_digest(const struct fixture *fixture);
 
 /* Committed events of a type (EVENT_NONE: of any) that the ring still holds. */

@@ -113,5 +113,5 @@ void image_file_play(struct view *view, uint64_t frame)
 uint64_t image_file_digest(const struct view *view)
 {
     const struct state *state = &view->w[atomic_load(&view->commit->commit) & 1];
-    return world_digest(&view->world, state);
+    return state_digest(&view->world, state);
 }

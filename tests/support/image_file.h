@@ -27,7 +27,7 @@ void image_file_load(struct view *view, const char *path);
 unsigned char *image_file_bytes(const char *path, size_t *bytes);
 void image_file_put(const char *path, const void *bytes, size_t count);
 
-/* Runs a private view alone up to a frame; world_digest() of its committed frame. */
+/* Runs a private view alone up to a frame; state_digest() of its committed frame. */
 void image_file_play(struct view *view, uint64_t frame);
 uint64_t image_file_digest(const struct view *view);
 

@@ -1,5 +1,6 @@
-/* The land's sketch: smooth fields between the real rivers, ridges and the coast, on every fourth
- * node of the land's grid (500 m). What is finer than that comes from running water and noise. */
+/* The coarse shape of the land: smooth fields between the real rivers, ridges and the coast, on
+ * every fourth node of the land's grid (500 m). What is finer than that comes from running water
+ * and noise. */
 #ifndef JOLON_WORLD_MAKING_ELEVATION_FIELDS_H
 #define JOLON_WORLD_MAKING_ELEVATION_FIELDS_H
 

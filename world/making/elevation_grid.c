@@ -1,4 +1,4 @@
-/* Builds the land: the sketch and noise say where water finds its way, streams cut it, creep
+/* Builds the land: the coarse fields and noise say where water flows, streams cut it, creep
  * rounds it. */
 #include "world/making/elevation_grid.h"
 
@@ -153,9 +153,9 @@ static void lay_half(struct builder *b)
     }
 }
 
-/* Streams decide where hills are, the sketch how high: ground becomes steeper where the hills of a
- * kilometre or two came out lower than the sketch, gentler where higher. step is 1 or 2 nodes of
- * the land. */
+/* Streams decide where hills are, the coarse fields how high: ground becomes steeper where the
+ * hills of a kilometre or two came out lower than the coarse fields, gentler where higher. step is
+ * 1 or 2 nodes of the land. */
 static void calibrate(struct builder *b, struct stream_erosion *d, uint32_t step)
 {
     float *want = b->gain, *have = b->have;

@@ -1,32 +1,34 @@
-/* The ground under bodies, a lane each. Pure; any thread. */
+/* The ground under LANE_COUNT bodies at a time, from a few posts cached for each. Pure; any thread.
+ */
 #ifndef JOLON_WORLD_TERRAIN_TERRAIN_CACHE_H
 #define JOLON_WORLD_TERRAIN_TERRAIN_CACHE_H
 
 #include "world/maths/simd.h"
 #include "world/terrain/terrain.h"
 
-/* Posts about a body, copied together: the ground itself is rarely in a cache, and bodies that
- * stand in a row of a table are all over it. Begins as zeros; kept by whoever moves the body. */
+/* The posts about a body, copied together. Bodies in neighbouring rows are far apart on the ground,
+ * so the posts themselves are rarely in the processor's cache. Zero at first; kept with the body.
+ */
 #define TERRAIN_CACHE_SIDE 3
 struct terrain_cache_entry {
     uint16_t column, row; /* of its first post, the north-west one */
     uint16_t water;       /* bit i: there is water about post i */
-    uint16_t held;        /* it holds what it says */
+    uint16_t held;        /* 1: the entry is filled */
     float post[TERRAIN_CACHE_SIDE * TERRAIN_CACHE_SIDE];
 };
 
-/* Bodies and their patches. The square is of three posts a side at least. */
+/* The entries of the bodies. The terrain has at least TERRAIN_CACHE_SIDE posts a side. */
 struct terrain_cache {
-    struct terrain_cache_entry *patch[LANE_COUNT]; /* each lane its own, idle ones some other */
-    union lane_cells column, row;                  /* of the patches */
+    struct terrain_cache_entry *patch[LANE_COUNT]; /* of each lane; an idle lane has any */
+    union lane_cells column, row;                  /* of the entries */
 };
 
-/* Makes the patches those about (x, z). */
+/* Fills the entries with the posts about (x, z). */
 void terrain_cache_find(const struct terrain *terrain, struct terrain_cache *cache,
                         const union simd_lanes *x, const union simd_lanes *z);
 
 /* Height of the uncratered ground [m] at a point of each body, to the bit terrain_base_height();
- * and whether there is water, as terrain_cover() says. Fast where the point is in its patch. */
+ * and whether there is water, as terrain_cover() says. Fast where the entry has the posts. */
 void terrain_cache_heights(const struct terrain *terrain, const struct terrain_cache *cache,
                            const union simd_lanes *x, const union simd_lanes *z,
                            union simd_lanes *height);

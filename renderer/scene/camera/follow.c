@@ -58,7 +58,7 @@ static double liveliness(const struct frame_view *moment, const struct effects *
     const uint32_t *around;
     uint32_t shade = world_reach(moment->world, gridsquare_of(position.x, position.z), &around);
     score += 0.25 * (shade < SHADE_MOST ? shade : SHADE_MOST);
-    return score + action_near(effects, position, world_time_s(moment->world, moment->head));
+    return score + action_near(effects, position, state_time_s(moment->world, moment->head));
 }
 
 static uint16_t *cell_of(uint16_t *cells, double x, double z)
@@ -106,7 +106,7 @@ uint32_t follow_choose(struct follow *follow, const struct frame_view *moment,
 {
     const struct entities *e = moment->entities;
     uint32_t used = moment->head->used;
-    double now = world_time_s(moment->world, moment->head);
+    double now = state_time_s(moment->world, moment->head);
     uint32_t first = first_id != 0 ? entities_find(e, used, first_id) : SLOT_NONE;
     if (first != SLOT_NONE && (only || worth_following(moment, first))) {
         *follow = (struct follow){.id = first_id, .since_s = now};

@@ -28,7 +28,7 @@ struct frame_view {
 /* Time of simulation in the picture. */
 static inline double frame_view_time_s(const struct frame_view *moment)
 {
-    return world_time_s(moment->world, moment->head) + moment->ahead_s;
+    return state_time_s(moment->world, moment->head) + moment->ahead_s;
 }
 
 #endif

@@ -56,7 +56,7 @@ static int close_world(void **state)
 
 static uint64_t digest(void)
 {
-    return world_digest(&f.view.world, &now);
+    return state_digest(&f.view.world, &now);
 }
 static uint64_t checksum(void)
 {
@@ -212,7 +212,7 @@ static void test_same_bytes_elsewhere_have_the_same_digest(void **state)
     (void)state;
     *other.head = *now.head;
     entities_copy(&other.entities, &now.entities, 0, now.head->used);
-    assert_int_equal(world_digest(&f.view.world, &other), digest());
+    assert_int_equal(state_digest(&f.view.world, &other), digest());
     assert_int_equal(state_checksum(&other, f.view.world.counts.fixed), checksum());
 }
 
@@ -290,7 +290,7 @@ static void test_time_is_ticks_times_the_step(void **state)
 {
     (void)state;
     struct state_head head = {.frame = 1000, .tick = 90};
-    assert_true(world_time_s(&f.view.world, &head) == 90.0 * (1.0 / 60.0));
+    assert_true(state_time_s(&f.view.world, &head) == 90.0 * (1.0 / 60.0));
 }
 
 static void test_names_are_found_by_id(void **state)

@@ -72,10 +72,10 @@ static void test_snapshot_is_the_committed_frame(void **state)
         assert_int_equal(snapshot_take(&snapshot, &f.view), 0);
         assert_int_equal(snapshot.head.frame, atomic_load(&f.view.commit->commit));
         struct state taken = snapshot_state(&snapshot, &f.view);
-        uint64_t digest = world_digest(&f.view.world, &taken);
+        uint64_t digest = state_digest(&f.view.world, &taken);
         assert_int_equal(digest, fixture_digest(&f));
         fixture_run(&f, 3); /* the copy is private: it stays as it was */
-        assert_int_equal(world_digest(&f.view.world, &taken), digest);
+        assert_int_equal(state_digest(&f.view.world, &taken), digest);
         assert_int_not_equal(fixture_digest(&f), digest);
     }
     snapshot_free(&snapshot);

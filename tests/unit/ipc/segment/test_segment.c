@@ -114,7 +114,7 @@ static void test_world_is_not_there_before_it_is_published(void **state)
     assert_int_equal(segment_publish(&made, &reason), 0);
     segment_detach(&made);
     assert_int_equal(segment_attach(&seen, unborn, ROLE_NONE, &reason), 0);
-    assert_int_equal(world_digest(&seen.world, &seen.w[0]), fixture_digest(&f));
+    assert_int_equal(state_digest(&seen.world, &seen.w[0]), fixture_digest(&f));
     segment_detach(&seen);
     fixture_close(&f);
     named_world_remove(unborn);

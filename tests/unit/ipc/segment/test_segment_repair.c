@@ -156,7 +156,7 @@ static struct ending ending_at(uint64_t frame)
     assert_int_equal(commit_of(&look), frame);
     if (segment_check_state(&look, frame, &reason) != 0)
         fail_msg("%s", reason.text);
-    return (struct ending){world_digest(&look.world, last), last->head->event_digest,
+    return (struct ending){state_digest(&look.world, last), last->head->event_digest,
                            last->head->event_end, last->head->tally.commands};
 }
 

@@ -1,0 +1,37 @@
+/* The time of a state, and its digest. */
+#include "world/state.h"
+
+#include "world/entity/dent.h"
+#include "world/maths/hash.h"
+#include "world/params.h"
+#include "world/terrain/crater.h"
+#include "world/world.h"
+
+double state_time_s(const struct world *world, const struct state_head *head)
+{
+    return (double)head->tick * world->params->dt_s;
+}
+
+/* Rows are hashed column by column; a column's hash is chained into the whole. */
+static uint64_t hash_columns(uint64_t hash, const struct entities *e, uint32_t used)
+{
+#define X(type, name) hash = XXH3_64bits_withSeed(e->name, used * sizeof(type), hash);
+    ENTITY_COLUMNS(X)
+#undef X
+    return hash;
+}
+
+uint64_t state_digest(const struct world *world, const struct state *state)
+{
+    struct state_head head = *state->head;
+    head.checksum = 0;
+    head.mover_ns = 0;
+    head.time_scale = 0.0; /* pacing: not a property of the frame */
+    head.quit = 0;
+    uint64_t hash = XXH3_64bits(&head, sizeof head);
+    hash = XXH3_64bits_withSeed(&world->params->seed, sizeof world->params->seed, hash);
+    hash = hash_columns(hash, &state->entities, head.used);
+    hash = XXH3_64bits_withSeed(state->fixed_damage, world->counts.fixed, hash);
+    hash = XXH3_64bits_withSeed(state->craters, head.crater_count * sizeof(struct crater), hash);
+    return XXH3_64bits_withSeed(state->dents, head.dent_count * sizeof(struct dent), hash);
+}
