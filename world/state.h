@@ -56,7 +56,7 @@ struct state {
     struct block_hashes *hashes; /* of the rows (checksum.h); a reader's copy has none: NULL */
     uint8_t *fixed_damage;       /* [counts.fixed] enum damage */
     struct crater *craters; /* shared by both buffers, append-only: committed by crater_count */
-    struct dent *dents;     /* likewise, by dent_count */
+    struct dent *dents;     /* the same, committed by dent_count */
 };
 
 /* The mover's output. */

@@ -8,7 +8,7 @@
 
 /* The command rings, each with one writing process. */
 enum command_ring {
-    RING_CLIENTS, /* of all who command over the command socket */
+    RING_CLIENTS, /* of all clients of the command socket */
     RING_GATEWAY,
     RING_CONSOLE,
     RING_RECORDER, /* pauses and resumes, where recorder.when_full says so */
@@ -24,7 +24,7 @@ enum command_type {
     COMMAND_DRIVE,   /* entity; value: throttle, steer, climb, traverse, elevate, each -1..1, and
                         brake, 0..1; force: enum gearing; amount: frames for which the source alone
                         drives it, after which it goes back to its agent; 0: anybody, without end */
-    COMMAND_RELEASE, /* entity: back to its agent; amount 1: whoever drives it */
+    COMMAND_RELEASE, /* entity: back to its agent; amount 1: also from another source */
     COMMAND_FIRE,    /* entity shoots: at target if not 0, else ahead; entity 0: kind detonates a
                         munition falling on value[0], value[1] (x, z) */
     COMMAND_SPAWN,   /* kind, force, value: x, z, altitude above ground, heading, speed; amount:
@@ -48,7 +48,7 @@ enum command_result {
 
 struct command {
     uint64_t sequence;        /* place in its ring's whole row, from 0; set with the slot */
-    uint64_t source;          /* who sent it: any number that is its own */
+    uint64_t source;          /* the sender: a number of its own choice */
     uint64_t source_sequence; /* counted by the sender, from 1 */
     uint32_t type;            /* enum command_type */
     uint32_t entity;

@@ -9,7 +9,7 @@ enum formation_shape {
     FORMATION_LINE,          /* side by side, by turns to the right and left of the leader */
     FORMATION_WEDGE,         /* by turns behind to the right and left */
     FORMATION_ECHELON_LEFT,  /* each behind the one before it, to its left */
-    FORMATION_ECHELON_RIGHT, /* likewise to its right */
+    FORMATION_ECHELON_RIGHT, /* each behind the one before it, to its right */
     FORMATION_SHAPE_COUNT
 };
 
@@ -18,7 +18,7 @@ enum formation_shape {
 struct formation {
     uint32_t first, count;
     uint32_t shape;            /* enum formation_shape */
-    uint32_t order, order_arg; /* the leader's own, which who leads after it takes over */
+    uint32_t order, order_arg; /* the leader's own; the next leader takes them over */
     uint32_t reserved;
     double spacing_m; /* from one to the next */
 };

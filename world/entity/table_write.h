@@ -59,7 +59,7 @@ static inline void table_set_target(const struct table_writer *writer, uint32_t 
     table_set_target_id(writer, row, id);
 }
 
-/* Sets who has fired at the row. */
+/* Sets the entity that has fired at the row. */
 static inline void table_set_threat(const struct table_writer *writer, uint32_t row, uint32_t slot,
                                     uint32_t id)
 {
