@@ -1,8 +1,9 @@
-/* When a checkpoint is due, and what is said of it. */
+/* Decides when a checkpoint is due, writes it and logs the result. */
 #include "recorder/checkpoint.h"
 
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
+#include "recorder/archive/image_read.h"
 
 #include <errno.h>
 #include <inttypes.h>

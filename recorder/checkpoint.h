@@ -3,7 +3,7 @@
 #ifndef JOLON_RECORDER_CHECKPOINT_H
 #define JOLON_RECORDER_CHECKPOINT_H
 
-#include "recorder/archive/image.h"
+#include "recorder/archive/image_write.h"
 
 #include <stdint.h>
 

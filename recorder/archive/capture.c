@@ -1,4 +1,4 @@
-/* A consistent copy of a frame, of the command rings beside it and of the frame under way. */
+/* Copies a frame, the command rings and the moved table consistently. */
 #include "recorder/archive/capture.h"
 
 #include "ipc/frame/frame_protocol.h"
@@ -48,8 +48,9 @@ void capture_free(struct capture *capture)
     *capture = (struct capture){0};
 }
 
-/* The moved table, if it holds the frame after the snapshot's. The mover writes it again only after
- * that frame's commit (rule 3), so it is whole if the commit has not come yet. False: try again. */
+/* Copies the moved table if it holds the frame after the snapshot's. The mover overwrites it only
+ * after that frame's commit (rule 3), so the copy is whole if the frame is not committed yet.
+ * Returns false if the caller must try again. */
 static bool take_moved(struct capture *capture, const struct view *view)
 {
     uint64_t frame = capture->snapshot.head.frame;
@@ -60,7 +61,7 @@ static bool take_moved(struct capture *capture, const struct view *view)
     capture->moved_head = *from->head;
     uint32_t used = from->head->used, intents = from->head->intent_count;
     if (used > view->header->capacity || intents > view->header->intents_per_frame)
-        used = intents = 0; /* torn or damaged: found out below */
+        used = intents = 0; /* torn or damaged: the checks below find it */
     entities_copy(&capture->moved.entities, &from->entities, 0, used);
     memcpy(capture->moved.intents, from->intents, intents * sizeof(struct event));
     atomic_thread_fence(memory_order_acquire);
@@ -69,9 +70,9 @@ static bool take_moved(struct capture *capture, const struct view *view)
            capture->moved_head.intent_count == intents;
 }
 
-/* Commands up to end as far back as the ring remembers them. Its writer may have gone on: of the
- * slots that it has begun to write meanwhile, and of the next while there is room, nothing is kept.
- * False when one to be taken from cursor on is among them. */
+/* Copies the commands before end that the ring still holds. Its writer may go on during the copy.
+ * Slots that it has written since, and the slot that it writes next if the ring is not full, are
+ * dropped. Returns false if an untaken command is among them. */
 static bool take_ring(struct capture *capture, const struct view *view, int ring, uint64_t end)
 {
     const struct command_ring_words *words = view->commands[ring];

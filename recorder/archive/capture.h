@@ -1,4 +1,5 @@
-/* Captures: what an image holds that changes, copied out of a running world by a reader. */
+/* A capture: a reader's copy of the changing part of a running world, from which an image is
+ * written. */
 #ifndef JOLON_RECORDER_ARCHIVE_CAPTURE_H
 #define JOLON_RECORDER_ARCHIVE_CAPTURE_H
 
@@ -10,24 +11,25 @@
 struct capture {
     struct snapshot snapshot;
     struct {
-        uint64_t first, end;  /* commands that slot has */
+        uint64_t first, end;  /* slot holds the commands first .. end - 1 */
         struct command *slot; /* [command_slots] */
     } ring[COMMAND_RING_COUNT];
-    bool inputs; /* moved is that of the frame after the snapshot's */
+    bool inputs; /* moved belongs to the frame after the snapshot's */
     struct state_head moved_head;
     struct moved moved;
     void *memory;
 };
 
-/* Space for the view's capacities; to be used again and again. 0, or -1 with errno ENOMEM. */
+/* Allocates memory for the view's capacities. A capture can be taken any number of times. Returns
+ * 0, or -1 with errno ENOMEM. */
 int capture_init(struct capture *capture, const struct view *view);
 void capture_free(struct capture *capture);
 
-/* Copies the last committed frame and the commands that were there with it, those taken already
- * too as far as the rings remember them; with inputs also the moved table, if the next frame has
- * been moved. What a sender put into a ring meanwhile is left out, as what comes later is. Does not
- * block. 0; -1 with the errno of snapshot_take(), EAGAIN also when commands to be taken were
- * overwritten or the moved table changed, 100 times in a row. */
+/* Copies the last committed frame and the commands in the rings, including those that the mover has
+ * taken and that are not overwritten yet. With inputs, the moved table is copied too if the next
+ * frame has been moved. Commands that arrive during the copy are left out. Does not block. Returns
+ * 0, or -1 with the errno of snapshot_take(). EAGAIN also says that 100 times in a row untaken
+ * commands were overwritten or the moved table changed. */
 int capture_take(struct capture *capture, const struct view *view, bool inputs);
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef JOLON_RECORDER_REPLAY_IMAGE_RESUME_H
 #define JOLON_RECORDER_REPLAY_IMAGE_RESUME_H
 
-#include "recorder/archive/image.h"
+#include "recorder/archive/image_read.h"
 #include "recorder/replay/arguments.h"
 
 /* Its two halves, for those who play the run again. Opens the image --from with those changes, or

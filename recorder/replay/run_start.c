@@ -1,7 +1,7 @@
 /* The beginning of a recorded run, made again. */
 #include "recorder/replay/run_start.h"
 
-#include "recorder/archive/image.h"
+#include "recorder/archive/image_read.h"
 #include "ipc/process/log.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"

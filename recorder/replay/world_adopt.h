@@ -2,7 +2,7 @@
 #ifndef JOLON_RECORDER_REPLAY_WORLD_ADOPT_H
 #define JOLON_RECORDER_REPLAY_WORLD_ADOPT_H
 
-#include "recorder/archive/format.h"
+#include "recorder/archive/image_format.h"
 
 #include <stdbool.h>
 

@@ -2,7 +2,7 @@
  * that a debugger sees what a role died of. */
 #include "supervisor/worldctl/verbs.h"
 
-#include "recorder/archive/image.h"
+#include "recorder/archive/image_read.h"
 #include "ipc/process/log.h"
 #include "recorder/replay/frame_stepper.h"
 #include "recorder/replay/arguments.h"

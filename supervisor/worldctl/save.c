@@ -1,7 +1,7 @@
 /* Verb save: an image of a world as it is now. */
 #include "supervisor/worldctl/verbs.h"
 
-#include "recorder/archive/image.h"
+#include "recorder/archive/image_write.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "recorder/replay/arguments.h"

@@ -4,7 +4,8 @@
  * where (two bytes) and to what. */
 #include "tests/fuzz/support.h"
 
-#include "recorder/archive/image.h"
+#include "recorder/archive/image_read.h"
+#include "recorder/archive/image_write.h"
 #include "world/runtime/check.h"
 
 #include <fcntl.h>

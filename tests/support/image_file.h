@@ -4,7 +4,8 @@
 #ifndef JOLON_TESTS_SUPPORT_IMAGE_FILE_H
 #define JOLON_TESTS_SUPPORT_IMAGE_FILE_H
 
-#include "recorder/archive/image.h"
+#include "recorder/archive/image_read.h"
+#include "recorder/archive/image_write.h"
 #include "recorder/replay/frame_stepper.h"
 
 #include <limits.h>

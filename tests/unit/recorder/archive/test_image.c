@@ -1,5 +1,6 @@
 /* Images: what goes in comes out, and a world goes on from one as if nothing had been. */
-#include "recorder/archive/image.h"
+#include "recorder/archive/image_read.h"
+#include "recorder/archive/image_write.h"
 
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"

@@ -1,6 +1,6 @@
 /* Images that are not what was written: whatever is wrong, one line says what, and nothing else
  * happens. */
-#include "recorder/archive/image.h"
+#include "recorder/archive/image_read.h"
 
 #include "tests/support/bare_view.h"
 #include "tests/support/image_file.h"

@@ -1,5 +1,6 @@
 /* Where images are written: what may be written over, and that a file is whole whatever happens. */
-#include "recorder/archive/image.h"
+#include "recorder/archive/image_read.h"
+#include "recorder/archive/image_write.h"
 
 #include "tests/support/bare_view.h"
 #include "tests/support/child.h"

@@ -1,5 +1,5 @@
-/* Reading an image: every size and hash is checked before what it speaks of is used. */
-#include "recorder/archive/image.h"
+/* Reads an image. Each size and hash is checked before the bytes that it describes are used. */
+#include "recorder/archive/image_read.h"
 
 #include "ipc/process/crash_point.h"
 #include "ipc/process/regular_file.h"
@@ -21,7 +21,7 @@
 
 /* --- the file ----------------------------------------------------------------------------------*/
 
-/* 0, or -1 with errno; an end before count is EIO. */
+/* Returns 0, or -1 with errno. A file that ends before count bytes gives EIO. */
 static int read_at(int fd, void *bytes, size_t count, uint64_t offset)
 {
     for (size_t done = 0; done < count;) {
@@ -234,8 +234,8 @@ done:
     return result;
 }
 
-/* What the parts say must be what the header says, by which they were placed, and whole. An image
- * has no hashes of the rows: they are made here. */
+/* Checks that the frame matches the header, whose sizes placed its parts, and passes its checksums.
+ * An image holds no hashes of rows. They are computed here. */
 static int check_state(const struct view *view, const struct image *image, struct reason *reason)
 {
     const struct image_header *header = &image->header;

@@ -1,7 +1,7 @@
-/* Writing an image: packed as it is read, into a file of another name that is renamed at the end.
- */
-#include "recorder/archive/image.h"
+/* Packs the world into a temporary file, which is renamed at the end. */
+#include "recorder/archive/image_write.h"
 
+#include "recorder/archive/image_format.h"
 #include "ipc/process/crash_point.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/stale_files.h"
@@ -17,13 +17,13 @@
 #include <xxhash.h>
 #include <zstd.h>
 
-#define LEVEL       3                   /* docs/checkpoints.md has what others cost */
-#define PIECE_BYTES ((size_t)1 << 20)   /* between beats */
-#define SYNC_BYTES  ((uint64_t)8 << 20) /* so that no single wait for the disk is long */
+#define LEVEL       3                   /* docs/checkpoints.md compares the levels */
+#define PIECE_BYTES ((size_t)1 << 20)   /* packed between two heartbeats */
+#define SYNC_BYTES  ((uint64_t)8 << 20) /* limits each wait for the disk */
 
-/* --- where to ----------------------------------------------------------------------------------*/
+/* --- the file ----------------------------------------------------------------------------------*/
 
-/* 0 when an image may be written over what is there. */
+/* Returns 0 if an image may take the place of what the path names. */
 static int check_target(const struct image_place *place, struct reason *reason)
 {
     struct stat status;
@@ -77,7 +77,7 @@ void image_place_close(struct image_place *place)
     place->folder = -1;
 }
 
-/* --- what --------------------------------------------------------------------------------------*/
+/* --- its content -------------------------------------------------------------------------------*/
 
 struct writer {
     struct view *view;
@@ -121,7 +121,7 @@ static int put_packed(struct writer *writer, size_t bytes)
     return fdatasync(writer->fd);
 }
 
-/* Packs a piece; at the end, with ZSTD_e_end, what is still within zstd. */
+/* Packs bytes. ZSTD_e_end also writes what zstd still buffers. */
 static int pack(struct writer *writer, const void *at, size_t bytes, ZSTD_EndDirective directive)
 {
     ZSTD_inBuffer in = {at, bytes, 0};
@@ -130,7 +130,7 @@ static int pack(struct writer *writer, const void *at, size_t bytes, ZSTD_EndDir
         ZSTD_outBuffer out = {writer->out, writer->out_bytes, 0};
         left = ZSTD_compressStream2(writer->zstd, &out, &in, directive);
         if (ZSTD_isError(left)) {
-            errno = ENOMEM; /* all else that it can say is a bug of ours */
+            errno = ENOMEM; /* any other error would be a programming error */
             return -1;
         }
         if (put_packed(writer, out.pos) != 0)
@@ -158,7 +158,7 @@ static struct image_header header_of(const struct view *view, const struct captu
 {
     const struct state_head *head = &capture->snapshot.head;
     struct image_header header;
-    memset(&header, 0, sizeof header); /* whatever lies between fields goes into the file too */
+    memset(&header, 0, sizeof header); /* padding is written too */
     header.magic = IMAGE_MAGIC;
     header.version = IMAGE_VERSION;
     header.header_bytes = sizeof header;
@@ -234,7 +234,7 @@ static int writer_make(struct writer *writer, struct view *view, int fd)
     return 0;
 }
 
-/* Fills the temporary file and puts it on the disk. */
+/* Fills the temporary file and flushes it to the disk. */
 static int fill(int fd, struct view *view, const struct capture *capture,
                 struct image_written *done)
 {
@@ -255,7 +255,7 @@ static int fill(int fd, struct view *view, const struct capture *capture,
     return result;
 }
 
-/* In words what stopped a write; the errno of it is given. */
+/* Sets the reason of a failed write. error: its errno. */
 static int refuse_write(const struct image_place *place, int error, struct reason *reason)
 {
     if (error == ENOSPC || error == EDQUOT || error == EFBIG)
@@ -271,12 +271,12 @@ int image_write(const struct image_place *place, struct view *view, const struct
     struct image_written own;
     if (check_target(place, reason) != 0)
         return -1;
-    /* A world that is damaged where it never changes must not take a good image's place. */
+    /* A world whose static regions are damaged must not replace a good image. */
     struct reason what;
     if (view->header->magic == SEGMENT_MAGIC && segment_verify(view, &what) != 0)
         return reason_set(reason, "%s: not written: the world is %s", place->path, what.text);
     temporary_name(place, temporary);
-    unlinkat(place->folder, temporary, 0); /* of a process before us with our number */
+    unlinkat(place->folder, temporary, 0); /* left by an earlier process with the same pid */
     CRASH_POINT("image's temporary");
     int fd =
         openat(place->folder, temporary, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
@@ -299,7 +299,7 @@ int image_write(const struct image_place *place, struct view *view, const struct
         return refuse_write(place, error, reason);
     }
     CRASH_POINT("after the image's name");
-    /* Some file systems know no fsync of a folder; the rename is done all the same. */
+    /* Some file systems do not support fsync of a folder. The rename has succeeded anyway. */
     if (fsync(place->folder) != 0 && errno != EINVAL)
         return reason_set(reason,
                           "%s: is the new image, but its folder cannot be put on the disk (%s): "

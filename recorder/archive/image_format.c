@@ -1,5 +1,5 @@
-/* Which parts an image has, and how large they are. */
-#include "recorder/archive/format.h"
+/* The parts of an image and their sizes. */
+#include "recorder/archive/image_format.h"
 #include "ipc/process/log.h"
 #include "world/entity/dent.h"
 #include "world/entity/event.h"
@@ -7,8 +7,8 @@
 
 #include <xxhash.h>
 
-/* Regions that are in the image as they are: all that never change but header and parameters,
- * which its own header holds. */
+/* Regions that the image holds unchanged: all static regions except the header and the parameters,
+ * which are in the image header. */
 #define FIRST_STATIC REGION_KINDS
 #define LAST_STATIC  REGION_RECIPE
 
@@ -32,7 +32,7 @@ static void add_columns(struct list *list, const struct entities *e, uint32_t us
 #undef X
 }
 
-/* Commands first .. end - 1, in one piece or, around the ring's end, in two. */
+/* Commands first .. end - 1: one part, or two if they wrap around the end of the ring. */
 static void add_ring(struct list *list, const struct command *ring, uint64_t slots, uint64_t first,
                      uint64_t end)
 {
