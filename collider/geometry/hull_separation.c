@@ -26,17 +26,17 @@ struct line {
 
 /* --- bodies in time ----------------------------------------------------------------------------*/
 
-struct rotation_path turning_of(const struct swept_body *body)
+struct rotation_path rotation_path_of(const struct swept_body *body)
 {
-    struct rotation_path turning = {.body = body, .turn = rotation_matrix(body->from)};
+    struct rotation_path rotation = {.body = body, .turn = rotation_matrix(body->from)};
     double left = 1.0 - body->path.since;
-    turning.share = left > 0.0 ? 1.0 / left : 0.0;
-    turning.rate = rotation_rate(body->from, body->to) * turning.share;
+    rotation.share = left > 0.0 ? 1.0 / left : 0.0;
+    rotation.rate = rotation_rate(body->from, body->to) * rotation.share;
     struct vec3 spin = rotation_speed(body->from, body->to, 0.0);
     double speed = vec3_length(spin);
     if (speed > 0.0)
-        turning.axis = rotation_back(&turning.turn, vec3_scale(spin, 1.0 / speed));
-    return turning;
+        rotation.axis = rotation_back(&rotation.turn, vec3_scale(spin, 1.0 / speed));
+    return rotation;
 }
 
 struct hull_pair hull_pair_of(const struct rotation_path *a, const struct rotation_path *b,
@@ -60,19 +60,19 @@ struct hull_pair hull_pair_of(const struct rotation_path *a, const struct rotati
     };
 }
 
-static void pose(const struct rotation_path *turning, const struct hull *hull, double time,
+static void pose(const struct rotation_path *rotation, const struct hull *hull, double time,
                  struct convex *convex, struct vec3 *spin, struct vec3 *centre)
 {
-    const struct swept_body *body = turning->body;
+    const struct swept_body *body = rotation->body;
     convex->vertex = body->vertices + hull->first_vertex;
     convex->count = hull->vertex_count;
     convex->scale = body->scale;
-    convex->turn = turning->turn;
+    convex->turn = rotation->turn;
     *spin = (struct vec3){0.0, 0.0, 0.0};
-    if (turning->rate > 0.0) {
-        double t = maths_clamp((time - body->path.since) * turning->share, 0.0, 1.0);
+    if (rotation->rate > 0.0) {
+        double t = maths_clamp((time - body->path.since) * rotation->share, 0.0, 1.0);
         convex->turn = rotation_matrix(rotation_between(body->from, body->to, t));
-        *spin = vec3_scale(rotation_speed(body->from, body->to, t), turning->share);
+        *spin = vec3_scale(rotation_speed(body->from, body->to, t), rotation->share);
     }
     *centre = rotation_apply(&convex->turn, vec3_scale(hull->centre, body->scale));
 }
@@ -84,7 +84,7 @@ struct vec3 hull_separation_at(const struct path *a, const struct path *b, doubl
     return vec3_add(vec3_sub(b->at, a->at), vec3_sub(moved_b, moved_a));
 }
 
-struct relative_pose moment_at(const struct hull_pair *pair, double time)
+struct relative_pose relative_pose_at(const struct hull_pair *pair, double time)
 {
     struct relative_pose now;
     now.time = time;

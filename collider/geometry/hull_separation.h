@@ -44,10 +44,10 @@ struct plane {
     struct vec3 normal, swing;
 };
 
-struct rotation_path turning_of(const struct swept_body *body);
+struct rotation_path rotation_path_of(const struct swept_body *body);
 struct hull_pair hull_pair_of(const struct rotation_path *a, const struct rotation_path *b,
                               const struct hull *hull_a, const struct hull *hull_b);
-struct relative_pose moment_at(const struct hull_pair *pair, double time);
+struct relative_pose relative_pose_at(const struct hull_pair *pair, double time);
 
 /* How far the plane keeps the hulls apart now [m]; below 0 they overlap it by that together. */
 double hull_separation_now(const struct relative_pose *now, struct vec3 normal);

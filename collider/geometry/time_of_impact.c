@@ -148,7 +148,7 @@ static void time_of_impact(const struct hull_pair *pair, double from, double unt
     bool first = true;
     int tries = 0;
     for (int looks = 0; looks < LOOKS; looks++) {
-        struct relative_pose now = moment_at(pair, time);
+        struct relative_pose now = relative_pose_at(pair, time);
         if (!hull_separation_by_spheres(pair, &now, last - time, &h)) {
             if (first && hull_separation_by_centres(pair, &now, last - time))
                 return;
@@ -239,14 +239,15 @@ bool time_of_impact_touch(const struct swept_body *a, const struct swept_body *b
     }
     if (!window(a, b, &from, &until))
         return false;
-    struct rotation_path turning_a = turning_of(a), turning_b = turning_of(b);
-    if (turning_a.rate == 0.0 && turning_b.rate == 0.0 &&
+    struct rotation_path rotation_a = rotation_path_of(a), rotation_b = rotation_path_of(b);
+    if (rotation_a.rate == 0.0 && rotation_b.rate == 0.0 &&
         order_of_points(a->path.along, b->path.along) == 0)
         return false; /* at rest with each other */
     struct hull_contact first = {.toi = INFINITY};
     for (uint32_t i = 0; i < a->hull_count; i++) {
         for (uint32_t j = 0; j < b->hull_count; j++) {
-            struct hull_pair pair = hull_pair_of(&turning_a, &turning_b, &a->hull[i], &b->hull[j]);
+            struct hull_pair pair =
+                hull_pair_of(&rotation_a, &rotation_b, &a->hull[i], &b->hull[j]);
             time_of_impact(&pair, from, until, &first);
         }
     }
@@ -260,12 +261,13 @@ bool time_of_impact_touch(const struct swept_body *a, const struct swept_body *b
 
 double time_of_impact_gap(const struct swept_body *a, const struct swept_body *b, double time)
 {
-    struct rotation_path turning_a = turning_of(a), turning_b = turning_of(b);
+    struct rotation_path rotation_a = rotation_path_of(a), rotation_b = rotation_path_of(b);
     double least = INFINITY;
     for (uint32_t i = 0; i < a->hull_count; i++) {
         for (uint32_t j = 0; j < b->hull_count; j++) {
-            struct hull_pair pair = hull_pair_of(&turning_a, &turning_b, &a->hull[i], &b->hull[j]);
-            struct relative_pose now = moment_at(&pair, time);
+            struct hull_pair pair =
+                hull_pair_of(&rotation_a, &rotation_b, &a->hull[i], &b->hull[j]);
+            struct relative_pose now = relative_pose_at(&pair, time);
             if (now.centres_m - pair.radii_m < least)
                 least = maths_min(least, gjk_distance(&now.a, &now.b).distance_m);
         }

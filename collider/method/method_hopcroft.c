@@ -33,7 +33,7 @@ struct node {
     uint32_t body;
 };
 
-struct sweep {
+struct sort_and_sweep {
     const struct method_input *input;
     struct method_bodies bodies;
     struct node *node;      /* [bodies] */
@@ -53,7 +53,7 @@ static uint32_t ascending_bits(float value)
 
 /* --- what the plane cuts -----------------------------------------------------------------------*/
 
-static bool before(const struct sweep *sweep, uint32_t i, uint32_t j)
+static bool before(const struct sort_and_sweep *sweep, uint32_t i, uint32_t j)
 {
     float a = sweep->node[i].min_z, b = sweep->node[j].min_z;
     return a < b || (!(b < a) && i < j);
@@ -64,7 +64,7 @@ static bool above(uint32_t i, uint32_t j)
     return random_mix(i) > random_mix(j); /* a bijection: never equal */
 }
 
-static void refresh(const struct sweep *sweep, uint32_t i)
+static void refresh(const struct sort_and_sweep *sweep, uint32_t i)
 {
     struct node *node = &sweep->node[i];
     node->last_z = node->max_z;
@@ -75,7 +75,7 @@ static void refresh(const struct sweep *sweep, uint32_t i)
 }
 
 /* Parts a tree into what comes before node i and what comes after it. */
-static void part(const struct sweep *sweep, uint32_t root, uint32_t i, uint32_t *low,
+static void part(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i, uint32_t *low,
                  uint32_t *high)
 {
     if (root == NOBODY) {
@@ -94,7 +94,7 @@ static void part(const struct sweep *sweep, uint32_t root, uint32_t i, uint32_t 
 }
 
 /* Joins two trees, all of low before all of high. */
-static uint32_t join(const struct sweep *sweep, uint32_t low, uint32_t high)
+static uint32_t join(const struct sort_and_sweep *sweep, uint32_t low, uint32_t high)
 {
     if (low == NOBODY)
         return high;
@@ -109,7 +109,7 @@ static uint32_t join(const struct sweep *sweep, uint32_t low, uint32_t high)
     return root;
 }
 
-static uint32_t insert(const struct sweep *sweep, uint32_t root, uint32_t i)
+static uint32_t insert(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i)
 {
     if (root == NOBODY || above(i, root)) {
         part(sweep, root, i, &sweep->node[i].left, &sweep->node[i].right);
@@ -123,7 +123,7 @@ static uint32_t insert(const struct sweep *sweep, uint32_t root, uint32_t i)
     return root;
 }
 
-static uint32_t extract(const struct sweep *sweep, uint32_t root, uint32_t i)
+static uint32_t extract(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i)
 {
     struct node *node = &sweep->node[root];
     if (root == i)
@@ -137,7 +137,7 @@ static uint32_t extract(const struct sweep *sweep, uint32_t root, uint32_t i)
 }
 
 /* Everything in the tree that overlaps node i in z may meet it. */
-static void meet(const struct sweep *sweep, uint32_t root, uint32_t i)
+static void meet(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i)
 {
     if (root == NOBODY || sweep->node[root].last_z < sweep->node[i].min_z)
         return;
@@ -152,13 +152,13 @@ static void meet(const struct sweep *sweep, uint32_t root, uint32_t i)
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
 
-static uint32_t *root_of(struct sweep *sweep, uint32_t i)
+static uint32_t *root_of(struct sort_and_sweep *sweep, uint32_t i)
 {
     return sweep->node[i].body < sweep->bodies.moving ? &sweep->moving : &sweep->fixed;
 }
 
 /* The plane reaches node i. */
-static void reach(struct sweep *sweep, uint32_t i)
+static void reach(struct sort_and_sweep *sweep, uint32_t i)
 {
     uint32_t body = sweep->node[i].body;
     bool asks_fixed = body < sweep->bodies.moving && sweep->bodies.tests_fixed[body];
@@ -169,7 +169,7 @@ static void reach(struct sweep *sweep, uint32_t i)
     *root = insert(sweep, *root, i);
 }
 
-static void pass(struct sweep *sweep, const struct mark *starts, const struct mark *ends)
+static void pass(struct sort_and_sweep *sweep, const struct mark *starts, const struct mark *ends)
 {
     for (uint32_t i = 0, left = 0; i < sweep->bodies.count; i++) {
         while (ends[left].key < starts[i].key) {
@@ -184,7 +184,7 @@ static void pass(struct sweep *sweep, const struct mark *starts, const struct ma
 
 /* Puts the bodies in the order in which the plane meets them (starts) and leaves them (ends, by
  * their nodes). */
-static void put_in_order(struct sweep *sweep, struct mark *starts, struct mark *ends)
+static void put_in_order(struct sort_and_sweep *sweep, struct mark *starts, struct mark *ends)
 {
     uint32_t count = sweep->bodies.count;
     for (uint32_t i = 0; i < count; i++)
@@ -205,7 +205,8 @@ static void put_in_order(struct sweep *sweep, struct mark *starts, struct mark *
 void method_hopcroft_pairs(const struct method_input *input, struct method_workspace *workspace,
                            struct pair_list *pairs)
 {
-    struct sweep sweep = {.input = input, .moving = NOBODY, .fixed = NOBODY, .pairs = pairs};
+    struct sort_and_sweep sweep = {
+        .input = input, .moving = NOBODY, .fixed = NOBODY, .pairs = pairs};
     method_bodies(input, workspace, &sweep.bodies);
     uint32_t count = sweep.bodies.count;
     struct mark *starts = method_block(workspace, BLOCK_STARTS, count, sizeof *starts);

@@ -86,21 +86,21 @@ struct rotation_path body_motion_turning(const struct body_motion *motion, uint3
 
 struct quat body_motion_turned(const struct body_motion *motion, uint32_t row, double time)
 {
-    struct rotation_path turning = body_motion_turning(motion, row);
+    struct rotation_path rotation = body_motion_turning(motion, row);
     double since = motion->path[row].since;
     double left = 1.0 - since;
-    return left > 0.0 ? rotation_between(turning.from, turning.to, (time - since) / left)
-                      : turning.to;
+    return left > 0.0 ? rotation_between(rotation.from, rotation.to, (time - since) / left)
+                      : rotation.to;
 }
 
 void body_motion_change(struct body_motion *motion, uint32_t row, const struct path *path,
-                        const struct rotation_path *turning)
+                        const struct rotation_path *rotation)
 {
     if (motion->change[row] == 0) {
         motion->row[motion->changes] = row;
         motion->change[row] = ++motion->changes;
     }
-    motion->changed[motion->change[row] - 1] = *turning;
+    motion->changed[motion->change[row] - 1] = *rotation;
     motion->path[row] = *path;
 }
 
@@ -120,10 +120,10 @@ static struct swept_body shape_of(const struct world *world, uint16_t kind, doub
 struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row)
 {
     struct swept_body body = shape_of(motion->world, motion->next->entities.kind[row], 1.0);
-    struct rotation_path turning = body_motion_turning(motion, row);
+    struct rotation_path rotation = body_motion_turning(motion, row);
     body.path = motion->path[row];
-    body.from = turning.from;
-    body.to = turning.to;
+    body.from = rotation.from;
+    body.to = rotation.to;
     return body;
 }
 

@@ -84,7 +84,7 @@ struct quat body_motion_turned(const struct body_motion *motion, uint32_t row, d
 
 /* Gives the row another turning, with its path. */
 void body_motion_change(struct body_motion *motion, uint32_t row, const struct path *path,
-                        const struct rotation_path *turning);
+                        const struct rotation_path *rotation);
 
 /* The row, and a fixed object, as the narrow phase takes them. */
 struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row);

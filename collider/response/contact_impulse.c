@@ -113,7 +113,7 @@ void contact_impulse_harm(struct response_context *respond, struct island_contac
 {
     const struct impact *impact = &met->impact;
     const struct kind *ka = kind_of(respond, impact->a);
-    const struct spring_impact *spring = met->spring.depth_m > 0.0 ? &met->spring : NULL;
+    const struct contact_spring_impact *spring = met->spring.depth_m > 0.0 ? &met->spring : NULL;
     if (met->leans)
         return;
     met->outcome.impulse_ns = vec3_length(contact->impulse);

@@ -8,12 +8,12 @@ double contact_spring_in_series(double a_npm, double b_npm)
     return a_npm * b_npm / (a_npm + b_npm);
 }
 
-struct spring_impact spring_impact(const struct contact_spring *spring)
+struct contact_spring_impact contact_spring_impact(const struct contact_spring *spring)
 {
     double per_radian = sqrt(spring->reduced_kg / spring->stiffness_npm);
     double depth = spring->closing_mps * per_radian;
     double restitution = spring->restitution;
-    return (struct spring_impact){
+    return (struct contact_spring_impact){
         .impulse_ns = spring->reduced_kg * spring->closing_mps * (1.0 + restitution),
         .depth_m = depth,
         .left_m = depth * (1.0 - restitution * restitution),

@@ -18,7 +18,7 @@ struct contact_spring {
     double restitution;   /* 0..1 */
 };
 
-struct spring_impact {
+struct contact_spring_impact {
     double impulse_ns; /* along the normal, on each of them */
     double depth_m;    /* greatest compression of the two skins together */
     double left_m;     /* 0..depth_m: of it when they part */
@@ -29,6 +29,6 @@ struct spring_impact {
 /* Two skins one behind the other give way as one softer spring. Both > 0. */
 double contact_spring_in_series(double a_npm, double b_npm);
 
-struct spring_impact spring_impact(const struct contact_spring *spring);
+struct contact_spring_impact contact_spring_impact(const struct contact_spring *spring);
 
 #endif

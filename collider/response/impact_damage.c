@@ -31,7 +31,7 @@ static void dent(struct response_context *respond, uint32_t row, const struct im
 }
 
 void impact_damage_row(struct response_context *respond, uint32_t row, const struct impact *impact,
-                       double side, double joules, const struct spring_impact *spring)
+                       double side, double joules, const struct contact_spring_impact *spring)
 {
     const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
     struct deformation deformation = deformation_of(kind, joules);

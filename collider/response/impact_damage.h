@@ -4,11 +4,11 @@
 
 #include "collider/response/response_context.h"
 
-struct spring_impact;
+struct contact_spring_impact;
 
 /* The row takes this energy as damage and a dent at the impact's point. side is 1 if the normal
  * points into the row, -1 if it points out of it. spring: what struck it; NULL for no spring. */
 void impact_damage_row(struct response_context *respond, uint32_t row, const struct impact *impact,
-                       double side, double joules, const struct spring_impact *spring);
+                       double side, double joules, const struct contact_spring_impact *spring);
 
 #endif

@@ -12,7 +12,7 @@ struct island_contact {
     struct impact impact;
     struct report report;
     struct outcome outcome;
-    struct spring_impact spring; /* of the response "spring" */
+    struct contact_spring_impact spring; /* of the response "spring" */
     bool leans;
     uint32_t body_a, body_b; /* index into island.body; BODY_FIXED for a fixed object */
     uint32_t next;           /* index into met + 1 of the same group, 0 ends */

@@ -61,12 +61,12 @@ static struct path within_world(struct path path)
 
 /* Gives the row this way and what follows from it for the frame's end. */
 static void take_path(struct response_context *respond, uint32_t row, const struct path *path,
-                      const struct rotation_path *turning, struct vec3 velocity)
+                      const struct rotation_path *rotation, struct vec3 velocity)
 {
     double heading, pitch, roll;
     struct path way = within_world(*path);
-    body_motion_change(respond->motion, row, &way, turning);
-    rotation_angles(turning->to, &heading, &pitch, &roll);
+    body_motion_change(respond->motion, row, &way, rotation);
+    rotation_angles(rotation->to, &heading, &pitch, &roll);
     table_set_position(&respond->writer, row, path_at(&way, 1.0));
     table_set_velocity(&respond->writer, row, velocity);
     table_set_heading(&respond->writer, row, heading);
@@ -84,9 +84,9 @@ void path_change_stay(struct response_context *respond, uint32_t row, double tim
                       struct vec3 velocity)
 {
     struct quat turned = body_motion_turned(respond->motion, row, time);
-    const struct rotation_path turning = {.from = turned, .to = turned};
+    const struct rotation_path rotation = {.from = turned, .to = turned};
     const struct path path = {.at = path_at(&respond->path[row], time), .since = time};
-    take_path(respond, row, &path, &turning, velocity);
+    take_path(respond, row, &path, &rotation, velocity);
     path_change_swept(respond, &row, 1, time);
 }
 
@@ -94,12 +94,12 @@ void path_change_slow(struct response_context *respond, uint32_t row, double tim
 {
     const struct entities *e = &respond->next->entities;
     const struct path *before = &respond->path[row];
-    const struct rotation_path turning = {.from = body_motion_turned(respond->motion, row, time),
-                                          .to = body_motion_turning(respond->motion, row).to,
-                                          .driven_rps = driven(respond, row)};
+    const struct rotation_path rotation = {.from = body_motion_turned(respond->motion, row, time),
+                                           .to = body_motion_turning(respond->motion, row).to,
+                                           .driven_rps = driven(respond, row)};
     const struct path path = {
         .at = path_at(before, time), .along = vec3_scale(before->along, share), .since = time};
-    take_path(respond, row, &path, &turning, vec3_scale(entities_velocity(e, row), share));
+    take_path(respond, row, &path, &rotation, vec3_scale(entities_velocity(e, row), share));
 }
 
 void path_change_leave(struct response_context *respond, uint32_t row, double time, struct vec3 at,
@@ -107,7 +107,7 @@ void path_change_leave(struct response_context *respond, uint32_t row, double ti
 {
     double dt_s = world_dt_s(respond->world);
     struct quat turned = body_motion_turned(respond->motion, row, time);
-    const struct rotation_path turning = {
+    const struct rotation_path rotation = {
         .from = turned,
         .to = stays ? turned : rotation_spun(turned, spin_rps, (1.0 - time) * dt_s),
         .driven_rps = driven(respond, row)};
@@ -117,10 +117,10 @@ void path_change_leave(struct response_context *respond, uint32_t row, double ti
         /* Its axes turn with it, its angular momentum does not. */
         const struct mass_properties inertia =
             mass_properties_of(&respond->world->kinds[respond->next->entities.kind[row]]);
-        struct mat3 before = rotation_matrix(turned), after = rotation_matrix(turning.to);
+        struct mat3 before = rotation_matrix(turned), after = rotation_matrix(rotation.to);
         spin_rps = mass_properties_carried(&inertia, &before, spin_rps, &after);
     }
-    spin_rps.y -= turning.driven_rps;
+    spin_rps.y -= rotation.driven_rps;
     table_set_spin(&respond->writer, row, spin_rps);
-    take_path(respond, row, &path, &turning, velocity);
+    take_path(respond, row, &path, &rotation, velocity);
 }

@@ -45,7 +45,7 @@ static void by_spring(const struct response_context *respond, struct island_cont
         .closing_mps = contact->closing_mps,
         .stiffness_npm = contact_spring_in_series(ka->stiffness_npm, kb->stiffness_npm),
         .restitution = contact->restitution};
-    met->spring = spring_impact(&spring);
+    met->spring = contact_spring_impact(&spring);
     double out = contact->closing_mps * contact->restitution;
     contact->lost_j = 0.5 / gives * (contact->closing_mps * contact->closing_mps - out * out);
     contact->impulse = vec3_scale(contact->normal, met->spring.impulse_ns);

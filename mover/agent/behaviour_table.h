@@ -13,7 +13,7 @@
 
 /* What an agent perceives (perception.c). Events last for one frame, states as long as they are
  * true. Percepts marked * are found only when the agent looks. */
-enum percept {
+enum perceived {
     PERCEPT_NO_FUEL,     /* its tank is empty */
     PERCEPT_SHOT,        /* event: an active vehicle has fired at it */
     PERCEPT_BUMP,        /* event: it ran into something */
@@ -42,7 +42,7 @@ enum percept {
 
 struct behaviour_table_row {
     uint32_t from;   /* bits 1 << enum behaviour */
-    uint32_t when;   /* bits 1 << enum percept: all of them */
+    uint32_t when;   /* bits 1 << enum perceived: all of them */
     uint32_t unless; /* none of them */
     uint8_t to;      /* enum behaviour, or BEHAVIOUR_TABLE_ORDER */
     uint8_t because; /* enum agent_reason */

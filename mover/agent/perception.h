@@ -9,7 +9,7 @@
 struct params;
 
 struct notice {
-    uint32_t percepts;      /* bits 1 << enum percept */
+    uint32_t percepts;      /* bits 1 << enum perceived */
     uint32_t threat, enemy; /* rows: a vehicle that fired at it, an enemy that it sees; SLOT_NONE */
 };
 

@@ -70,7 +70,7 @@ struct sums {
 static const struct vec3 middle = {25000.0, 3000.0, 25000.0};
 
 /* Angular momentum of a row's own turning, and its energy. */
-static struct vec3 turning_of(const struct fixture *f, uint32_t row, double *energy)
+static struct vec3 rotation_path_of(const struct fixture *f, uint32_t row, double *energy)
 {
     struct entities e = steps_rows(f);
     const struct mass_properties inertia = mass_properties_of(&f->view.world.kinds[e.kind[row]]);
@@ -95,7 +95,7 @@ static struct sums motion_of(const struct fixture *f)
         motion.scale += mass * vec3_length(v);
         struct vec3 arm = vec3_sub(entities_position(&e, i), middle);
         motion.angular = vec3_add(motion.angular, vec3_cross(arm, vec3_scale(v, mass)));
-        motion.angular = vec3_add(motion.angular, turning_of(f, i, &motion.energy));
+        motion.angular = vec3_add(motion.angular, rotation_path_of(f, i, &motion.energy));
     }
     return motion;
 }

@@ -86,10 +86,10 @@ static void test_changed_turnings_are_kept_for_the_frame_and_no_longer(void **st
     begin();
     for (uint32_t i = 0; i < ROWS; i++) {
         struct path path = {.at = {i, 0.0, 0.0}, .along = {8.0, 0.0, 0.0}, .since = 0.5};
-        struct rotation_path turning = {.from = rotation_of(0.0, 0.0, 0.0),
-                                        .to = rotation_of(1e-3 * i, 0.0, 0.0)};
-        body_motion_change(motion, i, &path, &turning);
-        body_motion_change(motion, i, &path, &turning); /* takes no more room */
+        struct rotation_path rotation = {.from = rotation_of(0.0, 0.0, 0.0),
+                                         .to = rotation_of(1e-3 * i, 0.0, 0.0)};
+        body_motion_change(motion, i, &path, &rotation);
+        body_motion_change(motion, i, &path, &rotation); /* takes no more room */
     }
     assert_int_equal(motion->changes, ROWS);
     for (uint32_t i = 0; i < ROWS; i++) {
@@ -108,9 +108,9 @@ static void test_a_way_that_begins_at_the_end_is_turned_as_it_ends(void **state)
     (void)state;
     begin();
     struct path path = {.since = 1.0};
-    struct rotation_path turning = {.from = rotation_of(0.3, 0.0, 0.0),
-                                    .to = rotation_of(0.4, 0.0, 0.0)};
-    body_motion_change(motion, 3, &path, &turning);
+    struct rotation_path rotation = {.from = rotation_of(0.3, 0.0, 0.0),
+                                     .to = rotation_of(0.4, 0.0, 0.0)};
+    body_motion_change(motion, 3, &path, &rotation);
     assert_true(fabs(heading_of(body_motion_turned(motion, 3, 1.0)) - 0.4) < 1e-12);
 }
 

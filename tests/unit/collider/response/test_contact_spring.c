@@ -19,9 +19,9 @@ static bool near(double value, double right, double relative)
 /* The same spring by small steps (velocity Verlet): stiff as told on the way in; on the way back
  * stiffer by the square of restitution, with what that leaves bent; over when it no longer pushes.
  */
-static struct spring_impact stepped(const struct contact_spring *s)
+static struct contact_spring_impact stepped(const struct contact_spring *s)
 {
-    struct spring_impact spring = {0};
+    struct contact_spring_impact spring = {0};
     double back = s->stiffness_npm / (s->restitution * s->restitution);
     double dt = 1e-4 * sqrt(s->reduced_kg / back);
     double depth = 0.0, speed = s->closing_mps, force = 0.0;
@@ -46,7 +46,7 @@ static void test_row_43_it_does_what_a_stepped_spring_does(void **state)
     (void)state;
     for (size_t n = 0; n < 4; n++) {
         const struct contact_spring s = {1078.0, 6.0, 2.0e6, restitutions[n]};
-        struct spring_impact spring = spring_impact(&s), slow = stepped(&s);
+        struct contact_spring_impact spring = contact_spring_impact(&s), slow = stepped(&s);
         assert_true(near(spring.impulse_ns, slow.impulse_ns, 1e-3));
         assert_true(near(spring.depth_m, slow.depth_m, 1e-3));
         assert_true(near(spring.force_n, slow.force_n, 1e-3));
@@ -62,7 +62,7 @@ static void test_row_43_momentum_is_kept_and_restitution_comes_back(void **state
     for (double e = 0.0; e <= 1.0; e += 0.125) {
         double ma = 57000.0, mb = 1100.0, va = 6.0, vb = -4.0;
         const struct contact_spring s = {ma * mb / (ma + mb), va - vb, 5e6, e};
-        double impulse = spring_impact(&s).impulse_ns;
+        double impulse = contact_spring_impact(&s).impulse_ns;
         double va_after = va - impulse / ma, vb_after = vb + impulse / mb;
         assert_true(fabs(ma * va_after + mb * vb_after - (ma * va + mb * vb)) < 1e-9 * ma * va);
         assert_true(fabs(vb_after - va_after - e * (va - vb)) < 1e-9);
@@ -72,7 +72,7 @@ static void test_row_43_momentum_is_kept_and_restitution_comes_back(void **state
 static void test_half_a_period_when_all_comes_back(void **state)
 {
     const struct contact_spring s = {100.0, 3.0, 4e4, 1.0};
-    struct spring_impact spring = spring_impact(&s);
+    struct contact_spring_impact spring = contact_spring_impact(&s);
     (void)state;
     assert_true(near(spring.duration_s, PI * 0.05, 1e-12)); /* 20 radians a second */
     assert_true(near(spring.depth_m, 0.15, 1e-12) && spring.left_m == 0.0);
@@ -81,7 +81,7 @@ static void test_half_a_period_when_all_comes_back(void **state)
 static void test_nothing_comes_back_of_a_dead_blow(void **state)
 {
     const struct contact_spring s = {100.0, 3.0, 4e4, 0.0};
-    struct spring_impact spring = spring_impact(&s);
+    struct contact_spring_impact spring = contact_spring_impact(&s);
     (void)state;
     assert_true(near(spring.impulse_ns, 300.0, 1e-12));
     assert_true(near(spring.duration_s, HALF_PI * 0.05, 1e-12));
@@ -90,11 +90,11 @@ static void test_nothing_comes_back_of_a_dead_blow(void **state)
 
 static void test_row_26_the_stiffer_the_shorter_shallower_and_harder(void **state)
 {
-    struct spring_impact last = {0};
+    struct contact_spring_impact last = {0};
     (void)state;
     for (double stiffness = 1e4; stiffness < 1e9; stiffness *= 3.0) {
         const struct contact_spring s = {1000.0, 5.0, stiffness, 0.3};
-        struct spring_impact spring = spring_impact(&s);
+        struct contact_spring_impact spring = contact_spring_impact(&s);
         if (last.depth_m > 0.0) {
             assert_true(spring.duration_s < last.duration_s && spring.depth_m < last.depth_m);
             assert_true(spring.force_n > last.force_n);

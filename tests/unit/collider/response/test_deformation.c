@@ -132,7 +132,7 @@ static struct aftermath strike(const struct blow *blow)
         .stiffness_npm =
             contact_spring_in_series(blow->kind.stiffness_npm, blow->other.stiffness_npm),
         .restitution = contact.restitution};
-    struct spring_impact squeeze = spring_impact(&spring);
+    struct contact_spring_impact squeeze = contact_spring_impact(&spring);
     return (struct aftermath){.velocity = b[1].velocity,
                               .turning_rps = b[1].spin.y,
                               .share = crush.harm_j / blow->other.resistance_j,

@@ -69,7 +69,7 @@ static void test_rows_33_47_a_blow_harms_and_dents(void **state)
 static void test_a_spring_dents_each_skin_by_half_its_way(void **state)
 {
     (void)state;
-    const struct spring_impact spring = {.depth_m = 0.5, .left_m = 0.2};
+    const struct contact_spring_impact spring = {.depth_m = 0.5, .left_m = 0.2};
     impact_damage_row(&respond, row, &impact, -1.0, 1.0, &spring);
     assert_true(fabsf(dent(0)->plastic_m - 0.1f) < 1e-6f);
     assert_true(fabsf(dent(0)->elastic_m - 0.15f) < 1e-6f);

@@ -259,7 +259,7 @@ static void test_row_43_a_spring_gives_back_what_restitution_says(void **state)
         .closing_mps = 60.0,
         .stiffness_npm = contact_spring_in_series(kind->stiffness_npm, kind->stiffness_npm),
         .restitution = 0.5};
-    struct spring_impact blow = spring_impact(&spring);
+    struct contact_spring_impact blow = contact_spring_impact(&spring);
     assert_true(fabs((double)collision(0)->impulse_ns / blow.impulse_ns - 1.0) < 1e-6);
     struct state now = fixture_state(&f);
     assert_int_equal(now.head->dent_count, 2); /* each skin by half of the spring's way */
