@@ -5,6 +5,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "ipc/sandbox/sandbox.h"
+#include "ipc/segment/segment_attach.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"

@@ -3,6 +3,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "ipc/sandbox/sandbox.h"
+#include "ipc/segment/segment_attach.h"
 #include "mover/step.h"
 
 #include "world/params.h"

@@ -1,6 +1,9 @@
 /* Pausing a world that cannot be recorded as fast as it goes. */
 #include "recorder/back_pressure.h"
 
+#include "ipc/frame/command_ring.h"
+#include "ipc/frame/event_cursor.h"
+#include "ipc/frame/snapshot.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
 #include "world/entity/event.h"

@@ -4,7 +4,7 @@
 #ifndef JOLON_RECORDER_BACK_PRESSURE_H
 #define JOLON_RECORDER_BACK_PRESSURE_H
 
-#include "ipc/frame/snapshot.h"
+#include "ipc/frame/event_cursor.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -3,6 +3,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 #include "recorder/recording.h"
 #include "ipc/sandbox/sandbox.h"
 

@@ -4,6 +4,7 @@
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 #include "renderer/timing.h"
 #include "renderer/back_end.h"
 #include "renderer/options.h"

@@ -1,6 +1,8 @@
 /* From a committed frame to files. */
 #include "renderer/render_session.h"
 
+#include "ipc/frame/event_cursor.h"
+#include "ipc/frame/snapshot.h"
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"

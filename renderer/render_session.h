@@ -3,6 +3,7 @@
 #ifndef JOLON_RENDERER_RENDER_SESSION_H
 #define JOLON_RENDERER_RENDER_SESSION_H
 
+#include "ipc/frame/event_cursor.h"
 #include "ipc/frame/snapshot.h"
 #include "renderer/requested_pictures.h"
 #include "renderer/chart/annotated_picture.h"

@@ -1,6 +1,8 @@
 /* The event ring onto the event topics. */
 #include "reporter/event_topics.h"
 
+#include "ipc/frame/event_cursor.h"
+#include "ipc/frame/snapshot.h"
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"

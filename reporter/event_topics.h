@@ -5,7 +5,7 @@
 #ifndef JOLON_REPORTER_EVENT_TOPICS_H
 #define JOLON_REPORTER_EVENT_TOPICS_H
 
-#include "ipc/frame/snapshot.h"
+#include "ipc/frame/event_cursor.h"
 #include "ipc/topics/dds_topics.h"
 #include "world/entity/event.h"
 

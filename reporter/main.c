@@ -5,6 +5,7 @@
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 #include "reporter/entity_topic.h"
 #include "reporter/event_topics.h"
 #include "reporter/options.h"

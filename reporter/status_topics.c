@@ -4,6 +4,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/frame/snapshot.h"
+#include "ipc/segment/segment_locks.h"
 #include "ipc/topics/name_table.h"
 #include "world/entity/kind.h"
 #include "world/param_values.h"

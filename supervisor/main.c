@@ -9,6 +9,7 @@
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_locks.h"
 #include "supervisor/confine.h"
 #include "supervisor/options.h"
 #include "supervisor/progress.h"
@@ -350,6 +351,19 @@ static void summarise(struct main *keeper)
         tell_pictures(plan);
 }
 
+/* When the world's memory goes away, so do these. */
+static void guard_removes(const struct segment_paths *paths)
+{
+    char socket[SEGMENT_PATH_MAX + 16];
+    process_guard_removes(paths->object);
+    process_guard_removes(paths->name);
+    process_guard_removes(paths->lock);
+    snprintf(socket, sizeof socket, "%s.commands", paths->name);
+    process_guard_removes(socket);
+    snprintf(socket, sizeof socket, "%s.pictures", paths->name);
+    process_guard_removes(socket);
+}
+
 int main(int argc, char **argv)
 {
     struct plan plan = options_plan(argc, argv);
@@ -370,7 +384,7 @@ int main(int argc, char **argv)
     process_signals();
     if (segment_paths(&paths, plan.world, &reason) != 0)
         die_refused("%s", reason.text);
-    process_guard_removes(&paths);
+    guard_removes(&paths);
     int ready = open_ready(plan.ready);
     /* The children of a set that was killed die with it, but not in no time. */
     if (process_set_open(&keeper.set, &plan, &reason) != 0 ||

@@ -4,6 +4,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 #include "world/runtime/utf8.h"
 
 #include <errno.h>

@@ -1,6 +1,8 @@
 /* What happened, in words, out of the event ring. */
 #include "clients/console/tell.h"
 
+#include "ipc/frame/event_cursor.h"
+#include "ipc/frame/snapshot.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
 #include "world/event_text.h"

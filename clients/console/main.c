@@ -9,6 +9,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "ipc/sandbox/sandbox.h"
+#include "ipc/segment/segment_attach.h"
 
 #include <stdio.h>
 #include <unistd.h>

@@ -3,6 +3,7 @@
 
 #include "clients/console/tell.h"
 #include "ipc/process/clock.h"
+#include "ipc/segment/segment_locks.h"
 
 #include <errno.h>
 #include <signal.h>

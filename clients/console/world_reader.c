@@ -4,6 +4,8 @@
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
+#include "ipc/segment/segment_attach.h"
+#include "ipc/segment/segment_locks.h"
 #include "world/entity/kind.h"
 #include "world/model.h"
 

@@ -2,6 +2,7 @@
 #include "clients/ctl/command_run.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -9,6 +9,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 #include "ipc/topics/command_route.h"
 
 #include <stdio.h>

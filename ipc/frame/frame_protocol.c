@@ -6,6 +6,7 @@
 #include "ipc/process/crash_point.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/frame_check.h"
 #include "world/param_values.h"
 #include "world/params.h"
 #include "world/runtime/check.h"

@@ -1,9 +1,7 @@
-/* A reader's copies: of a frame, of events; and the one writer's side of a command ring. */
+/* A reader's copies of a frame. */
 #include "ipc/frame/snapshot.h"
 
-#include "ipc/process/crash_point.h"
-#include "world/entity/event.h"
-#include "world/params.h"
+#include "ipc/segment/frame_check.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -107,89 +105,4 @@ struct state snapshot_state(const struct snapshot *snapshot, const struct view *
                           .fixed_damage = snapshot->fixed_damage,
                           .craters = view->w[0].craters,
                           .dents = view->w[0].dents};
-}
-
-/* The oldest event that no writer can be about to overwrite: one frame's most is left free. */
-static uint64_t oldest_safe(const struct view *view, uint64_t end)
-{
-    uint64_t kept = view->header->event_slots - view->world.params->events_per_frame;
-    uint64_t first = view->header->first_event;
-    return end > kept && end - kept > first ? end - kept : first;
-}
-
-uint32_t events_read(const struct view *view, struct event_cursor *cursor, struct event *events,
-                     uint32_t max)
-{
-    struct state_head head;
-    uint32_t count = 0;
-    if (snapshot_head(&head, view) != 0)
-        return 0;
-    uint64_t oldest = oldest_safe(view, head.event_end);
-    if (cursor->next < view->header->first_event) /* never were in this ring: no gap */
-        cursor->next = view->header->first_event;
-    if (cursor->next < oldest) {
-        cursor->gap += oldest - cursor->next;
-        cursor->next = oldest;
-    }
-    uint64_t first = cursor->next;
-    while (count < max && first + count < head.event_end) {
-        events[count] = view->events[(first + count) & (view->header->event_slots - 1)];
-        count++;
-    }
-    /* What the writer may have begun to overwrite while we copied is lost, not wrong. */
-    atomic_thread_fence(memory_order_acquire);
-    if (snapshot_head(&head, view) != 0)
-        return 0;
-    oldest = oldest_safe(view, head.event_end);
-    if (first < oldest) {
-        uint64_t lost = oldest - first < count ? oldest - first : count;
-        memmove(events, events + lost, (count - lost) * sizeof *events);
-        cursor->gap += lost;
-        first += lost;
-        count -= (uint32_t)lost;
-    }
-    cursor->next = first + count;
-    return count;
-}
-
-/* Is the command among slots first .. end - 1? */
-static bool command_known(const struct command_ring_words *words, const struct command *command,
-                          uint64_t slots, uint64_t first, uint64_t end)
-{
-    for (uint64_t i = first; i < end; i++) {
-        const struct command *old = &words->slot[i & (slots - 1)];
-        if (old->source == command->source && old->source_sequence == command->source_sequence)
-            return true;
-    }
-    return false;
-}
-
-int command_put(struct view *view, enum command_ring ring, const struct command *command)
-{
-    struct command_ring_words *words = view->commands[ring];
-    struct state_head head;
-    uint64_t slots = view->header->command_slots;
-    uint64_t end = atomic_load_explicit(&words->head, memory_order_relaxed);
-    bool full = snapshot_head(&head, view) != 0 || end - head.command_cursor[ring] >= slots;
-    /* While there is room, the slot that comes next is no memory: a writer that was killed before
-     * it moved the head may have left this very command there, and it does not count yet. */
-    uint64_t remembered = full ? slots : slots - 1;
-    if (command_known(words, command, slots, end > remembered ? end - remembered : 0, end)) {
-        errno = EEXIST;
-        return -1;
-    }
-    if (full) {
-        errno = ENOBUFS;
-        return -1;
-    }
-    struct command *slot = &words->slot[end & (slots - 1)];
-    CRASH_POINT("command");
-    *slot = *command;
-    CRASH_POINT("command's sequence");
-    slot->sequence = end;
-    CRASH_POINT("command ring's head");
-    atomic_store_explicit(&words->head, end + 1, memory_order_release);
-    doorbell_ring(view->doors, ROLE_MOVER);
-    CRASH_POINT("after a command");
-    return 0;
 }

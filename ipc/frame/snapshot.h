@@ -1,4 +1,4 @@
-/* Snapshots: a reader's private, whole copy of a committed frame, and its walk along the events.
+/* Snapshots: a reader's private, whole copy of a committed frame.
  *
  * Readers register nothing, wait for nothing and map everything read-only: any number of them may
  * come, go and be killed. */
@@ -31,21 +31,5 @@ int snapshot_head(struct state_head *head, const struct view *view);
 
 /* The snapshot as a state, for state_digest() and the like; craters are the view's own list. */
 struct state snapshot_state(const struct snapshot *snapshot, const struct view *view);
-
-struct event_cursor {
-    uint64_t next; /* sequence of the event to read next */
-    uint64_t gap;  /* events lost since the last read, because the ring had gone round */
-};
-
-/* Copies up to max committed events from cursor on; how many. Adds to cursor->gap what was lost.
- * Of a world that goes on from an image, the ring begins at header->first_event: what was before
- * is not to be had here, is skipped and is no gap. A reader that wants those looks at first_event
- * itself. A cursor beyond the last event reads nothing until the world comes there. */
-uint32_t events_read(const struct view *view, struct event_cursor *cursor, struct event *events,
-                     uint32_t max);
-
-/* Adds a command to a ring that this process writes. 0; -1 with ENOBUFS when the ring is full,
- * EEXIST when the ring's memory already holds (source, source_sequence). */
-int command_put(struct view *view, enum command_ring ring, const struct command *command);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
+#include "world/runtime/check.h"
 #include "world/runtime/thread_pool.h"
 
 #include <errno.h>
@@ -23,9 +24,11 @@ static void on_stop(int signal_number)
     stopping = 1;
 }
 
-/* What goes with the world's memory; "": nothing. */
-#define GOES_COUNT 5
-static char goes[GOES_COUNT][SEGMENT_PATH_MAX + 16];
+/* The files that are removed with the world's memory. */
+#define REMOVED_MAX  5
+#define REMOVED_PATH 320 /* bytes, with the NUL */
+static char removed[REMOVED_MAX][REMOVED_PATH];
+static volatile sig_atomic_t removed_count;
 
 /* A page that the object no longer has: somebody made it shorter under us. A bus error of any other
  * kind is a crash like any other: the instruction runs again, without a handler, and ends the
@@ -36,20 +39,16 @@ static void on_bus_error(int signal_number, siginfo_t *info, void *context)
     (void)context;
     if (info->si_code != BUS_ADRERR)
         return;
-    for (int i = 0; i < GOES_COUNT; i++) {
-        if (goes[i][0] != '\0')
-            unlink(goes[i]);
-    }
+    for (int i = 0; i < removed_count; i++)
+        unlink(removed[i]);
     die_at_once("the world's memory went away: its object in /dev/shm was made shorter");
 }
 
-void process_guard_removes(const struct segment_paths *paths)
+void process_guard_removes(const char *path)
 {
-    snprintf(goes[0], sizeof goes[0], "%s", paths->object);
-    snprintf(goes[1], sizeof goes[1], "%s", paths->name);
-    snprintf(goes[2], sizeof goes[2], "%s", paths->lock);
-    snprintf(goes[3], sizeof goes[3], "%s.commands", paths->name);
-    snprintf(goes[4], sizeof goes[4], "%s.pictures", paths->name);
+    CHECK(removed_count < REMOVED_MAX && strlen(path) < REMOVED_PATH);
+    snprintf(removed[removed_count], REMOVED_PATH, "%s", path);
+    removed_count++;
 }
 
 static void check_stack(void)

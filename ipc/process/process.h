@@ -2,8 +2,6 @@
 #ifndef JOLON_IPC_PROCESS_PROCESS_H
 #define JOLON_IPC_PROCESS_PROCESS_H
 
-#include "ipc/segment/segment.h"
-
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -20,11 +18,11 @@ void process_signals(void);
  * that of each thread too, ends the process with the reason (exit 1): else it would die in its work
  * like of a fault in it. And when the world's object is made shorter under a process that has it
  * mapped, it says so in one line and ends with exit 1, instead of dying of the bus error without a
- * word. The process that owns the world tells its paths by process_guard_removes(): they are
- * removed then, for there is no other clean-up. SIGXFSZ is ignored: a file that would grow too
- * large is an error (EFBIG). */
+ * word. The process that owns the world names the world's files by process_guard_removes(), at most
+ * 5: they are removed then, for there is no other clean-up. SIGXFSZ is ignored: a file that would
+ * grow too large is an error (EFBIG). */
 void process_guard(void);
-void process_guard_removes(const struct segment_paths *paths);
+void process_guard_removes(const char *path);
 
 /* For a process that makes a world, before the world gets its name: a request to stop comes too
  * late from here to the process's end. So whoever stopped it finds a whole world, and is told of

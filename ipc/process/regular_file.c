@@ -1,6 +1,8 @@
 /* Opening what must be a plain file. */
 #include "ipc/process/regular_file.h"
 
+#include "ipc/process/reason.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>

@@ -2,9 +2,9 @@
 #ifndef JOLON_IPC_PROCESS_REGULAR_FILE_H
 #define JOLON_IPC_PROCESS_REGULAR_FILE_H
 
-#include "ipc/segment/segment.h"
-
 #include <stdint.h>
+
+struct reason;
 
 /* Opens a plain file for reading: no link, pipe, device or folder. Never blocks. The descriptor and
  * the file's size, or -1 with the reason. */

@@ -1,4 +1,6 @@
 /* Is what a frame left in the world's buffers whole? */
+#include "ipc/segment/frame_check.h"
+
 #include "ipc/segment/segment_internal.h"
 #include "world/checksum.h"
 

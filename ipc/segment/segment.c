@@ -3,6 +3,7 @@
 
 #include "ipc/process/clock.h"
 #include "ipc/process/crash_point.h"
+#include "ipc/segment/segment_check.h"
 #include "ipc/segment/segment_internal.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"

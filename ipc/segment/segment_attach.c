@@ -1,8 +1,11 @@
 /* Attaching to a segment in a role, and leaving it. */
+#include "ipc/segment/segment_attach.h"
+
 #include "ipc/process/clock.h"
 #include "ipc/process/crash_point.h"
 #include "ipc/process/process.h"
 #include "ipc/segment/segment_internal.h"
+#include "ipc/segment/segment_locks.h"
 
 #include <errno.h>
 #include <fcntl.h>

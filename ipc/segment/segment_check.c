@@ -1,4 +1,6 @@
 /* Is this a world, and is it whole? */
+#include "ipc/segment/segment_check.h"
+
 #include "ipc/segment/segment_internal.h"
 #include "world/maths/hash.h"
 #include "world/params.h"

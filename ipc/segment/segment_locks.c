@@ -1,6 +1,9 @@
 /* The lock file beside a world's name: one byte for each role, and one for the name itself. */
+#include "ipc/segment/segment_locks.h"
+
 #include "ipc/process/clock.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 #include "ipc/segment/segment_internal.h"
 
 #include <errno.h>

@@ -3,7 +3,11 @@
  * A frame is a pure function of the one before and of its commands, and the buffer before the last
  * committed one is not touched until the next frame is written: when the last frame is damaged, the
  * one before it is committed again, and what was lost is computed again to the same bytes. */
+#include "ipc/segment/segment_repair.h"
+
 #include "ipc/process/crash_point.h"
+#include "ipc/segment/frame_check.h"
+#include "ipc/segment/segment_check.h"
 #include "ipc/segment/segment_internal.h"
 
 #include <inttypes.h>

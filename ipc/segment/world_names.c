@@ -3,15 +3,16 @@
  * Between the moments in which they look at a name and change it, creation and removal hold the
  * name's byte of the lock file. So a name that leads to no object, seen with that byte held, is a
  * dead process's and never a live creator's. */
+#include "ipc/segment/world_names.h"
+
 #include "ipc/process/crash_point.h"
 #include "ipc/segment/segment_internal.h"
+#include "ipc/segment/segment_locks.h"
 #include "world/runtime/error_text.h"
-#include "world/runtime/utf8.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
@@ -22,16 +23,6 @@
 #define RANDOM_BYTES  16
 #define RANDOM_DIGITS (2 * RANDOM_BYTES)
 #define HEX_DIGITS    "0123456789abcdef"
-
-int reason_set(struct reason *reason, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    (void)utf8_format(reason->text, sizeof reason->text, format, args);
-    va_end(args);
-    reason->foreign = reason->damaged = false;
-    return -1;
-}
 
 bool segment_name_ok(const char *name)
 {

@@ -3,6 +3,8 @@
 
 #include "ipc/process/crash_point.h"
 #include "ipc/process/regular_file.h"
+#include "ipc/segment/frame_check.h"
+#include "ipc/segment/segment_check.h"
 #include "world/checksum.h"
 #include "world/params.h"
 

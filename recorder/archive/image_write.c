@@ -1,6 +1,7 @@
 /* Packs the world into a temporary file, which is renamed at the end. */
 #include "recorder/archive/image_write.h"
 
+#include "ipc/segment/segment_check.h"
 #include "recorder/archive/image_format.h"
 #include "ipc/process/crash_point.h"
 #include "ipc/frame/frame_protocol.h"

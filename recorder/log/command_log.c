@@ -1,10 +1,13 @@
 /* The run's commands into a journal. */
 #include "recorder/log/command_log.h"
 
+#include "ipc/frame/event_cursor.h"
+#include "ipc/frame/snapshot.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/crash_point.h"
 #include "ipc/process/log.h"
 #include "ipc/json/world_json.h"
+#include "ipc/segment/segment_check.h"
 #include "world/params.h"
 #include "world/provenance.h"
 

@@ -5,7 +5,7 @@
 #ifndef JOLON_RECORDER_LOG_COMMAND_LOG_H
 #define JOLON_RECORDER_LOG_COMMAND_LOG_H
 
-#include "ipc/frame/snapshot.h"
+#include "ipc/frame/event_cursor.h"
 #include "recorder/log/command_record.h"
 #include "recorder/log/journal.h"
 

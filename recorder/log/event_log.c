@@ -1,6 +1,8 @@
 /* The run's events into a journal. */
 #include "recorder/log/event_log.h"
 
+#include "ipc/frame/event_cursor.h"
+#include "ipc/frame/snapshot.h"
 #include "ipc/process/log.h"
 #include "recorder/log/command_record.h"
 #include "ipc/json/world_json.h"

@@ -2,7 +2,7 @@
 #ifndef JOLON_RECORDER_LOG_EVENT_LOG_H
 #define JOLON_RECORDER_LOG_EVENT_LOG_H
 
-#include "ipc/frame/snapshot.h"
+#include "ipc/frame/event_cursor.h"
 #include "recorder/log/journal.h"
 
 struct event_log {

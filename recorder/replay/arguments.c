@@ -3,6 +3,7 @@
 
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
+#include "ipc/segment/segment_attach.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 #include "world/runtime/thread_pool.h"

@@ -1,6 +1,7 @@
 /* Going on from a checkpoint, or branching off it. */
 #include "recorder/replay/image_resume.h"
 
+#include "ipc/segment/segment_attach.h"
 #include "recorder/archive/image_read.h"
 #include "config/loader.h"
 #include "ipc/process/log.h"

@@ -1,6 +1,7 @@
 /* The beginning of a recorded run, made again. */
 #include "recorder/replay/run_start.h"
 
+#include "ipc/segment/segment_check.h"
 #include "recorder/archive/image_read.h"
 #include "ipc/process/log.h"
 #include "world/making/scenario.h"

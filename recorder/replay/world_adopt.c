@@ -4,6 +4,9 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/segment/segment.h"
+#include "ipc/segment/segment_attach.h"
+#include "ipc/segment/segment_locks.h"
+#include "ipc/segment/segment_repair.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -1,6 +1,9 @@
 /* Commands in, replies out. */
 #include "reporter/intake/command_intake.h"
 
+#include "ipc/frame/command_ring.h"
+#include "ipc/frame/event_cursor.h"
+#include "ipc/frame/snapshot.h"
 #include "reporter/intake/command_check.h"
 #include "reporter/intake/history_recovery.h"
 #include "ipc/process/clock.h"

@@ -6,9 +6,9 @@
 #ifndef JOLON_REPORTER_INTAKE_COMMAND_INTAKE_H
 #define JOLON_REPORTER_INTAKE_COMMAND_INTAKE_H
 
+#include "ipc/frame/event_cursor.h"
 #include "reporter/intake/client_sockets.h"
 #include "reporter/intake/command_history.h"
-#include "ipc/frame/snapshot.h"
 #include "world/entity/event.h"
 
 #define INTAKE_EVENTS_AT_ONCE 128u

@@ -1,6 +1,7 @@
 /* The history of a predecessor, from what it left in the world. */
 #include "reporter/intake/history_recovery.h"
 
+#include "ipc/frame/event_cursor.h"
 #include "ipc/frame/snapshot.h"
 #include "world/entity/event.h"
 

@@ -2,6 +2,7 @@
  *
  * It is the only writer of the clients' ring, and it knows neither DDS nor any other network: what
  * comes from other machines reaches it through the reporter, which is a client like any other. */
+#include "ipc/segment/segment_attach.h"
 #include "reporter/intake/command_intake.h"
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"

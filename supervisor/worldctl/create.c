@@ -1,4 +1,7 @@
 /* Verbs that make, check and repair worlds. */
+#include "ipc/segment/segment_attach.h"
+#include "ipc/segment/segment_check.h"
+#include "ipc/segment/segment_repair.h"
 #include "supervisor/worldctl/verbs.h"
 
 #include "ipc/process/log.h"

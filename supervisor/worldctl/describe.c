@@ -1,5 +1,7 @@
 /* Verbs that describe a world: info, status, summary, digest. Each as a few lines for people, and
  * as one JSON object for scripts. */
+#include "ipc/segment/segment_attach.h"
+#include "ipc/segment/segment_locks.h"
 #include "supervisor/worldctl/verbs.h"
 
 #include "ipc/process/clock.h"

@@ -1,4 +1,5 @@
 /* Verb dump: every entity, every fixed object, or the heights of a piece of ground. */
+#include "ipc/segment/segment_attach.h"
 #include "supervisor/worldctl/verbs.h"
 
 #include "ipc/process/log.h"

@@ -1,4 +1,6 @@
 /* Verb events: the run's events in order, once or as they come. */
+#include "ipc/frame/event_cursor.h"
+#include "ipc/segment/segment_attach.h"
 #include "supervisor/worldctl/verbs.h"
 
 #include "ipc/process/clock.h"

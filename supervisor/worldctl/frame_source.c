@@ -1,6 +1,7 @@
 /* Images, logs and worlds as frames to be compared. */
 #include "supervisor/worldctl/frame_source.h"
 
+#include "ipc/segment/segment_attach.h"
 #include "recorder/archive/image_read.h"
 #include "ipc/process/log.h"
 #include "recorder/replay/arguments.h"

@@ -1,4 +1,6 @@
 /* Verbs that scripts ask about roles: pid, frame. */
+#include "ipc/segment/segment_attach.h"
+#include "ipc/segment/segment_locks.h"
 #include "supervisor/worldctl/verbs.h"
 
 #include "ipc/process/clock.h"

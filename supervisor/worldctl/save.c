@@ -1,4 +1,5 @@
 /* Verb save: an image of a world as it is now. */
+#include "ipc/segment/segment_attach.h"
 #include "supervisor/worldctl/verbs.h"
 
 #include "recorder/archive/image_write.h"

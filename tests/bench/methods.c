@@ -13,6 +13,7 @@
 #include "world/maths/random.h"
 #include "world/params.h"
 #include "world/terrain/gridsquare.h"
+#include "world/world.h"
 
 #include <math.h>
 #include <stdio.h>

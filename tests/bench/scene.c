@@ -1,6 +1,7 @@
 /* Drawing a world in one process. */
 #include "tests/bench/scene.h"
 
+#include "ipc/frame/event_cursor.h"
 #include "tests/bench/world.h"
 #include "ipc/process/log.h"
 #include "world/params.h"

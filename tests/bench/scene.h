@@ -4,8 +4,8 @@
 #ifndef JOLON_TESTS_BENCH_SCENE_H
 #define JOLON_TESTS_BENCH_SCENE_H
 
+#include "ipc/frame/event_cursor.h"
 #include "ipc/segment/segment.h"
-#include "ipc/frame/snapshot.h"
 #include "renderer/chart/track.h"
 #include "renderer/scene/back_end_interface.h"
 #include "renderer/scene/camera/view_camera.h"

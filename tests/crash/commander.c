@@ -1,11 +1,13 @@
 /* A writer of commands. */
 #include "tests/crash/commander.h"
 
+#include "ipc/frame/command_ring.h"
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "ipc/frame/snapshot.h"
+#include "ipc/segment/segment_attach.h"
 
 #include <errno.h>
 #include <string.h>

@@ -2,6 +2,7 @@
 #include "tests/crash/runs.h"
 
 #include "ipc/segment/local_socket.h"
+#include "ipc/segment/segment_attach.h"
 #include "tests/support/child.h"
 #include "tests/support/named_world.h"
 

@@ -1,4 +1,6 @@
 /* One run: a world, its processes, their small parent. */
+#include "ipc/segment/segment_attach.h"
+#include "ipc/segment/segment_check.h"
 #include "world/making/scenario_settings.h"
 #include "tests/crash/trial.h"
 

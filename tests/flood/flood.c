@@ -12,6 +12,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 #include "ipc/topics/command_client.h"
 #include "ipc/topics/command_packet.h"
 #include "ipc/topics/command_socket.h"

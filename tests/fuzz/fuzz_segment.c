@@ -1,6 +1,8 @@
 /* Segments: a world's object found by a process that attaches. A good one's header, parameters and
  * heads, of which the input changes some words, or any bytes as the header. The first byte says
  * what else is done; then come changes of 6 bytes: what is changed, which word, to what. */
+#include "ipc/segment/frame_check.h"
+#include "ipc/segment/segment_attach.h"
 #include "tests/fuzz/support.h"
 
 #include "ipc/segment/segment.h"

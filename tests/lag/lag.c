@@ -11,6 +11,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -3,6 +3,7 @@
 
 #include "ipc/process/clock.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 
 #include <dirent.h>
 #include <errno.h>

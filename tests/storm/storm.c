@@ -5,6 +5,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 #include "tests/storm/report.h"
 #include "tests/storm/sender.h"
 #include "world/maths/random.h"

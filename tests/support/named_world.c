@@ -1,6 +1,7 @@
 /* Named worlds of tests. */
 #include "tests/support/named_world.h"
 
+#include "ipc/segment/segment_attach.h"
 #include "tests/support/fixture.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"

@@ -1,6 +1,7 @@
 /* Rings between processes: events in order, none lost unsaid and none doubled; commands likewise.
  */
-#include "ipc/frame/snapshot.h"
+#include "ipc/frame/command_ring.h"
+#include "ipc/frame/event_cursor.h"
 
 #include "tests/support/bare_view.h"
 #include "tests/support/child.h"

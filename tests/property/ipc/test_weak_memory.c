@@ -4,6 +4,7 @@
  *
  * What a weak memory may do without each fence is in tests/model/fences.pml; this is the check that
  * the compiled code on this machine does none of it. */
+#include "ipc/frame/command_ring.h"
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/frame/snapshot.h"

@@ -1,4 +1,5 @@
 /* The frame protocol with real processes: its invariants, kills at any moment, pauses, pacing. */
+#include "ipc/frame/command_ring.h"
 #include "ipc/frame/frame_protocol.h"
 
 #include "ipc/process/clock.h"

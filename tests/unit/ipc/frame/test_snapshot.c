@@ -1,4 +1,6 @@
 /* Snapshots, events and commands, each in one process; races are in tests/property. */
+#include "ipc/frame/command_ring.h"
+#include "ipc/frame/event_cursor.h"
 #include "ipc/frame/snapshot.h"
 
 #include "tests/support/bare_view.h"

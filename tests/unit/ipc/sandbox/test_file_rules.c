@@ -3,6 +3,7 @@
 
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment_attach.h"
 #include "tests/support/confined.h"
 #include "tests/support/named_world.h"
 

@@ -2,6 +2,8 @@
  * name of the field. Bits of the body: the next to take over finds them. */
 #include "ipc/segment/segment.h"
 
+#include "ipc/segment/segment_attach.h"
+#include "ipc/segment/segment_check.h"
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
 #include "world/params.h"

@@ -2,6 +2,9 @@
 #include "ipc/segment/segment.h"
 
 #include "ipc/segment/local_socket.h"
+#include "ipc/segment/segment_attach.h"
+#include "ipc/segment/segment_check.h"
+#include "ipc/segment/segment_locks.h"
 #include "tests/support/child.h"
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"

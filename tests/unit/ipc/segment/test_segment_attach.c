@@ -1,6 +1,8 @@
 /* Attaching refuses what is not whole, by the name of the field; page tables keep roles apart. */
 #include "ipc/segment/segment.h"
 
+#include "ipc/segment/segment_attach.h"
+#include "ipc/segment/segment_check.h"
 #include "tests/support/child.h"
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"

@@ -1,8 +1,13 @@
 /* A damaged world goes back to its newest whole frame and makes again what was lost: the same
  * digest, the same events, the same commands. Damage beyond that is refused by its fields. */
+#include "ipc/frame/command_ring.h"
 #include "ipc/frame/frame_protocol.h"
 
 #include "ipc/frame/snapshot.h"
+#include "ipc/segment/frame_check.h"
+#include "ipc/segment/segment_attach.h"
+#include "ipc/segment/segment_locks.h"
+#include "ipc/segment/segment_repair.h"
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
 #include "world/entity/dent.h"

@@ -1,10 +1,11 @@
 /* Images: what goes in comes out, and a world goes on from one as if nothing had been. */
+#include "ipc/frame/command_ring.h"
+#include "ipc/frame/event_cursor.h"
 #include "recorder/archive/image_read.h"
 #include "recorder/archive/image_write.h"
 
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
-#include "ipc/frame/snapshot.h"
 #include "tests/support/child.h"
 #include "tests/support/fixture.h"
 #include "tests/support/image_file.h"

@@ -1,5 +1,6 @@
 /* Images that are not what was written: whatever is wrong, one line says what, and nothing else
  * happens. */
+#include "ipc/frame/command_ring.h"
 #include "recorder/archive/image_read.h"
 
 #include "tests/support/bare_view.h"

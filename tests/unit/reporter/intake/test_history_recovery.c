@@ -1,7 +1,7 @@
 /* What a reporter knows of commands that its predecessor took: everything, or one is done twice. */
+#include "ipc/frame/command_ring.h"
 #include "reporter/intake/history_recovery.h"
 
-#include "ipc/frame/snapshot.h"
 #include "tests/support/bare_view.h"
 
 #include "reporter/intake/command_history.c" /* the unit tests are not linked with the processes */
