@@ -2,6 +2,9 @@
 #include "renderer/back_end.h"
 
 #include "ipc/process/log.h"
+#include "renderer/gl/gl.h"
+#include "renderer/gl/gl_devices.h"
+#include "renderer/soft/soft.h"
 
 #include <stdio.h>
 #include <unistd.h>

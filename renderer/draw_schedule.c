@@ -4,6 +4,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/process.h"
+#include "renderer/output/stream_requests.h"
 
 #define LOOK_INTERVAL_NS 500000000u /* between two looks at the world when no picture is due */
 #define WAIT_NS          100000000u /* the longest wait without a look at the signals */

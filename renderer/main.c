@@ -39,7 +39,7 @@ static int run(struct render_session *studio, struct view *view, struct reason *
         if (last && render_session_look(studio, reason) != 0)
             return -1;
         uint64_t begun_ns = clock_now_ns();
-        if (render_session_draw(studio, last, reason) != 0)
+        if (view_pictures_draw(studio, last, reason) != 0)
             return -1;
         timing_picture(view, studio, begun_ns);
         if (!last && draw_schedule_share(studio, reason) != 0)
@@ -81,7 +81,7 @@ static int snap(struct render_session *studio, struct reason *reason)
 {
     return render_session_look(studio, reason) == 0 &&
                    render_session_check_vehicles(studio, reason) == 0 &&
-                   render_session_draw(studio, true, reason) == 0
+                   view_pictures_draw(studio, true, reason) == 0
                ? 0
                : -1;
 }

@@ -15,7 +15,7 @@
 #include "renderer/scene/frame/frame_interpolation.h"
 #include "renderer/scene/frame/effects.h"
 #include "renderer/scene/camera/follow.h"
-#include "renderer/view_picture.h"
+#include "renderer/view_pictures.h"
 #include "renderer/views.h"
 
 #include <stdbool.h>
@@ -85,32 +85,5 @@ int render_session_check_vehicles(const struct render_session *studio, struct re
 
 /* The frame of one of the snapshots; it lives as long as that holds it. */
 struct frame_view render_session_moment(const struct render_session *studio, uint32_t which);
-
-/* Draws what was seen last and writes it out, every view, unless it was drawn before. last: exactly
- * the last frame seen, at full quality, whatever the rate. 0, or -1 with the reason. */
-int render_session_draw(struct render_session *studio, bool last, struct reason *reason);
-
-/* --- for the booth ------------------------------------------------------------------------------
- */
-
-/* Where a camera's picture goes, and what is laid over it. */
-struct render_session_sheet {
-    struct image *image;
-    struct annotated_picture *chart; /* instruments of the image's size; NULL: none */
-    double rate;                     /* pictures a second, for them */
-};
-
-/* What is shown: the last frame, or at a high rate the state between it and the one before. It
- * lives until the next call. */
-struct frame_view render_session_present(struct render_session *studio, bool last);
-
-/* The slot of a vehicle, SLOT_NONE when there is none; of 0: of the one that is followed. */
-uint32_t render_session_find(struct render_session *studio, const struct frame_view *moment,
-                             uint32_t vehicle);
-
-/* Draws what a shot's camera sees. 0, or -1 with the reason. */
-int render_session_shoot(struct render_session *studio, struct view_picture *shot,
-                         const struct frame_view *moment, const struct quality_control_level *level,
-                         const struct render_session_sheet *sheet, struct reason *reason);
 
 #endif

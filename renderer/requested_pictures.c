@@ -110,13 +110,13 @@ static int draw_row(struct render_session *studio, uint32_t i, struct reason *re
     bool first = row->begun_ns == 0;
     uint64_t begun_ns = clock_now_ns();
     note_rate(row, begun_ns);
-    struct frame_view moment = render_session_present(studio, false);
+    struct frame_view moment = view_pictures_frame(studio, false);
     bool paused = moment.head->paused != 0;
     bool same = row->frame == moment.head->frame && row->ahead_s == moment.ahead_s;
     bool whole = same && paused; /* what stands still is drawn once more, with everything */
     if (same && !booth->wishes[i].again && (row->whole || !paused))
         return 0;
-    row->shot.slot = render_session_find(studio, &moment, row->shot.wish.vehicle);
+    row->shot.slot = view_pictures_vehicle(studio, &moment, row->shot.wish.vehicle);
     if (row->shot.wish.vehicle != 0 && row->shot.slot == SLOT_NONE) {
         output_set_grant(studio->outlets, i, row->generation, NULL, 0, 0.0);
         return 0;
@@ -126,11 +126,10 @@ static int draw_row(struct render_session *studio, uint32_t i, struct reason *re
     studio->scene.detail = (float)level->detail;
     studio->scene.paintings = whole ? TERRAIN_TILES_ALL : first ? PAINTINGS_MOST : PAINTINGS;
     articulation_note(&studio->gear, &moment);
-    const struct render_session_sheet sheet = {.image = &row->image,
-                                               .chart =
-                                                   row->chart.text != NULL ? &row->chart : NULL,
-                                               .rate = row->rate};
-    if (render_session_shoot(studio, &row->shot, &moment, level, &sheet, reason) != 0)
+    const struct view_picture_target sheet = {.image = &row->image,
+                                              .chart = row->chart.text != NULL ? &row->chart : NULL,
+                                              .rate = row->rate};
+    if (view_pictures_camera(studio, &row->shot, &moment, level, &sheet, reason) != 0)
         return -1;
     row->frame = moment.head->frame;
     row->ahead_s = moment.ahead_s;

@@ -9,7 +9,8 @@
 #include "renderer/chart/annotated_picture.h"
 #include "renderer/quality_control.h"
 #include "renderer/output/stream.h"
-#include "renderer/view_picture.h"
+#include "renderer/view_pictures.h"
+#include "renderer/output/stream_requests.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -6,6 +6,8 @@
 #include "renderer/image/upscale.h"
 #include "renderer/scene/terrain/terrain_tiles.h"
 #include "world/enum_names.h"
+#include "renderer/view_pictures.h"
+#include "renderer/chart/instruments.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -29,7 +31,7 @@ static double show_time(struct render_session *studio, const struct frame_view *
                                     rate);
 }
 
-struct frame_view render_session_present(struct render_session *studio, bool last)
+struct frame_view view_pictures_frame(struct render_session *studio, bool last)
 {
     struct frame_view latest = render_session_moment(studio, studio->latest);
     if (last || !studio->smooth)
@@ -43,8 +45,8 @@ struct frame_view render_session_present(struct render_session *studio, bool las
     return frame_interpolation_between(&studio->blend, &earlier, &latest, share);
 }
 
-uint32_t render_session_find(struct render_session *studio, const struct frame_view *moment,
-                             uint32_t vehicle)
+uint32_t view_pictures_vehicle(struct render_session *studio, const struct frame_view *moment,
+                               uint32_t vehicle)
 {
     if (vehicle != 0)
         return entities_find(moment->entities, moment->head->used, vehicle);
@@ -55,12 +57,12 @@ uint32_t render_session_find(struct render_session *studio, const struct frame_v
 /* The vehicle of each view: its own, or the one that the renderer follows. */
 static void choose_vehicles(struct render_session *studio, const struct frame_view *moment)
 {
-    uint32_t followed = render_session_find(studio, moment, 0);
+    uint32_t followed = view_pictures_vehicle(studio, moment, 0);
     for (uint32_t i = 0; i < studio->shot_count; i++) {
         struct view_picture *shot = &studio->shots[i];
         uint32_t own = SLOT_NONE;
         if (shot->wish.vehicle != 0)
-            own = render_session_find(studio, moment, shot->wish.vehicle);
+            own = view_pictures_vehicle(studio, moment, shot->wish.vehicle);
         shot->slot = own != SLOT_NONE ? own : followed;
     }
 }
@@ -152,9 +154,9 @@ static struct annotated_picture_source source_of(const struct render_session *st
                                              .fps = rate};
 }
 
-int render_session_shoot(struct render_session *studio, struct view_picture *shot,
+int view_pictures_camera(struct render_session *studio, struct view_picture *shot,
                          const struct frame_view *moment, const struct quality_control_level *level,
-                         const struct render_session_sheet *sheet, struct reason *reason)
+                         const struct view_picture_target *sheet, struct reason *reason)
 {
     struct camera camera;
     struct image *drawn = canvas(studio, sheet->image, level);
@@ -181,9 +183,9 @@ static int draw_camera(struct render_session *studio, struct view_picture *shot,
                        const struct frame_view *moment, const struct quality_control_level *level,
                        struct reason *reason)
 {
-    const struct render_session_sheet sheet = {
+    const struct view_picture_target sheet = {
         .image = &studio->image, .chart = &studio->chart, .rate = studio->rate};
-    if (render_session_shoot(studio, shot, moment, level, &sheet, reason) != 0)
+    if (view_pictures_camera(studio, shot, moment, level, &sheet, reason) != 0)
         return -1;
     /* The first picture waits for all its ground; at a rate, ground comes when there is time. */
     if (studio->smooth)
@@ -245,10 +247,10 @@ static void note_rate(struct render_session *studio)
     studio->drawn_ns = now_ns;
 }
 
-int render_session_draw(struct render_session *studio, bool last, struct reason *reason)
+int view_pictures_draw(struct render_session *studio, bool last, struct reason *reason)
 {
     note_rate(studio);
-    struct frame_view moment = render_session_present(studio, last);
+    struct frame_view moment = view_pictures_frame(studio, last);
     /* What stands still is drawn once more, with everything. */
     bool same = studio->drawn == moment.head->frame && studio->drawn_ahead_s == moment.ahead_s;
     bool whole = last || (same && moment.head->paused != 0);

@@ -61,11 +61,6 @@ int annotated_picture_area(struct annotated_picture *chart, struct image *image,
                            const struct annotated_picture_source *source, double x, double z,
                            double metres);
 
-/* The statistics bar below and a small map in the corner of a camera's picture. A small map that
- * there is no memory for is left out. */
-void annotated_picture_instruments(struct annotated_picture *chart, struct image *image,
-                                   const struct annotated_picture_source *source);
-
 /* --- for the files of chart/ ------------------------------------------------------------------ */
 
 /* Makes a part's image of a size, unless it is. 0, or -1 with errno ENOMEM. */

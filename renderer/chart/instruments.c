@@ -1,5 +1,6 @@
 /* The instruments over a camera's picture: the small map and the statistics bar. */
-#include "renderer/chart/annotated_picture.h"
+#include "renderer/chart/instruments.h"
+
 #include "renderer/chart/statistics_bar.h"
 
 #include <stdio.h>

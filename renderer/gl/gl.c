@@ -1,8 +1,8 @@
 /* The OpenGL back end: one picture from start to read-back. */
 #include "renderer/gl/gl.h"
 
-#include "renderer/scene/back_end_interface.h"
 #include "renderer/gl/gl_context.h"
+#include "renderer/gl/gl_internal.h"
 #include "renderer/scene/frame/light.h"
 #include "renderer/soft/fxaa.h"
 

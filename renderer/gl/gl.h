@@ -1,119 +1,19 @@
-/* The OpenGL back end's parts: each owns its program and buffers, and draws one kind of thing from
- * a scene. All run in the thread that holds the context. Private to gl*.c. */
+/* The OpenGL back end. */
 #ifndef JOLON_RENDERER_GL_GL_H
 #define JOLON_RENDERER_GL_GL_H
 
-#include "ipc/segment/segment.h"
-#include "renderer/scene/scene.h"
-#include "renderer/scene/terrain/terrain_tiles.h"
+#include "renderer/scene/back_end_interface.h"
 
-#include <epoxy/gl.h>
+struct gl_wish;
 
-#include <stdint.h>
+/* OpenGL 3.3 core or later without a window (EGL), on the machine's graphics hardware or in
+ * software, for pictures up to width x height; name: how it is called, for people. 0, or -1 with
+ * the reason, which names what is missing. Takes up to a second. */
+int gl_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
+            uint32_t height, const struct gl_wish *wish, char name[BACK_END_NAME_BYTES],
+            struct reason *reason);
 
-/* Texture units, fixed for all programs. */
-enum gl_unit {
-    UNIT_TILE,
-    UNIT_DETAIL,
-    UNIT_PLANT,
-    UNIT_FACING,
-    UNIT_PUFF,
-    UNIT_CLOUD,
-    UNIT_DENTS,
-};
-
-/* What all shaders know of a picture; laid out as std140. */
-struct gl_frame {
-    float matrix[16];
-    float right[4], up[4], forward[4]; /* the camera's axes; w: tan_x, tan_y, time [s] */
-    float sun[4];                      /* unit; w: 1 with textures, 0 without */
-    float fog[4]; /* haze [1/m], fog at its base [1/m], fog's falling off [1/m], eye over base */
-};
-
-/* --- programs (gl_program.c) --- */
-
-/* A program of a vertex and a fragment shader, which follow the shared text of light and air. It
- * knows gl_frame and its texture units. 0 with the reason when the driver refuses it. */
-GLuint gl_program(const char *name, const char *vertex, const char *fragment,
-                  struct reason *reason);
-
-/* The same with text that comes before the vertex shader's own. */
-GLuint gl_program_on(const char *name, const char *before, const char *vertex, const char *fragment,
-                     struct reason *reason);
-
-/* Vertex attributes from a buffer: floats, at a byte offset, stepping by instance if divisor. */
-void gl_attribute(GLuint index, GLint floats, size_t stride, size_t offset, GLuint divisor);
-
-/* --- textures (gl_textures.c) --- */
-
-/* Makes and binds the textures that never change. 0, or -1 with the reason. */
-struct gl_textures {
-    GLuint detail, plants, facing, puffs, clouds;
-};
-int gl_textures_open(struct gl_textures *textures, struct reason *reason);
-void gl_textures_close(struct gl_textures *textures);
-
-/* --- ground (gl_ground.c) --- */
-
-/* A tile's copy in the driver, in the same place as in the cache. */
-struct gl_tile {
-    GLuint texture, vertices, triangles, array;
-    uint64_t shape_version, paint_version; /* that were sent */
-};
-
-struct gl_ground_shader {
-    GLuint program;
-    GLint u_origin, u_detail, u_part, u_texel, u_surf;
-};
-
-struct gl_ground {
-    const struct static_scene *scenery;
-    struct gl_ground_shader land, shore;
-    struct terrain_tiles cache;
-    struct gl_tile tiles[TILE_CAPACITY];
-};
-int gl_ground_open(struct gl_ground *ground, const struct static_scene *scenery,
-                   struct reason *reason);
-void gl_ground_close(struct gl_ground *ground);
-void gl_ground_draw(struct gl_ground *ground, const struct scene *scene,
-                    const struct frame_view *moment);
-
-/* --- bodies (gl_bodies.c, gl_form.c) --- */
-
-/* What the vertex shaders of bodies begin with: inputs, formed(), turned(), in_world(). */
-extern const char gl_form_text[];
-
-struct gl_mesh {
-    GLint first;
-    GLsizei count;
-};
-
-struct gl_bodies {
-    const struct static_scene *scenery;
-    GLuint program, shadow_program, array, meshes, copies;
-    GLuint dents, dent_texture; /* the buffer, and the texture that is a view of it */
-    GLint u_pivots, u_low, u_shadow_pivots;
-    struct gl_mesh *mesh; /* [models * MESH_DETAIL_COUNT] */
-};
-int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
-                   struct reason *reason);
-void gl_bodies_close(struct gl_bodies *bodies);
-/* Sends the scene's copies; the draws that follow use them. */
-void gl_bodies_send(struct gl_bodies *bodies, const struct scene *scene);
-void gl_bodies_draw_shadows(struct gl_bodies *bodies, const struct scene *scene);
-void gl_bodies_draw(struct gl_bodies *bodies, const struct scene *scene);
-
-/* --- plants, puffs (gl_billboards.c) --- */
-
-struct gl_billboards {
-    GLuint plant_program, shadow_program, puff_program;
-    GLuint plant_array, plants, puff_array, puffs;
-};
-int gl_billboards_open(struct gl_billboards *boards, struct reason *reason);
-void gl_billboards_close(struct gl_billboards *boards);
-void gl_billboards_send(struct gl_billboards *boards, const struct scene *scene);
-void gl_plants_draw_shadows(struct gl_billboards *boards, const struct scene *scene);
-void gl_plants_draw(struct gl_billboards *boards, const struct scene *scene);
-void gl_puffs_draw(struct gl_billboards *boards, const struct scene *scene);
+/* Prints every OpenGL that there is to standard output, a line each. */
+void gl_list(void);
 
 #endif

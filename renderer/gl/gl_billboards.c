@@ -1,5 +1,5 @@
 /* Plants and puffs in OpenGL: one picture each, turned to the eye, all in one draw a kind. */
-#include "renderer/gl/gl.h"
+#include "renderer/gl/gl_internal.h"
 
 #include <stddef.h>
 

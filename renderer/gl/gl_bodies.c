@@ -1,6 +1,6 @@
 /* Polygon bodies in OpenGL: every mesh once, drawn as often as the scene has copies of it, and once
  * more flattened onto the ground as their shadows. */
-#include "renderer/gl/gl.h"
+#include "renderer/gl/gl_internal.h"
 
 #include <stddef.h>
 #include <stdlib.h>

@@ -8,6 +8,8 @@
 
 #include <stdbool.h>
 
+struct gl_wish;
+
 struct gl_context {
     EGLDisplay display;
     EGLContext context;

@@ -19,6 +19,12 @@ struct gl_candidate {
     char name[96];
 };
 
+/* Which OpenGL: all zero is the first that draws, hardware before software. */
+struct gl_wish {
+    const char *device; /* its number, or part of its name; NULL: any */
+    bool hardware;      /* software is no good */
+};
+
 /* Finds libEGL, which must be there before any call of it. 0, or -1 with what to install. */
 int gl_library(struct reason *reason);
 
@@ -34,6 +40,10 @@ bool gl_is_called(const struct gl_candidate *candidate, const char *name,
 
 /* Is the word in the list, which has blanks between words? NULL is an empty list. */
 bool gl_has_word(const char *list, const char *word);
+
+/* Does the machine look as if it had graphics hardware? Looks at device files alone and loads
+ * nothing; why: what is missing. */
+bool gl_hardware(char *why, size_t bytes);
 
 /* Why graphics hardware that is there may not be usable; "" when nothing is known. */
 const char *gl_hardware_hint(void);

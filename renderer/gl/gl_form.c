@@ -1,7 +1,7 @@
 /* The form that a body has taken, as text of its vertex shaders: dents move its surface, what fell
  * in is low and lies about, what broke is bent over, parts turn about their pivots. Shared by the
  * bodies and their shadows. */
-#include "renderer/gl/gl.h"
+#include "renderer/gl/gl_internal.h"
 
 _Static_assert(PART_TURRET == 1 && PART_GUN == 2 && PART_ROTOR == 3 && PART_TAIL_ROTOR == 4 &&
                    PART_WHEEL == 5 && PART_FRONT_WHEEL == 6 && PART_TRACK == 7,

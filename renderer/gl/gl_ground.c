@@ -1,5 +1,5 @@
 /* The ground in OpenGL: the cache's tiles, each sent to the driver when it is new. */
-#include "renderer/gl/gl.h"
+#include "renderer/gl/gl_internal.h"
 
 #include "renderer/scene/frame/light.h"
 

@@ -1,5 +1,5 @@
 /* Shaders: compiling them, and the text that all of them share. */
-#include "renderer/gl/gl.h"
+#include "renderer/gl/gl_internal.h"
 
 #include "renderer/scene/frame/light.h"
 #include "renderer/scene/terrain/terrain_tiles.h"

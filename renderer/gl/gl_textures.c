@@ -1,5 +1,5 @@
 /* Textures that never change, from their painters into the driver. */
-#include "renderer/gl/gl.h"
+#include "renderer/gl/gl_internal.h"
 
 #include "renderer/scene/model/plant_impostors.h"
 #include "renderer/scene/draw_list/texture.h"

@@ -3,6 +3,8 @@
 
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
+#include "renderer/output/stream_listen.h"
+#include "renderer/output/stream_requests.h"
 
 #include <errno.h>
 #include <fcntl.h>

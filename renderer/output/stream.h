@@ -27,15 +27,6 @@ struct stream_painter {
 struct stream *stream_open(const char *world, const struct stream_painter *painter,
                            struct reason *reason);
 
-/* Binds and listens, without a thread yet; port 0: any that is free. A warning says when others
- * than this machine's may come. 0, or -1 with the reason: no such address, the port is in use or
- * not allowed. */
-int stream_listen(struct stream *stream, const char *address, uint16_t port, struct reason *reason);
-
-/* Listens on the renderer's own socket (ipc/segment/picture_socket.h), for processes of this user
- * alone. 0, or -1 with the reason: another process has the name. */
-int stream_listen_here(struct stream *stream, enum role role, struct reason *reason);
-
 /* "http://ADDRESS:PORT/" of stream_listen(). */
 const char *stream_url(const struct stream *stream);
 
@@ -47,27 +38,5 @@ void stream_put(struct stream *stream, struct picture *picture);
 
 /* Ends all connections and threads, and lets every picture go. NULL is nothing. */
 void stream_close(struct stream *stream);
-
-/* --- pictures that are asked for, for the drawing thread ----------------------------------------
- */
-
-struct stream_wish {
-    struct picture_requests_key key;
-    uint64_t generation; /* another for another wish in the same row; 0: none is there */
-    bool waiting;        /* somebody waits for it now */
-    bool again;          /* ... even if it would be as the last */
-};
-
-/* Fills wishes[PICTURE_REQUESTS_MAX] with the rows that somebody has asked for lately. How many
- * wait. */
-uint32_t stream_wishes(struct stream *stream, struct stream_wish *wishes);
-
-/* Answers a row's wish: with a picture, which the caller goes on holding, or with NULL: there is no
- * such vehicle. A wish that is another by now is left alone. */
-void stream_grant(struct stream *stream, uint32_t row, uint64_t generation,
-                  struct picture *picture);
-
-/* Sleeps until the time (CLOCK_MONOTONIC), or until somebody begins to wait for a picture. */
-void stream_sleep(struct stream *stream, uint64_t until_ns);
 
 #endif

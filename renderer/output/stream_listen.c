@@ -4,6 +4,7 @@
 #include "ipc/process/log.h"
 #include "ipc/segment/picture_socket.h"
 #include "world/runtime/check.h"
+#include "renderer/output/stream_listen.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -4,6 +4,7 @@
 
 #include "ipc/process/clock.h"
 #include "renderer/output/output_queue.h"
+#include "renderer/output/stream_requests.h"
 
 #include <stdio.h>
 #include <sys/resource.h>

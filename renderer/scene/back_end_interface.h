@@ -34,33 +34,4 @@ struct back_end_interface {
     void (*close)(void *self);
 };
 
-/* Which OpenGL: all zero is the first that draws, hardware before software. */
-struct gl_wish {
-    const char *device; /* its number, or part of its name; NULL: any */
-    bool hardware;      /* software is no good */
-};
-
-/* OpenGL 3.3 core or later without a window (EGL), on the machine's graphics hardware or in
- * software, for pictures up to width x height; name: how it is called, for people. 0, or -1 with
- * the reason, which names what is missing. Takes up to a second. */
-int gl_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
-            uint32_t height, const struct gl_wish *wish, char name[BACK_END_NAME_BYTES],
-            struct reason *reason);
-
-/* Does the machine look as if it had graphics hardware? Looks at device files alone and loads
- * nothing; why: what is missing. */
-bool gl_hardware(char *why, size_t bytes);
-
-/* Prints every OpenGL that there is to standard output, a line each. */
-void gl_list(void);
-
-/* Our own software, on as many threads (1 .. THREAD_POOL_MAX), for pictures up to width x height.
- * The same scene gives the same picture to the bit on every machine and any number of threads. 0,
- * or -1 with the reason: no memory, or too large a picture. */
-int soft_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
-              uint32_t height, uint32_t threads, struct reason *reason);
-
-/* The vectors that it works with on this processor: "AVX2". */
-const char *soft_vectors(void);
-
 #endif

@@ -4,7 +4,7 @@
 #define JOLON_RENDERER_SOFT_ATMOSPHERE_H
 
 #include "renderer/scene/frame/light.h"
-#include "renderer/soft/soft.h"
+#include "renderer/soft/soft_internal.h"
 #include "renderer/soft/simd8.h"
 
 struct colour8 {

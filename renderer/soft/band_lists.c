@@ -1,11 +1,11 @@
 /* Lists of what touches each band, and lists that grow. */
-#include "renderer/soft/soft.h"
+#include "renderer/soft/band_lists.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-int soft_room(void **list, size_t *room, size_t count, size_t size)
+int band_lists_room(void **list, size_t *room, size_t count, size_t size)
 {
     if (count <= *room)
         return 0;
@@ -25,10 +25,10 @@ int soft_room(void **list, size_t *room, size_t count, size_t size)
     return 0;
 }
 
-int band_lists_sort(struct soft_bins *bins, const struct soft_rows *rows, uint32_t count,
+int band_lists_sort(struct band_lists *lists, const struct band_rows *rows, uint32_t count,
                     uint32_t bands)
 {
-    uint32_t *start = bins->start, next[SOFT_BANDS_MAX];
+    uint32_t *start = lists->start, next[SOFT_BANDS_MAX];
     memset(start, 0, (bands + 1) * sizeof *start);
     for (uint32_t i = 0; i < count; i++)
         for (int32_t b = rows[i].first / SOFT_BAND_ROWS; b <= (rows[i].end - 1) / SOFT_BAND_ROWS;
@@ -38,19 +38,19 @@ int band_lists_sort(struct soft_bins *bins, const struct soft_rows *rows, uint32
         start[b + 1] += start[b];
         next[b] = start[b];
     }
-    void *item = bins->item;
-    if (soft_room(&item, &bins->room, start[bands], sizeof *bins->item) != 0)
+    void *item = lists->item;
+    if (band_lists_room(&item, &lists->room, start[bands], sizeof *lists->item) != 0)
         return -1;
-    bins->item = item;
+    lists->item = item;
     for (uint32_t i = 0; i < count; i++)
         for (int32_t b = rows[i].first / SOFT_BAND_ROWS; b <= (rows[i].end - 1) / SOFT_BAND_ROWS;
              b++)
-            bins->item[next[b]++] = i;
+            lists->item[next[b]++] = i;
     return 0;
 }
 
-void band_lists_free(struct soft_bins *bins)
+void band_lists_free(struct band_lists *lists)
 {
-    free(bins->item);
-    *bins = (struct soft_bins){.item = NULL};
+    free(lists->item);
+    *lists = (struct band_lists){.item = NULL};
 }

@@ -4,7 +4,12 @@
 #ifndef JOLON_RENDERER_SOFT_KERNEL_H
 #define JOLON_RENDERER_SOFT_KERNEL_H
 
-#include "renderer/soft/soft.h"
+#include "renderer/soft/soft_internal.h"
+
+struct soft_ground;
+struct soft_bodies;
+struct soft_plants;
+struct soft_particles;
 
 /* X(name, results, parameters) of each kernel. */
 #define SOFT_KERNELS(X)                                                                            \
@@ -23,11 +28,12 @@
     X(soft_plants_fill, void,                                                                      \
       (const struct soft_plants *plants, const struct soft_frame *frame,                           \
        const struct soft_target *target))                                                          \
-    X(soft_puffs_set_up, void, (struct soft_particles * puffs, const struct soft_frame *frame))    \
-    X(soft_puffs_fill, void,                                                                       \
+    X(soft_particles_set_up, void,                                                                 \
+      (struct soft_particles * puffs, const struct soft_frame *frame))                             \
+    X(soft_particles_fill, void,                                                                   \
       (const struct soft_particles *puffs, const struct soft_frame *frame,                         \
        const struct soft_target *target))                                                          \
-    X(soft_resolve, void,                                                                          \
+    X(soft_shade_fill, void,                                                                       \
       (const struct soft_ground *ground, const struct soft_frame *frame,                           \
        const struct soft_target *target))
 

@@ -328,14 +328,14 @@ SIMD8 v8u flat_colours(const struct maker *m, const v8i corner[3])
                       c.b * light[2] + p->air[2]);
 }
 
-static struct soft_rows *next_rows(struct soft_faces *faces, const struct span8 *s, uint32_t lane)
+static struct band_rows *next_rows(struct soft_faces *faces, const struct edges8 *s, uint32_t lane)
 {
-    struct soft_rows *rows = &faces->rows[faces->count++];
-    *rows = (struct soft_rows){(int16_t)s->first[lane], (int16_t)s->end[lane]};
+    struct band_rows *rows = &faces->rows[faces->count++];
+    *rows = (struct band_rows){(int16_t)s->first[lane], (int16_t)s->end[lane]};
     return rows;
 }
 
-SIMD8 void put_flats(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
+SIMD8 void put_flats(struct maker *m, const struct edges8 *s, const v8i corner[3], uint32_t lanes)
 {
     struct soft_faces *faces = &m->bodies->flats;
     struct plane8 depth = triangle_raster_plane(s, corner_value(m, CORNER_OVER, corner[0]),
@@ -360,7 +360,7 @@ SIMD8 v8i mip_of(v8f pixel_m, float per_m)
     return simd8_select_i(mip < SOFT_DETAIL_MIPS, mip, simd8_i(SOFT_DETAIL_MIPS - 1));
 }
 
-SIMD8 void put_sides(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
+SIMD8 void put_sides(struct maker *m, const struct edges8 *s, const v8i corner[3], uint32_t lanes)
 {
     struct soft_faces *faces = &m->bodies->sides;
     v8f over[3], worn;
@@ -385,7 +385,7 @@ SIMD8 void put_sides(struct maker *m, const struct span8 *s, const v8i corner[3]
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
         struct soft_side *side = (struct soft_side *)faces->list + faces->count;
-        side->span = triangle_raster_of(s, (int)lane);
+        side->edges = triangle_raster_of(s, (int)lane);
         side->depth = triangle_raster_plane_of(&depth, (int)lane);
         for (uint32_t i = 0; i < SIDE_VALUES; i++)
             side->value[i] = triangle_raster_plane_of(&value[i], (int)lane);
@@ -402,7 +402,7 @@ SIMD8 void put_sides(struct maker *m, const struct span8 *s, const v8i corner[3]
     }
 }
 
-SIMD8 void put_shades(struct maker *m, const struct span8 *s, const v8i corner[3], uint32_t lanes)
+SIMD8 void put_shades(struct maker *m, const struct edges8 *s, const v8i corner[3], uint32_t lanes)
 {
     struct soft_faces *faces = &m->bodies->shades;
     struct plane8 depth =
@@ -415,10 +415,10 @@ SIMD8 void put_shades(struct maker *m, const struct span8 *s, const v8i corner[3
     depth.y *= more;
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
-        struct soft_shade *shade = (struct soft_shade *)faces->list + faces->count;
-        *shade = (struct soft_shade){triangle_raster_of(s, (int)lane),
-                                     triangle_raster_plane_of(&depth, (int)lane),
-                                     (uint32_t)(m->dark * (float)SOFT_SHADOW_FULL + 0.5f)};
+        struct soft_shadow *shade = (struct soft_shadow *)faces->list + faces->count;
+        *shade = (struct soft_shadow){triangle_raster_of(s, (int)lane),
+                                      triangle_raster_plane_of(&depth, (int)lane),
+                                      (uint32_t)(m->dark * (float)SOFT_SHADOW_FULL + 0.5f)};
         next_rows(faces, s, lane);
     }
 }
@@ -428,7 +428,7 @@ SIMD8 void put_faces(struct maker *m, enum face_kind kind)
 {
     uint32_t set = kind == FACE_SHADE ? CORNER_SHADE : 0;
     struct corners8 c;
-    struct span8 s;
+    struct edges8 s;
     v8i corner[3];
     if (m->count == 0)
         return;

@@ -20,7 +20,7 @@ struct painting {
 SIMD8 void flat_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
 {
     const struct painting *p = context;
-    v8f depth = triangle_raster_value(&p->flat->span, &p->flat->depth, x, y);
+    v8f depth = triangle_raster_value(&p->flat->edges, &p->flat->depth, x, y);
     v8f there = simd8_load_f(p->target->depth + at);
     v8i seen = inside & (depth > there);
     simd8_store_f(p->target->depth + at, simd8_select(seen, depth, there));
@@ -103,21 +103,21 @@ SIMD8 void side_pixels(void *context, int32_t x, int32_t y, size_t at, v8i insid
     const struct painting *p = context;
     const struct soft_side *side = p->side;
     const struct soft_paint *paint = p->paint;
-    v8f depth = triangle_raster_value(&side->span, &side->depth, x, y);
+    v8f depth = triangle_raster_value(&side->edges, &side->depth, x, y);
     v8f there = simd8_load_f(p->target->depth + at), value[SIDE_VALUES];
     v8i seen = inside & (depth > there);
     if (simd8_bits(seen) == 0)
         return;
     v8f far = 1.0f / simd8_select(seen, depth, simd8_f(1.0f));
     for (uint32_t i = 0; i < SIDE_FELL; i++)
-        value[i] = triangle_raster_value(&side->span, &side->value[i], x, y) * far;
+        value[i] = triangle_raster_value(&side->edges, &side->value[i], x, y) * far;
     struct colour8 c = colour_of(side->colour[0], side->colour[1], side->colour[2]);
     if (side->track)
         c = link_colour(p, c,
-                        triangle_raster_value(&side->span, &side->value[SIDE_ALONG], x, y) * far);
+                        triangle_raster_value(&side->edges, &side->value[SIDE_ALONG], x, y) * far);
     if (paint->shaped) {
-        v8f bare = triangle_raster_value(&side->span, &side->value[SIDE_BARE], x, y) * far;
-        v8f fell = triangle_raster_value(&side->span, &side->value[SIDE_FELL], x, y) * far;
+        v8f bare = triangle_raster_value(&side->edges, &side->value[SIDE_BARE], x, y) * far;
+        v8f fell = triangle_raster_value(&side->edges, &side->value[SIDE_FELL], x, y) * far;
         if (simd8_bits(seen & (bare > 0.0f)) != 0)
             c = bare_colour(p, c, value + SIDE_X, bare);
         if (simd8_bits(seen & (fell > 0.0f)) != 0)
@@ -139,16 +139,16 @@ void KERNEL(soft_bodies_fill)(const struct soft_bodies *bodies, const struct sof
                               const struct soft_target *target)
 {
     struct painting p = {.target = target, .detail = bodies->detail, .texture = frame->texture};
-    const struct soft_bins *bins = &bodies->flats.bins;
+    const struct band_lists *lists = &bodies->flats.lists;
     uint32_t band = target->band;
-    for (uint32_t i = bins->start[band]; i < bins->start[band + 1]; i++) {
-        p.flat = (const struct soft_flat *)bodies->flats.list + bins->item[i];
-        triangle_raster_walk(&p.flat->span, target, flat_pixels, &p);
+    for (uint32_t i = lists->start[band]; i < lists->start[band + 1]; i++) {
+        p.flat = (const struct soft_flat *)bodies->flats.list + lists->item[i];
+        triangle_raster_walk(&p.flat->edges, target, flat_pixels, &p);
     }
-    bins = &bodies->sides.bins;
-    for (uint32_t i = bins->start[band]; i < bins->start[band + 1]; i++) {
-        p.side = (const struct soft_side *)bodies->sides.list + bins->item[i];
+    lists = &bodies->sides.lists;
+    for (uint32_t i = lists->start[band]; i < lists->start[band + 1]; i++) {
+        p.side = (const struct soft_side *)bodies->sides.list + lists->item[i];
         p.paint = &bodies->paints[p.side->paint];
-        triangle_raster_walk(&p.side->span, target, side_pixels, &p);
+        triangle_raster_walk(&p.side->edges, target, side_pixels, &p);
     }
 }

@@ -189,14 +189,14 @@ static void take_row(struct alphas *alphas, struct image *to, const struct image
     uint8_t *copy = to != NULL ? to->pixels + first : NULL;
     uint32_t column = 0;
     for (; column + 32 <= from->width; column += 32) {
-        v8u f64x4[4];
+        v8u four[4];
         for (uint32_t i = 0; i < 4; i++)
-            f64x4[i] = pixels_from(pixels + (size_t)(column + i * LANES) * 4);
-        v8u tops = simd8_top_bytes(f64x4);
+            four[i] = pixels_from(pixels + (size_t)(column + i * LANES) * 4);
+        v8u tops = simd8_top_bytes(four);
         memcpy(alphas->of + column, &tops, sizeof tops);
         for (uint32_t i = 0; copy != NULL && i < 4; i++)
             simd8_store_u((uint32_t *)(void *)(copy + (size_t)(column + i * LANES) * 4),
-                          f64x4[i] | 0xff000000u);
+                          four[i] | 0xff000000u);
     }
     for (; column < from->width; column++) {
         alphas->of[column] = pixels[(size_t)column * 4 + 3];

@@ -59,15 +59,15 @@ static v8u steepness(const struct plane8 *depth)
 
 static void flush(struct soft_ground *ground, const struct soft_frame *frame, struct batch *batch)
 {
-    struct span8 span;
-    v8i drawn = triangle_raster_set_up(&span, &batch->corners, frame->width, frame->height);
-    drawn &= (span.area < 0.0f) & (simd8_count() < (int32_t)batch->count);
+    struct edges8 edges;
+    v8i drawn = triangle_raster_set_up(&edges, &batch->corners, frame->width, frame->height);
+    drawn &= (edges.area < 0.0f) & (simd8_count() < (int32_t)batch->count);
     batch->count = 0;
     uint32_t bits = simd8_bits(drawn);
     if (bits == 0)
         return;
     const v8f *at = batch->depth;
-    struct plane8 depth = triangle_raster_plane(&span, at[0], at[1], at[2]);
+    struct plane8 depth = triangle_raster_plane(&edges, at[0], at[1], at[2]);
     v8f least = simd8_min(simd8_min(at[0], at[1]), at[2]);
     v8f most = simd8_max(simd8_max(at[0], at[1]), at[2]);
     v8u steep = steepness(&depth);
@@ -75,13 +75,13 @@ static void flush(struct soft_ground *ground, const struct soft_frame *frame, st
         int lane = __builtin_ctz(bits);
         uint32_t n = ground->count++;
         ground->list[n] = (struct soft_ground_triangle){
-            .span = triangle_raster_of(&span, lane),
+            .edges = triangle_raster_of(&edges, lane),
             .depth = triangle_raster_plane_of(&depth, lane),
             .least = least[lane],
             .most = most[lane],
             .promise = batch->patch | steep[lane] << SOFT_PATCH_BITS,
         };
-        ground->rows[n] = (struct soft_rows){(int16_t)span.first[lane], (int16_t)span.end[lane]};
+        ground->rows[n] = (struct band_rows){(int16_t)edges.first[lane], (int16_t)edges.end[lane]};
     }
 }
 
@@ -202,7 +202,7 @@ SIMD8 void depth_pixels(void *context, int32_t x, int32_t y, size_t at, v8i insi
     const struct soft_ground_triangle *t = pass->triangle;
     float *depth = pass->target->depth + at;
     uint32_t *colour = pass->target->colour + at;
-    v8f here = triangle_raster_value(&t->span, &t->depth, x, y), old = simd8_load_f(depth);
+    v8f here = triangle_raster_value(&t->edges, &t->depth, x, y), old = simd8_load_f(depth);
     here = simd8_clamp(here, t->least, t->most);
     v8i seen = inside & (here > old);
     if (simd8_bits(seen) == 0)
@@ -216,9 +216,9 @@ void KERNEL(soft_ground_fill)(const struct soft_ground *ground, const struct sof
 {
     (void)frame;
     struct depth_pass pass = {.target = target};
-    const struct soft_bins *bins = &ground->bins;
-    for (uint32_t i = bins->start[target->band]; i < bins->start[target->band + 1]; i++) {
-        pass.triangle = &ground->list[bins->item[i]];
-        triangle_raster_walk(&pass.triangle->span, target, depth_pixels, &pass);
+    const struct band_lists *lists = &ground->lists;
+    for (uint32_t i = lists->start[target->band]; i < lists->start[target->band + 1]; i++) {
+        pass.triangle = &ground->list[lists->item[i]];
+        triangle_raster_walk(&pass.triangle->edges, target, depth_pixels, &pass);
     }
 }

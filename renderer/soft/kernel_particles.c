@@ -83,7 +83,7 @@ static uint32_t picture_of(const struct scene_puff *from)
     return picture < PUFF_PICTURES ? picture : PUFF_SMOKE_A;
 }
 
-static bool find_rows(const struct soft_frame *f, struct soft_rows *rows, float high, float low)
+static bool find_rows(const struct soft_frame *f, struct band_rows *rows, float high, float low)
 {
     rows->first = (int16_t)triangle_raster_ceil(high, (float)f->height);
     rows->end = (int16_t)triangle_raster_ceil(low, (float)f->height);
@@ -98,7 +98,7 @@ struct outline {
 };
 
 static bool set_flat(const struct soft_particles *puffs, const struct soft_frame *f,
-                     struct soft_puff *puff, struct soft_rows *rows, uint32_t picture,
+                     struct soft_puff *puff, struct band_rows *rows, uint32_t picture,
                      const struct outline *o)
 {
     float x = o->x, y = o->y, turn = o->right_x * o->up_y - o->right_y * o->up_x;
@@ -131,7 +131,7 @@ static bool set_flat(const struct soft_particles *puffs, const struct soft_frame
 }
 
 static bool set_round(const struct soft_particles *puffs, const struct soft_frame *f,
-                      struct soft_puff *puff, struct soft_rows *rows, const struct scene_puff *from,
+                      struct soft_puff *puff, struct band_rows *rows, const struct scene_puff *from,
                       const struct round8 *r, uint32_t i)
 {
     float radius = r->radius[i] > LEAST_RADIUS ? r->radius[i] : LEAST_RADIUS;
@@ -194,7 +194,7 @@ static bool set_strip(const struct soft_frame *f, struct soft_puff *puff,
 
 /* A strip that keeps its distance from the eye. */
 static bool set_flat_strip(const struct soft_particles *puffs, const struct soft_frame *f,
-                           struct soft_puff *puff, struct soft_rows *rows,
+                           struct soft_puff *puff, struct band_rows *rows,
                            const struct scene_puff *from, const float side[3], float ahead)
 {
     float over = 1.0f / ahead, x = over * dot(f->across, from->at);
@@ -219,7 +219,7 @@ static bool set_flat_strip(const struct soft_particles *puffs, const struct soft
 }
 
 static bool set_streak(const struct soft_particles *puffs, const struct soft_frame *f,
-                       struct soft_puff *puff, struct soft_rows *rows,
+                       struct soft_puff *puff, struct band_rows *rows,
                        const struct scene_puff *from)
 {
     float side[3], end[2] = {-1.0f, 1.0f};
@@ -287,7 +287,7 @@ static void set_colour(struct soft_puff *puff, const struct puffs8 *p, const str
     puff->much = p->alpha[i] / 255.0f;
 }
 
-void KERNEL(soft_puffs_set_up)(struct soft_particles *puffs, const struct soft_frame *frame)
+void KERNEL(soft_particles_set_up)(struct soft_particles *puffs, const struct soft_frame *frame)
 {
     const struct scene *scene = frame->scene;
     puffs->count = 0;
@@ -300,7 +300,7 @@ void KERNEL(soft_puffs_set_up)(struct soft_particles *puffs, const struct soft_f
         struct air8 air = atmosphere_at(frame, p.at);
         for (uint32_t i = 0; i < count; i++) {
             struct soft_puff *puff = &puffs->puffs[puffs->count];
-            struct soft_rows *rows = &puffs->rows[puffs->count];
+            struct band_rows *rows = &puffs->rows[puffs->count];
             bool seen;
             set_colour(puff, &p, &air, i);
             if (dot(from[i].axis, from[i].axis) > 0.0f)
@@ -413,7 +413,7 @@ SIMD8 v8f twice_high(v8f v)
 
 /* Rows y and y + 1, as far as they are in rows, sixteen columns at a time. */
 SIMD8 void fill_coarse(const struct soft_puff *p, const uint16_t *texels,
-                       const struct soft_target *t, int32_t y, const struct soft_rows *rows)
+                       const struct soft_target *t, int32_t y, const struct band_rows *rows)
 {
     int32_t first, end;
     float middle = (float)y + 0.5f, across = p->across[0] + middle * p->across[2];
@@ -471,7 +471,7 @@ static void fill_puff(const struct soft_particles *puffs, const struct soft_targ
                       uint32_t index)
 {
     const struct soft_puff *p = &puffs->puffs[index];
-    const struct soft_rows *rows = &puffs->rows[index];
+    const struct band_rows *rows = &puffs->rows[index];
     const uint16_t *texels = puffs->texels + p->texels;
     int32_t y = rows->first > t->first ? rows->first : t->first;
     int32_t last = rows->end < t->end ? rows->end : t->end;
@@ -494,11 +494,11 @@ static void fill_puff(const struct soft_particles *puffs, const struct soft_targ
     }
 }
 
-void KERNEL(soft_puffs_fill)(const struct soft_particles *puffs, const struct soft_frame *frame,
-                             const struct soft_target *target)
+void KERNEL(soft_particles_fill)(const struct soft_particles *puffs, const struct soft_frame *frame,
+                                 const struct soft_target *target)
 {
     (void)frame;
-    const struct soft_bins *bins = &puffs->bins;
-    for (uint32_t i = bins->start[target->band]; i < bins->start[target->band + 1]; i++)
-        fill_puff(puffs, target, bins->item[i]);
+    const struct band_lists *lists = &puffs->lists;
+    for (uint32_t i = lists->start[target->band]; i < lists->start[target->band + 1]; i++)
+        fill_puff(puffs, target, lists->item[i]);
 }

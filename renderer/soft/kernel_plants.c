@@ -192,7 +192,7 @@ static uint32_t level_of(float side)
 }
 
 static bool set_board(const struct soft_plants *plants, struct soft_board *board,
-                      struct soft_rows *rows, const struct boards8 *b, float picture, uint32_t lane)
+                      struct band_rows *rows, const struct boards8 *b, float picture, uint32_t lane)
 {
     uint32_t which = (uint32_t)(picture + 0.5f);
     which = which < PLANT_IMPOSTORS_COUNT ? which : 0;
@@ -334,14 +334,14 @@ SIMD8 struct leaves8 four_leaves(const struct soft_board *b, const struct soft_l
     v8i right = simd8_select_i(simd8_to_f(x) < last, simd8_i(8), simd8_i(0));
     v8i below = simd8_select_i(simd8_to_f(y) < last, simd8_i(8 << b->level), simd8_i(0));
     v8i at = ((y << b->level) + x) * 8;
-    struct leaves8 f64x4[4];
+    struct leaves8 four[4];
     for (uint32_t i = 0; i < 4; i++) {
         v8i texel = at + ((i & 1) != 0 ? right : simd8_i(0)) + ((i & 2) != 0 ? below : simd8_i(0));
         struct simd8_pairs pair = simd8_gather_pairs(leaves, texel);
-        f64x4[i] = unpack(pair.low, pair.high, texture);
+        four[i] = unpack(pair.low, pair.high, texture);
     }
-    struct leaves8 top = mix(&f64x4[0], &f64x4[1], left - simd8_to_f(x));
-    struct leaves8 low = mix(&f64x4[2], &f64x4[3], left - simd8_to_f(x));
+    struct leaves8 top = mix(&four[0], &four[1], left - simd8_to_f(x));
+    struct leaves8 low = mix(&four[2], &four[3], left - simd8_to_f(x));
     return mix(&top, &low, high - simd8_to_f(y));
 }
 
@@ -387,10 +387,10 @@ SIMD8 void plant_pixels(const struct soft_plant *p, const struct soft_leaf *leav
 void KERNEL(soft_plants_fill)(const struct soft_plants *plants, const struct soft_frame *frame,
                               const struct soft_target *target)
 {
-    const struct soft_bins *bins = &plants->bins;
-    for (uint32_t i = bins->start[target->band]; i < bins->start[target->band + 1]; i++) {
-        const struct soft_plant *p = &plants->plants[bins->item[i]];
-        const struct soft_rows *rows = &plants->rows[bins->item[i]];
+    const struct band_lists *lists = &plants->lists;
+    for (uint32_t i = lists->start[target->band]; i < lists->start[target->band + 1]; i++) {
+        const struct soft_plant *p = &plants->plants[lists->item[i]];
+        const struct band_rows *rows = &plants->rows[lists->item[i]];
         const struct soft_leaf *leaves = &plants->leaves[p->board.leaves];
         int32_t y = rows->first > target->first ? rows->first : target->first;
         int32_t last = rows->end < target->end ? rows->end : target->end;

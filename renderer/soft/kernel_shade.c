@@ -671,8 +671,8 @@ static void resolve_row(struct resolve *r, uint32_t *colour, const float *depth,
     go_on(r, &waiting, true, colour, depth);
 }
 
-void KERNEL(soft_resolve)(const struct soft_ground *ground, const struct soft_frame *frame,
-                          const struct soft_target *target)
+void KERNEL(soft_shade_fill)(const struct soft_ground *ground, const struct soft_frame *frame,
+                             const struct soft_target *target)
 {
     struct resolve r = {.ground = ground,
                         .frame = frame,

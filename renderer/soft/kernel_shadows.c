@@ -16,13 +16,13 @@ SIMD8 void darken(uint32_t *colour, v8i seen, uint32_t dark)
 
 struct shading {
     const struct soft_target *target;
-    const struct soft_shade *shade;
+    const struct soft_shadow *shade;
 };
 
 SIMD8 void shade_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
 {
     const struct shading *s = context;
-    v8f depth = triangle_raster_value(&s->shade->span, &s->shade->depth, x, y);
+    v8f depth = triangle_raster_value(&s->shade->edges, &s->shade->depth, x, y);
     v8f there = simd8_load_f(s->target->depth + at);
     v8i seen = inside & (depth >= there) & (there > 0.0f);
     if (simd8_bits(seen) != 0)
@@ -33,7 +33,7 @@ SIMD8 void shade_pixels(void *context, int32_t x, int32_t y, size_t at, v8i insi
 static void fill_cast(const struct soft_plants *plants, const struct soft_target *t, uint32_t index)
 {
     const struct soft_cast *c = &plants->casts[index];
-    const struct soft_rows *rows = &plants->cast_rows[index];
+    const struct band_rows *rows = &plants->cast_rows[index];
     const struct soft_leaf *leaves = &plants->leaves[c->board.leaves];
     int32_t y = rows->first > t->first ? rows->first : t->first;
     int32_t last = rows->end < t->end ? rows->end : t->end;
@@ -59,12 +59,12 @@ void KERNEL(soft_shadows_fill)(const struct soft_bodies *bodies, const struct so
 {
     (void)frame;
     struct shading s = {.target = target};
-    const struct soft_bins *bins = &bodies->shades.bins;
-    for (uint32_t i = bins->start[target->band]; i < bins->start[target->band + 1]; i++) {
-        s.shade = (const struct soft_shade *)bodies->shades.list + bins->item[i];
-        triangle_raster_walk(&s.shade->span, target, shade_pixels, &s);
+    const struct band_lists *lists = &bodies->shades.lists;
+    for (uint32_t i = lists->start[target->band]; i < lists->start[target->band + 1]; i++) {
+        s.shade = (const struct soft_shadow *)bodies->shades.list + lists->item[i];
+        triangle_raster_walk(&s.shade->edges, target, shade_pixels, &s);
     }
-    bins = &plants->cast_bins;
-    for (uint32_t i = bins->start[target->band]; i < bins->start[target->band + 1]; i++)
-        fill_cast(plants, target, bins->item[i]);
+    lists = &plants->cast_lists;
+    for (uint32_t i = lists->start[target->band]; i < lists->start[target->band + 1]; i++)
+        fill_cast(plants, target, lists->item[i]);
 }

@@ -290,17 +290,17 @@ SIMD8 uint32_t simd8_bits_b(v32b mask)
 }
 
 /* The uppermost byte of every lane of four vectors, in their order. */
-SIMD8 v8u simd8_top_bytes(const v8u f64x4[4])
+SIMD8 v8u simd8_top_bytes(const v8u four[4])
 {
 #if defined(__AVX2__)
-    __m256i a = _mm256_packus_epi32((__m256i)(f64x4[0] >> 24), (__m256i)(f64x4[1] >> 24));
-    __m256i b = _mm256_packus_epi32((__m256i)(f64x4[2] >> 24), (__m256i)(f64x4[3] >> 24));
+    __m256i a = _mm256_packus_epi32((__m256i)(four[0] >> 24), (__m256i)(four[1] >> 24));
+    __m256i b = _mm256_packus_epi32((__m256i)(four[2] >> 24), (__m256i)(four[3] >> 24));
     return (v8u)_mm256_permutevar8x32_epi32(_mm256_packus_epi16(a, b),
                                             _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7));
 #elif defined(__SSE2__)
     __m128i pair[4];
     for (uint32_t i = 0; i < 4; i++) {
-        struct simd8_wholes x = simd8_split_u(f64x4[i] >> 24);
+        struct simd8_wholes x = simd8_split_u(four[i] >> 24);
         pair[i] = _mm_packs_epi32(x.low, x.high);
     }
     return simd8_join_u((struct simd8_wholes){_mm_packus_epi16(pair[0], pair[1]),
@@ -308,7 +308,7 @@ SIMD8 v8u simd8_top_bytes(const v8u f64x4[4])
 #else
     v32b tops;
     for (uint32_t i = 0; i < 32; i++)
-        tops[i] = (uint8_t)(f64x4[i / LANES][i % LANES] >> 24);
+        tops[i] = (uint8_t)(four[i / LANES][i % LANES] >> 24);
     return (v8u)tops;
 #endif
 }

@@ -4,6 +4,10 @@
 #include "renderer/soft/fxaa.h"
 #include "renderer/scene/frame/light.h"
 #include "renderer/soft/kernel.h"
+#include "renderer/soft/soft_bodies.h"
+#include "renderer/soft/soft_ground.h"
+#include "renderer/soft/soft_particles.h"
+#include "renderer/soft/soft_plants.h"
 #include "world/runtime/thread_pool.h"
 
 #include <stdatomic.h>
@@ -187,9 +191,9 @@ static void fill_band(struct soft *soft, struct soft_worker *worker, const struc
     spent(worker, STAGE_BODIES);
     k->soft_plants_fill(soft->plants, f, t);
     spent(worker, STAGE_PLANTS);
-    k->soft_resolve(soft->ground, f, t);
+    k->soft_shade_fill(soft->ground, f, t);
     spent(worker, STAGE_RESOLVE);
-    k->soft_puffs_fill(soft->puffs, f, t);
+    k->soft_particles_fill(soft->puffs, f, t);
     spent(worker, STAGE_PUFFS);
 }
 

@@ -59,7 +59,7 @@ struct soft_bodies *soft_bodies_open(const struct static_scene *scenery,
 
 static void free_faces(struct soft_faces *faces)
 {
-    band_lists_free(&faces->bins);
+    band_lists_free(&faces->lists);
     free(faces->list);
     free(faces->rows);
 }
@@ -104,8 +104,8 @@ struct soft_reach soft_bodies_reach(const struct soft_bodies *bodies,
 static int face_room(struct soft_faces *faces, size_t count, size_t size)
 {
     void *rows = faces->rows;
-    int failed = soft_room(&faces->list, &faces->list_room, 2 * count, size);
-    failed |= soft_room(&rows, &faces->row_room, 2 * count, sizeof *faces->rows);
+    int failed = band_lists_room(&faces->list, &faces->list_room, 2 * count, size);
+    failed |= band_lists_room(&rows, &faces->row_room, 2 * count, sizeof *faces->rows);
     faces->rows = rows;
     faces->count = 0;
     return failed;
@@ -113,7 +113,7 @@ static int face_room(struct soft_faces *faces, size_t count, size_t size)
 
 static int sort_faces(struct soft_faces *faces, uint32_t bands)
 {
-    return band_lists_sort(&faces->bins, faces->rows, faces->count, bands);
+    return band_lists_sort(&faces->lists, faces->rows, faces->count, bands);
 }
 
 int soft_bodies_prepare(struct soft_bodies *bodies, const struct soft_frame *frame)
@@ -133,12 +133,13 @@ int soft_bodies_prepare(struct soft_bodies *bodies, const struct soft_frame *fra
         shades += copy->shadow ? faces : 0;
     }
     void *paints = bodies->paints;
-    int failed = soft_room(&paints, &bodies->paint_room, scene->body_count, sizeof *bodies->paints);
+    int failed =
+        band_lists_room(&paints, &bodies->paint_room, scene->body_count, sizeof *bodies->paints);
     bodies->paints = paints;
     bodies->paint_count = 0;
     if (failed != 0 || face_room(&bodies->flats, flats, sizeof(struct soft_flat)) != 0 ||
         face_room(&bodies->sides, sides, sizeof(struct soft_side)) != 0 ||
-        face_room(&bodies->shades, shades, sizeof(struct soft_shade)) != 0)
+        face_room(&bodies->shades, shades, sizeof(struct soft_shadow)) != 0)
         return -1;
     frame->kernels->soft_bodies_set_up(bodies, frame);
     if (sort_faces(&bodies->flats, frame->bands) != 0 ||

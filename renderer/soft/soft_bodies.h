@@ -3,7 +3,7 @@
 #ifndef JOLON_RENDERER_SOFT_SOFT_BODIES_H
 #define JOLON_RENDERER_SOFT_SOFT_BODIES_H
 
-#include "renderer/soft/soft.h"
+#include "renderer/soft/band_lists.h"
 #include "renderer/soft/soft_mesh.h"
 #include "renderer/soft/soft_texture.h"
 
@@ -13,8 +13,8 @@
 
 /* A face of a small body. */
 struct soft_flat {
-    struct span span;
-    struct span_plane depth;
+    struct triangle_edges edges;
+    struct triangle_plane depth;
     uint32_t colour;
 };
 
@@ -35,9 +35,9 @@ enum side_value {
 
 /* A face with detail: light from corner to corner, paint by texture. */
 struct soft_side {
-    struct span span;
-    struct span_plane depth;
-    struct span_plane value[SIDE_VALUES];
+    struct triangle_edges edges;
+    struct triangle_plane depth;
+    struct triangle_plane value[SIDE_VALUES];
     float colour[3];
     float worn;          /* 1: paint in camouflage */
     float links;         /* of a track: 0 plain .. 1 each link shows */
@@ -57,19 +57,19 @@ struct soft_paint {
 };
 
 /* A face's shadow on the ground. */
-struct soft_shade {
-    struct span span;
-    struct span_plane depth; /* nearer by what the ground may be off */
-    uint32_t dark;           /* 1 .. SOFT_SHADOW_FULL */
+struct soft_shadow {
+    struct triangle_edges edges;
+    struct triangle_plane depth; /* nearer by what the ground may be off */
+    uint32_t dark;               /* 1 .. SOFT_SHADOW_FULL */
 };
 
 /* Faces of a kind, and the bands they are in. */
 struct soft_faces {
     void *list; /* owned */
-    struct soft_rows *rows;
+    struct band_rows *rows;
     size_t list_room, row_room;
     uint32_t count;
-    struct soft_bins bins;
+    struct band_lists lists;
 };
 
 /* The corners of one body, as columns: its mesh's, and some that are cut at the near plane. First
@@ -110,5 +110,13 @@ struct soft_reach {
 };
 struct soft_reach soft_bodies_reach(const struct soft_bodies *bodies,
                                     const struct soft_frame *frame, uint32_t index);
+
+/* NULL with the reason. */
+struct soft_bodies *soft_bodies_open(const struct static_scene *scenery,
+                                     const struct soft_detail *detail, struct reason *reason);
+void soft_bodies_close(struct soft_bodies *bodies);
+/* Sorts the bodies of the scene into the bands, and their shadows. May run in a thread of its own.
+ * 0, or -1 with errno ENOMEM. */
+int soft_bodies_prepare(struct soft_bodies *bodies, const struct soft_frame *frame);
 
 #endif

@@ -27,7 +27,7 @@ void soft_ground_close(struct soft_ground *ground)
     if (ground == NULL)
         return;
     terrain_tiles_free(&ground->tiles);
-    band_lists_free(&ground->bins);
+    band_lists_free(&ground->lists);
     soft_detail_free(&ground->detail);
     free(ground->clouds);
     free(ground->list);
@@ -84,12 +84,12 @@ int soft_ground_prepare(struct soft_ground *ground, const struct soft_frame *fra
         most += ground->tiles.views[i].shape->mesh.triangle_count;
     /* The near plane makes two of some. */
     void *list = ground->list, *rows = ground->rows;
-    int full = soft_room(&list, &ground->list_room, 2 * most, sizeof *ground->list);
-    full |= soft_room(&rows, &ground->rows_room, 2 * most, sizeof *ground->rows);
+    int full = band_lists_room(&list, &ground->list_room, 2 * most, sizeof *ground->list);
+    full |= band_lists_room(&rows, &ground->rows_room, 2 * most, sizeof *ground->rows);
     ground->list = list;
     ground->rows = rows;
     if (full != 0)
         return -1;
     frame->kernels->soft_ground_set_up(ground, frame);
-    return band_lists_sort(&ground->bins, ground->rows, ground->count, frame->bands);
+    return band_lists_sort(&ground->lists, ground->rows, ground->count, frame->bands);
 }

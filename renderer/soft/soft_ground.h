@@ -4,7 +4,7 @@
 
 #include "renderer/scene/frame/light.h"
 #include "renderer/scene/terrain/terrain_tiles.h"
-#include "renderer/soft/soft.h"
+#include "renderer/soft/band_lists.h"
 #include "renderer/soft/soft_texture.h"
 
 #include <string.h>
@@ -44,8 +44,8 @@ struct soft_patch {
 };
 
 struct soft_ground_triangle {
-    struct span span;
-    struct span_plane depth;
+    struct triangle_edges edges;
+    struct triangle_plane depth;
     float least, most; /* depth at its corners: rounding must not lead outside */
     uint32_t promise;
 };
@@ -56,15 +56,25 @@ struct soft_ground {
     struct soft_patch patches[TERRAIN_QUADTREE_PATCHES_MAX];
     struct soft_ground_triangle *list;
     size_t list_room;
-    struct soft_rows *rows;
+    struct band_rows *rows;
     size_t rows_room;
     uint32_t count;
-    struct soft_bins bins;
+    struct band_lists lists;
     float *seen; /* scratch: x, y, depth of a patch's vertices */
     struct soft_detail detail;
     uint8_t *clouds; /* laid out likewise; owned */
     /* The eye's place in the fine texture and in the waves; the swell's axes are exchanged. */
     float fine_at[2], ripples_at[2], swell_at[2];
 };
+
+/* NULL with the reason. */
+struct soft_ground *soft_ground_open(const struct static_scene *scenery, struct reason *reason);
+void soft_ground_close(struct soft_ground *ground);
+/* The fine texture, for others too. */
+const struct soft_detail *soft_ground_detail(const struct soft_ground *ground);
+/* In the drawing thread, before prepare: brings the tiles of the scene's patches. */
+void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *frame);
+/* Sorts the triangles of the ground into the bands. 0, or -1 with errno ENOMEM. */
+int soft_ground_prepare(struct soft_ground *ground, const struct soft_frame *frame);
 
 #endif

@@ -108,7 +108,7 @@ void soft_particles_close(struct soft_particles *puffs)
 {
     if (puffs == NULL)
         return;
-    band_lists_free(&puffs->bins);
+    band_lists_free(&puffs->lists);
     free(puffs->texels);
     free(puffs->puffs);
     free(puffs->rows);
@@ -119,12 +119,12 @@ int soft_particles_prepare(struct soft_particles *puffs, const struct soft_frame
 {
     size_t count = frame->scene->puff_count;
     void *list = puffs->puffs, *rows = puffs->rows;
-    int failed = soft_room(&list, &puffs->puff_room, count, sizeof *puffs->puffs);
+    int failed = band_lists_room(&list, &puffs->puff_room, count, sizeof *puffs->puffs);
     puffs->puffs = list;
-    failed |= soft_room(&rows, &puffs->row_room, count, sizeof *puffs->rows);
+    failed |= band_lists_room(&rows, &puffs->row_room, count, sizeof *puffs->rows);
     puffs->rows = rows;
     if (failed != 0)
         return -1;
-    frame->kernels->soft_puffs_set_up(puffs, frame);
-    return band_lists_sort(&puffs->bins, puffs->rows, puffs->count, frame->bands);
+    frame->kernels->soft_particles_set_up(puffs, frame);
+    return band_lists_sort(&puffs->lists, puffs->rows, puffs->count, frame->bands);
 }

@@ -3,7 +3,7 @@
 #ifndef JOLON_RENDERER_SOFT_SOFT_PARTICLES_H
 #define JOLON_RENDERER_SOFT_SOFT_PARTICLES_H
 
-#include "renderer/soft/soft.h"
+#include "renderer/soft/band_lists.h"
 
 #include <stdbool.h>
 
@@ -37,10 +37,17 @@ struct soft_particles {
     uint32_t first[PUFF_PICTURES][PUFF_LEVELS + 1]; /* of the level whose side is 2^i */
     float reach[PUFF_PICTURES]; /* what is farther from the middle is empty: 1 is half a side */
     struct soft_puff *puffs;    /* owned: those that can be seen, farthest first */
-    struct soft_rows *rows;     /* owned, theirs */
+    struct band_rows *rows;     /* owned, theirs */
     size_t puff_room, row_room;
     uint32_t count;
-    struct soft_bins bins;
+    struct band_lists lists;
 };
+
+/* NULL with the reason. */
+struct soft_particles *soft_particles_open(struct reason *reason);
+void soft_particles_close(struct soft_particles *particles);
+/* Sorts the particles of the scene into the bands. May run in a thread of its own. 0, or -1 with
+ * errno ENOMEM. */
+int soft_particles_prepare(struct soft_particles *particles, const struct soft_frame *frame);
 
 #endif

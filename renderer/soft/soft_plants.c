@@ -125,8 +125,8 @@ void soft_plants_close(struct soft_plants *plants)
 {
     if (plants == NULL)
         return;
-    band_lists_free(&plants->bins);
-    band_lists_free(&plants->cast_bins);
+    band_lists_free(&plants->lists);
+    band_lists_free(&plants->cast_lists);
     free(plants->leaves);
     free(plants->plants);
     free(plants->casts);
@@ -140,10 +140,10 @@ int soft_plants_prepare(struct soft_plants *plants, const struct soft_frame *fra
     size_t count = frame->scene->plant_count;
     void *list = plants->plants, *casts = plants->casts;
     void *rows = plants->rows, *cast_rows = plants->cast_rows;
-    int failed = soft_room(&list, &plants->plant_room, count, sizeof *plants->plants);
-    failed |= soft_room(&casts, &plants->cast_room, count, sizeof *plants->casts);
-    failed |= soft_room(&rows, &plants->row_room, count, sizeof *plants->rows);
-    failed |= soft_room(&cast_rows, &plants->cast_row_room, count, sizeof *plants->cast_rows);
+    int failed = band_lists_room(&list, &plants->plant_room, count, sizeof *plants->plants);
+    failed |= band_lists_room(&casts, &plants->cast_room, count, sizeof *plants->casts);
+    failed |= band_lists_room(&rows, &plants->row_room, count, sizeof *plants->rows);
+    failed |= band_lists_room(&cast_rows, &plants->cast_row_room, count, sizeof *plants->cast_rows);
     plants->plants = list;
     plants->casts = casts;
     plants->rows = rows;
@@ -151,7 +151,8 @@ int soft_plants_prepare(struct soft_plants *plants, const struct soft_frame *fra
     if (failed != 0)
         return -1;
     frame->kernels->soft_plants_set_up(plants, frame);
-    if (band_lists_sort(&plants->bins, plants->rows, plants->count, frame->bands) != 0)
+    if (band_lists_sort(&plants->lists, plants->rows, plants->count, frame->bands) != 0)
         return -1;
-    return band_lists_sort(&plants->cast_bins, plants->cast_rows, plants->cast_count, frame->bands);
+    return band_lists_sort(&plants->cast_lists, plants->cast_rows, plants->cast_count,
+                           frame->bands);
 }

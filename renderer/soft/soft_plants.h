@@ -4,7 +4,7 @@
 #define JOLON_RENDERER_SOFT_SOFT_PLANTS_H
 
 #include "renderer/scene/model/plant_impostors.h"
-#include "renderer/soft/soft.h"
+#include "renderer/soft/band_lists.h"
 
 #include <stdbool.h>
 
@@ -48,10 +48,17 @@ struct soft_plants {
     uint32_t first[PLANT_IMPOSTORS_COUNT][PLANT_LEVELS + 1]; /* of the level whose side is 2^i */
     struct soft_plant *plants;                               /* owned: those in the picture */
     struct soft_cast *casts;                                 /* owned */
-    struct soft_rows *rows, *cast_rows;
+    struct band_rows *rows, *cast_rows;
     size_t plant_room, cast_room, row_room, cast_row_room;
     uint32_t count, cast_count;
-    struct soft_bins bins, cast_bins;
+    struct band_lists lists, cast_lists;
 };
+
+/* NULL with the reason. */
+struct soft_plants *soft_plants_open(struct reason *reason);
+void soft_plants_close(struct soft_plants *plants);
+/* Sorts the plants of the scene into the bands, and their shadows. May run in a thread of its own.
+ * 0, or -1 with errno ENOMEM. */
+int soft_plants_prepare(struct soft_plants *plants, const struct soft_frame *frame);
 
 #endif

@@ -8,7 +8,7 @@
 #ifndef JOLON_RENDERER_SOFT_TRIANGLE_RASTER_H
 #define JOLON_RENDERER_SOFT_TRIANGLE_RASTER_H
 
-#include "renderer/soft/soft.h"
+#include "renderer/soft/soft_internal.h"
 #include "renderer/soft/simd8.h"
 
 #include <stdbool.h>
@@ -22,7 +22,7 @@ struct corners8 {
 };
 
 /* Of eight triangles. */
-struct span8 {
+struct edges8 {
     v8f top_x, top_y, middle_x, middle_y, low_y;
     v8f long_slope, upper_slope, lower_slope;
     v8f area;       /* twice; positive when the corners turn clockwise in the picture */
@@ -86,7 +86,7 @@ SIMD8 v8i triangle_raster_shown(const struct corners8 *c, v8f area, uint32_t wid
 }
 
 /* Sets eight triangles up. Returns triangle_raster_shown(). */
-SIMD8 v8i triangle_raster_set_up(struct span8 *s, const struct corners8 *c, uint32_t width,
+SIMD8 v8i triangle_raster_set_up(struct edges8 *s, const struct corners8 *c, uint32_t width,
                                  uint32_t height)
 {
     float rows = (float)height;
@@ -119,7 +119,7 @@ SIMD8 v8i triangle_raster_set_up(struct span8 *s, const struct corners8 *c, uint
 }
 
 /* The plane through the values at the corners. */
-SIMD8 struct plane8 triangle_raster_plane(const struct span8 *s, v8f at0, v8f at1, v8f at2)
+SIMD8 struct plane8 triangle_raster_plane(const struct edges8 *s, v8f at0, v8f at1, v8f at2)
 {
     v8f by1 = at1 - at0, by2 = at2 - at0;
     v8f x = (by1 * s->y2 - by2 * s->y1) * s->over_area;
@@ -128,21 +128,21 @@ SIMD8 struct plane8 triangle_raster_plane(const struct span8 *s, v8f at0, v8f at
 }
 
 /* One of the eight. */
-SIMD8 struct span triangle_raster_of(const struct span8 *s, int lane)
+SIMD8 struct triangle_edges triangle_raster_of(const struct edges8 *s, int lane)
 {
-    return (struct span){s->top_x[lane],       s->top_y[lane],      s->middle_x[lane],
-                         s->middle_y[lane],    s->low_y[lane],      s->long_slope[lane],
-                         s->upper_slope[lane], s->lower_slope[lane]};
+    return (struct triangle_edges){s->top_x[lane],       s->top_y[lane],      s->middle_x[lane],
+                                   s->middle_y[lane],    s->low_y[lane],      s->long_slope[lane],
+                                   s->upper_slope[lane], s->lower_slope[lane]};
 }
 
-SIMD8 struct span_plane triangle_raster_plane_of(const struct plane8 *p, int lane)
+SIMD8 struct triangle_plane triangle_raster_plane_of(const struct plane8 *p, int lane)
 {
-    return (struct span_plane){p->top[lane], p->x[lane], p->y[lane]};
+    return (struct triangle_plane){p->top[lane], p->x[lane], p->y[lane]};
 }
 
 /* The plane's value at the centres of eight pixels of a row from x on. */
-SIMD8 v8f triangle_raster_value(const struct span *s, const struct span_plane *p, int32_t x,
-                                int32_t y)
+SIMD8 v8f triangle_raster_value(const struct triangle_edges *s, const struct triangle_plane *p,
+                                int32_t x, int32_t y)
 {
     float row = p->top + ((float)y + 0.5f - s->top_y) * p->y;
     return row + (simd8_to_f(simd8_count() + x) + (0.5f - s->top_x)) * p->x;
@@ -164,7 +164,7 @@ typedef void triangle_raster_pixels(void *context, int32_t x, int32_t y, size_t 
 
 /* Calls pixels, which should be inlined, for all of the triangle that lies in the band. Where its
  * edges cross the rows is worked out for eight rows at once. */
-SIMD8 void triangle_raster_walk(const struct span *s, const struct soft_target *t,
+SIMD8 void triangle_raster_walk(const struct triangle_edges *s, const struct soft_target *t,
                                 triangle_raster_pixels *pixels, void *context)
 {
     float rows = (float)SOFT_SIDE_MAX, columns = (float)t->width;

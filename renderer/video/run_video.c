@@ -153,7 +153,7 @@ static enum log_replay_step shoot(struct run_video *film)
         if (due >= film->end || !go_to(film, due, &step))
             break;
         show_before(film, (double)(due - film->first) - after);
-        if (render_session_draw(&film->studio, false, &reason) != 0)
+        if (view_pictures_draw(&film->studio, false, &reason) != 0)
             give_up(film, &reason);
         film->pictures++;
         tell_progress(film);

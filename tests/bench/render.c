@@ -10,6 +10,7 @@
 #include "ipc/process/process.h"
 #include "renderer/chart/annotated_picture.h"
 #include "renderer/image/png.h"
+#include "renderer/chart/instruments.h"
 
 #include <errno.h>
 #include <fcntl.h>

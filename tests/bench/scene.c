@@ -5,6 +5,9 @@
 #include "tests/bench/world.h"
 #include "ipc/process/log.h"
 #include "world/params.h"
+#include "renderer/gl/gl.h"
+#include "renderer/gl/gl_devices.h"
+#include "renderer/soft/soft.h"
 
 #include <errno.h>
 #include <string.h>

@@ -5,6 +5,7 @@
 
 #include "renderer/output/stream_internal.h"
 #include "world/runtime/check.h"
+#include "renderer/output/stream_requests.h"
 
 #include <string.h>
 

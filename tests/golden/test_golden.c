@@ -4,6 +4,9 @@
  * differs is left beside the test's program to be looked at. */
 #include "tests/bench/scene.h"
 #include "renderer/image/png.h"
+#include "renderer/gl/gl.h"
+#include "renderer/gl/gl_devices.h"
+#include "renderer/soft/soft.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

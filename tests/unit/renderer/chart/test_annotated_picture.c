@@ -3,6 +3,7 @@
 #include "renderer/chart/annotated_picture.h"
 
 #include "tests/support/map_stage.h"
+#include "renderer/chart/instruments.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -4,6 +4,8 @@
 
 #include "ipc/http/listen.h"
 #include "ipc/process/clock.h"
+#include "renderer/output/stream_listen.h"
+#include "renderer/output/stream_requests.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>

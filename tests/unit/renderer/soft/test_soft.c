@@ -6,6 +6,7 @@
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/triangle_raster.h"
 #include "tests/support/fixture.h"
+#include "renderer/soft/soft.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,14 +30,14 @@
 struct sheet {
     uint32_t times[HEIGHT * STRIDE];
     float value[HEIGHT * STRIDE];
-    struct span span;
-    struct span_plane plane;
+    struct triangle_edges edges;
+    struct triangle_plane plane;
 };
 
 SIMD8 void note(void *context, int32_t x, int32_t y, size_t at, v8i inside)
 {
     struct sheet *sheet = context;
-    v8f value = triangle_raster_value(&sheet->span, &sheet->plane, x, y);
+    v8f value = triangle_raster_value(&sheet->edges, &sheet->plane, x, y);
     (void)at;
     for (int32_t i = 0; i < LANES; i++)
         if (inside[i] != 0) {
@@ -50,23 +51,23 @@ SIMD8 void note(void *context, int32_t x, int32_t y, size_t at, v8i inside)
 static bool draw_triangle(struct sheet *sheet, float corner[3][3])
 {
     struct corners8 corners;
-    struct span8 span;
+    struct edges8 edges;
     v8f at[3];
     for (uint32_t c = 0; c < 3; c++) {
         corners.x[c] = simd8_f(corner[c][0]);
         corners.y[c] = simd8_f(corner[c][1]);
         at[c] = simd8_f(corner[c][2]);
     }
-    if (simd8_bits(triangle_raster_set_up(&span, &corners, WIDTH, HEIGHT)) == 0)
+    if (simd8_bits(triangle_raster_set_up(&edges, &corners, WIDTH, HEIGHT)) == 0)
         return false;
-    struct plane8 planes = triangle_raster_plane(&span, at[0], at[1], at[2]);
-    sheet->span = triangle_raster_of(&span, 3);
+    struct plane8 planes = triangle_raster_plane(&edges, at[0], at[1], at[2]);
+    sheet->edges = triangle_raster_of(&edges, 3);
     sheet->plane = triangle_raster_plane_of(&planes, 3);
     for (int32_t first = 0; first < HEIGHT; first += SOFT_BAND_ROWS) {
         int32_t end = first + SOFT_BAND_ROWS;
         struct soft_target band = {
             .width = WIDTH, .stride = STRIDE, .first = first, .end = end < HEIGHT ? end : HEIGHT};
-        triangle_raster_walk(&sheet->span, &band, note, sheet);
+        triangle_raster_walk(&sheet->edges, &band, note, sheet);
     }
     return true;
 }

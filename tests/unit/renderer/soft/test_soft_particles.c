@@ -1,6 +1,7 @@
 /* The software back end's puffs: what covers what, where, and how much. */
 #include "tests/support/fixture.h"
 #include "tests/support/soft_stage.h"
+#include "renderer/soft/soft_particles.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -43,7 +44,7 @@ static void draw(struct soft_stage *stage)
     assert_int_equal(soft_particles_prepare(puffs, &stage->frame), 0);
     for (uint32_t band = 0; band < stage->frame.bands; band++) {
         struct soft_target target = soft_stage_band(stage, band);
-        stage->frame.kernels->soft_puffs_fill(puffs, &stage->frame, &target);
+        stage->frame.kernels->soft_particles_fill(puffs, &stage->frame, &target);
     }
 }
 
@@ -227,7 +228,7 @@ static void test_same_everywhere(void **context)
     assert_int_equal(soft_particles_prepare(puffs, &stages[1].frame), 0);
     for (uint32_t band = stages[1].frame.bands; band-- > 0;) {
         struct soft_target target = soft_stage_band(&stages[1], band);
-        builds[1]->soft_puffs_fill(puffs, &stages[1].frame, &target);
+        builds[1]->soft_particles_fill(puffs, &stages[1].frame, &target);
     }
     assert_true(soft_stage_painted(&stages[0], BLUE) > 5000);
     soft_stage_assert_same(&stages[0], &stages[1]);

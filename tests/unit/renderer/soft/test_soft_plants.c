@@ -2,6 +2,8 @@
 #include "renderer/soft/soft_texture.h"
 #include "tests/support/fixture.h"
 #include "tests/support/soft_stage.h"
+#include "renderer/soft/soft_bodies.h"
+#include "renderer/soft/soft_plants.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

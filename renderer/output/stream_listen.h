@@ -1,0 +1,21 @@
+/* Where the stream listens. */
+#ifndef JOLON_RENDERER_OUTPUT_STREAM_LISTEN_H
+#define JOLON_RENDERER_OUTPUT_STREAM_LISTEN_H
+
+#include "ipc/segment/role.h"
+#include "ipc/segment/segment.h"
+
+#include <stdint.h>
+
+struct stream;
+
+/* Binds and listens, without a thread yet; port 0: any that is free. A warning says when others
+ * than this machine's may come. 0, or -1 with the reason: no such address, the port is in use or
+ * not allowed. */
+int stream_listen(struct stream *stream, const char *address, uint16_t port, struct reason *reason);
+
+/* Listens on the renderer's own socket (ipc/segment/picture_socket.h), for processes of this user
+ * alone. 0, or -1 with the reason: another process has the name. */
+int stream_listen_here(struct stream *stream, enum role role, struct reason *reason);
+
+#endif

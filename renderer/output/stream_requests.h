@@ -1,0 +1,32 @@
+/* Pictures that clients of the stream ask for, as the drawing thread sees them. */
+#ifndef JOLON_RENDERER_OUTPUT_STREAM_REQUESTS_H
+#define JOLON_RENDERER_OUTPUT_STREAM_REQUESTS_H
+
+#include "renderer/output/picture.h"
+#include "renderer/output/picture_requests.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct stream;
+
+struct stream_wish {
+    struct picture_requests_key key;
+    uint64_t generation; /* another for another wish in the same row; 0: none is there */
+    bool waiting;        /* somebody waits for it now */
+    bool again;          /* ... even if it would be as the last */
+};
+
+/* Fills wishes[PICTURE_REQUESTS_MAX] with the rows that somebody has asked for lately. How many
+ * wait. */
+uint32_t stream_wishes(struct stream *stream, struct stream_wish *wishes);
+
+/* Answers a row's wish: with a picture, which the caller goes on holding, or with NULL: there is no
+ * such vehicle. A wish that is another by now is left alone. */
+void stream_grant(struct stream *stream, uint32_t row, uint64_t generation,
+                  struct picture *picture);
+
+/* Sleeps until the time (CLOCK_MONOTONIC), or until somebody begins to wait for a picture. */
+void stream_sleep(struct stream *stream, uint64_t until_ns);
+
+#endif
