@@ -6,7 +6,6 @@
 #include "world/params.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -39,198 +38,6 @@ uint64_t segment_static_hash(const struct segment_header *header)
     return XXH3_64bits(header->static_hash, sizeof header->static_hash);
 }
 
-/* --- damage by its field -----------------------------------------------------------------------*/
-
-enum form { FORM_WHOLE, FORM_HEX, FORM_REAL, FORM_OTHER };
-
-struct field {
-    const char *name;
-    size_t offset, bytes;
-    enum form form;
-};
-
-#define FIELD(type, member, form)                                                                  \
-    {                                                                                              \
-#member, offsetof(struct type, member), sizeof(((const struct type *)0)->member), form     \
-    }
-#define HEADER(member) FIELD(segment_header, member, FORM_WHOLE)
-#define PARAM(member)  FIELD(params, member, FORM_WHOLE)
-
-static const struct field header_fields[] = {
-    FIELD(segment_header, magic, FORM_HEX),
-    HEADER(version),
-    HEADER(header_bytes),
-    FIELD(segment_header, layout_hash, FORM_HEX),
-    HEADER(total_bytes),
-    FIELD(segment_header, static_hash, FORM_OTHER),
-    HEADER(counts.kinds),
-    HEADER(counts.models),
-    HEADER(counts.model_vertices),
-    HEADER(counts.model_triangles),
-    HEADER(counts.hulls),
-    HEADER(counts.hull_vertices),
-    HEADER(counts.hull_planes),
-    HEADER(counts.posts_side),
-    HEADER(counts.fixed),
-    HEADER(counts.reach),
-    HEADER(counts.areas),
-    HEADER(counts.routes),
-    HEADER(counts.route_points),
-    HEADER(counts.fires),
-    HEADER(counts.road_points),
-    HEADER(counts.names),
-    HEADER(counts.formations),
-    HEADER(counts.scripts),
-    HEADER(counts.script_steps),
-    HEADER(counts.recipe),
-    HEADER(capacity),
-    HEADER(event_slots),
-    HEADER(intents_per_frame),
-    HEADER(command_slots),
-    HEADER(crater_slots),
-    HEADER(dent_slots),
-    FIELD(segment_header, made, FORM_HEX),
-    FIELD(segment_header, origin, FORM_HEX),
-    HEADER(first_event),
-    FIELD(segment_header, head_hash, FORM_HEX),
-};
-
-static const struct field params_fields[] = {
-    FIELD(params, name, FORM_OTHER),
-    FIELD(params, scenario, FORM_OTHER),
-    PARAM(seed),
-    FIELD(params, scenario_hash, FORM_HEX),
-    PARAM(frame_limit),
-    FIELD(params, hz, FORM_REAL),
-    FIELD(params, dt_s, FORM_REAL),
-    PARAM(pace),
-    PARAM(capacity),
-    PARAM(event_slots),
-    PARAM(events_per_frame),
-    PARAM(intents_per_frame),
-    PARAM(command_slots),
-    PARAM(crater_slots),
-    PARAM(dent_slots),
-    PARAM(initial_entities),
-    FIELD(params, collision, FORM_OTHER),
-    FIELD(params, base, FORM_OTHER),
-    FIELD(params, renderer, FORM_OTHER),
-};
-
-#define FIELDS(table) table, sizeof(table) / sizeof((table)[0])
-
-/* Flips the one bit of bytes whose flip makes hash right again. Its byte; count when there is none,
- * and then bytes are as they were. */
-static size_t unflip(unsigned char *bytes, size_t count, uint64_t (*hash)(const void *bytes),
-                     uint64_t right)
-{
-    for (size_t i = 0; i < count; i++) {
-        for (int bit = 0; bit < 8; bit++) {
-            bytes[i] ^= (unsigned char)(1u << bit);
-            if (hash(bytes) == right)
-                return i;
-            bytes[i] ^= (unsigned char)(1u << bit);
-        }
-    }
-    return count;
-}
-
-static void print_value(char *text, size_t room, const struct field *field, const void *base)
-{
-    const unsigned char *at = (const unsigned char *)base + field->offset;
-    uint64_t whole = 0;
-    double real;
-    memcpy(&whole, at, field->bytes < sizeof whole ? field->bytes : sizeof whole);
-    memcpy(&real, &whole, sizeof real);
-    if (field->form == FORM_REAL)
-        snprintf(text, room, "%.17g", real);
-    else
-        snprintf(text, room, field->form == FORM_HEX ? "%016" PRIx64 : "%" PRIu64, whole);
-}
-
-/* Names the field that holds byte at, with its value and the one it had in good. */
-static int damaged_field(const struct field *fields, size_t count, size_t at, const void *damaged,
-                         const void *good, const char *where, struct reason *reason)
-{
-    char is[32], was[32];
-    for (size_t i = 0; i < count; i++) {
-        const struct field *field = &fields[i];
-        if (at < field->offset || at >= field->offset + field->bytes)
-            continue;
-        if (field->form == FORM_OTHER)
-            return reason_set(reason, "%s.%s is damaged at its byte %zu", where, field->name,
-                              at - field->offset);
-        print_value(is, sizeof is, field, damaged);
-        print_value(was, sizeof was, field, good);
-        return reason_set(reason, "%s.%s is damaged: it is %s and was %s", where, field->name, is,
-                          was);
-    }
-    return reason_set(reason, "%s is damaged at byte %zu", where, at);
-}
-
-static uint64_t hash_of_header(const void *bytes)
-{
-    struct segment_header header;
-    memcpy(&header, bytes, sizeof header);
-    return segment_head_hash(&header);
-}
-
-static uint64_t hash_of_params(const void *bytes)
-{
-    return XXH3_64bits(bytes, sizeof(struct params));
-}
-
-static bool one_bit(uint64_t difference)
-{
-    return difference != 0 && (difference & (difference - 1)) == 0;
-}
-
-/* The header fails its hash: is one flipped bit the reason? Then reason names its field. */
-static bool header_flipped(const struct segment_header *header, const char *path,
-                           struct reason *reason)
-{
-    struct segment_header good = *header;
-    char where[SEGMENT_PATH_MAX + 16];
-    uint64_t hash = segment_head_hash(header);
-    size_t at = offsetof(struct segment_header, head_hash);
-    if (one_bit(hash ^ header->head_hash))
-        good.head_hash = hash;
-    else
-        at = unflip((unsigned char *)&good, sizeof good, hash_of_header, header->head_hash);
-    if (at == sizeof good)
-        return false;
-    snprintf(where, sizeof where, "%s: header", path);
-    damaged_field(FIELDS(header_fields), at, header, &good, where, reason);
-    return true;
-}
-
-/* More than one bit: what does not follow from the rest? */
-static int damaged_header(const struct segment_header *header, const char *path,
-                          struct reason *reason)
-{
-    struct layout layout;
-    if (layout_compute(&layout, header) != 0)
-        return reason_set(reason, "%s: header: counts are damaged: out of range", path);
-    if (header->total_bytes != layout.total)
-        return reason_set(reason,
-                          "%s: header: total_bytes or counts are damaged: %" PRIu64
-                          "; the counts need %zu",
-                          path, header->total_bytes, layout.total);
-    return reason_set(reason, "%s: header: fails its head_hash in more than one bit", path);
-}
-
-static int damaged_params(const struct params *params, uint64_t right, const char *path,
-                          struct reason *reason)
-{
-    struct params good = *params;
-    char where[SEGMENT_PATH_MAX + 16];
-    snprintf(where, sizeof where, "%s: params", path);
-    size_t at = unflip((unsigned char *)&good, sizeof good, hash_of_params, right);
-    if (at < sizeof good)
-        return damaged_field(FIELDS(params_fields), at, params, &good, where, reason);
-    return reason_set(reason, "%s: fail their hash in more than one bit", where);
-}
-
 /* --- checks ------------------------------------------------------------------------------------*/
 
 int segment_check_object(int fd, const char *path, size_t *bytes, struct reason *reason)
@@ -256,9 +63,6 @@ int segment_check_object(int fd, const char *path, size_t *bytes, struct reason 
     return 0;
 }
 
-/* A header of another build is told from a damaged one by its own hash, if that build made it in
- * the same way, and else by its version and layout, in which no single flipped bit explains the
- * hash. */
 static int check_build(const struct segment_header *header, const char *path, struct reason *reason)
 {
     if (header->version == SEGMENT_VERSION && header->header_bytes == sizeof *header &&
@@ -276,7 +80,14 @@ static int check_build(const struct segment_header *header, const char *path, st
     return -1;
 }
 
-/* The header is copied out of memory that others could change, then checked field by field. */
+static bool one_bit(uint64_t difference)
+{
+    return difference != 0 && (difference & (difference - 1)) == 0;
+}
+
+/* The header is copied out of memory that others could change, then checked field by field. Of a
+ * header that fails its hash, the layout's hash tells whether another build made it in another way:
+ * no single flipped bit explains that. */
 int segment_check_header(const struct segment_header *header, size_t bytes, const char *path,
                          struct layout *layout, struct reason *reason)
 {
@@ -285,11 +96,11 @@ int segment_check_header(const struct segment_header *header, size_t bytes, cons
         reason->foreign = !one_bit(header->magic ^ SEGMENT_MAGIC);
         return -1;
     }
-    bool whole = header->head_hash == segment_head_hash(header);
-    if ((!whole && header_flipped(header, path, reason)) || check_build(header, path, reason) != 0)
+    uint64_t difference = header->layout_hash ^ layout_hash();
+    if (header->head_hash != segment_head_hash(header) && (difference == 0 || one_bit(difference)))
+        return reason_set(reason, "%s: header is damaged: it fails its hash", path);
+    if (check_build(header, path, reason) != 0)
         return -1;
-    if (!whole)
-        return damaged_header(header, path, reason);
     if (layout_compute(layout, header) != 0)
         return reason_set(reason, "%s: counts: out of range", path);
     if (header->total_bytes != layout->total || bytes != layout->total)
@@ -321,7 +132,7 @@ int segment_check_params(const struct view *view, const char *path, struct reaso
     const struct segment_header *header = view->base;
     const struct params *params = segment_part(view, REGION_PARAMS);
     if (segment_region_hash(view, REGION_PARAMS) != header->static_hash[REGION_PARAMS])
-        return damaged_params(params, header->static_hash[REGION_PARAMS], path, reason);
+        return reason_set(reason, "%s: params are damaged: they fail their hash", path);
     return segment_params_fit(params, header, path, reason);
 }
 

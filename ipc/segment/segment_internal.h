@@ -48,7 +48,7 @@ uint64_t segment_region_hash(const struct view *view, int region);
 
 /* Is the object a world's by kind, owner, mode and size (into bytes)? Is the header this build's,
  * whole, and of such a size (layout follows from it)? Are the parameters of a mapped view whole,
- * and do they fit its header? 0, or -1 with the reason, which names the field. */
+ * and do they fit its header? 0, or -1 with the reason. */
 int segment_check_object(int fd, const char *path, size_t *bytes, struct reason *reason);
 int segment_check_header(const struct segment_header *header, size_t bytes, const char *path,
                          struct layout *layout, struct reason *reason);
