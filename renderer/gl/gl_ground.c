@@ -210,7 +210,7 @@ static void draw_view(struct gl_ground *ground, const struct gl_ground_shader *s
     double side = terrain_quadtree_patch_side(key->level);
     double x = key->column * side, z = key->row * side;
     float corner[3];
-    scene_place(scene, (struct vec3){x, 0.0, z}, corner);
+    draw_list_relative(scene, (struct vec3){x, 0.0, z}, corner);
     glUniform4f(shader->u_origin, corner[0], corner[1], corner[2], (float)side);
     glUniform3f(shader->u_part, view->at_u, view->at_v, view->share);
     glUniform1f(shader->u_surf, view->paint->surf ? 1.0f : 0.0f);

@@ -1,7 +1,7 @@
 /* Fixed objects made of polygons, whole and damaged (thesis rows 27, 32 and 33): poles lean and
  * break, towers lean and fall over, buildings and rocks fall in until they are a heap, trees lie.
  */
-#include "renderer/scene/scene.h"
+#include "renderer/scene/fixed_objects.h"
 
 #include "renderer/scene/noise/value_noise.h"
 #include "world/terrain/fixed.h"
@@ -86,17 +86,17 @@ static void add_fixed(struct scene *scene, const struct static_scene *scenery,
         !camera_sees(&scene->camera, position, 3.0 * size))
         return;
     struct scene_body *body =
-        scene_body_add(scene, kind->model, scene_detail(pixels, damage != DAMAGE_NONE));
+        draw_list_add_body(scene, kind->model, draw_list_detail(pixels, damage != DAMAGE_NONE));
     if (body == NULL)
         return;
     double lean = lean_of((enum object_class)kind->object_class, (enum damage)damage);
     struct body_axes pose = body_axes_of(fixed_heading(object), -lean, 0.0);
-    scene_body_place(scene, body, position, &pose, fixed_scale(object, kind));
+    draw_list_place_body(scene, body, position, &pose, fixed_scale(object, kind));
     memcpy(body->tint, washes[value_noise_hash((int32_t)index, 6, 9) % WASHES], sizeof body->tint);
     body->grain = (float)(value_noise_hash((int32_t)index, 4, 9) % 64u);
     if (damage != DAMAGE_NONE)
         show_damage(body, kind, (enum damage)damage, &scenery->frames[kind->model]);
-    scene_body_shadow(scene, moment, position, pixels);
+    draw_list_add_shadow(scene, moment, position, pixels);
 }
 
 /* A tree that was felled lies beside its stump, on the slope, whichever way its grain says. */
@@ -112,7 +112,8 @@ static void add_felled(struct scene *scene, const struct frame_view *moment, uin
     if (pixels < BODY_LEAST_PIXELS || kind->model >= moment->world->counts.models ||
         !camera_sees(&scene->camera, foot, 2.0 * high_m))
         return;
-    struct scene_body *body = scene_body_add(scene, kind->model, scene_detail(pixels, false));
+    struct scene_body *body =
+        draw_list_add_body(scene, kind->model, draw_list_detail(pixels, false));
     if (body == NULL)
         return;
     double heading = TWO_PI * (double)value_noise_unit((int32_t)index, 3, 9), x, z;
@@ -123,12 +124,12 @@ static void add_felled(struct scene *scene, const struct frame_view *moment, uin
     struct vec3 butt = {foot.x + FELLED_AWAY_M * x, foot.y + FELLED_LIFT_M,
                         foot.z - FELLED_AWAY_M * z};
     struct body_axes pose = body_axes_of(heading, rise - HALF_PI, 0.0);
-    scene_body_place(scene, body, butt, &pose, fixed_scale(object, kind));
-    scene_body_shadow(scene, moment, butt, pixels);
+    draw_list_place_body(scene, body, butt, &pose, fixed_scale(object, kind));
+    draw_list_add_shadow(scene, moment, butt, pixels);
 }
 
-void scene_fixed(struct scene *scene, const struct static_scene *scenery,
-                 const struct frame_view *moment)
+void fixed_objects_add(struct scene *scene, const struct static_scene *scenery,
+                       const struct frame_view *moment)
 {
     struct vec3 eye = scene->camera.eye;
     struct gridsquare_box box = gridsquare_box_of(eye.x - FIXED_RANGE_M, eye.z - FIXED_RANGE_M,

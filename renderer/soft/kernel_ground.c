@@ -178,7 +178,8 @@ void KERNEL(soft_ground_set_up)(struct soft_ground *ground, const struct soft_fr
         const struct terrain_mesh *mesh = &tile->mesh;
         double side = terrain_quadtree_patch_side(patch->level);
         float corner[3];
-        scene_place(scene, (struct vec3){patch->column * side, 0.0, patch->row * side}, corner);
+        draw_list_relative(scene, (struct vec3){patch->column * side, 0.0, patch->row * side},
+                           corner);
         batch.patch = i;
         if (project(&seen, (const float(*)[3])mesh->vertices, mesh->vertex_count, corner, frame))
             put_near(ground, frame, &batch, &seen, tile, corner);

@@ -2,7 +2,7 @@
 #ifndef JOLON_RENDERER_SCENE_DRAW_LIST_TEXTURE_H
 #define JOLON_RENDERER_SCENE_DRAW_LIST_TEXTURE_H
 
-#include "renderer/scene/scene.h"
+#include "renderer/scene/draw_list/draw_list.h"
 
 #include <stdint.h>
 

@@ -3,6 +3,7 @@
 
 #include "renderer/scene/model/track_outline.h"
 #include "renderer/scene/model/mesh_facets.h"
+#include "renderer/scene/model/mesh_simplify.h"
 #include "world/world.h"
 
 #include <math.h>

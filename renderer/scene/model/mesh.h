@@ -3,8 +3,8 @@
  *
  * A coarser level is what is left when small pieces are dropped and edges collapsed until there are
  * no more triangles than the level may have. What counts is how much of a pixel that moves at the
- * size from which on the level is drawn (scene_detail): two neighbours look alike where one follows
- * the other. The coarsest is made of what collides, where the model says what that is. */
+ * size from which on the level is drawn (draw_list_detail): two neighbours look alike where one
+ * follows the other. The coarsest is made of what collides, where the model says what that is. */
 #ifndef JOLON_RENDERER_SCENE_MODEL_MESH_H
 #define JOLON_RENDERER_SCENE_MODEL_MESH_H
 

@@ -28,11 +28,6 @@ float facet_across(const struct facet *facet, float across[3]);
  * part at one place, in the order in which they are met. NULL with errno ENOMEM. */
 uint32_t *mesh_facets_places(const struct mesh_facets *facets, uint32_t *places);
 
-/* Thins out until no more than `most` are left: drops the pieces that cover least and collapses the
- * edges that move the surface least, both by the same share of drop_m and error_m, which is raised
- * until it is enough. 0, or -1 with errno ENOMEM. */
-int mesh_simplify(struct mesh_facets *facets, double drop_m, double error_m, uint32_t most);
-
 /* Unit normals of all corners, [3 * count][3]: the mean of the facets that meet there at less than
  * an edge's angle. 0, or -1 with errno ENOMEM. */
 int mesh_facets_normals(const struct mesh_facets *facets, float (*normals)[3]);

@@ -2,7 +2,7 @@
  * cost is the sum of the squared distances from the planes of all facets that a place once
  * belonged to (M. Garland, P. Heckbert, Surface simplification using quadric error metrics, 1997);
  * where a colour or a sheet ends, a plane through that edge keeps it where it is. */
-#include "renderer/scene/model/mesh_facets.h"
+#include "renderer/scene/model/mesh_simplify.h"
 #include "world/model.h"
 
 #include <math.h>

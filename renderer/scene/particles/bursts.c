@@ -1,5 +1,7 @@
 /* What happened: shots, explosions on bodies and in the ground, splashes, sparks, dust. Each is a
  * function of its age; each puff of it is born and dies by its opacity. */
+#include "renderer/scene/particles/bursts.h"
+
 #include "renderer/scene/particles/particles.h"
 #include "world/world.h"
 

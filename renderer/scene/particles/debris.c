@@ -1,6 +1,6 @@
 /* Debris: parts that fly off a vehicle which is destroyed, fall on the ground and stay there for a
  * while. They are drawn with the vehicle's own model, squeezed into plates, bars and lumps. */
-#include "renderer/scene/scene.h"
+#include "renderer/scene/particles/debris.h"
 
 #include "renderer/scene/noise/value_noise.h"
 #include "world/world.h"
@@ -128,7 +128,7 @@ static void add_piece(struct scene *scene, const struct static_scene *scenery,
         return;
     if (cover_is_water(terrain_cover(&moment->world->terrain, at.x, at.z)) && age > flight.lands_s)
         return; /* it sank */
-    struct scene_body *body = scene_body_add(scene, kind->model, MESH_COARSEST);
+    struct scene_body *body = draw_list_add_body(scene, kind->model, MESH_COARSEST);
     if (body == NULL)
         return;
     struct vec3 normal = terrain_normal(&moment->world->terrain, moment->craters, at.x, at.z);
@@ -141,17 +141,17 @@ static void add_piece(struct scene *scene, const struct static_scene *scenery,
             low = -scale[i] * (double)frame->low[i];
     }
     at = vec3_add(at, vec3_scale(pose.up, low));
-    scene_place(scene, at, body->at);
+    draw_list_relative(scene, at, body->at);
     vec3_to_floats(body->forward, vec3_scale(pose.forward, scale[0]));
     vec3_to_floats(body->up, vec3_scale(pose.up, scale[1]));
     vec3_to_floats(body->right, vec3_scale(pose.right, scale[2]));
     body->tint[0] = body->tint[1] = body->tint[2] = 0.4f;
     body->burn = 1.0f;
-    scene_body_shadow(scene, moment, at, pixels);
+    draw_list_add_shadow(scene, moment, at, pixels);
 }
 
-void scene_debris(struct scene *scene, const struct static_scene *scenery,
-                  const struct frame_view *moment, const struct effects *effects)
+void debris_add(struct scene *scene, const struct static_scene *scenery,
+                const struct frame_view *moment, const struct effects *effects)
 {
     for (uint32_t i = 0; i < effects->count; i++) {
         const struct effect *effect = &effects->effect[i];
@@ -161,7 +161,7 @@ void scene_debris(struct scene *scene, const struct static_scene *scenery,
             moment->world->kinds[effect->kind].model >= moment->world->counts.models)
             continue;
         float at[3];
-        scene_place(scene, effect->point, at);
+        draw_list_relative(scene, effect->point, at);
         float far = sqrtf(frustum_dot(at, at)), pixels = frustum_pixels(&scene->sight, 2.0f, far);
         if (pixels < (float)PIXELS_LEAST || !frustum_ball(&scene->sight, at, 120.0f))
             continue;

@@ -1,145 +1,19 @@
-/* Puffs: their list and its order. Everything is a function of the moment and of the effects
- * remembered: the same moment draws the same picture. */
+/* Calls the emitters and sorts what they added. Everything is a function of the frame and of the
+ * effects remembered: the same frame gives the same picture. */
+#include "renderer/scene/particles/particle_emitters.h"
+
+#include "renderer/scene/particles/bursts.h"
 #include "renderer/scene/particles/particles.h"
+#include "renderer/scene/particles/smoke.h"
+#include "renderer/scene/particles/trails.h"
 #include "world/world.h"
 
 #include <math.h>
 #include <string.h>
 
-#define FADES_PIXELS  0.8f  /* half a side smaller than this fades out ... */
-#define LEAST_PIXELS  0.25f /* ... until nobody sees it */
-#define LEAST_ALPHA   0.01f
-#define EYE_INSIDE    0.6f /* nearer than so many of its sizes it is gone ... */
-#define EYE_OUTSIDE   1.5f /* ... and farther than so many it is whole */
-#define FLAT_LEAST    0.3f /* what lies is at least so high, over its width */
-#define LIFT          0.7  /* of its size, over the ground that it lies on */
-#define APART_SIZES   0.7  /* between two puffs of a row */
-#define APART_PIXELS  8.0
-#define WHOLE_PIXELS  70.0 /* from this size on a burst has all of its puffs */
-#define LEAST_SHARE   0.3
+#define KEY_BITS      11u
 #define BURST_REACH_M 12.0f /* so far a burst goes, with the wind ... */
 #define BURST_REACH   12.0f /* ... and for each metre of its size */
-#define KEY_BITS      11u
-
-struct shade dust_of(enum cover cover)
-{
-    switch (cover) {
-    case COVER_SAND:
-        return (struct shade){0.84f, 0.76f, 0.60f, 1.0f};
-    case COVER_ROAD:
-        return (struct shade){0.78f, 0.69f, 0.52f, 1.0f};
-    case COVER_CHAPARRAL:
-        return (struct shade){0.70f, 0.60f, 0.44f, 0.60f};
-    case COVER_GRASS:
-        return (struct shade){0.74f, 0.65f, 0.46f, 0.45f};
-    case COVER_ROCK:
-        return (struct shade){0.70f, 0.67f, 0.62f, 0.30f};
-    default: /* forest is damp, water wet */
-        return (struct shade){0.60f, 0.52f, 0.38f, 0.0f};
-    }
-}
-
-/* A stretched puff's axis as it is seen: across the view, and never shorter than least. */
-static void stretch(const struct frustum *sight, struct scene_puff *puff, struct vec3 along,
-                    float least)
-{
-    float axis[3], squared = fmaxf(frustum_dot(puff->at, puff->at), 1e-6f);
-    vec3_to_floats(axis, along);
-    float towards = frustum_dot(axis, puff->at) / squared;
-    for (uint32_t i = 0; i < 3; i++)
-        axis[i] -= towards * puff->at[i];
-    float length = sqrtf(frustum_dot(axis, axis));
-    bool blunt = length < 1e-3f * puff->size;
-    float longer = blunt ? least : fmaxf(1.0f, least / length);
-    for (uint32_t i = 0; i < 3; i++)
-        puff->axis[i] = longer * (blunt ? sight->up[i] : axis[i]);
-}
-
-void particles_lay(const struct scene *scene, struct spot *spot, double ground_m)
-{
-    spot->flat = true;
-    spot->along.y = 0.0;
-    spot->at.y = ground_m;
-    struct vec3 along = spot->along, way = vec3_sub(spot->at, scene->camera.eye);
-    /* The picture's width lies across both the puff and the view; the puff's own across the puff
-     * and on the ground. */
-    struct vec3 across = vec3_cross(along, way), own = {-along.z, 0.0, along.x};
-    double length = vec3_length(across) * vec3_length(own);
-    double seen = length > 0.0 ? fabs(vec3_dot(across, own)) / length : 1.0;
-    spot->size_m *= maths_max((double)FLAT_LEAST, seen);
-    spot->at.y += LIFT * spot->size_m; /* or the ground would cut its lower edge */
-}
-
-void particles_add(struct scene *scene, const struct spot *spot)
-{
-    struct scene_puff puff = {.size = (float)spot->size_m};
-    scene_place(scene, spot->at, puff.at);
-    float distance = sqrtf(frustum_dot(puff.at, puff.at));
-    float pixels = frustum_pixels(&scene->sight, puff.size, distance);
-    float reach = (float)maths_max(spot->size_m, vec3_length(spot->along));
-    if (pixels <= LEAST_PIXELS || !frustum_ball(&scene->sight, puff.at, 1.5f * reach))
-        return;
-    float near = (distance / puff.size - EYE_INSIDE) / (EYE_OUTSIDE - EYE_INSIDE);
-    float far = (pixels - LEAST_PIXELS) / (FADES_PIXELS - LEAST_PIXELS);
-    float alpha = spot->shade.a * fminf(1.0f, near) * fminf(1.0f, far);
-    if (alpha < LEAST_ALPHA)
-        return;
-    if (scene->puff_count == SCENE_PUFFS_MAX) {
-        scene->omitted++;
-        return;
-    }
-    if (vec3_dot(spot->along, spot->along) > 0.0)
-        stretch(&scene->sight, &puff, spot->along, (spot->flat ? FLAT_LEAST : 1.0f) * puff.size);
-    puff.turn_rad = spot->turn_rad;
-    puff.picture = (float)spot->picture;
-    puff.glow = spot->glow;
-    puff.colour[0] = spot->shade.r;
-    puff.colour[1] = spot->shade.g;
-    puff.colour[2] = spot->shade.b;
-    puff.colour[3] = alpha;
-    scene->puffs[scene->puff_count++] = puff;
-}
-
-/* --- rows and bursts -------------------------------------------------------------------------- */
-
-struct row row_of(uint32_t seed, double rate_hz, double from_s, double to_s, double share)
-{
-    struct row row = {.rate_hz = rate_hz, .phase = (double)luck(seed, 0, 0), .step = 1};
-    /* A number divisible by 2^k, but not by the next power, shows from a share of 2^-(k + 1) on. */
-    while (row.step < 1024 && 2.0 * (double)row.step * share <= 1.0)
-        row.step *= 2;
-    double first = ceil((from_s * rate_hz + row.phase) / (double)row.step);
-    double last = floor((to_s * rate_hz + row.phase) / (double)row.step);
-    row.first = (int64_t)maths_max(first, 0.0) * row.step;
-    row.last = (int64_t)last * row.step;
-    return row;
-}
-
-double row_reach(int64_t number)
-{
-    int64_t whole = number & -number;
-    return whole == 0 || whole > 8 ? 8.0 : (double)whole;
-}
-
-float row_weight(int64_t number, double share)
-{
-    double whole = number == 0 ? 1024.0 : (double)(number & -number);
-    return (float)maths_clamp(2.0 * whole * share - 1.0, 0.0, 1.0);
-}
-
-double particles_spacing_m(const struct scene *scene, double size_m, double distance_m)
-{
-    double pixel_m = maths_max(distance_m, scene->camera.near_m) / scene->camera.focal_pixels;
-    return maths_max(APART_SIZES * size_m, APART_PIXELS * pixel_m) / (double)scene->detail;
-}
-
-double particles_share(const struct scene *scene, double size_m, struct vec3 at)
-{
-    double pixels = camera_pixels(&scene->camera, size_m, particles_distance_m(scene, at));
-    return maths_clamp(pixels / WHOLE_PIXELS, LEAST_SHARE, 1.0) * (double)scene->detail;
-}
-
-/* --- what there is ---------------------------------------------------------------------------- */
 
 static void entity_puffs(struct scene *scene, const struct frame_view *moment,
                          const struct motion_trails *spoors, uint32_t slot)
@@ -159,10 +33,10 @@ static void effect_puffs(struct scene *scene, const struct frame_view *moment,
 {
     double age = scene->time_s - effect->time_s;
     float at[3];
-    scene_place(scene, effect->point, at);
+    draw_list_relative(scene, effect->point, at);
     float pixels = frustum_pixels(&scene->sight, effect->size_m, sqrtf(frustum_dot(at, at)));
     if (age >= 0.0 && age < effects_life_s((enum effect_type)effect->type) &&
-        pixels > LEAST_PIXELS &&
+        pixels > PARTICLES_LEAST_PIXELS &&
         frustum_ball(&scene->sight, at, BURST_REACH_M + BURST_REACH * effect->size_m))
         bursts_effect(scene, moment, effect, age);
 }
@@ -202,8 +76,8 @@ static void sort_puffs(struct scene *scene)
     scene->puffs = sorted;
 }
 
-void scene_puffs(struct scene *scene, const struct frame_view *moment,
-                 const struct effects *effects)
+void particle_emitters_add(struct scene *scene, const struct frame_view *moment,
+                           const struct effects *effects)
 {
     for (uint32_t slot = 0; slot < moment->head->used; slot++)
         entity_puffs(scene, moment, &effects->spoors, slot);

@@ -9,7 +9,9 @@
 #define JOLON_RENDERER_SCENE_PARTICLES_PARTICLES_H
 
 #include "renderer/scene/noise/value_noise.h"
-#include "renderer/scene/scene.h"
+#include "renderer/scene/draw_list/draw_list.h"
+
+#define PARTICLES_LEAST_PIXELS 0.25f /* a particle whose half side is smaller is left out */
 
 #define WIND_X 1.7 /* [m/s] */
 #define WIND_Z -1.1
@@ -113,22 +115,5 @@ static inline struct shade shade_mix(struct shade from, struct shade to, double 
 
 /* Dust that can be raised from ground of a cover: its colour, and how much of it, 0..1. */
 struct shade dust_of(enum cover cover);
-
-/* --- what is drawn so ------------------------------------------------------------------------- */
-
-/* A wreck burns and smokes; a damaged vehicle smokes (smoke.c). */
-void smoke_entity(struct scene *scene, const struct frame_view *moment,
-                  const struct motion_trail *spoor, uint32_t slot, const struct kind *kind);
-
-/* What a moving entity leaves behind, and what its rotor stirs up (trails.c). */
-void trails_entity(struct scene *scene, const struct frame_view *moment,
-                   const struct motion_trail *spoor, uint32_t slot, const struct kind *kind);
-/* Smoke of missiles that are gone. */
-void trails_left(struct scene *scene, const struct frame_view *moment,
-                 const struct motion_trails *spoors);
-
-/* What happened (bursts.c). */
-void bursts_effect(struct scene *scene, const struct frame_view *moment,
-                   const struct effect *effect, double age_s);
 
 #endif

@@ -1,5 +1,7 @@
 /* Rotors that turn: a faint disc where the blades are too fast for the eye. It is a puff as wide
  * and as flat as the disc shows from where the eye is. */
+#include "renderer/scene/particles/rotors.h"
+
 #include "renderer/scene/particles/particles.h"
 
 #include "renderer/scene/frame/body_axes.h"
@@ -32,8 +34,8 @@ static void add_disc(struct scene *scene, struct vec3 hub, struct vec3 axle, dou
     particles_add(scene, &disc);
 }
 
-void scene_rotors(struct scene *scene, const struct static_scene *scenery,
-                  const struct frame_view *moment)
+void rotors_add(struct scene *scene, const struct static_scene *scenery,
+                const struct frame_view *moment)
 {
     const struct entities *e = moment->entities;
     for (uint32_t slot = 0; slot < moment->head->used; slot++) {

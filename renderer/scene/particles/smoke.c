@@ -1,4 +1,6 @@
 /* What burns: flames and columns of smoke. */
+#include "renderer/scene/particles/smoke.h"
+
 #include "renderer/scene/particles/particles.h"
 #include "world/world.h"
 
@@ -76,7 +78,7 @@ static void smoke_column(struct scene *scene, struct vec3 foot, double size_m, d
     column.rise_m = (0.5 + 1.3 * size_m) * column.life_s;
     struct vec3 top = column_at(&column, 1.0);
     float middle[3], reach = (float)(0.5 * vec3_length(vec3_sub(top, foot)) + 6.0 * size_m);
-    scene_place(scene, vec3_lerp(foot, top, 0.5), middle);
+    draw_list_relative(scene, vec3_lerp(foot, top, 0.5), middle);
     if (!frustum_ball(&scene->sight, middle, reach))
         return;
     /* The foot is where it is densest: puffs are smallest there, and fast. */

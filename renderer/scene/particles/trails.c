@@ -1,6 +1,8 @@
 /* What moving things leave behind and stir up: dust by the ground's cover, wakes, missiles' smoke,
  * tracers, the wash of rotors. It lies along the way that they came, and stays where it was left.
  */
+#include "renderer/scene/particles/trails.h"
+
 #include "renderer/scene/particles/particles.h"
 #include "world/world.h"
 
@@ -72,7 +74,7 @@ static struct row trail_row(const struct scene *scene, const struct trail *trail
     double nearest = maths_max(0.0, particles_distance_m(scene, at) - length);
     double largest = trail->size_m * (1.0 + trail->growth);
     float place[3], reach = (float)(1.2 * length + 2.0 * largest + BEHIND_M);
-    scene_place(scene, at, place);
+    draw_list_relative(scene, at, place);
     if (camera_pixels(&scene->camera, largest, nearest) < LEAST_PIXELS ||
         !frustum_ball(&scene->sight, place, reach))
         return none;
@@ -252,7 +254,7 @@ static void tracer(struct scene *scene, const struct entities *e, uint32_t slot,
     struct vec3 velocity = entities_velocity(e, slot), at = entities_position(e, slot);
     double speed = vec3_length(velocity);
     float place[3];
-    scene_place(scene, at, place);
+    draw_list_relative(scene, at, place);
     if (speed < 1.0 || !frustum_ball(&scene->sight, place, TRACER_REACH_M))
         return;
     double distance = vec3_length(vec3_sub(at, scene->camera.eye));
@@ -298,7 +300,7 @@ static void wash(struct scene *scene, const struct frame_view *moment, uint32_t 
     struct vec3 at = entities_position(e, slot);
     double radius = 0.55 * kind->length_m;
     float place[3];
-    scene_place(scene, at, place);
+    draw_list_relative(scene, at, place);
     if (kind->min_speed_mps > 0.0 || !frustum_ball(&scene->sight, place, (float)(4.0 * radius)))
         return; /* it has wings, or is out of the picture */
     double above = at.y - terrain_height(terrain, moment->craters, at.x, at.z);

@@ -1,8 +1,9 @@
 /* Blocks of tufts, kept in a table by their place. */
 #include "renderer/scene/plants/grass.h"
 
+#include "renderer/scene/draw_list/draw_list.h"
+#include "renderer/scene/draw_list/static_scene.h"
 #include "renderer/scene/noise/value_noise.h"
-#include "renderer/scene/scene.h"
 #include "world/world.h"
 
 #include <math.h>
@@ -191,7 +192,7 @@ static uint32_t show_block(const struct block *block, const struct scene *scene,
 {
     float middle[3];
     uint32_t count = 0;
-    scene_place(scene, block->middle, middle);
+    draw_list_relative(scene, block->middle, middle);
     if (!frustum_ball(&scene->sight, middle, block->reach))
         return 0;
     for (uint32_t i = 0; i < block->count && count < room; i++) {

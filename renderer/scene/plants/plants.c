@@ -1,6 +1,6 @@
 /* Trees and bushes of the world. Far woods are thinned out and those that stay grow wider: below
  * some pixels crowns run into each other. None comes or goes but by its size. */
-#include "renderer/scene/scene.h"
+#include "renderer/scene/plants/plants.h"
 
 #include "renderer/scene/noise/value_noise.h"
 #include "renderer/scene/plants/grass.h"
@@ -61,8 +61,8 @@ static void show_damage(struct scene_plant *plant, enum damage damage, uint32_t 
             plant->height *= 0.35f;
             return;
         }
-        plant->picture =
-            (float)PLANT_IMPOSTORS_STUMP; /* thesis row 32; the tree lies beside (scene_fixed) */
+        plant->picture = (float)
+            PLANT_IMPOSTORS_STUMP; /* thesis row 32; the tree lies beside (fixed_objects.c) */
         plant->height = plant->width = STUMP_M;
         return;
     }
@@ -92,7 +92,7 @@ static void add_plant(const struct planting *planting, uint32_t index)
     const struct fixed_object *object = &planting->moment->world->fixed[index];
     const struct static_scene_plant *is = &planting->scenery->plants[index];
     struct scene_plant made;
-    scene_place(scene, fixed_position(object), made.at);
+    draw_list_relative(scene, fixed_position(object), made.at);
     if (!frustum_ball(&scene->sight, made.at, 2.2f * is->height))
         return;
     float pixels = frustum_pixels(&scene->sight, is->height, sqrtf(frustum_dot(made.at, made.at))),
@@ -146,7 +146,7 @@ static bool sees_square(const struct scene *scene, const struct static_scene_blo
                           0.5 * ((double)block->low + (double)block->high),
                           (row + 0.5) * GRIDSQUARE_SIDE_M};
     float at[3], high = 0.5f * (block->high - block->low);
-    scene_place(scene, middle, at);
+    draw_list_relative(scene, middle, at);
     return frustum_ball(&scene->sight, at, SQUARE_REACH_M + high);
 }
 
@@ -169,8 +169,8 @@ static void add_block(const struct planting *planting, const struct gridsquare_b
         }
 }
 
-void scene_plants(struct scene *scene, const struct static_scene *scenery,
-                  const struct frame_view *moment)
+void plants_add(struct scene *scene, const struct static_scene *scenery,
+                const struct frame_view *moment)
 {
     struct planting planting = {.scene = scene,
                                 .scenery = scenery,

@@ -331,9 +331,9 @@ static void test_body_detail_is_monotone(void **context)
     (void)context;
     enum mesh_detail before = MESH_COARSEST;
     for (double pixels = 0.5; pixels < 500.0; pixels *= 1.1) {
-        enum mesh_detail now = scene_detail(pixels, false);
+        enum mesh_detail now = draw_list_detail(pixels, false);
         assert_true(now <= before); /* finer or the same for the larger */
-        assert_true(scene_detail(pixels, true) <= now);
+        assert_true(draw_list_detail(pixels, true) <= now);
         before = now;
     }
     assert_int_equal(before, MESH_FULL);

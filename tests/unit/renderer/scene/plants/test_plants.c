@@ -149,7 +149,7 @@ static void look_at_wood(struct stage *s, double away)
 static const struct scene_plant *shown(const struct stage *s, const struct fixed_object *tree)
 {
     float at[3];
-    scene_place(&s->scene, fixed_position(tree), at);
+    draw_list_relative(&s->scene, fixed_position(tree), at);
     for (uint32_t i = 0; i < s->scene.plant_count; i++)
         if (s->scene.plants[i].at[0] == at[0] && s->scene.plants[i].at[2] == at[2])
             return &s->scene.plants[i];

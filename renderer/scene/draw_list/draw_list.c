@@ -1,0 +1,116 @@
+/* Bodies of the draw list: their level of detail, place, shadow and order. */
+#include "renderer/scene/draw_list/draw_list.h"
+
+#include "renderer/scene/frame/light.h"
+#include "world/terrain/terrain.h"
+#include "world/world.h"
+
+#include <stdlib.h>
+
+#define SHADOW_LEAST_PIXELS 6.0
+#define SHADOW_RANGE_M      2500.0
+#define SHADOW_LIFT_M       0.06 /* above the ground, so that it does not sink into it */
+
+enum mesh_detail draw_list_detail(double pixels, bool bent)
+{
+    if (bent && pixels > BENT_LEAST_PIXELS)
+        return MESH_FINE;
+    if (pixels > MESH_FULL_PIXELS)
+        return MESH_FULL;
+    if (pixels > MESH_MIDDLE_PIXELS)
+        return MESH_MIDDLE;
+    return pixels > MESH_COARSE_PIXELS ? MESH_COARSE : MESH_COARSEST;
+}
+
+static void copy_axis(float to[3], struct vec3 from, double scale)
+{
+    to[0] = (float)(from.x * scale);
+    to[1] = (float)(from.y * scale);
+    to[2] = (float)(from.z * scale);
+}
+
+struct scene_body *draw_list_add_body(struct scene *scene, uint16_t model, enum mesh_detail detail)
+{
+    if (scene->body_count == SCENE_BODIES_MAX) {
+        scene->omitted++;
+        return NULL;
+    }
+    uint32_t i = scene->body_count++;
+    scene->copies[i] = (struct scene_copy){.model = model, .detail = (uint8_t)detail};
+    scene->bodies[i] = (struct scene_body){.burn = 0.0f};
+    return &scene->bodies[i];
+}
+
+void draw_list_place_body(const struct scene *scene, struct scene_body *body, struct vec3 position,
+                          const struct body_axes *pose, double scale)
+{
+    draw_list_relative(scene, position, body->at);
+    copy_axis(body->forward, pose->forward, scale);
+    copy_axis(body->up, pose->up, scale);
+    copy_axis(body->right, pose->right, scale);
+}
+
+/* The plane of the ground where the body's shadow falls, along the sun's light. */
+void draw_list_add_shadow(struct scene *scene, const struct frame_view *moment,
+                          struct vec3 position, double pixels)
+{
+    const struct terrain *terrain = &moment->world->terrain;
+    struct scene_body *body = &scene->bodies[scene->body_count - 1];
+    struct vec3 foot = position;
+    if (pixels <= SHADOW_LEAST_PIXELS ||
+        vec3_length(vec3_sub(position, scene->camera.eye)) >= SHADOW_RANGE_M)
+        return;
+    for (uint32_t i = 0; i < 3; i++) {
+        double ground = terrain_height(terrain, moment->craters, foot.x, foot.z);
+        double down = (position.y - ground) / SUN_Y;
+        foot.x = position.x - SUN_X * down;
+        foot.z = position.z - SUN_Z * down;
+        foot.y = ground;
+    }
+    struct vec3 normal = terrain_normal(terrain, moment->craters, foot.x, foot.z);
+    if (vec3_dot(normal, light_sun()) < 0.1)
+        return;
+    copy_axis(body->plane, normal, 1.0);
+    struct vec3 relative = vec3_sub(foot, scene->camera.eye);
+    body->plane[3] = (float)(vec3_dot(normal, relative) + SHADOW_LIFT_M);
+    scene->copies[scene->body_count - 1].shadow = 1;
+}
+
+static int by_model(const void *a, const void *b)
+{
+    const struct body_order *x = a, *y = b;
+    if (x->copy.model != y->copy.model)
+        return x->copy.model < y->copy.model ? -1 : 1;
+    if (x->copy.detail != y->copy.detail)
+        return x->copy.detail < y->copy.detail ? -1 : 1;
+    return (x->index > y->index) - (x->index < y->index);
+}
+
+static void swap_bodies(struct scene *scene, uint32_t a, uint32_t b)
+{
+    struct scene_body body = scene->bodies[a];
+    scene->bodies[a] = scene->bodies[b];
+    scene->bodies[b] = body;
+    struct scene_copy copy = scene->copies[a];
+    scene->copies[a] = scene->copies[b];
+    scene->copies[b] = copy;
+}
+
+void draw_list_sort_bodies(struct scene *scene)
+{
+    uint32_t count = scene->body_count;
+    for (uint32_t i = 0; i < count; i++)
+        scene->order[i] = (struct body_order){scene->copies[i], i};
+    qsort(scene->order, count, sizeof *scene->order, by_model);
+    /* Along each cycle of the permutation, in place. */
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t at = i;
+        while (scene->order[at].index != i) {
+            uint32_t from = scene->order[at].index;
+            swap_bodies(scene, at, from);
+            scene->order[at].index = at;
+            at = from;
+        }
+        scene->order[at].index = at;
+    }
+}

@@ -1,0 +1,12 @@
+/* Particles of events: shots, explosions, splashes, sparks. */
+#ifndef JOLON_RENDERER_SCENE_PARTICLES_BURSTS_H
+#define JOLON_RENDERER_SCENE_PARTICLES_BURSTS_H
+
+#include "renderer/scene/draw_list/draw_list.h"
+#include "renderer/scene/frame/effects.h"
+
+/* Adds the particles of an effect of this age. */
+void bursts_effect(struct scene *scene, const struct frame_view *moment,
+                   const struct effect *effect, double age_s);
+
+#endif

@@ -1,0 +1,13 @@
+/* Parts that fly off a vehicle which is destroyed. */
+#ifndef JOLON_RENDERER_SCENE_PARTICLES_DEBRIS_H
+#define JOLON_RENDERER_SCENE_PARTICLES_DEBRIS_H
+
+#include "renderer/scene/draw_list/draw_list.h"
+#include "renderer/scene/draw_list/static_scene.h"
+#include "renderer/scene/frame/effects.h"
+
+/* Adds the parts in view to the bodies: those in flight and those that lie on the ground. */
+void debris_add(struct scene *scene, const struct static_scene *scenery,
+                const struct frame_view *moment, const struct effects *effects);
+
+#endif

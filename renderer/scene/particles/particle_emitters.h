@@ -1,0 +1,12 @@
+/* All particles of a picture but the discs of rotors. */
+#ifndef JOLON_RENDERER_SCENE_PARTICLES_PARTICLE_EMITTERS_H
+#define JOLON_RENDERER_SCENE_PARTICLES_PARTICLE_EMITTERS_H
+
+#include "renderer/scene/draw_list/draw_list.h"
+#include "renderer/scene/frame/effects.h"
+
+/* Adds the particles of all entities and effects, and sorts the whole list: farthest first. */
+void particle_emitters_add(struct scene *scene, const struct frame_view *moment,
+                           const struct effects *effects);
+
+#endif

@@ -1,0 +1,17 @@
+/* What moving entities leave behind: dust, wakes, missile smoke. */
+#ifndef JOLON_RENDERER_SCENE_PARTICLES_TRAILS_H
+#define JOLON_RENDERER_SCENE_PARTICLES_TRAILS_H
+
+#include "renderer/scene/draw_list/draw_list.h"
+#include "renderer/scene/frame/motion_trails.h"
+#include "world/entity/kind.h"
+
+/* Adds what a moving entity leaves behind and what its rotor stirs up. */
+void trails_entity(struct scene *scene, const struct frame_view *moment,
+                   const struct motion_trail *spoor, uint32_t slot, const struct kind *kind);
+
+/* Adds the smoke of missiles that no longer exist. */
+void trails_left(struct scene *scene, const struct frame_view *moment,
+                 const struct motion_trails *spoors);
+
+#endif

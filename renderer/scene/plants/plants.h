@@ -1,0 +1,12 @@
+/* Trees and bushes of the world, and grass near the eye. */
+#ifndef JOLON_RENDERER_SCENE_PLANTS_PLANTS_H
+#define JOLON_RENDERER_SCENE_PLANTS_PLANTS_H
+
+#include "renderer/scene/draw_list/draw_list.h"
+#include "renderer/scene/draw_list/static_scene.h"
+
+/* Adds the plants in view to the scene. */
+void plants_add(struct scene *scene, const struct static_scene *scenery,
+                const struct frame_view *moment);
+
+#endif
