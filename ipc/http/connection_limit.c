@@ -1,4 +1,4 @@
-/* Who goes first. */
+/* Chooses the connection that is shut when another one comes. */
 #include "ipc/http/connection_limit.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* Host and Origin. */
+/* Checks of the headers Host and Origin. */
 #include "ipc/http/host_check.h"
 
 #include <string.h>

@@ -68,12 +68,12 @@ static int listen_six(struct http_listener *listener, const struct in6_addr *add
 int http_listen(struct http_listener *listener, const struct http_listen_options *options,
                 struct reason *reason)
 {
-    struct in_addr f64x4;
+    struct in_addr four;
     struct in6_addr six;
     int result;
     *listener = (struct http_listener){.fd = -1};
-    if (inet_pton(AF_INET, options->address, &f64x4) == 1)
-        result = listen_four(listener, &f64x4, options);
+    if (inet_pton(AF_INET, options->address, &four) == 1)
+        result = listen_four(listener, &four, options);
     else if (inet_pton(AF_INET6, options->address, &six) == 1)
         result = listen_six(listener, &six, options);
     else

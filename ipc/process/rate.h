@@ -1,4 +1,4 @@
-/* How often somebody may ask: so many a second, and a burst of so many after a rest. Pure. */
+/* A limit on requests: per_s a second on average, and at most burst at once. Pure. */
 #ifndef JOLON_IPC_PROCESS_RATE_H
 #define JOLON_IPC_PROCESS_RATE_H
 
@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 struct rate {
-    uint64_t due_ns; /* when all that was granted would have been asked for at an even pace */
+    uint64_t due_ns; /* when the granted requests would end if they came evenly */
 };
 
 /* Is one more granted? One that is not costs nothing. per_s > 0. */

@@ -1,5 +1,5 @@
-/* Leftovers: what processes that were killed left half made under a name of their own,
- * "PREFIXpid", until they would have renamed it. */
+/* Stale files: unfinished files of killed processes. A process writes a file under the name
+ * "PREFIXpid" and renames it when it is whole. */
 #ifndef JOLON_IPC_PROCESS_STALE_FILES_H
 #define JOLON_IPC_PROCESS_STALE_FILES_H
 

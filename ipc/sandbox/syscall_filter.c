@@ -64,7 +64,7 @@ struct list {
 #define MAP_WHICH       ((uint64_t)(MAP_TYPE | MAP_ANONYMOUS))
 #define MAP_MEMORY_ONLY ((uint64_t)(MAP_PRIVATE | MAP_ANONYMOUS))
 
-/* What computing, sleeping, logging, ending and aborting takes. */
+/* The calls that computing, sleeping, logging, ending and aborting need. */
 static const struct rule computing[] = {
     ANY(futex),                     /* doorbells, locks, workers, the readers' wait */
     ANY(clock_nanosleep),           /* waits by the clock */
@@ -96,7 +96,7 @@ static const struct rule growing[] = {
     {SCMP_SYS(mprotect), 1, {BITS(2, PROT_EXEC, 0)}},
 };
 
-/* What the address sanitizer does beside the process's own work, and to write its report. */
+/* The calls that the address sanitizer makes beside those of the process, also for its report. */
 #ifdef SANDBOX_SANITIZED
 static const struct rule sanitizing[] = {
     ANY(openat), ANY(read),     ANY(lseek),       ANY(readlink),    ANY(fstat),     ANY(newfstatat),
@@ -104,7 +104,7 @@ static const struct rule sanitizing[] = {
 };
 #endif
 
-/* A stand-by waits for the role's lock until its holder is dead. */
+/* A stand-by waits for the role's lock until the holder has died. */
 static const struct rule standing_by[] = {
     WITH(fcntl, 1, F_OFD_SETLKW),
 };

@@ -9,12 +9,12 @@
 #include <sys/random.h>
 #include <time.h>
 
-int command_client_open(struct command_client *caller, struct command_link link,
+int command_client_open(struct command_client *client, struct command_link link,
                         struct reason *reason)
 {
-    *caller = (struct command_client){.link = link};
-    caller->source = command_client_source();
-    return caller->source ? 0 : reason_set(reason, "the system gives no random numbers");
+    *client = (struct command_client){.link = link};
+    client->source = command_client_source();
+    return client->source ? 0 : reason_set(reason, "the system gives no random numbers");
 }
 
 uint64_t command_client_source(void)
@@ -28,54 +28,54 @@ uint64_t command_client_source(void)
     return source;
 }
 
-static struct command_client_call *find(struct command_client *caller, uint64_t sequence)
+static struct command_client_call *find(struct command_client *client, uint64_t sequence)
 {
-    for (uint32_t i = 0; i < caller->count; i++) {
-        if (caller->call[i].command.sequence == sequence)
-            return &caller->call[i];
+    for (uint32_t i = 0; i < client->count; i++) {
+        if (client->call[i].command.sequence == sequence)
+            return &client->call[i];
     }
     return NULL;
 }
 
-static void drop(struct command_client *caller, struct command_client_call *call)
+static void drop(struct command_client *client, struct command_client_call *call)
 {
-    size_t after = (size_t)(&caller->call[caller->count] - (call + 1));
+    size_t after = (size_t)(&client->call[client->count] - (call + 1));
     memmove(call, call + 1, after * sizeof *call);
-    caller->count--;
+    client->count--;
 }
 
-static void drop_older_drives(struct command_client *caller, const jolon_Command *command)
+static void drop_older_drives(struct command_client *client, const jolon_Command *command)
 {
-    for (uint32_t i = caller->count; i-- > 0;) {
-        const jolon_Command *older = &caller->call[i].command;
+    for (uint32_t i = client->count; i-- > 0;) {
+        const jolon_Command *older = &client->call[i].command;
         if (older->type == jolon_COMMAND_DRIVE && older->entity == command->entity &&
-            older->source == command->source && !caller->call[i].answered)
-            drop(caller, &caller->call[i]);
+            older->source == command->source && !client->call[i].answered)
+            drop(client, &client->call[i]);
     }
 }
 
-uint64_t command_client_send(struct command_client *caller, const jolon_Command *command)
+uint64_t command_client_send(struct command_client *client, const jolon_Command *command)
 {
     struct command_client_call call = {.command = *command};
     if (!call.command.source)
-        call.command.source = caller->source;
+        call.command.source = client->source;
     if (command->type == jolon_COMMAND_DRIVE)
-        drop_older_drives(caller, &call.command);
-    if (caller->count == COMMAND_CLIENT_WAITING_MAX)
+        drop_older_drives(client, &call.command);
+    if (client->count == COMMAND_CLIENT_WAITING_MAX)
         return 0;
-    call.command.sequence = ++caller->sequence;
+    call.command.sequence = ++client->sequence;
     call.repeat_ns = clock_now_ns() + COMMAND_CLIENT_REPEAT_NS;
-    caller->link.transport->send(caller->link.self,
+    client->link.transport->send(client->link.self,
                                  &call.command); /* what does not get out is repeated */
-    caller->call[caller->count++] = call;
+    client->call[client->count++] = call;
     return call.command.sequence;
 }
 
-static void take_replies(struct command_client *caller)
+static void take_replies(struct command_client *client)
 {
     jolon_CommandReply reply;
-    while (caller->link.transport->receive(caller->link.self, &reply)) {
-        struct command_client_call *call = find(caller, reply.sequence);
+    while (client->link.transport->receive(client->link.self, &reply)) {
+        struct command_client_call *call = find(client, reply.sequence);
         if (call && call->command.source == reply.source) {
             call->reply = reply;
             call->answered = true;
@@ -83,78 +83,78 @@ static void take_replies(struct command_client *caller)
     }
 }
 
-void command_client_turn(struct command_client *caller)
+void command_client_turn(struct command_client *client)
 {
     uint64_t now_ns = clock_now_ns();
-    take_replies(caller);
-    for (uint32_t i = 0; i < caller->count; i++) {
-        struct command_client_call *call = &caller->call[i];
+    take_replies(client);
+    for (uint32_t i = 0; i < client->count; i++) {
+        struct command_client_call *call = &client->call[i];
         if (call->answered || now_ns < call->repeat_ns)
             continue;
-        caller->link.transport->send(caller->link.self, &call->command);
+        client->link.transport->send(client->link.self, &call->command);
         call->repeat_ns = now_ns + COMMAND_CLIENT_REPEAT_NS;
     }
 }
 
-bool command_client_answered(struct command_client *caller, uint64_t sequence,
+bool command_client_answered(struct command_client *client, uint64_t sequence,
                              jolon_CommandReply *reply)
 {
-    struct command_client_call *call = find(caller, sequence);
+    struct command_client_call *call = find(client, sequence);
     if (!call || !call->answered)
         return false;
     *reply = call->reply;
-    drop(caller, call);
+    drop(client, call);
     return true;
 }
 
-void command_client_forget(struct command_client *caller, uint64_t sequence)
+void command_client_forget(struct command_client *client, uint64_t sequence)
 {
-    struct command_client_call *call = find(caller, sequence);
+    struct command_client_call *call = find(client, sequence);
     if (call)
-        drop(caller, call);
+        drop(client, call);
 }
 
-uint64_t command_client_due_ns(const struct command_client *caller)
+uint64_t command_client_due_ns(const struct command_client *client)
 {
     uint64_t due_ns = UINT64_MAX;
-    for (uint32_t i = 0; i < caller->count; i++) {
-        const struct command_client_call *call = &caller->call[i];
+    for (uint32_t i = 0; i < client->count; i++) {
+        const struct command_client_call *call = &client->call[i];
         if (!call->answered && call->repeat_ns < due_ns)
             due_ns = call->repeat_ns;
     }
     return due_ns;
 }
 
-bool command_client_call(struct command_client *caller, const jolon_Command *command,
+bool command_client_call(struct command_client *client, const jolon_Command *command,
                          uint64_t until_ns, jolon_CommandReply *reply)
 {
-    uint64_t sequence = command_client_send(caller, command);
+    uint64_t sequence = command_client_send(client, command);
     while (sequence) {
-        command_client_turn(caller);
-        if (command_client_answered(caller, sequence, reply))
+        command_client_turn(client);
+        if (command_client_answered(client, sequence, reply))
             return true;
         if (clock_now_ns() >= until_ns || process_stopping())
             break;
-        command_client_wait(caller, until_ns);
+        command_client_wait(client, until_ns);
     }
-    command_client_forget(caller, sequence);
+    command_client_forget(client, sequence);
     return false;
 }
 
-bool command_client_heard(const struct command_client *caller)
+bool command_client_heard(const struct command_client *client)
 {
-    return caller->link.transport->heard(caller->link.self);
+    return client->link.transport->heard(client->link.self);
 }
 
-int command_client_descriptor(const struct command_client *caller)
+int command_client_descriptor(const struct command_client *client)
 {
-    return caller->link.transport->descriptor(caller->link.self);
+    return client->link.transport->descriptor(client->link.self);
 }
 
-void command_client_wait(const struct command_client *caller, uint64_t until_ns)
+void command_client_wait(const struct command_client *client, uint64_t until_ns)
 {
-    struct pollfd reply = {.fd = command_client_descriptor(caller), .events = POLLIN};
-    uint64_t due_ns = command_client_due_ns(caller), now_ns = clock_now_ns();
+    struct pollfd reply = {.fd = command_client_descriptor(client), .events = POLLIN};
+    uint64_t due_ns = command_client_due_ns(client), now_ns = clock_now_ns();
     uint64_t wake_ns = due_ns < until_ns ? due_ns : until_ns;
     uint64_t left_ns = wake_ns > now_ns ? wake_ns - now_ns : 0;
     struct timespec left = {.tv_sec = (time_t)(left_ns / NS_PER_S),

@@ -1,7 +1,7 @@
 /* Local socket or DDS. */
 #include "ipc/topics/command_route.h"
 
-int command_route_open(struct command_route *route, struct command_client *caller, bool remote,
+int command_route_open(struct command_route *route, struct command_client *client, bool remote,
                        const struct dds_link *link, const char *world, struct reason *reason)
 {
     struct command_link chosen;
@@ -9,5 +9,5 @@ int command_route_open(struct command_route *route, struct command_client *calle
         chosen = command_socket_open(&route->socket, world);
     else if (command_dds_open(&route->dds, link, &chosen, reason) != 0)
         return -1;
-    return command_client_open(caller, chosen, reason);
+    return command_client_open(client, chosen, reason);
 }

@@ -14,13 +14,13 @@ void command_series_begin(struct command_series *mission, const struct command_t
         mission->seed = (uint32_t)command_client_source();
 }
 
-void command_series_send(struct command_series *mission, struct command_client *caller,
+void command_series_send(struct command_series *mission, struct command_client *client,
                          uint64_t now_ns)
 {
     while (mission->sent < mission->order.rounds && now_ns >= mission->due_ns &&
            mission->waiting < COMMAND_SERIES_WAITING_MAX) {
         jolon_Command command = command_text_round(&mission->order, mission->seed, mission->sent);
-        uint64_t sequence = command_client_send(caller, &command);
+        uint64_t sequence = command_client_send(client, &command);
         if (!sequence)
             return;
         mission->round[mission->waiting++] =
@@ -29,11 +29,11 @@ void command_series_send(struct command_series *mission, struct command_client *
     }
 }
 
-bool command_series_answer(struct command_series *mission, struct command_client *caller,
+bool command_series_answer(struct command_series *mission, struct command_client *client,
                            jolon_CommandReply *reply, uint32_t *round)
 {
     for (uint32_t i = 0; i < mission->waiting; i++) {
-        if (!command_client_answered(caller, mission->round[i].sequence, reply))
+        if (!command_client_answered(client, mission->round[i].sequence, reply))
             continue;
         *round = mission->round[i].round;
         mission->waiting--;
@@ -57,8 +57,8 @@ uint64_t command_series_due_ns(const struct command_series *mission)
     return room && mission->sent < mission->order.rounds ? mission->due_ns : UINT64_MAX;
 }
 
-void command_series_forget(struct command_series *mission, struct command_client *caller)
+void command_series_forget(struct command_series *mission, struct command_client *client)
 {
     while (mission->waiting > 0)
-        command_client_forget(caller, mission->round[--mission->waiting].sequence);
+        command_client_forget(client, mission->round[--mission->waiting].sequence);
 }
