@@ -24,25 +24,25 @@ struct command_series {
 };
 
 /* Begins it: the first round is due at once. */
-void command_series_begin(struct command_series *mission, const struct command_text *order,
+void command_series_begin(struct command_series *series, const struct command_text *order,
                           uint64_t now_ns);
 
 /* Sends what is due, if the caller has room for it. */
-void command_series_send(struct command_series *mission, struct command_client *client,
+void command_series_send(struct command_series *series, struct command_client *client,
                          uint64_t now_ns);
 
 /* Takes an answer that the caller has. True with the reply and its round, from 0. */
-bool command_series_answer(struct command_series *mission, struct command_client *client,
+bool command_series_answer(struct command_series *series, struct command_client *client,
                            jolon_CommandReply *reply, uint32_t *round);
 
 /* Is every round answered? */
-bool command_series_over(const struct command_series *mission);
+bool command_series_over(const struct command_series *series);
 
 /* When command_series_send() has something to do [ns]; UINT64_MAX: everything is sent,
  * or answers come first. */
-uint64_t command_series_due_ns(const struct command_series *mission);
+uint64_t command_series_due_ns(const struct command_series *series);
 
 /* Its unanswered rounds are no longer waited for; they may still be done. */
-void command_series_forget(struct command_series *mission, struct command_client *client);
+void command_series_forget(struct command_series *series, struct command_client *client);
 
 #endif
