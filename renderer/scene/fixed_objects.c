@@ -90,8 +90,8 @@ static void add_fixed(struct scene *scene, const struct static_scene *scenery,
     if (body == NULL)
         return;
     double lean = lean_of((enum object_class)kind->object_class, (enum damage)damage);
-    struct body_axes pose = body_axes_of(fixed_heading(object), -lean, 0.0);
-    draw_list_place_body(scene, body, position, &pose, fixed_scale(object, kind));
+    struct body_axes axes = body_axes_of(fixed_heading(object), -lean, 0.0);
+    draw_list_place_body(scene, body, position, &axes, fixed_scale(object, kind));
     memcpy(body->tint, washes[value_noise_hash((int32_t)index, 6, 9) % WASHES], sizeof body->tint);
     body->grain = (float)(value_noise_hash((int32_t)index, 4, 9) % 64u);
     if (damage != DAMAGE_NONE)
@@ -123,8 +123,8 @@ static void add_felled(struct scene *scene, const struct frame_view *moment, uin
         maths_atan2(terrain_height(terrain, moment->craters, top_x, top_z) - foot.y, high_m);
     struct vec3 butt = {foot.x + FELLED_AWAY_M * x, foot.y + FELLED_LIFT_M,
                         foot.z - FELLED_AWAY_M * z};
-    struct body_axes pose = body_axes_of(heading, rise - HALF_PI, 0.0);
-    draw_list_place_body(scene, body, butt, &pose, fixed_scale(object, kind));
+    struct body_axes axes = body_axes_of(heading, rise - HALF_PI, 0.0);
+    draw_list_place_body(scene, body, butt, &axes, fixed_scale(object, kind));
     draw_list_add_shadow(scene, moment, butt, pixels);
 }
 

@@ -131,8 +131,8 @@ static void add_entity(struct scene *scene, const struct frame_view *moment, uin
         draw_list_add_body(scene, kind->model, draw_list_detail(pixels, bent));
     if (body == NULL)
         return;
-    struct body_axes pose = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
-    draw_list_place_body(scene, body, position, &pose, 1.0);
+    struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
+    draw_list_place_body(scene, body, position, &axes, 1.0);
     memcpy(body->tint, force_colours[e->force[slot] % FORCE_COUNT], sizeof body->tint);
     body->burn = burn_of(e, slot);
     show_gear(scene, moment, slot, body);

@@ -191,8 +191,8 @@ static void free_camera(struct view_camera *aim, const struct view_camera_wish *
     }
     struct vec3 eye = {stand->x, 0.0, stand->z};
     eye.y = floor_at(moment, eye, maths_max(stand->above_m, VIEW_CAMERA_EYE_M));
-    struct body_axes pose = body_axes_of(stand->heading_rad, stand->pitch_rad, 0.0);
-    camera_turn(camera, eye, pose.forward, pose.up, lens);
+    struct body_axes axes = body_axes_of(stand->heading_rad, stand->pitch_rad, 0.0);
+    camera_turn(camera, eye, axes.forward, axes.up, lens);
 }
 
 static void inside(const struct frame_view *moment, uint32_t slot, const struct camera_lens *lens,
@@ -201,17 +201,17 @@ static void inside(const struct frame_view *moment, uint32_t slot, const struct 
     const struct entities *e = moment->entities;
     struct crew_eye_seat seat = crew_eye_seat(moment->world, &moment->world->kinds[e->kind[slot]]);
     struct vec3 at = seat.eye;
-    struct body_axes pose = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
-    struct vec3 eye = vec3_add(entities_position(e, slot), vec3_scale(pose.forward, at.x));
-    eye = vec3_add(eye, vec3_add(vec3_scale(pose.up, at.y), vec3_scale(pose.right, at.z)));
+    struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
+    struct vec3 eye = vec3_add(entities_position(e, slot), vec3_scale(axes.forward, at.x));
+    eye = vec3_add(eye, vec3_add(vec3_scale(axes.up, at.y), vec3_scale(axes.right, at.z)));
     eye.y = maths_max(eye.y, floor_at(moment, eye, INSIDE_LEAST_M));
     double sine, cosine;
     double turned =
         seat.turns ? (double)articulation_of(moment->gear, moment, slot).turret_rad : 0.0;
     maths_sincos(turned, &sine, &cosine);
-    struct vec3 ahead = vec3_add(vec3_scale(pose.forward, cosine), vec3_scale(pose.right, sine));
-    ahead = vec3_sub(ahead, vec3_scale(pose.up, seat.down));
-    camera_turn(camera, eye, ahead, pose.up, lens);
+    struct vec3 ahead = vec3_add(vec3_scale(axes.forward, cosine), vec3_scale(axes.right, sine));
+    ahead = vec3_sub(ahead, vec3_scale(axes.up, seat.down));
+    camera_turn(camera, eye, ahead, axes.up, lens);
 }
 
 void view_camera_camera(struct view_camera *aim, const struct view_camera_wish *wish,

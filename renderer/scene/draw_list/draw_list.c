@@ -42,12 +42,12 @@ struct scene_body *draw_list_add_body(struct scene *scene, uint16_t model, enum 
 }
 
 void draw_list_place_body(const struct scene *scene, struct scene_body *body, struct vec3 position,
-                          const struct body_axes *pose, double scale)
+                          const struct body_axes *axes, double scale)
 {
     draw_list_relative(scene, position, body->at);
-    copy_axis(body->forward, pose->forward, scale);
-    copy_axis(body->up, pose->up, scale);
-    copy_axis(body->right, pose->right, scale);
+    copy_axis(body->forward, axes->forward, scale);
+    copy_axis(body->up, axes->up, scale);
+    copy_axis(body->right, axes->right, scale);
 }
 
 /* The plane of the ground where the body's shadow falls, along the sun's light. */

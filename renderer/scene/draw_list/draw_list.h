@@ -152,7 +152,7 @@ void draw_list_sort_bodies(struct scene *scene);
 
 /* Where it is, how it is turned, and its size over its model's. */
 void draw_list_place_body(const struct scene *scene, struct scene_body *body, struct vec3 position,
-                          const struct body_axes *pose, double scale);
+                          const struct body_axes *axes, double scale);
 
 /* Gives the last body of the list a shadow, unless it is too small or too far for one to show. */
 void draw_list_add_shadow(struct scene *scene, const struct frame_view *moment,

@@ -53,9 +53,9 @@ static void roll(struct articulation_state *state, const struct frame_view *mome
 {
     const struct entities *e = moment->entities;
     const struct kind *kind = &moment->world->kinds[e->kind[slot]];
-    struct body_axes pose = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
+    struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
     struct vec3 moved = {e->x[slot] - state->x, e->y[slot] - state->y, e->z[slot] - state->z};
-    double way = vec3_dot(moved, pose.forward);
+    double way = vec3_dot(moved, axes.forward);
     double turned = maths_wrap_half(e->heading[slot] - state->heading);
     double more = turned * TRACK_APART * kind->width_m;
     state->way_m[0] = wrapped(state->way_m[0] + way + more);

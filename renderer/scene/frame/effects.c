@@ -156,12 +156,12 @@ static void take_wrecks(struct effects *effects, const struct frame_view *moment
     uint32_t used =
         moment->head->used < MOTION_TRAILS_SLOTS ? moment->head->used : MOTION_TRAILS_SLOTS;
     for (uint32_t slot = 0; slot < used; slot++) {
-        struct motion_trail *spoor = &effects->spoors.spoor[slot];
+        struct motion_trail *trail = &effects->spoors.trail[slot];
         const struct kind *kind = kind_of(moment, e->kind[slot]);
-        if (e->state[slot] != ENTITY_WRECK || spoor->wrecked || kind == NULL)
+        if (e->state[slot] != ENTITY_WRECK || trail->wrecked || kind == NULL)
             continue;
         double time_s = (double)e->changed_tick[slot] * world_dt_s(moment->world);
-        spoor->wrecked = true;
+        trail->wrecked = true;
         if (now_s - time_s > effects_life_s(EFFECT_WRECK))
             continue;
         struct effect *wreck = place(effects);

@@ -26,10 +26,10 @@ static bool leaves(const struct kind *kind)
            (kind->domain == DOMAIN_MUNITION && kind->guidance == GUIDANCE_HOMING);
 }
 
-static void add_point(struct motion_trail *spoor, const double at[3], const double velocity[3],
+static void add_point(struct motion_trail *trail, const double at[3], const double velocity[3],
                       double time_s)
 {
-    struct motion_trail_point *point = &spoor->point[spoor->count++ % SPOOR_POINTS];
+    struct motion_trail_point *point = &trail->point[trail->count++ % SPOOR_POINTS];
     for (uint32_t i = 0; i < 3; i++) {
         point->at[i] = (float)at[i];
         point->velocity[i] = (float)velocity[i];
@@ -37,25 +37,25 @@ static void add_point(struct motion_trail *spoor, const double at[3], const doub
     point->time_s = time_s;
 }
 
-static const struct motion_trail_point *newest(const struct motion_trail *spoor)
+static const struct motion_trail_point *newest(const struct motion_trail *trail)
 {
-    return &spoor->point[(spoor->count - 1) % SPOOR_POINTS];
+    return &trail->point[(trail->count - 1) % SPOOR_POINTS];
 }
 
-static void note(struct motion_trail *spoor, const struct frame_view *moment, uint32_t slot,
+static void note(struct motion_trail *trail, const struct frame_view *moment, uint32_t slot,
                  double now_s)
 {
     const struct entities *e = moment->entities;
     const struct kind *kind = &moment->world->kinds[e->kind[slot]];
     const double at[3] = {e->x[slot], e->y[slot], e->z[slot]};
     const double velocity[3] = {e->vx[slot], e->vy[slot], e->vz[slot]};
-    if (spoor->count > 0 && newest(spoor)->time_s > now_s)
-        spoor->count = 0; /* time was turned back */
-    if (spoor->count > 0 && now_s - newest(spoor)->time_s < interval_s(kind->domain))
+    if (trail->count > 0 && newest(trail)->time_s > now_s)
+        trail->count = 0; /* time was turned back */
+    if (trail->count > 0 && now_s - newest(trail)->time_s < interval_s(kind->domain))
         return;
-    if (spoor->count == 0 && vec3_length(entities_velocity(e, slot)) < LEAST_MPS)
-        return; /* a long stand is no spoor */
-    add_point(spoor, at, velocity, now_s);
+    if (trail->count == 0 && vec3_length(entities_velocity(e, slot)) < LEAST_MPS)
+        return; /* a vehicle that stands leaves no trail */
+    add_point(trail, at, velocity, now_s);
 }
 
 void motion_trails_note(struct motion_trails *spoors, const struct frame_view *moment)
@@ -65,21 +65,21 @@ void motion_trails_note(struct motion_trails *spoors, const struct frame_view *m
     uint32_t used =
         moment->head->used < MOTION_TRAILS_SLOTS ? moment->head->used : MOTION_TRAILS_SLOTS;
     for (uint32_t slot = 0; slot < used; slot++) {
-        struct motion_trail *spoor = &spoors->spoor[slot];
+        struct motion_trail *trail = &spoors->trail[slot];
         if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= moment->world->counts.kinds)
             continue; /* what it left still lies there */
-        if (spoor->id != e->id[slot]) {
-            spoor->id = e->id[slot];
-            spoor->kind = e->kind[slot];
-            spoor->count = 0;
-            spoor->wrecked = false;
-            spoor->smokes_s = INFINITY;
+        if (trail->id != e->id[slot]) {
+            trail->id = e->id[slot];
+            trail->kind = e->kind[slot];
+            trail->count = 0;
+            trail->wrecked = false;
+            trail->smokes_s = INFINITY;
         }
         if (e->state[slot] == ENTITY_ACTIVE && e->damage[slot] >= DAMAGE_MED)
-            spoor->smokes_s =
-                fmin(spoor->smokes_s, (double)e->changed_tick[slot] * world_dt_s(moment->world));
-        if (e->state[slot] == ENTITY_ACTIVE && leaves(&moment->world->kinds[spoor->kind]))
-            note(spoor, moment, slot, now_s);
+            trail->smokes_s =
+                fmin(trail->smokes_s, (double)e->changed_tick[slot] * world_dt_s(moment->world));
+        if (e->state[slot] == ENTITY_ACTIVE && leaves(&moment->world->kinds[trail->kind]))
+            note(trail, moment, slot, now_s);
     }
 }
 
@@ -87,14 +87,14 @@ void motion_trails_end(struct motion_trails *spoors, uint32_t id, const double p
                        double time_s)
 {
     for (uint32_t slot = 0; slot < MOTION_TRAILS_SLOTS; slot++) {
-        struct motion_trail *spoor = &spoors->spoor[slot];
-        if (spoor->id != id || spoor->count == 0 || newest(spoor)->time_s >= time_s)
+        struct motion_trail *trail = &spoors->trail[slot];
+        if (trail->id != id || trail->count == 0 || newest(trail)->time_s >= time_s)
             continue;
-        const struct motion_trail_point *last = newest(spoor);
+        const struct motion_trail_point *last = newest(trail);
         double since = time_s - last->time_s, velocity[3];
         for (uint32_t i = 0; i < 3; i++)
             velocity[i] = (point[i] - (double)last->at[i]) / since;
-        add_point(spoor, point, velocity, time_s);
+        add_point(trail, point, velocity, time_s);
         return;
     }
 }
@@ -102,9 +102,9 @@ void motion_trails_end(struct motion_trails *spoors, uint32_t id, const double p
 const struct motion_trail *motion_trails_of(const struct motion_trails *spoors, uint32_t slot,
                                             uint32_t id)
 {
-    if (slot >= MOTION_TRAILS_SLOTS || spoors->spoor[slot].id != id)
+    if (slot >= MOTION_TRAILS_SLOTS || spoors->trail[slot].id != id)
         return NULL;
-    return &spoors->spoor[slot];
+    return &spoors->trail[slot];
 }
 
 static struct motion_trail_point straight(const struct motion_trail_point *from, double time_s)
@@ -133,14 +133,14 @@ static struct motion_trail_point between(const struct motion_trail_point *a,
     return point;
 }
 
-struct motion_trail_point motion_trail_at(const struct motion_trail *spoor,
+struct motion_trail_point motion_trail_at(const struct motion_trail *trail,
                                           const struct motion_trail_point *now, double time_s)
 {
     const struct motion_trail_point *later = now;
-    uint32_t kept = spoor == NULL ? 0 : spoor->count < SPOOR_POINTS ? spoor->count : SPOOR_POINTS;
+    uint32_t kept = trail == NULL ? 0 : trail->count < SPOOR_POINTS ? trail->count : SPOOR_POINTS;
     for (uint32_t i = 0; i < kept; i++) {
         const struct motion_trail_point *point =
-            &spoor->point[(spoor->count - 1 - i) % SPOOR_POINTS];
+            &trail->point[(trail->count - 1 - i) % SPOOR_POINTS];
         if (point->time_s >= later->time_s)
             continue; /* of a moment after this one */
         if (point->time_s <= time_s)
@@ -156,14 +156,14 @@ static double squared(const struct motion_trail_point *point)
     return (double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-double motion_trail_fastest_mps(const struct motion_trail *spoor,
+double motion_trail_fastest_mps(const struct motion_trail *trail,
                                 const struct motion_trail_point *now, double since_s)
 {
     double fastest = squared(now);
-    uint32_t kept = spoor == NULL ? 0 : spoor->count < SPOOR_POINTS ? spoor->count : SPOOR_POINTS;
+    uint32_t kept = trail == NULL ? 0 : trail->count < SPOOR_POINTS ? trail->count : SPOOR_POINTS;
     for (uint32_t i = 0; i < kept; i++) {
         const struct motion_trail_point *point =
-            &spoor->point[(spoor->count - 1 - i) % SPOOR_POINTS];
+            &trail->point[(trail->count - 1 - i) % SPOOR_POINTS];
         fastest = maths_max(fastest, squared(point));
         if (point->time_s < since_s)
             break; /* the way from this one on was still left behind */

@@ -27,7 +27,7 @@ struct motion_trail {
 };
 
 struct motion_trails {
-    struct motion_trail spoor[MOTION_TRAILS_SLOTS]; /* by slot */
+    struct motion_trail trail[MOTION_TRAILS_SLOTS]; /* by slot */
 };
 
 /* Notes where everything is whose way will show. Called for a moment again it changes nothing. */
@@ -37,17 +37,17 @@ void motion_trails_note(struct motion_trails *spoors, const struct frame_view *m
 void motion_trails_end(struct motion_trails *spoors, uint32_t id, const double point[3],
                        double time_s);
 
-/* The slot's spoor if it is this entity's, else NULL. */
+/* The slot's trail if it belongs to this entity, else NULL. */
 const struct motion_trail *motion_trails_of(const struct motion_trails *spoors, uint32_t slot,
                                             uint32_t id);
 
 /* Where the entity was at a time, on a smooth curve through the points up to now, at a moment when
  * it was there. From before the first point on it came straight. */
-struct motion_trail_point motion_trail_at(const struct motion_trail *spoor,
+struct motion_trail_point motion_trail_at(const struct motion_trail *trail,
                                           const struct motion_trail_point *now, double time_s);
 
 /* How fast it was at its points since a time, and is now [m/s]. */
-double motion_trail_fastest_mps(const struct motion_trail *spoor,
+double motion_trail_fastest_mps(const struct motion_trail *trail,
                                 const struct motion_trail_point *now, double since_s);
 
 #endif

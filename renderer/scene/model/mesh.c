@@ -146,21 +146,21 @@ static void put_vertices(struct mesh *mesh, const struct mesh_facets *facets,
     }
 }
 
-/* Where on its track's belt each corner is: those of a triangle near each other. */
+/* Where on its track's outline each corner is: those of a triangle near each other. */
 static int lay_tracks(struct mesh *mesh, const struct world *world, uint32_t model)
 {
     for (uint32_t joint = 1; joint < MODEL_JOINTS_MAX; joint++) {
-        struct track_outline belt = {.corner = NULL};
+        struct track_outline outline = {.corner = NULL};
         for (uint32_t i = 0; i < mesh->count; i++) {
             struct mesh_vertex *vertex = &mesh->vertices[i];
             if (vertex->part != PART_TRACK || vertex->joint != joint)
                 continue;
-            if (belt.corner == NULL && track_outline_find(&belt, world, model, joint) != 0)
+            if (outline.corner == NULL && track_outline_find(&outline, world, model, joint) != 0)
                 return -1;
             float near = i % 3 == 0 ? 0.0f : mesh->vertices[i - i % 3].along;
-            vertex->along = track_outline_along(&belt, vertex->position, near);
+            vertex->along = track_outline_along(&outline, vertex->position, near);
         }
-        track_outline_free(&belt);
+        track_outline_free(&outline);
     }
     return 0;
 }
@@ -255,11 +255,11 @@ static int find_pivot(struct mesh_frame *frame, const struct world *world, uint3
     if (box.part == PART_BODY)
         return 0;
     if (box.part == PART_TRACK) {
-        struct track_outline belt;
-        if (track_outline_find(&belt, world, model, joint) != 0)
+        struct track_outline outline;
+        if (track_outline_find(&outline, world, model, joint) != 0)
             return -1;
-        pivot[3] = belt.link_m;
-        track_outline_free(&belt);
+        pivot[3] = outline.link_m;
+        track_outline_free(&outline);
     }
     if (box.part == PART_TURRET || box.part == PART_ROTOR)
         grow(&box, world, m, joint, 1, box.low[1] + FOOT_M);

@@ -62,60 +62,61 @@ static uint32_t collect(const struct world *world, uint32_t model, uint32_t join
     return count;
 }
 
-static void measure(struct track_outline *belt, const struct point *line)
+static void measure(struct track_outline *outline, const struct point *line)
 {
     double sum = 0.0;
-    for (uint32_t i = 0; i < belt->count; i++) {
-        const struct point *next = &line[i + 1 < belt->count ? i + 1 : 0];
-        belt->corner[i][0] = line[i].x;
-        belt->corner[i][1] = line[i].y;
-        belt->along[i] = (float)sum;
+    for (uint32_t i = 0; i < outline->count; i++) {
+        const struct point *next = &line[i + 1 < outline->count ? i + 1 : 0];
+        outline->corner[i][0] = line[i].x;
+        outline->corner[i][1] = line[i].y;
+        outline->along[i] = (float)sum;
         double dx = (double)next->x - (double)line[i].x, dy = (double)next->y - (double)line[i].y;
         sum += sqrt(dx * dx + dy * dy);
     }
-    belt->along[belt->count] = (float)sum;
+    outline->along[outline->count] = (float)sum;
     double links =
         2.0 * floor(sum / (2.0 * TRACK_OUTLINE_LINK_M) + 0.5); /* light and dark by turns */
-    belt->link_m = links > 0.0 ? (float)(sum / links) : 0.0f;
+    outline->link_m = links > 0.0 ? (float)(sum / links) : 0.0f;
 }
 
-int track_outline_find(struct track_outline *belt, const struct world *world, uint32_t model,
+int track_outline_find(struct track_outline *outline, const struct world *world, uint32_t model,
                        uint32_t joint)
 {
     uint32_t most = 3 * world->models[model].triangle_count;
     struct point *points = malloc((most + 1) * sizeof *points);
     struct point *line = malloc((2 * (size_t)most + 2) * sizeof *line);
-    *belt = (struct track_outline){.corner = malloc((most + 1) * sizeof *belt->corner),
-                                   .along = malloc((most + 2) * sizeof *belt->along)};
+    *outline = (struct track_outline){.corner = malloc((most + 1) * sizeof *outline->corner),
+                                      .along = malloc((most + 2) * sizeof *outline->along)};
     int result = -1;
-    if (points != NULL && line != NULL && belt->corner != NULL && belt->along != NULL) {
+    if (points != NULL && line != NULL && outline->corner != NULL && outline->along != NULL) {
         uint32_t count = collect(world, model, joint, points);
         qsort(points, count, sizeof *points, by_x);
-        belt->count = wrap(line, points, count);
-        measure(belt, line);
+        outline->count = wrap(line, points, count);
+        measure(outline, line);
         result = 0;
     }
     free(points);
     free(line);
     if (result != 0)
-        track_outline_free(belt);
+        track_outline_free(outline);
     return result;
 }
 
-void track_outline_free(struct track_outline *belt)
+void track_outline_free(struct track_outline *outline)
 {
-    free(belt->corner);
-    free(belt->along);
-    *belt = (struct track_outline){.corner = NULL};
+    free(outline->corner);
+    free(outline->along);
+    *outline = (struct track_outline){.corner = NULL};
 }
 
-float track_outline_along(const struct track_outline *belt, const float place[3], float near)
+float track_outline_along(const struct track_outline *outline, const float place[3], float near)
 {
     double best = INFINITY, along = 0.0;
-    if (!(belt->link_m > 0.0f))
+    if (!(outline->link_m > 0.0f))
         return 0.0f;
-    for (uint32_t i = 0; i < belt->count; i++) {
-        const float *a = belt->corner[i], *b = belt->corner[i + 1 < belt->count ? i + 1 : 0];
+    for (uint32_t i = 0; i < outline->count; i++) {
+        const float *a = outline->corner[i],
+                    *b = outline->corner[i + 1 < outline->count ? i + 1 : 0];
         double ux = (double)b[0] - (double)a[0], uy = (double)b[1] - (double)a[1];
         double px = (double)place[0] - (double)a[0], py = (double)place[1] - (double)a[1];
         double length2 = ux * ux + uy * uy;
@@ -123,11 +124,11 @@ float track_outline_along(const struct track_outline *belt, const float place[3]
         double dx = px - t * ux, dy = py - t * uy, off = dx * dx + dy * dy;
         if (off < best) {
             best = off;
-            along = (double)belt->along[i] + t * sqrt(length2);
+            along = (double)outline->along[i] + t * sqrt(length2);
         }
     }
-    double around = (double)belt->along[belt->count];
-    double apart = along - (double)near * (double)belt->link_m;
+    double around = (double)outline->along[outline->count];
+    double apart = along - (double)near * (double)outline->link_m;
     along -= around * floor(apart / around + 0.5);
-    return (float)(along / (double)belt->link_m);
+    return (float)(along / (double)outline->link_m);
 }

@@ -1,4 +1,4 @@
-/* The belt of a track: the convex line around it, seen from the side, along which its links run.
+/* The outline of a track: the convex line around it, seen from the side, along which its links run.
  * Pure. */
 #ifndef JOLON_RENDERER_SCENE_MODEL_TRACK_OUTLINE_H
 #define JOLON_RENDERER_SCENE_MODEL_TRACK_OUTLINE_H
@@ -17,12 +17,12 @@ struct track_outline {
 };
 
 /* Of one joint of a model. 0, or -1 with errno ENOMEM. */
-int track_outline_find(struct track_outline *belt, const struct world *world, uint32_t model,
+int track_outline_find(struct track_outline *outline, const struct world *world, uint32_t model,
                        uint32_t joint);
-void track_outline_free(struct track_outline *belt);
+void track_outline_free(struct track_outline *outline);
 
-/* [links] along the belt to the point of it nearest to the place; near: within half the way around
- * of that many links. */
-float track_outline_along(const struct track_outline *belt, const float place[3], float near);
+/* [links] along the outline to the point of it nearest to the place; near: within half the way
+ * around of that many links. */
+float track_outline_along(const struct track_outline *outline, const float place[3], float near);
 
 #endif

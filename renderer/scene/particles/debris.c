@@ -94,18 +94,18 @@ static struct body_axes pose_at(const struct effect *effect, const struct flight
     double t = maths_min(1.0, age / (flight->lands_s + SETTLE_S));
     double turns = 1.0 + floor(3.0 * chance(effect->seed, n, 3));
     double heading = TWO_PI * chance(effect->seed, n, 4);
-    struct body_axes pose = body_axes_of(heading + 4.0 * t, TWO_PI * turns * t, 0.0);
+    struct body_axes axes = body_axes_of(heading + 4.0 * t, TWO_PI * turns * t, 0.0);
     /* As it comes to rest, its up becomes the ground's. */
     double flat = maths_clamp(4.0 * t - 3.0, 0.0, 1.0);
-    struct vec3 up = vec3_lerp(pose.up, normal, flat);
-    struct vec3 right = vec3_cross(pose.forward, up);
+    struct vec3 up = vec3_lerp(axes.up, normal, flat);
+    struct vec3 right = vec3_cross(axes.forward, up);
     double wide = vec3_length(right), high = vec3_length(up);
     if (wide < 1e-3 || high < 1e-3)
-        return pose;
-    pose.up = vec3_scale(up, 1.0 / high);
-    pose.right = vec3_scale(right, 1.0 / wide);
-    pose.forward = vec3_cross(pose.up, pose.right);
-    return pose;
+        return axes;
+    axes.up = vec3_scale(up, 1.0 / high);
+    axes.right = vec3_scale(right, 1.0 / wide);
+    axes.forward = vec3_cross(axes.up, axes.right);
+    return axes;
 }
 
 static void add_piece(struct scene *scene, const struct static_scene *scenery,
@@ -132,7 +132,7 @@ static void add_piece(struct scene *scene, const struct static_scene *scenery,
     if (body == NULL)
         return;
     struct vec3 normal = terrain_normal(&moment->world->terrain, moment->craters, at.x, at.z);
-    struct body_axes pose = pose_at(effect, &flight, normal, age, n);
+    struct body_axes axes = pose_at(effect, &flight, normal, age, n);
     double scale[3], low = 0.0;
     for (uint32_t i = 0; i < 3; i++) {
         double model = maths_max(0.01, (double)frame->high[i] - (double)frame->low[i]);
@@ -140,11 +140,11 @@ static void add_piece(struct scene *scene, const struct static_scene *scenery,
         if (i == 1)
             low = -scale[i] * (double)frame->low[i];
     }
-    at = vec3_add(at, vec3_scale(pose.up, low));
+    at = vec3_add(at, vec3_scale(axes.up, low));
     draw_list_relative(scene, at, body->at);
-    vec3_to_floats(body->forward, vec3_scale(pose.forward, scale[0]));
-    vec3_to_floats(body->up, vec3_scale(pose.up, scale[1]));
-    vec3_to_floats(body->right, vec3_scale(pose.right, scale[2]));
+    vec3_to_floats(body->forward, vec3_scale(axes.forward, scale[0]));
+    vec3_to_floats(body->up, vec3_scale(axes.up, scale[1]));
+    vec3_to_floats(body->right, vec3_scale(axes.right, scale[2]));
     body->tint[0] = body->tint[1] = body->tint[2] = 0.4f;
     body->burn = 1.0f;
     draw_list_add_shadow(scene, moment, at, pixels);

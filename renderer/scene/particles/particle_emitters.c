@@ -22,10 +22,10 @@ static void entity_puffs(struct scene *scene, const struct frame_view *moment,
     if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= moment->world->counts.kinds)
         return;
     const struct kind *kind = &moment->world->kinds[e->kind[slot]];
-    const struct motion_trail *spoor = motion_trails_of(spoors, slot, e->id[slot]);
-    smoke_entity(scene, moment, spoor, slot, kind);
+    const struct motion_trail *trail = motion_trails_of(spoors, slot, e->id[slot]);
+    smoke_entity(scene, moment, trail, slot, kind);
     if (e->state[slot] == ENTITY_ACTIVE)
-        trails_entity(scene, moment, spoor, slot, kind);
+        trails_entity(scene, moment, trail, slot, kind);
 }
 
 static void effect_puffs(struct scene *scene, const struct frame_view *moment,

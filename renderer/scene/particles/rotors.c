@@ -12,11 +12,11 @@
 #define LEAST_PIXELS 6.0  /* across */
 
 /* From body axes to the world's. */
-static struct vec3 turned(const struct body_axes *pose, const float v[4])
+static struct vec3 turned(const struct body_axes *axes, const float v[4])
 {
     return vec3_add(
-        vec3_scale(pose->forward, (double)v[0]),
-        vec3_add(vec3_scale(pose->up, (double)v[1]), vec3_scale(pose->right, (double)v[2])));
+        vec3_scale(axes->forward, (double)v[0]),
+        vec3_add(vec3_scale(axes->up, (double)v[1]), vec3_scale(axes->right, (double)v[2])));
 }
 
 static void add_disc(struct scene *scene, struct vec3 hub, struct vec3 axle, double radius_m)
@@ -45,14 +45,14 @@ void rotors_add(struct scene *scene, const struct static_scene *scenery,
         if (kind->domain != DOMAIN_AIR || kind->model >= moment->world->counts.models)
             continue;
         const struct mesh_frame *frame = &scenery->frames[kind->model];
-        struct body_axes pose = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
+        struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
         for (uint32_t joint = 1; joint < MODEL_JOINTS_MAX; joint++) {
             const float *pivot = frame->pivot[joint];
-            struct vec3 hub = vec3_add(entities_position(e, slot), turned(&pose, pivot));
+            struct vec3 hub = vec3_add(entities_position(e, slot), turned(&axes, pivot));
             if (frame->part[joint] == PART_ROTOR)
-                add_disc(scene, hub, pose.up, (double)pivot[3]);
+                add_disc(scene, hub, axes.up, (double)pivot[3]);
             else if (frame->part[joint] == PART_TAIL_ROTOR)
-                add_disc(scene, hub, pose.right, (double)pivot[3]);
+                add_disc(scene, hub, axes.right, (double)pivot[3]);
         }
     }
 }

@@ -140,7 +140,7 @@ static void wreck(struct scene *scene, const struct kind *kind, struct vec3 at, 
 }
 
 void smoke_entity(struct scene *scene, const struct frame_view *moment,
-                  const struct motion_trail *spoor, uint32_t slot, const struct kind *kind)
+                  const struct motion_trail *trail, uint32_t slot, const struct kind *kind)
 {
     const struct entities *e = moment->entities;
     bool dead = e->state[slot] == ENTITY_WRECK;
@@ -148,7 +148,7 @@ void smoke_entity(struct scene *scene, const struct frame_view *moment,
         return;
     struct vec3 at = entities_position(e, slot);
     double changed_s = (double)e->changed_tick[slot] * world_dt_s(moment->world);
-    double began_s = spoor != NULL ? maths_min(spoor->smokes_s, changed_s) : changed_s;
+    double began_s = trail != NULL ? maths_min(trail->smokes_s, changed_s) : changed_s;
     struct shade thin = {0.25f, 0.24f, 0.23f, THIN_SMOKE},
                  thick = {0.20f, 0.19f, 0.18f, THICK_SMOKE};
     struct vec3 top = {at.x, at.y + 0.5 * kind->height_m, at.z};

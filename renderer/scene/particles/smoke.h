@@ -8,6 +8,6 @@
 
 /* Adds the fire and smoke of a wreck, or the smoke of a damaged vehicle. */
 void smoke_entity(struct scene *scene, const struct frame_view *moment,
-                  const struct motion_trail *spoor, uint32_t slot, const struct kind *kind);
+                  const struct motion_trail *trail, uint32_t slot, const struct kind *kind);
 
 #endif

@@ -33,7 +33,7 @@
 
 /* What one thing gives off along its way. */
 struct trail {
-    const struct motion_trail *spoor;
+    const struct motion_trail *history;
     struct motion_trail_point now;
     double born_s; /* nothing is older */
     double rate_hz, life_s;
@@ -66,7 +66,7 @@ static struct row trail_row(const struct scene *scene, const struct trail *trail
     const struct row none = {.last = -1, .step = 1};
     struct vec3 at = {(double)trail->now.at[0], (double)trail->now.at[1], (double)trail->now.at[2]};
     double from_s = maths_max(trail->born_s, scene->time_s - trail->life_s);
-    double speed = motion_trail_fastest_mps(trail->spoor, &trail->now, from_s);
+    double speed = motion_trail_fastest_mps(trail->history, &trail->now, from_s);
     if (speed < least_mps)
         return none;
     double length = speed * (scene->time_s - from_s);
@@ -88,7 +88,7 @@ static bool trail_left(const struct scene *scene, const struct trail *trail, con
                        int64_t number, struct left *left)
 {
     double time_s = row_time_s(row, number), age = scene->time_s - time_s;
-    struct motion_trail_point was = motion_trail_at(trail->spoor, &trail->now, time_s);
+    struct motion_trail_point was = motion_trail_at(trail->history, &trail->now, time_s);
     struct vec3 way = {(double)was.velocity[0], (double)was.velocity[1], (double)was.velocity[2]};
     double speed = vec3_length(way), drift = age * trail->settle_mps;
     *left =
@@ -117,11 +117,11 @@ static bool trail_left(const struct scene *scene, const struct trail *trail, con
 /* --- on land ---------------------------------------------------------------------------------- */
 
 static void dust(struct scene *scene, const struct frame_view *moment,
-                 const struct motion_trail *spoor, uint32_t slot, const struct kind *kind)
+                 const struct motion_trail *history, uint32_t slot, const struct kind *kind)
 {
     const struct entities *e = moment->entities;
     const struct terrain *terrain = &moment->world->terrain;
-    struct trail trail = {.spoor = spoor,
+    struct trail trail = {.history = history,
                           .now = point_of(e, slot, scene->time_s),
                           .born_s = (double)e->born_tick[slot] * world_dt_s(moment->world),
                           .rate_hz = DUST_HZ,
@@ -158,11 +158,11 @@ static void dust(struct scene *scene, const struct frame_view *moment,
 
 /* Foam on the water; side: -1, 1 a wave of the bow, which spreads, 0 what the screws leave. */
 static void foam(struct scene *scene, const struct frame_view *moment,
-                 const struct motion_trail *spoor, uint32_t slot, const struct kind *kind,
+                 const struct motion_trail *history, uint32_t slot, const struct kind *kind,
                  int32_t side)
 {
     const struct entities *e = moment->entities;
-    struct trail trail = {.spoor = spoor,
+    struct trail trail = {.history = history,
                           .now = point_of(e, slot, scene->time_s),
                           .born_s = (double)e->born_tick[slot] * world_dt_s(moment->world),
                           .rate_hz = side == 0 ? WAKE_HZ : BOW_HZ,
@@ -210,10 +210,10 @@ static void missile_smoke(struct scene *scene, const struct trail *trail)
     }
 }
 
-static struct trail missile_trail(const struct motion_trail *spoor, struct motion_trail_point now,
+static struct trail missile_trail(const struct motion_trail *history, struct motion_trail_point now,
                                   uint32_t id)
 {
-    return (struct trail){.spoor = spoor,
+    return (struct trail){.history = history,
                           .now = now,
                           .rate_hz = SMOKE_HZ,
                           .life_s = SMOKE_LIFE_S,
@@ -224,10 +224,10 @@ static struct trail missile_trail(const struct motion_trail *spoor, struct motio
 }
 
 static void missile(struct scene *scene, const struct frame_view *moment,
-                    const struct motion_trail *spoor, uint32_t slot, const struct kind *kind)
+                    const struct motion_trail *history, uint32_t slot, const struct kind *kind)
 {
     const struct entities *e = moment->entities;
-    struct trail trail = missile_trail(spoor, point_of(e, slot, scene->time_s), e->id[slot]);
+    struct trail trail = missile_trail(history, point_of(e, slot, scene->time_s), e->id[slot]);
     trail.born_s = (double)e->born_tick[slot] * world_dt_s(moment->world);
     missile_smoke(scene, &trail);
     struct vec3 velocity = entities_velocity(e, slot);
@@ -329,22 +329,22 @@ static void wash(struct scene *scene, const struct frame_view *moment, uint32_t 
 }
 
 void trails_entity(struct scene *scene, const struct frame_view *moment,
-                   const struct motion_trail *spoor, uint32_t slot, const struct kind *kind)
+                   const struct motion_trail *history, uint32_t slot, const struct kind *kind)
 {
     switch (kind->domain) {
     case DOMAIN_LAND:
-        dust(scene, moment, spoor, slot, kind);
+        dust(scene, moment, history, slot, kind);
         break;
     case DOMAIN_SEA:
         for (int32_t side = -1; side <= 1; side++)
-            foam(scene, moment, spoor, slot, kind, side);
+            foam(scene, moment, history, slot, kind, side);
         break;
     case DOMAIN_AIR:
         wash(scene, moment, slot, kind);
         break;
     case DOMAIN_MUNITION:
         if (kind->guidance == GUIDANCE_HOMING)
-            missile(scene, moment, spoor, slot, kind);
+            missile(scene, moment, history, slot, kind);
         else
             tracer(scene, moment->entities, slot, kind);
         break;
@@ -354,20 +354,20 @@ void trails_entity(struct scene *scene, const struct frame_view *moment,
 }
 
 void trails_left(struct scene *scene, const struct frame_view *moment,
-                 const struct motion_trails *spoors)
+                 const struct motion_trails *histories)
 {
     const struct entities *e = moment->entities;
     for (uint32_t slot = 0; slot < MOTION_TRAILS_SLOTS && slot < moment->head->used; slot++) {
-        const struct motion_trail *spoor = &spoors->spoor[slot];
-        if (spoor->count == 0 || (e->state[slot] != ENTITY_FREE && e->id[slot] == spoor->id) ||
-            moment->world->kinds[spoor->kind].domain != DOMAIN_MUNITION)
+        const struct motion_trail *history = &histories->trail[slot];
+        if (history->count == 0 || (e->state[slot] != ENTITY_FREE && e->id[slot] == history->id) ||
+            moment->world->kinds[history->kind].domain != DOMAIN_MUNITION)
             continue;
-        const struct motion_trail_point *end = &spoor->point[(spoor->count - 1) % SPOOR_POINTS];
+        const struct motion_trail_point *end = &history->point[(history->count - 1) % SPOOR_POINTS];
         if (end->time_s > scene->time_s || end->time_s < scene->time_s - SMOKE_LIFE_S)
             continue;
-        struct trail trail = missile_trail(spoor, *end, spoor->id);
+        struct trail trail = missile_trail(history, *end, history->id);
         const struct motion_trail_point *first =
-            &spoor->point[spoor->count < SPOOR_POINTS ? 0 : spoor->count % SPOOR_POINTS];
+            &history->point[history->count < SPOOR_POINTS ? 0 : history->count % SPOOR_POINTS];
         trail.born_s = first->time_s;
         missile_smoke(scene, &trail);
     }

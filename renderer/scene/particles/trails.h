@@ -8,10 +8,10 @@
 
 /* Adds what a moving entity leaves behind and what its rotor stirs up. */
 void trails_entity(struct scene *scene, const struct frame_view *moment,
-                   const struct motion_trail *spoor, uint32_t slot, const struct kind *kind);
+                   const struct motion_trail *history, uint32_t slot, const struct kind *kind);
 
 /* Adds the smoke of missiles that no longer exist. */
 void trails_left(struct scene *scene, const struct frame_view *moment,
-                 const struct motion_trails *spoors);
+                 const struct motion_trails *histories);
 
 #endif
