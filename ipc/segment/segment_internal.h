@@ -26,10 +26,6 @@ int segment_view_named(struct view *view, const char *name, enum role role, stru
 int segment_lock(struct view *view, const char *path, bool later, struct reason *reason);
 int segment_map(struct view *view, segment_writable *writable, struct reason *reason);
 
-/* world_names.c: gives the object behind fd a name in /dev/shm and the world's name to it.
- * Refuses when the world exists. 0, or -1 with the reason. */
-int segment_give_names(const char *name, int fd, struct reason *reason);
-
 /* segment_locks.c. Each returns -1 with the reason when it fails; the first two set errno as well.
  * segment_open_lock: the lock file's descriptor (flags: O_RDONLY or O_RDWR, and O_CREAT).
  * segment_lock_name: the same with the byte of it that keeps creation and removal of the name

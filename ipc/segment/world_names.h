@@ -50,4 +50,8 @@ int segment_list(char names[][SEGMENT_NAME_MAX], int max, bool all, struct reaso
 #define SEGMENT_LOST_MAX 128
 int segment_list_lost(char files[][SEGMENT_LOST_MAX], int max);
 
+/* Gives the object behind fd a name in /dev/shm and the world's name to it.
+ * Refuses when the world exists. 0, or -1 with the reason. */
+int segment_give_names(const char *name, int fd, struct reason *reason);
+
 #endif
