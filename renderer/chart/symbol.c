@@ -187,13 +187,13 @@ static masks covered(lanes depth)
     return __builtin_convertvector(share, masks);
 }
 
-struct paint {
+struct symbol_paint {
     struct rgba fill, rim;
     float rim_width;
 };
 
 static void draw_row(uint8_t *pixels, int32_t count, const struct outline *outline,
-                     float rows[PIECES_MAX][CORNERS_MAX], float x, const struct paint *paint)
+                     float rows[PIECES_MAX][CORNERS_MAX], float x, const struct symbol_paint *paint)
 {
     for (int32_t column = 0; column < count; column += LANES, pixels += 4 * LANES, x += LANES) {
         lanes depth = depth_in(outline, rows, (lanes){x, x + 1.0f, x + 2.0f, x + 3.0f});
@@ -211,7 +211,7 @@ static void draw_row(uint8_t *pixels, int32_t count, const struct outline *outli
 }
 
 static void draw_form(struct image *image, const struct form *form, struct point at,
-                      double heading_rad, double pixels, const struct paint *paint)
+                      double heading_rad, double pixels, const struct symbol_paint *paint)
 {
     struct outline outline;
     double size = pixels * (double)form->scale;
@@ -265,7 +265,7 @@ static float rim_width(double pixels)
 void symbol_vehicle(struct image *image, struct point at, enum symbol_form form, double heading_rad,
                     double pixels, enum force force)
 {
-    const struct paint paint = {symbol_colour(force), rim_colour(force, pixels), rim_width(pixels)};
+    const struct symbol_paint paint = {symbol_colour(force), rim_colour(force, pixels), rim_width(pixels)};
     draw_form(image, &forms[form], at, heading_rad, pixels, &paint);
 }
 
@@ -295,8 +295,8 @@ void symbol_wreck(struct image *image, struct point at, double pixels)
 void symbol_fire(struct image *image, struct point at, double pixels)
 {
     const struct rgba orange = {255, 128, 16, 255}, soot = {30, 14, 6, 255};
-    const struct paint outside = {orange, soot, 0.8f * rim_width(pixels)};
-    const struct paint inside = {{255, 236, 130, 255}, orange, 0.0f};
+    const struct symbol_paint outside = {orange, soot, 0.8f * rim_width(pixels)};
+    const struct symbol_paint inside = {{255, 236, 130, 255}, orange, 0.0f};
     draw_form(image, &flame, at, 0.0, 0.85 * pixels, &outside);
     draw_form(image, &ember, at, 0.0, 0.85 * pixels, &inside);
 }
@@ -304,7 +304,7 @@ void symbol_fire(struct image *image, struct point at, double pixels)
 void symbol_blast(struct image *image, struct point at, double age, double pixels)
 {
     uint8_t alpha = (uint8_t)(255.0 * (1.0 - maths_clamp(age, 0.0, 1.0)));
-    const struct paint paint = {{255, 250, 210, alpha}, {255, 120, 0, alpha}, rim_width(pixels)};
+    const struct symbol_paint paint = {{255, 250, 210, alpha}, {255, 120, 0, alpha}, rim_width(pixels)};
     draw_form(image, &star, at, 0.3, pixels * (0.7 + 0.6 * age), &paint);
 }
 

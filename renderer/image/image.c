@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct span {
+struct row_span {
     int32_t x0, y0, x1, y1; /* pixels, exclusive at the end */
 };
 
@@ -35,10 +35,10 @@ static int32_t ceil_of(double v)
     return whole + (v > whole);
 }
 
-static struct span span_of(const struct image *image, double x0, double y0, double x1, double y1)
+static struct row_span span_of(const struct image *image, double x0, double y0, double x1, double y1)
 {
     double width = (double)image->width, height = (double)image->height;
-    struct span span = {0, 0, 0, 0};
+    struct row_span span = {0, 0, 0, 0};
     if (!(x1 > 0.0 && y1 > 0.0 && x0 < width && y0 < height))
         return span;
     span.x0 = x0 > 0.0 ? floor_of(x0) : 0;
@@ -69,7 +69,7 @@ static uint8_t *pixel_of(struct image *image, int32_t x, int32_t y)
     return image->pixels + ((size_t)y * image->width + (size_t)x) * 4;
 }
 
-static void fill(struct image *image, struct span span, struct rgba colour)
+static void fill(struct image *image, struct row_span span, struct rgba colour)
 {
     uint8_t *first = pixel_of(image, span.x0, span.y0);
     for (int32_t column = 0; column < span.x1 - span.x0; column++)
@@ -81,7 +81,7 @@ static void fill(struct image *image, struct span span, struct rgba colour)
 void image_rectangle(struct image *image, int32_t x, int32_t y, int32_t width, int32_t height,
                      struct rgba colour)
 {
-    struct span span = span_of(image, x, y, (double)x + width, (double)y + height);
+    struct row_span span = span_of(image, x, y, (double)x + width, (double)y + height);
     if (colour.a == 255 && span.x0 < span.x1 && span.y0 < span.y1) {
         fill(image, span, colour);
         return;
@@ -106,7 +106,7 @@ void image_rectangle(struct image *image, int32_t x, int32_t y, int32_t width, i
 void image_dot(struct image *image, struct point centre, double side, struct rgba colour)
 {
     double left = centre.x - 0.5 * side, top = centre.y - 0.5 * side;
-    struct span span = span_of(image, left, top, left + side, top + side);
+    struct row_span span = span_of(image, left, top, left + side, top + side);
     for (int32_t y = span.y0; y < span.y1; y++) {
         double tall = least(y + 1.0, top + side) - most(y, top);
         for (int32_t x = span.x0; x < span.x1; x++) {
@@ -125,7 +125,7 @@ static void lay_edge(uint8_t *pixel, struct rgba colour, double inside)
 }
 
 /* Narrows columns to those where slope * x + at > -0.5; a column's x is its pixel's middle. */
-static void narrow(struct span *span, double slope, double at)
+static void narrow(struct row_span *span, double slope, double at)
 {
     if (fabs(slope) < 1e-9) {
         if (at <= -0.5)
@@ -145,7 +145,7 @@ void image_line(struct image *image, struct point from, struct point to, double 
     double half = 0.5 * width, dx = to.x - from.x, dy = to.y - from.y;
     double length = sqrt(dx * dx + dy * dy);
     double ux = length > 0.0 ? dx / length : 1.0, uy = length > 0.0 ? dy / length : 0.0;
-    struct span span =
+    struct row_span span =
         span_of(image, least(from.x, to.x) - half - 1.0, least(from.y, to.y) - half - 1.0,
                 most(from.x, to.x) + half + 1.0, most(from.y, to.y) + half + 1.0);
     /* A row meets the line about where it crosses the line's middle, as far to both sides as its
@@ -174,7 +174,7 @@ void image_line(struct image *image, struct point from, struct point to, double 
 void image_disc(struct image *image, struct point centre, double radius, struct rgba colour)
 {
     double reach = radius + 1.0;
-    struct span span =
+    struct row_span span =
         span_of(image, centre.x - reach, centre.y - reach, centre.x + reach, centre.y + reach);
     for (int32_t y = span.y0; y < span.y1; y++)
         for (int32_t x = span.x0; x < span.x1; x++) {
@@ -187,7 +187,7 @@ void image_ring(struct image *image, struct point centre, double radius, double 
                 struct rgba colour)
 {
     double reach = radius + 0.5 * width + 1.0;
-    struct span span =
+    struct row_span span =
         span_of(image, centre.x - reach, centre.y - reach, centre.x + reach, centre.y + reach);
     for (int32_t y = span.y0; y < span.y1; y++)
         for (int32_t x = span.x0; x < span.x1; x++) {
@@ -224,9 +224,9 @@ void image_polygon(struct image *image, const struct point *corners, uint32_t co
         edges[held].at = -(edges[held].x * a.x + edges[held].y * a.y);
         held++;
     }
-    struct span span = span_of(image, x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0);
+    struct row_span span = span_of(image, x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0);
     for (int32_t y = span.y0; y < span.y1; y++) {
-        struct span row = span;
+        struct row_span row = span;
         for (uint32_t i = 0; i < held; i++)
             narrow(&row, edges[i].x, edges[i].y * (y + 0.5) + edges[i].at);
         for (int32_t x = row.x0; x < row.x1; x++) {
@@ -242,7 +242,7 @@ void image_polygon(struct image *image, const struct point *corners, uint32_t co
 
 void image_copy(struct image *to, const struct image *from, int32_t x, int32_t y)
 {
-    struct span span = span_of(to, x, y, (double)x + from->width, (double)y + from->height);
+    struct row_span span = span_of(to, x, y, (double)x + from->width, (double)y + from->height);
     if (span.x1 <= span.x0)
         return;
     for (int32_t row = span.y0; row < span.y1; row++) {
