@@ -1,4 +1,4 @@
-/* The writer of a command ring: command_put() of ipc/frame/command_ring.c, and of reporter/orders.c what keeps
+/* The writer of a command ring: command_put() of ipc/frame/command_ring.c, and of reporter/intake/command_intake.c what keeps
  * a command from being put twice.
  *
  * Its clients send their commands in any order and repeat each until it is answered. An answer is an
