@@ -85,9 +85,10 @@ endif
 
 # $(call rewritten,FILE,NAME): what a FILE depends on that is written anew when the variable NAME has
 # another value. Its recipe compares the two. Nothing is written while steps are counted, so they are
-# compared here. Only then is the variable looked up, because it may ask a compiler.
+# compared here. Only then is the variable looked up, because it may ask a compiler. make 4.3 may read
+# the newline at the end of the file as a part of the text, so blanks are not compared.
 differ    = $(subst x$(1),,x$(2))$(subst x$(2),,x$(1))
-rewritten = $(if $(COUNTING),$(if $(call differ,$(file <$(1)),$($(2))),FORCE),FORCE)
+rewritten = $(if $(COUNTING),$(if $(call differ,$(strip $(file <$(1))),$(strip $($(2)))),FORCE),FORCE)
 
 # --- set-up: packages ---------------------------------------------------------------------------
 STAMP    := build/.packages

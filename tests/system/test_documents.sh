@@ -10,7 +10,7 @@ top=$(cd "$here/../.." && pwd)
 # Files keep their times, so that make takes over what is built.
 mkdir -p copy/build
 tar -C "$top" --exclude=./build --exclude=./.git --exclude=./out --exclude='./jolon-out*' -cf - . | tar -C copy -xf -
-cp -a "$(dirname "$bin")"/{bin,obj,idl,flags} "$top/build/.packages" copy/build
+cp -a "$(dirname "$bin")"/{bin,lib,obj,idl,flags} "$top/build/.packages" copy/build
 stop_all() { (cd "$folder/copy" && build/bin/jolon stop; build/bin/jolon clean --all) >"$folder/stopped" 2>&1; }
 trap 'stop_all; at_end' EXIT
 
