@@ -126,7 +126,9 @@ RENDERER_SRC := $(filter-out renderer/video/%,$(call sources,renderer renderer/*
 KEEPER_SRC   := $(call sources,supervisor)
 # Programs of their own that stand in a folder of another: what is linked into that one alone.
 SUPPORT_SRC  := $(call sources,tests/support)
-BENCH_SRC    := $(call sources,tests/bench)
+BENCH_SRC    := $(filter-out tests/bench/peer_%,$(call sources,tests/bench))
+# Only jolon-bench needs the engines that it measures: tests of its parts do not.
+ENGINES      := $(patsubst %,$(OBJ)/%.o,$(basename $(wildcard tests/bench/peer_*)))
 FUZZ_SRC     := $(call sources,tests/fuzz)
 PLACES       := unit/* unit/*/* unit/*/*/* property/*
 UNIT_SRC     := $(filter tests/unit/%,$(wildcard $(addprefix tests/,$(addsuffix /test_*.c,$(PLACES)))))
@@ -248,9 +250,9 @@ $(BIN)/jolon-harness: $(OBJ)/clients/harness/main.o $(call libraries,harness top
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-monitor: $(OBJ)/clients/monitor/main.o $(call libraries,monitor topics datagrams ipc world)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(BENCH): $(OBJ)/tests/bench/main.o $(OBJ)/tests/bench/peer_bullet.o $(call libraries,bench renderer $(STEPS) config http ipc world)
+$(BENCH): $(OBJ)/tests/bench/main.o $(ENGINES) $(call libraries,bench renderer $(STEPS) config http ipc world)
 	$(call link,$(RENDER_LIBS) $(HTTP_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS))
-$(patsubst %,$(OBJ)/%.o,$(basename $(wildcard tests/bench/peer_*))): | $(BENCH_STAMP)
+$(ENGINES): | $(BENCH_STAMP)
 $(BIN)/jolon-keeper: $(OBJ)/supervisor/main.o $(call libraries,supervisor sandbox ipc world)
 	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon: supervisor/jolon

@@ -51,6 +51,8 @@ build -n run >run.plan
 build -n bench >bench.plan
 check "make run builds the programs" grep -q 'bin/jolon-mover' run.plan
 check "but not the benchmarks" eval '! grep -q "jolon-bench\|peer_ode\|peer_bullet" run.plan'
+build -n check >check.plan
+check "nor does make check build the engines" eval '! grep -q "peer_ode\|peer_bullet" check.plan'
 check "make bench builds them" grep -q 'bin/jolon-bench' bench.plan
 check "no engine is in the list of packages" eval '! grep -q "libode\|libbullet" "$top/packages.txt"'
 
