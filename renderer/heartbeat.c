@@ -9,39 +9,39 @@
 
 static void *beat(void *argument)
 {
-    struct heartbeat *pulse = argument;
-    while (atomic_load_explicit(&pulse->ending, memory_order_acquire) == 0) {
+    struct heartbeat *heartbeat = argument;
+    while (atomic_load_explicit(&heartbeat->ending, memory_order_acquire) == 0) {
         uint64_t now = clock_now_ns();
-        if (now - atomic_load_explicit(&pulse->stage_ns, memory_order_relaxed) <
+        if (now - atomic_load_explicit(&heartbeat->stage_ns, memory_order_relaxed) <
             HEARTBEAT_PATIENCE_NS)
-            frame_protocol_beat(pulse->view);
+            frame_protocol_beat(heartbeat->view);
         clock_sleep_until_ns(now + HEARTBEAT_INTERVAL_NS);
     }
     return NULL;
 }
 
-int heartbeat_start(struct heartbeat *pulse, struct view *view)
+int heartbeat_start(struct heartbeat *heartbeat, struct view *view)
 {
-    pulse->view = view;
-    atomic_store(&pulse->ending, 0);
-    heartbeat_stage(pulse);
+    heartbeat->view = view;
+    atomic_store(&heartbeat->ending, 0);
+    heartbeat_stage(heartbeat);
     /* Signals are the drawing thread's: they must wake its waits. */
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    int error = pthread_create(&pulse->thread, NULL, beat, pulse);
+    int error = pthread_create(&heartbeat->thread, NULL, beat, heartbeat);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     errno = error;
     return error == 0 ? 0 : -1;
 }
 
-void heartbeat_stop(struct heartbeat *pulse)
+void heartbeat_stop(struct heartbeat *heartbeat)
 {
-    atomic_store_explicit(&pulse->ending, 1, memory_order_release);
-    pthread_join(pulse->thread, NULL);
+    atomic_store_explicit(&heartbeat->ending, 1, memory_order_release);
+    pthread_join(heartbeat->thread, NULL);
 }
 
-void heartbeat_stage(struct heartbeat *pulse)
+void heartbeat_stage(struct heartbeat *heartbeat)
 {
-    atomic_store_explicit(&pulse->stage_ns, clock_now_ns(), memory_order_relaxed);
+    atomic_store_explicit(&heartbeat->stage_ns, clock_now_ns(), memory_order_relaxed);
 }

@@ -25,10 +25,10 @@ struct heartbeat {
 };
 
 /* 0, or -1 with errno. The view must stay attached until heartbeat_stop(). */
-int heartbeat_start(struct heartbeat *pulse, struct view *view);
-void heartbeat_stop(struct heartbeat *pulse);
+int heartbeat_start(struct heartbeat *heartbeat, struct view *view);
+void heartbeat_stop(struct heartbeat *heartbeat);
 
 /* The drawing thread goes on to its next stage. */
-void heartbeat_stage(struct heartbeat *pulse);
+void heartbeat_stage(struct heartbeat *heartbeat);
 
 #endif

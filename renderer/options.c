@@ -30,7 +30,7 @@ static struct options given = {.world = "default",
                                .stand.pitch_rad = -6.0 * RAD_PER_DEG,
                                .back_end = -1,
                                .hold = -1,
-                               .outlets = {.stills_fps = -1.0,
+                               .outputs = {.stills_fps = -1.0,
                                            .video_fps = 30.0,
                                            .stream_port = -1,
                                            .stream_address = HTTP_LISTEN_ADDRESS}};
@@ -151,18 +151,18 @@ static const struct option_row rows[] = {
      .flag = &given.exact},
     {"stills", "F",
      "PNG files a second, at most (default: every picture; 2 with --video or --stream)",
-     .real = &given.outlets.stills_fps, .low = 0.01, .high = FPS_MAX},
+     .real = &given.outputs.stills_fps, .low = 0.01, .high = FPS_MAX},
     {"video", "FILE",
      "a video too: .mkv, .mp4 or .webm; a second of it is a second of simulation; a file that is "
      "there is left, and the new one numbered",
-     .text = &given.outlets.video},
-    {"video-view", "V", "of this view (default: the first)", .text = &given.outlets.video_view},
+     .text = &given.outputs.video},
+    {"video-view", "V", "of this view (default: the first)", .text = &given.outputs.video_view},
     {"video-fps", "F", "pictures a second of it, at most (default 30)",
-     .real = &given.outlets.video_fps, .low = 1.0, .high = FPS_MAX},
+     .real = &given.outputs.video_fps, .low = 1.0, .high = FPS_MAX},
     {"stream", "PORT", "show every view to browsers: http://127.0.0.1:PORT/; 0: any port",
-     .integer = &given.outlets.stream_port, .most = UINT16_MAX},
+     .integer = &given.outputs.stream_port, .most = UINT16_MAX},
     {"stream-address", "A", "where to listen instead: others may come then, without a password",
-     .text = &given.outlets.stream_address},
+     .text = &given.outputs.stream_address},
     OPTION_ROW_PARENT(given),
     OPTION_ROW_NO_SANDBOX(given),
     OPTION_ROWS_END};
@@ -170,7 +170,7 @@ static const struct option_row rows[] = {
 /* Somebody watches: more than a still now and then. */
 static void take_live_defaults(struct options *options)
 {
-    struct output_set_wish *wish = &options->outlets;
+    struct output_set_wish *wish = &options->outputs;
     bool live = wish->video != NULL || wish->stream_port >= 0;
     if (live && options->snap != NULL)
         die_usage("--snap makes one picture: --video and --stream are for --out");

@@ -31,13 +31,13 @@ struct quality_control {
 extern const struct quality_control_level quality_control_levels[QUALITY_CONTROL_LEVELS];
 
 /* fps 0: there is no rate to keep. */
-void quality_control_init(struct quality_control *governor, double fps);
+void quality_control_init(struct quality_control *quality, double fps);
 
 /* A picture took so long and was ready at now_s (of any clock that goes on evenly). -1: draws less
  * from now on; 1: more; 0: as before. */
-int quality_control_note(struct quality_control *governor, double took_s, double now_s);
+int quality_control_note(struct quality_control *quality, double took_s, double now_s);
 
 /* Median of the last pictures [s]; 0 before there were QUALITY_CONTROL_PICTURES of one level. */
-double quality_control_median_s(const struct quality_control *governor);
+double quality_control_median_s(const struct quality_control *quality);
 
 #endif

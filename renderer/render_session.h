@@ -1,4 +1,4 @@
-/* The studio: everything one renderer keeps from picture to picture, and the steps of making them.
+/* A render session: everything that one renderer keeps from picture to picture.
  */
 #ifndef JOLON_RENDERER_RENDER_SESSION_H
 #define JOLON_RENDERER_RENDER_SESSION_H
@@ -28,62 +28,62 @@
 
 struct render_session {
     struct view *view;
-    struct heartbeat *pulse;
-    struct output_set *outlets;  /* NULL: a picture goes where options.snap says */
+    struct heartbeat *heartbeat;
+    struct output_set *outputs;  /* NULL: a picture goes where options.snap says */
     struct options options;      /* with the world's own where none were given */
     struct snapshot snapshot[2]; /* the last two frames seen ... */
     uint32_t latest;             /* ... and which of them is the later */
     uint32_t whole;              /* of them there are: 0, 1, 2 */
     bool smooth;                 /* draws between them, ... */
     double at_s;                 /* ... at this time of simulation; below 0: by the clock */
-    struct frame_interpolation blend;
+    struct frame_interpolation interpolation;
     struct frame_interpolation_clock clock;
     struct crater_index craters;
     struct dent_index dents;
     struct event_cursor events;
     struct effects effects;
     struct tracks tracks;
-    struct articulation gear;
+    struct articulation articulation;
     struct follow follow;
-    struct view_picture shots[VIEWS_MAX];
-    uint32_t shot_count;
+    struct view_picture pictures[VIEWS_MAX];
+    uint32_t picture_count;
     struct static_scene scenery;
     struct scene scene;
     struct annotated_picture chart;
     struct back_end_interface draw; /* self is NULL when only maps are wanted */
     struct image image;
     struct image small; /* what is drawn smaller and then stretched; the memory of a whole one */
-    struct quality_control governor;
+    struct quality_control quality;
     uint64_t seen;        /* frame of the latest snapshot */
     uint64_t drawn;       /* frame of the last pictures, UINT64_MAX for none, ... */
     double drawn_ahead_s; /* ... and how much later they were */
     bool drawn_whole;     /* ... and with everything */
     uint64_t drawn_ns;    /* CLOCK_MONOTONIC when they were begun */
     double rate;          /* pictures a second, measured; 0: not yet */
-    struct requested_pictures booth;
+    struct requested_pictures requested;
     uint64_t complained_ns;
 };
 
 /* outlets: NULL to draw into options->snap. 0, or -1 with the reason: no memory, nothing to draw
  * with, no font. */
-int render_session_open(struct render_session *studio, struct view *view, struct heartbeat *pulse,
-                        struct output_set *outlets, const struct options *options,
-                        struct reason *reason);
-void render_session_close(struct render_session *studio);
+int render_session_open(struct render_session *session, struct view *view,
+                        struct heartbeat *heartbeat, struct output_set *outputs,
+                        const struct options *options, struct reason *reason);
+void render_session_close(struct render_session *session);
 
 /* When the next pictures are due (CLOCK_MONOTONIC); UINT64_MAX when only those at the end are. */
-uint64_t render_session_due_ns(const struct render_session *studio);
+uint64_t render_session_due_ns(const struct render_session *session);
 
 /* Looks at the world: takes a snapshot and the events since the last. 0; -1 with the reason when
  * the world is damaged or memory is out. A world that goes on too fast to be copied leaves what
  * was seen before, and says so at most every 10 s. */
-int render_session_look(struct render_session *studio, struct reason *reason);
+int render_session_look(struct render_session *session, struct reason *reason);
 
 /* Is every vehicle that was asked for by number in the frame seen last? 0, or -1 with the reason.
  */
-int render_session_check_vehicles(const struct render_session *studio, struct reason *reason);
+int render_session_check_vehicles(const struct render_session *session, struct reason *reason);
 
 /* The frame of one of the snapshots; it lives as long as that holds it. */
-struct frame_view render_session_moment(const struct render_session *studio, uint32_t which);
+struct frame_view render_session_frame_view(const struct render_session *session, uint32_t which);
 
 #endif

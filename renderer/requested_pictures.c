@@ -14,11 +14,11 @@
 #define RATE_SHARE     0.1      /* of the latest interval in the rate that is shown */
 #define RATE_PAUSE_NS  NS_PER_S /* after so long it is measured anew */
 
-void requested_pictures_open(struct render_session *studio)
+void requested_pictures_open(struct render_session *session)
 {
-    memset(&studio->booth, 0, sizeof studio->booth);
-    quality_control_init(&studio->booth.governor,
-                         studio->options.hold ? REQUESTED_PICTURES_HOLD_FPS : 0.0);
+    memset(&session->requested, 0, sizeof session->requested);
+    quality_control_init(&session->requested.quality,
+                         session->options.hold ? REQUESTED_PICTURES_HOLD_FPS : 0.0);
 }
 
 static void clear_row(struct requested_pictures_row *row)
@@ -29,38 +29,38 @@ static void clear_row(struct requested_pictures_row *row)
     *row = (struct requested_pictures_row){.generation = 0};
 }
 
-void requested_pictures_close(struct render_session *studio)
+void requested_pictures_close(struct render_session *session)
 {
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++)
-        clear_row(&studio->booth.row[i]);
+        clear_row(&session->requested.row[i]);
 }
 
-static uint64_t due_of(const struct requested_pictures *booth, uint32_t i)
+static uint64_t due_of(const struct requested_pictures *requested, uint32_t i)
 {
-    const struct requested_pictures_row *row = &booth->row[i];
-    if (!booth->wishes[i].waiting)
+    const struct requested_pictures_row *row = &requested->row[i];
+    if (!requested->wishes[i].waiting)
         return UINT64_MAX;
-    return row->generation == booth->wishes[i].generation ? row->begun_ns + INTERVAL_NS : 0;
+    return row->generation == requested->wishes[i].generation ? row->begun_ns + INTERVAL_NS : 0;
 }
 
-uint64_t requested_pictures_due_ns(struct render_session *studio)
+uint64_t requested_pictures_due_ns(struct render_session *session)
 {
-    struct requested_pictures *booth = &studio->booth;
+    struct requested_pictures *requested = &session->requested;
     uint64_t due_ns = UINT64_MAX;
-    if (studio->outlets == NULL || studio->outlets->stream == NULL)
+    if (session->outputs == NULL || session->outputs->stream == NULL)
         return due_ns;
-    booth->waiting = stream_wishes(studio->outlets->stream, booth->wishes);
+    requested->waiting = stream_wishes(session->outputs->stream, requested->wishes);
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++) {
         /* What nobody asks for any more gives its memory back. */
-        if (booth->wishes[i].generation == 0 && booth->row[i].generation != 0)
-            clear_row(&booth->row[i]);
-        due_ns = due_of(booth, i) < due_ns ? due_of(booth, i) : due_ns;
+        if (requested->wishes[i].generation == 0 && requested->row[i].generation != 0)
+            clear_row(&requested->row[i]);
+        due_ns = due_of(requested, i) < due_ns ? due_of(requested, i) : due_ns;
     }
     return due_ns;
 }
 
 /* -1 when there is no memory: nothing is drawn, and who waits hears so in time. */
-static int begin_row(struct render_session *studio, struct requested_pictures_row *row,
+static int begin_row(struct render_session *session, struct requested_pictures_row *row,
                      const struct stream_wish *wish)
 {
     const struct picture_requests_key *key = &wish->key;
@@ -68,12 +68,12 @@ static int begin_row(struct render_session *studio, struct requested_pictures_ro
     if (image_init(&row->image, key->width, key->height) != 0)
         return -1;
     if (key->bar)
-        annotated_picture_open_beside(&row->chart, &studio->chart, key->width, key->height);
+        annotated_picture_open_beside(&row->chart, &session->chart, key->width, key->height);
     row->generation = wish->generation;
     row->ahead_s = -1.0;
-    row->shot = (struct view_picture){
+    row->picture = (struct view_picture){
         .wish = {.mode = key->view, .vehicle = key->vehicle},
-        .aim_wish = {.view = key->view, .field_rad = studio->options.field_rad}};
+        .camera_wish = {.view = key->view, .field_rad = session->options.field_rad}};
     return 0;
 }
 
@@ -89,70 +89,70 @@ static void note_rate(struct requested_pictures_row *row, uint64_t now_ns)
 }
 
 /* All that wait count as if they took as long as this one. */
-static void govern(struct requested_pictures *booth, uint64_t begun_ns)
+static void govern(struct requested_pictures *requested, uint64_t begun_ns)
 {
-    struct quality_control *governor = &booth->governor;
+    struct quality_control *quality = &requested->quality;
     uint64_t now_ns = clock_now_ns();
-    double took_s = (double)(now_ns - begun_ns) / 1e9 * booth->waiting;
-    int change = quality_control_note(governor, took_s, (double)now_ns / 1e9);
-    const struct quality_control_level *level = &quality_control_levels[governor->level];
+    double took_s = (double)(now_ns - begun_ns) / 1e9 * requested->waiting;
+    int change = quality_control_note(quality, took_s, (double)now_ns / 1e9);
+    const struct quality_control_level *level = &quality_control_levels[quality->level];
     if (change != 0)
         log_info("pictures that are asked for take %.1f of %.1f ms: draws %s of them, %.0f %% of "
                  "the detail at %u %% of the size",
-                 1e3 * governor->judged_s, 1e3 * governor->interval_s, change < 0 ? "less" : "more",
+                 1e3 * quality->judged_s, 1e3 * quality->interval_s, change < 0 ? "less" : "more",
                  100.0 * level->detail, 25 * level->quarters);
 }
 
-static int draw_row(struct render_session *studio, uint32_t i, struct reason *reason)
+static int draw_row(struct render_session *session, uint32_t i, struct reason *reason)
 {
-    struct requested_pictures *booth = &studio->booth;
-    struct requested_pictures_row *row = &booth->row[i];
+    struct requested_pictures *requested = &session->requested;
+    struct requested_pictures_row *row = &requested->row[i];
     bool first = row->begun_ns == 0;
     uint64_t begun_ns = clock_now_ns();
     note_rate(row, begun_ns);
-    struct frame_view moment = view_pictures_frame(studio, false);
+    struct frame_view moment = view_pictures_frame(session, false);
     bool paused = moment.head->paused != 0;
     bool same = row->frame == moment.head->frame && row->ahead_s == moment.ahead_s;
     bool whole = same && paused; /* what stands still is drawn once more, with everything */
-    if (same && !booth->wishes[i].again && (row->whole || !paused))
+    if (same && !requested->wishes[i].again && (row->whole || !paused))
         return 0;
-    row->shot.slot = view_pictures_vehicle(studio, &moment, row->shot.wish.vehicle);
-    if (row->shot.wish.vehicle != 0 && row->shot.slot == SLOT_NONE) {
-        output_set_grant(studio->outlets, i, row->generation, NULL, 0, 0.0);
+    row->picture.slot = view_pictures_vehicle(session, &moment, row->picture.wish.vehicle);
+    if (row->picture.wish.vehicle != 0 && row->picture.slot == SLOT_NONE) {
+        output_set_grant(session->outputs, i, row->generation, NULL, 0, 0.0);
         return 0;
     }
     const struct quality_control_level *level =
-        &quality_control_levels[whole ? 0 : booth->governor.level];
-    studio->scene.detail = (float)level->detail;
-    studio->scene.paintings = whole ? TERRAIN_TILES_ALL : first ? PAINTINGS_MOST : PAINTINGS;
-    articulation_note(&studio->gear, &moment);
+        &quality_control_levels[whole ? 0 : requested->quality.level];
+    session->scene.detail = (float)level->detail;
+    session->scene.paintings = whole ? TERRAIN_TILES_ALL : first ? PAINTINGS_MOST : PAINTINGS;
+    articulation_note(&session->articulation, &moment);
     const struct view_picture_target sheet = {.image = &row->image,
                                               .chart = row->chart.text != NULL ? &row->chart : NULL,
                                               .rate = row->rate};
-    if (view_pictures_camera(studio, &row->shot, &moment, level, &sheet, reason) != 0)
+    if (view_pictures_camera(session, &row->picture, &moment, level, &sheet, reason) != 0)
         return -1;
     row->frame = moment.head->frame;
     row->ahead_s = moment.ahead_s;
     row->whole = whole;
-    output_set_grant(studio->outlets, i, row->generation, &row->image, moment.head->frame,
+    output_set_grant(session->outputs, i, row->generation, &row->image, moment.head->frame,
                      frame_view_time_s(&moment));
-    heartbeat_stage(studio->pulse);
+    heartbeat_stage(session->heartbeat);
     if (!whole && !first)
-        govern(booth, begun_ns);
+        govern(requested, begun_ns);
     return 0;
 }
 
-int requested_pictures_draw(struct render_session *studio, struct reason *reason)
+int requested_pictures_draw(struct render_session *session, struct reason *reason)
 {
-    struct requested_pictures *booth = &studio->booth;
+    struct requested_pictures *requested = &session->requested;
     uint32_t next = 0;
     for (uint32_t i = 1; i < PICTURE_REQUESTS_MAX; i++)
-        if (due_of(booth, i) < due_of(booth, next))
+        if (due_of(requested, i) < due_of(requested, next))
             next = i;
-    if (due_of(booth, next) > clock_now_ns())
+    if (due_of(requested, next) > clock_now_ns())
         return 0;
-    if (booth->row[next].generation != booth->wishes[next].generation &&
-        begin_row(studio, &booth->row[next], &booth->wishes[next]) != 0)
+    if (requested->row[next].generation != requested->wishes[next].generation &&
+        begin_row(session, &requested->row[next], &requested->wishes[next]) != 0)
         return 0;
-    return draw_row(studio, next, reason);
+    return draw_row(session, next, reason);
 }

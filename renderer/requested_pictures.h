@@ -23,7 +23,7 @@ struct render_session;
 /* What is kept of a picture while somebody asks for it. */
 struct requested_pictures_row {
     uint64_t generation; /* of the wish that it is for; 0: none */
-    struct view_picture shot;
+    struct view_picture picture;
     struct annotated_picture chart; /* of the bar; text is NULL when there is none */
     struct image image;
     uint64_t begun_ns; /* CLOCK_MONOTONIC when it was last drawn; 0: not yet */
@@ -37,17 +37,17 @@ struct requested_pictures {
     struct requested_pictures_row row[PICTURE_REQUESTS_MAX];
     struct stream_wish wishes[PICTURE_REQUESTS_MAX]; /* as they were looked at last */
     uint32_t waiting;                                /* of them */
-    struct quality_control governor;
+    struct quality_control quality;
 };
 
-void requested_pictures_open(struct render_session *studio);
-void requested_pictures_close(struct render_session *studio);
+void requested_pictures_open(struct render_session *session);
+void requested_pictures_close(struct render_session *session);
 
 /* Looks at what is asked for. When the next of it is due (CLOCK_MONOTONIC), UINT64_MAX for none. */
-uint64_t requested_pictures_due_ns(struct render_session *studio);
+uint64_t requested_pictures_due_ns(struct render_session *session);
 
 /* Draws the one that has been due longest, of the frame seen last, and gives it to who waits.
  * Nothing when none is due. 0, or -1 with the reason: the back end is of no more use. */
-int requested_pictures_draw(struct render_session *studio, struct reason *reason);
+int requested_pictures_draw(struct render_session *session, struct reason *reason);
 
 #endif

@@ -6,6 +6,6 @@
 
 /* Statistics of one picture begun at begun_ns (CLOCK_MONOTONIC), into the role's slot; nobody
  * depends on them. */
-void timing_picture(struct view *view, const struct render_session *studio, uint64_t begun_ns);
+void timing_picture(struct view *view, const struct render_session *session, uint64_t begun_ns);
 
 #endif

@@ -15,14 +15,14 @@ struct render_session;
 
 struct view_picture {
     struct view_wish wish;
-    struct view_camera_wish aim_wish;
-    struct view_camera aim;
+    struct view_camera_wish camera_wish;
+    struct view_camera view_camera;
     uint32_t slot; /* of its vehicle in the moment that is drawn; SLOT_NONE for none */
 };
 
 /* Draws what was seen last and writes it out, every view, unless it was drawn before. last: exactly
  * the last frame seen, at full quality, whatever the rate. 0, or -1 with the reason. */
-int view_pictures_draw(struct render_session *studio, bool last, struct reason *reason);
+int view_pictures_draw(struct render_session *session, bool last, struct reason *reason);
 
 /* Where a camera's picture goes, and what is laid over it. */
 struct view_picture_target {
@@ -33,14 +33,14 @@ struct view_picture_target {
 
 /* What is shown: the last frame, or at a high rate the state between it and the one before. It
  * lives until the next call. */
-struct frame_view view_pictures_frame(struct render_session *studio, bool last);
+struct frame_view view_pictures_frame(struct render_session *session, bool last);
 
 /* The slot of a vehicle, SLOT_NONE when there is none; of 0: of the one that is followed. */
-uint32_t view_pictures_vehicle(struct render_session *studio, const struct frame_view *moment,
+uint32_t view_pictures_vehicle(struct render_session *session, const struct frame_view *moment,
                                uint32_t vehicle);
 
 /* Draws what a shot's camera sees. 0, or -1 with the reason. */
-int view_pictures_camera(struct render_session *studio, struct view_picture *shot,
+int view_pictures_camera(struct render_session *session, struct view_picture *picture,
                          const struct frame_view *moment, const struct quality_control_level *level,
                          const struct view_picture_target *sheet, struct reason *reason);
 

@@ -41,8 +41,8 @@ static void small_map(struct annotated_picture *chart, struct image *image,
 /* --- the bar ---------------------------------------------------------------------------------- */
 
 struct cell {
-    const struct gauge *gauge; /* NULL: left out */
-    int32_t width;             /* with the gap behind it */
+    const struct statistics_bar_field *field; /* NULL: left out */
+    int32_t width;                            /* with the gap behind it */
     uint32_t row;
 };
 
@@ -54,11 +54,11 @@ struct bar {
 };
 
 static int32_t cell_width(struct annotated_picture *chart, const struct bar *bar,
-                          const struct gauge *gauge, int32_t gap)
+                          const struct statistics_bar_field *field, int32_t gap)
 {
-    int32_t name = text_width(chart->text, bar->small, gauge->name);
-    int32_t widest = text_width(chart->text, bar->large, gauge->widest);
-    int32_t value = text_width(chart->text, bar->large, gauge->value);
+    int32_t name = text_width(chart->text, bar->small, field->name);
+    int32_t widest = text_width(chart->text, bar->large, field->widest);
+    int32_t value = text_width(chart->text, bar->large, field->value);
     value = value > widest ? value : widest;
     return (name > value ? name : value) + gap;
 }
@@ -69,12 +69,12 @@ static bool fill_rows(struct bar *bar, int32_t width, uint32_t rows)
     int32_t room = width - 2 * bar->margin - bar->name_width, x = 0, total = 0;
     uint32_t row = 0;
     for (uint32_t i = 0; i < bar->count; i++)
-        total += bar->cells[i].gauge != NULL ? bar->cells[i].width : 0;
+        total += bar->cells[i].field != NULL ? bar->cells[i].width : 0;
     /* Rows of about one length look better than a full one over a short one. */
     int32_t target = rows == 1 ? room : total / (int32_t)rows;
     for (uint32_t i = 0; i < bar->count; i++) {
         struct cell *cell = &bar->cells[i];
-        if (cell->gauge == NULL)
+        if (cell->field == NULL)
             continue;
         if (x > 0 && (x + cell->width > room || (x + cell->width / 2 > target && row + 1 < rows))) {
             row++;
@@ -94,40 +94,40 @@ static void leave_out_one(struct bar *bar, uint32_t rank)
 {
     struct cell *last = NULL;
     for (uint32_t i = 0; i < bar->count; i++)
-        if (bar->cells[i].gauge != NULL && bar->cells[i].gauge->rank >= rank &&
-            (last == NULL || bar->cells[i].gauge->rank > last->gauge->rank))
+        if (bar->cells[i].field != NULL && bar->cells[i].field->rank >= rank &&
+            (last == NULL || bar->cells[i].field->rank > last->field->rank))
             last = &bar->cells[i];
     if (last != NULL)
-        last->gauge = NULL;
+        last->field = NULL;
 }
 
 /* Measures all fields with a gap between them. */
-static void measure(struct annotated_picture *chart, struct bar *bar, const struct gauge *gauges,
-                    int32_t gap)
+static void measure(struct annotated_picture *chart, struct bar *bar,
+                    const struct statistics_bar_field *fields, int32_t gap)
 {
     for (uint32_t i = 0; i < bar->count; i++)
         bar->cells[i] =
-            (struct cell){.gauge = &gauges[i], .width = cell_width(chart, bar, &gauges[i], gap)};
+            (struct cell){.field = &fields[i], .width = cell_width(chart, bar, &fields[i], gap)};
 }
 
 /* One row if all of it fits, if need be closer and without the spare field; else two; then the
  * least important fields go. */
 static void choose_rows(struct annotated_picture *chart, struct bar *bar,
-                        const struct gauge *gauges)
+                        const struct statistics_bar_field *fields)
 {
     int32_t width = (int32_t)chart->width, large = (int32_t)bar->large;
-    measure(chart, bar, gauges, large * 3 / 4);
+    measure(chart, bar, fields, large * 3 / 4);
     if (fill_rows(bar, width, 1))
         return;
-    measure(chart, bar, gauges, large / 2);
+    measure(chart, bar, fields, large / 2);
     if (fill_rows(bar, width, 1))
         return;
-    leave_out_one(bar, GAUGE_RANK_SPARE);
+    leave_out_one(bar, STATISTICS_BAR_RANK_SPARE);
     if (fill_rows(bar, width, 1))
         return;
     uint32_t most = chart->height < ROW_LESS_THAN ? 1 : ROWS_MOST;
     if (most > 1)
-        measure(chart, bar, gauges, large * 3 / 4);
+        measure(chart, bar, fields, large * 3 / 4);
     while (!fill_rows(bar, width, most))
         leave_out_one(bar, 0);
 }
@@ -138,7 +138,7 @@ static void spread(struct bar *bar, int32_t width)
     for (uint32_t row = 0; row < bar->rows; row++) {
         int32_t left = width - 2 * bar->margin - bar->name_width, count = 0;
         for (uint32_t i = 0; i < bar->count; i++)
-            if (bar->cells[i].gauge != NULL && bar->cells[i].row == row) {
+            if (bar->cells[i].field != NULL && bar->cells[i].row == row) {
                 left -= bar->cells[i].width;
                 count++;
             }
@@ -149,8 +149,9 @@ static void spread(struct bar *bar, int32_t width)
     }
 }
 
-static void arrange(struct annotated_picture *chart, struct bar *bar, const struct gauge *gauges,
-                    uint32_t count, const struct statistics *s)
+static void arrange(struct annotated_picture *chart, struct bar *bar,
+                    const struct statistics_bar_field *fields, uint32_t count,
+                    const struct statistics *s)
 {
     uint32_t height = chart->height / BAR_LETTERS, across = chart->width / BAR_ACROSS;
     char words[64];
@@ -167,31 +168,31 @@ static void arrange(struct annotated_picture *chart, struct bar *bar, const stru
     if (bar->name_width > most_name)
         bar->name_width = most_name;
     bar->count = count;
-    choose_rows(chart, bar, gauges);
+    choose_rows(chart, bar, fields);
     spread(bar, (int32_t)chart->width);
 }
 
 static void draw_cell(struct annotated_picture *chart, struct image *image, const struct bar *bar,
-                      const struct gauge *gauge, int32_t x, int32_t top)
+                      const struct statistics_bar_field *field, int32_t x, int32_t top)
 {
-    static const struct rgba colours[] = {[GAUGE_GOOD] = {176, 232, 150, 255},
-                                          [GAUGE_PLAIN] = {240, 242, 238, 255},
-                                          [GAUGE_WARNING] = {255, 214, 92, 255},
-                                          [GAUGE_ALARM] = {255, 255, 255, 255}};
+    static const struct rgba colours[] = {[STATISTICS_BAR_GOOD] = {176, 232, 150, 255},
+                                          [STATISTICS_BAR_PLAIN] = {240, 242, 238, 255},
+                                          [STATISTICS_BAR_WARNING] = {255, 214, 92, 255},
+                                          [STATISTICS_BAR_ALARM] = {255, 255, 255, 255}};
     int32_t small = (int32_t)bar->small, large = (int32_t)bar->large;
     int32_t upper = top + small * 11 / 10, lower = upper + large * 11 / 10;
     /* An alarm shows by its form too: its value stands on a red ground, a warning's is underlined.
      */
-    if (gauge->state >= GAUGE_WARNING) {
-        int32_t width = text_width(chart->text, bar->large, gauge->value);
-        int32_t height = gauge->state == GAUGE_ALARM ? large * 108 / 100 : 1 + large / 16;
+    if (field->state >= STATISTICS_BAR_WARNING) {
+        int32_t width = text_width(chart->text, bar->large, field->value);
+        int32_t height = field->state == STATISTICS_BAR_ALARM ? large * 108 / 100 : 1 + large / 16;
         int32_t foot = lower + large * 2 / 10;
         image_rectangle(image, x - large / 6, foot - height, width + large / 3, height,
-                        gauge->state == GAUGE_ALARM ? (struct rgba){196, 36, 20, 255}
-                                                    : colours[GAUGE_WARNING]);
+                        field->state == STATISTICS_BAR_ALARM ? (struct rgba){196, 36, 20, 255}
+                                                             : colours[STATISTICS_BAR_WARNING]);
     }
-    text_draw(chart->text, image, x, upper, bar->small, grey, gauge->name);
-    text_draw(chart->text, image, x, lower, bar->large, colours[gauge->state], gauge->value);
+    text_draw(chart->text, image, x, upper, bar->small, grey, field->name);
+    text_draw(chart->text, image, x, lower, bar->large, colours[field->state], field->value);
 }
 
 static void draw_name(struct annotated_picture *chart, struct image *image, const struct bar *bar,
@@ -211,9 +212,9 @@ static void draw_name(struct annotated_picture *chart, struct image *image, cons
 static void statistics_bar(struct annotated_picture *chart, struct image *image,
                            const struct statistics *s, double fps)
 {
-    struct gauge gauges[STATISTICS_BAR_MAX];
+    struct statistics_bar_field fields[STATISTICS_BAR_MAX];
     struct bar bar = {.rows = 0};
-    arrange(chart, &bar, gauges, statistics_bar_of(gauges, s, fps), s);
+    arrange(chart, &bar, fields, statistics_bar_of(fields, s, fps), s);
     int32_t width = (int32_t)chart->width, pad = (int32_t)bar.small / 3;
     int32_t height = (int32_t)bar.rows * bar.row_height + pad;
     int32_t top = (int32_t)chart->height - height;
@@ -224,12 +225,12 @@ static void statistics_bar(struct annotated_picture *chart, struct image *image,
     uint32_t row = 0;
     for (uint32_t i = 0; i < bar.count; i++) {
         const struct cell *cell = &bar.cells[i];
-        if (cell->gauge == NULL)
+        if (cell->field == NULL)
             continue;
         if (cell->row != row)
             x = 0;
         row = cell->row;
-        draw_cell(chart, image, &bar, cell->gauge, bar.margin + bar.name_width + x,
+        draw_cell(chart, image, &bar, cell->field, bar.margin + bar.name_width + x,
                   top + pad + (int32_t)row * bar.row_height);
         x += cell->width;
     }

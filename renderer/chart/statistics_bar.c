@@ -16,29 +16,33 @@
 static uint32_t tilt_state(double degrees)
 {
     double steep = fabs(degrees);
-    return steep >= VERY_STEEP_DEG ? GAUGE_ALARM : steep >= STEEP_DEG ? GAUGE_WARNING : GAUGE_GOOD;
+    return steep >= VERY_STEEP_DEG ? STATISTICS_BAR_ALARM
+           : steep >= STEEP_DEG    ? STATISTICS_BAR_WARNING
+                                   : STATISTICS_BAR_GOOD;
 }
 
 static uint32_t fuel_state(double share)
 {
-    return share < FUEL_ALARM ? GAUGE_ALARM : share < FUEL_WARNING ? GAUGE_WARNING : GAUGE_GOOD;
+    return share < FUEL_ALARM     ? STATISTICS_BAR_ALARM
+           : share < FUEL_WARNING ? STATISTICS_BAR_WARNING
+                                  : STATISTICS_BAR_GOOD;
 }
 
 /* Kinds that carry none never run out. */
 static uint32_t rounds_state(const struct statistics *s)
 {
     if (s->rounds_full == 0)
-        return GAUGE_GOOD;
-    return s->rounds == 0                            ? GAUGE_ALARM
-           : s->rounds < ROUNDS_LOW * s->rounds_full ? GAUGE_WARNING
-                                                     : GAUGE_GOOD;
+        return STATISTICS_BAR_GOOD;
+    return s->rounds == 0                            ? STATISTICS_BAR_ALARM
+           : s->rounds < ROUNDS_LOW * s->rounds_full ? STATISTICS_BAR_WARNING
+                                                     : STATISTICS_BAR_GOOD;
 }
 
 static uint32_t damage_state(const char *damage)
 {
-    return strcmp(damage, damage_name(DAMAGE_NONE)) == 0  ? GAUGE_GOOD
-           : strcmp(damage, damage_name(DAMAGE_LOW)) == 0 ? GAUGE_WARNING
-                                                          : GAUGE_ALARM;
+    return strcmp(damage, damage_name(DAMAGE_NONE)) == 0  ? STATISTICS_BAR_GOOD
+           : strcmp(damage, damage_name(DAMAGE_LOW)) == 0 ? STATISTICS_BAR_WARNING
+                                                          : STATISTICS_BAR_ALARM;
 }
 
 /* Without a sign where nothing shows of it. */
@@ -47,30 +51,31 @@ static double unsigned_zero(double degrees)
     return fabs(degrees) < 0.05 ? 0.0 : degrees;
 }
 
-uint32_t statistics_bar_of(struct gauge gauges[STATISTICS_BAR_MAX], const struct statistics *s,
-                           double fps)
+uint32_t statistics_bar_of(struct statistics_bar_field fields[STATISTICS_BAR_MAX],
+                           const struct statistics *s, double fps)
 {
     uint32_t n = 0;
 #define GAUGE(title, most, importance, how, ...)                                                   \
     do {                                                                                           \
-        gauges[n] = (struct gauge){                                                                \
+        fields[n] = (struct statistics_bar_field){                                                 \
             .name = (title), .widest = (most), .state = (how), .rank = (importance)};              \
-        snprintf(gauges[n].value, sizeof gauges[n].value, __VA_ARGS__);                            \
+        snprintf(fields[n].value, sizeof fields[n].value, __VA_ARGS__);                            \
         n++;                                                                                       \
     } while (0)
-    GAUGE("SPEED km/h", "0000.0", 0, GAUGE_GOOD, "%.1f", s->speed_kmh);
-    GAUGE("HEADING", "000.0", 1, GAUGE_GOOD, "%05.1f", s->heading_deg);
+    GAUGE("SPEED km/h", "0000.0", 0, STATISTICS_BAR_GOOD, "%.1f", s->speed_kmh);
+    GAUGE("HEADING", "000.0", 1, STATISTICS_BAR_GOOD, "%05.1f", s->heading_deg);
     GAUGE("PITCH", "+00.0", 7, tilt_state(s->pitch_deg), "%+.1f", unsigned_zero(s->pitch_deg));
     GAUGE("ROLL", "+00.0", 8, tilt_state(s->roll_deg), "%+.1f", unsigned_zero(s->roll_deg));
-    GAUGE("ALTITUDE m", "0000", 4, GAUGE_GOOD, "%.0f", s->altitude_m);
+    GAUGE("ALTITUDE m", "0000", 4, STATISTICS_BAR_GOOD, "%.0f", s->altitude_m);
     GAUGE("ROUNDS", "000", 5, rounds_state(s), "%u", s->rounds);
     GAUGE("FUEL", "000%", 6, fuel_state(s->fuel_share), "%.0f%%", 100.0 * s->fuel_share);
     GAUGE("DAMAGE", "destroyed", 2, damage_state(s->damage), "%s", s->damage);
-    GAUGE("BEHAVIOUR", "back_off", 9, GAUGE_GOOD, "%s", s->behaviour);
-    GAUGE("TIME s", "0000.00", 3, GAUGE_PLAIN, "%.2f", s->time_s);
-    GAUGE("FRAME", "000000", GAUGE_RANK_SPARE, GAUGE_PLAIN, "%llu", (unsigned long long)s->frame);
+    GAUGE("BEHAVIOUR", "back_off", 9, STATISTICS_BAR_GOOD, "%s", s->behaviour);
+    GAUGE("TIME s", "0000.00", 3, STATISTICS_BAR_PLAIN, "%.2f", s->time_s);
+    GAUGE("FRAME", "000000", STATISTICS_BAR_RANK_SPARE, STATISTICS_BAR_PLAIN, "%llu",
+          (unsigned long long)s->frame);
     if (fps > 0.0)
-        GAUGE("FPS", "000.0", 10, GAUGE_PLAIN, "%.1f", fps);
+        GAUGE("FPS", "000.0", 10, STATISTICS_BAR_PLAIN, "%.1f", fps);
 #undef GAUGE
     return n;
 }

@@ -7,12 +7,17 @@
 
 #include <stdint.h>
 
-#define STATISTICS_BAR_MAX 12u
-#define GAUGE_RANK_SPARE   11u /* a field of this rank goes rather than cost another row */
+#define STATISTICS_BAR_MAX        12u
+#define STATISTICS_BAR_RANK_SPARE 11u /* a field of this rank goes rather than cost another row */
 
-enum gauge_state { GAUGE_GOOD, GAUGE_PLAIN, GAUGE_WARNING, GAUGE_ALARM };
+enum gauge_state {
+    STATISTICS_BAR_GOOD,
+    STATISTICS_BAR_PLAIN,
+    STATISTICS_BAR_WARNING,
+    STATISTICS_BAR_ALARM
+};
 
-struct gauge {
+struct statistics_bar_field {
     const char *name;
     const char *widest; /* no value is wider, nearly: fields keep their places */
     char value[32];
@@ -22,7 +27,7 @@ struct gauge {
 
 /* Fills the fields in the order in which they are read; fps: 0 when it is not known. Returns how
  * many. */
-uint32_t statistics_bar_of(struct gauge gauges[STATISTICS_BAR_MAX],
+uint32_t statistics_bar_of(struct statistics_bar_field fields[STATISTICS_BAR_MAX],
                            const struct statistics *statistics, double fps);
 
 #endif

@@ -142,7 +142,7 @@ static void draw_scene(struct gl *gl, const struct scene *scene, const struct fr
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
-    gl_puffs_draw(&gl->boards, scene);
+    gl_particles_draw(&gl->boards, scene);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);

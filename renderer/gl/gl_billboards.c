@@ -222,7 +222,7 @@ void gl_plants_draw(struct gl_billboards *boards, const struct scene *scene)
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)scene->plant_count);
 }
 
-void gl_puffs_draw(struct gl_billboards *boards, const struct scene *scene)
+void gl_particles_draw(struct gl_billboards *boards, const struct scene *scene)
 {
     glUseProgram(boards->puff_program);
     glBindVertexArray(boards->puff_array);

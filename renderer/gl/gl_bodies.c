@@ -215,10 +215,10 @@ int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
                    struct reason *reason)
 {
     *bodies = (struct gl_bodies){.scenery = scenery};
-    bodies->program = gl_program_on("body", gl_form_text, vertex_text, fragment_text, reason);
+    bodies->program = gl_program_on("body", gl_deform_text, vertex_text, fragment_text, reason);
     if (bodies->program == 0)
         return -1;
-    bodies->shadow_program = gl_program_on("body shadow", gl_form_text, shadow_vertex_text,
+    bodies->shadow_program = gl_program_on("body shadow", gl_deform_text, shadow_vertex_text,
                                            shadow_fragment_text, reason);
     if (bodies->shadow_program == 0)
         goto err_program;

@@ -7,7 +7,7 @@ _Static_assert(PART_TURRET == 1 && PART_GUN == 2 && PART_ROTOR == 3 && PART_TAIL
                    PART_WHEEL == 5 && PART_FRONT_WHEEL == 6 && PART_TRACK == 7,
                "the numbers of parts stand in the text below");
 
-const char gl_form_text[] =
+const char gl_deform_text[] =
     "layout(location = 0) in vec3 a_place;\n"
     "layout(location = 1) in vec3 a_normal;\n"
     "layout(location = 2) in vec4 a_colour;\n"

@@ -81,7 +81,7 @@ void gl_ground_draw(struct gl_ground *ground, const struct scene *scene,
 /* --- bodies (gl_bodies.c, gl_form.c) --- */
 
 /* What the vertex shaders of bodies begin with: inputs, formed(), turned(), in_world(). */
-extern const char gl_form_text[];
+extern const char gl_deform_text[];
 
 struct gl_mesh {
     GLint first;
@@ -114,6 +114,6 @@ void gl_billboards_close(struct gl_billboards *boards);
 void gl_billboards_send(struct gl_billboards *boards, const struct scene *scene);
 void gl_plants_draw_shadows(struct gl_billboards *boards, const struct scene *scene);
 void gl_plants_draw(struct gl_billboards *boards, const struct scene *scene);
-void gl_puffs_draw(struct gl_billboards *boards, const struct scene *scene);
+void gl_particles_draw(struct gl_billboards *boards, const struct scene *scene);
 
 #endif

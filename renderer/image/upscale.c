@@ -47,7 +47,7 @@ static void blend_rows(uint32_t *row, const struct image *from, struct between v
     row[from->width] = row[from->width - 1];
 }
 
-void image_stretch(struct image *to, const struct image *from)
+void image_upscale(struct image *to, const struct image *from)
 {
     uint32_t row[UPSCALE_SIDE_MAX + 1], at[UPSCALE_SIDE_MAX];
     int64_t step_x = ((int64_t)from->width << 16) / to->width;

@@ -8,6 +8,6 @@
 
 /* Fills to with from, which is no larger; between its pixels, colours run evenly. Whole numbers
  * only: the same picture everywhere. */
-void image_stretch(struct image *to, const struct image *from);
+void image_upscale(struct image *to, const struct image *from);
 
 #endif

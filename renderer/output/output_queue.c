@@ -9,128 +9,128 @@
 
 /* The oldest picture that waits, now the caller's; NULL when the end is asked for and none waits.
  */
-static struct picture *next(struct output_queue *outlet)
+static struct picture *next(struct output_queue *queue)
 {
-    while (outlet->count == 0 && !outlet->ending)
-        pthread_cond_wait(&outlet->come, &outlet->lock);
-    if (outlet->count == 0)
+    while (queue->count == 0 && !queue->ending)
+        pthread_cond_wait(&queue->come, &queue->lock);
+    if (queue->count == 0)
         return NULL;
-    struct picture *picture = outlet->waiting[0];
-    memmove(outlet->waiting, outlet->waiting + 1, --outlet->count * sizeof outlet->waiting[0]);
-    pthread_cond_signal(&outlet->gone);
+    struct picture *picture = queue->waiting[0];
+    memmove(queue->waiting, queue->waiting + 1, --queue->count * sizeof queue->waiting[0]);
+    pthread_cond_signal(&queue->gone);
     return picture;
 }
 
 static void *work(void *argument)
 {
-    struct output_queue *outlet = argument;
+    struct output_queue *queue = argument;
     struct picture *picture;
     setpriority(PRIO_PROCESS, 0,
                 OUTPUT_QUEUE_NICENESS); /* this thread's alone; no loss where it fails */
-    pthread_mutex_lock(&outlet->lock);
-    outlet->running = true;
-    pthread_cond_signal(&outlet->gone);
-    while ((picture = next(outlet)) != NULL) {
-        bool wanted = !outlet->failed;
+    pthread_mutex_lock(&queue->lock);
+    queue->running = true;
+    pthread_cond_signal(&queue->gone);
+    while ((picture = next(queue)) != NULL) {
+        bool wanted = !queue->failed;
         struct reason reason;
-        pthread_mutex_unlock(&outlet->lock);
-        bool done = wanted && outlet->work.take(outlet->work.self, picture, &reason) == 0;
+        pthread_mutex_unlock(&queue->lock);
+        bool done = wanted && queue->work.take(queue->work.self, picture, &reason) == 0;
         picture_release(picture);
-        pthread_mutex_lock(&outlet->lock);
+        pthread_mutex_lock(&queue->lock);
         if (done)
-            outlet->taken++;
+            queue->taken++;
         if (wanted && !done) {
-            outlet->failed = true;
-            outlet->reason = reason;
+            queue->failed = true;
+            queue->reason = reason;
         }
     }
-    pthread_mutex_unlock(&outlet->lock);
+    pthread_mutex_unlock(&queue->lock);
     return NULL;
 }
 
-static void forget(struct output_queue *outlet)
+static void forget(struct output_queue *queue)
 {
-    pthread_cond_destroy(&outlet->come);
-    pthread_cond_destroy(&outlet->gone);
-    pthread_mutex_destroy(&outlet->lock);
+    pthread_cond_destroy(&queue->come);
+    pthread_cond_destroy(&queue->gone);
+    pthread_mutex_destroy(&queue->lock);
 }
 
-int output_queue_start(struct output_queue *outlet, const struct output_queue_work *job)
+int output_queue_start(struct output_queue *queue, const struct output_queue_work *job)
 {
     sigset_t all, before;
     CHECK(job->depth > 0 && job->depth <= OUTPUT_QUEUE_MAX);
-    *outlet = (struct output_queue){.work = *job,
-                                    .lock = PTHREAD_MUTEX_INITIALIZER,
-                                    .come = PTHREAD_COND_INITIALIZER,
-                                    .gone = PTHREAD_COND_INITIALIZER};
+    *queue = (struct output_queue){.work = *job,
+                                   .lock = PTHREAD_MUTEX_INITIALIZER,
+                                   .come = PTHREAD_COND_INITIALIZER,
+                                   .gone = PTHREAD_COND_INITIALIZER};
     sigfillset(&all);
     sigdelset(&all, SIGSYS); /* what the sandbox forbids is to be told */
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    int error = pthread_create(&outlet->thread, NULL, work, outlet);
+    int error = pthread_create(&queue->thread, NULL, work, queue);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (error != 0) {
-        forget(outlet);
+        forget(queue);
         errno = error;
         return -1;
     }
-    pthread_mutex_lock(&outlet->lock);
-    while (!outlet->running)
-        pthread_cond_wait(&outlet->gone, &outlet->lock);
-    pthread_mutex_unlock(&outlet->lock);
+    pthread_mutex_lock(&queue->lock);
+    while (!queue->running)
+        pthread_cond_wait(&queue->gone, &queue->lock);
+    pthread_mutex_unlock(&queue->lock);
     return 0;
 }
 
 /* Where the newest that waits of this view is, when there may not be more of it; else the end. */
-static uint32_t place_for(const struct output_queue *outlet, const char *view)
+static uint32_t place_for(const struct output_queue *queue, const char *view)
 {
-    uint32_t of_view = 0, newest = outlet->count;
-    for (uint32_t i = 0; i < outlet->count; i++) {
-        if (strcmp(outlet->waiting[i]->view, view) == 0) {
+    uint32_t of_view = 0, newest = queue->count;
+    for (uint32_t i = 0; i < queue->count; i++) {
+        if (strcmp(queue->waiting[i]->view, view) == 0) {
             of_view++;
             newest = i;
         }
     }
-    if (of_view >= outlet->work.depth)
+    if (of_view >= queue->work.depth)
         return newest;
-    return outlet->count < OUTPUT_QUEUE_MAX ? outlet->count : OUTPUT_QUEUE_MAX - 1;
+    return queue->count < OUTPUT_QUEUE_MAX ? queue->count : OUTPUT_QUEUE_MAX - 1;
 }
 
-void output_queue_put(struct output_queue *outlet, struct picture *picture)
+void output_queue_put(struct output_queue *queue, struct picture *picture)
 {
-    pthread_mutex_lock(&outlet->lock);
-    while (outlet->work.patient && outlet->count >= outlet->work.depth)
-        pthread_cond_wait(&outlet->gone, &outlet->lock);
-    uint32_t place = place_for(outlet, picture->view);
-    if (place < outlet->count) {
-        picture_release(outlet->waiting[place]);
-        outlet->dropped++;
+    pthread_mutex_lock(&queue->lock);
+    while (queue->work.patient && queue->count >= queue->work.depth)
+        pthread_cond_wait(&queue->gone, &queue->lock);
+    uint32_t place = place_for(queue, picture->view);
+    if (place < queue->count) {
+        picture_release(queue->waiting[place]);
+        queue->dropped++;
     } else {
-        outlet->count++;
+        queue->count++;
     }
-    outlet->waiting[place] = picture_hold(picture);
-    pthread_cond_signal(&outlet->come);
-    pthread_mutex_unlock(&outlet->lock);
+    queue->waiting[place] = picture_hold(picture);
+    pthread_cond_signal(&queue->come);
+    pthread_mutex_unlock(&queue->lock);
 }
 
-bool output_queue_failed(struct output_queue *outlet, struct reason *reason)
+bool output_queue_failed(struct output_queue *queue, struct reason *reason)
 {
-    pthread_mutex_lock(&outlet->lock);
-    bool failed = outlet->failed;
+    pthread_mutex_lock(&queue->lock);
+    bool failed = queue->failed;
     if (failed)
-        *reason = outlet->reason;
-    pthread_mutex_unlock(&outlet->lock);
+        *reason = queue->reason;
+    pthread_mutex_unlock(&queue->lock);
     return failed;
 }
 
-int output_queue_end(struct output_queue *outlet, struct reason *reason)
+int output_queue_end(struct output_queue *queue, struct reason *reason)
 {
-    pthread_mutex_lock(&outlet->lock);
-    outlet->ending = true;
-    pthread_cond_signal(&outlet->come);
-    pthread_mutex_unlock(&outlet->lock);
-    pthread_join(outlet->thread, NULL);
-    forget(outlet);
-    if (outlet->failed)
-        *reason = outlet->reason;
-    return outlet->failed ? -1 : 0;
+    pthread_mutex_lock(&queue->lock);
+    queue->ending = true;
+    pthread_cond_signal(&queue->come);
+    pthread_mutex_unlock(&queue->lock);
+    pthread_join(queue->thread, NULL);
+    forget(queue);
+    if (queue->failed)
+        *reason = queue->reason;
+    return queue->failed ? -1 : 0;
 }

@@ -36,18 +36,18 @@ struct output_queue {
 };
 
 /* Returns when the thread runs; signals are not for it. 0, or -1 with errno. */
-int output_queue_start(struct output_queue *outlet, const struct output_queue_work *work);
+int output_queue_start(struct output_queue *queue, const struct output_queue_work *work);
 
 /* Hands it a picture, which the caller goes on holding. A view of which enough waits keeps the
  * newest and loses the one before, which is counted: so order holds, and the last always comes. A
  * patient outlet waits for room instead. */
-void output_queue_put(struct output_queue *outlet, struct picture *picture);
+void output_queue_put(struct output_queue *queue, struct picture *picture);
 
 /* Has it failed? Then the reason is copied. */
-bool output_queue_failed(struct output_queue *outlet, struct reason *reason);
+bool output_queue_failed(struct output_queue *queue, struct reason *reason);
 
 /* Waits until what waits is done, and ends the thread; taken and dropped stay. 0, or -1 with the
  * reason when it had failed. */
-int output_queue_end(struct output_queue *outlet, struct reason *reason);
+int output_queue_end(struct output_queue *queue, struct reason *reason);
 
 #endif

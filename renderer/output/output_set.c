@@ -31,112 +31,112 @@ static int name_video(char path[OUTPUT_SET_PATH_BYTES], const char *wish, int nu
     return length < OUTPUT_SET_PATH_BYTES ? 0 : -1;
 }
 
-static int make_video_file(struct output_set *outlets, struct reason *reason)
+static int make_video_file(struct output_set *outputs, struct reason *reason)
 {
-    const char *wish = outlets->wish.video;
+    const char *wish = outputs->wish.video;
     int fd = -1;
     errno = EEXIST;
     for (int number = 1; fd < 0 && errno == EEXIST && number < NUMBERS_MAX; number++) {
-        if (name_video(outlets->video_path, wish, number) != 0)
+        if (name_video(outputs->video_path, wish, number) != 0)
             return reason_set(reason, "--video %s: the path is too long", wish);
-        fd = open(outlets->video_path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+        fd = open(outputs->video_path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     }
     if (fd < 0)
-        return reason_set(reason, "--video %s: cannot make the file: %s", outlets->video_path,
+        return reason_set(reason, "--video %s: cannot make the file: %s", outputs->video_path,
                           strerror(errno));
-    return outlets->video_fd = fd;
+    return outputs->video_fd = fd;
 }
 
-static int open_video(struct output_set *outlets, struct reason *reason)
+static int open_video(struct output_set *outputs, struct reason *reason)
 {
-    const struct output_set_wish *wish = &outlets->wish;
-    outlets->video =
+    const struct output_set_wish *wish = &outputs->wish;
+    outputs->video =
         video_open(wish->video, wish->video_fps, wish->replay ? VIDEO_REPLAY : VIDEO_LIVE, reason);
-    if (outlets->video == NULL)
+    if (outputs->video == NULL)
         return -1;
-    int fd = wish->replay ? wish->video_fd : make_video_file(outlets, reason);
+    int fd = wish->replay ? wish->video_fd : make_video_file(outputs, reason);
     if (fd < 0)
         return -1;
-    video_write_to(outlets->video, fd);
+    video_write_to(outputs->video, fd);
     if (wish->video_view != NULL)
-        snprintf(outlets->video_view, sizeof outlets->video_view, "%s", wish->video_view);
+        snprintf(outputs->video_view, sizeof outputs->video_view, "%s", wish->video_view);
     if (!wish->replay)
         log_info("video of %s goes to %s (%s): a second of it is a second of simulation, of at "
                  "most %.3g pictures",
                  wish->video_view != NULL ? wish->video_view : "the first view",
-                 outlets->video_path, video_codec(outlets->video), wish->video_fps);
+                 outputs->video_path, video_codec(outputs->video), wish->video_fps);
     return 0;
 }
 
 /* Without a socket of its own the renderer draws all the same: it says so and goes on. */
-static int open_stream(struct output_set *outlets, struct reason *reason)
+static int open_stream(struct output_set *outputs, struct reason *reason)
 {
-    const struct output_set_wish *wish = &outlets->wish;
+    const struct output_set_wish *wish = &outputs->wish;
     struct reason socket_reason;
-    outlets->stream = stream_open(wish->world, &wish->painter, reason);
-    if (outlets->stream == NULL)
+    outputs->stream = stream_open(wish->world, &wish->painter, reason);
+    if (outputs->stream == NULL)
         return -1;
-    if (wish->asked && stream_listen_here(outlets->stream, wish->role, &socket_reason) != 0)
+    if (wish->asked && stream_listen_here(outputs->stream, wish->role, &socket_reason) != 0)
         log_warn("%s; nobody can ask for pictures there", socket_reason.text);
     if (wish->stream_port < 0)
         return 0;
-    if (stream_listen(outlets->stream, wish->stream_address, (uint16_t)wish->stream_port, reason) !=
+    if (stream_listen(outputs->stream, wish->stream_address, (uint16_t)wish->stream_port, reason) !=
         0)
         return -1;
-    log_info("stream: %s shows every view", stream_url(outlets->stream));
+    log_info("stream: %s shows every view", stream_url(outputs->stream));
     return 0;
 }
 
-int output_set_open(struct output_set *outlets, const struct output_set_wish *wish,
+int output_set_open(struct output_set *outputs, const struct output_set_wish *wish,
                     struct reason *reason)
 {
-    *outlets = (struct output_set){.wish = *wish, .output.folder = -1, .video_fd = -1};
-    picture_pool_init(&outlets->pool);
-    picture_pool_init(&outlets->asked);
-    if (wish->folder != NULL && picture_folder_open(&outlets->output, wish->folder, reason) != 0)
+    *outputs = (struct output_set){.wish = *wish, .output.folder = -1, .video_fd = -1};
+    picture_pool_init(&outputs->pool);
+    picture_pool_init(&outputs->asked);
+    if (wish->folder != NULL && picture_folder_open(&outputs->output, wish->folder, reason) != 0)
         return -1;
-    if ((wish->stream_port >= 0 || wish->asked) && open_stream(outlets, reason) != 0)
+    if ((wish->stream_port >= 0 || wish->asked) && open_stream(outputs, reason) != 0)
         return -1;
-    return wish->video != NULL ? open_video(outlets, reason) : 0;
+    return wish->video != NULL ? open_video(outputs, reason) : 0;
 }
 
 /* --- what the threads do -----------------------------------------------------------------------*/
 
 static int write_still(void *self, const struct picture *picture, struct reason *reason)
 {
-    struct output_set *outlets = self;
-    return picture_folder_picture(&outlets->output, picture->view, &picture->image, picture->frame,
+    struct output_set *outputs = self;
+    return picture_folder_picture(&outputs->output, picture->view, &picture->image, picture->frame,
                                   picture->words, reason);
 }
 
 static int write_film(void *self, const struct picture *picture, struct reason *reason)
 {
-    struct output_set *outlets = self;
-    return video_put(outlets->video, picture, reason);
+    struct output_set *outputs = self;
+    return video_put(outputs->video, picture, reason);
 }
 
-int output_set_start(struct output_set *outlets, struct reason *reason)
+int output_set_start(struct output_set *outputs, struct reason *reason)
 {
     const struct output_queue_work stills = {
-        .self = outlets, .take = write_still, .depth = STILLS_DEPTH};
+        .self = outputs, .take = write_still, .depth = STILLS_DEPTH};
     const struct output_queue_work film = {
-        .self = outlets, .take = write_film, .depth = FILM_DEPTH, .patient = outlets->wish.replay};
-    if ((outlets->wish.folder != NULL && output_queue_start(&outlets->stills, &stills) != 0) ||
-        (outlets->video != NULL && output_queue_start(&outlets->film, &film) != 0))
+        .self = outputs, .take = write_film, .depth = FILM_DEPTH, .patient = outputs->wish.replay};
+    if ((outputs->wish.folder != NULL && output_queue_start(&outputs->stills, &stills) != 0) ||
+        (outputs->video != NULL && output_queue_start(&outputs->film, &film) != 0))
         return reason_set(reason, "cannot start a thread for pictures: %s", strerror(errno));
-    if (outlets->stream != NULL && stream_start(outlets->stream, reason) != 0)
+    if (outputs->stream != NULL && stream_start(outputs->stream, reason) != 0)
         return -1;
-    outlets->started = true;
+    outputs->started = true;
     return 0;
 }
 
 /* --- pictures ----------------------------------------------------------------------------------*/
 
 /* NULL: there are more views than rows; every picture of such a one is a still. */
-static struct output_set_row *row_of(struct output_set *outlets, const char *view)
+static struct output_set_row *row_of(struct output_set *outputs, const char *view)
 {
     for (uint32_t i = 0; i < OUTPUT_SET_VIEWS_MAX; i++) {
-        struct output_set_row *row = &outlets->row[i];
+        struct output_set_row *row = &outputs->row[i];
         if (row->view[0] == '\0')
             snprintf(row->view, sizeof row->view, "%s", view);
         if (strcmp(row->view, view) == 0)
@@ -145,10 +145,10 @@ static struct output_set_row *row_of(struct output_set *outlets, const char *vie
     return NULL;
 }
 
-static void put_still(struct output_set *outlets, struct picture *picture)
+static void put_still(struct output_set *outputs, struct picture *picture)
 {
-    struct output_set_row *row = row_of(outlets, picture->view);
-    double fps = outlets->wish.stills_fps;
+    struct output_set_row *row = row_of(outputs, picture->view);
+    double fps = outputs->wish.stills_fps;
     uint64_t now_ns = clock_now_ns();
     if (row != NULL) {
         bool early = fps > 0.0 && row->still_ns != 0 &&
@@ -159,115 +159,115 @@ static void put_still(struct output_set *outlets, struct picture *picture)
             return;
         row->still_ns = now_ns;
     }
-    output_queue_put(&outlets->stills, picture);
+    output_queue_put(&outputs->stills, picture);
 }
 
 /* 0, or -1 with the reason when there can be no more video. */
-static int put_film(struct output_set *outlets, struct picture *picture, struct reason *reason)
+static int put_film(struct output_set *outputs, struct picture *picture, struct reason *reason)
 {
-    if (outlets->video_view[0] == '\0')
-        snprintf(outlets->video_view, sizeof outlets->video_view, "%s", picture->view);
-    if (strcmp(outlets->video_view, picture->view) == 0)
-        output_queue_put(&outlets->film, picture);
-    return output_queue_failed(&outlets->film, reason) ? -1 : 0;
+    if (outputs->video_view[0] == '\0')
+        snprintf(outputs->video_view, sizeof outputs->video_view, "%s", picture->view);
+    if (strcmp(outputs->video_view, picture->view) == 0)
+        output_queue_put(&outputs->film, picture);
+    return output_queue_failed(&outputs->film, reason) ? -1 : 0;
 }
 
-static int hand_out(struct output_set *outlets, struct picture *picture, struct reason *reason)
+static int hand_out(struct output_set *outputs, struct picture *picture, struct reason *reason)
 {
-    if (outlets->stream != NULL)
-        stream_put(outlets->stream, picture);
-    if (outlets->video != NULL && !outlets->video_over && put_film(outlets, picture, reason) != 0) {
-        if (outlets->wish.replay)
+    if (outputs->stream != NULL)
+        stream_put(outputs->stream, picture);
+    if (outputs->video != NULL && !outputs->video_over && put_film(outputs, picture, reason) != 0) {
+        if (outputs->wish.replay)
             return -1;
-        log_warn("%s: %s; no more of it", outlets->video_path, reason->text);
-        outlets->video_over = true;
+        log_warn("%s: %s; no more of it", outputs->video_path, reason->text);
+        outputs->video_over = true;
     }
-    if (outlets->wish.folder == NULL)
+    if (outputs->wish.folder == NULL)
         return 0;
-    put_still(outlets, picture);
-    return output_queue_failed(&outlets->stills, reason) ? -1 : 0;
+    put_still(outputs, picture);
+    return output_queue_failed(&outputs->stills, reason) ? -1 : 0;
 }
 
-int output_set_put(struct output_set *outlets, const char *view, struct image *image,
+int output_set_put(struct output_set *outputs, const char *view, struct image *image,
                    uint64_t frame, double time_s, const char *words, struct reason *reason)
 {
-    struct picture *picture = picture_make(&outlets->pool, image, view, words);
+    struct picture *picture = picture_make(&outputs->pool, image, view, words);
     if (picture == NULL) {
-        outlets->lost++;
+        outputs->lost++;
         return 0;
     }
     picture->frame = frame;
     picture->time_s = time_s;
-    int result = hand_out(outlets, picture, reason);
+    int result = hand_out(outputs, picture, reason);
     picture_release(picture);
     return result;
 }
 
-void output_set_grant(struct output_set *outlets, uint32_t row, uint64_t generation,
+void output_set_grant(struct output_set *outputs, uint32_t row, uint64_t generation,
                       struct image *image, uint64_t frame, double time_s)
 {
     struct picture *picture = NULL;
     if (image != NULL) {
-        picture = picture_make(&outlets->asked, image, "asked", "");
+        picture = picture_make(&outputs->asked, image, "asked", "");
         if (picture == NULL)
             return; /* whoever waits asks again */
         picture->frame = frame;
         picture->time_s = time_s;
     }
-    stream_grant(outlets->stream, row, generation, picture);
+    stream_grant(outputs->stream, row, generation, picture);
     picture_release(picture);
 }
 
 /* --- the end -----------------------------------------------------------------------------------*/
 
-static int close_stills(struct output_set *outlets, struct reason *reason)
+static int close_stills(struct output_set *outputs, struct reason *reason)
 {
     for (uint32_t i = 0; i < OUTPUT_SET_VIEWS_MAX; i++) {
-        if (outlets->row[i].left != NULL)
-            output_queue_put(&outlets->stills, outlets->row[i].left);
-        picture_release(outlets->row[i].left);
+        if (outputs->row[i].left != NULL)
+            output_queue_put(&outputs->stills, outputs->row[i].left);
+        picture_release(outputs->row[i].left);
     }
-    int result = output_queue_end(&outlets->stills, reason);
-    unsigned long long dropped = outlets->stills.dropped + outlets->lost;
+    int result = output_queue_end(&outputs->stills, reason);
+    unsigned long long dropped = outputs->stills.dropped + outputs->lost;
     if (dropped > 0)
         log_info("%llu pictures were drawn faster than they could be written", dropped);
     return result;
 }
 
-static int close_video(struct output_set *outlets, struct reason *reason)
+static int close_video(struct output_set *outputs, struct reason *reason)
 {
-    int result = output_queue_end(&outlets->film, reason);
-    uint64_t pictures = video_pictures(outlets->video);
+    int result = output_queue_end(&outputs->film, reason);
+    uint64_t pictures = video_pictures(outputs->video);
     struct reason second;
-    if (video_close(outlets->video, result == 0 ? reason : &second) != 0)
+    if (video_close(outputs->video, result == 0 ? reason : &second) != 0)
         result = -1;
-    outlets->video = NULL;
-    if (outlets->video_fd >= 0 && close(outlets->video_fd) != 0 && result == 0)
+    outputs->video = NULL;
+    if (outputs->video_fd >= 0 && close(outputs->video_fd) != 0 && result == 0)
         result = reason_set(reason, "video: cannot complete the file: %s", strerror(errno));
-    if (outlets->wish.replay)
+    if (outputs->wish.replay)
         return result;
-    if (result != 0 && !outlets->video_over)
-        log_warn("%s: %s", outlets->video_path, reason->text);
+    if (result != 0 && !outputs->video_over)
+        log_warn("%s: %s", outputs->video_path, reason->text);
     log_info("%s: %llu pictures%s; %llu came faster than they could be encoded",
-             outlets->video_path, (unsigned long long)pictures,
-             result == 0 ? "" : ", not completed", (unsigned long long)outlets->film.dropped);
+             outputs->video_path, (unsigned long long)pictures,
+             result == 0 ? "" : ", not completed", (unsigned long long)outputs->film.dropped);
     return 0;
 }
 
-int output_set_close(struct output_set *outlets, struct reason *reason)
+int output_set_close(struct output_set *outputs, struct reason *reason)
 {
     int result = 0;
     struct reason second;
-    if (!outlets->started)
+    if (!outputs->started)
         return 0;
-    stream_close(outlets->stream);
-    if (outlets->wish.folder != NULL) {
-        result = close_stills(outlets, reason);
-        picture_folder_close(&outlets->output);
+    stream_close(outputs->stream);
+    if (outputs->wish.folder != NULL) {
+        result = close_stills(outputs, reason);
+        picture_folder_close(&outputs->output);
     }
-    if (outlets->video != NULL && close_video(outlets, result == 0 ? reason : &second) != 0)
+    if (outputs->video != NULL && close_video(outputs, result == 0 ? reason : &second) != 0)
         result = -1;
-    picture_pool_free(&outlets->pool);
-    picture_pool_free(&outlets->asked);
+    picture_pool_free(&outputs->pool);
+    picture_pool_free(&outputs->asked);
     return result;
 }

@@ -281,8 +281,8 @@ void stream_close(struct stream *stream)
         let_go(&stream->wanted_view[i]);
     for (uint32_t i = 0; i < STREAM_MAPS; i++)
         let_go(&stream->map[i].view);
-    for (uint32_t i = 0; i < stream->doors; i++)
-        if (stream->door[i].listener.fd >= 0)
-            close(stream->door[i].listener.fd);
+    for (uint32_t i = 0; i < stream->endpoints; i++)
+        if (stream->endpoint[i].listener.fd >= 0)
+            close(stream->endpoint[i].listener.fd);
     free(stream);
 }

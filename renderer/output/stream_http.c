@@ -365,12 +365,13 @@ int stream_http_start(struct stream *stream, struct reason *reason)
                                          .answer = on_request,
                                          .refuse = refuse,
                                          .end = on_end};
-    for (uint32_t i = 0; i < stream->doors; i++) {
-        struct http_server *server = http_server_start(&stream->door[i].listener, &handler, reason);
+    for (uint32_t i = 0; i < stream->endpoints; i++) {
+        struct http_server *server =
+            http_server_start(&stream->endpoint[i].listener, &handler, reason);
         if (server == NULL)
             return -1;
         pthread_mutex_lock(&stream->lock);
-        stream->door[i].server = server;
+        stream->endpoint[i].server = server;
         pthread_mutex_unlock(&stream->lock);
     }
     return 0;
@@ -382,15 +383,15 @@ void stream_http_end(struct stream *stream)
     stream->ending = true;
     stream_http_wake(stream, NULL);
     pthread_mutex_unlock(&stream->lock);
-    for (uint32_t i = 0; i < stream->doors; i++) {
-        http_server_stop(stream->door[i].server);
-        stream->door[i].server = NULL;
+    for (uint32_t i = 0; i < stream->endpoints; i++) {
+        http_server_stop(stream->endpoint[i].server);
+        stream->endpoint[i].server = NULL;
     }
 }
 
 void stream_http_sweep(struct stream *stream)
 {
-    for (uint32_t i = 0; i < stream->doors; i++)
-        if (stream->door[i].server != NULL)
-            http_server_sweep(stream->door[i].server, clock_now_ns());
+    for (uint32_t i = 0; i < stream->endpoints; i++)
+        if (stream->endpoint[i].server != NULL)
+            http_server_sweep(stream->endpoint[i].server, clock_now_ns());
 }

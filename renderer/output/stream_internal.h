@@ -18,7 +18,7 @@
 
 #define STREAM_VIEWS_MAX 16u
 #define STREAM_WATCHERS  16u /* clients that watch at the same time */
-#define STREAM_DOORS     2u
+#define STREAM_ENDPOINTS 2u
 #define STREAM_MAPS      16u /* maps that are kept, or under way */
 
 /* An encoded picture, which nobody changes. */
@@ -42,7 +42,7 @@ struct stream_view {
 };
 
 /* Where clients come in. */
-struct stream_door {
+struct stream_endpoint {
     struct http_listener listener;
     struct http_server *server;
 };
@@ -75,8 +75,8 @@ struct stream_client {
 
 struct stream {
     char world[32], url[96];
-    struct stream_door door[STREAM_DOORS];
-    uint32_t doors;
+    struct stream_endpoint endpoint[STREAM_ENDPOINTS];
+    uint32_t endpoints;
     struct stream_painter painter; /* paint is NULL: there are no maps */
     bool started;
     pthread_t encoding, painting;

@@ -15,10 +15,10 @@
 #define BACKLOG    64
 #define SEND_BYTES (256 * 1024) /* of a client's socket: more only makes what it sees older */
 
-static void add_door(struct stream *stream, const struct http_listener *listener)
+static void add_endpoint(struct stream *stream, const struct http_listener *listener)
 {
-    CHECK(stream->doors < STREAM_DOORS);
-    stream->door[stream->doors++] = (struct stream_door){.listener = *listener};
+    CHECK(stream->endpoints < STREAM_ENDPOINTS);
+    stream->endpoint[stream->endpoints++] = (struct stream_endpoint){.listener = *listener};
 }
 
 int stream_listen(struct stream *stream, const char *address, uint16_t port, struct reason *reason)
@@ -34,7 +34,7 @@ int stream_listen(struct stream *stream, const char *address, uint16_t port, str
     snprintf(stream->url, sizeof stream->url, "%s", listener.url);
     if (!listener.local)
         log_warn("the stream is open to whoever reaches %s: it has no password", address);
-    add_door(stream, &listener);
+    add_endpoint(stream, &listener);
     return 0;
 }
 
@@ -55,6 +55,6 @@ int stream_listen_here(struct stream *stream, enum role role, struct reason *rea
         close(fd);
         return -1;
     }
-    add_door(stream, &listener);
+    add_endpoint(stream, &listener);
     return 0;
 }

@@ -12,7 +12,7 @@ struct colour8 {
 };
 
 /* What the air puts in front of a thing, and how much of it. */
-struct air8 {
+struct atmosphere8 {
     struct colour8 colour;
     v8f much;
 };
@@ -76,7 +76,7 @@ SIMD8 struct colour8 atmosphere_sky(const struct soft_frame *frame, const v8f wa
 }
 
 /* The air between the eye and places [m from the eye]. */
-SIMD8 struct air8 atmosphere_at(const struct soft_frame *frame, const v8f place[3])
+SIMD8 struct atmosphere8 atmosphere_at(const struct soft_frame *frame, const v8f place[3])
 {
     v8f far = simd8_sqrt(simd8_dot3(place, place));
     v8f rise = simd8_clamp(place[1] * frame->fog_fall, -80.0f, 80.0f);
@@ -85,20 +85,20 @@ SIMD8 struct air8 atmosphere_at(const struct soft_frame *frame, const v8f place[
     v8f fog = frame->fog * simd8_select(level, simd8_f(1.0f), layer) * far;
     v8f all = fog + frame->haze * far;
     struct colour8 horizon = atmosphere_horizon(frame, place[0], place[2]);
-    return (struct air8){
+    return (struct atmosphere8){
         colour_mix(horizon, atmosphere_white(horizon), fog / simd8_max(all, simd8_f(1e-6f))),
         1.0f - simd8_exp_minus(all)};
 }
 
 /* The fog between the eye and the sky along unit ways: all the fog above the eye, seen aslant. */
-SIMD8 struct air8 atmosphere_before_sky(const struct soft_frame *frame, const v8f way[3])
+SIMD8 struct atmosphere8 atmosphere_before_sky(const struct soft_frame *frame, const v8f way[3])
 {
     v8f up = frame->fog_fall * simd8_max(way[1], simd8_f(1e-4f));
-    return (struct air8){atmosphere_white(atmosphere_horizon(frame, way[0], way[2])),
-                         frame->fog / (frame->fog + up)};
+    return (struct atmosphere8){atmosphere_white(atmosphere_horizon(frame, way[0], way[2])),
+                                frame->fog / (frame->fog + up)};
 }
 
-SIMD8 struct colour8 atmosphere_over(struct colour8 c, const struct air8 *air)
+SIMD8 struct colour8 atmosphere_over(struct colour8 c, const struct atmosphere8 *air)
 {
     return colour_mix(c, air->colour, air->much);
 }

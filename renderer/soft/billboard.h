@@ -25,7 +25,7 @@ SIMD8 void billboard_bound(float at, float step, float *left, float *right)
 }
 
 /* The columns of a row in which the picture lies. */
-SIMD8 void billboard_range(const struct soft_board *b, int32_t y, int32_t *first, int32_t *end)
+SIMD8 void billboard_range(const struct soft_billboard *b, int32_t y, int32_t *first, int32_t *end)
 {
     float side = (float)(1u << b->level), left = b->left, right = b->right, row = (float)y;
     float depth = side * (b->depth[0] + row * b->depth[2]);
@@ -39,17 +39,17 @@ SIMD8 void billboard_range(const struct soft_board *b, int32_t y, int32_t *first
 }
 
 /* Eight pixels of a board. */
-struct board8 {
+struct billboard8 {
     v8f depth, column, row; /* texels */
     v8i seen;
 };
 
 /* Where eight pixels fall in the picture, and which are in it and at least as near as what is
  * there. */
-SIMD8 struct board8 billboard_pixels(const struct soft_board *b, const float *there, int32_t x,
-                                     int32_t y, v8i inside)
+SIMD8 struct billboard8 billboard_pixels(const struct soft_billboard *b, const float *there,
+                                         int32_t x, int32_t y, v8i inside)
 {
-    struct board8 p;
+    struct billboard8 p;
     float row = (float)y, side = (float)(1u << b->level);
     v8f column = simd8_to_f(simd8_count() + x);
     p.depth = billboard_value(b->depth, column, row);
@@ -66,7 +66,7 @@ SIMD8 struct board8 billboard_pixels(const struct soft_board *b, const float *th
     return p;
 }
 
-SIMD8 v8i billboard_texel(const struct soft_board *b, v8f column, v8f row)
+SIMD8 v8i billboard_texel(const struct soft_billboard *b, v8f column, v8f row)
 {
     return (simd8_to_i(row) << b->level) + simd8_to_i(column);
 }

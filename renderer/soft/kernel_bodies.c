@@ -567,7 +567,7 @@ static void mix_paint(struct maker *m)
 {
     const float *at = m->body->at;
     v8f place[3] = {simd8_f(at[0]), simd8_f(at[1]), simd8_f(at[2])};
-    struct air8 air = atmosphere_at(m->frame, place);
+    struct atmosphere8 air = atmosphere_at(m->frame, place);
     float burn = m->body->burn, much = air.much[0];
     m->paint = (struct soft_paint){
         .soot_low = 1.12f - 1.15f * burn,

@@ -98,7 +98,7 @@ struct outline {
 };
 
 static bool set_flat(const struct soft_particles *puffs, const struct soft_frame *f,
-                     struct soft_puff *puff, struct band_rows *rows, uint32_t picture,
+                     struct soft_particle *puff, struct band_rows *rows, uint32_t picture,
                      const struct outline *o)
 {
     float x = o->x, y = o->y, turn = o->right_x * o->up_y - o->right_y * o->up_x;
@@ -131,8 +131,8 @@ static bool set_flat(const struct soft_particles *puffs, const struct soft_frame
 }
 
 static bool set_round(const struct soft_particles *puffs, const struct soft_frame *f,
-                      struct soft_puff *puff, struct band_rows *rows, const struct scene_puff *from,
-                      const struct round8 *r, uint32_t i)
+                      struct soft_particle *puff, struct band_rows *rows,
+                      const struct scene_puff *from, const struct round8 *r, uint32_t i)
 {
     float radius = r->radius[i] > LEAST_RADIUS ? r->radius[i] : LEAST_RADIUS;
     float share = r->radius[i] / radius, c = radius * r->cosine[i], s = radius * r->sine[i];
@@ -166,7 +166,7 @@ static void over_picture(const struct soft_frame *f, const float way[3], float b
 }
 
 /* The picture's texels lie evenly along side and axis; over the distance they do in the picture. */
-static bool set_strip(const struct soft_frame *f, struct soft_puff *puff,
+static bool set_strip(const struct soft_frame *f, struct soft_particle *puff,
                       const struct scene_puff *from, const float side[3], float nearer)
 {
     float normal[3], way[3], texels = (float)(1u << puff->level), depth[3];
@@ -194,7 +194,7 @@ static bool set_strip(const struct soft_frame *f, struct soft_puff *puff,
 
 /* A strip that keeps its distance from the eye. */
 static bool set_flat_strip(const struct soft_particles *puffs, const struct soft_frame *f,
-                           struct soft_puff *puff, struct band_rows *rows,
+                           struct soft_particle *puff, struct band_rows *rows,
                            const struct scene_puff *from, const float side[3], float ahead)
 {
     float over = 1.0f / ahead, x = over * dot(f->across, from->at);
@@ -219,7 +219,7 @@ static bool set_flat_strip(const struct soft_particles *puffs, const struct soft
 }
 
 static bool set_streak(const struct soft_particles *puffs, const struct soft_frame *f,
-                       struct soft_puff *puff, struct band_rows *rows,
+                       struct soft_particle *puff, struct band_rows *rows,
                        const struct scene_puff *from)
 {
     float side[3], end[2] = {-1.0f, 1.0f};
@@ -271,8 +271,8 @@ static bool set_streak(const struct soft_particles *puffs, const struct soft_fra
 
 /* --- all -------------------------------------------------------------------------------------- */
 
-static void set_colour(struct soft_puff *puff, const struct puffs8 *p, const struct air8 *air,
-                       uint32_t i)
+static void set_colour(struct soft_particle *puff, const struct puffs8 *p,
+                       const struct atmosphere8 *air, uint32_t i)
 {
     const v8f *ahead[3] = {&air->colour.r, &air->colour.g, &air->colour.b};
     float glow = p->glow[i], clear = 1.0f - air->much[i];
@@ -297,9 +297,9 @@ void KERNEL(soft_particles_set_up)(struct soft_particles *puffs, const struct so
         struct puffs8 p = load_puffs(from, count);
         v8f ahead = along(frame->ahead, p.at);
         struct round8 round = place_round(frame, &p, ahead);
-        struct air8 air = atmosphere_at(frame, p.at);
+        struct atmosphere8 air = atmosphere_at(frame, p.at);
         for (uint32_t i = 0; i < count; i++) {
-            struct soft_puff *puff = &puffs->puffs[puffs->count];
+            struct soft_particle *puff = &puffs->puffs[puffs->count];
             struct band_rows *rows = &puffs->rows[puffs->count];
             bool seen;
             set_colour(puff, &p, &air, i);
@@ -323,8 +323,8 @@ struct smoke8 {
     v8i seen; /* there is a texel */
 };
 
-SIMD8 struct smoke8 smoke_at(const struct soft_puff *p, const uint16_t *texels, v8f column, v8f row,
-                             bool clipped)
+SIMD8 struct smoke8 smoke_at(const struct soft_particle *p, const uint16_t *texels, v8f column,
+                             v8f row, bool clipped)
 {
     struct smoke8 smoke = {.seen = simd8_i(-1)};
     int32_t last = (1 << p->level) - 1;
@@ -357,7 +357,7 @@ SIMD8 void blend(const struct smoke8 *smoke, v8i seen, uint32_t *colour)
 
 /* The columns of a row, given at its middle, in which a puff's circle, an ellipse in the picture,
  * lies. */
-SIMD8 bool find_columns(const struct soft_puff *p, const struct soft_target *t, float y,
+SIMD8 bool find_columns(const struct soft_particle *p, const struct soft_target *t, float y,
                         int32_t *first, int32_t *end)
 {
     float half = 0.5f * (float)(1u << p->level), columns = (float)t->width;
@@ -374,15 +374,15 @@ SIMD8 bool find_columns(const struct soft_puff *p, const struct soft_target *t, 
     return *first < *end;
 }
 
-SIMD8 v8i seen_pixels(const struct soft_puff *p, const float *depth, int32_t x, int32_t first,
+SIMD8 v8i seen_pixels(const struct soft_particle *p, const float *depth, int32_t x, int32_t first,
                       int32_t end)
 {
     v8i column = simd8_count() + x;
     return (column >= first) & (column < end) & (p->depth[0] > simd8_load_f(depth));
 }
 
-SIMD8 void fill_flat(const struct soft_puff *p, const uint16_t *texels, const struct soft_target *t,
-                     int32_t y, bool clipped)
+SIMD8 void fill_flat(const struct soft_particle *p, const uint16_t *texels,
+                     const struct soft_target *t, int32_t y, bool clipped)
 {
     int32_t first, end;
     size_t row = (size_t)(y - t->first) * t->stride;
@@ -412,7 +412,7 @@ SIMD8 v8f twice_high(v8f v)
 }
 
 /* Rows y and y + 1, as far as they are in rows, sixteen columns at a time. */
-SIMD8 void fill_coarse(const struct soft_puff *p, const uint16_t *texels,
+SIMD8 void fill_coarse(const struct soft_particle *p, const uint16_t *texels,
                        const struct soft_target *t, int32_t y, const struct band_rows *rows)
 {
     int32_t first, end;
@@ -443,7 +443,7 @@ SIMD8 void fill_coarse(const struct soft_puff *p, const uint16_t *texels,
     }
 }
 
-SIMD8 void fill_streak(const struct soft_puff *p, const uint16_t *texels,
+SIMD8 void fill_streak(const struct soft_particle *p, const uint16_t *texels,
                        const struct soft_target *t, int32_t y, int32_t first, int32_t end)
 {
     size_t row = (size_t)(y - t->first) * t->stride;
@@ -470,7 +470,7 @@ SIMD8 void fill_streak(const struct soft_puff *p, const uint16_t *texels,
 static void fill_puff(const struct soft_particles *puffs, const struct soft_target *t,
                       uint32_t index)
 {
-    const struct soft_puff *p = &puffs->puffs[index];
+    const struct soft_particle *p = &puffs->puffs[index];
     const struct band_rows *rows = &puffs->rows[index];
     const uint16_t *texels = puffs->texels + p->texels;
     int32_t y = rows->first > t->first ? rows->first : t->first;

@@ -23,7 +23,7 @@ struct plants8 {
     v8f at[3], width, height, lean, slope[2], tint[3];
     v8f far, level;       /* [m] distance, and without height */
     v8f ahead_x, ahead_z; /* unit, level, from the eye */
-    struct air8 air;
+    struct atmosphere8 air;
 };
 
 /* Something over the picture for each of eight boards. */
@@ -31,7 +31,7 @@ struct values8 {
     v8f v[3];
 };
 
-struct boards8 {
+struct billboards8 {
     struct values8 depth, across, down; /* the last two in pictures, not texels */
     v8f left, right, high, low;         /* [pixel] within the picture */
     v8f size;                           /* [pixel] the lesser of width and height */
@@ -79,7 +79,8 @@ SIMD8 struct values8 sum(struct values8 a, v8f by, struct values8 b, v8f by_b)
 }
 
 /* A board's corner in the picture. */
-SIMD8 void take_corner(const struct soft_frame *f, struct boards8 *b, const v8f place[3], v8i *cut)
+SIMD8 void take_corner(const struct soft_frame *f, struct billboards8 *b, const v8f place[3],
+                       v8i *cut)
 {
     v8f ahead = f->ahead[0] * place[0] + f->ahead[1] * place[1] + f->ahead[2] * place[2];
     v8f across = f->across[0] * place[0] + f->across[1] * place[1] + f->across[2] * place[2];
@@ -97,7 +98,7 @@ SIMD8 void take_corner(const struct soft_frame *f, struct boards8 *b, const v8f 
 
 /* Where in the picture boards may be, of which a corner is at the foot, and two sides. What reaches
  * behind the near plane may be anywhere. */
-SIMD8 void find_bounds(const struct soft_frame *f, struct boards8 *b, const v8f foot[3],
+SIMD8 void find_bounds(const struct soft_frame *f, struct billboards8 *b, const v8f foot[3],
                        const v8f side[3], const v8f up[3])
 {
     v8i cut = simd8_i(0);
@@ -123,9 +124,9 @@ SIMD8 void find_bounds(const struct soft_frame *f, struct boards8 *b, const v8f 
 
 /* Upright, turned to the eye about the vertical; seen steeply from above, with its top away from
  * the eye (struct scene_plant). */
-SIMD8 struct boards8 stand(const struct soft_frame *f, const struct plants8 *p)
+SIMD8 struct billboards8 stand(const struct soft_frame *f, const struct plants8 *p)
 {
-    struct boards8 b;
+    struct billboards8 b;
     v8f right_x = -p->ahead_z, right_z = p->ahead_x, zero = simd8_f(0.0f), one = simd8_f(1.0f);
     v8f side[3] = {right_x * p->width, zero, right_z * p->width};
     v8f leans = p->lean * p->height;
@@ -151,9 +152,9 @@ SIMD8 struct boards8 stand(const struct soft_frame *f, const struct plants8 *p)
 }
 
 /* Laid on the slope, away from the sun. */
-SIMD8 struct boards8 lie(const struct soft_frame *f, const struct plants8 *p, v8f *reach)
+SIMD8 struct billboards8 lie(const struct soft_frame *f, const struct plants8 *p, v8f *reach)
 {
-    struct boards8 b;
+    struct billboards8 b;
     float level = sqrtf(f->sun[0] * f->sun[0] + f->sun[2] * f->sun[2]);
     float away_x = -f->sun[0] / level, away_z = -f->sun[2] / level;
     float aside_x = -away_z, aside_z = away_x;
@@ -191,8 +192,9 @@ static uint32_t level_of(float side)
     return level;
 }
 
-static bool set_board(const struct soft_plants *plants, struct soft_board *board,
-                      struct band_rows *rows, const struct boards8 *b, float picture, uint32_t lane)
+static bool set_board(const struct soft_plants *plants, struct soft_billboard *board,
+                      struct band_rows *rows, const struct billboards8 *b, float picture,
+                      uint32_t lane)
 {
     uint32_t which = (uint32_t)(picture + 0.5f);
     which = which < PLANT_IMPOSTORS_COUNT ? which : 0;
@@ -232,7 +234,7 @@ static void set_light(const struct soft_frame *f, struct soft_plant *plant, cons
 static void put_plants(struct soft_plants *plants, const struct soft_frame *f,
                        const struct plants8 *p, const struct scene_plant *from, uint32_t lanes)
 {
-    struct boards8 b = stand(f, p);
+    struct billboards8 b = stand(f, p);
     /* Small pictures are averages of leaf and gap: a lower threshold keeps their size. */
     v8f cut = 255.0f * (0.5f - 0.28f * simd8_smoothstep(150.0f, 1800.0f, p->far));
     for (lanes &= simd8_bits(b.there); lanes != 0; lanes &= lanes - 1) {
@@ -258,7 +260,7 @@ static void put_casts(struct soft_plants *plants, const struct soft_frame *f,
     lanes &= simd8_bits(~none);
     if (lanes == 0)
         return;
-    struct boards8 b = lie(f, p, &reach);
+    struct billboards8 b = lie(f, p, &reach);
     v8f strong = 1.0f - simd8_smoothstep(SHADE_FULL_M, SHADE_RANGE_M, far);
     v8f dark = (float)SOFT_SHADOW_FULL * (1.0f - p->air.much) * strong;
     for (lanes &= simd8_bits(b.there); lanes != 0; lanes &= lanes - 1) {
@@ -325,7 +327,7 @@ SIMD8 struct leaves8 mix(const struct leaves8 *a, const struct leaves8 *b, v8f t
 }
 
 /* Between the four nearest texels. */
-SIMD8 struct leaves8 four_leaves(const struct soft_board *b, const struct soft_leaf *leaves,
+SIMD8 struct leaves8 four_leaves(const struct soft_billboard *b, const struct soft_leaf *leaves,
                                  v8f column, v8f row, bool texture)
 {
     float last = (float)(1u << b->level) - 1.0f;
@@ -365,7 +367,7 @@ SIMD8 void plant_pixels(const struct soft_plant *p, const struct soft_leaf *leav
                         const struct soft_target *t, int32_t x, int32_t y, v8i inside, bool texture)
 {
     size_t at = (size_t)(y - t->first) * t->stride + (size_t)x;
-    struct board8 b = billboard_pixels(&p->board, t->depth + at, x, y, inside);
+    struct billboard8 b = billboard_pixels(&p->board, t->depth + at, x, y, inside);
     struct leaves8 l;
     if (simd8_bits(b.seen) == 0)
         return;

@@ -31,7 +31,7 @@ struct sky_row {
 };
 
 /* What a band's resolving knows. */
-struct resolve {
+struct shading {
     const struct soft_ground *ground;
     const struct soft_frame *frame;
     struct horizon_row horizon;
@@ -234,13 +234,13 @@ SIMD8 v8u edge_alpha(v8f depth, v8u shadow)
 
 /* What the air puts before the ground. Along one ray the fog in the way grows with the distance as
  * 1 - exp(-distance * fall), which needs no division by pixel. */
-SIMD8 struct air8 air_before(const struct resolve *r, uint32_t step, v8f ahead)
+SIMD8 struct atmosphere8 air_before(const struct shading *r, uint32_t step, v8f ahead)
 {
     const struct horizon_row *h = &r->horizon;
     v8f far = ahead * h->far[step];
     v8f fog = (r->fog_share * h->far[step]) * (1.0f - simd8_exp2(ahead * r->fog_fall));
     v8f all = fog + r->frame->haze * far, share = 0.5f * fog / simd8_max(all, simd8_f(1e-6f));
-    struct air8 air = {.much = 1.0f - simd8_exp_minus(all)};
+    struct atmosphere8 air = {.much = 1.0f - simd8_exp_minus(all)};
     struct colour8 white = colour_scale(colour_of(FOG_WHITE), simd8_f(255.0f));
     air.colour.r = h->r[step] + (white.r - h->r[step]) * share;
     air.colour.g = h->g[step] + (white.g - h->g[step]) * share;
@@ -250,7 +250,7 @@ SIMD8 struct air8 air_before(const struct resolve *r, uint32_t step, v8f ahead)
 
 /* --- the steps -------------------------------------------------------------------------------- */
 
-static void paint(const struct resolve *r, struct waiting *w)
+static void paint(const struct shading *r, struct waiting *w)
 {
     for (uint32_t i = w->coloured; i < w->count; i++) {
         struct ground8 *g = &w->ground[i];
@@ -258,7 +258,7 @@ static void paint(const struct resolve *r, struct waiting *w)
     }
 }
 
-static void roughen(const struct resolve *r, struct waiting *w)
+static void roughen(const struct shading *r, struct waiting *w)
 {
     for (uint32_t i = w->coloured; i < w->count; i++) {
         struct ground8 *g = &w->ground[i];
@@ -282,7 +282,7 @@ static void roughen(const struct resolve *r, struct waiting *w)
 }
 
 /* Pixel by pixel, with their shadows. */
-SIMD8 void put_pixels(const struct ground8 *g, const struct air8 *air, uint32_t *colour,
+SIMD8 void put_pixels(const struct ground8 *g, const struct atmosphere8 *air, uint32_t *colour,
                       const float *depth)
 {
     const struct colour8 dark = colour_of(12.75f, 15.3f, 22.95f);
@@ -356,13 +356,13 @@ SIMD8 bool adjoin(const struct ground8 *a, const struct ground8 *b)
 }
 
 /* Draws those before end. */
-static void put_down(const struct resolve *r, struct waiting *w, uint32_t end, uint32_t *colour,
+static void put_down(const struct shading *r, struct waiting *w, uint32_t end, uint32_t *colour,
                      const float *depth)
 {
     struct ground8 *all = w->ground;
     for (uint32_t i = w->coloured; i < w->count; i++) {
         struct ground8 *g = &all[i];
-        struct air8 air = air_before(r, g->x / LANES + g->rate / 2, g->ahead);
+        struct atmosphere8 air = air_before(r, g->x / LANES + g->rate / 2, g->ahead);
         if (g->rate == 1) {
             put_pixels(g, &air, colour + g->x, depth + g->x);
             continue;
@@ -380,7 +380,7 @@ static void put_down(const struct resolve *r, struct waiting *w, uint32_t end, u
 }
 
 /* The last waits on for what comes to its right, unless the row ends. */
-static void go_on(const struct resolve *r, struct waiting *w, bool ends, uint32_t *colour,
+static void go_on(const struct shading *r, struct waiting *w, bool ends, uint32_t *colour,
                   const float *depth)
 {
     paint(r, w);
@@ -396,14 +396,14 @@ static void go_on(const struct resolve *r, struct waiting *w, bool ends, uint32_
 }
 
 /* How much ground a pixel covers along the view, of this steepness. */
-SIMD8 float covered(const struct resolve *r, uint32_t code, float ahead, float far)
+SIMD8 float covered(const struct shading *r, uint32_t code, float ahead, float far)
 {
     float across = ahead * r->frame->pixel_m, along = soft_steepness(code) * ahead * far;
     return along > across ? along : across;
 }
 
 /* Eight pixels of ground begin, once for each patch that they are of: mostly one. */
-SIMD8 void begin(const struct resolve *r, struct waiting *w, uint32_t x, v8i mine, uint32_t *colour,
+SIMD8 void begin(const struct shading *r, struct waiting *w, uint32_t x, v8i mine, uint32_t *colour,
                  const float *depth)
 {
     v8u promise = simd8_load_u(colour + x), patch = promise & ((1u << SOFT_PATCH_BITS) - 1);
@@ -476,7 +476,7 @@ SIMD8 bool smooth(uint32_t rate, const uint32_t *colour, const float *depth, v8f
 
 /* Sixteen or 32 pixels begin together, if they are smooth and their textures so broad. Returns how
  * many did. */
-SIMD8 uint32_t begin_many(const struct resolve *r, struct waiting *w, uint32_t x, uint32_t *colour,
+SIMD8 uint32_t begin_many(const struct shading *r, struct waiting *w, uint32_t x, uint32_t *colour,
                           const float *depth)
 {
     uint32_t promise = colour[x + LANES], patch = promise & ((1u << SOFT_PATCH_BITS) - 1);
@@ -547,7 +547,7 @@ static struct colour8 sky_at(const struct soft_ground *ground, const struct soft
     struct colour8 lit =
         colour_mix(colour_of(CLOUD_SHADE), colour_of(CLOUD_LIT), 0.4f + 0.6f * fine);
     lit = (struct colour8){lit.r + 0.5f * glow.r, lit.g + 0.5f * glow.g, lit.b + 0.5f * glow.b};
-    struct air8 air = atmosphere_before_sky(frame, way);
+    struct atmosphere8 air = atmosphere_before_sky(frame, way);
     return atmosphere_over(colour_mix(c, lit, cloud), &air);
 }
 
@@ -559,7 +559,7 @@ SIMD8 void rays_at(const struct soft_frame *frame, float x, float y, v8f ray[3])
         ray[i] = frame->ray[i] + y * frame->ray_y[i] + column * frame->ray_x[i];
 }
 
-static void fill_sky(const struct resolve *r, struct sky_row *row, int32_t y)
+static void fill_sky(const struct shading *r, struct sky_row *row, int32_t y)
 {
     for (uint32_t step = 0; step * LANES < r->frame->width + LANES; step += LANES) {
         v8f ray[3], sun;
@@ -573,7 +573,7 @@ static void fill_sky(const struct resolve *r, struct sky_row *row, int32_t y)
     row->y = y;
 }
 
-static void fill_horizon(struct resolve *r, int32_t y)
+static void fill_horizon(struct shading *r, int32_t y)
 {
     struct horizon_row *row = &r->horizon;
     for (uint32_t step = 0; step * LANES < r->frame->width; step += LANES) {
@@ -607,7 +607,7 @@ SIMD8 v8f sun_disc(const struct soft_frame *frame, uint32_t x, int32_t y)
     return simd8_clamp((sun - SUN_EDGE) * (1.0f / (SUN_WHOLE - SUN_EDGE)), 0.0f, 1.0f);
 }
 
-static void sky_pixels(struct resolve *r, uint32_t x, int32_t y, v8i mine, uint32_t *colour)
+static void sky_pixels(struct shading *r, uint32_t x, int32_t y, v8i mine, uint32_t *colour)
 {
     int32_t first = y & -STEP_ROWS;
     if (r->below.y == first)
@@ -632,7 +632,7 @@ static void sky_pixels(struct resolve *r, uint32_t x, int32_t y, v8i mine, uint3
 
 /* --- rows ------------------------------------------------------------------------------------- */
 
-static void begin_row(struct resolve *r, int32_t y)
+static void begin_row(struct shading *r, int32_t y)
 {
     const struct soft_frame *f = r->frame;
     for (uint32_t i = 0; i < 3; i++)
@@ -647,7 +647,7 @@ static void begin_row(struct resolve *r, int32_t y)
     r->fog_fall = -1.44269504f * rise * f->fog_fall;
 }
 
-static void resolve_row(struct resolve *r, uint32_t *colour, const float *depth, int32_t y)
+static void resolve_row(struct shading *r, uint32_t *colour, const float *depth, int32_t y)
 {
     struct waiting waiting;
     waiting.count = waiting.coloured = waiting.drawn = 0;
@@ -674,7 +674,7 @@ static void resolve_row(struct resolve *r, uint32_t *colour, const float *depth,
 void KERNEL(soft_shade_fill)(const struct soft_ground *ground, const struct soft_frame *frame,
                              const struct soft_target *target)
 {
-    struct resolve r = {.ground = ground,
+    struct shading r = {.ground = ground,
                         .frame = frame,
                         .horizon = {.y = -1},
                         .above = {.y = -1},

@@ -15,7 +15,7 @@
 
 /* A puff's texels lie evenly in the picture: it faces it, or is a strip that keeps its distance. Of
  * a streak, a strip that does not, texels and depth do so only over the distance. */
-struct soft_puff {
+struct soft_particle {
     uint32_t texels; /* where its picture begins at its level */
     uint32_t level;  /* log2 of the side */
     float reach;     /* [texel] beyond it there is nothing; of a streak [pixel], about: */
@@ -35,9 +35,9 @@ struct soft_puff {
 struct soft_particles {
     uint16_t *texels; /* owned: low byte how much, high byte how bright */
     uint32_t first[PUFF_PICTURES][PUFF_LEVELS + 1]; /* of the level whose side is 2^i */
-    float reach[PUFF_PICTURES]; /* what is farther from the middle is empty: 1 is half a side */
-    struct soft_puff *puffs;    /* owned: those that can be seen, farthest first */
-    struct band_rows *rows;     /* owned, theirs */
+    float reach[PUFF_PICTURES];  /* what is farther from the middle is empty: 1 is half a side */
+    struct soft_particle *puffs; /* owned: those that can be seen, farthest first */
+    struct band_rows *rows;      /* owned, theirs */
     size_t puff_room, row_room;
     uint32_t count;
     struct band_lists lists;

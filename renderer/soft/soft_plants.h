@@ -19,7 +19,7 @@ struct soft_leaf {
 
 /* A picture standing in space or lying on the ground: its texels and 1 / distance over the picture.
  * The three numbers: at the centre of pixel (0, 0), and growth to the right and down. */
-struct soft_board {
+struct soft_billboard {
     float depth[3];
     float across[3];     /* texel column over the distance */
     float down[3];       /* texel row, likewise */
@@ -30,7 +30,7 @@ struct soft_board {
 };
 
 struct soft_plant {
-    struct soft_board board;
+    struct soft_billboard board;
     float sky[3], sun[3]; /* light on a texel's colour, seen through the air; 255 for full */
     float air[3];         /* what the air before it adds */
     float to_sun[3];      /* unit: to the right, up, out of the picture */
@@ -39,7 +39,7 @@ struct soft_plant {
 
 /* Its shadow. */
 struct soft_cast {
-    struct soft_board board;
+    struct soft_billboard board;
     uint32_t dark; /* 1 .. SOFT_SHADOW_FULL */
 };
 

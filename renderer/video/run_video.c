@@ -61,7 +61,7 @@ _Noreturn static void give_up(const struct run_video *film, const struct reason 
     die_refused("%s", reason->text);
 }
 
-static void open_studio(struct run_video *film)
+static void open_session(struct run_video *film)
 {
     struct reason reason;
     struct options *drawn = &film->options.renderer;
@@ -76,11 +76,11 @@ static void open_studio(struct run_video *film)
                                          .video_fd = film->fd,
                                          .stream_port = -1};
     drawn->snap = film->still ? film->options.file : NULL;
-    if (!film->still && (output_set_open(&film->outlets, &wish, &reason) != 0 ||
-                         output_set_start(&film->outlets, &reason) != 0))
+    if (!film->still && (output_set_open(&film->outputs, &wish, &reason) != 0 ||
+                         output_set_start(&film->outputs, &reason) != 0))
         give_up(film, &reason);
-    if (render_session_open(&film->studio, &film->view, &film->pulse,
-                            film->still ? NULL : &film->outlets, drawn, &reason) != 0)
+    if (render_session_open(&film->session, &film->view, &film->heartbeat,
+                            film->still ? NULL : &film->outputs, drawn, &reason) != 0)
         give_up(film, &reason);
 }
 
@@ -97,7 +97,7 @@ static bool play_to(struct run_video *film, uint64_t frame, enum log_replay_step
         if (*step != LOG_REPLAY_STEPPED)
             return false;
         if (frame_stepper_frame(&film->player) % looks == 0 &&
-            render_session_look(&film->studio, &reason) != 0)
+            render_session_look(&film->session, &reason) != 0)
             give_up(film, &reason);
     }
     return !process_stopping();
@@ -121,12 +121,12 @@ static bool go_to(struct run_video *film, uint64_t frame, enum log_replay_step *
     if (frame > film->first && frame_stepper_frame(&film->player) < frame) {
         if (!play_to(film, frame - 1, step))
             return false;
-        if (film->between && render_session_look(&film->studio, &reason) != 0)
+        if (film->between && render_session_look(&film->session, &reason) != 0)
             give_up(film, &reason);
     }
     if (!play_to(film, frame, step))
         return false;
-    if (render_session_look(&film->studio, &reason) != 0)
+    if (render_session_look(&film->session, &reason) != 0)
         give_up(film, &reason);
     return true;
 }
@@ -134,8 +134,8 @@ static bool go_to(struct run_video *film, uint64_t frame, enum log_replay_step *
 /* So many frames before the one looked at last, less than 1. */
 static void show_before(struct run_video *film, double frames)
 {
-    struct frame_view latest = render_session_moment(&film->studio, film->studio.latest);
-    film->studio.at_s = frame_view_time_s(&latest) - frames * world_dt_s(&film->view.world);
+    struct frame_view latest = render_session_frame_view(&film->session, film->session.latest);
+    film->session.at_s = frame_view_time_s(&latest) - frames * world_dt_s(&film->view.world);
 }
 
 /* Every picture at its time. */
@@ -143,9 +143,9 @@ static enum log_replay_step shoot(struct run_video *film)
 {
     struct reason reason;
     enum log_replay_step step = LOG_REPLAY_STEPPED;
-    double frames = 1.0 / (film->studio.options.fps * world_dt_s(&film->view.world));
+    double frames = 1.0 / (film->session.options.fps * world_dt_s(&film->view.world));
     film->between = fabs(frames - round(frames)) > WHOLE;
-    film->studio.smooth = film->between;
+    film->session.smooth = film->between;
     film->begun_ns = film->told_ns = clock_now_ns();
     for (;;) {
         double after = (double)film->pictures * frames;
@@ -153,7 +153,7 @@ static enum log_replay_step shoot(struct run_video *film)
         if (due >= film->end || !go_to(film, due, &step))
             break;
         show_before(film, (double)(due - film->first) - after);
-        if (view_pictures_draw(&film->studio, false, &reason) != 0)
+        if (view_pictures_draw(&film->session, false, &reason) != 0)
             give_up(film, &reason);
         film->pictures++;
         tell_progress(film);
@@ -166,7 +166,7 @@ static enum log_replay_step shoot(struct run_video *film)
 static void complete(struct run_video *film)
 {
     struct reason reason;
-    if (!film->still && output_set_close(&film->outlets, &reason) != 0)
+    if (!film->still && output_set_close(&film->outputs, &reason) != 0)
         give_up(film, &reason);
     if (film->pictures == 0) {
         reason_set(&reason, "%s: the run ended before its first picture", film->options.file);
@@ -177,7 +177,7 @@ static void complete(struct run_video *film)
                    strerror(errno));
         give_up(film, &reason);
     }
-    const struct options *drawn = &film->studio.options;
+    const struct options *drawn = &film->session.options;
     printf("%s: %" PRIu64 " pictures of %ux%u, %.1f s of simulation, made in %.1f s\n",
            film->options.file, film->pictures, drawn->width, drawn->height,
            (double)film->pictures / drawn->fps, (double)(clock_now_ns() - film->begun_ns) / 1e9);
@@ -190,10 +190,10 @@ enum log_replay_step run_video_make(struct run_video *film)
     open_run(film);
     if (!film->still)
         open_file(film);
-    open_studio(film);
+    open_session(film);
     enum log_replay_step step = shoot(film);
     complete(film);
-    render_session_close(&film->studio);
+    render_session_close(&film->session);
     frame_stepper_free(&film->player);
     segment_abandon(&film->view);
     log_replay_close(&film->tape);

@@ -15,9 +15,9 @@ struct run_video {
     struct log_replay tape;
     struct view view;
     struct frame_stepper player;
-    struct heartbeat pulse; /* nobody waits for its beat */
-    struct output_set outlets;
-    struct render_session studio;
+    struct heartbeat heartbeat; /* nobody waits for its beat */
+    struct output_set outputs;
+    struct render_session session;
     bool still;          /* the last picture alone, as a PNG file */
     uint64_t first, end; /* frames: from the first, and this one no more */
     bool between;        /* pictures show what is between frames too */

@@ -55,7 +55,7 @@ static void start(void)
     CHECK(image_init(&image, 64, 48) == 0);
     stream = stream_open("fuzz", &painter, &reason);
     CHECK(stream != NULL);
-    stream->door[stream->doors++].listener = http_client_listener();
+    stream->endpoint[stream->endpoints++].listener = http_client_listener();
     CHECK(stream_start(stream, &reason) == 0);
 }
 

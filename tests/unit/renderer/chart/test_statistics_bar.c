@@ -13,19 +13,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct gauge *find(const struct gauge *gauges, uint32_t count, const char *name)
+static const struct statistics_bar_field *find(const struct statistics_bar_field *fields,
+                                               uint32_t count, const char *name)
 {
     for (uint32_t i = 0; i < count; i++)
-        if (strcmp(gauges[i].name, name) == 0)
-            return &gauges[i];
+        if (strcmp(fields[i].name, name) == 0)
+            return &fields[i];
     fail_msg("there is no %s", name);
-    return gauges;
+    return fields;
 }
 
 /* The number in a field, as a reader would take it. */
-static double number(const struct gauge *gauges, uint32_t count, const char *name)
+static double number(const struct statistics_bar_field *fields, uint32_t count, const char *name)
 {
-    return strtod(find(gauges, count, name)->value, NULL);
+    return strtod(find(fields, count, name)->value, NULL);
 }
 
 static void test_fields_equal_the_table(void **context)
@@ -50,36 +51,36 @@ static void test_fields_equal_the_table(void **context)
         stage.state.head->frame = i;
         stage.state.head->tick = i;
         struct statistics s;
-        struct gauge gauges[STATISTICS_BAR_MAX];
+        struct statistics_bar_field fields[STATISTICS_BAR_MAX];
         statistics_of(&s, &stage.moment, slot);
-        uint32_t n = statistics_bar_of(gauges, &s, 59.94);
+        uint32_t n = statistics_bar_of(fields, &s, 59.94);
         double full = kind->fuel_l > 0.0 ? 100.0 * e->fuel_l[slot] / kind->fuel_l : 100.0;
         double speed = 3.6 * hypot(e->vx[slot], e->vz[slot]), turn = 180.0 / 3.14159265358979;
-        assert_true(fabs(number(gauges, n, "SPEED km/h") - speed) <= 0.0501);
-        assert_true(fabs(remainder(number(gauges, n, "HEADING") - e->heading[slot] * turn,
+        assert_true(fabs(number(fields, n, "SPEED km/h") - speed) <= 0.0501);
+        assert_true(fabs(remainder(number(fields, n, "HEADING") - e->heading[slot] * turn,
                                    360.0)) <= 0.0501);
-        assert_true(fabs(number(gauges, n, "PITCH") - e->pitch[slot] * turn) <= 0.0501);
-        assert_true(fabs(number(gauges, n, "ROLL") - e->roll[slot] * turn) <= 0.0501);
-        assert_true(fabs(number(gauges, n, "ALTITUDE m") - e->y[slot]) <= 0.501);
-        assert_true(number(gauges, n, "ROUNDS") == e->rounds[slot]);
-        assert_true(fabs(number(gauges, n, "FUEL") - full) <= 0.501);
-        assert_string_equal(find(gauges, n, "DAMAGE")->value,
+        assert_true(fabs(number(fields, n, "PITCH") - e->pitch[slot] * turn) <= 0.0501);
+        assert_true(fabs(number(fields, n, "ROLL") - e->roll[slot] * turn) <= 0.0501);
+        assert_true(fabs(number(fields, n, "ALTITUDE m") - e->y[slot]) <= 0.501);
+        assert_true(number(fields, n, "ROUNDS") == e->rounds[slot]);
+        assert_true(fabs(number(fields, n, "FUEL") - full) <= 0.501);
+        assert_string_equal(find(fields, n, "DAMAGE")->value,
                             damage_name((enum damage)e->damage[slot]));
-        assert_string_equal(find(gauges, n, "BEHAVIOUR")->value,
+        assert_string_equal(find(fields, n, "BEHAVIOUR")->value,
                             behaviour_name((enum behaviour)e->behaviour[slot]));
-        assert_true(fabs(number(gauges, n, "TIME s") - i * world_dt_s(stage.moment.world)) <=
+        assert_true(fabs(number(fields, n, "TIME s") - i * world_dt_s(stage.moment.world)) <=
                     0.00501);
-        assert_true(number(gauges, n, "FRAME") == i);
-        assert_string_equal(find(gauges, n, "FPS")->value, "59.9");
+        assert_true(number(fields, n, "FRAME") == i);
+        assert_string_equal(find(fields, n, "FPS")->value, "59.9");
     }
     map_stage_close(&stage);
 }
 
 static uint32_t state_of(const struct statistics *s, const char *name)
 {
-    struct gauge gauges[STATISTICS_BAR_MAX];
-    uint32_t n = statistics_bar_of(gauges, s, 0.0);
-    return find(gauges, n, name)->state;
+    struct statistics_bar_field fields[STATISTICS_BAR_MAX];
+    uint32_t n = statistics_bar_of(fields, s, 0.0);
+    return find(fields, n, name)->state;
 }
 
 static void test_alarms(void **context)
@@ -89,36 +90,36 @@ static void test_alarms(void **context)
         .damage = "none", .behaviour = "hold", .fuel_share = 1.0, .rounds = 50, .rounds_full = 50};
     static const char *const all[] = {"FUEL", "ROUNDS", "DAMAGE", "PITCH", "ROLL"};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        assert_int_equal(state_of(&s, all[i]), GAUGE_GOOD);
+        assert_int_equal(state_of(&s, all[i]), STATISTICS_BAR_GOOD);
     s.fuel_share = 0.2;
-    assert_int_equal(state_of(&s, "FUEL"), GAUGE_WARNING);
+    assert_int_equal(state_of(&s, "FUEL"), STATISTICS_BAR_WARNING);
     s.fuel_share = 0.05;
-    assert_int_equal(state_of(&s, "FUEL"), GAUGE_ALARM);
+    assert_int_equal(state_of(&s, "FUEL"), STATISTICS_BAR_ALARM);
     s.rounds = 9;
-    assert_int_equal(state_of(&s, "ROUNDS"), GAUGE_WARNING);
+    assert_int_equal(state_of(&s, "ROUNDS"), STATISTICS_BAR_WARNING);
     s.rounds = 0;
-    assert_int_equal(state_of(&s, "ROUNDS"), GAUGE_ALARM);
+    assert_int_equal(state_of(&s, "ROUNDS"), STATISTICS_BAR_ALARM);
     s.rounds_full = 0; /* it never had any */
-    assert_int_equal(state_of(&s, "ROUNDS"), GAUGE_GOOD);
+    assert_int_equal(state_of(&s, "ROUNDS"), STATISTICS_BAR_GOOD);
     s.damage = "low";
-    assert_int_equal(state_of(&s, "DAMAGE"), GAUGE_WARNING);
+    assert_int_equal(state_of(&s, "DAMAGE"), STATISTICS_BAR_WARNING);
     s.damage = "destroyed";
-    assert_int_equal(state_of(&s, "DAMAGE"), GAUGE_ALARM);
+    assert_int_equal(state_of(&s, "DAMAGE"), STATISTICS_BAR_ALARM);
     s.pitch_deg = -30.0;
-    assert_int_equal(state_of(&s, "PITCH"), GAUGE_WARNING);
+    assert_int_equal(state_of(&s, "PITCH"), STATISTICS_BAR_WARNING);
     s.roll_deg = 80.0;
-    assert_int_equal(state_of(&s, "ROLL"), GAUGE_ALARM);
+    assert_int_equal(state_of(&s, "ROLL"), STATISTICS_BAR_ALARM);
 }
 
 static void test_what_is_not_known_is_left_out(void **context)
 {
     (void)context;
     struct statistics s = {.damage = "none", .behaviour = "hold", .roll_deg = -0.01};
-    struct gauge gauges[STATISTICS_BAR_MAX];
-    uint32_t n = statistics_bar_of(gauges, &s, 0.0);
+    struct statistics_bar_field fields[STATISTICS_BAR_MAX];
+    uint32_t n = statistics_bar_of(fields, &s, 0.0);
     for (uint32_t i = 0; i < n; i++)
-        assert_string_not_equal(gauges[i].name, "FPS");
-    assert_string_equal(find(gauges, n, "ROLL")->value, "+0.0");
+        assert_string_not_equal(fields[i].name, "FPS");
+    assert_string_equal(find(fields, n, "ROLL")->value, "+0.0");
 }
 
 int main(void)

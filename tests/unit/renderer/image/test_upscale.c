@@ -34,7 +34,7 @@ static void test_same_size_is_the_same(void **state)
     (void)state;
     struct image from = picture(37, 23), to = picture(37, 23);
     fill(&from, 5);
-    image_stretch(&to, &from);
+    image_upscale(&to, &from);
     assert_memory_equal(to.pixels, from.pixels, 37 * 23 * 4);
     image_free(&from);
     image_free(&to);
@@ -46,7 +46,7 @@ static void test_one_colour_stays(void **state)
     struct image from = picture(48, 27), to = picture(64, 36);
     for (uint32_t i = 0; i < 48 * 27; i++)
         memcpy(from.pixels + (size_t)i * 4, "\xff\x80\x01\xfe", 4);
-    image_stretch(&to, &from);
+    image_upscale(&to, &from);
     for (uint32_t i = 0; i < 64 * 36; i++)
         assert_memory_equal(to.pixels + (size_t)i * 4, "\xff\x80\x01\xfe", 4);
     image_free(&from);
@@ -60,7 +60,7 @@ static void test_between_its_pixels(void **state)
     struct image from = picture(2, 2), to = picture(8, 8);
     for (uint32_t round = 0; round < 200; round++) {
         fill(&from, round);
-        image_stretch(&to, &from);
+        image_upscale(&to, &from);
         for (uint32_t i = 0; i < 64; i++)
             for (uint32_t c = 0; c < 4; c++) {
                 uint8_t low = 255, high = 0, value = to.pixels[i * 4 + c];
@@ -80,7 +80,7 @@ static void test_twice_the_size(void **state)
     (void)state;
     struct image from = picture(2, 1), to = picture(4, 2);
     memcpy(from.pixels, "\x00\x00\x00\xff\x80\x40\xff\xff", 8);
-    image_stretch(&to, &from);
+    image_upscale(&to, &from);
     for (uint32_t y = 0; y < 2; y++) {
         assert_memory_equal(at(&to, 0, y), "\x00\x00\x00\xff", 4);
         assert_memory_equal(at(&to, 1, y), "\x20\x10\x3f\xff", 4);

@@ -28,7 +28,7 @@ struct taker {
 
 static struct taker taker;
 static struct picture_pool pool;
-static struct output_queue outlet;
+static struct output_queue queue;
 static struct reason reason;
 
 static int take(void *self, const struct picture *picture, struct reason *why)
@@ -67,17 +67,17 @@ static void start(uint32_t depth, bool patient)
 {
     taker = (struct taker){.lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
     picture_pool_init(&pool);
-    assert_int_equal(output_queue_start(&outlet, &(struct output_queue_work){.self = &taker,
-                                                                             .take = take,
-                                                                             .depth = depth,
-                                                                             .patient = patient}),
+    assert_int_equal(output_queue_start(&queue, &(struct output_queue_work){.self = &taker,
+                                                                            .take = take,
+                                                                            .depth = depth,
+                                                                            .patient = patient}),
                      0);
 }
 
 /* Every picture must be back. */
 static int end(void)
 {
-    int result = output_queue_end(&outlet, &reason);
+    int result = output_queue_end(&queue, &reason);
     picture_pool_free(&pool);
     return result;
 }
@@ -91,7 +91,7 @@ static void put(const char *view, uint64_t frame)
     assert_non_null(picture);
     assert_int_equal(picture->image.pixels[0], (uint8_t)frame);
     picture->frame = frame;
-    output_queue_put(&outlet, picture);
+    output_queue_put(&queue, picture);
     picture_release(picture);
     image_free(&image);
 }
@@ -120,8 +120,8 @@ static void test_a_slow_outlet_keeps_the_first_and_the_newest_of_each_view(void 
     hold(false);
     assert_int_equal(end(), 0);
     check_taken("c1 m1 c2 m9 c9 ");
-    assert_int_equal(outlet.taken, 5);
-    assert_int_equal(outlet.dropped, 13);
+    assert_int_equal(queue.taken, 5);
+    assert_int_equal(queue.dropped, 13);
 }
 
 static void test_a_patient_one_takes_every_picture(void **state)
@@ -134,7 +134,7 @@ static void test_a_patient_one_takes_every_picture(void **state)
     assert_int_equal(taker.count, 1000);
     for (uint32_t i = 0; i < 1000; i++)
         assert_int_equal(taker.frame[i], i + 1);
-    assert_int_equal(outlet.dropped, 0);
+    assert_int_equal(queue.dropped, 0);
 }
 
 static void test_after_a_failure_nothing_more_is_taken(void **state)
@@ -144,11 +144,11 @@ static void test_after_a_failure_nothing_more_is_taken(void **state)
     taker.fail_at = 3;
     for (uint64_t frame = 1; frame <= 20; frame++)
         put("chase", frame);
-    assert_true(output_queue_failed(&outlet, &reason));
+    assert_true(output_queue_failed(&queue, &reason));
     assert_int_equal(end(), -1);
     assert_string_equal(reason.text, "no room");
     check_taken("c1 c2 c3 ");
-    assert_int_equal(outlet.taken, 2);
+    assert_int_equal(queue.taken, 2);
 }
 
 /* However it falls: each view's pictures come in order, the last of each at last, and every picture
@@ -169,7 +169,7 @@ static void test_order_and_counts_hold_at_any_pace(void **state)
         }
         hold(false);
         assert_int_equal(end(), 0);
-        assert_int_equal(outlet.taken + outlet.dropped, count);
+        assert_int_equal(queue.taken + queue.dropped, count);
         for (uint32_t i = 0; i < taker.count; i++) {
             int view = taker.view[i] == 'm';
             assert_true(taker.frame[i] > seen[view]);
