@@ -6,8 +6,8 @@
 #include <string.h>
 #include <strings.h>
 
-#define CHANGES_S   100u /* orders a second of a player, ... */
-#define STRANGERS_S 50u  /* ... and of all who are none */
+#define CHANGES_S   100u /* orders a second of one player ... */
+#define STRANGERS_S 50u  /* ... and of all others together */
 
 #define BEARER "Bearer "
 
@@ -20,7 +20,7 @@ struct player *access_control_player(struct request *request, uint64_t now_ns)
     return player;
 }
 
-/* Browsers say from where they ask: another site's page is not answered, whatever it asks. */
+/* Browsers send the origin of a request. Requests of another site's page are refused. */
 static bool from_here(const struct request *request)
 {
     const char *host = http_header(request->http, "Host");
@@ -45,7 +45,7 @@ bool access_control_open(struct request *request, const struct player *player, u
                           "another site's page may ask nothing here");
         return false;
     }
-    /* Players have a rate of their own: strangers at the same address take nothing from them. */
+    /* Each player has a rate of its own, which spectators at the same address do not use up. */
     return http_may_ask(request->http, player != NULL, now_ns) || refuse_rate(answer);
 }
 

@@ -1,4 +1,4 @@
-/* Orders out, replies in. */
+/* Sends orders and reads replies. */
 #include "clients/console/command_queue.h"
 
 #include "clients/console/result_text.h"
@@ -16,34 +16,34 @@
 #include <time.h>
 #include <unistd.h>
 
-int command_queue_open(struct command_queue *desk, const char *world, struct reason *reason)
+int command_queue_open(struct command_queue *queue, const char *world, struct reason *reason)
 {
-    *desk = (struct command_queue){.bell = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
-    if (desk->bell < 0)
+    *queue = (struct command_queue){.wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
+    if (queue->wake_fd < 0)
         return reason_set(reason, "eventfd: %s", strerror(errno));
-    return command_client_open(&desk->caller, command_socket_open(&desk->socket, world), reason);
+    return command_client_open(&queue->client, command_socket_open(&queue->socket, world), reason);
 }
 
 /* --- tickets -----------------------------------------------------------------------------------*/
 
-static void finish(struct command_queue *desk, struct pending_command **at)
+static void finish(struct command_queue *queue, struct pending_command **at)
 {
-    struct pending_command *ticket = *at;
-    *at = ticket->next;
-    desk->tickets--;
-    ticket->done = true;
-    ticket->ready(ticket);
+    struct pending_command *pending = *at;
+    *at = pending->next;
+    queue->pending_count--;
+    pending->done = true;
+    pending->ready(pending);
 }
 
-void command_queue_close(struct command_queue *desk)
+void command_queue_close(struct command_queue *queue)
 {
-    while (desk->ticket) {
-        result_text_none(&desk->ticket->answer, &desk->ticket->order, true);
-        finish(desk, &desk->ticket);
+    while (queue->pending) {
+        result_text_none(&queue->pending->answer, &queue->pending->order, true);
+        finish(queue, &queue->pending);
     }
-    name_table_close(&desk->names);
-    command_socket_close(&desk->socket);
-    close(desk->bell);
+    name_table_close(&queue->names);
+    command_socket_close(&queue->socket);
+    close(queue->wake_fd);
 }
 
 static bool is_drive(const struct command_text *order)
@@ -62,16 +62,16 @@ static bool is_command(const struct command_text *order)
     return !is_drive(order) && !is_mission(order);
 }
 
-static struct command_queue_mission *find_mission(struct command_queue *desk, uint32_t number)
+static struct command_queue_mission *find_mission(struct command_queue *queue, uint32_t number)
 {
     for (uint32_t i = 0; i < COMMAND_QUEUE_MISSIONS; i++) {
-        if (desk->mission[i].number == number)
-            return &desk->mission[i];
+        if (queue->mission[i].number == number)
+            return &queue->mission[i];
     }
     return NULL;
 }
 
-/* Which vehicle an order is for, when it does not say: the player's own. */
+/* An order without a vehicle is for the player's own. */
 static bool name_vehicle(struct command_text *order, const struct player *player,
                          struct http_answer *answer)
 {
@@ -86,11 +86,11 @@ static bool name_vehicle(struct command_text *order, const struct player *player
     return false;
 }
 
-static bool find_names(const struct command_queue *desk, struct command_text *order,
+static bool find_names(const struct command_queue *queue, struct command_text *order,
                        struct http_answer *answer)
 {
     struct reason reason;
-    if (command_text_resolve(order, &desk->names, 0.0, &reason) == 0)
+    if (command_text_resolve(order, &queue->names, 0.0, &reason) == 0)
         return true;
     http_answer_error(answer, HTTP_ANSWER_CONFLICT, "choose one on the map or in the list",
                       "%s: %s", order->verb->name, reason.text);
@@ -108,27 +108,27 @@ static struct controls controls_of(const jolon_Command *command)
                              .gear = (uint32_t)command->gear};
 }
 
-/* From the server's thread: notes what the player wants; the desk sends it. */
-static void put_drive(struct pending_command *ticket, struct player *player)
+/* Runs in the server's thread. It notes the player's controls; the main thread sends them. */
+static void put_drive(struct pending_command *pending, struct player *player)
 {
-    player->wanted = ticket->order.command.entity;
-    player->controls = controls_of(&ticket->order.command);
-    ticket->sequence = ++player->version;
+    player->wanted = pending->order.command.entity;
+    player->controls = controls_of(&pending->order.command);
+    pending->sequence = ++player->version;
 }
 
-static void end_mission(struct command_queue *desk, struct command_queue_mission *mission)
+static void end_mission(struct command_queue *queue, struct command_queue_mission *mission)
 {
-    command_series_forget(&mission->mission, &desk->caller);
+    command_series_forget(&mission->mission, &queue->client);
     mission->number = 0;
 }
 
-static bool put_cancel(struct command_queue *desk, struct pending_command *ticket,
+static bool put_cancel(struct command_queue *queue, struct pending_command *pending,
                        struct http_answer *answer)
 {
-    struct command_queue_mission *mission = find_mission(desk, ticket->cancel);
+    struct command_queue_mission *mission = find_mission(queue, pending->cancel);
     if (!mission) {
         http_answer_error(answer, HTTP_ANSWER_CONFLICT, "the state lists the missions there are",
-                          "there is no mission %u any more, or never was", ticket->cancel);
+                          "there is no mission %u any more, or never was", pending->cancel);
         return false;
     }
     json_writer_begin(&answer->text, '{');
@@ -136,60 +136,60 @@ static bool put_cancel(struct command_queue *desk, struct pending_command *ticke
     json_writer_key_whole(&answer->text, "mission", mission->number);
     json_writer_key_whole(&answer->text, "fired", mission->mission.done);
     json_writer_end(&answer->text, '}');
-    end_mission(desk, mission);
+    end_mission(queue, mission);
     return false;
 }
 
-bool command_queue_put(struct command_queue *desk, struct pending_command *ticket,
+bool command_queue_put(struct command_queue *queue, struct pending_command *pending,
                        struct player *player, uint64_t now_ns, struct http_answer *answer)
 {
-    struct command_text *order = &ticket->order;
-    if (ticket->cancel)
-        return put_cancel(desk, ticket, answer);
+    struct command_text *order = &pending->order;
+    if (pending->cancel)
+        return put_cancel(queue, pending, answer);
     bool mission = is_mission(order);
-    if (!find_names(desk, order, answer) || !name_vehicle(order, player, answer))
+    if (!find_names(queue, order, answer) || !name_vehicle(order, player, answer))
         return false;
     if (is_drive(order) && !player) {
         http_answer_error(answer, HTTP_ANSWER_FORBIDDEN, "POST /api/join first",
                           "only a player drives; X-Jolon-Player names none");
         return false;
     }
-    if (desk->tickets == COMMAND_QUEUE_TICKETS || (mission && !find_mission(desk, 0))) {
+    if (queue->pending_count == COMMAND_QUEUE_PENDING_MAX || (mission && !find_mission(queue, 0))) {
         http_answer_error(answer, HTTP_ANSWER_TOO_MANY, "wait until some are done",
                           mission ? "%u fire missions run already"
                                   : "more than %u orders wait already",
-                          mission ? COMMAND_QUEUE_MISSIONS : COMMAND_QUEUE_TICKETS);
+                          mission ? COMMAND_QUEUE_MISSIONS : COMMAND_QUEUE_PENDING_MAX);
         return false;
     }
-    ticket->next = NULL;
-    ticket->player = player ? player->number : 0;
-    ticket->source = player ? player->source : 0;
-    ticket->sequence = 0;
-    ticket->until_ns = now_ns + COMMAND_QUEUE_REPLY_NS;
+    pending->next = NULL;
+    pending->player = player ? player->number : 0;
+    pending->source = player ? player->source : 0;
+    pending->sequence = 0;
+    pending->until_ns = now_ns + COMMAND_QUEUE_REPLY_NS;
     if (is_drive(order))
-        put_drive(ticket, player);
-    struct pending_command **at = &desk->ticket;
+        put_drive(pending, player);
+    struct pending_command **at = &queue->pending;
     while (*at)
         at = &(*at)->next;
-    *at = ticket;
-    desk->tickets++;
-    (void)eventfd_write(desk->bell, 1);
+    *at = pending;
+    queue->pending_count++;
+    (void)eventfd_write(queue->wake_fd, 1);
     return true;
 }
 
 /* --- driving -----------------------------------------------------------------------------------*/
 
-static uint32_t lease_frames(const struct world_reader *watch)
+static uint32_t lease_frames(const struct world_reader *reader)
 {
-    const struct params *params = watch->view.world.params;
-    double a_second = world_reader_rate_hz(watch);
+    const struct params *params = reader->view.world.params;
+    double a_second = world_reader_rate_hz(reader);
     if (params->pace == PACE_REAL)
-        a_second = params->hz * (watch->scale > 0.0 ? watch->scale : 1.0);
+        a_second = params->hz * (reader->scale > 0.0 ? reader->scale : 1.0);
     return (uint32_t)fmin(fmax(ceil(a_second * COMMAND_QUEUE_LEASE_S), 2.0), COMMAND_LEASE_MAX);
 }
 
-static void send_drive(struct command_queue *desk, struct player *player,
-                       const struct world_reader *watch, uint64_t now_ns)
+static void send_drive(struct command_queue *queue, struct player *player,
+                       const struct world_reader *reader, uint64_t now_ns)
 {
     const struct controls *controls = &player->controls;
     jolon_Command command = {.source = player->source,
@@ -202,29 +202,29 @@ static void send_drive(struct command_queue *desk, struct player *player,
                              .elevate = controls->elevate,
                              .brake = controls->brake,
                              .gear = (jolon_Gear)controls->gear,
-                             .lease_frames = lease_frames(watch)};
-    player->sent = command_client_send(&desk->caller, &command);
+                             .lease_frames = lease_frames(reader)};
+    player->sent = command_client_send(&queue->client, &command);
     player->sent_version = player->version;
     player->sent_for = player->wanted;
     player->sent_ns = now_ns;
 }
 
-/* Nobody waits for the answer: when it is lost, the lease ends soon. */
-static void send_release(struct command_queue *desk, const struct player *player, uint32_t vehicle)
+/* The reply is not awaited: if the command is lost, the lease ends soon. */
+static void send_release(struct command_queue *queue, const struct player *player, uint32_t vehicle)
 {
     jolon_Command command = {
         .source = player->source, .type = jolon_COMMAND_RELEASE, .entity = vehicle};
-    (void)command_client_send(&desk->caller, &command);
+    (void)command_client_send(&queue->client, &command);
 }
 
-static void on_drive_reply(struct command_queue *desk, struct player *player,
+static void on_drive_reply(struct command_queue *queue, struct player *player,
                            const jolon_CommandReply *reply)
 {
     char why[sizeof player->lost];
     player->sent = 0;
     if (reply->result == jolon_RESULT_DONE) {
         if (player->vehicle && player->vehicle != player->sent_for)
-            send_release(desk, player, player->vehicle);
+            send_release(queue, player, player->vehicle);
         player->vehicle = player->sent_for;
         if (player->sent_version == player->version)
             player->accepted = player->controls;
@@ -242,47 +242,47 @@ static void on_drive_reply(struct command_queue *desk, struct player *player,
 }
 
 /* The drives of the player that this reply answers. */
-static void answer_drives(struct command_queue *desk, const struct player *player,
-                          const jolon_CommandReply *reply, const struct world_reader *watch,
+static void answer_drives(struct command_queue *queue, const struct player *player,
+                          const jolon_CommandReply *reply, const struct world_reader *reader,
                           const struct players *players)
 {
-    struct pending_command **at = &desk->ticket;
+    struct pending_command **at = &queue->pending;
     while (*at) {
-        struct pending_command *ticket = *at;
-        if (is_drive(&ticket->order) && ticket->player == player->number &&
-            ticket->sequence <= player->sent_version &&
-            ticket->order.command.entity == player->sent_for) {
-            result_text_put(&ticket->answer, &ticket->order, reply, watch, players);
-            finish(desk, at);
+        struct pending_command *pending = *at;
+        if (is_drive(&pending->order) && pending->player == player->number &&
+            pending->sequence <= player->sent_version &&
+            pending->order.command.entity == player->sent_for) {
+            result_text_put(&pending->answer, &pending->order, reply, reader, players);
+            finish(queue, at);
         } else {
-            at = &ticket->next;
+            at = &pending->next;
         }
     }
 }
 
-static void turn_player(struct command_queue *desk, struct player *player,
-                        const struct players *players, const struct world_reader *watch,
+static void turn_player(struct command_queue *queue, struct player *player,
+                        const struct players *players, const struct world_reader *reader,
                         uint64_t now_ns)
 {
     jolon_CommandReply reply;
-    if (player->sent && command_client_answered(&desk->caller, player->sent, &reply)) {
-        on_drive_reply(desk, player, &reply);
-        answer_drives(desk, player, &reply, watch, players);
+    if (player->sent && command_client_answered(&queue->client, player->sent, &reply)) {
+        on_drive_reply(queue, player, &reply);
+        answer_drives(queue, player, &reply, reader, players);
     } else if (player->sent && now_ns > player->sent_ns + COMMAND_QUEUE_REPLY_NS) {
-        command_client_forget(&desk->caller, player->sent);
+        command_client_forget(&queue->client, player->sent);
         player->sent = 0;
     }
     if (player->wanted && now_ns > player->heard_ns + PLAYERS_LEAVE_NS) {
         if (player->sent)
-            command_client_forget(&desk->caller, player->sent);
-        send_release(desk, player, player->wanted);
+            command_client_forget(&queue->client, player->sent);
+        send_release(queue, player, player->wanted);
         players_drop(player, "given back: nothing was heard of your page");
     }
     bool news = player->version != player->sent_version;
     bool due =
         players_present(player, now_ns) && now_ns >= player->sent_ns + COMMAND_QUEUE_RENEW_NS;
-    if (player->wanted && !player->sent && watch->there && (news || due))
-        send_drive(desk, player, watch, now_ns);
+    if (player->wanted && !player->sent && reader->there && (news || due))
+        send_drive(queue, player, reader, now_ns);
     if (now_ns > player->heard_ns + PLAYERS_FORGET_NS)
         player->number = 0;
 }
@@ -298,90 +298,91 @@ static struct player *player_of(struct players *players, uint32_t number)
     return NULL;
 }
 
-static uint64_t simulated_ns(const struct world_reader *watch)
+static uint64_t simulated_ns(const struct world_reader *reader)
 {
-    return (uint64_t)(watch->time_s * NS_PER_S);
+    return (uint64_t)(reader->time_s * NS_PER_S);
 }
 
-static void start_mission(struct command_queue *desk, struct pending_command *ticket,
-                          const struct world_reader *watch)
+static void start_mission(struct command_queue *queue, struct pending_command *pending,
+                          const struct world_reader *reader)
 {
-    struct command_queue_mission *mission = find_mission(desk, 0);
+    struct command_queue_mission *mission = find_mission(queue, 0);
     if (!mission)
-        return; /* others were put at the same moment: it waits for a place */
-    mission->number = ++desk->missions;
-    command_series_begin(&mission->mission, &ticket->order, simulated_ns(watch));
-    ticket->sequence = mission->number;
+        return; /* all places are taken: the command waits for one */
+    mission->number = ++queue->missions;
+    command_series_begin(&mission->mission, &pending->order, simulated_ns(reader));
+    pending->sequence = mission->number;
 }
 
-static void send_ticket(struct command_queue *desk, struct pending_command *ticket,
-                        struct players *players, const struct world_reader *watch)
+static void send_pending(struct command_queue *queue, struct pending_command *pending,
+                         struct players *players, const struct world_reader *reader)
 {
-    if (is_mission(&ticket->order)) {
-        start_mission(desk, ticket, watch);
+    if (is_mission(&pending->order)) {
+        start_mission(queue, pending, reader);
         return;
     }
-    jolon_Command command = ticket->order.command;
-    struct player *player = player_of(players, ticket->player);
-    command.source = ticket->source;
+    jolon_Command command = pending->order.command;
+    struct player *player = player_of(players, pending->player);
+    command.source = pending->source;
     if (player && command.type == jolon_COMMAND_RELEASE && command.entity == player->wanted) {
         if (player->sent)
-            command_client_forget(&desk->caller, player->sent);
+            command_client_forget(&queue->client, player->sent);
         players_drop(player, "");
     }
-    ticket->sequence = command_client_send(&desk->caller, &command);
+    pending->sequence = command_client_send(&queue->client, &command);
 }
 
-/* Nobody is told "no reply" and drives all the same later. */
-static void give_up(struct command_queue *desk, struct pending_command *ticket,
+/* Forgets a command without a reply, so that it is not carried out after the player has read that
+ * no reply came. */
+static void give_up(struct command_queue *queue, struct pending_command *pending,
                     struct players *players)
 {
-    struct player *player = player_of(players, ticket->player);
-    if (is_command(&ticket->order) && ticket->sequence)
-        command_client_forget(&desk->caller, ticket->sequence);
-    if (is_drive(&ticket->order) && player && player->wanted != player->vehicle) {
+    struct player *player = player_of(players, pending->player);
+    if (is_command(&pending->order) && pending->sequence)
+        command_client_forget(&queue->client, pending->sequence);
+    if (is_drive(&pending->order) && player && player->wanted != player->vehicle) {
         player->wanted = player->vehicle;
         player->controls = player->accepted;
     }
-    result_text_none(&ticket->answer, &ticket->order, command_client_heard(&desk->caller));
+    result_text_none(&pending->answer, &pending->order, command_client_heard(&queue->client));
 }
 
-static void turn_tickets(struct command_queue *desk, struct players *players,
-                         const struct world_reader *watch, uint64_t now_ns)
+static void turn_pending(struct command_queue *queue, struct players *players,
+                         const struct world_reader *reader, uint64_t now_ns)
 {
     jolon_CommandReply reply;
-    struct pending_command **at = &desk->ticket;
+    struct pending_command **at = &queue->pending;
     while (*at) {
-        struct pending_command *ticket = *at;
-        if (!ticket->sequence)
-            send_ticket(desk, ticket, players, watch);
-        if (is_command(&ticket->order) && ticket->sequence &&
-            command_client_answered(&desk->caller, ticket->sequence, &reply)) {
-            result_text_put(&ticket->answer, &ticket->order, &reply, watch, players);
-            finish(desk, at);
-        } else if (now_ns >= ticket->until_ns) {
-            give_up(desk, ticket, players);
-            finish(desk, at);
+        struct pending_command *pending = *at;
+        if (!pending->sequence)
+            send_pending(queue, pending, players, reader);
+        if (is_command(&pending->order) && pending->sequence &&
+            command_client_answered(&queue->client, pending->sequence, &reply)) {
+            result_text_put(&pending->answer, &pending->order, &reply, reader, players);
+            finish(queue, at);
+        } else if (now_ns >= pending->until_ns) {
+            give_up(queue, pending, players);
+            finish(queue, at);
         } else {
-            at = &ticket->next;
+            at = &pending->next;
         }
     }
 }
 
 /* --- fire missions -----------------------------------------------------------------------------*/
 
-/* Who ordered it hears of its first round. */
-static void answer_mission(struct command_queue *desk, const struct command_queue_mission *mission,
-                           const jolon_CommandReply *reply, const struct world_reader *watch,
+/* Answers the request for the mission with the reply to its first round. */
+static void answer_mission(struct command_queue *queue, const struct command_queue_mission *mission,
+                           const jolon_CommandReply *reply, const struct world_reader *reader,
                            const struct players *players)
 {
-    struct pending_command **at = &desk->ticket;
+    struct pending_command **at = &queue->pending;
     while (*at && (!is_mission(&(*at)->order) || (*at)->sequence != mission->number))
         at = &(*at)->next;
     if (!*at)
         return;
-    struct pending_command *ticket = *at;
-    struct json_writer *text = &ticket->answer.text;
+    struct pending_command *pending = *at;
+    struct json_writer *text = &pending->answer.text;
     if (reply->result == jolon_RESULT_DONE) {
         json_writer_begin(text, '{');
         json_writer_key_word(text, "result", "done");
@@ -391,72 +392,72 @@ static void answer_mission(struct command_queue *desk, const struct command_queu
         json_writer_key_whole(text, "seed", mission->mission.seed);
         json_writer_end(text, '}');
     } else {
-        result_text_put(&ticket->answer, &ticket->order, reply, watch, players);
+        result_text_put(&pending->answer, &pending->order, reply, reader, players);
     }
-    finish(desk, at);
+    finish(queue, at);
 }
 
-static void turn_mission(struct command_queue *desk, struct command_queue_mission *mission,
-                         const struct world_reader *watch, const struct players *players)
+static void turn_mission(struct command_queue *queue, struct command_queue_mission *mission,
+                         const struct world_reader *reader, const struct players *players)
 {
     jolon_CommandReply reply;
     uint32_t round;
     bool possible = true;
-    while (command_series_answer(&mission->mission, &desk->caller, &reply, &round)) {
-        answer_mission(desk, mission, &reply, watch, players);
+    while (command_series_answer(&mission->mission, &queue->client, &reply, &round)) {
+        answer_mission(queue, mission, &reply, reader, players);
         possible = possible && reply.result != jolon_RESULT_NO_SUCH_KIND;
     }
-    /* One that can never fall is not tried again. */
+    /* A munition that does not exist is not tried again. */
     if (command_series_over(&mission->mission) || !possible)
-        end_mission(desk, mission);
-    else if (watch->there)
-        command_series_send(&mission->mission, &desk->caller, simulated_ns(watch));
+        end_mission(queue, mission);
+    else if (reader->there)
+        command_series_send(&mission->mission, &queue->client, simulated_ns(reader));
 }
 
 /* --- turns -------------------------------------------------------------------------------------*/
 
-void command_queue_turn(struct command_queue *desk, struct players *players,
-                        const struct world_reader *watch, uint64_t now_ns)
+void command_queue_turn(struct command_queue *queue, struct players *players,
+                        const struct world_reader *reader, uint64_t now_ns)
 {
     eventfd_t rung;
-    (void)eventfd_read(desk->bell, &rung);
-    command_client_turn(&desk->caller);
+    (void)eventfd_read(queue->wake_fd, &rung);
+    command_client_turn(&queue->client);
     for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
         if (players->player[i].number)
-            turn_player(desk, &players->player[i], players, watch, now_ns);
+            turn_player(queue, &players->player[i], players, reader, now_ns);
     }
-    turn_tickets(desk, players, watch, now_ns);
+    turn_pending(queue, players, reader, now_ns);
     for (uint32_t i = 0; i < COMMAND_QUEUE_MISSIONS; i++) {
-        if (desk->mission[i].number)
-            turn_mission(desk, &desk->mission[i], watch, players);
+        if (queue->mission[i].number)
+            turn_mission(queue, &queue->mission[i], reader, players);
     }
 }
 
-void command_queue_world_changed(struct command_queue *desk, struct players *players,
-                                 const struct world_reader *watch)
+void command_queue_world_changed(struct command_queue *queue, struct players *players,
+                                 const struct world_reader *reader)
 {
-    name_table_close(&desk->names); /* without memory no vehicle has a name */
-    if (watch->there)
-        (void)name_table_read_world(&desk->names, &watch->view.world, watch->view.header->made);
+    name_table_close(&queue->names); /* out of memory: vehicles have no names */
+    if (reader->there)
+        (void)name_table_read_world(&queue->names, &reader->view.world, reader->view.header->made);
     for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
         struct player *player = &players->player[i];
         if (!player->number)
             continue;
         if (player->sent)
-            command_client_forget(&desk->caller, player->sent);
+            command_client_forget(&queue->client, player->sent);
         if (player->wanted)
             players_drop(player, "the world is another one");
     }
     for (uint32_t i = 0; i < COMMAND_QUEUE_MISSIONS; i++) {
-        if (desk->mission[i].number)
-            end_mission(desk, &desk->mission[i]);
+        if (queue->mission[i].number)
+            end_mission(queue, &queue->mission[i]);
     }
 }
 
-void command_queue_wait(struct command_queue *desk, uint64_t until_ns)
+void command_queue_wait(struct command_queue *queue, uint64_t until_ns)
 {
-    struct pollfd wakes[] = {{.fd = desk->bell, .events = POLLIN},
-                             {.fd = command_client_descriptor(&desk->caller), .events = POLLIN}};
+    struct pollfd wakes[] = {{.fd = queue->wake_fd, .events = POLLIN},
+                             {.fd = command_client_descriptor(&queue->client), .events = POLLIN}};
     uint64_t now_ns = clock_now_ns();
     uint64_t left_ns = until_ns > now_ns ? until_ns - now_ns : 0;
     struct timespec left = {.tv_sec = (time_t)(left_ns / NS_PER_S),

@@ -1,10 +1,12 @@
-/* The desk: orders go out as commands, over the world's command socket, and replies come back.
- * Requests leave tickets from the server's thread; the desk's own thread sends, repeats and
- * answers, so that each order is done once whatever dies meanwhile.
+/* The console's commands: it sends the players' orders over the world's command socket and reads
+ * the replies. The server's thread appends pending commands. The console's main thread sends them,
+ * repeats them and writes the answers, so that each order is carried out once although a process
+ * may die meanwhile.
  *
- * Who drives is held for COMMAND_QUEUE_LEASE_S of simulation, renewed while the player's page goes
- * on asking (clients/console/players.h): a page that goes away, a console that dies, loses its
- * vehicle in two seconds. Everything but command_queue_wait() is under the console's lock. */
+ * A player holds a vehicle by a lease of COMMAND_QUEUE_LEASE_S of simulated time. The lease is
+ * renewed while the player's page sends requests (clients/console/players.h). When the page is
+ * closed or the console dies, the vehicle returns to its agent after at most two seconds. All
+ * functions but command_queue_wait() are called under the console's lock. */
 #ifndef JOLON_CLIENTS_CONSOLE_COMMAND_QUEUE_H
 #define JOLON_CLIENTS_CONSOLE_COMMAND_QUEUE_H
 
@@ -14,11 +16,11 @@
 #include "ipc/topics/command_socket.h"
 #include "ipc/topics/command_series.h"
 
-#define COMMAND_QUEUE_TICKETS  128u /* orders that wait, in all */
-#define COMMAND_QUEUE_MISSIONS 8u   /* that run at a time */
-#define COMMAND_QUEUE_REPLY_NS 3000000000u
-#define COMMAND_QUEUE_RENEW_NS 150000000u
-#define COMMAND_QUEUE_LEASE_S  1.0
+#define COMMAND_QUEUE_PENDING_MAX 128u /* orders that wait, in all */
+#define COMMAND_QUEUE_MISSIONS    8u   /* that run at a time */
+#define COMMAND_QUEUE_REPLY_NS    3000000000u
+#define COMMAND_QUEUE_RENEW_NS    150000000u
+#define COMMAND_QUEUE_LEASE_S     1.0
 
 struct pending_command {
     struct pending_command *next;
@@ -31,7 +33,7 @@ struct pending_command {
     uint64_t until_ns;
     struct http_answer answer; /* when it is done */
     bool done;
-    void (*ready)(struct pending_command *ticket); /* called once, when it is done */
+    void (*ready)(struct pending_command *pending); /* called once, when it is done */
 };
 
 /* Its rounds are due in simulated time. */
@@ -42,34 +44,35 @@ struct command_queue_mission {
 
 struct command_queue {
     struct command_socket socket; /* of the caller */
-    struct command_client caller;
+    struct command_client client;
     struct name_table names;
-    int bell;                       /* an eventfd that wakes the desk's thread */
-    struct pending_command *ticket; /* those that wait, the oldest first */
-    uint32_t tickets;
+    int wake_fd;                     /* an eventfd that wakes the main thread */
+    struct pending_command *pending; /* those that wait, the oldest first */
+    uint32_t pending_count;
     struct command_queue_mission mission[COMMAND_QUEUE_MISSIONS];
     uint32_t missions; /* ever */
 };
 
 /* 0, or -1 with the reason. */
-int command_queue_open(struct command_queue *desk, const char *world, struct reason *reason);
-/* Answers those that wait, too. */
-void command_queue_close(struct command_queue *desk);
+int command_queue_open(struct command_queue *queue, const char *world, struct reason *reason);
+/* Also answers the pending commands: there was no reply. */
+void command_queue_close(struct command_queue *queue);
 
-/* Takes an order, whose ticket is the desk's until ready is called; player NULL: in the console's
- * own name. False with the answer when it can be told at once that it will not do. */
-bool command_queue_put(struct command_queue *desk, struct pending_command *ticket,
+/* Appends an order, which stays with the queue until ready() is called; player NULL: the order is
+ * the console's own. Returns false, with the answer, if the order is refused or done at once. */
+bool command_queue_put(struct command_queue *queue, struct pending_command *pending,
                        struct player *player, uint64_t now_ns, struct http_answer *answer);
 
-/* Sends what is to be sent and answers what can be answered. */
-void command_queue_turn(struct command_queue *desk, struct players *players,
-                        const struct world_reader *watch, uint64_t now_ns);
+/* Sends the commands that are due and answers those whose reply has come. */
+void command_queue_turn(struct command_queue *queue, struct players *players,
+                        const struct world_reader *reader, uint64_t now_ns);
 
-/* The world is another one, or gone: nobody drives in it. Reads the names of its vehicles. */
-void command_queue_world_changed(struct command_queue *desk, struct players *players,
-                                 const struct world_reader *watch);
+/* Called when the world was replaced or removed: takes all vehicles from their players and reads
+ * the names of the new world's vehicles. */
+void command_queue_world_changed(struct command_queue *queue, struct players *players,
+                                 const struct world_reader *reader);
 
-/* Waits for a ticket, a reply, or until_ns (CLOCK_MONOTONIC). */
-void command_queue_wait(struct command_queue *desk, uint64_t until_ns);
+/* Blocks until a command is appended, a reply comes, or until_ns (CLOCK_MONOTONIC). */
+void command_queue_wait(struct command_queue *queue, uint64_t until_ns);
 
 #endif

@@ -1,5 +1,5 @@
 /* What happened, in words, out of the event ring. */
-#include "clients/console/tell.h"
+#include "clients/console/events_json.h"
 
 #include "ipc/frame/event_cursor.h"
 #include "ipc/frame/snapshot.h"
@@ -9,8 +9,10 @@
 
 #include <string.h>
 
-#define BATCH    128u
-#define SCAN_MAX 8192u /* events looked at for one answer */
+#define EVENTS     100u /* by default ... */
+#define EVENTS_MAX 500u /* ... and at most */
+#define BATCH      128u
+#define SCAN_MAX   8192u /* events looked at for one answer */
 
 /* Bits of event types, and one for drives that were done: there are several a second of each
  * player, so they are told only to who asks for them. */
@@ -22,9 +24,9 @@ static const char *type_word(uint32_t bit)
 }
 
 /* types=collision,fire,... */
-static bool read_types(const struct tell *tell, uint32_t *types, struct http_answer *answer)
+static bool read_types(const struct world_query *query, uint32_t *types, struct http_answer *answer)
 {
-    const char *at = query_text(&tell->query, "types");
+    const char *at = query_text(&query->arguments, "types");
     *types = *at ? 0 : DRIVE_BIT - 1;
     while (*at) {
         size_t length = strcspn(at, ",");
@@ -123,7 +125,7 @@ struct asked {
 static uint64_t newest(const struct view *view, const struct asked *asked, uint64_t end)
 {
     struct event batch[BATCH];
-    uint64_t place[TELL_EVENTS_MAX];
+    uint64_t place[EVENTS_MAX];
     struct event_cursor cursor = {.next = end > SCAN_MAX ? end - SCAN_MAX : 0};
     uint64_t seen = 0;
     uint32_t count;
@@ -161,16 +163,16 @@ static void put_events(struct json_writer *text, const struct view *view, const 
     json_writer_end(text, ']');
 }
 
-void events_json(const struct tell *tell, struct http_answer *answer)
+void events_json(const struct world_query *query, struct http_answer *answer)
 {
     struct json_writer *text = &answer->text;
-    struct asked asked = {.from_now = !*query_text(&tell->query, "after")};
+    struct asked asked = {.from_now = !*query_text(&query->arguments, "after")};
     struct state_head head;
-    if (!query_whole(&tell->query, "after", 0, UINT64_MAX, 0, &asked.after, answer) ||
-        !query_whole(&tell->query, "most", 1, TELL_EVENTS_MAX, TELL_EVENTS, &asked.most, answer) ||
-        !read_types(tell, &asked.types, answer) || !tell_there(tell, answer))
+    if (!query_whole(&query->arguments, "after", 0, UINT64_MAX, 0, &asked.after, answer) ||
+        !query_whole(&query->arguments, "most", 1, EVENTS_MAX, EVENTS, &asked.most, answer) ||
+        !read_types(query, &asked.types, answer) || !world_query_attached(query, answer))
         return;
-    const struct view *view = &tell->watch->view;
+    const struct view *view = &query->reader->view;
     if (snapshot_head(&head, view) != 0) {
         http_answer_error(answer, HTTP_ANSWER_AWAY, "ask again",
                           "the last frame cannot be read just now");

@@ -1,6 +1,6 @@
-/* JSON as it is written: into memory that grows up to a bound. Commas and quotes are put where they
- * belong; what text holds is escaped. cJSON makes a tree first, which costs more than all the rest
- * of an answer with thousands of numbers. Nothing here fails but text.failed, at the end. */
+/* Writes JSON into memory that grows up to a limit. It places commas and quotes and escapes
+ * strings. cJSON would build a tree first, which costs more than the rest of an answer of thousands
+ * of numbers. The functions return no error: check `failed` at the end. */
 #ifndef JOLON_CLIENTS_CONSOLE_JSON_WRITER_H
 #define JOLON_CLIENTS_CONSOLE_JSON_WRITER_H
 
@@ -13,26 +13,26 @@
 struct json_writer {
     char *bytes;
     size_t used, room;
-    bool comma;  /* wanted before what comes next */
+    bool comma;  /* needed before the next value */
     bool failed; /* no memory, or too long */
 };
 
 void json_writer_free(struct json_writer *text);
 
-/* '{' or '[', and what ends it. */
+/* Opening bracket, '{' or '[', and the closing one. */
 void json_writer_begin(struct json_writer *text, char bracket);
 void json_writer_end(struct json_writer *text, char bracket);
 
-/* Within an object, before a value. */
+/* Called before each value of an object. */
 void json_writer_key(struct json_writer *text, const char *key);
 
 void json_writer_word(struct json_writer *text, const char *word);
 void json_writer_whole(struct json_writer *text, uint64_t value);
-/* With at most so many decimals, 0..9; null when it is not finite or beyond 1e9. */
+/* Writes at most `decimals` (0..9) decimals; null if the value is not finite or beyond 1e9. */
 void json_writer_number(struct json_writer *text, double value, int decimals);
 void json_writer_bool(struct json_writer *text, bool value);
 
-/* Key and value at once. */
+/* Writes a key and its value. */
 void json_writer_key_word(struct json_writer *text, const char *key, const char *word);
 void json_writer_key_whole(struct json_writer *text, const char *key, uint64_t value);
 void json_writer_key_number(struct json_writer *text, const char *key, double value, int decimals);

@@ -61,14 +61,14 @@ static void beat(struct view *set)
 static void turn(uint64_t now_ns)
 {
     pthread_mutex_lock(&console.lock);
-    if (world_reader_turn(&console.watch, now_ns)) {
-        command_queue_world_changed(&console.desk, &console.players, &console.watch);
-        if (console.watch.there)
-            log_info("world \"%s\" is there", console.watch.name);
+    if (world_reader_turn(&console.reader, now_ns)) {
+        command_queue_world_changed(&console.queue, &console.players, &console.reader);
+        if (console.reader.there)
+            log_info("world \"%s\" is there", console.reader.name);
         else
-            log_info("%s; waiting for it", console.watch.why.text);
+            log_info("%s; waiting for it", console.reader.why.text);
     }
-    command_queue_turn(&console.desk, &console.players, &console.watch, now_ns);
+    command_queue_turn(&console.queue, &console.players, &console.reader, now_ns);
     pthread_mutex_unlock(&console.lock);
     http_server_sweep(console.http, now_ns);
 }
@@ -91,14 +91,14 @@ int main(int argc, char **argv)
                                               .port_option = "--port",
                                               .address = options.address,
                                               .port = (uint16_t)options.port};
-    world_reader_open(&console.watch, options.world);
+    world_reader_open(&console.reader, options.world);
     if (runtime_folder(folder, &reason) != 0 || choose_token(&options, &reason) != 0 ||
         (options.role && segment_attach(&set, options.world, ROLE_CONSOLE, &reason) != 0) ||
         sandbox_begin(&sandbox, ROLE_CONSOLE, options.sandbox_off, &reason) != 0 ||
         sandbox_files(&sandbox, NULL, 0, &reason) != 0 ||
         http_listen(&console.listener, &where, &reason) != 0 ||
-        command_queue_open(&console.desk, options.world, &reason) != 0 ||
-        picture_proxy_open(&console.pictures, options.world, &reason) != 0 ||
+        command_queue_open(&console.queue, options.world, &reason) != 0 ||
+        picture_proxy_open(&console.proxy, options.world, &reason) != 0 ||
         server_start(&console, &reason) != 0)
         die_refused("%s", reason.text);
     greet(&options); /* the first word to a terminal asks what it is: not in the sandbox */
@@ -111,10 +111,10 @@ int main(int argc, char **argv)
         if (options.role)
             beat(&set);
         turn(now_ns);
-        command_queue_wait(&console.desk, now_ns + TURN_NS);
+        command_queue_wait(&console.queue, now_ns + TURN_NS);
     }
     server_end(&console);
-    world_reader_close(&console.watch);
+    world_reader_close(&console.reader);
     segment_detach(&set);
     return EXIT_OK;
 }

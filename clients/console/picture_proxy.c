@@ -1,4 +1,4 @@
-/* Channels, and who waits on them. */
+/* Channels and the requests that wait on them. */
 #include "clients/console/picture_proxy.h"
 
 #include "clients/console/renderer_client.h"
@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FRESH_NS   25000000ull   /* a picture so young is as good as a new one */
-#define LASTING_NS 2000000000ull /* the same of a map: craters come, and that is all */
-#define AWAY_NS    200000000ull  /* who is away is not asked for again so soon */
-#define FETCHES    2u            /* that one who waits sees, at most */
+#define FRESH_NS   25000000ull   /* a younger picture counts as new */
+#define LASTING_NS 2000000000ull /* the same for a map, in which only craters appear */
+#define AWAY_NS    200000000ull  /* pause before an absent renderer is asked again */
+#define FETCHES    2u            /* a request waits for at most so many */
 #define VALUE_MAX  24u
 
 /* --- what is asked for -------------------------------------------------------------------------*/
@@ -36,7 +36,7 @@ static bool put_value(const struct query *query, const char *key, char target[PI
 }
 
 bool picture_proxy_target(const struct query *query, bool map, char target[PICTURE_PROXY_TARGET],
-                          struct gaze *gaze, struct http_answer *answer)
+                          struct picture_waiter *waiter, struct http_answer *answer)
 {
     static const char *const of_picture[] = {"view", "vehicle", "size", "bar"};
     static const char *const of_map[] = {"x", "z", "metres", "size"};
@@ -46,8 +46,8 @@ bool picture_proxy_target(const struct query *query, bool map, char target[PICTU
         if (!put_value(query, keys[i], target, answer))
             return false;
     }
-    gaze->has_after = !map && *query_text(query, "after");
-    return map || query_whole(query, "after", 0, UINT64_MAX / 16, 0, &gaze->after, answer);
+    waiter->has_after = !map && *query_text(query, "after");
+    return map || query_whole(query, "after", 0, UINT64_MAX / 16, 0, &waiter->after, answer);
 }
 
 /* --- copies ------------------------------------------------------------------------------------*/
@@ -86,12 +86,12 @@ void picture_proxy_explain(const struct picture_copy *copy, struct http_answer *
 
 /* --- asking ------------------------------------------------------------------------------------*/
 
-/* The target's channel: the one it has, a free one, or the one that was longest not asked for. */
-static struct channel *find_channel(struct picture_proxy *pictures, const char *target)
+/* The target's channel: its own one, a free one, or the least recently used one. */
+static struct channel *find_channel(struct picture_proxy *proxy, const char *target)
 {
     struct channel *found = NULL;
     for (uint32_t i = 0; i < PICTURE_PROXY_CHANNELS; i++) {
-        struct channel *channel = &pictures->channel[i];
+        struct channel *channel = &proxy->channel[i];
         if (strcmp(channel->target, target) == 0)
             return channel;
         if (!channel->fetching && !channel->waiting &&
@@ -106,8 +106,9 @@ static struct channel *find_channel(struct picture_proxy *pictures, const char *
     return found;
 }
 
-/* Will what there is do? */
-static bool is_enough(const struct channel *channel, const struct gaze *gaze, uint64_t now_ns)
+/* Returns true if the channel's copy is new enough for the request. */
+static bool is_enough(const struct channel *channel, const struct picture_waiter *waiter,
+                      uint64_t now_ns)
 {
     const struct picture_copy *copy = channel->copy;
     uint64_t age_ns = now_ns - channel->copied_ns;
@@ -117,156 +118,159 @@ static bool is_enough(const struct channel *channel, const struct gaze *gaze, ui
         return age_ns < AWAY_NS;
     if (channel->lasting)
         return age_ns < LASTING_NS;
-    return gaze->has_after ? copy->number != gaze->after && age_ns < 2 * FRESH_NS
-                           : age_ns < FRESH_NS;
+    return waiter->has_after ? copy->number != waiter->after && age_ns < 2 * FRESH_NS
+                             : age_ns < FRESH_NS;
 }
 
-bool picture_proxy_ask(struct picture_proxy *pictures, const char *target, struct gaze *gaze,
-                       struct http_answer *answer)
+bool picture_proxy_ask(struct picture_proxy *proxy, const char *target,
+                       struct picture_waiter *waiter, struct http_answer *answer)
 {
     uint64_t now_ns = clock_now_ns();
-    pthread_mutex_lock(&pictures->lock);
-    struct channel *channel = pictures->ending ? NULL : find_channel(pictures, target);
-    bool now = !channel || is_enough(channel, gaze, now_ns);
+    pthread_mutex_lock(&proxy->lock);
+    struct channel *channel = proxy->ending ? NULL : find_channel(proxy, target);
+    bool now = !channel || is_enough(channel, waiter, now_ns);
     if (!channel) {
         http_answer_error(answer, HTTP_ANSWER_AWAY, "look at what others look at, or ask again",
                           "more than %u different pictures are asked for", PICTURE_PROXY_CHANNELS);
     } else if (now) {
-        gaze->copy = hold(channel->copy);
-        gaze->done = true;
+        waiter->copy = hold(channel->copy);
+        waiter->done = true;
     } else {
-        gaze->next = channel->waiting;
-        channel->waiting = gaze;
-        pthread_cond_signal(&pictures->come);
+        waiter->next = channel->waiting;
+        channel->waiting = waiter;
+        pthread_cond_signal(&proxy->come);
     }
     if (channel)
         channel->asked_ns = now_ns;
-    pthread_mutex_unlock(&pictures->lock);
+    pthread_mutex_unlock(&proxy->lock);
     return now;
 }
 
 /* --- fetching ----------------------------------------------------------------------------------*/
 
-static struct channel *next_channel(struct picture_proxy *pictures)
+static struct channel *next_channel(struct picture_proxy *proxy)
 {
     for (uint32_t i = 0; i < PICTURE_PROXY_CHANNELS; i++) {
-        struct channel *channel = &pictures->channel[(pictures->turn + i) % PICTURE_PROXY_CHANNELS];
+        struct channel *channel = &proxy->channel[(proxy->turn + i) % PICTURE_PROXY_CHANNELS];
         if (channel->waiting && !channel->fetching) {
-            pictures->turn = (uint32_t)(channel - pictures->channel) + 1;
+            proxy->turn = (uint32_t)(channel - proxy->channel) + 1;
             return channel;
         }
     }
     return NULL;
 }
 
-/* The picture that all who wait have already: a newer one than that is wanted. 0: any will do. */
+/* The number of the picture that all waiting pages have already, so that a newer one is needed. 0:
+ * any picture will do. */
 static uint64_t all_have(const struct channel *channel)
 {
     uint64_t after = channel->waiting->after;
-    for (const struct gaze *gaze = channel->waiting; gaze; gaze = gaze->next) {
-        if (!gaze->has_after || gaze->after != after)
+    for (const struct picture_waiter *waiter = channel->waiting; waiter; waiter = waiter->next) {
+        if (!waiter->has_after || waiter->after != after)
             return 0;
     }
     return after;
 }
 
-/* Takes those out for whom the channel's copy will do, or who have waited long enough: `begun` and
- * those behind it waited when the fetch began, which counts as so many. */
-static struct gaze *take_satisfied(struct channel *channel, struct gaze *begun, uint32_t fetches)
+/* Removes the requests that the channel's copy satisfies or that have waited for FETCHES fetches.
+ * `begun` and the requests behind it were waiting when the fetch began. For them it counts as
+ * `fetches`. */
+static struct picture_waiter *take_satisfied(struct channel *channel, struct picture_waiter *begun,
+                                             uint32_t fetches)
 {
-    struct gaze *satisfied = NULL, **at = &channel->waiting;
+    struct picture_waiter *satisfied = NULL, **at = &channel->waiting;
     bool old = false;
     while (*at) {
-        struct gaze *gaze = *at;
+        struct picture_waiter *waiter = *at;
         const struct picture_copy *copy = channel->copy;
-        old = old || gaze == begun;
-        gaze->fetches += old ? fetches : 0;
-        bool other = !gaze->has_after || (copy && copy->number != gaze->after);
-        if (!copy || copy->status != 200 || gaze->fetches >= FETCHES || (old && other)) {
-            *at = gaze->next;
-            gaze->copy = copy ? hold(channel->copy) : NULL;
-            gaze->done = true;
-            gaze->next = satisfied;
-            satisfied = gaze;
+        old = old || waiter == begun;
+        waiter->fetches += old ? fetches : 0;
+        bool other = !waiter->has_after || (copy && copy->number != waiter->after);
+        if (!copy || copy->status != 200 || waiter->fetches >= FETCHES || (old && other)) {
+            *at = waiter->next;
+            waiter->copy = copy ? hold(channel->copy) : NULL;
+            waiter->done = true;
+            waiter->next = satisfied;
+            satisfied = waiter;
         } else {
-            at = &gaze->next;
+            at = &waiter->next;
         }
     }
     return satisfied;
 }
 
-/* Under the lock, which it leaves meanwhile. */
-static void serve(struct picture_proxy *pictures, struct channel *channel)
+/* Called under the lock, which it releases during the fetch. */
+static void serve(struct picture_proxy *proxy, struct channel *channel)
 {
     char target[PICTURE_PROXY_TARGET];
-    struct gaze *begun = channel->waiting;
+    struct picture_waiter *begun = channel->waiting;
     uint64_t after = all_have(channel);
     memcpy(target, channel->target, sizeof target);
     channel->fetching = true;
-    pthread_mutex_unlock(&pictures->lock);
+    pthread_mutex_unlock(&proxy->lock);
     struct picture_copy *copy =
-        renderer_client(pictures->world, target, after, clock_now_ns() + PICTURE_PROXY_FETCH_NS);
-    pthread_mutex_lock(&pictures->lock);
+        renderer_client(proxy->world, target, after, clock_now_ns() + PICTURE_PROXY_FETCH_NS);
+    pthread_mutex_lock(&proxy->lock);
     picture_proxy_release(channel->copy);
     channel->copy = copy;
     channel->copied_ns = clock_now_ns();
     channel->fetching = false;
-    struct gaze *satisfied = take_satisfied(channel, begun, after ? FETCHES : 1);
-    pthread_mutex_unlock(&pictures->lock);
+    struct picture_waiter *satisfied = take_satisfied(channel, begun, after ? FETCHES : 1);
+    pthread_mutex_unlock(&proxy->lock);
     while (satisfied) {
-        struct gaze *gaze = satisfied;
-        satisfied = gaze->next; /* it is another's as soon as it is ready */
-        gaze->ready(gaze);
+        struct picture_waiter *waiter = satisfied;
+        satisfied = waiter->next; /* ready() gives the waiter away */
+        waiter->ready(waiter);
     }
-    pthread_mutex_lock(&pictures->lock);
+    pthread_mutex_lock(&proxy->lock);
 }
 
 static void *run(void *argument)
 {
-    struct picture_proxy *pictures = argument;
+    struct picture_proxy *proxy = argument;
     struct channel *channel;
-    pthread_mutex_lock(&pictures->lock);
+    pthread_mutex_lock(&proxy->lock);
     for (;;) {
-        if ((channel = next_channel(pictures)) != NULL)
-            serve(pictures, channel);
-        else if (pictures->ending)
+        if ((channel = next_channel(proxy)) != NULL)
+            serve(proxy, channel);
+        else if (proxy->ending)
             break;
         else
-            pthread_cond_wait(&pictures->come, &pictures->lock);
+            pthread_cond_wait(&proxy->come, &proxy->lock);
     }
-    pthread_mutex_unlock(&pictures->lock);
+    pthread_mutex_unlock(&proxy->lock);
     return NULL;
 }
 
-int picture_proxy_open(struct picture_proxy *pictures, const char *world, struct reason *reason)
+int picture_proxy_open(struct picture_proxy *proxy, const char *world, struct reason *reason)
 {
     sigset_t all, before;
     int cause = 0;
-    *pictures = (struct picture_proxy){.world = world};
-    pthread_mutex_init(&pictures->lock, NULL);
-    pthread_cond_init(&pictures->come, NULL);
-    sigfillset(&all); /* signals are the first thread's */
+    *proxy = (struct picture_proxy){.world = world};
+    pthread_mutex_init(&proxy->lock, NULL);
+    pthread_cond_init(&proxy->come, NULL);
+    sigfillset(&all); /* the main thread handles signals */
     sigdelset(&all, SIGSYS);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    while (pictures->threads < PICTURE_PROXY_THREADS && cause == 0) {
-        cause = pthread_create(&pictures->thread[pictures->threads], NULL, run, pictures);
-        pictures->threads += cause == 0;
+    while (proxy->threads < PICTURE_PROXY_THREADS && cause == 0) {
+        cause = pthread_create(&proxy->thread[proxy->threads], NULL, run, proxy);
+        proxy->threads += cause == 0;
     }
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (cause == 0)
         return 0;
-    picture_proxy_close(pictures);
+    picture_proxy_close(proxy);
     return reason_set(reason, "cannot start a thread for pictures: %s", strerror(cause));
 }
 
-void picture_proxy_close(struct picture_proxy *pictures)
+void picture_proxy_close(struct picture_proxy *proxy)
 {
-    pthread_mutex_lock(&pictures->lock);
-    pictures->ending = true;
-    pthread_cond_broadcast(&pictures->come);
-    pthread_mutex_unlock(&pictures->lock);
-    while (pictures->threads > 0)
-        pthread_join(pictures->thread[--pictures->threads], NULL);
+    pthread_mutex_lock(&proxy->lock);
+    proxy->ending = true;
+    pthread_cond_broadcast(&proxy->come);
+    pthread_mutex_unlock(&proxy->lock);
+    while (proxy->threads > 0)
+        pthread_join(proxy->thread[--proxy->threads], NULL);
     for (uint32_t i = 0; i < PICTURE_PROXY_CHANNELS; i++)
-        picture_proxy_release(pictures->channel[i].copy);
+        picture_proxy_release(proxy->channel[i].copy);
 }

@@ -1,9 +1,10 @@
-/* Pictures of the renderer, passed on. Each different picture has a channel, on which one request
- * to the renderer is under way at a time, whoever waits: many who look at the same make no more
- * work than one. Threads of their own fetch, each for at most PICTURE_PROXY_FETCH_NS. A renderer
- * that is away is found out at once, and so is its return.
+/* Passes on pictures of the renderer. Each different picture has a channel with at most one request
+ * to the renderer at a time, so that many viewers of the same picture make no more work than one.
+ * The proxy's own threads send the requests, each of which takes at most PICTURE_PROXY_FETCH_NS.
+ * The absence of the renderer, and its return, are noticed at once.
  *
- * Any thread; its lock is taken within the console's, never around it. */
+ * Any thread may call the functions. The proxy's lock is taken inside the console's lock, never
+ * around it. */
 #ifndef JOLON_CLIENTS_CONSOLE_PICTURE_PROXY_H
 #define JOLON_CLIENTS_CONSOLE_PICTURE_PROXY_H
 
@@ -20,27 +21,28 @@
 #define PICTURE_PROXY_FETCH_NS 2000000000u
 #define PICTURE_PROXY_MAX      (8u << 20) /* [byte] of one */
 
-/* What the renderer answered; who holds it lets it go. */
+/* An answer of the renderer, which each holder releases. */
 struct picture_copy {
     _Atomic uint32_t holders;
-    unsigned status; /* 0: it is away, or did not answer in time */
+    unsigned status; /* 0: the renderer is away, or did not answer in time */
     char *bytes;
     size_t count, room;
-    const char *body; /* [body_bytes] within bytes: the picture, or words */
+    const char *body; /* [body_bytes] within bytes: the picture, or a text */
     size_t body_bytes;
     char type[32], frame[24], time[24]; /* X-Frame and X-Time, "" */
     uint64_t number;                    /* X-Picture, 0: none */
 };
 
-/* Somebody who waits for a picture. */
-struct gaze {
-    struct gaze *next;
-    uint64_t after; /* of the picture that it has */
+/* A request that waits for a picture. */
+struct picture_waiter {
+    struct picture_waiter *next;
+    uint64_t after; /* number of the picture that the page has */
     bool has_after;
-    uint32_t fetches; /* that came meanwhile */
+    uint32_t fetches; /* that have ended since the request came */
     struct picture_copy *copy;
     bool done;
-    void (*ready)(struct gaze *gaze); /* once, without any lock, when copy is there */
+    void (*ready)(
+        struct picture_waiter *waiter); /* called once, without a lock, when copy is set */
 };
 
 struct picture_proxy {
@@ -50,34 +52,36 @@ struct picture_proxy {
     bool ending;
     struct channel {
         char target[PICTURE_PROXY_TARGET]; /* "": not in use */
-        bool fetching, lasting;            /* lasting: it does not change, as maps */
+        bool fetching, lasting;            /* lasting: a map, which hardly changes */
         uint64_t asked_ns, copied_ns;
         struct picture_copy *copy; /* the newest */
-        struct gaze *waiting;
+        struct picture_waiter *waiting;
     } channel[PICTURE_PROXY_CHANNELS];
-    uint32_t turn; /* the channel to be looked at next */
+    uint32_t turn; /* the channel to be served next */
     pthread_t thread[PICTURE_PROXY_THREADS];
     uint32_t threads;
 };
 
 /* Starts the threads. 0, or -1 with the reason. */
-int picture_proxy_open(struct picture_proxy *pictures, const char *world, struct reason *reason);
-/* Answers who waits; the threads end. */
-void picture_proxy_close(struct picture_proxy *pictures);
+int picture_proxy_open(struct picture_proxy *proxy, const char *world, struct reason *reason);
+/* Answers the waiting requests and ends the threads. */
+void picture_proxy_close(struct picture_proxy *proxy);
 
-/* What a request asks the renderer for: writes "/picture.jpg?..." or "/map.jpg?..." into target and
- * the picture that it has into gaze. False with the answer when it makes no sense. */
+/* Writes the address for the renderer, "/picture.jpg?..." or "/map.jpg?...", into target and the
+ * number of the picture that the page has into waiter. Returns false, with the answer, if an
+ * argument is malformed. */
 bool picture_proxy_target(const struct query *query, bool map, char target[PICTURE_PROXY_TARGET],
-                          struct gaze *gaze, struct http_answer *answer);
+                          struct picture_waiter *waiter, struct http_answer *answer);
 
-/* True: gaze has its copy, or the answer says why there is none; false: ready will be called. */
-bool picture_proxy_ask(struct picture_proxy *pictures, const char *target, struct gaze *gaze,
-                       struct http_answer *answer);
+/* Returns true if waiter has its copy or the answer says why there is none; false if ready() will
+ * be called later. */
+bool picture_proxy_ask(struct picture_proxy *proxy, const char *target,
+                       struct picture_waiter *waiter, struct http_answer *answer);
 
-/* NULL is nothing. */
+/* copy may be NULL. */
 void picture_proxy_release(struct picture_copy *copy);
 
-/* Words for a copy that is no picture. */
+/* Writes the error of a copy that is no picture. */
 void picture_proxy_explain(const struct picture_copy *copy, struct http_answer *answer);
 
 #endif

@@ -9,10 +9,10 @@
 #include <string.h>
 
 /* From the desk's thread: the server goes on with the request, and finds the answer. */
-static void on_ready(struct pending_command *ticket)
+static void on_ready(struct pending_command *pending)
 {
     struct request *request =
-        (struct request *)(void *)((char *)ticket - offsetof(struct request, ticket));
+        (struct request *)(void *)((char *)pending - offsetof(struct request, pending));
     http_wake(request->http);
 }
 
@@ -48,23 +48,23 @@ static bool join(struct request *request, struct player *player, struct http_ans
 static bool command(struct request *request, struct player *player, struct http_answer *answer)
 {
     struct console *console = request->console;
-    struct pending_command *ticket = &request->ticket;
+    struct pending_command *pending = &request->pending;
     const char *key = http_header(request->http, "X-Jolon-Player");
     if (key && !player) {
         http_answer_error(answer, HTTP_ANSWER_UNAUTHORIZED, "POST /api/join again",
                           "no player has this key; who is not heard of for two minutes has left");
         return true;
     }
-    if (console->ending || !console->watch.there) {
+    if (console->ending || !console->reader.there) {
         http_answer_error(answer, HTTP_ANSWER_AWAY, "wait until it is there", "%s",
-                          console->ending ? "the console ends" : console->watch.why.text);
+                          console->ending ? "the console ends" : console->reader.why.text);
         return true;
     }
-    if (!request_body_order(&ticket->order, &ticket->cancel, request->http->body,
+    if (!request_body_order(&pending->order, &pending->cancel, request->http->body,
                             request->http->body_bytes, answer))
         return true;
-    ticket->ready = on_ready;
-    return !command_queue_put(&console->desk, ticket, player, clock_now_ns(), answer);
+    pending->ready = on_ready;
+    return !command_queue_put(&console->queue, pending, player, clock_now_ns(), answer);
 }
 
 static bool process(struct request *request, struct player *player, struct http_answer *answer)
@@ -74,7 +74,7 @@ static bool process(struct request *request, struct player *player, struct http_
     (void)player;
     if (request_body_process(&restart, role, request->http->body, request->http->body_bytes,
                              answer))
-        process_control_end(&request->console->watch, role, restart, answer);
+        process_control_end(&request->console->reader, role, restart, answer);
     return true;
 }
 

@@ -1,7 +1,6 @@
 /* The process table, and signals. */
 #include "clients/console/process_control.h"
 
-#include "clients/console/tell.h"
 #include "ipc/process/clock.h"
 #include "ipc/segment/segment_locks.h"
 
@@ -11,10 +10,10 @@
 #include <sys/pidfd.h>
 #include <unistd.h>
 
-static void put_role(struct json_writer *text, const struct world_reader *watch, enum role role)
+static void put_role(struct json_writer *text, const struct world_reader *reader, enum role role)
 {
-    const struct role_slot *slot = watch->view.slot[role];
-    int pid = segment_holder(watch->name, role);
+    const struct role_slot *slot = reader->view.slot[role];
+    int pid = segment_holder(reader->name, role);
     uint64_t beat_ns = atomic_load(&slot->beat_ns), now_ns = clock_now_ns();
     json_writer_begin(text, '{');
     json_writer_key_word(text, "role", role_name(role));
@@ -32,35 +31,35 @@ static void put_role(struct json_writer *text, const struct world_reader *watch,
     json_writer_end(text, '}');
 }
 
-void tell_processes(const struct tell *tell, struct http_answer *answer)
+void process_control_list(const struct world_query *query, struct http_answer *answer)
 {
     struct json_writer *text = &answer->text;
-    if (!tell_there(tell, answer))
+    if (!world_query_attached(query, answer))
         return;
     json_writer_begin(text, '[');
     for (int role = 0; role < ROLE_COUNT; role++) {
-        if (atomic_load(&tell->watch->view.slot[role]->starts) > 0)
-            put_role(text, tell->watch, (enum role)role);
+        if (atomic_load(&query->reader->view.slot[role]->starts) > 0)
+            put_role(text, query->reader, (enum role)role);
     }
     json_writer_end(text, ']');
 }
 
 /* The process is still the role's when the descriptor is its own: another one with its number is
  * never hit. 0, or an errno. */
-static int signal_holder(const struct world_reader *watch, enum role role, int pid,
+static int signal_holder(const struct world_reader *reader, enum role role, int pid,
                          int signal_number)
 {
     int fd = pidfd_open(pid, 0);
     if (fd < 0)
         return errno;
     int result = ESRCH;
-    if (segment_holder(watch->name, role) == pid)
+    if (segment_holder(reader->name, role) == pid)
         result = pidfd_send_signal(fd, signal_number, NULL, 0) == 0 ? 0 : errno;
     close(fd);
     return result;
 }
 
-void process_control_end(const struct world_reader *watch, const char *name, bool restart,
+void process_control_end(const struct world_reader *reader, const char *name, bool restart,
                          struct http_answer *answer)
 {
     enum role role = role_find(name);
@@ -71,10 +70,10 @@ void process_control_end(const struct world_reader *watch, const char *name, boo
             "\"%.16s\" is no role", name);
         return;
     }
-    int pid = segment_holder(watch->name, role);
+    int pid = segment_holder(reader->name, role);
     /* Asked to stop, a frame role would end the run; killed, it is only replaced. */
     bool kills = !restart || role == ROLE_MOVER || role == ROLE_COLLIDER;
-    int cause = pid ? signal_holder(watch, role, pid, kills ? SIGKILL : SIGTERM) : ESRCH;
+    int cause = pid ? signal_holder(reader, role, pid, kills ? SIGKILL : SIGTERM) : ESRCH;
     if (cause != 0) {
         http_answer_error(answer, HTTP_ANSWER_CONFLICT,
                           "the process table shows when it is there again",

@@ -1,13 +1,15 @@
-/* The world's processes: ending them, for whatever ended is started again by their keeper. */
+/* The world's processes: their table, and the end of one, which the supervisor starts again. */
 #ifndef JOLON_CLIENTS_CONSOLE_PROCESS_CONTROL_H
 #define JOLON_CLIENTS_CONSOLE_PROCESS_CONTROL_H
 
-#include "clients/console/http_answer.h"
-#include "clients/console/world_reader.h"
+#include "clients/console/world_query.h"
 
-/* Kills the role's process, or asks it to end where that is enough to see it return; answers with
- * its pid. */
-void process_control_end(const struct world_reader *watch, const char *role, bool restart,
+/* Writes the answer of /api/processes: the state and the times of each role's process. */
+void process_control_list(const struct world_query *asked, struct http_answer *answer);
+
+/* Sends SIGKILL to the role's process; restart: SIGTERM, but SIGKILL to the mover and the collider,
+ * because the run ends when one of these ends by itself. Answers with the process id. */
+void process_control_end(const struct world_reader *reader, const char *role, bool restart,
                          struct http_answer *answer);
 
 #endif

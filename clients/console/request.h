@@ -12,8 +12,8 @@
 struct request {
     struct console *console;
     struct http_request *http;
-    struct pending_command ticket; /* of its order; its answer comes when that is done */
-    struct gaze gaze;              /* of the picture that it wants */
+    struct pending_command pending; /* of its order; its answer comes when that is done */
+    struct picture_waiter waiter;   /* of the picture that it wants */
 };
 
 #endif

@@ -9,11 +9,11 @@
 #include <stdio.h>
 
 /* The kinds there are, for whoever named another. */
-static void list_kinds(const struct world_reader *watch, bool munitions, char *text, size_t bytes)
+static void list_kinds(const struct world_reader *reader, bool munitions, char *text, size_t bytes)
 {
     size_t used = (size_t)snprintf(text, bytes, "there are");
-    const struct world *world = &watch->view.world;
-    for (uint32_t i = 0; watch->there && i < world->counts.kinds && used < bytes; i++) {
+    const struct world *world = &reader->view.world;
+    for (uint32_t i = 0; reader->there && i < world->counts.kinds && used < bytes; i++) {
         const struct kind *kind = &world->kinds[i];
         if (kind->domain == DOMAIN_FIXED || (kind->domain == DOMAIN_MUNITION) != munitions)
             continue;
@@ -40,7 +40,7 @@ static void explain_cannot(struct http_answer *answer, const struct command_text
 }
 
 static void explain(struct http_answer *answer, const struct command_text *order,
-                    enum command_result result, const struct world_reader *watch,
+                    enum command_result result, const struct world_reader *reader,
                     const struct players *players)
 {
     const jolon_Command *command = &order->command;
@@ -52,7 +52,7 @@ static void explain(struct http_answer *answer, const struct command_text *order
                           "there is no %u any more, or never was", command->entity);
         break;
     case COMMAND_NO_SUCH_KIND:
-        list_kinds(watch, command->type == jolon_COMMAND_FIRE, kinds, sizeof kinds);
+        list_kinds(reader, command->type == jolon_COMMAND_FIRE, kinds, sizeof kinds);
         http_answer_error(answer, HTTP_ANSWER_CONFLICT, kinds, "\"%s\": no such kind",
                           command->kind);
         break;
@@ -78,12 +78,12 @@ static void explain(struct http_answer *answer, const struct command_text *order
 }
 
 void result_text_put(struct http_answer *answer, const struct command_text *order,
-                     const jolon_CommandReply *reply, const struct world_reader *watch,
+                     const jolon_CommandReply *reply, const struct world_reader *reader,
                      const struct players *players)
 {
     struct json_writer *text = &answer->text;
     if (reply->result != jolon_RESULT_DONE) {
-        explain(answer, order, (enum command_result)reply->result, watch, players);
+        explain(answer, order, (enum command_result)reply->result, reader, players);
         return;
     }
     answer->status = HTTP_ANSWER_OK;

@@ -7,7 +7,7 @@
 
 /* Writes {"result": "done", "frame", "entity"}, or why not and what to do. */
 void result_text_put(struct http_answer *answer, const struct command_text *order,
-                     const jolon_CommandReply *reply, const struct world_reader *watch,
+                     const jolon_CommandReply *reply, const struct world_reader *reader,
                      const struct players *players);
 
 /* No reply came. */

@@ -4,7 +4,11 @@
 #include "clients/console/post_requests.h"
 #include "clients/console/access_control.h"
 #include "clients/console/page_files.h"
-#include "clients/console/tell.h"
+#include "clients/console/events_json.h"
+#include "clients/console/process_control.h"
+#include "clients/console/state_json.h"
+#include "clients/console/vehicles_json.h"
+#include "clients/console/world_json.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 
@@ -55,9 +59,9 @@ static void let_go(void *copy)
 /* The copy becomes the reply's. */
 static void reply_picture(struct http_reply *reply, struct request *request)
 {
-    struct picture_copy *copy = request->gaze.copy;
+    struct picture_copy *copy = request->waiter.copy;
     struct http_answer answer = {.status = HTTP_ANSWER_OK};
-    request->gaze.copy = NULL;
+    request->waiter.copy = NULL;
     if (!copy || copy->status != HTTP_ANSWER_OK) {
         picture_proxy_explain(copy, &answer);
         picture_proxy_release(copy);
@@ -86,14 +90,17 @@ static void reply_page(struct http_reply *reply, const struct page_files_file *f
 
 /* --- what there is to ask for ------------------------------------------------------------------*/
 
-typedef void tell_function(const struct tell *tell, struct http_answer *answer);
+typedef void answer_function(const struct world_query *query, struct http_answer *answer);
 
 static const struct {
     const char *path;
-    tell_function *tell;
+    answer_function *answer;
 } readings[] = {
-    {"/api/world", world_json},   {"/api/state", state_json},         {"/api/list", vehicles_json},
-    {"/api/events", events_json}, {"/api/processes", tell_processes},
+    {"/api/world", world_json},
+    {"/api/state", state_json},
+    {"/api/list", vehicles_json},
+    {"/api/events", events_json},
+    {"/api/processes", process_control_list},
 };
 
 static const char *argument(void *context, const char *key)
@@ -101,20 +108,20 @@ static const char *argument(void *context, const char *key)
     return http_argument(context, key);
 }
 
-static tell_function *find_reading(const char *path)
+static answer_function *find_reading(const char *path)
 {
     for (size_t i = 0; i < sizeof readings / sizeof readings[0]; i++) {
         if (strcmp(path, readings[i].path) == 0)
-            return readings[i].tell;
+            return readings[i].answer;
     }
     return NULL;
 }
 
 /* From a thread of the pictures': the server goes on with the request, once it is suspended. */
-static void on_picture(struct gaze *gaze)
+static void on_picture(struct picture_waiter *waiter)
 {
     struct request *request =
-        (struct request *)(void *)((char *)gaze - offsetof(struct request, gaze));
+        (struct request *)(void *)((char *)waiter - offsetof(struct request, waiter));
     struct console *console = request->console;
     pthread_mutex_lock(&console->lock);
     http_wake(request->http);
@@ -128,10 +135,10 @@ static bool read_picture(struct request *request, bool map, struct http_answer *
     uint64_t now_ns = clock_now_ns();
     const struct player *player = access_control_player(request, now_ns);
     const struct query query = {argument, request->http};
-    request->gaze.ready = on_picture;
+    request->waiter.ready = on_picture;
     return !access_control_open(request, player, now_ns, answer) ||
-           !picture_proxy_target(&query, map, target, &request->gaze, answer) ||
-           picture_proxy_ask(&request->console->pictures, target, &request->gaze, answer);
+           !picture_proxy_target(&query, map, target, &request->waiter, answer) ||
+           picture_proxy_ask(&request->console->proxy, target, &request->waiter, answer);
 }
 
 /* Under the lock. */
@@ -140,17 +147,17 @@ static void read_world(struct request *request, const char *path, struct http_an
     struct console *console = request->console;
     uint64_t now_ns = clock_now_ns();
     const struct player *player = access_control_player(request, now_ns);
-    tell_function *function = find_reading(path);
-    struct tell tell = {.watch = &console->watch,
-                        .players = &console->players,
-                        .desk = &console->desk,
-                        .player = player,
-                        .query = {argument, request->http},
-                        .now_ns = now_ns};
+    answer_function *function = find_reading(path);
+    struct world_query query = {.reader = &console->reader,
+                                .players = &console->players,
+                                .queue = &console->queue,
+                                .player = player,
+                                .arguments = {argument, request->http},
+                                .now_ns = now_ns};
     if (!access_control_open(request, player, now_ns, answer))
         return;
     if (function)
-        function(&tell, answer);
+        function(&query, answer);
     else if (!page_files_find(path))
         http_answer_error(answer, HTTP_ANSWER_NOT_FOUND,
                           "the page begins at /; docs/console.md lists the "
@@ -166,11 +173,11 @@ static bool make_answer(struct request *request, const char *path, const char *m
 {
     bool reads = strcmp(method, "GET") == 0 || strcmp(method, "HEAD") == 0;
     bool map = strcmp(path, "/api/map") == 0;
-    if (request->gaze.done)
+    if (request->waiter.done)
         return true;
-    if (request->ticket.done) {
-        *answer = request->ticket.answer;
-        request->ticket.answer = (struct http_answer){.status = HTTP_ANSWER_OK};
+    if (request->pending.done) {
+        *answer = request->pending.answer;
+        request->pending.answer = (struct http_answer){.status = HTTP_ANSWER_OK};
         return true;
     }
     if (reads && (map || strcmp(path, "/api/picture") == 0))
@@ -194,7 +201,7 @@ static bool on_request(void *context, struct http_request *http, struct http_rep
     struct http_answer answer = {.status = HTTP_ANSWER_OK};
     if (!http->woken)
         *request = (struct request){
-            .console = console, .http = http, .ticket = {.answer = {.status = HTTP_ANSWER_OK}}};
+            .console = console, .http = http, .pending = {.answer = {.status = HTTP_ANSWER_OK}}};
     pthread_mutex_lock(&console->lock);
     bool now = make_answer(request, http->path, http->method, &answer);
     if (!now)
@@ -203,7 +210,7 @@ static bool on_request(void *context, struct http_request *http, struct http_rep
     if (!now)
         return false;
     const struct page_files_file *file = answer.text.used == 0 ? page_files_find(http->path) : NULL;
-    if (request->gaze.done)
+    if (request->waiter.done)
         reply_picture(reply, request);
     else if (file)
         reply_page(reply, file);
@@ -216,8 +223,8 @@ static void on_end(void *context, struct http_request *http)
 {
     struct request *request = http->own;
     (void)context;
-    json_writer_free(&request->ticket.answer.text);
-    picture_proxy_release(request->gaze.copy);
+    json_writer_free(&request->pending.answer.text);
+    picture_proxy_release(request->waiter.copy);
 }
 
 int server_start(struct console *console, struct reason *reason)
@@ -237,8 +244,8 @@ void server_end(struct console *console)
 {
     pthread_mutex_lock(&console->lock);
     console->ending = true;
-    command_queue_close(&console->desk);
+    command_queue_close(&console->queue);
     pthread_mutex_unlock(&console->lock);
-    picture_proxy_close(&console->pictures);
+    picture_proxy_close(&console->proxy);
     http_server_stop(console->http);
 }

@@ -15,12 +15,12 @@
 
 struct console {
     pthread_mutex_t lock; /* of all below but what never changes */
-    struct world_reader watch;
+    struct world_reader reader;
     struct players players;
     struct rate write_rate; /* of those who change the world without a player's name */
-    struct command_queue desk;
-    struct picture_proxy pictures; /* has a lock of its own */
-    bool ending;                   /* no order is taken any more */
+    struct command_queue queue;
+    struct picture_proxy proxy; /* has a lock of its own */
+    bool ending;                /* no order is taken any more */
     /* What never changes once the server runs. */
     char token[SESSION_KEY_MAX];
     struct http_listener listener;

@@ -1,5 +1,5 @@
 /* The moment: the frame, its numbers, who is in an area, and the vehicle that is asked for. */
-#include "clients/console/tell.h"
+#include "clients/console/state_json.h"
 
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
@@ -8,15 +8,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#define MILLI_NS 1e6
-
-uint32_t tell_driver(const struct tell *tell, uint32_t row)
-{
-    const struct entities *e = &tell->watch->snapshot.entities;
-    if (e->behaviour[row] != BEHAVIOUR_DRIVEN || e->driver[row] == 0)
-        return 0;
-    return tell->player && e->driver[row] == tell->player->source ? 2 : 1;
-}
+#define ENTITIES     2000u  /* by default ... */
+#define ENTITIES_MAX 20000u /* ... and at most */
+#define MILLI_NS     1e6
 
 static void put_times(struct json_writer *text, const char *key, const struct histogram *histogram)
 {
@@ -45,17 +39,17 @@ static void put_tally(struct json_writer *text, const struct state_head *head)
     json_writer_end(text, '}');
 }
 
-static void put_head(struct json_writer *text, const struct tell *tell)
+static void put_head(struct json_writer *text, const struct world_query *query)
 {
-    const struct world_reader *watch = tell->watch;
-    const struct view *view = &watch->view;
-    const struct state_head *head = &watch->snapshot.head;
+    const struct world_reader *reader = query->reader;
+    const struct view *view = &reader->view;
+    const struct state_head *head = &reader->snapshot.head;
     json_writer_key_whole(text, "frame", head->frame);
     json_writer_key_number(text, "time_s", state_time_s(&view->world, head), 3);
-    json_writer_key_word(text, "state", world_reader_state(watch, head));
+    json_writer_key_word(text, "state", world_reader_state(reader, head));
     json_writer_key_bool(text, "paused", head->paused != 0);
     json_writer_key_number(text, "scale", head->time_scale, 3);
-    json_writer_key_number(text, "rate_hz", world_reader_rate_hz(watch), 1);
+    json_writer_key_number(text, "rate_hz", world_reader_rate_hz(reader), 1);
     json_writer_key_whole(text, "late_frames", atomic_load(&view->slot[ROLE_MOVER]->late_frames));
     json_writer_key_whole(text, "vehicles", head->vehicles);
     json_writer_key_whole(text, "munitions", head->munitions);
@@ -69,9 +63,10 @@ struct area_asked {
     uint64_t most;
 };
 
-static bool read_area(const struct tell *tell, struct area_asked *area, struct http_answer *answer)
+static bool read_area(const struct world_query *query, struct area_asked *area,
+                      struct http_answer *answer)
 {
-    const char *given = query_text(&tell->query, "area");
+    const char *given = query_text(&query->arguments, "area");
     *area = (struct area_asked){0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M, 0};
     int used = 0;
     if (*given && (sscanf(given, "%lf,%lf,%lf,%lf%n", &area->x0, &area->z0, &area->x1, &area->z1,
@@ -81,8 +76,7 @@ static bool read_area(const struct tell *tell, struct area_asked *area, struct h
                           "area=%.60s: not four numbers, the lower ones first", given);
         return false;
     }
-    return query_whole(&tell->query, "most", 0, TELL_ENTITIES_MAX, TELL_ENTITIES, &area->most,
-                       answer);
+    return query_whole(&query->arguments, "most", 0, ENTITIES_MAX, ENTITIES, &area->most, answer);
 }
 
 static bool within(const struct area_asked *area, const struct entities *e, uint32_t row)
@@ -91,9 +85,9 @@ static bool within(const struct area_asked *area, const struct entities *e, uint
            e->z[row] >= area->z0 && e->z[row] <= area->z1;
 }
 
-static void put_entity(struct json_writer *text, const struct tell *tell, uint32_t row)
+static void put_entity(struct json_writer *text, const struct world_query *query, uint32_t row)
 {
-    const struct entities *e = &tell->watch->snapshot.entities;
+    const struct entities *e = &query->reader->snapshot.entities;
     json_writer_begin(text, '[');
     json_writer_whole(text, e->id[row]);
     json_writer_whole(text, e->kind[row]);
@@ -106,15 +100,15 @@ static void put_entity(struct json_writer *text, const struct tell *tell, uint32
     json_writer_number(text, e->heading[row], 3);
     json_writer_number(text, vec3_length(entities_velocity(e, row)), 1);
     json_writer_number(text, (double)e->turret[row], 3);
-    json_writer_whole(text, tell_driver(tell, row));
+    json_writer_whole(text, world_query_driver(query, row));
     json_writer_end(text, ']');
 }
 
 /* When more are there than are wanted, every so manieth by its id: the same ones the next time. */
-static void put_entities(struct json_writer *text, const struct tell *tell,
+static void put_entities(struct json_writer *text, const struct world_query *query,
                          const struct area_asked *area)
 {
-    const struct snapshot *snapshot = &tell->watch->snapshot;
+    const struct snapshot *snapshot = &query->reader->snapshot;
     const struct entities *e = &snapshot->entities;
     uint64_t count = 0, put = 0;
     for (uint32_t row = 0; row < snapshot->head.used; row++)
@@ -126,17 +120,17 @@ static void put_entities(struct json_writer *text, const struct tell *tell,
     for (uint32_t row = 0; row < snapshot->head.used && put < area->most; row++) {
         if (!within(area, e, row) || e->id[row] % stride != 0)
             continue;
-        put_entity(text, tell, row);
+        put_entity(text, query, row);
         put++;
     }
     json_writer_end(text, ']');
     json_writer_key_whole(text, "left_out", count - put);
 }
 
-static void put_where(struct json_writer *text, const struct tell *tell, uint32_t row)
+static void put_where(struct json_writer *text, const struct world_query *query, uint32_t row)
 {
-    const struct entities *e = &tell->watch->snapshot.entities;
-    const struct world *world = &tell->watch->view.world;
+    const struct entities *e = &query->reader->snapshot.entities;
+    const struct world *world = &query->reader->view.world;
     json_writer_key_number(text, "x", e->x[row], 2);
     json_writer_key_number(text, "y", e->y[row], 2);
     json_writer_key_number(text, "z", e->z[row], 2);
@@ -151,15 +145,15 @@ static void put_where(struct json_writer *text, const struct tell *tell, uint32_
     json_writer_key_number(text, "gun_deg", (double)e->gun[row] / RAD_PER_DEG, 1);
 }
 
-static void put_me(struct json_writer *text, const struct tell *tell, uint32_t row)
+static void put_me(struct json_writer *text, const struct world_query *query, uint32_t row)
 {
     static const char *const drivers[] = {"", "another", "you"};
-    const struct world_reader *watch = tell->watch;
-    const struct entities *e = &watch->snapshot.entities;
-    const struct world *world = &watch->view.world;
+    const struct world_reader *reader = query->reader;
+    const struct entities *e = &reader->snapshot.entities;
+    const struct world *world = &reader->view.world;
     const struct kind *kind = &world->kinds[e->kind[row]];
     double reload_s =
-        ((double)e->reload_tick[row] - (double)watch->snapshot.head.tick) * world_dt_s(world);
+        ((double)e->reload_tick[row] - (double)reader->snapshot.head.tick) * world_dt_s(world);
     json_writer_key(text, "me");
     json_writer_begin(text, '{');
     json_writer_key_whole(text, "id", e->id[row]);
@@ -169,7 +163,7 @@ static void put_me(struct json_writer *text, const struct tell *tell, uint32_t r
     json_writer_key_word(text, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));
     json_writer_key_word(text, "state", entity_state_name((enum entity_state)e->state[row]));
     json_writer_key_word(text, "damage", damage_name((enum damage)e->damage[row]));
-    put_where(text, tell, row);
+    put_where(text, query, row);
     json_writer_key_whole(text, "rounds", e->rounds[row]);
     json_writer_key_whole(text, "rounds_full", kind->rounds);
     json_writer_key_number(text, "fuel_l", e->fuel_l[row], 1);
@@ -180,47 +174,47 @@ static void put_me(struct json_writer *text, const struct tell *tell, uint32_t r
     json_writer_key_whole(
         text, "target",
         entities_alive(e, e->target_slot[row], e->target_id[row]) ? e->target_id[row] : 0);
-    json_writer_key_word(text, "driver", drivers[tell_driver(tell, row)]);
+    json_writer_key_word(text, "driver", drivers[world_query_driver(query, row)]);
     json_writer_end(text, '}');
 }
 
-static void put_players(struct json_writer *text, const struct tell *tell)
+static void put_players(struct json_writer *text, const struct world_query *query)
 {
     json_writer_key(text, "players");
     json_writer_begin(text, '[');
     for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
-        const struct player *player = &tell->players->player[i];
+        const struct player *player = &query->players->player[i];
         if (!player->number)
             continue;
         json_writer_begin(text, '{');
         json_writer_key_whole(text, "player", player->number);
         json_writer_key_word(text, "name", player->name);
         json_writer_key_whole(text, "vehicle", player->vehicle);
-        json_writer_key_bool(text, "you", player == tell->player);
+        json_writer_key_bool(text, "you", player == query->player);
         json_writer_end(text, '}');
     }
     json_writer_end(text, ']');
-    if (tell->player) {
+    if (query->player) {
         json_writer_key(text, "you");
         json_writer_begin(text, '{');
-        json_writer_key_whole(text, "player", tell->player->number);
-        json_writer_key_whole(text, "vehicle", tell->player->vehicle);
-        json_writer_key_word(text, "lost", tell->player->lost);
+        json_writer_key_whole(text, "player", query->player->number);
+        json_writer_key_whole(text, "vehicle", query->player->vehicle);
+        json_writer_key_word(text, "lost", query->player->lost);
         json_writer_end(text, '}');
     }
 }
 
-static void put_missions(struct json_writer *text, const struct command_queue *desk)
+static void put_missions(struct json_writer *text, const struct command_queue *queue)
 {
     json_writer_key(text, "missions");
     json_writer_begin(text, '[');
     for (uint32_t i = 0; i < COMMAND_QUEUE_MISSIONS; i++) {
-        const struct command_series *mission = &desk->mission[i].mission;
+        const struct command_series *mission = &queue->mission[i].mission;
         const struct command_text *order = &mission->order;
-        if (!desk->mission[i].number)
+        if (!queue->mission[i].number)
             continue;
         json_writer_begin(text, '{');
-        json_writer_key_whole(text, "mission", desk->mission[i].number);
+        json_writer_key_whole(text, "mission", queue->mission[i].number);
         json_writer_key_word(text, "munition", order->command.kind);
         json_writer_key_number(text, "x", order->command.x_m, 1);
         json_writer_key_number(text, "z", order->command.z_m, 1);
@@ -233,22 +227,22 @@ static void put_missions(struct json_writer *text, const struct command_queue *d
     json_writer_end(text, ']');
 }
 
-void state_json(const struct tell *tell, struct http_answer *answer)
+void state_json(const struct world_query *query, struct http_answer *answer)
 {
     struct json_writer *text = &answer->text;
     struct area_asked area;
     uint64_t me = 0;
-    if (!read_area(tell, &area, answer) ||
-        !query_whole(&tell->query, "me", 0, UINT32_MAX, 0, &me, answer) ||
-        !tell_copied(tell, answer))
+    if (!read_area(query, &area, answer) ||
+        !query_whole(&query->arguments, "me", 0, UINT32_MAX, 0, &me, answer) ||
+        !world_query_copied(query, answer))
         return;
-    uint32_t row = world_reader_row(tell->watch, (uint32_t)me);
+    uint32_t row = world_reader_row(query->reader, (uint32_t)me);
     json_writer_begin(text, '{');
-    put_head(text, tell);
-    put_entities(text, tell, &area);
-    put_players(text, tell);
-    put_missions(text, tell->desk);
+    put_head(text, query);
+    put_entities(text, query, &area);
+    put_players(text, query);
+    put_missions(text, query->queue);
     if (row != SLOT_NONE)
-        put_me(text, tell, row);
+        put_me(text, query, row);
     json_writer_end(text, '}');
 }

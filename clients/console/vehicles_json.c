@@ -1,6 +1,6 @@
 /* The list of vehicles: filtered, sorted, a page of it. However many there are, only the rows up to
  * the end of that page are kept, in a heap. */
-#include "clients/console/tell.h"
+#include "clients/console/vehicles_json.h"
 
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
@@ -9,6 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define ROWS     50u  /* of a page, by default ... */
+#define ROWS_MAX 500u /* ... and at most */
+#define FROM_MAX 10000u
 
 enum sorting {
     SORT_ID,
@@ -43,9 +47,10 @@ struct entry {
 
 /* --- what is asked -----------------------------------------------------------------------------*/
 
-static bool read_sort(const struct tell *tell, struct asked *asked, struct http_answer *answer)
+static bool read_sort(const struct world_query *query, struct asked *asked,
+                      struct http_answer *answer)
 {
-    const char *word = query_text(&tell->query, "sort");
+    const char *word = query_text(&query->arguments, "sort");
     asked->sort = SORT_ID;
     while (*word && asked->sort < SORT_COUNT && strcmp(word, sort_words[asked->sort]) != 0)
         asked->sort++;
@@ -57,9 +62,10 @@ static bool read_sort(const struct tell *tell, struct asked *asked, struct http_
     return false;
 }
 
-static bool read_force(const struct tell *tell, struct asked *asked, struct http_answer *answer)
+static bool read_force(const struct world_query *query, struct asked *asked,
+                       struct http_answer *answer)
 {
-    const char *word = query_text(&tell->query, "force");
+    const char *word = query_text(&query->arguments, "force");
     asked->force = *word ? 0 : FORCE_COUNT;
     while (*word && asked->force < FORCE_COUNT &&
            strcmp(word, force_name((enum force)asked->force)) != 0)
@@ -71,10 +77,11 @@ static bool read_force(const struct tell *tell, struct asked *asked, struct http
     return false;
 }
 
-static bool read_kind(const struct tell *tell, struct asked *asked, struct http_answer *answer)
+static bool read_kind(const struct world_query *query, struct asked *asked,
+                      struct http_answer *answer)
 {
-    const struct world *world = &tell->watch->view.world;
-    const char *word = query_text(&tell->query, "kind");
+    const struct world *world = &query->reader->view.world;
+    const char *word = query_text(&query->arguments, "kind");
     asked->kind = *word ? kind_find(world->kinds, world->counts.kinds, word) : KIND_NONE;
     if (!*word || asked->kind != KIND_NONE)
         return true;
@@ -83,16 +90,17 @@ static bool read_kind(const struct tell *tell, struct asked *asked, struct http_
     return false;
 }
 
-static bool read_asked(const struct tell *tell, struct asked *asked, struct http_answer *answer)
+static bool read_asked(const struct world_query *query, struct asked *asked,
+                       struct http_answer *answer)
 {
     uint64_t descending = 0;
-    const struct world *world = &tell->watch->view.world;
-    *asked = (struct asked){.search = query_text(&tell->query, "search")};
-    if (!read_sort(tell, asked, answer) || !read_force(tell, asked, answer) ||
-        !read_kind(tell, asked, answer) ||
-        !query_whole(&tell->query, "descending", 0, 1, 0, &descending, answer) ||
-        !query_whole(&tell->query, "from", 0, TELL_FROM_MAX, 0, &asked->from, answer) ||
-        !query_whole(&tell->query, "most", 1, TELL_ROWS_MAX, TELL_ROWS, &asked->most, answer))
+    const struct world *world = &query->reader->view.world;
+    *asked = (struct asked){.search = query_text(&query->arguments, "search")};
+    if (!read_sort(query, asked, answer) || !read_force(query, asked, answer) ||
+        !read_kind(query, asked, answer) ||
+        !query_whole(&query->arguments, "descending", 0, 1, 0, &descending, answer) ||
+        !query_whole(&query->arguments, "from", 0, FROM_MAX, 0, &asked->from, answer) ||
+        !query_whole(&query->arguments, "most", 1, ROWS_MAX, ROWS, &asked->most, answer))
         return false;
     asked->descending = descending != 0;
     for (uint32_t i = 0; i < world->counts.kinds && i < KIND_COUNT_MAX; i++)
@@ -101,10 +109,10 @@ static bool read_asked(const struct tell *tell, struct asked *asked, struct http
 }
 
 /* Is the row of the list? The search is a part of its name or kind, or its id's beginning. */
-static bool belongs(const struct tell *tell, const struct asked *asked, uint32_t row)
+static bool belongs(const struct world_query *query, const struct asked *asked, uint32_t row)
 {
-    const struct entities *e = &tell->watch->snapshot.entities;
-    const struct world *world = &tell->watch->view.world;
+    const struct entities *e = &query->reader->snapshot.entities;
+    const struct world *world = &query->reader->view.world;
     char id[16];
     uint32_t kind = e->kind[row];
     if (e->state[row] == ENTITY_FREE || kind >= world->counts.kinds ||
@@ -121,10 +129,11 @@ static bool belongs(const struct tell *tell, const struct asked *asked, uint32_t
 
 /* --- order -------------------------------------------------------------------------------------*/
 
-static struct entry entry_of(const struct tell *tell, const struct asked *asked, uint32_t row)
+static struct entry entry_of(const struct world_query *query, const struct asked *asked,
+                             uint32_t row)
 {
-    const struct entities *e = &tell->watch->snapshot.entities;
-    const struct world *world = &tell->watch->view.world;
+    const struct entities *e = &query->reader->snapshot.entities;
+    const struct world *world = &query->reader->view.world;
     struct entry entry = {.word = "", .row = row, .id = e->id[row]};
     switch (asked->sort) {
     case SORT_NAME:
@@ -221,11 +230,11 @@ static void sort(struct heap *heap)
 
 /* --- the answer --------------------------------------------------------------------------------*/
 
-static void put_row(struct json_writer *text, const struct tell *tell, uint32_t row)
+static void put_row(struct json_writer *text, const struct world_query *query, uint32_t row)
 {
-    const struct entities *e = &tell->watch->snapshot.entities;
-    const struct world *world = &tell->watch->view.world;
-    const struct player *player = players_driver(tell->players, e->id[row]);
+    const struct entities *e = &query->reader->snapshot.entities;
+    const struct world *world = &query->reader->view.world;
+    const struct player *player = players_driver(query->players, e->id[row]);
     json_writer_begin(text, '{');
     json_writer_key_whole(text, "id", e->id[row]);
     json_writer_key_word(text, "name", world_entity_name(world, e->id[row]));
@@ -239,16 +248,16 @@ static void put_row(struct json_writer *text, const struct tell *tell, uint32_t 
     json_writer_key_number(text, "speed_mps", vec3_length(entities_velocity(e, row)), 1);
     json_writer_key_whole(text, "rounds", e->rounds[row]);
     json_writer_key_number(text, "fuel_l", e->fuel_l[row], 1);
-    json_writer_key_whole(text, "driven", tell_driver(tell, row));
+    json_writer_key_whole(text, "driven", world_query_driver(query, row));
     json_writer_key_word(text, "player", player ? player->name : "");
     json_writer_end(text, '}');
 }
 
-void vehicles_json(const struct tell *tell, struct http_answer *answer)
+void vehicles_json(const struct world_query *query, struct http_answer *answer)
 {
     struct asked asked;
     struct json_writer *text = &answer->text;
-    if (!tell_copied(tell, answer) || !read_asked(tell, &asked, answer))
+    if (!world_query_copied(query, answer) || !read_asked(query, &asked, answer))
         return;
     struct heap heap = {.room = (uint32_t)(asked.from + asked.most),
                         .descending = asked.descending};
@@ -258,10 +267,10 @@ void vehicles_json(const struct tell *tell, struct http_answer *answer)
         return;
     }
     uint64_t total = 0;
-    for (uint32_t row = 0; row < tell->watch->snapshot.head.used; row++) {
-        if (!belongs(tell, &asked, row))
+    for (uint32_t row = 0; row < query->reader->snapshot.head.used; row++) {
+        if (!belongs(query, &asked, row))
             continue;
-        struct entry entry = entry_of(tell, &asked, row);
+        struct entry entry = entry_of(query, &asked, row);
         keep(&heap, &entry);
         total++;
     }
@@ -271,7 +280,7 @@ void vehicles_json(const struct tell *tell, struct http_answer *answer)
     json_writer_key(text, "rows");
     json_writer_begin(text, '[');
     for (uint64_t i = asked.from; i < heap.count; i++)
-        put_row(text, tell, heap.entry[i].row);
+        put_row(text, query, heap.entry[i].row);
     json_writer_end(text, ']');
     json_writer_end(text, '}');
     free(heap.entry);

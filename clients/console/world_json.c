@@ -1,5 +1,5 @@
 /* What of a world never changes. */
-#include "clients/console/tell.h"
+#include "clients/console/world_json.h"
 
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
@@ -10,31 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
-bool tell_there(const struct tell *tell, struct http_answer *answer)
-{
-    if (tell->watch->there)
-        return true;
-    http_answer_error(answer, HTTP_ANSWER_AWAY,
-                      "this page goes on by itself when it is there; jolon start makes one, jolon "
-                      "worlds lists those there are",
-                      "%s", tell->watch->why.text);
-    return false;
-}
+#define NAMES_MAX 5000u
 
-bool tell_copied(const struct tell *tell, struct http_answer *answer)
+static void put_kinds(struct json_writer *text, const struct world_reader *reader)
 {
-    if (!tell_there(tell, answer))
-        return false;
-    if (world_reader_copy(tell->watch, tell->now_ns) == 0)
-        return true;
-    http_answer_error(answer, HTTP_ANSWER_AWAY, "jolon world check tells what is wrong with it",
-                      "%s", tell->watch->why.text);
-    return false;
-}
-
-static void put_kinds(struct json_writer *text, const struct world_reader *watch)
-{
-    const struct world *world = &watch->view.world;
+    const struct world *world = &reader->view.world;
     json_writer_key(text, "kinds");
     json_writer_begin(text, '[');
     for (uint32_t i = 0; i < world->counts.kinds; i++) {
@@ -43,7 +23,7 @@ static void put_kinds(struct json_writer *text, const struct world_reader *watch
         json_writer_key_word(text, "name", kind->name);
         json_writer_key_word(text, "domain", domain_name((enum domain)kind->domain));
         json_writer_key_number(text, "length_m", kind->length_m, 2);
-        json_writer_key_bool(text, "turret", watch->turret[i]);
+        json_writer_key_bool(text, "turret", reader->turret[i]);
         json_writer_key_whole(text, "rounds", kind->rounds);
         json_writer_key_number(text, "fuel_l", kind->fuel_l, 1);
         json_writer_key_number(text, "max_speed_mps", kind->max_speed_mps, 1);
@@ -62,7 +42,7 @@ static void put_names(struct json_writer *text, const struct world *world)
         char id[16];
         if (!world->names[i].text[0])
             continue;
-        if (put == TELL_NAMES_MAX) {
+        if (put == NAMES_MAX) {
             left_out++;
             continue;
         }
@@ -74,12 +54,12 @@ static void put_names(struct json_writer *text, const struct world *world)
     json_writer_key_whole(text, "names_left_out", left_out);
 }
 
-void world_json(const struct tell *tell, struct http_answer *answer)
+void world_json(const struct world_query *query, struct http_answer *answer)
 {
     struct json_writer *text = &answer->text;
-    if (!tell_there(tell, answer))
+    if (!world_query_attached(query, answer))
         return;
-    const struct view *view = &tell->watch->view;
+    const struct view *view = &query->reader->view;
     const struct params *params = view->world.params;
     char run[24];
     (void)snprintf(run, sizeof run, "%016llx", (unsigned long long)view->header->made);
@@ -94,7 +74,7 @@ void world_json(const struct tell *tell, struct http_answer *answer)
     json_writer_key_bool(text, "real_time", params->pace == PACE_REAL);
     json_writer_key_whole(text, "capacity", params->capacity);
     json_writer_key_bool(text, "token_needed", true);
-    put_kinds(text, tell->watch);
+    put_kinds(text, query->reader);
     put_names(text, &view->world);
     json_writer_key(text, "behaviours");
     json_writer_begin(text, '[');

@@ -13,175 +13,176 @@
 
 #define STALLED_NS NS_PER_S
 
-void world_reader_open(struct world_reader *watch, const char *name)
+void world_reader_open(struct world_reader *reader, const char *name)
 {
-    *watch = (struct world_reader){.name = name};
-    reason_set(&watch->why, "world \"%s\" is not there yet", name);
+    *reader = (struct world_reader){.name = name};
+    reason_set(&reader->why, "world \"%s\" is not there yet", name);
 }
 
-static void let_go(struct world_reader *watch)
+static void let_go(struct world_reader *reader)
 {
-    if (!watch->there)
+    if (!reader->there)
         return;
-    snapshot_free(&watch->snapshot);
-    segment_detach(&watch->view);
-    watch->there = watch->copied = false;
-    watch->rate_count = watch->rate_next = 0;
+    snapshot_free(&reader->snapshot);
+    segment_detach(&reader->view);
+    reader->there = reader->copied = false;
+    reader->rate_count = reader->rate_next = 0;
 }
 
-void world_reader_close(struct world_reader *watch)
+void world_reader_close(struct world_reader *reader)
 {
-    let_go(watch);
+    let_go(reader);
 }
 
 /* The object that the name leads to now; false with the reason when it leads nowhere. */
-static bool find_object(const struct world_reader *watch, char object[SEGMENT_PATH_MAX],
+static bool find_object(const struct world_reader *reader, char object[SEGMENT_PATH_MAX],
                         struct reason *why)
 {
     struct segment_paths paths;
-    if (segment_paths(&paths, watch->name, why) != 0)
+    if (segment_paths(&paths, reader->name, why) != 0)
         return false;
     memcpy(object, paths.object, sizeof paths.object);
     if (object[0] == '\0')
-        reason_set(why, "world \"%s\" is not there", watch->name);
+        reason_set(why, "world \"%s\" is not there", reader->name);
     return object[0] != '\0';
 }
 
-static void note_turrets(struct world_reader *watch)
+static void note_turrets(struct world_reader *reader)
 {
-    const struct world *world = &watch->view.world;
-    memset(watch->turret, 0, sizeof watch->turret);
+    const struct world *world = &reader->view.world;
+    memset(reader->turret, 0, sizeof reader->turret);
     for (uint32_t i = 0; i < world->counts.kinds && i < KIND_COUNT_MAX; i++) {
         const struct model *model = &world->models[world->kinds[i].model];
         if (world->kinds[i].domain == DOMAIN_MUNITION || world->kinds[i].domain == DOMAIN_FIXED)
             continue;
-        for (uint32_t t = 0; t < model->triangle_count && !watch->turret[i]; t++)
-            watch->turret[i] =
+        for (uint32_t t = 0; t < model->triangle_count && !reader->turret[i]; t++)
+            reader->turret[i] =
                 world->model_triangles[model->first_triangle + t].part == PART_TURRET;
     }
 }
 
 /* The object may be another one before and after: then it is for the next look. */
-static bool attach(struct world_reader *watch)
+static bool attach(struct world_reader *reader)
 {
     char before[SEGMENT_PATH_MAX];
-    if (!find_object(watch, before, &watch->why))
+    if (!find_object(reader, before, &reader->why))
         return false;
-    if (segment_attach(&watch->view, watch->name, ROLE_NONE, &watch->why) != 0)
+    if (segment_attach(&reader->view, reader->name, ROLE_NONE, &reader->why) != 0)
         return false;
-    if (!find_object(watch, watch->object, &watch->why) || strcmp(before, watch->object) != 0 ||
-        snapshot_init(&watch->snapshot, &watch->view) != 0) {
-        segment_detach(&watch->view);
-        reason_set(&watch->why, "world \"%s\" is being made, or there is no memory for a copy",
-                   watch->name);
+    if (!find_object(reader, reader->object, &reader->why) || strcmp(before, reader->object) != 0 ||
+        snapshot_init(&reader->snapshot, &reader->view) != 0) {
+        segment_detach(&reader->view);
+        reason_set(&reader->why, "world \"%s\" is being made, or there is no memory for a copy",
+                   reader->name);
         return false;
     }
-    watch->there = true;
-    note_turrets(watch);
+    reader->there = true;
+    note_turrets(reader);
     return true;
 }
 
-static bool look(struct world_reader *watch)
+static bool look(struct world_reader *reader)
 {
     char object[SEGMENT_PATH_MAX];
     struct reason why;
-    if (watch->there && find_object(watch, object, &why) && strcmp(object, watch->object) == 0)
+    if (reader->there && find_object(reader, object, &why) && strcmp(object, reader->object) == 0)
         return false;
-    bool was_there = watch->there;
-    let_go(watch);
-    return attach(watch) || was_there;
+    bool was_there = reader->there;
+    let_go(reader);
+    return attach(reader) || was_there;
 }
 
-static void sample_rate(struct world_reader *watch, uint64_t now_ns)
+static void sample_rate(struct world_reader *reader, uint64_t now_ns)
 {
-    uint32_t last = (watch->rate_next + WORLD_READER_RATE_SAMPLES - 1) % WORLD_READER_RATE_SAMPLES;
-    if (watch->rate_count > 0 && now_ns - watch->rate[last].at_ns < WORLD_READER_COPY_NS)
+    uint32_t last = (reader->rate_next + WORLD_READER_RATE_SAMPLES - 1) % WORLD_READER_RATE_SAMPLES;
+    if (reader->rate_count > 0 && now_ns - reader->rate[last].at_ns < WORLD_READER_COPY_NS)
         return;
-    watch->rate[watch->rate_next].at_ns = now_ns;
-    watch->rate[watch->rate_next].commit = segment_load(&watch->view.commit->commit);
-    watch->rate_next = (watch->rate_next + 1) % WORLD_READER_RATE_SAMPLES;
-    if (watch->rate_count < WORLD_READER_RATE_SAMPLES)
-        watch->rate_count++;
+    reader->rate[reader->rate_next].at_ns = now_ns;
+    reader->rate[reader->rate_next].commit = segment_load(&reader->view.commit->commit);
+    reader->rate_next = (reader->rate_next + 1) % WORLD_READER_RATE_SAMPLES;
+    if (reader->rate_count < WORLD_READER_RATE_SAMPLES)
+        reader->rate_count++;
 }
 
-static void note_time(struct world_reader *watch)
+static void note_time(struct world_reader *reader)
 {
     struct state_head head;
-    if (snapshot_head(&head, &watch->view) != 0)
+    if (snapshot_head(&head, &reader->view) != 0)
         return; /* the time before is near enough */
-    watch->time_s = state_time_s(&watch->view.world, &head);
-    watch->scale = head.time_scale;
+    reader->time_s = state_time_s(&reader->view.world, &head);
+    reader->scale = head.time_scale;
 }
 
-bool world_reader_turn(struct world_reader *watch, uint64_t now_ns)
+bool world_reader_turn(struct world_reader *reader, uint64_t now_ns)
 {
     bool changed = false;
-    if (watch->looked_ns == 0 || now_ns - watch->looked_ns >= WORLD_READER_LOOK_NS) {
-        watch->looked_ns = now_ns;
-        changed = look(watch);
+    if (reader->looked_ns == 0 || now_ns - reader->looked_ns >= WORLD_READER_LOOK_NS) {
+        reader->looked_ns = now_ns;
+        changed = look(reader);
     }
-    if (watch->there) {
-        sample_rate(watch, now_ns);
-        note_time(watch);
+    if (reader->there) {
+        sample_rate(reader, now_ns);
+        note_time(reader);
     }
     return changed;
 }
 
-int world_reader_copy(struct world_reader *watch, uint64_t now_ns)
+int world_reader_copy(struct world_reader *reader, uint64_t now_ns)
 {
-    if (!watch->there)
+    if (!reader->there)
         return -1;
-    uint64_t pause_ns = watch->spent_ns * WORLD_READER_SHARE;
+    uint64_t pause_ns = reader->spent_ns * WORLD_READER_SHARE;
     pause_ns = pause_ns > WORLD_READER_COPY_NS ? pause_ns : WORLD_READER_COPY_NS;
-    if (watch->copied && now_ns - watch->copied_ns < pause_ns)
+    if (reader->copied && now_ns - reader->copied_ns < pause_ns)
         return 0;
-    int result = snapshot_take(&watch->snapshot, &watch->view);
+    int result = snapshot_take(&reader->snapshot, &reader->view);
     uint64_t done_ns = clock_now_ns();
-    watch->spent_ns = done_ns - now_ns;
-    watch->copied_ns = now_ns;
+    reader->spent_ns = done_ns - now_ns;
+    reader->copied_ns = now_ns;
     if (result == 0)
-        watch->copied = true;
+        reader->copied = true;
     /* The one before is whole and still serves; a world that stays damaged says so itself. */
-    if (!watch->copied)
-        reason_set(&watch->why, "world \"%s\": no frame of it can be read whole", watch->name);
-    return watch->copied ? 0 : -1;
+    if (!reader->copied)
+        reason_set(&reader->why, "world \"%s\": no frame of it can be read whole", reader->name);
+    return reader->copied ? 0 : -1;
 }
 
 /* The oldest sample that there is. */
-static uint32_t oldest(const struct world_reader *watch)
+static uint32_t oldest(const struct world_reader *reader)
 {
-    return watch->rate_count < WORLD_READER_RATE_SAMPLES ? 0 : watch->rate_next;
+    return reader->rate_count < WORLD_READER_RATE_SAMPLES ? 0 : reader->rate_next;
 }
 
-double world_reader_rate_hz(const struct world_reader *watch)
+double world_reader_rate_hz(const struct world_reader *reader)
 {
-    if (watch->rate_count < 2)
+    if (reader->rate_count < 2)
         return 0.0;
-    uint32_t first = oldest(watch);
-    uint32_t last = (watch->rate_next + WORLD_READER_RATE_SAMPLES - 1) % WORLD_READER_RATE_SAMPLES;
-    uint64_t ns = watch->rate[last].at_ns - watch->rate[first].at_ns;
-    return ns ? (double)(watch->rate[last].commit - watch->rate[first].commit) * NS_PER_S /
+    uint32_t first = oldest(reader);
+    uint32_t last = (reader->rate_next + WORLD_READER_RATE_SAMPLES - 1) % WORLD_READER_RATE_SAMPLES;
+    uint64_t ns = reader->rate[last].at_ns - reader->rate[first].at_ns;
+    return ns ? (double)(reader->rate[last].commit - reader->rate[first].commit) * NS_PER_S /
                     (double)ns
               : 0.0;
 }
 
-const char *world_reader_state(const struct world_reader *watch, const struct state_head *head)
+const char *world_reader_state(const struct world_reader *reader, const struct state_head *head)
 {
-    const struct view *view = &watch->view;
+    const struct view *view = &reader->view;
     if (frame_protocol_finished(view))
         return "finished";
-    if (segment_holder(watch->name, ROLE_MOVER) == 0)
+    if (segment_holder(reader->name, ROLE_MOVER) == 0)
         return "stopped";
     if (head->paused)
         return "paused";
-    uint32_t first = oldest(watch);
-    return watch->rate_count == WORLD_READER_RATE_SAMPLES &&
-                   watch->rate[first].commit == segment_load(&view->commit->commit)
+    uint32_t first = oldest(reader);
+    return reader->rate_count == WORLD_READER_RATE_SAMPLES &&
+                   reader->rate[first].commit == segment_load(&view->commit->commit)
                ? "stalled"
                : "running";
 }
 
-uint32_t world_reader_row(const struct world_reader *watch, uint32_t id)
+uint32_t world_reader_row(const struct world_reader *reader, uint32_t id)
 {
-    return id ? entities_find(&watch->snapshot.entities, watch->snapshot.head.used, id) : SLOT_NONE;
+    return id ? entities_find(&reader->snapshot.entities, reader->snapshot.head.used, id)
+              : SLOT_NONE;
 }

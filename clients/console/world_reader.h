@@ -35,24 +35,24 @@ struct world_reader {
     uint32_t rate_next, rate_count;
 };
 
-void world_reader_open(struct world_reader *watch, const char *name);
-void world_reader_close(struct world_reader *watch);
+void world_reader_open(struct world_reader *reader, const char *name);
+void world_reader_close(struct world_reader *reader);
 
 /* Attaches, lets go of a world that was removed or made anew, measures the rate. To be called ten
  * times a second. True when the world came or went. */
-bool world_reader_turn(struct world_reader *watch, uint64_t now_ns);
+bool world_reader_turn(struct world_reader *reader, uint64_t now_ns);
 
 /* Sees to it that the snapshot is as new as it has to be. 0, or -1: there is no world, or no whole
  * frame of it; why says it. */
-int world_reader_copy(struct world_reader *watch, uint64_t now_ns);
+int world_reader_copy(struct world_reader *reader, uint64_t now_ns);
 
 /* Frames a second of the clock, over the last one. */
-double world_reader_rate_hz(const struct world_reader *watch);
+double world_reader_rate_hz(const struct world_reader *reader);
 
 /* "running", "paused", "finished", "stopped" (there is no mover), "stalled" (... that moves). */
-const char *world_reader_state(const struct world_reader *watch, const struct state_head *head);
+const char *world_reader_state(const struct world_reader *reader, const struct state_head *head);
 
 /* Row of the entity with this id in the snapshot, SLOT_NONE when there is none. */
-uint32_t world_reader_row(const struct world_reader *watch, uint32_t id);
+uint32_t world_reader_row(const struct world_reader *reader, uint32_t id);
 
 #endif

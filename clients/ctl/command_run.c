@@ -16,7 +16,7 @@ static uint64_t limit(const struct ctl *ctl)
 static void say_silence(const struct ctl *ctl, const struct command_text *order)
 {
     const struct ctl_request *request = &ctl->request;
-    if (!command_client_heard(&ctl->caller))
+    if (!command_client_heard(&ctl->client))
         (void)fprintf(stderr,
                       "jolon-ctl: world '%s': nobody takes commands for it%s; `jolon status -w "
                       "%s` shows whether it runs\n",
@@ -58,9 +58,9 @@ static bool carry_out(struct ctl *ctl, struct result_text_place *place)
     uint64_t until_ns = limit(ctl);
     while (!command_series_over(mission)) {
         uint64_t now_ns = clock_now_ns();
-        command_series_send(mission, &ctl->caller, now_ns);
-        command_client_turn(&ctl->caller);
-        while (command_series_answer(mission, &ctl->caller, &reply, &place->round)) {
+        command_series_send(mission, &ctl->client, now_ns);
+        command_client_turn(&ctl->client);
+        while (command_series_answer(mission, &ctl->client, &reply, &place->round)) {
             place->round++;
             say_answer(ctl, place, &reply);
             (void)fflush(stdout);
@@ -72,7 +72,7 @@ static bool carry_out(struct ctl *ctl, struct result_text_place *place)
             break;
         uint64_t due_ns = command_series_due_ns(mission);
         uint64_t wake_ns = due_ns < until_ns ? due_ns : until_ns;
-        command_client_wait(&ctl->caller, wake_ns);
+        command_client_wait(&ctl->client, wake_ns);
     }
     return command_series_over(mission);
 }
@@ -95,7 +95,7 @@ int command_run(struct ctl *ctl, struct command_text *order, uint32_t line)
     command_series_begin(&ctl->mission, order, clock_now_ns());
     if (carry_out(ctl, &place))
         return ctl->mission.done == order->rounds ? EXIT_OK : EXIT_REFUSED;
-    command_series_forget(&ctl->mission, &ctl->caller);
+    command_series_forget(&ctl->mission, &ctl->client);
     if (ctl->request.json)
         result_text_json(order, &place, NULL);
     say_silence(ctl, order);

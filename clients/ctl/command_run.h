@@ -11,7 +11,7 @@ struct ctl {
     struct ctl_request request;
     struct dds_link link; /* open when the request is remote */
     struct view view;     /* else */
-    struct command_client caller;
+    struct command_client client;
     struct command_route route; /* of the caller */
     struct lookup lookup;
     struct command_series mission;

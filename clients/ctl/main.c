@@ -60,7 +60,7 @@ int main(int argc, char **argv)
     ctl_parse(&ctl.request, argc, argv);
     process_signals();
     if (open_world(&ctl, &reason) != 0 ||
-        command_route_open(&ctl.route, &ctl.caller, ctl.request.remote, &ctl.link,
+        command_route_open(&ctl.route, &ctl.client, ctl.request.remote, &ctl.link,
                            ctl.request.world, &reason) != 0)
         die_refused("%s", reason.text);
     int code = ctl.request.lines ? obey_lines(&ctl) : command_run(&ctl, &ctl.request.order, 0);

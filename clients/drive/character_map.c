@@ -36,27 +36,27 @@ void character_map_codes(char code[][3], const struct world_mirror *mirror)
     }
 }
 
-static void put(struct character_map *chart, int row, int column, const char *text,
+static void put(struct character_map *map, int row, int column, const char *text,
                 enum character_map_mark mark)
 {
-    if (row < 0 || row >= chart->rows || column < 0 || column >= chart->columns)
+    if (row < 0 || row >= map->rows || column < 0 || column >= map->columns)
         return;
-    struct character_map_cell *cell = &chart->cell[row][column];
+    struct character_map_cell *cell = &map->cell[row][column];
     if (cell->mark > mark)
         return;
     cell->mark = (uint8_t)mark;
     memcpy(cell->text, text, 2);
 }
 
-static void draw_ground(struct character_map *chart, const struct world_mirror *mirror, double x0,
+static void draw_ground(struct character_map *map, const struct world_mirror *mirror, double x0,
                         double z0)
 {
     double side_m = mirror->world.side_m;
-    for (int row = 0; row < chart->rows; row++) {
-        for (int column = 0; column < chart->columns; column++) {
-            double x = x0 + (column + 0.5) * chart->cell_m;
-            double z = z0 + (row + 0.5) * chart->cell_m;
-            struct character_map_cell *cell = &chart->cell[row][column];
+    for (int row = 0; row < map->rows; row++) {
+        for (int column = 0; column < map->columns; column++) {
+            double x = x0 + (column + 0.5) * map->cell_m;
+            double z = z0 + (row + 0.5) * map->cell_m;
+            struct character_map_cell *cell = &map->cell[row][column];
             if (!(x >= 0.0 && z >= 0.0 && x < side_m && z < side_m)) {
                 memcpy(cell->text, "//", 2); /* the edge of the world */
                 continue;
@@ -78,17 +78,17 @@ static const char *arrow(const jolon_Entity *self)
     return arrows[(int)((double)self->heading_rad / TWO_PI * 8.0 + 0.5) & 7];
 }
 
-static void draw_entity(struct character_map *chart, const struct world_mirror *mirror,
+static void draw_entity(struct character_map *map, const struct world_mirror *mirror,
                         const jolon_Entity *e, char code[][3], int row, int column)
 {
     const jolon_KindInfo *kind = world_mirror_kind(mirror, e->kind);
     char text[3] = "??";
     if (kind && kind->domain == jolon_DOMAIN_MUNITION) {
-        put(chart, row, column, " *", CHARACTER_MAP_MUNITION);
+        put(map, row, column, " *", CHARACTER_MAP_MUNITION);
         return;
     }
     if (e->state == jolon_ENTITY_WRECK) {
-        put(chart, row, column, "xx", CHARACTER_MAP_WRECK);
+        put(map, row, column, "xx", CHARACTER_MAP_WRECK);
         return;
     }
     if (kind)
@@ -97,41 +97,41 @@ static void draw_entity(struct character_map *chart, const struct world_mirror *
         text[0] = (char)toupper((unsigned char)text[0]);
     if (e->force == jolon_FORCE_RED)
         text[1] = (char)toupper((unsigned char)text[1]);
-    put(chart, row, column, text,
+    put(map, row, column, text,
         e->force == jolon_FORCE_BLUE  ? CHARACTER_MAP_BLUE
         : e->force == jolon_FORCE_RED ? CHARACTER_MAP_RED
                                       : CHARACTER_MAP_NEUTRAL);
 }
 
-void character_map_draw(struct character_map *chart, const struct world_mirror *mirror,
+void character_map_draw(struct character_map *map, const struct world_mirror *mirror,
                         const jolon_Entity *self, uint32_t target, int rows, int columns,
                         double cell_m)
 {
     char code[WORLD_MIRROR_KINDS_MAX][3] = {{0}};
-    chart->rows = rows < 0 ? 0 : rows > CHARACTER_MAP_ROWS_MAX ? CHARACTER_MAP_ROWS_MAX : rows;
-    chart->columns = columns < 0                           ? 0
-                     : columns > CHARACTER_MAP_COLUMNS_MAX ? CHARACTER_MAP_COLUMNS_MAX
-                                                           : columns;
-    chart->cell_m = cell_m;
-    for (int row = 0; row < chart->rows; row++) {
-        for (int column = 0; column < chart->columns; column++)
-            chart->cell[row][column] =
+    map->rows = rows < 0 ? 0 : rows > CHARACTER_MAP_ROWS_MAX ? CHARACTER_MAP_ROWS_MAX : rows;
+    map->columns = columns < 0                           ? 0
+                   : columns > CHARACTER_MAP_COLUMNS_MAX ? CHARACTER_MAP_COLUMNS_MAX
+                                                         : columns;
+    map->cell_m = cell_m;
+    for (int row = 0; row < map->rows; row++) {
+        for (int column = 0; column < map->columns; column++)
+            map->cell[row][column] =
                 (struct character_map_cell){.text = " .", .mark = CHARACTER_MAP_GROUND};
     }
     if (!self || !mirror->has_world || !mirror->has_batch)
         return;
-    double x0 = self->x_m - (chart->columns / 2 + 0.5) * cell_m;
-    double z0 = self->z_m - (chart->rows / 2 + 0.5) * cell_m;
-    draw_ground(chart, mirror, x0, z0);
+    double x0 = self->x_m - (map->columns / 2 + 0.5) * cell_m;
+    double z0 = self->z_m - (map->rows / 2 + 0.5) * cell_m;
+    draw_ground(map, mirror, x0, z0);
     character_map_codes(code, mirror);
     for (uint32_t i = 0; i < mirror->batch.count; i++) {
         const jolon_Entity *e = &mirror->batch.entity[i];
         double row = floor((e->z_m - z0) / cell_m), column = floor((e->x_m - x0) / cell_m);
-        if (!(row >= 0.0 && column >= 0.0 && row < chart->rows && column < chart->columns))
+        if (!(row >= 0.0 && column >= 0.0 && row < map->rows && column < map->columns))
             continue;
-        draw_entity(chart, mirror, e, code, (int)row, (int)column);
+        draw_entity(map, mirror, e, code, (int)row, (int)column);
         if (e->id == target)
-            chart->cell[(int)row][(int)column].mark = CHARACTER_MAP_TARGET;
+            map->cell[(int)row][(int)column].mark = CHARACTER_MAP_TARGET;
     }
-    put(chart, chart->rows / 2, chart->columns / 2, arrow(self), CHARACTER_MAP_SELF);
+    put(map, map->rows / 2, map->columns / 2, arrow(self), CHARACTER_MAP_SELF);
 }

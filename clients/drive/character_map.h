@@ -38,7 +38,7 @@ double character_map_cell_m(uint32_t zoom);
 void character_map_codes(char code[][3], const struct world_mirror *mirror);
 
 /* Draws what the mirror has about self; target: id, 0 for none. */
-void character_map_draw(struct character_map *chart, const struct world_mirror *mirror,
+void character_map_draw(struct character_map *map, const struct world_mirror *mirror,
                         const jolon_Entity *self, uint32_t target, int rows, int columns,
                         double cell_m);
 

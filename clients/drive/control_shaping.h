@@ -38,11 +38,11 @@ struct controls {
 
 struct control_shaping {
     struct control_shaping_axis {
-        double hand; /* where a device holds it, shaped */
-        double rate; /* how hard one pushes it, shaped */
-        double key;  /* what keys make of it */
-        int held;    /* -1, 0, 1: the key that is down */
-        int way;     /* -1, 0, 1: the last one that was */
+        double hand;   /* where a device holds it, shaped */
+        double rate;   /* how hard one pushes it, shaped */
+        double key;    /* what keys make of it */
+        int held;      /* -1, 0, 1: the key that is down */
+        int direction; /* -1, 0, 1: the last one that was */
         uint64_t down_ns, last_ns, until_ns;
     } axis[AXIS_COUNT];
     double lever;    /* -1..1 */
@@ -55,23 +55,23 @@ struct control_shaping {
 double control_shaping_shape(double value);
 
 /* All let go; the lever at nothing, the gear automatic. */
-void control_shaping_reset(struct control_shaping *stick, uint64_t now_ns);
+void control_shaping_reset(struct control_shaping *shaping, uint64_t now_ns);
 
 /* Takes an event other than INTENT_ACT. */
-void control_shaping_take(struct control_shaping *stick, const struct intent *event,
+void control_shaping_take(struct control_shaping *shaping, const struct intent *event,
                           uint64_t now_ns);
 
 /* ACTION_STOP, ACTION_GEAR_UP and ACTION_GEAR_DOWN. */
-void control_shaping_stop(struct control_shaping *stick);
-void control_shaping_gear(struct control_shaping *stick, int by);
+void control_shaping_stop(struct control_shaping *shaping);
+void control_shaping_gear(struct control_shaping *shaping, int by);
 
 /* Moves on to now. True while something changes by itself: step again within a frame. */
-bool control_shaping_step(struct control_shaping *stick, uint64_t now_ns);
+bool control_shaping_step(struct control_shaping *shaping, uint64_t now_ns);
 
 /* Of an aircraft the aim is the stick. */
-struct controls control_shaping_controls(const struct control_shaping *stick, bool aircraft);
+struct controls control_shaping_controls(const struct control_shaping *shaping, bool aircraft);
 
 /* Is there a hand on the turret, or on an aircraft's stick? */
-bool control_shaping_aims(const struct control_shaping *stick);
+bool control_shaping_aims(const struct control_shaping *shaping);
 
 #endif

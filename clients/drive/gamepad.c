@@ -57,7 +57,7 @@ static const struct {
 static const struct {
     uint16_t code;
     enum input_axis axis;
-    int way; /* 0: a pedal */
+    int direction; /* 0: a pedal */
 } axes[] = {
     {ABS_X, AXIS_STEER, 1},   {ABS_Y, AXIS_CLIMB, -1},    {ABS_RX, AXIS_AIM_X, 1},
     {ABS_RY, AXIS_AIM_Y, -1}, {ABS_RZ, AXIS_THROTTLE, 0}, {ABS_GAS, AXIS_THROTTLE, 0},
@@ -94,7 +94,7 @@ static void decode_axis(const struct gamepad *gamepad, uint16_t code, int32_t va
     for (size_t i = 0; i < sizeof axes / sizeof axes[0]; i++) {
         if (axes[i].code == code)
             intent_set(queue, axes[i].axis,
-                       axes[i].way == 0 ? share : axes[i].way * (2.0 * share - 1.0));
+                       axes[i].direction == 0 ? share : axes[i].direction * (2.0 * share - 1.0));
     }
 }
 

@@ -22,4 +22,7 @@ struct gamepad {
 void gamepad_decode(struct gamepad *gamepad, uint16_t type, uint16_t code, int32_t value,
                     struct intents *queue);
 
+/* Opens the device; path: NULL for the first gamepad found. 0, or -1 with the reason. */
+int gamepad_open(struct input *input, const char *path, struct reason *reason);
+
 #endif

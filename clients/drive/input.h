@@ -81,11 +81,6 @@ struct input {
     void *state; /* the module's own */
 };
 
-/* Each opens its device: 0, or -1 with the reason. */
-int terminal_keys_open(struct input *input, struct reason *reason);             /* stdin */
-int gamepad_open(struct input *input, const char *path, struct reason *reason); /* NULL: any */
-int spacemouse_open(struct input *input, struct reason *reason);
-
 static inline void intent_put(struct intents *queue, struct intent intent)
 {
     if (queue->count < INTENTS_MAX)

@@ -1,6 +1,9 @@
 /* Devices opened, awaited and read. */
 #include "clients/drive/inputs.h"
 
+#include "clients/drive/gamepad.h"
+#include "clients/drive/spacemouse.h"
+#include "clients/drive/terminal_keys.h"
 #include "ipc/process/clock.h"
 
 #include <poll.h>
@@ -11,7 +14,7 @@
 static void say(struct inputs *inputs, const char *text)
 {
     size_t used = strlen(inputs->said);
-    inputs->news = true;
+    inputs->said_changed = true;
     (void)snprintf(inputs->said + used, sizeof inputs->said - used, "%s%s", used ? "; " : "", text);
 }
 
@@ -66,7 +69,7 @@ static void lose(struct inputs *inputs, uint32_t which)
         return;
     }
     (void)snprintf(inputs->said, sizeof inputs->said, "keys; the %s is gone", input->what);
-    inputs->news = true;
+    inputs->said_changed = true;
     input->close(input);
     inputs->count--;
     memmove(input, input + 1, (inputs->count - which) * sizeof *input);

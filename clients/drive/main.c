@@ -21,12 +21,12 @@ struct drive {
     struct options options;
     struct dds_link link;
     struct world_mirror mirror;
-    struct event_merge tail;
-    struct command_client caller;
+    struct event_merge merge;
+    struct command_client client;
     struct command_route route; /* of the caller */
     struct inputs inputs;
     struct session session;
-    struct recent_events news;
+    struct recent_events events;
     struct plain_output plain;
     uint64_t period_ns; /* between two pictures of the screen */
     uint64_t draw_ns;   /* when the next picture is due */
@@ -36,9 +36,9 @@ struct drive {
 static bool show(struct drive *drive, bool touched, uint64_t now_ns)
 {
     if (drive->options.plain)
-        return plain_output_show(&drive->plain, &drive->session, &drive->news, now_ns);
+        return plain_output_show(&drive->plain, &drive->session, &drive->events, now_ns);
     if (touched || now_ns >= drive->draw_ns) {
-        screen_draw(&drive->session, &drive->news, drive->inputs.said, now_ns);
+        screen_draw(&drive->session, &drive->events, drive->inputs.said, now_ns);
         drive->draw_ns = now_ns + drive->period_ns;
     }
     return true;
@@ -64,12 +64,12 @@ static void run(struct drive *drive)
         uint64_t now_ns = clock_now_ns();
         for (uint32_t i = 0; i < intents.count; i++)
             session_take(session, &intents.intent[i], now_ns);
-        if (drive->inputs.news)
+        if (drive->inputs.said_changed)
             session_say(session, now_ns, "in use: %s", drive->inputs.said);
-        drive->inputs.news = false;
+        drive->inputs.said_changed = false;
         due_ns = session_turn(session, now_ns);
         world_mirror_take(&drive->mirror);
-        (void)event_merge_turn(&drive->tail, recent_events_take, &drive->news);
+        (void)event_merge_turn(&drive->merge, recent_events_take, &drive->events);
         good = show(drive, intents.count > 0, clock_now_ns());
         session->ended |= drive->inputs.keys_ended && session->fire == 0;
     }
@@ -95,12 +95,12 @@ static void open_all(struct drive *drive)
         inputs_open(&drive->inputs, options->input, options->device, &reason) != 0 ||
         dds_link_open(&drive->link, &options->link, options->world, &reason) != 0 ||
         world_mirror_open(&drive->mirror, &drive->link, options->world, true, &reason) != 0 ||
-        event_merge_open(&drive->tail, &drive->link, recent_events_format, &reason) != 0 ||
-        command_route_open(&drive->route, &drive->caller, options->remote, &drive->link,
+        event_merge_open(&drive->merge, &drive->link, recent_events_format, &reason) != 0 ||
+        command_route_open(&drive->route, &drive->client, options->remote, &drive->link,
                            options->world, &reason) != 0)
         die_refused("%s", reason.text);
-    session_open(&drive->session, &drive->mirror, &drive->caller, options->wanted, clock_now_ns());
-    drive->news.session = &drive->session;
+    session_open(&drive->session, &drive->mirror, &drive->client, options->wanted, clock_now_ns());
+    drive->events.session = &drive->session;
     drive->period_ns = (uint64_t)(NS_PER_S / options->rate_hz);
     drive->plain.period_ns = drive->period_ns;
     if (!options->plain && screen_open(&reason) != 0)
@@ -125,7 +125,7 @@ int main(int argc, char **argv)
     if (drive.session.refused)
         (void)fprintf(stderr, "jolon-drive: %s\n", drive.session.notice);
     inputs_close(&drive.inputs);
-    event_merge_close(&drive.tail);
+    event_merge_close(&drive.merge);
     world_mirror_close(&drive.mirror);
     (void)fflush(stdout);
     dds_link_close(&drive.link, code);

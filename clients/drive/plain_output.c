@@ -13,7 +13,7 @@ static bool print_line(const char *text)
 }
 
 bool plain_output_show(struct plain_output *output, const struct session *session,
-                       const struct recent_events *news, uint64_t now_ns)
+                       const struct recent_events *events, uint64_t now_ns)
 {
     char line[STATUS_PANEL_LINE];
     bool good = true;
@@ -22,9 +22,9 @@ bool plain_output_show(struct plain_output *output, const struct session *sessio
         (void)snprintf(line, sizeof line, "# %s", session->notice);
         good = print_line(line);
     }
-    for (; good && output->news_printed < news->count; output->news_printed++) {
+    for (; good && output->news_printed < events->count; output->news_printed++) {
         (void)snprintf(line, sizeof line, "! %s",
-                       news->line[output->news_printed % RECENT_EVENTS_KEPT]);
+                       events->line[output->news_printed % RECENT_EVENTS_KEPT]);
         good = print_line(line);
     }
     if (now_ns < output->line_ns)

@@ -15,6 +15,6 @@ struct plain_output {
 /* Prints what is new since the last call, and a line of statistics when it is due. Returns false
  * when standard output cannot be written: nobody reads it any more. */
 bool plain_output_show(struct plain_output *output, const struct session *session,
-                       const struct recent_events *news, uint64_t now_ns);
+                       const struct recent_events *events, uint64_t now_ns);
 
 #endif

@@ -22,8 +22,8 @@ void recent_events_format(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic,
 
 bool recent_events_take(void *context, const char *line)
 {
-    struct recent_events *news = context;
-    const struct session *session = news->session;
+    struct recent_events *events = context;
+    const struct session *session = events->session;
     bool concerns = false;
     for (int i = 0; i < EVENT_LINES_IDS; i++) {
         char *end;
@@ -32,7 +32,7 @@ bool recent_events_take(void *context, const char *line)
         line = *end ? end + 1 : end;
     }
     if (concerns)
-        (void)snprintf(news->line[news->count++ % RECENT_EVENTS_KEPT], RECENT_EVENTS_MAX, "%s",
+        (void)snprintf(events->line[events->count++ % RECENT_EVENTS_KEPT], RECENT_EVENTS_MAX, "%s",
                        line);
     return true;
 }

@@ -21,6 +21,6 @@ void recent_events_format(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic,
 /* A event_merge_print with a struct recent_events as context: keeps what concerns the vehicle or
  * its last target.
  */
-bool recent_events_take(void *news, const char *line);
+bool recent_events_take(void *events, const char *line);
 
 #endif

@@ -86,15 +86,15 @@ static void draw_cell(int row, int column, const struct character_map_cell *cell
 
 static void draw_chart(const struct session *session, int top, int rows, int left)
 {
-    static struct character_map chart;
+    static struct character_map map;
     char scale[64];
-    character_map_draw(&chart, session->mirror, session_entity(session), session->target, rows - 1,
+    character_map_draw(&map, session->mirror, session_entity(session), session->target, rows - 1,
                        (COLS - left) / 2, character_map_cell_m(session->zoom));
-    for (int row = 0; row < chart.rows; row++) {
-        for (int column = 0; column < chart.columns; column++)
-            draw_cell(top + row, left + 2 * column, &chart.cell[row][column]);
+    for (int row = 0; row < map.rows; row++) {
+        for (int column = 0; column < map.columns; column++)
+            draw_cell(top + row, left + 2 * column, &map.cell[row][column]);
     }
-    (void)snprintf(scale, sizeof scale, "a cell %g m; blue RED Neutral xx wreck", chart.cell_m);
+    (void)snprintf(scale, sizeof scale, "a cell %g m; blue RED Neutral xx wreck", map.cell_m);
     put(top + rows - 1, left, scale, A_DIM, PAIR_PLAIN);
 }
 
@@ -109,13 +109,13 @@ static void draw_statistics(const struct session *session, int top, int rows)
     }
 }
 
-static void draw_news(const struct recent_events *news, int top, int rows)
+static void draw_news(const struct recent_events *events, int top, int rows)
 {
-    uint64_t kept = news->count < RECENT_EVENTS_KEPT ? news->count : RECENT_EVENTS_KEPT;
+    uint64_t kept = events->count < RECENT_EVENTS_KEPT ? events->count : RECENT_EVENTS_KEPT;
     uint64_t shown = kept < (uint64_t)rows ? kept : (uint64_t)rows;
     for (uint64_t i = 0; i < shown; i++)
-        put(top + (int)i, 0, news->line[(news->count - shown + i) % RECENT_EVENTS_KEPT], A_NORMAL,
-            PAIR_PLAIN);
+        put(top + (int)i, 0, events->line[(events->count - shown + i) % RECENT_EVENTS_KEPT],
+            A_NORMAL, PAIR_PLAIN);
 }
 
 static void draw_help(const char *inputs)
@@ -155,7 +155,7 @@ static void take_size(void)
         (void)resizeterm(size.ws_row, size.ws_col);
 }
 
-void screen_draw(const struct session *session, const struct recent_events *news,
+void screen_draw(const struct session *session, const struct recent_events *events,
                  const char *inputs, uint64_t now_ns)
 {
     char line[STATUS_PANEL_LINE];
@@ -176,7 +176,7 @@ void screen_draw(const struct session *session, const struct recent_events *news
     } else {
         draw_statistics(session, 1, rows);
         draw_chart(session, 1, rows, STATUS_PANEL_COLUMNS + 1);
-        draw_news(news, 1 + rows, LINES - 1 - FOOT_ROWS - rows);
+        draw_news(events, 1 + rows, LINES - 1 - FOOT_ROWS - rows);
         draw_foot(session, now_ns);
     }
     (void)refresh();

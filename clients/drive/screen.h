@@ -9,7 +9,7 @@ int screen_open(struct reason *reason);
 void screen_close(void);
 
 /* inputs: what is in use, as inputs.said. */
-void screen_draw(const struct session *session, const struct recent_events *news,
+void screen_draw(const struct session *session, const struct recent_events *events,
                  const char *inputs, uint64_t now_ns);
 
 #endif

@@ -39,10 +39,10 @@ void session_say(struct session *session, uint64_t now_ns, const char *format, .
 }
 
 void session_open(struct session *session, struct world_mirror *mirror,
-                  struct command_client *caller, const char *wanted, uint64_t now_ns)
+                  struct command_client *client, const char *wanted, uint64_t now_ns)
 {
-    *session = (struct session){.mirror = mirror, .caller = caller, .wanted = wanted, .zoom = 2};
-    control_shaping_reset(&session->stick, now_ns);
+    *session = (struct session){.mirror = mirror, .client = client, .wanted = wanted, .zoom = 2};
+    control_shaping_reset(&session->shaping, now_ns);
 }
 
 const jolon_Entity *session_entity(const struct session *session)
@@ -120,7 +120,7 @@ static void send_drive(struct session *session, const struct controls *controls,
         .gear = (jolon_Gear)controls->gear,
         .lease_frames = lease_frames(session->mirror),
     };
-    session->drive = command_client_send(session->caller, &command);
+    session->drive = command_client_send(session->client, &command);
     session->sent = *controls;
     session->sent_ns = now_ns;
 }
@@ -129,10 +129,10 @@ static void send_drive(struct session *session, const struct controls *controls,
 static void send_release(struct session *session)
 {
     jolon_Command command = {.type = jolon_COMMAND_RELEASE, .entity = session->vehicle};
-    command_client_forget(session->caller, session->drive);
+    command_client_forget(session->client, session->drive);
     session->drive = 0;
-    command_client_forget(session->caller, session->release);
-    session->release = command_client_send(session->caller, &command);
+    command_client_forget(session->client, session->release);
+    session->release = command_client_send(session->client, &command);
 }
 
 static bool holds(const struct session *session)
@@ -155,8 +155,8 @@ static void become(struct session *session, uint32_t id, uint64_t now_ns)
     session->lay_until_ns = 0;
     session->look_rad = 0.0;
     session->state = SESSION_TAKING;
-    control_shaping_reset(&session->stick, now_ns);
-    struct controls controls = control_shaping_controls(&session->stick, false);
+    control_shaping_reset(&session->shaping, now_ns);
+    struct controls controls = control_shaping_controls(&session->shaping, false);
     send_drive(session, &controls, now_ns);
     session_say(session, now_ns, "taking %s", session_label(session->mirror, id, label));
 }
@@ -164,7 +164,7 @@ static void become(struct session *session, uint32_t id, uint64_t now_ns)
 static struct choice any(const struct session *session)
 {
     return (struct choice){
-        .source = session->caller->source, .from = session->vehicle, .force = -1, .kind = -1};
+        .source = session->client->source, .from = session->vehicle, .force = -1, .kind = -1};
 }
 
 static void become_near(struct session *session, int force, int kind, uint64_t now_ns)
@@ -210,7 +210,7 @@ static void send_fire(struct session *session)
 {
     jolon_Command command = {
         .type = jolon_COMMAND_FIRE, .entity = session->vehicle, .target = session->target};
-    session->fire = command_client_send(session->caller, &command);
+    session->fire = command_client_send(session->client, &command);
 }
 
 static void fire(struct session *session, uint64_t now_ns)
@@ -274,11 +274,11 @@ static void act(struct session *session, enum input_action action, uint64_t now_
         session->lay_until_ns = 0;
         break;
     case ACTION_STOP:
-        control_shaping_stop(&session->stick);
+        control_shaping_stop(&session->shaping);
         break;
     case ACTION_GEAR_UP:
     case ACTION_GEAR_DOWN:
-        control_shaping_gear(&session->stick, action == ACTION_GEAR_UP ? 1 : -1);
+        control_shaping_gear(&session->shaping, action == ACTION_GEAR_UP ? 1 : -1);
         break;
     case ACTION_RELEASE:
         release(session, now_ns);
@@ -312,14 +312,14 @@ void session_take(struct session *session, const struct intent *intent, uint64_t
     if (intent->type == INTENT_ACT)
         act(session, intent->action, now_ns);
     else
-        control_shaping_take(&session->stick, intent, now_ns);
+        control_shaping_take(&session->shaping, intent, now_ns);
 }
 
 static void hear_drive(struct session *session, uint64_t now_ns)
 {
     char label[64];
     jolon_CommandReply reply;
-    if (!session->drive || !command_client_answered(session->caller, session->drive, &reply))
+    if (!session->drive || !command_client_answered(session->client, session->drive, &reply))
         return;
     session->drive = 0;
     (void)session_label(session->mirror, session->vehicle, label);
@@ -389,7 +389,7 @@ static void hear_fire(struct session *session, uint64_t now_ns)
 {
     char label[64];
     jolon_CommandReply reply;
-    if (!session->fire || !command_client_answered(session->caller, session->fire, &reply))
+    if (!session->fire || !command_client_answered(session->client, session->fire, &reply))
         return;
     session->fire = 0;
     if (reply.result != jolon_RESULT_DONE) {
@@ -423,7 +423,7 @@ static void watch(struct session *session, uint64_t now_ns)
         return;
     session->wreck = true;
     session->state = SESSION_WATCHING;
-    command_client_forget(session->caller, session->drive);
+    command_client_forget(session->client, session->drive);
     session->drive = 0;
     session_say(session, now_ns,
                 "your %s is %s; n takes the next vehicle, o the nearest of its force",
@@ -437,7 +437,7 @@ static void begin(struct session *session, uint64_t now_ns)
     const struct world_mirror *mirror = session->mirror;
     struct choice choice = any(session);
     if (!mirror->has_world || !mirror->has_batch || !mirror->frame_ns || !mirror->names.told ||
-        mirror->batch.run != mirror->world.run || !command_client_heard(session->caller))
+        mirror->batch.run != mirror->world.run || !command_client_heard(session->client))
         return;
     session->run = mirror->world.run;
     session->state = SESSION_WATCHING;
@@ -459,8 +459,8 @@ uint64_t session_turn(struct session *session, uint64_t now_ns)
 {
     const struct world_mirror *mirror = session->mirror;
     uint64_t frame_ns = session_frame_ns(mirror);
-    bool moves = control_shaping_step(&session->stick, now_ns);
-    struct controls controls = control_shaping_controls(&session->stick, is_aircraft(session));
+    bool moves = control_shaping_step(&session->shaping, now_ns);
+    struct controls controls = control_shaping_controls(&session->shaping, is_aircraft(session));
     if (holds(session)) { /* first of all: somebody waits for it */
         uint64_t since_ns = now_ns - session->sent_ns;
         bool stands = mirror->frame_ns && mirror->frame.paused; /* so does the lease */
@@ -468,11 +468,11 @@ uint64_t session_turn(struct session *session, uint64_t now_ns)
             (since_ns >= frame_ns && differs(&controls, &session->sent)))
             send_drive(session, &controls, now_ns);
     }
-    command_client_turn(session->caller);
+    command_client_turn(session->client);
     hear_drive(session, now_ns);
     hear_fire(session, now_ns);
     if (session->lay_until_ns &&
-        (!holds(session) || !session->target || control_shaping_aims(&session->stick)))
+        (!holds(session) || !session->target || control_shaping_aims(&session->shaping)))
         session->lay_until_ns = 0; /* a hand on the turret takes it from the gunner */
     if (session->lay_until_ns && session->fire == 0 && now_ns >= session->lay_next_ns)
         send_fire(session);
@@ -499,12 +499,12 @@ void session_leave(struct session *session, uint64_t until_ns)
     if (holds(session))
         send_release(session);
     while (session->release &&
-           !command_client_answered(session->caller, session->release, &reply)) {
+           !command_client_answered(session->client, session->release, &reply)) {
         uint64_t now_ns = clock_now_ns();
         if (now_ns >= until_ns)
             return;
-        command_client_wait(session->caller,
+        command_client_wait(session->client,
                             until_ns - now_ns < IDLE_NS ? until_ns : now_ns + IDLE_NS);
-        command_client_turn(session->caller);
+        command_client_turn(session->client);
     }
 }

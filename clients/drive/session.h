@@ -29,7 +29,7 @@ enum session_state {
 
 struct session {
     struct world_mirror *mirror;
-    struct command_client *caller;
+    struct command_client *client;
     const char *wanted; /* id, name, kind or force to begin with; NULL: any */
     bool ended;         /* by a key, or because wanted is not there: refused */
     bool refused;
@@ -39,7 +39,7 @@ struct session {
     uint32_t vehicle; /* id, 0: none */
     bool seen;        /* the world told of it since it was chosen */
     bool wreck;       /* it was said that it is destroyed or gone */
-    struct control_shaping stick;
+    struct control_shaping shaping;
     struct controls sent;
     uint64_t sent_ns;
     uint64_t drive, fire, release;      /* sequences that wait for their replies, 0: none */
@@ -57,7 +57,7 @@ struct session {
 };
 
 void session_open(struct session *session, struct world_mirror *mirror,
-                  struct command_client *caller, const char *wanted, uint64_t now_ns);
+                  struct command_client *client, const char *wanted, uint64_t now_ns);
 
 /* Takes an intent of the hands. */
 void session_take(struct session *session, const struct intent *intent, uint64_t now_ns);

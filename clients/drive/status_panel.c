@@ -204,7 +204,7 @@ void status_panel_others(char line[STATUS_PANEL_LINE], const struct session *ses
     line[0] = '\0';
     for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++) {
         const jolon_Entity *e = &mirror->batch.entity[i];
-        if (e->driver == 0 || e->driver == session->caller->source || used + 80 > STATUS_PANEL_LINE)
+        if (e->driver == 0 || e->driver == session->client->source || used + 80 > STATUS_PANEL_LINE)
             continue;
         used +=
             (size_t)snprintf(line + used, STATUS_PANEL_LINE - used, "%s%s",

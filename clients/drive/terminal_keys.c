@@ -21,14 +21,14 @@ enum press { PRESS_DOWN = 1, PRESS_AGAIN, PRESS_UP };
 /* A key is for an axis, or it is for an action. */
 struct binding {
     uint32_t code;
-    int8_t way; /* -1, 1: for axis; 0: for action */
+    int8_t direction; /* -1, 1: for axis; 0: for action */
     enum input_axis axis;
     enum input_action action;
 };
 
-#define PUSH(code, axis, way)                                                                      \
+#define PUSH(code, axis, direction)                                                                \
     {                                                                                              \
-        (code), (way), (axis), ACTION_COUNT                                                        \
+        (code), (direction), (axis), ACTION_COUNT                                                  \
     }
 #define DOES(code, action)                                                                         \
     {                                                                                              \
@@ -112,10 +112,10 @@ static void key(const struct terminal_keys *keys, uint32_t code, enum press pres
         const struct binding *b = &bindings[i];
         if (b->code != code)
             continue;
-        if (b->way != 0)
+        if (b->direction != 0)
             intent_put(queue, (struct intent){.type = press == PRESS_UP ? INTENT_UP : INTENT_DOWN,
                                               .axis = b->axis,
-                                              .value = (float)b->way,
+                                              .value = (float)b->direction,
                                               .lifts = keys->lifts});
         else if (press == PRESS_DOWN)
             intent_act(queue, b->action);

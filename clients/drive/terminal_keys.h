@@ -39,4 +39,7 @@ void terminal_keys_decode(struct terminal_keys *keys, const char *bytes, size_t 
 /* Line n of the help, from 0: "w s", "throttle up, down"; false after the last. */
 bool terminal_keys_help(uint32_t n, const char **keys, const char **meaning);
 
+/* Opens standard input for keys. 0, or -1 with the reason. */
+int terminal_keys_open(struct input *input, struct reason *reason);
+
 #endif

@@ -10,9 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-bool command_queue_room(const struct command_queue *desk)
+bool command_queue_room(const struct command_queue *queue)
 {
-    return desk->count < COMMAND_QUEUE_MAX;
+    return queue->count < COMMAND_QUEUE_MAX;
 }
 
 /* What an order is about: everything, one vehicle, or nothing that is there yet (0). */
@@ -34,7 +34,7 @@ static uint64_t about(const struct command_text *order)
 }
 
 /* reply NULL: there was none, and result says why. */
-static void tell(struct command_queue *desk, const struct command_queue_item *item,
+static void tell(struct command_queue *queue, const struct command_queue_item *item,
                  const char *result, const jolon_CommandReply *reply, uint32_t round)
 {
     const struct command_text *order = &item->mission.order;
@@ -53,106 +53,107 @@ static void tell(struct command_queue *desk, const struct command_queue_item *it
             put_word(object, "next", advice + strspn(advice, "; "));
     }
     char *line = cJSON_PrintUnformatted(object);
-    output_line(desk->output, OUTPUT_ANSWER, line);
+    output_line(queue->output, OUTPUT_ANSWER, line);
     cJSON_free(line);
     cJSON_Delete(object);
 }
 
-static void drop(struct command_queue *desk, uint32_t i)
+static void drop(struct command_queue *queue, uint32_t i)
 {
-    desk->count--;
-    memmove(&desk->item[i], &desk->item[i + 1], (desk->count - i) * sizeof *desk->item);
+    queue->count--;
+    memmove(&queue->item[i], &queue->item[i + 1], (queue->count - i) * sizeof *queue->item);
 }
 
-static void replace_drive(struct command_queue *desk, uint32_t vehicle)
+static void replace_drive(struct command_queue *queue, uint32_t vehicle)
 {
-    for (uint32_t i = desk->count; i-- > 0;) {
-        struct command_queue_item *item = &desk->item[i];
+    for (uint32_t i = queue->count; i-- > 0;) {
+        struct command_queue_item *item = &queue->item[i];
         uint64_t what = about(&item->mission.order);
         if (what != vehicle && what != ABOUT_ALL)
             continue;
         if (item->mission.order.command.type != jolon_COMMAND_DRIVE)
             return;
-        command_series_forget(&item->mission, desk->caller);
-        tell(desk, item, "replaced", NULL, 0);
-        drop(desk, i);
+        command_series_forget(&item->mission, queue->client);
+        tell(queue, item, "replaced", NULL, 0);
+        drop(queue, i);
         return;
     }
 }
 
-void command_queue_add(struct command_queue *desk, const char *id, const struct command_text *order)
+void command_queue_add(struct command_queue *queue, const char *id,
+                       const struct command_text *order)
 {
     struct command_queue_item *item;
     if (order->command.type == jolon_COMMAND_DRIVE)
-        replace_drive(desk, order->command.entity);
-    item = &desk->item[desk->count++];
+        replace_drive(queue, order->command.entity);
+    item = &queue->item[queue->count++];
     *item = (struct command_queue_item){.mission.order = *order};
     (void)snprintf(item->id, sizeof item->id, "%s", id);
 }
 
-static bool may_begin(const struct command_queue *desk, uint32_t i)
+static bool may_begin(const struct command_queue *queue, uint32_t i)
 {
-    uint64_t what = about(&desk->item[i].mission.order);
+    uint64_t what = about(&queue->item[i].mission.order);
     for (uint32_t before = 0; before < i; before++) {
-        uint64_t other = about(&desk->item[before].mission.order);
+        uint64_t other = about(&queue->item[before].mission.order);
         if (what == ABOUT_ALL || other == ABOUT_ALL || (what != 0 && what == other))
             return false;
     }
     return true;
 }
 
-static void take_answers(struct command_queue *desk, struct command_queue_item *item,
+static void take_answers(struct command_queue *queue, struct command_queue_item *item,
                          uint64_t now_ns)
 {
     jolon_CommandReply reply;
     uint32_t round;
     const struct command_text *order = &item->mission.order;
-    while (command_series_answer(&item->mission, desk->caller, &reply, &round)) {
-        item->until_ns = now_ns + desk->timeout_ns;
-        leases_answer(desk->leases, order, &reply, now_ns);
-        tell(desk, item, command_result_name((enum command_result)reply.result), &reply, round);
+    while (command_series_answer(&item->mission, queue->client, &reply, &round)) {
+        item->until_ns = now_ns + queue->timeout_ns;
+        leases_answer(queue->leases, order, &reply, now_ns);
+        tell(queue, item, command_result_name((enum command_result)reply.result), &reply, round);
     }
     if (!item->mission.waiting)
-        item->until_ns = now_ns + desk->timeout_ns; /* until the next round nobody is silent */
+        item->until_ns = now_ns + queue->timeout_ns; /* until the next round nobody is silent */
 }
 
-void command_queue_turn(struct command_queue *desk, uint64_t now_ns)
+void command_queue_turn(struct command_queue *queue, uint64_t now_ns)
 {
-    for (uint32_t i = 0; i < desk->count;) {
-        struct command_queue_item *item = &desk->item[i];
-        if (!item->begun && may_begin(desk, i)) {
+    for (uint32_t i = 0; i < queue->count;) {
+        struct command_queue_item *item = &queue->item[i];
+        if (!item->begun && may_begin(queue, i)) {
             struct command_text order = item->mission.order;
-            leases_begin(desk->leases, desk->caller, &order);
+            leases_begin(queue->leases, queue->client, &order);
             command_series_begin(&item->mission, &order, now_ns);
-            item->until_ns = now_ns + desk->timeout_ns;
+            item->until_ns = now_ns + queue->timeout_ns;
             item->begun = true;
         }
         if (item->begun) {
-            command_series_send(&item->mission, desk->caller, now_ns);
-            take_answers(desk, item, now_ns);
+            command_series_send(&item->mission, queue->client, now_ns);
+            take_answers(queue, item, now_ns);
         }
         bool late = item->begun && now_ns >= item->until_ns;
         if (late) {
-            command_series_forget(&item->mission, desk->caller);
-            tell(desk, item, "no reply", NULL, item->mission.answered);
-            desk->unanswered = true;
+            command_series_forget(&item->mission, queue->client);
+            tell(queue, item, "no reply", NULL, item->mission.answered);
+            queue->unanswered = true;
         }
         if (late || (item->begun && command_series_over(&item->mission)))
-            drop(desk, i);
+            drop(queue, i);
         else
             i++;
     }
-    for (uint32_t i = 0; i < desk->count; i++) {
-        if (desk->item[i].begun)
-            leases_hold_off(desk->leases, &desk->item[i].mission.order);
+    for (uint32_t i = 0; i < queue->count; i++) {
+        if (queue->item[i].begun)
+            leases_hold_off(queue->leases, &queue->item[i].mission.order);
     }
 }
 
-uint64_t command_queue_due_ns(const struct command_queue *desk)
+uint64_t command_queue_due_ns(const struct command_queue *queue)
 {
     uint64_t due_ns = UINT64_MAX;
-    for (uint32_t i = 0; i < desk->count; i++) {
-        const struct command_queue_item *item = &desk->item[i];
+    for (uint32_t i = 0; i < queue->count; i++) {
+        const struct command_queue_item *item = &queue->item[i];
         if (!item->begun)
             continue;
         uint64_t next_ns = command_series_due_ns(&item->mission);

@@ -14,7 +14,7 @@
 #define COMMAND_QUEUE_ID_MAX 80u
 
 struct command_queue {
-    struct command_client *caller;
+    struct command_client *client;
     struct output *output;
     struct leases *leases;
     uint64_t timeout_ns;
@@ -28,17 +28,17 @@ struct command_queue {
     } item[COMMAND_QUEUE_MAX]; /* [count], the oldest first */
 };
 
-bool command_queue_room(const struct command_queue *desk);
+bool command_queue_room(const struct command_queue *queue);
 
 /* Takes an order that is resolved; there must be room. */
-void command_queue_add(struct command_queue *desk, const char *id,
+void command_queue_add(struct command_queue *queue, const char *id,
                        const struct command_text *order);
 
 /* Sends what may be sent and tells what is answered. Does not block. */
-void command_queue_turn(struct command_queue *desk, uint64_t now_ns);
+void command_queue_turn(struct command_queue *queue, uint64_t now_ns);
 
 /* When command_queue_turn() has something to do [CLOCK_MONOTONIC ns], UINT64_MAX: when an answer
  * comes. */
-uint64_t command_queue_due_ns(const struct command_queue *desk);
+uint64_t command_queue_due_ns(const struct command_queue *queue);
 
 #endif

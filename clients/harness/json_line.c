@@ -61,7 +61,7 @@ static void obey_want(struct session *session, const cJSON *want, const char *id
 {
     struct reason reason;
     char line[COMMAND_QUEUE_ID_MAX + 64];
-    if (subscription_read(&session->wants, want, &session->mirror, &reason) != 0) {
+    if (subscription_read(&session->subscription, want, &session->mirror, &reason) != 0) {
         json_line_complain(session, id, reason.text);
         return;
     }
@@ -79,7 +79,7 @@ static void obey_order(struct session *session, const cJSON *object, const char 
         command_text_resolve(&order, &mirror->names, mirror->world.hz, &reason) != 0)
         json_line_complain(session, id, reason.text);
     else
-        command_queue_add(&session->desk, id, &order);
+        command_queue_add(&session->queue, id, &order);
 }
 
 static void obey_object(struct session *session, const cJSON *object)

@@ -52,11 +52,11 @@ static struct lease *changed(struct leases *leases, const struct command_text *o
     return changes ? find(leases, order->command.entity) : NULL;
 }
 
-void leases_begin(struct leases *leases, struct command_client *caller, struct command_text *order)
+void leases_begin(struct leases *leases, struct command_client *client, struct command_text *order)
 {
     struct lease *lease = changed(leases, order);
     if (lease && lease->sequence) {
-        command_client_forget(caller, lease->sequence);
+        command_client_forget(client, lease->sequence);
         lease->sequence = 0;
     }
     if (order->command.type == jolon_COMMAND_DRIVE && !command_text_needs_hz(order))
@@ -89,7 +89,7 @@ void leases_answer(struct leases *leases, const struct command_text *order,
                                 .tick = leases->mirror->frame.tick};
 }
 
-static void tell_lost(const struct leases *leases, uint32_t vehicle, jolon_CommandResult why)
+static void write_lost(const struct leases *leases, uint32_t vehicle, jolon_CommandResult why)
 {
     cJSON *object = cJSON_CreateObject();
     put_whole(object, "lost", vehicle);
@@ -106,24 +106,24 @@ static bool runs(const struct leases *leases, const struct lease *lease)
     return !leases->mirror->frame.paused || leases->mirror->frame.tick != lease->tick;
 }
 
-void leases_turn(struct leases *leases, struct command_client *caller, uint64_t now_ns)
+void leases_turn(struct leases *leases, struct command_client *client, uint64_t now_ns)
 {
     for (uint32_t i = 0; i < leases->count;) {
         struct lease *lease = &leases->held[i];
         jolon_CommandReply reply;
-        if (lease->sequence && command_client_answered(caller, lease->sequence, &reply)) {
+        if (lease->sequence && command_client_answered(client, lease->sequence, &reply)) {
             lease->sequence = 0;
             if (reply.result != jolon_RESULT_DONE) {
-                tell_lost(leases, lease->command.entity, reply.result);
+                write_lost(leases, lease->command.entity, reply.result);
                 drop(leases, lease);
                 continue;
             }
         }
         if (!lease->sequence && !lease->ordered && now_ns >= lease->renew_ns) {
             lease->renew_ns = now_ns + LEASES_RENEW_NS;
-            if (runs(leases, lease) && caller->count < WAITING_MAX) {
+            if (runs(leases, lease) && client->count < WAITING_MAX) {
                 lease->command.lease_frames = lease_frames(leases);
-                lease->sequence = command_client_send(caller, &lease->command);
+                lease->sequence = command_client_send(client, &lease->command);
                 lease->tick = leases->mirror->frame.tick;
             }
         }

@@ -29,7 +29,7 @@ struct leases {
 
 /* An order is about to be sent: a drive gets its lease, if it has none, and a renewal of the same
  * vehicle is not repeated any more. */
-void leases_begin(struct leases *leases, struct command_client *caller, struct command_text *order);
+void leases_begin(struct leases *leases, struct command_client *client, struct command_text *order);
 
 /* The order is still under way: no renewal in the next leases_turn(). */
 void leases_hold_off(struct leases *leases, const struct command_text *order);
@@ -39,7 +39,7 @@ void leases_answer(struct leases *leases, const struct command_text *order,
                    const jolon_CommandReply *reply, uint64_t now_ns);
 
 /* Renews what is due, and tells of those that were lost. Does not block. */
-void leases_turn(struct leases *leases, struct command_client *caller, uint64_t now_ns);
+void leases_turn(struct leases *leases, struct command_client *client, uint64_t now_ns);
 
 /* When leases_turn() has something to do [CLOCK_MONOTONIC ns]; UINT64_MAX: never. */
 uint64_t leases_due_ns(const struct leases *leases);

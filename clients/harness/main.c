@@ -26,7 +26,7 @@ int main(int argc, char **argv)
         session_turn(&session, clock_now_ns());
         session_rest(&session);
     }
-    if (session.output.gone || session.desk.unanswered)
+    if (session.output.gone || session.queue.unanswered)
         code = EXIT_REFUSED;
     session_close(&session);
     dds_link_close(&session.link, code);

@@ -32,7 +32,7 @@ static void append(struct output *output, const char *line)
     output->bytes[output->begin + output->used - 1] = '\n';
 }
 
-static void tell_missed(struct output *output)
+static void write_missed(struct output *output)
 {
     char line[64];
     if (!output->missed)
@@ -55,7 +55,7 @@ void output_line(struct output *output, enum output_sort sort, const char *line)
         return;
     }
     if (sort == OUTPUT_EVENT)
-        tell_missed(output);
+        write_missed(output);
     append(output, line);
 }
 
@@ -81,7 +81,7 @@ void output_write(struct output *output)
     output->used -= (size_t)put;
     if (output->used == 0) {
         output->begin = 0;
-        tell_missed(output);
+        write_missed(output);
     }
 }
 

@@ -19,7 +19,7 @@ static void ring(dds_entity_t reader, void *context)
 {
     const struct session *session = context;
     (void)reader;
-    (void)eventfd_write(session->bell, 1);
+    (void)eventfd_write(session->wake_fd, 1);
 }
 
 static int listen_to(struct session *session, const dds_entity_t *readers, size_t count,
@@ -38,29 +38,29 @@ static int listen_to(struct session *session, const dds_entity_t *readers, size_
 int session_open(struct session *session, struct reason *reason)
 {
     const struct options *options = &session->options;
-    session->bell = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-    if (session->bell < 0)
+    session->wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+    if (session->wake_fd < 0)
         return reason_set(reason, "eventfd: %s", strerror(errno));
     if (dds_link_open(&session->link, &options->link, options->world, reason) != 0 ||
         world_mirror_open(&session->mirror, &session->link, options->world, true, reason) != 0 ||
-        command_route_open(&session->route, &session->caller, options->remote, &session->link,
+        command_route_open(&session->route, &session->client, options->remote, &session->link,
                            options->world, reason) != 0 ||
         listen_to(session, session->mirror.reader, WORLD_MIRROR_READERS, reason) != 0 ||
         listen_to(session, &session->mirror.names_reader.reader, 1, reason) != 0)
         return -1;
     session->leases.mirror = &session->mirror;
     session->leases.output = &session->output;
-    session->desk.caller = &session->caller;
-    session->desk.output = &session->output;
-    session->desk.leases = &session->leases;
-    session->desk.timeout_ns = (uint64_t)(options->timeout_s * NS_PER_S);
+    session->queue.client = &session->client;
+    session->queue.output = &session->output;
+    session->queue.leases = &session->leases;
+    session->queue.timeout_ns = (uint64_t)(options->timeout_s * NS_PER_S);
     return 0;
 }
 
 void session_close(struct session *session)
 {
-    if (session->tailing)
-        event_merge_close(&session->tail);
+    if (session->merging)
+        event_merge_close(&session->merge);
     world_mirror_close(&session->mirror);
     picture_folder_close(&session->output);
 }
@@ -72,23 +72,23 @@ static bool knows_the_world(const struct session *session)
 
 bool session_meet(struct session *session)
 {
-    uint64_t until_ns = clock_now_ns() + session->desk.timeout_ns;
+    uint64_t until_ns = clock_now_ns() + session->queue.timeout_ns;
     while (!process_stopping()) {
         world_mirror_take(&session->mirror);
         if (knows_the_world(session))
             return true;
         if (clock_now_ns() >= until_ns)
             break;
-        struct pollfd bell = {.fd = session->bell, .events = POLLIN};
+        struct pollfd wake_fd = {.fd = session->wake_fd, .events = POLLIN};
         eventfd_t rung;
-        (void)poll(&bell, 1, 50);
-        (void)eventfd_read(session->bell, &rung);
+        (void)poll(&wake_fd, 1, 50);
+        (void)eventfd_read(session->wake_fd, &rung);
     }
     return false;
 }
 
 /* Another world under the same name is another: what was driven is not there. */
-static void tell_world(struct session *session)
+static void write_world(struct session *session)
 {
     if (session->mirror.world.run == session->run)
         return;
@@ -102,7 +102,7 @@ static void tell_world(struct session *session)
 
 static bool takes_lines(const struct session *session)
 {
-    return command_queue_room(&session->desk) && session->output.used < OUTPUT_HOLD;
+    return command_queue_room(&session->queue) && session->output.used < OUTPUT_HOLD;
 }
 
 static void take_lines(struct session *session)
@@ -123,24 +123,24 @@ static void take_lines(struct session *session)
 static void open_tail(struct session *session)
 {
     struct reason reason;
-    if (session->tailing || !session->wants.events)
+    if (session->merging || !session->subscription.events)
         return;
-    session->tailing = true;
-    if (event_merge_open(&session->tail, &session->link, subscription_format, &reason) != 0 ||
-        listen_to(session, session->tail.reader, EVENT_MERGE_TOPICS, &reason) != 0)
+    session->merging = true;
+    if (event_merge_open(&session->merge, &session->link, subscription_format, &reason) != 0 ||
+        listen_to(session, session->merge.reader, EVENT_MERGE_TOPICS, &reason) != 0)
         json_line_complain(session, NULL, reason.text);
 }
 
 /* What the program still drives goes back to its agents. */
 static void release_all(struct session *session)
 {
-    for (uint32_t i = 0; i < session->leases.count && command_queue_room(&session->desk); i++) {
+    for (uint32_t i = 0; i < session->leases.count && command_queue_room(&session->queue); i++) {
         struct command_text order;
         struct reason reason;
         struct command_text_value value = {.number = session->leases.held[i].command.entity};
         if (command_text_begin(&order, "release", &reason) == 0 &&
             command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &reason) == 0)
-            command_queue_add(&session->desk, "", &order);
+            command_queue_add(&session->queue, "", &order);
     }
     session->released = true;
 }
@@ -148,18 +148,18 @@ static void release_all(struct session *session)
 void session_turn(struct session *session, uint64_t now_ns)
 {
     eventfd_t rung;
-    (void)eventfd_read(session->bell, &rung);
+    (void)eventfd_read(session->wake_fd, &rung);
     world_mirror_take(&session->mirror);
-    tell_world(session);
+    write_world(session);
     take_lines(session);
     open_tail(session);
-    command_client_turn(&session->caller);
-    command_queue_turn(&session->desk, now_ns);
-    leases_turn(&session->leases, &session->caller, now_ns);
-    subscription_states(&session->wants, &session->mirror, &session->output, now_ns);
-    if (session->tailing)
-        subscription_events(&session->wants, &session->tail, &session->output);
-    bool silent = session->input.ended && !session->input.used && !session->desk.count;
+    command_client_turn(&session->client);
+    command_queue_turn(&session->queue, now_ns);
+    leases_turn(&session->leases, &session->client, now_ns);
+    subscription_states(&session->subscription, &session->mirror, &session->output, now_ns);
+    if (session->merging)
+        subscription_events(&session->subscription, &session->merge, &session->output);
+    bool silent = session->input.ended && !session->input.used && !session->queue.count;
     if (silent && !session->released)
         release_all(session);
 }
@@ -172,18 +172,18 @@ static uint64_t least(uint64_t a, uint64_t b)
 void session_rest(struct session *session)
 {
     uint64_t now_ns = clock_now_ns();
-    uint64_t wake_ns = now_ns + (session->tailing && session->tail.count ? REST_TAIL_NS : REST_NS);
+    uint64_t wake_ns = now_ns + (session->merging && session->merge.count ? REST_TAIL_NS : REST_NS);
     bool reads = !session->input.ended && input_room(&session->input) && takes_lines(session);
     struct pollfd watched[] = {
-        {.fd = session->bell, .events = POLLIN},
+        {.fd = session->wake_fd, .events = POLLIN},
         {.fd = reads ? STDIN_FILENO : -1, .events = POLLIN},
         {.fd = session->output.used ? STDOUT_FILENO : -1, .events = POLLOUT},
-        {.fd = command_client_descriptor(&session->caller), .events = POLLIN},
+        {.fd = command_client_descriptor(&session->client), .events = POLLIN},
     };
-    wake_ns = least(wake_ns, command_client_due_ns(&session->caller));
-    wake_ns = least(wake_ns, command_queue_due_ns(&session->desk));
+    wake_ns = least(wake_ns, command_client_due_ns(&session->client));
+    wake_ns = least(wake_ns, command_queue_due_ns(&session->queue));
     wake_ns = least(wake_ns, leases_due_ns(&session->leases));
-    wake_ns = least(wake_ns, subscription_due_ns(&session->wants));
+    wake_ns = least(wake_ns, subscription_due_ns(&session->subscription));
     uint64_t wait_ns = wake_ns > now_ns ? wake_ns - now_ns : 0;
     if (poll(watched, 4, (int)((wait_ns + NS_PER_MS - 1) / NS_PER_MS)) <= 0)
         return;
@@ -196,5 +196,5 @@ void session_rest(struct session *session)
 bool session_over(const struct session *session)
 {
     bool said = session->input.ended && !session->input.used && session->released;
-    return session->output.gone || (said && !session->desk.count && !session->output.used);
+    return session->output.gone || (said && !session->queue.count && !session->output.used);
 }

@@ -12,18 +12,18 @@ struct session {
     struct options options;
     struct dds_link link;
     struct world_mirror mirror;
-    struct event_merge tail;
-    bool tailing; /* the tail is open: events were wanted once */
-    struct command_client caller;
+    struct event_merge merge;
+    bool merging; /* the tail is open: events were wanted once */
+    struct command_client client;
     struct command_route route; /* of the caller */
     struct input input;
     struct output output;
     struct leases leases;
-    struct command_queue desk;
-    struct subscription wants;
+    struct command_queue queue;
+    struct subscription subscription;
     uint64_t run;  /* of the world that was told last */
     bool released; /* at the end: what it drove is given back */
-    int bell;      /* readable when something came over DDS */
+    int wake_fd;   /* readable when something came over DDS */
 };
 
 /* Opens the link and all that is read from the start. -1 with the reason. */

@@ -29,31 +29,31 @@ static int read_entity(uint32_t *id, const cJSON *item, const struct world_mirro
     return 0;
 }
 
-static int read_near(struct subscription *wants, const cJSON *object,
+static int read_near(struct subscription *subscription, const cJSON *object,
                      const struct world_mirror *mirror, struct reason *reason)
 {
     const cJSON *near = cJSON_GetObjectItemCaseSensitive(object, "near");
     const cJSON *within = cJSON_GetObjectItemCaseSensitive(object, "within_m");
     if (!near || !cJSON_IsNumber(within) || !(within->valuedouble >= 0.0))
         return reason_set(reason, "not like {\"near\":7,\"within_m\":500}");
-    wants->within_m = within->valuedouble;
-    return read_entity(&wants->near, near, mirror, reason);
+    subscription->within_m = within->valuedouble;
+    return read_entity(&subscription->near, near, mirror, reason);
 }
 
-static int read_entities(struct subscription *wants, const cJSON *value,
+static int read_entities(struct subscription *subscription, const cJSON *value,
                          const struct world_mirror *mirror, struct reason *reason)
 {
     if (cJSON_IsObject(value))
-        return read_near(wants, value, mirror, reason);
+        return read_near(subscription, value, mirror, reason);
     const char *text = cJSON_GetStringValue(value);
-    wants->all = text && strcmp(text, "all") == 0;
-    if (!wants->all && !cJSON_IsArray(value))
+    subscription->all = text && strcmp(text, "all") == 0;
+    if (!subscription->all && !cJSON_IsArray(value))
         return reason_set(reason, "not a list like [7,8], \"all\", or "
                                   "{\"near\":7,\"within_m\":500}");
-    for (const cJSON *item = wants->all ? NULL : value->child; item; item = item->next) {
-        if (wants->count == SUBSCRIPTION_ENTITIES_MAX)
+    for (const cJSON *item = subscription->all ? NULL : value->child; item; item = item->next) {
+        if (subscription->count == SUBSCRIPTION_ENTITIES_MAX)
             return reason_set(reason, "more than %u; ask for \"all\"", SUBSCRIPTION_ENTITIES_MAX);
-        if (read_entity(&wants->id[wants->count++], item, mirror, reason) != 0)
+        if (read_entity(&subscription->id[subscription->count++], item, mirror, reason) != 0)
             return -1;
     }
     return 0;
@@ -64,11 +64,11 @@ static const char *topic_word(uint32_t topic)
     return event_type_name((enum event_type)(EVENT_COLLISION + topic));
 }
 
-static int read_events(struct subscription *wants, const cJSON *value, struct reason *reason)
+static int read_events(struct subscription *subscription, const cJSON *value, struct reason *reason)
 {
     const char *text = cJSON_GetStringValue(value);
     if (text && strcmp(text, "all") == 0) {
-        wants->events = (1u << EVENT_MERGE_TOPICS) - 1;
+        subscription->events = (1u << EVENT_MERGE_TOPICS) - 1;
         return 0;
     }
     if (!cJSON_IsArray(value))
@@ -83,27 +83,27 @@ static int read_events(struct subscription *wants, const cJSON *value, struct re
                               "'%.32s': not one of collision, fire, detonation, crater, "
                               "agent",
                               name ? name : "?");
-        wants->events |= 1u << topic;
+        subscription->events |= 1u << topic;
     }
     return 0;
 }
 
-static int read_member(struct subscription *wants, const cJSON *member,
+static int read_member(struct subscription *subscription, const cJSON *member,
                        const struct world_mirror *mirror, struct reason *reason)
 {
     const char *name = member->string;
     if (strcmp(name, "entities") == 0)
-        return read_entities(wants, member, mirror, reason);
+        return read_entities(subscription, member, mirror, reason);
     if (strcmp(name, "events") == 0)
-        return read_events(wants, member, reason);
+        return read_events(subscription, member, reason);
     if (strcmp(name, "frames") == 0) {
-        wants->frames = cJSON_IsTrue(member);
+        subscription->frames = cJSON_IsTrue(member);
         return cJSON_IsBool(member) ? 0 : reason_set(reason, "not true or false");
     }
     if (strcmp(name, "rate_hz") == 0) {
-        wants->rate_hz = cJSON_IsNumber(member) ? member->valuedouble : 0.0;
-        if (wants->rate_hz >= SUBSCRIPTION_RATE_MIN_HZ &&
-            wants->rate_hz <= SUBSCRIPTION_RATE_MAX_HZ)
+        subscription->rate_hz = cJSON_IsNumber(member) ? member->valuedouble : 0.0;
+        if (subscription->rate_hz >= SUBSCRIPTION_RATE_MIN_HZ &&
+            subscription->rate_hz <= SUBSCRIPTION_RATE_MAX_HZ)
             return 0;
         return reason_set(reason, "not a number from %g to %g", SUBSCRIPTION_RATE_MIN_HZ,
                           SUBSCRIPTION_RATE_MAX_HZ);
@@ -111,7 +111,7 @@ static int read_member(struct subscription *wants, const cJSON *member,
     return reason_set(reason, "no such thing; there are frames, entities, rate_hz, events");
 }
 
-int subscription_read(struct subscription *wants, const cJSON *want,
+int subscription_read(struct subscription *subscription, const cJSON *want,
                       const struct world_mirror *mirror, struct reason *reason)
 {
     struct subscription *read = calloc(1, sizeof *read);
@@ -122,7 +122,7 @@ int subscription_read(struct subscription *wants, const cJSON *want,
     read->rate_hz = SUBSCRIPTION_RATE_HZ;
     read->from_run = mirror->world.run;
     read->from = mirror->frame.frame;
-    read->missed = wants->missed;
+    read->missed = subscription->missed;
     if (!cJSON_IsObject(want))
         result = reason_set(reason, "want: not an object like {\"entities\":[7,8]}");
     for (const cJSON *member = result == 0 ? want->child : NULL; member && result == 0;
@@ -131,28 +131,28 @@ int subscription_read(struct subscription *wants, const cJSON *want,
             result = reason_set(reason, "want: %.32s: %.400s", member->string, why.text);
     }
     if (result == 0)
-        *wants = *read;
+        *subscription = *read;
     free(read);
     return result;
 }
 
-static bool subscription_entities(const struct subscription *wants)
+static bool subscription_entities(const struct subscription *subscription)
 {
-    return wants->all || wants->near || wants->count;
+    return subscription->all || subscription->near || subscription->count;
 }
 
-static bool is_wanted(const struct subscription *wants, const jolon_Entity *entity,
+static bool is_wanted(const struct subscription *subscription, const jolon_Entity *entity,
                       const jolon_Entity *middle)
 {
-    if (wants->all)
+    if (subscription->all)
         return true;
-    if (wants->near) {
+    if (subscription->near) {
         double dx = middle ? entity->x_m - middle->x_m : 0.0;
         double dz = middle ? entity->z_m - middle->z_m : 0.0;
-        return middle && dx * dx + dz * dz <= wants->within_m * wants->within_m;
+        return middle && dx * dx + dz * dz <= subscription->within_m * subscription->within_m;
     }
-    for (uint32_t i = 0; i < wants->count; i++) {
-        if (wants->id[i] == entity->id)
+    for (uint32_t i = 0; i < subscription->count; i++) {
+        if (subscription->id[i] == entity->id)
             return true;
     }
     return false;
@@ -166,22 +166,23 @@ static void put_line(struct output *output, enum output_sort sort, cJSON *object
     cJSON_Delete(object);
 }
 
-static void tell_entities(const struct subscription *wants, const struct world_mirror *mirror,
-                          struct output *output)
+static void write_entities(const struct subscription *subscription,
+                           const struct world_mirror *mirror, struct output *output)
 {
     const struct world_mirror_batch *batch = &mirror->batch;
-    const jolon_Entity *middle = wants->near ? world_mirror_entity(mirror, wants->near) : NULL;
+    const jolon_Entity *middle =
+        subscription->near ? world_mirror_entity(mirror, subscription->near) : NULL;
     cJSON *object = cJSON_CreateObject();
     cJSON *list = cJSON_AddArrayToObject(object, "entities");
     put_whole(object, "frame", batch->frame);
     for (uint32_t i = 0; i < batch->count; i++) {
-        if (is_wanted(wants, &batch->entity[i], middle))
+        if (is_wanted(subscription, &batch->entity[i], middle))
             (void)cJSON_AddItemToArray(list, entity_json(mirror, &batch->entity[i]));
     }
     put_line(output, OUTPUT_STATE, object);
 }
 
-static void tell_frame(const struct world_mirror *mirror, struct output *output, uint64_t now_ns)
+static void write_frame(const struct world_mirror *mirror, struct output *output, uint64_t now_ns)
 {
     const jolon_FrameStatus *frame = &mirror->frame;
     cJSON *object = cJSON_CreateObject();
@@ -196,31 +197,33 @@ static void tell_frame(const struct world_mirror *mirror, struct output *output,
     put_line(output, OUTPUT_STATE, object);
 }
 
-void subscription_states(struct subscription *wants, const struct world_mirror *mirror,
+void subscription_states(struct subscription *subscription, const struct world_mirror *mirror,
                          struct output *output, uint64_t now_ns)
 {
-    if (now_ns < subscription_due_ns(wants))
+    if (now_ns < subscription_due_ns(subscription))
         return;
-    uint64_t period_ns = (uint64_t)(NS_PER_S / wants->rate_hz);
-    bool fresh = mirror->has_batch && mirror->batch.frame != wants->frame;
-    if (subscription_entities(wants) && !fresh && !wants->frames) {
-        wants->due_ns = now_ns + NS_PER_S / 100; /* the next batch is about to come */
+    uint64_t period_ns = (uint64_t)(NS_PER_S / subscription->rate_hz);
+    bool fresh = mirror->has_batch && mirror->batch.frame != subscription->frame;
+    if (subscription_entities(subscription) && !fresh && !subscription->frames) {
+        subscription->due_ns = now_ns + NS_PER_S / 100; /* the next batch is about to come */
         return;
     }
-    wants->due_ns =
-        wants->due_ns + period_ns > now_ns ? wants->due_ns + period_ns : now_ns + period_ns;
+    subscription->due_ns = subscription->due_ns + period_ns > now_ns
+                               ? subscription->due_ns + period_ns
+                               : now_ns + period_ns;
     if (!output_wants_states(output))
         return;
-    if (wants->frames)
-        tell_frame(mirror, output, now_ns);
-    if (subscription_entities(wants) && fresh)
-        tell_entities(wants, mirror, output);
-    wants->frame = mirror->batch.frame;
+    if (subscription->frames)
+        write_frame(mirror, output, now_ns);
+    if (subscription_entities(subscription) && fresh)
+        write_entities(subscription, mirror, output);
+    subscription->frame = mirror->batch.frame;
 }
 
-uint64_t subscription_due_ns(const struct subscription *wants)
+uint64_t subscription_due_ns(const struct subscription *subscription)
 {
-    return wants->frames || subscription_entities(wants) ? wants->due_ns : UINT64_MAX;
+    return subscription->frames || subscription_entities(subscription) ? subscription->due_ns
+                                                                       : UINT64_MAX;
 }
 
 /* "T RUN FRAME {...}": T is the topic, as a letter from 'a'. */
@@ -239,34 +242,35 @@ void subscription_format(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, 
 }
 
 struct telling {
-    const struct subscription *wants;
+    const struct subscription *subscription;
     struct output *output;
 };
 
-static bool tell_event(void *context, const char *line)
+static bool write_event(void *context, const char *line)
 {
     char told[EVENT_MERGE_LINE_MAX + 16];
     const struct telling *telling = context;
     char *at;
     uint64_t run = strtoull(line + 2, &at, 10);
     uint64_t frame = strtoull(at, &at, 10);
-    const struct subscription *wants = telling->wants;
-    if (!(wants->events & 1u << (line[0] - 'a')) || (run == wants->from_run && frame < wants->from))
+    const struct subscription *subscription = telling->subscription;
+    if (!(subscription->events & 1u << (line[0] - 'a')) ||
+        (run == subscription->from_run && frame < subscription->from))
         return true;
     (void)snprintf(told, sizeof told, "{\"event\":%s}", at + 1);
     output_line(telling->output, OUTPUT_EVENT, told);
     return true;
 }
 
-void subscription_events(struct subscription *wants, struct event_merge *tail,
+void subscription_events(struct subscription *subscription, struct event_merge *merge,
                          struct output *output)
 {
-    struct telling telling = {.wants = wants, .output = output};
-    if (!event_merge_turn(tail, tell_event, &telling))
+    struct telling telling = {.subscription = subscription, .output = output};
+    if (!event_merge_turn(merge, write_event, &telling))
         output->gone = true; /* no memory */
-    if (tail->missed > wants->missed)
-        output_missed(output, tail->missed - wants->missed);
-    wants->missed = tail->missed;
+    if (merge->missed > subscription->missed)
+        output_missed(output, merge->missed - subscription->missed);
+    subscription->missed = merge->missed;
 }
 
 char *subscription_world(const struct world_mirror *mirror)

@@ -32,22 +32,22 @@ struct subscription {
 };
 
 /* Reads a want: -1 with the reason, and wants is as it was. */
-int subscription_read(struct subscription *wants, const cJSON *want,
+int subscription_read(struct subscription *subscription, const cJSON *want,
                       const struct world_mirror *mirror, struct reason *reason);
 
 /* Tells frame and entities when they are due. */
-void subscription_states(struct subscription *wants, const struct world_mirror *mirror,
+void subscription_states(struct subscription *subscription, const struct world_mirror *mirror,
                          struct output *output, uint64_t now_ns);
 
 /* When subscription_states() has something to do [CLOCK_MONOTONIC ns]; UINT64_MAX: never. */
-uint64_t subscription_due_ns(const struct subscription *wants);
+uint64_t subscription_due_ns(const struct subscription *subscription);
 
 /* A event_merge_format for subscription_events(): the event as JSON after what that needs to
  * choose. */
 void subscription_format(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, const void *event);
 
 /* Tells the events that came and are wanted. */
-void subscription_events(struct subscription *wants, struct event_merge *tail,
+void subscription_events(struct subscription *subscription, struct event_merge *merge,
                          struct output *output);
 
 /* The world, as it is told once and whenever it is another: its line, for cJSON_free(). */

@@ -29,20 +29,20 @@ static void step_back(void)
         log_warn("cannot lower its priority: %s", strerror(errno));
 }
 
-static int run_events(struct event_merge *tail)
+static int run_events(struct event_merge *merge)
 {
     while (!process_stopping()) {
-        bool good = event_merge_turn(tail, plain_output_line, NULL);
+        bool good = event_merge_turn(merge, plain_output_line, NULL);
         if (!good || !plain_output_flush())
             return EXIT_REFUSED; /* nobody reads any more, or no memory */
-        dds_topics_wait(tail->waitset, tail->count ? LOOK_NS : NS_PER_S / 4);
+        dds_topics_wait(merge->waitset, merge->count ? LOOK_NS : NS_PER_S / 4);
     }
-    if (tail->missed)
-        log_warn("events were missed at %llu places", (unsigned long long)tail->missed);
+    if (merge->missed)
+        log_warn("events were missed at %llu places", (unsigned long long)merge->missed);
     return EXIT_OK;
 }
 
-static int run_screen(struct world_mirror *mirror, struct event_merge *tail,
+static int run_screen(struct world_mirror *mirror, struct event_merge *merge,
                       const struct options *options)
 {
     static struct screen screen;
@@ -50,10 +50,10 @@ static int run_screen(struct world_mirror *mirror, struct event_merge *tail,
     uint64_t due_ns = 0;
     if (screen_open(&screen, &reason) != 0)
         die_refused("%s", reason.text);
-    while (!process_stopping() && !screen.desk.quit) {
+    while (!process_stopping() && !screen.state.quit) {
         world_mirror_take(mirror);
         screen_note(&screen, mirror);
-        (void)event_merge_turn(tail, screen_event, &screen);
+        (void)event_merge_turn(merge, screen_event, &screen);
         uint64_t now_ns = clock_now_ns();
         if (screen_keys(&screen, mirror) || now_ns >= due_ns) {
             screen_draw(&screen, mirror, now_ns);
@@ -68,7 +68,7 @@ static int run_screen(struct world_mirror *mirror, struct event_merge *tail,
 int main(int argc, char **argv)
 {
     static struct world_mirror mirror;
-    static struct event_merge tail;
+    static struct event_merge merge;
     struct options options;
     struct dds_link link;
     struct reason reason;
@@ -87,17 +87,17 @@ int main(int argc, char **argv)
         (!options.events &&
          world_mirror_open(&mirror, &link, options.world, screen || options.json, &reason) != 0) ||
         ((options.events || screen) &&
-         event_merge_open(&tail, &link, screen ? event_lines_event : event_json, &reason) != 0))
+         event_merge_open(&merge, &link, screen ? event_lines_event : event_json, &reason) != 0))
         die_refused("%s", reason.text);
     if (options.events)
-        code = run_events(&tail);
+        code = run_events(&merge);
     else if (options.once)
         code = plain_output_once(&mirror, &options);
     else if (screen)
-        code = run_screen(&mirror, &tail, &options);
+        code = run_screen(&mirror, &merge, &options);
     else
         code = plain_output_lines(&mirror, &options);
-    event_merge_close(&tail);
+    event_merge_close(&merge);
     world_mirror_close(&mirror);
     dds_link_close(&link, code);
     return code;

@@ -61,14 +61,14 @@ static void draw_map(struct screen *screen, const struct world_mirror *mirror, i
     double side_m = mirror->has_world ? mirror->world.side_m : 1.0;
     struct character_map_ground ground = {mirror->world.height_m, mirror->world.water,
                                           mirror->has_world ? jolon_MAP_SIDE : 0, side_m};
-    struct character_map_area area = screen_state_area(&screen->desk, mirror, side_m);
-    if (screen->desk.zoom == 0 && columns > rows * CHARACTER_MAP_COLUMNS_A_ROW)
+    struct character_map_area area = screen_state_area(&screen->state, mirror, side_m);
+    if (screen->state.zoom == 0 && columns > rows * CHARACTER_MAP_COLUMNS_A_ROW)
         columns = rows * CHARACTER_MAP_COLUMNS_A_ROW; /* nothing is beyond the square */
     character_map_begin(&screen->map, rows, columns, &area, &ground);
     for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++) {
         const jolon_Entity *entity = &mirror->batch.entity[i];
         character_map_mark(&screen->map, entity->x_m, entity->z_m,
-                           mark_of(entity, mirror, screen->desk.chosen));
+                           mark_of(entity, mirror, screen->state.chosen));
     }
     for (int row = 0; row < screen->map.rows; row++) {
         for (int column = 0; column < screen->map.columns; column++)
@@ -83,11 +83,11 @@ void pages_map(struct screen *screen, const struct world_mirror *mirror, int top
         return;
     draw_map(screen, mirror, top, rows - 1, COLS);
     const struct character_map *map = &screen->map;
-    int used = snprintf(line, sizeof line, "middle %.0f, %.0f   %.1f km across", screen->desk.x,
-                        screen->desk.z, map->m_per_column * (double)map->columns / 1000.0);
-    if (screen->desk.chosen)
-        (void)snprintf(line + used, sizeof line - (size_t)used, "   @ is %u%s", screen->desk.chosen,
-                       screen->desk.follow ? ", followed" : "");
+    int used = snprintf(line, sizeof line, "middle %.0f, %.0f   %.1f km across", screen->state.x,
+                        screen->state.z, map->m_per_column * (double)map->columns / 1000.0);
+    if (screen->state.chosen)
+        (void)snprintf(line + used, sizeof line - (size_t)used, "   @ is %u%s",
+                       screen->state.chosen, screen->state.follow ? ", followed" : "");
     pages_put(top + rows - 1, 0, line, A_NORMAL, PAIR_PLAIN);
 }
 
@@ -138,26 +138,26 @@ static uint64_t draw_events(const struct screen *screen, const char *filter, uin
 static void draw_filter(const struct screen *screen, int row, const char *what)
 {
     char line[STATUS_LINES_MAX];
-    const char *filter = screen->desk.filter[screen->desk.page];
-    if (screen->desk.typing || filter[0])
-        (void)snprintf(line, sizeof line, "/%s%s   (%s)", filter, screen->desk.typing ? "_" : "",
+    const char *filter = screen->state.filter[screen->state.page];
+    if (screen->state.typing || filter[0])
+        (void)snprintf(line, sizeof line, "/%s%s   (%s)", filter, screen->state.typing ? "_" : "",
                        what);
     else
         (void)snprintf(line, sizeof line, "%s", what);
-    pages_put(row, 0, line, screen->desk.typing ? A_REVERSE : A_UNDERLINE, PAIR_PLAIN);
+    pages_put(row, 0, line, screen->state.typing ? A_REVERSE : A_UNDERLINE, PAIR_PLAIN);
 }
 
 void pages_events(struct screen *screen, int top, int rows)
 {
     char what[STATUS_LINES_MAX];
-    struct screen_state *desk = &screen->desk;
-    desk->page_rows = rows > 1 ? (uint32_t)rows - 1 : 1;
+    struct screen_state *state = &screen->state;
+    state->page_rows = rows > 1 ? (uint32_t)rows - 1 : 1;
     uint64_t most =
-        draw_events(screen, desk->filter[SCREEN_STATE_EVENTS], desk->back, top + 1, rows - 1, 0);
-    desk->back = desk->back < most ? desk->back : most;
-    if (desk->back > 0)
+        draw_events(screen, state->filter[SCREEN_STATE_EVENTS], state->back, top + 1, rows - 1, 0);
+    state->back = state->back < most ? state->back : most;
+    if (state->back > 0)
         (void)snprintf(what, sizeof what, "events, %llu newer below; End shows them",
-                       (unsigned long long)desk->back);
+                       (unsigned long long)state->back);
     else
         (void)snprintf(what, sizeof what, "events, the newest at the bottom");
     draw_filter(screen, top, what);
@@ -175,27 +175,28 @@ static enum pages_pair pair_of(const jolon_Entity *entity)
 void pages_vehicles(struct screen *screen, const struct world_mirror *mirror, int top, int rows)
 {
     char line[VEHICLE_TABLE_LINE_MAX], what[STATUS_LINES_MAX];
-    struct screen_state *desk = &screen->desk;
+    struct screen_state *state = &screen->state;
     const struct vehicle_table *table = &screen->table;
-    if (!vehicle_table_build(&screen->table, mirror, desk->filter[SCREEN_STATE_VEHICLES],
-                             desk->sort, desk->descending)) {
+    if (!vehicle_table_build(&screen->table, mirror, state->filter[SCREEN_STATE_VEHICLES],
+                             state->sort, state->descending)) {
         pages_put(top, 0, "no memory for the table", A_BOLD, PAIR_WARN);
         return;
     }
-    screen_state_table(desk, table, mirror, rows > 2 ? (uint32_t)rows - 2 : 1);
+    screen_state_table(state, table, mirror, rows > 2 ? (uint32_t)rows - 2 : 1);
     (void)snprintf(what, sizeof what, "%u vehicles, by %s%s", table->count,
-                   vehicle_table_column_name(desk->sort), desk->descending ? " from the most" : "");
+                   vehicle_table_column_name(state->sort),
+                   state->descending ? " from the most" : "");
     draw_filter(screen, top, what);
-    vehicle_table_head(line, desk->sort, desk->descending);
+    vehicle_table_head(line, state->sort, state->descending);
     pages_put(top + 1, 0, line, A_BOLD, PAIR_PLAIN);
-    for (uint32_t i = 0; i < desk->page_rows && desk->first + i < table->count; i++) {
-        const jolon_Entity *entity = &mirror->batch.entity[table->row[desk->first + i]];
+    for (uint32_t i = 0; i < state->page_rows && state->first + i < table->count; i++) {
+        const jolon_Entity *entity = &mirror->batch.entity[table->row[state->first + i]];
         bool wreck = entity->state == jolon_ENTITY_WRECK;
         vehicle_table_line(line, mirror, entity);
         pages_put(top + 2 + (int)i, 0, line,
-                  entity->id == desk->chosen ? A_REVERSE
-                  : wreck                    ? A_DIM
-                                             : A_NORMAL,
+                  entity->id == state->chosen ? A_REVERSE
+                  : wreck                     ? A_DIM
+                                              : A_NORMAL,
                   pair_of(entity));
     }
 }
@@ -215,11 +216,11 @@ static void draw_spark(const struct screen *screen, const struct world_mirror *m
     char line[STATUS_LINES_MAX];
     double full_ms = mirror->frame.hz > 0.0 ? 1000.0 / mirror->frame.hz : 0.0;
     size_t columns = COLS > 48 ? (size_t)COLS - 48 : 0;
-    sparkline_text(bars, &screen->spark, columns, full_ms, screen->utf8);
+    sparkline_text(bars, &screen->sparkline, columns, full_ms, screen->utf8);
     pages_put(row, 0, "frame time", A_NORMAL, PAIR_PLAIN);
     pages_put(row, 11, bars, A_NORMAL, PAIR_PLAIN);
     (void)snprintf(line, sizeof line, "%.2f ms, most %.2f of %.1f", mirror->frame.recent.max_ms,
-                   sparkline_most(&screen->spark, columns), full_ms);
+                   sparkline_most(&screen->sparkline, columns), full_ms);
     pages_put(row, 12 + (int)columns, line, A_NORMAL, PAIR_PLAIN);
 }
 

@@ -54,8 +54,8 @@ bool screen_event(void *context, const char *line)
     size_t length = strnlen(line, SCREEN_EVENT_MAX - 1);
     memcpy(slot, line, length);
     slot[length] = '\0';
-    if (screen->desk.back > 0)
-        screen->desk.back++; /* what somebody reads stays where it is */
+    if (screen->state.back > 0)
+        screen->state.back++; /* what somebody reads stays where it is */
     return true;
 }
 
@@ -64,13 +64,13 @@ void screen_note(struct screen *screen, const struct world_mirror *mirror)
     if (!mirror->frame_ns || mirror->frame.frame == screen->spark_frame)
         return;
     screen->spark_frame = mirror->frame.frame;
-    sparkline_add(&screen->spark, mirror->frame.recent.max_ms);
+    sparkline_add(&screen->sparkline, mirror->frame.recent.max_ms);
 }
 
 static int key_of(int key)
 {
     static const struct {
-        int curses, desk;
+        int curses, state;
     } keys[] = {
         {KEY_UP, SCREEN_STATE_UP},         {KEY_DOWN, SCREEN_STATE_DOWN},
         {KEY_LEFT, SCREEN_STATE_LEFT},     {KEY_RIGHT, SCREEN_STATE_RIGHT},
@@ -83,7 +83,7 @@ static int key_of(int key)
     };
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
         if (keys[i].curses == key)
-            return keys[i].desk;
+            return keys[i].state;
     }
     return key < SCREEN_STATE_UP ? key : 0;
 }
@@ -94,8 +94,8 @@ bool screen_keys(struct screen *screen, const struct world_mirror *mirror)
     double side_m = mirror->has_world ? mirror->world.side_m : 1.0;
     for (int key = getch(); key != ERR; key = getch()) {
         any = true;
-        screen_state_choose(&screen->desk, &screen->table, mirror,
-                            screen_state_key(&screen->desk, key_of(key), side_m));
+        screen_state_choose(&screen->state, &screen->table, mirror,
+                            screen_state_key(&screen->state, key_of(key), side_m));
     }
     return any;
 }
@@ -111,11 +111,11 @@ static void draw_title(const struct screen *screen, const struct world_mirror *m
         line[length++] = ' ';
     line[length] = '\0';
     pages_put(0, 0, line, A_REVERSE, PAIR_PLAIN);
-    const char *page = pages[screen->desk.page];
+    const char *page = pages[screen->state.page];
     pages_put(0, COLS - (int)strlen(page) - 1, page, A_REVERSE | A_BOLD, PAIR_PLAIN);
 }
 
-static const char *keys_of(const struct screen_state *desk)
+static const char *keys_of(const struct screen_state *state)
 {
     static const char *const keys[SCREEN_STATE_PAGES] = {
         "1 all  2 vehicles  3 events  4 map  ? help  q quit   b blue r red n neutral % both",
@@ -124,7 +124,7 @@ static const char *keys_of(const struct screen_state *desk)
         "+ - zoom  arrows pan  0 whole  f follow  1-4 pages  ? help  q quit",
         "? back  q quit",
     };
-    return desk->typing ? "Enter keeps the filter, Esc drops it" : keys[desk->page];
+    return state->typing ? "Enter keeps the filter, Esc drops it" : keys[state->page];
 }
 
 void screen_draw(struct screen *screen, const struct world_mirror *mirror, uint64_t now_ns)
@@ -132,12 +132,12 @@ void screen_draw(struct screen *screen, const struct world_mirror *mirror, uint6
     char notice[STATUS_LINES_MAX];
     const int top = 1, rows = LINES - 2;
     if (!screen->begun && mirror->has_world) {
-        screen_state_begin(&screen->desk, mirror->world.side_m);
+        screen_state_begin(&screen->state, mirror->world.side_m);
         screen->begun = true;
     }
     (void)erase();
     draw_title(screen, mirror, now_ns);
-    switch (screen->desk.page) {
+    switch (screen->state.page) {
     case SCREEN_STATE_VEHICLES:
         pages_vehicles(screen, mirror, top, rows);
         break;
@@ -158,6 +158,6 @@ void screen_draw(struct screen *screen, const struct world_mirror *mirror, uint6
     if (notice[0])
         pages_put(LINES - 1, 0, notice, A_BOLD, PAIR_WARN);
     else
-        pages_put(LINES - 1, 0, keys_of(&screen->desk), A_DIM, PAIR_PLAIN);
+        pages_put(LINES - 1, 0, keys_of(&screen->state), A_DIM, PAIR_PLAIN);
     (void)refresh();
 }

@@ -11,13 +11,13 @@
 #define SCREEN_EVENT_MAX 128u
 
 struct screen {
-    struct screen_state desk;
+    struct screen_state state;
     struct character_map map;
     struct vehicle_table table;
-    struct sparkline spark; /* [ms] the longest frame between two samples of FrameStatus */
-    uint64_t spark_frame;   /* of the last of them */
-    bool begun;             /* the desk knows its world */
-    bool utf8;              /* the terminal shows its characters */
+    struct sparkline sparkline; /* [ms] the longest frame between two samples of FrameStatus */
+    uint64_t spark_frame;       /* of the last of them */
+    bool begun;                 /* the desk knows its world */
+    bool utf8;                  /* the terminal shows its characters */
     char event[SCREEN_EVENTS][SCREEN_EVENT_MAX]; /* a ring, [event_count % SCREEN_EVENTS] next */
     uint64_t event_count;
 };

@@ -54,23 +54,23 @@ struct screen_state {
 };
 
 /* As it is at the start, of a world of side_m. */
-void screen_state_begin(struct screen_state *desk, double side_m);
+void screen_state_begin(struct screen_state *state, double side_m);
 
 /* What a key does: a character, or an enum screen_state_key. Returns the way that the choice moves
  * in the table: 0, or rows down or up; the caller knows the ids. */
-int screen_state_key(struct screen_state *desk, int key, double side_m);
+int screen_state_key(struct screen_state *state, int key, double side_m);
 
 /* After the table was built: the chosen one's row, and the row at the top moved so that it shows.
  */
-void screen_state_table(struct screen_state *desk, const struct vehicle_table *table,
+void screen_state_table(struct screen_state *state, const struct vehicle_table *table,
                         const struct world_mirror *mirror, uint32_t page_rows);
 
 /* Moves the choice by rows in the table. */
-void screen_state_choose(struct screen_state *desk, const struct vehicle_table *table,
+void screen_state_choose(struct screen_state *state, const struct vehicle_table *table,
                          const struct world_mirror *mirror, int rows);
 
 /* What the map shows; about the chosen one when it is followed and there. */
-struct character_map_area screen_state_area(struct screen_state *desk,
+struct character_map_area screen_state_area(struct screen_state *state,
                                             const struct world_mirror *mirror, double side_m);
 
 #endif

@@ -5,31 +5,32 @@
 
 #define LEVELS 8
 
-void sparkline_add(struct sparkline *spark, double value)
+void sparkline_add(struct sparkline *sparkline, double value)
 {
-    spark->sample[spark->count++ % SPARKLINE_SAMPLES] = (float)value;
+    sparkline->sample[sparkline->count++ % SPARKLINE_SAMPLES] = (float)value;
 }
 
-static size_t kept(const struct sparkline *spark, size_t wanted)
+static size_t kept(const struct sparkline *sparkline, size_t wanted)
 {
-    size_t there = spark->count < SPARKLINE_SAMPLES ? (size_t)spark->count : SPARKLINE_SAMPLES;
+    size_t there =
+        sparkline->count < SPARKLINE_SAMPLES ? (size_t)sparkline->count : SPARKLINE_SAMPLES;
     return wanted < there ? wanted : there;
 }
 
 /* The nth of the last so many, the oldest first. */
-static double sample(const struct sparkline *spark, size_t last, size_t n)
+static double sample(const struct sparkline *sparkline, size_t last, size_t n)
 {
-    return (double)spark->sample[(spark->count - last + n) % SPARKLINE_SAMPLES];
+    return (double)sparkline->sample[(sparkline->count - last + n) % SPARKLINE_SAMPLES];
 }
 
-void sparkline_text(char text[SPARKLINE_TEXT_MAX], const struct sparkline *spark, size_t columns,
-                    double full, bool utf8)
+void sparkline_text(char text[SPARKLINE_TEXT_MAX], const struct sparkline *sparkline,
+                    size_t columns, double full, bool utf8)
 {
     static const char *const blocks[LEVELS] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
     static const char letters[LEVELS] = {'_', '.', ',', '-', ':', '=', '+', '#'};
-    size_t last = kept(spark, columns), used = 0;
+    size_t last = kept(sparkline, columns), used = 0;
     for (size_t n = 0; n < last; n++) {
-        double value = sample(spark, last, n);
+        double value = sample(sparkline, last, n);
         int level = full > 0.0 ? (int)(value / full * LEVELS) : 0;
         if (value > full) {
             text[used++] = '!';
@@ -45,12 +46,12 @@ void sparkline_text(char text[SPARKLINE_TEXT_MAX], const struct sparkline *spark
     text[used] = '\0';
 }
 
-double sparkline_most(const struct sparkline *spark, size_t samples)
+double sparkline_most(const struct sparkline *sparkline, size_t samples)
 {
     double most = 0.0;
-    size_t last = kept(spark, samples);
+    size_t last = kept(sparkline, samples);
     for (size_t n = 0; n < last; n++) {
-        double value = sample(spark, last, n);
+        double value = sample(sparkline, last, n);
         most = value > most ? value : most;
     }
     return most;

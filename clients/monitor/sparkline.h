@@ -14,14 +14,14 @@ struct sparkline {
     uint64_t count;
 };
 
-void sparkline_add(struct sparkline *spark, double value);
+void sparkline_add(struct sparkline *sparkline, double value);
 
 /* The last samples, at most columns of them, the newest at the right: from nothing to a full bar at
  * full; '!' for what is above it. In the eighths of a block of UTF-8, or plain letters. */
-void sparkline_text(char text[SPARKLINE_TEXT_MAX], const struct sparkline *spark, size_t columns,
-                    double full, bool utf8);
+void sparkline_text(char text[SPARKLINE_TEXT_MAX], const struct sparkline *sparkline,
+                    size_t columns, double full, bool utf8);
 
 /* The greatest of the last samples, 0 of none. */
-double sparkline_most(const struct sparkline *spark, size_t samples);
+double sparkline_most(const struct sparkline *sparkline, size_t samples);
 
 #endif

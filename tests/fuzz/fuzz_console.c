@@ -16,13 +16,13 @@ static struct console console = {.lock = PTHREAD_MUTEX_INITIALIZER,
 static void answer_tickets(void)
 {
     pthread_mutex_lock(&console.lock);
-    while (console.desk.ticket) {
-        struct pending_command *ticket = console.desk.ticket;
-        console.desk.ticket = ticket->next;
-        console.desk.tickets--;
-        http_answer_error(&ticket->answer, HTTP_ANSWER_NO_REPLY, "look", "no reply came");
-        ticket->done = true;
-        ticket->ready(ticket);
+    while (console.queue.pending) {
+        struct pending_command *pending = console.queue.pending;
+        console.queue.pending = pending->next;
+        console.queue.pending_count--;
+        http_answer_error(&pending->answer, HTTP_ANSWER_NO_REPLY, "look", "no reply came");
+        pending->done = true;
+        pending->ready(pending);
     }
     pthread_mutex_unlock(&console.lock);
 }
@@ -32,12 +32,12 @@ static void start(void)
     static char name[32];
     struct reason reason;
     (void)snprintf(name, sizeof name, "fuzz-%d", (int)getpid());
-    world_reader_open(&console.watch, name);
-    support_world(&console.watch.view);
-    CHECK(snapshot_init(&console.watch.snapshot, &console.watch.view) == 0);
-    console.watch.there = true;
+    world_reader_open(&console.reader, name);
+    support_world(&console.reader.view);
+    CHECK(snapshot_init(&console.reader.snapshot, &console.reader.view) == 0);
+    console.reader.there = true;
     console.listener = http_client_listener();
-    CHECK(picture_proxy_open(&console.pictures, name, &reason) == 0);
+    CHECK(picture_proxy_open(&console.proxy, name, &reason) == 0);
     CHECK(server_start(&console, &reason) == 0);
 }
 

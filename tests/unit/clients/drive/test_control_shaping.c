@@ -14,28 +14,28 @@
 #define MS 1000000u
 #define T0 (5000 * (uint64_t)MS)
 
-static struct control_shaping stick;
+static struct control_shaping shaping;
 
 static int open_stick(void **state)
 {
     (void)state;
-    control_shaping_reset(&stick, T0);
+    control_shaping_reset(&shaping, T0);
     return 0;
 }
 
 static void give(enum intent_type type, enum input_axis axis, double value, bool lifts, uint64_t at)
 {
     struct intent intent = {.type = type, .axis = axis, .value = (float)value, .lifts = lifts};
-    control_shaping_take(&stick, &intent, at);
+    control_shaping_take(&shaping, &intent, at);
 }
 
 /* Steps by 10 ms up to the time, as a session does. */
 static struct controls run_to(uint64_t end)
 {
-    while (stick.step_ns < end)
-        (void)control_shaping_step(&stick,
-                                   stick.step_ns + 10 * MS < end ? stick.step_ns + 10 * MS : end);
-    return control_shaping_controls(&stick, false);
+    while (shaping.step_ns < end)
+        (void)control_shaping_step(
+            &shaping, shaping.step_ns + 10 * MS < end ? shaping.step_ns + 10 * MS : end);
+    return control_shaping_controls(&shaping, false);
 }
 
 static void test_curve(void **state)
@@ -78,9 +78,10 @@ static void test_tap_counts_at_once(void **state)
 {
     (void)state;
     give(INTENT_DOWN, AXIS_STEER, -1.0, false, T0);
-    assert_true(fabs((double)control_shaping_controls(&stick, false).steer + KEY_KICK) < 1e-6);
+    assert_true(fabs((double)control_shaping_controls(&shaping, false).steer + KEY_KICK) < 1e-6);
     give(INTENT_DOWN, AXIS_THROTTLE, 1.0, false, T0);
-    assert_true(fabs((double)control_shaping_controls(&stick, false).throttle - LEVER_KICK) < 1e-6);
+    assert_true(fabs((double)control_shaping_controls(&shaping, false).throttle - LEVER_KICK) <
+                1e-6);
 }
 
 /* Without releases a press is a pulse, repeats hold it, and it centres itself. */
@@ -95,7 +96,7 @@ static void test_pulses(void **state)
         give(INTENT_DOWN, AXIS_STEER, 1.0, false, T0 + at * MS);
         (void)run_to(T0 + (at + 50) * MS);
     }
-    assert_true(control_shaping_controls(&stick, false).steer == 1.0f);
+    assert_true(control_shaping_controls(&shaping, false).steer == 1.0f);
     assert_true(run_to(T0 + 3000 * MS).steer == 0.0f);
 }
 
@@ -125,7 +126,7 @@ static void test_lever(void **state)
     give(INTENT_UP, AXIS_THROTTLE, -1.0, true, T0 + 9000 * MS);
     give(INTENT_DOWN, AXIS_THROTTLE, -1.0, true, T0 + 9100 * MS);
     assert_true(run_to(T0 + 9500 * MS).throttle < -0.1f);
-    control_shaping_stop(&stick);
+    control_shaping_stop(&shaping);
     assert_true(run_to(T0 + 9900 * MS).throttle == 0.0f);
 }
 
@@ -144,15 +145,15 @@ static void test_brake_ends_the_throttle(void **state)
 static void test_gears(void **state)
 {
     (void)state;
-    control_shaping_gear(&stick, 1);
-    assert_int_equal(stick.gear, GEAR_AUTOMATIC); /* the last there is */
-    control_shaping_gear(&stick, -1);
-    assert_int_equal(stick.gear, GEAR_LOW);
-    control_shaping_gear(&stick, -1);
-    assert_int_equal(stick.gear, GEAR_NEUTRAL);
-    control_shaping_gear(&stick, -1);
-    control_shaping_gear(&stick, -1);
-    assert_int_equal(stick.gear, GEAR_REVERSE);
+    control_shaping_gear(&shaping, 1);
+    assert_int_equal(shaping.gear, GEAR_AUTOMATIC); /* the last there is */
+    control_shaping_gear(&shaping, -1);
+    assert_int_equal(shaping.gear, GEAR_LOW);
+    control_shaping_gear(&shaping, -1);
+    assert_int_equal(shaping.gear, GEAR_NEUTRAL);
+    control_shaping_gear(&shaping, -1);
+    control_shaping_gear(&shaping, -1);
+    assert_int_equal(shaping.gear, GEAR_REVERSE);
 }
 
 static void test_aim_is_an_aircrafts_stick(void **state)
@@ -160,11 +161,11 @@ static void test_aim_is_an_aircrafts_stick(void **state)
     (void)state;
     give(INTENT_SET, AXIS_AIM_X, 1.0, false, T0);
     give(INTENT_SET, AXIS_AIM_Y, -1.0, false, T0);
-    struct controls land = control_shaping_controls(&stick, false),
-                    air = control_shaping_controls(&stick, true);
+    struct controls land = control_shaping_controls(&shaping, false),
+                    air = control_shaping_controls(&shaping, true);
     assert_true(land.traverse == 1.0f && land.elevate == -1.0f && land.steer == 0.0f);
     assert_true(air.steer == 1.0f && air.climb == -1.0f && air.traverse == 0.0f);
-    assert_true(control_shaping_aims(&stick));
+    assert_true(control_shaping_aims(&shaping));
 }
 
 /* Whatever comes, controls are in their ranges: the mover refuses others. */
@@ -177,8 +178,8 @@ static void test_ranges(void **state)
         enum input_axis axis = (enum input_axis)(fixture_random(&seed) % AXIS_COUNT);
         now_ns += fixture_random(&seed) % (50 * MS);
         give(type, axis, fixture_uniform(&seed, -1.5, 1.5), fixture_random(&seed) & 1, now_ns);
-        (void)control_shaping_step(&stick, now_ns);
-        struct controls c = control_shaping_controls(&stick, i & 1);
+        (void)control_shaping_step(&shaping, now_ns);
+        struct controls c = control_shaping_controls(&shaping, i & 1);
         const float all[] = {c.throttle, c.steer, c.climb, c.traverse, c.elevate};
         for (int k = 0; k < 5; k++)
             assert_true(all[k] >= -1.0f && all[k] <= 1.0f);

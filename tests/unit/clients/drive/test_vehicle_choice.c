@@ -144,20 +144,20 @@ static void test_codes_differ(void **state)
 static void test_chart(void **state)
 {
     (void)state;
-    static struct character_map chart;
-    character_map_draw(&chart, &mirror, &entity[0], 4, 15, 21, 100.0);
-    assert_string_equal(chart.cell[7][10].text, "/\\"); /* in the middle, to the north */
-    assert_string_equal(chart.cell[7][15].text, "ta");
-    assert_string_equal(chart.cell[7][11].text, "tr");
-    assert_string_equal(chart.cell[2][10].text, "TA");
-    assert_int_equal(chart.cell[2][10].mark, CHARACTER_MAP_TARGET);
-    assert_string_equal(chart.cell[6][10].text, "xx");
-    assert_string_equal(chart.cell[0][0].text, " .");
-    character_map_draw(&chart, &mirror, &entity[0], 0, 15, 31, 100.0);
-    assert_string_equal(chart.cell[7][0].text, "//"); /* west of the world */
-    character_map_draw(&chart, &mirror, &entity[0], 0, 100000, -5, 100.0);
-    assert_int_equal(chart.rows, CHARACTER_MAP_ROWS_MAX);
-    character_map_draw(&chart, &mirror, NULL, 0, 15, 21, 100.0);
+    static struct character_map map;
+    character_map_draw(&map, &mirror, &entity[0], 4, 15, 21, 100.0);
+    assert_string_equal(map.cell[7][10].text, "/\\"); /* in the middle, to the north */
+    assert_string_equal(map.cell[7][15].text, "ta");
+    assert_string_equal(map.cell[7][11].text, "tr");
+    assert_string_equal(map.cell[2][10].text, "TA");
+    assert_int_equal(map.cell[2][10].mark, CHARACTER_MAP_TARGET);
+    assert_string_equal(map.cell[6][10].text, "xx");
+    assert_string_equal(map.cell[0][0].text, " .");
+    character_map_draw(&map, &mirror, &entity[0], 0, 15, 31, 100.0);
+    assert_string_equal(map.cell[7][0].text, "//"); /* west of the world */
+    character_map_draw(&map, &mirror, &entity[0], 0, 100000, -5, 100.0);
+    assert_int_equal(map.rows, CHARACTER_MAP_ROWS_MAX);
+    character_map_draw(&map, &mirror, NULL, 0, 15, 21, 100.0);
 }
 
 int main(void)

@@ -14,7 +14,7 @@
 static jolon_Entity entities[5];
 static struct world_mirror mirror;
 static struct vehicle_table table;
-static struct screen_state desk;
+static struct screen_state screen;
 
 const char *world_mirror_kind_name(const struct world_mirror *from, uint32_t kind)
 {
@@ -52,7 +52,7 @@ static int setup(void **state)
                                      .z_m = 2000.0 * (double)i,
                                      .rounds = 5 - i};
     mirror = (struct world_mirror){.has_batch = true, .batch = {.entity = entities, .count = 5}};
-    screen_state_begin(&desk, SIDE_M);
+    screen_state_begin(&screen, SIDE_M);
     return 0;
 }
 
@@ -119,70 +119,73 @@ static void test_lines_fit_a_terminal(void **state)
 static void test_choosing(void **state)
 {
     (void)state;
-    desk.page = SCREEN_STATE_VEHICLES;
+    screen.page = SCREEN_STATE_VEHICLES;
     ids("", VEHICLE_TABLE_ID, false);
-    screen_state_table(&desk, &table, &mirror, 2);
-    screen_state_choose(&desk, &table, &mirror, screen_state_key(&desk, SCREEN_STATE_DOWN, SIDE_M));
-    assert_int_equal(desk.chosen, 10);
-    screen_state_table(&desk, &table, &mirror, 2);
-    screen_state_choose(&desk, &table, &mirror, screen_state_key(&desk, SCREEN_STATE_END, SIDE_M));
-    assert_int_equal(desk.chosen, 50);
-    screen_state_table(&desk, &table, &mirror, 2);
-    assert_int_equal(desk.first, 2); /* the last two rows */
-    screen_state_choose(&desk, &table, &mirror, screen_state_key(&desk, SCREEN_STATE_UP, SIDE_M));
-    assert_int_equal(desk.chosen, 30);
+    screen_state_table(&screen, &table, &mirror, 2);
+    screen_state_choose(&screen, &table, &mirror,
+                        screen_state_key(&screen, SCREEN_STATE_DOWN, SIDE_M));
+    assert_int_equal(screen.chosen, 10);
+    screen_state_table(&screen, &table, &mirror, 2);
+    screen_state_choose(&screen, &table, &mirror,
+                        screen_state_key(&screen, SCREEN_STATE_END, SIDE_M));
+    assert_int_equal(screen.chosen, 50);
+    screen_state_table(&screen, &table, &mirror, 2);
+    assert_int_equal(screen.first, 2); /* the last two rows */
+    screen_state_choose(&screen, &table, &mirror,
+                        screen_state_key(&screen, SCREEN_STATE_UP, SIDE_M));
+    assert_int_equal(screen.chosen, 30);
     ids("blue", VEHICLE_TABLE_ID, false); /* the chosen one is no longer in it */
-    screen_state_table(&desk, &table, &mirror, 2);
-    assert_int_equal(desk.first, 0);
-    screen_state_choose(&desk, &table, &mirror, 1);
-    assert_int_equal(desk.chosen, 10);
+    screen_state_table(&screen, &table, &mirror, 2);
+    assert_int_equal(screen.first, 0);
+    screen_state_choose(&screen, &table, &mirror, 1);
+    assert_int_equal(screen.chosen, 10);
 }
 
 static void test_typing_a_filter(void **state)
 {
     (void)state;
-    screen_state_key(&desk, '2', SIDE_M);
-    assert_int_equal(desk.page, SCREEN_STATE_VEHICLES);
-    screen_state_key(&desk, '/', SIDE_M);
+    screen_state_key(&screen, '2', SIDE_M);
+    assert_int_equal(screen.page, SCREEN_STATE_VEHICLES);
+    screen_state_key(&screen, '/', SIDE_M);
     for (const char *key = "qx"; *key; key++)
-        screen_state_key(&desk, *key, SIDE_M);
-    assert_false(desk.quit);
-    screen_state_key(&desk, SCREEN_STATE_BACKSPACE, SIDE_M);
-    assert_string_equal(desk.filter[SCREEN_STATE_VEHICLES], "q");
+        screen_state_key(&screen, *key, SIDE_M);
+    assert_false(screen.quit);
+    screen_state_key(&screen, SCREEN_STATE_BACKSPACE, SIDE_M);
+    assert_string_equal(screen.filter[SCREEN_STATE_VEHICLES], "q");
     for (int i = 0; i < 200; i++)
-        screen_state_key(&desk, 'a', SIDE_M);
-    assert_int_equal(strlen(desk.filter[SCREEN_STATE_VEHICLES]), VEHICLE_TABLE_FILTER_MAX - 1);
-    screen_state_key(&desk, SCREEN_STATE_ESCAPE, SIDE_M);
-    assert_string_equal(desk.filter[SCREEN_STATE_VEHICLES], "");
-    screen_state_key(&desk, 'q', SIDE_M);
-    assert_true(desk.quit);
+        screen_state_key(&screen, 'a', SIDE_M);
+    assert_int_equal(strlen(screen.filter[SCREEN_STATE_VEHICLES]), VEHICLE_TABLE_FILTER_MAX - 1);
+    screen_state_key(&screen, SCREEN_STATE_ESCAPE, SIDE_M);
+    assert_string_equal(screen.filter[SCREEN_STATE_VEHICLES], "");
+    screen_state_key(&screen, 'q', SIDE_M);
+    assert_true(screen.quit);
 }
 
 static void test_the_map_zooms_pans_and_follows(void **state)
 {
     (void)state;
-    desk.page = SCREEN_STATE_MAP;
-    screen_state_key(&desk, '+', SIDE_M);
-    screen_state_key(&desk, '+', SIDE_M);
-    screen_state_key(&desk, SCREEN_STATE_LEFT, SIDE_M);
-    struct character_map_area area = screen_state_area(&desk, &mirror, SIDE_M);
+    screen.page = SCREEN_STATE_MAP;
+    screen_state_key(&screen, '+', SIDE_M);
+    screen_state_key(&screen, '+', SIDE_M);
+    screen_state_key(&screen, SCREEN_STATE_LEFT, SIDE_M);
+    struct character_map_area area = screen_state_area(&screen, &mirror, SIDE_M);
     assert_float_equal(area.across_m, 12500.0, 0.0);
     assert_float_equal(area.x, 25000.0 - 3125.0, 0.0);
-    desk.chosen = 30;
-    screen_state_key(&desk, 'f', SIDE_M);
-    area = screen_state_area(&desk, &mirror, SIDE_M);
+    screen.chosen = 30;
+    screen_state_key(&screen, 'f', SIDE_M);
+    area = screen_state_area(&screen, &mirror, SIDE_M);
     assert_float_equal(area.x, 2000.0, 0.0);
     assert_float_equal(area.z, 4000.0, 0.0);
     for (int i = 0; i < 30; i++)
-        screen_state_key(&desk, SCREEN_STATE_UP,
+        screen_state_key(&screen, SCREEN_STATE_UP,
                          SIDE_M); /* not beyond the edge, and no longer following */
-    area = screen_state_area(&desk, &mirror, SIDE_M);
+    area = screen_state_area(&screen, &mirror, SIDE_M);
     assert_float_equal(area.z, 0.0, 0.0);
     for (int i = 0; i < 30; i++)
-        screen_state_key(&desk, '+', SIDE_M);
-    assert_int_equal(desk.zoom, SCREEN_STATE_ZOOM_MAX);
-    screen_state_key(&desk, '0', SIDE_M);
-    area = screen_state_area(&desk, &mirror, SIDE_M);
+        screen_state_key(&screen, '+', SIDE_M);
+    assert_int_equal(screen.zoom, SCREEN_STATE_ZOOM_MAX);
+    screen_state_key(&screen, '0', SIDE_M);
+    area = screen_state_area(&screen, &mirror, SIDE_M);
     assert_float_equal(area.x, 25000.0, 0.0);
     assert_float_equal(area.across_m, SIDE_M, 0.0);
 }

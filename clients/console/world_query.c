@@ -1,0 +1,32 @@
+/* Checks that each answer from the world begins with. */
+#include "clients/console/world_query.h"
+
+bool world_query_attached(const struct world_query *query, struct http_answer *answer)
+{
+    if (query->reader->there)
+        return true;
+    http_answer_error(answer, HTTP_ANSWER_AWAY,
+                      "this page goes on by itself when it is there; jolon start makes one, jolon "
+                      "worlds lists those there are",
+                      "%s", query->reader->why.text);
+    return false;
+}
+
+bool world_query_copied(const struct world_query *query, struct http_answer *answer)
+{
+    if (!world_query_attached(query, answer))
+        return false;
+    if (world_reader_copy(query->reader, query->now_ns) == 0)
+        return true;
+    http_answer_error(answer, HTTP_ANSWER_AWAY, "jolon world check tells what is wrong with it",
+                      "%s", query->reader->why.text);
+    return false;
+}
+
+uint32_t world_query_driver(const struct world_query *query, uint32_t row)
+{
+    const struct entities *e = &query->reader->snapshot.entities;
+    if (e->behaviour[row] != BEHAVIOUR_DRIVEN || e->driver[row] == 0)
+        return 0;
+    return query->player && e->driver[row] == query->player->source ? 2 : 1;
+}
