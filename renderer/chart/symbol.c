@@ -265,7 +265,8 @@ static float rim_width(double pixels)
 void symbol_vehicle(struct image *image, struct point at, enum symbol_form form, double heading_rad,
                     double pixels, enum force force)
 {
-    const struct symbol_paint paint = {symbol_colour(force), rim_colour(force, pixels), rim_width(pixels)};
+    const struct symbol_paint paint = {symbol_colour(force), rim_colour(force, pixels),
+                                       rim_width(pixels)};
     draw_form(image, &forms[form], at, heading_rad, pixels, &paint);
 }
 
@@ -304,7 +305,8 @@ void symbol_fire(struct image *image, struct point at, double pixels)
 void symbol_blast(struct image *image, struct point at, double age, double pixels)
 {
     uint8_t alpha = (uint8_t)(255.0 * (1.0 - maths_clamp(age, 0.0, 1.0)));
-    const struct symbol_paint paint = {{255, 250, 210, alpha}, {255, 120, 0, alpha}, rim_width(pixels)};
+    const struct symbol_paint paint = {
+        {255, 250, 210, alpha}, {255, 120, 0, alpha}, rim_width(pixels)};
     draw_form(image, &star, at, 0.3, pixels * (0.7 + 0.6 * age), &paint);
 }
 

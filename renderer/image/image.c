@@ -35,7 +35,8 @@ static int32_t ceil_of(double v)
     return whole + (v > whole);
 }
 
-static struct row_span span_of(const struct image *image, double x0, double y0, double x1, double y1)
+static struct row_span span_of(const struct image *image, double x0, double y0, double x1,
+                               double y1)
 {
     double width = (double)image->width, height = (double)image->height;
     struct row_span span = {0, 0, 0, 0};

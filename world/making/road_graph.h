@@ -1,4 +1,5 @@
-/* The roads as one graph: where they meet, and the shortest way along them. Used at creation. Pure. */
+/* The roads as one graph: where they meet, and the shortest way along them. Used at creation. Pure.
+ */
 #ifndef JOLON_WORLD_MAKING_ROAD_GRAPH_H
 #define JOLON_WORLD_MAKING_ROAD_GRAPH_H
 
