@@ -20,7 +20,7 @@ static void check_order(const struct command_text *order)
     CHECK(c->type > jolon_COMMAND_NONE && c->type <= jolon_COMMAND_QUIT);
     CHECK(memchr(c->kind, '\0', sizeof c->kind));
     CHECK(c->force <= jolon_FORCE_RED && c->behaviour <= jolon_BEHAVIOUR_PATROL &&
-          c->articulation <= jolon_GEAR_LOW);
+          c->gear <= jolon_GEAR_LOW);
     CHECK(isfinite(c->x_m) && isfinite(c->z_m) && isfinite(c->altitude_m) &&
           isfinite(c->heading_rad) && isfinite(c->speed_mps) && isfinite(c->scale));
     CHECK(order->rounds >= 1 && order->rounds <= COMMAND_TEXT_ROUNDS_MAX);

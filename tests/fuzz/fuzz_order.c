@@ -18,7 +18,7 @@ static void check(struct command_text *order)
           memchr(order->vehicle, '\0', sizeof order->vehicle) &&
           memchr(order->target, '\0', sizeof order->target));
     CHECK(c->force <= jolon_FORCE_RED && c->behaviour <= jolon_BEHAVIOUR_PATROL &&
-          c->articulation <= jolon_GEAR_LOW);
+          c->gear <= jolon_GEAR_LOW);
     CHECK(c->throttle >= -1.0F && c->throttle <= 1.0F && c->brake >= 0.0F && c->brake <= 1.0F);
     CHECK(isfinite(c->x_m) && isfinite(c->z_m) && isfinite(c->altitude_m) &&
           isfinite(c->heading_rad) && isfinite(c->speed_mps) && isfinite(c->scale));
