@@ -14,37 +14,37 @@
 
 #define BATCH 256
 
-static void note(struct back_pressure *brake, const struct event_command *command)
+static void note(struct back_pressure *pressure, const struct event_command *command)
 {
     if (command->result != COMMAND_DONE)
         return;
     if (command->type == COMMAND_RESUME)
-        brake->holder = COMMAND_RING_COUNT;
+        pressure->holder = COMMAND_RING_COUNT;
     /* Somebody else's pause outlasts ours. */
     if (command->type == COMMAND_PAUSE &&
-        (brake->holder == COMMAND_RING_COUNT || brake->holder == RING_RECORDER))
-        brake->holder = command->ring;
+        (pressure->holder == COMMAND_RING_COUNT || pressure->holder == RING_RECORDER))
+        pressure->holder = command->ring;
 }
 
-static void look(struct back_pressure *brake, const struct view *view)
+static void look(struct back_pressure *pressure, const struct view *view)
 {
     static struct event events[BATCH];
     uint32_t count;
     do {
-        count = events_read(view, &brake->cursor, events, BATCH);
+        count = events_read(view, &pressure->cursor, events, BATCH);
         for (uint32_t i = 0; i < count; i++) {
             if (events[i].type == EVENT_COMMAND)
-                note(brake, &events[i].command);
+                note(pressure, &events[i].command);
         }
     } while (count == BATCH);
 }
 
-void back_pressure_open(struct back_pressure *brake, const struct view *view)
+void back_pressure_open(struct back_pressure *pressure, const struct view *view)
 {
-    *brake = (struct back_pressure){.on = view->world.params->when_full == WHEN_FULL_PAUSE,
-                                    .holder = COMMAND_RING_COUNT};
-    if (brake->on)
-        look(brake, view);
+    *pressure = (struct back_pressure){.on = view->world.params->when_full == WHEN_FULL_PAUSE,
+                                       .holder = COMMAND_RING_COUNT};
+    if (pressure->on)
+        look(pressure, view);
 }
 
 static void send(struct view *view, enum command_type type)
@@ -55,17 +55,17 @@ static void send(struct view *view, enum command_type type)
     (void)command_put(view, RING_RECORDER, &command); /* full: at the next turn */
 }
 
-bool back_pressure_holds(const struct back_pressure *brake)
+bool back_pressure_holds(const struct back_pressure *pressure)
 {
-    return brake->on && brake->holder == RING_RECORDER;
+    return pressure->on && pressure->holder == RING_RECORDER;
 }
 
-void back_pressure_turn(struct back_pressure *brake, struct view *view, uint64_t written)
+void back_pressure_turn(struct back_pressure *pressure, struct view *view, uint64_t written)
 {
     struct state_head head;
-    if (!brake->on)
+    if (!pressure->on)
         return;
-    look(brake, view);
+    look(pressure, view);
     if (snapshot_head(&head, view) != 0 || frame_protocol_finished(view) ||
         atomic_load(&view->commands[RING_RECORDER]->head) > head.command_cursor[RING_RECORDER])
         return; /* what was sent is still to be taken */
@@ -75,7 +75,7 @@ void back_pressure_turn(struct back_pressure *brake, struct view *view, uint64_t
                  "the world until they are",
                  waiting);
         send(view, COMMAND_PAUSE);
-    } else if (waiting == 0 && head.paused && back_pressure_holds(brake)) {
+    } else if (waiting == 0 && head.paused && back_pressure_holds(pressure)) {
         log_info("every event is written: the world goes on");
         send(view, COMMAND_RESUME);
     }

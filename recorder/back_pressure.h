@@ -1,6 +1,6 @@
-/* The brake: recorder.when_full = "pause". Pauses the world before the event ring overwrites what
- * is not written yet, and lets it go on when all is. Both are commands, by a ring of the recorder's
- * own, so that a replay has them too. */
+/* Back-pressure: recorder.when_full = "pause". Pauses the world before the event ring overwrites
+ * what is not written yet, and lets it go on when all is. Both are commands, by a ring of the
+ * recorder's own, so that a replay has them too. */
 #ifndef JOLON_RECORDER_BACK_PRESSURE_H
 #define JOLON_RECORDER_BACK_PRESSURE_H
 
@@ -18,13 +18,13 @@ struct back_pressure {
 };
 
 /* Looks through the ring for who holds the world: a recorder before this one may have. */
-void back_pressure_open(struct back_pressure *brake, const struct view *view);
+void back_pressure_open(struct back_pressure *pressure, const struct view *view);
 
 /* written: the oldest event that is not safe in every log. Never blocks. A pause that somebody else
  * wants too is not ended here. */
-void back_pressure_turn(struct back_pressure *brake, struct view *view, uint64_t written);
+void back_pressure_turn(struct back_pressure *pressure, struct view *view, uint64_t written);
 
 /* Does the recorder hold the world paused? */
-bool back_pressure_holds(const struct back_pressure *brake);
+bool back_pressure_holds(const struct back_pressure *pressure);
 
 #endif

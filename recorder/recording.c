@@ -1,4 +1,4 @@
-/* The recorder's work: logs, checkpoints and the brake, a look at a time. */
+/* The recorder's work: logs, checkpoints and back-pressure, one turn at a time. */
 #include "recorder/recording.h"
 
 #include "ipc/process/clock.h"
@@ -17,7 +17,7 @@ void recording_open(struct recorder *recorder)
     if (options->checkpoint && checkpoint_open(&recorder->checkpoint, &recorder->view,
                                                options->checkpoint, options->every, &reason) != 0)
         die_refused("--checkpoint %s", reason.text);
-    back_pressure_open(&recorder->brake, &recorder->view);
+    back_pressure_open(&recorder->pressure, &recorder->view);
 }
 
 /* True when there is more to do at once. */
@@ -34,7 +34,7 @@ static bool write_logs(struct recorder *recorder)
         if (recorder->events.written < written)
             written = recorder->events.written;
     }
-    back_pressure_turn(&recorder->brake, &recorder->view, written);
+    back_pressure_turn(&recorder->pressure, &recorder->view, written);
     return more;
 }
 
@@ -86,7 +86,7 @@ enum exit_code recording_close(struct recorder *recorder)
                  missing);
         code = EXIT_REFUSED;
     }
-    if (back_pressure_holds(&recorder->brake) && !frame_protocol_finished(&recorder->view))
+    if (back_pressure_holds(&recorder->pressure) && !frame_protocol_finished(&recorder->view))
         log_warn("the world is left paused; `jolon ctl resume` lets it go on unrecorded");
     if (options->checkpoint) {
         (void)checkpoint_write(&recorder->checkpoint, &recorder->view);

@@ -15,7 +15,7 @@ struct recorder {
     struct command_log commands;
     struct event_log events;
     struct checkpoint checkpoint;
-    struct back_pressure brake;
+    struct back_pressure pressure;
 };
 
 /* Opens what the options ask for, in the view that is attached; what cannot be opened ends the

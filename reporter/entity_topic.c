@@ -14,31 +14,31 @@ _Static_assert((int)jolon_ENTITY_FREE == (int)ENTITY_FREE &&
 _Static_assert((int)jolon_GEAR_LOW == (int)GEAR_LOW && (int)GEAR_COUNT == (int)jolon_GEAR_LOW + 1,
                "gears in ipc/topics/status.idl");
 
-int entity_topic_open(struct entity_topic *batch, const struct view *view,
+int entity_topic_open(struct entity_topic *topic, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct reason *reason)
 {
     uint32_t capacity = view->header->capacity;
-    *batch =
+    *topic =
         (struct entity_topic){.room = capacity < ENTITY_TOPIC_PART ? capacity : ENTITY_TOPIC_PART};
-    batch->wire.run = run;
-    batch->dt_s = world_dt_s(&view->world);
-    batch->writer = dds_topics_writer(link, TOPIC_ENTITIES, reason);
-    if (batch->writer < 0)
+    topic->wire.run = run;
+    topic->dt_s = world_dt_s(&view->world);
+    topic->writer = dds_topics_writer(link, TOPIC_ENTITIES, reason);
+    if (topic->writer < 0)
         return -1;
-    batch->entity = calloc(batch->room, sizeof *batch->entity);
-    if (!batch->entity || snapshot_init(&batch->snapshot, view) != 0) {
-        free(batch->entity);
-        batch->entity = NULL;
+    topic->entity = calloc(topic->room, sizeof *topic->entity);
+    if (!topic->entity || snapshot_init(&topic->snapshot, view) != 0) {
+        free(topic->entity);
+        topic->entity = NULL;
         return reason_set(reason, "entities: no memory for %u: %s", capacity, strerror(errno));
     }
     return 0;
 }
 
-void entity_topic_close(struct entity_topic *batch)
+void entity_topic_close(struct entity_topic *topic)
 {
-    snapshot_free(&batch->snapshot);
-    free(batch->entity);
-    batch->entity = NULL;
+    snapshot_free(&topic->snapshot);
+    free(topic->entity);
+    topic->entity = NULL;
 }
 
 /* tick: of the frame; dt_s: of a tick. */
@@ -82,59 +82,59 @@ static uint32_t count_entities(const struct snapshot *snapshot)
     return count;
 }
 
-static bool anybody_reads(const struct entity_topic *batch)
+static bool has_subscribers(const struct entity_topic *topic)
 {
     dds_publication_matched_status_t matched;
-    return dds_get_publication_matched_status(batch->writer, &matched) >= 0 &&
+    return dds_get_publication_matched_status(topic->writer, &matched) >= 0 &&
            matched.current_count > 0;
 }
 
 /* A new snapshot, to be written from its first row; false when there is none to be had. */
-static bool begin(struct entity_topic *batch, const struct view *view)
+static bool begin(struct entity_topic *topic, const struct view *view)
 {
-    const struct state_head *head = &batch->snapshot.head;
-    if (snapshot_take(&batch->snapshot, view) != 0)
+    const struct state_head *head = &topic->snapshot.head;
+    if (snapshot_take(&topic->snapshot, view) != 0)
         return false;
-    batch->wire.frame = head->frame;
-    batch->wire.sim_time_s = state_time_s(&view->world, head);
-    batch->wire.total = count_entities(&batch->snapshot);
-    batch->wire.part = 0;
-    batch->wire.parts = batch->wire.total ? (batch->wire.total + batch->room - 1) / batch->room : 1;
-    batch->row = 0;
+    topic->wire.frame = head->frame;
+    topic->wire.sim_time_s = state_time_s(&view->world, head);
+    topic->wire.total = count_entities(&topic->snapshot);
+    topic->wire.part = 0;
+    topic->wire.parts = topic->wire.total ? (topic->wire.total + topic->room - 1) / topic->room : 1;
+    topic->row = 0;
     return true;
 }
 
-static void write_part(struct entity_topic *batch)
+static void write_part(struct entity_topic *topic)
 {
-    const struct snapshot *snapshot = &batch->snapshot;
+    const struct snapshot *snapshot = &topic->snapshot;
     uint32_t count = 0;
-    for (; batch->row < snapshot->head.used && count < batch->room; batch->row++) {
-        if (snapshot->entities.state[batch->row] != ENTITY_FREE)
-            fill(&batch->entity[count++], &snapshot->entities, batch->row, snapshot->head.tick,
-                 batch->dt_s);
+    for (; topic->row < snapshot->head.used && count < topic->room; topic->row++) {
+        if (snapshot->entities.state[topic->row] != ENTITY_FREE)
+            fill(&topic->entity[count++], &snapshot->entities, topic->row, snapshot->head.tick,
+                 topic->dt_s);
     }
-    batch->wire.entities._buffer = batch->entity;
-    batch->wire.entities._length = batch->wire.entities._maximum = count;
-    (void)dds_write(batch->writer, &batch->wire); /* the next batch makes up for a lost one */
-    batch->busy = ++batch->wire.part < batch->wire.parts;
+    topic->wire.entities._buffer = topic->entity;
+    topic->wire.entities._length = topic->wire.entities._maximum = count;
+    (void)dds_write(topic->writer, &topic->wire); /* the next batch makes up for a lost one */
+    topic->busy = ++topic->wire.part < topic->wire.parts;
 }
 
-bool entity_topic_publish(struct entity_topic *batch, const struct view *view, uint64_t now_ns)
+bool entity_topic_publish(struct entity_topic *topic, const struct view *view, uint64_t now_ns)
 {
-    if (!batch->busy) {
-        if (now_ns < batch->due_ns)
+    if (!topic->busy) {
+        if (now_ns < topic->due_ns)
             return false;
-        batch->due_ns += ENTITY_TOPIC_PERIOD_NS;
-        if (batch->due_ns <= now_ns)
-            batch->due_ns = now_ns + ENTITY_TOPIC_PERIOD_NS;
-        if (!anybody_reads(batch) || !begin(batch, view))
+        topic->due_ns += ENTITY_TOPIC_PERIOD_NS;
+        if (topic->due_ns <= now_ns)
+            topic->due_ns = now_ns + ENTITY_TOPIC_PERIOD_NS;
+        if (!has_subscribers(topic) || !begin(topic, view))
             return false;
-        batch->begun_ns = now_ns;
-        batch->spent_ns = 0;
+        topic->begun_ns = now_ns;
+        topic->spent_ns = 0;
     }
-    write_part(batch);
-    batch->spent_ns += clock_now_ns() - now_ns;
-    if (batch->spent_ns * ENTITY_TOPIC_SHARE > ENTITY_TOPIC_PERIOD_NS)
-        batch->due_ns = batch->begun_ns + batch->spent_ns * ENTITY_TOPIC_SHARE;
-    return batch->busy;
+    write_part(topic);
+    topic->spent_ns += clock_now_ns() - now_ns;
+    if (topic->spent_ns * ENTITY_TOPIC_SHARE > ENTITY_TOPIC_PERIOD_NS)
+        topic->due_ns = topic->begun_ns + topic->spent_ns * ENTITY_TOPIC_SHARE;
+    return topic->busy;
 }

@@ -31,12 +31,12 @@ struct entity_topic {
 };
 
 /* -1 with the reason: no memory, no writer. */
-int entity_topic_open(struct entity_topic *batch, const struct view *view,
+int entity_topic_open(struct entity_topic *topic, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct reason *reason);
-void entity_topic_close(struct entity_topic *batch);
+void entity_topic_close(struct entity_topic *topic);
 
 /* Writes a part of the last committed frame's entities if that is due and somebody reads them. True
  * when more parts wait for the next call. */
-bool entity_topic_publish(struct entity_topic *batch, const struct view *view, uint64_t now_ns);
+bool entity_topic_publish(struct entity_topic *topic, const struct view *view, uint64_t now_ns);
 
 #endif

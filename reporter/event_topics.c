@@ -28,17 +28,16 @@ _Static_assert((int)jolon_REASON_LEASE_OVER == (int)REASON_LEASE_OVER &&
 _Static_assert((int)jolon_DAMAGE_DESTROYED == (int)DAMAGE_DESTROYED &&
                    (int)DAMAGE_COUNT == (int)jolon_DAMAGE_DESTROYED + 1,
                "damage in ipc/topics/status.idl");
-_Static_assert(TOPIC_AGENT - TOPIC_COLLISION + 1 == EVENT_TOPICS_TOPICS,
+_Static_assert(TOPIC_AGENT - TOPIC_COLLISION + 1 == EVENT_TOPICS_COUNT,
                "event topics are in a row");
-_Static_assert(EVENT_AGENT - EVENT_COLLISION + 1 == EVENT_TOPICS_TOPICS,
-               "event types are in a row");
+_Static_assert(EVENT_AGENT - EVENT_COLLISION + 1 == EVENT_TOPICS_COUNT, "event types are in a row");
 
 int event_topics_open(struct event_topics *events, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct reason *reason)
 {
     struct state_head head;
     *events = (struct event_topics){.run = run};
-    for (uint32_t i = 0; i < EVENT_TOPICS_TOPICS; i++) {
+    for (uint32_t i = 0; i < EVENT_TOPICS_COUNT; i++) {
         events->writer[i] = dds_topics_writer(link, (enum dds_topic)(TOPIC_COLLISION + i), reason);
         if (events->writer[i] < 0)
             return -1;
@@ -239,7 +238,7 @@ bool event_topics_publish(struct event_topics *events, const struct view *view, 
 
 void event_topics_flush(const struct event_topics *events, uint64_t until_ns)
 {
-    for (uint32_t i = 0; i < EVENT_TOPICS_TOPICS; i++) {
+    for (uint32_t i = 0; i < EVENT_TOPICS_COUNT; i++) {
         uint64_t now_ns = clock_now_ns();
         if (now_ns < until_ns)
             (void)dds_wait_for_acks(events->writer[i], (dds_duration_t)(until_ns - now_ns));

@@ -12,11 +12,11 @@
 #define EVENT_TOPICS_AGAIN   4096u
 #define EVENT_TOPICS_AGAIN_S 1.0 /* [s of simulation] before the predecessor's last frame */
 #define EVENT_TOPICS_AT_ONCE 128u
-#define EVENT_TOPICS_TOPICS  5u
+#define EVENT_TOPICS_COUNT   5u
 
 struct event_topics {
-    dds_entity_t writer[EVENT_TOPICS_TOPICS];
-    uint64_t previous[EVENT_TOPICS_TOPICS]; /* sequence last seen for the topic; UINT64_MAX: none */
+    dds_entity_t writer[EVENT_TOPICS_COUNT];
+    uint64_t previous[EVENT_TOPICS_COUNT]; /* sequence last seen for the topic; UINT64_MAX: none */
     struct event_cursor cursor;
     uint64_t publish_from;       /* events before this sequence only say what was last on a topic */
     uint64_t publish_from_frame; /* ... unless their frame is at least this */

@@ -33,11 +33,11 @@
 struct reporter {
     struct view view;
     struct dds_link link;
-    struct status_topics report;
+    struct status_topics status;
     struct event_topics events;
     struct remote_commands remote;
     bool takes_commands;
-    struct entity_topic batch;
+    struct entity_topic entities;
     uint64_t frame_due_ns;
 };
 
@@ -45,11 +45,11 @@ static int open_topics(struct reporter *reporter, struct reason *reason)
 {
     const struct dds_link *link = &reporter->link;
     struct view *view = &reporter->view;
-    if (status_topics_open(&reporter->report, view, link, reason) != 0 ||
-        status_topics_world(&reporter->report, view, reason) != 0 ||
-        status_topics_names(&reporter->report, view, reason) != 0 ||
-        event_topics_open(&reporter->events, view, link, reporter->report.run, reason) != 0 ||
-        entity_topic_open(&reporter->batch, view, link, reporter->report.run, reason) != 0)
+    if (status_topics_open(&reporter->status, view, link, reason) != 0 ||
+        status_topics_world(&reporter->status, view, reason) != 0 ||
+        status_topics_names(&reporter->status, view, reason) != 0 ||
+        event_topics_open(&reporter->events, view, link, reporter->status.run, reason) != 0 ||
+        entity_topic_open(&reporter->entities, view, link, reporter->status.run, reason) != 0)
         return -1;
     if (reporter->takes_commands &&
         remote_commands_open(&reporter->remote, view->name, link, reason) != 0)
@@ -65,8 +65,8 @@ static void tell_status(struct reporter *reporter, uint64_t now_ns)
     reporter->frame_due_ns += STATUS_TOPICS_PERIOD_NS;
     if (reporter->frame_due_ns <= now_ns)
         reporter->frame_due_ns = now_ns + STATUS_TOPICS_PERIOD_NS;
-    status_topics_processes(&reporter->report, &reporter->view, now_ns);
-    status_topics_frame(&reporter->report, &reporter->view, now_ns);
+    status_topics_processes(&reporter->status, &reporter->view, now_ns);
+    status_topics_frame(&reporter->status, &reporter->view, now_ns);
 }
 
 /* True when there is more to do at once. */
@@ -80,7 +80,7 @@ static bool turn(struct reporter *reporter)
     bool more =
         !event_topics_publish(&reporter->events, &reporter->view, begun_ns + EVENTS_LIMIT_NS);
     tell_status(reporter, begun_ns);
-    more |= entity_topic_publish(&reporter->batch, &reporter->view, clock_now_ns());
+    more |= entity_topic_publish(&reporter->entities, &reporter->view, clock_now_ns());
     uint64_t stage_ns = clock_now_ns() - begun_ns;
     log_frame(reporter->events.frame);
     atomic_store_explicit(&slot->frame, reporter->events.frame, memory_order_relaxed);
@@ -105,8 +105,8 @@ static void last_words(struct reporter *reporter)
     uint64_t now_ns = clock_now_ns();
     atomic_store(&reporter->view.slot[ROLE_REPORTER]->state, ROLE_STOPPING);
     (void)event_topics_publish(&reporter->events, &reporter->view, now_ns + LAST_EVENTS_NS);
-    status_topics_processes(&reporter->report, &reporter->view, now_ns);
-    status_topics_frame(&reporter->report, &reporter->view, now_ns);
+    status_topics_processes(&reporter->status, &reporter->view, now_ns);
+    status_topics_frame(&reporter->status, &reporter->view, now_ns);
     event_topics_flush(&reporter->events, clock_now_ns() + LAST_ACKS_NS);
 }
 
@@ -143,7 +143,7 @@ int main(int argc, char **argv)
     }
 
     last_words(&reporter);
-    entity_topic_close(&reporter.batch);
+    entity_topic_close(&reporter.entities);
     segment_detach(&reporter.view);
     dds_link_close(&reporter.link, EXIT_OK);
     return EXIT_OK;

@@ -34,22 +34,22 @@ _Static_assert(sizeof((jolon_EntityName *)0)->name == ENTITY_NAME_MAX,
                "names in ipc/topics/status.idl");
 _Static_assert(jolon_MAP_CELLS == jolon_MAP_SIDE * jolon_MAP_SIDE, "map in ipc/topics/status.idl");
 
-int status_topics_open(struct status_topics *report, const struct view *view,
+int status_topics_open(struct status_topics *topics, const struct view *view,
                        const struct dds_link *link, struct reason *reason)
 {
-    *report =
+    *topics =
         (struct status_topics){.run = view->header->made}; /* the same name may be given again */
-    report->world = dds_topics_writer(link, TOPIC_WORLD, reason);
-    if (report->world < 0)
+    topics->world = dds_topics_writer(link, TOPIC_WORLD, reason);
+    if (topics->world < 0)
         return -1;
-    report->names = dds_topics_writer(link, TOPIC_NAMES, reason);
-    if (report->names < 0)
+    topics->names = dds_topics_writer(link, TOPIC_NAMES, reason);
+    if (topics->names < 0)
         return -1;
-    report->process = dds_topics_writer(link, TOPIC_PROCESS, reason);
-    if (report->process < 0)
+    topics->process = dds_topics_writer(link, TOPIC_PROCESS, reason);
+    if (topics->process < 0)
         return -1;
-    report->frame = dds_topics_writer(link, TOPIC_FRAME, reason);
-    return report->frame < 0 ? -1 : 0;
+    topics->frame = dds_topics_writer(link, TOPIC_FRAME, reason);
+    return topics->frame < 0 ? -1 : 0;
 }
 
 static void fill_map(jolon_WorldInfo *info, const struct terrain *terrain)
@@ -74,7 +74,7 @@ static void copy_text(char *to, size_t bytes, const char *from)
     to[length] = '\0';
 }
 
-int status_topics_world(struct status_topics *report, const struct view *view,
+int status_topics_world(struct status_topics *topics, const struct view *view,
                         struct reason *reason)
 {
     const struct params *params = view->world.params;
@@ -95,7 +95,7 @@ int status_topics_world(struct status_topics *report, const struct view *view,
     copy_text(info->world, sizeof info->world, view->name);
     copy_text(info->ground, sizeof info->ground, params->name);
     copy_text(info->scenario, sizeof info->scenario, params->scenario);
-    info->run = report->run;
+    info->run = topics->run;
     info->seed = params->seed;
     info->hz = params->hz;
     info->side_m = WORLD_SIDE_M;
@@ -106,21 +106,21 @@ int status_topics_world(struct status_topics *report, const struct view *view,
     info->kinds._buffer = kind;
     info->kinds._length = info->kinds._maximum = kinds < KIND_COUNT_MAX ? kinds : KIND_COUNT_MAX;
     fill_map(info, &view->world.terrain);
-    dds_return_t code = dds_write(report->world, info);
+    dds_return_t code = dds_write(topics->world, info);
     free(info);
     return code < 0 ? reason_set(reason, "world info: %s", dds_strretcode(code)) : 0;
 }
 
-int status_topics_names(const struct status_topics *report, const struct view *view,
+int status_topics_names(const struct status_topics *topics, const struct view *view,
                         struct reason *reason)
 {
     struct name_table names = {0};
-    if (!name_table_read_world(&names, &view->world, report->run))
+    if (!name_table_read_world(&names, &view->world, topics->run))
         return reason_set(reason, "entity names: %s", strerror(errno));
-    jolon_EntityNames wire = {.run = report->run};
+    jolon_EntityNames wire = {.run = topics->run};
     wire.names._buffer = names.entry;
     wire.names._length = wire.names._maximum = names.count;
-    dds_return_t code = dds_write(report->names, &wire);
+    dds_return_t code = dds_write(topics->names, &wire);
     name_table_close(&names);
     return code < 0 ? reason_set(reason, "entity names: %s", dds_strretcode(code)) : 0;
 }
@@ -157,7 +157,7 @@ static jolon_ProcessState state_of(const struct view *view, enum role role, uint
     return (jolon_ProcessState)state;
 }
 
-static void status_topics_process(struct status_topics *report, const struct view *view,
+static void status_topics_process(struct status_topics *topics, const struct view *view,
                                   enum role role, uint64_t now_ns)
 {
     const struct role_slot *slot = view->slot[role];
@@ -174,55 +174,55 @@ static void status_topics_process(struct status_topics *report, const struct vie
     status.state = state_of(view, role, beat_age_ns);
     if (status.state != jolon_PROCESS_ABSENT)
         status.beat_age_ms = to_ms(beat_age_ns);
-    if (report->told[role].sent_ns && report->told[role].state == status.state &&
-        report->told[role].pid == status.pid && report->told[role].restarts == status.restarts &&
-        now_ns - report->told[role].sent_ns < PROCESS_PERIOD_NS)
+    if (topics->told[role].sent_ns && topics->told[role].state == status.state &&
+        topics->told[role].pid == status.pid && topics->told[role].restarts == status.restarts &&
+        now_ns - topics->told[role].sent_ns < PROCESS_PERIOD_NS)
         return;
     jolon_Times times = times_of(&slot->stage);
     status.stage_p50_ms = times.p50_ms;
     status.stage_p99_ms = times.p99_ms;
     status.stage_max_ms = times.max_ms;
     copy_text(status.role, sizeof status.role, role_name(role));
-    if (dds_write(report->process, &status) < 0)
+    if (dds_write(topics->process, &status) < 0)
         return; /* again at the next call */
-    report->told[role].state = status.state;
-    report->told[role].pid = status.pid;
-    report->told[role].restarts = status.restarts;
-    report->told[role].sent_ns = now_ns;
+    topics->told[role].state = status.state;
+    topics->told[role].pid = status.pid;
+    topics->told[role].restarts = status.restarts;
+    topics->told[role].sent_ns = now_ns;
 }
 
-void status_topics_processes(struct status_topics *report, const struct view *view, uint64_t now_ns)
+void status_topics_processes(struct status_topics *topics, const struct view *view, uint64_t now_ns)
 {
     for (int role = 0; role < ROLE_COUNT; role++) {
         /* Of the roles that a world need not have, those it once had. */
         if (role <= ROLE_REPORTER || load(&view->slot[role]->starts))
-            status_topics_process(report, view, (enum role)role, now_ns);
+            status_topics_process(topics, view, (enum role)role, now_ns);
     }
 }
 
 /* Frames a second of the clock over the last calls. */
-static double measure_rate(struct status_topics *report, uint64_t commit, uint64_t now_ns)
+static double measure_rate(struct status_topics *topics, uint64_t commit, uint64_t now_ns)
 {
-    uint32_t oldest = report->rate_count < STATUS_TOPICS_RATE_SAMPLES ? 0 : report->rate_next;
+    uint32_t oldest = topics->rate_count < STATUS_TOPICS_RATE_SAMPLES ? 0 : topics->rate_next;
     double rate_hz = 0.0;
-    if (report->rate_count && now_ns > report->rate[oldest].at_ns)
-        rate_hz = (double)(commit - report->rate[oldest].commit) /
-                  ((double)(now_ns - report->rate[oldest].at_ns) / NS_PER_S);
-    report->rate[report->rate_next].at_ns = now_ns;
-    report->rate[report->rate_next].commit = commit;
-    report->rate_next = (report->rate_next + 1) % STATUS_TOPICS_RATE_SAMPLES;
-    if (report->rate_count < STATUS_TOPICS_RATE_SAMPLES)
-        report->rate_count++;
+    if (topics->rate_count && now_ns > topics->rate[oldest].at_ns)
+        rate_hz = (double)(commit - topics->rate[oldest].commit) /
+                  ((double)(now_ns - topics->rate[oldest].at_ns) / NS_PER_S);
+    topics->rate[topics->rate_next].at_ns = now_ns;
+    topics->rate[topics->rate_next].commit = commit;
+    topics->rate_next = (topics->rate_next + 1) % STATUS_TOPICS_RATE_SAMPLES;
+    if (topics->rate_count < STATUS_TOPICS_RATE_SAMPLES)
+        topics->rate_count++;
     return rate_hz;
 }
 
-static jolon_RunState run_state(struct status_topics *report, const struct view *view,
+static jolon_RunState run_state(struct status_topics *topics, const struct view *view,
                                 const struct state_head *head, uint64_t now_ns)
 {
     double frames_ns = STALL_FRAMES * view->world.params->dt_s * NS_PER_S / head->time_scale;
-    if (head->frame != report->commit || !report->advanced_ns || head->paused) {
-        report->commit = head->frame;
-        report->advanced_ns = now_ns; /* standing still on purpose is no stall */
+    if (head->frame != topics->commit || !topics->advanced_ns || head->paused) {
+        topics->commit = head->frame;
+        topics->advanced_ns = now_ns; /* standing still on purpose is no stall */
     }
     jolon_ProcessState mover = state_of(view, ROLE_MOVER, beat_age(view, ROLE_MOVER, now_ns));
     if (frame_protocol_finished(view))
@@ -231,22 +231,22 @@ static jolon_RunState run_state(struct status_topics *report, const struct view 
         return jolon_RUN_STOPPED;
     if (head->paused)
         return jolon_RUN_PAUSED;
-    uint64_t still_ns = now_ns - report->advanced_ns;
+    uint64_t still_ns = now_ns - topics->advanced_ns;
     return still_ns >= STALL_NS && (double)still_ns >= frames_ns ? jolon_RUN_STALLED
                                                                  : jolon_RUN_RUNNING;
 }
 
 /* Of the frames since the last call. */
-static jolon_Times recent_times(struct status_topics *report, const struct histogram *whole)
+static jolon_Times recent_times(struct status_topics *topics, const struct histogram *whole)
 {
     static struct histogram now, since; /* too large for the stack's comfort */
     now = *whole;
-    histogram_since(&since, &now, &report->whole);
-    report->whole = now;
+    histogram_since(&since, &now, &topics->whole);
+    topics->whole = now;
     return times_of(&since);
 }
 
-void status_topics_frame(struct status_topics *report, const struct view *view, uint64_t now_ns)
+void status_topics_frame(struct status_topics *topics, const struct view *view, uint64_t now_ns)
 {
     struct state_head head;
     uint64_t moved = atomic_load_explicit(&view->moved_word->moved, memory_order_acquire);
@@ -256,16 +256,16 @@ void status_topics_frame(struct status_topics *report, const struct view *view, 
     const struct role_slot *collider = view->slot[ROLE_COLLIDER];
     const struct role_slot *mover = view->slot[ROLE_MOVER];
     jolon_FrameStatus status = {
-        .run = report->run,
+        .run = topics->run,
         .frame = head.frame,
         /* Read before the head, the word may be frames behind it; it is never below commit. */
         .moved = moved > head.frame ? moved : head.frame,
         .tick = head.tick,
         .sim_time_s = state_time_s(&view->world, &head),
-        .state = run_state(report, view, &head, now_ns),
+        .state = run_state(topics, view, &head, now_ns),
         .paused = head.paused != 0,
         .hz = view->world.params->hz,
-        .rate_hz = measure_rate(report, head.frame, now_ns),
+        .rate_hz = measure_rate(topics, head.frame, now_ns),
         .time_scale = head.time_scale,
         .late_frames = load(&mover->late_frames),
         .vehicles = head.vehicles,
@@ -278,7 +278,7 @@ void status_topics_frame(struct status_topics *report, const struct view *view, 
         .frame_time = times_of(&collider->whole),
         .mover_time = times_of(&mover->stage),
         .collider_time = times_of(&collider->stage),
-        .recent = recent_times(report, &collider->whole),
+        .recent = recent_times(topics, &collider->whole),
     };
-    (void)dds_write(report->frame, &status); /* ten a second: the next one makes up for it */
+    (void)dds_write(topics->frame, &status); /* ten a second: the next one makes up for it */
 }

@@ -31,23 +31,23 @@ struct status_topics {
 };
 
 /* Makes the writers; -1 with the reason. */
-int status_topics_open(struct status_topics *report, const struct view *view,
+int status_topics_open(struct status_topics *topics, const struct view *view,
                        const struct dds_link *link, struct reason *reason);
 
 /* Writes WorldInfo; -1 with the reason when there is no memory for it. */
-int status_topics_world(struct status_topics *report, const struct view *view,
+int status_topics_world(struct status_topics *topics, const struct view *view,
                         struct reason *reason);
 
 /* Writes EntityNames; same error. */
-int status_topics_names(const struct status_topics *report, const struct view *view,
+int status_topics_names(const struct status_topics *topics, const struct view *view,
                         struct reason *reason);
 
 /* Writes the ProcessStatus of each role that changed, or was not written for a second. */
-void status_topics_processes(struct status_topics *report, const struct view *view,
+void status_topics_processes(struct status_topics *topics, const struct view *view,
                              uint64_t now_ns);
 
 /* Writes FrameStatus of the last committed frame. Every STATUS_TOPICS_PERIOD_NS: the frame rate is
  * measured over the calls. */
-void status_topics_frame(struct status_topics *report, const struct view *view, uint64_t now_ns);
+void status_topics_frame(struct status_topics *topics, const struct view *view, uint64_t now_ns);
 
 #endif

@@ -32,10 +32,10 @@
 #define LAST_WORDS_BYTES 65536L                   /* of the log's end are looked through for them */
 #define LEFT_NS          (5 * (uint64_t)NS_PER_S) /* for the processes of a dead set to be gone */
 
-struct main {
+struct keeper {
     const struct plan *plan;
     struct process_set set;
-    struct watchdog watch;
+    struct watchdog watchdog;
     struct progress progress;
     sigset_t signals;
     bool over; /* the run has ended, or the set gives up */
@@ -46,7 +46,7 @@ struct main {
     uint64_t begun_ns;
 };
 
-static void give_up(struct main *keeper, int code, const char *reason)
+static void give_up(struct keeper *keeper, int code, const char *reason)
 {
     keeper->over = keeper->gave_up = true;
     keeper->code = code;
@@ -55,7 +55,7 @@ static void give_up(struct main *keeper, int code, const char *reason)
 
 /* Keeps the world as it is before a frame that kills whoever makes it, with what the frame is made
  * from, and ends the set. */
-static void keep_poison(struct main *keeper, enum role role, int status)
+static void keep_poison(struct keeper *keeper, enum role role, int status)
 {
     char path[4096], text[5000];
     uint64_t frame = process_set_frame(&keeper->set);
@@ -75,7 +75,7 @@ static void keep_poison(struct main *keeper, enum role role, int status)
 }
 
 /* The role's own last line in a text, which is closed afterwards, for what it refused. */
-static void last_words(const struct main *keeper, FILE *said, enum role role, char *text,
+static void last_words(const struct keeper *keeper, FILE *said, enum role role, char *text,
                        size_t size)
 {
     char prefix[48], line[1024];
@@ -90,7 +90,7 @@ static void last_words(const struct main *keeper, FILE *said, enum role role, ch
         fclose(said);
 }
 
-static FILE *end_of_log(const struct main *keeper)
+static FILE *end_of_log(const struct keeper *keeper)
 {
     FILE *log = fopen(keeper->plan->log, "re");
     if (log && fseek(log, -LAST_WORDS_BYTES, SEEK_END) != 0)
@@ -99,7 +99,7 @@ static FILE *end_of_log(const struct main *keeper)
 }
 
 /* A frame role found the world damaged: it is taken back to its last whole frame, once a frame. */
-static void repair(struct main *keeper, enum role role)
+static void repair(struct keeper *keeper, enum role role)
 {
     char text[PROCESS_SET_WORDS_MAX];
     const char *const repair_verb[] = {"jolon-world", "repair", "--world", keeper->plan->world,
@@ -123,7 +123,7 @@ static void repair(struct main *keeper, enum role role)
 }
 
 /* Says once what a role refuses, however often it is tried again, and anew when that changes. */
-static void tell_refusal(struct main *keeper, struct post *post)
+static void tell_refusal(struct keeper *keeper, struct post *post)
 {
     char text[PROCESS_SET_WORDS_MAX];
     struct words *words = &post->words;
@@ -138,7 +138,7 @@ static void tell_refusal(struct main *keeper, struct post *post)
     snprintf(post->refused, sizeof post->refused, "%s", text);
 }
 
-static void take_death(struct main *keeper, struct post *post, struct child *child, int status)
+static void take_death(struct keeper *keeper, struct post *post, struct child *child, int status)
 {
     const struct child *heir = process_set_holder(&keeper->set, post->role);
     struct child dead = *child;
@@ -197,7 +197,7 @@ static void take_death(struct main *keeper, struct post *post, struct child *chi
 }
 
 /* Every child that changed its state since the last look. */
-static void take_children(struct main *keeper)
+static void take_children(struct keeper *keeper)
 {
     struct child *child;
     int status;
@@ -220,7 +220,7 @@ static void take_children(struct main *keeper)
 }
 
 /* Waits for a signal or the next tick, and does what either asks for. */
-static void turn(struct main *keeper)
+static void turn(struct keeper *keeper)
 {
     const struct timespec tick = {.tv_nsec = (long)WATCHDOG_TICK_NS};
     int signal_number = sigtimedwait(&keeper->signals, NULL, &tick);
@@ -233,7 +233,7 @@ static void turn(struct main *keeper)
     if (keeper->over)
         return;
     uint64_t now = clock_now_ns();
-    watchdog_turn(&keeper->watch, &keeper->set, now);
+    watchdog_turn(&keeper->watchdog, &keeper->set, now);
     process_set_spawn(&keeper->set, now);
     if (!keeper->plan->background && !keeper->plan->json)
         progress_turn(&keeper->progress, &keeper->set.view);
@@ -247,7 +247,7 @@ static bool starts(const struct post *post)
 }
 
 /* One role after the other, the mover last: frames begin when everybody is there to see them. */
-static void start_set(struct main *keeper)
+static void start_set(struct keeper *keeper)
 {
     static const enum role order[] = {ROLE_COLLIDER, ROLE_RECORDER, ROLE_INTAKE, ROLE_REPORTER,
                                       ROLE_RENDERER, ROLE_CONSOLE,  ROLE_MOVER};
@@ -301,7 +301,7 @@ static void say_ready(int fd)
     close(fd);
 }
 
-static void stop_set(struct main *keeper)
+static void stop_set(struct keeper *keeper)
 {
     /* Nothing new first, then those who report the rest. */
     static const enum role order[] = {ROLE_MOVER,   ROLE_COLLIDER, ROLE_INTAKE,  ROLE_RECORDER,
@@ -332,7 +332,7 @@ static void tell_pictures(const struct plan *plan)
     }
 }
 
-static void summarise(struct main *keeper)
+static void summarise(struct keeper *keeper)
 {
     const struct plan *plan = keeper->plan;
     char wall[32];
@@ -367,7 +367,7 @@ static void guard_removes(const struct segment_paths *paths)
 int main(int argc, char **argv)
 {
     struct plan plan = options_plan(argc, argv);
-    struct main keeper = {.plan = &plan, .repaired_frame = UINT64_MAX};
+    struct keeper keeper = {.plan = &plan, .repaired_frame = UINT64_MAX};
     struct reason reason;
     struct segment_paths paths;
     log_open("keeper");
@@ -391,7 +391,7 @@ int main(int argc, char **argv)
         segment_wait_free(plan.world, ROLE_RENDERER, clock_now_ns() + LEFT_NS, &reason) != 0 ||
         confine_keeper(&plan, &reason) != 0)
         die_refused("%s", reason.text);
-    keeper.begun_ns = keeper.watch.last_ns = keeper.watch.since_ns = clock_now_ns();
+    keeper.begun_ns = keeper.watchdog.last_ns = keeper.watchdog.since_ns = clock_now_ns();
     keeper.progress = progress_begin();
     uint64_t begun_frame = process_set_frame(&keeper.set);
     keeper.starting = true;

@@ -16,7 +16,7 @@
 #define OTHERS_NS      (2 * (uint64_t)NS_PER_S)  /* roles outside the frame loop */
 #define STAGES_ALLOWED 8 /* a beat may be this many of its last frame's work old */
 
-static uint64_t most(uint64_t a, uint64_t b)
+static uint64_t later(uint64_t a, uint64_t b)
 {
     return a > b ? a : b;
 }
@@ -26,17 +26,17 @@ static uint64_t allowed_ns(const struct process_set *set, enum role role)
 {
     const struct role_slot *slot = set->view.slot[role];
     uint64_t frames_ns = (uint64_t)(5e9 * world_dt_s(&set->view.world));
-    uint64_t allowed = most(set->plan->hang_ms * NS_PER_MS, frames_ns);
+    uint64_t allowed = later(set->plan->hang_ms * NS_PER_MS, frames_ns);
     if (atomic_load(&slot->state) == ROLE_STARTING || atomic_load(&slot->frame) == 0)
         return STARTING_NS;
     if (!restart_policy_makes_frames(role))
-        allowed = most(allowed, OTHERS_NS);
-    return most(allowed, STAGES_ALLOWED * atomic_load(&slot->stage_ns));
+        allowed = later(allowed, OTHERS_NS);
+    return later(allowed, STAGES_ALLOWED * atomic_load(&slot->stage_ns));
 }
 
 /* What the machine gave a process: processor time of all its threads [ns], and whether one of them
  * waits for more of it, or for a page or a disk. false when it cannot be told. */
-static bool given(int pid, uint64_t *used_ns, bool *waits)
+static bool processor_time(int pid, uint64_t *used_ns, bool *waits)
 {
     char path[64];
     snprintf(path, sizeof path, "/proc/%d/task", pid);
@@ -68,7 +68,8 @@ static bool starved(const struct post *post, int pid, uint64_t silent_ns)
 {
     uint64_t used;
     bool waits;
-    return given(pid, &used, &waits) && waits && used < post->quiet_used_ns + silent_ns / 2;
+    return processor_time(pid, &used, &waits) && waits &&
+           used < post->quiet_used_ns + silent_ns / 2;
 }
 
 static void kill_hung(const struct process_set *set, enum role role, struct child *child,
@@ -81,20 +82,20 @@ static void kill_hung(const struct process_set *set, enum role role, struct chil
 }
 
 /* A stopped process does nothing at all, whether it has the role, stands by for it or starts. */
-static void judge_stopped(const struct process_set *set, struct post *post,
-                          const struct watchdog *watch, uint64_t now)
+static void check_stopped(const struct process_set *set, struct post *post,
+                          const struct watchdog *watchdog, uint64_t now)
 {
     uint64_t limit = set->plan->hang_ms * NS_PER_MS;
     for (int j = 0; j < PROCESS_SET_CHILDREN; j++) {
         struct child *child = &post->child[j];
-        uint64_t from = most(child->stopped_ns, watch->since_ns);
+        uint64_t from = later(child->stopped_ns, watchdog->since_ns);
         if (child->pid != 0 && child->stopped_ns != 0 && !child->hung && now > from + limit)
             kill_hung(set, post->role, child, "has been stopped", now - from);
     }
 }
 
 /* Notes how far the role is; true when it has got on within this time. */
-static bool gets_on(struct post *post, uint64_t work, uint64_t now, uint64_t within_ns)
+static bool makes_progress(struct post *post, uint64_t work, uint64_t now, uint64_t within_ns)
 {
     if (work != post->work) {
         post->work = work;
@@ -118,7 +119,7 @@ static void note_long_frame(const struct process_set *set, struct post *post,
 }
 
 /* It has been silent for longer than it may. */
-static void judge_silent(const struct process_set *set, struct post *post, struct child *child,
+static void check_silent(const struct process_set *set, struct post *post, struct child *child,
                          uint64_t from, uint64_t now, bool working)
 {
     if (starved(post, child->pid, now - post->quiet_ns))
@@ -130,8 +131,8 @@ static void judge_silent(const struct process_set *set, struct post *post, struc
                   now - from);
 }
 
-static void judge_heart(struct process_set *set, struct post *post, const struct watchdog *watch,
-                        uint64_t now)
+static void check_heartbeat(struct process_set *set, struct post *post,
+                            const struct watchdog *watchdog, uint64_t now)
 {
     const struct role_slot *slot = set->view.slot[post->role];
     struct child *child = process_set_holder(set, post->role);
@@ -141,30 +142,30 @@ static void judge_heart(struct process_set *set, struct post *post, const struct
         child->was_ready = true;
     if (!child || child->hung || (state != ROLE_STARTING && state != ROLE_READY))
         return;
-    uint64_t from = most(beat, watch->since_ns);
+    uint64_t from = later(beat, watchdog->since_ns);
     uint64_t allowed = allowed_ns(set, post->role);
-    bool working = gets_on(post, atomic_load(&slot->work), now, allowed);
+    bool working = makes_progress(post, atomic_load(&slot->work), now, allowed);
     if (now <= from + allowed / 2)
         return;
     /* What the machine gives it is measured over the second half: who beats costs no look at it. */
     if (post->quiet_ns < from) {
         bool waits;
         post->quiet_ns = now;
-        if (!given(child->pid, &post->quiet_used_ns, &waits))
+        if (!processor_time(child->pid, &post->quiet_used_ns, &waits))
             post->quiet_used_ns = 0;
         return;
     }
     if (now > from + allowed)
-        judge_silent(set, post, child, from, now, working);
+        check_silent(set, post, child, from, now, working);
 }
 
-void watchdog_turn(struct watchdog *watch, struct process_set *set, uint64_t now_ns)
+void watchdog_turn(struct watchdog *watchdog, struct process_set *set, uint64_t now_ns)
 {
-    if (now_ns > watch->last_ns + LATE_NS)
-        watch->since_ns = now_ns;
-    watch->last_ns = now_ns;
+    if (now_ns > watchdog->last_ns + LATE_NS)
+        watchdog->since_ns = now_ns;
+    watchdog->last_ns = now_ns;
     for (int i = 0; i < ROLE_COUNT; i++) {
-        judge_stopped(set, &set->post[i], watch, now_ns);
-        judge_heart(set, &set->post[i], watch, now_ns);
+        check_stopped(set, &set->post[i], watchdog, now_ns);
+        check_heartbeat(set, &set->post[i], watchdog, now_ns);
     }
 }

@@ -23,6 +23,6 @@ struct watchdog {
 
 /* One look at everybody. Kills; the deaths are the caller's to wait for. Call at least every
  * WATCHDOG_TICK_NS; later calls mean that the watcher itself was held up. */
-void watchdog_turn(struct watchdog *watch, struct process_set *set, uint64_t now_ns);
+void watchdog_turn(struct watchdog *watchdog, struct process_set *set, uint64_t now_ns);
 
 #endif

@@ -24,7 +24,7 @@
 
 /* --- beginning and going on --------------------------------------------------------------------*/
 
-static uint64_t recipe_number(const struct world *world, const char *key)
+static uint64_t provenance_number(const struct world *world, const char *key)
 {
     const char *value = provenance_find(world->recipe, world->counts.recipe, key);
     return value ? strtoull(value, NULL, 10) : 0;
@@ -33,9 +33,9 @@ static uint64_t recipe_number(const struct world *world, const char *key)
 /* Where the world was when it was made. */
 static struct record_place beginning(const struct view *view)
 {
-    return (struct record_place){.frame = recipe_number(&view->world, "frame"),
+    return (struct record_place){.frame = provenance_number(&view->world, "frame"),
                                  .events = view->header->first_event,
-                                 .commands = recipe_number(&view->world, "commands")};
+                                 .commands = provenance_number(&view->world, "commands")};
 }
 
 static void begin(struct command_log *log, const struct view *view)

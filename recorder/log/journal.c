@@ -260,7 +260,7 @@ void journal_put(struct journal *journal, cJSON *object)
 }
 
 /* No room, or the device fails, is gone or was made read-only because it failed: it may pass. A
- * recorder that gave up would leave a world paused that its brake holds. */
+ * recorder that gave up would leave a world paused that its back-pressure holds. */
 static bool may_pass(int error)
 {
     return error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO || error == EROFS ||

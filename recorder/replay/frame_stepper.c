@@ -3,34 +3,34 @@
 
 #include <errno.h>
 
-int frame_stepper_init(struct frame_stepper *player, struct view *view, uint32_t threads)
+int frame_stepper_init(struct frame_stepper *stepper, struct view *view, uint32_t threads)
 {
-    *player = (struct frame_stepper){.view = view};
-    player->workers = thread_pool_create(threads);
-    if (!player->workers)
+    *stepper = (struct frame_stepper){.view = view};
+    stepper->workers = thread_pool_create(threads);
+    if (!stepper->workers)
         return -1;
-    if (mover_init(&player->mover, &view->world, view->w[0].craters, player->workers) != 0)
+    if (mover_init(&stepper->mover, &view->world, view->w[0].craters, stepper->workers) != 0)
         goto err_workers;
-    if (collider_init(&player->collider, &view->world, view->w[0].craters, player->workers) != 0)
+    if (collider_init(&stepper->collider, &view->world, view->w[0].craters, stepper->workers) != 0)
         goto err_mover;
     return 0;
 err_mover:
-    mover_free(&player->mover);
+    mover_free(&stepper->mover);
 err_workers:
-    thread_pool_destroy(player->workers);
-    player->workers = NULL;
+    thread_pool_destroy(stepper->workers);
+    stepper->workers = NULL;
     errno = ENOMEM;
     return -1;
 }
 
-void frame_stepper_free(struct frame_stepper *player)
+void frame_stepper_free(struct frame_stepper *stepper)
 {
-    if (!player->workers)
+    if (!stepper->workers)
         return;
-    mover_free(&player->mover);
-    collider_free(&player->collider);
-    thread_pool_destroy(player->workers);
-    player->workers = NULL;
+    mover_free(&stepper->mover);
+    collider_free(&stepper->collider);
+    thread_pool_destroy(stepper->workers);
+    stepper->workers = NULL;
 }
 
 void frame_stepper_sources(const struct view *view,
@@ -41,35 +41,35 @@ void frame_stepper_sources(const struct view *view,
                                              atomic_load(&view->commands[i]->head)};
 }
 
-uint64_t frame_stepper_frame(const struct frame_stepper *player)
+uint64_t frame_stepper_frame(const struct frame_stepper *stepper)
 {
-    return atomic_load(&player->view->commit->commit);
+    return atomic_load(&stepper->view->commit->commit);
 }
 
-void frame_stepper_move(struct frame_stepper *player, const struct command_source *sources)
+void frame_stepper_move(struct frame_stepper *stepper, const struct command_source *sources)
 {
-    struct view *view = player->view;
+    struct view *view = stepper->view;
     struct command_source own[COMMAND_RING_COUNT];
-    uint64_t commit = frame_stepper_frame(player);
+    uint64_t commit = frame_stepper_frame(stepper);
     frame_stepper_sources(view, own);
-    mover_step(&player->mover, &view->w[commit & 1], &view->m, sources ? sources : own);
+    mover_step(&stepper->mover, &view->w[commit & 1], &view->m, sources ? sources : own);
     atomic_store(&view->moved_word->moved, commit + 1);
 }
 
-void frame_stepper_collide(struct frame_stepper *player)
+void frame_stepper_collide(struct frame_stepper *stepper)
 {
-    struct view *view = player->view;
+    struct view *view = stepper->view;
     const struct event_ring ring = {view->events, view->header->event_slots};
-    uint64_t commit = frame_stepper_frame(player);
+    uint64_t commit = frame_stepper_frame(stepper);
     atomic_store(&view->commit->writing, commit + 1);
-    collider_step(&player->collider, &view->w[commit & 1], &view->m, &view->w[(commit + 1) & 1],
+    collider_step(&stepper->collider, &view->w[commit & 1], &view->m, &view->w[(commit + 1) & 1],
                   &ring);
     atomic_store(&view->commit->commit, commit + 1);
 }
 
-void frame_stepper_step(struct frame_stepper *player, const struct command_source *sources)
+void frame_stepper_step(struct frame_stepper *stepper, const struct command_source *sources)
 {
-    if (atomic_load(&player->view->moved_word->moved) == frame_stepper_frame(player))
-        frame_stepper_move(player, sources);
-    frame_stepper_collide(player);
+    if (atomic_load(&stepper->view->moved_word->moved) == frame_stepper_frame(stepper))
+        frame_stepper_move(stepper, sources);
+    frame_stepper_collide(stepper);
 }

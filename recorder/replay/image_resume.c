@@ -38,8 +38,8 @@ static void forget_quit(struct view *view, uint64_t frame)
 }
 
 /* The world's own: how to make it again from the image, and what was changed. */
-static int write_recipe(const struct view *view, const struct arguments *arguments,
-                        const struct image *image, struct reason *reason)
+static int write_provenance(const struct view *view, const struct arguments *arguments,
+                            const struct image *image, struct reason *reason)
 {
     struct provenance recipe = {0};
     char text[32], *path = realpath(image->path, NULL);
@@ -52,7 +52,7 @@ static int write_recipe(const struct view *view, const struct arguments *argumen
     result |= provenance_add(&recipe, "commands", text);
     for (int i = 0; i < arguments->sets; i++)
         result |= provenance_add(&recipe, "set", arguments->set[i]);
-    scenario_load_recipe_seconds(arguments, &recipe);
+    scenario_load_provenance_seconds(arguments, &recipe);
     uint32_t room = view->world.counts.recipe;
     if (result == 0 && recipe.bytes < room) {
         char *to = (char *)(uintptr_t)view->world.recipe;
@@ -81,7 +81,7 @@ int image_resume_fill(struct view *view, const struct arguments *arguments,
     if (image_load(view, image, reason) != 0)
         return -1;
     forget_quit(view, image->header.frame);
-    return write_recipe(view, arguments, image, reason);
+    return write_provenance(view, arguments, image, reason);
 }
 
 static void make(const struct arguments *arguments, const struct image *image)

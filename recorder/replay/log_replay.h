@@ -1,5 +1,5 @@
-/* A tape: a log of commands (docs/replay.md) in memory, checked, and played onto a world frame by
- * frame. */
+/* The replay of a log: a log of commands (docs/replay.md) in memory, checked, and played onto a
+ * world frame by frame. */
 #ifndef JOLON_RECORDER_REPLAY_LOG_REPLAY_H
 #define JOLON_RECORDER_REPLAY_LOG_REPLAY_H
 
@@ -25,20 +25,20 @@ struct log_replay {
 
 /* Reads the whole file and checks every record: its checksum, that its numbers go on from those
  * before. 0, or -1 with the reason, which names the line. */
-int log_replay_open(struct log_replay *tape, const char *path, struct reason *reason);
-void log_replay_close(struct log_replay *tape);
+int log_replay_open(struct log_replay *replay, const char *path, struct reason *reason);
+void log_replay_close(struct log_replay *replay);
 
 /* Does the file begin like a log of commands? */
 bool log_replay_is_one(const char *path);
 
 /* The record that ends the log; NULL when the recorder was killed. */
-const struct command_record *log_replay_end(const struct log_replay *tape);
+const struct command_record *log_replay_end(const struct log_replay *replay);
 
 /* Commands of the run until the end of this frame, as far as the log knows. */
-uint64_t log_replay_commands(const struct log_replay *tape, uint64_t frame);
+uint64_t log_replay_commands(const struct log_replay *replay, uint64_t frame);
 
 /* The value of the recipe's first text with this key, NULL when there is none. */
-const char *log_replay_recipe(const struct log_replay *tape, const char *key);
+const char *log_replay_provenance(const struct log_replay *replay, const char *key);
 
 enum log_replay_step {
     LOG_REPLAY_STEPPED,
@@ -47,10 +47,10 @@ enum log_replay_step {
     LOG_REPLAY_WRONG, /* it does not fit the world; the reason says where */
 };
 
-/* Makes the next frame of the player's world with the tape's commands of that frame, and holds it
- * against the tape's marks. The world is the one that the tape begins with, or was stepped so far
+/* Makes the next frame of the stepper's world with the log's commands of that frame, and holds it
+ * against the log's marks. The world is the one that the log begins with, or was stepped so far
  * with it; before the first step its rings are emptied. */
-enum log_replay_step log_replay_step(struct log_replay *tape, struct frame_stepper *player,
+enum log_replay_step log_replay_step(struct log_replay *replay, struct frame_stepper *stepper,
                                      struct reason *reason);
 
 #endif

@@ -16,82 +16,83 @@
 #include <stdio.h>
 #include <string.h>
 
-void run_start_tape(struct log_replay *tape, const char *path)
+void run_start_open(struct log_replay *replay, const char *path)
 {
     struct reason reason;
-    if (log_replay_open(tape, path, &reason) != 0)
+    if (log_replay_open(replay, path, &reason) != 0)
         die_refused("%s", reason.text);
-    if (tape->torn)
+    if (replay->torn)
         log_warn("%s: its last line is torn: left out", path);
 }
 
 /* The arguments that the recipe stands for. */
-static void arguments_of(struct arguments *arguments, const struct log_replay *tape)
+static void arguments_of(struct arguments *arguments, const struct log_replay *replay)
 {
     const cJSON *text;
     *arguments = (struct arguments){.world = "default",
-                                    .path = log_replay_recipe(tape, "scenario"),
-                                    .from = log_replay_recipe(tape, "image")};
-    const char *seconds = log_replay_recipe(tape, "seconds");
+                                    .path = log_replay_provenance(replay, "scenario"),
+                                    .from = log_replay_provenance(replay, "image")};
+    const char *seconds = log_replay_provenance(replay, "seconds");
     if (seconds && !parse_real(seconds, 0.001, 1e9, &arguments->seconds))
-        die_refused("%s:1: recipe: seconds=%s: must be a number from 0.001 to 1e9", tape->path,
+        die_refused("%s:1: recipe: seconds=%s: must be a number from 0.001 to 1e9", replay->path,
                     seconds);
-    cJSON_ArrayForEach(text, cJSON_GetObjectItemCaseSensitive(tape->begin, "recipe"))
+    cJSON_ArrayForEach(text, cJSON_GetObjectItemCaseSensitive(replay->begin, "recipe"))
     {
         const char *set = cJSON_IsString(text) ? provenance_value(text->valuestring, "set") : NULL;
         if (!set)
             continue;
         if (!strchr(set, '='))
-            die_refused("%s:1: recipe: set=%s: must be set=KEY=VALUE", tape->path, set);
+            die_refused("%s:1: recipe: set=%s: must be set=KEY=VALUE", replay->path, set);
         if (arguments->sets == ARGUMENT_SETS_MAX)
-            die_refused("%s:1: recipe: more than %d texts set=KEY=VALUE", tape->path,
+            die_refused("%s:1: recipe: more than %d texts set=KEY=VALUE", replay->path,
                         ARGUMENT_SETS_MAX);
         arguments_set(arguments, set);
     }
 }
 
-static const char *scenario_text(const struct log_replay *tape)
+static const char *scenario_text(const struct log_replay *replay)
 {
-    return cJSON_GetObjectItemCaseSensitive(tape->begin, "scenario")->valuestring;
+    return cJSON_GetObjectItemCaseSensitive(replay->begin, "scenario")->valuestring;
 }
 
 /* The log's recipe, byte by byte, in the place of the one that making it again has made. */
-static void keep_recipe(const struct view *view, const struct log_replay *tape)
+static void keep_provenance(const struct view *view, const struct log_replay *replay)
 {
     const cJSON *text;
     char *to = (char *)(uintptr_t)view->world.recipe;
     uint32_t room = view->world.counts.recipe, used = 0;
     memset(to, 0, room);
-    cJSON_ArrayForEach(text, cJSON_GetObjectItemCaseSensitive(tape->begin, "recipe"))
+    cJSON_ArrayForEach(text, cJSON_GetObjectItemCaseSensitive(replay->begin, "recipe"))
     {
         size_t length = cJSON_IsString(text) ? strlen(text->valuestring) + 1 : room;
         if (length >= room - used)
-            die_refused("%s:1: its recipe does not fit the world that it makes", tape->path);
+            die_refused("%s:1: its recipe does not fit the world that it makes", replay->path);
         memcpy(to + used, text->valuestring, length);
         used += (uint32_t)length;
     }
 }
 
-static void check_hash(const struct log_replay *tape, const struct params *params, const char *from)
+static void check_hash(const struct log_replay *replay, const struct params *params,
+                       const char *from)
 {
-    if (params->scenario_hash != tape->scenario_hash)
+    if (params->scenario_hash != replay->scenario_hash)
         die_refused("%s: was recorded of another scenario (hash %016" PRIx64 "; now %016" PRIx64
                     "): %s, or one of config/kinds, has changed since",
-                    tape->path, tape->scenario_hash, params->scenario_hash, from);
+                    replay->path, replay->scenario_hash, params->scenario_hash, from);
 }
 
-static void from_scenario(struct view *view, const struct log_replay *tape,
+static void from_scenario(struct view *view, const struct log_replay *replay,
                           const struct arguments *arguments)
 {
     struct scenario scenario;
     struct world_build built;
     struct reason reason;
     scenario_load_scenario(arguments, &scenario);
-    check_hash(tape, &scenario.settings->params, arguments->path);
+    check_hash(replay, &scenario.settings->params, arguments->path);
     memset(scenario.settings->params.scenario, 0,
            sizeof scenario.settings->params.scenario); /* every byte counts */
     snprintf(scenario.settings->params.scenario, sizeof scenario.settings->params.scenario, "%s",
-             scenario_text(tape));
+             scenario_text(replay));
     scenario_load_generate(&scenario, &built);
     struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
     if (segment_private(view, &header, &reason) != 0)
@@ -101,16 +102,16 @@ static void from_scenario(struct view *view, const struct log_replay *tape,
     scenario_free(&scenario);
 }
 
-static void from_image(struct view *view, const struct log_replay *tape,
+static void from_image(struct view *view, const struct log_replay *replay,
                        const struct arguments *arguments)
 {
     static struct image image;
     struct reason reason;
     image_resume_open(arguments, &image);
-    if (image.header.header_hash != tape->origin)
-        die_refused("%s: the run went on from another image than %s is now", tape->path,
+    if (image.header.header_hash != replay->origin)
+        die_refused("%s: the run went on from another image than %s is now", replay->path,
                     arguments->from);
-    check_hash(tape, &image.params, arguments->from);
+    check_hash(replay, &image.params, arguments->from);
     struct segment_header header = image_segment(&image);
     if (segment_private(view, &header, &reason) != 0 ||
         image_resume_fill(view, arguments, &image, &reason) != 0)
@@ -118,26 +119,26 @@ static void from_image(struct view *view, const struct log_replay *tape,
     image_close(&image);
 }
 
-void run_start_world(struct view *view, const struct log_replay *tape)
+void run_start_world(struct view *view, const struct log_replay *replay)
 {
     struct arguments arguments;
-    if (tape->layout != layout_hash())
+    if (replay->layout != layout_hash())
         die_refused("%s: layout: was recorded by another build of Jolon; replay it with that build",
-                    tape->path);
-    arguments_of(&arguments, tape);
+                    replay->path);
+    arguments_of(&arguments, replay);
     if (arguments.from)
-        from_image(view, tape, &arguments);
+        from_image(view, replay, &arguments);
     else if (arguments.path)
-        from_scenario(view, tape, &arguments);
+        from_scenario(view, replay, &arguments);
     else
-        die_refused("%s:1: its recipe names neither a scenario nor an image", tape->path);
-    keep_recipe(view, tape);
+        die_refused("%s:1: its recipe names neither a scenario nor an image", replay->path);
+    keep_provenance(view, replay);
     segment_hash_static(view);
-    if (segment_static_hash(view->header) != tape->static_hash)
+    if (segment_static_hash(view->header) != replay->static_hash)
         die_refused("%s: the world made again is not the one that was recorded: %s of it differ",
-                    tape->path, "terrain, kinds, models, objects or parameters");
+                    replay->path, "terrain, kinds, models, objects or parameters");
     uint64_t frame = atomic_load(&view->commit->commit);
-    if (frame != tape->start.frame)
+    if (frame != replay->start.frame)
         die_refused("%s: begins with frame %" PRIu64 "; the world made again is at %" PRIu64,
-                    tape->path, tape->start.frame, frame);
+                    replay->path, replay->start.frame, frame);
 }

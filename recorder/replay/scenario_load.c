@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-void scenario_load_recipe_seconds(const struct arguments *arguments, struct provenance *recipe)
+void scenario_load_provenance_seconds(const struct arguments *arguments, struct provenance *recipe)
 {
     char text[32];
     snprintf(text, sizeof text, "%.17g", arguments->seconds);
@@ -49,7 +49,7 @@ void scenario_load_scenario(const struct arguments *arguments, struct scenario *
     if (isatty(STDERR_FILENO))
         scenario->placing = tell_placing;
     arguments_seconds(arguments, &scenario->settings->params);
-    scenario_load_recipe_seconds(arguments, &scenario->recipe);
+    scenario_load_provenance_seconds(arguments, &scenario->recipe);
 }
 
 void scenario_load_generate(const struct scenario *scenario, struct world_build *built)

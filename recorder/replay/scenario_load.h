@@ -15,6 +15,6 @@ void scenario_load_scenario(const struct arguments *arguments, struct scenario *
 void scenario_load_generate(const struct scenario *scenario, struct world_build *built);
 
 /* Adds --seconds, where given, to a recipe. */
-void scenario_load_recipe_seconds(const struct arguments *arguments, struct provenance *recipe);
+void scenario_load_provenance_seconds(const struct arguments *arguments, struct provenance *recipe);
 
 #endif

@@ -25,7 +25,7 @@
 static void open_run(struct run_video *film)
 {
     const struct video_options *options = &film->options;
-    run_start_tape(&film->tape, options->log);
+    run_start_open(&film->tape, options->log);
     if (options->from > film->tape.known_frame)
         die_usage("--from %" PRIu64 ": %s is known to frame %" PRIu64, options->from, options->log,
                   film->tape.known_frame);

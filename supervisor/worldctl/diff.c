@@ -10,9 +10,9 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-static const struct state_head *head_of(const struct frame_source *side)
+static const struct state_head *head_of(const struct frame_source *source)
 {
-    return frame_source_frame(side).state.head;
+    return frame_source_frame(source).state.head;
 }
 
 /* Brings the earlier side to the later one's frame. Without knowing the commands between nobody can
@@ -21,7 +21,7 @@ static void catch_up(struct frame_source *early, const struct frame_source *late
 {
     const struct state_head *to = head_of(late);
     uint64_t commands = early->kind == FRAME_SOURCE_LOG
-                            ? log_replay_commands(&early->tape, to->frame)
+                            ? log_replay_commands(&early->replay, to->frame)
                             : head_of(early)->tally.commands;
     if (head_of(early)->frame == to->frame)
         return;

@@ -11,85 +11,87 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static void start_player(struct frame_source *side)
+static void start_stepper(struct frame_source *source)
 {
-    if (frame_stepper_init(&side->player, &side->view, side->threads) != 0)
-        die_refused("cannot start %u threads: %s", side->threads, strerror(errno));
+    if (frame_stepper_init(&source->stepper, &source->view, source->threads) != 0)
+        die_refused("cannot start %u threads: %s", source->threads, strerror(errno));
 }
 
-static void open_image(struct frame_source *side)
+static void open_image(struct frame_source *source)
 {
     static struct image image;
     struct reason reason;
-    if (image_open(&image, side->name, &reason) != 0)
+    if (image_open(&image, source->name, &reason) != 0)
         die_refused("%s", reason.text);
     struct segment_header header = image_segment(&image);
-    if (segment_private(&side->view, &header, &reason) != 0 ||
-        image_load(&side->view, &image, &reason) != 0)
+    if (segment_private(&source->view, &header, &reason) != 0 ||
+        image_load(&source->view, &image, &reason) != 0)
         die_refused("%s", reason.text);
     image_close(&image);
-    start_player(side);
+    start_stepper(source);
 }
 
-void frame_source_open(struct frame_source *side, const char *name, uint32_t threads)
+void frame_source_open(struct frame_source *source, const char *name, uint32_t threads)
 {
     struct stat status;
-    *side = (struct frame_source){.name = name, .threads = threads};
+    *source = (struct frame_source){.name = name, .threads = threads};
     if (stat(name, &status) != 0 && !strchr(name, '/')) {
         const struct arguments arguments = {.world = name};
-        side->kind = FRAME_SOURCE_WORLD;
-        arguments_snapshot(&arguments, &side->view, &side->snapshot);
+        source->kind = FRAME_SOURCE_WORLD;
+        arguments_snapshot(&arguments, &source->view, &source->snapshot);
     } else if (log_replay_is_one(name)) {
-        side->kind = FRAME_SOURCE_LOG;
-        run_start_tape(&side->tape, name);
-        run_start_world(&side->view, &side->tape);
-        start_player(side);
+        source->kind = FRAME_SOURCE_LOG;
+        run_start_open(&source->replay, name);
+        run_start_world(&source->view, &source->replay);
+        start_stepper(source);
     } else {
-        side->kind = FRAME_SOURCE_IMAGE;
-        open_image(side);
+        source->kind = FRAME_SOURCE_IMAGE;
+        open_image(source);
     }
 }
 
-void frame_source_close(struct frame_source *side)
+void frame_source_close(struct frame_source *source)
 {
-    if (side->kind == FRAME_SOURCE_WORLD) {
-        snapshot_free(&side->snapshot);
-        segment_detach(&side->view);
+    if (source->kind == FRAME_SOURCE_WORLD) {
+        snapshot_free(&source->snapshot);
+        segment_detach(&source->view);
         return;
     }
-    frame_stepper_free(&side->player);
-    segment_abandon(&side->view);
-    if (side->kind == FRAME_SOURCE_LOG)
-        log_replay_close(&side->tape);
+    frame_stepper_free(&source->stepper);
+    segment_abandon(&source->view);
+    if (source->kind == FRAME_SOURCE_LOG)
+        log_replay_close(&source->replay);
 }
 
-struct compared frame_source_frame(const struct frame_source *side)
+struct compared frame_source_frame(const struct frame_source *source)
 {
-    if (side->kind == FRAME_SOURCE_WORLD)
-        return (struct compared){&side->view.world, snapshot_state(&side->snapshot, &side->view)};
-    return (struct compared){&side->view.world,
-                             side->view.w[frame_stepper_frame(&side->player) & 1]};
+    if (source->kind == FRAME_SOURCE_WORLD)
+        return (struct compared){&source->view.world,
+                                 snapshot_state(&source->snapshot, &source->view)};
+    return (struct compared){&source->view.world,
+                             source->view.w[frame_stepper_frame(&source->stepper) & 1]};
 }
 
-uint64_t frame_source_number(const struct frame_source *side)
+uint64_t frame_source_number(const struct frame_source *source)
 {
-    return side->kind == FRAME_SOURCE_WORLD ? side->snapshot.head.frame
-                                            : frame_stepper_frame(&side->player);
+    return source->kind == FRAME_SOURCE_WORLD ? source->snapshot.head.frame
+                                              : frame_stepper_frame(&source->stepper);
 }
 
-bool frame_source_known(const struct frame_source *side)
+bool frame_source_known(const struct frame_source *source)
 {
-    return side->kind == FRAME_SOURCE_LOG && frame_source_number(side) < side->tape.known_frame;
+    return source->kind == FRAME_SOURCE_LOG &&
+           frame_source_number(source) < source->replay.known_frame;
 }
 
-bool frame_source_step(struct frame_source *side)
+bool frame_source_step(struct frame_source *source)
 {
     struct reason reason;
-    if (side->kind == FRAME_SOURCE_IMAGE) {
-        frame_stepper_step(&side->player, NULL);
+    if (source->kind == FRAME_SOURCE_IMAGE) {
+        frame_stepper_step(&source->stepper, NULL);
         return true;
     }
-    enum log_replay_step step = log_replay_step(&side->tape, &side->player, &reason);
+    enum log_replay_step step = log_replay_step(&source->replay, &source->stepper, &reason);
     if (step == LOG_REPLAY_WRONG)
         die_refused("%s", reason.text);
     return step == LOG_REPLAY_STEPPED;

@@ -21,14 +21,14 @@ struct replayed {
     bool equal; /* to it; false also when a mark before it was not met */
 };
 
-static uint64_t last_frame(const struct arguments *arguments, const struct log_replay *tape)
+static uint64_t last_frame(const struct arguments *arguments, const struct log_replay *replay)
 {
     if (arguments->frames == 0)
-        return tape->known_frame;
-    if (tape->gap && arguments->frames > tape->known_frame)
+        return replay->known_frame;
+    if (replay->gap && arguments->frames > replay->known_frame)
         die_refused("--frames %" PRIu64 ": %s has lost commands after frame %" PRIu64
                     "; what comes then cannot be replayed",
-                    arguments->frames, tape->path, tape->known_frame);
+                    arguments->frames, replay->path, replay->known_frame);
     return arguments->frames;
 }
 
@@ -42,27 +42,27 @@ static void log_events(struct event_log *events, const struct view *view)
 }
 
 /* Steps the world to that frame or to the run's end. False when a mark of the log is not met. */
-static bool play(struct log_replay *tape, struct frame_stepper *player, uint64_t last,
+static bool play(struct log_replay *replay, struct frame_stepper *stepper, uint64_t last,
                  struct event_log *events)
 {
     struct reason reason;
     enum log_replay_step step = LOG_REPLAY_STEPPED;
-    while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(player) < last &&
+    while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(stepper) < last &&
            !process_stopping()) {
-        step = log_replay_step(tape, player, &reason);
+        step = log_replay_step(replay, stepper, &reason);
         if (events)
-            log_events(events, player->view);
+            log_events(events, stepper->view);
     }
     if (step == LOG_REPLAY_WRONG)
         log_warn("%s", reason.text);
     return step != LOG_REPLAY_WRONG;
 }
 
-static void tell(const struct arguments *arguments, const struct log_replay *tape,
+static void tell(const struct arguments *arguments, const struct log_replay *replay,
                  const struct replayed *outcome)
 {
-    const char *verdict =
-        log_replay_end(tape) ? "not yet at the log's end" : "the log has no end to hold it against";
+    const char *verdict = log_replay_end(replay) ? "not yet at the log's end"
+                                                 : "the log has no end to hold it against";
     if (!outcome->equal)
         verdict = "NOT equal to the run that was recorded";
     else if (outcome->held)
@@ -74,23 +74,23 @@ static void tell(const struct arguments *arguments, const struct log_replay *tap
         return;
     }
     cJSON *object = cJSON_CreateObject();
-    json_text(object, "log", tape->path);
+    json_text(object, "log", replay->path);
     json_whole(object, "frame", outcome->frame);
     json_hex(object, "digest", outcome->digest);
     json_hex(object, "event_digest", outcome->event_digest);
     json_whole(object, "commands", outcome->commands);
-    json_bool(object, "gap", tape->gap);
+    json_bool(object, "gap", replay->gap);
     json_bool(object, "held", outcome->held);
     json_bool(object, "equal", outcome->equal);
     json_print(object);
 }
 
-static struct replayed judge(const struct log_replay *tape, const struct frame_stepper *player,
-                             bool met)
+static struct replayed compare_end(const struct log_replay *replay,
+                                   const struct frame_stepper *stepper, bool met)
 {
-    const struct view *view = player->view;
-    const struct state *state = &view->w[frame_stepper_frame(player) & 1];
-    const struct command_record *end = log_replay_end(tape);
+    const struct view *view = stepper->view;
+    const struct state *state = &view->w[frame_stepper_frame(stepper) & 1];
+    const struct command_record *end = log_replay_end(replay);
     struct replayed outcome = {.frame = state->head->frame,
                                .commands = state->head->tally.commands,
                                .digest = state_digest(&view->world, state),
@@ -105,30 +105,30 @@ static struct replayed judge(const struct log_replay *tape, const struct frame_s
 
 int verb_replay(const struct arguments *arguments)
 {
-    struct log_replay tape;
+    struct log_replay replay;
     struct view view;
-    struct frame_stepper player;
+    struct frame_stepper stepper;
     struct event_log events;
     if (!arguments->path)
         die_usage("replay: wants a log of commands; try jolon-world help");
     process_signals();
-    run_start_tape(&tape, arguments->path);
-    uint64_t last = last_frame(arguments, &tape);
-    run_start_world(&view, &tape);
-    if (frame_stepper_init(&player, &view, arguments->threads) != 0)
+    run_start_open(&replay, arguments->path);
+    uint64_t last = last_frame(arguments, &replay);
+    run_start_world(&view, &replay);
+    if (frame_stepper_init(&stepper, &view, arguments->threads) != 0)
         die_refused("cannot start %u threads: %s", arguments->threads, strerror(errno));
     if (arguments->events)
         event_log_open(&events, &view, arguments->events);
-    bool met = play(&tape, &player, last, arguments->events ? &events : NULL);
+    bool met = play(&replay, &stepper, last, arguments->events ? &events : NULL);
     if (arguments->events && event_log_close(&events, &view) != 0)
         die_refused("--events %s: cannot write all of it", arguments->events);
-    if (tape.gap && frame_stepper_frame(&player) == tape.known_frame)
-        log_warn("%s: commands are lost after frame %" PRIu64 ": replayed to there", tape.path,
-                 tape.known_frame);
-    struct replayed outcome = judge(&tape, &player, met);
-    tell(arguments, &tape, &outcome);
-    frame_stepper_free(&player);
+    if (replay.gap && frame_stepper_frame(&stepper) == replay.known_frame)
+        log_warn("%s: commands are lost after frame %" PRIu64 ": replayed to there", replay.path,
+                 replay.known_frame);
+    struct replayed outcome = compare_end(&replay, &stepper, met);
+    tell(arguments, &replay, &outcome);
+    frame_stepper_free(&stepper);
     segment_abandon(&view);
-    log_replay_close(&tape);
+    log_replay_close(&replay);
     return outcome.equal ? EXIT_OK : EXIT_REFUSED;
 }

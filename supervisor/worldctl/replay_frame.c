@@ -36,42 +36,42 @@ static void load(const struct arguments *arguments, struct image *image, struct 
         die_refused("%s", reason.text);
 }
 
-static void run(struct frame_stepper *player, bool moved)
+static void run(struct frame_stepper *stepper, bool moved)
 {
-    struct view *view = player->view;
-    uint64_t frame = frame_stepper_frame(player) + 1;
+    struct view *view = stepper->view;
+    uint64_t frame = frame_stepper_frame(stepper) + 1;
     log_frame(frame);
     if (moved) {
         log_info("frame %" PRIu64 ": was moved already", frame);
     } else {
         log_info("frame %" PRIu64 ": moves", frame);
         protect(view, ROLE_MOVER);
-        frame_stepper_move(player, NULL);
+        frame_stepper_move(stepper, NULL);
     }
     log_info("frame %" PRIu64 ": collides", frame);
     protect(view, ROLE_COLLIDER);
-    frame_stepper_collide(player);
+    frame_stepper_collide(stepper);
 }
 
 int verb_replay_frame(const struct arguments *arguments)
 {
     static struct image image;
     struct view view;
-    struct frame_stepper player;
+    struct frame_stepper stepper;
     if (!arguments->path)
         die_usage("replay-frame: wants the DUMP to run, as `save --inputs` or a set that gave up "
                   "wrote it");
     load(arguments, &image, &view);
-    if (frame_stepper_init(&player, &view, 1) != 0)
+    if (frame_stepper_init(&stepper, &view, 1) != 0)
         die_refused("out of memory to run a frame");
     bool moved = atomic_load(&view.moved_word->moved) == image.header.frame + 1;
-    run(&player, moved);
-    const struct state *state = &view.w[frame_stepper_frame(&player) & 1];
+    run(&stepper, moved);
+    const struct state *state = &view.w[frame_stepper_frame(&stepper) & 1];
     printf("frame %" PRIu64 ": %s, digest %016" PRIx64 ", %" PRIu64 " events, %u entities\n",
            state->head->frame, moved ? "collided" : "moved and collided",
            state_digest(&view.world, state), state->head->event_end - image.header.event_end,
            state->head->vehicles + state->head->munitions);
-    frame_stepper_free(&player);
+    frame_stepper_free(&stepper);
     segment_abandon(&view);
     image_close(&image);
     return EXIT_OK;

@@ -62,19 +62,19 @@ static size_t seal(char *to, const char *from, size_t size)
 
 static void replay(const char *path)
 {
-    struct log_replay tape;
+    struct log_replay replay;
     struct reason reason = {.text = ""};
     (void)log_replay_is_one(path);
-    if (log_replay_open(&tape, path, &reason) != 0) {
+    if (log_replay_open(&replay, path, &reason) != 0) {
         CHECK(reason.text[0] != '\0');
         return;
     }
-    (void)log_replay_end(&tape);
-    (void)log_replay_recipe(&tape, "scenario");
-    for (uint32_t i = 0; i < tape.count; i++)
-        CHECK(tape.record[i].type != RECORD_COMMAND ||
-              tape.record[i].command.ring < COMMAND_RING_COUNT);
-    log_replay_close(&tape);
+    (void)log_replay_end(&replay);
+    (void)log_replay_provenance(&replay, "scenario");
+    for (uint32_t i = 0; i < replay.count; i++)
+        CHECK(replay.record[i].type != RECORD_COMMAND ||
+              replay.record[i].command.ring < COMMAND_RING_COUNT);
+    log_replay_close(&replay);
 }
 
 /* What it is after a recorder has begun and ended: a row of whole records. */

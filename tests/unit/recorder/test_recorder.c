@@ -285,60 +285,60 @@ static void record_run(uint64_t seed)
     }
 }
 
-static void open_tape(struct log_replay *tape)
+static void open_tape(struct log_replay *replay)
 {
     struct reason reason;
-    if (log_replay_open(tape, commands_path, &reason) != 0)
+    if (log_replay_open(replay, commands_path, &reason) != 0)
         fail_msg("%s", reason.text);
 }
 
 static void test_a_run_is_played_again_from_its_log(void **state)
 {
     struct fixture again;
-    struct log_replay tape;
+    struct log_replay replay;
     struct reason reason;
     (void)state;
     record_run(21);
-    open_tape(&tape);
-    assert_int_equal(tape.known_frame, FRAMES);
-    assert_int_equal(log_replay_commands(&tape, FRAMES), head()->tally.commands);
-    const struct command_record *end = log_replay_end(&tape);
+    open_tape(&replay);
+    assert_int_equal(replay.known_frame, FRAMES);
+    assert_int_equal(log_replay_commands(&replay, FRAMES), head()->tally.commands);
+    const struct command_record *end = log_replay_end(&replay);
     assert_non_null(end);
     assert_int_equal(end->digest, fixture_digest(&f));
     begin_world(&again);
-    while (frame_stepper_frame(&again.player) < tape.known_frame) {
-        if (log_replay_step(&tape, &again.player, &reason) != LOG_REPLAY_STEPPED)
+    while (frame_stepper_frame(&again.player) < replay.known_frame) {
+        if (log_replay_step(&replay, &again.player, &reason) != LOG_REPLAY_STEPPED)
             fail_msg("frame %llu: %s", (unsigned long long)frame_stepper_frame(&again.player),
                      reason.text);
     }
     assert_int_equal(fixture_digest(&again), fixture_digest(&f));
     assert_int_equal(fixture_state(&again).head->event_digest, head()->event_digest);
-    log_replay_close(&tape);
+    log_replay_close(&replay);
     fixture_close(&again);
 }
 
 static void test_a_mark_that_is_not_met_is_said(void **state)
 {
     struct fixture other;
-    struct log_replay tape;
+    struct log_replay replay;
     struct reason reason;
     enum log_replay_step step = LOG_REPLAY_STEPPED;
     (void)state;
     record_run(22);
-    open_tape(&tape);
+    open_tape(&replay);
     begin_world(&other);
     steps_rows(&other).x[1] += 0.5; /* the two meet a little earlier */
-    while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(&other.player) < tape.known_frame)
-        step = log_replay_step(&tape, &other.player, &reason);
+    while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(&other.player) < replay.known_frame)
+        step = log_replay_step(&replay, &other.player, &reason);
     assert_int_equal(step, LOG_REPLAY_WRONG);
     assert_non_null(strstr(reason.text, "digest"));
-    log_replay_close(&tape);
+    log_replay_close(&replay);
     fixture_close(&other);
 }
 
 static void test_a_damaged_log_is_not_played(void **state)
 {
-    struct log_replay tape;
+    struct log_replay replay;
     struct reason reason;
     size_t length;
     uint64_t random = fixture_seed(23);
@@ -352,7 +352,7 @@ static void test_a_damaged_log_is_not_played(void **state)
         put_text(commands_path, text, length);
         /* The last end of line makes of its line a torn one. */
         if (at != length - 1) {
-            assert_int_equal(log_replay_open(&tape, commands_path, &reason), -1);
+            assert_int_equal(log_replay_open(&replay, commands_path, &reason), -1);
         }
         text[at] = before;
     }
@@ -360,13 +360,13 @@ static void test_a_damaged_log_is_not_played(void **state)
     char *second = strchr(text, '\n') + 1, *third = strchr(second, '\n') + 1;
     memmove(second, third, length - (size_t)(third - text));
     put_text(commands_path, text, length - (size_t)(third - second));
-    assert_int_equal(log_replay_open(&tape, commands_path, &reason), -1);
+    assert_int_equal(log_replay_open(&replay, commands_path, &reason), -1);
     free(text);
 }
 
 static void test_a_killed_runs_log_is_played_as_far_as_it_knows(void **state)
 {
-    struct log_replay tape;
+    struct log_replay replay;
     size_t length;
     uint64_t random = fixture_seed(24);
     (void)state;
@@ -378,11 +378,11 @@ static void test_a_killed_runs_log_is_played_as_far_as_it_knows(void **state)
         if (!border && fixture_random(&random) % 64 != 0)
             continue;
         put_text(commands_path, text, cut);
-        open_tape(&tape);
-        assert_true(tape.known_frame >= known && tape.known_frame <= FRAMES);
-        assert_int_equal(tape.torn, text[cut - 1] != '\n');
-        known = tape.known_frame;
-        log_replay_close(&tape);
+        open_tape(&replay);
+        assert_true(replay.known_frame >= known && replay.known_frame <= FRAMES);
+        assert_int_equal(replay.torn, text[cut - 1] != '\n');
+        known = replay.known_frame;
+        log_replay_close(&replay);
     }
     free(text);
 }
@@ -391,7 +391,7 @@ static void test_lost_commands_are_a_gap_beyond_which_nothing_is_known(void **st
 {
     uint64_t random = fixture_seed(25);
     struct command_log log;
-    struct log_replay tape;
+    struct log_replay replay;
     (void)state;
     command_log_open(&log, &f.view, commands_path);
     run_with_commands(&random, 20);
@@ -401,21 +401,21 @@ static void test_lost_commands_are_a_gap_beyond_which_nothing_is_known(void **st
     while (head()->event_end < 2 * SLOTS)
         run_with_commands(&random, 10);
     assert_int_equal(command_log_close(&log, &f.view), 0);
-    open_tape(&tape);
-    assert_true(tape.gap && tape.known_frame <= known);
-    assert_null(log_replay_end(&tape));
+    open_tape(&replay);
+    assert_true(replay.gap && replay.known_frame <= known);
+    assert_null(log_replay_end(&replay));
     uint64_t lost = 0;
-    for (uint32_t i = 0; i < tape.count; i++)
-        lost += tape.record[i].lost;
+    for (uint32_t i = 0; i < replay.count; i++)
+        lost += replay.record[i].lost;
     assert_true(lost > 0 && logged + lost <= head()->tally.commands);
-    assert_int_equal(tape.record[tape.count - 1].at.commands, head()->tally.commands);
-    log_replay_close(&tape);
+    assert_int_equal(replay.record[replay.count - 1].at.commands, head()->tally.commands);
+    log_replay_close(&replay);
 }
 
 static void test_events_without_commands_lose_no_command(void **state)
 {
     struct command_log log;
-    struct log_replay tape;
+    struct log_replay replay;
     (void)state;
     command_log_open(&log, &f.view, commands_path);
     steps_drive(&f, 0, 0.5, 0.1, 0.0);
@@ -426,10 +426,10 @@ static void test_events_without_commands_lose_no_command(void **state)
     now.head->checksum = state_checksum(&now, f.view.world.counts.fixed);
     memset(f.view.events, 0, SLOTS * sizeof *f.view.events);
     assert_int_equal(command_log_close(&log, &f.view), 0);
-    open_tape(&tape);
-    assert_false(tape.gap);
-    assert_non_null(log_replay_end(&tape));
-    log_replay_close(&tape);
+    open_tape(&replay);
+    assert_false(replay.gap);
+    assert_non_null(log_replay_end(&replay));
+    log_replay_close(&replay);
 }
 
 static void test_another_runs_log_is_put_aside(void **state)
@@ -486,27 +486,27 @@ static void send_console(enum command_type type)
 }
 
 /* Until the brake is on, nothing written meanwhile; then the frame that takes it. */
-static void brake_hard(struct back_pressure *brake)
+static void brake_hard(struct back_pressure *pressure)
 {
     while (atomic_load(&f.view.commands[RING_RECORDER]->head) == 0) {
         for (int i = 0; i < 4; i++)
             steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_NONE});
         fixture_run(&f, 1);
-        back_pressure_turn(brake, &f.view, 0);
+        back_pressure_turn(pressure, &f.view, 0);
         assert_true(head()->event_end < SLOTS - SLOTS / 8);
     }
     fixture_run(&f, 1);
     assert_int_equal(head()->paused, 1);
-    back_pressure_turn(brake, &f.view, 0);
-    assert_true(back_pressure_holds(brake));
+    back_pressure_turn(pressure, &f.view, 0);
+    assert_true(back_pressure_holds(pressure));
 }
 
 static void test_the_brake_holds_until_all_is_written(void **state)
 {
-    struct back_pressure brake, next;
+    struct back_pressure pressure, next;
     (void)state;
-    back_pressure_open(&brake, &f.view);
-    brake_hard(&brake);
+    back_pressure_open(&pressure, &f.view);
+    brake_hard(&pressure);
     uint64_t tick = head()->tick;
     back_pressure_open(&next, &f.view); /* a new recorder finds that it holds the world */
     assert_true(back_pressure_holds(&next));
@@ -524,35 +524,35 @@ static void test_the_brake_holds_until_all_is_written(void **state)
 
 static void test_the_brake_leaves_others_pauses_alone(void **state)
 {
-    struct back_pressure brake;
+    struct back_pressure pressure;
     (void)state;
-    back_pressure_open(&brake, &f.view);
+    back_pressure_open(&pressure, &f.view);
     send_console(COMMAND_PAUSE);
-    back_pressure_turn(&brake, &f.view, head()->event_end);
+    back_pressure_turn(&pressure, &f.view, head()->event_end);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 0);
     send_console(COMMAND_RESUME);
-    brake_hard(&brake);
+    brake_hard(&pressure);
     send_console(COMMAND_PAUSE); /* now somebody else wants it too */
-    back_pressure_turn(&brake, &f.view, head()->event_end);
+    back_pressure_turn(&pressure, &f.view, head()->event_end);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 1);
     send_console(COMMAND_RESUME);
     assert_int_equal(head()->paused, 0);
-    back_pressure_turn(&brake, &f.view, 0); /* too early: nothing is written yet */
+    back_pressure_turn(&pressure, &f.view, 0); /* too early: nothing is written yet */
     fixture_run(&f, 1);
     assert_int_equal(head()->paused, 1);
 }
 
 static void test_there_is_no_brake_where_gaps_are_wanted(void **state)
 {
-    struct back_pressure brake;
+    struct back_pressure pressure;
     (void)state;
     steps_params(&f)->when_full = WHEN_FULL_GAP;
-    back_pressure_open(&brake, &f.view);
+    back_pressure_open(&pressure, &f.view);
     for (int i = 0; i < 100; i++) {
         for (int n = 0; n < 4; n++)
             steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_NONE});
         fixture_run(&f, 1);
-        back_pressure_turn(&brake, &f.view, 0);
+        back_pressure_turn(&pressure, &f.view, 0);
     }
     assert_true(head()->event_end > SLOTS);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 0);
