@@ -45,25 +45,25 @@ int main(int argc, char **argv)
     struct stage_options options = process_stage_options(argc, argv, "jolon-collider");
     struct sandbox sandbox;
     struct view view;
-    struct reason reason;
+    struct error_text error;
     struct collider collider;
 
     log_open("collider");
     process_close_inherited();
     process_signals();
     process_die_with_parent(options.parent);
-    if (sandbox_begin(&sandbox, ROLE_COLLIDER, options.sandbox_off, &reason) != 0 ||
+    if (sandbox_begin(&sandbox, ROLE_COLLIDER, options.sandbox_off, &error) != 0 ||
         (options.stand_by ? segment_stand_by : segment_attach)(&view, options.world, ROLE_COLLIDER,
-                                                               &reason) != 0)
-        die_refused("%s", reason.text);
+                                                               &error) != 0)
+        die_refused("%s", error.text);
     work_done_into(&view.slot[view.role]->work);
     struct thread_pool *workers = thread_pool_create(options.threads);
     if (!workers)
         die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
     if (collider_init(&collider, &view.world, view.w[0].craters, workers) != 0)
         process_refuse_memory(view.world.params->capacity);
-    if (sandbox_enter(&sandbox, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (sandbox_enter(&sandbox, &error) != 0)
+        die_refused("%s", error.text);
     /* It may have been asked to stop, or the run may have ended, while another had the role. */
     if (segment_take(&view) == 0 && !(options.stand_by && frame_protocol_finished(&view))) {
         segment_ready(&view);

@@ -37,7 +37,7 @@ static int compare_names(const void *a, const void *b)
 }
 
 static int add_name(struct names *names, const char *file, struct key_place place,
-                    struct config_message *message)
+                    struct error_text *error)
 {
     size_t length = strlen(file);
     if (file[0] == '.' || length <= strlen(SUFFIX) ||
@@ -45,11 +45,11 @@ static int add_name(struct names *names, const char *file, struct key_place plac
         return 0;
     length -= strlen(SUFFIX);
     if (names->count == KIND_COUNT_MAX)
-        return key_table_refuse(message, place, NULL, NULL, "has too many kinds; allowed: up to %d",
+        return key_table_refuse(error, place, NULL, NULL, "has too many kinds; allowed: up to %d",
                                 KIND_COUNT_MAX);
     if (length >= KIND_NAME_MAX)
         return key_table_refuse(
-            message, place, NULL, NULL,
+            error, place, NULL, NULL,
             "%s is too long for the name of a kind; allowed: up to %d characters", file,
             KIND_NAME_MAX - 1);
     memset(names->name[names->count], 0, KIND_NAME_MAX);
@@ -57,7 +57,7 @@ static int add_name(struct names *names, const char *file, struct key_place plac
     return 0;
 }
 
-static int list_names(struct names *names, const char *data_dir, struct config_message *message)
+static int list_names(struct names *names, const char *data_dir, struct error_text *error)
 {
     char path[PATH_MAX];
     const struct key_place place = {path, 0};
@@ -66,16 +66,15 @@ static int list_names(struct names *names, const char *data_dir, struct config_m
     snprintf(path, sizeof(path), "%s/kinds", data_dir);
     DIR *dir = opendir(path);
     if (dir == NULL)
-        return key_table_refuse(message, place, NULL, NULL, "cannot be opened: %s",
-                                strerror(errno));
+        return key_table_refuse(error, place, NULL, NULL, "cannot be opened: %s", strerror(errno));
     names->count = 0;
     while (result == 0 && (entry = readdir(dir)) != NULL)
-        result = add_name(names, entry->d_name, place, message);
+        result = add_name(names, entry->d_name, place, error);
     closedir(dir);
     if (result != 0)
         return result;
     if (names->count == 0)
-        return key_table_refuse(message, place, NULL, NULL,
+        return key_table_refuse(error, place, NULL, NULL,
                                 "has no kinds; right would be: files NAME.cfg");
     /* The order of a directory depends on the file system. The numbers of kinds must not. */
     qsort(names->name, (size_t)names->count, KIND_NAME_MAX, compare_names);
@@ -84,22 +83,22 @@ static int list_names(struct names *names, const char *data_dir, struct config_m
 
 /* Refuses a value that is in range but does not fit the other values. */
 static int refuse_pair(const struct key_reading *keys, const char *name, double value,
-                       const char *why, struct config_message *message)
+                       const char *wrong, struct error_text *error)
 {
     int index = key_table_find(keys->table, name);
     struct key_place place = {keys->file, index >= 0 ? keys->line[index] : 0};
     char text[32];
     snprintf(text, sizeof(text), "%.15g", value);
-    return key_table_refuse(message, place, name, text, "%s", why);
+    return key_table_refuse(error, place, name, text, "%s", wrong);
 }
 
-static int refuse_no_class(const struct key_reading *keys, struct config_message *message)
+static int refuse_no_class(const struct key_reading *keys, struct error_text *error)
 {
     const struct key_place place = {keys->file, 1};
     char allowed[128];
     key_table_allowed(&keys->table->keys[key_table_find(keys->table, "class")], allowed,
                       sizeof(allowed));
-    return key_table_refuse(message, place, "class", NULL,
+    return key_table_refuse(error, place, "class", NULL,
                             "is missing; a fixed object needs it; allowed: %s", allowed);
 }
 
@@ -108,12 +107,12 @@ struct rule {
     bool broken;
     const char *key;
     double value; /* in the file's unit */
-    const char *why;
+    const char *wrong;
 };
 
 /* The order of the rules is that of the messages when several are broken. */
 static int check_values(const struct kind *kind, const struct key_reading *keys, bool armed,
-                        struct config_message *message)
+                        struct error_text *error)
 {
     const bool vehicle = kind->domain <= DOMAIN_AIR, munition = kind->domain == DOMAIN_MUNITION;
     const bool homing = munition && kind->guidance == GUIDANCE_HOMING;
@@ -162,28 +161,28 @@ static int check_values(const struct kind *kind, const struct key_reading *keys,
     };
     for (size_t i = 0; i < sizeof(rules) / sizeof(rules[0]); i++) {
         if (rules[i].broken)
-            return refuse_pair(keys, rules[i].key, rules[i].value, rules[i].why, message);
+            return refuse_pair(keys, rules[i].key, rules[i].value, rules[i].wrong, error);
     }
     return 0;
 }
 
 static int check_kind(const struct kind *kind, const struct key_reading *keys, const char *name,
-                      struct config_message *message)
+                      struct error_text *error)
 {
     bool has_class = (keys->given >> key_table_find(keys->table, "class") & 1u) != 0;
     bool armed = (keys->given >> key_table_find(keys->table, "munition") & 1u) != 0;
     struct key_place place = {keys->file, keys->line[key_table_find(keys->table, "name")]};
     struct key_place class_place = {keys->file, keys->line[key_table_find(keys->table, "class")]};
     if (strcmp(kind->name, name) != 0)
-        return key_table_refuse(message, place, "name", kind->name,
+        return key_table_refuse(error, place, "name", kind->name,
                                 "is not the name of the file; allowed: %s", name);
     if (has_class && kind->domain != DOMAIN_FIXED)
-        return key_table_refuse(message, class_place, "class",
+        return key_table_refuse(error, class_place, "class",
                                 object_class_name((enum object_class)kind->object_class),
                                 "is only for fixed objects; allowed: with domain = \"fixed\"");
     if (kind->domain == DOMAIN_FIXED && !has_class)
-        return refuse_no_class(keys, message);
-    return check_values(kind, keys, armed, message);
+        return refuse_no_class(keys, error);
+    return check_values(kind, keys, armed, error);
 }
 
 /* The stiffness [N/m] of a skin that takes up resistance_j when it is pressed in by d, a quarter of
@@ -222,22 +221,22 @@ static void take_hulls(struct kind *kind, const struct hulls *hulls)
 
 /* Index of the kind's model; -1 with a message that names the kind as well as the model. */
 static int find_model(struct models *models, const struct key_reading *keys, const char *name,
-                      struct config_message *message)
+                      struct error_text *error)
 {
     const struct key_place place = {keys->file, keys->line[key_table_find(keys->table, "model")]};
-    struct config_message why;
+    struct error_text detail;
     int model;
     if (name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_")] != '\0')
-        return key_table_refuse(message, place, "model", name,
+        return key_table_refuse(error, place, "model", name,
                                 "is not the name of a model; allowed: a-z 0-9 - _");
-    model = models_find(models, name, &why);
+    model = models_find(models, name, &detail);
     if (model < 0)
-        return key_table_refuse(message, place, "model", name, "%s", why.text);
+        return key_table_refuse(error, place, "model", name, "%s", detail.text);
     return model;
 }
 
 static int read_kind(struct reading *reading, struct kind *kind, const char *name,
-                     struct models *models, struct config_message *message)
+                     struct models *models, struct error_text *error)
 {
     char folder[PATH_MAX], file[KIND_NAME_MAX + sizeof(SUFFIX)];
     struct kind_entry entry;
@@ -248,17 +247,17 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     memset(&entry, 0, sizeof(entry));
     snprintf(folder, sizeof(folder), "%s/kinds", models->data_dir);
     snprintf(file, sizeof(file), "%s" SUFFIX, name);
-    if (source_read_in(&source, folder, file, SCHEMA_KIND_BYTES_MAX, message) != 0)
+    if (source_read_in(&source, folder, file, SCHEMA_KIND_BYTES_MAX, error) != 0)
         return -1;
     XXH3_64bits_update(models->hash, name, strlen(name) + 1);
     XXH3_64bits_update(models->hash, source.text, source.bytes);
     memset(&config, 0, sizeof(config));
-    if (source_parse(&source, &config, message) != 0 ||
-        key_table_defaults(&schema_kind, &entry, message) != 0 ||
-        key_table_read(&keys, config_root_setting(&config), "", "", message) != 0 ||
-        check_kind(&entry.kind, &keys, name, message) != 0)
+    if (source_parse(&source, &config, error) != 0 ||
+        key_table_defaults(&schema_kind, &entry, error) != 0 ||
+        key_table_read(&keys, config_root_setting(&config), "", "", error) != 0 ||
+        check_kind(&entry.kind, &keys, name, error) != 0)
         goto err_config;
-    model = find_model(models, &keys, entry.model, message);
+    model = find_model(models, &keys, entry.model, error);
     if (model < 0)
         goto err_config;
     *kind = entry.kind;
@@ -279,7 +278,7 @@ err_config:
 
 /* Looks up the kind's munition, which may be a kind with a later name. */
 static int resolve_munition(struct scenario *scenario, uint32_t index,
-                            const struct reading *reading, struct config_message *message)
+                            const struct reading *reading, struct error_text *error)
 {
     const struct key_place place = {reading->path, reading->munition_line};
     struct kind *kind = &scenario->kinds[index];
@@ -287,16 +286,16 @@ static int resolve_munition(struct scenario *scenario, uint32_t index,
         return 0;
     kind->munition = kind_find(scenario->kinds, scenario->kind_count, reading->munition);
     if (kind->munition == KIND_NONE)
-        return key_table_refuse(message, place, "munition", reading->munition,
+        return key_table_refuse(error, place, "munition", reading->munition,
                                 "unknown kind; allowed: a kind with domain = \"munition\"");
     if (scenario->kinds[kind->munition].domain != DOMAIN_MUNITION)
-        return key_table_refuse(message, place, "munition", reading->munition,
+        return key_table_refuse(error, place, "munition", reading->munition,
                                 "is not a munition; allowed: a kind with domain = \"munition\"");
     return 0;
 }
 
 int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *hash,
-               struct config_message *message)
+               struct error_text *error)
 {
     const struct key_place place = {data_dir, 0};
     struct names names = {0};
@@ -304,27 +303,27 @@ int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *ha
     struct reading *readings = calloc(KIND_COUNT_MAX, sizeof(*readings));
     int result = -1;
     if (models == NULL || readings == NULL) {
-        key_table_refuse(message, place, NULL, NULL, "no memory for the kinds");
+        key_table_refuse(error, place, NULL, NULL, "no memory for the kinds");
         goto err_memory;
     }
     models_open(models, scenario, data_dir, hash);
-    if (list_names(&names, data_dir, message) != 0)
+    if (list_names(&names, data_dir, error) != 0)
         goto err_models;
     scenario->kinds = calloc(KIND_COUNT_MAX, sizeof(*scenario->kinds));
     if (scenario->kinds == NULL) {
-        key_table_refuse(message, place, NULL, NULL, "no memory for the kinds");
+        key_table_refuse(error, place, NULL, NULL, "no memory for the kinds");
         goto err_models;
     }
     for (int i = 0; i < names.count; i++) {
         snprintf(readings[i].path, sizeof(readings[i].path), "%s/kinds/%s" SUFFIX, data_dir,
                  names.name[i]);
-        if (read_kind(&readings[i], &scenario->kinds[i], names.name[i], models, message) != 0)
+        if (read_kind(&readings[i], &scenario->kinds[i], names.name[i], models, error) != 0)
             goto err_models;
         scenario->kind_count++;
     }
     result = 0;
     for (uint32_t i = 0; result == 0 && i < scenario->kind_count; i++)
-        result = resolve_munition(scenario, i, &readings[i], message);
+        result = resolve_munition(scenario, i, &readings[i], error);
 err_models:
     models_close(models);
 err_memory:

@@ -2,7 +2,7 @@
 #ifndef JOLON_CONFIG_KINDS_H
 #define JOLON_CONFIG_KINDS_H
 
-#include "config/syntax/config_message.h"
+#include "world/runtime/error_text.h"
 
 #include <xxhash.h>
 
@@ -12,6 +12,6 @@ struct scenario;
  * -1 with the message: a wrong key, a name that is not the file's, values that do not fit each
  * other, an unknown model or munition. */
 int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *hash,
-               struct config_message *message);
+               struct error_text *error);
 
 #endif

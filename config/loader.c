@@ -41,12 +41,12 @@ struct load {
     XXH3_state_t *hash;
     struct key_place origin[64]; /* where each key of schema_scenario was last set */
     bool objects_chosen;
-    struct config_message *message;
+    struct error_text *error;
 };
 
 /* Finds the scenario's file: the path itself, else NAME or NAME.cfg in data_dir/scenarios. */
 static int find_scenario(const char *data_dir, const char *path, char *found, size_t bytes,
-                         struct config_message *message)
+                         struct error_text *error)
 {
     const char *name = path != NULL ? path : DEFAULT_SCENARIO;
     const struct key_place place = {name, 0};
@@ -54,17 +54,17 @@ static int find_scenario(const char *data_dir, const char *path, char *found, si
     struct stat status;
     if (path != NULL && (strchr(path, '/') != NULL || stat(path, &status) == 0)) {
         if ((size_t)snprintf(found, bytes, "%s", path) >= bytes)
-            return key_table_refuse(message, place, NULL, NULL, "is too long for a path");
+            return key_table_refuse(error, place, NULL, NULL, "is too long for a path");
         return 0;
     }
     for (size_t i = 0; i < sizeof(suffixes) / sizeof(suffixes[0]); i++) {
         if ((size_t)snprintf(found, bytes, "%s/scenarios/%s%s", data_dir, name, suffixes[i]) >=
             bytes)
-            return key_table_refuse(message, place, NULL, NULL, "is too long for a path");
+            return key_table_refuse(error, place, NULL, NULL, "is too long for a path");
         if (stat(found, &status) == 0)
             return 0;
     }
-    return key_table_refuse(message, place, NULL, NULL,
+    return key_table_refuse(error, place, NULL, NULL,
                             "no such scenario; right would be: a file, or a name from %s/scenarios",
                             data_dir);
 }
@@ -86,7 +86,7 @@ static int read_file(struct load *load)
                                .skip = is_list};
     const config_setting_t *root = config_root_setting(&load->config);
     const config_setting_t *objects = config_setting_get_member(root, "objects");
-    if (key_table_read(&keys, root, "", "", load->message) != 0)
+    if (key_table_read(&keys, root, "", "", load->error) != 0)
         return -1;
     for (uint32_t i = 0; i < schema_scenario.count; i++) {
         if ((keys.given >> i & 1u) != 0)
@@ -110,13 +110,13 @@ static int find_override(struct load *load, const char *text, const char **value
     const char *equals = strchr(text, '=');
     char name[KEY_PATH_MAX];
     if (equals == NULL || equals == text)
-        return key_table_refuse(load->message, place, text, NULL,
+        return key_table_refuse(load->error, place, text, NULL,
                                 "is not an override; right would be: group.key=value");
     snprintf(name, sizeof(name), "%.*s", (int)(equals - text), text);
     int index = key_table_find(&schema_scenario, name);
     if (index < 0 || (size_t)(equals - text) >= sizeof(name))
         return key_table_refuse(
-            load->message, place, name, equals + 1,
+            load->error, place, name, equals + 1,
             "unknown key; allowed: a scenario key of one value, such as world.seed "
             "or collision.response");
     load->origin[index] = place;
@@ -134,7 +134,7 @@ static int apply_override(struct load *load, const char *text)
         load->objects_chosen = true;
     XXH3_64bits_update(load->hash, text, strlen(text) + 1);
     return key_table_set_text(&schema_scenario.keys[index], load->scenario->settings, value,
-                              load->origin[index], load->message);
+                              load->origin[index], load->error);
 }
 
 /* Three constants. Each must be above the next. */
@@ -152,7 +152,7 @@ static int check_levels(const struct load *load, const struct levels *levels)
             continue;
         snprintf(text, sizeof(text), "%.15g", levels->value[i]);
         return key_table_refuse(
-            load->message, load->origin[key_table_find(&schema_scenario, name)], name, text,
+            load->error, load->origin[key_table_find(&schema_scenario, name)], name, text,
             "is not below the next higher level; allowed: below %.15g", levels->value[i - 1]);
     }
     return 0;
@@ -187,11 +187,11 @@ static int read_lists(struct load *load)
     if (objects != NULL && objects->type != CONFIG_TYPE_LIST)
         objects = NULL;
     if (scripts_read(scenario, config_setting_get_member(root, "scripts"), file, load->hash,
-                     load->message) != 0 ||
-        lists_bases(scenario, config_setting_get_member(root, "bases"), file, load->message) != 0 ||
-        vehicles_read(scenario, vehicles, file, load->message) != 0 ||
-        lists_objects(scenario, objects, file, load->message) != 0 ||
-        lists_fires(scenario, fires, vehicles, file, load->message) != 0)
+                     load->error) != 0 ||
+        lists_bases(scenario, config_setting_get_member(root, "bases"), file, load->error) != 0 ||
+        vehicles_read(scenario, vehicles, file, load->error) != 0 ||
+        lists_objects(scenario, objects, file, load->error) != 0 ||
+        lists_fires(scenario, fires, vehicles, file, load->error) != 0)
         return -1;
     /* A list is checked even when an override replaces it. */
     if (scenario->settings->objects != OBJECTS_LIST)
@@ -241,17 +241,17 @@ static int write_recipe(const struct load *load, const char *const *overrides, i
         result = provenance_add(&load->scenario->recipe, "set", overrides[i]);
     if (result != 0)
         return key_table_refuse(
-            load->message, (struct key_place){load->source.path, 0}, NULL, NULL,
+            load->error, (struct key_place){load->source.path, 0}, NULL, NULL,
             "no memory to note what it was made from, or overrides that are too long");
     return 0;
 }
 
 static int read_scenario(struct load *load, const char *const *overrides, int override_count)
 {
-    if (source_parse(&load->source, &load->config, load->message) != 0)
+    if (source_parse(&load->source, &load->config, load->error) != 0)
         return -1;
     XXH3_64bits_update(load->hash, load->source.text, load->source.bytes);
-    if (key_table_defaults(&schema_scenario, load->scenario->settings, load->message) != 0 ||
+    if (key_table_defaults(&schema_scenario, load->scenario->settings, load->error) != 0 ||
         read_file(load) != 0)
         return -1;
     for (int i = 0; i < override_count; i++) {
@@ -259,7 +259,7 @@ static int read_scenario(struct load *load, const char *const *overrides, int ov
             return -1;
     }
     if (check_together(load) != 0 ||
-        kinds_read(load->scenario, load->data_dir, load->hash, load->message) != 0 ||
+        kinds_read(load->scenario, load->data_dir, load->hash, load->error) != 0 ||
         read_lists(load) != 0)
         return -1;
     derive(load);
@@ -267,21 +267,20 @@ static int read_scenario(struct load *load, const char *const *overrides, int ov
 }
 
 int loader_scenario(struct scenario *scenario, const char *data_dir, const char *path,
-                    const char *const *overrides, int override_count,
-                    struct config_message *message)
+                    const char *const *overrides, int override_count, struct error_text *error)
 {
-    struct load load = {.scenario = scenario, .data_dir = data_dir, .message = message};
+    struct load load = {.scenario = scenario, .data_dir = data_dir, .error = error};
     char found[PATH_MAX];
     int result = -1;
     memset(scenario, 0, sizeof(*scenario));
-    message->text[0] = '\0';
-    if (find_scenario(data_dir, path, found, sizeof(found), message) != 0 ||
-        source_read(&load.source, found, SCHEMA_SCENARIO_BYTES_MAX, message) != 0)
+    error->text[0] = '\0';
+    if (find_scenario(data_dir, path, found, sizeof(found), error) != 0 ||
+        source_read(&load.source, found, SCHEMA_SCENARIO_BYTES_MAX, error) != 0)
         return -1;
     scenario->settings = calloc(1, sizeof(*scenario->settings));
     load.hash = XXH3_createState();
     if (scenario->settings == NULL || load.hash == NULL || XXH3_64bits_reset(load.hash) != XXH_OK) {
-        key_table_refuse(message, (struct key_place){found, 0}, NULL, NULL, "no memory to read it");
+        key_table_refuse(error, (struct key_place){found, 0}, NULL, NULL, "no memory to read it");
         goto err_source;
     }
     result = read_scenario(&load, overrides, override_count);
@@ -304,11 +303,11 @@ static bool changeable(const struct key *key)
 }
 
 int loader_branch(struct params *params, const char *const *overrides, int override_count,
-                  struct config_message *message)
+                  struct error_text *error)
 {
     struct scenario_settings settings = {.params = *params};
     struct scenario scenario = {.settings = &settings};
-    struct load load = {.scenario = &scenario, .message = message};
+    struct load load = {.scenario = &scenario, .error = error};
     for (uint32_t i = 0; i < schema_scenario.count; i++)
         load.origin[i] = (struct key_place){OVERRIDE_PLACE, 0};
     for (int i = 0; i < override_count; i++) {
@@ -320,10 +319,10 @@ int loader_branch(struct params *params, const char *const *overrides, int overr
         const struct key *key = &schema_scenario.keys[index];
         if (!changeable(key))
             return key_table_refuse(
-                message, load.origin[index], key->name, value,
+                error, load.origin[index], key->name, value,
                 "cannot change in a world that exists; allowed: "
                 "world.seed, hz, frames, pace and name, collision.*, renderer.*");
-        if (key_table_set_text(key, &settings, value, load.origin[index], message) != 0)
+        if (key_table_set_text(key, &settings, value, load.origin[index], error) != 0)
             return -1;
         settings.params.dt_s = 1.0 / settings.params.hz;
         if (before != XXH3_64bits(&settings.params, sizeof(settings.params)))

@@ -3,7 +3,7 @@
 #ifndef JOLON_CONFIG_LOADER_H
 #define JOLON_CONFIG_LOADER_H
 
-#include "config/syntax/config_message.h"
+#include "world/runtime/error_text.h"
 
 struct params;
 struct scenario;
@@ -15,13 +15,12 @@ struct scenario;
  * working directory is looked up in data_dir/scenarios/. 0; -1 with the message, and scenario
  * empty. */
 int loader_scenario(struct scenario *scenario, const char *data_dir, const char *path,
-                    const char *const *overrides, int override_count,
-                    struct config_message *message);
+                    const char *const *overrides, int override_count, struct error_text *error);
 
 /* Applies overrides to the parameters of a world that exists. Refuses keys from which a count, a
  * capacity or an object of the world follows. Each override that changes a value changes
  * scenario_hash. 0; -1 with the message, and params as they were. */
 int loader_branch(struct params *params, const char *const *overrides, int override_count,
-                  struct config_message *message);
+                  struct error_text *error);
 
 #endif

@@ -29,17 +29,17 @@ static const struct {
 
 /* Makes room for `more` steps. 0; -1 with the message. */
 static int reserve_steps(struct scenario *scenario, uint64_t more, const char *file,
-                         struct config_message *message)
+                         struct error_text *error)
 {
     const struct key_place place = {file, 0};
     uint64_t count = scenario->step_count + more;
     if (count > SCRIPT_STEPS_MAX)
-        return key_table_refuse(message, place, NULL, NULL,
+        return key_table_refuse(error, place, NULL, NULL,
                                 "gives the scripts %llu steps; allowed: up to %u in all",
                                 (unsigned long long)count, SCRIPT_STEPS_MAX);
     struct scenario_step *steps = realloc(scenario->steps, (count + 1) * sizeof(*steps));
     if (steps == NULL)
-        return key_table_refuse(message, place, NULL, NULL, "no memory for its scripts");
+        return key_table_refuse(error, place, NULL, NULL, "no memory for its scripts");
     scenario->steps = steps;
     return 0;
 }
@@ -167,22 +167,21 @@ static int add_step(struct entry *entry, const struct step_entry *given, double 
 
 static int read_steps(struct entry *script, const config_setting_t *list)
 {
-    struct entry entry = {.scenario = script->scenario,
-                          .keys = {.file = script->keys.file},
-                          .message = script->message};
+    struct entry entry = {
+        .scenario = script->scenario, .keys = {.file = script->keys.file}, .error = script->error};
     char within[KEY_PATH_MAX];
     double last_s = 0.0;
-    int length = entry_count(list, entry.keys.file, SCRIPT_STEPS_MAX, entry.message);
+    int length = entry_count(list, entry.keys.file, SCRIPT_STEPS_MAX, entry.error);
     if (length < 0)
         return -1;
     snprintf(within, sizeof(within), "%.60s.", script->path);
     entry.within = within;
     if (length == 0) {
         const struct key_place place = {entry.keys.file, (int)config_setting_source_line(list)};
-        return key_table_refuse(entry.message, place, script->path, NULL,
+        return key_table_refuse(entry.error, place, script->path, NULL,
                                 "has no steps; right would be: steps = ( { go = [x, z]; }, ... )");
     }
-    if (reserve_steps(entry.scenario, 2 * (uint64_t)length, entry.keys.file, entry.message) != 0)
+    if (reserve_steps(entry.scenario, 2 * (uint64_t)length, entry.keys.file, entry.error) != 0)
         return -1;
     for (int i = 0; i < length; i++) {
         struct step_entry given;
@@ -210,11 +209,11 @@ static int read_file(struct entry *entry, const char *name, XXH3_state_t *hash)
     char folder[PATH_MAX];
     int count = -1;
     folder_of(entry->keys.file, folder, sizeof(folder));
-    if (source_read_in(&source, folder, name, WAYPOINTS_BYTES_MAX, entry->message) != 0)
+    if (source_read_in(&source, folder, name, WAYPOINTS_BYTES_MAX, entry->error) != 0)
         return -1;
     XXH3_64bits_update(hash, source.text, source.bytes);
-    if (reserve_steps(scenario, waypoints_lines(source.text), source.path, entry->message) == 0)
-        count = waypoints_read(&source, &scenario->steps[scenario->step_count], entry->message);
+    if (reserve_steps(scenario, waypoints_lines(source.text), source.path, entry->error) == 0)
+        count = waypoints_read(&source, &scenario->steps[scenario->step_count], entry->error);
     source_free(&source);
     if (count < 0)
         return -1;
@@ -261,14 +260,14 @@ uint32_t scripts_find(const struct scenario *scenario, const char *name)
 }
 
 int scripts_read(struct scenario *scenario, const config_setting_t *list, const char *file,
-                 XXH3_state_t *hash, struct config_message *message)
+                 XXH3_state_t *hash, struct error_text *error)
 {
     struct entry entry = {
-        .scenario = scenario, .keys = {.file = file, .skip = is_steps}, .message = message};
-    int length = list != NULL ? entry_count(list, file, SCHEMA_SCRIPTS_MAX, message) : 0;
+        .scenario = scenario, .keys = {.file = file, .skip = is_steps}, .error = error};
+    int length = list != NULL ? entry_count(list, file, SCHEMA_SCRIPTS_MAX, error) : 0;
     if (length < 0)
         return -1;
-    scenario->scripts = entry_allocate((uint32_t)length, sizeof(*scenario->scripts), file, message);
+    scenario->scripts = entry_allocate((uint32_t)length, sizeof(*scenario->scripts), file, error);
     if (scenario->scripts == NULL)
         return -1;
     for (int i = 0; i < length; i++) {

@@ -192,24 +192,24 @@ static uint32_t count_points(const config_setting_t *list)
 }
 
 int vehicles_read(struct scenario *scenario, const config_setting_t *list, const char *file,
-                  struct config_message *message)
+                  struct error_text *error)
 {
-    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
-    int length = list != NULL ? entry_count(list, file, SCHEMA_GROUPS_MAX, message) : 0;
+    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .error = error};
+    int length = list != NULL ? entry_count(list, file, SCHEMA_GROUPS_MAX, error) : 0;
     uint32_t points = length > 0 ? count_points(list) : 0;
     if (length < 0)
         return -1;
     if (points > ROUTE_POINTS_MAX) {
         const struct key_place place = {file, (int)config_setting_source_line(list)};
-        return key_table_refuse(message, place, "vehicles", NULL,
+        return key_table_refuse(error, place, "vehicles", NULL,
                                 "routes have too many points; allowed: up to %u in all",
                                 ROUTE_POINTS_MAX);
     }
     uint32_t count = (uint32_t)length;
-    scenario->groups = entry_allocate(count, sizeof(*scenario->groups), file, message);
-    scenario->areas = entry_allocate(count + 1, sizeof(*scenario->areas), file, message);
-    scenario->routes = entry_allocate(count, sizeof(*scenario->routes), file, message);
-    scenario->route_points = entry_allocate(points, sizeof(*scenario->route_points), file, message);
+    scenario->groups = entry_allocate(count, sizeof(*scenario->groups), file, error);
+    scenario->areas = entry_allocate(count + 1, sizeof(*scenario->areas), file, error);
+    scenario->routes = entry_allocate(count, sizeof(*scenario->routes), file, error);
+    scenario->route_points = entry_allocate(points, sizeof(*scenario->route_points), file, error);
     if (scenario->groups == NULL || scenario->areas == NULL || scenario->routes == NULL ||
         scenario->route_points == NULL)
         return -1;

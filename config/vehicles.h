@@ -9,6 +9,6 @@ struct scenario;
 /* Reads the setting "vehicles" of a file; NULL is an empty list. The scenario's kinds, scripts and
  * params.capacity must be read before. 0; -1 with the message. */
 int vehicles_read(struct scenario *scenario, const config_setting_t *list, const char *file,
-                  struct config_message *message);
+                  struct error_text *error);
 
 #endif

@@ -25,7 +25,7 @@ static const struct {
 /* A file while it is read. */
 struct reading {
     const struct source *source;
-    struct config_message *message;
+    struct error_text *error;
     struct key_place place; /* the current line */
     const char *next;       /* the line after it */
     char line[ROW_MAX];
@@ -54,7 +54,7 @@ static int next_line(struct reading *reading)
         while (length > 0 && strchr(" \t\r", line[length - 1]) != NULL)
             length--;
         if (length >= ROW_MAX)
-            return key_table_refuse(reading->message, reading->place, NULL, NULL,
+            return key_table_refuse(reading->error, reading->place, NULL, NULL,
                                     "has %zu characters; allowed: up to %d", length, ROW_MAX - 1);
         if (length == 0)
             continue;
@@ -75,7 +75,7 @@ static int read_header(struct reading *reading)
     else if (found > 0 && strcmp(reading->line, "time_s,x,z,altitude_m") == 0)
         reading->columns = 4;
     else
-        return key_table_refuse(reading->message, reading->place, found > 0 ? reading->line : NULL,
+        return key_table_refuse(reading->error, reading->place, found > 0 ? reading->line : NULL,
                                 NULL, "is not the header; right would be: " WAYPOINTS_HEADER);
     return 0;
 }
@@ -90,10 +90,10 @@ static int read_value(struct reading *reading, int column, const char **at, doub
     snprintf(text, sizeof(text), "%.*s", (int)length, *at);
     *value = strtod(text, &end);
     if (end == text || end[strspn(end, " ")] != '\0' || !isfinite(*value))
-        return key_table_refuse(reading->message, reading->place, columns[column].name, text,
+        return key_table_refuse(reading->error, reading->place, columns[column].name, text,
                                 "is not a number; allowed: %s", range);
     if (!(*value >= key->low && *value <= key->high))
-        return key_table_refuse(reading->message, reading->place, columns[column].name, text,
+        return key_table_refuse(reading->error, reading->place, columns[column].name, text,
                                 "out of range; allowed: %s", range);
     *at += length;
     return 0;
@@ -104,7 +104,7 @@ static int read_line(struct reading *reading, double values[COLUMNS_MAX])
     const char *at = reading->line;
     for (int column = 0; column < reading->columns; column++) {
         if (column > 0 && *at != ',')
-            return key_table_refuse(reading->message, reading->place, reading->line, NULL,
+            return key_table_refuse(reading->error, reading->place, reading->line, NULL,
                                     "has %d numbers; right would be: %d, as in the header", column,
                                     reading->columns);
         at += column > 0;
@@ -113,7 +113,7 @@ static int read_line(struct reading *reading, double values[COLUMNS_MAX])
     }
     if (*at != '\0')
         return key_table_refuse(
-            reading->message, reading->place, reading->line, NULL,
+            reading->error, reading->place, reading->line, NULL,
             "has more than %d numbers; right would be: as many as in the header", reading->columns);
     return 0;
 }
@@ -122,20 +122,19 @@ static int refuse_time(const struct reading *reading, double time_s, double befo
 {
     char text[32];
     snprintf(text, sizeof(text), "%.15g", time_s);
-    return key_table_refuse(reading->message, reading->place, columns[0].name, text,
+    return key_table_refuse(reading->error, reading->place, columns[0].name, text,
                             "is not after the line before; allowed: above %.15g", before_s);
 }
 
 int waypoints_read(const struct source *source, struct scenario_step *steps,
-                   struct config_message *message)
+                   struct error_text *error)
 {
     struct reading reading = {
-        .source = source, .message = message, .place = {source->path, 0}, .next = source->text};
+        .source = source, .error = error, .place = {source->path, 0}, .next = source->text};
     double values[COLUMNS_MAX] = {0}, before_s = -1.0;
     int count = 0, found;
     if (strlen(source->text) != source->bytes)
-        return key_table_refuse(message, reading.place, NULL, NULL,
-                                "is not text: it has a NUL byte");
+        return key_table_refuse(error, reading.place, NULL, NULL, "is not text: it has a NUL byte");
     if (read_header(&reading) != 0)
         return -1;
     while ((found = next_line(&reading)) > 0) {
@@ -153,7 +152,7 @@ int waypoints_read(const struct source *source, struct scenario_step *steps,
             .line = reading.place.line};
     }
     if (found == 0 && count == 0)
-        return key_table_refuse(message, reading.place, NULL, NULL,
+        return key_table_refuse(error, reading.place, NULL, NULL,
                                 "has no waypoint; right would be: a line of " WAYPOINTS_HEADER
                                 " behind the header");
     return found < 0 ? -1 : count;

@@ -19,6 +19,6 @@ uint32_t waypoints_lines(const char *text);
  * message.
  */
 int waypoints_read(const struct source *source, struct scenario_step *steps,
-                   struct config_message *message);
+                   struct error_text *error);
 
 #endif

@@ -21,16 +21,16 @@ static uint64_t committed(const struct view *view)
 }
 
 int checkpoint_open(struct checkpoint *checkpoint, const struct view *view, const char *path,
-                    uint64_t every, struct reason *reason)
+                    uint64_t every, struct error_text *error)
 {
     struct image_header before;
-    struct reason none;
+    struct error_text none;
     *checkpoint = (struct checkpoint){.every = every};
-    if (image_place_open(&checkpoint->place, path, reason) != 0)
+    if (image_place_open(&checkpoint->place, path, error) != 0)
         return -1;
     if (capture_init(&checkpoint->capture, view) != 0) {
         image_place_close(&checkpoint->place);
-        return reason_set(reason, "%s: out of memory for a copy of the world", path);
+        return error_text_set(error, "%s: out of memory for a copy of the world", path);
     }
     checkpoint->due = next_multiple(committed(view), every);
     if (image_peek(&before, path, &none) == 0 && before.segment.made == view->header->made)
@@ -56,14 +56,14 @@ static int refuse(struct checkpoint *checkpoint, const char *text)
 int checkpoint_write(struct checkpoint *checkpoint, struct view *view)
 {
     struct image_written written;
-    struct reason reason;
+    struct error_text error;
     uint64_t began = clock_now_ns();
     if (capture_take(&checkpoint->capture, view, false) != 0)
         return refuse(checkpoint, errno == EBADMSG
                                       ? "the world's last frame fails its checksum"
                                       : "the world goes on faster than it can be copied");
-    if (image_write(&checkpoint->place, view, &checkpoint->capture, &written, &reason) != 0)
-        return refuse(checkpoint, reason.text);
+    if (image_write(&checkpoint->place, view, &checkpoint->capture, &written, &error) != 0)
+        return refuse(checkpoint, error.text);
     checkpoint->written++;
     log_info("checkpoint %s: frame %" PRIu64 ", %" PRIu64 " bytes, %.0f ms", checkpoint->place.path,
              checkpoint->capture.snapshot.head.frame, written.bytes,

@@ -20,7 +20,7 @@ struct checkpoint {
  * an earlier checkpoint of this very world and its next multiple has passed, as after a kill. 0; -1
  * with the reason when the file cannot be one or memory is out. */
 int checkpoint_open(struct checkpoint *checkpoint, const struct view *view, const char *path,
-                    uint64_t every, struct reason *reason);
+                    uint64_t every, struct error_text *error);
 void checkpoint_close(struct checkpoint *checkpoint);
 
 /* Writes a checkpoint if one is due. Called in the loop of the view's role, whose heart beats

@@ -13,12 +13,12 @@
 
 /* The logs are open; what is still made and renamed are checkpoints. */
 static int confine(const struct recorder *recorder, const struct sandbox *sandbox,
-                   struct reason *reason)
+                   struct error_text *error)
 {
     const int *folder = &recorder->checkpoint.place.folder;
-    if (sandbox_files(sandbox, folder, recorder->options.checkpoint ? 1 : 0, reason) != 0)
+    if (sandbox_files(sandbox, folder, recorder->options.checkpoint ? 1 : 0, error) != 0)
         return -1;
-    return sandbox_enter(sandbox, reason);
+    return sandbox_enter(sandbox, error);
 }
 
 int main(int argc, char **argv)
@@ -26,19 +26,19 @@ int main(int argc, char **argv)
     static struct recorder recorder;
     struct view *view = &recorder.view;
     struct sandbox sandbox;
-    struct reason reason;
+    struct error_text error;
     log_open("recorder");
     recorder.options = options_read(argc, argv);
     process_close_inherited();
     process_signals();
     signal(SIGXFSZ, SIG_IGN); /* a file at its limit is one that cannot be written */
     process_die_with_parent(recorder.options.parent);
-    if (sandbox_begin(&sandbox, ROLE_RECORDER, recorder.options.sandbox_off, &reason) != 0 ||
-        segment_attach(view, recorder.options.world, ROLE_RECORDER, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (sandbox_begin(&sandbox, ROLE_RECORDER, recorder.options.sandbox_off, &error) != 0 ||
+        segment_attach(view, recorder.options.world, ROLE_RECORDER, &error) != 0)
+        die_refused("%s", error.text);
     recording_open(&recorder);
-    if (confine(&recorder, &sandbox, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (confine(&recorder, &sandbox, &error) != 0)
+        die_refused("%s", error.text);
     segment_ready(view);
 
     for (;;) {

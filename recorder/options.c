@@ -4,6 +4,8 @@
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 
+#include <stddef.h>
+
 static struct options given = {.world = "default", .every = 3600};
 
 static const struct option_row rows[] = {

@@ -10,13 +10,13 @@
 void recording_open(struct recorder *recorder)
 {
     const struct options *options = &recorder->options;
-    struct reason reason;
+    struct error_text error;
     command_log_open(&recorder->commands, &recorder->view, options->commands);
     if (options->events)
         event_log_open(&recorder->events, &recorder->view, options->events);
     if (options->checkpoint && checkpoint_open(&recorder->checkpoint, &recorder->view,
-                                               options->checkpoint, options->every, &reason) != 0)
-        die_refused("--checkpoint %s", reason.text);
+                                               options->checkpoint, options->every, &error) != 0)
+        die_refused("--checkpoint %s", error.text);
     back_pressure_open(&recorder->pressure, &recorder->view);
 }
 

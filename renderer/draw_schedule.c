@@ -9,7 +9,7 @@
 #define LOOK_INTERVAL_NS 500000000u /* between two looks at the world when no picture is due */
 #define WAIT_NS          100000000u /* the longest wait without a look at the signals */
 
-int draw_schedule_wait(struct render_session *session, struct view *view, struct reason *reason)
+int draw_schedule_wait(struct render_session *session, struct view *view, struct error_text *error)
 {
     uint64_t now, look_ns = clock_now_ns() + LOOK_INTERVAL_NS,
                   due_ns = render_session_due_ns(session);
@@ -18,8 +18,8 @@ int draw_schedule_wait(struct render_session *session, struct view *view, struct
         uint64_t until = now + WAIT_NS < due_ns ? now + WAIT_NS : due_ns,
                  asked = requested_pictures_due_ns(session);
         if (asked <= now) {
-            if (render_session_look(session, reason) != 0 ||
-                requested_pictures_draw(session, reason) != 0)
+            if (render_session_look(session, error) != 0 ||
+                requested_pictures_draw(session, error) != 0)
                 return -1;
             continue;
         }
@@ -27,19 +27,19 @@ int draw_schedule_wait(struct render_session *session, struct view *view, struct
         heartbeat_stage(session->heartbeat);
         if (now >= look_ns) {
             look_ns = now + LOOK_INTERVAL_NS;
-            if (render_session_look(session, reason) != 0)
+            if (render_session_look(session, error) != 0)
                 return -1;
         }
     }
-    return render_session_look(session, reason);
+    return render_session_look(session, error);
 }
 
-int draw_schedule_share(struct render_session *session, struct reason *reason)
+int draw_schedule_share(struct render_session *session, struct error_text *error)
 {
     for (uint32_t i = 0; i < session->picture_count; i++) {
         if (requested_pictures_due_ns(session) > clock_now_ns())
             return 0;
-        if (requested_pictures_draw(session, reason) != 0)
+        if (requested_pictures_draw(session, error) != 0)
             return -1;
     }
     return 0;

@@ -21,28 +21,28 @@
 
 #define NICENESS 12 /* far behind the frame loop */
 
-static int run(struct render_session *session, struct view *view, struct reason *reason)
+static int run(struct render_session *session, struct view *view, struct error_text *error)
 {
     bool last = false;
-    if (render_session_look(session, reason) != 0)
+    if (render_session_look(session, error) != 0)
         return -1;
-    if (render_session_check_vehicles(session, reason) != 0)
-        log_warn("%s; follows another until it is there", reason->text);
+    if (render_session_check_vehicles(session, error) != 0)
+        log_warn("%s; follows another until it is there", error->text);
     while (!last) {
         last = process_stopping() || frame_protocol_finished(view);
         if (!last) {
-            if (draw_schedule_wait(session, view, reason) != 0)
+            if (draw_schedule_wait(session, view, error) != 0)
                 return -1;
             last = process_stopping() || frame_protocol_finished(view);
         }
         /* The look that belongs to the last picture comes after the run's end was seen. */
-        if (last && render_session_look(session, reason) != 0)
+        if (last && render_session_look(session, error) != 0)
             return -1;
         uint64_t begun_ns = clock_now_ns();
-        if (view_pictures_draw(session, last, reason) != 0)
+        if (view_pictures_draw(session, last, error) != 0)
             return -1;
         timing_picture(view, session, begun_ns);
-        if (!last && draw_schedule_share(session, reason) != 0)
+        if (!last && draw_schedule_share(session, error) != 0)
             return -1;
     }
     return 0;
@@ -52,16 +52,16 @@ static int run(struct render_session *session, struct view *view, struct reason 
  * by name. The driver's cache moves there too: it holds programs, and others run those that it
  * keeps at home. */
 static int confine(struct sandbox *sandbox, struct output_set *outputs,
-                   const struct options *options, struct reason *reason)
+                   const struct options *options, struct error_text *error)
 {
     char cache[1024];
-    if (output_set_open(outputs, &options->outputs, reason) != 0)
+    if (output_set_open(outputs, &options->outputs, error) != 0)
         return -1;
     if (picture_folder_cache(&outputs->output, cache, sizeof cache) == 0)
         setenv("MESA_SHADER_CACHE_DIR", cache, 1);
-    if (sandbox_begin(sandbox, options->role, options->sandbox_off, reason) != 0)
+    if (sandbox_begin(sandbox, options->role, options->sandbox_off, error) != 0)
         return -1;
-    return sandbox_files(sandbox, &outputs->output.folder, 1, reason);
+    return sandbox_files(sandbox, &outputs->output.folder, 1, error);
 }
 
 /* Whom it follows, where that is said by name: names are the world's, and never change. */
@@ -77,11 +77,11 @@ static void find_followed(struct options *options, const struct view *view)
 }
 
 /* One picture of the present frame, without a role. */
-static int snap(struct render_session *session, struct reason *reason)
+static int snap(struct render_session *session, struct error_text *error)
 {
-    return render_session_look(session, reason) == 0 &&
-                   render_session_check_vehicles(session, reason) == 0 &&
-                   view_pictures_draw(session, true, reason) == 0
+    return render_session_look(session, error) == 0 &&
+                   render_session_check_vehicles(session, error) == 0 &&
+                   view_pictures_draw(session, true, error) == 0
                ? 0
                : -1;
 }
@@ -95,7 +95,7 @@ int main(int argc, char **argv)
     struct view view;
     struct sandbox sandbox = {.on = false};
     struct heartbeat heartbeat;
-    struct reason reason, second;
+    struct error_text error, second;
 
     log_open("renderer");
     options_read(&options, NULL, argc, argv);
@@ -106,43 +106,43 @@ int main(int argc, char **argv)
     process_close_inherited();
     process_signals();
     process_die_with_parent(options.parent);
-    if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &error) != 0)
+        die_refused("%s", error.text);
     find_followed(&options, &view);
     base_map_service_open(&service, &view.world);
     options.outputs.painter = base_map_service_painter(&service);
-    if (!snapping && confine(&sandbox, &outputs, &options, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (!snapping && confine(&sandbox, &outputs, &options, &error) != 0)
+        die_refused("%s", error.text);
     /* The pulse keeps its priority; drawing, and the threads of the OpenGL driver, get out of the
      * frame loop's way. */
     if (!snapping && heartbeat_start(&heartbeat, &view) != 0)
         die_refused("cannot start a thread: %s", strerror(errno));
     if (setpriority(PRIO_PROCESS, 0, NICENESS) != 0)
         log_warn("cannot lower its priority: %s", strerror(errno));
-    if (!snapping && output_set_start(&outputs, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (!snapping && output_set_start(&outputs, &error) != 0)
+        die_refused("%s", error.text);
     setenv("LP_NUM_THREADS", "1", 0);
 
     if (render_session_open(&session, &view, &heartbeat, snapping ? NULL : &outputs, &options,
-                            &reason) != 0 ||
-        sandbox_enter(&sandbox, &reason) != 0)
-        die_refused("%s", reason.text);
+                            &error) != 0 ||
+        sandbox_enter(&sandbox, &error) != 0)
+        die_refused("%s", error.text);
     int result;
     if (snapping) {
-        result = snap(&session, &reason);
+        result = snap(&session, &error);
     } else {
         segment_ready(&view);
         log_info("draws world \"%s\" into %s: %s%s, %ux%u, %.3g pictures a second", view.name,
                  options.out, session.pictures[0].wish.name,
                  session.picture_count > 1 ? ", ..." : "", session.options.width,
                  session.options.height, session.options.fps);
-        result = run(&session, &view, &reason);
-        if (output_set_close(&outputs, result == 0 ? &reason : &second) != 0)
+        result = run(&session, &view, &error);
+        if (output_set_close(&outputs, result == 0 ? &error : &second) != 0)
             result = -1;
         heartbeat_stop(&heartbeat);
     }
     if (result != 0)
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
     render_session_close(&session);
     base_map_service_close(&service);
     segment_detach(&view);

@@ -38,20 +38,18 @@ static int role = ROLE_RENDERER;
 static struct option_size size;
 static double field_deg;
 
-static int take_views(const char *text, const struct error_text *why)
+static int take_views(const char *text, struct error_text *error)
 {
-    struct reason reason;
-    return views_read(&given.views, text, &reason) == 0 ? 0
-                                                        : error_text_say(why, "%s", reason.text);
+    return views_read(&given.views, text, error);
 }
 
 /* An id is digits alone. */
-static int take_follow(const char *text, const struct error_text *why)
+static int take_follow(const char *text, struct error_text *error)
 {
     uint64_t id = 0;
     bool named = text[strspn(text, "0123456789")] != '\0';
     if (!named && !parse_whole(text, 0, UINT32_MAX, &id))
-        return error_text_say(why, "no vehicle's id, which is from 0 to %u", UINT32_MAX);
+        return error_text_set(error, "no vehicle's id, which is from 0 to %u", UINT32_MAX);
     given.follow = (uint32_t)id;
     given.follow_name = named ? text : NULL;
     given.follow_given = true;
@@ -66,38 +64,38 @@ struct part {
 };
 
 static int read_parts(const char *text, const struct part *part, int least, int most,
-                      const char *form, const struct error_text *why)
+                      const char *form, struct error_text *error)
 {
     double value[3];
     int used = 0,
         count = sscanf(text, "%lf,%lf%n,%lf%n", &value[0], &value[1], &used, &value[2], &used);
     if (count < least || count > most || text[used] != '\0')
-        return error_text_say(why, "not %s", form);
+        return error_text_set(error, "not %s", form);
     for (int i = 0; i < count; i++) {
         if (!(value[i] >= part[i].low && value[i] <= part[i].high))
-            return error_text_say(why, "%s is from %.0f to %.0f", part[i].name, part[i].low,
+            return error_text_set(error, "%s is from %.0f to %.0f", part[i].name, part[i].low,
                                   part[i].high);
         *part[i].value = value[i];
     }
     return 0;
 }
 
-static int take_eye(const char *text, const struct error_text *why)
+static int take_eye(const char *text, struct error_text *error)
 {
     static const struct part part[] = {{"X", 0.0, WORLD_SIDE_M, &given.stand.x},
                                        {"Z", 0.0, WORLD_SIDE_M, &given.stand.z},
                                        {"HEIGHT", 0.0, UP_MOST_M, &given.stand.above_m}};
     given.stand.above_m = EYE_HEIGHT_M;
     given.stand.given = true;
-    return read_parts(text, part, 2, 3, "X,Z or X,Z,HEIGHT", why);
+    return read_parts(text, part, 2, 3, "X,Z or X,Z,HEIGHT", error);
 }
 
-static int take_look(const char *text, const struct error_text *why)
+static int take_look(const char *text, struct error_text *error)
 {
     double heading = 0.0, pitch = 0.0;
     const struct part part[] = {{"HEADING", -360.0, 360.0, &heading},
                                 {"PITCH", -90.0, 90.0, &pitch}};
-    int result = read_parts(text, part, 2, 2, "HEADING,PITCH", why);
+    int result = read_parts(text, part, 2, 2, "HEADING,PITCH", error);
     given.stand.heading_rad = heading * RAD_PER_DEG;
     given.stand.pitch_rad = pitch * RAD_PER_DEG;
     given.look_given = true;

@@ -167,7 +167,7 @@ static void begin(struct render_session *session, struct view *view, struct hear
 }
 
 /* Is the view of the video among those that are drawn? 0, or -1 with the reason. */
-static int check_video_view(const struct render_session *session, struct reason *reason)
+static int check_video_view(const struct render_session *session, struct error_text *error)
 {
     const char *wanted = session->outputs != NULL ? session->options.outputs.video_view : NULL;
     char drawn[VIEWS_MAX * (VIEW_NAME_BYTES + 2)] = "";
@@ -180,15 +180,15 @@ static int check_video_view(const struct render_session *session, struct reason 
     }
     return wanted == NULL
                ? 0
-               : reason_set(reason, "--video-view %s: is not drawn; there is %s", wanted, drawn);
+               : error_text_set(error, "--video-view %s: is not drawn; there is %s", wanted, drawn);
 }
 
 int render_session_open(struct render_session *session, struct view *view,
                         struct heartbeat *heartbeat, struct output_set *outputs,
-                        const struct options *options, struct reason *reason)
+                        const struct options *options, struct error_text *error)
 {
     begin(session, view, heartbeat, outputs, options);
-    if (check_video_view(session, reason) != 0)
+    if (check_video_view(session, error) != 0)
         return -1;
     uint32_t width = session->options.width, height = session->options.height;
     if (open_world(session, view) != 0)
@@ -196,12 +196,12 @@ int render_session_open(struct render_session *session, struct view *view,
     if (open_canvas(session, view) != 0)
         goto err_world;
     heartbeat_stage(heartbeat);
-    if (annotated_picture_open(&session->chart, &view->world, width, height, reason) != 0)
+    if (annotated_picture_open(&session->chart, &view->world, width, height, error) != 0)
         goto err_canvas;
     heartbeat_stage(heartbeat);
     struct options largest = largest_pictures(session);
     if (wants_cameras(session) &&
-        back_end_open(&session->draw, &largest, &session->scenery, reason) != 0)
+        back_end_open(&session->draw, &largest, &session->scenery, error) != 0)
         goto err_chart;
     heartbeat_stage(heartbeat);
     requested_pictures_open(session);
@@ -219,7 +219,7 @@ err_canvas:
 err_world:
     close_world(session);
 err_memory:
-    return reason_set(reason, "no memory for a renderer of %ux%u pictures", width, height);
+    return error_text_set(error, "no memory for a renderer of %ux%u pictures", width, height);
 }
 
 void render_session_close(struct render_session *session)
@@ -282,12 +282,12 @@ static int take_frame(struct render_session *session)
     return 0;
 }
 
-int render_session_look(struct render_session *session, struct reason *reason)
+int render_session_look(struct render_session *session, struct error_text *error)
 {
     if (take_frame(session) != 0) {
         if (errno == EBADMSG)
-            return reason_set(reason, "world \"%s\" is damaged: its checksum is wrong",
-                              session->view->name);
+            return error_text_set(error, "world \"%s\" is damaged: its checksum is wrong",
+                                  session->view->name);
         if (log_due(&session->complained_ns, COMPLAINT_NS))
             log_warn("the world goes on faster than it can be copied; the picture stays");
         return 0;
@@ -303,7 +303,7 @@ int render_session_look(struct render_session *session, struct reason *reason)
     return 0;
 }
 
-int render_session_check_vehicles(const struct render_session *session, struct reason *reason)
+int render_session_check_vehicles(const struct render_session *session, struct error_text *error)
 {
     struct frame_view moment = render_session_frame_view(session, session->latest);
     uint32_t wanted[VIEWS_MAX + 1] = {session->options.follow_given ? session->options.follow : 0};
@@ -312,9 +312,10 @@ int render_session_check_vehicles(const struct render_session *session, struct r
     for (uint32_t i = 0; i <= session->picture_count; i++)
         if (wanted[i] != 0 &&
             entities_find(moment.entities, moment.head->used, wanted[i]) == SLOT_NONE)
-            return reason_set(reason,
-                              "vehicle %u: world \"%s\" has none of that number; jolon world dump "
-                              "-w %s lists them",
-                              wanted[i], session->view->name, session->view->name);
+            return error_text_set(
+                error,
+                "vehicle %u: world \"%s\" has none of that number; jolon world dump "
+                "-w %s lists them",
+                wanted[i], session->view->name, session->view->name);
     return 0;
 }

@@ -68,7 +68,7 @@ struct render_session {
  * with, no font. */
 int render_session_open(struct render_session *session, struct view *view,
                         struct heartbeat *heartbeat, struct output_set *outputs,
-                        const struct options *options, struct reason *reason);
+                        const struct options *options, struct error_text *error);
 void render_session_close(struct render_session *session);
 
 /* When the next pictures are due (CLOCK_MONOTONIC); UINT64_MAX when only those at the end are. */
@@ -77,11 +77,11 @@ uint64_t render_session_due_ns(const struct render_session *session);
 /* Looks at the world: takes a snapshot and the events since the last. 0; -1 with the reason when
  * the world is damaged or memory is out. A world that goes on too fast to be copied leaves what
  * was seen before, and says so at most every 10 s. */
-int render_session_look(struct render_session *session, struct reason *reason);
+int render_session_look(struct render_session *session, struct error_text *error);
 
 /* Is every vehicle that was asked for by number in the frame seen last? 0, or -1 with the reason.
  */
-int render_session_check_vehicles(const struct render_session *session, struct reason *reason);
+int render_session_check_vehicles(const struct render_session *session, struct error_text *error);
 
 /* The frame of one of the snapshots; it lives as long as that holds it. */
 struct frame_view render_session_frame_view(const struct render_session *session, uint32_t which);

@@ -103,7 +103,7 @@ static void govern(struct requested_pictures *requested, uint64_t begun_ns)
                  100.0 * level->detail, 25 * level->quarters);
 }
 
-static int draw_row(struct render_session *session, uint32_t i, struct reason *reason)
+static int draw_row(struct render_session *session, uint32_t i, struct error_text *error)
 {
     struct requested_pictures *requested = &session->requested;
     struct requested_pictures_row *row = &requested->row[i];
@@ -129,7 +129,7 @@ static int draw_row(struct render_session *session, uint32_t i, struct reason *r
     const struct view_picture_target sheet = {.image = &row->image,
                                               .chart = row->chart.text != NULL ? &row->chart : NULL,
                                               .rate = row->rate};
-    if (view_pictures_camera(session, &row->picture, &moment, level, &sheet, reason) != 0)
+    if (view_pictures_camera(session, &row->picture, &moment, level, &sheet, error) != 0)
         return -1;
     row->frame = moment.head->frame;
     row->ahead_s = moment.ahead_s;
@@ -142,7 +142,7 @@ static int draw_row(struct render_session *session, uint32_t i, struct reason *r
     return 0;
 }
 
-int requested_pictures_draw(struct render_session *session, struct reason *reason)
+int requested_pictures_draw(struct render_session *session, struct error_text *error)
 {
     struct requested_pictures *requested = &session->requested;
     uint32_t next = 0;
@@ -154,5 +154,5 @@ int requested_pictures_draw(struct render_session *session, struct reason *reaso
     if (requested->row[next].generation != requested->wishes[next].generation &&
         begin_row(session, &requested->row[next], &requested->wishes[next]) != 0)
         return 0;
-    return draw_row(session, next, reason);
+    return draw_row(session, next, error);
 }

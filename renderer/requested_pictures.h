@@ -48,6 +48,6 @@ uint64_t requested_pictures_due_ns(struct render_session *session);
 
 /* Draws the one that has been due longest, of the frame seen last, and gives it to who waits.
  * Nothing when none is due. 0, or -1 with the reason: the back end is of no more use. */
-int requested_pictures_draw(struct render_session *session, struct reason *reason);
+int requested_pictures_draw(struct render_session *session, struct error_text *error);
 
 #endif

@@ -88,11 +88,11 @@ static void describe(const struct view_picture *picture, const struct frame_view
 
 /* The first view goes where --snap says; others have their names before its ending. */
 static int put_file(const struct render_session *session, const struct view_picture *picture,
-                    const char *words, struct reason *reason)
+                    const char *words, struct error_text *error)
 {
     const char *name = session->options.snap;
     if (picture == session->pictures)
-        return picture_folder_file(name, &session->image, words, reason);
+        return picture_folder_file(name, &session->image, words, error);
     char path[1024];
     const char *dot = strrchr(name, '.');
     if (dot == NULL || strchr(dot, '/') != NULL)
@@ -100,20 +100,20 @@ static int put_file(const struct render_session *session, const struct view_pict
     int length =
         snprintf(path, sizeof path, "%.*s-%s%s", (int)(dot - name), name, picture->wish.name, dot);
     if (length < 0 || (size_t)length >= sizeof path)
-        return reason_set(reason, "--snap %s: the path is too long", name);
-    return picture_folder_file(path, &session->image, words, reason);
+        return error_text_set(error, "--snap %s: the path is too long", name);
+    return picture_folder_file(path, &session->image, words, error);
 }
 
 static int put_out(struct render_session *session, const struct view_picture *picture,
-                   const struct frame_view *moment, struct reason *reason)
+                   const struct frame_view *moment, struct error_text *error)
 {
     char words[512];
     describe(picture, moment, words, sizeof words);
     heartbeat_stage(session->heartbeat);
     if (session->outputs == NULL)
-        return put_file(session, picture, words, reason);
+        return put_file(session, picture, words, error);
     return output_set_put(session->outputs, picture->wish.name, &session->image,
-                          moment->head->frame, frame_view_time_s(moment), words, reason);
+                          moment->head->frame, frame_view_time_s(moment), words, error);
 }
 
 /* Where the scene is drawn: the picture itself, or a smaller one. */
@@ -156,7 +156,7 @@ static struct annotated_picture_source source_of(const struct render_session *se
 
 int view_pictures_camera(struct render_session *session, struct view_picture *picture,
                          const struct frame_view *moment, const struct quality_control_level *level,
-                         const struct view_picture_target *sheet, struct reason *reason)
+                         const struct view_picture_target *sheet, struct error_text *error)
 {
     struct camera camera;
     struct image *drawn = canvas(session, sheet->image, level);
@@ -169,7 +169,7 @@ int view_pictures_camera(struct render_session *session, struct view_picture *pi
         log_warn("%u things in view are left out: more than a picture can hold",
                  session->scene.omitted);
     heartbeat_stage(session->heartbeat);
-    if (session->draw.picture(session->draw.self, &session->scene, moment, drawn, reason) != 0)
+    if (session->draw.picture(session->draw.self, &session->scene, moment, drawn, error) != 0)
         return -1;
     heartbeat_stage(session->heartbeat);
     if (drawn != sheet->image)
@@ -183,11 +183,11 @@ int view_pictures_camera(struct render_session *session, struct view_picture *pi
 
 static int draw_camera(struct render_session *session, struct view_picture *picture,
                        const struct frame_view *moment, const struct quality_control_level *level,
-                       struct reason *reason)
+                       struct error_text *error)
 {
     const struct view_picture_target sheet = {
         .image = &session->image, .chart = &session->chart, .rate = session->rate};
-    if (view_pictures_camera(session, picture, moment, level, &sheet, reason) != 0)
+    if (view_pictures_camera(session, picture, moment, level, &sheet, error) != 0)
         return -1;
     /* The first picture waits for all its ground; at a rate, ground comes when there is time. */
     if (session->smooth)
@@ -197,7 +197,7 @@ static int draw_camera(struct render_session *session, struct view_picture *pict
 
 /* The map, with what the chase camera would see. */
 static int draw_map(struct render_session *session, struct view_picture *picture,
-                    const struct frame_view *moment, struct reason *reason)
+                    const struct frame_view *moment, struct error_text *error)
 {
     struct camera camera;
     picture->camera_wish.view = VIEW_CHASE;
@@ -208,20 +208,20 @@ static int draw_map(struct render_session *session, struct view_picture *picture
     struct annotated_picture_source source =
         source_of(session, picture, moment, &camera, session->rate);
     if (annotated_picture_map(&session->chart, &session->image, &source) != 0)
-        return reason_set(reason, "no memory for the map");
+        return error_text_set(error, "no memory for the map");
     return 0;
 }
 
 static int draw_picture(struct render_session *session, struct view_picture *picture,
                         const struct frame_view *moment, const struct quality_control_level *level,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     int failed = picture->wish.mode == VIEW_MAP
-                     ? draw_map(session, picture, moment, reason)
-                     : draw_camera(session, picture, moment, level, reason);
+                     ? draw_map(session, picture, moment, error)
+                     : draw_camera(session, picture, moment, level, error);
     if (failed)
         return -1;
-    return put_out(session, picture, moment, reason);
+    return put_out(session, picture, moment, error);
 }
 
 /* Draws less or more from the next picture on, and says so. */
@@ -252,7 +252,7 @@ static void note_rate(struct render_session *session)
     session->drawn_ns = now_ns;
 }
 
-int view_pictures_draw(struct render_session *session, bool last, struct reason *reason)
+int view_pictures_draw(struct render_session *session, bool last, struct error_text *error)
 {
     note_rate(session);
     struct frame_view moment = view_pictures_frame(session, last);
@@ -268,7 +268,7 @@ int view_pictures_draw(struct render_session *session, bool last, struct reason 
     choose_vehicles(session, &moment);
     articulation_note(&session->articulation, &moment);
     for (uint32_t i = 0; i < session->picture_count; i++) {
-        if (draw_picture(session, &session->pictures[i], &moment, level, reason) != 0)
+        if (draw_picture(session, &session->pictures[i], &moment, level, error) != 0)
             return -1;
         heartbeat_stage(session->heartbeat);
     }

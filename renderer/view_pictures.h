@@ -22,7 +22,7 @@ struct view_picture {
 
 /* Draws what was seen last and writes it out, every view, unless it was drawn before. last: exactly
  * the last frame seen, at full quality, whatever the rate. 0, or -1 with the reason. */
-int view_pictures_draw(struct render_session *session, bool last, struct reason *reason);
+int view_pictures_draw(struct render_session *session, bool last, struct error_text *error);
 
 /* Where a camera's picture goes, and what is laid over it. */
 struct view_picture_target {
@@ -42,6 +42,6 @@ uint32_t view_pictures_vehicle(struct render_session *session, const struct fram
 /* Draws what a shot's camera sees. 0, or -1 with the reason. */
 int view_pictures_camera(struct render_session *session, struct view_picture *picture,
                          const struct frame_view *moment, const struct quality_control_level *level,
-                         const struct view_picture_target *sheet, struct reason *reason);
+                         const struct view_picture_target *sheet, struct error_text *error);
 
 #endif

@@ -43,7 +43,8 @@ static int read_vehicle(const char *text, size_t length, uint32_t *vehicle)
 }
 
 /* One entry of the list: its word and, from the colon on, its vehicle. */
-static int read_entry(struct views *views, const char *text, size_t length, struct reason *reason)
+static int read_entry(struct views *views, const char *text, size_t length,
+                      struct error_text *error)
 {
     size_t word = strcspn(text, ":,");
     uint32_t vehicle, mode = 0;
@@ -51,13 +52,13 @@ static int read_entry(struct views *views, const char *text, size_t length, stru
     while (!both && mode < VIEW_COUNT && !same_word(text, word, view_mode_name(mode)))
         mode++;
     if (mode == VIEW_COUNT)
-        return reason_set(reason, "%.*s is not one of " WORDS, (int)(length < 40 ? length : 40),
-                          text);
+        return error_text_set(error, "%.*s is not one of " WORDS, (int)(length < 40 ? length : 40),
+                              text);
     if (read_vehicle(text + word, length - word, &vehicle) != 0)
-        return reason_set(reason, "%.*s: after the colon comes a vehicle's id, as chase:17",
-                          (int)(length < 40 ? length : 40), text);
+        return error_text_set(error, "%.*s: after the colon comes a vehicle's id, as chase:17",
+                              (int)(length < 40 ? length : 40), text);
     if (views->count + both >= VIEWS_MAX)
-        return reason_set(reason, "more than %u views; start another renderer", VIEWS_MAX);
+        return error_text_set(error, "more than %u views; start another renderer", VIEWS_MAX);
     add(views, both ? VIEW_CHASE : (enum view_mode)mode, vehicle);
     if (both)
         add(views, VIEW_MAP, vehicle);
@@ -65,24 +66,25 @@ static int read_entry(struct views *views, const char *text, size_t length, stru
 }
 
 /* Two views of one name would write the same files. */
-static int check_different(const struct views *views, struct reason *reason)
+static int check_different(const struct views *views, struct error_text *error)
 {
     for (uint32_t i = 0; i < views->count; i++)
         for (uint32_t j = 0; j < i; j++)
             if (strcmp(views->wish[i].name, views->wish[j].name) == 0)
-                return reason_set(reason, "%s is there twice", view_mode_name(views->wish[i].mode));
+                return error_text_set(error, "%s is there twice",
+                                      view_mode_name(views->wish[i].mode));
     return 0;
 }
 
-int views_read(struct views *views, const char *text, struct reason *reason)
+int views_read(struct views *views, const char *text, struct error_text *error)
 {
     *views = (struct views){.count = 0};
     for (;;) {
         size_t length = strcspn(text, ",");
-        if (read_entry(views, text, length, reason) != 0)
+        if (read_entry(views, text, length, error) != 0)
             return -1;
         if (text[length] == '\0')
-            return check_different(views, reason);
+            return check_different(views, error);
         text += length + 1;
     }
 }

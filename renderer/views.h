@@ -23,7 +23,7 @@ struct views {
 
 /* Reads "VIEW[:ID][,VIEW[:ID]...]"; "both" is "chase,map". 0, or -1 with what is wrong and what
  * would be right: the value's, without the option's name. */
-int views_read(struct views *views, const char *text, struct reason *reason);
+int views_read(struct views *views, const char *text, struct error_text *error);
 
 /* The list that a set of bits 1 << enum view_mode stands for, in the order of the enum. */
 void views_of_bits(struct views *views, uint32_t bits);

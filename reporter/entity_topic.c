@@ -15,21 +15,21 @@ _Static_assert((int)jolon_GEAR_LOW == (int)GEAR_LOW && (int)GEAR_COUNT == (int)j
                "gears in ipc/topics/status.idl");
 
 int entity_topic_open(struct entity_topic *topic, const struct view *view,
-                      const struct dds_link *link, uint64_t run, struct reason *reason)
+                      const struct dds_link *link, uint64_t run, struct error_text *error)
 {
     uint32_t capacity = view->header->capacity;
     *topic =
         (struct entity_topic){.room = capacity < ENTITY_TOPIC_PART ? capacity : ENTITY_TOPIC_PART};
     topic->wire.run = run;
     topic->dt_s = world_dt_s(&view->world);
-    topic->writer = dds_topics_writer(link, TOPIC_ENTITIES, reason);
+    topic->writer = dds_topics_writer(link, TOPIC_ENTITIES, error);
     if (topic->writer < 0)
         return -1;
     topic->entity = calloc(topic->room, sizeof *topic->entity);
     if (!topic->entity || snapshot_init(&topic->snapshot, view) != 0) {
         free(topic->entity);
         topic->entity = NULL;
-        return reason_set(reason, "entities: no memory for %u: %s", capacity, strerror(errno));
+        return error_text_set(error, "entities: no memory for %u: %s", capacity, strerror(errno));
     }
     return 0;
 }

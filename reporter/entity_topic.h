@@ -32,7 +32,7 @@ struct entity_topic {
 
 /* -1 with the reason: no memory, no writer. */
 int entity_topic_open(struct entity_topic *topic, const struct view *view,
-                      const struct dds_link *link, uint64_t run, struct reason *reason);
+                      const struct dds_link *link, uint64_t run, struct error_text *error);
 void entity_topic_close(struct entity_topic *topic);
 
 /* Writes a part of the last committed frame's entities if that is due and somebody reads them. True

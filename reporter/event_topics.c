@@ -33,18 +33,18 @@ _Static_assert(TOPIC_AGENT - TOPIC_COLLISION + 1 == EVENT_TOPICS_COUNT,
 _Static_assert(EVENT_AGENT - EVENT_COLLISION + 1 == EVENT_TOPICS_COUNT, "event types are in a row");
 
 int event_topics_open(struct event_topics *events, const struct view *view,
-                      const struct dds_link *link, uint64_t run, struct reason *reason)
+                      const struct dds_link *link, uint64_t run, struct error_text *error)
 {
     struct state_head head;
     *events = (struct event_topics){.run = run};
     for (uint32_t i = 0; i < EVENT_TOPICS_COUNT; i++) {
-        events->writer[i] = dds_topics_writer(link, (enum dds_topic)(TOPIC_COLLISION + i), reason);
+        events->writer[i] = dds_topics_writer(link, (enum dds_topic)(TOPIC_COLLISION + i), error);
         if (events->writer[i] < 0)
             return -1;
         events->previous[i] = UINT64_MAX;
     }
     if (snapshot_head(&head, view) != 0)
-        return reason_set(reason, "world \"%s\": its last frame cannot be read", view->name);
+        return error_text_set(error, "world \"%s\": its last frame cannot be read", view->name);
     /* Our slot still has the frame that the predecessor finished; 0 when there was none. */
     const struct role_slot *slot = view->slot[view->role];
     uint64_t before = atomic_load_explicit(&slot->frame, memory_order_relaxed);

@@ -29,7 +29,7 @@ struct event_topics {
 
 /* Makes the writers and finds the place to begin; -1 with the reason. */
 int event_topics_open(struct event_topics *events, const struct view *view,
-                      const struct dds_link *link, uint64_t run, struct reason *reason);
+                      const struct dds_link *link, uint64_t run, struct error_text *error);
 
 /* Publishes committed events until there are no more or the clock reaches until_ns. True when none
  * was left. What DDS does not take stays for the next call. */

@@ -41,18 +41,18 @@ struct reporter {
     uint64_t frame_due_ns;
 };
 
-static int open_topics(struct reporter *reporter, struct reason *reason)
+static int open_topics(struct reporter *reporter, struct error_text *error)
 {
     const struct dds_link *link = &reporter->link;
     struct view *view = &reporter->view;
-    if (status_topics_open(&reporter->status, view, link, reason) != 0 ||
-        status_topics_world(&reporter->status, view, reason) != 0 ||
-        status_topics_names(&reporter->status, view, reason) != 0 ||
-        event_topics_open(&reporter->events, view, link, reporter->status.run, reason) != 0 ||
-        entity_topic_open(&reporter->entities, view, link, reporter->status.run, reason) != 0)
+    if (status_topics_open(&reporter->status, view, link, error) != 0 ||
+        status_topics_world(&reporter->status, view, error) != 0 ||
+        status_topics_names(&reporter->status, view, error) != 0 ||
+        event_topics_open(&reporter->events, view, link, reporter->status.run, error) != 0 ||
+        entity_topic_open(&reporter->entities, view, link, reporter->status.run, error) != 0)
         return -1;
     if (reporter->takes_commands &&
-        remote_commands_open(&reporter->remote, view->name, link, reason) != 0)
+        remote_commands_open(&reporter->remote, view->name, link, error) != 0)
         return -1;
     return 0;
 }
@@ -114,7 +114,7 @@ int main(int argc, char **argv)
 {
     static struct reporter reporter;
     struct sandbox sandbox;
-    struct reason reason;
+    struct error_text error;
     log_open("reporter");
     struct options options;
     options_parse(&options, argc, argv);
@@ -124,15 +124,15 @@ int main(int argc, char **argv)
     errno = 0;
     if (nice(NICENESS) == -1 && errno)
         log_warn("runs at normal priority: nice %d not allowed", NICENESS);
-    if (sandbox_begin(&sandbox, ROLE_REPORTER, options.sandbox_off, &reason) != 0 ||
-        segment_attach(&reporter.view, options.world, ROLE_REPORTER, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (sandbox_begin(&sandbox, ROLE_REPORTER, options.sandbox_off, &error) != 0 ||
+        segment_attach(&reporter.view, options.world, ROLE_REPORTER, &error) != 0)
+        die_refused("%s", error.text);
     options.link.part = DDS_HOST;
     reporter.takes_commands = options.remote_commands;
-    if (dds_link_open(&reporter.link, &options.link, options.world, &reason) != 0 ||
-        open_topics(&reporter, &reason) != 0 || sandbox_enter(&sandbox, &reason) != 0) {
+    if (dds_link_open(&reporter.link, &options.link, options.world, &error) != 0 ||
+        open_topics(&reporter, &error) != 0 || sandbox_enter(&sandbox, &error) != 0) {
         segment_detach(&reporter.view);
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
     }
     remote_commands_tell(&reporter.view, reporter.takes_commands && !reporter.link.secure);
     segment_ready(&reporter.view);

@@ -11,21 +11,21 @@
 #define BUSY_NS      (500 * (uint64_t)NS_PER_MS)
 
 int remote_commands_open(struct remote_commands *remote, const char *world,
-                         const struct dds_link *link, struct reason *reason)
+                         const struct dds_link *link, struct error_text *error)
 {
     /* Finding the runtime folder needs more than the sandbox allows: it is found now. */
-    int folder = runtime_folder_open(reason);
+    int folder = runtime_folder_open(error);
     *remote = (struct remote_commands){.world = world};
     if (folder < 0)
         return -1;
     close(folder);
-    remote->writer = dds_topics_writer(link, TOPIC_REPLY, reason);
+    remote->writer = dds_topics_writer(link, TOPIC_REPLY, error);
     if (remote->writer < 0)
         return -1;
-    remote->reader = dds_topics_reader(link, TOPIC_COMMAND, reason);
+    remote->reader = dds_topics_reader(link, TOPIC_COMMAND, error);
     if (remote->reader < 0)
         return -1;
-    remote->waitset = dds_topics_waitset(link, &remote->reader, 1, reason);
+    remote->waitset = dds_topics_waitset(link, &remote->reader, 1, error);
     return remote->waitset < 0 ? -1 : 0;
 }
 

@@ -25,7 +25,7 @@ struct remote_commands {
 
 /* Makes the reader and the writer; -1 with the reason. */
 int remote_commands_open(struct remote_commands *remote, const char *world,
-                         const struct dds_link *link, struct reason *reason);
+                         const struct dds_link *link, struct error_text *error);
 
 /* Passes on the commands and the replies that have come. */
 void remote_commands_turn(struct remote_commands *remote, uint64_t now_ns);

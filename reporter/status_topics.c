@@ -35,20 +35,20 @@ _Static_assert(sizeof((jolon_EntityName *)0)->name == ENTITY_NAME_MAX,
 _Static_assert(jolon_MAP_CELLS == jolon_MAP_SIDE * jolon_MAP_SIDE, "map in ipc/topics/status.idl");
 
 int status_topics_open(struct status_topics *topics, const struct view *view,
-                       const struct dds_link *link, struct reason *reason)
+                       const struct dds_link *link, struct error_text *error)
 {
     *topics =
         (struct status_topics){.run = view->header->made}; /* the same name may be given again */
-    topics->world = dds_topics_writer(link, TOPIC_WORLD, reason);
+    topics->world = dds_topics_writer(link, TOPIC_WORLD, error);
     if (topics->world < 0)
         return -1;
-    topics->names = dds_topics_writer(link, TOPIC_NAMES, reason);
+    topics->names = dds_topics_writer(link, TOPIC_NAMES, error);
     if (topics->names < 0)
         return -1;
-    topics->process = dds_topics_writer(link, TOPIC_PROCESS, reason);
+    topics->process = dds_topics_writer(link, TOPIC_PROCESS, error);
     if (topics->process < 0)
         return -1;
-    topics->frame = dds_topics_writer(link, TOPIC_FRAME, reason);
+    topics->frame = dds_topics_writer(link, TOPIC_FRAME, error);
     return topics->frame < 0 ? -1 : 0;
 }
 
@@ -75,14 +75,14 @@ static void copy_text(char *to, size_t bytes, const char *from)
 }
 
 int status_topics_world(struct status_topics *topics, const struct view *view,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     const struct params *params = view->world.params;
     uint32_t kinds = view->world.counts.kinds;
     jolon_KindInfo kind[KIND_COUNT_MAX] = {0};
     jolon_WorldInfo *info = calloc(1, sizeof *info);
     if (!info)
-        return reason_set(reason, "world info: %s", strerror(errno));
+        return error_text_set(error, "world info: %s", strerror(errno));
     for (uint32_t i = 0; i < kinds && i < KIND_COUNT_MAX; i++) {
         copy_text(kind[i].name, sizeof kind[i].name, view->world.kinds[i].name);
         kind[i].domain = (jolon_Domain)view->world.kinds[i].domain;
@@ -108,21 +108,21 @@ int status_topics_world(struct status_topics *topics, const struct view *view,
     fill_map(info, &view->world.terrain);
     dds_return_t code = dds_write(topics->world, info);
     free(info);
-    return code < 0 ? reason_set(reason, "world info: %s", dds_strretcode(code)) : 0;
+    return code < 0 ? error_text_set(error, "world info: %s", dds_strretcode(code)) : 0;
 }
 
 int status_topics_names(const struct status_topics *topics, const struct view *view,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     struct name_table names = {0};
     if (!name_table_read_world(&names, &view->world, topics->run))
-        return reason_set(reason, "entity names: %s", strerror(errno));
+        return error_text_set(error, "entity names: %s", strerror(errno));
     jolon_EntityNames wire = {.run = topics->run};
     wire.names._buffer = names.entry;
     wire.names._length = wire.names._maximum = names.count;
     dds_return_t code = dds_write(topics->names, &wire);
     name_table_close(&names);
-    return code < 0 ? reason_set(reason, "entity names: %s", dds_strretcode(code)) : 0;
+    return code < 0 ? error_text_set(error, "entity names: %s", dds_strretcode(code)) : 0;
 }
 
 static double to_ms(uint64_t ns)

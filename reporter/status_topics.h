@@ -32,15 +32,15 @@ struct status_topics {
 
 /* Makes the writers; -1 with the reason. */
 int status_topics_open(struct status_topics *topics, const struct view *view,
-                       const struct dds_link *link, struct reason *reason);
+                       const struct dds_link *link, struct error_text *error);
 
 /* Writes WorldInfo; -1 with the reason when there is no memory for it. */
 int status_topics_world(struct status_topics *topics, const struct view *view,
-                        struct reason *reason);
+                        struct error_text *error);
 
 /* Writes EntityNames; same error. */
 int status_topics_names(const struct status_topics *topics, const struct view *view,
-                        struct reason *reason);
+                        struct error_text *error);
 
 /* Writes the ProcessStatus of each role that changed, or was not written for a second. */
 void status_topics_processes(struct status_topics *topics, const struct view *view,

@@ -44,13 +44,13 @@ static const char *video(const struct plan *plan)
     return NULL;
 }
 
-int confine_keeper(const struct plan *plan, struct reason *reason)
+int confine_keeper(const struct plan *plan, struct error_text *error)
 {
     struct folders folders = {.count = 0};
     char runtime[RUNTIME_FOLDER_MAX];
     if (plan->sandbox_off)
         return 0;
-    if (runtime_folder(runtime, reason) != 0)
+    if (runtime_folder(runtime, error) != 0)
         return -1;
     add(&folders, runtime, strlen(runtime));
     add(&folders, SHARED_MEMORY, strlen(SHARED_MEMORY));
@@ -60,5 +60,5 @@ int confine_keeper(const struct plan *plan, struct reason *reason)
     add_folder_of(&folders, plan->events);
     add_folder_of(&folders, plan->checkpoint);
     add_folder_of(&folders, video(plan));
-    return sandbox_keeper(folders.name, folders.count, reason);
+    return sandbox_keeper(folders.name, folders.count, error);
 }

@@ -7,6 +7,6 @@
 /* Confines the calling process, and every process that it starts from now on, to what a set needs:
  * sandbox_keeper() with the folders that the plan's files lie in, the runtime folder, and shared
  * memory. The log and the world must be open. 0, or -1 with the reason. */
-int confine_keeper(const struct plan *plan, struct reason *reason);
+int confine_keeper(const struct plan *plan, struct error_text *error);
 
 #endif

@@ -46,11 +46,11 @@ struct keeper {
     uint64_t begun_ns;
 };
 
-static void give_up(struct keeper *keeper, int code, const char *reason)
+static void give_up(struct keeper *keeper, int code, const char *error)
 {
     keeper->over = keeper->gave_up = true;
     keeper->code = code;
-    process_set_note(&keeper->set, "the set gave up: %s", reason);
+    process_set_note(&keeper->set, "the set gave up: %s", error);
 }
 
 /* Keeps the world as it is before a frame that kills whoever makes it, with what the frame is made
@@ -368,7 +368,7 @@ int main(int argc, char **argv)
 {
     struct plan plan = options_plan(argc, argv);
     struct keeper keeper = {.plan = &plan, .repaired_frame = UINT64_MAX};
-    struct reason reason;
+    struct error_text error;
     struct segment_paths paths;
     log_open("keeper");
     sigemptyset(&keeper.signals);
@@ -382,15 +382,15 @@ int main(int argc, char **argv)
     close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
     /* The script ignored these while it turned into us; blocked, they would be dropped. */
     process_signals();
-    if (segment_paths(&paths, plan.world, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (segment_paths(&paths, plan.world, &error) != 0)
+        die_refused("%s", error.text);
     guard_removes(&paths);
     int ready = open_ready(plan.ready);
     /* The children of a set that was killed die with it, but not in no time. */
-    if (process_set_open(&keeper.set, &plan, &reason) != 0 ||
-        segment_wait_free(plan.world, ROLE_RENDERER, clock_now_ns() + LEFT_NS, &reason) != 0 ||
-        confine_keeper(&plan, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (process_set_open(&keeper.set, &plan, &error) != 0 ||
+        segment_wait_free(plan.world, ROLE_RENDERER, clock_now_ns() + LEFT_NS, &error) != 0 ||
+        confine_keeper(&plan, &error) != 0)
+        die_refused("%s", error.text);
     keeper.begun_ns = keeper.watchdog.last_ns = keeper.watchdog.since_ns = clock_now_ns();
     keeper.progress = progress_begin();
     uint64_t begun_frame = process_set_frame(&keeper.set);
@@ -412,8 +412,8 @@ int main(int argc, char **argv)
     if (keeper.gave_up && begun_frame > 0 && process_set_frame(&keeper.set) == begun_frame)
         process_set_note(&keeper.set, "world \"%s\" stays at frame %" PRIu64, plan.world,
                          begun_frame);
-    else if (segment_remove_own(plan.world, &reason) != 0)
+    else if (segment_remove_own(plan.world, &error) != 0)
         process_set_note(&keeper.set, "%s",
-                         reason.text); /* somebody has a role still, by that lock */
+                         error.text); /* somebody has a role still, by that lock */
     return keeper.code;
 }

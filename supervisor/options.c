@@ -31,11 +31,11 @@ static const struct passing {
 
 static const char *passed_value[PASSINGS]; /* NULL: not given */
 
-static int leave_out(const char *name, const struct error_text *why)
+static int leave_out(const char *name, struct error_text *error)
 {
     enum role role = role_find(name);
     if (role == ROLE_NONE || role == ROLE_INTAKE || restart_policy_makes_frames(role))
-        return error_text_say(why, "there are renderer, reporter, recorder");
+        return error_text_set(error, "there are renderer, reporter, recorder");
     plan.left_out[role] = true;
     return 0;
 }

@@ -25,23 +25,23 @@
 #define POLL_NS       (5 * (uint64_t)NS_PER_MS)
 #define FINISH_NS     (10 * (uint64_t)NS_PER_S) /* for a role's last work to be begun */
 
-int process_set_open(struct process_set *set, const struct plan *plan, struct reason *reason)
+int process_set_open(struct process_set *set, const struct plan *plan, struct error_text *error)
 {
     *set = (struct process_set){.plan = plan, .log_fd = -1};
     ssize_t length = readlink("/proc/self/exe", set->folder, sizeof set->folder - 1);
     char *slash = length > 0 ? strrchr(set->folder, '/') : NULL;
     if (!slash)
-        return reason_set(reason, "/proc/self/exe: cannot read where the programs are");
+        return error_text_set(error, "/proc/self/exe: cannot read where the programs are");
     *slash = '\0';
     set->log_fd = open(plan->log, O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
     if (set->log_fd < 0)
-        return reason_set(reason, "%s: cannot write: %s", plan->log, strerror(errno));
+        return error_text_set(error, "%s: cannot write: %s", plan->log, strerror(errno));
     for (int i = 0; i < ROLE_COUNT; i++) {
         struct post *post = &set->post[i];
         post->role = (enum role)i;
         post->wanted = i == ROLE_CONSOLE ? plan->console : i <= ROLE_RENDERER && !plan->left_out[i];
     }
-    return segment_attach(&set->view, plan->world, ROLE_NONE, reason);
+    return segment_attach(&set->view, plan->world, ROLE_NONE, error);
 }
 
 uint64_t process_set_frame(const struct process_set *set)

@@ -68,7 +68,7 @@ struct process_set {
 };
 
 /* Finds the programs' folder, opens the log, attaches to the world. 0, or -1 with the reason. */
-int process_set_open(struct process_set *set, const struct plan *plan, struct reason *reason);
+int process_set_open(struct process_set *set, const struct plan *plan, struct error_text *error);
 
 /* Starts what is wanted, due and not there. A process that cannot be started is tried again. */
 void process_set_spawn(struct process_set *set, uint64_t now_ns);

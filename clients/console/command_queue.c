@@ -16,12 +16,12 @@
 #include <time.h>
 #include <unistd.h>
 
-int command_queue_open(struct command_queue *queue, const char *world, struct reason *reason)
+int command_queue_open(struct command_queue *queue, const char *world, struct error_text *error)
 {
     *queue = (struct command_queue){.wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
     if (queue->wake_fd < 0)
-        return reason_set(reason, "eventfd: %s", strerror(errno));
-    return command_client_open(&queue->client, command_socket_open(&queue->socket, world), reason);
+        return error_text_set(error, "eventfd: %s", strerror(errno));
+    return command_client_open(&queue->client, command_socket_open(&queue->socket, world), error);
 }
 
 /* --- tickets -----------------------------------------------------------------------------------*/
@@ -89,11 +89,11 @@ static bool name_vehicle(struct command_text *order, const struct player *player
 static bool find_names(const struct command_queue *queue, struct command_text *order,
                        struct http_answer *answer)
 {
-    struct reason reason;
-    if (command_text_resolve(order, &queue->names, 0.0, &reason) == 0)
+    struct error_text error;
+    if (command_text_resolve(order, &queue->names, 0.0, &error) == 0)
         return true;
     http_answer_error(answer, HTTP_ANSWER_CONFLICT, "choose one on the map or in the list",
-                      "%s: %s", order->verb->name, reason.text);
+                      "%s: %s", order->verb->name, error.text);
     return false;
 }
 
@@ -220,7 +220,7 @@ static void send_release(struct command_queue *queue, const struct player *playe
 static void on_drive_reply(struct command_queue *queue, struct player *player,
                            const jolon_CommandReply *reply)
 {
-    char why[sizeof player->lost];
+    char detail[sizeof player->lost];
     player->sent = 0;
     if (reply->result == jolon_RESULT_DONE) {
         if (player->vehicle && player->vehicle != player->sent_for)
@@ -232,9 +232,9 @@ static void on_drive_reply(struct command_queue *queue, struct player *player,
         return;
     }
     if (player->vehicle == player->sent_for) {
-        (void)snprintf(why, sizeof why, "%u: %s", player->vehicle,
+        (void)snprintf(detail, sizeof detail, "%u: %s", player->vehicle,
                        command_result_name((enum command_result)reply->result));
-        players_drop(player, why);
+        players_drop(player, detail);
     } else if (player->wanted == player->sent_for) {
         player->wanted = player->vehicle;
         player->controls = player->accepted;

@@ -54,7 +54,7 @@ struct command_queue {
 };
 
 /* 0, or -1 with the reason. */
-int command_queue_open(struct command_queue *queue, const char *world, struct reason *reason);
+int command_queue_open(struct command_queue *queue, const char *world, struct error_text *error);
 /* Also answers the pending commands: there was no reply. */
 void command_queue_close(struct command_queue *queue);
 

@@ -21,13 +21,13 @@
 
 static struct console console = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-static int choose_token(const struct options *options, struct reason *reason)
+static int choose_token(const struct options *options, struct error_text *error)
 {
     uint8_t bytes[SESSION_KEY_BYTES];
     if (options->token_file)
-        return session_key_file(console.token, options->token_file, reason);
+        return session_key_file(console.token, options->token_file, error);
     if (!session_key_random(bytes))
-        return reason_set(reason, "the system gives no random numbers");
+        return error_text_set(error, "the system gives no random numbers");
     session_key_text(console.token, bytes);
     return 0;
 }
@@ -66,7 +66,7 @@ static void turn(uint64_t now_ns)
         if (console.reader.there)
             log_info("world \"%s\" is there", console.reader.name);
         else
-            log_info("%s; waiting for it", console.reader.why.text);
+            log_info("%s; waiting for it", console.reader.detail.text);
     }
     command_queue_turn(&console.queue, &console.players, &console.reader, now_ns);
     pthread_mutex_unlock(&console.lock);
@@ -78,7 +78,7 @@ int main(int argc, char **argv)
     struct options options;
     struct sandbox sandbox;
     struct view set = {0}; /* attached in the role, if this is the set's console */
-    struct reason reason;
+    struct error_text error;
     char folder[RUNTIME_FOLDER_MAX];
     log_open("console");
     options_parse(&options, argc, argv);
@@ -92,18 +92,18 @@ int main(int argc, char **argv)
                                               .address = options.address,
                                               .port = (uint16_t)options.port};
     world_reader_open(&console.reader, options.world);
-    if (runtime_folder(folder, &reason) != 0 || choose_token(&options, &reason) != 0 ||
-        (options.role && segment_attach(&set, options.world, ROLE_CONSOLE, &reason) != 0) ||
-        sandbox_begin(&sandbox, ROLE_CONSOLE, options.sandbox_off, &reason) != 0 ||
-        sandbox_files(&sandbox, NULL, 0, &reason) != 0 ||
-        http_listen(&console.listener, &where, &reason) != 0 ||
-        command_queue_open(&console.queue, options.world, &reason) != 0 ||
-        picture_proxy_open(&console.proxy, options.world, &reason) != 0 ||
-        server_start(&console, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (runtime_folder(folder, &error) != 0 || choose_token(&options, &error) != 0 ||
+        (options.role && segment_attach(&set, options.world, ROLE_CONSOLE, &error) != 0) ||
+        sandbox_begin(&sandbox, ROLE_CONSOLE, options.sandbox_off, &error) != 0 ||
+        sandbox_files(&sandbox, NULL, 0, &error) != 0 ||
+        http_listen(&console.listener, &where, &error) != 0 ||
+        command_queue_open(&console.queue, options.world, &error) != 0 ||
+        picture_proxy_open(&console.proxy, options.world, &error) != 0 ||
+        server_start(&console, &error) != 0)
+        die_refused("%s", error.text);
     greet(&options); /* the first word to a terminal asks what it is: not in the sandbox */
-    if (sandbox_enter(&sandbox, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (sandbox_enter(&sandbox, &error) != 0)
+        die_refused("%s", error.text);
     if (options.role)
         segment_ready(&set);
     while (!process_stopping()) {

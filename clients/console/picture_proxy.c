@@ -242,7 +242,7 @@ static void *run(void *argument)
     return NULL;
 }
 
-int picture_proxy_open(struct picture_proxy *proxy, const char *world, struct reason *reason)
+int picture_proxy_open(struct picture_proxy *proxy, const char *world, struct error_text *error)
 {
     sigset_t all, before;
     int cause = 0;
@@ -260,7 +260,7 @@ int picture_proxy_open(struct picture_proxy *proxy, const char *world, struct re
     if (cause == 0)
         return 0;
     picture_proxy_close(proxy);
-    return reason_set(reason, "cannot start a thread for pictures: %s", strerror(cause));
+    return error_text_set(error, "cannot start a thread for pictures: %s", strerror(cause));
 }
 
 void picture_proxy_close(struct picture_proxy *proxy)

@@ -63,7 +63,7 @@ struct picture_proxy {
 };
 
 /* Starts the threads. 0, or -1 with the reason. */
-int picture_proxy_open(struct picture_proxy *proxy, const char *world, struct reason *reason);
+int picture_proxy_open(struct picture_proxy *proxy, const char *world, struct error_text *error);
 /* Answers the waiting requests and ends the threads. */
 void picture_proxy_close(struct picture_proxy *proxy);
 

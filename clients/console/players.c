@@ -63,11 +63,11 @@ bool players_present(const struct player *player, uint64_t now_ns)
     return now_ns < player->heard_ns + PLAYERS_HOLD_NS;
 }
 
-void players_drop(struct player *player, const char *why)
+void players_drop(struct player *player, const char *error)
 {
     player->vehicle = player->wanted = 0;
     player->sent = 0;
     player->controls = player->accepted = (struct controls){0};
     memset(player->lost, 0, sizeof player->lost);
-    strncpy(player->lost, why, sizeof player->lost - 1);
+    strncpy(player->lost, error, sizeof player->lost - 1);
 }

@@ -65,6 +65,6 @@ const struct player *players_driver(const struct players *players, uint32_t vehi
 bool players_present(const struct player *player, uint64_t now_ns);
 
 /* It drives nothing any more; why: in words, "" when it wanted so. */
-void players_drop(struct player *player, const char *why);
+void players_drop(struct player *player, const char *error);
 
 #endif

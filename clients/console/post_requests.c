@@ -57,7 +57,7 @@ static bool command(struct request *request, struct player *player, struct http_
     }
     if (console->ending || !console->reader.there) {
         http_answer_error(answer, HTTP_ANSWER_AWAY, "wait until it is there", "%s",
-                          console->ending ? "the console ends" : console->reader.why.text);
+                          console->ending ? "the console ends" : console->reader.detail.text);
         return true;
     }
     if (!request_body_order(&pending->order, &pending->cancel, request->http->body,

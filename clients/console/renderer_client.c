@@ -69,9 +69,9 @@ bool renderer_client_read(struct picture_copy *copy)
 static int connect_renderer(const char *world)
 {
     char suffix[LOCAL_SOCKET_SUFFIX_MAX];
-    struct reason reason;
+    struct error_text error;
     picture_socket_suffix(suffix, ROLE_RENDERER);
-    return local_socket_connect(world, suffix, SOCK_STREAM | SOCK_NONBLOCK, &reason);
+    return local_socket_connect(world, suffix, SOCK_STREAM | SOCK_NONBLOCK, &error);
 }
 
 static bool wait_for(int fd, short what, uint64_t until_ns)

@@ -73,13 +73,13 @@ static bool is_ours(const struct command_text *order, struct http_answer *answer
 
 static bool read_order(struct command_text *order, const cJSON *object, struct http_answer *answer)
 {
-    struct reason reason;
-    if (command_json_give(order, object, &reason) == 0) {
+    struct error_text error;
+    if (command_json_give(order, object, &error) == 0) {
         assume(order);
-        if (command_text_end(order, &reason) == 0)
+        if (command_text_end(order, &error) == 0)
             return is_ours(order, answer);
     }
-    http_answer_error(answer, HTTP_ANSWER_BAD, again, "%s", reason.text);
+    http_answer_error(answer, HTTP_ANSWER_BAD, again, "%s", error.text);
     return false;
 }
 

@@ -227,7 +227,7 @@ static void on_end(void *context, struct http_request *http)
     picture_proxy_release(request->waiter.copy);
 }
 
-int server_start(struct console *console, struct reason *reason)
+int server_start(struct console *console, struct error_text *error)
 {
     const struct http_handler handler = {.context = console,
                                          .own_bytes = sizeof(struct request),
@@ -236,7 +236,7 @@ int server_start(struct console *console, struct reason *reason)
                                          .answer = on_request,
                                          .refuse = refuse,
                                          .end = on_end};
-    console->http = http_server_start(&console->listener, &handler, reason);
+    console->http = http_server_start(&console->listener, &handler, error);
     return console->http ? 0 : -1;
 }
 

@@ -28,7 +28,7 @@ struct console {
 };
 
 /* Starts to serve on the listener, which becomes the server's. 0, or -1 with the reason. */
-int server_start(struct console *console, struct reason *reason);
+int server_start(struct console *console, struct error_text *error);
 
 /* Ends all connections and the thread. */
 void server_end(struct console *console);

@@ -31,24 +31,24 @@ bool session_key_random(uint8_t bytes[SESSION_KEY_BYTES])
     return getrandom(bytes, SESSION_KEY_BYTES, 0) == (ssize_t)SESSION_KEY_BYTES;
 }
 
-static int make_file(char token[SESSION_KEY_MAX], const char *path, struct reason *reason)
+static int make_file(char token[SESSION_KEY_MAX], const char *path, struct error_text *error)
 {
     uint8_t bytes[SESSION_KEY_BYTES];
     char line[SESSION_KEY_TEXT + 1];
     if (!session_key_random(bytes))
-        return reason_set(reason, "the system gives no random numbers");
+        return error_text_set(error, "the system gives no random numbers");
     session_key_text(token, bytes);
     size_t count = (size_t)snprintf(line, sizeof line, "%s\n", token);
     int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (fd < 0)
-        return reason_set(reason, "--token-file %s: cannot make it: %s", path, strerror(errno));
+        return error_text_set(error, "--token-file %s: cannot make it: %s", path, strerror(errno));
     bool written = write(fd, line, count) == (ssize_t)count;
     if (close(fd) != 0 || !written)
-        return reason_set(reason, "--token-file %s: cannot write it: %s", path, strerror(errno));
+        return error_text_set(error, "--token-file %s: cannot write it: %s", path, strerror(errno));
     return 0;
 }
 
-int session_key_file(char token[SESSION_KEY_MAX], const char *path, struct reason *reason)
+int session_key_file(char token[SESSION_KEY_MAX], const char *path, struct error_text *error)
 {
     static const char letters[] =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
@@ -56,20 +56,22 @@ int session_key_file(char token[SESSION_KEY_MAX], const char *path, struct reaso
     struct stat status;
     int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (fd < 0)
-        return errno == ENOENT ? make_file(token, path, reason)
-                               : reason_set(reason, "--token-file %s: %s", path, strerror(errno));
+        return errno == ENOENT
+                   ? make_file(token, path, error)
+                   : error_text_set(error, "--token-file %s: %s", path, strerror(errno));
     ssize_t count = fstat(fd, &status) == 0 ? read(fd, line, sizeof line - 1) : -1;
     close(fd);
     if (count < 0 || !S_ISREG(status.st_mode))
-        return reason_set(reason, "--token-file %s: is no file that can be read", path);
+        return error_text_set(error, "--token-file %s: is no file that can be read", path);
     if (status.st_mode & 077)
-        return reason_set(reason, "--token-file %s: others may read it; chmod 600 %s", path, path);
+        return error_text_set(error, "--token-file %s: others may read it; chmod 600 %s", path,
+                              path);
     line[count] = '\0';
     size_t length = strspn(line, letters);
     if (length < LEAST || length >= SESSION_KEY_MAX || line[length + strspn(line + length, "\r\n")])
-        return reason_set(reason,
-                          "--token-file %s: wants one line of %u to %u letters, digits, - or _",
-                          path, LEAST, SESSION_KEY_MAX - 1);
+        return error_text_set(error,
+                              "--token-file %s: wants one line of %u to %u letters, digits, - or _",
+                              path, LEAST, SESSION_KEY_MAX - 1);
     memcpy(token, line, length);
     token[length] = '\0';
     return 0;

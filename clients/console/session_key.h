@@ -24,6 +24,6 @@ bool session_key_random(uint8_t bytes[SESSION_KEY_BYTES]);
 /* The token that a file holds, one line of 16 to 128 letters, digits, - or _; a file that is not
  * there is made with a new one, mode 0600. 0, or -1 with the reason: others may read it, it holds
  * something else. */
-int session_key_file(char token[SESSION_KEY_MAX], const char *path, struct reason *reason);
+int session_key_file(char token[SESSION_KEY_MAX], const char *path, struct error_text *error);
 
 #endif

@@ -8,7 +8,7 @@ bool world_query_attached(const struct world_query *query, struct http_answer *a
     http_answer_error(answer, HTTP_ANSWER_AWAY,
                       "this page goes on by itself when it is there; jolon start makes one, jolon "
                       "worlds lists those there are",
-                      "%s", query->reader->why.text);
+                      "%s", query->reader->detail.text);
     return false;
 }
 
@@ -19,7 +19,7 @@ bool world_query_copied(const struct world_query *query, struct http_answer *ans
     if (world_reader_copy(query->reader, query->now_ns) == 0)
         return true;
     http_answer_error(answer, HTTP_ANSWER_AWAY, "jolon world check tells what is wrong with it",
-                      "%s", query->reader->why.text);
+                      "%s", query->reader->detail.text);
     return false;
 }
 

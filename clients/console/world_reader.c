@@ -16,7 +16,7 @@
 void world_reader_open(struct world_reader *reader, const char *name)
 {
     *reader = (struct world_reader){.name = name};
-    reason_set(&reader->why, "world \"%s\" is not there yet", name);
+    error_text_set(&reader->detail, "world \"%s\" is not there yet", name);
 }
 
 static void let_go(struct world_reader *reader)
@@ -36,14 +36,14 @@ void world_reader_close(struct world_reader *reader)
 
 /* The object that the name leads to now; false with the reason when it leads nowhere. */
 static bool find_object(const struct world_reader *reader, char object[SEGMENT_PATH_MAX],
-                        struct reason *why)
+                        struct error_text *detail)
 {
     struct segment_paths paths;
-    if (segment_paths(&paths, reader->name, why) != 0)
+    if (segment_paths(&paths, reader->name, detail) != 0)
         return false;
     memcpy(object, paths.object, sizeof paths.object);
     if (object[0] == '\0')
-        reason_set(why, "world \"%s\" is not there", reader->name);
+        error_text_set(detail, "world \"%s\" is not there", reader->name);
     return object[0] != '\0';
 }
 
@@ -65,15 +65,17 @@ static void note_turrets(struct world_reader *reader)
 static bool attach(struct world_reader *reader)
 {
     char before[SEGMENT_PATH_MAX];
-    if (!find_object(reader, before, &reader->why))
+    if (!find_object(reader, before, &reader->detail))
         return false;
-    if (segment_attach(&reader->view, reader->name, ROLE_NONE, &reader->why) != 0)
+    if (segment_attach(&reader->view, reader->name, ROLE_NONE, &reader->detail) != 0)
         return false;
-    if (!find_object(reader, reader->object, &reader->why) || strcmp(before, reader->object) != 0 ||
+    if (!find_object(reader, reader->object, &reader->detail) ||
+        strcmp(before, reader->object) != 0 ||
         snapshot_init(&reader->snapshot, &reader->view) != 0) {
         segment_detach(&reader->view);
-        reason_set(&reader->why, "world \"%s\" is being made, or there is no memory for a copy",
-                   reader->name);
+        error_text_set(&reader->detail,
+                       "world \"%s\" is being made, or there is no memory for a copy",
+                       reader->name);
         return false;
     }
     reader->there = true;
@@ -84,8 +86,9 @@ static bool attach(struct world_reader *reader)
 static bool look(struct world_reader *reader)
 {
     char object[SEGMENT_PATH_MAX];
-    struct reason why;
-    if (reader->there && find_object(reader, object, &why) && strcmp(object, reader->object) == 0)
+    struct error_text detail;
+    if (reader->there && find_object(reader, object, &detail) &&
+        strcmp(object, reader->object) == 0)
         return false;
     bool was_there = reader->there;
     let_go(reader);
@@ -143,7 +146,8 @@ int world_reader_copy(struct world_reader *reader, uint64_t now_ns)
         reader->copied = true;
     /* The one before is whole and still serves; a world that stays damaged says so itself. */
     if (!reader->copied)
-        reason_set(&reader->why, "world \"%s\": no frame of it can be read whole", reader->name);
+        error_text_set(&reader->detail, "world \"%s\": no frame of it can be read whole",
+                       reader->name);
     return reader->copied ? 0 : -1;
 }
 

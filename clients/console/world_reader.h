@@ -19,8 +19,8 @@
 
 struct world_reader {
     const char *name;
-    bool there;        /* what follows is attached */
-    struct reason why; /* there is none */
+    bool there;               /* what follows is attached */
+    struct error_text detail; /* there is none */
     struct view view;
     char object[SEGMENT_PATH_MAX]; /* the one that is mapped */
     bool turret[KIND_COUNT_MAX];   /* has the kind one? */

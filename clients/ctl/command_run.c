@@ -81,14 +81,14 @@ int command_run(struct ctl *ctl, struct command_text *order, uint32_t line)
 {
     struct result_text_place place = {
         .world = ctl->request.world, .line = line, .rounds = order->rounds};
-    struct reason reason;
+    struct error_text error;
     if (command_text_needs_names(order) || command_text_needs_hz(order)) {
         if (!lookup_wait(&ctl->lookup, limit(ctl))) {
             say_silence(ctl, order);
             return EXIT_GAVE_UP;
         }
-        if (command_text_resolve(order, &ctl->lookup.names, ctl->lookup.hz, &reason) != 0) {
-            (void)fprintf(stderr, "jolon-ctl: %s: %s\n", order->verb->name, reason.text);
+        if (command_text_resolve(order, &ctl->lookup.names, ctl->lookup.hz, &error) != 0) {
+            (void)fprintf(stderr, "jolon-ctl: %s: %s\n", order->verb->name, error.text);
             return EXIT_REFUSED;
         }
     }

@@ -11,13 +11,13 @@
 
 static bool open_readers(struct lookup *lookup)
 {
-    struct reason reason;
-    if (names_reader_open(&lookup->names_reader, lookup->link, &reason) != 0)
+    struct error_text error;
+    if (names_reader_open(&lookup->names_reader, lookup->link, &error) != 0)
         return false;
-    lookup->world = dds_topics_reader(lookup->link, TOPIC_WORLD, &reason);
+    lookup->world = dds_topics_reader(lookup->link, TOPIC_WORLD, &error);
     lookup->reading = true;
     const dds_entity_t readers[] = {lookup->world, lookup->names_reader.reader};
-    lookup->waitset = dds_topics_waitset(lookup->link, readers, 2, &reason);
+    lookup->waitset = dds_topics_waitset(lookup->link, readers, 2, &error);
     return lookup->world >= 0 && lookup->waitset >= 0;
 }
 

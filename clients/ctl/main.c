@@ -22,14 +22,14 @@ static int obey_lines(struct ctl *ctl)
 {
     char line[CTL_LINE_MAX];
     struct command_text order;
-    struct reason reason;
+    struct error_text error;
     int worst = EXIT_OK;
     for (uint32_t number = 1; !process_stopping() && fgets(line, sizeof line, stdin); number++) {
         int result = too_long(line)
-                         ? reason_set(&reason, "longer than %u letters", CTL_LINE_MAX - 2)
-                         : ctl_parse_line(&order, line, &reason);
+                         ? error_text_set(&error, "longer than %u letters", CTL_LINE_MAX - 2)
+                         : ctl_parse_line(&order, line, &error);
         if (result < 0)
-            (void)fprintf(stderr, "jolon-ctl: line %u: %s\n", number, reason.text);
+            (void)fprintf(stderr, "jolon-ctl: line %u: %s\n", number, error.text);
         int code = result == 0  ? command_run(ctl, &order, number)
                    : result < 0 ? EXIT_REFUSED
                                 : EXIT_OK;
@@ -41,28 +41,28 @@ static int obey_lines(struct ctl *ctl)
 }
 
 /* Nothing of the world is locked: it may be removed meanwhile. */
-static int open_world(struct ctl *ctl, struct reason *reason)
+static int open_world(struct ctl *ctl, struct error_text *error)
 {
     const struct ctl_request *request = &ctl->request;
     if (request->remote) {
         ctl->lookup.link = &ctl->link;
-        return dds_link_open(&ctl->link, &request->link, request->world, reason);
+        return dds_link_open(&ctl->link, &request->link, request->world, error);
     }
     ctl->lookup.view = &ctl->view;
-    return segment_attach(&ctl->view, request->world, ROLE_NONE, reason);
+    return segment_attach(&ctl->view, request->world, ROLE_NONE, error);
 }
 
 int main(int argc, char **argv)
 {
     static struct ctl ctl;
-    struct reason reason;
+    struct error_text error;
     log_open("ctl");
     ctl_parse(&ctl.request, argc, argv);
     process_signals();
-    if (open_world(&ctl, &reason) != 0 ||
+    if (open_world(&ctl, &error) != 0 ||
         command_route_open(&ctl.route, &ctl.client, ctl.request.remote, &ctl.link,
-                           ctl.request.world, &reason) != 0)
-        die_refused("%s", reason.text);
+                           ctl.request.world, &error) != 0)
+        die_refused("%s", error.text);
     int code = ctl.request.lines ? obey_lines(&ctl) : command_run(&ctl, &ctl.request.order, 0);
     (void)fflush(stdout);
     lookup_close(&ctl.lookup);

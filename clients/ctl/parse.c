@@ -63,32 +63,32 @@ static const char usage[] =
     "options:";
 
 static int give(struct command_text *order, enum command_text_field field, const char *text,
-                const char *label, struct reason *reason)
+                const char *label, struct error_text *error)
 {
-    struct reason why;
+    struct error_text detail;
     struct command_text_value value = {.text = text, .loose = true};
     if (command_text_field_is_truth(field))
         value = (struct command_text_value){.truth = true, .is_truth = true};
-    if (command_text_give(order, field, &value, &why) != 0)
-        return reason_set(reason, "%s: %s%.400s", order->verb->name, label, why.text);
+    if (command_text_give(order, field, &value, &detail) != 0)
+        return error_text_set(error, "%s: %s%.400s", order->verb->name, label, detail.text);
     return 0;
 }
 
-static int give_at(struct command_text *order, const char *text, struct reason *reason)
+static int give_at(struct command_text *order, const char *text, struct error_text *error)
 {
     char x[64];
     const char *comma = strchr(text, ',');
     if (!comma || (size_t)(comma - text) >= sizeof x)
-        return reason_set(
-            reason, "--at %.64s: not a place like 25000,24000 (metres east, metres south)", text);
+        return error_text_set(
+            error, "--at %.64s: not a place like 25000,24000 (metres east, metres south)", text);
     memcpy(x, text, (size_t)(comma - text));
     x[comma - text] = '\0';
-    return give(order, COMMAND_TEXT_X, x, "--at X ", reason) != 0
+    return give(order, COMMAND_TEXT_X, x, "--at X ", error) != 0
                ? -1
-               : give(order, COMMAND_TEXT_Z, comma + 1, "--at Z ", reason);
+               : give(order, COMMAND_TEXT_Z, comma + 1, "--at Z ", error);
 }
 
-static int give_options(struct command_text *order, struct reason *reason)
+static int give_options(struct command_text *order, struct error_text *error)
 {
     char label[32];
     for (int i = 0; i < COMMAND_TEXT_FIELD_COUNT; i++) {
@@ -97,38 +97,39 @@ static int give_options(struct command_text *order, struct reason *reason)
             continue;
         (void)snprintf(label, sizeof label, "--%s ", command_text_field_option(field));
         if (!(order->verb->allowed & 1u << i))
-            return reason_set(reason, "%s: does not take --%s", order->verb->name,
-                              command_text_field_option(field));
-        if (give(order, field, words.value[i], label, reason) != 0)
+            return error_text_set(error, "%s: does not take --%s", order->verb->name,
+                                  command_text_field_option(field));
+        if (give(order, field, words.value[i], label, error) != 0)
             return -1;
     }
     if (words.at && !(order->verb->allowed & 1u << COMMAND_TEXT_X))
-        return reason_set(reason, "%s: does not take --at", order->verb->name);
-    return words.at ? give_at(order, words.at, reason) : 0;
+        return error_text_set(error, "%s: does not take --at", order->verb->name);
+    return words.at ? give_at(order, words.at, error) : 0;
 }
 
 /* The order of a verb, what follows it, and the options. */
-static int make_order(struct command_text *order, int count, char **plain, struct reason *reason)
+static int make_order(struct command_text *order, int count, char **plain, struct error_text *error)
 {
     if (count < 1)
-        return reason_set(reason, "which command? jolon-ctl --help lists them");
-    if (command_text_begin(order, plain[0], reason) != 0)
+        return error_text_set(error, "which command? jolon-ctl --help lists them");
+    if (command_text_begin(order, plain[0], error) != 0)
         return -1;
     enum command_text_field operand = order->verb->operand;
     int most = operand == COMMAND_TEXT_FIELD_COUNT ? 1 : 2;
     if (count > most)
-        return reason_set(reason, "%s: '%.64s' is too much; jolon-ctl --help shows what it takes",
-                          order->verb->name, plain[most]);
-    if (count == 2 && give(order, operand, plain[1], "", reason) != 0)
+        return error_text_set(error,
+                              "%s: '%.64s' is too much; jolon-ctl --help shows what it takes",
+                              order->verb->name, plain[most]);
+    if (count == 2 && give(order, operand, plain[1], "", error) != 0)
         return -1;
     if (count < most && (order->verb->needed & 1u << operand) && !words.value[operand])
-        return reason_set(reason, "%s: of what? jolon-ctl --help shows what it takes",
-                          order->verb->name);
-    if (give_options(order, reason) != 0)
+        return error_text_set(error, "%s: of what? jolon-ctl --help shows what it takes",
+                              order->verb->name);
+    if (give_options(order, error) != 0)
         return -1;
     if (order->command.type == jolon_COMMAND_SPAWN && !(order->given & 1u << COMMAND_TEXT_X))
-        return reason_set(reason, "spawn: where? --at X,Z in metres east and south");
-    return command_text_end(order, reason);
+        return error_text_set(error, "spawn: where? --at X,Z in metres east and south");
+    return command_text_end(order, error);
 }
 
 void ctl_parse(struct ctl_request *request, int argc, char **argv)
@@ -141,7 +142,7 @@ void ctl_parse(struct ctl_request *request, int argc, char **argv)
         .ending = "--dds-config, --interface and --domain go with --remote alone.\n"
                   "exit: 0 done, 1 refused or no reply, 2 usage\n",
         .plain = INT_MAX};
-    struct reason reason;
+    struct error_text error;
     given = (struct ctl_request){.world = "default", .timeout_s = 5.0, .link.domain = DOMAIN_NONE};
     memset(&words, 0, sizeof words);
     int count = option_table_read(&table, argc, argv);
@@ -157,12 +158,12 @@ void ctl_parse(struct ctl_request *request, int argc, char **argv)
         options |= words.value[i] != NULL;
     if (given.lines && options)
         die_usage("-: the options of a command stand in its line");
-    if (!given.lines && make_order(&given.order, count, plain, &reason) != 0)
-        die_usage("%s", reason.text);
+    if (!given.lines && make_order(&given.order, count, plain, &error) != 0)
+        die_usage("%s", error.text);
     *request = given;
 }
 
-int ctl_parse_line(struct command_text *order, char *line, struct reason *reason)
+int ctl_parse_line(struct command_text *order, char *line, struct error_text *error)
 {
     static char program[] = "jolon-ctl";
     const struct option_table table = {.program = program, .rows = order_rows(), .plain = INT_MAX};
@@ -171,13 +172,13 @@ int ctl_parse_line(struct command_text *order, char *line, struct reason *reason
     for (char *word = strtok_r(line, " \t\r\n", &rest); word;
          word = strtok_r(NULL, " \t\r\n", &rest)) {
         if (count == WORDS_MAX)
-            return reason_set(reason, "more than %d words; a command has no more", WORDS_MAX - 1);
+            return error_text_set(error, "more than %d words; a command has no more",
+                                  WORDS_MAX - 1);
         argument[count++] = word;
     }
     if (count == 1 || argument[1][0] == '#')
         return 1;
     memset(&words, 0, sizeof words);
-    int plain = option_table_try(&table, count, argument,
-                                 &(struct error_text){reason->text, sizeof reason->text});
-    return plain < 0 ? -1 : make_order(order, plain, argument + count - plain, reason);
+    int plain = option_table_try(&table, count, argument, error);
+    return plain < 0 ? -1 : make_order(order, plain, argument + count - plain, error);
 }

@@ -25,6 +25,6 @@ void ctl_parse(struct ctl_request *request, int argc, char **argv);
 
 /* An order of standard input: a verb and its arguments, as on the command line. Changes the line.
  * 0; 1 for an empty line or a comment (#); -1 with the reason. */
-int ctl_parse_line(struct command_text *order, char *line, struct reason *reason);
+int ctl_parse_line(struct command_text *order, char *line, struct error_text *error);
 
 #endif

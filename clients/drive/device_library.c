@@ -6,18 +6,18 @@
 
 int device_library_open(const char *name, const char *package,
                         const struct device_library_function *functions, size_t count,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     void *library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
     if (!library)
-        return reason_set(reason, "%s is not installed; on Debian and Ubuntu: apt-get install %s",
-                          name, package);
+        return error_text_set(
+            error, "%s is not installed; on Debian and Ubuntu: apt-get install %s", name, package);
     for (size_t i = 0; i < count; i++) {
         /* dlsym() tells functions as objects, which C keeps apart. */
         void *found = dlsym(library, functions[i].name);
         if (!found)
-            return reason_set(reason, "%s lacks %s; a newer %s has it", name, functions[i].name,
-                              package);
+            return error_text_set(error, "%s lacks %s; a newer %s has it", name, functions[i].name,
+                                  package);
         memcpy(functions[i].to, &found, sizeof found);
     }
     return 0;

@@ -16,6 +16,6 @@ struct device_library_function {
  * install. It stays open. */
 int device_library_open(const char *name, const char *package,
                         const struct device_library_function *functions, size_t count,
-                        struct reason *reason);
+                        struct error_text *error);
 
 #endif

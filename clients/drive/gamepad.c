@@ -157,13 +157,14 @@ static void read_ranges(struct gamepad *gamepad)
     }
 }
 
-static int open_device(struct input *input, const char *path, struct reason *reason)
+static int open_device(struct input *input, const char *path, struct error_text *error)
 {
     struct libevdev *device = NULL;
     int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0)
-        return reason_set(reason, "%s: %s%s", path, strerror(errno),
-                          errno == EACCES ? "; the group input may read it (docs/driving.md)" : "");
+        return error_text_set(error, "%s: %s%s", path, strerror(errno),
+                              errno == EACCES ? "; the group input may read it (docs/driving.md)"
+                                              : "");
     int code = evdev.new_from_fd(fd, &device);
     struct gamepad *gamepad = calloc(1, sizeof *gamepad);
     if (code < 0 || !gamepad || !suits(device)) {
@@ -171,7 +172,7 @@ static int open_device(struct input *input, const char *path, struct reason *rea
             evdev.free(device);
         free(gamepad);
         (void)close(fd);
-        return reason_set(reason, "%s: is no gamepad or joystick", path);
+        return error_text_set(error, "%s: is no gamepad or joystick", path);
     }
     gamepad->device = device;
     read_ranges(gamepad);
@@ -182,10 +183,10 @@ static int open_device(struct input *input, const char *path, struct reason *rea
 }
 
 /* The first that suits, by the number of its node. */
-static int find_device(struct input *input, struct reason *reason)
+static int find_device(struct input *input, struct error_text *error)
 {
     struct dirent **entry = NULL;
-    struct reason why = {0};
+    struct error_text detail = {0};
     bool denied = false;
     int found = -1;
     int count = scandir(FOLDER, &entry, NULL, versionsort);
@@ -193,7 +194,7 @@ static int find_device(struct input *input, struct reason *reason)
         char path[sizeof FOLDER + sizeof entry[i]->d_name];
         (void)snprintf(path, sizeof path, FOLDER "/%s", entry[i]->d_name);
         if (found != 0 && strncmp(entry[i]->d_name, "event", 5) == 0) {
-            found = open_device(input, path, &why);
+            found = open_device(input, path, &detail);
             denied = denied || (found != 0 && access(path, R_OK) != 0);
         }
         free(entry[i]);
@@ -201,15 +202,15 @@ static int find_device(struct input *input, struct reason *reason)
     free(entry);
     if (found == 0)
         return 0;
-    return reason_set(reason, "no gamepad among " FOLDER "/event*%s",
-                      denied ? "; some may not be read: the group input may (docs/driving.md)"
-                             : "");
+    return error_text_set(error, "no gamepad among " FOLDER "/event*%s",
+                          denied ? "; some may not be read: the group input may (docs/driving.md)"
+                                 : "");
 }
 
-int gamepad_open(struct input *input, const char *path, struct reason *reason)
+int gamepad_open(struct input *input, const char *path, struct error_text *error)
 {
     if (device_library_open(LIBRARY, PACKAGE, functions, sizeof functions / sizeof functions[0],
-                            reason) != 0)
+                            error) != 0)
         return -1;
-    return path ? open_device(input, path, reason) : find_device(input, reason);
+    return path ? open_device(input, path, error) : find_device(input, error);
 }

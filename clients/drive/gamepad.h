@@ -23,6 +23,6 @@ void gamepad_decode(struct gamepad *gamepad, uint16_t type, uint16_t code, int32
                     struct intents *queue);
 
 /* Opens the device; path: NULL for the first gamepad found. 0, or -1 with the reason. */
-int gamepad_open(struct input *input, const char *path, struct reason *reason);
+int gamepad_open(struct input *input, const char *path, struct error_text *error);
 
 #endif

@@ -19,36 +19,36 @@ static void say(struct inputs *inputs, const char *text)
 }
 
 /* 0 when it may be done without. */
-static int opened(struct inputs *inputs, int result, bool needed, const struct reason *why,
-                  struct reason *reason)
+static int opened(struct inputs *inputs, int result, bool needed, struct error_text *detail,
+                  struct error_text *error)
 {
     if (result == 0)
         say(inputs, inputs->input[inputs->count++].what);
     else if (needed)
-        return reason_set(reason, "%s", why->text);
+        return error_text_set(error, "%s", detail->text);
     else
-        say(inputs, why->text);
+        say(inputs, detail->text);
     return 0;
 }
 
 int inputs_open(struct inputs *inputs, enum inputs_choice choice, const char *path,
-                struct reason *reason)
+                struct error_text *error)
 {
-    struct reason why;
+    struct error_text detail;
     *inputs = (struct inputs){0};
-    if (terminal_keys_open(&inputs->input[0], reason) != 0)
+    if (terminal_keys_open(&inputs->input[0], error) != 0)
         return -1;
     inputs->count = 1;
     say(inputs, inputs->input[0].what);
     bool gamepad = choice == INPUTS_GAMEPAD || path;
     bool spacemouse = choice == INPUTS_SPACEMOUSE;
     if ((gamepad || choice == INPUTS_AUTO) &&
-        opened(inputs, gamepad_open(&inputs->input[inputs->count], path, &why), gamepad, &why,
-               reason) != 0)
+        opened(inputs, gamepad_open(&inputs->input[inputs->count], path, &detail), gamepad, &detail,
+               error) != 0)
         return -1;
     if ((spacemouse || choice == INPUTS_AUTO) &&
-        opened(inputs, spacemouse_open(&inputs->input[inputs->count], &why), spacemouse, &why,
-               reason) != 0)
+        opened(inputs, spacemouse_open(&inputs->input[inputs->count], &detail), spacemouse, &detail,
+               error) != 0)
         return -1;
     return 0;
 }

@@ -19,7 +19,7 @@ struct inputs {
 /* Opens keys, and of the devices those chosen: with INPUTS_AUTO what is there, else the one named,
  * without which it is refused. path: of the gamepad, NULL for any. */
 int inputs_open(struct inputs *inputs, enum inputs_choice choice, const char *path,
-                struct reason *reason);
+                struct error_text *error);
 void inputs_close(struct inputs *inputs);
 
 /* Waits until something can be read, at most until_ns (CLOCK_MONOTONIC), and reads it. Keys are

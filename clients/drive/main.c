@@ -76,12 +76,12 @@ static void run(struct drive *drive)
 }
 
 /* A world of one's own that is not there will not come by itself; one elsewhere may. */
-static int look_for_world(const struct options *options, struct reason *reason)
+static int look_for_world(const struct options *options, struct error_text *error)
 {
     struct view view;
     if (options->remote)
         return 0;
-    if (segment_attach(&view, options->world, ROLE_NONE, reason) != 0)
+    if (segment_attach(&view, options->world, ROLE_NONE, error) != 0)
         return -1;
     segment_detach(&view);
     return 0;
@@ -89,22 +89,22 @@ static int look_for_world(const struct options *options, struct reason *reason)
 
 static void open_all(struct drive *drive)
 {
-    struct reason reason;
+    struct error_text error;
     const struct options *options = &drive->options;
-    if (look_for_world(options, &reason) != 0 ||
-        inputs_open(&drive->inputs, options->input, options->device, &reason) != 0 ||
-        dds_link_open(&drive->link, &options->link, options->world, &reason) != 0 ||
-        world_mirror_open(&drive->mirror, &drive->link, options->world, true, &reason) != 0 ||
-        event_merge_open(&drive->merge, &drive->link, recent_events_format, &reason) != 0 ||
+    if (look_for_world(options, &error) != 0 ||
+        inputs_open(&drive->inputs, options->input, options->device, &error) != 0 ||
+        dds_link_open(&drive->link, &options->link, options->world, &error) != 0 ||
+        world_mirror_open(&drive->mirror, &drive->link, options->world, true, &error) != 0 ||
+        event_merge_open(&drive->merge, &drive->link, recent_events_format, &error) != 0 ||
         command_route_open(&drive->route, &drive->client, options->remote, &drive->link,
-                           options->world, &reason) != 0)
-        die_refused("%s", reason.text);
+                           options->world, &error) != 0)
+        die_refused("%s", error.text);
     session_open(&drive->session, &drive->mirror, &drive->client, options->wanted, clock_now_ns());
     drive->events.session = &drive->session;
     drive->period_ns = (uint64_t)(NS_PER_S / options->rate_hz);
     drive->plain.period_ns = drive->period_ns;
-    if (!options->plain && screen_open(&reason) != 0)
-        die_refused("%s", reason.text);
+    if (!options->plain && screen_open(&error) != 0)
+        die_refused("%s", error.text);
     terminal_take(!options->plain);
 }
 

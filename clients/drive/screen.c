@@ -24,11 +24,11 @@ enum pair { PAIR_PLAIN, PAIR_BLUE, PAIR_RED, PAIR_WATER, PAIR_WARN };
 #define FOOT_ROWS     4 /* look, others, notice, keys */
 #define NEWS_ROWS_MIN 3
 
-int screen_open(struct reason *reason)
+int screen_open(struct error_text *error)
 {
     if (!newterm(NULL, stdout, stdin))
-        return reason_set(reason, "TERM=%s: no terminal that curses knows; --plain works on any",
-                          getenv("TERM") ? getenv("TERM") : "");
+        return error_text_set(error, "TERM=%s: no terminal that curses knows; --plain works on any",
+                              getenv("TERM") ? getenv("TERM") : "");
     (void)curs_set(0);
     if (process_colours() && has_colors() && start_color() == OK) {
         (void)use_default_colors();

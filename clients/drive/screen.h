@@ -5,7 +5,7 @@
 #include "clients/drive/recent_events.h"
 
 /* Takes the terminal's screen; -1 with the reason when its type is not known. */
-int screen_open(struct reason *reason);
+int screen_open(struct error_text *error);
 void screen_close(void);
 
 /* inputs: what is in use, as inputs.said. */

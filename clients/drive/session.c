@@ -433,7 +433,7 @@ static void watch(struct session *session, uint64_t now_ns)
 /* The first vehicle of this world: the one that was asked for, or any. */
 static void begin(struct session *session, uint64_t now_ns)
 {
-    struct reason reason;
+    struct error_text error;
     const struct world_mirror *mirror = session->mirror;
     struct choice choice = any(session);
     if (!mirror->has_world || !mirror->has_batch || !mirror->frame_ns || !mirror->names.told ||
@@ -442,12 +442,12 @@ static void begin(struct session *session, uint64_t now_ns)
     session->run = mirror->world.run;
     session->state = SESSION_WATCHING;
     choice.from = 0;
-    uint32_t id = session->wanted ? vehicle_choice_called(mirror, &choice, session->wanted, &reason)
+    uint32_t id = session->wanted ? vehicle_choice_called(mirror, &choice, session->wanted, &error)
                                   : vehicle_choice_next(mirror, &choice, 1);
     if (id) {
         become(session, id, now_ns);
     } else if (session->wanted) {
-        session_say(session, now_ns, "%s", reason.text);
+        session_say(session, now_ns, "%s", error.text);
         session->refused = session->ended = true;
     } else {
         session_say(session, now_ns, "no vehicle is free in world \"%s\"; n tries again",

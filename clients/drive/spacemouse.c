@@ -77,14 +77,15 @@ static void spacemouse_close(struct input *input)
     (void)spnav.close();
 }
 
-int spacemouse_open(struct input *input, struct reason *reason)
+int spacemouse_open(struct input *input, struct error_text *error)
 {
     if (device_library_open(LIBRARY, PACKAGE, functions, sizeof functions / sizeof functions[0],
-                            reason) != 0)
+                            error) != 0)
         return -1;
     if (spnav.open() == -1)
-        return reason_set(reason, "no SpaceMouse: its daemon does not answer; is spacenavd running "
-                                  "(docs/driving.md)?");
+        return error_text_set(error,
+                              "no SpaceMouse: its daemon does not answer; is spacenavd running "
+                              "(docs/driving.md)?");
     *input = (struct input){
         .fd = spnav.fd(), .what = "SpaceMouse", .read = spacemouse_read, .close = spacemouse_close};
     return 0;

@@ -13,6 +13,6 @@ void spacemouse_motion(const int push[3], const int turn[3], struct intents *que
 void spacemouse_button(int button, bool down, struct intents *queue);
 
 /* Connects to spacenavd. 0, or -1 with the reason. */
-int spacemouse_open(struct input *input, struct reason *reason);
+int spacemouse_open(struct input *input, struct error_text *error);
 
 #endif

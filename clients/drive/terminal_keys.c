@@ -213,11 +213,11 @@ static void terminal_keys_close(struct input *input)
     free(input->state);
 }
 
-int terminal_keys_open(struct input *input, struct reason *reason)
+int terminal_keys_open(struct input *input, struct error_text *error)
 {
     struct terminal_keys *keys = calloc(1, sizeof *keys);
     if (!keys)
-        return reason_set(reason, "keys: out of memory");
+        return error_text_set(error, "keys: out of memory");
     *input = (struct input){.fd = STDIN_FILENO,
                             .what = "keys",
                             .read = terminal_keys_read,

@@ -40,6 +40,6 @@ void terminal_keys_decode(struct terminal_keys *keys, const char *bytes, size_t 
 bool terminal_keys_help(uint32_t n, const char **keys, const char **meaning);
 
 /* Opens standard input for keys. 0, or -1 with the reason. */
-int terminal_keys_open(struct input *input, struct reason *reason);
+int terminal_keys_open(struct input *input, struct error_text *error);
 
 #endif

@@ -86,7 +86,7 @@ static int find_force(const char *text)
 }
 
 uint32_t vehicle_choice_called(const struct world_mirror *mirror, const struct choice *choice,
-                               const char *text, struct reason *reason)
+                               const char *text, struct error_text *error)
 {
     struct choice narrowed = *choice;
     uint64_t number;
@@ -103,10 +103,11 @@ uint32_t vehicle_choice_called(const struct world_mirror *mirror, const struct c
     else
         id = 0;
     if (id == 0)
-        (void)reason_set(reason,
-                         "no vehicle \"%s\" is free in world \"%s\": give an id, a name, a kind "
-                         "or a force; `jolon world dump -w %s` lists them",
-                         text, mirror->name, mirror->name);
+        (void)error_text_set(
+            error,
+            "no vehicle \"%s\" is free in world \"%s\": give an id, a name, a kind "
+            "or a force; `jolon world dump -w %s` lists them",
+            text, mirror->name, mirror->name);
     return id;
 }
 

@@ -22,7 +22,7 @@ uint32_t vehicle_choice_nearest(const struct world_mirror *mirror, const struct 
 
 /* By what people write: an id, a name, a kind or a force. 0 with the reason when there is none. */
 uint32_t vehicle_choice_called(const struct world_mirror *mirror, const struct choice *choice,
-                               const char *text, struct reason *reason);
+                               const char *text, struct error_text *error);
 
 /* The next target: of the enemies within cone_rad to either side of bearing_rad and within range_m,
  * the nearest, or the next further one after the present target; round and round. 0: none. */

@@ -59,10 +59,10 @@ static int read_id(char id[COMMAND_QUEUE_ID_MAX], const cJSON *object)
 
 static void obey_want(struct session *session, const cJSON *want, const char *id)
 {
-    struct reason reason;
+    struct error_text error;
     char line[COMMAND_QUEUE_ID_MAX + 64];
-    if (subscription_read(&session->subscription, want, &session->mirror, &reason) != 0) {
-        json_line_complain(session, id, reason.text);
+    if (subscription_read(&session->subscription, want, &session->mirror, &error) != 0) {
+        json_line_complain(session, id, error.text);
         return;
     }
     (void)snprintf(line, sizeof line, "{\"answer\":%s,\"result\":\"done\",\"frame\":%llu}", id,
@@ -73,11 +73,11 @@ static void obey_want(struct session *session, const cJSON *want, const char *id
 static void obey_order(struct session *session, const cJSON *object, const char *id)
 {
     struct command_text order;
-    struct reason reason;
+    struct error_text error;
     const struct world_mirror *mirror = &session->mirror;
-    if (command_from_json(&order, object, &reason) != 0 ||
-        command_text_resolve(&order, &mirror->names, mirror->world.hz, &reason) != 0)
-        json_line_complain(session, id, reason.text);
+    if (command_from_json(&order, object, &error) != 0 ||
+        command_text_resolve(&order, &mirror->names, mirror->world.hz, &error) != 0)
+        json_line_complain(session, id, error.text);
     else
         command_queue_add(&session->queue, id, &order);
 }

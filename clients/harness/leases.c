@@ -89,11 +89,11 @@ void leases_answer(struct leases *leases, const struct command_text *order,
                                 .tick = leases->mirror->frame.tick};
 }
 
-static void write_lost(const struct leases *leases, uint32_t vehicle, jolon_CommandResult why)
+static void write_lost(const struct leases *leases, uint32_t vehicle, jolon_CommandResult error)
 {
     cJSON *object = cJSON_CreateObject();
     put_whole(object, "lost", vehicle);
-    put_word(object, "because", command_result_name((enum command_result)why));
+    put_word(object, "because", command_result_name((enum command_result)error));
     char *line = cJSON_PrintUnformatted(object);
     output_line(leases->output, OUTPUT_ANSWER, line);
     cJSON_free(line);

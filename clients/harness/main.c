@@ -8,12 +8,12 @@
 int main(int argc, char **argv)
 {
     static struct session session;
-    struct reason reason;
+    struct error_text error;
     log_open("harness");
     options_parse(&session.options, argc, argv);
     process_signals();
-    if (session_open(&session, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (session_open(&session, &error) != 0)
+        die_refused("%s", error.text);
     const char *world = session.options.world;
     int code = EXIT_OK;
     if (!session_meet(&session)) {

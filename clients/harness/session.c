@@ -23,7 +23,7 @@ static void ring(dds_entity_t reader, void *context)
 }
 
 static int listen_to(struct session *session, const dds_entity_t *readers, size_t count,
-                     struct reason *reason)
+                     struct error_text *error)
 {
     dds_listener_t *listener = dds_create_listener(session);
     dds_return_t code = DDS_RETCODE_OK;
@@ -32,21 +32,21 @@ static int listen_to(struct session *session, const dds_entity_t *readers, size_
         code = dds_set_listener(readers[i], listener);
     dds_delete_listener(listener);
     return code == DDS_RETCODE_OK ? 0
-                                  : reason_set(reason, "DDS listener: %s", dds_strretcode(code));
+                                  : error_text_set(error, "DDS listener: %s", dds_strretcode(code));
 }
 
-int session_open(struct session *session, struct reason *reason)
+int session_open(struct session *session, struct error_text *error)
 {
     const struct options *options = &session->options;
     session->wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     if (session->wake_fd < 0)
-        return reason_set(reason, "eventfd: %s", strerror(errno));
-    if (dds_link_open(&session->link, &options->link, options->world, reason) != 0 ||
-        world_mirror_open(&session->mirror, &session->link, options->world, true, reason) != 0 ||
+        return error_text_set(error, "eventfd: %s", strerror(errno));
+    if (dds_link_open(&session->link, &options->link, options->world, error) != 0 ||
+        world_mirror_open(&session->mirror, &session->link, options->world, true, error) != 0 ||
         command_route_open(&session->route, &session->client, options->remote, &session->link,
-                           options->world, reason) != 0 ||
-        listen_to(session, session->mirror.reader, WORLD_MIRROR_READERS, reason) != 0 ||
-        listen_to(session, &session->mirror.names_reader.reader, 1, reason) != 0)
+                           options->world, error) != 0 ||
+        listen_to(session, session->mirror.reader, WORLD_MIRROR_READERS, error) != 0 ||
+        listen_to(session, &session->mirror.names_reader.reader, 1, error) != 0)
         return -1;
     session->leases.mirror = &session->mirror;
     session->leases.output = &session->output;
@@ -122,13 +122,13 @@ static void take_lines(struct session *session)
 
 static void open_tail(struct session *session)
 {
-    struct reason reason;
+    struct error_text error;
     if (session->merging || !session->subscription.events)
         return;
     session->merging = true;
-    if (event_merge_open(&session->merge, &session->link, subscription_format, &reason) != 0 ||
-        listen_to(session, session->merge.reader, EVENT_MERGE_TOPICS, &reason) != 0)
-        json_line_complain(session, NULL, reason.text);
+    if (event_merge_open(&session->merge, &session->link, subscription_format, &error) != 0 ||
+        listen_to(session, session->merge.reader, EVENT_MERGE_TOPICS, &error) != 0)
+        json_line_complain(session, NULL, error.text);
 }
 
 /* What the program still drives goes back to its agents. */
@@ -136,10 +136,10 @@ static void release_all(struct session *session)
 {
     for (uint32_t i = 0; i < session->leases.count && command_queue_room(&session->queue); i++) {
         struct command_text order;
-        struct reason reason;
+        struct error_text error;
         struct command_text_value value = {.number = session->leases.held[i].command.entity};
-        if (command_text_begin(&order, "release", &reason) == 0 &&
-            command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &reason) == 0)
+        if (command_text_begin(&order, "release", &error) == 0 &&
+            command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &error) == 0)
             command_queue_add(&session->queue, "", &order);
     }
     session->released = true;

@@ -27,7 +27,7 @@ struct session {
 };
 
 /* Opens the link and all that is read from the start. -1 with the reason. */
-int session_open(struct session *session, struct reason *reason);
+int session_open(struct session *session, struct error_text *error);
 void session_close(struct session *session);
 
 /* Waits until the world says what it is, at most the options' timeout. False: it does not. */

@@ -15,45 +15,46 @@
 #include <string.h>
 
 static int read_entity(uint32_t *id, const cJSON *item, const struct world_mirror *mirror,
-                       struct reason *reason)
+                       struct error_text *error)
 {
     const char *name = cJSON_GetStringValue(item);
     if (name) {
         *id = name_table_find(&mirror->names, name);
-        return *id ? 0 : reason_set(reason, "'%.32s': no vehicle has that name", name);
+        return *id ? 0 : error_text_set(error, "'%.32s': no vehicle has that name", name);
     }
     double value = cJSON_IsNumber(item) ? item->valuedouble : 0.0;
     *id = value >= 1.0 && value <= UINT32_MAX ? (uint32_t)value : 0;
     if (!*id || (double)*id != value)
-        return reason_set(reason, "not the id or the name of a vehicle");
+        return error_text_set(error, "not the id or the name of a vehicle");
     return 0;
 }
 
 static int read_near(struct subscription *subscription, const cJSON *object,
-                     const struct world_mirror *mirror, struct reason *reason)
+                     const struct world_mirror *mirror, struct error_text *error)
 {
     const cJSON *near = cJSON_GetObjectItemCaseSensitive(object, "near");
     const cJSON *within = cJSON_GetObjectItemCaseSensitive(object, "within_m");
     if (!near || !cJSON_IsNumber(within) || !(within->valuedouble >= 0.0))
-        return reason_set(reason, "not like {\"near\":7,\"within_m\":500}");
+        return error_text_set(error, "not like {\"near\":7,\"within_m\":500}");
     subscription->within_m = within->valuedouble;
-    return read_entity(&subscription->near, near, mirror, reason);
+    return read_entity(&subscription->near, near, mirror, error);
 }
 
 static int read_entities(struct subscription *subscription, const cJSON *value,
-                         const struct world_mirror *mirror, struct reason *reason)
+                         const struct world_mirror *mirror, struct error_text *error)
 {
     if (cJSON_IsObject(value))
-        return read_near(subscription, value, mirror, reason);
+        return read_near(subscription, value, mirror, error);
     const char *text = cJSON_GetStringValue(value);
     subscription->all = text && strcmp(text, "all") == 0;
     if (!subscription->all && !cJSON_IsArray(value))
-        return reason_set(reason, "not a list like [7,8], \"all\", or "
-                                  "{\"near\":7,\"within_m\":500}");
+        return error_text_set(error, "not a list like [7,8], \"all\", or "
+                                     "{\"near\":7,\"within_m\":500}");
     for (const cJSON *item = subscription->all ? NULL : value->child; item; item = item->next) {
         if (subscription->count == SUBSCRIPTION_ENTITIES_MAX)
-            return reason_set(reason, "more than %u; ask for \"all\"", SUBSCRIPTION_ENTITIES_MAX);
-        if (read_entity(&subscription->id[subscription->count++], item, mirror, reason) != 0)
+            return error_text_set(error, "more than %u; ask for \"all\"",
+                                  SUBSCRIPTION_ENTITIES_MAX);
+        if (read_entity(&subscription->id[subscription->count++], item, mirror, error) != 0)
             return -1;
     }
     return 0;
@@ -64,7 +65,8 @@ static const char *topic_word(uint32_t topic)
     return event_type_name((enum event_type)(EVENT_COLLISION + topic));
 }
 
-static int read_events(struct subscription *subscription, const cJSON *value, struct reason *reason)
+static int read_events(struct subscription *subscription, const cJSON *value,
+                       struct error_text *error)
 {
     const char *text = cJSON_GetStringValue(value);
     if (text && strcmp(text, "all") == 0) {
@@ -72,63 +74,63 @@ static int read_events(struct subscription *subscription, const cJSON *value, st
         return 0;
     }
     if (!cJSON_IsArray(value))
-        return reason_set(reason, "not a list like [\"fire\",\"collision\"], or \"all\"");
+        return error_text_set(error, "not a list like [\"fire\",\"collision\"], or \"all\"");
     for (const cJSON *item = value->child; item; item = item->next) {
         uint32_t topic = 0;
         const char *name = cJSON_GetStringValue(item);
         while (name && topic < EVENT_MERGE_TOPICS && strcmp(topic_word(topic), name) != 0)
             topic++;
         if (!name || topic == EVENT_MERGE_TOPICS)
-            return reason_set(reason,
-                              "'%.32s': not one of collision, fire, detonation, crater, "
-                              "agent",
-                              name ? name : "?");
+            return error_text_set(error,
+                                  "'%.32s': not one of collision, fire, detonation, crater, "
+                                  "agent",
+                                  name ? name : "?");
         subscription->events |= 1u << topic;
     }
     return 0;
 }
 
 static int read_member(struct subscription *subscription, const cJSON *member,
-                       const struct world_mirror *mirror, struct reason *reason)
+                       const struct world_mirror *mirror, struct error_text *error)
 {
     const char *name = member->string;
     if (strcmp(name, "entities") == 0)
-        return read_entities(subscription, member, mirror, reason);
+        return read_entities(subscription, member, mirror, error);
     if (strcmp(name, "events") == 0)
-        return read_events(subscription, member, reason);
+        return read_events(subscription, member, error);
     if (strcmp(name, "frames") == 0) {
         subscription->frames = cJSON_IsTrue(member);
-        return cJSON_IsBool(member) ? 0 : reason_set(reason, "not true or false");
+        return cJSON_IsBool(member) ? 0 : error_text_set(error, "not true or false");
     }
     if (strcmp(name, "rate_hz") == 0) {
         subscription->rate_hz = cJSON_IsNumber(member) ? member->valuedouble : 0.0;
         if (subscription->rate_hz >= SUBSCRIPTION_RATE_MIN_HZ &&
             subscription->rate_hz <= SUBSCRIPTION_RATE_MAX_HZ)
             return 0;
-        return reason_set(reason, "not a number from %g to %g", SUBSCRIPTION_RATE_MIN_HZ,
-                          SUBSCRIPTION_RATE_MAX_HZ);
+        return error_text_set(error, "not a number from %g to %g", SUBSCRIPTION_RATE_MIN_HZ,
+                              SUBSCRIPTION_RATE_MAX_HZ);
     }
-    return reason_set(reason, "no such thing; there are frames, entities, rate_hz, events");
+    return error_text_set(error, "no such thing; there are frames, entities, rate_hz, events");
 }
 
 int subscription_read(struct subscription *subscription, const cJSON *want,
-                      const struct world_mirror *mirror, struct reason *reason)
+                      const struct world_mirror *mirror, struct error_text *error)
 {
     struct subscription *read = calloc(1, sizeof *read);
-    struct reason why;
+    struct error_text detail;
     int result = 0;
     if (!read)
-        return reason_set(reason, "want: out of memory");
+        return error_text_set(error, "want: out of memory");
     read->rate_hz = SUBSCRIPTION_RATE_HZ;
     read->from_run = mirror->world.run;
     read->from = mirror->frame.frame;
     read->missed = subscription->missed;
     if (!cJSON_IsObject(want))
-        result = reason_set(reason, "want: not an object like {\"entities\":[7,8]}");
+        result = error_text_set(error, "want: not an object like {\"entities\":[7,8]}");
     for (const cJSON *member = result == 0 ? want->child : NULL; member && result == 0;
          member = member->next) {
-        if (read_member(read, member, mirror, &why) != 0)
-            result = reason_set(reason, "want: %.32s: %.400s", member->string, why.text);
+        if (read_member(read, member, mirror, &detail) != 0)
+            result = error_text_set(error, "want: %.32s: %.400s", member->string, detail.text);
     }
     if (result == 0)
         *subscription = *read;

@@ -33,7 +33,7 @@ struct subscription {
 
 /* Reads a want: -1 with the reason, and wants is as it was. */
 int subscription_read(struct subscription *subscription, const cJSON *want,
-                      const struct world_mirror *mirror, struct reason *reason);
+                      const struct world_mirror *mirror, struct error_text *error);
 
 /* Tells frame and entities when they are due. */
 void subscription_states(struct subscription *subscription, const struct world_mirror *mirror,

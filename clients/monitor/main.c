@@ -46,10 +46,10 @@ static int run_screen(struct world_mirror *mirror, struct event_merge *merge,
                       const struct options *options)
 {
     static struct screen screen;
-    struct reason reason;
+    struct error_text error;
     uint64_t due_ns = 0;
-    if (screen_open(&screen, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (screen_open(&screen, &error) != 0)
+        die_refused("%s", error.text);
     while (!process_stopping() && !screen.state.quit) {
         world_mirror_take(mirror);
         screen_note(&screen, mirror);
@@ -71,7 +71,7 @@ int main(int argc, char **argv)
     static struct event_merge merge;
     struct options options;
     struct dds_link link;
-    struct reason reason;
+    struct error_text error;
     int code;
     log_open("monitor");
     options_parse(&options, argc, argv);
@@ -83,12 +83,12 @@ int main(int argc, char **argv)
         options.rate_hz = screen ? OPTIONS_SCREEN_HZ : OPTIONS_LINES_HZ;
     process_signals();
     step_back();
-    if (dds_link_open(&link, &options.link, options.world, &reason) != 0 ||
+    if (dds_link_open(&link, &options.link, options.world, &error) != 0 ||
         (!options.events &&
-         world_mirror_open(&mirror, &link, options.world, screen || options.json, &reason) != 0) ||
+         world_mirror_open(&mirror, &link, options.world, screen || options.json, &error) != 0) ||
         ((options.events || screen) &&
-         event_merge_open(&merge, &link, screen ? event_lines_event : event_json, &reason) != 0))
-        die_refused("%s", reason.text);
+         event_merge_open(&merge, &link, screen ? event_lines_event : event_json, &error) != 0))
+        die_refused("%s", error.text);
     if (options.events)
         code = run_events(&merge);
     else if (options.once)

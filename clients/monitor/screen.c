@@ -16,15 +16,15 @@
 #define KEY_ESCAPE     27
 #define ESCAPE_WAIT_MS 25 /* that what follows an escape may take, for a key of several bytes */
 
-int screen_open(struct screen *screen, struct reason *reason)
+int screen_open(struct screen *screen, struct error_text *error)
 {
     *screen = (struct screen){0};
     (void)setlocale(LC_CTYPE,
                     ""); /* NOLINT(concurrency-mt-unsafe): before there are threads of ours */
     screen->utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
     if (!newterm(NULL, stdout, stdin))
-        return reason_set(reason, "TERM=%s: no terminal that curses knows; --lines works on any",
-                          getenv("TERM") ? getenv("TERM") : "");
+        return error_text_set(error, "TERM=%s: no terminal that curses knows; --lines works on any",
+                              getenv("TERM") ? getenv("TERM") : "");
     (void)set_escdelay(ESCAPE_WAIT_MS);
     (void)cbreak();
     (void)noecho();

@@ -23,7 +23,7 @@ struct screen {
 };
 
 /* Takes the terminal over; -1 with the reason when its type is not known. */
-int screen_open(struct screen *screen, struct reason *reason);
+int screen_open(struct screen *screen, struct error_text *error);
 
 /* Gives it back as it was. */
 void screen_close(struct screen *screen);

@@ -398,33 +398,33 @@ static int build(struct hulls *hulls, struct scenario *scenario, const struct mo
     return result;
 }
 
-static int refuse(struct key_place place, struct config_message *message, int error)
+static int refuse(struct key_place place, struct error_text *error, int code)
 {
-    switch (error) {
+    switch (code) {
     case E2BIG:
-        return key_table_refuse(message, place, NULL, NULL,
-                                "has too many pieces; allowed: up to %d", CONNECTED_PIECES_MAX);
+        return key_table_refuse(error, place, NULL, NULL, "has too many pieces; allowed: up to %d",
+                                CONNECTED_PIECES_MAX);
     case ERANGE:
-        return key_table_refuse(message, place, NULL, NULL,
+        return key_table_refuse(error, place, NULL, NULL,
                                 "has a piece whose hull has too many corners; allowed: up to %d",
                                 HULL_VERTICES_MAX);
     case EDOM:
-        return key_table_refuse(message, place, NULL, NULL, "has a piece that takes up no space");
+        return key_table_refuse(error, place, NULL, NULL, "has a piece that takes up no space");
     default:
-        return key_table_refuse(message, place, NULL, NULL, "no memory for its hulls");
+        return key_table_refuse(error, place, NULL, NULL, "no memory for its hulls");
     }
 }
 
 int hulls_build(struct hulls *hulls, struct scenario *scenario, const struct model *model,
-                struct key_place place, struct config_message *message)
+                struct key_place place, struct error_text *error)
 {
     struct connected_pieces *pieces = malloc(sizeof(*pieces));
-    int result = -1, error;
+    int result = -1, code;
     if (pieces == NULL)
-        return refuse(place, message, ENOMEM);
+        return refuse(place, error, ENOMEM);
     result = build(hulls, scenario, model, pieces);
-    error = errno;
+    code = errno;
     connected_pieces_free(pieces);
     free(pieces);
-    return result == 0 ? 0 : refuse(place, message, error);
+    return result == 0 ? 0 : refuse(place, error, code);
 }

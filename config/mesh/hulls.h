@@ -39,6 +39,6 @@ struct hulls {
 /* Adds a model's hulls to the scenario's tables. place: where the message says the model is. 0; -1
  * with the message: too many pieces, a hull of more than HULL_VERTICES_MAX vertices, no memory. */
 int hulls_build(struct hulls *hulls, struct scenario *scenario, const struct model *model,
-                struct key_place place, struct config_message *message);
+                struct key_place place, struct error_text *error);
 
 #endif

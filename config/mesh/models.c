@@ -61,8 +61,7 @@ void models_close(struct models *models)
 
 /* An obj_file_open: the file of this name in the folder of models, which is read at most once. NULL
  * with the message. */
-static const struct source *find_file(void *context, const char *name,
-                                      struct config_message *message)
+static const struct source *find_file(void *context, const char *name, struct error_text *error)
 {
     struct models *models = context;
     char folder[PATH_MAX], path[PATH_MAX];
@@ -72,7 +71,7 @@ static const struct source *find_file(void *context, const char *name,
     if (length >= 0 && (size_t)length < sizeof(folder))
         length = snprintf(path, sizeof(path), "%s/%s", folder, name);
     if (length < 0 || (size_t)length >= sizeof(path)) {
-        key_table_refuse(message, (struct key_place){models->data_dir, 0}, NULL, NULL,
+        key_table_refuse(error, (struct key_place){models->data_dir, 0}, NULL, NULL,
                          "is too long for a path");
         return NULL;
     }
@@ -81,11 +80,11 @@ static const struct source *find_file(void *context, const char *name,
             return &models->file[i];
     }
     if (models->file_count == MODELS_FILE_MAX) {
-        key_table_refuse(message, place, NULL, NULL,
-                         "is one model file too many; allowed: up to %d", MODELS_FILE_MAX);
+        key_table_refuse(error, place, NULL, NULL, "is one model file too many; allowed: up to %d",
+                         MODELS_FILE_MAX);
         return NULL;
     }
-    if (source_read_in(source, folder, name, MODELS_BYTES_MAX, message) != 0)
+    if (source_read_in(source, folder, name, MODELS_BYTES_MAX, error) != 0)
         return NULL;
     models->file_count++;
     XXH3_64bits_update(models->hash, name, strlen(name) + 1);
@@ -149,7 +148,7 @@ static const char *base_name(const char *path)
 static struct aiFile *open_reader(struct aiFileIO *io, const char *path, const char *mode)
 {
     struct models *models = (struct models *)(void *)io->UserData;
-    struct config_message ignored; /* obj_file_check() has read the file before */
+    struct error_text ignored; /* obj_file_check() has read the file before */
     struct reader *reader;
     const struct source *source;
     if (mode[0] != 'r')
@@ -181,7 +180,7 @@ struct taking {
     struct key_place place;
     struct model *model;
     uint32_t joints; /* used, that of the turret included */
-    struct config_message *message;
+    struct error_text *error;
 };
 
 static int take_vertices(struct taking *taking, const struct aiMesh *mesh)
@@ -189,12 +188,12 @@ static int take_vertices(struct taking *taking, const struct aiMesh *mesh)
     struct scenario *scenario = taking->models->scenario;
     void *table = scenario->vertices;
     if (mesh->mNumVertices > MODELS_VERTEX_MAX - taking->model->vertex_count)
-        return key_table_refuse(taking->message, taking->place, NULL, NULL,
+        return key_table_refuse(taking->error, taking->place, NULL, NULL,
                                 "has too many vertices; allowed: up to %u", MODELS_VERTEX_MAX);
     struct model_vertex *vertex =
         table_extend(&table, &scenario->vertex_count, mesh->mNumVertices, sizeof(*vertex));
     if (vertex == NULL)
-        return key_table_refuse(taking->message, taking->place, NULL, NULL, "no memory for it");
+        return key_table_refuse(taking->error, taking->place, NULL, NULL, "no memory for it");
     scenario->vertices = table;
     taking->model->vertex_count += mesh->mNumVertices;
     for (uint32_t i = 0; i < mesh->mNumVertices; i++) {
@@ -202,7 +201,7 @@ static int take_vertices(struct taking *taking, const struct aiMesh *mesh)
         vertex[i] = (struct model_vertex){from->x, from->y, from->z};
         if (!(fabsf(from->x) <= MODELS_EXTENT_MAX && fabsf(from->y) <= MODELS_EXTENT_MAX &&
               fabsf(from->z) <= MODELS_EXTENT_MAX))
-            return key_table_refuse(taking->message, taking->place, NULL, NULL,
+            return key_table_refuse(taking->error, taking->place, NULL, NULL,
                                     "vertex %u (%g, %g, %g) is out of range; allowed: -%g..%g m", i,
                                     (double)from->x, (double)from->y, (double)from->z,
                                     (double)MODELS_EXTENT_MAX, (double)MODELS_EXTENT_MAX);
@@ -229,11 +228,11 @@ static int take_material(struct taking *taking, const struct aiMesh *mesh,
     if (aiGetMaterialString(material, AI_MATKEY_NAME, &name) != aiReturn_SUCCESS ||
         aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &color) != aiReturn_SUCCESS)
         return key_table_refuse(
-            taking->message, taking->place, NULL, NULL,
+            taking->error, taking->place, NULL, NULL,
             "has a material without a colour; right would be: Kd red green blue");
     if (!(color.r >= 0 && color.r <= 1 && color.g >= 0 && color.g <= 1 && color.b >= 0 &&
           color.b <= 1))
-        return key_table_refuse(taking->message, taking->place, NULL, NULL,
+        return key_table_refuse(taking->error, taking->place, NULL, NULL,
                                 "material %s: Kd is out of range; allowed: 0..1", name.data);
     like->red = (uint8_t)lrintf(color.r * 255.0f);
     like->green = (uint8_t)lrintf(color.g * 255.0f);
@@ -250,24 +249,24 @@ static int take_mesh(struct taking *taking, const struct aiMesh *mesh, struct mo
     if (take_material(taking, mesh, &like) != 0 || take_vertices(taking, mesh) != 0)
         return -1;
     if (mesh->mNumFaces > MODELS_TRIANGLE_MAX - taking->model->triangle_count)
-        return key_table_refuse(taking->message, taking->place, NULL, NULL,
+        return key_table_refuse(taking->error, taking->place, NULL, NULL,
                                 "has too many triangles; allowed: up to %u", MODELS_TRIANGLE_MAX);
     struct model_triangle *triangle =
         table_extend(&table, &scenario->triangle_count, mesh->mNumFaces, sizeof(*triangle));
     if (triangle == NULL)
-        return key_table_refuse(taking->message, taking->place, NULL, NULL, "no memory for it");
+        return key_table_refuse(taking->error, taking->place, NULL, NULL, "no memory for it");
     scenario->triangles = table;
     taking->model->triangle_count += mesh->mNumFaces;
     for (uint32_t i = 0; i < mesh->mNumFaces; i++) {
         const struct aiFace *face = &mesh->mFaces[i];
         triangle[i] = like;
         if (face->mNumIndices != 3)
-            return key_table_refuse(taking->message, taking->place, NULL, NULL,
+            return key_table_refuse(taking->error, taking->place, NULL, NULL,
                                     "has a face of %u corners; allowed: 3 or more",
                                     face->mNumIndices);
         for (int corner = 0; corner < 3; corner++) {
             if (face->mIndices[corner] >= mesh->mNumVertices)
-                return key_table_refuse(taking->message, taking->place, NULL, NULL,
+                return key_table_refuse(taking->error, taking->place, NULL, NULL,
                                         "has a face with vertex %u of %u", face->mIndices[corner],
                                         mesh->mNumVertices);
             triangle[i].vertex[corner] = first + face->mIndices[corner];
@@ -297,7 +296,7 @@ static int take_part(struct taking *taking, const struct aiNode *node, struct mo
     uint32_t part = part_of(node->mName.data);
     if (part == PART_COUNT)
         return key_table_refuse(
-            taking->message, taking->place, NULL, NULL,
+            taking->error, taking->place, NULL, NULL,
             "object %s: unknown part; allowed: body, turret, gun, rotor, "
             "tail_rotor, wheel, front_wheel, track, solid; \"_1\" and so on may follow",
             node->mName.data);
@@ -305,7 +304,7 @@ static int take_part(struct taking *taking, const struct aiNode *node, struct mo
     if (part == PART_BODY || part == PART_TURRET)
         return 0;
     if (taking->joints == MODEL_JOINTS_MAX)
-        return key_table_refuse(taking->message, taking->place, NULL, NULL,
+        return key_table_refuse(taking->error, taking->place, NULL, NULL,
                                 "object %s: is one moving part too many; allowed: up to %u",
                                 node->mName.data, MODEL_JOINTS_MAX - 1);
     like->joint = (uint16_t)taking->joints++;
@@ -318,7 +317,7 @@ static int take_node(struct taking *taking, const struct aiNode *node, bool soli
 {
     struct model_triangle like = {.part = PART_BODY};
     if (depth > NODE_DEPTH_MAX)
-        return key_table_refuse(taking->message, taking->place, NULL, NULL, "is nested too deeply");
+        return key_table_refuse(taking->error, taking->place, NULL, NULL, "is nested too deeply");
     if (node->mNumMeshes > 0 && (strcmp(node->mName.data, solid_name) == 0) == solid) {
         if (!solid && take_part(taking, node, &like) != 0)
             return -1;
@@ -335,19 +334,19 @@ static int take_node(struct taking *taking, const struct aiNode *node, bool soli
 }
 
 static int take_scene(struct models *models, const struct aiScene *scene, const char *name,
-                      struct key_place place, struct config_message *message)
+                      struct key_place place, struct error_text *error)
 {
     struct scenario *scenario = models->scenario;
     void *table = scenario->models;
     struct model *model = table_extend(&table, &scenario->model_count, 1, sizeof(*model));
     if (model == NULL)
-        return key_table_refuse(message, place, NULL, NULL, "no memory for it");
+        return key_table_refuse(error, place, NULL, NULL, "no memory for it");
     scenario->models = table;
     memset(model, 0, sizeof(*model));
     memcpy(model->name, name, strlen(name));
     model->first_vertex = scenario->vertex_count;
     model->first_triangle = scenario->triangle_count;
-    struct taking taking = {models, scene, place, model, 1, message};
+    struct taking taking = {models, scene, place, model, 1, error};
     if (take_node(&taking, scene->mRootNode, true, 0) != 0)
         return -1;
     model->solid_triangles = model->triangle_count;
@@ -355,14 +354,13 @@ static int take_scene(struct models *models, const struct aiScene *scene, const 
     if (take_node(&taking, scene->mRootNode, false, 0) != 0)
         return -1;
     if (model->triangle_count == model->solid_triangles)
-        return key_table_refuse(message, place, NULL, NULL, "has no triangles");
-    if (hulls_build(&models->hulls[scenario->model_count - 1], scenario, model, place, message) !=
-        0)
+        return key_table_refuse(error, place, NULL, NULL, "has no triangles");
+    if (hulls_build(&models->hulls[scenario->model_count - 1], scenario, model, place, error) != 0)
         return -1;
     return (int)scenario->model_count - 1;
 }
 
-int models_find(struct models *models, const char *name, struct config_message *message)
+int models_find(struct models *models, const char *name, struct error_text *error)
 {
     const struct scenario *scenario = models->scenario;
     struct aiFileIO io = {open_reader, close_reader, (aiUserData)(void *)models};
@@ -372,23 +370,22 @@ int models_find(struct models *models, const char *name, struct config_message *
             return (int)i;
     }
     snprintf(file, sizeof(file), "%s.obj", name);
-    const struct source *source = find_file(models, file, message);
+    const struct source *source = find_file(models, file, error);
     if (source == NULL)
         return -1;
     const struct key_place place = {source->path, 0};
-    if (obj_file_check(source, find_file, models, message) != 0)
+    if (obj_file_check(source, find_file, models, error) != 0)
         return -1;
     memory_watch();
     const struct aiScene *scene =
         aiImportFileEx(source->path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, &io);
     if (memory_missed()) {
         aiReleaseImport(scene);
-        return key_table_refuse(message, place, NULL, NULL, "no memory to read it");
+        return key_table_refuse(error, place, NULL, NULL, "no memory to read it");
     }
     if (scene == NULL)
-        return key_table_refuse(message, place, NULL, NULL, "is not a model: %s",
-                                aiGetErrorString());
-    int index = take_scene(models, scene, name, place, message);
+        return key_table_refuse(error, place, NULL, NULL, "is not a model: %s", aiGetErrorString());
+    int index = take_scene(models, scene, name, place, error);
     aiReleaseImport(scene);
     return index;
 }

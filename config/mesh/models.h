@@ -33,6 +33,6 @@ void models_close(struct models *models);
 
 /* Index in the scenario's models of the model called name, which is read when it is new. -1 with
  * the message: no such file, not a model, too large, an unknown part or material. */
-int models_find(struct models *models, const char *name, struct config_message *message);
+int models_find(struct models *models, const char *name, struct error_text *error);
 
 #endif

@@ -29,7 +29,7 @@ struct materials {
 /* A file while it is checked, and its current line. */
 struct checking {
     struct key_place place;
-    struct config_message *message;
+    struct error_text *error;
     struct word word[WORDS_MAX];
     uint32_t words; /* may be above WORDS_MAX, which is too many for any rule */
     obj_file_open *open;
@@ -52,8 +52,8 @@ static int refuse(const struct checking *checking, uint32_t index, const char *w
     snprintf(name, sizeof(name), "%.*s", (int)checking->word[0].length, checking->word[0].text);
     snprintf(value, sizeof(value), "%.*s", (int)checking->word[index].length,
              checking->word[index].text);
-    return key_table_refuse(checking->message, checking->place, name, index > 0 ? value : NULL,
-                            "%s", wrong);
+    return key_table_refuse(checking->error, checking->place, name, index > 0 ? value : NULL, "%s",
+                            wrong);
 }
 
 static int refuse_many(const struct checking *checking, const char *what, uint32_t most)
@@ -162,14 +162,14 @@ static int check_bytes(const struct checking *checking, const char *line, size_t
 {
     bool comment = line[strspn(line, " \t")] == '#';
     if (length > OBJ_FILE_LINE_MAX)
-        return key_table_refuse(checking->message, checking->place, NULL, NULL,
+        return key_table_refuse(checking->error, checking->place, NULL, NULL,
                                 "has a line of %zu characters; allowed: up to %d", length,
                                 OBJ_FILE_LINE_MAX);
     for (size_t i = 0; i < length; i++) {
         unsigned char c = (unsigned char)line[i];
         if ((c < 0x20 && c != '\t') || c == 0x7f || c == '\\' || (c > 0x7f && !comment))
             return key_table_refuse(
-                checking->message, checking->place, NULL, NULL,
+                checking->error, checking->place, NULL, NULL,
                 "has a byte 0x%02x; allowed: printable ASCII except the backslash, and any "
                 "letters in comments",
                 c);
@@ -197,7 +197,7 @@ static int check_lines(struct checking *checking, const struct source *source,
 {
     checking->place = (struct key_place){source->path, 0};
     if (strlen(source->text) != source->bytes)
-        return key_table_refuse(checking->message, checking->place, NULL, NULL,
+        return key_table_refuse(checking->error, checking->place, NULL, NULL,
                                 "is not text: it has a NUL byte");
     for (const char *line = source->text; *line != '\0';) {
         size_t whole = strcspn(line, "\n"), length = whole;
@@ -259,13 +259,13 @@ static int check_shine(struct checking *checking)
 }
 
 static int check_library(struct materials *materials, const struct source *source,
-                         struct config_message *message)
+                         struct error_text *error)
 {
     static const struct statement statements[] = {
         {"newmtl", check_newmtl}, {"Kd", check_color},    {"Ka", check_color}, {"Ks", check_color},
         {"Ke", check_color},      {"Tf", check_color},    {"Ns", check_shine}, {"Ni", check_shine},
         {"d", check_shine},       {"illum", check_shine}, {NULL, NULL}};
-    struct checking checking = {.message = message, .materials = materials};
+    struct checking checking = {.error = error, .materials = materials};
     return check_lines(&checking, source, statements);
 }
 
@@ -278,8 +278,8 @@ static int check_mtllib(struct checking *checking)
         return -1;
     if (name[0] == '.')
         return refuse(checking, 1, "is not a file's name; allowed: a file of this folder");
-    const struct source *source = checking->open(checking->context, name, checking->message);
-    if (source == NULL || check_library(checking->materials, source, checking->message) != 0)
+    const struct source *source = checking->open(checking->context, name, checking->error);
+    if (source == NULL || check_library(checking->materials, source, checking->error) != 0)
         return -1;
     checking->library = true;
     return 0;
@@ -388,24 +388,24 @@ static int check_face(struct checking *checking)
 }
 
 int obj_file_check(const struct source *source, obj_file_open *open, void *context,
-                   struct config_message *message)
+                   struct error_text *error)
 {
     static const struct statement statements[] = {
         {"v", check_vertex}, {"vt", check_texture},    {"vn", check_normal},
         {"f", check_face},   {"o", check_section},     {"g", check_section},
         {"s", check_smooth}, {"usemtl", check_usemtl}, {"mtllib", check_mtllib},
         {NULL, NULL}};
-    struct checking checking = {.message = message, .open = open, .context = context};
+    struct checking checking = {.error = error, .open = open, .context = context};
     int result = -1;
     checking.materials = calloc(1, sizeof(*checking.materials));
     if (checking.materials == NULL)
-        key_table_refuse(message, (struct key_place){source->path, 0}, NULL, NULL,
+        key_table_refuse(error, (struct key_place){source->path, 0}, NULL, NULL,
                          "no memory for it");
     else
         result = check_lines(&checking, source, statements);
     free(checking.materials);
     if (result == 0 && checking.triangles == 0)
-        return key_table_refuse(message, (struct key_place){source->path, 0}, NULL, NULL,
+        return key_table_refuse(error, (struct key_place){source->path, 0}, NULL, NULL,
                                 "has no faces; right would be: f 1 2 3");
     return result;
 }

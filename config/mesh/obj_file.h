@@ -21,11 +21,11 @@
 /* Returns the text of a file in the folder of the model, which is read at most once; NULL with the
  * message. name: one word of a-z A-Z 0-9 . - _ that does not begin with a dot. */
 typedef const struct source *obj_file_open(void *context, const char *name,
-                                           struct config_message *message);
+                                           struct error_text *error);
 
 /* Checks an OBJ file and the MTL file that it names. 0; -1 with a message that names file, line,
  * word, value and what is allowed. */
 int obj_file_check(const struct source *source, obj_file_open *open, void *context,
-                   struct config_message *message);
+                   struct error_text *error);
 
 #endif

@@ -25,8 +25,7 @@ int entry_refuse(const struct entry *entry, uint32_t key, const char *format, ..
         place.line = (int)config_setting_source_line(setting);
         key_table_value_text(setting, value, sizeof(value));
     }
-    return key_table_refuse(entry->message, place, path, setting != NULL ? value : NULL, "%s",
-                            text);
+    return key_table_refuse(entry->error, place, path, setting != NULL ? value : NULL, "%s", text);
 }
 
 /* Lists the names of the kinds of these domains, for messages. */
@@ -69,36 +68,35 @@ int entry_read(struct entry *entry, const struct key_table *table, int index,
         const struct key_place place = {entry->keys.file, (int)config_setting_source_line(setting)};
         char value[80];
         key_table_value_text(setting, value, sizeof(value));
-        return key_table_refuse(entry->message, place, entry->path, value,
+        return key_table_refuse(entry->error, place, entry->path, value,
                                 "is not a group; allowed: { key = value; ... }");
     }
     memset(destination, 0, table->size);
-    if (key_table_defaults(table, destination, entry->message) != 0)
+    if (key_table_defaults(table, destination, entry->error) != 0)
         return -1;
-    return key_table_read(&entry->keys, setting, "", entry->path, entry->message);
+    return key_table_read(&entry->keys, setting, "", entry->path, entry->error);
 }
 
-int entry_count(const config_setting_t *list, const char *file, int max,
-                struct config_message *message)
+int entry_count(const config_setting_t *list, const char *file, int max, struct error_text *error)
 {
     const struct key_place place = {file, (int)config_setting_source_line(list)};
     char value[80];
     key_table_value_text(list, value, sizeof(value));
     if (list->type != CONFIG_TYPE_LIST)
-        return key_table_refuse(message, place, config_setting_name(list), value,
+        return key_table_refuse(error, place, config_setting_name(list), value,
                                 "is not a list; allowed: ( { key = value; ... }, ... )");
     if (config_setting_length(list) > max)
-        return key_table_refuse(message, place, config_setting_name(list), value,
+        return key_table_refuse(error, place, config_setting_name(list), value,
                                 "has %d entries; allowed: up to %d", config_setting_length(list),
                                 max);
     return config_setting_length(list);
 }
 
-void *entry_allocate(uint32_t count, size_t size, const char *file, struct config_message *message)
+void *entry_allocate(uint32_t count, size_t size, const char *file, struct error_text *error)
 {
     const struct key_place place = {file, 0};
     void *memory = calloc((size_t)count + 1, size);
     if (memory == NULL)
-        key_table_refuse(message, place, NULL, NULL, "no memory for its lists");
+        key_table_refuse(error, place, NULL, NULL, "no memory for its lists");
     return memory;
 }

@@ -16,7 +16,7 @@ struct entry {
     struct key_reading keys;
     const char *within;      /* the path before the table's: "scripts[2]."; NULL: none */
     char path[KEY_PATH_MAX]; /* "vehicles[3]" */
-    struct config_message *message;
+    struct error_text *error;
 };
 
 static inline bool entry_given(const struct entry *entry, uint32_t key)
@@ -25,11 +25,10 @@ static inline bool entry_given(const struct entry *entry, uint32_t key)
 }
 
 /* The number of entries of a list; -1 with the message when it is no list or too long. */
-int entry_count(const config_setting_t *list, const char *file, int max,
-                struct config_message *message);
+int entry_count(const config_setting_t *list, const char *file, int max, struct error_text *error);
 
 /* Zeroed memory for count items, at least one; NULL with the message. */
-void *entry_allocate(uint32_t count, size_t size, const char *file, struct config_message *message);
+void *entry_allocate(uint32_t count, size_t size, const char *file, struct error_text *error);
 
 /* Stores the defaults and the values of entry `index` of a list into destination. Sets the entry's
  * setting, keys and path. 0; -1 with the message. */

@@ -19,7 +19,7 @@ struct given {
     const char *path;
     const char *value;
     struct key_place place;
-    struct config_message *message;
+    struct error_text *error;
 };
 
 /* Appends to a text of size bytes, and cuts off what does not fit. */
@@ -48,29 +48,29 @@ static void append_escaped(char *text, size_t bytes, const char *raw)
     }
 }
 
-int key_table_refuse(struct config_message *message, struct key_place place, const char *path,
+int key_table_refuse(struct error_text *error, struct key_place place, const char *path,
                      const char *value, const char *format, ...)
 {
-    char text[sizeof(message->text)];
+    char text[sizeof(error->text)];
     va_list arguments;
-    message->text[0] = '\0';
-    append_escaped(message->text, sizeof(message->text), place.file);
+    error->text[0] = '\0';
+    append_escaped(error->text, sizeof(error->text), place.file);
     if (place.line > 0)
-        append(message->text, sizeof(message->text), ":%d", place.line);
-    append(message->text, sizeof(message->text), ": ");
+        append(error->text, sizeof(error->text), ":%d", place.line);
+    append(error->text, sizeof(error->text), ": ");
     if (path != NULL)
-        append_escaped(message->text, sizeof(message->text), path);
+        append_escaped(error->text, sizeof(error->text), path);
     if (path != NULL && value != NULL) {
-        append(message->text, sizeof(message->text), " = ");
-        append_escaped(message->text, sizeof(message->text), value);
+        append(error->text, sizeof(error->text), " = ");
+        append_escaped(error->text, sizeof(error->text), value);
     }
     if (path != NULL)
-        append(message->text, sizeof(message->text), ": ");
+        append(error->text, sizeof(error->text), ": ");
     va_start(arguments, format);
     vsnprintf(text, sizeof(text), format, arguments);
     va_end(arguments);
-    append_escaped(message->text, sizeof(message->text), text);
-    (void)utf8_mend(message->text);
+    append_escaped(error->text, sizeof(error->text), text);
+    (void)utf8_mend(error->text);
     return -1;
 }
 
@@ -173,7 +173,7 @@ static int refuse_value(const struct given *given, const char *wrong)
 {
     char allowed[ALLOWED_TEXT_MAX];
     key_table_allowed(given->key, allowed, sizeof(allowed));
-    return key_table_refuse(given->message, given->place, given->path, given->value,
+    return key_table_refuse(given->error, given->place, given->path, given->value,
                             "%s; allowed: %s", wrong, allowed);
 }
 
@@ -283,9 +283,9 @@ static int store_text(const struct given *given, void *destination, const char *
 }
 
 int key_table_set_text(const struct key *key, void *destination, const char *text,
-                       struct key_place place, struct config_message *message)
+                       struct key_place place, struct error_text *error)
 {
-    struct given given = {key, key->name, text, place, message};
+    struct given given = {key, key->name, text, place, error};
     char *end = NULL;
     double value;
     switch (key->type) {
@@ -318,14 +318,13 @@ int key_table_set_text(const struct key *key, void *destination, const char *tex
     return refuse_value(&given, "cannot be set so");
 }
 
-int key_table_defaults(const struct key_table *table, void *destination,
-                       struct config_message *message)
+int key_table_defaults(const struct key_table *table, void *destination, struct error_text *error)
 {
     const struct key_place place = {"default", 0};
     for (uint32_t i = 0; i < table->count; i++) {
         const struct key *key = &table->keys[i];
         if (key->fallback != NULL &&
-            key_table_set_text(key, destination, key->fallback, place, message) != 0)
+            key_table_set_text(key, destination, key->fallback, place, error) != 0)
             return -1;
     }
     return 0;
@@ -529,14 +528,14 @@ static void list_names(const struct key_table *table, const char *prefix, char *
 }
 
 static int read_setting(struct key_reading *reading, const config_setting_t *setting,
-                        const char *name, const char *shown, struct config_message *message)
+                        const char *name, const char *shown, struct error_text *error)
 {
     const struct key_place place = {reading->file, (int)config_setting_source_line(setting)};
     char value[VALUE_TEXT_MAX];
     int index = key_table_find(reading->table, name);
     key_table_value_text(setting, value, sizeof(value));
     if (index >= 0) {
-        struct given given = {&reading->table->keys[index], shown, value, place, message};
+        struct given given = {&reading->table->keys[index], shown, value, place, error};
         reading->given |= UINT64_C(1) << index;
         reading->line[index] = place.line;
         return store_setting(&given, reading->destination, setting);
@@ -548,13 +547,12 @@ static int read_setting(struct key_reading *reading, const config_setting_t *set
         if (dot != NULL)
             snprintf(parent, sizeof(parent), "%.*s", (int)(dot - name), name);
         list_names(reading->table, parent, names, sizeof(names));
-        return key_table_refuse(message, place, shown, value, "unknown key; allowed here: %s",
-                                names);
+        return key_table_refuse(error, place, shown, value, "unknown key; allowed here: %s", names);
     }
     if (setting->type != CONFIG_TYPE_GROUP)
-        return key_table_refuse(message, place, shown, value,
+        return key_table_refuse(error, place, shown, value,
                                 "is not a group; allowed: { key = value; ... }");
-    return key_table_read(reading, setting, name, shown, message);
+    return key_table_read(reading, setting, name, shown, error);
 }
 
 /* libconfig gives the group of the whole file no line; it begins on line 1. */
@@ -565,7 +563,7 @@ static int group_line(const config_setting_t *group)
 }
 
 int key_table_read(struct key_reading *reading, const config_setting_t *group, const char *prefix,
-                   const char *shown, struct config_message *message)
+                   const char *shown, struct error_text *error)
 {
     const char *dot = prefix[0] == '\0' ? "" : ".";
     const char *shown_dot = shown[0] == '\0' ? "" : ".";
@@ -577,7 +575,7 @@ int key_table_read(struct key_reading *reading, const config_setting_t *group, c
             continue;
         snprintf(name, sizeof(name), "%s%s%.40s", prefix, dot, own);
         snprintf(path, sizeof(path), "%s%s%.40s", shown, shown_dot, own);
-        if (read_setting(reading, child, name, path, message) != 0)
+        if (read_setting(reading, child, name, path, error) != 0)
             return -1;
     }
     for (uint32_t i = 0; prefix[0] == '\0' && i < reading->table->count; i++) {
@@ -588,7 +586,7 @@ int key_table_read(struct key_reading *reading, const config_setting_t *group, c
             continue;
         key_table_allowed(key, allowed, sizeof(allowed));
         snprintf(path, sizeof(path), "%s%s%s", shown, shown_dot, key->name);
-        return key_table_refuse(message, place, path, NULL, "is missing; allowed: %s", allowed);
+        return key_table_refuse(error, place, path, NULL, "is missing; allowed: %s", allowed);
     }
     return 0;
 }

@@ -8,7 +8,7 @@
 #ifndef JOLON_CONFIG_SYNTAX_KEY_TABLE_H
 #define JOLON_CONFIG_SYNTAX_KEY_TABLE_H
 
-#include "config/syntax/config_message.h"
+#include "world/runtime/error_text.h"
 
 #include <libconfig.h>
 #include <stdbool.h>
@@ -82,7 +82,7 @@ struct key_place {
 
 /* Writes "file:line: path = value: text" into the message and returns -1. Leaves out a line of 0, a
  * path of NULL and a value of NULL. Escapes control characters. */
-int key_table_refuse(struct config_message *message, struct key_place place, const char *path,
+int key_table_refuse(struct error_text *error, struct key_place place, const char *path,
                      const char *value, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
@@ -100,12 +100,11 @@ const char *key_type_name(enum key_type type);
 void key_table_range(const struct key *key, char *text, size_t bytes);
 
 /* Stores every fallback. 0; -1 when a fallback breaks the rule of its key (a bug in the table). */
-int key_table_defaults(const struct key_table *table, void *destination,
-                       struct config_message *message);
+int key_table_defaults(const struct key_table *table, void *destination, struct error_text *error);
 
 /* Stores a value that is written as in an override: text has no quotes. 0; -1 with the message. */
 int key_table_set_text(const struct key *key, void *destination, const char *text,
-                       struct key_place place, struct config_message *message);
+                       struct key_place place, struct error_text *error);
 
 /* The input and the output of key_table_read(). */
 struct key_reading {
@@ -122,7 +121,7 @@ struct key_reading {
  * shown: the path of the group in messages. Refuses unknown keys, and with prefix "" also required
  * keys that are missing. 0; -1 with the message. */
 int key_table_read(struct key_reading *reading, const config_setting_t *group, const char *prefix,
-                   const char *shown, struct config_message *message);
+                   const char *shown, struct error_text *error);
 
 /* Reads a setting that is [x, z] or (x, z). Returns false for any other. */
 bool key_table_point(const config_setting_t *setting, double point[2]);

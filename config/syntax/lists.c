@@ -15,14 +15,14 @@
 /* --- fixed objects -----------------------------------------------------------------------------*/
 
 int lists_objects(struct scenario *scenario, const config_setting_t *list, const char *file,
-                  struct config_message *message)
+                  struct error_text *error)
 {
-    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
-    int length = list != NULL ? entry_count(list, file, SCHEMA_OBJECTS_MAX, message) : 0;
+    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .error = error};
+    int length = list != NULL ? entry_count(list, file, SCHEMA_OBJECTS_MAX, error) : 0;
     if (length < 0)
         return -1;
     scenario->object_list =
-        entry_allocate((uint32_t)length, sizeof(*scenario->object_list), file, message);
+        entry_allocate((uint32_t)length, sizeof(*scenario->object_list), file, error);
     if (scenario->object_list == NULL)
         return -1;
     for (int i = 0; i < length; i++) {
@@ -41,10 +41,10 @@ int lists_objects(struct scenario *scenario, const config_setting_t *list, const
 /* --- bases -------------------------------------------------------------------------------------*/
 
 int lists_bases(struct scenario *scenario, const config_setting_t *list, const char *file,
-                struct config_message *message)
+                struct error_text *error)
 {
-    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
-    int length = list != NULL ? entry_count(list, file, FORCE_COUNT, message) : 0;
+    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .error = error};
+    int length = list != NULL ? entry_count(list, file, FORCE_COUNT, error) : 0;
     for (int i = 0; i < length; i++) {
         struct base_entry base;
         if (entry_read(&entry, &schema_base, i, list, &base) != 0)
@@ -116,10 +116,10 @@ static const struct scenario_group *find_vehicle(const struct named *named, cons
 /* Sorts the named groups, and refuses a name that two vehicles would share. */
 static int collect_names(struct named *named, const struct scenario *scenario,
                          const config_setting_t *vehicles, const char *file,
-                         struct config_message *message)
+                         struct error_text *error)
 {
     named->count = 0;
-    named->group = entry_allocate(scenario->group_count, sizeof(*named->group), file, message);
+    named->group = entry_allocate(scenario->group_count, sizeof(*named->group), file, error);
     if (named->group == NULL)
         return -1;
     for (uint32_t i = 0; i < scenario->group_count; i++) {
@@ -138,7 +138,7 @@ static int collect_names(struct named *named, const struct scenario *scenario,
             config_setting_get_member(config_setting_get_elem(vehicles, index), "name");
         const struct key_place place = {file, (int)config_setting_source_line(name)};
         snprintf(path, sizeof(path), "vehicles[%u].name", index);
-        return key_table_refuse(message, place, path, group->name,
+        return key_table_refuse(error, place, path, group->name,
                                 "is also the name of another vehicle; allowed: each name once");
     }
     return 0;
@@ -183,16 +183,16 @@ static int check_fire(const struct entry *entry, const struct fire_entry *fire,
 }
 
 int lists_fires(struct scenario *scenario, const config_setting_t *list,
-                const config_setting_t *vehicles, const char *file, struct config_message *message)
+                const config_setting_t *vehicles, const char *file, struct error_text *error)
 {
-    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .message = message};
-    int length = list != NULL ? entry_count(list, file, SCHEMA_FIRES_MAX, message) : 0;
+    struct entry entry = {.scenario = scenario, .keys = {.file = file}, .error = error};
+    int length = list != NULL ? entry_count(list, file, SCHEMA_FIRES_MAX, error) : 0;
     struct named named = {NULL, 0};
     int result = -1;
     if (length < 0)
         return -1;
-    scenario->fires = entry_allocate((uint32_t)length, sizeof(*scenario->fires), file, message);
-    if (scenario->fires == NULL || collect_names(&named, scenario, vehicles, file, message) != 0)
+    scenario->fires = entry_allocate((uint32_t)length, sizeof(*scenario->fires), file, error);
+    if (scenario->fires == NULL || collect_names(&named, scenario, vehicles, file, error) != 0)
         goto err_names;
     for (int i = 0; i < length; i++) {
         struct fire_entry fire;

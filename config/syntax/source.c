@@ -27,7 +27,7 @@ static const char *type_of(mode_t mode)
     return "a device";
 }
 
-static int read_all(struct source *source, int fd, struct config_message *message)
+static int read_all(struct source *source, int fd, struct error_text *error)
 {
     const struct key_place place = {source->path, 0};
     size_t used = 0;
@@ -36,10 +36,10 @@ static int read_all(struct source *source, int fd, struct config_message *messag
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)
-            return key_table_refuse(message, place, NULL, NULL, "cannot be read: %s",
+            return key_table_refuse(error, place, NULL, NULL, "cannot be read: %s",
                                     strerror(errno));
         if (got == 0)
-            return key_table_refuse(message, place, NULL, NULL, "became shorter while it was read");
+            return key_table_refuse(error, place, NULL, NULL, "became shorter while it was read");
         used += (size_t)got;
     }
     source->text[used] = '\0';
@@ -47,13 +47,13 @@ static int read_all(struct source *source, int fd, struct config_message *messag
 }
 
 static int check_status(const struct stat *status, size_t most, struct key_place place,
-                        struct config_message *message)
+                        struct error_text *error)
 {
     if (!S_ISREG(status->st_mode))
-        return key_table_refuse(message, place, NULL, NULL, "is %s; allowed: a regular file",
+        return key_table_refuse(error, place, NULL, NULL, "is %s; allowed: a regular file",
                                 type_of(status->st_mode));
     if (status->st_size > (off_t)most)
-        return key_table_refuse(message, place, NULL, NULL, "has %lld bytes; allowed: up to %zu",
+        return key_table_refuse(error, place, NULL, NULL, "has %lld bytes; allowed: up to %zu",
                                 (long long)status->st_size, most);
     return 0;
 }
@@ -62,22 +62,20 @@ static int check_status(const struct stat *status, size_t most, struct key_place
  * is opened, because opening a device may have an effect, and again after, because the name may
  * have changed its meaning. follow: 0 or AT_SYMLINK_NOFOLLOW. -1 with the message. */
 static int open_checked(int folder, const char *name, int follow, struct key_place place,
-                        size_t most, struct stat *status, struct config_message *message)
+                        size_t most, struct stat *status, struct error_text *error)
 {
     int flags = O_RDONLY | O_CLOEXEC | O_NOCTTY;
-    if (fstatat(folder, name, status, follow) == 0 &&
-        check_status(status, most, place, message) != 0)
+    if (fstatat(folder, name, status, follow) == 0 && check_status(status, most, place, error) != 0)
         return -1;
     /* Without O_NONBLOCK the open of a pipe would wait for a writer. */
     int fd = openat(folder, name, flags | O_NONBLOCK | (follow != 0 ? O_NOFOLLOW : 0));
     if (fd < 0)
-        return key_table_refuse(message, place, NULL, NULL, "cannot be opened: %s",
-                                strerror(errno));
+        return key_table_refuse(error, place, NULL, NULL, "cannot be opened: %s", strerror(errno));
     if (fstat(fd, status) != 0) {
-        key_table_refuse(message, place, NULL, NULL, "cannot be examined: %s", strerror(errno));
+        key_table_refuse(error, place, NULL, NULL, "cannot be examined: %s", strerror(errno));
         goto err_open;
     }
-    if (check_status(status, most, place, message) == 0)
+    if (check_status(status, most, place, error) == 0)
         return fd;
 err_open:
     close(fd);
@@ -85,8 +83,7 @@ err_open:
 }
 
 /* Reads an open file whole, and closes it. */
-static int take(struct source *source, int fd, const struct stat *status,
-                struct config_message *message)
+static int take(struct source *source, int fd, const struct stat *status, struct error_text *error)
 {
     const struct key_place place = {source->path, 0};
     int result = -1;
@@ -95,50 +92,48 @@ static int take(struct source *source, int fd, const struct stat *status,
     source->bytes = (size_t)status->st_size;
     source->text = malloc(source->bytes + 1);
     if (source->text == NULL)
-        key_table_refuse(message, place, NULL, NULL, "no memory to read it");
+        key_table_refuse(error, place, NULL, NULL, "no memory to read it");
     else
-        result = read_all(source, fd, message);
+        result = read_all(source, fd, error);
     if (result != 0)
         source_free(source);
     close(fd);
     return result;
 }
 
-int source_read(struct source *source, const char *path, size_t most,
-                struct config_message *message)
+int source_read(struct source *source, const char *path, size_t most, struct error_text *error)
 {
     const struct key_place place = {path, 0};
     struct stat status;
     memset(source, 0, sizeof(*source));
     if (strlen(path) >= sizeof(source->path))
-        return key_table_refuse(message, place, NULL, NULL, "is too long for a path");
+        return key_table_refuse(error, place, NULL, NULL, "is too long for a path");
     memcpy(source->path, path, strlen(path) + 1);
-    int fd = open_checked(AT_FDCWD, path, 0, place, most, &status, message);
-    return take(source, fd, &status, message);
+    int fd = open_checked(AT_FDCWD, path, 0, place, most, &status, error);
+    return take(source, fd, &status, error);
 }
 
 int source_read_in(struct source *source, const char *folder, const char *name, size_t most,
-                   struct config_message *message)
+                   struct error_text *error)
 {
     const struct key_place place = {source->path, 0};
     struct stat status;
     memset(source, 0, sizeof(*source));
     int length = snprintf(source->path, sizeof(source->path), "%s/%s", folder, name);
     if (length < 0 || (size_t)length >= sizeof(source->path))
-        return key_table_refuse(message, place, NULL, NULL, "is too long for a path");
+        return key_table_refuse(error, place, NULL, NULL, "is too long for a path");
     if (name[0] == '\0' || strchr(name, '/') != NULL || strcmp(name, ".") == 0 ||
         strcmp(name, "..") == 0)
-        return key_table_refuse(message, place, NULL, NULL,
+        return key_table_refuse(error, place, NULL, NULL,
                                 "is not the name of a file in %s; allowed: a name without '/'",
                                 folder);
     int dir = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
     if (dir < 0)
-        return key_table_refuse(message, place, NULL, NULL, "cannot be opened: %s",
-                                strerror(errno));
+        return key_table_refuse(error, place, NULL, NULL, "cannot be opened: %s", strerror(errno));
     /* A name of one part leads out of the folder only by a symbolic link. */
-    int fd = open_checked(dir, name, AT_SYMLINK_NOFOLLOW, place, most, &status, message);
+    int fd = open_checked(dir, name, AT_SYMLINK_NOFOLLOW, place, most, &status, error);
     close(dir);
-    return take(source, fd, &status, message);
+    return take(source, fd, &status, error);
 }
 
 void source_free(struct source *source)
@@ -149,7 +144,7 @@ void source_free(struct source *source)
 }
 
 /* libconfig would read any file that an @include at the start of a line names. */
-static int refuse_includes(const struct source *source, struct config_message *message)
+static int refuse_includes(const struct source *source, struct error_text *error)
 {
     int line = 1;
     for (const char *at = source->text; at != NULL && *at != '\0'; line++) {
@@ -157,7 +152,7 @@ static int refuse_includes(const struct source *source, struct config_message *m
         if (strncmp(word, "@include", strlen("@include")) == 0) {
             const struct key_place place = {source->path, line};
             return key_table_refuse(
-                message, place, NULL, NULL,
+                error, place, NULL, NULL,
                 "@include is not supported; right would be: the included text itself");
         }
         at = strchr(at, '\n');
@@ -170,7 +165,7 @@ static int refuse_includes(const struct source *source, struct config_message *m
 /* Refuses trees that no schema has before libconfig builds them: it keeps every part in memory, and
  * each key added to a group costs a search of the group. It also takes a string that never ends for
  * the end of the file. */
-static int check_shape(const struct source *source, struct config_message *message)
+static int check_shape(const struct source *source, struct error_text *error)
 {
     struct literals_shape shape;
     literals_measure(source->text, &shape);
@@ -179,14 +174,14 @@ static int check_shape(const struct source *source, struct config_message *messa
     const struct key_place fullest = {source->path, shape.fullest_line};
     if (shape.open_line > 0)
         return key_table_refuse(
-            message, open, NULL, NULL,
+            error, open, NULL, NULL,
             "has a string or comment that never ends; right would be: a closing \" or */");
     if (shape.deepest > SCHEMA_DEPTH_MAX)
-        return key_table_refuse(message, deepest, NULL, NULL,
+        return key_table_refuse(error, deepest, NULL, NULL,
                                 "is nested %u deep; allowed: up to %u levels of ( [ {",
                                 shape.deepest, SCHEMA_DEPTH_MAX);
     if (shape.fullest > SCHEMA_MEMBERS_MAX)
-        return key_table_refuse(message, fullest, NULL, NULL,
+        return key_table_refuse(error, fullest, NULL, NULL,
                                 "is a group of %u keys; allowed: up to %u", shape.fullest,
                                 SCHEMA_MEMBERS_MAX);
     return 0;
@@ -205,26 +200,26 @@ static void parse(void *context)
     parsing->result = config_read_string(parsing->config, parsing->text);
 }
 
-int source_parse(const struct source *source, config_t *config, struct config_message *message)
+int source_parse(const struct source *source, config_t *config, struct error_text *error)
 {
     struct key_place place = {source->path, 0};
     if (strlen(source->text) != source->bytes)
-        return key_table_refuse(message, place, NULL, NULL, "is not text: it has a NUL byte");
-    if (refuse_includes(source, message) != 0 || check_shape(source, message) != 0)
+        return key_table_refuse(error, place, NULL, NULL, "is not text: it has a NUL byte");
+    if (refuse_includes(source, error) != 0 || check_shape(source, error) != 0)
         return -1;
     char *text = literals_widen(source->text);
     if (text == NULL)
-        return key_table_refuse(message, place, NULL, NULL, "no memory to read it");
+        return key_table_refuse(error, place, NULL, NULL, "no memory to read it");
     struct parsing parsing = {config, text, CONFIG_FALSE};
     bool whole = memory_guarded(parse, &parsing);
     free(text);
     if (!whole) {
         memset(config, 0, sizeof(*config)); /* what it holds may be half made */
-        return key_table_refuse(message, place, NULL, NULL, "no memory to read it");
+        return key_table_refuse(error, place, NULL, NULL, "no memory to read it");
     }
     if (parsing.result != CONFIG_TRUE) {
         place.line = config_error_line(config);
-        return key_table_refuse(message, place, NULL, NULL,
+        return key_table_refuse(error, place, NULL, NULL,
                                 "%s; right would be: group = { key = value; key = value; };",
                                 config_error_text(config));
     }

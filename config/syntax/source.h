@@ -4,7 +4,7 @@
 #ifndef JOLON_CONFIG_SYNTAX_SOURCE_H
 #define JOLON_CONFIG_SYNTAX_SOURCE_H
 
-#include "config/syntax/config_message.h"
+#include "world/runtime/error_text.h"
 
 #include <libconfig.h>
 #include <limits.h>
@@ -18,20 +18,19 @@ struct source {
 
 /* Reads a file of at most `most` bytes that the user named. It may be anywhere, and the path may
  * have symbolic links. 0; -1 with the message, and nothing to free. */
-int source_read(struct source *source, const char *path, size_t most,
-                struct config_message *message);
+int source_read(struct source *source, const char *path, size_t most, struct error_text *error);
 
 /* Reads the file `name` of a folder. The name may come from a file or a directory, so it is refused
  * when it could lead out of the folder: a '/', "..", a symbolic link. The folder is the user's
  * choice and may be anywhere. 0; -1 with the message, and nothing to free. */
 int source_read_in(struct source *source, const char *folder, const char *name, size_t most,
-                   struct config_message *message);
+                   struct error_text *error);
 
 void source_free(struct source *source);
 
 /* Parses into config, which the caller has zeroed and later destroys. Refuses @include, because a
  * scenario is complete in one file. Refuses deeper nesting and larger groups than any schema has
  * before libconfig builds them. 0; -1 with the message. */
-int source_parse(const struct source *source, config_t *config, struct config_message *message);
+int source_parse(const struct source *source, config_t *config, struct error_text *error);
 
 #endif

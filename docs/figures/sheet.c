@@ -20,9 +20,9 @@ static const char usage_text[] =
     "size\n"
     "and laid out in columns with captions.\n";
 
-static _Noreturn void refuse(const char *what, const char *why)
+static _Noreturn void refuse(const char *what, const char *detail)
 {
-    fprintf(stderr, "sheet: %s: %s\n", what, why);
+    fprintf(stderr, "sheet: %s: %s\n", what, detail);
     exit(1);
 }
 
@@ -90,10 +90,10 @@ static void compose(int count, char **figures, const char *to, uint32_t columns,
 {
     uint32_t rows = ((uint32_t)count + columns - 1) / columns;
     struct image sheet, picture;
-    struct reason reason;
-    struct text *text = text_open(&reason);
+    struct error_text error;
+    struct text *text = text_open(&error);
     if (text == NULL)
-        refuse("font", reason.text);
+        refuse("font", error.text);
     if (image_init(&sheet, columns * (width + MARGIN) + MARGIN,
                    rows * (height + CAPTION_HEIGHT) + MARGIN) != 0)
         refuse(to, "no memory");

@@ -59,18 +59,18 @@ static void check_words(const struct view *view, uint64_t commit, uint64_t moved
 static void check_frame(struct view *view, uint64_t commit)
 {
     const struct state_head *head = view->w[commit & 1].head;
-    struct reason reason;
+    struct error_text error;
     if (head->frame != commit)
         die_refused("world \"%s\" is damaged: buffer %llu holds frame %llu; commit = %llu",
                     view->name, (unsigned long long)(commit & 1), (unsigned long long)head->frame,
                     (unsigned long long)commit);
-    if (segment_check_head(view, head, &reason) != 0)
-        die_refused("world \"%s\" is damaged: %s", view->name, reason.text);
+    if (segment_check_head(view, head, &error) != 0)
+        die_refused("world \"%s\" is damaged: %s", view->name, error.text);
     if (view->checked)
         return; /* what is committed since then was computed from what was good */
-    if (segment_check_state(view, commit, &reason) != 0 ||
-        (view->role == ROLE_COLLIDER && segment_check_moved(view, commit + 1, &reason) != 0))
-        die_refused("world \"%s\" is damaged: %s", view->name, reason.text);
+    if (segment_check_state(view, commit, &error) != 0 ||
+        (view->role == ROLE_COLLIDER && segment_check_moved(view, commit + 1, &error) != 0))
+        die_refused("world \"%s\" is damaged: %s", view->name, error.text);
     view->checked = true;
 }
 

@@ -43,8 +43,8 @@ void snapshot_free(struct snapshot *snapshot)
 static bool copy_good(struct snapshot *snapshot, const struct view *view, uint64_t frame)
 {
     struct state copy = snapshot_state(snapshot, view);
-    struct reason reason;
-    if (snapshot->head.frame != frame || segment_check_head(view, &snapshot->head, &reason) != 0)
+    struct error_text error;
+    if (snapshot->head.frame != frame || segment_check_head(view, &snapshot->head, &error) != 0)
         return false;
     list_hashes_extend(&snapshot->lists, &copy);
     return state_checksum_of(&copy, rows_hash_again(&copy.entities, copy.head->used),

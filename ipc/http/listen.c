@@ -66,7 +66,7 @@ static int listen_six(struct http_listener *listener, const struct in6_addr *add
 }
 
 int http_listen(struct http_listener *listener, const struct http_listen_options *options,
-                struct reason *reason)
+                struct error_text *error)
 {
     struct in_addr four;
     struct in6_addr six;
@@ -77,15 +77,15 @@ int http_listen(struct http_listener *listener, const struct http_listen_options
     else if (inet_pton(AF_INET6, options->address, &six) == 1)
         result = listen_six(listener, &six, options);
     else
-        return reason_set(reason, "%s %s: must be an address, as 127.0.0.1 or ::1",
-                          options->address_option, options->address);
+        return error_text_set(error, "%s %s: must be an address, as 127.0.0.1 or ::1",
+                              options->address_option, options->address);
     if (result == 0)
         return 0;
     int cause = errno;
     if (listener->fd >= 0)
         close(listener->fd);
     listener->fd = -1;
-    return reason_set(reason, "%s %u: cannot listen on %s port %u: %s", options->port_option,
-                      options->port, options->address, options->port,
-                      cause == EADDRINUSE ? "it is in use; name another" : strerror(cause));
+    return error_text_set(error, "%s %u: cannot listen on %s port %u: %s", options->port_option,
+                          options->port, options->address, options->port,
+                          cause == EADDRINUSE ? "it is in use; name another" : strerror(cause));
 }

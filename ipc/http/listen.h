@@ -27,6 +27,6 @@ struct http_listen_options {
 /* Binds and listens. 0, or -1 with the reason: no such address, the port is in use or not allowed.
  */
 int http_listen(struct http_listener *listener, const struct http_listen_options *options,
-                struct reason *reason);
+                struct error_text *error);
 
 #endif

@@ -303,12 +303,12 @@ static enum MHD_Result on_request(void *context, struct MHD_Connection *connecti
 }
 
 static void on_end(void *context, struct MHD_Connection *connection, void **kept,
-                   enum MHD_RequestTerminationCode why)
+                   enum MHD_RequestTerminationCode detail)
 {
     struct http_server *server = context;
     struct exchange *exchange = *kept;
     (void)connection;
-    (void)why;
+    (void)detail;
     if (!exchange)
         return;
     server->handler.end(server->handler.context, &exchange->request);
@@ -342,11 +342,11 @@ static void on_connection(void *context, struct MHD_Connection *connection, void
 /* --- starting and ending -----------------------------------------------------------------------*/
 
 /* Room for two servers and what else the process opens. 0: there is none, with the reason. */
-static uint32_t count_seats(struct reason *reason)
+static uint32_t count_seats(struct error_text *error)
 {
     struct rlimit files;
     if (getrlimit(RLIMIT_NOFILE, &files) != 0) {
-        reason_set(reason, "cannot read the limit of open files: %s", strerror(errno));
+        error_text_set(error, "cannot read the limit of open files: %s", strerror(errno));
         return 0;
     }
     if (files.rlim_cur < FILES) {
@@ -356,8 +356,8 @@ static uint32_t count_seats(struct reason *reason)
     uint32_t most = files.rlim_cur < FILES ? (uint32_t)files.rlim_cur : FILES;
     uint32_t seats = most > FILES_OTHERS ? (most - FILES_OTHERS) / 3 : 0;
     if (seats < SEATS_MIN) {
-        reason_set(reason, "only %u files may be open; a server of HTTP needs %u (ulimit -n)", most,
-                   FILES_OTHERS + 3 * SEATS_MIN);
+        error_text_set(error, "only %u files may be open; a server of HTTP needs %u (ulimit -n)",
+                       most, FILES_OTHERS + 3 * SEATS_MIN);
         return 0;
     }
     return seats < CONNECTION_SEATS_MAX ? seats : CONNECTION_SEATS_MAX;
@@ -384,13 +384,13 @@ static struct MHD_Daemon *start_daemon(struct http_server *server, int fd)
 }
 
 struct http_server *http_server_start(struct http_listener *listener,
-                                      const struct http_handler *handler, struct reason *reason)
+                                      const struct http_handler *handler, struct error_text *error)
 {
-    uint32_t seats = count_seats(reason);
+    uint32_t seats = count_seats(error);
     struct http_server *server = seats > 0 ? calloc(1, sizeof *server) : NULL;
     if (!server) {
         if (seats > 0)
-            reason_set(reason, "no memory for a server of HTTP");
+            error_text_set(error, "no memory for a server of HTTP");
         return NULL;
     }
     server->handler = *handler;
@@ -404,7 +404,7 @@ struct http_server *http_server_start(struct http_listener *listener,
         listener->fd = -1;
         return server;
     }
-    reason_set(reason, "cannot start the server of HTTP: %s", strerror(errno));
+    error_text_set(error, "cannot start the server of HTTP: %s", strerror(errno));
     http_server_stop(server);
     return NULL;
 }

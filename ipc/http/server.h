@@ -65,7 +65,7 @@ struct http_handler {
  * process share its descriptors: the soft limit (RLIMIT_NOFILE) is raised to 1024 where that is
  * allowed, and with less there are fewer connections. NULL with the reason. */
 struct http_server *http_server_start(struct http_listener *listener,
-                                      const struct http_handler *handler, struct reason *reason);
+                                      const struct http_handler *handler, struct error_text *error);
 
 /* Ends all connections and the thread; none may be waiting. NULL is nothing. */
 void http_server_stop(struct http_server *server);

@@ -70,11 +70,11 @@ static const struct option_row *find_row(const struct known *known, int value)
 
 /* --- values ------------------------------------------------------------------------------------*/
 
-static int take_whole(const struct option_row *row, const char *text, const struct error_text *why)
+static int take_whole(const struct option_row *row, const char *text, struct error_text *error)
 {
     uint64_t value;
     if (!parse_whole(text, row->least, row->most, &value))
-        return error_text_say(why, "must be a whole number from %llu to %llu",
+        return error_text_set(error, "must be a whole number from %llu to %llu",
                               (unsigned long long)row->least, (unsigned long long)row->most);
     if (row->integer)
         *row->integer = (int)value;
@@ -85,20 +85,20 @@ static int take_whole(const struct option_row *row, const char *text, const stru
     return 0;
 }
 
-static int take_size(const struct option_row *row, const char *text, const struct error_text *why)
+static int take_size(const struct option_row *row, const char *text, struct error_text *error)
 {
     struct option_size size;
     int used = 0;
     if (sscanf(text, "%5ux%5u%n", &size.width, &size.height, &used) != 2 || text[used] != '\0' ||
         size.width < row->least || size.width > row->most || size.height < row->least ||
         size.height > row->most)
-        return error_text_say(why, "not WxH with each from %llu to %llu, as 1280x720",
+        return error_text_set(error, "not WxH with each from %llu to %llu, as 1280x720",
                               (unsigned long long)row->least, (unsigned long long)row->most);
     *row->size = size;
     return 0;
 }
 
-static int take_choice(const struct option_row *row, const char *text, const struct error_text *why)
+static int take_choice(const struct option_row *row, const char *text, struct error_text *error)
 {
     char words[160] = "";
     int place = (int)row->least;
@@ -112,24 +112,24 @@ static int take_choice(const struct option_row *row, const char *text, const str
                        word);
         word = word[length] ? word + length + 1 : NULL;
     }
-    return error_text_say(why, "not one of %s", words);
+    return error_text_set(error, "not one of %s", words);
 }
 
-static int take_value(const struct option_row *row, const char *value, const struct error_text *why)
+static int take_value(const struct option_row *row, const char *value, struct error_text *error)
 {
     if (row->flag)
         *row->flag = true;
     if (row->text)
         *row->text = row->argument ? value : row->name;
-    if (row->choice && take_choice(row, value, why) != 0)
+    if (row->choice && take_choice(row, value, error) != 0)
         return -1;
-    if ((row->integer || row->u32 || row->u64) && take_whole(row, value, why) != 0)
+    if ((row->integer || row->u32 || row->u64) && take_whole(row, value, error) != 0)
         return -1;
-    if (row->size && take_size(row, value, why) != 0)
+    if (row->size && take_size(row, value, error) != 0)
         return -1;
     if (row->real && !parse_real(value, row->low, row->high, row->real))
-        return error_text_say(why, "must be a number from %g to %g", row->low, row->high);
-    return row->take ? row->take(value, why) : 0;
+        return error_text_set(error, "must be a number from %g to %g", row->low, row->high);
+    return row->take ? row->take(value, error) : 0;
 }
 
 /* --- help --------------------------------------------------------------------------------------*/
@@ -171,7 +171,7 @@ static void show_help(const struct option_table *table)
 
 /* word: the argument that getopt refused. optopt is the letter or value of its option, or 0. */
 static int refuse(const struct option_table *table, const struct known *known, int result,
-                  const char *word, const struct error_text *why)
+                  const char *word, struct error_text *error)
 {
     const struct option_row *row = find_row(known, optopt);
     const char *wrong = "no such option";
@@ -188,7 +188,7 @@ static int refuse(const struct option_table *table, const struct known *known, i
         if (alike > 1)
             wrong = "the beginning of several options";
     }
-    return error_text_say(why, "%.200s: %s; see %s --help", word, wrong, table->program);
+    return error_text_set(error, "%.200s: %s; see %s --help", word, wrong, table->program);
 }
 
 static bool usage_names(const char *usage, const char *name)
@@ -203,40 +203,39 @@ static bool usage_names(const char *usage, const char *name)
 }
 
 int option_table_try(const struct option_table *table, int argc, char **argv,
-                     const struct error_text *why)
+                     struct error_text *error)
 {
     struct known known;
-    char wrong[512];
-    const struct error_text of_value = {wrong, sizeof wrong};
+    struct error_text wrong;
     int result;
     know(&known, table, "");
     while ((result = getopt_long(argc, argv, known.letters, known.option, NULL)) != -1) {
         const struct option_row *row = find_row(&known, result);
         if (!row)
-            return refuse(table, &known, result, argv[optind - 1], why);
+            return refuse(table, &known, result, argv[optind - 1], error);
         if (row == &help_row) {
             show_help(table);
             exit(EXIT_OK);
         }
         if (table->usage_rows && !usage_names(table->usage, row->name))
-            return error_text_say(why, "--%s: %s does not take it; see %s --help", row->name,
+            return error_text_set(error, "--%s: %s does not take it; see %s --help", row->name,
                                   table->program, table->program);
         const char *value = optarg ? optarg : "";
-        if (take_value(row, value, &of_value) != 0)
-            return error_text_say(why, "--%s %.200s: %s", row->name, value, wrong);
+        if (take_value(row, value, &wrong) != 0)
+            return error_text_set(error, "--%s %.200s: %s", row->name, value, wrong.text);
     }
     if (argc - optind > table->plain)
-        return error_text_say(why, "'%.200s': one argument too many; see %s --help",
+        return error_text_set(error, "'%.200s': one argument too many; see %s --help",
                               argv[optind + table->plain], table->program);
     return argc - optind;
 }
 
 int option_table_read(const struct option_table *table, int argc, char **argv)
 {
-    char wrong[512];
-    int plain = option_table_try(table, argc, argv, &(struct error_text){wrong, sizeof wrong});
+    struct error_text error;
+    int plain = option_table_try(table, argc, argv, &error);
     if (plain < 0)
-        die_usage("%s", wrong);
+        die_usage("%s", error.text);
     return plain;
 }
 

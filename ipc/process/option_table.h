@@ -30,9 +30,9 @@ struct option_row {
     double *real;             /* a number, low..high */
     struct option_size *size; /* WIDTHxHEIGHT, each least..most */
     /* Checks the value, or reads one of another kind. Is called after the value has been stored.
-     * Returns 0, or -1 with the reason in why; the reader puts the option and its value before it.
+     * Returns 0, or -1 with the reason in error; the reader puts the option and its value before it.
      */
-    int (*take)(const char *value, const struct error_text *why);
+    int (*take)(const char *value, struct error_text *error);
     uint64_t least, most;
     double low, high;
     char letter; /* its short form, 0: none */
@@ -71,7 +71,7 @@ int option_table_read(const struct option_table *table, int argc, char **argv);
 /* The same, but a wrong command line does not end the process: the line goes into why, and -1 is
  * returned. */
 int option_table_try(const struct option_table *table, int argc, char **argv,
-                     const struct error_text *why);
+                     struct error_text *error);
 
 /* Returns the place in argv of the first argument that is neither an option nor an option's value,
  * or argc when there is none. Values are neither checked nor stored. */

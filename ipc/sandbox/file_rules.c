@@ -95,8 +95,8 @@ static int allow_paths(int ruleset, const char *const *paths, size_t count, uint
 /* What a visitor reads: beside the paths above the worlds' names and locks. */
 static int allow_worlds(int ruleset)
 {
-    struct reason reason;
-    int folder = runtime_folder_open(&reason);
+    struct error_text error;
+    int folder = runtime_folder_open(&error);
     int result = allow_paths(ruleset, visitor_paths, COUNT(visitor_paths), ACCESS_READ);
     if (folder < 0 || result != 0)
         return result;

@@ -49,12 +49,13 @@ static const char *needs_more(enum role role)
     return CRASHES ? "a build with crash points" : NULL;
 }
 
-static int refused(struct reason *reason, const char *what, int error)
+static int refused(struct error_text *error, const char *what, int code)
 {
-    return reason_set(reason,
-                      "sandbox: %s: %s; this kernel or container does not allow it: allow it, or "
-                      "run with --no-sandbox",
-                      what, strerror(error));
+    return error_text_set(
+        error,
+        "sandbox: %s: %s; this kernel or container does not allow it: allow it, or "
+        "run with --no-sandbox",
+        what, strerror(code));
 }
 
 /* What this process may not get back, whoever's program it would become. */
@@ -69,26 +70,26 @@ static int drop_capabilities(void)
     return (int)syscall(SYS_capset, &header, none);
 }
 
-static int drop_privileges(struct reason *reason)
+static int drop_privileges(struct error_text *error)
 {
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
-        return refused(reason, "no new privileges", errno);
+        return refused(error, "no new privileges", errno);
     if (drop_capabilities() != 0)
-        return refused(reason, "dropping capabilities", errno);
+        return refused(error, "dropping capabilities", errno);
     return 0;
 }
 
 /* Of a step into Landlock, which old kernels do not have. */
-static int files_done(int result, struct reason *reason)
+static int files_done(int result, struct error_text *error)
 {
     if (result == -ENOSYS || result == -EOPNOTSUPP) {
         log_info("this kernel has no Landlock: any file of its user's is open to it");
         return 0;
     }
-    return result == 0 ? 0 : refused(reason, "Landlock", -result);
+    return result == 0 ? 0 : refused(error, "Landlock", -result);
 }
 
-int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reason *reason)
+int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct error_text *error)
 {
     *sandbox = (struct sandbox){.role = role};
     if (off) {
@@ -101,7 +102,7 @@ int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reas
         log_info("runs without its sandbox: %s needs more system calls than that allows", what);
         return 0;
     }
-    if (drop_privileges(reason) != 0)
+    if (drop_privileges(error) != 0)
         return -1;
     /* All threads allocate from one arena: with further ones the C library opens files, now and
      * then, to count processors and to ask how memory is promised. */
@@ -113,11 +114,11 @@ int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reas
 }
 
 int sandbox_files(const struct sandbox *sandbox, const int *folders, size_t count,
-                  struct reason *reason)
+                  struct error_text *error)
 {
     if (!sandbox->on)
         return 0;
-    return files_done(file_rules_confine(sandbox->role, folders, count), reason);
+    return files_done(file_rules_confine(sandbox->role, folders, count), error);
 }
 
 #ifdef SANDBOX_SANITIZED
@@ -130,7 +131,7 @@ int __lsan_is_turned_off(void)  /* NOLINT(bugprone-reserved-identifier): the san
 }
 #endif
 
-int sandbox_enter(const struct sandbox *sandbox, struct reason *reason)
+int sandbox_enter(const struct sandbox *sandbox, struct error_text *error)
 {
     if (!sandbox->on)
         return 0;
@@ -140,16 +141,16 @@ int sandbox_enter(const struct sandbox *sandbox, struct reason *reason)
 #ifdef SANDBOX_SANITIZED
     entered = 1;
 #endif
-    return result == 0 ? 0 : refused(reason, "seccomp", -result);
+    return result == 0 ? 0 : refused(error, "seccomp", -result);
 }
 
-int sandbox_keeper(const char *const *folders, size_t count, struct reason *reason)
+int sandbox_keeper(const char *const *folders, size_t count, struct error_text *error)
 {
     if (SANITIZED || CRASHES)
         return 0;
-    if (drop_privileges(reason) != 0 ||
-        files_done(file_rules_confine_keeper(folders, count), reason) != 0)
+    if (drop_privileges(error) != 0 ||
+        files_done(file_rules_confine_keeper(folders, count), error) != 0)
         return -1;
     int result = syscall_filter_load(ROLE_NONE);
-    return result == 0 ? 0 : refused(reason, "seccomp", -result);
+    return result == 0 ? 0 : refused(error, "seccomp", -result);
 }

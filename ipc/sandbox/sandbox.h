@@ -28,16 +28,16 @@ struct sandbox {
 /* ROLE_CONSOLE is every console, also one that is not its set's. off: the user's --no-sandbox.
  * Sanitizers and crash points need system calls of their own: there the sandbox is off, too, but
  * for mover and collider with the sanitizers of addresses and of undefined behaviour. */
-int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct reason *reason);
+int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct error_text *error);
 
 /* From here on files are made, written and removed only beneath these folders (descriptors, which
  * may be closed afterwards), and read only there and, by a renderer, where drivers and fonts are,
  * by the console where worlds are. On a kernel without Landlock it says so in the log and does
  * nothing. */
 int sandbox_files(const struct sandbox *sandbox, const int *folders, size_t count,
-                  struct reason *reason);
+                  struct error_text *error);
 
-int sandbox_enter(const struct sandbox *sandbox, struct reason *reason);
+int sandbox_enter(const struct sandbox *sandbox, struct error_text *error);
 
 /* The keeper's sandbox, in one step, before it starts its first process. It is passed on to every
  * process that the keeper starts, beneath that process's own. So it forbids what none of them
@@ -45,6 +45,6 @@ int sandbox_enter(const struct sandbox *sandbox, struct reason *reason);
  * system calls into other processes, to other users, to mounts and to the kernel's administration,
  * which fail with EPERM. Running programs is allowed. 0, or -1 with the reason. Builds with
  * sanitizers or crash points have no sandbox: 0. */
-int sandbox_keeper(const char *const *folders, size_t count, struct reason *reason);
+int sandbox_keeper(const char *const *folders, size_t count, struct error_text *error);
 
 #endif

@@ -10,8 +10,8 @@
  * this frame? Is the moved table? The last two hash what there is (1 ms for about 20,000 entities).
  * 0, or -1 with what is wrong, by its field. */
 int segment_check_head(const struct view *view, const struct state_head *head,
-                       struct reason *reason);
-int segment_check_state(const struct view *view, uint64_t frame, struct reason *reason);
-int segment_check_moved(const struct view *view, uint64_t frame, struct reason *reason);
+                       struct error_text *error);
+int segment_check_state(const struct view *view, uint64_t frame, struct error_text *error);
+int segment_check_moved(const struct view *view, uint64_t frame, struct error_text *error);
 
 #endif

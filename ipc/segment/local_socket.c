@@ -22,10 +22,10 @@ struct place {
 };
 
 static int find_place(struct place *place, const char *world, const char *suffix,
-                      struct reason *reason)
+                      struct error_text *error)
 {
     CHECK(segment_name_ok(world) && strlen(suffix) < LOCAL_SOCKET_SUFFIX_MAX);
-    place->folder = runtime_folder_open(reason);
+    place->folder = runtime_folder_open(error);
     if (place->folder < 0)
         return -1;
     snprintf(place->name, sizeof place->name, "%s.%s", world, suffix);
@@ -36,50 +36,50 @@ static int find_place(struct place *place, const char *world, const char *suffix
 }
 
 /* Closes what there is, and says what did not work and why, with errno as it was. */
-static int failed(const struct place *place, int fd, const char *what, struct reason *reason)
+static int failed(const struct place *place, int fd, const char *what, struct error_text *error)
 {
     int cause = errno;
     char folder[RUNTIME_FOLDER_MAX];
     if (fd >= 0)
         close(fd);
     close(place->folder);
-    if (runtime_folder(folder, reason) == 0)
-        reason_set(reason, "%s/%s: cannot %s: %s", folder, place->name, what, strerror(cause));
+    if (runtime_folder(folder, error) == 0)
+        error_text_set(error, "%s/%s: cannot %s: %s", folder, place->name, what, strerror(cause));
     errno = cause;
     return -1;
 }
 
 int local_socket_listen(const char *world, const char *suffix, int type, int backlog,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     struct place place;
-    if (find_place(&place, world, suffix, reason) != 0)
+    if (find_place(&place, world, suffix, error) != 0)
         return -1;
     if (unlinkat(place.folder, place.name, 0) != 0 && errno != ENOENT)
-        return failed(&place, -1, "remove the socket of a dead process", reason);
+        return failed(&place, -1, "remove the socket of a dead process", error);
     int fd = socket(AF_UNIX, type | SOCK_CLOEXEC, 0);
     /* The mode of a socket before bind() is the mode of its file, less the umask. */
     if (fd < 0 || fchmod(fd, 0600) != 0 ||
         bind(fd, (const struct sockaddr *)&place.address, sizeof place.address) != 0 ||
         listen(fd, backlog) != 0)
-        return failed(&place, fd, "listen", reason);
+        return failed(&place, fd, "listen", error);
     close(place.folder);
     return fd;
 }
 
-int local_socket_connect(const char *world, const char *suffix, int type, struct reason *reason)
+int local_socket_connect(const char *world, const char *suffix, int type, struct error_text *error)
 {
     struct place place;
-    if (find_place(&place, world, suffix, reason) != 0) {
+    if (find_place(&place, world, suffix, error) != 0) {
         errno = EACCES;
         return -1;
     }
     int fd = socket(AF_UNIX, type | SOCK_CLOEXEC, 0);
     if (fd < 0 || connect(fd, (const struct sockaddr *)&place.address, sizeof place.address) != 0)
-        return failed(&place, fd, "connect", reason);
+        return failed(&place, fd, "connect", error);
     if (!local_socket_peer_is(fd, geteuid())) {
         errno = EACCES;
-        return failed(&place, fd, "connect to a process of another user", reason);
+        return failed(&place, fd, "connect to a process of another user", error);
     }
     close(place.folder);
     return fd;

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <sys/types.h>
 
-struct reason;
+struct error_text;
 struct ucred;
 
 #define LOCAL_SOCKET_SUFFIX_MAX 16 /* with the NUL */
@@ -18,12 +18,12 @@ struct ucred;
  * exec. The socket file stays when the process ends, and goes with the world. To be called before a
  * sandbox is entered. -1 with the reason. */
 int local_socket_listen(const char *world, const char *suffix, int type, int backlog,
-                        struct reason *reason);
+                        struct error_text *error);
 
 /* Connects to it. -1 with errno and the reason: ENOENT or ECONNREFUSED when nobody listens, EACCES
  * when a process of another user does, EAGAIN when the backlog is full and type has SOCK_NONBLOCK.
  * Without SOCK_NONBLOCK a full backlog blocks. */
-int local_socket_connect(const char *world, const char *suffix, int type, struct reason *reason);
+int local_socket_connect(const char *world, const char *suffix, int type, struct error_text *error);
 
 /* Asks the kernel for the user and the process of the other side, as they were when it connected;
  * false when it cannot tell. */

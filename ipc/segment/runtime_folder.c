@@ -22,7 +22,7 @@ struct search {
     char path[RUNTIME_FOLDER_MAX];
     int fd;
     char passed[320];
-    struct reason *reason;
+    struct error_text *error;
 };
 
 /* What this process found first; "" before. */
@@ -31,16 +31,16 @@ static char kept[RUNTIME_FOLDER_MAX];
 
 static enum found refused(struct search *search, int error, const char *right)
 {
-    reason_set(search->reason, "%s: cannot be the runtime folder: %s; %s", search->path,
-               strerror(error), right);
+    error_text_set(search->error, "%s: cannot be the runtime folder: %s; %s", search->path,
+                   strerror(error), right);
     return REFUSED;
 }
 
-static enum found passed_over(struct search *search, const char *place, const char *why)
+static enum found passed_over(struct search *search, const char *place, const char *detail)
 {
     size_t used = strlen(search->passed);
     snprintf(search->passed + used, sizeof search->passed - used, "%s%s: %s", used ? ", " : "",
-             place, why);
+             place, detail);
     return PASSED_OVER;
 }
 
@@ -60,15 +60,17 @@ static enum found open_checked(struct search *search, int base, const char *name
         return refused(search, errno, SAY_ANOTHER);
     }
     if (status.st_uid != geteuid())
-        reason_set(search->reason,
-                   "%s: cannot be the runtime folder: it belongs to user %u, not to user %u; name "
-                   "a folder of your own with JOLON_RUNTIME_DIR",
-                   search->path, (unsigned)status.st_uid, (unsigned)geteuid());
+        error_text_set(
+            search->error,
+            "%s: cannot be the runtime folder: it belongs to user %u, not to user %u; name "
+            "a folder of your own with JOLON_RUNTIME_DIR",
+            search->path, (unsigned)status.st_uid, (unsigned)geteuid());
     else if ((status.st_mode & 0777) != 0700)
-        reason_set(search->reason,
-                   "%s: cannot be the runtime folder: its mode is %04o, not 0700; run `chmod 700 "
-                   "%s`, " SAY_ANOTHER,
-                   search->path, (unsigned)(status.st_mode & 0777), search->path);
+        error_text_set(
+            search->error,
+            "%s: cannot be the runtime folder: its mode is %04o, not 0700; run `chmod 700 "
+            "%s`, " SAY_ANOTHER,
+            search->path, (unsigned)(status.st_mode & 0777), search->path);
     else {
         search->fd = fd;
         return FOUND;
@@ -91,26 +93,26 @@ static int set_path(struct search *search, const char *base, const char *name)
         snprintf(search->path, sizeof search->path, "%s%s%s", base, *name ? "/" : "", name);
     if (length < (int)sizeof search->path)
         return 0;
-    reason_set(search->reason,
-               "%.100s...: is too long for the runtime folder: %d bytes, at most %d; name a "
-               "shorter one with JOLON_RUNTIME_DIR",
-               base, length, RUNTIME_FOLDER_MAX - 1);
+    error_text_set(search->error,
+                   "%.100s...: is too long for the runtime folder: %d bytes, at most %d; name a "
+                   "shorter one with JOLON_RUNTIME_DIR",
+                   base, length, RUNTIME_FOLDER_MAX - 1);
     return -1;
 }
 
 /* A folder that belongs to this user and in which nobody else may write; -1 with why not. */
-static int open_base(const char *path, const char **why)
+static int open_base(const char *path, const char **detail)
 {
     struct stat status;
     int fd = open(path, O_PATH | O_DIRECTORY | O_CLOEXEC);
     if (fd < 0) {
-        *why = strerror(errno);
+        *detail = strerror(errno);
         return -1;
     }
     if (fstat(fd, &status) == 0 && status.st_uid == geteuid() &&
         (status.st_mode & (S_IWGRP | S_IWOTH)) == 0)
         return fd;
-    *why = status.st_uid != geteuid() ? "belongs to another user" : "others may write in it";
+    *detail = status.st_uid != geteuid() ? "belongs to another user" : "others may write in it";
     close(fd);
     return -1;
 }
@@ -119,12 +121,12 @@ static int open_base(const char *path, const char **why)
 static enum found within(struct search *search, const char *base, const char *name,
                          const char *deeper)
 {
-    const char *why = "";
+    const char *detail = "";
     char both[64];
     snprintf(both, sizeof both, "%s%s%s", name, deeper ? "/" : "", deeper ? deeper : "");
-    int fd = open_base(base, &why);
+    int fd = open_base(base, &detail);
     if (fd < 0)
-        return passed_over(search, base, why);
+        return passed_over(search, base, detail);
     enum found found = REFUSED;
     if (set_path(search, base, both) == 0) {
         bool made = mkdirat(fd, name, 0700) == 0 || errno == EEXIST;
@@ -146,8 +148,8 @@ static enum found from_own_variable(struct search *search)
     if (!value || value[0] == '\0')
         return PASSED_OVER;
     if (value[0] != '/') {
-        reason_set(search->reason,
-                   "JOLON_RUNTIME_DIR=%.200s: must be an absolute path, as /run/jolon", value);
+        error_text_set(search->error,
+                       "JOLON_RUNTIME_DIR=%.200s: must be an absolute path, as /run/jolon", value);
         return REFUSED;
     }
     if (set_path(search, value, "") != 0)
@@ -162,13 +164,13 @@ static enum found from_own_variable(struct search *search)
 static enum found from_service(struct search *search)
 {
     char first[RUNTIME_FOLDER_MAX + 1];
-    const char *why = "", *value = getenv("RUNTIME_DIRECTORY");
+    const char *detail = "", *value = getenv("RUNTIME_DIRECTORY");
     if (!value || value[0] != '/')
         return PASSED_OVER;
     snprintf(first, sizeof first, "%.*s", (int)strcspn(value, ":"), value);
-    int fd = open_base(first, &why);
+    int fd = open_base(first, &detail);
     if (fd < 0)
-        return passed_over(search, first, why);
+        return passed_over(search, first, detail);
     close(fd);
     return set_path(search, first, "") == 0 ? open_checked(search, AT_FDCWD, first) : REFUSED;
 }
@@ -211,16 +213,17 @@ static enum found find(struct search *search)
     if (found == PASSED_OVER)
         found = from_home(search);
     if (found == PASSED_OVER)
-        reason_set(search->reason,
-                   "there is no private folder for names and sockets (%s); name a folder of your "
-                   "own with JOLON_RUNTIME_DIR",
-                   search->passed);
+        error_text_set(
+            search->error,
+            "there is no private folder for names and sockets (%s); name a folder of your "
+            "own with JOLON_RUNTIME_DIR",
+            search->passed);
     return found;
 }
 
-int runtime_folder_open(struct reason *reason)
+int runtime_folder_open(struct error_text *error)
 {
-    struct search search = {.fd = -1, .reason = reason};
+    struct search search = {.fd = -1, .error = error};
     pthread_mutex_lock(&kept_lock);
     memcpy(search.path, kept, sizeof kept);
     pthread_mutex_unlock(&kept_lock);
@@ -234,9 +237,9 @@ int runtime_folder_open(struct reason *reason)
     return search.fd;
 }
 
-int runtime_folder(char path[RUNTIME_FOLDER_MAX], struct reason *reason)
+int runtime_folder(char path[RUNTIME_FOLDER_MAX], struct error_text *error)
 {
-    int fd = runtime_folder_open(reason);
+    int fd = runtime_folder_open(error);
     if (fd < 0)
         return -1;
     close(fd);

@@ -18,7 +18,7 @@
 #ifndef JOLON_IPC_SEGMENT_RUNTIME_FOLDER_H
 #define JOLON_IPC_SEGMENT_RUNTIME_FOLDER_H
 
-struct reason;
+struct error_text;
 
 #define RUNTIME_FOLDER_MAX 192 /* the longest path, with the NUL */
 
@@ -26,10 +26,10 @@ struct reason;
  * process keeps the path that it has found first, and no descriptor; each call checks the folder
  * again. Any thread may call this. After the first call it asks the kernel for openat(), fstat()
  * and close() only, so that it works within a sandbox. */
-int runtime_folder(char path[RUNTIME_FOLDER_MAX], struct reason *reason);
+int runtime_folder(char path[RUNTIME_FOLDER_MAX], struct error_text *error);
 
 /* The same as a descriptor (O_PATH | O_DIRECTORY | O_CLOEXEC) that the caller closes, for openat()
  * and the like. -1 with the reason. */
-int runtime_folder_open(struct reason *reason);
+int runtime_folder_open(struct error_text *error);
 
 #endif

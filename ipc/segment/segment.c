@@ -100,29 +100,31 @@ struct segment_header segment_header_for(const struct params *params, const stru
                                    .dent_slots = params->dent_slots};
 }
 
-static int reserve(int fd, size_t bytes, struct reason *reason)
+static int reserve(int fd, size_t bytes, struct error_text *error)
 {
     CRASH_POINT("space");
-    int error = posix_fallocate(fd, 0, (off_t)bytes);
-    if (error == 0)
+    int code = posix_fallocate(fd, 0, (off_t)bytes);
+    if (code == 0)
         return 0;
     struct statvfs space;
     struct rlimit limit;
     double free_mb = 0.0;
     if (fstatvfs(fd, &space) == 0)
         free_mb = (double)space.f_bavail * (double)space.f_frsize / 1e6;
-    if (error == ENOSPC)
-        return reason_set(reason,
-                          "shared memory is full: the world needs %.1f MB and " SEGMENT_DIR
-                          " has %.1f MB free; lower world.capacity, or remove old worlds with "
-                          "`jolon clean -w NAME`",
-                          (double)bytes / 1e6, free_mb);
-    if (error == EFBIG && getrlimit(RLIMIT_FSIZE, &limit) == 0)
-        return reason_set(reason,
-                          "the world needs %.1f MB, and no file of this process may be larger than "
-                          "%.3f MB; raise that with `ulimit -f`, or lower world.capacity",
-                          (double)bytes / 1e6, (double)limit.rlim_cur / 1e6);
-    return reason_set(reason, SEGMENT_DIR ": cannot reserve %zu bytes: %s", bytes, strerror(error));
+    if (code == ENOSPC)
+        return error_text_set(error,
+                              "shared memory is full: the world needs %.1f MB and " SEGMENT_DIR
+                              " has %.1f MB free; lower world.capacity, or remove old worlds with "
+                              "`jolon clean -w NAME`",
+                              (double)bytes / 1e6, free_mb);
+    if (code == EFBIG && getrlimit(RLIMIT_FSIZE, &limit) == 0)
+        return error_text_set(
+            error,
+            "the world needs %.1f MB, and no file of this process may be larger than "
+            "%.3f MB; raise that with `ulimit -f`, or lower world.capacity",
+            (double)bytes / 1e6, (double)limit.rlim_cur / 1e6);
+    return error_text_set(error, SEGMENT_DIR ": cannot reserve %zu bytes: %s", bytes,
+                          strerror(code));
 }
 
 /* The new segment's memory: header written, static regions still to be filled. */
@@ -145,45 +147,46 @@ static int prepare(struct view *view, const struct segment_header *header)
     return doorbells_init(view->doors);
 }
 
-int segment_private(struct view *view, const struct segment_header *header, struct reason *reason)
+int segment_private(struct view *view, const struct segment_header *header,
+                    struct error_text *error)
 {
     *view = (struct view){.role = ROLE_NONE, .lock_fd = -1, .made_fd = -1};
     if (layout_compute(&view->layout, header) != 0)
-        return reason_set(reason, "the world's counts are out of range");
+        return error_text_set(error, "the world's counts are out of range");
     view->base =
         mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (view->base == MAP_FAILED) {
         view->base = NULL;
-        return reason_set(reason, "out of memory: %zu bytes", view->layout.total);
+        return error_text_set(error, "out of memory: %zu bytes", view->layout.total);
     }
-    return prepare(view, header) == 0 ? 0 : reason_set(reason, "doorbells: %s", strerror(errno));
+    return prepare(view, header) == 0 ? 0 : error_text_set(error, "doorbells: %s", strerror(errno));
 }
 
 /* The object has no name until it is whole: when the process dies, the kernel frees it. */
 int segment_begin(struct view *view, const char *name, const struct segment_header *header,
-                  struct reason *reason)
+                  struct error_text *error)
 {
-    if (segment_view_named(view, name, ROLE_NONE, reason) != 0)
+    if (segment_view_named(view, name, ROLE_NONE, error) != 0)
         return -1;
     if (layout_compute(&view->layout, header) != 0)
-        return reason_set(reason, "the world's counts are out of range");
+        return error_text_set(error, "the world's counts are out of range");
     CRASH_POINT("object without a name");
     view->made_fd = open(SEGMENT_DIR, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (view->made_fd < 0)
-        return reason_set(reason, SEGMENT_DIR ": cannot create: %s", strerror(errno));
-    if (reserve(view->made_fd, view->layout.total, reason) != 0)
+        return error_text_set(error, SEGMENT_DIR ": cannot create: %s", strerror(errno));
+    if (reserve(view->made_fd, view->layout.total, error) != 0)
         goto err_made;
     view->base =
         mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, view->made_fd, 0);
     if (view->base == MAP_FAILED) {
         view->base = NULL;
-        reason_set(reason, "cannot map the world's %.1f MB: %s; lower world.capacity",
-                   (double)view->layout.total / 1e6, strerror(errno));
+        error_text_set(error, "cannot map the world's %.1f MB: %s; lower world.capacity",
+                       (double)view->layout.total / 1e6, strerror(errno));
         goto err_made;
     }
     if (prepare(view, header) == 0)
         return 0;
-    reason_set(reason, "cannot make the doorbells: %s", strerror(errno));
+    error_text_set(error, "cannot make the doorbells: %s", strerror(errno));
     segment_abandon(view);
     return -1;
 err_made:
@@ -203,7 +206,7 @@ void segment_fill(struct view *view, const struct world_build *built)
     CRASH_POINT_UNGUARD();
 }
 
-int segment_publish(struct view *view, struct reason *reason)
+int segment_publish(struct view *view, struct error_text *error)
 {
     struct segment_header *own = view->base;
     CRASH_POINT("static hash");
@@ -213,7 +216,7 @@ int segment_publish(struct view *view, struct reason *reason)
     atomic_thread_fence(memory_order_release);
     CRASH_POINT("magic");
     own->magic = SEGMENT_MAGIC;
-    if (segment_give_names(view->name, view->made_fd, reason) != 0)
+    if (segment_give_names(view->name, view->made_fd, error) != 0)
         return -1;
     close(view->made_fd);
     view->made_fd = -1;

@@ -7,7 +7,7 @@
 #ifndef JOLON_IPC_SEGMENT_SEGMENT_H
 #define JOLON_IPC_SEGMENT_SEGMENT_H
 
-#include "ipc/process/reason.h"
+#include "world/runtime/error_text.h"
 #include "ipc/segment/doorbell.h"
 #include "ipc/segment/layout.h"
 #include "ipc/segment/role.h"
@@ -77,14 +77,15 @@ struct view {
  *   segment_abandon frees what begin made. The kernel does so too, when the process ends.
  * 0, or -1 with the reason. header gives counts and sizes; the rest of it is filled here. */
 int segment_begin(struct view *view, const char *name, const struct segment_header *header,
-                  struct reason *reason);
-int segment_publish(struct view *view, struct reason *reason);
+                  struct error_text *error);
+int segment_publish(struct view *view, struct error_text *error);
 void segment_abandon(struct view *view);
 
 /* The same layout in anonymous memory that nobody else can attach to (children of fork share it):
  * tests and benchmarks run the steps on it. Fill it like a created one; segment_abandon frees it.
  * 0, or -1 with the reason. */
-int segment_private(struct view *view, const struct segment_header *header, struct reason *reason);
+int segment_private(struct view *view, const struct segment_header *header,
+                    struct error_text *error);
 
 /* The header fields that follow from a scenario's parameters and the counts of a built world. */
 struct segment_header segment_header_for(const struct params *params, const struct counts *counts);

@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static int try_lock(struct view *view, int fd, const char *path, struct reason *reason)
+static int try_lock(struct view *view, int fd, const char *path, struct error_text *error)
 {
     struct flock byte = segment_role_byte(view->role);
     CRASH_POINT("role's lock");
@@ -24,24 +24,25 @@ static int try_lock(struct view *view, int fd, const char *path, struct reason *
         return 0;
     }
     if (errno != EAGAIN && errno != EACCES)
-        return reason_set(reason, "%s: cannot lock: %s", path, strerror(errno));
-    return reason_set(reason,
-                      "the %s of world \"%s\" is running already (pid %d); two at once are not "
-                      "allowed",
-                      role_name(view->role), view->name, segment_holder(view->name, view->role));
+        return error_text_set(error, "%s: cannot lock: %s", path, strerror(errno));
+    return error_text_set(error,
+                          "the %s of world \"%s\" is running already (pid %d); two at once are not "
+                          "allowed",
+                          role_name(view->role), view->name,
+                          segment_holder(view->name, view->role));
 }
 
 /* Opens the lock file and, unless it is to be taken later, takes the role's byte of it. The file
  * may be removed and made again between open and lock: then it is another world's, and the lock is
  * tried there. */
-int segment_lock(struct view *view, const char *path, bool later, struct reason *reason)
+int segment_lock(struct view *view, const char *path, bool later, struct error_text *error)
 {
     for (int tries = 0; tries < 10; tries++) {
         struct stat held, named;
-        int fd = segment_open_lock(path, view->role == ROLE_NONE ? O_RDONLY : O_RDWR, reason);
+        int fd = segment_open_lock(path, view->role == ROLE_NONE ? O_RDONLY : O_RDWR, error);
         if (fd < 0)
             return -1;
-        if (!later && try_lock(view, fd, path, reason) != 0) {
+        if (!later && try_lock(view, fd, path, error) != 0) {
             close(fd);
             return -1;
         }
@@ -52,7 +53,7 @@ int segment_lock(struct view *view, const char *path, bool later, struct reason 
         view->holds = false;
         close(fd);
     }
-    return reason_set(reason, "%s: is removed and made again all the time", path);
+    return error_text_set(error, "%s: is removed and made again all the time", path);
 }
 
 /* Maps runs of writable regions over the read-only whole. */
@@ -83,52 +84,53 @@ static void *map_readable(int fd, size_t bytes)
 }
 
 /* Of that name there is none. */
-static int absent(const struct view *view, struct reason *reason)
+static int absent(const struct view *view, struct error_text *error)
 {
-    reason_set(
-        reason,
+    error_text_set(
+        error,
         "there is no world \"%s\"; `jolon worlds` lists those there are, `jolon start` makes "
         "one",
         view->name);
-    reason->foreign = true;
+    error->foreign = true;
     return -1;
 }
 
-int segment_map(struct view *view, segment_writable *writable, struct reason *reason)
+int segment_map(struct view *view, segment_writable *writable, struct error_text *error)
 {
     struct segment_paths paths;
     const char *path = paths.object;
     size_t bytes = 0;
     int result = -1;
-    if (segment_paths(&paths, view->name, reason) != 0)
+    if (segment_paths(&paths, view->name, error) != 0)
         return -1;
     if (path[0] == '\0')
-        return absent(view, reason);
+        return absent(view, error);
     /* O_NONBLOCK: a pipe of that name must not make us wait for its other end. */
     int mode = writable ? O_RDWR : O_RDONLY;
     int fd = open(path, mode | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
     if (fd < 0)
-        return errno == ENOENT ? absent(view, reason)
-                               : reason_set(reason, "%s: cannot open: %s", path, strerror(errno));
-    if (segment_check_object(fd, path, &bytes, reason) != 0)
+        return errno == ENOENT
+                   ? absent(view, error)
+                   : error_text_set(error, "%s: cannot open: %s", path, strerror(errno));
+    if (segment_check_object(fd, path, &bytes, error) != 0)
         goto err_open;
     view->base = map_readable(fd, bytes);
     if (view->base == MAP_FAILED) {
-        reason_set(reason, "%s: cannot map %zu bytes: %s", path, bytes, strerror(errno));
+        error_text_set(error, "%s: cannot map %zu bytes: %s", path, bytes, strerror(errno));
         view->base = NULL;
         goto err_open;
     }
     struct segment_header header = *(const struct segment_header *)view->base;
-    if (segment_check_header(&header, bytes, path, &view->layout, reason) != 0) {
-        reason->damaged = !reason->foreign;
+    if (segment_check_header(&header, bytes, path, &view->layout, error) != 0) {
+        error->damaged = !error->foreign;
         goto err_map;
     }
     if (writable && map_writable(view, fd, writable) != 0) {
-        reason_set(reason, "%s: cannot map for writing: %s", path, strerror(errno));
+        error_text_set(error, "%s: cannot map for writing: %s", path, strerror(errno));
         goto err_map;
     }
-    if (segment_check_params(view, path, reason) != 0) {
-        reason->damaged = true;
+    if (segment_check_params(view, path, error) != 0) {
+        error->damaged = true;
         goto err_map;
     }
     view->header = view->base;
@@ -161,34 +163,34 @@ static void slot_taken(struct view *view)
 }
 
 /* The world was made between the look for it and its mapping: the role is not locked. */
-static int unlocked(struct view *view, struct reason *reason)
+static int unlocked(struct view *view, struct error_text *error)
 {
     munmap(view->base, view->layout.total);
     view->base = NULL;
-    return reason_set(reason, "world \"%s\" is just being made; try again", view->name);
+    return error_text_set(error, "world \"%s\" is just being made; try again", view->name);
 }
 
-int segment_view_named(struct view *view, const char *name, enum role role, struct reason *reason)
+int segment_view_named(struct view *view, const char *name, enum role role,
+                       struct error_text *error)
 {
     *view = (struct view){.role = role, .lock_fd = -1, .made_fd = -1};
-    if (segment_name_check(name, reason) != 0)
+    if (segment_name_check(name, error) != 0)
         return -1;
     snprintf(view->name, sizeof view->name, "%s", name);
     return 0;
 }
 
 static int attach(struct view *view, const char *name, enum role role, bool later,
-                  struct reason *reason)
+                  struct error_text *error)
 {
     struct segment_paths paths;
-    if (segment_view_named(view, name, role, reason) != 0 ||
-        segment_paths(&paths, name, reason) != 0)
+    if (segment_view_named(view, name, role, error) != 0 || segment_paths(&paths, name, error) != 0)
         return -1;
     if (paths.object[0] != '\0' && role != ROLE_NONE &&
-        segment_lock(view, paths.lock, later, reason) != 0)
+        segment_lock(view, paths.lock, later, error) != 0)
         return -1;
-    if (segment_map(view, role == ROLE_NONE ? NULL : layout_writable, reason) != 0 ||
-        (role != ROLE_NONE && view->lock_fd < 0 && unlocked(view, reason) != 0)) {
+    if (segment_map(view, role == ROLE_NONE ? NULL : layout_writable, error) != 0 ||
+        (role != ROLE_NONE && view->lock_fd < 0 && unlocked(view, error) != 0)) {
         if (view->lock_fd >= 0)
             close(view->lock_fd);
         view->lock_fd = -1;
@@ -200,14 +202,14 @@ static int attach(struct view *view, const char *name, enum role role, bool late
     return 0;
 }
 
-int segment_attach(struct view *view, const char *name, enum role role, struct reason *reason)
+int segment_attach(struct view *view, const char *name, enum role role, struct error_text *error)
 {
-    return attach(view, name, role, false, reason);
+    return attach(view, name, role, false, error);
 }
 
-int segment_stand_by(struct view *view, const char *name, enum role role, struct reason *reason)
+int segment_stand_by(struct view *view, const char *name, enum role role, struct error_text *error)
 {
-    return attach(view, name, role, true, reason);
+    return attach(view, name, role, true, error);
 }
 
 int segment_take(struct view *view)

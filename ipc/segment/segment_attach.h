@@ -7,10 +7,10 @@
 /* Attaches to a world in a role: takes the role's lock, checks magic, version, layout hash, size,
  * owner, mode and counts, maps, and marks the slot as starting. -1 with the reason when the world
  * does not exist, is not this build's, or the role is held by a live process. Does not block. */
-int segment_attach(struct view *view, const char *name, enum role role, struct reason *reason);
+int segment_attach(struct view *view, const char *name, enum role role, struct error_text *error);
 
 /* The same without the role's lock: to be ready for the day that its holder dies. */
-int segment_stand_by(struct view *view, const char *name, enum role role, struct reason *reason);
+int segment_stand_by(struct view *view, const char *name, enum role role, struct error_text *error);
 
 /* Waits, blocked in the kernel, until the role's lock is free, and takes it. Nothing of the world
  * may have been written, and nothing read from it counts, before this returns 0. -1 with EINTR when

@@ -40,43 +40,45 @@ uint64_t segment_static_hash(const struct segment_header *header)
 
 /* --- checks ------------------------------------------------------------------------------------*/
 
-int segment_check_object(int fd, const char *path, size_t *bytes, struct reason *reason)
+int segment_check_object(int fd, const char *path, size_t *bytes, struct error_text *error)
 {
     struct stat status;
     if (fstat(fd, &status) != 0)
-        return reason_set(reason, "%s: %s", path, strerror(errno));
+        return error_text_set(error, "%s: %s", path, strerror(errno));
     if (!S_ISREG(status.st_mode))
-        return reason_set(reason, "%s: is no shared-memory object", path);
+        return error_text_set(error, "%s: is no shared-memory object", path);
     if (status.st_uid != geteuid())
-        return reason_set(reason, "%s: belongs to user %u, not to you (%u)", path,
-                          (unsigned)status.st_uid, (unsigned)geteuid());
+        return error_text_set(error, "%s: belongs to user %u, not to you (%u)", path,
+                              (unsigned)status.st_uid, (unsigned)geteuid());
     if ((status.st_mode & 0777) != 0600)
-        return reason_set(reason, "%s: has mode %03o; a world's is 600", path,
-                          (unsigned)(status.st_mode & 0777));
+        return error_text_set(error, "%s: has mode %03o; a world's is 600", path,
+                              (unsigned)(status.st_mode & 0777));
     if (status.st_size < (off_t)sizeof(struct segment_header)) {
-        reason_set(reason, "%s: size %lld is too small for a header", path,
-                   (long long)status.st_size);
-        reason->damaged = true;
+        error_text_set(error, "%s: size %lld is too small for a header", path,
+                       (long long)status.st_size);
+        error->damaged = true;
         return -1;
     }
     *bytes = (size_t)status.st_size;
     return 0;
 }
 
-static int check_build(const struct segment_header *header, const char *path, struct reason *reason)
+static int check_build(const struct segment_header *header, const char *path,
+                       struct error_text *error)
 {
     if (header->version == SEGMENT_VERSION && header->header_bytes == sizeof *header &&
         header->layout_hash == layout_hash())
         return 0;
     if (header->version != SEGMENT_VERSION)
-        reason_set(reason, "%s: version %u; this program knows %u", path, header->version,
-                   SEGMENT_VERSION);
+        error_text_set(error, "%s: version %u; this program knows %u", path, header->version,
+                       SEGMENT_VERSION);
     else
-        reason_set(reason,
-                   "%s: layout: made by another build of Jolon; stop it with that build, or remove "
-                   "it with `jolon clean -w NAME`",
-                   path);
-    reason->foreign = true;
+        error_text_set(
+            error,
+            "%s: layout: made by another build of Jolon; stop it with that build, or remove "
+            "it with `jolon clean -w NAME`",
+            path);
+    error->foreign = true;
     return -1;
 }
 
@@ -89,54 +91,56 @@ static bool one_bit(uint64_t difference)
  * header that fails its hash, the layout's hash tells whether another build made it in another way:
  * no single flipped bit explains that. */
 int segment_check_header(const struct segment_header *header, size_t bytes, const char *path,
-                         struct layout *layout, struct reason *reason)
+                         struct layout *layout, struct error_text *error)
 {
     if (header->magic != SEGMENT_MAGIC) {
-        reason_set(reason, "%s: magic: not a Jolon world, or one that was never finished", path);
-        reason->foreign = !one_bit(header->magic ^ SEGMENT_MAGIC);
+        error_text_set(error, "%s: magic: not a Jolon world, or one that was never finished", path);
+        error->foreign = !one_bit(header->magic ^ SEGMENT_MAGIC);
         return -1;
     }
     uint64_t difference = header->layout_hash ^ layout_hash();
     if (header->head_hash != segment_head_hash(header) && (difference == 0 || one_bit(difference)))
-        return reason_set(reason, "%s: header is damaged: it fails its hash", path);
-    if (check_build(header, path, reason) != 0)
+        return error_text_set(error, "%s: header is damaged: it fails its hash", path);
+    if (check_build(header, path, error) != 0)
         return -1;
     if (layout_compute(layout, header) != 0)
-        return reason_set(reason, "%s: counts: out of range", path);
+        return error_text_set(error, "%s: counts: out of range", path);
     if (header->total_bytes != layout->total || bytes != layout->total)
-        return reason_set(reason, "%s: size %zu; its counts need %zu", path, bytes, layout->total);
+        return error_text_set(error, "%s: size %zu; its counts need %zu", path, bytes,
+                              layout->total);
     return 0;
 }
 
 int segment_params_fit(const struct params *params, const struct segment_header *header,
-                       const char *path, struct reason *reason)
+                       const char *path, struct error_text *error)
 {
     if (params->capacity != header->capacity || params->event_slots != header->event_slots ||
         params->intents_per_frame != header->intents_per_frame ||
         params->command_slots != header->command_slots ||
         params->crater_slots != header->crater_slots || params->dent_slots != header->dent_slots)
-        return reason_set(reason, "%s: params: do not fit the header", path);
+        return error_text_set(error, "%s: params: do not fit the header", path);
     if (params->events_per_frame == 0 || params->events_per_frame > params->event_slots / 2)
-        return reason_set(reason,
-                          "%s: params: events_per_frame = %u of %u slots; must be from 1 to half "
-                          "of them",
-                          path, params->events_per_frame, params->event_slots);
+        return error_text_set(
+            error,
+            "%s: params: events_per_frame = %u of %u slots; must be from 1 to half "
+            "of them",
+            path, params->events_per_frame, params->event_slots);
     if (!(params->dt_s > 0.0 && params->dt_s <= 1.0))
-        return reason_set(reason, "%s: params: dt_s = %g; must be more than 0, at most 1", path,
-                          params->dt_s);
+        return error_text_set(error, "%s: params: dt_s = %g; must be more than 0, at most 1", path,
+                              params->dt_s);
     return 0;
 }
 
-int segment_check_params(const struct view *view, const char *path, struct reason *reason)
+int segment_check_params(const struct view *view, const char *path, struct error_text *error)
 {
     const struct segment_header *header = view->base;
     const struct params *params = segment_part(view, REGION_PARAMS);
     if (segment_region_hash(view, REGION_PARAMS) != header->static_hash[REGION_PARAMS])
-        return reason_set(reason, "%s: params are damaged: they fail their hash", path);
-    return segment_params_fit(params, header, path, reason);
+        return error_text_set(error, "%s: params are damaged: they fail their hash", path);
+    return segment_params_fit(params, header, path, error);
 }
 
-int segment_verify(const struct view *view, struct reason *reason)
+int segment_verify(const struct view *view, struct error_text *error)
 {
     char names[256] = "";
     size_t length = 0;
@@ -148,5 +152,5 @@ int segment_verify(const struct view *view, struct reason *reason)
     }
     if (length == 0)
         return 0;
-    return reason_set(reason, "damaged since it was made: %s", names);
+    return error_text_set(error, "damaged since it was made: %s", names);
 }

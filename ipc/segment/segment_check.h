@@ -15,11 +15,11 @@ void segment_hash_static(struct view *view);
 uint64_t segment_static_hash(const struct segment_header *header);
 
 /* Hashes the static regions (about a millisecond) and compares. 0, or -1 with the reason. */
-int segment_verify(const struct view *view, struct reason *reason);
+int segment_verify(const struct view *view, struct error_text *error);
 
 /* Do the parameters that sizes and waits are computed from fit the header? path is for the message.
  * 0, or -1 with the reason. */
 int segment_params_fit(const struct params *params, const struct segment_header *header,
-                       const char *path, struct reason *reason);
+                       const char *path, struct error_text *error);
 
 #endif

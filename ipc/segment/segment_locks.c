@@ -16,19 +16,19 @@
 #define NAME_BYTE 4096 /* beyond the roles' bytes */
 #define NAME_NS   (5 * (uint64_t)NS_PER_S)
 
-int segment_open_lock(const char *path, int flags, struct reason *reason)
+int segment_open_lock(const char *path, int flags, struct error_text *error)
 {
     struct stat status;
     int fd = open(path, O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | flags, 0600);
     if (fd < 0) {
-        int error = errno;
-        reason_set(reason, "%s: cannot open: %s", path, strerror(error));
-        errno = error;
+        int code = errno;
+        error_text_set(error, "%s: cannot open: %s", path, strerror(code));
+        errno = code;
         return -1;
     }
     if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) {
         close(fd);
-        reason_set(reason, "%s: is no plain file; remove it", path);
+        error_text_set(error, "%s: is no plain file; remove it", path);
         errno = EINVAL;
         return -1;
     }
@@ -48,9 +48,9 @@ static bool byte_held(int fd, enum role role)
 }
 
 /* 1, 0, or -1 with the reason when it cannot be told; without a lock file nobody holds a role. */
-static int lock_held(const char *path, enum role role, struct reason *reason)
+static int lock_held(const char *path, enum role role, struct error_text *error)
 {
-    int fd = segment_open_lock(path, O_RDONLY, reason);
+    int fd = segment_open_lock(path, O_RDONLY, error);
     if (fd < 0)
         return errno == ENOENT ? 0 : -1;
     int held = byte_held(fd, role);
@@ -67,9 +67,9 @@ int segment_holder(const char *name, enum role role)
 {
     struct segment_paths paths;
     struct view view;
-    struct reason reason;
-    if (segment_paths(&paths, name, &reason) != 0 || lock_held(paths.lock, role, &reason) <= 0 ||
-        segment_attach(&view, name, ROLE_NONE, &reason) != 0)
+    struct error_text error;
+    if (segment_paths(&paths, name, &error) != 0 || lock_held(paths.lock, role, &error) <= 0 ||
+        segment_attach(&view, name, ROLE_NONE, &error) != 0)
         return 0;
     int pid = (int)atomic_load(&view.slot[role]->pid);
     segment_detach(&view);
@@ -79,10 +79,10 @@ int segment_holder(const char *name, enum role role)
 int segment_holder_alive(const char *name, enum role role, uint64_t until_ns)
 {
     struct segment_paths paths;
-    struct reason reason;
-    if (segment_paths(&paths, name, &reason) != 0)
+    struct error_text error;
+    if (segment_paths(&paths, name, &error) != 0)
         return 0;
-    while (lock_held(paths.lock, role, &reason) > 0) {
+    while (lock_held(paths.lock, role, &error) > 0) {
         int pid = segment_holder(name, role);
         char state = pid != 0 ? process_state(pid) : '\0';
         if (state != '\0' && state != 'Z')
@@ -94,30 +94,30 @@ int segment_holder_alive(const char *name, enum role role, uint64_t until_ns)
     return 0;
 }
 
-int segment_first_held(const char *path, enum role last, struct reason *reason)
+int segment_first_held(const char *path, enum role last, struct error_text *error)
 {
     for (int role = 0; role <= (int)last; role++) {
-        int held = lock_held(path, (enum role)role, reason);
+        int held = lock_held(path, (enum role)role, error);
         if (held != 0)
             return held > 0 ? role : -1;
     }
     return ROLE_NONE;
 }
 
-int segment_wait_free(const char *name, enum role last, uint64_t until_ns, struct reason *reason)
+int segment_wait_free(const char *name, enum role last, uint64_t until_ns, struct error_text *error)
 {
     char who[32] = "a process";
     struct segment_paths paths;
     int role;
-    if (segment_paths(&paths, name, reason) != 0)
+    if (segment_paths(&paths, name, error) != 0)
         return -1;
-    while ((role = segment_first_held(paths.lock, last, reason)) >= 0 && role != ROLE_NONE) {
+    while ((role = segment_first_held(paths.lock, last, error)) >= 0 && role != ROLE_NONE) {
         if (clock_now_ns() >= until_ns) {
             int pid = segment_holder_alive(name, (enum role)role, until_ns);
             if (pid != 0)
                 snprintf(who, sizeof who, "pid %d", pid);
-            return reason_set(
-                reason,
+            return error_text_set(
+                error,
                 "the %s of world \"%s\" is kept by %s, which is not of this set; end it first",
                 role_name((enum role)role), name, who);
         }
@@ -127,28 +127,28 @@ int segment_wait_free(const char *name, enum role last, uint64_t until_ns, struc
 }
 
 /* Opens the lock file, and makes it when there is none; made says whether it did. */
-static int open_or_make(const char *path, bool *made, struct reason *reason)
+static int open_or_make(const char *path, bool *made, struct error_text *error)
 {
-    int fd = segment_open_lock(path, O_RDWR | O_CREAT | O_EXCL, reason);
+    int fd = segment_open_lock(path, O_RDWR | O_CREAT | O_EXCL, error);
     *made = fd >= 0;
-    return fd < 0 && errno == EEXIST ? segment_open_lock(path, O_RDWR | O_CREAT, reason) : fd;
+    return fd < 0 && errno == EEXIST ? segment_open_lock(path, O_RDWR | O_CREAT, error) : fd;
 }
 
 /* Creation and removal hold the byte for moments, so it is asked for until it is free. The file may
  * be removed and made again between open and lock: then it is opened again. */
-int segment_lock_name(const char *path, bool *made, struct reason *reason)
+int segment_lock_name(const char *path, bool *made, struct error_text *error)
 {
     uint64_t until = clock_now_ns() + NAME_NS;
     for (;;) {
         struct stat held, named;
         struct flock byte = {
             .l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = NAME_BYTE, .l_len = 1};
-        int fd = open_or_make(path, made, reason);
+        int fd = open_or_make(path, made, error);
         if (fd < 0)
             return -1;
         bool ours = fcntl(fd, F_OFD_SETLK, &byte) == 0;
         if (!ours && errno != EAGAIN && errno != EACCES) {
-            reason_set(reason, "%s: cannot lock: %s", path, strerror(errno));
+            error_text_set(error, "%s: cannot lock: %s", path, strerror(errno));
             close(fd);
             if (*made)
                 unlink(path);
@@ -159,10 +159,11 @@ int segment_lock_name(const char *path, bool *made, struct reason *reason)
             return fd;
         close(fd);
         if (clock_now_ns() >= until)
-            return reason_set(reason,
-                              "%s: a process that makes or removes this world has held it for 5 s; "
-                              "look for a stopped jolon-world",
-                              path);
+            return error_text_set(
+                error,
+                "%s: a process that makes or removes this world has held it for 5 s; "
+                "look for a stopped jolon-world",
+                path);
         clock_sleep_until_ns(clock_now_ns() + NS_PER_MS);
     }
 }

@@ -21,6 +21,7 @@ int segment_holder_alive(const char *name, enum role role, uint64_t until_ns);
 /* Waits until none of the roles 0 .. last is held, by their locks, at most until until_ns
  * (CLOCK_MONOTONIC). 0, or -1 with the reason: which role is held and, if that is known, by whom.
  */
-int segment_wait_free(const char *name, enum role last, uint64_t until_ns, struct reason *reason);
+int segment_wait_free(const char *name, enum role last, uint64_t until_ns,
+                      struct error_text *error);
 
 #endif

@@ -17,11 +17,11 @@
 /* What is in the world's memory, as far as it can be told. */
 struct findings {
     uint64_t commit, moved;
-    bool whole[2];          /* W[i] holds a whole frame that belongs into it */
-    struct reason state[2]; /* why not */
-    bool committed;         /* ... and W[commit & 1] holds commit */
-    bool moved_whole;       /* M holds the frame after commit */
-    struct reason table;    /* why not */
+    bool whole[2];              /* W[i] holds a whole frame that belongs into it */
+    struct error_text state[2]; /* why not */
+    bool committed;             /* ... and W[commit & 1] holds commit */
+    bool moved_whole;           /* M holds the frame after commit */
+    struct error_text table;    /* why not */
 };
 
 static struct findings look(const struct view *view)
@@ -31,32 +31,32 @@ static struct findings look(const struct view *view)
     for (uint64_t i = 0; i < 2; i++) {
         uint64_t frame = view->w[i].head->frame;
         if ((frame & 1) != i)
-            reason_set(&found.state[i], "%s holds frame %" PRIu64,
-                       region_name(i ? REGION_WORLD_B : REGION_WORLD_A), frame);
+            error_text_set(&found.state[i], "%s holds frame %" PRIu64,
+                           region_name(i ? REGION_WORLD_B : REGION_WORLD_A), frame);
         else
             found.whole[i] = segment_check_state(view, frame, &found.state[i]) == 0;
     }
     uint64_t last = found.commit & 1;
     found.committed = found.whole[last] && view->w[last].head->frame == found.commit;
     if (found.whole[last] && !found.committed)
-        reason_set(&found.state[last], "commit = %" PRIu64 ", and %s holds frame %" PRIu64,
-                   found.commit, region_name(last ? REGION_WORLD_B : REGION_WORLD_A),
-                   view->w[last].head->frame);
+        error_text_set(&found.state[last], "commit = %" PRIu64 ", and %s holds frame %" PRIu64,
+                       found.commit, region_name(last ? REGION_WORLD_B : REGION_WORLD_A),
+                       view->w[last].head->frame);
     found.moved_whole = segment_check_moved(view, found.commit + 1, &found.table) == 0;
     return found;
 }
 
 /* The commands that a frame after this one would take again must still be in their rings. */
-static int commands_there(const struct view *view, uint64_t frame, struct reason *report)
+static int commands_there(const struct view *view, uint64_t frame, struct error_text *report)
 {
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {
         uint64_t cursor = view->w[frame & 1].head->command_cursor[i];
         uint64_t head = atomic_load(&view->commands[i]->head);
         if (head - cursor > view->header->command_slots)
-            return reason_set(report,
-                              "ring %d holds the last %u commands, and %" PRIu64
-                              " came since frame %" PRIu64,
-                              i, view->header->command_slots, head - cursor, frame);
+            return error_text_set(report,
+                                  "ring %d holds the last %u commands, and %" PRIu64
+                                  " came since frame %" PRIu64,
+                                  i, view->header->command_slots, head - cursor, frame);
     }
     return 0;
 }
@@ -90,57 +90,59 @@ static void put_words(const struct view *view, uint64_t commit, uint64_t moved)
 }
 
 /* W[commit & 1] is whole: the moved table, or the word for it, is not. */
-static int move_again(const struct view *view, const struct findings *found, struct reason *report)
+static int move_again(const struct view *view, const struct findings *found,
+                      struct error_text *report)
 {
     if (found->moved == found->commit + 1)
-        reason_set(report, "world \"%s\": %s: frame %" PRIu64 " is moved again", view->name,
-                   found->table.text, found->commit + 1);
+        error_text_set(report, "world \"%s\": %s: frame %" PRIu64 " is moved again", view->name,
+                       found->table.text, found->commit + 1);
     else
-        reason_set(report,
-                   "world \"%s\": moved = %" PRIu64 " beside commit = %" PRIu64 ": goes on from "
-                   "frame %" PRIu64,
-                   view->name, found->moved, found->commit, found->commit);
+        error_text_set(report,
+                       "world \"%s\": moved = %" PRIu64 " beside commit = %" PRIu64
+                       ": goes on from "
+                       "frame %" PRIu64,
+                       view->name, found->moved, found->commit, found->commit);
     put_words(view, found->commit, found->commit + (found->moved_whole ? 1 : 0));
     return 1;
 }
 
-static int go_back(const struct view *view, const struct findings *found, struct reason *report)
+static int go_back(const struct view *view, const struct findings *found, struct error_text *report)
 {
-    struct reason why;
+    struct error_text detail;
     uint64_t last = found->commit & 1;
     if (!found->whole[0] && !found->whole[1]) {
-        reason_set(report, "world \"%s\" is damaged in both buffers: %s; %s", view->name,
-                   found->state[last].text, found->state[!last].text);
+        error_text_set(report, "world \"%s\" is damaged in both buffers: %s; %s", view->name,
+                       found->state[last].text, found->state[!last].text);
         return -1;
     }
     uint64_t frame = view->w[found->whole[0] ? 0 : 1].head->frame;
     if (found->whole[0] && found->whole[1] && view->w[1].head->frame > frame)
         frame = view->w[1].head->frame;
-    if (commands_there(view, frame, &why) != 0) {
-        reason_set(report, "world \"%s\" is damaged: %s; frame %" PRIu64 " is whole, but %s",
-                   view->name, found->state[last].text, frame, why.text);
+    if (commands_there(view, frame, &detail) != 0) {
+        error_text_set(report, "world \"%s\" is damaged: %s; frame %" PRIu64 " is whole, but %s",
+                       view->name, found->state[last].text, frame, detail.text);
         return -1;
     }
-    bool moved = segment_check_moved(view, frame + 1, &why) == 0;
+    bool moved = segment_check_moved(view, frame + 1, &detail) == 0;
     if (!moved && frame + 1 == found->commit)
         limit_commands(view, frame);
     put_words(view, frame, frame + (moved ? 1 : 0));
-    reason_set(report, "world \"%s\": %s: goes on from frame %" PRIu64 ", the newest whole one",
-               view->name, found->state[last].text, frame);
+    error_text_set(report, "world \"%s\": %s: goes on from frame %" PRIu64 ", the newest whole one",
+                   view->name, found->state[last].text, frame);
     return 1;
 }
 
-static int repair(const struct view *view, struct reason *report)
+static int repair(const struct view *view, struct error_text *report)
 {
-    struct reason why;
-    if (segment_verify(view, &why) != 0)
-        return reason_set(report, "world \"%s\" is %s", view->name, why.text);
+    struct error_text detail;
+    if (segment_verify(view, &detail) != 0)
+        return error_text_set(report, "world \"%s\" is %s", view->name, detail.text);
     struct findings found = look(view);
     if (!found.committed)
         return go_back(view, &found, report);
     if (found.moved != found.commit && !(found.moved == found.commit + 1 && found.moved_whole))
         return move_again(view, &found, report);
-    reason_set(report, "world \"%s\": good at frame %" PRIu64, view->name, found.commit);
+    error_text_set(report, "world \"%s\": good at frame %" PRIu64, view->name, found.commit);
     return 0;
 }
 
@@ -150,7 +152,7 @@ static bool words_alone(enum role role, enum region region)
     return region == REGION_COMMIT || region == REGION_MOVED_WORD;
 }
 
-int segment_repair(const char *name, struct reason *report)
+int segment_repair(const char *name, struct error_text *report)
 {
     static const enum role writers[] = {ROLE_MOVER, ROLE_COLLIDER};
     struct segment_paths paths;

@@ -32,19 +32,19 @@ bool segment_name_ok(const char *name)
                length;
 }
 
-int segment_name_check(const char *name, struct reason *reason)
+int segment_name_check(const char *name, struct error_text *error)
 {
     return segment_name_ok(name)
                ? 0
-               : reason_set(reason, "\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -",
-                            name, SEGMENT_NAME_MAX - 1);
+               : error_text_set(error, "\"%s\" is no name for a world: 1 to %d of a-z A-Z 0-9 _ -",
+                                name, SEGMENT_NAME_MAX - 1);
 }
 
-int segment_name_option(const char *name, const struct error_text *why)
+int segment_name_option(const char *name, struct error_text *detail)
 {
     return segment_name_ok(name)
                ? 0
-               : error_text_say(why, "no name for a world: 1 to %d of a-z A-Z 0-9 _ -",
+               : error_text_set(detail, "no name for a world: 1 to %d of a-z A-Z 0-9 _ -",
                                 SEGMENT_NAME_MAX - 1);
 }
 
@@ -66,7 +66,7 @@ static bool object_path_ok(const char *path, const char *name)
 }
 
 /* Where the link leads, whether there is anything or not; "" when there is no link. */
-static int read_name(struct segment_paths *paths, const char *name, struct reason *reason)
+static int read_name(struct segment_paths *paths, const char *name, struct error_text *error)
 {
     ssize_t length = readlink(paths->name, paths->object, sizeof paths->object - 1);
     paths->object[length > 0 ? length : 0] = '\0';
@@ -76,22 +76,22 @@ static int read_name(struct segment_paths *paths, const char *name, struct reaso
     if (length < 0 && errno != EINVAL)
         return errno == ENOENT
                    ? 0
-                   : reason_set(reason, "%s: cannot read: %s", paths->name, strerror(errno));
-    return reason_set(reason,
-                      "%s: is no link to a world's object (" SEGMENT_DIR
-                      "/jolon.%u.%s.<32 hexadecimal digits>); remove it",
-                      paths->name, (unsigned)getuid(), name);
+                   : error_text_set(error, "%s: cannot read: %s", paths->name, strerror(errno));
+    return error_text_set(error,
+                          "%s: is no link to a world's object (" SEGMENT_DIR
+                          "/jolon.%u.%s.<32 hexadecimal digits>); remove it",
+                          paths->name, (unsigned)getuid(), name);
 }
 
-int segment_paths(struct segment_paths *paths, const char *name, struct reason *reason)
+int segment_paths(struct segment_paths *paths, const char *name, struct error_text *error)
 {
     char folder[RUNTIME_FOLDER_MAX];
     *paths = (struct segment_paths){.object = ""};
-    if (segment_name_check(name, reason) != 0 || runtime_folder(folder, reason) != 0)
+    if (segment_name_check(name, error) != 0 || runtime_folder(folder, error) != 0)
         return -1;
     snprintf(paths->name, sizeof paths->name, "%s/%s", folder, name);
     snprintf(paths->lock, sizeof paths->lock, "%s/%s.lock", folder, name);
-    if (read_name(paths, name, reason) != 0)
+    if (read_name(paths, name, error) != 0)
         return -1;
     if (paths->object[0] != '\0' && access(paths->object, F_OK) != 0)
         paths->object[0] = '\0';
@@ -101,11 +101,11 @@ int segment_paths(struct segment_paths *paths, const char *name, struct reason *
 /* --- creation ----------------------------------------------------------------------------------*/
 
 /* A path that nobody can know before it is there. */
-static int new_object_path(char path[SEGMENT_PATH_MAX], const char *name, struct reason *reason)
+static int new_object_path(char path[SEGMENT_PATH_MAX], const char *name, struct error_text *error)
 {
     unsigned char bytes[RANDOM_BYTES];
     if (getrandom(bytes, sizeof bytes, 0) != (ssize_t)sizeof bytes)
-        return reason_set(reason, "the system gives no random numbers: %s", strerror(errno));
+        return error_text_set(error, "the system gives no random numbers: %s", strerror(errno));
     int length = name_prefix(path, name);
     for (size_t i = 0; i < sizeof bytes; i++)
         length += snprintf(path + length, (size_t)(SEGMENT_PATH_MAX - length), "%02x", bytes[i]);
@@ -114,40 +114,41 @@ static int new_object_path(char path[SEGMENT_PATH_MAX], const char *name, struct
 
 /* The lock on the name is held. A name without an object is a dead process's, or its object was
  * removed by other means; a role that still runs then has that object mapped. */
-static int free_name(const struct segment_paths *paths, const char *name, struct reason *reason)
+static int free_name(const struct segment_paths *paths, const char *name, struct error_text *error)
 {
     if (paths->object[0] != '\0')
-        return reason_set(reason,
-                          "world \"%s\" exists already; `jolon status -w %s` shows it, `jolon "
-                          "stop -w %s` ends it, -w NAME makes another",
-                          name, name, name);
-    int role = segment_first_held(paths->lock, ROLE_COUNT - 1, reason);
+        return error_text_set(error,
+                              "world \"%s\" exists already; `jolon status -w %s` shows it, `jolon "
+                              "stop -w %s` ends it, -w NAME makes another",
+                              name, name, name);
+    int role = segment_first_held(paths->lock, ROLE_COUNT - 1, error);
     if (role < 0)
         return -1;
     if (role != ROLE_NONE)
-        return reason_set(reason,
-                          "the object of world \"%s\" is gone, but its %s still runs; end it first",
-                          name, role_name((enum role)role));
+        return error_text_set(
+            error, "the object of world \"%s\" is gone, but its %s still runs; end it first", name,
+            role_name((enum role)role));
     CRASH_POINT("name that leads nowhere");
     if (unlink(paths->name) != 0 && errno != ENOENT)
-        return reason_set(reason, "%s: cannot remove: %s", paths->name, strerror(errno));
+        return error_text_set(error, "%s: cannot remove: %s", paths->name, strerror(errno));
     return 0;
 }
 
 /* First the name, then the object: so a kill between them leaves a name that leads nowhere, and
  * never an object that nothing leads to. */
-static int link_names(const char *name, int fd, struct segment_paths *paths, struct reason *reason)
+static int link_names(const char *name, int fd, struct segment_paths *paths,
+                      struct error_text *error)
 {
     char made[64];
     snprintf(made, sizeof made, "/proc/self/fd/%d", fd);
-    if (new_object_path(paths->object, name, reason) != 0)
+    if (new_object_path(paths->object, name, error) != 0)
         return -1;
     CRASH_POINT("name");
     if (symlink(paths->object, paths->name) != 0)
-        return reason_set(reason, "%s: cannot make: %s", paths->name, strerror(errno));
+        return error_text_set(error, "%s: cannot make: %s", paths->name, strerror(errno));
     CRASH_POINT("object");
     if (linkat(AT_FDCWD, made, AT_FDCWD, paths->object, AT_SYMLINK_FOLLOW) != 0) {
-        reason_set(reason, "%s: cannot make: %s", paths->object, strerror(errno));
+        error_text_set(error, "%s: cannot make: %s", paths->object, strerror(errno));
         unlink(paths->name);
         return -1;
     }
@@ -155,24 +156,24 @@ static int link_names(const char *name, int fd, struct segment_paths *paths, str
     return 0;
 }
 
-int segment_give_names(const char *name, int fd, struct reason *reason)
+int segment_give_names(const char *name, int fd, struct error_text *error)
 {
     struct segment_paths paths;
-    if (segment_paths(&paths, name, reason) != 0)
+    if (segment_paths(&paths, name, error) != 0)
         return -1;
     CRASH_POINT("lock file");
     bool made;
-    int lock = segment_lock_name(paths.lock, &made, reason);
+    int lock = segment_lock_name(paths.lock, &made, error);
     if (lock < 0)
         return -1;
     int result = -1;
-    if (segment_paths(&paths, name, reason) == 0 && free_name(&paths, name, reason) == 0)
-        result = link_names(name, fd, &paths, reason);
+    if (segment_paths(&paths, name, error) == 0 && free_name(&paths, name, error) == 0)
+        result = link_names(name, fd, &paths, error);
     if (result != 0 && made)
         unlink(paths.lock); /* the sweep could not, when no file can be opened */
     close(lock);
     if (result != 0) {
-        struct reason second;
+        struct error_text second;
         segment_sweep(name, &second); /* what was refused is the reason that counts */
     }
     return result;
@@ -205,63 +206,63 @@ static void remove_sockets(const struct segment_paths *paths, const char *name)
 /* The lock on the name is held through fd. A supervisor holds the whole file by flock(2) as long as
  * it lives; own says that the caller is that supervisor. */
 static int remove_all(const struct segment_paths *paths, const char *name, int fd, bool own,
-                      struct reason *reason)
+                      struct error_text *error)
 {
     CRASH_POINT("removed object");
     if (paths->object[0] != '\0' && unlink(paths->object) != 0 && errno != ENOENT)
-        return reason_set(reason, "%s: cannot remove: %s", paths->object, strerror(errno));
+        return error_text_set(error, "%s: cannot remove: %s", paths->object, strerror(errno));
     CRASH_POINT("removed name");
     if (unlink(paths->name) != 0 && errno != ENOENT)
-        return reason_set(reason, "%s: cannot remove: %s", paths->name, strerror(errno));
+        return error_text_set(error, "%s: cannot remove: %s", paths->name, strerror(errno));
     remove_sockets(paths, name);
     CRASH_POINT("removed lock file");
     if ((own || flock(fd, LOCK_EX | LOCK_NB) == 0) && unlink(paths->lock) != 0)
-        return reason_set(reason, "%s: cannot remove: %s", paths->lock, strerror(errno));
+        return error_text_set(error, "%s: cannot remove: %s", paths->lock, strerror(errno));
     return 0;
 }
 
 static int refuse_if_held(const struct segment_paths *paths, const char *name,
-                          struct reason *reason)
+                          struct error_text *error)
 {
-    int role = segment_first_held(paths->lock, ROLE_COUNT - 1, reason);
+    int role = segment_first_held(paths->lock, ROLE_COUNT - 1, error);
     if (role < 0 || role == ROLE_NONE)
         return role < 0 ? -1 : 0;
-    return reason_set(reason, "world \"%s\" is in use: its %s runs (pid %d); stop it first", name,
-                      role_name((enum role)role), segment_holder(name, (enum role)role));
+    return error_text_set(error, "world \"%s\" is in use: its %s runs (pid %d); stop it first",
+                          name, role_name((enum role)role), segment_holder(name, (enum role)role));
 }
 
 enum what { WORLD, WORLD_BY_FORCE, OWN_WORLD, NO_WORLD };
 
-static int remove_what(const char *name, enum what what, struct reason *reason)
+static int remove_what(const char *name, enum what what, struct error_text *error)
 {
     struct segment_paths paths;
-    if (segment_paths(&paths, name, reason) != 0 ||
-        (what != WORLD_BY_FORCE && refuse_if_held(&paths, name, reason) != 0))
+    if (segment_paths(&paths, name, error) != 0 ||
+        (what != WORLD_BY_FORCE && refuse_if_held(&paths, name, error) != 0))
         return -1;
     bool made;
-    int fd = segment_lock_name(paths.lock, &made, reason);
+    int fd = segment_lock_name(paths.lock, &made, error);
     if (fd < 0)
         return -1;
-    int result = segment_paths(&paths, name, reason);
+    int result = segment_paths(&paths, name, error);
     if (result == 0 && (what != NO_WORLD || paths.object[0] == '\0'))
-        result = remove_all(&paths, name, fd, what == OWN_WORLD, reason);
+        result = remove_all(&paths, name, fd, what == OWN_WORLD, error);
     close(fd);
     return result;
 }
 
-int segment_remove(const char *name, bool force, struct reason *reason)
+int segment_remove(const char *name, bool force, struct error_text *error)
 {
-    return remove_what(name, force ? WORLD_BY_FORCE : WORLD, reason);
+    return remove_what(name, force ? WORLD_BY_FORCE : WORLD, error);
 }
 
-int segment_remove_own(const char *name, struct reason *reason)
+int segment_remove_own(const char *name, struct error_text *error)
 {
-    return remove_what(name, OWN_WORLD, reason);
+    return remove_what(name, OWN_WORLD, error);
 }
 
-int segment_sweep(const char *name, struct reason *reason)
+int segment_sweep(const char *name, struct error_text *error)
 {
-    return remove_what(name, NO_WORLD, reason);
+    return remove_what(name, NO_WORLD, error);
 }
 
 /* --- lists -------------------------------------------------------------------------------------*/
@@ -275,26 +276,26 @@ static bool listed(char names[][SEGMENT_NAME_MAX], int count, const char *name)
     return false;
 }
 
-int segment_list(char names[][SEGMENT_NAME_MAX], int max, bool all, struct reason *reason)
+int segment_list(char names[][SEGMENT_NAME_MAX], int max, bool all, struct error_text *error)
 {
     char folder[RUNTIME_FOLDER_MAX];
     int count = 0;
-    if (runtime_folder(folder, reason) != 0)
+    if (runtime_folder(folder, error) != 0)
         return -1;
     DIR *directory = opendir(folder);
     if (!directory)
-        return reason_set(reason, "%s: cannot read: %s", folder, strerror(errno));
+        return error_text_set(error, "%s: cannot read: %s", folder, strerror(errno));
     for (struct dirent *entry = readdir(directory); entry && count < max;
          entry = readdir(directory)) {
         struct segment_paths paths;
-        struct reason why;
+        struct error_text detail;
         char name[SEGMENT_NAME_MAX];
         size_t length = all ? strcspn(entry->d_name, ".") : strlen(entry->d_name);
         if (length >= sizeof name)
             continue;
         snprintf(name, sizeof name, "%.*s", (int)length, entry->d_name);
         if (segment_name_ok(name) && !listed(names, count, name) &&
-            (all || (segment_paths(&paths, name, &why) == 0 && paths.object[0] != '\0')))
+            (all || (segment_paths(&paths, name, &detail) == 0 && paths.object[0] != '\0')))
             memcpy(names[count++], name, sizeof name);
     }
     closedir(directory);
@@ -305,7 +306,7 @@ int segment_list(char names[][SEGMENT_NAME_MAX], int max, bool all, struct reaso
 static bool named_here(const char *file)
 {
     struct segment_paths paths;
-    struct reason reason;
+    struct error_text error;
     char path[SEGMENT_PATH_MAX], name[SEGMENT_NAME_MAX];
     const char *begin = strchr(file + strlen("jolon."), '.') + 1;
     size_t length = strcspn(begin, ".");
@@ -313,7 +314,7 @@ static bool named_here(const char *file)
         return false;
     snprintf(name, sizeof name, "%.*s", (int)length, begin);
     snprintf(path, sizeof path, SEGMENT_DIR "/%s", file);
-    return segment_name_ok(name) && segment_paths(&paths, name, &reason) == 0 &&
+    return segment_name_ok(name) && segment_paths(&paths, name, &error) == 0 &&
            strcmp(paths.object, path) == 0;
 }
 

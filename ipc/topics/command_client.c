@@ -10,11 +10,11 @@
 #include <time.h>
 
 int command_client_open(struct command_client *client, struct command_link link,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     *client = (struct command_client){.link = link};
     client->source = command_client_source();
-    return client->source ? 0 : reason_set(reason, "the system gives no random numbers");
+    return client->source ? 0 : error_text_set(error, "the system gives no random numbers");
 }
 
 uint64_t command_client_source(void)

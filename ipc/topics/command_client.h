@@ -29,7 +29,7 @@ struct command_client {
 
 /* Takes an open link, and chooses a source. 0, or -1 with the reason. */
 int command_client_open(struct command_client *client, struct command_link link,
-                        struct reason *reason);
+                        struct error_text *error);
 
 /* A random source that no other sender has: 53 bits, which programs that know only doubles keep. 0
  * when there are no random numbers. */

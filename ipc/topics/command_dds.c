@@ -14,14 +14,14 @@ static void ring(dds_entity_t reader, void *context)
     (void)eventfd_write(dds->bell, 1);
 }
 
-static int ring_for_replies(struct command_dds *dds, struct reason *reason)
+static int ring_for_replies(struct command_dds *dds, struct error_text *error)
 {
     dds_listener_t *listener = dds_create_listener(dds);
     dds_lset_data_available(listener, ring);
     dds_return_t code = dds_set_listener(dds->replies, listener);
     dds_delete_listener(listener);
     return code == DDS_RETCODE_OK ? 0
-                                  : reason_set(reason, "DDS listener: %s", dds_strretcode(code));
+                                  : error_text_set(error, "DDS listener: %s", dds_strretcode(code));
 }
 
 static void send_command(void *self, const jolon_Command *command)
@@ -64,16 +64,16 @@ static int descriptor(void *self)
 }
 
 int command_dds_open(struct command_dds *dds, const struct dds_link *link,
-                     struct command_link *command_link, struct reason *reason)
+                     struct command_link *command_link, struct error_text *error)
 {
     static const struct command_transport transport = {send_command, receive, heard, descriptor};
     *command_link = (struct command_link){&transport, dds};
     dds->bell = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     if (dds->bell < 0)
-        return reason_set(reason, "eventfd: %s", strerror(errno));
+        return error_text_set(error, "eventfd: %s", strerror(errno));
     /* The reader first: the reply may come as soon as the command is out. */
-    if ((dds->replies = dds_topics_reader(link, TOPIC_REPLY, reason)) < 0 ||
-        (dds->commands = dds_topics_writer(link, TOPIC_COMMAND, reason)) < 0)
+    if ((dds->replies = dds_topics_reader(link, TOPIC_REPLY, error)) < 0 ||
+        (dds->commands = dds_topics_writer(link, TOPIC_COMMAND, error)) < 0)
         return -1;
-    return ring_for_replies(dds, reason);
+    return ring_for_replies(dds, error);
 }

@@ -13,6 +13,6 @@ struct command_dds {
 
 /* Makes the reader and the writer in an open link; they end with it. 0, or -1 with the reason. */
 int command_dds_open(struct command_dds *dds, const struct dds_link *link,
-                     struct command_link *command_link, struct reason *reason);
+                     struct command_link *command_link, struct error_text *error);
 
 #endif

@@ -5,7 +5,8 @@
 #include <string.h>
 
 /* Says what a verb takes. */
-static int strange_member(const struct command_text *order, const char *name, struct reason *reason)
+static int strange_member(const struct command_text *order, const char *name,
+                          struct error_text *error)
 {
     char all[256] = "";
     size_t used = 0;
@@ -16,47 +17,48 @@ static int strange_member(const struct command_text *order, const char *name, st
                               command_text_field_name((enum command_text_field)i));
         used += length > 0 ? (size_t)length : 0;
     }
-    return reason_set(reason, "%s: '%.32s': no such argument; it takes %s", order->verb->name, name,
-                      used ? all : "none");
+    return error_text_set(error, "%s: '%.32s': no such argument; it takes %s", order->verb->name,
+                          name, used ? all : "none");
 }
 
-static int give_member(struct command_text *order, const cJSON *member, struct reason *reason)
+static int give_member(struct command_text *order, const cJSON *member, struct error_text *error)
 {
-    struct reason why;
+    struct error_text detail;
     struct command_text_value value = {.text = cJSON_GetStringValue(member)};
     enum command_text_field field = command_text_field(member->string);
     if (field == COMMAND_TEXT_FIELD_COUNT || !(order->verb->allowed & 1u << field))
-        return strange_member(order, member->string, reason);
+        return strange_member(order, member->string, error);
     value.is_truth = cJSON_IsBool(member);
     value.truth = cJSON_IsTrue(member);
     if (cJSON_IsNumber(member))
         value.number = member->valuedouble;
     else if (!value.text && !value.is_truth)
-        return reason_set(reason, "%s: %s: not a number, a text, true or false", order->verb->name,
-                          member->string);
-    if (command_text_give(order, field, &value, &why) != 0)
-        return reason_set(reason, "%s: %s: %.400s", order->verb->name, member->string, why.text);
+        return error_text_set(error, "%s: %s: not a number, a text, true or false",
+                              order->verb->name, member->string);
+    if (command_text_give(order, field, &value, &detail) != 0)
+        return error_text_set(error, "%s: %s: %.400s", order->verb->name, member->string,
+                              detail.text);
     return 0;
 }
 
-int command_json_give(struct command_text *order, const cJSON *object, struct reason *reason)
+int command_json_give(struct command_text *order, const cJSON *object, struct error_text *error)
 {
     if (!cJSON_IsObject(object))
-        return reason_set(reason, "not an object like {\"do\":\"pause\"}");
+        return error_text_set(error, "not an object like {\"do\":\"pause\"}");
     const cJSON *verb = cJSON_GetObjectItemCaseSensitive(object, "do");
     if (!cJSON_IsString(verb))
-        return reason_set(reason, "it has no \"do\", like {\"do\":\"pause\"}");
-    if (command_text_begin(order, verb->valuestring, reason) != 0)
+        return error_text_set(error, "it has no \"do\", like {\"do\":\"pause\"}");
+    if (command_text_begin(order, verb->valuestring, error) != 0)
         return -1;
     for (const cJSON *member = object->child; member; member = member->next) {
         if (strcmp(member->string, "do") != 0 && strcmp(member->string, "id") != 0 &&
-            give_member(order, member, reason) != 0)
+            give_member(order, member, error) != 0)
             return -1;
     }
     return 0;
 }
 
-int command_from_json(struct command_text *order, const cJSON *object, struct reason *reason)
+int command_from_json(struct command_text *order, const cJSON *object, struct error_text *error)
 {
-    return command_json_give(order, object, reason) != 0 ? -1 : command_text_end(order, reason);
+    return command_json_give(order, object, error) != 0 ? -1 : command_text_end(order, error);
 }

@@ -23,6 +23,6 @@ struct command_route {
 /* Opens the caller's link: over the open DDS link if remote is true, else over the local socket,
  * for which link is not looked at. 0, or -1 with the reason. */
 int command_route_open(struct command_route *route, struct command_client *client, bool remote,
-                       const struct dds_link *link, const char *world, struct reason *reason);
+                       const struct dds_link *link, const char *world, struct error_text *error);
 
 #endif

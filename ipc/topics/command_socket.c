@@ -15,7 +15,7 @@
 
 static bool connected(struct command_socket *socket)
 {
-    struct reason reason;
+    struct error_text error;
     uint64_t now_ns = clock_now_ns();
     if (socket->fd >= 0)
         return true;
@@ -23,7 +23,7 @@ static bool connected(struct command_socket *socket)
         return false;
     socket->tried_ns = now_ns;
     socket->fd = local_socket_connect(socket->world, COMMAND_SOCKET_SUFFIX,
-                                      SOCK_SEQPACKET | SOCK_NONBLOCK, &reason);
+                                      SOCK_SEQPACKET | SOCK_NONBLOCK, &error);
     return socket->fd >= 0;
 }
 

@@ -178,7 +178,7 @@ static void list(char *text, size_t bytes, const char *word)
     (void)snprintf(text + used, bytes - used, "%s%s", used ? ", " : "", word);
 }
 
-int command_text_begin(struct command_text *order, const char *verb, struct reason *reason)
+int command_text_begin(struct command_text *order, const char *verb, struct error_text *error)
 {
     char all[160] = "";
     size_t best = 0;
@@ -194,23 +194,24 @@ int command_text_begin(struct command_text *order, const char *verb, struct reas
         list(all, sizeof all, verbs[i].name);
     }
     if (edits(verb, verbs[best].name) <= 2)
-        return reason_set(reason, "'%.32s': no such command; did you mean %s?", verb,
-                          verbs[best].name);
-    return reason_set(reason, "'%.32s': no such command; there are %s", verb, all);
+        return error_text_set(error, "'%.32s': no such command; did you mean %s?", verb,
+                              verbs[best].name);
+    return error_text_set(error, "'%.32s': no such command; there are %s", verb, all);
 }
 
-static int wrong(const struct command_text_value *value, struct reason *reason, const char *right)
+static int wrong(const struct command_text_value *value, struct error_text *error,
+                 const char *right)
 {
     if (value->text)
-        return reason_set(reason, "'%.32s': not %s", value->text, right);
+        return error_text_set(error, "'%.32s': not %s", value->text, right);
     if (value->is_truth)
-        return reason_set(reason, "%s: not %s", value->truth ? "true" : "false", right);
-    return reason_set(reason, "%g: not %s", value->number, right);
+        return error_text_set(error, "%s: not %s", value->truth ? "true" : "false", right);
+    return error_text_set(error, "%g: not %s", value->number, right);
 }
 
 /* A number within the field's range, and a whole one if it must be. */
 static int take_number(double *number, enum command_text_field field,
-                       const struct command_text_value *value, struct reason *reason)
+                       const struct command_text_value *value, struct error_text *error)
 {
     char right[96];
     double low = fields[field].low, high = fields[field].high;
@@ -228,18 +229,18 @@ static int take_number(double *number, enum command_text_field field,
         return 0;
     (void)snprintf(right, sizeof right, "a %snumber from %.10g to %.10g", whole ? "whole " : "",
                    low, high);
-    return wrong(value, reason, right);
+    return wrong(value, error, right);
 }
 
 static int take_name(char *to, const struct command_text_value *value, const char *what,
-                     struct reason *reason)
+                     struct error_text *error)
 {
     char right[64];
     size_t length = value->text ? strlen(value->text) : 0;
     if (length == 0 || length >= COMMAND_TEXT_NAME_MAX) {
         (void)snprintf(right, sizeof right, "%s, of 1 to %u letters", what,
                        COMMAND_TEXT_NAME_MAX - 1);
-        return wrong(value, reason, right);
+        return wrong(value, error, right);
     }
     memcpy(to, value->text, length + 1);
     return 0;
@@ -252,23 +253,23 @@ static bool is_digits(const char *text)
 
 /* An id, or a name that is looked up later. */
 static int take_entity(struct command_text *order, enum command_text_field field,
-                       const struct command_text_value *value, struct reason *reason)
+                       const struct command_text_value *value, struct error_text *error)
 {
     double number;
     char *name = (char *)order + fields[field].at;
     uint32_t *id = field == COMMAND_TEXT_VEHICLE ? &order->command.entity : &order->command.target;
     if (value->is_truth)
-        return wrong(value, reason, "the id or the name of a vehicle");
+        return wrong(value, error, "the id or the name of a vehicle");
     if (value->text && !(value->loose && is_digits(value->text)))
-        return take_name(name, value, "the id or the name of a vehicle", reason);
-    if (take_number(&number, field, value, reason) != 0)
+        return take_name(name, value, "the id or the name of a vehicle", error);
+    if (take_number(&number, field, value, error) != 0)
         return -1;
     *id = (uint32_t)number;
     return 0;
 }
 
 static int take_word(void *to, enum command_text_field field,
-                     const struct command_text_value *value, struct reason *reason)
+                     const struct command_text_value *value, struct error_text *error)
 {
     char all[96] = "";
     for (int i = (int)fields[field].low; i <= (int)fields[field].high; i++) {
@@ -281,11 +282,11 @@ static int take_word(void *to, enum command_text_field field,
     }
     char right[112];
     (void)snprintf(right, sizeof right, "one of %s", all);
-    return wrong(value, reason, right);
+    return wrong(value, error, right);
 }
 
 static int take(struct command_text *order, enum command_text_field field,
-                const struct command_text_value *value, struct reason *reason)
+                const struct command_text_value *value, struct error_text *error)
 {
     char *to = (char *)order + fields[field].at;
     double number = 0.0;
@@ -293,14 +294,14 @@ static int take(struct command_text *order, enum command_text_field field,
     uint32_t whole;
     switch (fields[field].sort) {
     case SORT_ENTITY:
-        return take_entity(order, field, value, reason);
+        return take_entity(order, field, value, error);
     case SORT_KIND:
-        return take_name(to, value, "the name of a kind", reason);
+        return take_name(to, value, "the name of a kind", error);
     case SORT_WORD:
-        return take_word(to, field, value, reason);
+        return take_word(to, field, value, error);
     case SORT_TRUTH:
         if (!value->is_truth)
-            return wrong(value, reason, "true or false");
+            return wrong(value, error, "true or false");
         memcpy(to, &value->truth, sizeof value->truth);
         return 0;
     case SORT_FLOAT:
@@ -308,7 +309,7 @@ static int take(struct command_text *order, enum command_text_field field,
     case SORT_WHOLE:
         break;
     }
-    if (take_number(&number, field, value, reason) != 0)
+    if (take_number(&number, field, value, error) != 0)
         return -1;
     single = (float)number;
     if (field == COMMAND_TEXT_HEADING)
@@ -325,38 +326,38 @@ static int take(struct command_text *order, enum command_text_field field,
 }
 
 int command_text_give(struct command_text *order, enum command_text_field field,
-                      const struct command_text_value *value, struct reason *reason)
+                      const struct command_text_value *value, struct error_text *error)
 {
     if (!(order->verb->allowed & BIT(field)))
-        return reason_set(reason, "%s does not take it", order->verb->name);
+        return error_text_set(error, "%s does not take it", order->verb->name);
     if (order->given & BIT(field))
-        return reason_set(reason, "it is given twice");
-    if (take(order, field, value, reason) != 0)
+        return error_text_set(error, "it is given twice");
+    if (take(order, field, value, error) != 0)
         return -1;
     order->given |= BIT(field);
     return 0;
 }
 
 /* Out of the sky onto a place, or by a vehicle: not both. */
-static int check_fire(const struct command_text *order, struct reason *reason)
+static int check_fire(const struct command_text *order, struct error_text *error)
 {
     uint32_t by_vehicle = order->given & (WHO | BIT(COMMAND_TEXT_TARGET));
     uint32_t by_sky = order->given & MISSION;
     if (by_vehicle & WHO ? by_sky != 0 : by_vehicle != 0 || (by_sky & SKY) != SKY)
-        return reason_set(reason,
-                          "%s: either a vehicle, and a target or none; or a munition and a "
-                          "place x, z, and rounds, every, radius and seed or none",
-                          order->verb->name);
+        return error_text_set(error,
+                              "%s: either a vehicle, and a target or none; or a munition and a "
+                              "place x, z, and rounds, every, radius and seed or none",
+                              order->verb->name);
     return 0;
 }
 
-int command_text_end(struct command_text *order, struct reason *reason)
+int command_text_end(struct command_text *order, struct error_text *error)
 {
     uint32_t missing = order->verb->needed & ~order->given;
     if (missing)
-        return reason_set(reason, "%s: %s is missing", order->verb->name,
-                          fields[__builtin_ctz(missing)].name);
-    return order->command.type == jolon_COMMAND_FIRE ? check_fire(order, reason) : 0;
+        return error_text_set(error, "%s: %s is missing", order->verb->name,
+                              fields[__builtin_ctz(missing)].name);
+    return order->command.type == jolon_COMMAND_FIRE ? check_fire(order, error) : 0;
 }
 
 bool command_text_needs_names(const struct command_text *order)
@@ -370,7 +371,7 @@ bool command_text_needs_hz(const struct command_text *order)
 }
 
 static int resolve_name(uint32_t *id, const char *name, const struct name_table *names,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     const char *nearest = "";
     if (!name[0])
@@ -383,17 +384,18 @@ static int resolve_name(uint32_t *id, const char *name, const struct name_table 
             nearest = names->entry[i].name;
     }
     if (!*nearest)
-        return reason_set(reason, "'%s': no vehicle has a name in this world; say its id", name);
-    return reason_set(reason, "'%s': no vehicle has that name; the nearest is %s", name, nearest);
+        return error_text_set(error, "'%s': no vehicle has a name in this world; say its id", name);
+    return error_text_set(error, "'%s': no vehicle has that name; the nearest is %s", name,
+                          nearest);
 }
 
 int command_text_resolve(struct command_text *order, const struct name_table *names, double hz,
-                         struct reason *reason)
+                         struct error_text *error)
 {
     jolon_Command *command = &order->command;
     if (command_text_needs_names(order) &&
-        (resolve_name(&command->entity, order->vehicle, names, reason) != 0 ||
-         resolve_name(&command->target, order->target, names, reason) != 0))
+        (resolve_name(&command->entity, order->vehicle, names, error) != 0 ||
+         resolve_name(&command->target, order->target, names, error) != 0))
         return -1;
     if (command_text_needs_hz(order)) {
         double frames = order->lease_s * hz;

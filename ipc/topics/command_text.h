@@ -4,10 +4,10 @@
  * command line, jolon harness and jolon console from JSON (ipc/topics/command_json.h). Every check
  * that needs no world is made here; what is wrong is said in words that name what would be right.
  *
- *     command_text_begin(&order, "drive", &reason);
- *     command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &reason);    for each argument
- *     command_text_end(&order, &reason);                            is it whole?
- *     command_text_resolve(&order, names, hz, &reason);             names to ids, seconds to frames
+ *     command_text_begin(&order, "drive", &error);
+ *     command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &error);    for each argument
+ *     command_text_end(&order, &error);                            is it whole?
+ *     command_text_resolve(&order, names, hz, &error);             names to ids, seconds to frames
  *
  * Pure; one thread an order. */
 #ifndef JOLON_IPC_TOPICS_COMMAND_TEXT_H
@@ -88,7 +88,7 @@ struct command_text {
 const struct command_text_verb *command_text_verb(size_t i);
 
 /* Begins an order. -1 with the reason, which names the verb that may have been meant. */
-int command_text_begin(struct command_text *order, const char *verb, struct reason *reason);
+int command_text_begin(struct command_text *order, const char *verb, struct error_text *error);
 
 /* The name of an argument in JSON ("lease_s") and as an option ("lease"). */
 const char *command_text_field_name(enum command_text_field field);
@@ -102,10 +102,10 @@ bool command_text_field_is_truth(enum command_text_field field);
 
 /* Takes an argument. -1 with the reason, which begins with the value: the caller says of what. */
 int command_text_give(struct command_text *order, enum command_text_field field,
-                      const struct command_text_value *value, struct reason *reason);
+                      const struct command_text_value *value, struct error_text *error);
 
 /* Is all there that the verb needs, and nothing that contradicts? -1 with the reason. */
-int command_text_end(struct command_text *order, struct reason *reason);
+int command_text_end(struct command_text *order, struct error_text *error);
 
 /* Does command_text_resolve() need the names, or the world's frames a second? */
 bool command_text_needs_names(const struct command_text *order);
@@ -113,7 +113,7 @@ bool command_text_needs_hz(const struct command_text *order);
 
 /* Puts ids for names and frames for seconds. -1 with the reason: nobody is called so. */
 int command_text_resolve(struct command_text *order, const struct name_table *names, double hz,
-                         struct reason *reason);
+                         struct error_text *error);
 
 /* The command of a fire mission's round, from 0: about the middle, within radius_m, by chance from
  * seed. Any other order has the one round 0. */

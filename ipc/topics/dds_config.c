@@ -38,13 +38,13 @@ static const char peers[] = "      <Peers><Peer address=\"" DDS_LOOPBACK "\"/></
                             "      <MaxAutoParticipantIndex>%u</MaxAutoParticipantIndex>\n";
 
 int dds_config_builtin(char *text, size_t bytes, const char *address, enum dds_part part,
-                       struct reason *reason)
+                       struct error_text *error)
 {
     struct in_addr parsed;
     char more[sizeof peers + 16] = "";
     if (inet_pton(AF_INET, address, &parsed) != 1)
-        return reason_set(reason, "interface address '%s': not an IPv4 address like %s", address,
-                          DDS_LOOPBACK);
+        return error_text_set(error, "interface address '%s': not an IPv4 address like %s", address,
+                              DDS_LOOPBACK);
     /* The kernel does not mark lo as able to multicast, though it is. */
     bool loopback = (ntohl(parsed.s_addr) >> 24) == 127;
     if (!loopback)
@@ -55,31 +55,31 @@ int dds_config_builtin(char *text, size_t bytes, const char *address, enum dds_p
         snprintf(text, bytes, builtin, address, loopback ? " multicast=\"true\"" : "",
                  part == DDS_ONLOOKER ? "false" : "spdp", part == DDS_HOST ? "auto" : "none", more);
     if (length < 0 || (size_t)length >= bytes)
-        return reason_set(reason, "DDS configuration: longer than %zu bytes", bytes - 1);
+        return error_text_set(error, "DDS configuration: longer than %zu bytes", bytes - 1);
     return 0;
 }
 
-int dds_config_file(char *text, size_t bytes, const char *path, struct reason *reason)
+int dds_config_file(char *text, size_t bytes, const char *path, struct error_text *error)
 {
     FILE *file = fopen(path, "re");
     if (!file)
-        return reason_set(reason, "--dds-config %s: %s", path, strerror(errno));
+        return error_text_set(error, "--dds-config %s: %s", path, strerror(errno));
     size_t length = fread(text, 1, bytes - 1, file);
     bool failed = ferror(file) != 0;
     bool more = !failed && fgetc(file) != EOF;
-    int error = errno;
+    int code = errno;
     (void)fclose(file);
     text[length] = '\0';
     if (failed)
-        return reason_set(reason, "--dds-config %s: %s", path, strerror(error));
+        return error_text_set(error, "--dds-config %s: %s", path, strerror(code));
     if (more)
-        return reason_set(reason, "--dds-config %s: longer than %zu bytes", path, bytes - 1);
+        return error_text_set(error, "--dds-config %s: longer than %zu bytes", path, bytes - 1);
     size_t start = 0;
     while (isspace((unsigned char)text[start]))
         start++;
     if (text[start] != '<' || strlen(text) != length)
-        return reason_set(reason, "--dds-config %s: not XML; it should begin with <CycloneDDS>",
-                          path);
+        return error_text_set(error, "--dds-config %s: not XML; it should begin with <CycloneDDS>",
+                              path);
     memmove(text, text + start, length - start + 1);
     return 0;
 }
@@ -130,12 +130,12 @@ static void list_interfaces(char *text, size_t bytes, const struct ifaddrs *list
         (void)snprintf(text, bytes, "none");
 }
 
-int dds_config_interface(char *address, size_t bytes, const char *wanted, struct reason *reason)
+int dds_config_interface(char *address, size_t bytes, const char *wanted, struct error_text *error)
 {
     struct ifaddrs *list;
     if (getifaddrs(&list) != 0)
-        return reason_set(reason, "interface '%s': cannot list the interfaces: %s", wanted,
-                          strerror(errno));
+        return error_text_set(error, "interface '%s': cannot list the interfaces: %s", wanted,
+                              strerror(errno));
     int result = -1;
     for (const struct ifaddrs *i = list; i && result != 0; i = i->ifa_next) {
         struct sockaddr_in in;
@@ -149,10 +149,11 @@ int dds_config_interface(char *address, size_t bytes, const char *wanted, struct
     if (result != 0) {
         char there[256];
         list_interfaces(there, sizeof there, list);
-        (void)reason_set(reason,
-                         "interface '%s': no interface that is up has this IPv4 address or name; "
-                         "there are: %s",
-                         wanted, there);
+        (void)error_text_set(
+            error,
+            "interface '%s': no interface that is up has this IPv4 address or name; "
+            "there are: %s",
+            wanted, there);
     }
     freeifaddrs(list);
     return result;

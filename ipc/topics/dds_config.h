@@ -24,11 +24,11 @@ enum dds_part {
  * DDS_LOOPBACK and DDS_PEER it is config/cyclonedds.xml to the byte. -1 with the reason when
  * address is not a dotted IPv4 address or text is too small. */
 int dds_config_builtin(char *text, size_t bytes, const char *address, enum dds_part part,
-                       struct reason *reason);
+                       struct error_text *error);
 
 /* Reads a configuration file into text; -1 with the reason when it cannot be read, is too long, or
  * does not begin with an XML element. */
-int dds_config_file(char *text, size_t bytes, const char *path, struct reason *reason);
+int dds_config_file(char *text, size_t bytes, const char *path, struct error_text *error);
 
 /* Does a configuration turn DDS Security on: an identity, and rules of the domain? What the rules
  * say is not looked at. */
@@ -36,6 +36,6 @@ bool dds_config_secure(const char *text);
 
 /* Finds the IPv4 address (dotted, into address) of an interface given by its address or its name;
  * -1 with the reason, which lists what there is, when no interface that is up has it. */
-int dds_config_interface(char *address, size_t bytes, const char *wanted, struct reason *reason);
+int dds_config_interface(char *address, size_t bytes, const char *wanted, struct error_text *error);
 
 #endif

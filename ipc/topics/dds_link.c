@@ -52,34 +52,34 @@ static void take_log(void *unused, const dds_log_data_t *data)
 }
 
 /* what: a part of DDS, or the configuration file that it did not like. */
-static int refuse(struct reason *reason, const char *what, dds_return_t code)
+static int refuse(struct error_text *error, const char *what, dds_return_t code)
 {
     (void)pthread_mutex_lock(&said.lock);
-    int result = reason_set(reason, "DDS %s: %s%s%s", what, dds_strretcode(code),
-                            said.last[0] ? ": " : "", said.last);
+    int result = error_text_set(error, "DDS %s: %s%s%s", what, dds_strretcode(code),
+                                said.last[0] ? ": " : "", said.last);
     (void)pthread_mutex_unlock(&said.lock);
     return result;
 }
 
 static int configure(char *text, size_t bytes, const struct dds_link_options *options,
-                     struct reason *reason)
+                     struct error_text *error)
 {
     char address[INET_ADDRSTRLEN];
     if (options->config && options->interface)
-        return reason_set(reason,
-                          "--interface %s: not together with --dds-config, whose file "
-                          "names the interface",
-                          options->interface);
+        return error_text_set(error,
+                              "--interface %s: not together with --dds-config, whose file "
+                              "names the interface",
+                              options->interface);
     if (options->config)
-        return dds_config_file(text, bytes, options->config, reason);
+        return dds_config_file(text, bytes, options->config, error);
     if (dds_config_interface(address, sizeof address,
-                             options->interface ? options->interface : DDS_LOOPBACK, reason) != 0)
+                             options->interface ? options->interface : DDS_LOOPBACK, error) != 0)
         return -1;
-    return dds_config_builtin(text, bytes, address, options->part, reason);
+    return dds_config_builtin(text, bytes, address, options->part, error);
 }
 
 /* Publisher and subscriber carry the partition: every reader and writer made in them is in it. */
-static int join_partition(struct dds_link *link, const char *world, struct reason *reason)
+static int join_partition(struct dds_link *link, const char *world, struct error_text *error)
 {
     dds_qos_t *qos = dds_create_qos();
     dds_qset_partition1(qos, world);
@@ -87,19 +87,19 @@ static int join_partition(struct dds_link *link, const char *world, struct reaso
     link->subscriber = dds_create_subscriber(link->participant, qos, NULL);
     dds_delete_qos(qos);
     if (link->publisher < 0)
-        return refuse(reason, "publisher", link->publisher);
+        return refuse(error, "publisher", link->publisher);
     if (link->subscriber < 0)
-        return refuse(reason, "subscriber", link->subscriber);
+        return refuse(error, "subscriber", link->subscriber);
     return 0;
 }
 
 int dds_link_open(struct dds_link *link, const struct dds_link_options *options, const char *world,
-                  struct reason *reason)
+                  struct error_text *error)
 {
     char *config = malloc(DDS_CONFIG_MAX);
     if (!config)
-        return reason_set(reason, "DDS configuration: out of memory");
-    if (configure(config, DDS_CONFIG_MAX, options, reason) != 0)
+        return error_text_set(error, "DDS configuration: out of memory");
+    if (configure(config, DDS_CONFIG_MAX, options, error) != 0)
         goto err_config;
     said.quiet = true; /* until it is open: what is said goes into the reason */
     said.last[0] = '\0';
@@ -109,22 +109,23 @@ int dds_link_open(struct dds_link *link, const struct dds_link_options *options,
     dds_datagrams_begin(!strcasestr(config, "<Peer"));
     link->domain = dds_create_domain(options->domain, config);
     if (link->domain < 0 && strstr(said.last, "participant index")) {
-        (void)reason_set(reason,
-                         "DDS domain %u: it has %u worlds with reporters on this machine, and has "
-                         "room for no more; name another, as --domain %u",
-                         options->domain, DDS_HOSTS, options->domain ? 0 : 1);
+        (void)error_text_set(
+            error,
+            "DDS domain %u: it has %u worlds with reporters on this machine, and has "
+            "room for no more; name another, as --domain %u",
+            options->domain, DDS_HOSTS, options->domain ? 0 : 1);
         goto err_config;
     }
     if (link->domain < 0) {
-        (void)refuse(reason, options->config ? options->config : "domain", link->domain);
+        (void)refuse(error, options->config ? options->config : "domain", link->domain);
         goto err_config;
     }
     link->participant = dds_create_participant(options->domain, NULL, NULL);
     if (link->participant < 0) {
-        (void)refuse(reason, "participant", link->participant);
+        (void)refuse(error, "participant", link->participant);
         goto err_domain;
     }
-    if (join_partition(link, world, reason) != 0)
+    if (join_partition(link, world, error) != 0)
         goto err_domain;
     free(config);
     said.quiet = options->quiet;

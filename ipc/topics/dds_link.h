@@ -41,7 +41,7 @@ struct dds_link {
 /* Opens the link; 0, or -1 with the reason: no such interface, a wrong configuration, no socket.
  * Blocks for some milliseconds. */
 int dds_link_open(struct dds_link *link, const struct dds_link_options *options, const char *world,
-                  struct reason *reason);
+                  struct error_text *error);
 
 /* Closes the link with all that was made in it. When Cyclone DDS hangs in that, which it may, the
  * process ends with exit_code after a second. */

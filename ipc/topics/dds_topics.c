@@ -54,33 +54,33 @@ static dds_qos_t *make_qos(enum dds_topic topic, bool writer)
 }
 
 static dds_entity_t make_end(const struct dds_link *link, enum dds_topic topic, bool writer,
-                             struct reason *reason)
+                             struct error_text *error)
 {
     const char *name = table[topic].name;
     dds_entity_t handle =
         dds_create_topic(link->participant, table[topic].descriptor, name, NULL, NULL);
     if (handle < 0)
-        return reason_set(reason, "DDS topic %s: %s", name, dds_strretcode(handle));
+        return error_text_set(error, "DDS topic %s: %s", name, dds_strretcode(handle));
     dds_qos_t *qos = make_qos(topic, writer);
     dds_entity_t end = writer ? dds_create_writer(link->publisher, handle, qos, NULL)
                               : dds_create_reader(link->subscriber, handle, qos, NULL);
     dds_delete_qos(qos);
     if (end < 0)
-        return reason_set(reason, "DDS %s of %s: %s", writer ? "writer" : "reader", name,
-                          dds_strretcode(end));
+        return error_text_set(error, "DDS %s of %s: %s", writer ? "writer" : "reader", name,
+                              dds_strretcode(end));
     return end;
 }
 
 dds_entity_t dds_topics_reader(const struct dds_link *link, enum dds_topic topic,
-                               struct reason *reason)
+                               struct error_text *error)
 {
-    return make_end(link, topic, false, reason);
+    return make_end(link, topic, false, error);
 }
 
 dds_entity_t dds_topics_writer(const struct dds_link *link, enum dds_topic topic,
-                               struct reason *reason)
+                               struct error_text *error)
 {
-    return make_end(link, topic, true, reason);
+    return make_end(link, topic, true, error);
 }
 
 static dds_return_t attach(dds_entity_t waitset, dds_entity_t reader)
@@ -103,8 +103,8 @@ bool dds_topics_orphaned(dds_entity_t reader, dds_instance_handle_t writer)
 void dds_topics_ask_again(const struct dds_link *link, enum dds_topic topic, dds_entity_t waitset,
                           dds_entity_t *reader)
 {
-    struct reason reason;
-    dds_entity_t again = dds_topics_reader(link, topic, &reason);
+    struct error_text error;
+    dds_entity_t again = dds_topics_reader(link, topic, &error);
     if (again < 0)
         return;
     if (waitset) {
@@ -116,14 +116,14 @@ void dds_topics_ask_again(const struct dds_link *link, enum dds_topic topic, dds
 }
 
 dds_entity_t dds_topics_waitset(const struct dds_link *link, const dds_entity_t *readers,
-                                size_t count, struct reason *reason)
+                                size_t count, struct error_text *error)
 {
     dds_entity_t waitset = dds_create_waitset(link->participant);
     dds_return_t code = waitset;
     for (size_t i = 0; i < count && code >= 0; i++)
         code = attach(waitset, readers[i]);
     if (code < 0)
-        return reason_set(reason, "DDS wait set: %s", dds_strretcode(code));
+        return error_text_set(error, "DDS wait set: %s", dds_strretcode(code));
     return waitset;
 }
 

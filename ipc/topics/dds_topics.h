@@ -26,13 +26,13 @@ enum dds_topic {
 /* A reader or writer of the topic in the link's partition; it ends with the link. The entity, or
  * -1 with the reason. */
 dds_entity_t dds_topics_reader(const struct dds_link *link, enum dds_topic topic,
-                               struct reason *reason);
+                               struct error_text *error);
 dds_entity_t dds_topics_writer(const struct dds_link *link, enum dds_topic topic,
-                               struct reason *reason);
+                               struct error_text *error);
 
 /* A wait set that wakes when one of the readers has new samples. The entity, or -1 with reason. */
 dds_entity_t dds_topics_waitset(const struct dds_link *link, const dds_entity_t *readers,
-                                size_t count, struct reason *reason);
+                                size_t count, struct error_text *error);
 
 /* Has the writer of a sample left the reader, and another is there? */
 bool dds_topics_orphaned(dds_entity_t reader, dds_instance_handle_t writer);

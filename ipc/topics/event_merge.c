@@ -15,19 +15,19 @@ _Static_assert(offsetof(jolon_CraterEvent, header) == 0, "header first");
 _Static_assert(offsetof(jolon_AgentEvent, header) == 0, "header first");
 
 int event_merge_open(struct event_merge *tail, const struct dds_link *link,
-                     event_merge_format *format, struct reason *reason)
+                     event_merge_format *format, struct error_text *error)
 {
     *tail =
         (struct event_merge){.format = format, .settled_ns = clock_now_ns() + EVENT_MERGE_FIRST_NS};
     tail->seen = calloc(EVENT_MERGE_SEEN, sizeof *tail->seen);
     if (!tail->seen)
-        return reason_set(reason, "out of memory for the numbers of events");
+        return error_text_set(error, "out of memory for the numbers of events");
     for (uint32_t i = 0; i < EVENT_MERGE_TOPICS; i++) {
-        tail->reader[i] = dds_topics_reader(link, (enum dds_topic)(TOPIC_COLLISION + i), reason);
+        tail->reader[i] = dds_topics_reader(link, (enum dds_topic)(TOPIC_COLLISION + i), error);
         if (tail->reader[i] < 0)
             return -1;
     }
-    tail->waitset = dds_topics_waitset(link, tail->reader, EVENT_MERGE_TOPICS, reason);
+    tail->waitset = dds_topics_waitset(link, tail->reader, EVENT_MERGE_TOPICS, error);
     return tail->waitset < 0 ? -1 : 0;
 }
 

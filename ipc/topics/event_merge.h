@@ -58,7 +58,7 @@ struct event_merge {
 
 /* Makes the readers; -1 with the reason. */
 int event_merge_open(struct event_merge *tail, const struct dds_link *link,
-                     event_merge_format *format, struct reason *reason);
+                     event_merge_format *format, struct error_text *error);
 void event_merge_close(struct event_merge *tail);
 
 /* Takes what has come and hands on what waited long enough, in order. False when there was no

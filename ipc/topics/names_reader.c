@@ -6,10 +6,10 @@
 #include "ipc/topics/samples.h"
 
 int names_reader_open(struct names_reader *reader, const struct dds_link *link,
-                      struct reason *reason)
+                      struct error_text *error)
 {
     *reader =
-        (struct names_reader){.link = link, .reader = dds_topics_reader(link, TOPIC_NAMES, reason)};
+        (struct names_reader){.link = link, .reader = dds_topics_reader(link, TOPIC_NAMES, error)};
     return reader->reader < 0 ? -1 : 0;
 }
 

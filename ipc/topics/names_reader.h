@@ -14,7 +14,7 @@ struct names_reader {
 
 /* Makes the reader on the link, which must outlive it; -1 with the reason. */
 int names_reader_open(struct names_reader *reader, const struct dds_link *link,
-                      struct reason *reason);
+                      struct error_text *error);
 
 /* Takes the names if they came, or came anew for another world. Does not block. */
 void names_reader_take(struct names_reader *reader, struct name_table *names);

@@ -13,20 +13,20 @@ static const enum dds_topic topics[WORLD_MIRROR_READERS] = {TOPIC_WORLD, TOPIC_P
                                                             TOPIC_ENTITIES};
 
 int world_mirror_open(struct world_mirror *mirror, const struct dds_link *link, const char *world,
-                      bool entities, struct reason *reason)
+                      bool entities, struct error_text *error)
 {
     *mirror =
         (struct world_mirror){.link = link,
                               .name = world,
                               .readers = entities ? WORLD_MIRROR_READERS : WORLD_MIRROR_ENTITIES};
     for (int i = 0; i < mirror->readers; i++) {
-        mirror->reader[i] = dds_topics_reader(link, topics[i], reason);
+        mirror->reader[i] = dds_topics_reader(link, topics[i], error);
         if (mirror->reader[i] < 0)
             return -1;
     }
-    if (names_reader_open(&mirror->names_reader, link, reason) != 0)
+    if (names_reader_open(&mirror->names_reader, link, error) != 0)
         return -1;
-    mirror->waitset = dds_topics_waitset(link, mirror->reader, (size_t)mirror->readers, reason);
+    mirror->waitset = dds_topics_waitset(link, mirror->reader, (size_t)mirror->readers, error);
     return mirror->waitset < 0 ? -1 : 0;
 }
 

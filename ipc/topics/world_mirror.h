@@ -65,7 +65,7 @@ struct world_mirror {
 /* Makes the readers on the link, which must outlive the mirror, that of the entities, which are
  * most of what comes, only where they are wanted; -1 with the reason. */
 int world_mirror_open(struct world_mirror *mirror, const struct dds_link *link, const char *world,
-                      bool entities, struct reason *reason);
+                      bool entities, struct error_text *error);
 void world_mirror_close(struct world_mirror *mirror);
 
 /* Takes what has come. Does not block. */

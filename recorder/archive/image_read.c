@@ -58,86 +58,87 @@ static bool counts_fit(const struct image_header *header, struct layout *layout)
 }
 
 static int check_header(const struct image_header *header, uint64_t file_bytes, const char *path,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     struct layout layout;
     if (header->magic != IMAGE_MAGIC)
-        return reason_set(reason, "%s: magic: not an image of a world", path);
+        return error_text_set(error, "%s: magic: not an image of a world", path);
     if (header->version != IMAGE_VERSION)
-        return reason_set(reason, "%s: version %u; this program knows %u", path, header->version,
-                          IMAGE_VERSION);
+        return error_text_set(error, "%s: version %u; this program knows %u", path, header->version,
+                              IMAGE_VERSION);
     if (header->header_bytes != sizeof *header || header->layout_hash != layout_hash())
-        return reason_set(reason,
-                          "%s: layout: written by another build of Jolon; go on from it with that "
-                          "build",
-                          path);
+        return error_text_set(
+            error,
+            "%s: layout: written by another build of Jolon; go on from it with that "
+            "build",
+            path);
     if (header->header_hash != image_header_hash(header))
-        return reason_set(reason, "%s: header hash: the header is damaged", path);
+        return error_text_set(error, "%s: header hash: the header is damaged", path);
     if (!counts_fit(header, &layout))
-        return reason_set(reason, "%s: counts: out of range", path);
+        return error_text_set(error, "%s: counts: out of range", path);
     if (header->content_bytes != image_content_bytes(header, &layout) ||
         header->packed_bytes > ZSTD_compressBound(header->content_bytes))
-        return reason_set(reason, "%s: sizes: do not fit its counts", path);
+        return error_text_set(error, "%s: sizes: do not fit its counts", path);
     if (file_bytes != sizeof *header + header->packed_bytes)
-        return reason_set(reason, "%s: size %" PRIu64 "; its header says %" PRIu64 ": %s", path,
-                          file_bytes, sizeof *header + header->packed_bytes,
-                          file_bytes < sizeof *header + header->packed_bytes
-                              ? "it was cut off"
-                              : "something was added");
+        return error_text_set(error, "%s: size %" PRIu64 "; its header says %" PRIu64 ": %s", path,
+                              file_bytes, sizeof *header + header->packed_bytes,
+                              file_bytes < sizeof *header + header->packed_bytes
+                                  ? "it was cut off"
+                                  : "something was added");
     return 0;
 }
 
 static int read_header(int fd, uint64_t file_bytes, struct image_header *header, const char *path,
-                       struct reason *reason)
+                       struct error_text *error)
 {
     if (file_bytes < sizeof *header)
-        return reason_set(reason, "%s: size %" PRIu64 " is too small for an image", path,
-                          file_bytes);
+        return error_text_set(error, "%s: size %" PRIu64 " is too small for an image", path,
+                              file_bytes);
     if (read_at(fd, header, sizeof *header, 0) != 0)
-        return reason_set(reason, "%s: cannot read: %s", path, strerror(errno));
-    return check_header(header, file_bytes, path, reason);
+        return error_text_set(error, "%s: cannot read: %s", path, strerror(errno));
+    return check_header(header, file_bytes, path, error);
 }
 
-int image_peek(struct image_header *header, const char *path, struct reason *reason)
+int image_peek(struct image_header *header, const char *path, struct error_text *error)
 {
     uint64_t bytes = 0;
-    int fd = regular_file_open(path, &bytes, reason);
+    int fd = regular_file_open(path, &bytes, error);
     if (fd < 0)
         return -1;
-    int result = read_header(fd, bytes, header, path, reason);
+    int result = read_header(fd, bytes, header, path, error);
     close(fd);
     return result;
 }
 
-static int read_packed(int fd, struct image *image, struct reason *reason)
+static int read_packed(int fd, struct image *image, struct error_text *error)
 {
     const struct image_header *header = &image->header;
     image->packed = malloc(header->packed_bytes);
     if (!image->packed)
-        return reason_set(reason, "%s: out of memory for %" PRIu64 " bytes", image->path,
-                          header->packed_bytes);
+        return error_text_set(error, "%s: out of memory for %" PRIu64 " bytes", image->path,
+                              header->packed_bytes);
     if (read_at(fd, image->packed, header->packed_bytes, sizeof *header) != 0)
-        return reason_set(reason, "%s: cannot read: %s", image->path, strerror(errno));
+        return error_text_set(error, "%s: cannot read: %s", image->path, strerror(errno));
     if (XXH3_64bits(image->packed, header->packed_bytes) != header->packed_hash)
-        return reason_set(reason, "%s: packed hash: the file is damaged", image->path);
+        return error_text_set(error, "%s: packed hash: the file is damaged", image->path);
     if (ZSTD_getFrameContentSize(image->packed, header->packed_bytes) != header->content_bytes)
-        return reason_set(reason, "%s: zstd: unpacks to another size than the header says",
-                          image->path);
+        return error_text_set(error, "%s: zstd: unpacks to another size than the header says",
+                              image->path);
     return 0;
 }
 
-int image_open(struct image *image, const char *path, struct reason *reason)
+int image_open(struct image *image, const char *path, struct error_text *error)
 {
     uint64_t bytes = 0;
     image->packed = NULL;
     if ((size_t)snprintf(image->path, sizeof image->path, "%s", path) >= sizeof image->path)
-        return reason_set(reason, "%.64s...: is too long for a path", path);
-    int fd = regular_file_open(path, &bytes, reason);
+        return error_text_set(error, "%.64s...: is too long for a path", path);
+    int fd = regular_file_open(path, &bytes, error);
     if (fd < 0)
         return -1;
-    int result = read_header(fd, bytes, &image->header, path, reason);
+    int result = read_header(fd, bytes, &image->header, path, error);
     if (result == 0)
-        result = read_packed(fd, image, reason);
+        result = read_packed(fd, image, error);
     close(fd);
     if (result != 0)
         image_close(image);
@@ -211,7 +212,7 @@ static int unpack_end(struct unpacking *unpacking)
 }
 
 static int unpack(const struct image *image, const struct image_part *part, uint32_t parts,
-                  struct reason *reason)
+                  struct error_text *error)
 {
     struct unpacking unpacking = {.zstd = ZSTD_createDCtx(),
                                   .in = {image->packed, image->header.packed_bytes, 0},
@@ -219,7 +220,7 @@ static int unpack(const struct image *image, const struct image_part *part, uint
                                   .content = XXH3_createState()};
     int result = -1;
     if (!unpacking.zstd || !unpacking.content) {
-        reason_set(reason, "%s: out of memory to unpack it", image->path);
+        error_text_set(error, "%s: out of memory to unpack it", image->path);
         goto done;
     }
     XXH3_64bits_reset(unpacking.content);
@@ -227,9 +228,9 @@ static int unpack(const struct image *image, const struct image_part *part, uint
     for (uint32_t i = 0; i < parts && result == 0; i++)
         result = unpack_part(&unpacking, &part[i]);
     if (result != 0 || unpack_end(&unpacking) != 0)
-        result = reason_set(reason, "%s: zstd: cannot be unpacked", image->path);
+        result = error_text_set(error, "%s: zstd: cannot be unpacked", image->path);
     else if (XXH3_64bits_digest(unpacking.content) != image->header.content_hash)
-        result = reason_set(reason, "%s: content hash: the file is damaged", image->path);
+        result = error_text_set(error, "%s: content hash: the file is damaged", image->path);
 done:
     ZSTD_freeDCtx(unpacking.zstd);
     XXH3_freeState(unpacking.content);
@@ -238,39 +239,39 @@ done:
 
 /* Checks that the frame matches the header, whose sizes placed its parts, and passes its checksums.
  * An image holds no hashes of rows. They are computed here. */
-static int check_state(const struct view *view, const struct image *image, struct reason *reason)
+static int check_state(const struct view *view, const struct image *image, struct error_text *error)
 {
     const struct image_header *header = &image->header;
     const struct state_head *head = view->w[header->frame & 1].head, *moved = view->m.head;
-    struct reason what;
+    struct error_text what;
     if (head->event_end != header->event_end || head->used != header->used ||
         head->crater_count != header->craters || head->dent_count != header->dents)
-        return reason_set(reason, "%s: its frame does not fit its header", image->path);
+        return error_text_set(error, "%s: its frame does not fit its header", image->path);
     table_hash(state_table(&view->w[header->frame & 1]), head->used, NULL, NULL);
     if (segment_check_state(view, header->frame, &what) != 0)
-        return reason_set(reason, "%s: %s", image->path, what.text);
+        return error_text_set(error, "%s: %s", image->path, what.text);
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {
         if (head->command_cursor[i] < header->ring_first[i] ||
             head->command_cursor[i] > header->ring_end[i])
-            return reason_set(reason, "%s: its commands do not fit its frame", image->path);
+            return error_text_set(error, "%s: its commands do not fit its frame", image->path);
     }
     if (!header->inputs)
         return 0;
     if (moved->used != header->moved_used || moved->intent_count != header->intents)
-        return reason_set(reason, "%s: its moved table does not fit its header", image->path);
+        return error_text_set(error, "%s: its moved table does not fit its header", image->path);
     table_hash(moved_table(&view->m), moved->used, NULL, NULL);
     if (segment_check_moved(view, header->frame + 1, &what) != 0)
-        return reason_set(reason, "%s: %s", image->path, what.text);
+        return error_text_set(error, "%s: %s", image->path, what.text);
     return 0;
 }
 
-int image_load(struct view *view, const struct image *image, struct reason *reason)
+int image_load(struct view *view, const struct image *image, struct error_text *error)
 {
     const struct image_header *header = &image->header;
     struct image_tables tables = {
         .view = view, .state = view->w[header->frame & 1], .moved = view->m};
     struct image_part part[IMAGE_PARTS_MAX];
-    if (segment_params_fit(&image->params, view->header, image->path, reason) != 0)
+    if (segment_params_fit(&image->params, view->header, image->path, error) != 0)
         return -1;
     CRASH_POINT("image's parameters");
     *(struct params *)(uintptr_t)view->world.params = image->params;
@@ -278,9 +279,9 @@ int image_load(struct view *view, const struct image *image, struct reason *reas
         tables.ring[i] = view->commands[i]->slot;
     uint32_t parts = image_parts(header, &tables, part);
     CRASH_POINT_GUARD_PAGES(view->base, view->layout.total);
-    int unpacked = unpack(image, part, parts, reason);
+    int unpacked = unpack(image, part, parts, error);
     CRASH_POINT_UNGUARD();
-    if (unpacked != 0 || check_state(view, image, reason) != 0)
+    if (unpacked != 0 || check_state(view, image, error) != 0)
         return -1;
     bool moved = header->inputs && !image_branches(image);
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {

@@ -20,11 +20,11 @@ struct image {
 /* Reads the file and checks it against its header. Sizes in the header are checked against bounds
  * before memory is allocated. Returns 0, or -1 with the reason: the file is missing, not a plain
  * file, not an image, of another version or build, damaged, too short or too long. */
-int image_open(struct image *image, const char *path, struct reason *reason);
+int image_open(struct image *image, const char *path, struct error_text *error);
 void image_close(struct image *image);
 
 /* Reads the header alone and checks it as image_open() does. */
-int image_peek(struct image_header *header, const char *path, struct reason *reason);
+int image_peek(struct image_header *header, const char *path, struct error_text *error);
 
 /* The header of the segment that image_load() fills (segment_private, segment_begin). */
 struct segment_header image_segment(const struct image *image);
@@ -37,6 +37,6 @@ bool image_branches(const struct image *image);
  * committed and, if the image has inputs, the next frame had been moved. A branch is loaded without
  * the inputs, which were moved under the old parameters. Returns 0, or -1 with the reason; the
  * caller then abandons the segment. */
-int image_load(struct view *view, const struct image *image, struct reason *reason);
+int image_load(struct view *view, const struct image *image, struct error_text *error);
 
 #endif

@@ -25,17 +25,17 @@
 /* --- the file ----------------------------------------------------------------------------------*/
 
 /* Returns 0 if an image may take the place of what the path names. */
-static int check_target(const struct image_place *place, struct reason *reason)
+static int check_target(const struct image_place *place, struct error_text *error)
 {
     struct stat status;
     if (fstatat(place->folder, place->name, &status, AT_SYMLINK_NOFOLLOW) != 0)
-        return errno == ENOENT ? 0 : reason_set(reason, "%s: %s", place->path, strerror(errno));
+        return errno == ENOENT ? 0 : error_text_set(error, "%s: %s", place->path, strerror(errno));
     if (!S_ISREG(status.st_mode))
-        return reason_set(reason, "%s: is %s; name a plain file, or one that is not there yet",
-                          place->path,
-                          S_ISDIR(status.st_mode)   ? "a folder"
-                          : S_ISLNK(status.st_mode) ? "a symbolic link"
-                                                    : "a device or pipe");
+        return error_text_set(error, "%s: is %s; name a plain file, or one that is not there yet",
+                              place->path,
+                              S_ISDIR(status.st_mode)   ? "a folder"
+                              : S_ISLNK(status.st_mode) ? "a symbolic link"
+                                                        : "a device or pipe");
     return 0;
 }
 
@@ -44,12 +44,12 @@ static void temporary_name(const struct image_place *place, char name[NAME_MAX +
     snprintf(name, NAME_MAX + 1, "%s.new-%d", place->name, (int)getpid());
 }
 
-int image_place_open(struct image_place *place, const char *path, struct reason *reason)
+int image_place_open(struct image_place *place, const char *path, struct error_text *error)
 {
     char folder[PATH_MAX] = ".", prefix[NAME_MAX + 1];
     *place = (struct image_place){.folder = -1};
     if ((size_t)snprintf(place->path, sizeof place->path, "%s", path) >= sizeof place->path)
-        return reason_set(reason, "%.64s...: is too long for a path", path);
+        return error_text_set(error, "%.64s...: is too long for a path", path);
     char *slash = strrchr(place->path, '/');
     place->name = slash ? slash + 1 : place->path;
     if (slash)
@@ -57,12 +57,12 @@ int image_place_open(struct image_place *place, const char *path, struct reason 
                  slash == place->path ? 1 : (int)(slash - place->path), place->path);
     /* Room for ".new-" and a pid behind the name. */
     if (place->name[0] == '\0' || strlen(place->name) > NAME_MAX - 16)
-        return reason_set(reason, "%s: must end in a file's name of 1 to %d bytes", path,
-                          NAME_MAX - 16);
+        return error_text_set(error, "%s: must end in a file's name of 1 to %d bytes", path,
+                              NAME_MAX - 16);
     place->folder = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (place->folder < 0)
-        return reason_set(reason, "%s: cannot open its folder: %s", path, strerror(errno));
-    if (check_target(place, reason) != 0) {
+        return error_text_set(error, "%s: cannot open its folder: %s", path, strerror(errno));
+    if (check_target(place, error) != 0) {
         image_place_close(place);
         return -1;
     }
@@ -250,61 +250,62 @@ static int fill(int fd, struct view *view, const struct capture *capture,
         result = fsync(fd);
     beat(&writer);
     *done = (struct image_written){sizeof header + writer.packed_bytes, header.content_bytes};
-    int error = errno;
+    int code = errno;
     writer_free(&writer);
-    errno = error;
+    errno = code;
     return result;
 }
 
 /* Sets the reason of a failed write. error: its errno. */
-static int refuse_write(const struct image_place *place, int error, struct reason *reason)
+static int refuse_write(const struct image_place *place, int code, struct error_text *error)
 {
-    if (error == ENOSPC || error == EDQUOT || error == EFBIG)
-        return reason_set(reason, "%s: no room to write it (%s); the file is as it was",
-                          place->path, strerror(error));
-    return reason_set(reason, "%s: cannot write: %s", place->path, strerror(error));
+    if (code == ENOSPC || code == EDQUOT || code == EFBIG)
+        return error_text_set(error, "%s: no room to write it (%s); the file is as it was",
+                              place->path, strerror(code));
+    return error_text_set(error, "%s: cannot write: %s", place->path, strerror(code));
 }
 
 int image_write(const struct image_place *place, struct view *view, const struct capture *capture,
-                struct image_written *done, struct reason *reason)
+                struct image_written *done, struct error_text *error)
 {
     char temporary[NAME_MAX + 1];
     struct image_written own;
-    if (check_target(place, reason) != 0)
+    if (check_target(place, error) != 0)
         return -1;
     /* A world whose static regions are damaged must not replace a good image. */
-    struct reason what;
+    struct error_text what;
     if (view->header->magic == SEGMENT_MAGIC && segment_verify(view, &what) != 0)
-        return reason_set(reason, "%s: not written: the world is %s", place->path, what.text);
+        return error_text_set(error, "%s: not written: the world is %s", place->path, what.text);
     temporary_name(place, temporary);
     unlinkat(place->folder, temporary, 0); /* left by an earlier process with the same pid */
     CRASH_POINT("image's temporary");
     int fd =
         openat(place->folder, temporary, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
     if (fd < 0)
-        return reason_set(reason, "%s: cannot create %s beside it: %s", place->path, temporary,
-                          strerror(errno));
+        return error_text_set(error, "%s: cannot create %s beside it: %s", place->path, temporary,
+                              strerror(errno));
     int result = fill(fd, view, capture, done ? done : &own);
-    int error = errno;
+    int code = errno;
     if (close(fd) != 0 && result == 0) {
         result = -1;
-        error = errno;
+        code = errno;
     }
     CRASH_POINT("image's name");
     if (result == 0 && renameat(place->folder, temporary, place->folder, place->name) != 0) {
         result = -1;
-        error = errno;
+        code = errno;
     }
     if (result != 0) {
         unlinkat(place->folder, temporary, 0);
-        return refuse_write(place, error, reason);
+        return refuse_write(place, code, error);
     }
     CRASH_POINT("after the image's name");
     /* Some file systems do not support fsync of a folder. The rename has succeeded anyway. */
     if (fsync(place->folder) != 0 && errno != EINVAL)
-        return reason_set(reason,
-                          "%s: is the new image, but its folder cannot be put on the disk (%s): "
-                          "after a power cut it may be the one before",
-                          place->path, strerror(errno));
+        return error_text_set(
+            error,
+            "%s: is the new image, but its folder cannot be put on the disk (%s): "
+            "after a power cut it may be the one before",
+            place->path, strerror(errno));
     return 0;
 }

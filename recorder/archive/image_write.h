@@ -18,7 +18,7 @@ struct image_place {
 /* Refuses a path whose folder does not exist, and a path that names something other than a plain
  * file (a symbolic link, a device, a folder). Removes the temporary files that a killed writer left
  * in the folder. Returns 0, or -1 with the reason. */
-int image_place_open(struct image_place *place, const char *path, struct reason *reason);
+int image_place_open(struct image_place *place, const char *path, struct error_text *error);
 void image_place_close(struct image_place *place);
 
 struct image_written {
@@ -32,6 +32,6 @@ struct image_written {
  * it has one, at least once a megabyte. done may be NULL. Returns 0, or -1 with the reason; the old
  * file is then unchanged. */
 int image_write(const struct image_place *place, struct view *view, const struct capture *capture,
-                struct image_written *done, struct reason *reason);
+                struct image_written *done, struct error_text *error);
 
 #endif

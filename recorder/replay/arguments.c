@@ -24,9 +24,9 @@ void arguments_set(struct arguments *arguments, const char *text)
 
 static struct arguments given = {.world = "default", .threads = 1};
 
-static int take_set(const char *text, const struct error_text *why)
+static int take_set(const char *text, struct error_text *detail)
 {
-    (void)why;
+    (void)detail;
     arguments_set(&given, text);
     return 0;
 }
@@ -81,9 +81,9 @@ void arguments_seconds(const struct arguments *arguments, struct params *params)
 
 void arguments_attach(const struct arguments *arguments, struct view *view)
 {
-    struct reason reason;
-    if (segment_attach(view, arguments->world, ROLE_NONE, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (segment_attach(view, arguments->world, ROLE_NONE, &error) != 0)
+        die_refused("%s", error.text);
 }
 
 void arguments_snapshot(const struct arguments *arguments, struct view *view,

@@ -18,9 +18,9 @@
 
 static void change_settings(const struct arguments *arguments, struct image *image)
 {
-    struct config_message message;
-    if (loader_branch(&image->params, arguments->set, arguments->sets, &message) != 0)
-        die_refused("%s", message.text);
+    struct error_text error;
+    if (loader_branch(&image->params, arguments->set, arguments->sets, &error) != 0)
+        die_refused("%s", error.text);
     arguments_seconds(arguments, &image->params);
     uint64_t limit = image->params.frame_limit;
     if (limit != 0 && image->header.frame >= limit)
@@ -39,7 +39,7 @@ static void forget_quit(struct view *view, uint64_t frame)
 
 /* The world's own: how to make it again from the image, and what was changed. */
 static int write_provenance(const struct view *view, const struct arguments *arguments,
-                            const struct image *image, struct reason *reason)
+                            const struct image *image, struct error_text *error)
 {
     struct provenance recipe = {0};
     char text[32], *path = realpath(image->path, NULL);
@@ -59,9 +59,9 @@ static int write_provenance(const struct view *view, const struct arguments *arg
         memset(to, 0, room);
         memcpy(to, recipe.text, recipe.bytes);
     } else {
-        result = reason_set(reason,
-                            "--set: %u bytes of overrides; a world from an image has room for %u",
-                            recipe.bytes, room);
+        result = error_text_set(
+            error, "--set: %u bytes of overrides; a world from an image has room for %u",
+            recipe.bytes, room);
     }
     provenance_free(&recipe);
     return result;
@@ -69,33 +69,33 @@ static int write_provenance(const struct view *view, const struct arguments *arg
 
 void image_resume_open(const struct arguments *arguments, struct image *image)
 {
-    struct reason reason;
-    if (image_open(image, arguments->from, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (image_open(image, arguments->from, &error) != 0)
+        die_refused("%s", error.text);
     change_settings(arguments, image);
 }
 
 int image_resume_fill(struct view *view, const struct arguments *arguments,
-                      const struct image *image, struct reason *reason)
+                      const struct image *image, struct error_text *error)
 {
-    if (image_load(view, image, reason) != 0)
+    if (image_load(view, image, error) != 0)
         return -1;
     forget_quit(view, image->header.frame);
-    return write_provenance(view, arguments, image, reason);
+    return write_provenance(view, arguments, image, error);
 }
 
 static void make(const struct arguments *arguments, const struct image *image)
 {
     struct view view;
-    struct reason reason;
+    struct error_text error;
     struct segment_header header = image_segment(image);
-    if (segment_begin(&view, arguments->world, &header, &reason) != 0)
-        die_refused("%s", reason.text);
-    int result = image_resume_fill(&view, arguments, image, &reason);
+    if (segment_begin(&view, arguments->world, &header, &error) != 0)
+        die_refused("%s", error.text);
+    int result = image_resume_fill(&view, arguments, image, &error);
     process_hold_stop();
-    if (result != 0 || segment_publish(&view, &reason) != 0) {
+    if (result != 0 || segment_publish(&view, &error) != 0) {
         segment_abandon(&view);
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
     }
     segment_detach(&view);
 }

@@ -11,7 +11,7 @@ void image_resume_open(const struct arguments *arguments, struct image *image);
 
 /* Fills a fresh segment of image_segment(). 0, or -1 with the reason. */
 int image_resume_fill(struct view *view, const struct arguments *arguments,
-                      const struct image *image, struct reason *reason);
+                      const struct image *image, struct error_text *error);
 
 /* Makes the world that the image holds, with the changes of --set and --seconds; an exit code.
  * Wrong images and settings end the process with the reason. */

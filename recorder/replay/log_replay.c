@@ -20,17 +20,17 @@
 /* --- the file ----------------------------------------------------------------------------------*/
 
 /* The file's text, NUL-terminated, into tape->text; its length, -1 with the reason. */
-static ssize_t read_text(struct log_replay *replay, struct reason *reason)
+static ssize_t read_text(struct log_replay *replay, struct error_text *error)
 {
     uint64_t bytes = 0;
     size_t length = 0;
     ssize_t got = 1;
-    int fd = regular_file_open(replay->path, &bytes, reason);
+    int fd = regular_file_open(replay->path, &bytes, error);
     if (fd < 0)
         return -1;
     if (bytes > LOG_REPLAY_BYTES_MAX) {
         close(fd);
-        return reason_set(reason, "%s: is larger than 4 GB", replay->path);
+        return error_text_set(error, "%s: is larger than 4 GB", replay->path);
     }
     replay->text = malloc((size_t)bytes + 1);
     while (replay->text && length < (size_t)bytes && got != 0) {
@@ -41,9 +41,9 @@ static ssize_t read_text(struct log_replay *replay, struct reason *reason)
     }
     close(fd);
     if (!replay->text)
-        return reason_set(reason, "%s: out of memory", replay->path);
+        return error_text_set(error, "%s: out of memory", replay->path);
     if (got < 0)
-        return reason_set(reason, "%s: cannot read: %s", replay->path, strerror(errno));
+        return error_text_set(error, "%s: cannot read: %s", replay->path, strerror(errno));
     replay->text[length] = '\0';
     return (ssize_t)length;
 }
@@ -51,9 +51,9 @@ static ssize_t read_text(struct log_replay *replay, struct reason *reason)
 bool log_replay_is_one(const char *path)
 {
     char text[sizeof COMMAND_LOG_BEGINS - 1];
-    struct reason reason;
+    struct error_text error;
     uint64_t bytes;
-    int fd = regular_file_open(path, &bytes, &reason);
+    int fd = regular_file_open(path, &bytes, &error);
     if (fd < 0)
         return false;
     ssize_t got = read(fd, text, sizeof text);
@@ -63,23 +63,23 @@ bool log_replay_is_one(const char *path)
 
 /* --- its records -------------------------------------------------------------------------------*/
 
-static int wrong(const struct log_replay *replay, uint32_t line, struct reason *reason,
+static int wrong(const struct log_replay *replay, uint32_t line, struct error_text *error,
                  const char *what)
 {
-    return reason_set(reason, "%s:%u: %s", replay->path, line, what);
+    return error_text_set(error, "%s:%u: %s", replay->path, line, what);
 }
 
-static int read_begin(struct log_replay *replay, const char *line, struct reason *reason)
+static int read_begin(struct log_replay *replay, const char *line, struct error_text *error)
 {
     struct command_record first;
     uint64_t format;
     replay->begin = cJSON_Parse(line);
     if (strncmp(line, COMMAND_LOG_BEGINS, sizeof COMMAND_LOG_BEGINS - 1) != 0 ||
         !record_whole(replay->begin, "format", UINT32_MAX, &format))
-        return wrong(replay, 1, reason, "is no log of commands");
+        return wrong(replay, 1, error, "is no log of commands");
     if (format != COMMAND_LOG_FORMAT)
-        return reason_set(reason, "%s:1: format %" PRIu64 "; this program knows %d", replay->path,
-                          format, COMMAND_LOG_FORMAT);
+        return error_text_set(error, "%s:1: format %" PRIu64 "; this program knows %d",
+                              replay->path, format, COMMAND_LOG_FORMAT);
     if (!command_record_read(&first, replay->begin) || first.type != RECORD_BEGIN ||
         !record_hex(replay->begin, "layout", &replay->layout) ||
         !record_hex(replay->begin, "origin", &replay->origin) ||
@@ -87,7 +87,7 @@ static int read_begin(struct log_replay *replay, const char *line, struct reason
         !record_hex(replay->begin, "static_hash", &replay->static_hash) ||
         !cJSON_IsString(cJSON_GetObjectItemCaseSensitive(replay->begin, "scenario")) ||
         !cJSON_IsArray(cJSON_GetObjectItemCaseSensitive(replay->begin, "recipe")))
-        return wrong(replay, 1, reason, "does not say what the run was made of");
+        return wrong(replay, 1, error, "does not say what the run was made of");
     replay->start = first.at;
     return 0;
 }
@@ -117,13 +117,13 @@ static void note_known(struct log_replay *replay, const struct command_record *r
 }
 
 static int add_record(struct log_replay *replay, uint32_t *room, const char *line,
-                      struct reason *reason)
+                      struct error_text *error)
 {
     if (replay->count == *room) {
         uint32_t more = *room ? 2 * *room : 256;
         struct command_record *larger = realloc(replay->record, more * sizeof *larger);
         if (!larger)
-            return reason_set(reason, "%s: out of memory", replay->path);
+            return error_text_set(error, "%s: out of memory", replay->path);
         replay->record = larger;
         *room = more;
     }
@@ -133,7 +133,7 @@ static int add_record(struct log_replay *replay, uint32_t *room, const char *lin
     bool read = command_record_read(record, object);
     cJSON_Delete(object);
     if (!read || !follows(before, record))
-        return wrong(replay, replay->count + 2, reason,
+        return wrong(replay, replay->count + 2, error,
                      "is no record that can stand here: a line before it is missing, or it was "
                      "written by something else");
     replay->count++;
@@ -141,10 +141,10 @@ static int add_record(struct log_replay *replay, uint32_t *room, const char *lin
     return 0;
 }
 
-int log_replay_open(struct log_replay *replay, const char *path, struct reason *reason)
+int log_replay_open(struct log_replay *replay, const char *path, struct error_text *error)
 {
     *replay = (struct log_replay){.path = path};
-    ssize_t length = read_text(replay, reason);
+    ssize_t length = read_text(replay, error);
     uint32_t room = 0, number = 1;
     if (length < 0)
         goto err;
@@ -156,19 +156,19 @@ int log_replay_open(struct log_replay *replay, const char *path, struct reason *
             break;
         }
         if (!journal_check(line, (size_t)(stop - line))) {
-            (void)wrong(replay, number, reason, "check: the line is damaged");
+            (void)wrong(replay, number, error, "check: the line is damaged");
             goto err;
         }
         *stop = '\0';
-        if (number == 1 ? read_begin(replay, line, reason) != 0
-                        : add_record(replay, &room, line, reason) != 0)
+        if (number == 1 ? read_begin(replay, line, error) != 0
+                        : add_record(replay, &room, line, error) != 0)
             goto err;
         if (number == 1)
             replay->known_frame = replay->start.frame;
     }
     if (replay->begin)
         return 0;
-    (void)reason_set(reason, "%s: is no log of commands: it has no whole line", path);
+    (void)error_text_set(error, "%s: is no log of commands: it has no whole line", path);
 err:
     log_replay_close(replay);
     return -1;
@@ -250,7 +250,7 @@ static uint32_t feed_frame(struct log_replay *replay, const struct view *view, u
 
 /* Marks of the frame that was made, and whatever stands before the next frame's commands. */
 static bool marks_agree(struct log_replay *replay, const struct state_head *head,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     for (; replay->next < replay->count && replay->record[replay->next].at.frame <= head->frame;
          replay->next++) {
@@ -258,11 +258,12 @@ static bool marks_agree(struct log_replay *replay, const struct state_head *head
         if (record->type != RECORD_MARK && record->type != RECORD_END)
             continue;
         if (record->at.frame == head->frame && record->event_digest != head->event_digest) {
-            reason_set(reason,
-                       "%s:%u: at frame %" PRIu64 " the run had %" PRIu64
-                       " events of digest %016" PRIx64 "; played again %" PRIu64 " of %016" PRIx64,
-                       replay->path, replay->next + 2, head->frame, record->at.events,
-                       record->event_digest, head->event_end, head->event_digest);
+            error_text_set(error,
+                           "%s:%u: at frame %" PRIu64 " the run had %" PRIu64
+                           " events of digest %016" PRIx64 "; played again %" PRIu64
+                           " of %016" PRIx64,
+                           replay->path, replay->next + 2, head->frame, record->at.events,
+                           record->event_digest, head->event_end, head->event_digest);
             return false;
         }
     }
@@ -270,12 +271,12 @@ static bool marks_agree(struct log_replay *replay, const struct state_head *head
 }
 
 static bool all_taken(const struct log_replay *replay, const struct view *view,
-                      const struct state_head *head, struct reason *reason)
+                      const struct state_head *head, struct error_text *error)
 {
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {
         if (head->command_cursor[i] != atomic_load(&view->commands[i]->head)) {
-            reason_set(reason, "%s: frame %" PRIu64 " does not take all its commands", replay->path,
-                       head->frame);
+            error_text_set(error, "%s: frame %" PRIu64 " does not take all its commands",
+                           replay->path, head->frame);
             return false;
         }
     }
@@ -283,7 +284,7 @@ static bool all_taken(const struct log_replay *replay, const struct view *view,
 }
 
 enum log_replay_step log_replay_step(struct log_replay *replay, struct frame_stepper *stepper,
-                                     struct reason *reason)
+                                     struct error_text *error)
 {
     const struct view *view = stepper->view;
     uint64_t frame = frame_stepper_frame(stepper);
@@ -299,7 +300,7 @@ enum log_replay_step log_replay_step(struct log_replay *replay, struct frame_ste
         return LOG_REPLAY_OVER;
     frame_stepper_step(stepper, NULL);
     head = view->w[(frame + 1) & 1].head;
-    return all_taken(replay, view, head, reason) && marks_agree(replay, head, reason)
+    return all_taken(replay, view, head, error) && marks_agree(replay, head, error)
                ? LOG_REPLAY_STEPPED
                : LOG_REPLAY_WRONG;
 }

@@ -25,7 +25,7 @@ struct log_replay {
 
 /* Reads the whole file and checks every record: its checksum, that its numbers go on from those
  * before. 0, or -1 with the reason, which names the line. */
-int log_replay_open(struct log_replay *replay, const char *path, struct reason *reason);
+int log_replay_open(struct log_replay *replay, const char *path, struct error_text *error);
 void log_replay_close(struct log_replay *replay);
 
 /* Does the file begin like a log of commands? */
@@ -51,6 +51,6 @@ enum log_replay_step {
  * against the log's marks. The world is the one that the log begins with, or was stepped so far
  * with it; before the first step its rings are emptied. */
 enum log_replay_step log_replay_step(struct log_replay *replay, struct frame_stepper *stepper,
-                                     struct reason *reason);
+                                     struct error_text *error);
 
 #endif

@@ -18,9 +18,9 @@
 
 void run_start_open(struct log_replay *replay, const char *path)
 {
-    struct reason reason;
-    if (log_replay_open(replay, path, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (log_replay_open(replay, path, &error) != 0)
+        die_refused("%s", error.text);
     if (replay->torn)
         log_warn("%s: its last line is torn: left out", path);
 }
@@ -86,7 +86,7 @@ static void from_scenario(struct view *view, const struct log_replay *replay,
 {
     struct scenario scenario;
     struct world_build built;
-    struct reason reason;
+    struct error_text error;
     scenario_load_scenario(arguments, &scenario);
     check_hash(replay, &scenario.settings->params, arguments->path);
     memset(scenario.settings->params.scenario, 0,
@@ -95,8 +95,8 @@ static void from_scenario(struct view *view, const struct log_replay *replay,
              scenario_text(replay));
     scenario_load_generate(&scenario, &built);
     struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
-    if (segment_private(view, &header, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (segment_private(view, &header, &error) != 0)
+        die_refused("%s", error.text);
     segment_fill(view, &built);
     world_build_free(&built);
     scenario_free(&scenario);
@@ -106,16 +106,16 @@ static void from_image(struct view *view, const struct log_replay *replay,
                        const struct arguments *arguments)
 {
     static struct image image;
-    struct reason reason;
+    struct error_text error;
     image_resume_open(arguments, &image);
     if (image.header.header_hash != replay->origin)
         die_refused("%s: the run went on from another image than %s is now", replay->path,
                     arguments->from);
     check_hash(replay, &image.params, arguments->from);
     struct segment_header header = image_segment(&image);
-    if (segment_private(view, &header, &reason) != 0 ||
-        image_resume_fill(view, arguments, &image, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (segment_private(view, &header, &error) != 0 ||
+        image_resume_fill(view, arguments, &image, &error) != 0)
+        die_refused("%s", error.text);
     image_close(&image);
 }
 

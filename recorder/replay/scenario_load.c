@@ -39,13 +39,13 @@ static void tell_placing(uint32_t placed, uint32_t of)
 void scenario_load_scenario(const struct arguments *arguments, struct scenario *scenario)
 {
     char data_dir[512];
-    struct config_message message;
+    struct error_text error;
     if (process_data_dir(data_dir, sizeof data_dir) != 0)
         die_refused("cannot find the data (kinds, models, scenarios) beside the programs; set "
                     "JOLON_DATA to the folder that holds kinds/");
     if (loader_scenario(scenario, data_dir, arguments->path, arguments->set, arguments->sets,
-                        &message) != 0)
-        die_refused("%s", message.text);
+                        &error) != 0)
+        die_refused("%s", error.text);
     if (isatty(STDERR_FILENO))
         scenario->placing = tell_placing;
     arguments_seconds(arguments, &scenario->settings->params);
@@ -54,10 +54,10 @@ void scenario_load_scenario(const struct arguments *arguments, struct scenario *
 
 void scenario_load_generate(const struct scenario *scenario, struct world_build *built)
 {
-    char text[512];
-    int result = world_build_make(built, scenario, text, sizeof text);
+    struct error_text error;
+    int result = world_build_make(built, scenario, &error);
     if (placing_told_ns > 0)
         (void)fputs("\r\033[K", stderr);
     if (result != 0)
-        die_refused("%s: %s", scenario->settings->params.scenario, text);
+        die_refused("%s: %s", scenario->settings->params.scenario, error.text);
 }

@@ -23,21 +23,21 @@ static bool same_world(const struct view *view, const struct params *params,
 
 /* A world that is damaged beyond repair is not ours to lose, unless an image of it is at hand. One
  * that only cannot be looked at now may be good, and stays whatever is at hand. */
-static void not_usable(const struct reason *reason, const struct image_header *image)
+static void not_usable(struct error_text *error, const struct image_header *image)
 {
-    if (!reason->damaged)
-        die_refused("%s", reason->text);
+    if (!error->damaged)
+        die_refused("%s", error->text);
     if (!image)
         die_refused("%s; `jolon clean -w` with its name removes it, another -w NAME makes another",
-                    reason->text);
-    log_warn("%s; goes on from the image", reason->text);
+                    error->text);
+    log_warn("%s; goes on from the image", error->text);
 }
 
 static bool make_room(const char *name)
 {
-    struct reason reason;
-    if (segment_remove(name, false, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (segment_remove(name, false, &error) != 0)
+        die_refused("%s", error.text);
     return false;
 }
 
@@ -45,27 +45,27 @@ bool world_adopt_world(const char *name, const struct params *params,
                        const struct image_header *image)
 {
     struct view view;
-    struct reason reason;
+    struct error_text error;
     bool same = false;
-    if (segment_attach(&view, name, ROLE_NONE, &reason) == 0) {
+    if (segment_attach(&view, name, ROLE_NONE, &error) == 0) {
         same = same_world(&view, params, image);
         segment_detach(&view);
-    } else if (!reason.foreign) {
-        not_usable(&reason, image);
+    } else if (!error.foreign) {
+        not_usable(&error, image);
     }
     if (!same)
         return make_room(name);
-    if (segment_wait_free(name, ROLE_COLLIDER, clock_now_ns() + DYING_NS, &reason) != 0)
-        die_refused("%s", reason.text);
-    int repaired = segment_repair(name, &reason);
+    if (segment_wait_free(name, ROLE_COLLIDER, clock_now_ns() + DYING_NS, &error) != 0)
+        die_refused("%s", error.text);
+    int repaired = segment_repair(name, &error);
     if (repaired < 0) {
-        not_usable(&reason, image);
+        not_usable(&error, image);
         return make_room(name);
     }
     if (repaired > 0)
-        printf("%s\n", reason.text);
-    if (segment_attach(&view, name, ROLE_NONE, &reason) != 0)
-        die_refused("%s", reason.text);
+        printf("%s\n", error.text);
+    if (segment_attach(&view, name, ROLE_NONE, &error) != 0)
+        die_refused("%s", error.text);
     printf("world \"%s\": a set that died left it at frame %" PRIu64 "; goes on from there\n", name,
            (uint64_t)atomic_load(&view.commit->commit));
     segment_detach(&view);

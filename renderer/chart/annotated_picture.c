@@ -33,10 +33,10 @@ static void begin(struct annotated_picture *chart, const struct world *world, ui
 }
 
 int annotated_picture_open(struct annotated_picture *chart, const struct world *world,
-                           uint32_t width, uint32_t height, struct reason *reason)
+                           uint32_t width, uint32_t height, struct error_text *error)
 {
     begin(chart, world, width, height);
-    chart->text = text_open(reason);
+    chart->text = text_open(error);
     return chart->text == NULL ? -1 : 0;
 }
 

@@ -42,7 +42,7 @@ struct annotated_picture {
 /* 0, or -1 with the reason. Quick: ground is painted when a picture first needs it, at most some
  * tenths of a second. */
 int annotated_picture_open(struct annotated_picture *chart, const struct world *world,
-                           uint32_t width, uint32_t height, struct reason *reason);
+                           uint32_t width, uint32_t height, struct error_text *error);
 /* One for pictures of another size, with the letters of the first, which must outlive it. */
 void annotated_picture_open_beside(struct annotated_picture *chart,
                                    const struct annotated_picture *first, uint32_t width,

@@ -66,7 +66,7 @@ static const char sky_fragment_text[] =
     "    o_colour = vec4(colour, 1.0);\n"
     "}\n";
 
-static int open_target(struct gl *gl, struct reason *reason)
+static int open_target(struct gl *gl, struct error_text *error)
 {
     GLsizei width = (GLsizei)gl->width, height = (GLsizei)gl->height;
     glGenFramebuffers(1, &gl->target);
@@ -82,8 +82,8 @@ static int open_target(struct gl *gl, struct reason *reason)
                               gl->depth);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE)
         return 0;
-    return reason_set(reason, "the OpenGL driver cannot draw into a %ux%u picture", gl->width,
-                      gl->height);
+    return error_text_set(error, "the OpenGL driver cannot draw into a %ux%u picture", gl->width,
+                          gl->height);
 }
 
 static void send_frame(const struct gl *gl, const struct scene *scene)
@@ -164,7 +164,7 @@ static void read_back(struct gl *gl)
 }
 
 static int gl_picture(void *self, const struct scene *scene, const struct frame_view *moment,
-                      struct image *image, struct reason *reason)
+                      struct image *image, struct error_text *error)
 {
     struct gl *gl = self;
     gl->drawn.width = image->width;
@@ -176,11 +176,11 @@ static int gl_picture(void *self, const struct scene *scene, const struct frame_
 
     read_back(gl);
     fxaa_edges(image, &gl->drawn);
-    GLenum error = glGetError();
-    if (error == GL_NO_ERROR)
+    GLenum code = glGetError();
+    if (code == GL_NO_ERROR)
         return 0;
-    return reason_set(reason, "OpenGL failed while drawing (%s)",
-                      error == GL_OUT_OF_MEMORY ? "out of memory" : "driver error");
+    return error_text_set(error, "OpenGL failed while drawing (%s)",
+                          code == GL_OUT_OF_MEMORY ? "out of memory" : "driver error");
 }
 
 static void free_memory(struct gl *gl)
@@ -201,9 +201,9 @@ static void gl_close(void *self)
     free_memory(gl);
 }
 
-static int open_programs(struct gl *gl, struct reason *reason)
+static int open_programs(struct gl *gl, struct error_text *error)
 {
-    gl->sky_program = gl_program("sky", sky_vertex_text, sky_fragment_text, reason);
+    gl->sky_program = gl_program("sky", sky_vertex_text, sky_fragment_text, error);
     if (gl->sky_program == 0)
         return -1;
     glGenVertexArrays(1, &gl->empty_array);
@@ -218,29 +218,29 @@ void gl_list(void)
 
 int gl_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
             uint32_t height, const struct gl_wish *wish, char name[BACK_END_NAME_BYTES],
-            struct reason *reason)
+            struct error_text *error)
 {
     struct gl *gl = calloc(1, sizeof *gl);
     if (gl == NULL)
-        return reason_set(reason, "no memory for OpenGL");
+        return error_text_set(error, "no memory for OpenGL");
     gl->width = width;
     gl->height = height;
     gl->row = malloc((size_t)width * 4);
     if (gl->row == NULL || image_init(&gl->drawn, width, height) != 0) {
-        reason_set(reason, "no memory for a %ux%u picture", width, height);
+        error_text_set(error, "no memory for a %ux%u picture", width, height);
         goto err_memory;
     }
-    if (gl_context_open(&gl->context, wish, reason) != 0)
+    if (gl_context_open(&gl->context, wish, error) != 0)
         goto err_memory;
-    if (open_target(gl, reason) != 0 || open_programs(gl, reason) != 0)
+    if (open_target(gl, error) != 0 || open_programs(gl, error) != 0)
         goto err_context;
-    if (gl_textures_open(&gl->textures, reason) != 0)
+    if (gl_textures_open(&gl->textures, error) != 0)
         goto err_context;
-    if (gl_ground_open(&gl->ground, scenery, reason) != 0)
+    if (gl_ground_open(&gl->ground, scenery, error) != 0)
         goto err_textures;
-    if (gl_bodies_open(&gl->bodies, scenery, reason) != 0)
+    if (gl_bodies_open(&gl->bodies, scenery, error) != 0)
         goto err_ground;
-    if (gl_billboards_open(&gl->boards, reason) != 0)
+    if (gl_billboards_open(&gl->boards, error) != 0)
         goto err_bodies;
     snprintf(name, BACK_END_NAME_BYTES, "%s", gl->context.name);
     *draw = (struct back_end_interface){.self = gl, .picture = gl_picture, .close = gl_close};

@@ -11,7 +11,7 @@ struct gl_wish;
  * the reason, which names what is missing. Takes up to a second. */
 int gl_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
             uint32_t height, const struct gl_wish *wish, char name[BACK_END_NAME_BYTES],
-            struct reason *reason);
+            struct error_text *error);
 
 /* Prints every OpenGL that there is to standard output, a line each. */
 void gl_list(void);

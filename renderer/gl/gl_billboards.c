@@ -167,13 +167,13 @@ static void describe_puffs(const struct gl_billboards *boards)
     gl_attribute(3, 4, stride, offsetof(struct scene_puff, colour), 1);
 }
 
-int gl_billboards_open(struct gl_billboards *boards, struct reason *reason)
+int gl_billboards_open(struct gl_billboards *boards, struct error_text *error)
 {
     *boards = (struct gl_billboards){.plants = 0};
-    boards->plant_program = gl_program("plant", plant_vertex_text, plant_fragment_text, reason);
+    boards->plant_program = gl_program("plant", plant_vertex_text, plant_fragment_text, error);
     boards->shadow_program =
-        gl_program("plant shadow", shadow_vertex_text, shadow_fragment_text, reason);
-    boards->puff_program = gl_program("puff", puff_vertex_text, puff_fragment_text, reason);
+        gl_program("plant shadow", shadow_vertex_text, shadow_fragment_text, error);
+    boards->puff_program = gl_program("puff", puff_vertex_text, puff_fragment_text, error);
     if (boards->plant_program == 0 || boards->shadow_program == 0 || boards->puff_program == 0) {
         gl_billboards_close(boards);
         return -1;

@@ -212,14 +212,14 @@ static void open_dents(struct gl_bodies *bodies)
 }
 
 int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
-                   struct reason *reason)
+                   struct error_text *error)
 {
     *bodies = (struct gl_bodies){.scenery = scenery};
-    bodies->program = gl_program_on("body", gl_deform_text, vertex_text, fragment_text, reason);
+    bodies->program = gl_program_on("body", gl_deform_text, vertex_text, fragment_text, error);
     if (bodies->program == 0)
         return -1;
     bodies->shadow_program = gl_program_on("body shadow", gl_deform_text, shadow_vertex_text,
-                                           shadow_fragment_text, reason);
+                                           shadow_fragment_text, error);
     if (bodies->shadow_program == 0)
         goto err_program;
     bodies->u_pivots = glGetUniformLocation(bodies->program, "u_pivots");
@@ -234,7 +234,7 @@ int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
     open_dents(bodies);
     if (bodies->mesh == NULL || send_meshes(bodies) != 0) {
         gl_bodies_close(bodies);
-        return reason_set(reason, "no memory for the models");
+        return error_text_set(error, "no memory for the models");
     }
     describe_vertices(bodies);
     return 0;

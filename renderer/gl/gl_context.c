@@ -37,11 +37,11 @@ static const char *egl_error(void)
 }
 
 /* Adds "name: what; " to the reason, as far as there is room. */
-static void note(struct reason *reason, const char *name, const char *what)
+static void note(struct error_text *error, const char *name, const char *what)
 {
-    size_t used = strlen(reason->text);
-    snprintf(reason->text + used, sizeof reason->text - used, "%s%.40s: %.60s",
-             used > 0 ? "; " : "", name, what);
+    size_t used = strlen(error->text);
+    snprintf(error->text + used, sizeof error->text - used, "%s%.40s: %.60s", used > 0 ? "; " : "",
+             name, what);
 }
 
 /* A green that no cleared, lost or uninitialised memory looks like must come back. */
@@ -80,7 +80,7 @@ static const char *make_context(struct gl_context *gl)
         if (!eglChooseConfig(gl->display, wanted, &config, 1, &found) || found == 0)
             return "it has no configuration for OpenGL";
     }
-    const char *why = "no context";
+    const char *detail = "no context";
     for (size_t i = 0; i < sizeof versions / sizeof versions[0]; i++) {
         const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
                                  versions[i].major,
@@ -91,19 +91,19 @@ static const char *make_context(struct gl_context *gl)
                                  EGL_NONE};
         gl->context = eglCreateContext(gl->display, config, EGL_NO_CONTEXT, wanted);
         if (gl->context == EGL_NO_CONTEXT) {
-            why = egl_error();
+            detail = egl_error();
             continue;
         }
         if (!eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context))
-            why = egl_error();
+            detail = egl_error();
         else if (draws_a_pixel())
             return NULL;
         else
-            why = "it draws, but nothing comes back";
+            detail = "it draws, but nothing comes back";
         eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         eglDestroyContext(gl->display, gl->context);
     }
-    return why;
+    return detail;
 }
 
 static const char *try_candidate(struct gl_context *gl, const struct gl_candidate *candidate)
@@ -117,10 +117,10 @@ static const char *try_candidate(struct gl_context *gl, const struct gl_candidat
     EGLint major, minor;
     if (!eglInitialize(gl->display, &major, &minor))
         return egl_error();
-    const char *why = make_context(gl);
-    if (why != NULL)
+    const char *detail = make_context(gl);
+    if (detail != NULL)
         eglTerminate(gl->display);
-    return why;
+    return detail;
 }
 
 /* Is the context on hardware, and how is it called? */
@@ -142,52 +142,52 @@ static const char *try_wished(struct gl_context *gl, const struct gl_candidate *
         return "not asked for";
     if (wish->hardware && candidate->software)
         return "draws in software";
-    const char *why = try_candidate(gl, candidate);
-    if (why != NULL)
-        return why;
+    const char *detail = try_candidate(gl, candidate);
+    if (detail != NULL)
+        return detail;
     describe(gl, candidate);
     if (wish->hardware && gl->software)
-        why = "draws in software";
+        detail = "draws in software";
     else if (!gl_is_called(candidate, gl->name, wish))
-        why = "has another name";
-    if (why != NULL)
+        detail = "has another name";
+    if (detail != NULL)
         gl_context_close(gl);
-    return why;
+    return detail;
 }
 
-int gl_context_open(struct gl_context *gl, const struct gl_wish *wish, struct reason *reason)
+int gl_context_open(struct gl_context *gl, const struct gl_wish *wish, struct error_text *error)
 {
-    if (gl_library(reason) != 0)
+    if (gl_library(error) != 0)
         return -1;
     struct gl_candidate candidates[GL_CANDIDATES_MAX];
     uint32_t count = gl_find_candidates(candidates);
-    struct reason failures = {.text = ""};
+    struct error_text failures = {.text = ""};
     for (uint32_t i = 0; i < count; i++) {
-        const char *why = try_wished(gl, &candidates[i], wish);
-        if (why == NULL)
+        const char *detail = try_wished(gl, &candidates[i], wish);
+        if (detail == NULL)
             return 0;
-        note(&failures, candidates[i].name, why);
+        note(&failures, candidates[i].name, detail);
     }
     if (wish->device != NULL)
-        return reason_set(reason,
-                          "--device %.40s: no OpenGL of that number or name; tried: %.300s; "
-                          "jolon-renderer --list-devices shows what there is",
-                          wish->device, failures.text);
+        return error_text_set(error,
+                              "--device %.40s: no OpenGL of that number or name; tried: %.300s; "
+                              "jolon-renderer --list-devices shows what there is",
+                              wish->device, failures.text);
     if (wish->hardware)
-        return reason_set(reason, "no usable OpenGL 3.3 on it%s; tried: %.300s", gl_hardware_hint(),
-                          failures.text);
-    return reason_set(reason,
-                      "no usable OpenGL 3.3%s; tried: %.300s; on Debian and Ubuntu: apt-get "
-                      "install libgl1-mesa-dri (it draws in software)",
-                      gl_hardware_hint(), failures.text);
+        return error_text_set(error, "no usable OpenGL 3.3 on it%s; tried: %.300s",
+                              gl_hardware_hint(), failures.text);
+    return error_text_set(error,
+                          "no usable OpenGL 3.3%s; tried: %.300s; on Debian and Ubuntu: apt-get "
+                          "install libgl1-mesa-dri (it draws in software)",
+                          gl_hardware_hint(), failures.text);
 }
 
 void gl_context_list(void)
 {
-    struct reason reason;
+    struct error_text error;
     struct gl_candidate candidates[GL_CANDIDATES_MAX];
-    if (gl_library(&reason) != 0) {
-        printf("-  %s\n", reason.text);
+    if (gl_library(&error) != 0) {
+        printf("-  %s\n", error.text);
         return;
     }
     uint32_t count = gl_find_candidates(candidates);
@@ -196,9 +196,9 @@ void gl_context_list(void)
         char number[12] = "-";
         if (candidates[i].number >= 0)
             snprintf(number, sizeof number, "%d", candidates[i].number);
-        const char *why = try_candidate(&gl, &candidates[i]);
-        if (why != NULL) {
-            printf("%s  %s: %s\n", number, candidates[i].name, why);
+        const char *detail = try_candidate(&gl, &candidates[i]);
+        if (detail != NULL) {
+            printf("%s  %s: %s\n", number, candidates[i].name, detail);
             continue;
         }
         describe(&gl, &candidates[i]);

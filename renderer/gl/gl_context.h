@@ -21,7 +21,7 @@ struct gl_context {
  * default one; OpenGL 4.5, then 3.3 core on each; a context counts only when it can draw a pixel
  * and read it back, and when it is what is wished for. Makes it current. 0, or -1 with every
  * attempt's reason in one line and what to do. */
-int gl_context_open(struct gl_context *gl, const struct gl_wish *wish, struct reason *reason);
+int gl_context_open(struct gl_context *gl, const struct gl_wish *wish, struct error_text *error);
 void gl_context_close(struct gl_context *gl);
 
 /* Prints every device and display with what it draws with, or why it cannot. */

@@ -93,7 +93,7 @@ const char *gl_hardware_hint(void)
     return hint;
 }
 
-bool gl_hardware(char *why, size_t bytes)
+bool gl_hardware(char *detail, size_t bytes)
 {
     static const char *const nodes[] = {"/dev/dri/renderD*", "/dev/dri/card*", "/dev/nvidiactl",
                                         "/dev/dxg"};
@@ -104,16 +104,17 @@ bool gl_hardware(char *why, size_t bytes)
             return true;
         }
     }
-    snprintf(why, bytes, "there is no /dev/dri, /dev/nvidiactl or /dev/dxg");
+    snprintf(detail, bytes, "there is no /dev/dri, /dev/nvidiactl or /dev/dxg");
     return false;
 }
 
-int gl_library(struct reason *reason)
+int gl_library(struct error_text *error)
 {
     /* epoxy ends the process when it finds no libEGL, so it is asked only when there is one. */
     if (dlopen("libEGL.so.1", RTLD_LAZY | RTLD_GLOBAL) == NULL)
-        return reason_set(reason, "no OpenGL: libEGL.so.1 is not installed; on Debian and Ubuntu: "
-                                  "apt-get install libegl1 libgl1-mesa-dri");
+        return error_text_set(error,
+                              "no OpenGL: libEGL.so.1 is not installed; on Debian and Ubuntu: "
+                              "apt-get install libegl1 libgl1-mesa-dri");
     setenv("EGL_LOG_LEVEL", "fatal", 0);
     return 0;
 }

@@ -26,7 +26,7 @@ struct gl_wish {
 };
 
 /* Finds libEGL, which must be there before any call of it. 0, or -1 with what to install. */
-int gl_library(struct reason *reason);
+int gl_library(struct error_text *error);
 
 /* Every hardware device, then software devices, a surfaceless and the default display; how many. */
 uint32_t gl_find_candidates(struct gl_candidate candidates[GL_CANDIDATES_MAX]);
@@ -43,7 +43,7 @@ bool gl_has_word(const char *list, const char *word);
 
 /* Does the machine look as if it had graphics hardware? Looks at device files alone and loads
  * nothing; why: what is missing. */
-bool gl_hardware(char *why, size_t bytes);
+bool gl_hardware(char *detail, size_t bytes);
 
 /* Why graphics hardware that is there may not be usable; "" when nothing is known. */
 const char *gl_hardware_hint(void);

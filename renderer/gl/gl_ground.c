@@ -120,9 +120,9 @@ static void open_tile(struct gl_tile *tile)
 }
 
 static int open_shader(struct gl_ground_shader *shader, const char *name, const char *fragment,
-                       struct reason *reason)
+                       struct error_text *error)
 {
-    shader->program = gl_program(name, vertex_text, fragment, reason);
+    shader->program = gl_program(name, vertex_text, fragment, error);
     if (shader->program == 0)
         return -1;
     shader->u_origin = glGetUniformLocation(shader->program, "u_origin");
@@ -134,14 +134,14 @@ static int open_shader(struct gl_ground_shader *shader, const char *name, const 
 }
 
 int gl_ground_open(struct gl_ground *ground, const struct static_scene *scenery,
-                   struct reason *reason)
+                   struct error_text *error)
 {
     memset(ground, 0, sizeof *ground);
     ground->scenery = scenery;
     if (terrain_tiles_init(&ground->cache) != 0)
-        return reason_set(reason, "no memory for the ground");
-    if (open_shader(&ground->land, "ground", land_text, reason) == 0 &&
-        open_shader(&ground->shore, "water", shore_text, reason) == 0)
+        return error_text_set(error, "no memory for the ground");
+    if (open_shader(&ground->land, "ground", land_text, error) == 0 &&
+        open_shader(&ground->shore, "water", shore_text, error) == 0)
         return 0;
     gl_ground_close(ground);
     return -1;

@@ -35,11 +35,11 @@ struct gl_frame {
 /* A program of a vertex and a fragment shader, which follow the shared text of light and air. It
  * knows gl_frame and its texture units. 0 with the reason when the driver refuses it. */
 GLuint gl_program(const char *name, const char *vertex, const char *fragment,
-                  struct reason *reason);
+                  struct error_text *error);
 
 /* The same with text that comes before the vertex shader's own. */
 GLuint gl_program_on(const char *name, const char *before, const char *vertex, const char *fragment,
-                     struct reason *reason);
+                     struct error_text *error);
 
 /* Vertex attributes from a buffer: floats, at a byte offset, stepping by instance if divisor. */
 void gl_attribute(GLuint index, GLint floats, size_t stride, size_t offset, GLuint divisor);
@@ -50,7 +50,7 @@ void gl_attribute(GLuint index, GLint floats, size_t stride, size_t offset, GLui
 struct gl_textures {
     GLuint detail, plants, facing, puffs, clouds;
 };
-int gl_textures_open(struct gl_textures *textures, struct reason *reason);
+int gl_textures_open(struct gl_textures *textures, struct error_text *error);
 void gl_textures_close(struct gl_textures *textures);
 
 /* --- ground (gl_ground.c) --- */
@@ -73,7 +73,7 @@ struct gl_ground {
     struct gl_tile tiles[TILE_CAPACITY];
 };
 int gl_ground_open(struct gl_ground *ground, const struct static_scene *scenery,
-                   struct reason *reason);
+                   struct error_text *error);
 void gl_ground_close(struct gl_ground *ground);
 void gl_ground_draw(struct gl_ground *ground, const struct scene *scene,
                     const struct frame_view *moment);
@@ -96,7 +96,7 @@ struct gl_bodies {
     struct gl_mesh *mesh; /* [models * MESH_DETAIL_COUNT] */
 };
 int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
-                   struct reason *reason);
+                   struct error_text *error);
 void gl_bodies_close(struct gl_bodies *bodies);
 /* Sends the scene's copies; the draws that follow use them. */
 void gl_bodies_send(struct gl_bodies *bodies, const struct scene *scene);
@@ -109,7 +109,7 @@ struct gl_billboards {
     GLuint plant_program, shadow_program, puff_program;
     GLuint plant_array, plants, puff_array, puffs;
 };
-int gl_billboards_open(struct gl_billboards *boards, struct reason *reason);
+int gl_billboards_open(struct gl_billboards *boards, struct error_text *error);
 void gl_billboards_close(struct gl_billboards *boards);
 void gl_billboards_send(struct gl_billboards *boards, const struct scene *scene);
 void gl_plants_draw_shadows(struct gl_billboards *boards, const struct scene *scene);

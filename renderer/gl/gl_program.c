@@ -105,13 +105,14 @@ static void name_units(GLuint program)
         glUniformBlockBinding(program, block, 0);
 }
 
-GLuint gl_program(const char *name, const char *vertex, const char *fragment, struct reason *reason)
+GLuint gl_program(const char *name, const char *vertex, const char *fragment,
+                  struct error_text *error)
 {
-    return gl_program_on(name, "", vertex, fragment, reason);
+    return gl_program_on(name, "", vertex, fragment, error);
 }
 
 GLuint gl_program_on(const char *name, const char *before, const char *vertex, const char *fragment,
-                     struct reason *reason)
+                     struct error_text *error)
 {
     char log[LOG_BYTES] = "";
     GLuint program = 0, vs = compile(GL_VERTEX_SHADER, before, vertex, log), fs = 0;
@@ -133,7 +134,7 @@ GLuint gl_program_on(const char *name, const char *before, const char *vertex, c
     glDeleteShader(vs);
     glDeleteShader(fs);
     if (program == 0)
-        reason_set(reason, "the OpenGL driver refuses the %s shader: %.200s", name, log);
+        error_text_set(error, "the OpenGL driver refuses the %s shader: %.200s", name, log);
     else
         name_units(program);
     return program;

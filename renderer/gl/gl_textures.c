@@ -94,14 +94,14 @@ static int open_puffs(struct gl_textures *textures)
     return 0;
 }
 
-int gl_textures_open(struct gl_textures *textures, struct reason *reason)
+int gl_textures_open(struct gl_textures *textures, struct error_text *error)
 {
     *textures = (struct gl_textures){.detail = 0};
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     if (open_flat(textures) == 0 && open_plants(textures) == 0 && open_puffs(textures) == 0)
         return 0;
     gl_textures_close(textures);
-    return reason_set(reason, "no memory for the textures");
+    return error_text_set(error, "no memory for the textures");
 }
 
 void gl_textures_close(struct gl_textures *textures)

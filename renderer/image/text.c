@@ -49,12 +49,12 @@ static const char *const font_paths[] = {
     "/usr/share/fonts/dejavu/DejaVuSans.ttf",
 };
 
-struct text *text_open(struct reason *reason)
+struct text *text_open(struct error_text *error)
 {
     struct text *text = calloc(1, sizeof *text);
     if (text == NULL || FT_Init_FreeType(&text->library) != 0) {
         free(text);
-        reason_set(reason, "no memory for the font");
+        error_text_set(error, "no memory for the font");
         return NULL;
     }
     for (size_t i = 0; i < sizeof font_paths / sizeof font_paths[0]; i++)
@@ -62,10 +62,10 @@ struct text *text_open(struct reason *reason)
             return text;
     FT_Done_FreeType(text->library);
     free(text);
-    reason_set(reason,
-               "no font for the pictures: %s is not there; on Debian and Ubuntu: apt-get "
-               "install fonts-dejavu-core",
-               font_paths[0]);
+    error_text_set(error,
+                   "no font for the pictures: %s is not there; on Debian and Ubuntu: apt-get "
+                   "install fonts-dejavu-core",
+                   font_paths[0]);
     return NULL;
 }
 

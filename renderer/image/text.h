@@ -9,7 +9,7 @@
 struct text; /* a font, opened */
 
 /* Opens the DejaVu Sans font. NULL with the reason when it is not installed. */
-struct text *text_open(struct reason *reason);
+struct text *text_open(struct error_text *error);
 void text_close(struct text *text); /* NULL is nothing */
 
 /* Writes ASCII words with their left end and baseline at (x, y); size is a line's height [pixel].

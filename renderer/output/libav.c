@@ -16,7 +16,7 @@ static int find(void *library, const char *name, void *to, size_t bytes)
     return found != NULL ? 0 : -1;
 }
 
-int libav_open(struct reason *reason)
+int libav_open(struct error_text *error)
 {
     void *avutil = dlopen(LIBRARY(avutil, LIBAVUTIL_VERSION_MAJOR), RTLD_LAZY | RTLD_LOCAL);
     void *avcodec = dlopen(LIBRARY(avcodec, LIBAVCODEC_VERSION_MAJOR), RTLD_LAZY | RTLD_LOCAL);
@@ -27,8 +27,8 @@ int libav_open(struct reason *reason)
     LIBAV_FUNCTIONS(LIBAV_FIND)
 #undef LIBAV_FIND
     if (missing != 0)
-        return reason_set(
-            reason,
+        return error_text_set(
+            error,
             "no video: " LIBRARY(
                 avformat,
                 LIBAVFORMAT_VERSION_MAJOR) "%s; on Debian "

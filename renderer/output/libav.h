@@ -50,6 +50,6 @@ struct libav {
 extern struct libav libav;
 
 /* Opens them, once. 0, or -1 with the reason, which says what to install. */
-int libav_open(struct reason *reason);
+int libav_open(struct error_text *error);
 
 #endif

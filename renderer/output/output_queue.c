@@ -32,16 +32,16 @@ static void *work(void *argument)
     pthread_cond_signal(&queue->gone);
     while ((picture = next(queue)) != NULL) {
         bool wanted = !queue->failed;
-        struct reason reason;
+        struct error_text error;
         pthread_mutex_unlock(&queue->lock);
-        bool done = wanted && queue->work.take(queue->work.self, picture, &reason) == 0;
+        bool done = wanted && queue->work.take(queue->work.self, picture, &error) == 0;
         picture_release(picture);
         pthread_mutex_lock(&queue->lock);
         if (done)
             queue->taken++;
         if (wanted && !done) {
             queue->failed = true;
-            queue->reason = reason;
+            queue->error = error;
         }
     }
     pthread_mutex_unlock(&queue->lock);
@@ -66,11 +66,11 @@ int output_queue_start(struct output_queue *queue, const struct output_queue_wor
     sigfillset(&all);
     sigdelset(&all, SIGSYS); /* what the sandbox forbids is to be told */
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    int error = pthread_create(&queue->thread, NULL, work, queue);
+    int code = pthread_create(&queue->thread, NULL, work, queue);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
-    if (error != 0) {
+    if (code != 0) {
         forget(queue);
-        errno = error;
+        errno = code;
         return -1;
     }
     pthread_mutex_lock(&queue->lock);
@@ -112,17 +112,17 @@ void output_queue_put(struct output_queue *queue, struct picture *picture)
     pthread_mutex_unlock(&queue->lock);
 }
 
-bool output_queue_failed(struct output_queue *queue, struct reason *reason)
+bool output_queue_failed(struct output_queue *queue, struct error_text *error)
 {
     pthread_mutex_lock(&queue->lock);
     bool failed = queue->failed;
     if (failed)
-        *reason = queue->reason;
+        *error = queue->error;
     pthread_mutex_unlock(&queue->lock);
     return failed;
 }
 
-int output_queue_end(struct output_queue *queue, struct reason *reason)
+int output_queue_end(struct output_queue *queue, struct error_text *error)
 {
     pthread_mutex_lock(&queue->lock);
     queue->ending = true;
@@ -131,6 +131,6 @@ int output_queue_end(struct output_queue *queue, struct reason *reason)
     pthread_join(queue->thread, NULL);
     forget(queue);
     if (queue->failed)
-        *reason = queue->reason;
+        *error = queue->error;
     return queue->failed ? -1 : 0;
 }

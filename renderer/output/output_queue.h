@@ -18,7 +18,7 @@ struct output_queue_work {
     void *self;
     /* Takes one picture, in the outlet's thread. 0, or -1 with the reason: it takes no more then.
      */
-    int (*take)(void *self, const struct picture *picture, struct reason *reason);
+    int (*take)(void *self, const struct picture *picture, struct error_text *error);
     uint32_t depth; /* pictures of one view that may wait, 1 or more */
     bool patient;   /* a full queue is waited for: every picture counts, whenever it comes */
 };
@@ -32,7 +32,7 @@ struct output_queue {
     uint32_t count;
     bool running, ending, failed;
     uint64_t taken, dropped;
-    struct reason reason; /* when it failed */
+    struct error_text error; /* when it failed */
 };
 
 /* Returns when the thread runs; signals are not for it. 0, or -1 with errno. */
@@ -44,10 +44,10 @@ int output_queue_start(struct output_queue *queue, const struct output_queue_wor
 void output_queue_put(struct output_queue *queue, struct picture *picture);
 
 /* Has it failed? Then the reason is copied. */
-bool output_queue_failed(struct output_queue *queue, struct reason *reason);
+bool output_queue_failed(struct output_queue *queue, struct error_text *error);
 
 /* Waits until what waits is done, and ends the thread; taken and dropped stay. 0, or -1 with the
  * reason when it had failed. */
-int output_queue_end(struct output_queue *queue, struct reason *reason);
+int output_queue_end(struct output_queue *queue, struct error_text *error);
 
 #endif

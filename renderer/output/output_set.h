@@ -61,16 +61,16 @@ struct output_set {
  * video file that is there already is left alone: the new one gets a number, "NAME-2.mkv". 0, or -1
  * with the reason. */
 int output_set_open(struct output_set *outputs, const struct output_set_wish *wish,
-                    struct reason *reason);
+                    struct error_text *error);
 
 /* Starts the threads. 0, or -1 with the reason. */
-int output_set_start(struct output_set *outputs, struct reason *reason);
+int output_set_start(struct output_set *outputs, struct error_text *error);
 
 /* Hands a view's picture to each outlet, taking the image's pixels and giving it others, whose
  * content is anything. Blocks only for a replay. 0, or -1 with the reason when PNG files cannot be
  * written, or a replay; a live video that cannot is said once and left. */
 int output_set_put(struct output_set *outputs, const char *view, struct image *image,
-                   uint64_t frame, double time_s, const char *words, struct reason *reason);
+                   uint64_t frame, double time_s, const char *words, struct error_text *error);
 
 /* Answers a wish of the stream's (stream_wishes) with a picture, taking the image's pixels and
  * giving it others; image NULL: there is no such vehicle. */
@@ -79,6 +79,6 @@ void output_set_grant(struct output_set *outputs, uint32_t row, uint64_t generat
 
 /* Completes all files, each view's last picture among them, and ends the threads. 0, or -1 with the
  * reason, as output_set_put(). */
-int output_set_close(struct output_set *outputs, struct reason *reason);
+int output_set_close(struct output_set *outputs, struct error_text *error);
 
 #endif

@@ -110,13 +110,14 @@ static void sweep_temporaries(int folder)
         free(found);
 }
 
-int picture_folder_open(struct picture_folder *output, const char *folder, struct reason *reason)
+int picture_folder_open(struct picture_folder *output, const char *folder, struct error_text *error)
 {
     *output = (struct picture_folder){.path = folder, .folder = make_folders(folder)};
     if (output->folder < 0)
-        return reason_set(reason, "--out %s: cannot make the folder: %s", folder, strerror(errno));
+        return error_text_set(error, "--out %s: cannot make the folder: %s", folder,
+                              strerror(errno));
     if (faccessat(output->folder, ".", W_OK | X_OK, 0) != 0) {
-        reason_set(reason, "--out %s: cannot write there: %s", folder, strerror(errno));
+        error_text_set(error, "--out %s: cannot write there: %s", folder, strerror(errno));
         picture_folder_close(output);
         return -1;
     }
@@ -179,12 +180,12 @@ static int point_latest(int folder, const char *numbered, const char *temporary,
 
 int picture_folder_picture(struct picture_folder *output, const char *view,
                            const struct image *image, uint64_t frame, const char *comment,
-                           struct reason *reason)
+                           struct error_text *error)
 {
     struct picture_folder_row *row = row_of(output, view);
     char numbered[NAME_BYTES], latest[NAME_BYTES], temporary[NAME_BYTES];
     if (row == NULL)
-        return reason_set(reason, "pictures of more than %u views", PICTURE_FOLDER_ROWS);
+        return error_text_set(error, "pictures of more than %u views", PICTURE_FOLDER_ROWS);
     name_of(numbered, view, &frame, "");
     name_of(latest, view, NULL, "");
     name_of(temporary, view, NULL, ".tmp");
@@ -192,16 +193,16 @@ int picture_folder_picture(struct picture_folder *output, const char *view,
     if (png_write_file(output->folder, numbered, image, comment) != 0 ||
         (point_latest(output->folder, numbered, temporary, latest) != 0 &&
          png_write_file(output->folder, latest, image, comment) != 0))
-        return reason_set(reason, "cannot write %s/%s: %s", output->path, numbered,
-                          strerror(errno));
+        return error_text_set(error, "cannot write %s/%s: %s", output->path, numbered,
+                              strerror(errno));
     keep(output, row, view, frame);
     return 0;
 }
 
 int picture_folder_file(const char *path, const struct image *image, const char *comment,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     if (png_write_file(AT_FDCWD, path, image, comment) == 0)
         return 0;
-    return reason_set(reason, "cannot write %s: %s", path, strerror(errno));
+    return error_text_set(error, "cannot write %s: %s", path, strerror(errno));
 }

@@ -31,7 +31,8 @@ struct picture_folder {
 
 /* Makes the folder if need be, mode 0700, and tries that it can be written to. 0, or -1 with the
  * reason. */
-int picture_folder_open(struct picture_folder *output, const char *folder, struct reason *reason);
+int picture_folder_open(struct picture_folder *output, const char *folder,
+                        struct error_text *error);
 void picture_folder_close(struct picture_folder *output);
 
 /* Makes a folder there, mode 0700, for what the graphics driver wants to keep, and tells its path.
@@ -45,10 +46,10 @@ int picture_folder_cache(const struct picture_folder *output, char *path, size_t
  */
 int picture_folder_picture(struct picture_folder *output, const char *view,
                            const struct image *image, uint64_t frame, const char *comment,
-                           struct reason *reason);
+                           struct error_text *error);
 
 /* Writes one picture to a path. 0, or -1 with the reason. */
 int picture_folder_file(const char *path, const struct image *image, const char *comment,
-                        struct reason *reason);
+                        struct error_text *error);
 
 #endif

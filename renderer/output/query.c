@@ -25,10 +25,10 @@ static const char *shown(const char *text, char room[SHOWN_BYTES])
     return room;
 }
 
-static int refuse(struct reason *reason, const char *key, const char *value, const char *right)
+static int refuse(struct error_text *error, const char *key, const char *value, const char *right)
 {
     char room[SHOWN_BYTES];
-    return reason_set(reason, "%s=%s: %s", key, shown(value, room), right);
+    return error_text_set(error, "%s=%s: %s", key, shown(value, room), right);
 }
 
 /* Digits alone, at most so many; returns what follows them, NULL when there are none. */
@@ -59,13 +59,13 @@ static bool is_number(const char *text, double low, double high, double *value)
     return *end == '\0' && *value >= low && *value <= high;
 }
 
-static int take_size(uint32_t *width, uint32_t *height, const char *value, struct reason *reason)
+static int take_size(uint32_t *width, uint32_t *height, const char *value, struct error_text *error)
 {
     uint64_t across, down = 0;
     const char *at = read_whole(value, QUERY_WIDTH_MAX, &across);
     if (at == NULL || *at != 'x' || !is_whole(at + 1, QUERY_HEIGHT_MAX, &down) ||
         across < QUERY_SIDE_MIN || down < QUERY_SIDE_MIN)
-        return refuse(reason, "size", value, "is WIDTHxHEIGHT, from 64x64 to 1920x1080");
+        return refuse(error, "size", value, "is WIDTHxHEIGHT, from 64x64 to 1920x1080");
     *width = (uint32_t)across;
     *height = (uint32_t)down;
     return 0;
@@ -75,23 +75,23 @@ static int take_size(uint32_t *width, uint32_t *height, const char *value, struc
 
 /* The key's place in the list, which a query may have once. -1 with the reason. */
 static int find_key(const char *const *keys, int count, const char *key, const char *value,
-                    uint32_t *seen, const char *all, struct reason *reason)
+                    uint32_t *seen, const char *all, struct error_text *error)
 {
     char room[SHOWN_BYTES];
     for (int i = 0; i < count; i++) {
         if (strcmp(keys[i], key) != 0)
             continue;
         if (*seen & 1u << i)
-            return reason_set(reason, "%s is there twice", key);
+            return error_text_set(error, "%s is there twice", key);
         if (value == NULL)
-            return reason_set(reason, "%s has no value", key);
+            return error_text_set(error, "%s has no value", key);
         *seen |= 1u << i;
         return i;
     }
-    return reason_set(reason, "%s is none of %s", shown(key, room), all);
+    return error_text_set(error, "%s is none of %s", shown(key, room), all);
 }
 
-static int take_view(struct query_picture *query, const char *value, struct reason *reason)
+static int take_view(struct query_picture *query, const char *value, struct error_text *error)
 {
     static const enum view_mode views[] = {VIEW_CHASE, VIEW_INSIDE, VIEW_ORBIT, VIEW_OVERHEAD};
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++)
@@ -99,7 +99,7 @@ static int take_view(struct query_picture *query, const char *value, struct reas
             query->key.view = views[i];
             return 0;
         }
-    return refuse(reason, "view", value, "is chase, inside, orbit or overhead");
+    return refuse(error, "view", value, "is chase, inside, orbit or overhead");
 }
 
 void query_picture_begin(struct query_picture *query)
@@ -109,30 +109,30 @@ void query_picture_begin(struct query_picture *query)
 }
 
 int query_picture_take(struct query_picture *query, const char *key, const char *value,
-                       struct reason *reason)
+                       struct error_text *error)
 {
     enum { KEY_VIEW, KEY_VEHICLE, KEY_SIZE, KEY_AFTER, KEY_BAR, KEY_COUNT };
     static const char *const keys[] = {"view", "vehicle", "size", "after", "bar"};
     uint64_t whole;
     switch (find_key(keys, KEY_COUNT, key, value, &query->seen, "view, vehicle, size, after, bar",
-                     reason)) {
+                     error)) {
     case KEY_VIEW:
-        return take_view(query, value, reason);
+        return take_view(query, value, error);
     case KEY_VEHICLE:
         if (!is_whole(value, UINT32_MAX, &whole))
-            return refuse(reason, key, value, "is a vehicle's number, as 17");
+            return refuse(error, key, value, "is a vehicle's number, as 17");
         query->key.vehicle = (uint32_t)whole;
         return 0;
     case KEY_SIZE:
-        return take_size(&query->key.width, &query->key.height, value, reason);
+        return take_size(&query->key.width, &query->key.height, value, error);
     case KEY_AFTER:
         query->after_given = true;
         if (!is_whole(value, UINT64_MAX / 16, &query->after))
-            return refuse(reason, key, value, "is a picture's number, as in X-Picture");
+            return refuse(error, key, value, "is a picture's number, as in X-Picture");
         return 0;
     case KEY_BAR:
         if (!is_whole(value, 1, &whole))
-            return refuse(reason, key, value, "is 0 or 1");
+            return refuse(error, key, value, "is 0 or 1");
         query->key.bar = whole == 1;
         return 0;
     default:
@@ -150,24 +150,24 @@ void query_map_begin(struct query_map *query)
 }
 
 int query_map_take(struct query_map *query, const char *key, const char *value,
-                   struct reason *reason)
+                   struct error_text *error)
 {
     enum { KEY_X, KEY_Z, KEY_METRES, KEY_SIZE, KEY_COUNT };
     static const char *const keys[] = {"x", "z", "metres", "size"};
-    int which = find_key(keys, KEY_COUNT, key, value, &query->seen, "x, z, metres, size", reason);
+    int which = find_key(keys, KEY_COUNT, key, value, &query->seen, "x, z, metres, size", error);
     switch (which) {
     case KEY_X:
     case KEY_Z:
         if (!is_number(value, -QUERY_PLACE_MOST, QUERY_PLACE_MOST,
                        which == KEY_X ? &query->x : &query->z))
-            return refuse(reason, key, value, "is a place in metres, from -100000 to 100000");
+            return refuse(error, key, value, "is a place in metres, from -100000 to 100000");
         return 0;
     case KEY_METRES:
         if (!is_number(value, QUERY_METRES_MIN, QUERY_METRES_MAX, &query->metres))
-            return refuse(reason, key, value, "is metres across the map, from 100 to 200000");
+            return refuse(error, key, value, "is metres across the map, from 100 to 200000");
         return 0;
     case KEY_SIZE:
-        return take_size(&query->width, &query->height, value, reason);
+        return take_size(&query->width, &query->height, value, error);
     default:
         return -1;
     }

@@ -39,8 +39,8 @@ void query_map_begin(struct query_map *query);
 
 /* One key and its value, NULL for a key without one. */
 int query_picture_take(struct query_picture *query, const char *key, const char *value,
-                       struct reason *reason);
+                       struct error_text *error);
 int query_map_take(struct query_map *query, const char *key, const char *value,
-                   struct reason *reason);
+                   struct error_text *error);
 
 #endif

@@ -24,11 +24,11 @@
 /* --- opening -----------------------------------------------------------------------------------*/
 
 struct stream *stream_open(const char *world, const struct stream_painter *painter,
-                           struct reason *reason)
+                           struct error_text *error)
 {
     struct stream *stream = calloc(1, sizeof *stream);
     if (stream == NULL) {
-        reason_set(reason, "no memory for a stream");
+        error_text_set(error, "no memory for a stream");
         return NULL;
     }
     snprintf(stream->world, sizeof stream->world, "%s", world);
@@ -226,24 +226,24 @@ static void end_threads(struct stream *stream, bool painting)
 }
 
 /* 0, or -1 with the reason, and no thread. */
-static int start_threads(struct stream *stream, struct reason *reason)
+static int start_threads(struct stream *stream, struct error_text *error)
 {
     int cause = pthread_create(&stream->encoding, NULL, serve, stream);
     if (cause != 0)
-        return reason_set(reason, "cannot start the stream: %s", strerror(cause));
+        return error_text_set(error, "cannot start the stream: %s", strerror(cause));
     cause = pthread_create(&stream->painting, NULL, stream_paint, stream);
     if (cause != 0) {
         end_threads(stream, false);
-        return reason_set(reason, "cannot start the stream: %s", strerror(cause));
+        return error_text_set(error, "cannot start the stream: %s", strerror(cause));
     }
-    if (stream_http_start(stream, reason) == 0)
+    if (stream_http_start(stream, error) == 0)
         return 0;
     end_threads(stream, true);
     stream_http_end(stream);
     return -1;
 }
 
-int stream_start(struct stream *stream, struct reason *reason)
+int stream_start(struct stream *stream, struct error_text *error)
 {
     sigset_t all, before;
     init_locks(stream);
@@ -251,7 +251,7 @@ int stream_start(struct stream *stream, struct reason *reason)
     sigfillset(&all);
     sigdelset(&all, SIGSYS); /* what the sandbox forbids is to be told */
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    int result = start_threads(stream, reason);
+    int result = start_threads(stream, error);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     stream->started = result == 0;
     return result;

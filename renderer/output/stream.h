@@ -25,13 +25,13 @@ struct stream_painter {
 /* A stream that listens nowhere yet. world: the name that is shown. NULL with the reason: no
  * memory. */
 struct stream *stream_open(const char *world, const struct stream_painter *painter,
-                           struct reason *reason);
+                           struct error_text *error);
 
 /* "http://ADDRESS:PORT/" of stream_listen(). */
 const char *stream_url(const struct stream *stream);
 
 /* Starts to serve. 0, or -1 with the reason. */
-int stream_start(struct stream *stream, struct reason *reason);
+int stream_start(struct stream *stream, struct error_text *error);
 
 /* Shows a picture, which the caller goes on holding, in its view. */
 void stream_put(struct stream *stream, struct picture *picture);

@@ -357,7 +357,7 @@ static void on_end(void *context, struct http_request *request)
 
 /* --- starting and ending -----------------------------------------------------------------------*/
 
-int stream_http_start(struct stream *stream, struct reason *reason)
+int stream_http_start(struct stream *stream, struct error_text *error)
 {
     const struct http_handler handler = {.context = stream,
                                          .own_bytes = sizeof(struct stream_client),
@@ -367,7 +367,7 @@ int stream_http_start(struct stream *stream, struct reason *reason)
                                          .end = on_end};
     for (uint32_t i = 0; i < stream->endpoints; i++) {
         struct http_server *server =
-            http_server_start(&stream->endpoint[i].listener, &handler, reason);
+            http_server_start(&stream->endpoint[i].listener, &handler, error);
         if (server == NULL)
             return -1;
         pthread_mutex_lock(&stream->lock);

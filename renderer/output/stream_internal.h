@@ -100,7 +100,7 @@ struct stream {
 
 /* Starts and ends the server of every door. 0, or -1 with the reason. The second wants `ending`
  * set, so that nobody waits again. */
-int stream_http_start(struct stream *stream, struct reason *reason);
+int stream_http_start(struct stream *stream, struct error_text *error);
 void stream_http_end(struct stream *stream);
 
 /* Replies: a line of plain text; a picture, which they hold. */

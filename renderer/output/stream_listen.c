@@ -21,7 +21,8 @@ static void add_endpoint(struct stream *stream, const struct http_listener *list
     stream->endpoint[stream->endpoints++] = (struct stream_endpoint){.listener = *listener};
 }
 
-int stream_listen(struct stream *stream, const char *address, uint16_t port, struct reason *reason)
+int stream_listen(struct stream *stream, const char *address, uint16_t port,
+                  struct error_text *error)
 {
     struct http_listener listener;
     const struct http_listen_options options = {.address_option = "--stream-address",
@@ -29,7 +30,7 @@ int stream_listen(struct stream *stream, const char *address, uint16_t port, str
                                                 .address = address,
                                                 .port = port,
                                                 .send_bytes = SEND_BYTES};
-    if (http_listen(&listener, &options, reason) != 0)
+    if (http_listen(&listener, &options, error) != 0)
         return -1;
     snprintf(stream->url, sizeof stream->url, "%s", listener.url);
     if (!listener.local)
@@ -39,19 +40,19 @@ int stream_listen(struct stream *stream, const char *address, uint16_t port, str
 }
 
 /* The renderer holds its role: a socket of that name is a dead renderer's. */
-int stream_listen_here(struct stream *stream, enum role role, struct reason *reason)
+int stream_listen_here(struct stream *stream, enum role role, struct error_text *error)
 {
     const int bytes = SEND_BYTES;
     char suffix[LOCAL_SOCKET_SUFFIX_MAX];
     picture_socket_suffix(suffix, role);
     int fd =
-        local_socket_listen(stream->world, suffix, SOCK_STREAM | SOCK_NONBLOCK, BACKLOG, reason);
+        local_socket_listen(stream->world, suffix, SOCK_STREAM | SOCK_NONBLOCK, BACKLOG, error);
     if (fd < 0)
         return -1;
     const struct http_listener listener = {.fd = fd, .local = true, .ours = true};
     if (setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes) != 0) {
-        reason_set(reason, "%s: cannot set the size of the socket's buffer: %s", suffix,
-                   strerror(errno));
+        error_text_set(error, "%s: cannot set the size of the socket's buffer: %s", suffix,
+                       strerror(errno));
         close(fd);
         return -1;
     }

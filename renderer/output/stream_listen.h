@@ -12,10 +12,11 @@ struct stream;
 /* Binds and listens, without a thread yet; port 0: any that is free. A warning says when others
  * than this machine's may come. 0, or -1 with the reason: no such address, the port is in use or
  * not allowed. */
-int stream_listen(struct stream *stream, const char *address, uint16_t port, struct reason *reason);
+int stream_listen(struct stream *stream, const char *address, uint16_t port,
+                  struct error_text *error);
 
 /* Listens on the renderer's own socket (ipc/segment/picture_socket.h), for processes of this user
  * alone. 0, or -1 with the reason: another process has the name. */
-int stream_listen_here(struct stream *stream, enum role role, struct reason *reason);
+int stream_listen_here(struct stream *stream, enum role role, struct error_text *error);
 
 #endif

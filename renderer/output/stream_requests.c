@@ -19,7 +19,7 @@
 struct reading {
     struct query_picture *picture; /* one of them is NULL */
     struct query_map *map;
-    struct reason reason;
+    struct error_text error;
     bool failed;
 };
 
@@ -27,8 +27,8 @@ static bool take_argument(void *context, const char *key, const char *value)
 {
     struct reading *reading = context;
     int result = reading->picture != NULL
-                     ? query_picture_take(reading->picture, key, value, &reading->reason)
-                     : query_map_take(reading->map, key, value, &reading->reason);
+                     ? query_picture_take(reading->picture, key, value, &reading->error)
+                     : query_map_take(reading->map, key, value, &reading->error);
     reading->failed = result != 0;
     return result == 0;
 }
@@ -37,11 +37,11 @@ static bool take_argument(void *context, const char *key, const char *value)
 static bool read_query(const struct stream_client *client, struct reading *reading,
                        struct http_reply *reply)
 {
-    char words[sizeof reading->reason.text + 2];
+    char words[sizeof reading->error.text + 2];
     http_arguments(client->request, take_argument, reading);
     if (!reading->failed)
         return true;
-    snprintf(words, sizeof words, "%s\n", reading->reason.text);
+    snprintf(words, sizeof words, "%s\n", reading->error.text);
     stream_refuse(reply, 400, words);
     return false;
 }

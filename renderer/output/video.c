@@ -91,23 +91,23 @@ static const struct encoder *find_encoder(const struct container *container)
 }
 
 struct video *video_open(const char *path, double fps, enum video_purpose purpose,
-                         struct reason *reason)
+                         struct error_text *error)
 {
     const struct container *container = find_container(path);
     if (container == NULL) {
-        reason_set(reason, "video %s: must end in .mkv, .mp4 or .webm", path);
+        error_text_set(error, "video %s: must end in .mkv, .mp4 or .webm", path);
         return NULL;
     }
-    if (libav_open(reason) != 0)
+    if (libav_open(error) != 0)
         return NULL;
     const struct encoder *encoder = find_encoder(container);
     if (encoder == NULL) {
-        reason_set(reason, "video %s: the machine's libavcodec has no encoder for it", path);
+        error_text_set(error, "video %s: the machine's libavcodec has no encoder for it", path);
         return NULL;
     }
     struct video *video = malloc(sizeof *video);
     if (video == NULL) {
-        reason_set(reason, "video %s: no memory", path);
+        error_text_set(error, "video %s: no memory", path);
         return NULL;
     }
     *video = (struct video){.container = container,
@@ -152,12 +152,12 @@ static int64_t seek_bytes(void *context, int64_t offset, int whence)
 }
 
 /* What a library's error, below 0, means to people; the cause of a failed write is better. */
-static int failed(const struct video *video, const char *what, int error, struct reason *reason)
+static int failed(const struct video *video, const char *what, int code, struct error_text *error)
 {
     char text[128];
-    libav.av_strerror(error, text, sizeof text);
-    return reason_set(reason, "video: %s: %s", what,
-                      video->write_error != 0 ? strerror(video->write_error) : text);
+    libav.av_strerror(code, text, sizeof text);
+    return error_text_set(error, "video: %s: %s", what,
+                          video->write_error != 0 ? strerror(video->write_error) : text);
 }
 
 static int set(AVDictionary **options, const struct setting *setting)
@@ -294,18 +294,18 @@ static int put_frame(struct video *video, const struct image *image, double afte
     return encode(video, video->frame);
 }
 
-int video_put(struct video *video, const struct picture *picture, struct reason *reason)
+int video_put(struct video *video, const struct picture *picture, struct error_text *error)
 {
     if (video->codec == NULL) {
         int result = begin(video, picture);
         if (result < 0)
-            return failed(video, "cannot begin", result, reason);
+            return failed(video, "cannot begin", result, error);
     }
     if ((picture->image.width & ~1u) != (uint32_t)video->codec->width ||
         (picture->image.height & ~1u) != (uint32_t)video->codec->height)
-        return reason_set(reason, "video: a picture of %ux%u comes after those of %dx%d",
-                          picture->image.width, picture->image.height, video->codec->width,
-                          video->codec->height);
+        return error_text_set(error, "video: a picture of %ux%u comes after those of %dx%d",
+                              picture->image.width, picture->image.height, video->codec->width,
+                              video->codec->height);
     double after_s = picture->time_s - video->start_s;
     int64_t slot = (int64_t)floor(after_s * video->fps + EARLY_SLOTS);
     if (slot <= video->slot)
@@ -313,7 +313,7 @@ int video_put(struct video *video, const struct picture *picture, struct reason 
     video->slot = slot;
     int result = put_frame(video, &picture->image, after_s);
     if (result < 0)
-        return failed(video, "cannot go on", result, reason);
+        return failed(video, "cannot go on", result, error);
     video->pictures++;
     return 0;
 }
@@ -341,7 +341,7 @@ static void free_file(struct video *video)
     libav.avformat_free_context(video->file);
 }
 
-int video_close(struct video *video, struct reason *reason)
+int video_close(struct video *video, struct error_text *error)
 {
     if (video == NULL)
         return 0;
@@ -353,7 +353,7 @@ int video_close(struct video *video, struct reason *reason)
         result = encoded < 0 ? encoded : written < 0 ? written : video->file->pb->error;
     }
     if (result < 0)
-        told = failed(video, "cannot complete the file", result, reason);
+        told = failed(video, "cannot complete the file", result, error);
     free_file(video);
     if (video->codec != NULL) {
         libav.avcodec_free_context(&video->codec);

@@ -26,7 +26,7 @@ struct video;
  * that come too soon are left out. NULL with the reason: no such ending, the library or an encoder
  * for it is not there. Loads libraries: before the sandbox. */
 struct video *video_open(const char *path, double fps, enum video_purpose purpose,
-                         struct reason *reason);
+                         struct error_text *error);
 
 /* Where it is written to: a descriptor of a new file, which stays the caller's. Before the first
  * picture. */
@@ -34,13 +34,13 @@ void video_write_to(struct video *video, int fd);
 
 /* Adds a picture. The first decides the size that all have, both sides rounded down to even
  * numbers. One that is not later than the last is left out. 0, or -1 with the reason. */
-int video_put(struct video *video, const struct picture *picture, struct reason *reason);
+int video_put(struct video *video, const struct picture *picture, struct error_text *error);
 
 uint64_t video_pictures(const struct video *video);
 const char *video_codec(const struct video *video);
 
 /* Completes the file and frees the rest. NULL is nothing. 0, or -1 with the reason: it cannot be
  * written. */
-int video_close(struct video *video, struct reason *reason);
+int video_close(struct video *video, struct error_text *error);
 
 #endif

@@ -28,7 +28,7 @@ struct back_end_interface {
      * the moment's, for the ground. 0, or -1 with the reason; the back end is of no more use then.
      */
     int (*picture)(void *self, const struct scene *scene, const struct frame_view *moment,
-                   struct image *image, struct reason *reason);
+                   struct image *image, struct error_text *error);
     /* NULL when the back end cannot tell. */
     const struct back_end_stages *(*stages)(void *self);
     void (*close)(void *self);

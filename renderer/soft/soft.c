@@ -241,12 +241,12 @@ static void draw_bands(void *context, uint32_t first, uint32_t end, uint32_t wor
 }
 
 static int soft_picture(void *self, const struct scene *scene, const struct frame_view *moment,
-                        struct image *image, struct reason *reason)
+                        struct image *image, struct error_text *error)
 {
     struct soft *soft = self;
     if (image->width > soft->width || image->height > soft->height)
-        return reason_set(reason, "a %ux%u picture was asked of a back end opened for %ux%u",
-                          image->width, image->height, soft->width, soft->height);
+        return error_text_set(error, "a %ux%u picture was asked of a back end opened for %ux%u",
+                              image->width, image->height, soft->width, soft->height);
     for (uint32_t w = 0; w < thread_pool_threads(soft->workers); w++)
         memset(soft->worker[w].cpu_ns, 0, sizeof soft->worker[w].cpu_ns);
     frame_begin(soft, scene, moment, image);
@@ -258,7 +258,7 @@ static int soft_picture(void *self, const struct scene *scene, const struct fram
     for (uint32_t kind = 0; kind < KIND_COUNT; kind++)
         failed |= soft->failed[kind];
     if (failed != 0)
-        return reason_set(reason, "no memory for the lists of a picture");
+        return error_text_set(error, "no memory for the lists of a picture");
     soft->drawn.width = image->width;
     soft->drawn.height = image->height;
     soft->smoothed = image;
@@ -305,7 +305,7 @@ const char *soft_vectors(void)
 
 /* 0, or -1 with the reason. */
 static int open_parts(struct soft *soft, const struct static_scene *scenery, uint32_t threads,
-                      struct reason *reason)
+                      struct error_text *error)
 {
     size_t band = ((size_t)soft->width + 15u) / 16u * 16u * SOFT_BAND_ROWS * sizeof(uint32_t);
     size_t bands = ((size_t)soft->height + SOFT_BAND_ROWS - 1) / SOFT_BAND_ROWS;
@@ -318,32 +318,32 @@ static int open_parts(struct soft *soft, const struct static_scene *scenery, uin
         room = room && soft->worker[w].colour != NULL && soft->worker[w].depth != NULL;
     }
     if (!room || soft->workers == NULL)
-        return reason_set(reason, "no memory or no threads for a %ux%u picture", soft->width,
-                          soft->height);
-    soft->ground = soft_ground_open(scenery, reason);
+        return error_text_set(error, "no memory or no threads for a %ux%u picture", soft->width,
+                              soft->height);
+    soft->ground = soft_ground_open(scenery, error);
     soft->bodies =
-        soft->ground ? soft_bodies_open(scenery, soft_ground_detail(soft->ground), reason) : NULL;
-    soft->plants = soft->bodies ? soft_plants_open(reason) : NULL;
-    soft->puffs = soft->plants ? soft_particles_open(reason) : NULL;
+        soft->ground ? soft_bodies_open(scenery, soft_ground_detail(soft->ground), error) : NULL;
+    soft->plants = soft->bodies ? soft_plants_open(error) : NULL;
+    soft->puffs = soft->plants ? soft_particles_open(error) : NULL;
     return soft->puffs ? 0 : -1;
 }
 
 int soft_open_build(struct back_end_interface *draw, const struct static_scene *scenery,
                     uint32_t width, uint32_t height, uint32_t threads,
-                    const struct soft_kernels *kernels, struct reason *reason)
+                    const struct soft_kernels *kernels, struct error_text *error)
 {
     if (width < 1 || height < 1 || width > SOFT_SIDE_MAX || height > SOFT_SIDE_MAX)
-        return reason_set(reason, "a picture of %ux%u: a side is 1 .. %d", width, height,
-                          SOFT_SIDE_MAX);
+        return error_text_set(error, "a picture of %ux%u: a side is 1 .. %d", width, height,
+                              SOFT_SIDE_MAX);
     threads = threads < 1 ? 1 : threads > THREAD_POOL_MAX ? THREAD_POOL_MAX : threads;
     struct soft *soft = aligned_alloc(SOFT_ALIGN, sizeof *soft);
     if (soft == NULL)
-        return reason_set(reason, "no memory for drawing");
+        return error_text_set(error, "no memory for drawing");
     memset(soft, 0, sizeof *soft);
     soft->width = width;
     soft->height = height;
     soft->kernels = kernels;
-    if (open_parts(soft, scenery, threads, reason) != 0) {
+    if (open_parts(soft, scenery, threads, error) != 0) {
         soft_close(soft);
         return -1;
     }
@@ -353,7 +353,7 @@ int soft_open_build(struct back_end_interface *draw, const struct static_scene *
 }
 
 int soft_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
-              uint32_t height, uint32_t threads, struct reason *reason)
+              uint32_t height, uint32_t threads, struct error_text *error)
 {
-    return soft_open_build(draw, scenery, width, height, threads, best_kernels(), reason);
+    return soft_open_build(draw, scenery, width, height, threads, best_kernels(), error);
 }

@@ -12,7 +12,7 @@ struct soft_kernels;
  * The same scene gives the same picture to the bit on every machine and any number of threads. 0,
  * or -1 with the reason: no memory, or too large a picture. */
 int soft_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
-              uint32_t height, uint32_t threads, struct reason *reason);
+              uint32_t height, uint32_t threads, struct error_text *error);
 
 /* The vectors that it works with on this processor: "AVX2". */
 const char *soft_vectors(void);
@@ -20,6 +20,6 @@ const char *soft_vectors(void);
 /* soft_open() with one build of the kernels. */
 int soft_open_build(struct back_end_interface *draw, const struct static_scene *scenery,
                     uint32_t width, uint32_t height, uint32_t threads,
-                    const struct soft_kernels *kernels, struct reason *reason);
+                    const struct soft_kernels *kernels, struct error_text *error);
 
 #endif

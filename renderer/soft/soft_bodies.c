@@ -43,7 +43,7 @@ static int room_for_meshes(struct soft_bodies *bodies)
 }
 
 struct soft_bodies *soft_bodies_open(const struct static_scene *scenery,
-                                     const struct soft_detail *detail, struct reason *reason)
+                                     const struct soft_detail *detail, struct error_text *error)
 {
     struct soft_bodies *bodies = calloc(1, sizeof *bodies);
     if (bodies != NULL) {
@@ -53,7 +53,7 @@ struct soft_bodies *soft_bodies_open(const struct static_scene *scenery,
             return bodies;
     }
     soft_bodies_close(bodies);
-    reason_set(reason, "no memory for the bodies");
+    error_text_set(error, "no memory for the bodies");
     return NULL;
 }
 

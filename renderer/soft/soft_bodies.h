@@ -113,7 +113,7 @@ struct soft_reach soft_bodies_reach(const struct soft_bodies *bodies,
 
 /* NULL with the reason. */
 struct soft_bodies *soft_bodies_open(const struct static_scene *scenery,
-                                     const struct soft_detail *detail, struct reason *reason);
+                                     const struct soft_detail *detail, struct error_text *error);
 void soft_bodies_close(struct soft_bodies *bodies);
 /* Sorts the bodies of the scene into the bands, and their shadows. May run in a thread of its own.
  * 0, or -1 with errno ENOMEM. */

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-struct soft_ground *soft_ground_open(const struct static_scene *scenery, struct reason *reason)
+struct soft_ground *soft_ground_open(const struct static_scene *scenery, struct error_text *error)
 {
     struct soft_ground *ground = calloc(1, sizeof *ground);
     if (ground != NULL) {
@@ -18,7 +18,7 @@ struct soft_ground *soft_ground_open(const struct static_scene *scenery, struct 
             return ground;
         soft_ground_close(ground);
     }
-    reason_set(reason, "no memory for the ground");
+    error_text_set(error, "no memory for the ground");
     return NULL;
 }
 

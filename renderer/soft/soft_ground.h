@@ -68,7 +68,7 @@ struct soft_ground {
 };
 
 /* NULL with the reason. */
-struct soft_ground *soft_ground_open(const struct static_scene *scenery, struct reason *reason);
+struct soft_ground *soft_ground_open(const struct static_scene *scenery, struct error_text *error);
 void soft_ground_close(struct soft_ground *ground);
 /* The fine texture, for others too. */
 const struct soft_detail *soft_ground_detail(const struct soft_ground *ground);

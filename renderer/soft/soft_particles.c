@@ -94,13 +94,13 @@ static int open_pictures(struct soft_particles *puffs)
 
 /* --- opening, closing, preparing -------------------------------------------------------------- */
 
-struct soft_particles *soft_particles_open(struct reason *reason)
+struct soft_particles *soft_particles_open(struct error_text *error)
 {
     struct soft_particles *puffs = calloc(1, sizeof *puffs);
     if (puffs != NULL && open_pictures(puffs) == 0)
         return puffs;
     soft_particles_close(puffs);
-    reason_set(reason, "no memory for the puffs");
+    error_text_set(error, "no memory for the puffs");
     return NULL;
 }
 

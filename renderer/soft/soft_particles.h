@@ -44,7 +44,7 @@ struct soft_particles {
 };
 
 /* NULL with the reason. */
-struct soft_particles *soft_particles_open(struct reason *reason);
+struct soft_particles *soft_particles_open(struct error_text *error);
 void soft_particles_close(struct soft_particles *particles);
 /* Sorts the particles of the scene into the bands. May run in a thread of its own. 0, or -1 with
  * errno ENOMEM. */

@@ -111,13 +111,13 @@ static int open_pictures(struct soft_plants *plants)
 
 /* --- opening, closing, preparing -------------------------------------------------------------- */
 
-struct soft_plants *soft_plants_open(struct reason *reason)
+struct soft_plants *soft_plants_open(struct error_text *error)
 {
     struct soft_plants *plants = calloc(1, sizeof *plants);
     if (plants != NULL && open_pictures(plants) == 0)
         return plants;
     soft_plants_close(plants);
-    reason_set(reason, "no memory for the plants");
+    error_text_set(error, "no memory for the plants");
     return NULL;
 }
 

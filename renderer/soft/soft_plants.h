@@ -55,7 +55,7 @@ struct soft_plants {
 };
 
 /* NULL with the reason. */
-struct soft_plants *soft_plants_open(struct reason *reason);
+struct soft_plants *soft_plants_open(struct error_text *error);
 void soft_plants_close(struct soft_plants *plants);
 /* Sorts the plants of the scene into the bands, and their shadows. May run in a thread of its own.
  * 0, or -1 with errno ENOMEM. */

@@ -54,16 +54,16 @@ static void open_file(struct run_video *film)
         die_refused("%s: cannot make the file: %s", film->options.file, strerror(errno));
 }
 
-_Noreturn static void give_up(const struct run_video *film, const struct reason *reason)
+_Noreturn static void give_up(const struct run_video *film, struct error_text *error)
 {
     if (!film->still)
         unlink(film->path);
-    die_refused("%s", reason->text);
+    die_refused("%s", error->text);
 }
 
 static void open_session(struct run_video *film)
 {
-    struct reason reason;
+    struct error_text error;
     struct options *drawn = &film->options.renderer;
     drawn->hold = 0; /* nobody waits */
     double hz = 1.0 / world_dt_s(&film->view.world);
@@ -76,29 +76,29 @@ static void open_session(struct run_video *film)
                                          .video_fd = film->fd,
                                          .stream_port = -1};
     drawn->snap = film->still ? film->options.file : NULL;
-    if (!film->still && (output_set_open(&film->outputs, &wish, &reason) != 0 ||
-                         output_set_start(&film->outputs, &reason) != 0))
-        give_up(film, &reason);
+    if (!film->still && (output_set_open(&film->outputs, &wish, &error) != 0 ||
+                         output_set_start(&film->outputs, &error) != 0))
+        give_up(film, &error);
     if (render_session_open(&film->session, &film->view, &film->heartbeat,
-                            film->still ? NULL : &film->outputs, drawn, &reason) != 0)
-        give_up(film, &reason);
+                            film->still ? NULL : &film->outputs, drawn, &error) != 0)
+        give_up(film, &error);
 }
 
 /* Plays on to a frame, looking at the world now and then: what burns and what left tracks is to be
  * known. False when the run is over, or not as it was recorded. */
 static bool play_to(struct run_video *film, uint64_t frame, enum log_replay_step *step)
 {
-    struct reason reason;
+    struct error_text error;
     uint64_t looks = (uint64_t)(LOOK_S / world_dt_s(&film->view.world)) + 1;
     while (frame_stepper_frame(&film->player) < frame && !process_stopping()) {
-        *step = log_replay_step(&film->tape, &film->player, &reason);
+        *step = log_replay_step(&film->tape, &film->player, &error);
         if (*step == LOG_REPLAY_WRONG)
-            log_warn("%s", reason.text);
+            log_warn("%s", error.text);
         if (*step != LOG_REPLAY_STEPPED)
             return false;
         if (frame_stepper_frame(&film->player) % looks == 0 &&
-            render_session_look(&film->session, &reason) != 0)
-            give_up(film, &reason);
+            render_session_look(&film->session, &error) != 0)
+            give_up(film, &error);
     }
     return !process_stopping();
 }
@@ -117,17 +117,17 @@ static void tell_progress(struct run_video *film)
 /* Plays to a frame and looks at it and at the one before, between which the picture may be. */
 static bool go_to(struct run_video *film, uint64_t frame, enum log_replay_step *step)
 {
-    struct reason reason;
+    struct error_text error;
     if (frame > film->first && frame_stepper_frame(&film->player) < frame) {
         if (!play_to(film, frame - 1, step))
             return false;
-        if (film->between && render_session_look(&film->session, &reason) != 0)
-            give_up(film, &reason);
+        if (film->between && render_session_look(&film->session, &error) != 0)
+            give_up(film, &error);
     }
     if (!play_to(film, frame, step))
         return false;
-    if (render_session_look(&film->session, &reason) != 0)
-        give_up(film, &reason);
+    if (render_session_look(&film->session, &error) != 0)
+        give_up(film, &error);
     return true;
 }
 
@@ -141,7 +141,7 @@ static void show_before(struct run_video *film, double frames)
 /* Every picture at its time. */
 static enum log_replay_step shoot(struct run_video *film)
 {
-    struct reason reason;
+    struct error_text error;
     enum log_replay_step step = LOG_REPLAY_STEPPED;
     double frames = 1.0 / (film->session.options.fps * world_dt_s(&film->view.world));
     film->between = fabs(frames - round(frames)) > WHOLE;
@@ -153,8 +153,8 @@ static enum log_replay_step shoot(struct run_video *film)
         if (due >= film->end || !go_to(film, due, &step))
             break;
         show_before(film, (double)(due - film->first) - after);
-        if (view_pictures_draw(&film->session, false, &reason) != 0)
-            give_up(film, &reason);
+        if (view_pictures_draw(&film->session, false, &error) != 0)
+            give_up(film, &error);
         film->pictures++;
         tell_progress(film);
     }
@@ -165,17 +165,17 @@ static enum log_replay_step shoot(struct run_video *film)
 
 static void complete(struct run_video *film)
 {
-    struct reason reason;
-    if (!film->still && output_set_close(&film->outputs, &reason) != 0)
-        give_up(film, &reason);
+    struct error_text error;
+    if (!film->still && output_set_close(&film->outputs, &error) != 0)
+        give_up(film, &error);
     if (film->pictures == 0) {
-        reason_set(&reason, "%s: the run ended before its first picture", film->options.file);
-        give_up(film, &reason);
+        error_text_set(&error, "%s: the run ended before its first picture", film->options.file);
+        give_up(film, &error);
     }
     if (!film->still && (close(film->fd) != 0 || rename(film->path, film->options.file) != 0)) {
-        reason_set(&reason, "%s: cannot complete the file: %s", film->options.file,
-                   strerror(errno));
-        give_up(film, &reason);
+        error_text_set(&error, "%s: cannot complete the file: %s", film->options.file,
+                       strerror(errno));
+        give_up(film, &error);
     }
     const struct options *drawn = &film->session.options;
     printf("%s: %" PRIu64 " pictures of %ux%u, %.1f s of simulation, made in %.1f s\n",

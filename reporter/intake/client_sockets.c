@@ -16,13 +16,13 @@
 #define ACCEPT_AT_ONCE 8
 #define BACKLOG        64
 
-int client_sockets_open(struct client_sockets *sockets, const char *world, struct reason *reason)
+int client_sockets_open(struct client_sockets *sockets, const char *world, struct error_text *error)
 {
     *sockets = (struct client_sockets){.listener = -1, .user = geteuid()};
     for (uint32_t i = 0; i < ADMISSION_SOURCES; i++)
         sockets->client[i].fd = -1;
     sockets->listener = local_socket_listen(world, COMMAND_SOCKET_SUFFIX,
-                                            SOCK_SEQPACKET | SOCK_NONBLOCK, BACKLOG, reason);
+                                            SOCK_SEQPACKET | SOCK_NONBLOCK, BACKLOG, error);
     return sockets->listener < 0 ? -1 : 0;
 }
 
@@ -84,10 +84,10 @@ static uint32_t find_place(struct client_sockets *sockets, struct admission *adm
     return victim;
 }
 
-static void refuse(struct client_sockets *sockets, int fd, const char *why, pid_t pid)
+static void refuse(struct client_sockets *sockets, int fd, const char *detail, pid_t pid)
 {
     if (log_due(&sockets->logged_ns, NS_PER_S))
-        log_warn("process %d may not send commands: %s", (int)pid, why);
+        log_warn("process %d may not send commands: %s", (int)pid, detail);
     close(fd);
 }
 

@@ -35,7 +35,8 @@ struct client_sockets {
 
 /* Listens on the world's command socket. The caller holds ROLE_INTAKE, so that a socket file which
  * is already there belongs to nobody. 0, or -1 with the reason. */
-int client_sockets_open(struct client_sockets *sockets, const char *world, struct reason *reason);
+int client_sockets_open(struct client_sockets *sockets, const char *world,
+                        struct error_text *error);
 void client_sockets_close(struct client_sockets *sockets);
 
 /* Accepts new clients and reads the commands for which the clients' queues have room. Lets go of

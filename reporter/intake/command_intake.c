@@ -17,27 +17,27 @@
 
 #define LONG_FRAME_NS (50 * (uint64_t)NS_PER_MS) /* an idle collider beats every 20 ms */
 
-static int cannot_read(const struct view *view, struct reason *reason)
+static int cannot_read(const struct view *view, struct error_text *error)
 {
-    return reason_set(reason, "world \"%s\": its last frame cannot be read", view->name);
+    return error_text_set(error, "world \"%s\": its last frame cannot be read", view->name);
 }
 
 int command_intake_open(struct command_intake *intake, const struct view *view,
-                        struct reason *reason)
+                        struct error_text *error)
 {
     struct state_head head;
     uint64_t seed = 0;
     *intake = (struct command_intake){0};
     if (getrandom(&seed, sizeof seed, 0) != (ssize_t)sizeof seed)
-        return reason_set(reason, "the system gives no random numbers");
+        return error_text_set(error, "the system gives no random numbers");
     command_history_clear(&intake->history, seed);
     /* The recovery notes every answer up to a later head; what is read twice changes nothing. */
     if (snapshot_head(&head, view) != 0)
-        return cannot_read(view, reason);
+        return cannot_read(view, error);
     intake->cursor.next = head.event_end;
     if (history_recover(&intake->history, view, RING_CLIENTS) != 0)
-        return cannot_read(view, reason);
-    return client_sockets_open(&intake->clients, view->name, reason);
+        return cannot_read(view, error);
+    return client_sockets_open(&intake->clients, view->name, error);
 }
 
 void command_intake_close(struct command_intake *intake)

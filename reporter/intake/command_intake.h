@@ -24,7 +24,7 @@ struct command_intake {
 
 /* Finds out what a predecessor took, then listens for clients. 0, or -1 with the reason. */
 int command_intake_open(struct command_intake *intake, const struct view *view,
-                        struct reason *reason);
+                        struct error_text *error);
 void command_intake_close(struct command_intake *intake);
 
 /* Answers what was committed, receives, and puts what is admitted into the ring. Does not block.

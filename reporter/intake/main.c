@@ -48,19 +48,18 @@ int main(int argc, char **argv)
     static struct command_intake intake;
     static struct view view;
     struct sandbox sandbox;
-    struct reason reason;
+    struct error_text error;
     log_open("intake");
     option_table_read(&table, argc, argv);
     process_close_inherited();
     process_die_with_parent(options.parent);
     process_signals();
-    if (sandbox_begin(&sandbox, ROLE_INTAKE, options.sandbox_off, &reason) != 0 ||
-        segment_attach(&view, options.world, ROLE_INTAKE, &reason) != 0)
-        die_refused("%s", reason.text);
-    if (command_intake_open(&intake, &view, &reason) != 0 ||
-        sandbox_enter(&sandbox, &reason) != 0) {
+    if (sandbox_begin(&sandbox, ROLE_INTAKE, options.sandbox_off, &error) != 0 ||
+        segment_attach(&view, options.world, ROLE_INTAKE, &error) != 0)
+        die_refused("%s", error.text);
+    if (command_intake_open(&intake, &view, &error) != 0 || sandbox_enter(&sandbox, &error) != 0) {
         segment_detach(&view);
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
     }
     segment_ready(&view);
 

@@ -21,9 +21,9 @@ int verb_create(const struct arguments *arguments)
     struct scenario scenario;
     struct world_build built;
     struct view view;
-    struct reason reason;
-    if (segment_name_check(arguments->world, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (segment_name_check(arguments->world, &error) != 0)
+        die_refused("%s", error.text);
     if (arguments->from)
         return image_resume_world(arguments);
     scenario_load_scenario(arguments, &scenario);
@@ -33,13 +33,13 @@ int verb_create(const struct arguments *arguments)
     }
     scenario_load_generate(&scenario, &built);
     struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
-    if (segment_begin(&view, arguments->world, &header, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (segment_begin(&view, arguments->world, &header, &error) != 0)
+        die_refused("%s", error.text);
     segment_fill(&view, &built);
     process_hold_stop();
-    if (segment_publish(&view, &reason) != 0) {
+    if (segment_publish(&view, &error) != 0) {
         segment_abandon(&view);
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
     }
     printf("world \"%s\": %u vehicles, %u fixed objects, %.1f MB\n", arguments->world, built.used,
            built.counts.fixed, (double)view.layout.total / 1e6);
@@ -52,7 +52,7 @@ int verb_create(const struct arguments *arguments)
 int verb_check(const struct arguments *arguments)
 {
     struct view view;
-    struct reason reason;
+    struct error_text error;
     if (arguments->path || arguments->sets > 0) {
         struct scenario scenario;
         struct world_build built;
@@ -68,8 +68,8 @@ int verb_check(const struct arguments *arguments)
     }
     struct snapshot snapshot;
     arguments_snapshot(arguments, &view, &snapshot);
-    if (segment_verify(&view, &reason) != 0)
-        die_refused("world \"%s\": %s", arguments->world, reason.text);
+    if (segment_verify(&view, &error) != 0)
+        die_refused("world \"%s\": %s", arguments->world, error.text);
     printf("world \"%s\": good at frame %llu\n", arguments->world,
            (unsigned long long)snapshot.head.frame);
     snapshot_free(&snapshot);
@@ -79,7 +79,7 @@ int verb_check(const struct arguments *arguments)
 
 int verb_repair(const struct arguments *arguments)
 {
-    struct reason report;
+    struct error_text report;
     if (segment_repair(arguments->world, &report) < 0)
         die_refused("%s", report.text);
     printf("%s\n", report.text);

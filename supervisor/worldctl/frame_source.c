@@ -20,13 +20,13 @@ static void start_stepper(struct frame_source *source)
 static void open_image(struct frame_source *source)
 {
     static struct image image;
-    struct reason reason;
-    if (image_open(&image, source->name, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (image_open(&image, source->name, &error) != 0)
+        die_refused("%s", error.text);
     struct segment_header header = image_segment(&image);
-    if (segment_private(&source->view, &header, &reason) != 0 ||
-        image_load(&source->view, &image, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (segment_private(&source->view, &header, &error) != 0 ||
+        image_load(&source->view, &image, &error) != 0)
+        die_refused("%s", error.text);
     image_close(&image);
     start_stepper(source);
 }
@@ -86,13 +86,13 @@ bool frame_source_known(const struct frame_source *source)
 
 bool frame_source_step(struct frame_source *source)
 {
-    struct reason reason;
+    struct error_text error;
     if (source->kind == FRAME_SOURCE_IMAGE) {
         frame_stepper_step(&source->stepper, NULL);
         return true;
     }
-    enum log_replay_step step = log_replay_step(&source->replay, &source->stepper, &reason);
+    enum log_replay_step step = log_replay_step(&source->replay, &source->stepper, &error);
     if (step == LOG_REPLAY_WRONG)
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
     return step == LOG_REPLAY_STEPPED;
 }

@@ -14,10 +14,10 @@
 static void list_names(bool all)
 {
     static char names[LISTED_MAX][SEGMENT_NAME_MAX];
-    struct reason reason;
-    int count = segment_list(names, LISTED_MAX, all, &reason);
+    struct error_text error;
+    int count = segment_list(names, LISTED_MAX, all, &error);
     if (count < 0)
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
     for (int i = 0; i < count; i++)
         printf("%s\n", names[i]);
 }
@@ -45,9 +45,9 @@ int verb_list(const struct arguments *arguments)
 int verb_paths(const struct arguments *arguments)
 {
     struct segment_paths paths;
-    struct reason reason;
-    if (segment_paths(&paths, arguments->world, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (segment_paths(&paths, arguments->world, &error) != 0)
+        die_refused("%s", error.text);
     const char *const rows[][2] = {
         {"name", paths.name}, {"lock", paths.lock}, {"object", paths.object}};
     bool found = arguments->path == NULL;
@@ -66,16 +66,16 @@ int verb_paths(const struct arguments *arguments)
 
 int verb_remove(const struct arguments *arguments)
 {
-    struct reason reason;
-    if (segment_remove(arguments->world, arguments->force, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (segment_remove(arguments->world, arguments->force, &error) != 0)
+        die_refused("%s", error.text);
     return EXIT_OK;
 }
 
 int verb_sweep(const struct arguments *arguments)
 {
-    struct reason reason;
-    if (segment_sweep(arguments->world, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (segment_sweep(arguments->world, &error) != 0)
+        die_refused("%s", error.text);
     return EXIT_OK;
 }

@@ -45,16 +45,16 @@ static void log_events(struct event_log *events, const struct view *view)
 static bool play(struct log_replay *replay, struct frame_stepper *stepper, uint64_t last,
                  struct event_log *events)
 {
-    struct reason reason;
+    struct error_text error;
     enum log_replay_step step = LOG_REPLAY_STEPPED;
     while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(stepper) < last &&
            !process_stopping()) {
-        step = log_replay_step(replay, stepper, &reason);
+        step = log_replay_step(replay, stepper, &error);
         if (events)
             log_events(events, stepper->view);
     }
     if (step == LOG_REPLAY_WRONG)
-        log_warn("%s", reason.text);
+        log_warn("%s", error.text);
     return step != LOG_REPLAY_WRONG;
 }
 

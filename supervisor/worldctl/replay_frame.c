@@ -28,12 +28,12 @@ static void protect(const struct view *view, enum role role)
 
 static void load(const struct arguments *arguments, struct image *image, struct view *view)
 {
-    struct reason reason;
-    if (image_open(image, arguments->path, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (image_open(image, arguments->path, &error) != 0)
+        die_refused("%s", error.text);
     struct segment_header header = image_segment(image);
-    if (segment_private(view, &header, &reason) != 0 || image_load(view, image, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (segment_private(view, &header, &error) != 0 || image_load(view, image, &error) != 0)
+        die_refused("%s", error.text);
 }
 
 static void run(struct frame_stepper *stepper, bool moved)

@@ -32,17 +32,17 @@ int verb_save(const struct arguments *arguments)
     struct image_written written;
     struct capture capture;
     struct view view;
-    struct reason reason;
+    struct error_text error;
     if (!arguments->path)
         die_usage("save: wants the FILE to write, for example save world.image");
     signal(SIGXFSZ, SIG_IGN); /* a file at its limit is one that cannot be written */
     arguments_attach(arguments, &view);
-    if (image_place_open(&place, arguments->path, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (image_place_open(&place, arguments->path, &error) != 0)
+        die_refused("%s", error.text);
     take(arguments, &view, &capture);
     uint64_t began = clock_now_ns();
-    if (image_write(&place, &view, &capture, &written, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (image_write(&place, &view, &capture, &written, &error) != 0)
+        die_refused("%s", error.text);
     printf("%s: world \"%s\" at frame %" PRIu64 "%s: %.1f MB, %.1f MB unpacked, %.0f ms\n",
            arguments->path, arguments->world, capture.snapshot.head.frame,
            capture.inputs ? " and the inputs of the next" : "", (double)written.bytes / 1e6,

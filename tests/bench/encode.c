@@ -55,16 +55,16 @@ static double cpu_now_ms(void)
 
 static struct encoding *begin(void)
 {
-    struct reason reason;
+    struct error_text error;
     struct encoding *encoding = calloc(1, sizeof *encoding);
     if (encoding == NULL)
         die_refused("out of memory");
     for (size_t i = 0; i < WAYS; i++) {
         if (ways[i].way != WAY_VIDEO)
             continue;
-        encoding->video[i] = video_open(ways[i].file, FPS, VIDEO_LIVE, &reason);
+        encoding->video[i] = video_open(ways[i].file, FPS, VIDEO_LIVE, &error);
         if (encoding->video[i] == NULL)
-            die_refused("%s", reason.text);
+            die_refused("%s", error.text);
         encoding->fd[i] = memfd_create(ways[i].file, MFD_CLOEXEC);
         if (encoding->fd[i] < 0)
             die_refused("cannot make a file in memory: %s", strerror(errno));
@@ -88,7 +88,7 @@ static void encode_colours(struct encoding *encoding, const struct image *image)
 /* Its bytes, where they are known at once. */
 static size_t encode(struct encoding *encoding, size_t i, const struct picture *picture)
 {
-    struct reason reason;
+    struct error_text error;
     uint8_t *bytes = NULL;
     size_t count = 0;
     int result = 0;
@@ -103,8 +103,8 @@ static size_t encode(struct encoding *encoding, size_t i, const struct picture *
         encode_colours(encoding, &picture->image);
         break;
     case WAY_VIDEO:
-        if (video_put(encoding->video[i], picture, &reason) != 0)
-            die_refused("%s", reason.text);
+        if (video_put(encoding->video[i], picture, &error) != 0)
+            die_refused("%s", error.text);
         break;
     }
     if (result != 0)
@@ -126,9 +126,9 @@ static void encode_all(struct encoding *encoding, const struct image *image, dou
 
 static void close_video(struct encoding *encoding, size_t i)
 {
-    struct reason reason;
-    if (video_close(encoding->video[i], &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (video_close(encoding->video[i], &error) != 0)
+        die_refused("%s", error.text);
     off_t length = lseek(encoding->fd[i], 0, SEEK_END);
     encoding->bytes[i] = length > 0 ? (size_t)length : 0;
     close(encoding->fd[i]);

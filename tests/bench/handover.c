@@ -78,9 +78,9 @@ static void frames_between(uint32_t frames, double *us)
     struct counts counts = {.posts_side = 2};
     struct segment_header header = segment_header_for(&params, &counts);
     struct view view;
-    struct reason reason;
-    if (segment_private(&view, &header, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (segment_private(&view, &header, &error) != 0)
+        die_refused("%s", error.text);
     view.w[0].head->time_scale = 1.0;
     view.checked = true; /* frames are made up: no checksums */
     become(&view, ROLE_COLLIDER, frames);

@@ -109,13 +109,13 @@ static void open_bench(struct bench *bench, const struct bench_options *options)
                                           .soft = !options->gl,
                                           .follow = options->follow,
                                           .view = VIEW_CHASE};
-    struct reason reason;
+    struct error_text error;
     bench_scene_open(&bench->scene, &wish);
     if (bench->scene.slot == SLOT_NONE)
         die_refused("there is no vehicle to follow");
     if (annotated_picture_open(&bench->chart, &bench->scene.view.world, options->size.width,
-                               options->size.height, &reason) != 0)
-        die_refused("%s", reason.text);
+                               options->size.height, &error) != 0)
+        die_refused("%s", error.text);
 }
 
 static void run(struct bench *bench, const struct bench_options *options, struct times *times)

@@ -47,13 +47,13 @@ static void open_back_end(struct bench_scene *s)
     const struct bench_scene_wish *wish = &s->wish;
     const struct gl_wish any = {.device = NULL};
     char name[BACK_END_NAME_BYTES];
-    struct reason reason;
+    struct error_text error;
     int opened =
         wish->soft
-            ? soft_open(&s->draw, &s->scenery, wish->width, wish->height, wish->threads, &reason)
-            : gl_open(&s->draw, &s->scenery, wish->width, wish->height, &any, name, &reason);
+            ? soft_open(&s->draw, &s->scenery, wish->width, wish->height, wish->threads, &error)
+            : gl_open(&s->draw, &s->scenery, wish->width, wish->height, &any, name, &error);
     if (opened != 0)
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
 }
 
 void bench_scene_open(struct bench_scene *s, const struct bench_scene_wish *wish)
@@ -106,7 +106,7 @@ void bench_scene_build(struct bench_scene *s, const struct frame_view *moment)
 
 void bench_scene_draw(struct bench_scene *s, const struct frame_view *moment)
 {
-    struct reason reason;
-    if (s->draw.picture(s->draw.self, &s->scene, moment, &s->image, &reason) != 0)
-        die_refused("%s", reason.text);
+    struct error_text error;
+    if (s->draw.picture(s->draw.self, &s->scene, moment, &s->image, &error) != 0)
+        die_refused("%s", error.text);
 }

@@ -84,12 +84,12 @@ static double percent(uint32_t part, uint32_t rest)
 int bench_shapes(struct bench_options options)
 {
     struct scenario scenario;
-    struct config_message message;
+    struct error_text error;
     char data_dir[512];
     if (process_data_dir(data_dir, sizeof data_dir) != 0)
         die_refused("cannot find the data; set JOLON_DATA");
-    if (loader_scenario(&scenario, data_dir, NULL, NULL, 0, &message) != 0)
-        die_refused("%s", message.text);
+    if (loader_scenario(&scenario, data_dir, NULL, NULL, 0, &error) != 0)
+        die_refused("%s", error.text);
     for (size_t i = 0; i < PAIRS; i++) {
         uint16_t a = kind_find(scenario.kinds, scenario.kind_count, pairs[i][0]);
         uint16_t b = kind_find(scenario.kinds, scenario.kind_count, pairs[i][1]);

@@ -18,16 +18,16 @@
 
 static void take_fixed(struct engine_scene *scene)
 {
-    char data_dir[512], text[512];
+    char data_dir[512];
+    struct error_text error;
     struct scenario scenario;
     struct world_build built;
-    struct config_message message;
     if (process_data_dir(data_dir, sizeof data_dir) != 0)
         die_refused("cannot find the data; set JOLON_DATA");
-    if (loader_scenario(&scenario, data_dir, NULL, NULL, 0, &message) != 0)
-        die_refused("%s", message.text);
-    if (world_build_make(&built, &scenario, text, sizeof text) != 0)
-        die_refused("%s", text);
+    if (loader_scenario(&scenario, data_dir, NULL, NULL, 0, &error) != 0)
+        die_refused("%s", error.text);
+    if (world_build_make(&built, &scenario, &error) != 0)
+        die_refused("%s", error.text);
     scene->fixed_count = built.counts.fixed;
     scene->fixed = malloc(built.counts.fixed * sizeof *scene->fixed);
     if (!scene->fixed)

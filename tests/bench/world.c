@@ -71,26 +71,25 @@ static void replace_groups(struct scenario *scenario, uint32_t vehicles, const s
 static void open_world(struct view *view, const char *path, uint32_t vehicles,
                        const struct share *shares)
 {
-    char data_dir[512], capacity[64], text[512];
+    char data_dir[512], capacity[64];
+    struct error_text error;
     const char *const overrides[] = {capacity};
     struct scenario scenario;
     struct world_build built;
-    struct config_message message;
-    struct reason reason;
     uint32_t room = vehicles + vehicles / 4 + 4096;
     snprintf(capacity, sizeof capacity, "world.capacity=%u",
              room < CAPACITY_MAX ? room : CAPACITY_MAX);
     if (process_data_dir(data_dir, sizeof data_dir) != 0)
         die_refused("cannot find the data; set JOLON_DATA");
-    if (loader_scenario(&scenario, data_dir, path, overrides, 1, &message) != 0)
-        die_refused("%s", message.text);
+    if (loader_scenario(&scenario, data_dir, path, overrides, 1, &error) != 0)
+        die_refused("%s", error.text);
     if (shares)
         replace_groups(&scenario, vehicles, shares);
-    if (world_build_make(&built, &scenario, text, sizeof text) != 0)
-        die_refused("%s", text);
+    if (world_build_make(&built, &scenario, &error) != 0)
+        die_refused("%s", error.text);
     struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
-    if (segment_private(view, &header, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (segment_private(view, &header, &error) != 0)
+        die_refused("%s", error.text);
     segment_fill(view, &built);
     world_build_free(&built);
     scenario_free(&scenario);

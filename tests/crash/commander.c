@@ -42,10 +42,10 @@ static void settle(const struct view *view, uint64_t taken)
 int commander_main(const char *world)
 {
     struct view view;
-    struct reason reason;
+    struct error_text error;
     log_open("commander");
-    if (segment_attach(&view, world, ROLE_INTAKE, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (segment_attach(&view, world, ROLE_INTAKE, &error) != 0)
+        die_refused("%s", error.text);
     segment_ready(&view);
     for (uint64_t i = 0; i < COMMANDS; i++) {
         struct command command = list[i];

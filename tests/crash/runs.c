@@ -90,9 +90,9 @@ static void plant_torn_image(void)
 static void plant_name(const char *world)
 {
     struct segment_paths paths;
-    struct reason reason;
+    struct error_text error;
     char object[SEGMENT_PATH_MAX];
-    assert_int_equal(segment_paths(&paths, world, &reason), 0);
+    assert_int_equal(segment_paths(&paths, world, &error), 0);
     snprintf(object, sizeof object, "/dev/shm/jolon.%u.%s.%032x", (unsigned)getuid(), world, 1);
     assert_int_equal(symlink(object, paths.name), 0);
 }
@@ -124,9 +124,9 @@ void run_removed(struct ending *ending, const struct plan *plan, const struct de
 {
     char name[SEGMENT_NAME_MAX];
     plan_publish(plan, name);
-    struct reason reason;
+    struct error_text error;
     const char *const argv[] = {"jolon-world", "remove", "--world", name, NULL};
-    int socket = local_socket_listen(name, "pictures", SOCK_STREAM, 1, &reason);
+    int socket = local_socket_listen(name, "pictures", SOCK_STREAM, 1, &error);
     assert_true(socket >= 0);
     close(socket);
     run_program(ending, argv, death, count, 0, 0);
@@ -147,7 +147,7 @@ void run_saved(struct ending *ending, const struct plan *plan, const struct deat
                const char *count)
 {
     char name[SEGMENT_NAME_MAX];
-    struct reason reason;
+    struct error_text error;
     plan_publish(plan, name);
     const char *const save[] = {"jolon-world", "save", "--world", name, image_path, NULL};
     const char *const create[] = {"jolon-world", "create",   "--world", name,
@@ -161,7 +161,7 @@ void run_saved(struct ending *ending, const struct plan *plan, const struct deat
         snprintf(ending->refused, sizeof ending->refused, "a torn image is left");
         return;
     }
-    assert_int_equal(segment_remove(name, false, &reason), 0);
+    assert_int_equal(segment_remove(name, false, &error), 0);
     if (run_program(ending, create, NULL, NULL, 0, 3))
         go_on(ending, plan, name);
     ending->died = dead;
@@ -183,9 +183,9 @@ static void spoil(const char *world, enum region region)
 {
     struct segment_paths paths;
     struct view view;
-    struct reason reason;
+    struct error_text error;
     uint8_t byte;
-    assert_int_equal(segment_attach(&view, world, ROLE_NONE, &reason), 0);
+    assert_int_equal(segment_attach(&view, world, ROLE_NONE, &error), 0);
     off_t at = (off_t)(view.layout.offset[region] + LAYOUT_HEAD_BYTES);
     segment_detach(&view);
     named_world_paths(&paths, world);

@@ -60,7 +60,7 @@ void trial_path(char *path, size_t bytes, const char *name)
 
 void plan_make(struct plan *plan, const char *text, uint32_t event_slots)
 {
-    char message[512];
+    struct error_text error;
     *plan = (struct plan){0};
     fixture_scenario(&plan->scenario, text);
     struct params *params = &plan->scenario.settings->params;
@@ -68,8 +68,8 @@ void plan_make(struct plan *plan, const char *text, uint32_t event_slots)
     params->events_per_frame = event_slots / 2;
     params->intents_per_frame = event_slots / 4;
     params->crater_slots = params->dent_slots = params->command_slots = 64;
-    if (world_build_make(&plan->built, &plan->scenario, message, sizeof message) != 0)
-        fail_msg("the test's world is refused: %s", message);
+    if (world_build_make(&plan->built, &plan->scenario, &error) != 0)
+        fail_msg("the test's world is refused: %s", error.text);
 }
 
 void plan_free(struct plan *plan)
@@ -319,7 +319,7 @@ static void take_result(struct trial *trial)
 {
     struct ending *ending = trial->ending;
     struct snapshot snapshot;
-    struct reason reason;
+    struct error_text error;
     assert_int_equal(snapshot_init(&snapshot, &trial->view), 0);
     if (snapshot_take(&snapshot, &trial->view) != 0) {
         snprintf(ending->refused, sizeof ending->refused, "the last frame: %s", strerror(errno));
@@ -330,8 +330,8 @@ static void take_result(struct trial *trial)
         ending->event_digest = snapshot.head.event_digest;
     }
     snapshot_free(&snapshot);
-    if (segment_verify(&trial->view, &reason) != 0)
-        snprintf(ending->refused, sizeof ending->refused, "%.*s", 200, reason.text);
+    if (segment_verify(&trial->view, &error) != 0)
+        snprintf(ending->refused, sizeof ending->refused, "%.*s", 200, error.text);
 }
 
 /* What a recorder left that was killed in its first line. */
@@ -348,15 +348,15 @@ void trial_play(struct ending *ending, const struct plan *plan, const char *worl
                 const struct death *death, const char *count)
 {
     struct trial trial = {.ending = ending, .plan = plan};
-    struct reason reason;
+    struct error_text error;
     *ending = (struct ending){0};
     cast(&trial, death, count);
     snprintf(trial.name, sizeof trial.name, "%s", world);
     trial_path(trial.log, sizeof trial.log, "events");
     trial_path(trial.commands, sizeof trial.commands, "commands");
     tear_log(trial.log);
-    if (segment_attach(&trial.view, world, ROLE_NONE, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_attach(&trial.view, world, ROLE_NONE, &error) != 0)
+        fail_msg("%s", error.text);
     parent(&trial);
     if (ending->refused[0] == '\0')
         take_result(&trial);
@@ -370,10 +370,10 @@ void trial_play(struct ending *ending, const struct plan *plan, const char *worl
 void trial_run(struct ending *ending, const struct plan *plan, const char *world,
                const struct death *death, const char *count)
 {
-    struct reason reason;
+    struct error_text error;
     trial_play(ending, plan, world, death, count);
-    if (segment_remove(world, false, &reason) != 0)
-        snprintf(ending->refused, sizeof ending->refused, "%.*s", 200, reason.text);
+    if (segment_remove(world, false, &error) != 0)
+        snprintf(ending->refused, sizeof ending->refused, "%.*s", 200, error.text);
     int left = named_world_leftovers();
     if (left != 0)
         snprintf(ending->refused, sizeof ending->refused, "%d files of worlds are left", left);

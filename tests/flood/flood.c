@@ -44,10 +44,10 @@ struct flood {
     uint32_t answers, unanswered;
 };
 
-static int print_packet(const char *value, const struct error_text *why)
+static int print_packet(const char *value, struct error_text *detail)
 {
     (void)value;
-    (void)why;
+    (void)detail;
     printf("%zu\n", sizeof(struct command_packet));
     exit(EXIT_OK);
 }
@@ -70,11 +70,11 @@ static struct flood parse(int argc, char **argv)
 
 static int connect_to(const struct flood *flood)
 {
-    struct reason reason;
+    struct error_text error;
     int fd = local_socket_connect(flood->world, COMMAND_SOCKET_SUFFIX,
-                                  SOCK_SEQPACKET | SOCK_NONBLOCK, &reason);
+                                  SOCK_SEQPACKET | SOCK_NONBLOCK, &error);
     if (fd < 0 && errno != EAGAIN) /* the backlog is full */
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
     return fd;
 }
 
@@ -134,14 +134,14 @@ int main(int argc, char **argv)
     static struct view view;
     static struct command_client caller;
     struct command_socket socket;
-    struct reason reason;
+    struct error_text error;
     log_open("flood");
     flood = parse(argc, argv);
     process_signals();
     flood.sent =
         mmap(NULL, sizeof *flood.sent, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (flood.sent == MAP_FAILED || segment_attach(&view, flood.world, ROLE_NONE, &reason) != 0 ||
-        command_client_open(&caller, command_socket_open(&socket, flood.world), &reason) != 0)
+    if (flood.sent == MAP_FAILED || segment_attach(&view, flood.world, ROLE_NONE, &error) != 0 ||
+        command_client_open(&caller, command_socket_open(&socket, flood.world), &error) != 0)
         die_refused("cannot begin");
     for (uint32_t i = 0; i < flood.idle; i++)
         (void)connect_to(&flood);

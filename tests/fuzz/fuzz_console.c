@@ -30,15 +30,15 @@ static void answer_tickets(void)
 static void start(void)
 {
     static char name[32];
-    struct reason reason;
+    struct error_text error;
     (void)snprintf(name, sizeof name, "fuzz-%d", (int)getpid());
     world_reader_open(&console.reader, name);
     support_world(&console.reader.view);
     CHECK(snapshot_init(&console.reader.snapshot, &console.reader.view) == 0);
     console.reader.there = true;
     console.listener = http_client_listener();
-    CHECK(picture_proxy_open(&console.proxy, name, &reason) == 0);
-    CHECK(server_start(&console, &reason) == 0);
+    CHECK(picture_proxy_open(&console.proxy, name, &error) == 0);
+    CHECK(server_start(&console, &error) == 0);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -39,12 +39,12 @@ static void run_line(const uint8_t *data, size_t size)
 {
     char line[CTL_LINE_MAX];
     struct command_text order;
-    struct reason reason = {.text = ""};
+    struct error_text error = {.text = ""};
     size = size < sizeof line - 1 ? size : sizeof line - 1;
     memcpy(line, data, size);
     line[size] = '\0';
-    int result = ctl_parse_line(&order, line, &reason);
-    CHECK(result == 0 || result == 1 || reason.text[0]);
+    int result = ctl_parse_line(&order, line, &error);
+    CHECK(result == 0 || result == 1 || error.text[0]);
     if (result == 0)
         check_order(&order);
 }

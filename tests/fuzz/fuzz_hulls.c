@@ -50,17 +50,17 @@ static void take_model(struct scenario *s, struct model *model, const uint8_t *d
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct scenario scenario = {0};
-    struct config_message message = {""};
+    struct error_text error = {0};
     struct hulls hulls;
     scenario.models = calloc(1, sizeof *scenario.models);
     CHECK(scenario.models);
     scenario.model_count = 1;
     take_model(&scenario, &scenario.models[0], data, size);
     if (hulls_build(&hulls, &scenario, &scenario.models[0], (struct key_place){"fuzz", 0},
-                    &message) == 0)
+                    &error) == 0)
         support_check_model(&scenario, 0, &hulls);
     else
-        support_check_message(&message);
+        support_check_message(&error);
     scenario_free(&scenario);
     return 0;
 }

@@ -44,13 +44,13 @@ static void make_good(void)
     struct view view;
     struct capture capture;
     struct image_place place;
-    struct reason reason;
+    struct error_text error;
     char path[PATH_MAX];
     support_world(&view);
     support_path(path, sizeof path, "models/k.obj");
     CHECK(capture_init(&capture, &view) == 0 && capture_take(&capture, &view, false) == 0);
-    CHECK(image_place_open(&place, path, &reason) == 0);
-    CHECK(image_write(&place, &view, &capture, NULL, &reason) == 0);
+    CHECK(image_place_open(&place, path, &error) == 0);
+    CHECK(image_write(&place, &view, &capture, NULL, &error) == 0);
     image_place_close(&place);
     capture_free(&capture);
     segment_abandon(&view);
@@ -108,15 +108,15 @@ static void load(const char *path)
 {
     static struct image image;
     struct view view;
-    struct reason reason = {.text = ""};
-    if (image_open(&image, path, &reason) != 0) {
-        CHECK(reason.text[0] != '\0');
+    struct error_text error = {.text = ""};
+    if (image_open(&image, path, &error) != 0) {
+        CHECK(error.text[0] != '\0');
         return;
     }
     (void)image_branches(&image);
     struct segment_header header = image_segment(&image);
-    if (segment_private(&view, &header, &reason) == 0) {
-        if (image_load(&view, &image, &reason) == 0)
+    if (segment_private(&view, &header, &error) == 0) {
+        if (image_load(&view, &image, &error) == 0)
             CHECK(view.w[image.header.frame & 1].head->used <= view.header->capacity);
         segment_abandon(&view);
     }

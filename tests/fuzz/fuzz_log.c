@@ -63,10 +63,10 @@ static size_t seal(char *to, const char *from, size_t size)
 static void replay(const char *path)
 {
     struct log_replay replay;
-    struct reason reason = {.text = ""};
+    struct error_text error = {.text = ""};
     (void)log_replay_is_one(path);
-    if (log_replay_open(&replay, path, &reason) != 0) {
-        CHECK(reason.text[0] != '\0');
+    if (log_replay_open(&replay, path, &error) != 0) {
+        CHECK(error.text[0] != '\0');
         return;
     }
     (void)log_replay_end(&replay);

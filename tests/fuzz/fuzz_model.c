@@ -26,16 +26,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static struct models models;
     struct scenario scenario = {0};
-    struct config_message message;
+    struct error_text error;
     XXH3_state_t *hash = XXH3_createState();
     CHECK(hash && XXH3_64bits_reset(hash) == XXH_OK);
     put(data, size);
     models_open(&models, &scenario, support_data_dir(), hash);
-    int index = models_find(&models, "k", &message);
+    int index = models_find(&models, "k", &error);
     if (index >= 0)
         support_check_model(&scenario, (uint16_t)index, &models.hulls[index]);
     else
-        support_check_message(&message);
+        support_check_message(&error);
     models_close(&models);
     XXH3_freeState(hash);
     scenario_free(&scenario);

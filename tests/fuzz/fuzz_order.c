@@ -9,7 +9,7 @@
 
 static void check(struct command_text *order)
 {
-    struct reason reason;
+    struct error_text error;
     const struct name_table none = {.told = true};
     const jolon_Command *c = &order->command;
     CHECK(order->verb && (order->given & ~order->verb->allowed) == 0 &&
@@ -24,7 +24,7 @@ static void check(struct command_text *order)
           isfinite(c->heading_rad) && isfinite(c->speed_mps) && isfinite(c->scale));
     CHECK(order->rounds >= 1 && order->rounds <= COMMAND_TEXT_ROUNDS_MAX);
     CHECK(command_text_needs_names(order) ==
-          (command_text_resolve(order, &none, 60.0, &reason) != 0));
+          (command_text_resolve(order, &none, 60.0, &error) != 0));
     jolon_Command round = command_text_round(order, 7, order->rounds - 1);
     CHECK(round.x_m >= 0.0 && round.x_m <= 50000.0 && round.z_m >= 0.0 && round.z_m <= 50000.0);
 }
@@ -32,12 +32,12 @@ static void check(struct command_text *order)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct command_text order;
-    struct reason reason = {.text = ""};
+    struct error_text error = {.text = ""};
     cJSON *object = cJSON_ParseWithLength((const char *)data, size);
-    if (command_from_json(&order, object, &reason) == 0)
+    if (command_from_json(&order, object, &error) == 0)
         check(&order);
     else
-        CHECK(reason.text[0] && strlen(reason.text) < sizeof reason.text - 1);
+        CHECK(error.text[0] && strlen(error.text) < sizeof error.text - 1);
     cJSON_Delete(object);
     return 0;
 }

@@ -41,9 +41,9 @@ static void make_world(const struct scenario *scenario)
 {
     struct world_build built;
     struct layout layout;
-    char text[512] = "";
-    if (world_build_make(&built, scenario, text, sizeof text) != 0) {
-        CHECK(text[0] != '\0');
+    struct error_text error = {0};
+    if (world_build_make(&built, scenario, &error) != 0) {
+        CHECK(error.text[0] != '\0');
         return;
     }
     struct segment_header header = segment_header_for(&scenario->settings->params, &built.counts);
@@ -62,7 +62,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static char text[65536];
     static const struct scenario empty;
     const char *overrides[OVERRIDES_MAX], *rest;
-    struct config_message message;
+    struct error_text error;
     struct scenario scenario;
     if (size >= sizeof text)
         return 0;
@@ -70,8 +70,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     text[size] = '\0';
     int count = take_overrides(text, overrides, &rest);
     const char *path = support_file(rest, size - (size_t)(rest - text));
-    if (loader_scenario(&scenario, support_data_dir(), path, overrides, count, &message) != 0) {
-        support_check_message(&message);
+    if (loader_scenario(&scenario, support_data_dir(), path, overrides, count, &error) != 0) {
+        support_check_message(&error);
         CHECK(memcmp(&scenario, &empty, sizeof empty) == 0);
         return 0;
     }

@@ -59,10 +59,10 @@ static void make_good(void)
 
 static void open_files(void)
 {
-    struct reason reason;
+    struct error_text error;
     make_good();
     snprintf(name, sizeof name, "fuzz-%d", (int)getpid());
-    CHECK(segment_paths(&paths, name, &reason) == 0);
+    CHECK(segment_paths(&paths, name, &error) == 0);
     snprintf(object_path, sizeof object_path, "/dev/shm/jolon.%u.%s.%032x", (unsigned)getuid(),
              name, (unsigned)getpid());
     CHECK(symlink(object_path, paths.name) == 0);
@@ -159,15 +159,15 @@ static void check(const struct view *view, uint64_t bytes)
         CHECK(view->w[i].fixed_damage + view->world.counts.fixed <= base + bytes);
     CHECK(view->world.params->capacity <= CAPACITY_MAX);
     CHECK(view->world.terrain.spacing_m > 0.0);
-    struct reason reason;
-    (void)segment_check_state(view, 0, &reason);
-    (void)segment_check_moved(view, 0, &reason);
+    struct error_text error;
+    (void)segment_check_state(view, 0, &error);
+    (void)segment_check_moved(view, 0, &error);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct view view;
-    struct reason reason = {.text = ""};
+    struct error_text error = {.text = ""};
     if (name[0] == '\0')
         open_files();
     if (size < 1)
@@ -175,11 +175,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     enum how how = (enum how)data[0];
     uint64_t bytes = put(how, data + 1, size - 1);
     enum role role = how & HOW_ROLE ? ROLE_MOVER : ROLE_NONE;
-    if (segment_attach(&view, name, role, &reason) == 0) {
+    if (segment_attach(&view, name, role, &error) == 0) {
         check(&view, bytes);
         segment_detach(&view);
     } else {
-        CHECK(reason.text[0] != '\0' && !view.base && view.lock_fd < 0);
+        CHECK(error.text[0] != '\0' && !view.base && view.lock_fd < 0);
     }
     return 0;
 }

@@ -50,13 +50,13 @@ static void draw_wishes(void)
 static void start(void)
 {
     const struct stream_painter painter = {.self = NULL, .paint = paint};
-    struct reason reason;
+    struct error_text error;
     picture_pool_init(&pool);
     CHECK(image_init(&image, 64, 48) == 0);
-    stream = stream_open("fuzz", &painter, &reason);
+    stream = stream_open("fuzz", &painter, &error);
     CHECK(stream != NULL);
     stream->endpoint[stream->endpoints++].listener = http_client_listener();
-    CHECK(stream_start(stream, &reason) == 0);
+    CHECK(stream_start(stream, &error) == 0);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

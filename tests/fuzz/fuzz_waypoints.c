@@ -29,7 +29,7 @@ static void check_steps(const struct scenario_step *steps, int count)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct config_message message;
+    struct error_text error;
     char *text = malloc(size + 1);
     CHECK(text);
     memcpy(text, data, size);
@@ -39,9 +39,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     /* No more than that: the sanitizer sees a step too many. */
     struct scenario_step *steps = malloc(lines * sizeof *steps);
     CHECK(steps || lines == 0);
-    int count = waypoints_read(&source, steps, &message);
+    int count = waypoints_read(&source, steps, &error);
     if (count < 0)
-        support_check_line(&message);
+        support_check_line(&error);
     else
         check_steps(steps, count);
     CHECK(count == -1 || (count > 0 && (uint32_t)count < lines));

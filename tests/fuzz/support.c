@@ -128,14 +128,12 @@ void support_world(struct view *view)
 {
     struct scenario scenario;
     struct world_build built;
-    struct config_message message;
-    struct reason reason;
-    char text[512];
+    struct error_text error;
     const char *path = support_file(battle, strlen(battle));
-    CHECK(loader_scenario(&scenario, support_data_dir(), path, NULL, 0, &message) == 0);
-    CHECK(world_build_make(&built, &scenario, text, sizeof text) == 0);
+    CHECK(loader_scenario(&scenario, support_data_dir(), path, NULL, 0, &error) == 0);
+    CHECK(world_build_make(&built, &scenario, &error) == 0);
     struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
-    CHECK(segment_private(view, &header, &reason) == 0);
+    CHECK(segment_private(view, &header, &error) == 0);
     segment_fill(view, &built);
     world_build_free(&built);
     scenario_free(&scenario);
@@ -143,7 +141,7 @@ void support_world(struct view *view)
 
 /* --- what must hold ----------------------------------------------------------------------------*/
 
-void support_check_line(const struct config_message *message)
+void support_check_line(const struct error_text *message)
 {
     size_t length = strnlen(message->text, sizeof message->text);
     CHECK(length > 0 && length < sizeof message->text);
@@ -153,7 +151,7 @@ void support_check_line(const struct config_message *message)
     }
 }
 
-void support_check_message(const struct config_message *message)
+void support_check_message(const struct error_text *message)
 {
     support_check_line(message);
     /* The parser's own words when it tries to read another file. */

@@ -33,10 +33,10 @@ void support_world(struct view *view);
 const char *support_file(const void *bytes, size_t size);
 
 /* A refusal is one line of printable text. */
-void support_check_line(const struct config_message *message);
+void support_check_line(const struct error_text *error);
 
 /* The same of what libconfig reads; and it never tries to read another file. */
-void support_check_message(const struct config_message *message);
+void support_check_message(const struct error_text *error);
 
 /* Every number of an accepted scenario is finite and within its table: references lead somewhere,
  * counts fit, hulls hold their models. */

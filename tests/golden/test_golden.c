@@ -101,20 +101,20 @@ static int draw_all(void **state)
                                           .stand = golden->stand};
     const struct gl_wish any = {.device = NULL};
     char name[BACK_END_NAME_BYTES];
-    struct reason reason;
+    struct error_text error;
     struct back_end_interface other;
     bench_scene_open(&scene, &wish);
     struct frame_view moment = bench_scene_moment(&scene);
     bench_scene_build(&scene, &moment);
     bench_scene_draw(&scene, &moment);
     memcpy(one, scene.image.pixels, BYTES);
-    assert_int_equal(soft_open(&other, &scene.scenery, WIDTH, HEIGHT, 3, &reason), 0);
+    assert_int_equal(soft_open(&other, &scene.scenery, WIDTH, HEIGHT, 3, &error), 0);
     draw_with(&scene, &moment, &other, three);
-    has_opengl = gl_open(&other, &scene.scenery, WIDTH, HEIGHT, &any, name, &reason) == 0;
+    has_opengl = gl_open(&other, &scene.scenery, WIDTH, HEIGHT, &any, name, &error) == 0;
     if (has_opengl)
         draw_with(&scene, &moment, &other, opengl);
     else
-        print_message("# no OpenGL: %s\n", reason.text);
+        print_message("# no OpenGL: %s\n", error.text);
     bench_scene_close(&scene);
     return 0;
 }

@@ -231,12 +231,12 @@ static void finish(const struct lag *lag)
 int main(int argc, char **argv)
 {
     static struct lag lag;
-    struct reason reason;
+    struct error_text error;
     uint64_t commit;
     log_open("lag");
     parse(&lag, argc, argv);
-    if (segment_attach(&lag.view, lag.world, ROLE_NONE, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (segment_attach(&lag.view, lag.world, ROLE_NONE, &error) != 0)
+        die_refused("%s", error.text);
     uint32_t id = (uint32_t)strtoul(lag.vehicle, NULL, 10);
     (void)look(&lag, &commit);
     const struct state *state = &lag.view.w[commit & 1];

@@ -106,23 +106,23 @@ int main(int argc, char **argv)
 {
     static struct listener listener;
     const struct dds_link_options options = {.quiet = true};
-    struct reason reason;
+    struct error_text error;
     log_open("listener");
     if (argc != 5 || strcmp(argv[1], "--world") != 0 || strcmp(argv[3], "--log") != 0)
         die_usage("usage: listener --world NAME --log FILE");
     process_signals();
     resume(&listener, argv[4]);
-    if (dds_link_open(&listener.link, &options, argv[2], &reason) != 0)
-        die_refused("%s", reason.text);
+    if (dds_link_open(&listener.link, &options, argv[2], &error) != 0)
+        die_refused("%s", error.text);
     for (unsigned topic = 0; topic < TOPICS; topic++) {
         listener.reader[topic] =
-            dds_topics_reader(&listener.link, (enum dds_topic)(TOPIC_COLLISION + topic), &reason);
+            dds_topics_reader(&listener.link, (enum dds_topic)(TOPIC_COLLISION + topic), &error);
         if (listener.reader[topic] < 0)
-            die_refused("%s", reason.text);
+            die_refused("%s", error.text);
     }
-    listener.waitset = dds_topics_waitset(&listener.link, listener.reader, TOPICS, &reason);
+    listener.waitset = dds_topics_waitset(&listener.link, listener.reader, TOPICS, &error);
     if (listener.waitset < 0)
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
     while (!process_stopping()) {
         dds_topics_wait(listener.waitset, WAIT_NS);
         hear_all(&listener);

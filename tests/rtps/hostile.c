@@ -218,15 +218,15 @@ void hostile_write(const struct dds_link *link, uint64_t seed, uint64_t length_n
     static struct hostile hostile;
     static void (*const writes[])(struct hostile *) = {write_world, write_names, write_process,
                                                        write_frame, write_batch, write_events};
-    struct reason reason;
+    struct error_text error;
     hostile.state = seed;
-    hostile.frames = dds_topics_reader(link, TOPIC_FRAME, &reason);
+    hostile.frames = dds_topics_reader(link, TOPIC_FRAME, &error);
     for (int i = 0; i < TOPIC_COUNT && hostile.frames >= 0; i++) {
         hostile.writer[i] = i == TOPIC_COMMAND || i == TOPIC_REPLY
                                 ? 0
-                                : dds_topics_writer(link, (enum dds_topic)i, &reason);
+                                : dds_topics_writer(link, (enum dds_topic)i, &error);
         if (hostile.writer[i] < 0)
-            die_refused("%s", reason.text);
+            die_refused("%s", error.text);
     }
     uint64_t until_ns = clock_now_ns() + length_ns;
     hostile.run = learn_run(&hostile, until_ns);

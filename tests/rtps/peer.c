@@ -36,19 +36,19 @@ struct peer {
 
 static void open_reader(struct peer *peer, enum dds_topic topic)
 {
-    struct reason reason;
-    peer->reader[topic] = dds_topics_reader(&peer->link, topic, &reason);
+    struct error_text error;
+    peer->reader[topic] = dds_topics_reader(&peer->link, topic, &error);
     if (peer->reader[topic] < 0)
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
 }
 
 static void open_writer(struct peer *peer)
 {
-    struct reason reason;
+    struct error_text error;
     peer->source = clock_now_ns() | 1;
-    peer->commands = dds_topics_writer(&peer->link, TOPIC_COMMAND, &reason);
+    peer->commands = dds_topics_writer(&peer->link, TOPIC_COMMAND, &error);
     if (peer->commands < 0)
-        die_refused("%s", reason.text);
+        die_refused("%s", error.text);
 }
 
 /* To release a vehicle that there cannot be. */
@@ -124,7 +124,7 @@ int main(int argc, char **argv)
     static const struct option_row rows[] = {OPTION_ROW_WORLD(peer, NULL),
                                              DDS_LINK_OPTION_ROWS(options), OPTION_ROWS_END};
     static const struct option_table table = {.program = "peer", .rows = rows, .plain = 2};
-    struct reason reason;
+    struct error_text error;
     log_open("peer");
     int count = option_table_read(&table, argc, argv);
     const char *verb = count > 0 ? argv[argc - count] : "";
@@ -134,8 +134,8 @@ int main(int argc, char **argv)
         die_usage("tests/rtps/peer.c says how to call it");
     if (hostile)
         options.part = DDS_HOST; /* monitors find nobody else */
-    if (dds_link_open(&peer.link, &options, peer.world, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (dds_link_open(&peer.link, &options, peer.world, &error) != 0)
+        die_refused("%s", error.text);
     if (captures) {
         capture(&peer, value);
         return EXIT_OK;

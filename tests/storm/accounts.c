@@ -13,14 +13,14 @@
 
 #define CALM_LIMIT_S 1800
 
-int accounts_world(struct accounts *accounts, const struct band *band, struct reason *reason)
+int accounts_world(struct accounts *accounts, const struct band *band, struct error_text *error)
 {
     struct snapshot snapshot;
     if (snapshot_init(&snapshot, &band->view) != 0)
-        return reason_set(reason, "no memory for the last frame");
+        return error_text_set(error, "no memory for the last frame");
     if (snapshot_take(&snapshot, &band->view) != 0) {
         snapshot_free(&snapshot);
-        return reason_set(reason, "the last frame cannot be read: %s", strerror(errno));
+        return error_text_set(error, "the last frame cannot be read: %s", strerror(errno));
     }
     struct state state = snapshot_state(&snapshot, &band->view);
     accounts->frame = snapshot.head.frame;
@@ -94,14 +94,14 @@ static void count_up(struct reading *reading)
 }
 
 int accounts_log(struct accounts *accounts, const struct storm_options *options, uint64_t source,
-                 uint64_t sent, struct reason *reason)
+                 uint64_t sent, struct error_text *error)
 {
     char path[STORM_PATH_MAX], *line = NULL;
     size_t room = 0;
     snprintf(path, sizeof path, "%s/events.log", options->out);
     FILE *file = fopen(path, "r");
     if (!file)
-        return reason_set(reason, "%s: %s", path, strerror(errno));
+        return error_text_set(error, "%s: %s", path, strerror(errno));
     struct reading reading = {.accounts = accounts,
                               .seen = calloc(accounts->events + 1, 1),
                               .answered = calloc(sent + 1, 1),
@@ -115,7 +115,7 @@ int accounts_log(struct accounts *accounts, const struct storm_options *options,
     }
     if (reading.seen && reading.answered)
         count_up(&reading);
-    int result = reading.seen && reading.answered ? 0 : reason_set(reason, "out of memory");
+    int result = reading.seen && reading.answered ? 0 : error_text_set(error, "out of memory");
     free(reading.seen);
     free(reading.answered);
     free(line);
@@ -132,15 +132,15 @@ static uint64_t hex_of(const cJSON *object, const char *key)
 }
 
 static int play_again(const char *const *arguments, struct accounts *accounts,
-                      struct reason *reason)
+                      struct error_text *error)
 {
     char text[4096];
     int code = band_run(arguments, text, sizeof text, CALM_LIMIT_S);
     cJSON *summary = cJSON_Parse(text);
     if (!summary || whole_of(summary, "frame") != accounts->frame) {
         cJSON_Delete(summary);
-        return reason_set(reason, "the undisturbed run to frame %" PRIu64 " ended with %d",
-                          accounts->frame, code);
+        return error_text_set(error, "the undisturbed run to frame %" PRIu64 " ended with %d",
+                              accounts->frame, code);
     }
     accounts->calm_digest = hex_of(summary, "digest");
     accounts->calm_event_digest = hex_of(summary, "event_digest");
@@ -150,7 +150,7 @@ static int play_again(const char *const *arguments, struct accounts *accounts,
 }
 
 int accounts_calm(struct accounts *accounts, const struct storm_options *options,
-                  struct reason *reason)
+                  struct error_text *error)
 {
     char program[STORM_PATH_MAX], world[SEGMENT_NAME_MAX + 8], frames[24];
     char out[STORM_PATH_MAX], commands[STORM_PATH_MAX];
@@ -165,5 +165,5 @@ int accounts_calm(struct accounts *accounts, const struct storm_options *options
                                "--json",    "--out",    out,         options->scenario,
                                NULL};
     const char *const replay[] = {program, "replay", commands, "--frames", frames, "--json", NULL};
-    return play_again(options->commands > 0 ? replay : run, accounts, reason);
+    return play_again(options->commands > 0 ? replay : run, accounts, error);
 }

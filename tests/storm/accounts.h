@@ -16,16 +16,16 @@ struct accounts {
 
 /* Takes the last frame's digests from the set's mapping, once it has stopped. 0, or -1 with the
  * reason. */
-int accounts_world(struct accounts *accounts, const struct band *band, struct reason *reason);
+int accounts_world(struct accounts *accounts, const struct band *band, struct error_text *error);
 
 /* Reads the log of events: every sequence from 0 on once, keys ascending; and the answers to
  * commands of this source, of which 1 .. sent must be there once. 0, or -1 with the reason. */
 int accounts_log(struct accounts *accounts, const struct storm_options *options, uint64_t source,
-                 uint64_t sent, struct reason *reason);
+                 uint64_t sent, struct error_text *error);
 
 /* Runs the same scenario undisturbed to the same frame: with the commands of the log of commands
  * where there were some. 0, or -1 with the reason. */
 int accounts_calm(struct accounts *accounts, const struct storm_options *options,
-                  struct reason *reason);
+                  struct error_text *error);
 
 #endif

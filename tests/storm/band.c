@@ -149,10 +149,10 @@ int band_run(const char *const *arguments, char *text, size_t bytes, unsigned li
         return -1;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, fd, STDOUT_FILENO);
-    int error = posix_spawn(&pid, arguments[0], &actions, NULL, (char *const *)(uintptr_t)arguments,
-                            environ);
+    int failed = posix_spawn(&pid, arguments[0], &actions, NULL,
+                             (char *const *)(uintptr_t)arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
-    int code = error == 0 ? wait_for(pid, limit_s) : -1;
+    int code = failed == 0 ? wait_for(pid, limit_s) : -1;
     if (text)
         read_back(fd, text, bytes);
     close(fd);
@@ -165,9 +165,9 @@ int band_run(const char *const *arguments, char *text, size_t bytes, unsigned li
 static int supervisor_of(const char *world)
 {
     struct segment_paths paths;
-    struct reason reason;
+    struct error_text error;
     int pid = 0;
-    if (segment_paths(&paths, world, &reason) != 0)
+    if (segment_paths(&paths, world, &error) != 0)
         return 0;
     FILE *file = fopen(paths.lock, "r");
     if (!file)
@@ -209,7 +209,7 @@ static int start_once(const struct band *band)
 }
 
 /* What the killed supervisor left may hold locks until the kernel is through with it. */
-static int start(struct band *band, struct reason *reason)
+static int start(struct band *band, struct error_text *error)
 {
     int code = 1;
     for (int tries = 0; tries < START_TRIES && code != 0 && !process_stopping(); tries++) {
@@ -220,31 +220,31 @@ static int start(struct band *band, struct reason *reason)
         code = start_once(band);
     }
     if (code != 0)
-        return reason_set(reason, "`jolon start` of world \"%s\" ended with %d, %d times",
-                          band->options->world, code, START_TRIES);
+        return error_text_set(error, "`jolon start` of world \"%s\" ended with %d, %d times",
+                              band->options->world, code, START_TRIES);
     band->starts++;
     band->supervisor = supervisor_of(band->options->world);
     int pidfd = band_pin_supervisor(band);
     if (pidfd < 0)
-        return reason_set(reason,
-                          "the supervisor of world \"%s\" (pid %d) is not alive or not ours",
-                          band->options->world, (int)band->supervisor);
+        return error_text_set(error,
+                              "the supervisor of world \"%s\" (pid %d) is not alive or not ours",
+                              band->options->world, (int)band->supervisor);
     close(pidfd);
     band->descriptors = 0;
     return 0;
 }
 
-int band_start(struct band *band, const struct storm_options *options, struct reason *reason)
+int band_start(struct band *band, const struct storm_options *options, struct error_text *error)
 {
     *band = (struct band){.options = options};
-    if (start(band, reason) != 0)
+    if (start(band, error) != 0)
         return -1;
-    return segment_attach(&band->view, options->world, ROLE_NONE, reason);
+    return segment_attach(&band->view, options->world, ROLE_NONE, error);
 }
 
-int band_adopt(struct band *band, struct reason *reason)
+int band_adopt(struct band *band, struct error_text *error)
 {
-    return start(band, reason);
+    return start(band, error);
 }
 
 int band_stop(struct band *band)
@@ -334,8 +334,8 @@ static int files_of(const char *folder, const char *name)
 int band_files_left(const struct storm_options *options)
 {
     char folder[RUNTIME_FOLDER_MAX], object[64];
-    struct reason reason;
+    struct error_text error;
     snprintf(object, sizeof object, "jolon.%u.%s", (unsigned)getuid(), options->world);
     return files_of("/dev/shm", object) +
-           (runtime_folder(folder, &reason) == 0 ? files_of(folder, options->world) : 0);
+           (runtime_folder(folder, &error) == 0 ? files_of(folder, options->world) : 0);
 }

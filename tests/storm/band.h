@@ -17,10 +17,10 @@ struct band {
 };
 
 /* Starts the set and attaches. 0, or -1 with the reason. */
-int band_start(struct band *band, const struct storm_options *options, struct reason *reason);
+int band_start(struct band *band, const struct storm_options *options, struct error_text *error);
 
 /* The same set again over the world that a killed supervisor left. 0, or -1 with the reason. */
-int band_adopt(struct band *band, struct reason *reason);
+int band_adopt(struct band *band, struct error_text *error);
 
 /* `jolon stop`; then the world is gone and band->view still shows its last frame. Exit code. */
 int band_stop(struct band *band);

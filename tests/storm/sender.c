@@ -85,17 +85,17 @@ static void *send_all(void *argument)
     return NULL;
 }
 
-struct sender *sender_start(const struct storm_options *options, struct reason *reason)
+struct sender *sender_start(const struct storm_options *options, struct error_text *error)
 {
     struct sender *sender = calloc(1, sizeof *sender);
     if (!sender) {
-        reason_set(reason, "out of memory");
+        error_text_set(error, "out of memory");
         return NULL;
     }
     sender->options = options;
     sender->chance.state = options->seed ^ 0x5eed;
     if (command_client_open(&sender->caller, command_socket_open(&sender->socket, options->world),
-                            reason) != 0 ||
+                            error) != 0 ||
         pthread_create(&sender->thread, NULL, send_all, sender) != 0) {
         sender_free(sender);
         return NULL;

@@ -8,7 +8,7 @@
 struct sender;
 
 /* Starts sending at most commands of them. NULL with the reason. */
-struct sender *sender_start(const struct storm_options *options, struct reason *reason);
+struct sender *sender_start(const struct storm_options *options, struct error_text *error);
 
 /* Sends no new ones and waits until the last is answered, at most 30 s. */
 void sender_stop(struct sender *sender);

@@ -109,7 +109,7 @@ struct storm {
 static void begin(struct storm *storm)
 {
     static char name[SEGMENT_NAME_MAX], folder[] = "/tmp/jolon-storm-XXXXXX";
-    struct reason reason;
+    struct error_text error;
     if (!storm->options.world) {
         snprintf(name, sizeof name, "storm-%d", (int)getpid());
         storm->options.world = name;
@@ -119,23 +119,23 @@ static void begin(struct storm *storm)
     if (!storm->options.out ||
         (storm->options.keep && mkdir(storm->options.out, 0700) != 0 && errno != EEXIST))
         die_refused("%s: cannot make the folder: %s", storm->options.out, strerror(errno));
-    if (band_start(&storm->band, &storm->options, &reason) != 0)
-        die_refused("%s", reason.text);
+    if (band_start(&storm->band, &storm->options, &error) != 0)
+        die_refused("%s", error.text);
     if (watcher_start(&storm->watcher, &storm->band.view) != 0 ||
         witness_start(&storm->witness, &storm->band, storm->options.seed) != 0)
         die_refused("cannot start a thread: %s", strerror(errno));
     victims_begin(&storm->victims, &storm->band, &storm->watcher, storm->options.seed);
     if (storm->options.commands > 0) {
-        storm->sender = sender_start(&storm->options, &reason);
+        storm->sender = sender_start(&storm->options, &error);
         if (!storm->sender)
-            die_refused("%s", reason.text);
+            die_refused("%s", error.text);
     }
 }
 
 static bool count_at_rest(struct storm *storm)
 {
     if (!band_rest(&storm->band) || !watcher_calm(&storm->watcher, clock_now_ns() + CALM_NS)) {
-        reason_set(&storm->victims.reason, "the set does not come to rest");
+        error_text_set(&storm->victims.error, "the set does not come to rest");
         return false;
     }
     band_count_descriptors(&storm->band);
@@ -163,7 +163,7 @@ static bool rage(struct storm *storm)
 static void end(struct storm *storm)
 {
     struct outcome *outcome = &storm->outcome;
-    struct reason reason = {0};
+    struct error_text error = {0};
     uint64_t source = 0;
     if (storm->sender) {
         sender_stop(storm->sender);
@@ -176,10 +176,10 @@ static void end(struct storm *storm)
     outcome->stop_code = band_stop(&storm->band);
     outcome->processes_left = band_processes_left();
     outcome->files_left = band_files_left(&storm->options);
-    if (accounts_world(&storm->accounts, &storm->band, &reason) != 0 ||
-        accounts_log(&storm->accounts, &storm->options, source, outcome->sent, &reason) != 0 ||
-        accounts_calm(&storm->accounts, &storm->options, &reason) != 0) {
-        fprintf(stderr, "storm: %s\n", reason.text);
+    if (accounts_world(&storm->accounts, &storm->band, &error) != 0 ||
+        accounts_log(&storm->accounts, &storm->options, source, outcome->sent, &error) != 0 ||
+        accounts_calm(&storm->accounts, &storm->options, &error) != 0) {
+        fprintf(stderr, "storm: %s\n", error.text);
         outcome->broken = true;
     }
 }
@@ -214,7 +214,7 @@ int main(int argc, char **argv)
                                      .band = &storm.band,
                                      .accounts = &storm.accounts};
     if (!rage(&storm)) {
-        fprintf(stderr, "storm: %s\n", storm.victims.reason.text);
+        fprintf(stderr, "storm: %s\n", storm.victims.error.text);
         storm.outcome.broken = true;
     }
     storm.outcome.wall_s = (double)(clock_now_ns() - begun) / 1e9;

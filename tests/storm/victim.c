@@ -137,8 +137,8 @@ static int strike_one(struct victims *victims, uint32_t not )
             return (int)role;
         victims_wait(victims, clock_now_ns() + POLL_NS);
     }
-    return reason_set(&victims->reason, "nobody to strike for %.0f s: the set is not restarted",
-                      (double)NOBODY_NS / 1e9);
+    return error_text_set(&victims->error, "nobody to strike for %.0f s: the set is not restarted",
+                          (double)NOBODY_NS / 1e9);
 }
 
 /* --- chases ------------------------------------------------------------------------------------*/
@@ -221,13 +221,13 @@ static int strike_supervisor(struct victims *victims)
     struct band *band = victims->band;
     int pidfd = band_pin_supervisor(band);
     if (pidfd < 0)
-        return reason_set(&victims->reason, "the supervisor (pid %d) is gone", band->supervisor);
+        return error_text_set(&victims->error, "the supervisor (pid %d) is gone", band->supervisor);
     watcher_fault(victims->watcher, STRUCK_SUPERVISOR, band->supervisor, DEED_KILL);
     (void)band_signal(pidfd, SIGKILL);
     close(pidfd);
     victims->struck[STRUCK_SUPERVISOR][DEED_KILL]++;
     victims->done++;
-    int result = band_adopt(band, &victims->reason);
+    int result = band_adopt(band, &victims->error);
     band_reap();
     return result;
 }

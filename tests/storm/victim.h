@@ -27,7 +27,7 @@ struct victims {
         uint32_t count;  /* its strikes since a frame was committed */
     } fruitless[STRUCK_ROLES];
     int killed[STRUCK_ROLES]; /* the last one: dying takes a moment in which it cannot be told */
-    struct reason reason;     /* why a round failed */
+    struct error_text error;  /* why a round failed */
 };
 
 void victims_begin(struct victims *victims, struct band *band, struct watcher *watcher,

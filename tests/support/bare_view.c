@@ -30,9 +30,9 @@ void bare_view_make(struct view *view, const struct bare_sizes *sizes)
     };
     const struct counts counts = {.posts_side = 2, .fixed = sizes->fixed};
     struct segment_header header = segment_header_for(&params, &counts);
-    struct reason reason;
-    if (segment_private(view, &header, &reason) != 0)
-        fail_msg("%s", reason.text);
+    struct error_text error;
+    if (segment_private(view, &header, &error) != 0)
+        fail_msg("%s", error.text);
     unsigned char *base = view->base;
     *(struct params *)(void *)(base + view->layout.offset[REGION_PARAMS]) = params;
     for (int i = 0; i < 2; i++) {

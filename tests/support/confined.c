@@ -34,9 +34,9 @@ int confined_remove_folder(void **state)
 static int is_there(void *context)
 {
     struct sandbox sandbox;
-    struct reason reason;
+    struct error_text error;
     (void)context;
-    return sandbox_begin(&sandbox, ROLE_RECORDER, false, &reason) == 0 && sandbox.on;
+    return sandbox_begin(&sandbox, ROLE_RECORDER, false, &error) == 0 && sandbox.on;
 }
 
 bool confined_there(void)

@@ -131,7 +131,7 @@ static const char *unless(const char *text, const char *group, const char *fallb
 
 void fixture_scenario(struct scenario *scenario, const char *text)
 {
-    struct config_message message;
+    struct error_text error;
     char path[PATH_MAX];
     snprintf(path, sizeof path, "%s/scenario-XXXXXX", fixture_data_dir());
     int fd = mkstemp(path);
@@ -144,28 +144,27 @@ void fixture_scenario(struct scenario *scenario, const char *text)
             unless(text, "collision =", "collision = { shape = \"sphere\"; };\n"), text);
     assert_int_equal(fclose(file), 0);
     const char *folder = strstr(text, "shape = \"model\"") ? fixture_shipped_dir() : data_dir;
-    int result = loader_scenario(scenario, folder, path, NULL, 0, &message);
+    int result = loader_scenario(scenario, folder, path, NULL, 0, &error);
     unlink(path);
     if (result != 0)
-        fail_msg("the test's scenario is refused: %s", message.text);
+        fail_msg("the test's scenario is refused: %s", error.text);
 }
 
 void fixture_open(struct fixture *fixture, const char *text)
 {
-    struct reason reason;
-    char message[512];
+    struct error_text error;
     memset(fixture, 0, sizeof *fixture);
     fixture->scenario = calloc(1, sizeof *fixture->scenario);
     fixture->built = calloc(1, sizeof *fixture->built);
     assert_non_null(fixture->scenario);
     assert_non_null(fixture->built);
     fixture_scenario(fixture->scenario, text);
-    if (world_build_make(fixture->built, fixture->scenario, message, sizeof message) != 0)
-        fail_msg("the test's world is refused: %s", message);
+    if (world_build_make(fixture->built, fixture->scenario, &error) != 0)
+        fail_msg("the test's world is refused: %s", error.text);
     struct segment_header header =
         segment_header_for(&fixture->scenario->settings->params, &fixture->built->counts);
-    if (segment_private(&fixture->view, &header, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_private(&fixture->view, &header, &error) != 0)
+        fail_msg("%s", error.text);
     segment_fill(&fixture->view, fixture->built);
     fixture_threads(fixture, 1);
 }

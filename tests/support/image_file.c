@@ -56,12 +56,12 @@ void image_file_save(struct view *view, const char *path, bool inputs)
 {
     struct image_place place;
     struct capture capture;
-    struct reason reason;
+    struct error_text error;
     assert_int_equal(capture_init(&capture, view), 0);
     assert_int_equal(capture_take(&capture, view, inputs), 0);
-    if (image_place_open(&place, path, &reason) != 0 ||
-        image_write(&place, view, &capture, NULL, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (image_place_open(&place, path, &error) != 0 ||
+        image_write(&place, view, &capture, NULL, &error) != 0)
+        fail_msg("%s", error.text);
     image_place_close(&place);
     capture_free(&capture);
 }
@@ -69,12 +69,12 @@ void image_file_save(struct view *view, const char *path, bool inputs)
 void image_file_load(struct view *view, const char *path)
 {
     struct image image;
-    struct reason reason;
-    if (image_open(&image, path, &reason) != 0)
-        fail_msg("%s", reason.text);
+    struct error_text error;
+    if (image_open(&image, path, &error) != 0)
+        fail_msg("%s", error.text);
     struct segment_header header = image_segment(&image);
-    if (segment_private(view, &header, &reason) != 0 || image_load(view, &image, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_private(view, &header, &error) != 0 || image_load(view, &image, &error) != 0)
+        fail_msg("%s", error.text);
     image_close(&image);
 }
 

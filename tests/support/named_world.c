@@ -28,13 +28,13 @@ void named_world_publish(const char *name, const struct scenario *scenario,
                          const struct world_build *built)
 {
     struct view view;
-    struct reason reason;
+    struct error_text error;
     struct segment_header header = segment_header_for(&scenario->settings->params, &built->counts);
-    if (segment_begin(&view, name, &header, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_begin(&view, name, &header, &error) != 0)
+        fail_msg("%s", error.text);
     segment_fill(&view, built);
-    if (segment_publish(&view, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_publish(&view, &error) != 0)
+        fail_msg("%s", error.text);
     segment_detach(&view);
 }
 
@@ -49,17 +49,17 @@ void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text)
 
 void named_world_paths(struct segment_paths *paths, const char *name)
 {
-    struct reason reason;
-    if (segment_paths(paths, name, &reason) != 0)
-        fail_msg("%s", reason.text);
+    struct error_text error;
+    if (segment_paths(paths, name, &error) != 0)
+        fail_msg("%s", error.text);
     assert_string_not_equal(paths->object, "");
 }
 
 void named_world_remove(const char *name)
 {
-    struct reason reason;
-    if (segment_remove(name, true, &reason) != 0)
-        fail_msg("%s", reason.text);
+    struct error_text error;
+    if (segment_remove(name, true, &error) != 0)
+        fail_msg("%s", error.text);
 }
 
 /* Counts the files of a folder whose names begin so, and removes them. */
@@ -82,9 +82,9 @@ static int go_through(const char *folder, const char *prefix, bool remove)
 static int go_through_both(bool remove)
 {
     char prefix[64], folder[RUNTIME_FOLDER_MAX];
-    struct reason reason;
-    if (runtime_folder(folder, &reason) != 0)
-        fail_msg("%s", reason.text);
+    struct error_text error;
+    if (runtime_folder(folder, &error) != 0)
+        fail_msg("%s", error.text);
     snprintf(prefix, sizeof prefix, "test-%d-", (int)getpid());
     int count = go_through(folder, prefix, remove);
     snprintf(prefix, sizeof prefix, "jolon.%u.test-%d-", (unsigned)getuid(), (int)getpid());

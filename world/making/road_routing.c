@@ -18,7 +18,7 @@ struct laying {
     struct world_build *built;
     const struct road_graph *net;
     const struct scenario_group *group;
-    const struct error_text *to;
+    struct error_text *error;
     uint32_t room; /* of built->route_points */
 };
 
@@ -27,7 +27,7 @@ static int add_points(struct laying *laying, const struct route_point *points, u
     struct world_build *built = laying->built;
     uint32_t used = built->counts.route_points;
     if (used + count > ROUTE_POINTS_MAX)
-        return error_text_say(laying->to,
+        return error_text_set(laying->error,
                               "%s:%d: vehicles.route: the routes have more than %u points along "
                               "the roads; right would be: shorter or fewer ones",
                               built->scenario->settings->params.scenario, laying->group->line,
@@ -36,7 +36,7 @@ static int add_points(struct laying *laying, const struct route_point *points, u
         uint32_t room = 2 * (used + count) + 256;
         struct route_point *grown = realloc(built->route_points, room * sizeof *grown);
         if (!grown)
-            return error_text_memory(laying->to);
+            return error_text_memory(laying->error);
         built->route_points = grown;
         laying->room = room;
     }
@@ -51,12 +51,12 @@ static int find_road(const struct laying *laying, const struct route_point *poin
 {
     const char *file = laying->built->scenario->settings->params.scenario;
     if (!road_graph_place(laying->net, point->x, point->z, place))
-        return error_text_say(laying->to,
+        return error_text_set(laying->error,
                               "%s:%d: vehicles.roads = true: this ground has no roads; right would "
                               "be: terrain.source = \"generated\", or a route without roads",
                               file, laying->group->line);
     if (place->off_m > ROAD_ROUTE_OFF_M)
-        return error_text_say(laying->to,
+        return error_text_set(laying->error,
                               "%s:%d: vehicles.route: point %u, [%.0f, %.0f], is %.0f m from the "
                               "nearest road; allowed: up to %.0f m; right would be: near [%.0f, "
                               "%.0f]",
@@ -79,8 +79,8 @@ static int lay_leg(struct laying *laying, const struct route_point *points, uint
         return -1;
     if (road_graph_way(laying->net, &from, &to, &way, &length, &metres) != 0)
         return errno == ENOMEM
-                   ? error_text_memory(laying->to)
-                   : error_text_say(laying->to,
+                   ? error_text_memory(laying->error)
+                   : error_text_set(laying->error,
                                     "%s:%d: vehicles.route: no road leads from point %u, [%.0f, "
                                     "%.0f], to point %u, [%.0f, %.0f]; right would be: points on "
                                     "roads that meet",
@@ -120,11 +120,11 @@ static int lay_route(struct laying *laying)
     return 0;
 }
 
-int road_routing_build(struct world_build *built, const struct error_text *to)
+int road_routing_build(struct world_build *built, struct error_text *error)
 {
     const struct scenario *scenario = built->scenario;
     struct road_graph net = {0};
-    struct laying laying = {.built = built, .net = &net, .to = to};
+    struct laying laying = {.built = built, .net = &net, .error = error};
     int result = 0;
     bool roads = false;
     built->counts.routes = scenario->route_count;
@@ -133,7 +133,7 @@ int road_routing_build(struct world_build *built, const struct error_text *to)
         roads |= scenario->groups[g].roads != 0;
     if (!built->routes ||
         (roads && road_graph_build(&net, built->roads, built->counts.road_points) != 0))
-        return error_text_memory(to);
+        return error_text_memory(error);
     for (uint32_t g = 0; g < scenario->group_count && result == 0; g++) {
         laying.group = &scenario->groups[g];
         if (laying.group->route != UINT32_MAX)

@@ -14,7 +14,7 @@ struct world_build;
 
 /* Fills the built world's routes and their points from the scenario's; its roads must be there. 0,
  * or -1 with the complaint: a point too far from any road, no way between two, out of memory. */
-int road_routing_build(struct world_build *built, const struct error_text *to);
+int road_routing_build(struct world_build *built, struct error_text *error);
 
 /* Place on a closed route this far along it [m] (modulo its length), the heading of the way there,
  * and the point that comes next. */

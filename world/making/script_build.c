@@ -25,7 +25,7 @@ struct copy {
     const struct scenario_script *from;
     const struct scenario_group *group;
     const struct name_index *name_index;
-    const struct error_text *to;
+    struct error_text *error;
     uint32_t slot;       /* whose it will be */
     double off_x, off_z; /* its place off the group's first vehicle's */
 };
@@ -77,7 +77,7 @@ static int check_ground(const struct copy *copy, const struct scenario_step *fro
     bool water = cover_is_water(terrain_cover(&terrain, step->x, step->z));
     if (!goes(step) || kind->domain == DOMAIN_AIR || (kind->domain == DOMAIN_SEA) == water)
         return 0;
-    return error_text_say(copy->to,
+    return error_text_set(copy->error,
                           "%s:%d: script \"%s\": [%.0f, %.0f] is %s, where no %s goes; right would "
                           "be: a point on %s",
                           file_of(copy), from->line, copy->from->name, step->x, step->z,
@@ -93,7 +93,7 @@ static int check_pace(const struct copy *copy, const struct scenario_step *from,
     double seconds = from->step.at_s - time_s;
     if (metres <= kind->max_speed_mps * seconds * IN_TIME_SHARE + THERE_M)
         return 0;
-    return error_text_say(copy->to,
+    return error_text_set(copy->error,
                           "%s:%d: script \"%s\": %.0f m in %.15g s is more than the %.4g m/s of a "
                           "%s; right would be: there at %.1f s or later",
                           file_of(copy), from->line, copy->from->name, metres, seconds,
@@ -132,7 +132,7 @@ static int give_order(const struct copy *copy, const struct scenario_step *from,
     step->order_arg = group->route;
     return group->route != UINT32_MAX
                ? 0
-               : error_text_say(copy->to,
+               : error_text_set(copy->error,
                                 "%s:%d: script \"%s\": behaviour = \"route\" has no route; right "
                                 "would be: route = ( [x, z], [x, z] ) with the vehicle",
                                 file_of(copy), from->line, copy->from->name);
@@ -156,7 +156,7 @@ static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m
     step->target_slot = SLOT_NONE;
     step->next_due = UINT32_MAX;
     if (name_index_find(copy->name_index, from->target, &step->target_slot) != 0)
-        return error_text_say(copy->to,
+        return error_text_set(copy->error,
                               "%s:%d: script \"%s\": fire = \"%s\": no vehicle has that name",
                               file_of(copy), from->line, copy->from->name, from->target);
     if (step->type == STEP_BEHAVIOUR && give_order(copy, from, step) != 0)
@@ -224,10 +224,10 @@ static int give_scripts(struct copy *copy, uint32_t first)
 }
 
 int script_build_build(struct world_build *built, const struct name_index *name_index,
-                       const struct error_text *to)
+                       struct error_text *error)
 {
     const struct scenario *scenario = built->scenario;
-    struct copy copy = {.built = built, .name_index = name_index, .to = to};
+    struct copy copy = {.built = built, .name_index = name_index, .error = error};
     uint64_t steps = 0, scripts = 0;
     uint32_t slot = 0;
     for (uint32_t g = 0; g < scenario->group_count; g++) {
@@ -239,15 +239,15 @@ int script_build_build(struct world_build *built, const struct name_index *name_
         steps += count * scenario->scripts[group->script].count;
     }
     if (steps > SCRIPT_STEPS_MAX)
-        return error_text_say(
-            to,
+        return error_text_set(
+            error,
             "%s: the vehicles' scripts have %llu steps; allowed: up to %u in all; "
             "right would be: formations, whose leader alone has one",
             scenario->settings->params.scenario, (unsigned long long)steps, SCRIPT_STEPS_MAX);
     built->scripts = calloc(scripts + 1, sizeof *built->scripts);
     built->steps = calloc(steps + 1, sizeof *built->steps);
     if (!built->scripts || !built->steps)
-        return error_text_memory(to);
+        return error_text_memory(error);
     for (uint32_t g = 0; g < scenario->group_count; g++) {
         copy.group = &scenario->groups[g];
         if (copy.group->script != UINT32_MAX && give_scripts(&copy, slot) != 0)

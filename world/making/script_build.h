@@ -19,6 +19,6 @@ bool script_build_start(const struct scenario *scenario, uint32_t script, double
  * places. 0, or -1 with the complaint: an unknown name, ground or a speed that the kind cannot do,
  * too many steps, out of memory. */
 int script_build_build(struct world_build *built, const struct name_index *name_index,
-                       const struct error_text *to);
+                       struct error_text *error);
 
 #endif

@@ -41,7 +41,7 @@ struct stand {
 struct vehicle_placement {
     struct world_build *built;
     struct free_place place;
-    const struct error_text *to;
+    struct error_text *error;
     struct rank rank; /* of the group at hand; who follows goes on with that of the one before */
 };
 
@@ -234,7 +234,7 @@ static int no_stand(const struct vehicle_placement *placement, uint32_t number)
     const struct scenario *scenario = placement->built->scenario;
     const struct scenario_group *group = placement->rank.group;
     const struct area *area = &scenario->areas[group->area];
-    return error_text_say(placement->to,
+    return error_text_set(placement->error,
                           "vehicles: no place for %s number %u of %u in area [%.0f, %.0f, %.0f, "
                           "%.0f]: too crowded, or the wrong ground for its domain",
                           scenario->kinds[group->kind].name, number, group->count, area->x0,
@@ -251,8 +251,8 @@ static int check_ground(const struct vehicle_placement *placement)
     bool sails = kind->domain == DOMAIN_SEA;
     if (!group->placed || free_place_carries(&placement->place.terrain, kind, group->x, group->z))
         return 0;
-    return error_text_say(
-        placement->to,
+    return error_text_set(
+        placement->error,
         "%s:%d: vehicles.at = [%.15g, %.15g]: a %s would stand %s; right would be: a "
         "place %s",
         scenario->settings->params.scenario, group->line, group->x, group->z, kind->name,
@@ -272,7 +272,7 @@ static int build_group(struct vehicle_placement *placement, const struct scenari
         if (scenario->placing && slot % PLACING_STEP == 0)
             scenario->placing(slot, scenario->settings->params.initial_entities);
         if (slot >= scenario->settings->params.capacity)
-            return error_text_say(placement->to,
+            return error_text_set(placement->error,
                                   "vehicles: more than world.capacity = %u; raise it (at most %u) "
                                   "or lower a count",
                                   scenario->settings->params.capacity, CAPACITY_MAX);
@@ -280,7 +280,7 @@ static int build_group(struct vehicle_placement *placement, const struct scenari
             return no_stand(placement, i + 1);
         if (free_place_take(&placement->place, stand.x, stand.z,
                             fixed_index_of_kind(&scenario->kinds[group->kind])) != 0)
-            return error_text_memory(placement->to);
+            return error_text_memory(placement->error);
         put_entity(placement, slot, &stand);
         if (slot == placement->rank.leader)
             placement->rank.heading = stand.heading;
@@ -333,23 +333,23 @@ static void set_bases(struct world_build *built)
                                  : base_of(built, force);
 }
 
-int vehicle_placement_build(struct world_build *built, const struct error_text *to)
+int vehicle_placement_build(struct world_build *built, struct error_text *error)
 {
     const struct scenario *scenario = built->scenario;
     uint32_t capacity = scenario->settings->params.capacity;
     struct terrain terrain = world_build_terrain(built);
-    struct vehicle_placement placement = {.built = built, .to = to};
+    struct vehicle_placement placement = {.built = built, .error = error};
     int result = 0;
     built->first_memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(capacity));
     built->names = calloc(capacity, sizeof *built->names);
     built->formations = calloc(scenario->group_count + 1, sizeof *built->formations);
     if (!built->first_memory || !built->names || !built->formations)
-        return error_text_memory(to);
+        return error_text_memory(error);
     memset(built->first_memory, 0, entities_bytes(capacity));
     entities_bind(&built->first, capacity, built->first_memory);
     if (free_place_init(&placement.place, &terrain, built->fixed, scenario->kinds,
                         built->reach_start, built->reach, scenario->settings->params.seed) != 0)
-        return error_text_memory(to);
+        return error_text_memory(error);
     for (uint32_t g = 0; g < scenario->group_count && result == 0; g++)
         result = build_group(&placement, &scenario->groups[g]);
     free_place_free(&placement.place);

@@ -9,6 +9,6 @@ struct world_build;
 /* Fills the built world's first entities, names, formations and bases; its ground and objects must
  * be there. 0, or -1 with the complaint: no room in the table, no place on the map, out of memory.
  */
-int vehicle_placement_build(struct world_build *built, const struct error_text *to);
+int vehicle_placement_build(struct world_build *built, struct error_text *error);
 
 #endif

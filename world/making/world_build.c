@@ -22,7 +22,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int build_ground(struct world_build *built, const struct error_text *to)
+static int build_ground(struct world_build *built, struct error_text *error)
 {
     const struct scenario *scenario = built->scenario;
     uint32_t side = (uint32_t)(WORLD_SIDE_M / scenario->settings->spacing_m) + 1;
@@ -32,14 +32,14 @@ static int build_ground(struct world_build *built, const struct error_text *to)
     built->cover = malloc(posts);
     built->roads = malloc(GENERATE_ROAD_MAX * sizeof *built->roads);
     if (!built->posts || !built->cover || !built->roads)
-        return error_text_memory(to);
+        return error_text_memory(error);
     if (scenario->settings->terrain == TERRAIN_FLAT) {
         generate_flat(built->posts, built->cover, side, scenario->settings->flat_height_m);
         return 0;
     }
     if (generate_hunter_liggett(built->posts, built->cover, side, scenario->settings->params.seed,
                                 built->roads, GENERATE_ROAD_MAX, &built->counts.road_points) != 0)
-        return error_text_say(to, "the ground could not be generated: %s", strerror(errno));
+        return error_text_set(error, "the ground could not be generated: %s", strerror(errno));
     return 0;
 }
 
@@ -75,7 +75,7 @@ static void list_objects(struct world_build *built, const struct terrain *terrai
     qsort(built->fixed, scenario->object_count, sizeof *built->fixed, by_square);
 }
 
-static int build_objects(struct world_build *built, const struct error_text *to)
+static int build_objects(struct world_build *built, struct error_text *error)
 {
     const struct scenario *scenario = built->scenario;
     struct terrain terrain = world_build_terrain(built);
@@ -85,7 +85,7 @@ static int build_objects(struct world_build *built, const struct error_text *to)
     built->counts.fixed = count;
     built->fixed = calloc(count + 1, sizeof *built->fixed);
     if (!built->fixed)
-        return error_text_memory(to);
+        return error_text_memory(error);
     if (scenario->settings->objects == OBJECTS_LIST)
         list_objects(built, &terrain);
     if (scenario->settings->objects == OBJECTS_TABLE1 &&
@@ -93,11 +93,12 @@ static int build_objects(struct world_build *built, const struct error_text *to)
                                 built->roads, built->counts.road_points,
                                 scenario->settings->params.seed) != 0)
         return errno == EINVAL
-                   ? error_text_say(to, "objects: a class of Table 1 has no kind in config/kinds")
-                   : error_text_memory(to);
+                   ? error_text_set(error,
+                                    "objects: a class of Table 1 has no kind in config/kinds")
+                   : error_text_memory(error);
     if (fixed_index_build(built->fixed, count, scenario->kinds, &built->reach_start,
                           &built->reach) != 0)
-        return error_text_memory(to);
+        return error_text_memory(error);
     built->counts.reach = built->reach_start[GRIDSQUARE_COUNT];
     return 0;
 }
@@ -111,7 +112,7 @@ static int by_tick(const void *a, const void *b)
 }
 
 static int build_fire(struct world_build *built, uint32_t index, const struct name_index *names,
-                      const struct error_text *to)
+                      struct error_text *error)
 {
     const struct scenario *scenario = built->scenario;
     const struct scenario_fire *from = &scenario->fires[index];
@@ -123,23 +124,23 @@ static int build_fire(struct world_build *built, uint32_t index, const struct na
     order->x = from->x;
     order->z = from->z;
     if (name_index_find(names, from->shooter, &order->shooter_slot) != 0)
-        return error_text_say(to, "%s:%d: fires.shooter = \"%s\": no vehicle has that name",
+        return error_text_set(error, "%s:%d: fires.shooter = \"%s\": no vehicle has that name",
                               scenario->settings->params.scenario, from->line, from->shooter);
     if (name_index_find(names, from->target, &order->target_slot) != 0)
-        return error_text_say(to, "%s:%d: fires.target = \"%s\": no vehicle has that name",
+        return error_text_set(error, "%s:%d: fires.target = \"%s\": no vehicle has that name",
                               scenario->settings->params.scenario, from->line, from->target);
     return 0;
 }
 
 static int build_fires(struct world_build *built, const struct name_index *name_index,
-                       const struct error_text *to)
+                       struct error_text *error)
 {
     uint32_t count = built->scenario->fire_count;
     built->fires = calloc(count + 1, sizeof *built->fires);
     if (!built->fires)
-        return error_text_memory(to);
+        return error_text_memory(error);
     for (uint32_t i = 0; i < count; i++) {
-        if (build_fire(built, i, name_index, to) != 0)
+        if (build_fire(built, i, name_index, error) != 0)
             return -1;
     }
     qsort(built->fires, count, sizeof *built->fires, by_tick);
@@ -148,14 +149,14 @@ static int build_fires(struct world_build *built, const struct name_index *name_
 }
 
 /* What goes by vehicles' names: ordered shots, and those of scripts. */
-static int build_orders(struct world_build *built, const struct error_text *to)
+static int build_orders(struct world_build *built, struct error_text *error)
 {
     struct name_index name_index;
     if (name_index_init(&name_index, built->names, built->used) != 0)
-        return error_text_memory(to);
-    int result = script_build_build(built, &name_index, to);
+        return error_text_memory(error);
+    int result = script_build_build(built, &name_index, error);
     if (result == 0)
-        result = build_fires(built, &name_index, to);
+        result = build_fires(built, &name_index, error);
     name_index_free(&name_index);
     return result;
 }
@@ -166,10 +167,9 @@ struct terrain world_build_terrain(const struct world_build *built)
                             WORLD_SIDE_M / (double)(built->counts.posts_side - 1)};
 }
 
-int world_build_make(struct world_build *built, const struct scenario *scenario, char *text,
-                     size_t bytes)
+int world_build_make(struct world_build *built, const struct scenario *scenario,
+                     struct error_text *error)
 {
-    struct error_text to = {text, bytes};
     *built = (struct world_build){.scenario = scenario};
     built->counts = (struct counts){
         .kinds = scenario->kind_count,
@@ -182,9 +182,9 @@ int world_build_make(struct world_build *built, const struct scenario *scenario,
         .areas = scenario->area_count,
         .recipe = provenance_room(scenario->recipe.bytes),
     };
-    if (build_ground(built, &to) != 0 || build_objects(built, &to) != 0 ||
-        road_routing_build(built, &to) != 0 || vehicle_placement_build(built, &to) != 0 ||
-        build_orders(built, &to) != 0) {
+    if (build_ground(built, error) != 0 || build_objects(built, error) != 0 ||
+        road_routing_build(built, error) != 0 || vehicle_placement_build(built, error) != 0 ||
+        build_orders(built, error) != 0) {
         world_build_free(built);
         return -1;
     }

@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+struct error_text;
 struct fixed_object;
 struct formation;
 struct scenario;
@@ -39,10 +40,10 @@ struct world_build {
     uint32_t used;
 };
 
-/* 0, or -1 with a message of at most bytes in text: no room for the vehicles, an unknown name in
+/* 0, or -1 with error set: no room for the vehicles, an unknown name in
  * a fire order, no place found for a vehicle, out of memory. */
-int world_build_make(struct world_build *built, const struct scenario *scenario, char *text,
-                     size_t bytes);
+int world_build_make(struct world_build *built, const struct scenario *scenario,
+                     struct error_text *error);
 /* The ground as built so far. */
 struct terrain world_build_terrain(const struct world_build *built);
 

@@ -1,20 +1,21 @@
-/* One line of text, cut to its room. */
+/* Error texts. */
 #include "world/runtime/error_text.h"
 
 #include "world/runtime/utf8.h"
 
 #include <stdarg.h>
 
-int error_text_say(const struct error_text *to, const char *format, ...)
+int error_text_set(struct error_text *error, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    (void)utf8_format(to->text, to->bytes, format, args);
+    (void)utf8_format(error->text, sizeof error->text, format, args);
     va_end(args);
+    error->foreign = error->damaged = false;
     return -1;
 }
 
-int error_text_memory(const struct error_text *to)
+int error_text_memory(struct error_text *error)
 {
-    return error_text_say(to, "out of memory while making the world");
+    return error_text_set(error, "out of memory while making the world");
 }

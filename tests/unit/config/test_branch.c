@@ -15,7 +15,7 @@
 #include <cmocka.h>
 
 static struct params made;
-static struct config_message message;
+static struct error_text error;
 
 static int make_params(void **state)
 {
@@ -31,7 +31,7 @@ static int branch(struct params *params, const char *one, const char *two)
 {
     const char *const overrides[] = {one, two};
     *params = made;
-    return loader_branch(params, overrides, two ? 2 : 1, &message);
+    return loader_branch(params, overrides, two ? 2 : 1, &error);
 }
 
 static void test_changes_are_stored_and_change_the_hash(void **state)
@@ -73,8 +73,8 @@ static void test_other_keys_are_refused_by_name(void **state)
     for (size_t i = 0; i < sizeof fixed / sizeof fixed[0]; i++) {
         assert_int_equal(branch(&params, "world.seed=7", fixed[i]), -1);
         snprintf(name, sizeof name, "%.*s", (int)strcspn(fixed[i], "="), fixed[i]);
-        assert_non_null(strstr(message.text, name));
-        assert_non_null(strstr(message.text, "allowed: world.seed, hz, frames"));
+        assert_non_null(strstr(error.text, name));
+        assert_non_null(strstr(error.text, "allowed: world.seed, hz, frames"));
         assert_memory_equal(&params, &made, sizeof made); /* the first is not half done */
     }
 }
@@ -84,12 +84,12 @@ static void test_rules_of_values_hold(void **state)
     struct params params;
     (void)state;
     assert_int_equal(branch(&params, "world.hz=0", NULL), -1);
-    assert_non_null(strstr(message.text, "world.hz = 0"));
+    assert_non_null(strstr(error.text, "world.hz = 0"));
     assert_int_equal(branch(&params, "world.sede=7", NULL), -1);
-    assert_non_null(strstr(message.text, "unknown key"));
+    assert_non_null(strstr(error.text, "unknown key"));
     assert_int_equal(branch(&params, "seven", NULL), -1);
     assert_int_equal(branch(&params, "collision.figure8.damage_low=5", NULL), -1);
-    assert_non_null(strstr(message.text, "not below"));
+    assert_non_null(strstr(error.text, "not below"));
 }
 
 int main(void)

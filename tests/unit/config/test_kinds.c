@@ -30,7 +30,7 @@
     "domain = \"fixed\"; class = \"tree\"; mass_kg = 1; radius_m = 1; resistance_j = 5000;\n"      \
     "length_m = 4; width_m = 2; height_m = 8; model = "
 
-static struct config_message message;
+static struct error_text error;
 
 static void write_in(const char *folder, const char *file, const char *text)
 {
@@ -56,8 +56,8 @@ static void load(struct scenario *scenario, const char *text)
     write_in("kinds", "m.cfg", "name = \"m\"; " NEEDS "\"m\";");
     quick_config_write(quick_config.scenario_path, "");
     if (loader_scenario(scenario, quick_config.folder, quick_config.scenario_path, NULL, 0,
-                        &message) != 0)
-        fail_msg("refused: %s", message.text);
+                        &error) != 0)
+        fail_msg("refused: %s", error.text);
     assert_int_equal(scenario->kind_count, 3);
 }
 
@@ -145,7 +145,7 @@ static void test_shipped_kinds_slide_and_leave_debris(void **state)
     struct scenario s;
 
     (void)state;
-    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &message), 0);
+    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &error), 0);
     for (uint32_t i = 0; i < s.kind_count; i++) {
         const struct kind *kind = &s.kinds[i];
 

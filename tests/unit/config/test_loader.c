@@ -24,20 +24,20 @@
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-static struct config_message message;
+static struct error_text error;
 
 static int load_with(struct scenario *scenario, const char *text, const char *override)
 {
     quick_config_write(quick_config.scenario_path, text);
     return loader_scenario(scenario, quick_config.data_dir, quick_config.scenario_path, &override,
-                           override != NULL, &message);
+                           override != NULL, &error);
 }
 
 /* For texts that must be taken. */
 static void must_load(struct scenario *scenario, const char *text, const char *override)
 {
     if (load_with(scenario, text, override) != 0)
-        fail_msg("refused: %s", message.text);
+        fail_msg("refused: %s", error.text);
 }
 
 static const struct kind *kind_of(const struct scenario *scenario, const char *name)
@@ -298,7 +298,7 @@ static void test_last_override_counts(void **state)
     (void)state;
     quick_config_write(quick_config.scenario_path, "world = { seed = 4; };");
     assert_int_equal(loader_scenario(&s, quick_config.data_dir, quick_config.scenario_path,
-                                     overrides, 3, &message),
+                                     overrides, 3, &error),
                      0);
     assert_int_equal(s.settings->params.seed, 6);
     assert_true(s.settings->params.hz == 30.0);
@@ -355,7 +355,7 @@ static void test_shipped_kinds(void **state)
     struct scenario s;
 
     (void)state;
-    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, NULL, NULL, 0, &message), 0);
+    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, NULL, NULL, 0, &error), 0);
     for (size_t i = 0; i < COUNT(vehicles); i++) {
         assert_true(kind_of(&s, vehicles[i])->domain <= DOMAIN_AIR);
         for (size_t j = 0; j < i; j++)
@@ -389,7 +389,7 @@ static void test_shipped_scenarios(void **state)
     struct scenario s;
 
     (void)state;
-    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, NULL, NULL, 0, &message), 0);
+    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, NULL, NULL, 0, &error), 0);
     assert_string_equal(s.settings->params.name, "hunter-liggett");
     assert_int_equal(s.settings->params.initial_entities, 500);
     assert_int_equal(s.settings->objects, OBJECTS_TABLE1);
@@ -400,12 +400,12 @@ static void test_shipped_scenarios(void **state)
             fail_msg("hunter-liggett has no %s", vehicles[i]);
     }
     scenario_free(&s);
-    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &message), 0);
+    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &error), 0);
     assert_int_equal(s.settings->params.initial_entities, 2);
     assert_int_equal(s.settings->terrain, TERRAIN_FLAT);
     scenario_free(&s);
     assert_int_equal(
-        loader_scenario(&s, QUICK_CONFIG_SHIPPED, "proving-ground.cfg", NULL, 0, &message), 0);
+        loader_scenario(&s, QUICK_CONFIG_SHIPPED, "proving-ground.cfg", NULL, 0, &error), 0);
     assert_int_equal(s.settings->objects, OBJECTS_LIST);
     assert_int_equal(s.object_count, 15);
     scenario_free(&s);

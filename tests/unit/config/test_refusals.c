@@ -18,13 +18,13 @@
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-static struct config_message message;
+static struct error_text error;
 
 static int load_with(struct scenario *scenario, const char *text, const char *override)
 {
     quick_config_write(quick_config.scenario_path, text);
     return loader_scenario(scenario, quick_config.data_dir, quick_config.scenario_path, &override,
-                           override != NULL, &message);
+                           override != NULL, &error);
 }
 
 /* --- refusals ----------------------------------------------------------------------------------*/
@@ -339,10 +339,10 @@ static void check_message(const char *want)
     size_t length = strlen(want);
 
     if (length > 3 && strcmp(want + length - 3, "...") == 0 && want[length - 4] == ' ') {
-        if (strncmp(message.text, want, length - 3) != 0)
-            fail_msg("refused as\n  %s\ninstead of\n  %s", message.text, want);
-    } else if (strcmp(message.text, want) != 0) {
-        fail_msg("refused as\n  %s\ninstead of\n  %s", message.text, want);
+        if (strncmp(error.text, want, length - 3) != 0)
+            fail_msg("refused as\n  %s\ninstead of\n  %s", error.text, want);
+    } else if (strcmp(error.text, want) != 0) {
+        fail_msg("refused as\n  %s\ninstead of\n  %s", error.text, want);
     }
 }
 
@@ -353,7 +353,7 @@ static void test_refusals(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(refusals); i++) {
         struct scenario s;
-        char want[sizeof(message.text)];
+        char want[sizeof(error.text)];
 
         snprintf(want, sizeof(want), "%s:%d: %s", quick_config.scenario_path, refusals[i].line,
                  refusals[i].says);
@@ -417,9 +417,9 @@ static void test_override_refusals(void **state)
 static void check_file(const char *path, const char *says)
 {
     struct scenario s;
-    char want[sizeof(message.text)];
+    char want[sizeof(error.text)];
 
-    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, path, NULL, 0, &message), -1);
+    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, path, NULL, 0, &error), -1);
     snprintf(want, sizeof(want), "%s: %s", path, says);
     check_message(want);
 }
@@ -536,11 +536,11 @@ static void test_kind_refusals(void **state)
     quick_config_write(quick_config.scenario_path, "");
     for (size_t i = 0; i < COUNT(kind_refusals); i++) {
         struct scenario s;
-        char want[sizeof(message.text)];
+        char want[sizeof(error.text)];
 
         quick_config_write(kind, kind_refusals[i].text);
-        if (loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0,
-                            &message) == 0)
+        if (loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0, &error) ==
+            0)
             fail_msg("accepted: %s", kind_refusals[i].text);
         snprintf(want, sizeof(want), "%s:%d: %s", kind, kind_refusals[i].line,
                  kind_refusals[i].says);

@@ -16,7 +16,7 @@
 
 #include <cmocka.h>
 
-static struct config_message message;
+static struct error_text error;
 static struct scenario_step steps[16];
 
 static int read_text(const char *text)
@@ -26,7 +26,7 @@ static int read_text(const char *text)
     snprintf(copy, sizeof copy, "%s", text);
     source.text = copy;
     assert_true(waypoints_lines(text) <= 16);
-    return waypoints_read(&source, steps, &message);
+    return waypoints_read(&source, steps, &error);
 }
 
 static void test_lines_become_arrivals(void **state)
@@ -67,20 +67,19 @@ static void test_wrong_lines_are_refused(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         assert_int_equal(read_text(rows[i].text), -1);
-        assert_string_equal(message.text, rows[i].says);
+        assert_string_equal(error.text, rows[i].says);
     }
 }
 
 static void check_build(const char *text, const char *says)
 {
-    static char complaint[512];
     struct scenario scenario;
     struct world_build built;
     fixture_scenario(&scenario, text);
-    if (world_build_make(&built, &scenario, complaint, sizeof complaint) == 0)
+    if (world_build_make(&built, &scenario, &error) == 0)
         fail_msg("taken: %s", text);
-    if (!strstr(complaint, says))
-        fail_msg("\"%s\" is not in: %s", says, complaint);
+    if (!strstr(error.text, says))
+        fail_msg("\"%s\" is not in: %s", says, error.text);
     scenario_free(&scenario);
 }
 

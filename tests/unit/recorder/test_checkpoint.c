@@ -54,17 +54,17 @@ static struct view recorder(void)
 
 static void open_checkpoint(struct checkpoint *checkpoint, uint64_t every)
 {
-    struct reason reason;
-    if (checkpoint_open(checkpoint, &view, path, every, &reason) != 0)
-        fail_msg("%s", reason.text);
+    struct error_text error;
+    if (checkpoint_open(checkpoint, &view, path, every, &error) != 0)
+        fail_msg("%s", error.text);
 }
 
 /* Of the checkpoint in the file; 0 for none. */
 static uint64_t frame_of_file(void)
 {
     struct image_header header;
-    struct reason reason;
-    return image_peek(&header, path, &reason) == 0 ? header.frame : 0;
+    struct error_text error;
+    return image_peek(&header, path, &error) == 0 ? header.frame : 0;
 }
 
 static void test_one_is_written_every_so_many_frames(void **state)
@@ -160,11 +160,11 @@ static int fill_the_disk(void *context)
     const struct rlimit none = {100, RLIM_INFINITY}, all = {RLIM_INFINITY, RLIM_INFINITY};
     struct checkpoint checkpoint;
     struct view view_of_role = recorder();
-    struct reason reason;
+    struct error_text error;
     (void)context;
     dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
     signal(SIGXFSZ, SIG_IGN);
-    if (checkpoint_open(&checkpoint, &view, path, 10, &reason) != 0)
+    if (checkpoint_open(&checkpoint, &view, path, 10, &error) != 0)
         return 10;
     make_frames(10);
     checkpoint_turn(&checkpoint, &view_of_role);

@@ -287,16 +287,16 @@ static void record_run(uint64_t seed)
 
 static void open_tape(struct log_replay *replay)
 {
-    struct reason reason;
-    if (log_replay_open(replay, commands_path, &reason) != 0)
-        fail_msg("%s", reason.text);
+    struct error_text error;
+    if (log_replay_open(replay, commands_path, &error) != 0)
+        fail_msg("%s", error.text);
 }
 
 static void test_a_run_is_played_again_from_its_log(void **state)
 {
     struct fixture again;
     struct log_replay replay;
-    struct reason reason;
+    struct error_text error;
     (void)state;
     record_run(21);
     open_tape(&replay);
@@ -307,9 +307,9 @@ static void test_a_run_is_played_again_from_its_log(void **state)
     assert_int_equal(end->digest, fixture_digest(&f));
     begin_world(&again);
     while (frame_stepper_frame(&again.player) < replay.known_frame) {
-        if (log_replay_step(&replay, &again.player, &reason) != LOG_REPLAY_STEPPED)
+        if (log_replay_step(&replay, &again.player, &error) != LOG_REPLAY_STEPPED)
             fail_msg("frame %llu: %s", (unsigned long long)frame_stepper_frame(&again.player),
-                     reason.text);
+                     error.text);
     }
     assert_int_equal(fixture_digest(&again), fixture_digest(&f));
     assert_int_equal(fixture_state(&again).head->event_digest, head()->event_digest);
@@ -321,7 +321,7 @@ static void test_a_mark_that_is_not_met_is_said(void **state)
 {
     struct fixture other;
     struct log_replay replay;
-    struct reason reason;
+    struct error_text error;
     enum log_replay_step step = LOG_REPLAY_STEPPED;
     (void)state;
     record_run(22);
@@ -329,9 +329,9 @@ static void test_a_mark_that_is_not_met_is_said(void **state)
     begin_world(&other);
     steps_rows(&other).x[1] += 0.5; /* the two meet a little earlier */
     while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(&other.player) < replay.known_frame)
-        step = log_replay_step(&replay, &other.player, &reason);
+        step = log_replay_step(&replay, &other.player, &error);
     assert_int_equal(step, LOG_REPLAY_WRONG);
-    assert_non_null(strstr(reason.text, "digest"));
+    assert_non_null(strstr(error.text, "digest"));
     log_replay_close(&replay);
     fixture_close(&other);
 }
@@ -339,7 +339,7 @@ static void test_a_mark_that_is_not_met_is_said(void **state)
 static void test_a_damaged_log_is_not_played(void **state)
 {
     struct log_replay replay;
-    struct reason reason;
+    struct error_text error;
     size_t length;
     uint64_t random = fixture_seed(23);
     (void)state;
@@ -352,7 +352,7 @@ static void test_a_damaged_log_is_not_played(void **state)
         put_text(commands_path, text, length);
         /* The last end of line makes of its line a torn one. */
         if (at != length - 1) {
-            assert_int_equal(log_replay_open(&replay, commands_path, &reason), -1);
+            assert_int_equal(log_replay_open(&replay, commands_path, &error), -1);
         }
         text[at] = before;
     }
@@ -360,7 +360,7 @@ static void test_a_damaged_log_is_not_played(void **state)
     char *second = strchr(text, '\n') + 1, *third = strchr(second, '\n') + 1;
     memmove(second, third, length - (size_t)(third - text));
     put_text(commands_path, text, length - (size_t)(third - second));
-    assert_int_equal(log_replay_open(&replay, commands_path, &reason), -1);
+    assert_int_equal(log_replay_open(&replay, commands_path, &error), -1);
     free(text);
 }
 

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 static struct views views;
-static struct reason reason;
+static struct error_text error;
 
 static void check_view(uint32_t i, enum view_mode mode, uint32_t vehicle, const char *name)
 {
@@ -23,10 +23,10 @@ static void check_view(uint32_t i, enum view_mode mode, uint32_t vehicle, const 
 static void test_one_and_several(void **state)
 {
     (void)state;
-    assert_int_equal(views_read(&views, "overhead", &reason), 0);
+    assert_int_equal(views_read(&views, "overhead", &error), 0);
     assert_int_equal(views.count, 1);
     check_view(0, VIEW_OVERHEAD, 0, "overhead");
-    assert_int_equal(views_read(&views, "map,inside,chase:4294967295,chase", &reason), 0);
+    assert_int_equal(views_read(&views, "map,inside,chase:4294967295,chase", &error), 0);
     assert_int_equal(views.count, 4);
     check_view(0, VIEW_MAP, 0, "map");
     check_view(1, VIEW_INSIDE, 0, "inside");
@@ -37,7 +37,7 @@ static void test_one_and_several(void **state)
 static void test_both_is_two(void **state)
 {
     (void)state;
-    assert_int_equal(views_read(&views, "both:17,orbit", &reason), 0);
+    assert_int_equal(views_read(&views, "both:17,orbit", &error), 0);
     assert_int_equal(views.count, 3);
     check_view(0, VIEW_CHASE, 17, "chase.17");
     check_view(1, VIEW_MAP, 17, "map.17");
@@ -68,9 +68,9 @@ static void test_what_is_wrong_is_said(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        assert_int_equal(views_read(&views, rows[i].text, &reason), -1);
-        if (strstr(reason.text, rows[i].says) == NULL)
-            fail_msg("\"%s\": %s", rows[i].text, reason.text);
+        assert_int_equal(views_read(&views, rows[i].text, &error), -1);
+        if (strstr(error.text, rows[i].says) == NULL)
+            fail_msg("\"%s\": %s", rows[i].text, error.text);
     }
 }
 

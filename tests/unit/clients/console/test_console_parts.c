@@ -110,30 +110,30 @@ static int write_file(const char *path, const char *text, mode_t mode)
 static void test_a_token_file_is_made_kept_and_checked(void **state)
 {
     char path[64], first[SESSION_KEY_MAX], token[SESSION_KEY_MAX];
-    struct reason reason;
+    struct error_text error;
     struct stat status;
     (void)state;
     (void)snprintf(path, sizeof path, "/tmp/jolon-token-%d", (int)getpid());
-    assert_int_equal(session_key_file(first, path, &reason), 0);
+    assert_int_equal(session_key_file(first, path, &error), 0);
     assert_int_equal(strlen(first), 32);
     assert_int_equal(stat(path, &status), 0);
     assert_int_equal(status.st_mode & 0777, 0600);
-    assert_int_equal(session_key_file(token, path, &reason), 0);
+    assert_int_equal(session_key_file(token, path, &error), 0);
     assert_string_equal(token, first);
     assert_int_equal(chmod(path, 0644), 0);
-    assert_int_equal(session_key_file(token, path, &reason), -1);
-    assert_non_null(strstr(reason.text, "others may read it"));
+    assert_int_equal(session_key_file(token, path, &error), -1);
+    assert_non_null(strstr(error.text, "others may read it"));
     static const char *const wrong[] = {"", "short\n", "0123456789abcdef 0\n",
                                         "0123456789abcdef\n0123456789abcdef\n"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         assert_int_equal(write_file(path, wrong[i], 0600), 0);
-        assert_int_equal(session_key_file(token, path, &reason), -1);
+        assert_int_equal(session_key_file(token, path, &error), -1);
     }
     assert_int_equal(write_file(path, "0123456789abcdef\r\n", 0600), 0);
-    assert_int_equal(session_key_file(token, path, &reason), 0);
+    assert_int_equal(session_key_file(token, path, &error), 0);
     assert_string_equal(token, "0123456789abcdef");
     assert_int_equal(unlink(path), 0);
-    assert_int_equal(session_key_file(token, "/tmp", &reason), -1);
+    assert_int_equal(session_key_file(token, "/tmp", &error), -1);
 }
 
 /* --- rates -------------------------------------------------------------------------------------*/

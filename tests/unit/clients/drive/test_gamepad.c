@@ -109,14 +109,14 @@ static void test_refusals(void **state)
 {
     (void)state;
     struct input input;
-    struct reason reason;
-    assert_int_equal(gamepad_open(&input, "/nowhere/event0", &reason), -1);
-    assert_non_null(strstr(reason.text, "/nowhere/event0"));
-    assert_int_equal(gamepad_open(&input, "/dev/null", &reason), -1);
-    assert_non_null(strstr(reason.text, "no gamepad"));
+    struct error_text error;
+    assert_int_equal(gamepad_open(&input, "/nowhere/event0", &error), -1);
+    assert_non_null(strstr(error.text, "/nowhere/event0"));
+    assert_int_equal(gamepad_open(&input, "/dev/null", &error), -1);
+    assert_non_null(strstr(error.text, "no gamepad"));
     const struct device_library_function none = {"no_such_function", &evdev.free};
-    assert_int_equal(device_library_open("libnone.so.9", "libnone9", &none, 1, &reason), -1);
-    assert_non_null(strstr(reason.text, "apt-get install libnone9"));
+    assert_int_equal(device_library_open("libnone.so.9", "libnone9", &none, 1, &error), -1);
+    assert_non_null(strstr(error.text, "apt-get install libnone9"));
 }
 
 int main(void)

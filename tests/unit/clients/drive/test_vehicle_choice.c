@@ -91,18 +91,18 @@ static void test_nearest(void **state)
 static void test_called(void **state)
 {
     (void)state;
-    struct reason reason;
+    struct error_text error;
     struct choice choice = any;
     choice.from = 0;
-    assert_int_equal(vehicle_choice_called(&mirror, &choice, "4", &reason), 4);
-    assert_int_equal(vehicle_choice_called(&mirror, &choice, "Hauler", &reason), 3);
-    assert_int_equal(vehicle_choice_called(&mirror, &choice, "truck", &reason), 3);
-    assert_int_equal(vehicle_choice_called(&mirror, &choice, "red", &reason), 4);
+    assert_int_equal(vehicle_choice_called(&mirror, &choice, "4", &error), 4);
+    assert_int_equal(vehicle_choice_called(&mirror, &choice, "Hauler", &error), 3);
+    assert_int_equal(vehicle_choice_called(&mirror, &choice, "truck", &error), 3);
+    assert_int_equal(vehicle_choice_called(&mirror, &choice, "red", &error), 4);
     static const char *const wrong[] = {"",   "4711",           "shell", "neutral",
                                         "4x", "99999999999999", "-1"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        assert_int_equal(vehicle_choice_called(&mirror, &choice, wrong[i], &reason), 0);
-        assert_non_null(strstr(reason.text, "jolon world dump"));
+        assert_int_equal(vehicle_choice_called(&mirror, &choice, wrong[i], &error), 0);
+        assert_non_null(strstr(error.text, "jolon world dump"));
     }
 }
 

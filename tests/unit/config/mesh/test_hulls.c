@@ -24,7 +24,7 @@
 #define HALF_STEP 0.5e-6 /* what the lattice may move a corner */
 #define NEAR_M    1e-6
 
-static struct config_message message;
+static struct error_text error;
 
 /* --- shapes ------------------------------------------------------------------------------------*/
 
@@ -135,13 +135,13 @@ static int build(void)
     scenario.vertex_count = model.vertex_count;
     scenario.triangles = triangles;
     scenario.triangle_count = model.triangle_count;
-    return hulls_build(&hulls, &scenario, &model, place, &message);
+    return hulls_build(&hulls, &scenario, &model, place, &error);
 }
 
 static void must_build(uint32_t count)
 {
     if (build() != 0)
-        fail_msg("refused: %s", message.text);
+        fail_msg("refused: %s", error.text);
     assert_int_equal(hulls.first, 0);
     assert_int_equal(hulls.count, count);
     assert_int_equal(hulls.outer, count); /* the one around all of them comes last */
@@ -158,7 +158,7 @@ static void drop(void)
 static void must_be_refused(const char *says)
 {
     assert_int_equal(build(), -1);
-    assert_string_equal(message.text, says);
+    assert_string_equal(error.text, says);
     drop();
 }
 
@@ -450,7 +450,7 @@ static void test_too_many_pieces_are_refused(void **state)
     for (int i = 0; i < CONNECTED_PIECES_MAX; i++)
         cube(0.25 * i, 0, 0, 0.1);
     if (build() != 0)
-        fail_msg("refused: %s", message.text);
+        fail_msg("refused: %s", error.text);
     assert_in_range(hulls.count, 1, 8);
     drop();
     begin();
@@ -466,7 +466,7 @@ static struct scenario shipped;
 static int load_shipped(void **state)
 {
     (void)state;
-    return loader_scenario(&shipped, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &message);
+    return loader_scenario(&shipped, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &error);
 }
 
 static int free_shipped(void **state)

@@ -26,12 +26,12 @@
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 static struct scenario shipped;
-static struct config_message message;
+static struct error_text error;
 
 static int load_shipped(void **state)
 {
     (void)state;
-    return loader_scenario(&shipped, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &message);
+    return loader_scenario(&shipped, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &error);
 }
 
 static int free_shipped(void **state)
@@ -440,16 +440,16 @@ static void test_refusals(void **state)
     snprintf(path, sizeof(path), "%s/models/k.obj", quick_config.folder);
     for (size_t i = 0; i < COUNT(bad); i++) {
         struct scenario s;
-        char want[sizeof(message.text)];
+        char want[sizeof(error.text)];
 
         if (bad[i].text != NULL)
             quick_config_write(path, bad[i].text);
         snprintf(want, sizeof(want), "%s%s", begin, bad[i].says);
-        if (loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0,
-                            &message) == 0)
+        if (loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0, &error) ==
+            0)
             fail_msg("accepted: %s", bad[i].text);
-        if (strncmp(message.text, want, strlen(want)) != 0)
-            fail_msg("refused as\n  %s\ninstead of\n  %s", message.text, want);
+        if (strncmp(error.text, want, strlen(want)) != 0)
+            fail_msg("refused as\n  %s\ninstead of\n  %s", error.text, want);
     }
 }
 
@@ -463,7 +463,7 @@ static void test_square_is_two_triangles(void **state)
     quick_config_write(path, TOP "o body\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl red\n"
                                  "f 1 2 3 4\n");
     assert_int_equal(
-        loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0, &message), 0);
+        loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0, &error), 0);
     assert_int_equal(s.model_count, 1);
     assert_int_equal(s.triangle_count, 2);
     assert_int_equal(s.vertex_count, 4);
@@ -483,9 +483,8 @@ static void test_whole_grammar_is_taken(void **state)
                        "v 0 1e0 0\r\nv 0.5 -1 +0.25e-00\r\nvt 0 0\r\nvt 1 0 0\r\nvn 0 0 1\r\n"
                        "s off\r\nusemtl red\r\nf 1 2 3\r\nf 1/1 2/2 3/1\r\nf 1//1 2//1 4//1\r\n"
                        "g body\r\nf 1/1/1 2/2/1 4/1/1");
-    if (loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0, &message) !=
-        0)
-        fail_msg("%s", message.text);
+    if (loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0, &error) != 0)
+        fail_msg("%s", error.text);
     assert_int_equal(s.triangle_count, 4);
     scenario_free(&s);
 }

@@ -21,7 +21,7 @@
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-static struct config_message message;
+static struct error_text error;
 
 /* --- names that came out of files --------------------------------------------------------------*/
 
@@ -92,10 +92,10 @@ static void test_names_stay_in_their_folder(void **state)
         char want[512];
 
         snprintf(want, sizeof(want), "%s/%s: %s", folder, rows[i].name, rows[i].says);
-        assert_int_equal(source_read_in(&source, folder, rows[i].name, 100, &message), -1);
+        assert_int_equal(source_read_in(&source, folder, rows[i].name, 100, &error), -1);
         assert_null(source.text);
-        if (strncmp(message.text, want, strlen(want)) != 0)
-            fail_msg("refused as\n  %s\ninstead of\n  %s", message.text, want);
+        if (strncmp(error.text, want, strlen(want)) != 0)
+            fail_msg("refused as\n  %s\ninstead of\n  %s", error.text, want);
     }
 }
 
@@ -104,13 +104,13 @@ static void test_size_is_capped(void **state)
     struct source source;
 
     (void)state;
-    assert_int_equal(source_read_in(&source, folder, "file", 4, &message), 0);
+    assert_int_equal(source_read_in(&source, folder, "file", 4, &error), 0);
     assert_int_equal(source.bytes, 4);
     assert_string_equal(source.text, "four");
     assert_string_equal(source.path, in_folder("file"));
     source_free(&source);
-    assert_int_equal(source_read_in(&source, folder, "file", 3, &message), -1);
-    assert_non_null(strstr(message.text, "file: has 4 bytes; allowed: up to 3"));
+    assert_int_equal(source_read_in(&source, folder, "file", 3, &error), -1);
+    assert_non_null(strstr(error.text, "file: has 4 bytes; allowed: up to 3"));
 }
 
 /* --- names that the user gave ------------------------------------------------------------------*/
@@ -121,15 +121,15 @@ static void test_users_paths(void **state)
     struct source source;
 
     (void)state;
-    assert_int_equal(source_read(&source, in_folder("link-out"), 100, &message), 0);
+    assert_int_equal(source_read(&source, in_folder("link-out"), 100, &error), 0);
     assert_string_equal(source.text, "secret");
     source_free(&source);
-    assert_int_equal(source_read(&source, in_folder("link-device"), 100, &message), -1);
-    assert_non_null(strstr(message.text, "is a device; allowed: a regular file"));
-    assert_int_equal(source_read(&source, in_folder("pipe"), 100, &message), -1);
-    assert_non_null(strstr(message.text, "is a pipe; allowed: a regular file"));
-    assert_int_equal(source_read(&source, in_folder("link-self"), 100, &message), -1);
-    assert_non_null(strstr(message.text, "cannot be opened: Too many levels of symbolic links"));
+    assert_int_equal(source_read(&source, in_folder("link-device"), 100, &error), -1);
+    assert_non_null(strstr(error.text, "is a device; allowed: a regular file"));
+    assert_int_equal(source_read(&source, in_folder("pipe"), 100, &error), -1);
+    assert_non_null(strstr(error.text, "is a pipe; allowed: a regular file"));
+    assert_int_equal(source_read(&source, in_folder("link-self"), 100, &error), -1);
+    assert_non_null(strstr(error.text, "cannot be opened: Too many levels of symbolic links"));
 }
 
 /* --- shape -------------------------------------------------------------------------------------*/
@@ -181,7 +181,7 @@ static bool parses(const char *begin, const char *part, size_t times, const char
                               : (size_t)snprintf(text + used, sizeof(text) - used, "%c", *c);
     }
     source.bytes = used + (size_t)snprintf(text + used, sizeof(text) - used, "%s", end);
-    int result = source_parse(&source, &config, &message);
+    int result = source_parse(&source, &config, &error);
     config_destroy(&config);
     return result == 0;
 }
@@ -191,8 +191,8 @@ static void test_open_strings_are_refused(void **state)
 {
     (void)state;
     assert_false(parses("a = 1;\nb = \"x; c = 2;\n", "", 0, ""));
-    assert_string_equal(message.text, "a.cfg:2: has a string or comment that never ends; right "
-                                      "would be: a closing \" or */");
+    assert_string_equal(error.text, "a.cfg:2: has a string or comment that never ends; right "
+                                    "would be: a closing \" or */");
     assert_false(parses("a = 1;\n", "", 0, "\"left out"));
     assert_false(parses("a = 1;\n", "", 0, "/* left out"));
     assert_true(parses("a = 1;\n", "", 0, "// left out"));
@@ -203,13 +203,12 @@ static void test_deep_and_full_are_refused(void **state)
     (void)state;
     assert_true(parses("a = ((((((((1))))))));", "", 0, ""));
     assert_false(parses("a =\n(((((((((1)))))))));", "", 0, ""));
-    assert_string_equal(message.text,
-                        "a.cfg:2: is nested 9 deep; allowed: up to 8 levels of ( [ {");
+    assert_string_equal(error.text, "a.cfg:2: is nested 9 deep; allowed: up to 8 levels of ( [ {");
     assert_false(parses("a = ", "(", 60000, ""));
-    assert_non_null(strstr(message.text, "is nested 60000 deep; allowed: up to 8"));
+    assert_non_null(strstr(error.text, "is nested 60000 deep; allowed: up to 8"));
     assert_true(parses("g = {\n", "k@ = 1;", SCHEMA_MEMBERS_MAX, "};"));
     assert_false(parses("g = {\n", "k@ = 1;\n", SCHEMA_MEMBERS_MAX + 1, "};"));
-    assert_non_null(strstr(message.text, "is a group of 65 keys; allowed: up to 64"));
+    assert_non_null(strstr(error.text, "is a group of 65 keys; allowed: up to 64"));
     /* Each entry of a list counts alone. */
     assert_true(parses("l = (\n", "{ a = @; },", 1000, "{ a = 1; } );"));
 }

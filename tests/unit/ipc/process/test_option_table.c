@@ -28,10 +28,10 @@ static struct {
     char taken[64]; /* the values of --take, one after the other */
 } given;
 
-static int take(const char *value, const struct error_text *why)
+static int take(const char *value, struct error_text *wrong)
 {
     strncat(given.taken, value, sizeof given.taken - strlen(given.taken) - 1);
-    return strcmp(value, "bad") == 0 ? error_text_say(why, "not good") : 0;
+    return strcmp(value, "bad") == 0 ? error_text_set(wrong, "not good") : 0;
 }
 
 static const struct option_row rows[] = {
@@ -62,7 +62,8 @@ static const struct option_table table = {.program = "jolon-test",
                                           .more = more,
                                           .plain = 1};
 
-static char wrong_text[512], line[1024], *words[WORDS_MAX + 1];
+static struct error_text error;
+static char line[1024], *words[WORDS_MAX + 1];
 
 /* Splits a line at its blanks ('_' stands for an empty word); how many words there are. */
 static int split(const char *text)
@@ -85,19 +86,19 @@ static int read_line(const struct option_table *by, const char *text)
 {
     int count = split(text);
     memset(&given, 0, sizeof given);
-    return option_table_try(by, count, words, &(struct error_text){wrong_text, sizeof wrong_text});
+    return option_table_try(by, count, words, &error);
 }
 
 static void takes(const char *text)
 {
     if (read_line(&table, text) != 0)
-        fail_msg("%s: %s", text, wrong_text);
+        fail_msg("%s: %s", text, error.text);
 }
 
-static void refuses(const struct option_table *by, const char *text, const char *why)
+static void refuses(const struct option_table *by, const char *text, const char *says)
 {
     assert_int_equal(read_line(by, text), -1);
-    assert_string_equal(wrong_text, why);
+    assert_string_equal(error.text, says);
 }
 
 static void test_values(void **state)
@@ -209,10 +210,10 @@ static void test_a_long_word_leaves_room_for_what_would_be_right(void **state)
     memset(text, 'x', 600);
     (void)snprintf(copy, sizeof copy, "--u32 %s", text);
     assert_int_equal(read_line(&table, copy), -1);
-    assert_non_null(strstr(wrong_text, "xxx: must be a whole number from 0 to 4294967295"));
+    assert_non_null(strstr(error.text, "xxx: must be a whole number from 0 to 4294967295"));
     text[0] = text[1] = '-';
     assert_int_equal(read_line(&table, text), -1);
-    assert_non_null(strstr(wrong_text, "xxx: no such option; see jolon-test --help"));
+    assert_non_null(strstr(error.text, "xxx: no such option; see jolon-test --help"));
 }
 
 static void test_plain_arguments_go_to_the_end(void **state)

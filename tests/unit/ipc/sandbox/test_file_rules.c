@@ -21,7 +21,7 @@
 
 #include <cmocka.h>
 
-static struct reason reason;
+static struct error_text error;
 
 /* Tries files outside and inside the folder. Returns the number of the first that is wrong. */
 static int touch_files(void *context)
@@ -30,8 +30,8 @@ static int touch_files(void *context)
     struct sandbox sandbox;
     char outside[] = "/tmp/jolon-sandbox-outside";
     int fd = open(confined_folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (sandbox_begin(&sandbox, *role, false, &reason) != 0 ||
-        sandbox_files(&sandbox, &fd, 1, &reason) != 0 || sandbox_enter(&sandbox, &reason) != 0)
+    if (sandbox_begin(&sandbox, *role, false, &error) != 0 ||
+        sandbox_files(&sandbox, &fd, 1, &error) != 0 || sandbox_enter(&sandbox, &error) != 0)
         return NOT_ENTERED;
     int file = openat(fd, "inside", O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
     if (file < 0 || ftruncate(file, 10) != 0)
@@ -69,8 +69,8 @@ static int look_at_worlds(void *context)
 {
     const char *shm = context;
     struct sandbox sandbox;
-    if (sandbox_begin(&sandbox, ROLE_CONSOLE, false, &reason) != 0 ||
-        sandbox_files(&sandbox, NULL, 0, &reason) != 0 || sandbox_enter(&sandbox, &reason) != 0)
+    if (sandbox_begin(&sandbox, ROLE_CONSOLE, false, &error) != 0 ||
+        sandbox_files(&sandbox, NULL, 0, &error) != 0 || sandbox_enter(&sandbox, &error) != 0)
         return NOT_ENTERED;
     if (open(shm, O_RDONLY | O_CLOEXEC) < 0)
         return 1;
@@ -113,9 +113,9 @@ static int lose_memory(void *context)
     struct sandbox sandbox;
     struct view view;
     process_guard();
-    if (segment_attach(&view, loss->name, loss->role, &reason) != 0 ||
-        sandbox_begin(&sandbox, loss->role, false, &reason) != 0 ||
-        truncate(loss->paths.object, 0) != 0 || sandbox_enter(&sandbox, &reason) != 0)
+    if (segment_attach(&view, loss->name, loss->role, &error) != 0 ||
+        sandbox_begin(&sandbox, loss->role, false, &error) != 0 ||
+        truncate(loss->paths.object, 0) != 0 || sandbox_enter(&sandbox, &error) != 0)
         return NOT_ENTERED;
     const volatile uint64_t *frame = &view.w[0].head->frame;
     return *frame == UINT64_MAX ? 2 : 3;

@@ -51,7 +51,7 @@ enum {
 #define NONE 0
 #define ALL  (M | C | I | P | D | R | W)
 
-static struct reason reason;
+static struct error_text error;
 
 /* --- what is tried; the result does not matter, only whether it may be asked --- */
 
@@ -280,11 +280,11 @@ static void attempt(int wanted)
 static int enter(int role)
 {
     struct sandbox sandbox;
-    if (sandbox_begin(&sandbox, (enum role)role, false, &reason) == 0) {
-        if (sandbox_enter(&sandbox, &reason) == 0)
+    if (sandbox_begin(&sandbox, (enum role)role, false, &error) == 0) {
+        if (sandbox_enter(&sandbox, &error) == 0)
             return sandbox.on ? 0 : NOT_ENTERED;
     }
-    fprintf(stderr, "%s\n", reason.text);
+    fprintf(stderr, "%s\n", error.text);
     return NOT_ENTERED;
 }
 
@@ -350,9 +350,9 @@ static int confine_older_thread(void *context)
     pthread_t thread;
     (void)context;
     struct sandbox sandbox;
-    if (sandbox_begin(&sandbox, ROLE_MOVER, false, &reason) != 0 ||
+    if (sandbox_begin(&sandbox, ROLE_MOVER, false, &error) != 0 ||
         pthread_create(&thread, NULL, open_when_entered, NULL) != 0 ||
-        sandbox_enter(&sandbox, &reason) != 0)
+        sandbox_enter(&sandbox, &error) != 0)
         return NOT_ENTERED;
     entered = 1;
     pthread_join(thread, NULL);
@@ -406,9 +406,9 @@ static int make_dds_thread(void *context)
     ddsrt_threadattr_t attributes;
     (void)context;
     ddsrt_threadattr_init(&attributes);
-    if (sandbox_begin(&sandbox, ROLE_REPORTER, false, &reason) != 0 ||
+    if (sandbox_begin(&sandbox, ROLE_REPORTER, false, &error) != 0 ||
         ddsrt_thread_create(&thread, "dds", &attributes, open_in_dds_thread, NULL) != 0 ||
-        sandbox_enter(&sandbox, &reason) != 0)
+        sandbox_enter(&sandbox, &error) != 0)
         return NOT_ENTERED;
     entered = 1;
     ddsrt_thread_join(thread, NULL);
@@ -438,8 +438,8 @@ static int work_inside(void *context)
     struct sandbox sandbox;
     struct thread_pool *workers;
     (void)context;
-    if (sandbox_begin(&sandbox, ROLE_COLLIDER, false, &reason) != 0 ||
-        !(workers = thread_pool_create(THREAD_POOL_MAX)) || sandbox_enter(&sandbox, &reason) != 0)
+    if (sandbox_begin(&sandbox, ROLE_COLLIDER, false, &error) != 0 ||
+        !(workers = thread_pool_create(THREAD_POOL_MAX)) || sandbox_enter(&sandbox, &error) != 0)
         return NOT_ENTERED;
     for (int turn = 0; turn < 20; turn++) {
         thread_pool_run(workers, allocate_row, blocks, 4096, 16);
@@ -540,8 +540,8 @@ static int go_without(void *context)
     struct sandbox sandbox;
     (void)context;
     int before = prctl(PR_GET_NO_NEW_PRIVS, 0, 0, 0, 0); /* a container's own */
-    if (sandbox_begin(&sandbox, ROLE_MOVER, true, &reason) != 0 || sandbox.on ||
-        sandbox_files(&sandbox, NULL, 0, &reason) != 0 || sandbox_enter(&sandbox, &reason) != 0)
+    if (sandbox_begin(&sandbox, ROLE_MOVER, true, &error) != 0 || sandbox.on ||
+        sandbox_files(&sandbox, NULL, 0, &error) != 0 || sandbox_enter(&sandbox, &error) != 0)
         return 1;
     attempt(0);
     return prctl(PR_GET_NO_NEW_PRIVS, 0, 0, 0, 0) != before;
@@ -581,10 +581,10 @@ static int forbid_filters(void *context)
     seccomp_rule_add(filter, SCMP_ACT_ERRNO(EPERM), SCMP_SYS(seccomp), 0);
     seccomp_rule_add(filter, SCMP_ACT_ERRNO(EPERM), SCMP_SYS(prctl), 1,
                      SCMP_A0(SCMP_CMP_EQ, PR_SET_SECCOMP));
-    if (seccomp_load(filter) != 0 || sandbox_begin(&sandbox, ROLE_MOVER, false, &reason) != 0)
+    if (seccomp_load(filter) != 0 || sandbox_begin(&sandbox, ROLE_MOVER, false, &error) != 0)
         return NOT_ENTERED;
-    int result = sandbox_enter(&sandbox, &reason);
-    fprintf(stderr, "%s\n", reason.text);
+    int result = sandbox_enter(&sandbox, &error);
+    fprintf(stderr, "%s\n", error.text);
     return result == -1 ? 0 : 1;
 }
 

@@ -23,7 +23,7 @@
 
 #include <cmocka.h>
 
-static struct reason reason;
+static struct error_text error;
 
 /* What fails with EPERM in the keeper and all that it starts; without the filter each of these
  * would do something, or fail with another error, also for a user without privileges. */
@@ -75,9 +75,9 @@ static int try_denied(void)
 static int enter_as_keeper(void)
 {
     const char *folders[] = {confined_folder, "/none"};
-    if (sandbox_keeper(folders, 2, &reason) == 0)
+    if (sandbox_keeper(folders, 2, &error) == 0)
         return 0;
-    fprintf(stderr, "%s\n", reason.text);
+    fprintf(stderr, "%s\n", error.text);
     return NOT_ENTERED;
 }
 
@@ -153,8 +153,8 @@ static int enter_beneath_keeper(void *context)
     const enum role *role = context;
     int fd = open(confined_folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     struct sandbox sandbox;
-    if (enter_as_keeper() != 0 || sandbox_begin(&sandbox, *role, false, &reason) != 0 ||
-        sandbox_files(&sandbox, &fd, 1, &reason) != 0 || sandbox_enter(&sandbox, &reason) != 0)
+    if (enter_as_keeper() != 0 || sandbox_begin(&sandbox, *role, false, &error) != 0 ||
+        sandbox_files(&sandbox, &fd, 1, &error) != 0 || sandbox_enter(&sandbox, &error) != 0)
         return NOT_ENTERED;
     confined_use_memory();
     syscall(SYS_open, "/etc/passwd", O_RDONLY);

@@ -32,7 +32,7 @@ struct world_file {
 };
 
 static struct world_file file;
-static struct reason reason;
+static struct error_text error;
 
 static int make_world(void **state)
 {
@@ -41,7 +41,7 @@ static int make_world(void **state)
     (void)state;
     named_world_make(file.name, SCENARIO);
     named_world_paths(&paths, file.name);
-    if (segment_attach(&view, file.name, ROLE_NONE, &reason) != 0)
+    if (segment_attach(&view, file.name, ROLE_NONE, &error) != 0)
         return -1;
     file.layout = view.layout;
     segment_detach(&view);
@@ -66,17 +66,17 @@ static void check_flips(size_t first, size_t end, const char *words)
         for (int bit = 0; bit < 8; bit++) {
             struct view view;
             file.memory[byte] ^= (unsigned char)(1u << bit);
-            int result = segment_attach(&view, file.name, ROLE_NONE, &reason);
+            int result = segment_attach(&view, file.name, ROLE_NONE, &error);
             file.memory[byte] ^= (unsigned char)(1u << bit);
             if (result == 0)
                 fail_msg("attached with bit %d of byte %zu flipped", bit, byte);
-            if (reason.foreign || !strstr(reason.text, words))
-                fail_msg("bit %d of byte %zu: \"%s\" is not in: %s", bit, byte, words, reason.text);
+            if (error.foreign || !strstr(error.text, words))
+                fail_msg("bit %d of byte %zu: \"%s\" is not in: %s", bit, byte, words, error.text);
         }
     }
     struct view view;
-    if (segment_attach(&view, file.name, ROLE_MOVER, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_attach(&view, file.name, ROLE_MOVER, &error) != 0)
+        fail_msg("%s", error.text);
     segment_detach(&view);
 }
 
@@ -103,9 +103,9 @@ static void test_bits_behind_the_header_are_harmless(void **state)
          byte += 61) {
         struct view view;
         file.memory[byte] ^= 0xff;
-        if (segment_attach(&view, file.name, ROLE_NONE, &reason) != 0 ||
-            segment_verify(&view, &reason) != 0)
-            fail_msg("%s", reason.text);
+        if (segment_attach(&view, file.name, ROLE_NONE, &error) != 0 ||
+            segment_verify(&view, &error) != 0)
+            fail_msg("%s", error.text);
         segment_detach(&view);
     }
 }
@@ -116,19 +116,19 @@ static void test_bits_of_static_regions_are_found_by_region(void **state)
     uint64_t seed = fixture_seed(4);
     struct view view;
     (void)state;
-    assert_int_equal(segment_attach(&view, file.name, ROLE_NONE, &reason), 0);
+    assert_int_equal(segment_attach(&view, file.name, ROLE_NONE, &error), 0);
     for (int region = REGION_KINDS; region < REGION_COMMIT; region++) {
         for (int i = 0; i < 20 && file.layout.bytes[region] > 0; i++) {
             uint64_t at = fixture_random(&seed) % (file.layout.bytes[region] * 8);
             unsigned char *byte = &file.memory[file.layout.offset[region] + at / 8];
             *byte ^= (unsigned char)(1u << (at % 8));
-            assert_int_equal(segment_verify(&view, &reason), -1);
-            if (!strstr(reason.text, region_name((enum region)region)))
-                fail_msg("%s is not in: %s", region_name((enum region)region), reason.text);
+            assert_int_equal(segment_verify(&view, &error), -1);
+            if (!strstr(error.text, region_name((enum region)region)))
+                fail_msg("%s is not in: %s", region_name((enum region)region), error.text);
             *byte ^= (unsigned char)(1u << (at % 8));
         }
     }
-    assert_int_equal(segment_verify(&view, &reason), 0);
+    assert_int_equal(segment_verify(&view, &error), 0);
     segment_detach(&view);
 }
 

@@ -22,7 +22,7 @@
 
 /* Longer than the address of a socket can be. */
 static char folder[180];
-static struct reason reason;
+static struct error_text error;
 
 static int make_folder(void **state)
 {
@@ -57,12 +57,12 @@ static void test_messages_pass_and_the_file_is_private(void **state)
     struct stat status;
     char path[300], text[8];
     (void)state;
-    int listener = local_socket_listen("field", "commands", SOCK_SEQPACKET, 4, &reason);
+    int listener = local_socket_listen("field", "commands", SOCK_SEQPACKET, 4, &error);
     assert_true(listener >= 0);
     snprintf(path, sizeof path, "%s/field.commands", folder);
     assert_int_equal(stat(path, &status), 0);
     assert_true(S_ISSOCK(status.st_mode) && (status.st_mode & 0077) == 0);
-    int client = local_socket_connect("field", "commands", SOCK_SEQPACKET, &reason);
+    int client = local_socket_connect("field", "commands", SOCK_SEQPACKET, &error);
     int served = accept(listener, NULL, NULL);
     assert_true(client >= 0 && served >= 0);
     assert_true(local_socket_peer_is(served, geteuid()));
@@ -84,14 +84,14 @@ static int listens_and_dies(void *context)
 static void test_place_of_a_dead_listener_is_taken(void **state)
 {
     (void)state;
-    assert_int_equal(local_socket_connect("field", "pictures", SOCK_STREAM, &reason), -1);
+    assert_int_equal(local_socket_connect("field", "pictures", SOCK_STREAM, &error), -1);
     assert_int_equal(errno, ENOENT);
-    assert_int_equal(child_run(listens_and_dies, &reason), 0);
-    assert_int_equal(local_socket_connect("field", "pictures", SOCK_STREAM, &reason), -1);
+    assert_int_equal(child_run(listens_and_dies, &error), 0);
+    assert_int_equal(local_socket_connect("field", "pictures", SOCK_STREAM, &error), -1);
     assert_int_equal(errno, ECONNREFUSED);
-    assert_non_null(strstr(reason.text, "field.pictures"));
-    int listener = local_socket_listen("field", "pictures", SOCK_STREAM, 4, &reason);
-    int client = local_socket_connect("field", "pictures", SOCK_STREAM, &reason);
+    assert_non_null(strstr(error.text, "field.pictures"));
+    int listener = local_socket_listen("field", "pictures", SOCK_STREAM, 4, &error);
+    int client = local_socket_connect("field", "pictures", SOCK_STREAM, &error);
     assert_true(listener >= 0 && client >= 0);
     close(client);
     close(listener);
@@ -104,8 +104,8 @@ static void test_what_cannot_be_removed_is_refused(void **state)
     (void)state;
     snprintf(path, sizeof path, "%s/field.pictures", folder);
     assert_int_equal(mkdir(path, 0700), 0);
-    assert_int_equal(local_socket_listen("field", "pictures", SOCK_STREAM, 4, &reason), -1);
-    assert_non_null(strstr(reason.text, "field.pictures: cannot remove"));
+    assert_int_equal(local_socket_listen("field", "pictures", SOCK_STREAM, 4, &error), -1);
+    assert_non_null(strstr(error.text, "field.pictures: cannot remove"));
     assert_int_equal(rmdir(path), 0);
 }
 
@@ -131,7 +131,7 @@ static void test_process_of_another_user_is_not_talked_to(void **state)
     int client = -1, cause = ENOENT;
     for (int tries = 0; tries < 400 && client < 0 && cause != EACCES; tries++) {
         usleep(5000);
-        client = local_socket_connect("field", "pictures", SOCK_STREAM, &reason);
+        client = local_socket_connect("field", "pictures", SOCK_STREAM, &error);
         cause = errno;
     }
     assert_int_equal(client, -1);

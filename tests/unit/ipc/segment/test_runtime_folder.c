@@ -25,7 +25,7 @@ static char here[64];
 static struct answer {
     int result;
     char path[RUNTIME_FOLDER_MAX];
-    struct reason reason;
+    struct error_text error;
     bool kept; /* a second call and the descriptor agree */
 } * answer;
 
@@ -84,14 +84,14 @@ static int search(void *context)
     name("HOME", names->home);
     if (names->other_user && setuid(65534) != 0)
         return 1;
-    answer->result = runtime_folder(answer->path, &answer->reason);
+    answer->result = runtime_folder(answer->path, &answer->error);
     if (answer->result != 0)
         return 0;
-    int fd = runtime_folder_open(&answer->reason);
+    int fd = runtime_folder_open(&answer->error);
     answer->kept = fd >= 0 && fstat(fd, &by_fd) == 0 && stat(answer->path, &by_path) == 0 &&
                    by_fd.st_ino == by_path.st_ino && (by_path.st_mode & 07777) == 0700 &&
                    (fcntl(fd, F_GETFL) & O_PATH) != 0 &&
-                   runtime_folder(again, &answer->reason) == 0 && strcmp(again, answer->path) == 0;
+                   runtime_folder(again, &answer->error) == 0 && strcmp(again, answer->path) == 0;
     return 0;
 }
 
@@ -99,7 +99,7 @@ static void finds(struct names names, const char *path)
 {
     assert_int_equal(child_run(search, &names), 0);
     if (answer->result != 0)
-        fail_msg("%s", answer->reason.text);
+        fail_msg("%s", answer->error.text);
     assert_string_equal(answer->path, path);
     assert_true(answer->kept);
 }
@@ -108,8 +108,8 @@ static void refuses(struct names names, const char *what, const char *right)
 {
     assert_int_equal(child_run(search, &names), 0);
     assert_int_equal(answer->result, -1);
-    if (!strstr(answer->reason.text, what) || !strstr(answer->reason.text, right))
-        fail_msg("\"%s\" names not \"%s\" and \"%s\"", answer->reason.text, what, right);
+    if (!strstr(answer->error.text, what) || !strstr(answer->error.text, right))
+        fail_msg("\"%s\" names not \"%s\" and \"%s\"", answer->error.text, what, right);
 }
 
 static void test_own_variable_comes_first_and_is_made(void **state)
@@ -220,17 +220,17 @@ static void test_long_paths_are_refused_with_their_length(void **state)
 static int changes_the_folder(void *context)
 {
     char path[RUNTIME_FOLDER_MAX];
-    struct reason reason;
+    struct error_text error;
     setenv("JOLON_RUNTIME_DIR", context, 1);
-    if (runtime_folder(path, &reason) != 0)
+    if (runtime_folder(path, &error) != 0)
         return 1;
     setenv("JOLON_RUNTIME_DIR", "/nowhere", 1); /* it stays with what it has found */
-    if (runtime_folder(path, &reason) != 0 || strcmp(path, context) != 0)
+    if (runtime_folder(path, &error) != 0 || strcmp(path, context) != 0)
         return 2;
-    if (chmod(path, 0755) != 0 || runtime_folder(path, &reason) == 0 ||
-        runtime_folder_open(&reason) >= 0)
+    if (chmod(path, 0755) != 0 || runtime_folder(path, &error) == 0 ||
+        runtime_folder_open(&error) >= 0)
         return 3;
-    return strstr(reason.text, "0755") ? 0 : 4;
+    return strstr(error.text, "0755") ? 0 : 4;
 }
 
 static void test_found_folder_is_kept_and_checked_again(void **state)

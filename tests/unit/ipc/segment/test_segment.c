@@ -32,7 +32,7 @@
 
 static char name[SEGMENT_NAME_MAX];
 static struct segment_paths paths;
-static struct reason reason;
+static struct error_text error;
 
 static int make_world(void **state)
 {
@@ -56,8 +56,8 @@ static bool exists(const char *path)
 
 static void attach(struct view *view, enum role role)
 {
-    if (segment_attach(view, name, role, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_attach(view, name, role, &error) != 0)
+        fail_msg("%s", error.text);
 }
 
 static void begin(struct view *view, struct fixture *f)
@@ -65,7 +65,7 @@ static void begin(struct view *view, struct fixture *f)
     fixture_open(f, SCENARIO);
     struct segment_header header =
         segment_header_for(&f->scenario->settings->params, &f->built->counts);
-    assert_int_equal(segment_begin(view, name, &header, &reason), 0);
+    assert_int_equal(segment_begin(view, name, &header, &error), 0);
     segment_fill(view, f->built);
 }
 
@@ -90,9 +90,9 @@ static bool has(char names[][SEGMENT_NAME_MAX], int count)
 static void attach_refused(const char *world, enum role role, const char *word)
 {
     struct view view;
-    assert_int_equal(segment_attach(&view, world, role, &reason), -1);
-    if (!strstr(reason.text, word))
-        fail_msg("\"%s\" is not in: %s", word, reason.text);
+    assert_int_equal(segment_attach(&view, world, role, &error), -1);
+    if (!strstr(error.text, word))
+        fail_msg("\"%s\" is not in: %s", word, error.text);
     assert_null(view.base);
     assert_int_equal(view.lock_fd, -1);
 }
@@ -110,13 +110,13 @@ static void test_world_is_not_there_before_it_is_published(void **state)
     fixture_open(&f, SCENARIO);
     struct segment_header header =
         segment_header_for(&f.scenario->settings->params, &f.built->counts);
-    assert_int_equal(segment_begin(&made, unborn, &header, &reason), 0);
+    assert_int_equal(segment_begin(&made, unborn, &header, &error), 0);
     segment_fill(&made, f.built);
     assert_int_equal(named_world_leftovers(), before); /* a kill here leaves nothing */
     attach_refused(unborn, ROLE_NONE, "there is no world");
-    assert_int_equal(segment_publish(&made, &reason), 0);
+    assert_int_equal(segment_publish(&made, &error), 0);
     segment_detach(&made);
-    assert_int_equal(segment_attach(&seen, unborn, ROLE_NONE, &reason), 0);
+    assert_int_equal(segment_attach(&seen, unborn, ROLE_NONE, &error), 0);
     assert_int_equal(state_digest(&seen.world, &seen.w[0]), fixture_digest(&f));
     segment_detach(&seen);
     fixture_close(&f);
@@ -149,7 +149,7 @@ static void test_abandoned_world_leaves_nothing(void **state)
     (void)state;
     int before = named_world_leftovers();
     named_world_name(unborn);
-    assert_int_equal(segment_begin(&view, unborn, &header, &reason), 0);
+    assert_int_equal(segment_begin(&view, unborn, &header, &error), 0);
     segment_abandon(&view);
     assert_null(view.base);
     segment_abandon(&view); /* once more does nothing */
@@ -164,16 +164,16 @@ static void test_second_world_of_the_name_is_refused(void **state)
     fixture_open(&f, "world = { seed = 99; capacity = 16; };");
     struct segment_header header =
         segment_header_for(&f.scenario->settings->params, &f.built->counts);
-    assert_int_equal(segment_begin(&second, name, &header, &reason), 0);
+    assert_int_equal(segment_begin(&second, name, &header, &error), 0);
     segment_fill(&second, f.built);
-    assert_int_equal(segment_publish(&second, &reason), -1);
-    assert_non_null(strstr(reason.text, "exists already"));
-    assert_non_null(strstr(reason.text, name));
+    assert_int_equal(segment_publish(&second, &error), -1);
+    assert_non_null(strstr(error.text, "exists already"));
+    assert_non_null(strstr(error.text, name));
     segment_abandon(&second);
     attach(&first, ROLE_NONE); /* and the first is as it was */
     assert_int_equal(first.world.params->seed, 1);
     assert_int_equal(first.w[0].head->used, 3);
-    assert_int_equal(segment_verify(&first, &reason), 0);
+    assert_int_equal(segment_verify(&first, &error), 0);
     segment_detach(&first);
     fixture_close(&f);
 }
@@ -200,9 +200,9 @@ static void test_names_that_a_world_may_have(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         assert_false(segment_name_ok(bad[i]));
         attach_refused(bad[i], ROLE_NONE, "is no name for a world");
-        assert_int_equal(segment_begin(&view, bad[i], &header, &reason), -1);
-        assert_non_null(strstr(reason.text, "is no name for a world"));
-        assert_int_equal(segment_remove(bad[i], true, &reason), -1);
+        assert_int_equal(segment_begin(&view, bad[i], &header, &error), -1);
+        assert_non_null(strstr(error.text, "is no name for a world"));
+        assert_int_equal(segment_remove(bad[i], true, &error), -1);
     }
 }
 
@@ -214,9 +214,9 @@ static void test_counts_out_of_range_make_no_world(void **state)
     (void)state;
     int before = named_world_leftovers();
     named_world_name(unborn);
-    assert_int_equal(segment_begin(&view, unborn, &header, &reason), -1);
-    assert_non_null(strstr(reason.text, "out of range"));
-    assert_int_equal(segment_private(&view, &header, &reason), -1);
+    assert_int_equal(segment_begin(&view, unborn, &header, &error), -1);
+    assert_non_null(strstr(error.text, "out of range"));
+    assert_int_equal(segment_private(&view, &header, &error), -1);
     assert_int_equal(named_world_leftovers(), before);
 }
 
@@ -247,12 +247,12 @@ static void test_name_that_leads_nowhere_is_taken(void **state)
     assert_int_equal(unlink(paths.object), 0);
     attach_refused(name, ROLE_NONE, "there is no world");
     attach_refused(name, ROLE_MOVER, "there is no world");
-    assert_int_equal(segment_paths(&left, name, &reason), 0);
+    assert_int_equal(segment_paths(&left, name, &error), 0);
     assert_string_equal(left.object, "");
-    assert_false(has(names, segment_list(names, 512, false, &reason)));
-    assert_true(has(names, segment_list(names, 512, true, &reason)));
+    assert_false(has(names, segment_list(names, 512, false, &error)));
+    assert_true(has(names, segment_list(names, 512, true, &error)));
     make_again();
-    assert_true(has(names, segment_list(names, 512, false, &reason)));
+    assert_true(has(names, segment_list(names, 512, false, &error)));
 }
 
 static void test_name_whose_object_is_gone_while_a_role_runs_is_not_taken(void **state)
@@ -263,8 +263,8 @@ static void test_name_whose_object_is_gone_while_a_role_runs_is_not_taken(void *
     attach(&holder, ROLE_COLLIDER);
     assert_int_equal(unlink(paths.object), 0);
     begin(&second, &f);
-    assert_int_equal(segment_publish(&second, &reason), -1);
-    assert_non_null(strstr(reason.text, "its collider still runs"));
+    assert_int_equal(segment_publish(&second, &error), -1);
+    assert_non_null(strstr(error.text, "its collider still runs"));
     segment_abandon(&second);
     fixture_close(&f);
     segment_detach(&holder);
@@ -275,11 +275,11 @@ static void test_sweep_takes_what_is_left_and_no_world(void **state)
 {
     struct view view;
     (void)state;
-    assert_int_equal(segment_sweep(name, &reason), 0);
+    assert_int_equal(segment_sweep(name, &error), 0);
     attach(&view, ROLE_NONE);
     segment_detach(&view);
     assert_int_equal(unlink(paths.object), 0);
-    assert_int_equal(segment_sweep(name, &reason), 0);
+    assert_int_equal(segment_sweep(name, &error), 0);
     assert_int_equal(named_world_leftovers(), 0);
 }
 
@@ -299,8 +299,8 @@ static void test_what_is_no_link_to_an_object_is_refused(void **state)
             target[strlen(target) - 34] = 'X';
         assert_int_equal(symlink(target, paths.name), 0);
         attach_refused(name, ROLE_NONE, "is no link to a world's object");
-        assert_int_equal(segment_remove(name, true, &reason), -1);
-        assert_non_null(strstr(reason.text, paths.name));
+        assert_int_equal(segment_remove(name, true, &error), -1);
+        assert_non_null(strstr(error.text, paths.name));
     }
     assert_int_equal(unlink(paths.name), 0);
     assert_int_equal(mkdir(paths.name, 0700), 0);
@@ -315,13 +315,13 @@ static int create_once(void *context)
     struct fixture *f = context;
     struct segment_header header =
         segment_header_for(&f->scenario->settings->params, &f->built->counts);
-    if (segment_begin(&view, name, &header, &reason) != 0)
+    if (segment_begin(&view, name, &header, &error) != 0)
         return 2;
     segment_fill(&view, f->built);
-    int result = segment_publish(&view, &reason);
+    int result = segment_publish(&view, &error);
     if (result == 0)
         segment_detach(&view);
-    else if (!strstr(reason.text, "exists already"))
+    else if (!strstr(error.text, "exists already"))
         result = 3;
     return result == -1 ? 1 : result;
 }
@@ -385,7 +385,7 @@ static void test_reader_sees_the_world_and_takes_no_slot(void **state)
     assert_int_equal(atomic_load(&view.commit->commit), 0);
     for (int role = 0; role < ROLE_COUNT; role++)
         assert_int_equal(atomic_load(&view.slot[role]->state), ROLE_ABSENT);
-    assert_int_equal(segment_verify(&view, &reason), 0);
+    assert_int_equal(segment_verify(&view, &error), 0);
     segment_detach(&view);
     assert_null(view.base);
     segment_detach(&view); /* once more does nothing */
@@ -424,7 +424,7 @@ static void test_second_holder_of_a_role_is_refused_by_name_and_pid(void **state
     for (int role = 0; role < ROLE_COUNT; role++) {
         attach(&first, (enum role)role);
         attach_refused(name, (enum role)role, role_name((enum role)role));
-        assert_non_null(strstr(reason.text, pid));
+        assert_non_null(strstr(error.text, pid));
         assert_int_equal(atomic_load(&first.slot[role]->starts), 1); /* the refused one wrote not */
         segment_detach(&first);
     }
@@ -450,7 +450,7 @@ static int hold_for_long(void *context)
 {
     struct view view;
     const enum role *role = context;
-    if (segment_attach(&view, name, *role, &reason) != 0)
+    if (segment_attach(&view, name, *role, &error) != 0)
         return 1;
     segment_ready(&view);
     sleep(60);
@@ -476,7 +476,7 @@ static void test_kill_of_the_holder_frees_the_role(void **state)
         wait_until_held(role);
         assert_int_equal(segment_holder(name, role), holder);
         attach_refused(name, role, "is running already");
-        assert_false(reason.damaged);
+        assert_false(error.damaged);
         assert_int_equal(segment_holder_alive(name, role, 0), holder);
         child_kill(holder);
         assert_int_equal(segment_holder_alive(name, role, UINT64_MAX), 0);
@@ -497,20 +497,20 @@ static void test_waits_go_by_the_lock_and_not_by_the_pid(void **state)
     pid_t dead = child_start(hold_for_long, &role);
     child_kill(dead);
     attach(&view, ROLE_COLLIDER);
-    assert_int_equal(segment_wait_free(name, ROLE_MOVER, 0, &reason), 0);
-    assert_int_equal(segment_wait_free(name, ROLE_RENDERER, 0, &reason), -1);
+    assert_int_equal(segment_wait_free(name, ROLE_MOVER, 0, &error), 0);
+    assert_int_equal(segment_wait_free(name, ROLE_RENDERER, 0, &error), -1);
     snprintf(text, sizeof text, "by pid %d,", getpid());
-    assert_non_null(strstr(reason.text, "the collider of world"));
-    assert_non_null(strstr(reason.text, text));
+    assert_non_null(strstr(error.text, "the collider of world"));
+    assert_non_null(strstr(error.text, text));
     const int said[] = {0, dead};
     for (int i = 0; i < 2; i++) {
         atomic_store(&view.slot[ROLE_COLLIDER]->pid, (uint32_t)said[i]);
         assert_int_equal(segment_holder_alive(name, ROLE_COLLIDER, 0), 0);
-        assert_int_equal(segment_wait_free(name, ROLE_COLLIDER, 0, &reason), -1);
-        assert_non_null(strstr(reason.text, "by a process,"));
+        assert_int_equal(segment_wait_free(name, ROLE_COLLIDER, 0, &error), -1);
+        assert_non_null(strstr(error.text, "by a process,"));
     }
     segment_detach(&view);
-    assert_int_equal(segment_wait_free(name, ROLE_COLLIDER, UINT64_MAX, &reason), 0);
+    assert_int_equal(segment_wait_free(name, ROLE_COLLIDER, UINT64_MAX, &error), 0);
 }
 
 /* --- removal -----------------------------------------------------------------------------------*/
@@ -520,12 +520,12 @@ static void test_removal_is_refused_while_a_role_is_held(void **state)
     struct view view;
     (void)state;
     attach(&view, ROLE_REPORTER);
-    assert_int_equal(segment_remove(name, false, &reason), -1);
-    assert_non_null(strstr(reason.text, "reporter"));
+    assert_int_equal(segment_remove(name, false, &error), -1);
+    assert_non_null(strstr(error.text, "reporter"));
     assert_true(exists(paths.object) && exists(paths.lock));
     segment_detach(&view);
     attach(&view, ROLE_NONE); /* a reader hinders nobody */
-    assert_int_equal(segment_remove(name, false, &reason), 0);
+    assert_int_equal(segment_remove(name, false, &error), 0);
     assert_false(exists(paths.object) || exists(paths.lock));
     assert_int_equal(view.w[0].head->used, 3); /* and goes on reading what it has mapped */
     segment_detach(&view);
@@ -536,7 +536,7 @@ static void test_removal_by_force(void **state)
     struct view view;
     (void)state;
     attach(&view, ROLE_MOVER);
-    assert_int_equal(segment_remove(name, true, &reason), 0);
+    assert_int_equal(segment_remove(name, true, &error), 0);
     assert_false(exists(paths.object) || exists(paths.lock));
     segment_detach(&view);
 }
@@ -547,11 +547,11 @@ static void test_lock_file_stays_while_a_supervisor_holds_it(void **state)
     int fd = open(paths.lock, O_RDWR | O_CLOEXEC);
     assert_true(fd >= 0);
     assert_int_equal(flock(fd, LOCK_EX), 0);
-    assert_int_equal(segment_remove(name, false, &reason), 0);
+    assert_int_equal(segment_remove(name, false, &error), 0);
     assert_false(exists(paths.object));
     assert_true(exists(paths.lock));
     close(fd);
-    assert_int_equal(segment_remove(name, false, &reason), 0); /* what is gone is no mistake */
+    assert_int_equal(segment_remove(name, false, &error), 0); /* what is gone is no mistake */
     assert_false(exists(paths.lock));
 }
 
@@ -561,13 +561,13 @@ static void test_removed_name_can_be_made_again(void **state)
     struct fixture f;
     (void)state;
     attach(&old, ROLE_MOVER);
-    assert_int_equal(segment_remove(name, true, &reason), 0);
+    assert_int_equal(segment_remove(name, true, &error), 0);
     fixture_open(&f, SCENARIO);
     struct segment_header header =
         segment_header_for(&f.scenario->settings->params, &f.built->counts);
-    assert_int_equal(segment_begin(&new, name, &header, &reason), 0);
+    assert_int_equal(segment_begin(&new, name, &header, &error), 0);
     segment_fill(&new, f.built);
-    assert_int_equal(segment_publish(&new, &reason), 0);
+    assert_int_equal(segment_publish(&new, &error), 0);
     segment_detach(&new);
     fixture_close(&f);
     attach(&new, ROLE_MOVER); /* the old world's mover has another lock and another memory */
@@ -581,10 +581,10 @@ static void test_removed_name_can_be_made_again(void **state)
 static void test_removal_takes_the_sockets_along(void **state)
 {
     (void)state;
-    close(local_socket_listen(name, "pictures", SOCK_STREAM, 1, &reason));
-    close(local_socket_listen(name, "commands", SOCK_SEQPACKET, 1, &reason));
+    close(local_socket_listen(name, "pictures", SOCK_STREAM, 1, &error));
+    close(local_socket_listen(name, "commands", SOCK_SEQPACKET, 1, &error));
     assert_int_equal(named_world_leftovers(), 5);
-    assert_int_equal(segment_remove(name, false, &reason), 0);
+    assert_int_equal(segment_remove(name, false, &error), 0);
     assert_int_equal(named_world_leftovers(), 0);
 }
 
@@ -593,7 +593,7 @@ static void test_supervisor_removes_its_own_lock_file(void **state)
     (void)state;
     int fd = open(paths.lock, O_RDWR | O_CLOEXEC);
     assert_int_equal(flock(fd, LOCK_EX), 0);
-    assert_int_equal(segment_remove_own(name, &reason), 0);
+    assert_int_equal(segment_remove_own(name, &error), 0);
     assert_int_equal(named_world_leftovers(), 0);
     close(fd);
 }
@@ -602,11 +602,11 @@ static void test_list_has_worlds_and_nothing_else(void **state)
 {
     static char names[512][SEGMENT_NAME_MAX];
     (void)state;
-    int count = segment_list(names, 512, false, &reason);
+    int count = segment_list(names, 512, false, &error);
     for (int i = 0; i < count; i++)
         assert_true(segment_name_ok(names[i]));
     assert_true(has(names, count));
-    assert_int_equal(segment_list(names, 0, false, &reason), 0); /* writes nothing */
+    assert_int_equal(segment_list(names, 0, false, &error), 0); /* writes nothing */
 }
 
 /* --- private worlds ----------------------------------------------------------------------------*/

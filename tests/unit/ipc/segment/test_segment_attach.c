@@ -31,7 +31,7 @@
 
 static char name[SEGMENT_NAME_MAX];
 static struct segment_paths paths;
-static struct reason reason;
+static struct error_text error;
 static struct segment_header header; /* as published */
 static struct layout layout;
 
@@ -41,7 +41,7 @@ static int make_world(void **state)
     (void)state;
     named_world_make(name, SCENARIO);
     named_world_paths(&paths, name);
-    if (segment_attach(&view, name, ROLE_NONE, &reason) != 0)
+    if (segment_attach(&view, name, ROLE_NONE, &error) != 0)
         return -1;
     header = *view.header;
     layout = view.layout;
@@ -83,10 +83,10 @@ static void check_refused(const char *word)
 {
     for (int i = 0; i < 2; i++) { /* as a reader and in a role */
         struct view view;
-        if (segment_attach(&view, name, i == 0 ? ROLE_NONE : ROLE_MOVER, &reason) == 0)
+        if (segment_attach(&view, name, i == 0 ? ROLE_NONE : ROLE_MOVER, &error) == 0)
             fail_msg("attached; should be refused for its %s", word);
-        if (!strstr(reason.text, word))
-            fail_msg("\"%s\" is not in: %s", word, reason.text);
+        if (!strstr(error.text, word))
+            fail_msg("\"%s\" is not in: %s", word, error.text);
         assert_null(view.base);
         assert_int_equal(view.lock_fd, -1);
     }
@@ -95,8 +95,8 @@ static void check_refused(const char *word)
 static void check_attaches(void)
 {
     struct view view;
-    if (segment_attach(&view, name, ROLE_MOVER, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_attach(&view, name, ROLE_MOVER, &error) != 0)
+        fail_msg("%s", error.text);
     segment_detach(&view);
 }
 
@@ -118,7 +118,7 @@ static void test_wrong_version(void **state)
     h.version = SEGMENT_VERSION + 1;
     put_hashed(h);
     check_refused("version");
-    assert_false(reason.damaged);
+    assert_false(error.damaged);
 }
 
 static void test_other_layout(void **state)
@@ -184,7 +184,7 @@ static void test_header_damaged_in_many_bits(void **state)
     h.static_hash[REGION_POSTS] = ~h.static_hash[REGION_POSTS];
     put_header(&h);
     check_refused("header is damaged");
-    assert_true(reason.damaged);
+    assert_true(error.damaged);
     put_header(&header);
     check_attaches();
 }
@@ -206,7 +206,7 @@ static void test_wrong_sizes(void **state)
     for (size_t i = sizeof sizes / sizeof sizes[0]; i-- > 0;) { /* the header goes last */
         assert_int_equal(truncate(paths.object, (off_t)sizes[i]), 0);
         check_refused("size");
-        assert_true(reason.damaged);
+        assert_true(error.damaged);
     }
 }
 
@@ -217,7 +217,7 @@ static void test_wrong_mode(void **state)
     check_refused("mode 644");
     assert_int_equal(chmod(paths.object, 0660), 0);
     check_refused("mode 660");
-    assert_false(reason.damaged); /* the world within may be good */
+    assert_false(error.damaged); /* the world within may be good */
     assert_int_equal(chmod(paths.object, 0600), 0);
     check_attaches();
 }
@@ -254,8 +254,8 @@ static void test_symbolic_link_for_the_lock(void **state)
     snprintf(elsewhere, sizeof elsewhere, "%s.moved", paths.lock);
     assert_int_equal(rename(paths.lock, elsewhere), 0);
     assert_int_equal(symlink(elsewhere, paths.lock), 0);
-    assert_int_equal(segment_attach(&view, name, ROLE_MOVER, &reason), -1);
-    assert_non_null(strstr(reason.text, "cannot open"));
+    assert_int_equal(segment_attach(&view, name, ROLE_MOVER, &error), -1);
+    assert_non_null(strstr(error.text, "cannot open"));
     assert_int_equal(unlink(paths.lock), 0);
     assert_int_equal(rename(elsewhere, paths.lock), 0);
     check_attaches();
@@ -267,8 +267,8 @@ static void test_what_is_no_file(void **state)
     assert_int_equal(unlink(paths.object), 0);
     assert_int_equal(mkdir(paths.object, 0700), 0);
     struct view view;
-    assert_int_equal(segment_attach(&view, name, ROLE_NONE, &reason), -1);
-    assert_non_null(strstr(reason.text, "no shared-memory object"));
+    assert_int_equal(segment_attach(&view, name, ROLE_NONE, &error), -1);
+    assert_non_null(strstr(error.text, "no shared-memory object"));
     assert_int_equal(rmdir(paths.object), 0);
 }
 
@@ -276,7 +276,7 @@ static int attach_reader(void *context)
 {
     struct view view;
     (void)context;
-    return segment_attach(&view, name, ROLE_NONE, &reason) == 0;
+    return segment_attach(&view, name, ROLE_NONE, &error) == 0;
 }
 
 /* "Does not block": a pipe of that name has no writer, and opening it would wait for one. */
@@ -310,14 +310,14 @@ static void test_damaged_static_regions_are_found_by_verify(void **state)
         close(fd);
         byte ^= 4;
         patch(&byte, 1, at);
-        assert_int_equal(segment_attach(&view, name, ROLE_NONE, &reason), 0);
-        if (segment_verify(&view, &reason) == 0)
+        assert_int_equal(segment_attach(&view, name, ROLE_NONE, &error), 0);
+        if (segment_verify(&view, &error) == 0)
             fail_msg("%s", region_name((enum region)region));
-        if (!strstr(reason.text, region_name((enum region)region)))
-            fail_msg("%s is not in: %s", region_name((enum region)region), reason.text);
+        if (!strstr(error.text, region_name((enum region)region)))
+            fail_msg("%s is not in: %s", region_name((enum region)region), error.text);
         byte ^= 4;
         patch(&byte, 1, at);
-        assert_int_equal(segment_verify(&view, &reason), 0);
+        assert_int_equal(segment_verify(&view, &error), 0);
         segment_detach(&view);
     }
 }
@@ -334,7 +334,7 @@ static int probe_write(void *context)
 {
     const struct probe *probe = context;
     struct view view;
-    if (segment_attach(&view, name, probe->role, &reason) != 0)
+    if (segment_attach(&view, name, probe->role, &error) != 0)
         return 1;
     volatile unsigned char *at = (volatile unsigned char *)view.base + probe->offset;
     *at = *at;
@@ -371,7 +371,7 @@ static int make_writable(void *context)
 {
     const struct probe *probe = context;
     struct view view;
-    if (segment_attach(&view, name, probe->role, &reason) != 0)
+    if (segment_attach(&view, name, probe->role, &error) != 0)
         return 2;
     return mprotect((unsigned char *)view.base + probe->offset, 1, PROT_READ | PROT_WRITE) == 0;
 }

@@ -35,7 +35,7 @@
     "0.3; munition = \"bomb\"; point = [25110.0, 25110.0]; } );"
 
 static char name[SEGMENT_NAME_MAX];
-static struct reason reason;
+static struct error_text error;
 
 /* The set in one process: each stage in its role, attached anew with every start. */
 struct set {
@@ -46,9 +46,9 @@ struct set {
 
 static void start(struct set *set)
 {
-    if (segment_attach(&set->mover_view, name, ROLE_MOVER, &reason) != 0 ||
-        segment_attach(&set->collider_view, name, ROLE_COLLIDER, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_attach(&set->mover_view, name, ROLE_MOVER, &error) != 0 ||
+        segment_attach(&set->collider_view, name, ROLE_COLLIDER, &error) != 0)
+        fail_msg("%s", error.text);
     const struct crater *craters = set->mover_view.w[0].craters;
     assert_int_equal(mover_init(&set->mover, &set->mover_view.world, craters, NULL), 0);
     assert_int_equal(collider_init(&set->collider, &set->collider_view.world, craters, NULL), 0);
@@ -128,7 +128,7 @@ static int make_world(void **state)
     (void)state;
     named_world_make(name, SCENARIO);
     named_world_paths(&paths, name);
-    if (segment_attach(&look, name, ROLE_NONE, &reason) != 0)
+    if (segment_attach(&look, name, ROLE_NONE, &error) != 0)
         return -1;
     int fd = open(paths.object, O_RDWR | O_CLOEXEC);
     memory = mmap(NULL, look.layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
@@ -159,8 +159,8 @@ static struct ending ending_at(uint64_t frame)
 {
     const struct state *last = &look.w[frame & 1];
     assert_int_equal(commit_of(&look), frame);
-    if (segment_check_state(&look, frame, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_check_state(&look, frame, &error) != 0)
+        fail_msg("%s", error.text);
     return (struct ending){state_digest(&look.world, last), last->head->event_digest,
                            last->head->event_end, last->head->tally.commands};
 }
@@ -187,9 +187,9 @@ static struct ending undisturbed(uint64_t frame)
 
 static void repaired(int wanted, const char *words)
 {
-    int result = segment_repair(name, &reason);
-    if (result != wanted || !strstr(reason.text, words))
-        fail_msg("%d, not %d with \"%s\": %s", result, wanted, words, reason.text);
+    int result = segment_repair(name, &error);
+    if (result != wanted || !strstr(error.text, words))
+        fail_msg("%d, not %d with \"%s\": %s", result, wanted, words, error.text);
 }
 
 /* --- the committed world -----------------------------------------------------------------------*/
@@ -211,11 +211,11 @@ static void test_every_bit_of_the_head_is_found(void **state)
     unsigned char *head = place(look.w[0].head);
     for (size_t bit = 0; bit < sizeof(struct state_head) * 8; bit++) {
         head[bit / 8] ^= (unsigned char)(1u << (bit % 8));
-        if (segment_check_state(&look, 30, &reason) == 0)
+        if (segment_check_state(&look, 30, &error) == 0)
             fail_msg("bit %zu of byte %zu", bit % 8, bit / 8);
         head[bit / 8] ^= (unsigned char)(1u << (bit % 8));
     }
-    assert_int_equal(segment_check_state(&look, 30, &reason), 0);
+    assert_int_equal(segment_check_state(&look, 30, &error), 0);
 }
 
 static unsigned char *random_cell(const struct entities *entities, uint32_t used, uint64_t *random)
@@ -263,7 +263,7 @@ static void test_flipped_bits_of_the_last_frame_change_nothing_in_the_end(void *
             move_one(); /* the moved table is the next frame's: the commands are taken again */
         unsigned char *byte = random_byte(&look.w[frame & 1], &look.w[~frame & 1], &random);
         *byte ^= (unsigned char)(1u << (fixture_random(&random) % 8));
-        if (segment_check_state(&look, frame, &reason) == 0)
+        if (segment_check_state(&look, frame, &error) == 0)
             fail_msg("not found in frame %d", (int)frame);
         repaired(1, "the newest whole one");
         assert_int_equal(commit_of(&look), frame - 1);
@@ -281,7 +281,7 @@ static void test_damage_in_both_buffers_is_refused_and_named(void **state)
     *a ^= 4;
     *b ^= 8;
     repaired(-1, "both buffers: frame 12 fails its checksum (world A");
-    assert_non_null(strstr(reason.text, "frame 11 fails its checksum (world B"));
+    assert_non_null(strstr(error.text, "frame 11 fails its checksum (world B"));
     assert_int_equal(commit_of(&look), 12); /* and nothing is touched */
     *a ^= 4;
     *b ^= 8;
@@ -296,7 +296,7 @@ static void test_damaged_crater_of_long_ago_is_refused(void **state)
     unsigned char *crater = place(&look.w[0].craters[0]);
     *crater ^= 1;
     repaired(-1, "both buffers");
-    assert_non_null(strstr(reason.text, "craters"));
+    assert_non_null(strstr(error.text, "craters"));
     *crater ^= 1;
 }
 
@@ -329,7 +329,7 @@ static void test_flipped_bits_of_the_moved_table_are_moved_again(void **state)
         if (where == 1 && look.m.head->intent_count > 0)
             byte = place(look.m.intents) + fixture_random(&random) % sizeof *look.m.intents;
         *byte ^= (unsigned char)(1u << (fixture_random(&random) % 8));
-        if (segment_check_moved(&look, frame + 1, &reason) == 0)
+        if (segment_check_moved(&look, frame + 1, &error) == 0)
             fail_msg("not found in frame %d", (int)frame);
         repaired(1, "is moved again");
         assert_int_equal(commit_of(&look), frame);
@@ -354,7 +354,7 @@ static void test_flipped_bits_of_the_words(void **state)
             const _Atomic uint64_t *at = word == 0 ? &look.commit->commit : &look.moved_word->moved;
             run_to(FRAMES + bit);
             *(uint64_t *)(void *)place(at) ^= (uint64_t)1 << bit;
-            assert_true(segment_repair(name, &reason) >= 0); /* one bit may look right */
+            assert_true(segment_repair(name, &error) >= 0); /* one bit may look right */
             repaired(0, "good");
             assert_true(commit_of(&look) + 1 >= FRAMES + bit);
         }
@@ -370,8 +370,8 @@ static void test_flipped_bits_of_the_words(void **state)
 static void send(uint64_t first, uint64_t end)
 {
     struct view sender;
-    if (segment_attach(&sender, name, ROLE_INTAKE, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (segment_attach(&sender, name, ROLE_INTAKE, &error) != 0)
+        fail_msg("%s", error.text);
     for (uint64_t i = first; i < end; i++) {
         struct command command = {
             .source = 7,
@@ -434,9 +434,9 @@ static void test_running_world_is_not_repaired(void **state)
     (void)state;
     for (int i = 0; i < 2; i++) {
         struct view view;
-        assert_int_equal(segment_attach(&view, name, writers[i], &reason), 0);
+        assert_int_equal(segment_attach(&view, name, writers[i], &error), 0);
         repaired(-1, "is running already");
-        assert_false(reason.damaged);
+        assert_false(error.damaged);
         segment_detach(&view);
     }
     repaired(0, "good at frame 0"); /* and whoever refused holds no lock */
@@ -447,10 +447,10 @@ static void test_running_world_is_not_repaired(void **state)
 static void test_no_world_and_no_name(void **state)
 {
     (void)state;
-    assert_int_equal(segment_repair("no-such-world", &reason), -1);
-    assert_non_null(strstr(reason.text, "there is no world"));
-    assert_int_equal(segment_repair("a/b", &reason), -1);
-    assert_non_null(strstr(reason.text, "is no name"));
+    assert_int_equal(segment_repair("no-such-world", &error), -1);
+    assert_non_null(strstr(error.text, "there is no world"));
+    assert_int_equal(segment_repair("a/b", &error), -1);
+    assert_non_null(strstr(error.text, "is no name"));
 }
 
 /* A reader that copies goes on over a repair: it finds one of the frames whole. */

@@ -12,12 +12,12 @@
 
 #include <cmocka.h>
 
-static struct reason reason;
+static struct error_text error;
 
 static int read_order(struct command_text *order, const char *text)
 {
     cJSON *object = cJSON_Parse(text);
-    int result = command_from_json(order, object, &reason);
+    int result = command_from_json(order, object, &error);
     cJSON_Delete(object);
     return result;
 }
@@ -26,8 +26,8 @@ static void refused(const char *text, const char *words)
 {
     struct command_text order;
     assert_int_equal(read_order(&order, text), -1);
-    if (!strstr(reason.text, words))
-        fail_msg("%s: \"%s\" is not in \"%s\"", text, words, reason.text);
+    if (!strstr(error.text, words))
+        fail_msg("%s: \"%s\" is not in \"%s\"", text, words, error.text);
 }
 
 static void test_all_controls(void **state)
@@ -46,7 +46,7 @@ static void test_all_controls(void **state)
     assert_true(c->traverse == 1.0F && c->elevate == -0.5F && c->brake == 1.0F);
     assert_int_equal(c->gear, jolon_GEAR_REVERSE);
     assert_true(command_text_needs_hz(&order) && !command_text_needs_names(&order));
-    assert_int_equal(command_text_resolve(&order, &(struct name_table){0}, 60.0, &reason), 0);
+    assert_int_equal(command_text_resolve(&order, &(struct name_table){0}, 60.0, &error), 0);
     assert_int_equal(order.command.lease_frames, 90);
 }
 
@@ -54,10 +54,10 @@ static void test_a_lease_is_at_least_a_frame_and_at_most_what_a_command_holds(vo
 {
     struct command_text order = {.lease_s = 0.1};
     (void)state;
-    assert_int_equal(command_text_resolve(&order, &(struct name_table){0}, 1.0, &reason), 0);
+    assert_int_equal(command_text_resolve(&order, &(struct name_table){0}, 1.0, &error), 0);
     assert_int_equal(order.command.lease_frames, 1);
     order.lease_s = 3600.0;
-    assert_int_equal(command_text_resolve(&order, &(struct name_table){0}, 1000.0, &reason), 0);
+    assert_int_equal(command_text_resolve(&order, &(struct name_table){0}, 1000.0, &error), 0);
     assert_int_equal(order.command.lease_frames, 1000000);
 }
 
@@ -70,18 +70,18 @@ static void test_names_become_ids(void **state)
     assert_int_equal(read_order(&order, "{\"do\":\"fire\",\"vehicle\":\"West\",\"target\":"
                                         "\"East-1\"}"),
                      0);
-    assert_int_equal(command_text_resolve(&order, &names, 60.0, &reason), 0);
+    assert_int_equal(command_text_resolve(&order, &names, 60.0, &error), 0);
     assert_int_equal(order.command.entity, 2);
     assert_int_equal(order.command.target, 5);
     assert_int_equal(read_order(&order, "{\"do\":\"remove\",\"vehicle\":\"12\"}"), 0);
-    assert_int_equal(command_text_resolve(&order, &names, 60.0, &reason), 0);
+    assert_int_equal(command_text_resolve(&order, &names, 60.0, &error), 0);
     assert_int_equal(order.command.entity, 9);
     assert_int_equal(read_order(&order, "{\"do\":\"remove\",\"vehicle\":\"Est-1\"}"), 0);
-    assert_int_equal(command_text_resolve(&order, &names, 60.0, &reason), -1);
-    assert_non_null(strstr(reason.text, "the nearest is East-1"));
+    assert_int_equal(command_text_resolve(&order, &names, 60.0, &error), -1);
+    assert_non_null(strstr(error.text, "the nearest is East-1"));
     names.count = 0;
-    assert_int_equal(command_text_resolve(&order, &names, 60.0, &reason), -1);
-    assert_non_null(strstr(reason.text, "say its id"));
+    assert_int_equal(command_text_resolve(&order, &names, 60.0, &error), -1);
+    assert_non_null(strstr(error.text, "say its id"));
 }
 
 static void test_a_command_line_says_numbers_as_text(void **state)
@@ -89,17 +89,17 @@ static void test_a_command_line_says_numbers_as_text(void **state)
     struct command_text order;
     struct command_text_value value = {.text = "12", .loose = true};
     (void)state;
-    assert_int_equal(command_text_begin(&order, "drive", &reason), 0);
-    assert_int_equal(command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &reason), 0);
+    assert_int_equal(command_text_begin(&order, "drive", &error), 0);
+    assert_int_equal(command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &error), 0);
     assert_int_equal(order.command.entity, 12);
-    assert_int_equal(command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &reason), -1);
+    assert_int_equal(command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &error), -1);
     value.text = "-0.5";
-    assert_int_equal(command_text_give(&order, COMMAND_TEXT_STEER, &value, &reason), 0);
+    assert_int_equal(command_text_give(&order, COMMAND_TEXT_STEER, &value, &error), 0);
     assert_true(order.command.steer == -0.5F);
     value.text = "0x";
-    assert_int_equal(command_text_give(&order, COMMAND_TEXT_CLIMB, &value, &reason), -1);
+    assert_int_equal(command_text_give(&order, COMMAND_TEXT_CLIMB, &value, &error), -1);
     value = (struct command_text_value){.text = "0.5"};
-    assert_int_equal(command_text_give(&order, COMMAND_TEXT_CLIMB, &value, &reason), -1);
+    assert_int_equal(command_text_give(&order, COMMAND_TEXT_CLIMB, &value, &error), -1);
 }
 
 static void test_what_is_wrong_is_named(void **state)
@@ -168,7 +168,7 @@ static void test_every_verb_has_all_that_it_needs_among_what_it_takes(void **sta
         struct command_text order;
         const struct command_text_verb *verb = command_text_verb(i);
         assert_int_equal(verb->needed & ~verb->allowed, 0);
-        assert_int_equal(command_text_begin(&order, verb->name, &reason), 0);
+        assert_int_equal(command_text_begin(&order, verb->name, &error), 0);
         assert_int_equal(order.verb->type, verb->type);
     }
     for (int i = 0; i < COMMAND_TEXT_FIELD_COUNT; i++)

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 static char text[DDS_CONFIG_MAX];
-static struct reason reason;
+static struct error_text error;
 
 /* Writes a file of its own and gives its name. */
 static const char *file_of(const char *content, size_t bytes)
@@ -30,38 +30,38 @@ static void test_installed_file_is_the_built_in_text(void **state)
 {
     static char file[DDS_CONFIG_MAX];
     (void)state;
-    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_PEER, &reason), 0);
-    assert_int_equal(dds_config_file(file, sizeof file, "config/cyclonedds.xml", &reason), 0);
+    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_PEER, &error), 0);
+    assert_int_equal(dds_config_file(file, sizeof file, "config/cyclonedds.xml", &error), 0);
     assert_string_equal(text, file);
 }
 
 static void test_another_interface(void **state)
 {
     (void)state;
-    assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", DDS_PEER, &reason), 0);
+    assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", DDS_PEER, &error), 0);
     assert_non_null(strstr(text, "address=\"10.1.2.3\"/>"));
     /* What is put into XML is an address and nothing else. */
-    assert_int_equal(dds_config_builtin(text, sizeof text, "1.2.3.4\"/><x", DDS_PEER, &reason), -1);
-    assert_non_null(strstr(reason.text, "not an IPv4 address"));
-    assert_int_equal(dds_config_builtin(text, 10, DDS_LOOPBACK, DDS_PEER, &reason), -1);
+    assert_int_equal(dds_config_builtin(text, sizeof text, "1.2.3.4\"/><x", DDS_PEER, &error), -1);
+    assert_non_null(strstr(error.text, "not an IPv4 address"));
+    assert_int_equal(dds_config_builtin(text, 10, DDS_LOOPBACK, DDS_PEER, &error), -1);
 }
 
 /* Who only looks on asks at the ports where hosts are, and nobody hears it but they. */
 static void test_onlookers_and_hosts(void **state)
 {
     (void)state;
-    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_ONLOOKER, &reason), 0);
+    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_ONLOOKER, &error), 0);
     assert_non_null(strstr(text, "<AllowMulticast>false</AllowMulticast>"));
     assert_non_null(strstr(text, "<ParticipantIndex>none</ParticipantIndex>"));
     assert_non_null(strstr(text, "<Peer address=\"127.0.0.1\"/>"));
     assert_non_null(strstr(text, "<MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>"));
-    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_HOST, &reason), 0);
+    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_HOST, &error), 0);
     assert_non_null(strstr(text, "<AllowMulticast>spdp</AllowMulticast>"));
     assert_non_null(strstr(text, "<ParticipantIndex>auto</ParticipantIndex>"));
     assert_non_null(strstr(text, "<MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>"));
     assert_null(strstr(text, "Peer"));
     /* From other machines' hosts it hears by multicast alone. */
-    assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", DDS_ONLOOKER, &reason), 0);
+    assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", DDS_ONLOOKER, &error), 0);
     assert_non_null(strstr(text, "<AllowMulticast>spdp</AllowMulticast>"));
     assert_null(strstr(text, "Peer"));
 }
@@ -70,9 +70,9 @@ static void test_interfaces(void **state)
 {
     char address[16];
     (void)state;
-    assert_int_equal(dds_config_interface(address, sizeof address, "no-such0", &reason), -1);
-    assert_non_null(strstr(reason.text, "no-such0"));
-    if (dds_config_interface(address, sizeof address, "lo", &reason) == 0)
+    assert_int_equal(dds_config_interface(address, sizeof address, "no-such0", &error), -1);
+    assert_non_null(strstr(error.text, "no-such0"));
+    if (dds_config_interface(address, sizeof address, "lo", &error) == 0)
         assert_string_equal(address, DDS_LOOPBACK);
 }
 
@@ -80,28 +80,28 @@ static void test_files_refused(void **state)
 {
     static char big[DDS_CONFIG_MAX + 10];
     (void)state;
-    assert_int_equal(dds_config_file(text, sizeof text, "/nonexistent/x.xml", &reason), -1);
-    assert_non_null(strstr(reason.text, "/nonexistent/x.xml: No such file"));
-    assert_int_equal(dds_config_file(text, sizeof text, "/tmp", &reason), -1);
+    assert_int_equal(dds_config_file(text, sizeof text, "/nonexistent/x.xml", &error), -1);
+    assert_non_null(strstr(error.text, "/nonexistent/x.xml: No such file"));
+    assert_int_equal(dds_config_file(text, sizeof text, "/tmp", &error), -1);
 
     const char *path = file_of("file:///etc/x.xml", 17);
-    assert_int_equal(dds_config_file(text, sizeof text, path, &reason), -1);
-    assert_non_null(strstr(reason.text, "not XML"));
+    assert_int_equal(dds_config_file(text, sizeof text, path, &error), -1);
+    assert_non_null(strstr(error.text, "not XML"));
     (void)unlink(path);
 
     path = file_of("<a>\0</a>", 8);
-    assert_int_equal(dds_config_file(text, sizeof text, path, &reason), -1);
+    assert_int_equal(dds_config_file(text, sizeof text, path, &error), -1);
     (void)unlink(path);
 
     path = file_of("  \n<CycloneDDS/>", 16);
-    assert_int_equal(dds_config_file(text, sizeof text, path, &reason), 0);
+    assert_int_equal(dds_config_file(text, sizeof text, path, &error), 0);
     assert_string_equal(text, "<CycloneDDS/>");
     (void)unlink(path);
 
     memset(big, '<', sizeof big);
     path = file_of(big, sizeof big);
-    assert_int_equal(dds_config_file(text, sizeof text, path, &reason), -1);
-    assert_non_null(strstr(reason.text, "longer than"));
+    assert_int_equal(dds_config_file(text, sizeof text, path, &error), -1);
+    assert_non_null(strstr(error.text, "longer than"));
     (void)unlink(path);
 }
 
@@ -130,7 +130,7 @@ static void test_security_is_seen(void **state)
         if (dds_config_secure(cases[i].text) != cases[i].secure)
             fail_msg("%s: should be %s", cases[i].text, cases[i].secure ? "secure" : "not secure");
     }
-    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_HOST, &reason), 0);
+    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_HOST, &error), 0);
     assert_false(dds_config_secure(text));
 }
 

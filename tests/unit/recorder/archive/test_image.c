@@ -179,21 +179,21 @@ static void test_branch_has_other_settings_and_no_inputs(void **state)
     struct fixture f;
     struct view again;
     struct image image;
-    struct reason reason;
+    struct error_text error;
     (void)state;
     fixture_open(&f, battle);
     fixture_run(&f, 20);
     frame_stepper_move(&f.player, NULL);
     image_file_save(&f.view, path, true);
-    assert_int_equal(image_open(&image, path, &reason), 0);
+    assert_int_equal(image_open(&image, path, &error), 0);
     assert_false(image_branches(&image));
     image.params.frame_limit = 1000;
     assert_false(image_branches(&image));
     image.params.seed = 6;
     assert_true(image_branches(&image));
     struct segment_header header = image_segment(&image);
-    assert_int_equal(segment_private(&again, &header, &reason), 0);
-    assert_int_equal(image_load(&again, &image, &reason), 0);
+    assert_int_equal(segment_private(&again, &header, &error), 0);
+    assert_int_equal(image_load(&again, &image, &error), 0);
     assert_int_equal(atomic_load(&again.moved_word->moved), 20);
     assert_int_equal(again.world.params->seed, 6);
     image_file_play(&again, 120);
@@ -210,16 +210,16 @@ static void test_capacities_cannot_be_changed(void **state)
     struct fixture f;
     struct view again;
     struct image image;
-    struct reason reason;
+    struct error_text error;
     (void)state;
     fixture_open(&f, battle);
     image_file_save(&f.view, path, false);
-    assert_int_equal(image_open(&image, path, &reason), 0);
+    assert_int_equal(image_open(&image, path, &error), 0);
     image.params.capacity++;
     struct segment_header header = image_segment(&image);
-    assert_int_equal(segment_private(&again, &header, &reason), 0);
-    assert_int_equal(image_load(&again, &image, &reason), -1);
-    assert_non_null(strstr(reason.text, "params"));
+    assert_int_equal(segment_private(&again, &header, &error), 0);
+    assert_int_equal(image_load(&again, &image, &error), -1);
+    assert_non_null(strstr(error.text, "params"));
     image_close(&image);
     segment_abandon(&again);
     fixture_close(&f);
@@ -270,9 +270,9 @@ static uint64_t run_by_processes(const struct view *view)
 static void write_capture(struct view *view, const struct capture *capture, const char *file)
 {
     struct image_place place;
-    struct reason reason;
-    assert_int_equal(image_place_open(&place, file, &reason), 0);
-    assert_int_equal(image_write(&place, view, capture, NULL, &reason), 0);
+    struct error_text error;
+    assert_int_equal(image_place_open(&place, file, &error), 0);
+    assert_int_equal(image_write(&place, view, capture, NULL, &error), 0);
     image_place_close(&place);
 }
 

@@ -56,17 +56,17 @@ static int drop_image(void **state)
 }
 
 /* Opens and loads what is at path: 0, or -1 with the reason. */
-static int load(struct reason *reason)
+static int load(struct error_text *error)
 {
     struct view again;
     struct image image;
-    reason->text[0] = '\0';
-    if (image_open(&image, path, reason) != 0)
+    error->text[0] = '\0';
+    if (image_open(&image, path, error) != 0)
         return -1;
     struct segment_header header = image_segment(&image);
-    int result = segment_private(&again, &header, reason);
+    int result = segment_private(&again, &header, error);
     if (result == 0) {
-        result = image_load(&again, &image, reason);
+        result = image_load(&again, &image, error);
         if (result == 0)
             assert_int_equal(image_file_digest(&again), image_file_digest(&view));
         segment_abandon(&again);
@@ -78,22 +78,22 @@ static int load(struct reason *reason)
 /* Refused in one line that begins with the file and says what. */
 static void assert_refused(const void *bytes, size_t count, const char *says)
 {
-    struct reason reason;
+    struct error_text error;
     image_file_put(path, bytes, count);
-    if (load(&reason) == 0)
+    if (load(&error) == 0)
         fail_msg("not refused; wanted: %s", says);
-    if (strncmp(reason.text, path, strlen(path)) != 0 || strchr(reason.text, '\n') ||
-        !strstr(reason.text, says))
-        fail_msg("\"%s\" does not say \"%s\"", reason.text, says);
+    if (strncmp(error.text, path, strlen(path)) != 0 || strchr(error.text, '\n') ||
+        !strstr(error.text, says))
+        fail_msg("\"%s\" does not say \"%s\"", error.text, says);
 }
 
 static void test_good_one_is_taken(void **state)
 {
-    struct reason reason;
+    struct error_text error;
     (void)state;
     print_message("%zu bytes\n", good_bytes);
     image_file_put(path, good, good_bytes);
-    assert_int_equal(load(&reason), 0);
+    assert_int_equal(load(&error), 0);
 }
 
 static void test_every_flipped_byte_is_found(void **state)
@@ -210,7 +210,7 @@ static void test_flips_within_zstd_are_found(void **state)
 {
     struct image_header header = header_of_good();
     unsigned char *bytes = malloc(good_bytes);
-    struct reason reason;
+    struct error_text error;
     unsigned harmless = 0;
     (void)state;
     assert_non_null(bytes);
@@ -222,7 +222,7 @@ static void test_flips_within_zstd_are_found(void **state)
         header.header_hash = image_header_hash(&header);
         memcpy(bytes, &header, sizeof header);
         image_file_put(path, bytes, good_bytes);
-        if (load(&reason) == 0) /* load() has seen that the world is the same */
+        if (load(&error) == 0) /* load() has seen that the world is the same */
             harmless++;
         packed[i] ^= (unsigned char)(1u << (i % 8));
     }

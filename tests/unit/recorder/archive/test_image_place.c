@@ -61,19 +61,19 @@ static int drop_view(void **state)
 static uint64_t frame_at_path(void)
 {
     struct image_header header;
-    struct reason reason;
-    if (image_peek(&header, path, &reason) != 0)
-        fail_msg("%s", reason.text);
+    struct error_text error;
+    if (image_peek(&header, path, &error) != 0)
+        fail_msg("%s", error.text);
     return header.frame;
 }
 
 static void assert_place_refused(const char *where, const char *says)
 {
     struct image_place place;
-    struct reason reason;
-    assert_int_equal(image_place_open(&place, where, &reason), -1);
-    if (!strstr(reason.text, says))
-        fail_msg("\"%s\" does not say \"%s\"", reason.text, says);
+    struct error_text error;
+    assert_int_equal(image_place_open(&place, where, &error), -1);
+    if (!strstr(error.text, says))
+        fail_msg("\"%s\" does not say \"%s\"", error.text, says);
 }
 
 static void test_file_is_ours_alone(void **state)
@@ -89,25 +89,25 @@ static void test_file_is_ours_alone(void **state)
 static void test_only_plain_files_are_written_over(void **state)
 {
     char other[PATH_MAX], target[PATH_MAX];
-    struct reason reason;
+    struct error_text error;
     struct image image;
     (void)state;
     image_file_path(target, "target");
     image_file_path(other, "link");
     assert_int_equal(symlink(target, other), 0);
     assert_place_refused(other, "a symbolic link");
-    assert_int_equal(image_open(&image, other, &reason), -1);
-    assert_non_null(strstr(reason.text, "a symbolic link"));
+    assert_int_equal(image_open(&image, other, &error), -1);
+    assert_non_null(strstr(error.text, "a symbolic link"));
     unlink(other);
     image_file_path(other, "pipe");
     assert_int_equal(mkfifo(other, 0600), 0);
     assert_place_refused(other, "a device or pipe");
-    assert_int_equal(image_open(&image, other, &reason), -1); /* and does not wait for a writer */
+    assert_int_equal(image_open(&image, other, &error), -1); /* and does not wait for a writer */
     unlink(other);
     image_file_path(other, "folder");
     assert_int_equal(mkdir(other, 0700), 0);
     assert_place_refused(other, "a folder");
-    assert_int_equal(image_open(&image, other, &reason), -1);
+    assert_int_equal(image_open(&image, other, &error), -1);
     rmdir(other);
     assert_place_refused("/dev/null", "a device");
     assert_place_refused("/no/such/folder/image", "folder");
@@ -120,15 +120,15 @@ static void test_link_that_comes_later_is_not_followed(void **state)
     char target[PATH_MAX];
     struct image_place place;
     struct capture capture;
-    struct reason reason;
+    struct error_text error;
     (void)state;
     image_file_path(target, "target");
-    assert_int_equal(image_place_open(&place, path, &reason), 0);
+    assert_int_equal(image_place_open(&place, path, &error), 0);
     assert_int_equal(symlink(target, path), 0);
     assert_int_equal(capture_init(&capture, &view), 0);
     assert_int_equal(capture_take(&capture, &view, false), 0);
-    assert_int_equal(image_write(&place, &view, &capture, NULL, &reason), -1);
-    assert_non_null(strstr(reason.text, "a symbolic link"));
+    assert_int_equal(image_write(&place, &view, &capture, NULL, &error), -1);
+    assert_non_null(strstr(error.text, "a symbolic link"));
     assert_int_not_equal(access(target, F_OK), 0);
     capture_free(&capture);
     image_place_close(&place);
@@ -168,15 +168,15 @@ static int write_with_little_room(void *context)
     const struct rlimit limit = {attempt->room, attempt->room};
     struct image_place place;
     struct capture capture;
-    struct reason reason;
+    struct error_text error;
     signal(SIGXFSZ, attempt->killed ? SIG_DFL : SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &limit);
-    if (image_place_open(&place, path, &reason) != 0 || capture_init(&capture, &view) != 0 ||
+    if (image_place_open(&place, path, &error) != 0 || capture_init(&capture, &view) != 0 ||
         capture_take(&capture, &view, false) != 0)
         return 3;
-    if (image_write(&place, &view, &capture, NULL, &reason) == 0)
+    if (image_write(&place, &view, &capture, NULL, &error) == 0)
         return 0;
-    return strstr(reason.text, "no room") && strstr(reason.text, "as it was") ? 1 : 2;
+    return strstr(error.text, "no room") && strstr(error.text, "as it was") ? 1 : 2;
 }
 
 static void test_without_room_the_old_file_stays(void **state)

@@ -72,9 +72,9 @@ static struct annotated_picture_source source_of(const struct map_stage *stage,
 static void open_chart(struct annotated_picture *chart, const struct map_stage *stage,
                        uint32_t width, uint32_t height)
 {
-    struct reason reason;
-    if (annotated_picture_open(chart, stage->moment.world, width, height, &reason) != 0)
-        fail_msg("%s", reason.text);
+    struct error_text error;
+    if (annotated_picture_open(chart, stage->moment.world, width, height, &error) != 0)
+        fail_msg("%s", error.text);
 }
 
 static void test_the_whole_map_shows_everyone(void **context)

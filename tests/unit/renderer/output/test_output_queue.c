@@ -29,9 +29,9 @@ struct taker {
 static struct taker taker;
 static struct picture_pool pool;
 static struct output_queue queue;
-static struct reason reason;
+static struct error_text error;
 
-static int take(void *self, const struct picture *picture, struct reason *why)
+static int take(void *self, const struct picture *picture, struct error_text *detail)
 {
     struct taker *t = self;
     pthread_mutex_lock(&t->lock);
@@ -44,7 +44,7 @@ static int take(void *self, const struct picture *picture, struct reason *why)
     t->frame[t->count++] = picture->frame;
     bool fails = t->count == t->fail_at;
     pthread_mutex_unlock(&t->lock);
-    return fails ? reason_set(why, "no room") : 0;
+    return fails ? error_text_set(detail, "no room") : 0;
 }
 
 static void hold(bool held)
@@ -77,7 +77,7 @@ static void start(uint32_t depth, bool patient)
 /* Every picture must be back. */
 static int end(void)
 {
-    int result = output_queue_end(&queue, &reason);
+    int result = output_queue_end(&queue, &error);
     picture_pool_free(&pool);
     return result;
 }
@@ -144,9 +144,9 @@ static void test_after_a_failure_nothing_more_is_taken(void **state)
     taker.fail_at = 3;
     for (uint64_t frame = 1; frame <= 20; frame++)
         put("chase", frame);
-    assert_true(output_queue_failed(&queue, &reason));
+    assert_true(output_queue_failed(&queue, &error));
     assert_int_equal(end(), -1);
-    assert_string_equal(reason.text, "no room");
+    assert_string_equal(error.text, "no room");
     check_taken("c1 c2 c3 ");
     assert_int_equal(queue.taken, 2);
 }

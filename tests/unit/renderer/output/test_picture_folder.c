@@ -22,7 +22,7 @@ static char folder[64], out[80];
 static int top; /* the test's folder; pictures go to its "above/out" */
 static struct picture_folder output;
 static struct image image;
-static struct reason reason;
+static struct error_text error;
 
 static int set_up(void **state)
 {
@@ -35,8 +35,8 @@ static int set_up(void **state)
         return -1;
     close(fd);
     snprintf(out, sizeof out, "%s/above/out", folder);
-    return image_init(&image, 64, 64) == 0 && picture_folder_open(&output, out, &reason) == 0 ? 0
-                                                                                              : -1;
+    return image_init(&image, 64, 64) == 0 && picture_folder_open(&output, out, &error) == 0 ? 0
+                                                                                             : -1;
 }
 
 static int tear_down(void **state)
@@ -74,8 +74,8 @@ static void check_victim(void)
 
 static void draw(uint64_t frame)
 {
-    if (picture_folder_picture(&output, "chase", &image, frame, "words", &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (picture_folder_picture(&output, "chase", &image, frame, "words", &error) != 0)
+        fail_msg("%s", error.text);
 }
 
 static void test_files_are_the_owners_alone(void **state)
@@ -125,7 +125,7 @@ static void test_half_pictures_of_dead_renderers_are_swept(void **state)
     close(openat(output.folder, alive, O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
     close(openat(output.folder, dead, O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
     picture_folder_close(&output);
-    assert_int_equal(picture_folder_open(&output, out, &reason), 0);
+    assert_int_equal(picture_folder_open(&output, out, &error), 0);
     assert_int_equal(faccessat(output.folder, dead, F_OK, 0), -1);
     assert_int_equal(faccessat(output.folder, alive, F_OK, 0), 0);
 }
@@ -139,7 +139,7 @@ static void test_old_pictures_are_removed(void **state)
     assert_int_equal(faccessat(output.folder, "chase-999909.png", F_OK, 0), -1);
     assert_int_equal(faccessat(output.folder, "chase-999910.png", F_OK, 0), 0);
     picture_folder_close(&output);
-    assert_int_equal(picture_folder_open(&output, out, &reason), 0);
+    assert_int_equal(picture_folder_open(&output, out, &error), 0);
     draw(2000000);
     assert_int_equal(faccessat(output.folder, "chase-999910.png", F_OK, 0), -1);
     assert_int_equal(faccessat(output.folder, "chase-1000029.png", F_OK, 0), 0);

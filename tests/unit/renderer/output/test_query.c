@@ -17,11 +17,11 @@
 
 static struct query_picture picture;
 static struct query_map map;
-static struct reason reason;
+static struct error_text error;
 
 static int take_picture(const char *key, const char *value)
 {
-    return query_picture_take(&picture, key, value, &reason);
+    return query_picture_take(&picture, key, value, &error);
 }
 
 static void test_what_does_not_come_is_as_usual(void **state)
@@ -52,10 +52,10 @@ static void test_a_whole_query(void **state)
     assert_int_equal(picture.key.height, 1080);
     assert_true(picture.after_given && picture.after == 0 && !picture.key.bar);
     query_map_begin(&map);
-    assert_int_equal(query_map_take(&map, "x", "-1e3", &reason), 0);
-    assert_int_equal(query_map_take(&map, "z", "41234.5", &reason), 0);
-    assert_int_equal(query_map_take(&map, "metres", "100", &reason), 0);
-    assert_int_equal(query_map_take(&map, "size", "64x64", &reason), 0);
+    assert_int_equal(query_map_take(&map, "x", "-1e3", &error), 0);
+    assert_int_equal(query_map_take(&map, "z", "41234.5", &error), 0);
+    assert_int_equal(query_map_take(&map, "metres", "100", &error), 0);
+    assert_int_equal(query_map_take(&map, "size", "64x64", &error), 0);
     assert_true(map.x == -1000.0 && map.z == 41234.5 && map.metres == 100.0);
     assert_int_equal(map.height, 64);
 }
@@ -98,14 +98,14 @@ static void test_what_is_wrong_is_said(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         query_picture_begin(&picture);
         assert_int_equal(take_picture(rows[i].key, rows[i].value), -1);
-        if (strstr(reason.text, rows[i].says) == NULL)
-            fail_msg("\"%s\" does not say \"%s\"", reason.text, rows[i].says);
+        if (strstr(error.text, rows[i].says) == NULL)
+            fail_msg("\"%s\" does not say \"%s\"", error.text, rows[i].says);
     }
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
         query_map_begin(&map);
-        assert_int_equal(query_map_take(&map, places[i].key, places[i].value, &reason), -1);
-        if (strstr(reason.text, places[i].says) == NULL)
-            fail_msg("\"%s\" does not say \"%s\"", reason.text, places[i].says);
+        assert_int_equal(query_map_take(&map, places[i].key, places[i].value, &error), -1);
+        if (strstr(error.text, places[i].says) == NULL)
+            fail_msg("\"%s\" does not say \"%s\"", error.text, places[i].says);
     }
 }
 
@@ -115,7 +115,7 @@ static void test_nothing_comes_twice(void **state)
     query_picture_begin(&picture);
     assert_int_equal(take_picture("vehicle", "1"), 0);
     assert_int_equal(take_picture("vehicle", "2"), -1);
-    assert_string_equal(reason.text, "vehicle is there twice");
+    assert_string_equal(error.text, "vehicle is there twice");
     assert_int_equal(picture.key.vehicle, 1);
 }
 
@@ -141,8 +141,8 @@ static void test_noise(void **state)
         const char *key = keys[below(&next, sizeof keys / sizeof keys[0])];
         query_picture_begin(&picture);
         query_map_begin(&map);
-        if (take_picture(key, value) != 0 && query_map_take(&map, key, value, &reason) != 0)
-            for (const char *at = reason.text; *at != '\0'; at++)
+        if (take_picture(key, value) != 0 && query_map_take(&map, key, value, &error) != 0)
+            for (const char *at = error.text; *at != '\0'; at++)
                 assert_true(*at >= ' ' && *at <= '~');
         assert_in_range(picture.key.width, QUERY_SIDE_MIN, QUERY_WIDTH_MAX);
         assert_in_range(picture.key.height, QUERY_SIDE_MIN, QUERY_HEIGHT_MAX);

@@ -27,16 +27,16 @@
 static struct picture_pool pool;
 static struct stream *stream;
 static struct image image;
-static struct reason reason;
+static struct error_text error;
 static char answer[ANSWER_BYTES];
 
 static int set_up(void **state)
 {
     (void)state;
     picture_pool_init(&pool);
-    stream = stream_open("world", NULL, &reason);
-    return stream != NULL && stream_listen(stream, HTTP_LISTEN_ADDRESS, 0, &reason) == 0 &&
-                   stream_start(stream, &reason) == 0 && image_init(&image, 64, 48) == 0
+    stream = stream_open("world", NULL, &error);
+    return stream != NULL && stream_listen(stream, HTTP_LISTEN_ADDRESS, 0, &error) == 0 &&
+                   stream_start(stream, &error) == 0 && image_init(&image, 64, 48) == 0
                ? 0
                : -1;
 }
@@ -276,13 +276,13 @@ static void test_what_cannot_be_listened_on_is_said(void **state)
 {
     unsigned port = (unsigned)strtoul(strrchr(stream_url(stream), ':') + 1, NULL, 10);
     (void)state;
-    struct stream *other = stream_open("world", NULL, &reason);
-    assert_int_equal(stream_listen(other, HTTP_LISTEN_ADDRESS, (uint16_t)port, &reason), -1);
-    assert_non_null(strstr(reason.text, "it is in use; name another"));
-    assert_int_equal(stream_listen(other, "localhost", 0, &reason), -1);
-    assert_non_null(strstr(reason.text, "must be an address"));
-    assert_int_equal(stream_listen(other, "192.0.2.1", 0, &reason), -1);
-    assert_non_null(strstr(reason.text, "cannot listen on 192.0.2.1"));
+    struct stream *other = stream_open("world", NULL, &error);
+    assert_int_equal(stream_listen(other, HTTP_LISTEN_ADDRESS, (uint16_t)port, &error), -1);
+    assert_non_null(strstr(error.text, "it is in use; name another"));
+    assert_int_equal(stream_listen(other, "localhost", 0, &error), -1);
+    assert_non_null(strstr(error.text, "must be an address"));
+    assert_int_equal(stream_listen(other, "192.0.2.1", 0, &error), -1);
+    assert_non_null(strstr(error.text, "cannot listen on 192.0.2.1"));
     stream_close(other);
 }
 

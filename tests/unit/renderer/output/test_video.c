@@ -15,7 +15,7 @@
 
 static struct picture picture;
 static struct video *video;
-static struct reason reason;
+static struct error_text error;
 static int fd;
 
 static int set_up(void **state)
@@ -35,9 +35,9 @@ static int tear_down(void **state)
 
 static void begin(const char *path, double fps)
 {
-    video = video_open(path, fps, VIDEO_LIVE, &reason);
+    video = video_open(path, fps, VIDEO_LIVE, &error);
     if (video == NULL)
-        fail_msg("%s", reason.text);
+        fail_msg("%s", error.text);
     video_write_to(video, fd);
 }
 
@@ -45,14 +45,14 @@ static void put(double time_s)
 {
     picture.time_s = time_s;
     memset(picture.image.pixels, (int)(time_s * 100.0) & 255, (size_t)65 * 47 * 4);
-    if (video_put(video, &picture, &reason) != 0)
-        fail_msg("%s", reason.text);
+    if (video_put(video, &picture, &error) != 0)
+        fail_msg("%s", error.text);
 }
 
 static void end(uint64_t pictures)
 {
     assert_int_equal(video_pictures(video), pictures);
-    assert_int_equal(video_close(video, &reason), 0);
+    assert_int_equal(video_close(video, &error), 0);
     assert_true(lseek(fd, 0, SEEK_END) > 500);
 }
 
@@ -90,8 +90,8 @@ static void test_another_size_is_refused(void **state)
     begin("a.mkv", 30.0);
     put(1.0);
     picture.image.height = 32;
-    assert_int_equal(video_put(video, &picture, &reason), -1);
-    assert_string_equal(reason.text, "video: a picture of 65x32 comes after those of 64x46");
+    assert_int_equal(video_put(video, &picture, &error), -1);
+    assert_string_equal(error.text, "video: a picture of 65x32 comes after those of 64x46");
     picture.image.height = 47;
     end(1);
 }
@@ -106,12 +106,12 @@ static void test_a_full_disk_is_said(void **state)
     int result = 0;
     for (int i = 0; i < 100 && result == 0; i++) {
         picture.time_s = i;
-        result = video_put(video, &picture, &reason);
+        result = video_put(video, &picture, &error);
     }
     assert_int_equal(result, -1);
-    assert_non_null(strstr(reason.text, "No space left on device"));
-    assert_int_equal(video_close(video, &reason), -1);
-    assert_non_null(strstr(reason.text, "No space left on device"));
+    assert_non_null(strstr(error.text, "No space left on device"));
+    assert_int_equal(video_close(video, &error), -1);
+    assert_non_null(strstr(error.text, "No space left on device"));
     close(full);
 }
 
@@ -119,7 +119,7 @@ static void test_nothing_put_is_nothing_written(void **state)
 {
     (void)state;
     begin("a.mkv", 30.0);
-    assert_int_equal(video_close(video, &reason), 0);
+    assert_int_equal(video_close(video, &error), 0);
     assert_int_equal(lseek(fd, 0, SEEK_END), 0);
 }
 
@@ -128,8 +128,8 @@ static void test_what_the_file_is_follows_from_its_ending(void **state)
     static const char *const none[] = {"", "a", ".mkv", "a.avi", "a.mkv.old", "mkv", "a/.mp4x"};
     (void)state;
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
-        assert_null(video_open(none[i], 30.0, VIDEO_LIVE, &reason));
-        assert_non_null(strstr(reason.text, "must end in .mkv, .mp4 or .webm"));
+        assert_null(video_open(none[i], 30.0, VIDEO_LIVE, &error));
+        assert_non_null(strstr(error.text, "must end in .mkv, .mp4 or .webm"));
     }
 }
 

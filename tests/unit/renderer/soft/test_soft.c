@@ -246,9 +246,9 @@ static int open_country(void **context)
     assert_int_equal(static_scene_init(&c->scenery, &c->world), 0);
     assert_int_equal(scene_init(&c->scene), 0);
     c->moment = (struct frame_view){.world = &c->world, .craters = &c->index};
-    struct reason reason;
+    struct error_text error;
     assert_int_equal(
-        soft_open_build(&c->plain, &c->scenery, 300, 144, 1, &soft_kernels_plain, &reason), 0);
+        soft_open_build(&c->plain, &c->scenery, 300, 144, 1, &soft_kernels_plain, &error), 0);
     *context = c;
     return 0;
 }
@@ -281,10 +281,10 @@ static struct image draw(struct country *c, struct back_end_interface *by, uint3
                          uint32_t height)
 {
     struct image image;
-    struct reason reason;
+    struct error_text error;
     look(c, width, height);
     assert_int_equal(image_init(&image, width, height), 0);
-    assert_int_equal(by->picture(by->self, &c->scene, &c->moment, &image, &reason), 0);
+    assert_int_equal(by->picture(by->self, &c->scene, &c->moment, &image, &error), 0);
     assert_true(by->stages(by->self)->count > 0);
     return image;
 }
@@ -313,8 +313,8 @@ static void test_threads_and_vectors_change_nothing(void **context)
     for (uint32_t threads = 2; threads <= 4; threads++) {
         const struct soft_kernels *build = threads % 2 == 0 ? best_build() : &soft_kernels_plain;
         struct back_end_interface many;
-        struct reason reason;
-        assert_int_equal(soft_open_build(&many, &c->scenery, 300, 144, threads, build, &reason), 0);
+        struct error_text error;
+        assert_int_equal(soft_open_build(&many, &c->scenery, 300, 144, threads, build, &error), 0);
         for (uint32_t width = 251; width <= 256; width += 5) {
             struct image one = draw(c, &c->plain, width, 131);
             struct image other = draw(c, &many, width, 131);
@@ -350,12 +350,12 @@ static void test_refuses_what_is_too_large(void **context)
     struct country *c = *context;
     struct back_end_interface none;
     struct image image;
-    struct reason reason;
+    struct error_text error;
     look(c, 301, 64);
-    assert_int_equal(soft_open(&none, &c->scenery, 0, 64, 1, &reason), -1);
-    assert_int_equal(soft_open(&none, &c->scenery, 64, SOFT_SIDE_MAX + 1, 1, &reason), -1);
+    assert_int_equal(soft_open(&none, &c->scenery, 0, 64, 1, &error), -1);
+    assert_int_equal(soft_open(&none, &c->scenery, 64, SOFT_SIDE_MAX + 1, 1, &error), -1);
     assert_int_equal(image_init(&image, 301, 64), 0);
-    assert_int_equal(c->plain.picture(c->plain.self, &c->scene, &c->moment, &image, &reason), -1);
+    assert_int_equal(c->plain.picture(c->plain.self, &c->scene, &c->moment, &image, &error), -1);
     image_free(&image);
 }
 

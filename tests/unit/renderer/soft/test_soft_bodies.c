@@ -42,14 +42,14 @@ static struct soft_plants *plants;
 
 static int open_bodies(void **context)
 {
-    struct reason reason;
+    struct error_text error;
     (void)context;
     if (soft_detail_make(&detail) != 0)
         return -1;
     if (mesh_frame(&frames[0], &world, 0) != 0)
         return -1;
-    bodies = soft_bodies_open(&scenery, &detail, &reason);
-    plants = soft_plants_open(&reason);
+    bodies = soft_bodies_open(&scenery, &detail, &error);
+    plants = soft_plants_open(&error);
     return bodies != NULL && plants != NULL ? 0 : -1;
 }
 

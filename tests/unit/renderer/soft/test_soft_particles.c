@@ -18,9 +18,9 @@ static struct soft_particles *puffs;
 
 static int open_puffs(void **context)
 {
-    struct reason reason;
+    struct error_text error;
     (void)context;
-    puffs = soft_particles_open(&reason);
+    puffs = soft_particles_open(&error);
     return puffs != NULL ? 0 : -1;
 }
 

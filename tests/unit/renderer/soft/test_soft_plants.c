@@ -23,12 +23,12 @@ static int open_plants(void **context)
 {
     static struct world world;
     static struct static_scene scenery = {.world = &world};
-    struct reason reason;
+    struct error_text error;
     (void)context;
     if (soft_detail_make(&detail) != 0)
         return -1;
-    plants = soft_plants_open(&reason);
-    bodies = soft_bodies_open(&scenery, &detail, &reason);
+    plants = soft_plants_open(&error);
+    bodies = soft_bodies_open(&scenery, &detail, &error);
     return plants != NULL && bodies != NULL ? 0 : -1;
 }
 

@@ -20,13 +20,12 @@ static struct road_point cross[] = {{0, 1000, 0, 0},   {1000, 1000, 0, 0}, {2000
                                     {1000, 0, 1, 0},   {1000, 2000, 1, 0}, {9000, 9000, 2, 0},
                                     {9000, 9500, 2, 0}};
 
-static char message[512];
+static struct error_text error;
 
 /* Builds the routes of a scenario with one vehicle on the cross. */
 static int build(struct world_build *built, struct scenario *scenario, const char *route)
 {
     char text[512];
-    struct error_text to = {message, sizeof message};
     snprintf(text, sizeof text,
              "vehicles = (\n{ kind = \"truck\"; roads = true;\nroute = ( %s ); },\n"
              "{ kind = \"jeep\"; route = ( [1, 2], [3, 4], [5, 6] ); } );",
@@ -34,7 +33,7 @@ static int build(struct world_build *built, struct scenario *scenario, const cha
     fixture_scenario(scenario, text);
     *built = (struct world_build){.scenario = scenario, .roads = cross};
     built->counts.road_points = sizeof cross / sizeof cross[0];
-    return road_routing_build(built, &to);
+    return road_routing_build(built, &error);
 }
 
 static void finish(struct world_build *built, struct scenario *scenario)
@@ -85,8 +84,8 @@ static void check_refusal(const char *route, const char *words)
     struct world_build built;
     struct scenario scenario;
     assert_int_equal(build(&built, &scenario, route), -1);
-    if (!strstr(message, words))
-        fail_msg("\"%s\" is not in: %s", words, message);
+    if (!strstr(error.text, words))
+        fail_msg("\"%s\" is not in: %s", words, error.text);
     finish(&built, &scenario);
 }
 
@@ -108,9 +107,10 @@ static void test_ground_without_roads_is_refused(void **state)
     (void)state;
     fixture_scenario(&scenario, "vehicles = ( { kind = \"truck\"; roads = true; route = ( [1, 2], "
                                 "[3, 4] ); } );");
-    assert_int_equal(world_build_make(&built, &scenario, message, sizeof message), -1);
-    assert_non_null(strstr(message, "vehicles.roads = true: this ground has no roads; right would "
-                                    "be: terrain.source = \"generated\""));
+    assert_int_equal(world_build_make(&built, &scenario, &error), -1);
+    assert_non_null(strstr(error.text,
+                           "vehicles.roads = true: this ground has no roads; right would "
+                           "be: terrain.source = \"generated\""));
     scenario_free(&scenario);
 }
 

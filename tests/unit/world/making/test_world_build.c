@@ -23,14 +23,14 @@ static struct fixture f;
 /* Builds a world that must be refused and gives the message. */
 static const char *refusal(const char *text)
 {
-    static char message[512];
+    static struct error_text error;
     struct scenario scenario;
     struct world_build built;
     fixture_scenario(&scenario, text);
-    if (world_build_make(&built, &scenario, message, sizeof message) == 0)
+    if (world_build_make(&built, &scenario, &error) == 0)
         fail_msg("taken: %s", text);
     scenario_free(&scenario);
-    return message;
+    return error.text;
 }
 
 static void check_refusal(const char *text, const char *const words[], int count)
@@ -328,12 +328,12 @@ static void test_land_vehicles_start_on_the_ground(void **state)
 {
     struct scenario scenario;
     struct world_build built;
-    char message[512];
+    struct error_text error;
     (void)state;
     fixture_scenario(&scenario, "vehicles = ( { kind = \"tank\"; at = [1000.0, 1000.0]; } );");
     scenario.groups[0].floating = 1;
     scenario.groups[0].altitude_m = 50.0;
-    assert_int_equal(world_build_make(&built, &scenario, message, sizeof message), 0);
+    assert_int_equal(world_build_make(&built, &scenario, &error), 0);
     assert_true(built.first.y[0] == FIXTURE_GROUND_M);
     world_build_free(&built);
     scenario_free(&scenario);
@@ -345,23 +345,23 @@ static void test_scenario_that_does_not_fit_is_refused(void **state)
 {
     struct scenario scenario;
     struct world_build built;
-    char message[512];
+    struct error_text error;
     (void)state;
     fixture_scenario(&scenario,
                      "vehicles = ( { kind = \"tank\"; name = \"A\"; count = 20; } );"
                      "fires = ( { at_s = 1.0; shooter = \"A-1\"; target = \"A-2\"; } );");
     scenario.settings->params.capacity = 19;
-    assert_int_equal(world_build_make(&built, &scenario, message, sizeof message), -1);
-    assert_non_null(strstr(message, "world.capacity = 19"));
+    assert_int_equal(world_build_make(&built, &scenario, &error), -1);
+    assert_non_null(strstr(error.text, "world.capacity = 19"));
     assert_null(built.posts); /* nothing is left to free */
     scenario.settings->params.capacity = 20;
     snprintf(scenario.fires[0].shooter, sizeof scenario.fires[0].shooter, "nobody");
-    assert_int_equal(world_build_make(&built, &scenario, message, sizeof message), -1);
-    assert_non_null(strstr(message, "fires.shooter = \"nobody\""));
+    assert_int_equal(world_build_make(&built, &scenario, &error), -1);
+    assert_non_null(strstr(error.text, "fires.shooter = \"nobody\""));
     snprintf(scenario.fires[0].shooter, sizeof scenario.fires[0].shooter, "A-1");
     snprintf(scenario.fires[0].target, sizeof scenario.fires[0].target, "A-21");
-    assert_int_equal(world_build_make(&built, &scenario, message, sizeof message), -1);
-    assert_non_null(strstr(message, "fires.target = \"A-21\""));
+    assert_int_equal(world_build_make(&built, &scenario, &error), -1);
+    assert_non_null(strstr(error.text, "fires.target = \"A-21\""));
     scenario_free(&scenario);
 }
 

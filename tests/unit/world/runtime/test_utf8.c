@@ -84,26 +84,34 @@ static void test_a_text_is_mended(void **state)
     mends("\xc0\xaf", "??");
 }
 
+__attribute__((format(printf, 3, 4))) static void format_into(char *text, size_t bytes,
+                                                              const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    (void)utf8_format(text, bytes, format, arguments);
+    va_end(arguments);
+}
+
 /* Every place that cuts a line: none leaves half a character, whatever the room. */
 static void test_errors_are_cut_between_characters(void **state)
 {
-    static struct reason reason;
-    static char cries[sizeof reason.text + 8];
+    static struct error_text error;
+    static char cries[sizeof error.text + 8];
     uint32_t code;
     (void)state;
     memset(cries, 0, sizeof cries);
     for (size_t i = 0; i + 2 < sizeof cries; i += 2)
         memcpy(cries + i, "\xc3\xa9", 2);
     for (int odd = 0; odd < 2; odd++) {
-        reason_set(&reason, "%s%s", odd ? "x" : "", cries);
-        size_t length = strlen(reason.text);
-        assert_true(length >= sizeof reason.text - 3);
-        assert_int_equal(utf8_read(reason.text + length - 2, &code), 2);
+        error_text_set(&error, "%s%s", odd ? "x" : "", cries);
+        size_t length = strlen(error.text);
+        assert_true(length >= sizeof error.text - 3);
+        assert_int_equal(utf8_read(error.text + length - 2, &code), 2);
     }
     for (size_t room = 1; room < 12; room++) {
         char text[12];
-        const struct error_text to = {text, room};
-        error_text_say(&to, "%s", cries);
+        format_into(text, room, "%s", cries);
         assert_int_equal(strlen(text), (room - 1) / 2 * 2);
     }
 }

@@ -31,9 +31,9 @@ static struct world world;
 
 static int load_shipped(void **state)
 {
-    struct config_message message;
+    struct error_text error;
     (void)state;
-    if (loader_scenario(&shipped, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &message) != 0)
+    if (loader_scenario(&shipped, QUICK_CONFIG_SHIPPED, "duel", NULL, 0, &error) != 0)
         return -1;
     world = (struct world){.models = shipped.models,
                            .model_vertices = shipped.vertices,
