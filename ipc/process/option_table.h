@@ -30,7 +30,8 @@ struct option_row {
     double *real;             /* a number, low..high */
     struct option_size *size; /* WIDTHxHEIGHT, each least..most */
     /* Checks the value, or reads one of another kind. Is called after the value has been stored.
-     * Returns 0, or -1 with the reason in error; the reader puts the option and its value before it.
+     * Returns 0, or -1 with the reason in error; the reader puts the option and its value before
+     * it.
      */
     int (*take)(const char *value, struct error_text *error);
     uint64_t least, most;
