@@ -114,7 +114,7 @@ libraries = $(patsubst %,$(BUILD)/lib/%.a,$(1))
 WORLD_SRC    := $(call sources,world world/*)
 CONFIG_SRC   := $(call sources,config config/*)
 IPC_SRC      := $(filter-out $(if $(CRASHPOINTS),,%/crash_point.c),$(call sources,$(addprefix ipc/,process segment frame json)))
-SANDBOX_SRC  := $(call sources,ipc/sandbox)
+SANDBOX_SRC  := $(call sources,ipc/sandbox ipc/stage)
 HTTP_SRC     := $(call sources,ipc/http)
 TOPICS_SRC   := $(call sources,ipc/topics)
 # It stands in for functions of the C library, and so does the sandbox: only in who wants it.

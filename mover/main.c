@@ -1,16 +1,9 @@
 /* jolon-mover: paces the frames and moves every vehicle and munition. Writes the moved table. */
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
-#include "ipc/process/process.h"
-#include "ipc/sandbox/sandbox.h"
-#include "ipc/segment/segment_attach.h"
+#include "ipc/stage/stage.h"
 #include "mover/step.h"
 
-#include "world/params.h"
-#include "world/runtime/work_done.h"
-
-#include <errno.h>
-#include <string.h>
 #include <sys/prctl.h>
 
 /* Runs frames until the process is asked to stop or the run is over. */
@@ -29,36 +22,18 @@ static void move_frames(struct mover *mover, struct view *view)
 
 int main(int argc, char **argv)
 {
-    struct stage_options options = process_stage_options(argc, argv, "jolon-mover");
-    struct sandbox sandbox;
-    struct view view;
-    struct error_text error;
+    struct stage stage;
+    struct view *view = &stage.view;
     struct mover mover;
-    log_open("mover");
-    process_close_inherited();
-    process_signals();
-    process_die_with_parent(options.parent);
     prctl(PR_SET_TIMERSLACK, 1000); /* [ns] a frame begins when it is due, not 50 us later */
-    if (sandbox_begin(&sandbox, ROLE_MOVER, options.sandbox_off, &error) != 0 ||
-        (options.stand_by ? segment_stand_by : segment_attach)(&view, options.world, ROLE_MOVER,
-                                                               &error) != 0)
-        die_refused("%s", error.text);
-    work_done_into(&view.slot[view.role]->work);
-    struct thread_pool *workers = thread_pool_create(options.threads);
-    if (!workers)
-        die_refused("cannot start %u threads: %s", options.threads, strerror(errno));
-    if (mover_init(&mover, &view.world, view.w[0].craters, workers) != 0)
-        process_refuse_memory(view.world.params->capacity);
-    if (sandbox_enter(&sandbox, &error) != 0)
-        die_refused("%s", error.text);
-    /* A stand-by process may be asked to stop, or the run may end, before it gets the role. */
-    if (segment_take(&view) == 0 && !(options.stand_by && frame_protocol_finished(&view))) {
-        segment_ready(&view);
-        log_info("moves world \"%s\" on %u thread(s)", view.name, options.threads);
-        move_frames(&mover, &view);
+    stage_open(&stage, argc, argv, ROLE_MOVER);
+    if (mover_init(&mover, &view->world, view->w[0].craters, stage.workers) != 0)
+        stage_refuse_memory(&stage);
+    if (stage_enter(&stage)) {
+        log_info("moves world \"%s\" on %u thread(s)", view->name, stage.options.threads);
+        move_frames(&mover, view);
     }
     mover_free(&mover);
-    thread_pool_destroy(workers);
-    segment_detach(&view);
+    stage_close(&stage);
     return EXIT_OK;
 }

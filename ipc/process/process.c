@@ -2,9 +2,7 @@
 #include "ipc/process/process.h"
 
 #include "ipc/process/log.h"
-#include "ipc/process/option_table.h"
 #include "world/runtime/check.h"
-#include "world/runtime/thread_pool.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -132,31 +130,6 @@ char process_state(int pid)
     /* pid (name) state: the name may hold anything, also parentheses */
     const char *end = strrchr(line, ')');
     return end && end[1] == ' ' ? end[2] : '\0';
-}
-
-void process_refuse_memory(uint32_t capacity)
-{
-    die_refused("cannot take the memory of the steps of a world of capacity %u: %s; allow more "
-                "address space (ulimit -v; vm.overcommit_ratio where vm.overcommit_memory is 2) "
-                "or lower world.capacity",
-                capacity, strerror(errno));
-}
-
-struct stage_options process_stage_options(int argc, char **argv, const char *program)
-{
-    static struct stage_options given = {.world = "default", .threads = 1};
-    static const struct option_row rows[] = {
-        OPTION_ROW_WORLD(given, NULL),
-        {"threads", "N", "1 to 16 (default 1)", .u32 = &given.threads, .least = 1,
-         .most = THREAD_POOL_MAX},
-        OPTION_ROW_PARENT(given),
-        {"stand-by", NULL, "take the role over when the process that has it dies",
-         .flag = &given.stand_by},
-        OPTION_ROW_NO_SANDBOX(given),
-        OPTION_ROWS_END};
-    const struct option_table table = {.program = program, .usage = "[options]", .rows = rows};
-    option_table_read(&table, argc, argv);
-    return given;
 }
 
 static bool holds_kinds(const char *directory)

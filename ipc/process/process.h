@@ -1,4 +1,4 @@
-/* What every role does at its start and end: options, signals, dying with its supervisor. */
+/* What every role does at its start and end: signals, dying with its supervisor. */
 #ifndef JOLON_IPC_PROCESS_PROCESS_H
 #define JOLON_IPC_PROCESS_PROCESS_H
 
@@ -42,24 +42,6 @@ void process_die_with_parent(int parent_pid);
 /* State letter of a process as the kernel tells it (R, S, D, T, Z ...); '\0' when it is gone. A
  * child that its parent has not waited for yet is a zombie (Z) and keeps its number. */
 char process_state(int pid);
-
-/* Options of the roles of the frame loop. */
-struct stage_options {
-    const char *world;
-    uint32_t threads; /* 1..16 */
-    int parent;       /* pid to die with, 0 for none */
-    bool stand_by;    /* wait for the role's holder to die instead of refusing */
-    bool sandbox_off;
-};
-
-/* Reads --world NAME, --threads N, --parent PID, --stand-by, --no-sandbox; wrong usage ends the
- * process (exit 2) and --help prints usage and ends it (exit 0). */
-struct stage_options process_stage_options(int argc, char **argv, const char *program);
-
-/* Ends a role that cannot take the memory of its steps, of a world of this capacity; errno says
- * why.
- */
-_Noreturn void process_refuse_memory(uint32_t capacity);
 
 /* Finds config/, from the place of the running program: the build tree's or the installed one. */
 int process_data_dir(char *path, size_t bytes);
