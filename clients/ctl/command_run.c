@@ -13,7 +13,7 @@ static uint64_t limit(const struct ctl *ctl)
     return clock_now_ns() + (uint64_t)(ctl->request.timeout_s * NS_PER_S);
 }
 
-static void say_silence(const struct ctl *ctl, const struct command_text *order)
+static void print_no_reply(const struct ctl *ctl, const struct command_text *order)
 {
     const struct ctl_request *request = &ctl->request;
     if (!command_client_heard(&ctl->client))
@@ -32,59 +32,59 @@ static void say_silence(const struct ctl *ctl, const struct command_text *order)
                       request->world, order->verb->name, request->timeout_s, request->world);
 }
 
-static void say_answer(struct ctl *ctl, struct result_text_place *place,
-                       const jolon_CommandReply *reply)
+static void print_answer(struct ctl *ctl, struct result_text_context *context,
+                         const jolon_CommandReply *reply)
 {
     char more[600] = "";
-    const struct command_text *order = &ctl->mission.order;
+    const struct command_text *order = &ctl->series.order;
     if (ctl->request.json)
-        result_text_json(order, place, reply);
+        result_text_json(order, context, reply);
     else if (reply->result == jolon_RESULT_DONE)
-        result_text_done(order, place, reply);
+        result_text_done(order, context, reply);
     if (reply->result == jolon_RESULT_NO_SUCH_KIND &&
         lookup_wait(&ctl->lookup, clock_now_ns() + NS_PER_S / 2))
         (void)snprintf(more, sizeof more, "; there are %s",
                        order->command.type == jolon_COMMAND_FIRE ? ctl->lookup.munitions
                                                                  : ctl->lookup.vehicles);
     if (reply->result != jolon_RESULT_DONE)
-        result_text_refusal(order, place, reply, more);
+        result_text_refusal(order, context, reply, more);
 }
 
 /* Sends the order's rounds, each when it is due, until all are answered. False: no reply. */
-static bool carry_out(struct ctl *ctl, struct result_text_place *place)
+static bool carry_out(struct ctl *ctl, struct result_text_context *context)
 {
-    struct command_series *mission = &ctl->mission;
+    struct command_series *series = &ctl->series;
     jolon_CommandReply reply;
     uint64_t until_ns = limit(ctl);
-    while (!command_series_over(mission)) {
+    while (!command_series_over(series)) {
         uint64_t now_ns = clock_now_ns();
-        command_series_send(mission, &ctl->client, now_ns);
+        command_series_send(series, &ctl->client, now_ns);
         command_client_turn(&ctl->client);
-        while (command_series_answer(mission, &ctl->client, &reply, &place->round)) {
-            place->round++;
-            say_answer(ctl, place, &reply);
+        while (command_series_answer(series, &ctl->client, &reply, &context->round)) {
+            context->round++;
+            print_answer(ctl, context, &reply);
             (void)fflush(stdout);
             until_ns = limit(ctl);
         }
-        if (!mission->waiting)
+        if (!series->waiting)
             until_ns = limit(ctl); /* the time until the next round is nobody's silence */
-        if (command_series_over(mission) || process_stopping() || now_ns >= until_ns)
+        if (command_series_over(series) || process_stopping() || now_ns >= until_ns)
             break;
-        uint64_t due_ns = command_series_due_ns(mission);
+        uint64_t due_ns = command_series_due_ns(series);
         uint64_t wake_ns = due_ns < until_ns ? due_ns : until_ns;
         command_client_wait(&ctl->client, wake_ns);
     }
-    return command_series_over(mission);
+    return command_series_over(series);
 }
 
 int command_run(struct ctl *ctl, struct command_text *order, uint32_t line)
 {
-    struct result_text_place place = {
+    struct result_text_context context = {
         .world = ctl->request.world, .line = line, .rounds = order->rounds};
     struct error_text error;
     if (command_text_needs_names(order) || command_text_needs_hz(order)) {
         if (!lookup_wait(&ctl->lookup, limit(ctl))) {
-            say_silence(ctl, order);
+            print_no_reply(ctl, order);
             return EXIT_GAVE_UP;
         }
         if (command_text_resolve(order, &ctl->lookup.names, ctl->lookup.hz, &error) != 0) {
@@ -92,12 +92,12 @@ int command_run(struct ctl *ctl, struct command_text *order, uint32_t line)
             return EXIT_REFUSED;
         }
     }
-    command_series_begin(&ctl->mission, order, clock_now_ns());
-    if (carry_out(ctl, &place))
-        return ctl->mission.done == order->rounds ? EXIT_OK : EXIT_REFUSED;
-    command_series_forget(&ctl->mission, &ctl->client);
+    command_series_begin(&ctl->series, order, clock_now_ns());
+    if (carry_out(ctl, &context))
+        return ctl->series.done == order->rounds ? EXIT_OK : EXIT_REFUSED;
+    command_series_forget(&ctl->series, &ctl->client);
     if (ctl->request.json)
-        result_text_json(order, &place, NULL);
-    say_silence(ctl, order);
+        result_text_json(order, &context, NULL);
+    print_no_reply(ctl, order);
     return EXIT_GAVE_UP;
 }

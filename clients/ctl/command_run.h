@@ -14,7 +14,7 @@ struct ctl {
     struct command_client client;
     struct command_route route; /* of the caller */
     struct lookup lookup;
-    struct command_series mission;
+    struct command_series series;
 };
 
 /* Carries out an order of that line of standard input, 0: of the command line, and says what came

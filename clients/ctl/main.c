@@ -18,7 +18,7 @@ static bool too_long(const char *line)
     return true;
 }
 
-static int obey_lines(struct ctl *ctl)
+static int run_lines(struct ctl *ctl)
 {
     char line[CTL_LINE_MAX];
     struct command_text order;
@@ -63,7 +63,7 @@ int main(int argc, char **argv)
         command_route_open(&ctl.route, &ctl.client, ctl.request.remote, &ctl.link,
                            ctl.request.world, &error) != 0)
         die_refused("%s", error.text);
-    int code = ctl.request.lines ? obey_lines(&ctl) : command_run(&ctl, &ctl.request.order, 0);
+    int code = ctl.request.lines ? run_lines(&ctl) : command_run(&ctl, &ctl.request.order, 0);
     (void)fflush(stdout);
     lookup_close(&ctl.lookup);
     code = code == EXIT_OK ? EXIT_OK : EXIT_REFUSED;

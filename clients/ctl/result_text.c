@@ -1,13 +1,13 @@
 /* Answers as text. */
 #include "clients/ctl/result_text.h"
 
+#include "ipc/json/world_json.h"
 #include "world/entity/command.h"
 #include "world/enum_names.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 
-void result_text_done(const struct command_text *order, const struct result_text_place *place,
+void result_text_done(const struct command_text *order, const struct result_text_context *context,
                       const jolon_CommandReply *reply)
 {
     const jolon_Command *command = &order->command;
@@ -37,9 +37,9 @@ void result_text_done(const struct command_text *order, const struct result_text
     case jolon_COMMAND_FIRE:
         if (command->entity)
             printf("%u fires at frame %llu\n", command->entity, frame);
-        else if (place->rounds > 1)
+        else if (context->rounds > 1)
             printf("%s falls near %g,%g from frame %llu (%u of %u)\n", command->kind, command->x_m,
-                   command->z_m, frame, place->round, place->rounds);
+                   command->z_m, frame, context->round, context->rounds);
         else
             printf("%s falls on %g,%g from frame %llu\n", command->kind, command->x_m, command->z_m,
                    frame);
@@ -58,45 +58,41 @@ void result_text_done(const struct command_text *order, const struct result_text
     }
 }
 
-void result_text_json(const struct command_text *order, const struct result_text_place *place,
+void result_text_json(const struct command_text *order, const struct result_text_context *context,
                       const jolon_CommandReply *reply)
 {
     cJSON *object = cJSON_CreateObject();
-    (void)cJSON_AddStringToObject(object, "world", place->world);
-    if (place->line)
-        (void)cJSON_AddNumberToObject(object, "line", place->line);
-    (void)cJSON_AddStringToObject(object, "command", order->verb->name);
-    if (place->rounds > 1)
-        (void)cJSON_AddNumberToObject(object, "round", place->round);
-    (void)cJSON_AddStringToObject(object, "result",
-                                  reply ? command_result_name((enum command_result)reply->result)
-                                        : "no reply");
+    json_text(object, "world", context->world);
+    if (context->line)
+        json_whole(object, "line", context->line);
+    json_text(object, "command", order->verb->name);
+    if (context->rounds > 1)
+        json_whole(object, "round", context->round);
+    json_text(object, "result",
+              reply ? command_result_name((enum command_result)reply->result) : "no reply");
     if (reply) {
-        (void)cJSON_AddNumberToObject(object, "frame", (double)reply->frame);
-        (void)cJSON_AddNumberToObject(object, "entity", reply->entity);
+        json_whole(object, "frame", reply->frame);
+        json_whole(object, "entity", reply->entity);
     }
-    char *text = cJSON_PrintUnformatted(object);
-    if (text)
-        printf("%s\n", text);
-    cJSON_free(text);
-    cJSON_Delete(object);
+    json_print(object);
 }
 
-void result_text_refusal(const struct command_text *order, const struct result_text_place *place,
-                         const jolon_CommandReply *reply, const char *more)
+void result_text_refusal(const struct command_text *order,
+                         const struct result_text_context *context, const jolon_CommandReply *reply,
+                         const char *more)
 {
     const jolon_Command *command = &order->command;
-    char line[24] = "", what[64] = "";
-    if (place->line)
-        (void)snprintf(line, sizeof line, "line %u: ", place->line);
+    char line[24] = "", subject[64] = "";
+    if (context->line)
+        (void)snprintf(line, sizeof line, "line %u: ", context->line);
     if (command->kind[0])
-        (void)snprintf(what, sizeof what, " %s", command->kind);
+        (void)snprintf(subject, sizeof subject, " %s", command->kind);
     else if (order->vehicle[0])
-        (void)snprintf(what, sizeof what, " %s (%u)", order->vehicle, command->entity);
+        (void)snprintf(subject, sizeof subject, " %s (%u)", order->vehicle, command->entity);
     else if (command->entity)
-        (void)snprintf(what, sizeof what, " %u", command->entity);
-    (void)fprintf(stderr, "jolon-ctl: %s%s%s: %s (frame %llu)%s\n", line, order->verb->name, what,
-                  command_result_name((enum command_result)reply->result),
+        (void)snprintf(subject, sizeof subject, " %u", command->entity);
+    (void)fprintf(stderr, "jolon-ctl: %s%s%s: %s (frame %llu)%s\n", line, order->verb->name,
+                  subject, command_result_name((enum command_result)reply->result),
                   (unsigned long long)reply->frame,
                   *more ? more : command_text_advice(order, reply->result));
 }

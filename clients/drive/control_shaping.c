@@ -28,7 +28,7 @@ void control_shaping_reset(struct control_shaping *shaping, uint64_t now_ns)
 }
 
 /* A press moves at once, so that a tap does something too. */
-static void kick(struct control_shaping *shaping, enum input_axis axis, int direction)
+static void apply_press(struct control_shaping *shaping, enum input_axis axis, int direction)
 {
     struct control_shaping_axis *a = &shaping->axis[axis];
     if (axis == AXIS_THROTTLE) {
@@ -51,25 +51,27 @@ static void key_down(struct control_shaping *shaping, const struct intent *event
     bool again = a->held == direction;
     if (!again) {
         /* Between a press and its auto-repeat nothing is heard: it is still the same push. */
-        bool same = !event->lifts && a->direction == direction && now_ns - a->last_ns < KEY_SAME_NS;
+        bool same = !event->reports_release && a->direction == direction &&
+                    now_ns - a->last_ns < KEY_SAME_NS;
         if (!same)
             a->down_ns = now_ns;
-        kick(shaping, event->axis, direction);
+        apply_press(shaping, event->axis, direction);
     }
     a->held = a->direction = direction;
     a->last_ns = now_ns;
-    a->until_ns = event->lifts ? UINT64_MAX : now_ns + (again ? KEY_REPEAT_NS : KEY_FIRST_NS);
+    a->until_ns =
+        event->reports_release ? UINT64_MAX : now_ns + (again ? KEY_REPEAT_NS : KEY_FIRST_NS);
 }
 
-void control_shaping_take(struct control_shaping *shaping, const struct intent *event,
-                          uint64_t now_ns)
+void control_shaping_apply(struct control_shaping *shaping, const struct intent *event,
+                           uint64_t now_ns)
 {
     struct control_shaping_axis *a = &shaping->axis[event->axis];
     switch (event->type) {
     case INTENT_SET:
-        a->hand = control_shaping_shape((double)event->value);
+        a->deflection = control_shaping_shape((double)event->value);
         if (event->axis == AXIS_THROTTLE)
-            shaping->lever = a->hand;
+            shaping->lever = a->deflection;
         break;
     case INTENT_RATE:
         a->rate = control_shaping_shape((double)event->value);
@@ -151,7 +153,7 @@ bool control_shaping_step(struct control_shaping *shaping, uint64_t now_ns)
 static float axis_value(const struct control_shaping *shaping, enum input_axis axis, double low)
 {
     const struct control_shaping_axis *a = &shaping->axis[axis];
-    return (float)maths_clamp(a->hand + a->key, low, 1.0);
+    return (float)maths_clamp(a->deflection + a->key, low, 1.0);
 }
 
 struct controls control_shaping_controls(const struct control_shaping *shaping, bool aircraft)
@@ -179,7 +181,7 @@ struct controls control_shaping_controls(const struct control_shaping *shaping, 
 bool control_shaping_aims(const struct control_shaping *shaping)
 {
     for (int i = AXIS_AIM_X; i <= AXIS_AIM_Y; i++) {
-        if (fabs(shaping->axis[i].hand) > 0.0 || fabs(shaping->axis[i].key) > 0.0)
+        if (fabs(shaping->axis[i].deflection) > 0.0 || fabs(shaping->axis[i].key) > 0.0)
             return true;
     }
     return false;

@@ -38,11 +38,11 @@ struct controls {
 
 struct control_shaping {
     struct control_shaping_axis {
-        double hand;   /* where a device holds it, shaped */
-        double rate;   /* how hard one pushes it, shaped */
-        double key;    /* what keys make of it */
-        int held;      /* -1, 0, 1: the key that is down */
-        int direction; /* -1, 0, 1: the last one that was */
+        double deflection; /* where a device holds it, shaped */
+        double rate;       /* how hard one pushes it, shaped */
+        double key;        /* what keys make of it */
+        int held;          /* -1, 0, 1: the key that is down */
+        int direction;     /* -1, 0, 1: the last one that was */
         uint64_t down_ns, last_ns, until_ns;
     } axis[AXIS_COUNT];
     double lever;    /* -1..1 */
@@ -58,8 +58,8 @@ double control_shaping_shape(double value);
 void control_shaping_reset(struct control_shaping *shaping, uint64_t now_ns);
 
 /* Takes an event other than INTENT_ACT. */
-void control_shaping_take(struct control_shaping *shaping, const struct intent *event,
-                          uint64_t now_ns);
+void control_shaping_apply(struct control_shaping *shaping, const struct intent *event,
+                           uint64_t now_ns);
 
 /* ACTION_STOP, ACTION_GEAR_UP and ACTION_GEAR_DOWN. */
 void control_shaping_stop(struct control_shaping *shaping);

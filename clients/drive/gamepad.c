@@ -77,10 +77,10 @@ static void decode_hat(struct gamepad *gamepad, int which, int32_t value, struct
 {
     static const enum input_action actions[2][2] = {{ACTION_PREVIOUS, ACTION_NEXT},
                                                     {ACTION_GEAR_UP, ACTION_GEAR_DOWN}};
-    int stands = value < 0 ? -1 : value > 0;
-    if (stands != 0 && stands != gamepad->hat[which])
-        intent_act(queue, actions[which][stands > 0]);
-    gamepad->hat[which] = stands;
+    int position = value < 0 ? -1 : value > 0;
+    if (position != 0 && position != gamepad->hat[which])
+        intent_act(queue, actions[which][position > 0]);
+    gamepad->hat[which] = position;
 }
 
 static void decode_axis(const struct gamepad *gamepad, uint16_t code, int32_t value,
@@ -140,7 +140,7 @@ static void gamepad_close(struct input *input)
 }
 
 /* Does it have a stick and a button of a gamepad or joystick? */
-static bool suits(const struct libevdev *device)
+static bool is_gamepad(const struct libevdev *device)
 {
     return evdev.has_event_code(device, EV_ABS, ABS_X) &&
            evdev.has_event_code(device, EV_ABS, ABS_Y) &&
@@ -167,7 +167,7 @@ static int open_device(struct input *input, const char *path, struct error_text 
                                               : "");
     int code = evdev.new_from_fd(fd, &device);
     struct gamepad *gamepad = calloc(1, sizeof *gamepad);
-    if (code < 0 || !gamepad || !suits(device)) {
+    if (code < 0 || !gamepad || !is_gamepad(device)) {
         if (code >= 0)
             evdev.free(device);
         free(gamepad);
@@ -178,7 +178,8 @@ static int open_device(struct input *input, const char *path, struct error_text 
     read_ranges(gamepad);
     *input =
         (struct input){.fd = fd, .read = gamepad_read, .close = gamepad_close, .state = gamepad};
-    (void)snprintf(input->what, sizeof input->what, "gamepad \"%s\"", evdev.get_name(device));
+    (void)snprintf(input->description, sizeof input->description, "gamepad \"%s\"",
+                   evdev.get_name(device));
     return 0;
 }
 

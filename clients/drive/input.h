@@ -60,7 +60,7 @@ struct intent {
     enum input_axis axis;
     enum input_action action;
     float value;
-    bool lifts; /* INTENT_DOWN: an INTENT_UP will follow */
+    bool reports_release; /* INTENT_DOWN: an INTENT_UP will follow */
 };
 
 #define INTENTS_MAX 64u
@@ -73,8 +73,8 @@ struct intents {
 
 /* One open device. */
 struct input {
-    int fd;        /* poll() it */
-    char what[96]; /* for people: "gamepad \"8BitDo Pro 2\"" */
+    int fd;               /* poll() it */
+    char description[96]; /* for people: "gamepad \"8BitDo Pro 2\"" */
     /* Reads what is there without blocking; -1 when the device is gone. */
     int (*read)(struct input *input, struct intents *queue);
     void (*close)(struct input *input);

@@ -11,23 +11,24 @@
 #include <string.h>
 #include <time.h>
 
-static void say(struct inputs *inputs, const char *text)
+static void add_to_summary(struct inputs *inputs, const char *text)
 {
-    size_t used = strlen(inputs->said);
-    inputs->said_changed = true;
-    (void)snprintf(inputs->said + used, sizeof inputs->said - used, "%s%s", used ? "; " : "", text);
+    size_t used = strlen(inputs->summary);
+    inputs->summary_changed = true;
+    (void)snprintf(inputs->summary + used, sizeof inputs->summary - used, "%s%s", used ? "; " : "",
+                   text);
 }
 
 /* 0 when it may be done without. */
-static int opened(struct inputs *inputs, int result, bool needed, struct error_text *detail,
-                  struct error_text *error)
+static int note_result(struct inputs *inputs, int result, bool needed, struct error_text *detail,
+                       struct error_text *error)
 {
     if (result == 0)
-        say(inputs, inputs->input[inputs->count++].what);
+        add_to_summary(inputs, inputs->input[inputs->count++].description);
     else if (needed)
         return error_text_set(error, "%s", detail->text);
     else
-        say(inputs, detail->text);
+        add_to_summary(inputs, detail->text);
     return 0;
 }
 
@@ -39,16 +40,16 @@ int inputs_open(struct inputs *inputs, enum inputs_choice choice, const char *pa
     if (terminal_keys_open(&inputs->input[0], error) != 0)
         return -1;
     inputs->count = 1;
-    say(inputs, inputs->input[0].what);
+    add_to_summary(inputs, inputs->input[0].description);
     bool gamepad = choice == INPUTS_GAMEPAD || path;
     bool spacemouse = choice == INPUTS_SPACEMOUSE;
     if ((gamepad || choice == INPUTS_AUTO) &&
-        opened(inputs, gamepad_open(&inputs->input[inputs->count], path, &detail), gamepad, &detail,
-               error) != 0)
+        note_result(inputs, gamepad_open(&inputs->input[inputs->count], path, &detail), gamepad,
+                    &detail, error) != 0)
         return -1;
     if ((spacemouse || choice == INPUTS_AUTO) &&
-        opened(inputs, spacemouse_open(&inputs->input[inputs->count], &detail), spacemouse, &detail,
-               error) != 0)
+        note_result(inputs, spacemouse_open(&inputs->input[inputs->count], &detail), spacemouse,
+                    &detail, error) != 0)
         return -1;
     return 0;
 }
@@ -61,15 +62,16 @@ void inputs_close(struct inputs *inputs)
 }
 
 /* The first are the keys; they keep their place. */
-static void lose(struct inputs *inputs, uint32_t which)
+static void drop_input(struct inputs *inputs, uint32_t which)
 {
     struct input *input = &inputs->input[which];
     if (which == 0) {
         inputs->keys_ended = true;
         return;
     }
-    (void)snprintf(inputs->said, sizeof inputs->said, "keys; the %s is gone", input->what);
-    inputs->said_changed = true;
+    (void)snprintf(inputs->summary, sizeof inputs->summary, "keys; the %s is gone",
+                   input->description);
+    inputs->summary_changed = true;
     input->close(input);
     inputs->count--;
     memmove(input, input + 1, (inputs->count - which) * sizeof *input);
@@ -91,6 +93,6 @@ void inputs_read(struct inputs *inputs, bool keys_wanted, uint64_t until_ns, str
     for (uint32_t i = inputs->count; i-- > 0;) {
         struct input *input = &inputs->input[i];
         if (waits[i].revents && input->read(input, queue) != 0)
-            lose(inputs, i);
+            drop_input(inputs, i);
     }
 }

@@ -11,9 +11,9 @@ enum inputs_choice { INPUTS_AUTO, INPUTS_KEYS, INPUTS_GAMEPAD, INPUTS_SPACEMOUSE
 struct inputs {
     struct input input[INPUTS_MAX];
     uint32_t count;
-    bool keys_ended;   /* nobody types any more: the end of a pipe, a terminal that went */
-    bool said_changed; /* said has changed; whoever says it to people clears this */
-    char said[256];    /* for people: what is in use, and what is not and why */
+    bool keys_ended;      /* nobody types any more: the end of a pipe, a terminal that went */
+    bool summary_changed; /* said has changed; whoever says it to people clears this */
+    char summary[256];    /* for people: what is in use, and what is not and why */
 };
 
 /* Opens keys, and of the devices those chosen: with INPUTS_AUTO what is there, else the one named,

@@ -38,7 +38,7 @@ static bool show(struct drive *drive, bool touched, uint64_t now_ns)
     if (drive->options.plain)
         return plain_output_show(&drive->plain, &drive->session, &drive->events, now_ns);
     if (touched || now_ns >= drive->draw_ns) {
-        screen_draw(&drive->session, &drive->events, drive->inputs.said, now_ns);
+        screen_draw(&drive->session, &drive->events, drive->inputs.summary, now_ns);
         drive->draw_ns = now_ns + drive->period_ns;
     }
     return true;
@@ -63,10 +63,10 @@ static void run(struct drive *drive)
         inputs_read(&drive->inputs, keys_wanted(drive), due_ns, &intents);
         uint64_t now_ns = clock_now_ns();
         for (uint32_t i = 0; i < intents.count; i++)
-            session_take(session, &intents.intent[i], now_ns);
-        if (drive->inputs.said_changed)
-            session_say(session, now_ns, "in use: %s", drive->inputs.said);
-        drive->inputs.said_changed = false;
+            session_apply(session, &intents.intent[i], now_ns);
+        if (drive->inputs.summary_changed)
+            session_notify(session, now_ns, "in use: %s", drive->inputs.summary);
+        drive->inputs.summary_changed = false;
         due_ns = session_turn(session, now_ns);
         world_mirror_take(&drive->mirror);
         (void)event_merge_turn(&drive->merge, recent_events_take, &drive->events);
@@ -76,7 +76,7 @@ static void run(struct drive *drive)
 }
 
 /* A world of one's own that is not there will not come by itself; one elsewhere may. */
-static int look_for_world(const struct options *options, struct error_text *error)
+static int check_world(const struct options *options, struct error_text *error)
 {
     struct view view;
     if (options->remote)
@@ -91,7 +91,7 @@ static void open_all(struct drive *drive)
 {
     struct error_text error;
     const struct options *options = &drive->options;
-    if (look_for_world(options, &error) != 0 ||
+    if (check_world(options, &error) != 0 ||
         inputs_open(&drive->inputs, options->input, options->device, &error) != 0 ||
         dds_link_open(&drive->link, &options->link, options->world, &error) != 0 ||
         world_mirror_open(&drive->mirror, &drive->link, options->world, true, &error) != 0 ||
@@ -105,7 +105,7 @@ static void open_all(struct drive *drive)
     drive->plain.period_ns = drive->period_ns;
     if (!options->plain && screen_open(&error) != 0)
         die_refused("%s", error.text);
-    terminal_take(!options->plain);
+    terminal_open(!options->plain);
 }
 
 int main(int argc, char **argv)
@@ -120,7 +120,7 @@ int main(int argc, char **argv)
     session_leave(&drive.session, clock_now_ns() + LEAVE_NS);
     if (!drive.options.plain)
         screen_close();
-    terminal_back();
+    terminal_restore();
     int code = drive.session.refused ? EXIT_REFUSED : EXIT_OK;
     if (drive.session.refused)
         (void)fprintf(stderr, "jolon-drive: %s\n", drive.session.notice);

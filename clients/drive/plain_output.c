@@ -22,17 +22,17 @@ bool plain_output_show(struct plain_output *output, const struct session *sessio
         (void)snprintf(line, sizeof line, "# %s", session->notice);
         good = print_line(line);
     }
-    for (; good && output->news_printed < events->count; output->news_printed++) {
+    for (; good && output->events_printed < events->count; output->events_printed++) {
         (void)snprintf(line, sizeof line, "! %s",
-                       events->line[output->news_printed % RECENT_EVENTS_KEPT]);
+                       events->line[output->events_printed % RECENT_EVENTS_KEPT]);
         good = print_line(line);
     }
     if (now_ns < output->line_ns)
         return good;
     output->line_ns = now_ns + output->period_ns;
-    bool silent = !world_mirror_live(session->mirror, now_ns), said = output->silent;
+    bool silent = !world_mirror_live(session->mirror, now_ns), summary = output->silent;
     output->silent = silent;
-    if (silent && said)
+    if (silent && summary)
         return good;
     if (silent)
         event_lines_silence(stpcpy(line, "# "), sizeof line - 2, session->mirror, now_ns);

@@ -7,7 +7,7 @@
 struct plain_output {
     uint64_t period_ns; /* between two lines of statistics */
     uint64_t line_ns;   /* when the next line of statistics is due */
-    uint64_t news_printed;
+    uint64_t events_printed;
     uint32_t notices; /* of the session, printed so far */
     bool silent;      /* the last line said that the world is silent */
 };

@@ -28,7 +28,7 @@ bool recent_events_take(void *context, const char *line)
     for (int i = 0; i < EVENT_LINES_IDS; i++) {
         char *end;
         unsigned long id = strtoul(line, &end, 10);
-        concerns = concerns || (id != 0 && (id == session->vehicle || id == session->aimed));
+        concerns = concerns || (id != 0 && (id == session->vehicle || id == session->last_target));
         line = *end ? end + 1 : end;
     }
     if (concerns)

@@ -18,11 +18,11 @@
 /* Told by letters as well; of the colours, blue and yellow differ for everybody. */
 enum pair { PAIR_PLAIN, PAIR_BLUE, PAIR_RED, PAIR_WATER, PAIR_WARN };
 
-#define ROWS_MIN      20
-#define COLUMNS_MIN   60
-#define NOTICE_NS     (8 * (uint64_t)NS_PER_S)
-#define FOOT_ROWS     4 /* look, others, notice, keys */
-#define NEWS_ROWS_MIN 3
+#define ROWS_MIN       20
+#define COLUMNS_MIN    60
+#define NOTICE_NS      (8 * (uint64_t)NS_PER_S)
+#define FOOT_ROWS      4 /* look, others, notice, keys */
+#define EVENT_ROWS_MIN 3
 
 int screen_open(struct error_text *error)
 {
@@ -84,7 +84,7 @@ static void draw_cell(int row, int column, const struct character_map_cell *cell
     put(row, column, cell->text, looks[cell->mark].attributes, looks[cell->mark].pair);
 }
 
-static void draw_chart(const struct session *session, int top, int rows, int left)
+static void draw_map(const struct session *session, int top, int rows, int left)
 {
     static struct character_map map;
     char scale[64];
@@ -109,7 +109,7 @@ static void draw_statistics(const struct session *session, int top, int rows)
     }
 }
 
-static void draw_news(const struct recent_events *events, int top, int rows)
+static void draw_events(const struct recent_events *events, int top, int rows)
 {
     uint64_t kept = events->count < RECENT_EVENTS_KEPT ? events->count : RECENT_EVENTS_KEPT;
     uint64_t shown = kept < (uint64_t)rows ? kept : (uint64_t)rows;
@@ -148,7 +148,7 @@ static void draw_foot(const struct session *session, uint64_t now_ns)
         PAIR_PLAIN);
 }
 
-static void take_size(void)
+static void update_size(void)
 {
     struct winsize size;
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 0 && size.ws_col > 0)
@@ -160,11 +160,11 @@ void screen_draw(const struct session *session, const struct recent_events *even
 {
     char line[STATUS_PANEL_LINE];
     if (terminal_resized())
-        take_size();
+        update_size();
     (void)erase();
     status_panel_head(line, session, now_ns);
     put_bar(0, line);
-    int rows = LINES - 1 - FOOT_ROWS - NEWS_ROWS_MIN;
+    int rows = LINES - 1 - FOOT_ROWS - EVENT_ROWS_MIN;
     if (rows > STATUS_PANEL_ROWS && LINES < 40)
         rows = STATUS_PANEL_ROWS;
     if (LINES < ROWS_MIN || COLS < COLUMNS_MIN) {
@@ -175,8 +175,8 @@ void screen_draw(const struct session *session, const struct recent_events *even
         draw_help(inputs);
     } else {
         draw_statistics(session, 1, rows);
-        draw_chart(session, 1, rows, STATUS_PANEL_COLUMNS + 1);
-        draw_news(events, 1 + rows, LINES - 1 - FOOT_ROWS - rows);
+        draw_map(session, 1, rows, STATUS_PANEL_COLUMNS + 1);
+        draw_events(events, 1 + rows, LINES - 1 - FOOT_ROWS - rows);
         draw_foot(session, now_ns);
     }
     (void)refresh();

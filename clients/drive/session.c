@@ -28,7 +28,7 @@
 #define FRAME_MIN_NS (2 * (uint64_t)NS_PER_MS)
 #define RATE_MIN_HZ  1.0
 
-void session_say(struct session *session, uint64_t now_ns, const char *format, ...)
+void session_notify(struct session *session, uint64_t now_ns, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -135,55 +135,55 @@ static void send_release(struct session *session)
     session->release = command_client_send(session->client, &command);
 }
 
-static bool holds(const struct session *session)
+static bool has_lease(const struct session *session)
 {
     return session->state == SESSION_TAKING || session->state == SESSION_DRIVING;
 }
 
-static void become(struct session *session, uint32_t id, uint64_t now_ns)
+static void take_vehicle(struct session *session, uint32_t id, uint64_t now_ns)
 {
     char label[64];
     if (id == 0) {
-        session_say(session, now_ns, "there is no such vehicle that is free");
+        session_notify(session, now_ns, "there is no such vehicle that is free");
         return;
     }
-    if (holds(session) && session->vehicle != id)
+    if (has_lease(session) && session->vehicle != id)
         send_release(session);
     session->vehicle = id;
-    session->seen = session->wreck = false;
-    session->target = session->aimed = 0;
+    session->seen = session->loss_told = false;
+    session->target = session->last_target = 0;
     session->lay_until_ns = 0;
     session->look_rad = 0.0;
     session->state = SESSION_TAKING;
     control_shaping_reset(&session->shaping, now_ns);
     struct controls controls = control_shaping_controls(&session->shaping, false);
     send_drive(session, &controls, now_ns);
-    session_say(session, now_ns, "taking %s", session_label(session->mirror, id, label));
+    session_notify(session, now_ns, "taking %s", session_label(session->mirror, id, label));
 }
 
-static struct choice any(const struct session *session)
+static struct vehicle_choice any_vehicle(const struct session *session)
 {
-    return (struct choice){
+    return (struct vehicle_choice){
         .source = session->client->source, .from = session->vehicle, .force = -1, .kind = -1};
 }
 
-static void become_near(struct session *session, int force, int kind, uint64_t now_ns)
+static void take_nearest(struct session *session, int force, int kind, uint64_t now_ns)
 {
-    struct choice choice = any(session);
+    struct vehicle_choice choice = any_vehicle(session);
     choice.force = force;
     choice.kind = kind;
-    become(session, vehicle_choice_nearest(session->mirror, &choice), now_ns);
+    take_vehicle(session, vehicle_choice_nearest(session->mirror, &choice), now_ns);
 }
 
 static void release(struct session *session, uint64_t now_ns)
 {
     char label[64];
-    if (!holds(session))
+    if (!has_lease(session))
         return;
     send_release(session);
     session->state = SESSION_WATCHING;
-    session_say(session, now_ns, "%s goes back to its agent; enter takes it again",
-                session_label(session->mirror, session->vehicle, label));
+    session_notify(session, now_ns, "%s goes back to its agent; enter takes it again",
+                   session_label(session->mirror, session->vehicle, label));
 }
 
 static void lock(struct session *session, uint64_t now_ns)
@@ -198,12 +198,12 @@ static void lock(struct session *session, uint64_t now_ns)
     uint32_t found = vehicle_choice_target(session->mirror, self, session->target, bearing,
                                            LOCK_CONE_RAD, range_m);
     if (found)
-        session_say(session, now_ns, "target: %s", session_label(session->mirror, found, label));
+        session_notify(session, now_ns, "target: %s", session_label(session->mirror, found, label));
     else
-        session_say(session, now_ns, "no enemy within %.0f m and 60 degrees of where you look",
-                    range_m);
+        session_notify(session, now_ns, "no enemy within %.0f m and 60 degrees of where you look",
+                       range_m);
     session->target = found;
-    session->aimed = found ? found : session->aimed;
+    session->last_target = found ? found : session->last_target;
 }
 
 static void send_fire(struct session *session)
@@ -216,8 +216,8 @@ static void send_fire(struct session *session)
 static void fire(struct session *session, uint64_t now_ns)
 {
     session->lay_until_ns = 0;
-    if (!holds(session))
-        session_say(session, now_ns, "you drive nothing that could fire; enter takes it");
+    if (!has_lease(session))
+        session_notify(session, now_ns, "you drive nothing that could fire; enter takes it");
     else if (session->fire == 0) /* one at a time: it reloads anyway */
         send_fire(session);
 }
@@ -227,35 +227,35 @@ static void look(struct session *session, int by)
     session->look_rad = by == 0 ? 0.0 : maths_wrap_half(session->look_rad + by * LOOK_STEP_RAD);
 }
 
-static void act_choice(struct session *session, enum input_action action, uint64_t now_ns)
+static void change_vehicle(struct session *session, enum input_action action, uint64_t now_ns)
 {
     const jolon_Entity *self = session_entity(session);
-    struct choice choice = any(session);
+    struct vehicle_choice choice = any_vehicle(session);
     switch (action) {
     case ACTION_NEXT:
     case ACTION_PREVIOUS:
-        become(session,
-               vehicle_choice_next(session->mirror, &choice, action == ACTION_NEXT ? 1 : -1),
-               now_ns);
+        take_vehicle(session,
+                     vehicle_choice_next(session->mirror, &choice, action == ACTION_NEXT ? 1 : -1),
+                     now_ns);
         break;
     case ACTION_NEAREST_KIND:
-        become_near(session, -1, self ? (int)self->kind : -1, now_ns);
+        take_nearest(session, -1, self ? (int)self->kind : -1, now_ns);
         break;
     case ACTION_NEAREST_FORCE:
-        become_near(session, self ? (int)self->force : -1, -1, now_ns);
+        take_nearest(session, self ? (int)self->force : -1, -1, now_ns);
         break;
     case ACTION_NEAREST_BLUE:
-        become_near(session, FORCE_BLUE, -1, now_ns);
+        take_nearest(session, FORCE_BLUE, -1, now_ns);
         break;
     case ACTION_NEAREST_RED:
-        become_near(session, FORCE_RED, -1, now_ns);
+        take_nearest(session, FORCE_RED, -1, now_ns);
         break;
     case ACTION_NEAREST_NEUTRAL:
-        become_near(session, FORCE_NEUTRAL, -1, now_ns);
+        take_nearest(session, FORCE_NEUTRAL, -1, now_ns);
         break;
     default:
-        if (session->vehicle && !holds(session))
-            become(session, session->vehicle, now_ns);
+        if (session->vehicle && !has_lease(session))
+            take_vehicle(session, session->vehicle, now_ns);
         break;
     }
 }
@@ -302,20 +302,20 @@ static void act(struct session *session, enum input_action action, uint64_t now_
         break;
     default:
         if (session->state != SESSION_WAITING)
-            act_choice(session, action, now_ns);
+            change_vehicle(session, action, now_ns);
         break;
     }
 }
 
-void session_take(struct session *session, const struct intent *intent, uint64_t now_ns)
+void session_apply(struct session *session, const struct intent *intent, uint64_t now_ns)
 {
     if (intent->type == INTENT_ACT)
         act(session, intent->action, now_ns);
     else
-        control_shaping_take(&session->shaping, intent, now_ns);
+        control_shaping_apply(&session->shaping, intent, now_ns);
 }
 
-static void hear_drive(struct session *session, uint64_t now_ns)
+static void read_drive_reply(struct session *session, uint64_t now_ns)
 {
     char label[64];
     jolon_CommandReply reply;
@@ -325,22 +325,22 @@ static void hear_drive(struct session *session, uint64_t now_ns)
     (void)session_label(session->mirror, session->vehicle, label);
     if (reply.result == jolon_RESULT_DONE) {
         if (session->state == SESSION_TAKING)
-            session_say(session, now_ns, "you drive %s from frame %llu", label,
-                        (unsigned long long)reply.frame);
+            session_notify(session, now_ns, "you drive %s from frame %llu", label,
+                           (unsigned long long)reply.frame);
         session->state = SESSION_DRIVING;
         return;
     }
     session->state = SESSION_WATCHING;
     if (reply.result == jolon_RESULT_TAKEN)
-        session_say(session, now_ns,
-                    "%s: somebody else drives it; n takes the next, o the nearest of its force, "
-                    "enter tries again",
-                    label);
+        session_notify(session, now_ns,
+                       "%s: somebody else drives it; n takes the next, o the nearest of its force, "
+                       "enter tries again",
+                       label);
     else if (reply.result == jolon_RESULT_CANNOT || reply.result == jolon_RESULT_NO_SUCH_ENTITY)
-        session_say(session, now_ns, "%s is destroyed or gone; n takes the next vehicle", label);
+        session_notify(session, now_ns, "%s is destroyed or gone; n takes the next vehicle", label);
     else
-        session_say(session, now_ns, "%s: %s; n takes the next vehicle", label,
-                    command_result_name((enum command_result)reply.result));
+        session_notify(session, now_ns, "%s: %s; n takes the next vehicle", label,
+                       command_result_name((enum command_result)reply.result));
 }
 
 /* It can fire, and did not: the gun is not laid on the target. The mover lays it from now on. */
@@ -350,11 +350,12 @@ static void lay(struct session *session, uint64_t now_ns)
     (void)session_label(session->mirror, session->target, label);
     if (session->lay_until_ns == 0) {
         session->lay_until_ns = now_ns + LAY_NS;
-        session_say(session, now_ns, "the gun is being laid on %s: it fires when it bears", label);
+        session_notify(session, now_ns, "the gun is being laid on %s: it fires when it bears",
+                       label);
     } else if (now_ns >= session->lay_until_ns) {
         session->lay_until_ns = 0;
-        session_say(session, now_ns, "the gun does not bear on %s; turn towards it, or come nearer",
-                    label);
+        session_notify(session, now_ns,
+                       "the gun does not bear on %s; turn towards it, or come nearer", label);
         return;
     }
     session->lay_next_ns = now_ns + LAY_RETRY_NS;
@@ -372,20 +373,20 @@ static void misfire(struct session *session, const jolon_CommandReply *reply, ui
     session->lay_until_ns = 0;
     if (reply->result == jolon_RESULT_NO_SUCH_ENTITY) {
         session->target = 0;
-        session_say(session, now_ns, "the target is gone; t locks another");
+        session_notify(session, now_ns, "the target is gone; t locks another");
     } else if (reply->result != jolon_RESULT_CANNOT || !kind) {
-        session_say(session, now_ns, "did not fire: %s",
-                    command_result_name((enum command_result)reply->result));
+        session_notify(session, now_ns, "did not fire: %s",
+                       command_result_name((enum command_result)reply->result));
     } else if (kind->rounds == 0) {
-        session_say(session, now_ns, "a %s has nothing to fire", kind->name);
+        session_notify(session, now_ns, "a %s has nothing to fire", kind->name);
     } else if (self->rounds == 0) {
-        session_say(session, now_ns, "out of rounds");
+        session_notify(session, now_ns, "out of rounds");
     } else {
-        session_say(session, now_ns, "still reloading: %.1f s", (double)self->reload_s);
+        session_notify(session, now_ns, "still reloading: %.1f s", (double)self->reload_s);
     }
 }
 
-static void hear_fire(struct session *session, uint64_t now_ns)
+static void read_fire_reply(struct session *session, uint64_t now_ns)
 {
     char label[64];
     jolon_CommandReply reply;
@@ -398,60 +399,60 @@ static void hear_fire(struct session *session, uint64_t now_ns)
     }
     session->lay_until_ns = 0;
     if (session->target)
-        session_say(session, now_ns, "fired at %s in frame %llu",
-                    session_label(session->mirror, session->target, label),
-                    (unsigned long long)reply.frame);
+        session_notify(session, now_ns, "fired at %s in frame %llu",
+                       session_label(session->mirror, session->target, label),
+                       (unsigned long long)reply.frame);
     else
-        session_say(session, now_ns, "fired in frame %llu", (unsigned long long)reply.frame);
+        session_notify(session, now_ns, "fired in frame %llu", (unsigned long long)reply.frame);
 }
 
 /* What happened to the vehicle and to the target, as the world tells it. */
-static void watch(struct session *session, uint64_t now_ns)
+static void check_losses(struct session *session, uint64_t now_ns)
 {
     char label[64];
     const struct world_mirror *mirror = session->mirror;
     const jolon_Entity *self = session_entity(session);
     const jolon_Entity *target = world_mirror_entity(mirror, session->target);
     if (session->target && (!target || target->state != jolon_ENTITY_ACTIVE)) {
-        session_say(session, now_ns, "the target, %s, is destroyed or gone; t locks another",
-                    session_label(mirror, session->target, label));
+        session_notify(session, now_ns, "the target, %s, is destroyed or gone; t locks another",
+                       session_label(mirror, session->target, label));
         session->target = 0;
     }
     if (self)
         session->seen = true;
-    if (session->wreck || !session->seen || (self && self->state == jolon_ENTITY_ACTIVE))
+    if (session->loss_told || !session->seen || (self && self->state == jolon_ENTITY_ACTIVE))
         return;
-    session->wreck = true;
+    session->loss_told = true;
     session->state = SESSION_WATCHING;
     command_client_forget(session->client, session->drive);
     session->drive = 0;
-    session_say(session, now_ns,
-                "your %s is %s; n takes the next vehicle, o the nearest of its force",
-                session_label(mirror, session->vehicle, label), self ? "destroyed" : "gone");
+    session_notify(session, now_ns,
+                   "your %s is %s; n takes the next vehicle, o the nearest of its force",
+                   session_label(mirror, session->vehicle, label), self ? "destroyed" : "gone");
 }
 
 /* The first vehicle of this world: the one that was asked for, or any. */
-static void begin(struct session *session, uint64_t now_ns)
+static void take_first(struct session *session, uint64_t now_ns)
 {
     struct error_text error;
     const struct world_mirror *mirror = session->mirror;
-    struct choice choice = any(session);
+    struct vehicle_choice choice = any_vehicle(session);
     if (!mirror->has_world || !mirror->has_batch || !mirror->frame_ns || !mirror->names.told ||
         mirror->batch.run != mirror->world.run || !command_client_heard(session->client))
         return;
     session->run = mirror->world.run;
     session->state = SESSION_WATCHING;
     choice.from = 0;
-    uint32_t id = session->wanted ? vehicle_choice_called(mirror, &choice, session->wanted, &error)
+    uint32_t id = session->wanted ? vehicle_choice_by_text(mirror, &choice, session->wanted, &error)
                                   : vehicle_choice_next(mirror, &choice, 1);
     if (id) {
-        become(session, id, now_ns);
+        take_vehicle(session, id, now_ns);
     } else if (session->wanted) {
-        session_say(session, now_ns, "%s", error.text);
+        session_notify(session, now_ns, "%s", error.text);
         session->refused = session->ended = true;
     } else {
-        session_say(session, now_ns, "no vehicle is free in world \"%s\"; n tries again",
-                    mirror->name);
+        session_notify(session, now_ns, "no vehicle is free in world \"%s\"; n tries again",
+                       mirror->name);
     }
 }
 
@@ -461,18 +462,18 @@ uint64_t session_turn(struct session *session, uint64_t now_ns)
     uint64_t frame_ns = session_frame_ns(mirror);
     bool moves = control_shaping_step(&session->shaping, now_ns);
     struct controls controls = control_shaping_controls(&session->shaping, is_aircraft(session));
-    if (holds(session)) { /* first of all: somebody waits for it */
+    if (has_lease(session)) { /* first of all: somebody waits for it */
         uint64_t since_ns = now_ns - session->sent_ns;
-        bool stands = mirror->frame_ns && mirror->frame.paused; /* so does the lease */
-        if ((since_ns >= SESSION_RENEW_NS && !stands) ||
+        bool paused = mirror->frame_ns && mirror->frame.paused; /* so does the lease */
+        if ((since_ns >= SESSION_RENEW_NS && !paused) ||
             (since_ns >= frame_ns && differs(&controls, &session->sent)))
             send_drive(session, &controls, now_ns);
     }
     command_client_turn(session->client);
-    hear_drive(session, now_ns);
-    hear_fire(session, now_ns);
+    read_drive_reply(session, now_ns);
+    read_fire_reply(session, now_ns);
     if (session->lay_until_ns &&
-        (!holds(session) || !session->target || control_shaping_aims(&session->shaping)))
+        (!has_lease(session) || !session->target || control_shaping_aims(&session->shaping)))
         session->lay_until_ns = 0; /* a hand on the turret takes it from the gunner */
     if (session->lay_until_ns && session->fire == 0 && now_ns >= session->lay_next_ns)
         send_fire(session);
@@ -480,15 +481,15 @@ uint64_t session_turn(struct session *session, uint64_t now_ns)
         session->state = SESSION_WAITING;
         session->vehicle = session->target = 0;
         session->run = 0;
-        session_say(session, now_ns, "another world has begun under this name");
+        session_notify(session, now_ns, "another world has begun under this name");
     }
     if (session->state == SESSION_WAITING)
-        begin(session, now_ns);
+        take_first(session, now_ns);
     else if (mirror->has_batch && session->vehicle)
-        watch(session, now_ns);
+        check_losses(session, now_ns);
     uint64_t due_ns = now_ns + (moves && frame_ns < IDLE_NS ? frame_ns : IDLE_NS);
     uint64_t next_ns = session->sent_ns + frame_ns; /* a change that had to wait for it */
-    if (holds(session) && differs(&controls, &session->sent) && next_ns < due_ns)
+    if (has_lease(session) && differs(&controls, &session->sent) && next_ns < due_ns)
         due_ns = next_ns;
     return due_ns;
 }
@@ -496,7 +497,7 @@ uint64_t session_turn(struct session *session, uint64_t now_ns)
 void session_leave(struct session *session, uint64_t until_ns)
 {
     jolon_CommandReply reply;
-    if (holds(session))
+    if (has_lease(session))
         send_release(session);
     while (session->release &&
            !command_client_answered(session->client, session->release, &reply)) {

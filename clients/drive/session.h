@@ -38,17 +38,17 @@ struct session {
     uint64_t run;
     uint32_t vehicle; /* id, 0: none */
     bool seen;        /* the world told of it since it was chosen */
-    bool wreck;       /* it was said that it is destroyed or gone */
+    bool loss_told;   /* it was said that it is destroyed or gone */
     struct control_shaping shaping;
     struct controls sent;
     uint64_t sent_ns;
     uint64_t drive, fire, release;      /* sequences that wait for their replies, 0: none */
     uint64_t lay_until_ns, lay_next_ns; /* while the gun is laid on the target, 0: it is not */
 
-    uint32_t target; /* id, 0: none locked */
-    uint32_t aimed;  /* the last that was locked */
-    double look_rad; /* off the heading */
-    uint32_t zoom;   /* 0: nearest */
+    uint32_t target;      /* id, 0: none locked */
+    uint32_t last_target; /* the last that was locked */
+    double look_rad;      /* off the heading */
+    uint32_t zoom;        /* 0: nearest */
     bool help;
 
     char notice[SESSION_NOTICE_MAX];
@@ -60,7 +60,7 @@ void session_open(struct session *session, struct world_mirror *mirror,
                   struct command_client *client, const char *wanted, uint64_t now_ns);
 
 /* Takes an intent of the hands. */
-void session_take(struct session *session, const struct intent *intent, uint64_t now_ns);
+void session_apply(struct session *session, const struct intent *intent, uint64_t now_ns);
 
 /* Hears replies and what the world said, sends what is to be sent: at once when the controls have
  * changed, at most once a frame, and to renew. Does not block. Returns when to come again. */
@@ -78,7 +78,7 @@ const char *session_label(const struct world_mirror *mirror, uint32_t id, char t
 /* The frame's length [ns], as the world's rate and scale make it. */
 uint64_t session_frame_ns(const struct world_mirror *mirror);
 
-void session_say(struct session *session, uint64_t now_ns, const char *format, ...)
+void session_notify(struct session *session, uint64_t now_ns, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 #endif

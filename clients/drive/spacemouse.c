@@ -56,19 +56,19 @@ void spacemouse_button(int button, bool down, struct intents *queue)
 static int spacemouse_read(struct input *input, struct intents *queue)
 {
     spnav_event event;
-    int taken = 0;
+    int events = 0;
     (void)input;
     /* A whole motion is six intents. */
     while (queue->count + 6 <= INTENTS_MAX && spnav.poll_event(&event) != 0) {
         const struct spnav_event_motion *motion = &event.motion;
-        taken++;
+        events++;
         if (event.type == SPNAV_EVENT_MOTION)
             spacemouse_motion((const int[3]){motion->x, motion->y, motion->z},
                               (const int[3]){motion->rx, motion->ry, motion->rz}, queue);
         else if (event.type == SPNAV_EVENT_BUTTON)
             spacemouse_button(event.button.bnum, event.button.press != 0, queue);
     }
-    return taken > 0 || queue->count > 0 ? 0 : -1; /* woken for nothing: the daemon is gone */
+    return events > 0 || queue->count > 0 ? 0 : -1; /* woken for nothing: the daemon is gone */
 }
 
 static void spacemouse_close(struct input *input)
@@ -86,7 +86,9 @@ int spacemouse_open(struct input *input, struct error_text *error)
         return error_text_set(error,
                               "no SpaceMouse: its daemon does not answer; is spacenavd running "
                               "(docs/driving.md)?");
-    *input = (struct input){
-        .fd = spnav.fd(), .what = "SpaceMouse", .read = spacemouse_read, .close = spacemouse_close};
+    *input = (struct input){.fd = spnav.fd(),
+                            .description = "SpaceMouse",
+                            .read = spacemouse_read,
+                            .close = spacemouse_close};
     return 0;
 }

@@ -106,7 +106,7 @@ static void put_target(char row[STATUS_PANEL_COLUMNS], char more[STATUS_PANEL_CO
         (void)snprintf(row, STATUS_PANEL_COLUMNS, "target    none locked");
         return;
     }
-    struct sight sight = vehicle_choice_sight(e, target);
+    struct relative_position sight = vehicle_choice_relative(e, target);
     double side = maths_wrap_half(sight.bearing_rad - (double)e->heading_rad);
     (void)snprintf(row, STATUS_PANEL_COLUMNS, "target    %.25s",
                    session_label(session->mirror, target->id, label));
@@ -188,7 +188,7 @@ void status_panel_look(char line[STATUS_PANEL_LINE], const struct session *sessi
                        LOOK_RANGE_M / 1000.0);
         return;
     }
-    struct sight sight = vehicle_choice_sight(e, seen);
+    struct relative_position sight = vehicle_choice_relative(e, seen);
     (void)snprintf(line + used, STATUS_PANEL_LINE - (size_t)used, "%s %s%s, %.0f m at %03.0f",
                    force_name((enum force)seen->force),
                    session_label(session->mirror, seen->id, label),

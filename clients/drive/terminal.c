@@ -10,11 +10,11 @@
 #include <unistd.h>
 
 /* Leaves the other screen, shows the cursor, plain letters. */
-#define SCREEN_BACK "\033[?1049l\033[?25h\033[0m\r\n"
+#define SCREEN_RESTORE "\033[?1049l\033[?25h\033[0m\r\n"
 
 static struct {
     struct termios before;
-    volatile sig_atomic_t taken, asked, screen, resized;
+    volatile sig_atomic_t changed, protocol_on, screen, resized;
 } terminal;
 
 static void write_all(const char *text)
@@ -23,21 +23,21 @@ static void write_all(const char *text)
     (void)written; /* nobody is left to be told */
 }
 
-void terminal_back(void)
+void terminal_restore(void)
 {
-    if (terminal.asked)
-        write_all(TERMINAL_KEYS_BACK);
+    if (terminal.protocol_on)
+        write_all(TERMINAL_KEYS_DISABLE);
     if (terminal.screen)
-        write_all(SCREEN_BACK);
-    if (terminal.taken)
+        write_all(SCREEN_RESTORE);
+    if (terminal.changed)
         (void)tcsetattr(STDIN_FILENO, TCSAFLUSH, &terminal.before);
-    terminal.asked = terminal.screen = terminal.taken = 0;
+    terminal.protocol_on = terminal.screen = terminal.changed = 0;
 }
 
 /* Once: SA_RESETHAND. The signal does then what it does. */
 static void on_crash(int signal_number)
 {
-    terminal_back();
+    terminal_restore();
     (void)raise(signal_number);
 }
 
@@ -48,13 +48,13 @@ static void on_resize(int signal_number)
 }
 
 /* The console of the kernel takes part of the question for something else. */
-static bool may_ask(void)
+static bool supports_protocol(void)
 {
     const char *type = getenv("TERM");
     return isatty(STDOUT_FILENO) && type && strcmp(type, "linux") != 0 && strcmp(type, "dumb") != 0;
 }
 
-void terminal_take(bool screen)
+void terminal_open(bool screen)
 {
     static const int crashes[] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGQUIT, SIGALRM};
     struct sigaction crash = {.sa_handler = on_crash, .sa_flags = (int)SA_RESETHAND};
@@ -72,11 +72,11 @@ void terminal_take(bool screen)
     raw.c_cc[VTIME] = 0;
     raw.c_cc[VSUSP] = _POSIX_VDISABLE;
     (void)tcsetattr(STDIN_FILENO, TCSANOW, &raw);
-    terminal.taken = 1;
+    terminal.changed = 1;
     terminal.screen = screen;
-    if (may_ask()) {
-        terminal.asked = 1;
-        write_all(TERMINAL_KEYS_ASK);
+    if (supports_protocol()) {
+        terminal.protocol_on = 1;
+        write_all(TERMINAL_KEYS_ENABLE);
     }
 }
 

@@ -7,10 +7,10 @@
 
 /* Takes over standard input if it is a terminal; screen: standard output shows a full screen, which
  * is to be left as well. Ctrl-Z does nothing meanwhile: who sleeps does not drive. */
-void terminal_take(bool screen);
+void terminal_open(bool screen);
 
 /* Gives it back; may be called more than once, and from a signal handler. */
-void terminal_back(void);
+void terminal_restore(void);
 
 /* Was its size changed since the last call? */
 bool terminal_resized(void);

@@ -13,10 +13,10 @@
 #define READ_AT_ONCE 256
 
 /* Modifiers of the protocol, less one. */
-#define WITH_SHIFT 1
-#define WITH_CTRL  4
+#define MODIFIER_SHIFT 1
+#define MODIFIER_CTRL  4
 
-enum press { PRESS_DOWN = 1, PRESS_AGAIN, PRESS_UP };
+enum press { PRESS_DOWN = 1, PRESS_REPEAT, PRESS_UP };
 
 /* A key is for an axis, or it is for an action. */
 struct binding {
@@ -26,54 +26,54 @@ struct binding {
     enum input_action action;
 };
 
-#define PUSH(code, axis, direction)                                                                \
+#define BIND_AXIS(code, axis, direction)                                                           \
     {                                                                                              \
         (code), (direction), (axis), ACTION_COUNT                                                  \
     }
-#define DOES(code, action)                                                                         \
+#define BIND_ACTION(code, action)                                                                  \
     {                                                                                              \
         (code), 0, AXIS_COUNT, (action)                                                            \
     }
 
 static const struct binding bindings[] = {
-    PUSH('w', AXIS_THROTTLE, 1),
-    PUSH('s', AXIS_THROTTLE, -1),
-    PUSH('d', AXIS_STEER, 1),
-    PUSH('a', AXIS_STEER, -1),
-    PUSH('r', AXIS_CLIMB, 1),
-    PUSH('f', AXIS_CLIMB, -1),
-    PUSH('b', AXIS_BRAKE, 1),
-    PUSH(TERMINAL_KEYS_RIGHT, AXIS_AIM_X, 1),
-    PUSH(TERMINAL_KEYS_LEFT, AXIS_AIM_X, -1),
-    PUSH(TERMINAL_KEYS_UP, AXIS_AIM_Y, 1),
-    PUSH(TERMINAL_KEYS_DOWN, AXIS_AIM_Y, -1),
-    DOES(' ', ACTION_FIRE),
-    DOES('t', ACTION_LOCK),
-    DOES('y', ACTION_UNLOCK),
-    DOES('x', ACTION_STOP),
-    DOES('g', ACTION_GEAR_UP),
-    DOES('v', ACTION_GEAR_DOWN),
-    DOES('n', ACTION_NEXT),
-    DOES('p', ACTION_PREVIOUS),
-    DOES('k', ACTION_NEAREST_KIND),
-    DOES('o', ACTION_NEAREST_FORCE),
-    DOES('1', ACTION_NEAREST_BLUE),
-    DOES('2', ACTION_NEAREST_RED),
-    DOES('0', ACTION_NEAREST_NEUTRAL),
-    DOES('u', ACTION_RELEASE),
-    DOES('\r', ACTION_TAKE),
-    DOES('\n', ACTION_TAKE),
-    DOES(',', ACTION_LOOK_LEFT),
-    DOES('.', ACTION_LOOK_RIGHT),
-    DOES('/', ACTION_LOOK_AHEAD),
-    DOES('+', ACTION_ZOOM_IN),
-    DOES('=', ACTION_ZOOM_IN),
-    DOES('-', ACTION_ZOOM_OUT),
-    DOES('h', ACTION_HELP),
-    DOES('?', ACTION_HELP),
-    DOES('q', ACTION_QUIT),
-    DOES(CTRL_C, ACTION_QUIT),
-    DOES(CTRL_D, ACTION_QUIT),
+    BIND_AXIS('w', AXIS_THROTTLE, 1),
+    BIND_AXIS('s', AXIS_THROTTLE, -1),
+    BIND_AXIS('d', AXIS_STEER, 1),
+    BIND_AXIS('a', AXIS_STEER, -1),
+    BIND_AXIS('r', AXIS_CLIMB, 1),
+    BIND_AXIS('f', AXIS_CLIMB, -1),
+    BIND_AXIS('b', AXIS_BRAKE, 1),
+    BIND_AXIS(TERMINAL_KEYS_RIGHT, AXIS_AIM_X, 1),
+    BIND_AXIS(TERMINAL_KEYS_LEFT, AXIS_AIM_X, -1),
+    BIND_AXIS(TERMINAL_KEYS_UP, AXIS_AIM_Y, 1),
+    BIND_AXIS(TERMINAL_KEYS_DOWN, AXIS_AIM_Y, -1),
+    BIND_ACTION(' ', ACTION_FIRE),
+    BIND_ACTION('t', ACTION_LOCK),
+    BIND_ACTION('y', ACTION_UNLOCK),
+    BIND_ACTION('x', ACTION_STOP),
+    BIND_ACTION('g', ACTION_GEAR_UP),
+    BIND_ACTION('v', ACTION_GEAR_DOWN),
+    BIND_ACTION('n', ACTION_NEXT),
+    BIND_ACTION('p', ACTION_PREVIOUS),
+    BIND_ACTION('k', ACTION_NEAREST_KIND),
+    BIND_ACTION('o', ACTION_NEAREST_FORCE),
+    BIND_ACTION('1', ACTION_NEAREST_BLUE),
+    BIND_ACTION('2', ACTION_NEAREST_RED),
+    BIND_ACTION('0', ACTION_NEAREST_NEUTRAL),
+    BIND_ACTION('u', ACTION_RELEASE),
+    BIND_ACTION('\r', ACTION_TAKE),
+    BIND_ACTION('\n', ACTION_TAKE),
+    BIND_ACTION(',', ACTION_LOOK_LEFT),
+    BIND_ACTION('.', ACTION_LOOK_RIGHT),
+    BIND_ACTION('/', ACTION_LOOK_AHEAD),
+    BIND_ACTION('+', ACTION_ZOOM_IN),
+    BIND_ACTION('=', ACTION_ZOOM_IN),
+    BIND_ACTION('-', ACTION_ZOOM_OUT),
+    BIND_ACTION('h', ACTION_HELP),
+    BIND_ACTION('?', ACTION_HELP),
+    BIND_ACTION('q', ACTION_QUIT),
+    BIND_ACTION(CTRL_C, ACTION_QUIT),
+    BIND_ACTION(CTRL_D, ACTION_QUIT),
 };
 
 static const char *const help[][2] = {
@@ -116,7 +116,7 @@ static void key(const struct terminal_keys *keys, uint32_t code, enum press pres
             intent_put(queue, (struct intent){.type = press == PRESS_UP ? INTENT_UP : INTENT_DOWN,
                                               .axis = b->axis,
                                               .value = (float)b->direction,
-                                              .lifts = keys->lifts});
+                                              .reports_release = keys->reports_release});
         else if (press == PRESS_DOWN)
             intent_act(queue, b->action);
         return;
@@ -129,22 +129,22 @@ static void protocol_key(struct terminal_keys *keys, const char *text, char last
 {
     char *end;
     unsigned long code = strtoul(text, &end, 10);
-    unsigned long with = 1, press = PRESS_DOWN;
+    unsigned long modifiers = 1, press = PRESS_DOWN;
     end += strcspn(end, ";");
     if (*end == ';') {
-        with = strtoul(end + 1, &end, 10);
+        modifiers = strtoul(end + 1, &end, 10);
         if (*end == ':') {
             press = strtoul(end + 1, &end, 10);
-            keys->lifts = true;
+            keys->reports_release = true;
         }
     }
     if (press < PRESS_DOWN || press > PRESS_UP)
         return;
     if (last >= 'A' && last <= 'D')
         code = TERMINAL_KEYS_UP + (unsigned long)(last - 'A');
-    else if (with > 0 && ((with - 1) & WITH_CTRL))
+    else if (modifiers > 0 && ((modifiers - 1) & MODIFIER_CTRL))
         code = code == 'c' ? CTRL_C : code == 'd' ? CTRL_D : 0;
-    else if (with > 0 && ((with - 1) & WITH_SHIFT) && code == '/')
+    else if (modifiers > 0 && ((modifiers - 1) & MODIFIER_SHIFT) && code == '/')
         code = '?';
     if (code < TERMINAL_KEYS_UP || last != 'u')
         key(keys, (uint32_t)code, (enum press)press, queue);
@@ -159,8 +159,8 @@ static void sequence(struct terminal_keys *keys, struct intents *queue)
     if (keys->sequence[1] == 'O' && last >= 'A' && last <= 'D') {
         key(keys, TERMINAL_KEYS_UP + (uint32_t)(last - 'A'), PRESS_DOWN, queue);
     } else if (keys->sequence[1] == '[' && text[0] == '?') {
-        if (last == 'u') /* the answer to TERMINAL_KEYS_ASK: which parts it does */
-            keys->lifts = (strtoul(text + 1, NULL, 10) & 2) != 0;
+        if (last == 'u') /* the answer to TERMINAL_KEYS_ENABLE: which parts it does */
+            keys->reports_release = (strtoul(text + 1, NULL, 10) & 2) != 0;
     } else if (keys->sequence[1] == '[' && (last == 'u' || (last >= 'A' && last <= 'D'))) {
         protocol_key(keys, text, last, queue);
     }
@@ -219,7 +219,7 @@ int terminal_keys_open(struct input *input, struct error_text *error)
     if (!keys)
         return error_text_set(error, "keys: out of memory");
     *input = (struct input){.fd = STDIN_FILENO,
-                            .what = "keys",
+                            .description = "keys",
                             .read = terminal_keys_read,
                             .close = terminal_keys_close,
                             .state = keys};

@@ -12,8 +12,8 @@
 
 /* Asks for the protocol: keys without ambiguity, with their releases, all of them; then, what it
  * is. Takes it back. */
-#define TERMINAL_KEYS_ASK  "\033[>11u\033[?u"
-#define TERMINAL_KEYS_BACK "\033[<u"
+#define TERMINAL_KEYS_ENABLE  "\033[>11u\033[?u"
+#define TERMINAL_KEYS_DISABLE "\033[<u"
 
 /* Keys that are no character: arrows. */
 enum terminal_keys_code {
@@ -29,7 +29,7 @@ enum terminal_keys_code {
 struct terminal_keys {
     char sequence[TERMINAL_KEYS_SEQUENCE_MAX]; /* begun and not yet ended */
     uint32_t length;
-    bool lifts; /* the terminal tells releases */
+    bool reports_release; /* the terminal tells releases */
 };
 
 /* Takes bytes as they came, in any pieces. Pure. */

@@ -13,8 +13,8 @@ bool vehicle_choice_drivable(const struct world_mirror *mirror, const jolon_Enti
     return kind && kind->domain <= jolon_DOMAIN_AIR && entity->state == jolon_ENTITY_ACTIVE;
 }
 
-static bool offered(const struct world_mirror *mirror, const struct choice *choice,
-                    const jolon_Entity *entity)
+static bool is_candidate(const struct world_mirror *mirror, const struct vehicle_choice *choice,
+                         const jolon_Entity *entity)
 {
     return vehicle_choice_drivable(mirror, entity) && entity->id != choice->from &&
            (entity->driver == 0 || entity->driver == choice->source) &&
@@ -22,20 +22,21 @@ static bool offered(const struct world_mirror *mirror, const struct choice *choi
            (choice->kind < 0 || (int)entity->kind == choice->kind);
 }
 
-struct sight vehicle_choice_sight(const jolon_Entity *from, const jolon_Entity *to)
+struct relative_position vehicle_choice_relative(const jolon_Entity *from, const jolon_Entity *to)
 {
     double dx = to->x_m - from->x_m, dz = to->z_m - from->z_m;
-    return (struct sight){.bearing_rad = maths_heading(dx, dz),
-                          .distance_m = sqrt(dx * dx + dz * dz),
-                          .up_m = to->y_m - from->y_m};
+    return (struct relative_position){.bearing_rad = maths_heading(dx, dz),
+                                      .distance_m = sqrt(dx * dx + dz * dz),
+                                      .up_m = to->y_m - from->y_m};
 }
 
-uint32_t vehicle_choice_next(const struct world_mirror *mirror, const struct choice *choice, int by)
+uint32_t vehicle_choice_next(const struct world_mirror *mirror, const struct vehicle_choice *choice,
+                             int by)
 {
     uint32_t first = 0, next = 0; /* first: the other end, to go round */
     for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++) {
         const jolon_Entity *entity = &mirror->batch.entity[i];
-        if (!offered(mirror, choice, entity))
+        if (!is_candidate(mirror, choice, entity))
             continue;
         uint32_t id = entity->id;
         if (first == 0 || (by > 0 ? id < first : id > first))
@@ -47,7 +48,8 @@ uint32_t vehicle_choice_next(const struct world_mirror *mirror, const struct cho
     return next ? next : first;
 }
 
-uint32_t vehicle_choice_nearest(const struct world_mirror *mirror, const struct choice *choice)
+uint32_t vehicle_choice_nearest(const struct world_mirror *mirror,
+                                const struct vehicle_choice *choice)
 {
     const jolon_Entity *self = world_mirror_entity(mirror, choice->from);
     uint32_t nearest = 0;
@@ -56,9 +58,9 @@ uint32_t vehicle_choice_nearest(const struct world_mirror *mirror, const struct 
         return vehicle_choice_next(mirror, choice, 1);
     for (uint32_t i = 0; i < mirror->batch.count; i++) {
         const jolon_Entity *entity = &mirror->batch.entity[i];
-        if (!offered(mirror, choice, entity))
+        if (!is_candidate(mirror, choice, entity))
             continue;
-        double distance_m = vehicle_choice_sight(self, entity).distance_m;
+        double distance_m = vehicle_choice_relative(self, entity).distance_m;
         if (nearest == 0 || distance_m < nearest_m) {
             nearest = entity->id;
             nearest_m = distance_m;
@@ -85,10 +87,11 @@ static int find_force(const char *text)
     return -1;
 }
 
-uint32_t vehicle_choice_called(const struct world_mirror *mirror, const struct choice *choice,
-                               const char *text, struct error_text *error)
+uint32_t vehicle_choice_by_text(const struct world_mirror *mirror,
+                                const struct vehicle_choice *choice, const char *text,
+                                struct error_text *error)
 {
-    struct choice narrowed = *choice;
+    struct vehicle_choice narrowed = *choice;
     uint64_t number;
     bool is_number = parse_whole(text, 0, UINT64_MAX, &number);
     uint32_t id = is_number && number <= UINT32_MAX ? (uint32_t)number : 0;
@@ -117,7 +120,8 @@ static bool enemies(const jolon_Entity *a, const jolon_Entity *b)
            (a->force == jolon_FORCE_NEUTRAL || b->force != jolon_FORCE_NEUTRAL);
 }
 
-static bool ahead(const struct sight *sight, double bearing_rad, double cone_rad, double range_m)
+static bool ahead(const struct relative_position *sight, double bearing_rad, double cone_rad,
+                  double range_m)
 {
     return sight->distance_m <= range_m &&
            fabs(maths_wrap_half(sight->bearing_rad - bearing_rad)) <= cone_rad;
@@ -128,12 +132,12 @@ uint32_t vehicle_choice_target(const struct world_mirror *mirror, const jolon_En
                                double range_m)
 {
     const jolon_Entity *old = world_mirror_entity(mirror, present);
-    double beyond_m = old ? vehicle_choice_sight(self, old).distance_m : -1.0;
+    double beyond_m = old ? vehicle_choice_relative(self, old).distance_m : -1.0;
     double first_m = 0.0, next_m = 0.0;
     uint32_t first = 0, next = 0;
     for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++) {
         const jolon_Entity *entity = &mirror->batch.entity[i];
-        struct sight sight = vehicle_choice_sight(self, entity);
+        struct relative_position sight = vehicle_choice_relative(self, entity);
         if (entity->id == self->id || !vehicle_choice_drivable(mirror, entity) ||
             !enemies(self, entity) || !ahead(&sight, bearing_rad, cone_rad, range_m))
             continue;
@@ -158,7 +162,7 @@ const jolon_Entity *vehicle_choice_seen(const struct world_mirror *mirror, const
     for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++) {
         const jolon_Entity *entity = &mirror->batch.entity[i];
         const jolon_KindInfo *kind = world_mirror_kind(mirror, entity->kind);
-        struct sight sight = vehicle_choice_sight(self, entity);
+        struct relative_position sight = vehicle_choice_relative(self, entity);
         if (entity->id == self->id || !kind || kind->domain > jolon_DOMAIN_AIR ||
             !ahead(&sight, bearing_rad, cone_rad, range_m) || (seen && sight.distance_m >= seen_m))
             continue;

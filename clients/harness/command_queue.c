@@ -2,7 +2,7 @@
 #include "clients/harness/command_queue.h"
 
 #include "ipc/process/clock.h"
-#include "ipc/topics/json_members.h"
+#include "ipc/json/world_json.h"
 #include "world/entity/command.h"
 #include "world/enum_names.h"
 
@@ -16,9 +16,9 @@ bool command_queue_room(const struct command_queue *queue)
 }
 
 /* What an order is about: everything, one vehicle, or nothing that is there yet (0). */
-#define ABOUT_ALL UINT64_MAX
+#define SUBJECT_ALL UINT64_MAX
 
-static uint64_t about(const struct command_text *order)
+static uint64_t subject_of(const struct command_text *order)
 {
     switch (order->command.type) {
     case jolon_COMMAND_DRIVE:
@@ -29,33 +29,30 @@ static uint64_t about(const struct command_text *order)
     case jolon_COMMAND_SPAWN:
         return 0;
     default:
-        return ABOUT_ALL;
+        return SUBJECT_ALL;
     }
 }
 
 /* reply NULL: there was none, and result says why. */
-static void tell(struct command_queue *queue, const struct command_queue_item *item,
-                 const char *result, const jolon_CommandReply *reply, uint32_t round)
+static void write_answer(struct command_queue *queue, const struct command_queue_item *item,
+                         const char *result, const jolon_CommandReply *reply, uint32_t round)
 {
-    const struct command_text *order = &item->mission.order;
+    const struct command_text *order = &item->series.order;
     if (!item->id[0])
         return;
     cJSON *object = cJSON_CreateObject();
     (void)cJSON_AddRawToObject(object, "answer", item->id);
-    put_word(object, "result", result);
+    json_text(object, "result", result);
     if (order->rounds > 1)
-        put_whole(object, "round", round + 1);
+        json_whole(object, "round", round + 1);
     if (reply) {
         const char *advice = command_text_advice(order, reply->result);
-        put_whole(object, "frame", reply->frame);
-        put_whole(object, "entity", reply->entity);
+        json_whole(object, "frame", reply->frame);
+        json_whole(object, "entity", reply->entity);
         if (*advice)
-            put_word(object, "next", advice + strspn(advice, "; "));
+            json_text(object, "next", advice + strspn(advice, "; "));
     }
-    char *line = cJSON_PrintUnformatted(object);
-    output_line(queue->output, OUTPUT_ANSWER, line);
-    cJSON_free(line);
-    cJSON_Delete(object);
+    output_object(queue->output, OUTPUT_ANSWER, object);
 }
 
 static void drop(struct command_queue *queue, uint32_t i)
@@ -68,13 +65,13 @@ static void replace_drive(struct command_queue *queue, uint32_t vehicle)
 {
     for (uint32_t i = queue->count; i-- > 0;) {
         struct command_queue_item *item = &queue->item[i];
-        uint64_t what = about(&item->mission.order);
-        if (what != vehicle && what != ABOUT_ALL)
+        uint64_t subject = subject_of(&item->series.order);
+        if (subject != vehicle && subject != SUBJECT_ALL)
             continue;
-        if (item->mission.order.command.type != jolon_COMMAND_DRIVE)
+        if (item->series.order.command.type != jolon_COMMAND_DRIVE)
             return;
-        command_series_forget(&item->mission, queue->client);
-        tell(queue, item, "replaced", NULL, 0);
+        command_series_forget(&item->series, queue->client);
+        write_answer(queue, item, "replaced", NULL, 0);
         drop(queue, i);
         return;
     }
@@ -87,16 +84,16 @@ void command_queue_add(struct command_queue *queue, const char *id,
     if (order->command.type == jolon_COMMAND_DRIVE)
         replace_drive(queue, order->command.entity);
     item = &queue->item[queue->count++];
-    *item = (struct command_queue_item){.mission.order = *order};
+    *item = (struct command_queue_item){.series.order = *order};
     (void)snprintf(item->id, sizeof item->id, "%s", id);
 }
 
 static bool may_begin(const struct command_queue *queue, uint32_t i)
 {
-    uint64_t what = about(&queue->item[i].mission.order);
+    uint64_t subject = subject_of(&queue->item[i].series.order);
     for (uint32_t before = 0; before < i; before++) {
-        uint64_t other = about(&queue->item[before].mission.order);
-        if (what == ABOUT_ALL || other == ABOUT_ALL || (what != 0 && what == other))
+        uint64_t other = subject_of(&queue->item[before].series.order);
+        if (subject == SUBJECT_ALL || other == SUBJECT_ALL || (subject != 0 && subject == other))
             return false;
     }
     return true;
@@ -107,13 +104,14 @@ static void take_answers(struct command_queue *queue, struct command_queue_item 
 {
     jolon_CommandReply reply;
     uint32_t round;
-    const struct command_text *order = &item->mission.order;
-    while (command_series_answer(&item->mission, queue->client, &reply, &round)) {
+    const struct command_text *order = &item->series.order;
+    while (command_series_answer(&item->series, queue->client, &reply, &round)) {
         item->until_ns = now_ns + queue->timeout_ns;
         leases_answer(queue->leases, order, &reply, now_ns);
-        tell(queue, item, command_result_name((enum command_result)reply.result), &reply, round);
+        write_answer(queue, item, command_result_name((enum command_result)reply.result), &reply,
+                     round);
     }
-    if (!item->mission.waiting)
+    if (!item->series.waiting)
         item->until_ns = now_ns + queue->timeout_ns; /* until the next round nobody is silent */
 }
 
@@ -122,30 +120,30 @@ void command_queue_turn(struct command_queue *queue, uint64_t now_ns)
     for (uint32_t i = 0; i < queue->count;) {
         struct command_queue_item *item = &queue->item[i];
         if (!item->begun && may_begin(queue, i)) {
-            struct command_text order = item->mission.order;
+            struct command_text order = item->series.order;
             leases_begin(queue->leases, queue->client, &order);
-            command_series_begin(&item->mission, &order, now_ns);
+            command_series_begin(&item->series, &order, now_ns);
             item->until_ns = now_ns + queue->timeout_ns;
             item->begun = true;
         }
         if (item->begun) {
-            command_series_send(&item->mission, queue->client, now_ns);
+            command_series_send(&item->series, queue->client, now_ns);
             take_answers(queue, item, now_ns);
         }
         bool late = item->begun && now_ns >= item->until_ns;
         if (late) {
-            command_series_forget(&item->mission, queue->client);
-            tell(queue, item, "no reply", NULL, item->mission.answered);
-            queue->unanswered = true;
+            command_series_forget(&item->series, queue->client);
+            write_answer(queue, item, "no reply", NULL, item->series.answered);
+            queue->no_reply = true;
         }
-        if (late || (item->begun && command_series_over(&item->mission)))
+        if (late || (item->begun && command_series_over(&item->series)))
             drop(queue, i);
         else
             i++;
     }
     for (uint32_t i = 0; i < queue->count; i++) {
         if (queue->item[i].begun)
-            leases_hold_off(queue->leases, &queue->item[i].mission.order);
+            leases_hold_off(queue->leases, &queue->item[i].series.order);
     }
 }
 
@@ -156,7 +154,7 @@ uint64_t command_queue_due_ns(const struct command_queue *queue)
         const struct command_queue_item *item = &queue->item[i];
         if (!item->begun)
             continue;
-        uint64_t next_ns = command_series_due_ns(&item->mission);
+        uint64_t next_ns = command_series_due_ns(&item->series);
         next_ns = next_ns < item->until_ns ? next_ns : item->until_ns;
         due_ns = next_ns < due_ns ? next_ns : due_ns;
     }

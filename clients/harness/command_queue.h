@@ -18,13 +18,13 @@ struct command_queue {
     struct output *output;
     struct leases *leases;
     uint64_t timeout_ns;
-    bool unanswered; /* a reply did not come in time */
+    bool no_reply; /* a reply did not come in time */
     uint32_t count;
     struct command_queue_item {
         char id[COMMAND_QUEUE_ID_MAX]; /* as JSON; "": it is our own, nobody hears the answer */
         bool begun;
         uint64_t until_ns;
-        struct command_series mission;
+        struct command_series series;
     } item[COMMAND_QUEUE_MAX]; /* [count], the oldest first */
 };
 

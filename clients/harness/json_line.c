@@ -2,30 +2,27 @@
 #include "clients/harness/json_line.h"
 
 #include "ipc/topics/command_json.h"
-#include "ipc/topics/json_members.h"
+#include "ipc/json/world_json.h"
 #include "world/runtime/utf8.h"
 
 #include <stdio.h>
 #include <string.h>
 
-void json_line_complain(struct session *session, const char *id, const char *text)
+void json_line_error(struct session *session, const char *id, const char *text)
 {
     cJSON *object = cJSON_CreateObject();
-    put_word(object, "error", text);
-    put_whole(object, "line", session->input.line);
+    json_text(object, "error", text);
+    json_whole(object, "line", session->input.line);
     if (id && *id)
         (void)cJSON_AddRawToObject(object, "answer", id);
-    char *line = cJSON_PrintUnformatted(object);
-    output_line(&session->output, OUTPUT_ANSWER, line);
-    cJSON_free(line);
-    cJSON_Delete(object);
+    output_object(&session->output, OUTPUT_ANSWER, object);
 }
 
 void json_line_refuse_length(struct session *session)
 {
     char text[64];
     (void)snprintf(text, sizeof text, "longer than %u bytes", INPUT_LINE_MAX - 1);
-    json_line_complain(session, NULL, text);
+    json_line_error(session, NULL, text);
 }
 
 /* Is it UTF-8 without control characters but blanks? What we echo must be, too. */
@@ -57,12 +54,12 @@ static int read_id(char id[COMMAND_QUEUE_ID_MAX], const cJSON *object)
     return -1;
 }
 
-static void obey_want(struct session *session, const cJSON *want, const char *id)
+static void subscribe(struct session *session, const cJSON *want, const char *id)
 {
     struct error_text error;
     char line[COMMAND_QUEUE_ID_MAX + 64];
     if (subscription_read(&session->subscription, want, &session->mirror, &error) != 0) {
-        json_line_complain(session, id, error.text);
+        json_line_error(session, id, error.text);
         return;
     }
     (void)snprintf(line, sizeof line, "{\"answer\":%s,\"result\":\"done\",\"frame\":%llu}", id,
@@ -70,49 +67,49 @@ static void obey_want(struct session *session, const cJSON *want, const char *id
     output_line(&session->output, OUTPUT_ANSWER, line);
 }
 
-static void obey_order(struct session *session, const cJSON *object, const char *id)
+static void queue_command(struct session *session, const cJSON *object, const char *id)
 {
     struct command_text order;
     struct error_text error;
     const struct world_mirror *mirror = &session->mirror;
     if (command_from_json(&order, object, &error) != 0 ||
         command_text_resolve(&order, &mirror->names, mirror->world.hz, &error) != 0)
-        json_line_complain(session, id, error.text);
+        json_line_error(session, id, error.text);
     else
         command_queue_add(&session->queue, id, &order);
 }
 
-static void obey_object(struct session *session, const cJSON *object)
+static void execute_object(struct session *session, const cJSON *object)
 {
     char id[COMMAND_QUEUE_ID_MAX];
     if (read_id(id, object) != 0) {
-        json_line_complain(session, NULL, "id: not a number, or a text of at most 64 letters");
+        json_line_error(session, NULL, "id: not a number, or a text of at most 64 letters");
         return;
     }
     const cJSON *want = cJSON_GetObjectItemCaseSensitive(object, "want");
     if (want && cJSON_GetObjectItemCaseSensitive(object, "do"))
-        json_line_complain(session, id, "\"do\" and \"want\" in one line; say them in two");
+        json_line_error(session, id, "\"do\" and \"want\" in one line; say them in two");
     else if (want)
-        obey_want(session, want, id);
+        subscribe(session, want, id);
     else
-        obey_order(session, object, id);
+        queue_command(session, object, id);
 }
 
-void json_line_obey(struct session *session, const char *line, size_t bytes)
+void json_line_execute(struct session *session, const char *line, size_t bytes)
 {
     const char *end = NULL;
     if (line[strspn(line, " \t\r")] == '\0' && strlen(line) == bytes)
         return; /* an empty line */
     if (!is_text(line, bytes)) {
-        json_line_complain(session, NULL, "not text: control characters, or not UTF-8");
+        json_line_error(session, NULL, "not text: control characters, or not UTF-8");
         return;
     }
     cJSON *object = cJSON_ParseWithLengthOpts(line, bytes + 1, &end, 1);
     if (object && cJSON_IsObject(object))
-        obey_object(session, object);
+        execute_object(session, object);
     else
-        json_line_complain(session, NULL,
-                           "not a JSON object on one line, like "
-                           "{\"id\":1,\"do\":\"drive\",\"vehicle\":7,\"throttle\":0.5}");
+        json_line_error(session, NULL,
+                        "not a JSON object on one line, like "
+                        "{\"id\":1,\"do\":\"drive\",\"vehicle\":7,\"throttle\":0.5}");
     cJSON_Delete(object);
 }

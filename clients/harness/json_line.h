@@ -6,12 +6,12 @@
 #include "clients/harness/session.h"
 
 /* Carries out a line of so many bytes, terminated. The desk must have room. */
-void json_line_obey(struct session *session, const char *line, size_t bytes);
+void json_line_execute(struct session *session, const char *line, size_t bytes);
 
 /* The last line was longer than lines may be. */
 void json_line_refuse_length(struct session *session);
 
 /* Tells what is wrong with the last line; id: the program's own, as JSON, or NULL. */
-void json_line_complain(struct session *session, const char *id, const char *text);
+void json_line_error(struct session *session, const char *id, const char *text);
 
 #endif

@@ -2,7 +2,7 @@
 #include "clients/harness/leases.h"
 
 #include "ipc/process/clock.h"
-#include "ipc/topics/json_members.h"
+#include "ipc/json/world_json.h"
 #include "world/entity/command.h"
 #include "world/enum_names.h"
 
@@ -44,17 +44,17 @@ static uint32_t lease_frames(const struct leases *leases)
 }
 
 /* The lease that an order changes, NULL: none. */
-static struct lease *changed(struct leases *leases, const struct command_text *order)
+static struct lease *lease_of(struct leases *leases, const struct command_text *order)
 {
     jolon_CommandType type = order->command.type;
-    bool changes = type == jolon_COMMAND_DRIVE || type == jolon_COMMAND_RELEASE ||
-                   type == jolon_COMMAND_REMOVE;
-    return changes ? find(leases, order->command.entity) : NULL;
+    bool has_lease = type == jolon_COMMAND_DRIVE || type == jolon_COMMAND_RELEASE ||
+                     type == jolon_COMMAND_REMOVE;
+    return has_lease ? find(leases, order->command.entity) : NULL;
 }
 
 void leases_begin(struct leases *leases, struct command_client *client, struct command_text *order)
 {
-    struct lease *lease = changed(leases, order);
+    struct lease *lease = lease_of(leases, order);
     if (lease && lease->sequence) {
         command_client_forget(client, lease->sequence);
         lease->sequence = 0;
@@ -65,16 +65,16 @@ void leases_begin(struct leases *leases, struct command_client *client, struct c
 
 void leases_hold_off(struct leases *leases, const struct command_text *order)
 {
-    struct lease *lease = changed(leases, order);
+    struct lease *lease = lease_of(leases, order);
     if (lease)
-        lease->ordered = true;
+        lease->command_pending = true;
 }
 
 void leases_answer(struct leases *leases, const struct command_text *order,
                    const jolon_CommandReply *reply, uint64_t now_ns)
 {
     bool keeps = order->command.type == jolon_COMMAND_DRIVE && !command_text_needs_hz(order);
-    struct lease *lease = changed(leases, order);
+    struct lease *lease = lease_of(leases, order);
     if (reply->result != jolon_RESULT_DONE)
         return;
     if (lease && !keeps) /* given back, or held by a lease that the program looks after itself */
@@ -92,12 +92,9 @@ void leases_answer(struct leases *leases, const struct command_text *order,
 static void write_lost(const struct leases *leases, uint32_t vehicle, jolon_CommandResult error)
 {
     cJSON *object = cJSON_CreateObject();
-    put_whole(object, "lost", vehicle);
-    put_word(object, "because", command_result_name((enum command_result)error));
-    char *line = cJSON_PrintUnformatted(object);
-    output_line(leases->output, OUTPUT_ANSWER, line);
-    cJSON_free(line);
-    cJSON_Delete(object);
+    json_whole(object, "lost", vehicle);
+    json_text(object, "because", command_result_name((enum command_result)error));
+    output_object(leases->output, OUTPUT_ANSWER, object);
 }
 
 /* A paused world's leases do not run, and a command would make it commit a frame. */
@@ -119,7 +116,7 @@ void leases_turn(struct leases *leases, struct command_client *client, uint64_t 
                 continue;
             }
         }
-        if (!lease->sequence && !lease->ordered && now_ns >= lease->renew_ns) {
+        if (!lease->sequence && !lease->command_pending && now_ns >= lease->renew_ns) {
             lease->renew_ns = now_ns + LEASES_RENEW_NS;
             if (runs(leases, lease) && client->count < WAITING_MAX) {
                 lease->command.lease_frames = lease_frames(leases);
@@ -127,7 +124,7 @@ void leases_turn(struct leases *leases, struct command_client *client, uint64_t 
                 lease->tick = leases->mirror->frame.tick;
             }
         }
-        lease->ordered = false;
+        lease->command_pending = false;
         i++;
     }
 }

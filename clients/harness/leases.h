@@ -23,7 +23,7 @@ struct leases {
         uint64_t renew_ns;     /* CLOCK_MONOTONIC */
         uint64_t tick;         /* of the world, when it was last renewed */
         uint64_t sequence;     /* of the renewal under way, 0: none */
-        bool ordered;          /* an order for it is under way, which a renewal must not overtake */
+        bool command_pending;  /* an order for it is under way, which a renewal must not overtake */
     } held[LEASES_MAX];        /* [count] */
 };
 

@@ -16,17 +16,17 @@ int main(int argc, char **argv)
         die_refused("%s", error.text);
     const char *world = session.options.world;
     int code = EXIT_OK;
-    if (!session_meet(&session)) {
+    if (!session_wait_for_world(&session)) {
         log_warn("world '%s': nobody says anything of it; is it running, with its reporter? `jolon "
                  "status -w %s` shows it",
                  world, world);
         code = EXIT_REFUSED;
     }
-    while (code == EXIT_OK && !process_stopping() && !session_over(&session)) {
+    while (code == EXIT_OK && !process_stopping() && !session_finished(&session)) {
         session_turn(&session, clock_now_ns());
-        session_rest(&session);
+        session_wait(&session);
     }
-    if (session.output.gone || session.queue.unanswered)
+    if (session.output.closed || session.queue.no_reply)
         code = EXIT_REFUSED;
     session_close(&session);
     dds_link_close(&session.link, code);

@@ -21,7 +21,7 @@ static void append(struct output *output, const char *line)
         size_t room = (output->used + length) * 2;
         char *bytes = realloc(output->bytes, room);
         if (!bytes) {
-            output->gone = true;
+            output->closed = true;
             return;
         }
         output->bytes = bytes;
@@ -42,21 +42,28 @@ static void write_missed(struct output *output)
     append(output, line);
 }
 
-void output_line(struct output *output, enum output_sort sort, const char *line)
+void output_line(struct output *output, enum output_kind kind, const char *line)
 {
-    if (!line) {
-        output->gone = true;
+    if (kind == OUTPUT_STATE && !output_takes_states(output))
         return;
-    }
-    if (sort == OUTPUT_STATE && !output_wants_states(output))
-        return;
-    if (sort == OUTPUT_EVENT && output->used >= OUTPUT_EVENTS_MAX) {
+    if (kind == OUTPUT_EVENT && output->used >= OUTPUT_EVENTS_MAX) {
         output->missed++;
         return;
     }
-    if (sort == OUTPUT_EVENT)
+    if (kind == OUTPUT_EVENT)
         write_missed(output);
     append(output, line);
+}
+
+void output_object(struct output *output, enum output_kind kind, cJSON *object)
+{
+    char *line = cJSON_PrintUnformatted(object);
+    if (line)
+        output_line(output, kind, line);
+    else
+        output->closed = true;
+    cJSON_free(line);
+    cJSON_Delete(object);
 }
 
 void output_missed(struct output *output, uint64_t count)
@@ -64,7 +71,7 @@ void output_missed(struct output *output, uint64_t count)
     output->missed += count;
 }
 
-bool output_wants_states(const struct output *output)
+bool output_takes_states(const struct output *output)
 {
     return output->used < OUTPUT_STATES_MAX;
 }
@@ -74,7 +81,7 @@ void output_write(struct output *output)
     size_t bytes = output->used < WRITE_AT_ONCE ? output->used : WRITE_AT_ONCE;
     ssize_t put = bytes ? write(STDOUT_FILENO, output->bytes + output->begin, bytes) : 0;
     if (put < 0) {
-        output->gone |= errno != EINTR && errno != EAGAIN;
+        output->closed |= errno != EINTR && errno != EAGAIN;
         return;
     }
     output->begin += (size_t)put;
@@ -85,7 +92,7 @@ void output_write(struct output *output)
     }
 }
 
-void picture_folder_close(struct output *output)
+void output_close(struct output *output)
 {
     free(output->bytes);
     *output = (struct output){0};

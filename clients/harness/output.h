@@ -5,6 +5,7 @@
 #ifndef JOLON_CLIENTS_HARNESS_OUTPUT_H
 #define JOLON_CLIENTS_HARNESS_OUTPUT_H
 
+#include <cjson/cJSON.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -13,28 +14,30 @@
 #define OUTPUT_HOLD       262144u  /* ... from which no more commands are read */
 #define OUTPUT_EVENTS_MAX 1048576u /* ... from which events are missed */
 
-enum output_sort { OUTPUT_ANSWER, OUTPUT_EVENT, OUTPUT_STATE };
+enum output_kind { OUTPUT_ANSWER, OUTPUT_EVENT, OUTPUT_STATE };
 
 struct output {
     char *bytes;
     size_t begin, used, room; /* bytes[begin .. begin + used) wait */
     uint64_t missed;          /* events left out and not yet told */
-    bool gone;                /* nobody reads any more, or there was no memory */
+    bool closed;              /* nobody reads any more, or there was no memory */
 };
 
-/* Adds a line, without its newline; NULL counts as no memory. A state or an event may be left out.
- */
-void output_line(struct output *output, enum output_sort sort, const char *line);
+/* Appends a line, given without its newline. A state or an event may be left out. */
+void output_line(struct output *output, enum output_kind kind, const char *line);
+
+/* Appends a JSON object as a line and frees the object. */
+void output_object(struct output *output, enum output_kind kind, cJSON *object);
 
 /* Events that were lost elsewhere: told like those left out here. */
 void output_missed(struct output *output, uint64_t count);
 
 /* Is a state worth making? */
-bool output_wants_states(const struct output *output);
+bool output_takes_states(const struct output *output);
 
 /* Writes what the reader takes at once; to be called when poll() says that it takes some. */
 void output_write(struct output *output);
 
-void picture_folder_close(struct output *output);
+void output_close(struct output *output);
 
 #endif

@@ -11,11 +11,11 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-#define REST_NS      (250 * (uint64_t)NS_PER_MS)
-#define REST_TAIL_NS (25 * (uint64_t)NS_PER_MS) /* events wait to be put in order */
+#define WAIT_NS        (250 * (uint64_t)NS_PER_MS)
+#define WAIT_EVENTS_NS (25 * (uint64_t)NS_PER_MS) /* events wait to be put in order */
 
 /* From one of Cyclone DDS's threads. */
-static void ring(dds_entity_t reader, void *context)
+static void on_data(dds_entity_t reader, void *context)
 {
     const struct session *session = context;
     (void)reader;
@@ -27,7 +27,7 @@ static int listen_to(struct session *session, const dds_entity_t *readers, size_
 {
     dds_listener_t *listener = dds_create_listener(session);
     dds_return_t code = DDS_RETCODE_OK;
-    dds_lset_data_available(listener, ring);
+    dds_lset_data_available(listener, on_data);
     for (size_t i = 0; i < count && code == DDS_RETCODE_OK; i++)
         code = dds_set_listener(readers[i], listener);
     dds_delete_listener(listener);
@@ -59,10 +59,10 @@ int session_open(struct session *session, struct error_text *error)
 
 void session_close(struct session *session)
 {
-    if (session->merging)
+    if (session->has_merge)
         event_merge_close(&session->merge);
     world_mirror_close(&session->mirror);
-    picture_folder_close(&session->output);
+    output_close(&session->output);
 }
 
 static bool knows_the_world(const struct session *session)
@@ -70,7 +70,7 @@ static bool knows_the_world(const struct session *session)
     return session->mirror.has_world && session->mirror.names.told && session->mirror.frame_ns;
 }
 
-bool session_meet(struct session *session)
+bool session_wait_for_world(struct session *session)
 {
     uint64_t until_ns = clock_now_ns() + session->queue.timeout_ns;
     while (!process_stopping()) {
@@ -80,9 +80,9 @@ bool session_meet(struct session *session)
         if (clock_now_ns() >= until_ns)
             break;
         struct pollfd wake_fd = {.fd = session->wake_fd, .events = POLLIN};
-        eventfd_t rung;
+        eventfd_t counter;
         (void)poll(&wake_fd, 1, 50);
-        (void)eventfd_read(session->wake_fd, &rung);
+        (void)eventfd_read(session->wake_fd, &counter);
     }
     return false;
 }
@@ -95,9 +95,7 @@ static void write_world(struct session *session)
     if (session->run)
         leases_clear(&session->leases);
     session->run = session->mirror.world.run;
-    char *line = subscription_world(&session->mirror);
-    output_line(&session->output, OUTPUT_ANSWER, line);
-    cJSON_free(line);
+    output_object(&session->output, OUTPUT_ANSWER, subscription_world(&session->mirror));
 }
 
 static bool takes_lines(const struct session *session)
@@ -116,19 +114,19 @@ static void take_lines(struct session *session)
         if (result == INPUT_TOO_LONG)
             json_line_refuse_length(session);
         else
-            json_line_obey(session, line, bytes);
+            json_line_execute(session, line, bytes);
     }
 }
 
-static void open_tail(struct session *session)
+static void open_events(struct session *session)
 {
     struct error_text error;
-    if (session->merging || !session->subscription.events)
+    if (session->has_merge || !session->subscription.events)
         return;
-    session->merging = true;
+    session->has_merge = true;
     if (event_merge_open(&session->merge, &session->link, subscription_format, &error) != 0 ||
         listen_to(session, session->merge.reader, EVENT_MERGE_TOPICS, &error) != 0)
-        json_line_complain(session, NULL, error.text);
+        json_line_error(session, NULL, error.text);
 }
 
 /* What the program still drives goes back to its agents. */
@@ -147,32 +145,33 @@ static void release_all(struct session *session)
 
 void session_turn(struct session *session, uint64_t now_ns)
 {
-    eventfd_t rung;
-    (void)eventfd_read(session->wake_fd, &rung);
+    eventfd_t counter;
+    (void)eventfd_read(session->wake_fd, &counter);
     world_mirror_take(&session->mirror);
     write_world(session);
     take_lines(session);
-    open_tail(session);
+    open_events(session);
     command_client_turn(&session->client);
     command_queue_turn(&session->queue, now_ns);
     leases_turn(&session->leases, &session->client, now_ns);
     subscription_states(&session->subscription, &session->mirror, &session->output, now_ns);
-    if (session->merging)
+    if (session->has_merge)
         subscription_events(&session->subscription, &session->merge, &session->output);
     bool silent = session->input.ended && !session->input.used && !session->queue.count;
     if (silent && !session->released)
         release_all(session);
 }
 
-static uint64_t least(uint64_t a, uint64_t b)
+static uint64_t earlier(uint64_t a, uint64_t b)
 {
     return a < b ? a : b;
 }
 
-void session_rest(struct session *session)
+void session_wait(struct session *session)
 {
     uint64_t now_ns = clock_now_ns();
-    uint64_t wake_ns = now_ns + (session->merging && session->merge.count ? REST_TAIL_NS : REST_NS);
+    uint64_t wake_ns =
+        now_ns + (session->has_merge && session->merge.count ? WAIT_EVENTS_NS : WAIT_NS);
     bool reads = !session->input.ended && input_room(&session->input) && takes_lines(session);
     struct pollfd watched[] = {
         {.fd = session->wake_fd, .events = POLLIN},
@@ -180,10 +179,10 @@ void session_rest(struct session *session)
         {.fd = session->output.used ? STDOUT_FILENO : -1, .events = POLLOUT},
         {.fd = command_client_descriptor(&session->client), .events = POLLIN},
     };
-    wake_ns = least(wake_ns, command_client_due_ns(&session->client));
-    wake_ns = least(wake_ns, command_queue_due_ns(&session->queue));
-    wake_ns = least(wake_ns, leases_due_ns(&session->leases));
-    wake_ns = least(wake_ns, subscription_due_ns(&session->subscription));
+    wake_ns = earlier(wake_ns, command_client_due_ns(&session->client));
+    wake_ns = earlier(wake_ns, command_queue_due_ns(&session->queue));
+    wake_ns = earlier(wake_ns, leases_due_ns(&session->leases));
+    wake_ns = earlier(wake_ns, subscription_due_ns(&session->subscription));
     uint64_t wait_ns = wake_ns > now_ns ? wake_ns - now_ns : 0;
     if (poll(watched, 4, (int)((wait_ns + NS_PER_MS - 1) / NS_PER_MS)) <= 0)
         return;
@@ -193,8 +192,8 @@ void session_rest(struct session *session)
         output_write(&session->output);
 }
 
-bool session_over(const struct session *session)
+bool session_finished(const struct session *session)
 {
-    bool said = session->input.ended && !session->input.used && session->released;
-    return session->output.gone || (said && !session->queue.count && !session->output.used);
+    bool finished = session->input.ended && !session->input.used && session->released;
+    return session->output.closed || (finished && !session->queue.count && !session->output.used);
 }

@@ -13,7 +13,7 @@ struct session {
     struct dds_link link;
     struct world_mirror mirror;
     struct event_merge merge;
-    bool merging; /* the tail is open: events were wanted once */
+    bool has_merge; /* the tail is open: events were wanted once */
     struct command_client client;
     struct command_route route; /* of the caller */
     struct input input;
@@ -31,15 +31,15 @@ int session_open(struct session *session, struct error_text *error);
 void session_close(struct session *session);
 
 /* Waits until the world says what it is, at most the options' timeout. False: it does not. */
-bool session_meet(struct session *session);
+bool session_wait_for_world(struct session *session);
 
 /* One turn: lines, answers, states, events. Does not block. */
 void session_turn(struct session *session, uint64_t now_ns);
 
 /* Waits for the next turn. */
-void session_rest(struct session *session);
+void session_wait(struct session *session);
 
 /* Has everything been said and answered, or can it be told to nobody? */
-bool session_over(const struct session *session);
+bool session_finished(const struct session *session);
 
 #endif

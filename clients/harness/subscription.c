@@ -4,7 +4,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/topics/entity_json.h"
 #include "ipc/topics/event_json.h"
-#include "ipc/topics/json_members.h"
+#include "ipc/json/world_json.h"
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
@@ -160,14 +160,6 @@ static bool is_wanted(const struct subscription *subscription, const jolon_Entit
     return false;
 }
 
-static void put_line(struct output *output, enum output_sort sort, cJSON *object)
-{
-    char *line = cJSON_PrintUnformatted(object);
-    output_line(output, sort, line);
-    cJSON_free(line);
-    cJSON_Delete(object);
-}
-
 static void write_entities(const struct subscription *subscription,
                            const struct world_mirror *mirror, struct output *output)
 {
@@ -175,28 +167,28 @@ static void write_entities(const struct subscription *subscription,
     const jolon_Entity *middle =
         subscription->near ? world_mirror_entity(mirror, subscription->near) : NULL;
     cJSON *object = cJSON_CreateObject();
-    cJSON *list = cJSON_AddArrayToObject(object, "entities");
-    put_whole(object, "frame", batch->frame);
+    cJSON *list = json_array(object, "entities");
+    json_whole(object, "frame", batch->frame);
     for (uint32_t i = 0; i < batch->count; i++) {
         if (is_wanted(subscription, &batch->entity[i], middle))
             (void)cJSON_AddItemToArray(list, entity_json(mirror, &batch->entity[i]));
     }
-    put_line(output, OUTPUT_STATE, object);
+    output_object(output, OUTPUT_STATE, object);
 }
 
 static void write_frame(const struct world_mirror *mirror, struct output *output, uint64_t now_ns)
 {
     const jolon_FrameStatus *frame = &mirror->frame;
     cJSON *object = cJSON_CreateObject();
-    put_whole(object, "frame", frame->frame);
-    put_number(object, "time_s", frame->sim_time_s);
-    put_word(object, "state", world_mirror_run_state(mirror, now_ns));
-    put_number(object, "rate_hz", frame->rate_hz);
-    put_whole(object, "late_frames", frame->late_frames);
-    put_whole(object, "vehicles", frame->vehicles);
-    put_whole(object, "munitions", frame->munitions);
-    put_whole(object, "events", frame->events);
-    put_line(output, OUTPUT_STATE, object);
+    json_whole(object, "frame", frame->frame);
+    json_number(object, "time_s", frame->sim_time_s);
+    json_text(object, "state", world_mirror_run_state(mirror, now_ns));
+    json_number(object, "rate_hz", frame->rate_hz);
+    json_whole(object, "late_frames", frame->late_frames);
+    json_whole(object, "vehicles", frame->vehicles);
+    json_whole(object, "munitions", frame->munitions);
+    json_whole(object, "events", frame->events);
+    output_object(output, OUTPUT_STATE, object);
 }
 
 void subscription_states(struct subscription *subscription, const struct world_mirror *mirror,
@@ -213,7 +205,7 @@ void subscription_states(struct subscription *subscription, const struct world_m
     subscription->due_ns = subscription->due_ns + period_ns > now_ns
                                ? subscription->due_ns + period_ns
                                : now_ns + period_ns;
-    if (!output_wants_states(output))
+    if (!output_takes_states(output))
         return;
     if (subscription->frames)
         write_frame(mirror, output, now_ns);
@@ -243,66 +235,64 @@ void subscription_format(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, 
     memcpy(line + used, json, length + 1);
 }
 
-struct telling {
+struct event_output {
     const struct subscription *subscription;
     struct output *output;
 };
 
 static bool write_event(void *context, const char *line)
 {
-    char told[EVENT_MERGE_LINE_MAX + 16];
-    const struct telling *telling = context;
+    char text[EVENT_MERGE_LINE_MAX + 16];
+    const struct event_output *target = context;
     char *at;
     uint64_t run = strtoull(line + 2, &at, 10);
     uint64_t frame = strtoull(at, &at, 10);
-    const struct subscription *subscription = telling->subscription;
+    const struct subscription *subscription = target->subscription;
     if (!(subscription->events & 1u << (line[0] - 'a')) ||
         (run == subscription->from_run && frame < subscription->from))
         return true;
-    (void)snprintf(told, sizeof told, "{\"event\":%s}", at + 1);
-    output_line(telling->output, OUTPUT_EVENT, told);
+    (void)snprintf(text, sizeof text, "{\"event\":%s}", at + 1);
+    output_line(target->output, OUTPUT_EVENT, text);
     return true;
 }
 
 void subscription_events(struct subscription *subscription, struct event_merge *merge,
                          struct output *output)
 {
-    struct telling telling = {.subscription = subscription, .output = output};
-    if (!event_merge_turn(merge, write_event, &telling))
-        output->gone = true; /* no memory */
+    struct event_output target = {.subscription = subscription, .output = output};
+    if (!event_merge_turn(merge, write_event, &target))
+        output->closed = true; /* no memory */
     if (merge->missed > subscription->missed)
         output_missed(output, merge->missed - subscription->missed);
     subscription->missed = merge->missed;
 }
 
-char *subscription_world(const struct world_mirror *mirror)
+cJSON *subscription_world(const struct world_mirror *mirror)
 {
     const jolon_WorldInfo *world = &mirror->world;
     cJSON *object = cJSON_CreateObject();
-    put_word(object, "world", world->world);
-    put_whole(object, "run", world->run);
-    put_word(object, "ground", world->ground);
-    put_number(object, "hz", world->hz);
-    put_number(object, "side_m", world->side_m);
-    put_whole(object, "capacity", world->capacity);
-    (void)cJSON_AddBoolToObject(object, "real_time", world->real_time);
-    cJSON *kinds = cJSON_AddArrayToObject(object, "kinds");
+    json_text(object, "world", world->world);
+    json_whole(object, "run", world->run);
+    json_text(object, "ground", world->ground);
+    json_number(object, "hz", world->hz);
+    json_number(object, "side_m", world->side_m);
+    json_whole(object, "capacity", world->capacity);
+    json_bool(object, "real_time", world->real_time);
+    cJSON *kinds = json_array(object, "kinds");
     for (uint32_t i = 0; i < world->kinds._length; i++) {
         const jolon_KindInfo *kind = &world->kinds._buffer[i];
         if (kind->domain == jolon_DOMAIN_FIXED)
             continue;
         cJSON *item = cJSON_CreateObject();
-        put_word(item, "name", kind->name);
-        put_word(item, "domain", domain_name((enum domain)kind->domain));
-        put_single(item, "length_m", kind->length_m);
-        put_single(item, "max_speed_mps", kind->max_speed_mps);
-        put_single(item, "range_m", kind->range_m);
+        json_text(item, "name", kind->name);
+        json_text(item, "domain", domain_name((enum domain)kind->domain));
+        json_single(item, "length_m", kind->length_m);
+        json_single(item, "max_speed_mps", kind->max_speed_mps);
+        json_single(item, "range_m", kind->range_m);
         (void)cJSON_AddItemToArray(kinds, item);
     }
-    cJSON *names = cJSON_AddObjectToObject(object, "names");
+    cJSON *names = json_object(object, "names");
     for (uint32_t i = 0; i < mirror->names.count; i++)
-        put_whole(names, mirror->names.entry[i].name, mirror->names.entry[i].id);
-    char *line = cJSON_PrintUnformatted(object);
-    cJSON_Delete(object);
-    return line;
+        json_whole(names, mirror->names.entry[i].name, mirror->names.entry[i].id);
+    return object;
 }

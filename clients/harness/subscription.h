@@ -50,7 +50,8 @@ void subscription_format(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, 
 void subscription_events(struct subscription *subscription, struct event_merge *merge,
                          struct output *output);
 
-/* The world, as it is told once and whenever it is another: its line, for cJSON_free(). */
-char *subscription_world(const struct world_mirror *mirror);
+/* The description of the world, which the program gets at the start and when another world takes
+ * its place. The caller frees it. */
+cJSON *subscription_world(const struct world_mirror *mirror);
 
 #endif

@@ -76,8 +76,8 @@ void character_map_begin(struct character_map *map, int rows, int columns,
 static int rank(char cell)
 {
     static const char ascending[] = {
-        CHARACTER_MAP_WRECK, CHARACTER_MAP_NEUTRAL,  CHARACTER_MAP_RED,   CHARACTER_MAP_BLUE,
-        CHARACTER_MAP_BOTH,  CHARACTER_MAP_MUNITION, CHARACTER_MAP_CHOSEN};
+        CHARACTER_MAP_WRECK, CHARACTER_MAP_NEUTRAL,  CHARACTER_MAP_RED,     CHARACTER_MAP_BLUE,
+        CHARACTER_MAP_BOTH,  CHARACTER_MAP_MUNITION, CHARACTER_MAP_SELECTED};
     const char *found = memchr(ascending, cell, sizeof ascending);
     return found ? (int)(found - ascending) + 1 : 0;
 }

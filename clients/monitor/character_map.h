@@ -18,7 +18,7 @@
 #define CHARACTER_MAP_BLUE     'b'
 #define CHARACTER_MAP_BOTH     '%' /* red and blue in one cell */
 #define CHARACTER_MAP_MUNITION '*'
-#define CHARACTER_MAP_CHOSEN   '@' /* the one that is looked at */
+#define CHARACTER_MAP_SELECTED '@' /* the one that is looked at */
 
 /* The ground: water, then four bands from the lowest land to the highest, and beyond the world. */
 #define CHARACTER_MAP_WATER  '~'

@@ -4,7 +4,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
-#include "clients/monitor/json.h"
+#include "clients/monitor/status_json.h"
 #include "clients/monitor/status_lines.h"
 #include "clients/monitor/options.h"
 #include "clients/monitor/plain_output.h"
@@ -18,12 +18,12 @@
 #include <unistd.h>
 
 /* How often the screen looks at the keyboard and at new events. */
-#define LOOK_NS (50 * (uint64_t)NS_PER_MS)
+#define POLL_NS (50 * (uint64_t)NS_PER_MS)
 
 #define NICENESS 10 /* far behind the frame loop: a hundred of them make no frame late */
 
 /* Of this thread and of those that it starts: before DDS starts its own. */
-static void step_back(void)
+static void lower_priority(void)
 {
     if (getpriority(PRIO_PROCESS, 0) < NICENESS && setpriority(PRIO_PROCESS, 0, NICENESS) != 0)
         log_warn("cannot lower its priority: %s", strerror(errno));
@@ -35,7 +35,7 @@ static int run_events(struct event_merge *merge)
         bool good = event_merge_turn(merge, plain_output_line, NULL);
         if (!good || !plain_output_flush())
             return EXIT_REFUSED; /* nobody reads any more, or no memory */
-        dds_topics_wait(merge->waitset, merge->count ? LOOK_NS : NS_PER_S / 4);
+        dds_topics_wait(merge->waitset, merge->count ? POLL_NS : NS_PER_S / 4);
     }
     if (merge->missed)
         log_warn("events were missed at %llu places", (unsigned long long)merge->missed);
@@ -52,14 +52,14 @@ static int run_screen(struct world_mirror *mirror, struct event_merge *merge,
         die_refused("%s", error.text);
     while (!process_stopping() && !screen.state.quit) {
         world_mirror_take(mirror);
-        screen_note(&screen, mirror);
+        screen_sample(&screen, mirror);
         (void)event_merge_turn(merge, screen_event, &screen);
         uint64_t now_ns = clock_now_ns();
         if (screen_keys(&screen, mirror) || now_ns >= due_ns) {
             screen_draw(&screen, mirror, now_ns);
             due_ns = now_ns + (uint64_t)(NS_PER_S / options->rate_hz);
         }
-        clock_sleep_until_ns(now_ns + LOOK_NS < due_ns ? now_ns + LOOK_NS : due_ns);
+        clock_sleep_until_ns(now_ns + POLL_NS < due_ns ? now_ns + POLL_NS : due_ns);
     }
     screen_close(&screen);
     return EXIT_OK;
@@ -82,7 +82,7 @@ int main(int argc, char **argv)
     if (options.rate_hz <= 0.0)
         options.rate_hz = screen ? OPTIONS_SCREEN_HZ : OPTIONS_LINES_HZ;
     process_signals();
-    step_back();
+    lower_priority();
     if (dds_link_open(&link, &options.link, options.world, &error) != 0 ||
         (!options.events &&
          world_mirror_open(&mirror, &link, options.world, screen || options.json, &error) != 0) ||

@@ -11,7 +11,7 @@
 
 struct options {
     const char *world;
-    const char *filter; /* which vehicles, as vehicle_table_suits(); NULL: none are listed */
+    const char *filter; /* which vehicles, as vehicle_table_matches(); NULL: none are listed */
     bool once, json, events, lines;
     double rate_hz; /* 0: as the mode likes it */
     struct dds_link_options link;

@@ -22,10 +22,11 @@ void pages_put(int row, int column, const char *text, unsigned attributes, enum 
 
 /* --- the map -----------------------------------------------------------------------------------*/
 
-static char mark_of(const jolon_Entity *entity, const struct world_mirror *mirror, uint32_t chosen)
+static char mark_of(const jolon_Entity *entity, const struct world_mirror *mirror,
+                    uint32_t selected)
 {
-    if (entity->id == chosen)
-        return CHARACTER_MAP_CHOSEN;
+    if (entity->id == selected)
+        return CHARACTER_MAP_SELECTED;
     if (entity->state == jolon_ENTITY_WRECK)
         return CHARACTER_MAP_WRECK;
     if (mirror->has_world && entity->kind < mirror->world.kinds._length &&
@@ -48,7 +49,7 @@ static void draw_cell(int row, int column, char cell)
     } else if (cell == CHARACTER_MAP_BOTH || cell == CHARACTER_MAP_MUNITION) {
         pair = PAIR_WARN;
         attributes = A_BOLD;
-    } else if (cell == CHARACTER_MAP_CHOSEN) {
+    } else if (cell == CHARACTER_MAP_SELECTED) {
         attributes = A_BOLD | A_REVERSE;
     }
     const char text[2] = {cell, '\0'};
@@ -68,7 +69,7 @@ static void draw_map(struct screen *screen, const struct world_mirror *mirror, i
     for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++) {
         const jolon_Entity *entity = &mirror->batch.entity[i];
         character_map_mark(&screen->map, entity->x_m, entity->z_m,
-                           mark_of(entity, mirror, screen->state.chosen));
+                           mark_of(entity, mirror, screen->state.selected));
     }
     for (int row = 0; row < screen->map.rows; row++) {
         for (int column = 0; column < screen->map.columns; column++)
@@ -85,15 +86,15 @@ void pages_map(struct screen *screen, const struct world_mirror *mirror, int top
     const struct character_map *map = &screen->map;
     int used = snprintf(line, sizeof line, "middle %.0f, %.0f   %.1f km across", screen->state.x,
                         screen->state.z, map->m_per_column * (double)map->columns / 1000.0);
-    if (screen->state.chosen)
+    if (screen->state.selected)
         (void)snprintf(line + used, sizeof line - (size_t)used, "   @ is %u%s",
-                       screen->state.chosen, screen->state.follow ? ", followed" : "");
+                       screen->state.selected, screen->state.follow ? ", followed" : "");
     pages_put(top + rows - 1, 0, line, A_NORMAL, PAIR_PLAIN);
 }
 
 /* --- events ------------------------------------------------------------------------------------*/
 
-static bool event_suits(const char *line, const char *filter)
+static bool event_matches(const char *line, const char *filter)
 {
     while (*filter) {
         char word[VEHICLE_TABLE_FILTER_MAX];
@@ -108,7 +109,7 @@ static bool event_suits(const char *line, const char *filter)
     return true;
 }
 
-static const char *event_back(const struct screen *screen, uint64_t back)
+static const char *event_at(const struct screen *screen, uint64_t back)
 {
     return screen->event[(screen->event_count - 1 - back) % SCREEN_EVENTS];
 }
@@ -118,21 +119,21 @@ static uint64_t draw_events(const struct screen *screen, const char *filter, uin
                             int rows, int column)
 {
     uint64_t kept = screen->event_count < SCREEN_EVENTS ? screen->event_count : SCREEN_EVENTS;
-    uint64_t suiting = 0, shown = 0;
+    uint64_t matching = 0, shown = 0;
     const char *line[CHARACTER_MAP_ROWS_MAX];
-    uint64_t most = rows < 0                        ? 0
-                    : rows > CHARACTER_MAP_ROWS_MAX ? CHARACTER_MAP_ROWS_MAX
-                                                    : (uint64_t)rows;
+    uint64_t limit = rows < 0                        ? 0
+                     : rows > CHARACTER_MAP_ROWS_MAX ? CHARACTER_MAP_ROWS_MAX
+                                                     : (uint64_t)rows;
     for (uint64_t back = 0; back < kept; back++) {
-        const char *text = event_back(screen, back);
-        if (!event_suits(text, filter))
+        const char *text = event_at(screen, back);
+        if (!event_matches(text, filter))
             continue;
-        if (suiting++ >= skip && shown < most)
+        if (matching++ >= skip && shown < limit)
             line[shown++] = text;
     }
     for (uint64_t i = 0; i < shown; i++)
         pages_put(top + (int)i, column, line[shown - 1 - i], A_NORMAL, PAIR_PLAIN);
-    return suiting > most ? suiting - most : 0;
+    return matching > limit ? matching - limit : 0;
 }
 
 static void draw_filter(const struct screen *screen, int row, const char *what)
@@ -152,9 +153,9 @@ void pages_events(struct screen *screen, int top, int rows)
     char what[STATUS_LINES_MAX];
     struct screen_state *state = &screen->state;
     state->page_rows = rows > 1 ? (uint32_t)rows - 1 : 1;
-    uint64_t most =
+    uint64_t limit =
         draw_events(screen, state->filter[SCREEN_STATE_EVENTS], state->back, top + 1, rows - 1, 0);
-    state->back = state->back < most ? state->back : most;
+    state->back = state->back < limit ? state->back : limit;
     if (state->back > 0)
         (void)snprintf(what, sizeof what, "events, %llu newer below; End shows them",
                        (unsigned long long)state->back);
@@ -194,16 +195,16 @@ void pages_vehicles(struct screen *screen, const struct world_mirror *mirror, in
         bool wreck = entity->state == jolon_ENTITY_WRECK;
         vehicle_table_line(line, mirror, entity);
         pages_put(top + 2 + (int)i, 0, line,
-                  entity->id == state->chosen ? A_REVERSE
-                  : wreck                     ? A_DIM
-                                              : A_NORMAL,
+                  entity->id == state->selected ? A_REVERSE
+                  : wreck                       ? A_DIM
+                                                : A_NORMAL,
                   pair_of(entity));
     }
 }
 
 /* --- all ---------------------------------------------------------------------------------------*/
 
-static bool wants_care(const jolon_ProcessStatus *status)
+static bool needs_attention(const jolon_ProcessStatus *status)
 {
     return status->state == jolon_PROCESS_DEAD ||
            (status->state == jolon_PROCESS_READY && status->beat_age_ms > 100.0);
@@ -220,7 +221,7 @@ static void draw_spark(const struct screen *screen, const struct world_mirror *m
     pages_put(row, 0, "frame time", A_NORMAL, PAIR_PLAIN);
     pages_put(row, 11, bars, A_NORMAL, PAIR_PLAIN);
     (void)snprintf(line, sizeof line, "%.2f ms, most %.2f of %.1f", mirror->frame.recent.max_ms,
-                   sparkline_most(&screen->sparkline, columns), full_ms);
+                   sparkline_max(&screen->sparkline, columns), full_ms);
     pages_put(row, 12 + (int)columns, line, A_NORMAL, PAIR_PLAIN);
 }
 
@@ -236,9 +237,10 @@ void pages_all(struct screen *screen, const struct world_mirror *mirror, int top
     status_lines_process_head(line);
     pages_put(row++, 0, line, A_UNDERLINE, PAIR_PLAIN);
     for (uint32_t i = 0; i < mirror->role_count; i++) {
-        bool care = wants_care(&mirror->role[i]);
+        bool attention = needs_attention(&mirror->role[i]);
         status_lines_process(line, &mirror->role[i]);
-        pages_put(row++, 0, line, care ? A_BOLD : A_NORMAL, care ? PAIR_WARN : PAIR_PLAIN);
+        pages_put(row++, 0, line, attention ? A_BOLD : A_NORMAL,
+                  attention ? PAIR_WARN : PAIR_PLAIN);
     }
     int left = rows - (row - top);
     int columns = left * CHARACTER_MAP_COLUMNS_A_ROW;

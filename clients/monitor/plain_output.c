@@ -4,7 +4,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
-#include "clients/monitor/json.h"
+#include "clients/monitor/status_json.h"
 #include "clients/monitor/status_lines.h"
 
 #include <cjson/cJSON.h>
@@ -19,7 +19,7 @@
 #define FIRST_NS (500 * (uint64_t)NS_PER_MS)
 
 /* At most between two looks at whether it should end. */
-#define REST_NS (250 * (uint64_t)NS_PER_MS)
+#define SLEEP_MAX_NS (250 * (uint64_t)NS_PER_MS)
 
 bool plain_output_flush(void)
 {
@@ -35,7 +35,7 @@ bool plain_output_line(void *unused, const char *line)
 static bool print_json(const struct world_mirror *mirror, const struct options *options,
                        uint64_t now_ns)
 {
-    char *text = json_status(mirror, options->filter, now_ns);
+    char *text = status_json(mirror, options->filter, now_ns);
     bool good = text && puts(text) >= 0;
     cJSON_free(text);
     return good && plain_output_flush();
@@ -92,7 +92,7 @@ int plain_output_lines(struct world_mirror *mirror, const struct options *option
     while (!process_stopping()) {
         uint64_t now_ns = clock_now_ns();
         if (now_ns < due_ns) {
-            clock_sleep_until_ns(now_ns + REST_NS < due_ns ? now_ns + REST_NS : due_ns);
+            clock_sleep_until_ns(now_ns + SLEEP_MAX_NS < due_ns ? now_ns + SLEEP_MAX_NS : due_ns);
             continue;
         }
         world_mirror_take(mirror);

@@ -59,7 +59,7 @@ bool screen_event(void *context, const char *line)
     return true;
 }
 
-void screen_note(struct screen *screen, const struct world_mirror *mirror)
+void screen_sample(struct screen *screen, const struct world_mirror *mirror)
 {
     if (!mirror->frame_ns || mirror->frame.frame == screen->spark_frame)
         return;
@@ -67,7 +67,7 @@ void screen_note(struct screen *screen, const struct world_mirror *mirror)
     sparkline_add(&screen->sparkline, mirror->frame.recent.max_ms);
 }
 
-static int key_of(int key)
+static int state_key(int key)
 {
     static const struct {
         int curses, state;
@@ -94,8 +94,8 @@ bool screen_keys(struct screen *screen, const struct world_mirror *mirror)
     double side_m = mirror->has_world ? mirror->world.side_m : 1.0;
     for (int key = getch(); key != ERR; key = getch()) {
         any = true;
-        screen_state_choose(&screen->state, &screen->table, mirror,
-                            screen_state_key(&screen->state, key_of(key), side_m));
+        screen_state_select(&screen->state, &screen->table, mirror,
+                            screen_state_key(&screen->state, state_key(key), side_m));
     }
     return any;
 }
@@ -115,7 +115,7 @@ static void draw_title(const struct screen *screen, const struct world_mirror *m
     pages_put(0, COLS - (int)strlen(page) - 1, page, A_REVERSE | A_BOLD, PAIR_PLAIN);
 }
 
-static const char *keys_of(const struct screen_state *state)
+static const char *key_hint(const struct screen_state *state)
 {
     static const char *const keys[SCREEN_STATE_PAGES] = {
         "1 all  2 vehicles  3 events  4 map  ? help  q quit   b blue r red n neutral % both",
@@ -158,6 +158,6 @@ void screen_draw(struct screen *screen, const struct world_mirror *mirror, uint6
     if (notice[0])
         pages_put(LINES - 1, 0, notice, A_BOLD, PAIR_WARN);
     else
-        pages_put(LINES - 1, 0, keys_of(&screen->state), A_DIM, PAIR_PLAIN);
+        pages_put(LINES - 1, 0, key_hint(&screen->state), A_DIM, PAIR_PLAIN);
     (void)refresh();
 }

@@ -32,7 +32,7 @@ void screen_close(struct screen *screen);
 bool screen_event(void *screen, const char *line);
 
 /* Notes how long frames take now. */
-void screen_note(struct screen *screen, const struct world_mirror *mirror);
+void screen_sample(struct screen *screen, const struct world_mirror *mirror);
 
 void screen_draw(struct screen *screen, const struct world_mirror *mirror, uint64_t now_ns);
 

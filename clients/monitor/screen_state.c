@@ -17,7 +17,7 @@ static double across(const struct screen_state *state, double side_m)
     return side_m / (double)(1 << state->zoom);
 }
 
-static void type(struct screen_state *state, int key)
+static void edit_filter(struct screen_state *state, int key)
 {
     char *filter = state->filter[state->page];
     size_t length = strlen(filter);
@@ -42,7 +42,7 @@ static void sort_by(struct screen_state *state, int step)
                                               VEHICLE_TABLE_COLUMNS);
 }
 
-static int key_of_vehicles(struct screen_state *state, int key)
+static int vehicles_key(struct screen_state *state, int key)
 {
     const int page = (int)state->page_rows, all = (int)state->table_count;
     switch (key) {
@@ -59,7 +59,7 @@ static int key_of_vehicles(struct screen_state *state, int key)
         return 0;
     case 'm':
     case SCREEN_STATE_ENTER:
-        state->follow = state->chosen != 0;
+        state->follow = state->selected != 0;
         state->zoom = state->follow && state->zoom < 4 ? 4 : state->zoom;
         state->page = SCREEN_STATE_MAP;
         return 0;
@@ -80,7 +80,7 @@ static int key_of_vehicles(struct screen_state *state, int key)
     }
 }
 
-static void key_of_events(struct screen_state *state, int key)
+static void events_key(struct screen_state *state, int key)
 {
     uint64_t page = state->page_rows > 1 ? state->page_rows - 1 : 1;
     if (key == SCREEN_STATE_UP)
@@ -97,7 +97,7 @@ static void key_of_events(struct screen_state *state, int key)
         state->back = UINT32_MAX; /* drawing stops at the oldest */
 }
 
-static void key_of_map(struct screen_state *state, int key, double side_m)
+static void map_key(struct screen_state *state, int key, double side_m)
 {
     double step = PAN_SHARE * across(state, side_m);
     double x = state->x, z = state->z;
@@ -108,7 +108,7 @@ static void key_of_map(struct screen_state *state, int key, double side_m)
     else if (key == '0' || key == SCREEN_STATE_HOME)
         state->zoom = 0;
     else if (key == 'f')
-        state->follow = !state->follow && state->chosen != 0;
+        state->follow = !state->follow && state->selected != 0;
     x += key == SCREEN_STATE_RIGHT ? step : key == SCREEN_STATE_LEFT ? -step : 0.0;
     z += key == SCREEN_STATE_DOWN ? step : key == SCREEN_STATE_UP ? -step : 0.0;
     if (key >= SCREEN_STATE_UP && key <= SCREEN_STATE_RIGHT)
@@ -122,7 +122,7 @@ static void key_of_map(struct screen_state *state, int key, double side_m)
 int screen_state_key(struct screen_state *state, int key, double side_m)
 {
     if (state->typing) {
-        type(state, key);
+        edit_filter(state, key);
         return 0;
     }
     if (key >= '1' && key < '1' + SCREEN_STATE_HELP) {
@@ -140,11 +140,11 @@ int screen_state_key(struct screen_state *state, int key, double side_m)
                (state->page == SCREEN_STATE_VEHICLES || state->page == SCREEN_STATE_EVENTS)) {
         state->typing = true;
     } else if (state->page == SCREEN_STATE_VEHICLES) {
-        return key_of_vehicles(state, key);
+        return vehicles_key(state, key);
     } else if (state->page == SCREEN_STATE_EVENTS) {
-        key_of_events(state, key);
+        events_key(state, key);
     } else if (state->page == SCREEN_STATE_MAP || state->page == SCREEN_STATE_ALL) {
-        key_of_map(state, key, side_m);
+        map_key(state, key, side_m);
     }
     return 0;
 }
@@ -155,35 +155,35 @@ void screen_state_table(struct screen_state *state, const struct vehicle_table *
     uint32_t rows = page_rows > 0 ? page_rows : 1;
     state->page_rows = rows;
     state->table_count = table->count;
-    state->chosen_row =
-        state->chosen ? vehicle_table_find(table, mirror, state->chosen) : table->count;
+    state->selected_row =
+        state->selected ? vehicle_table_find(table, mirror, state->selected) : table->count;
     uint32_t last = table->count > rows ? table->count - rows : 0;
-    if (state->chosen_row < table->count) {
-        if (state->first > state->chosen_row)
-            state->first = state->chosen_row;
-        if (state->first + rows <= state->chosen_row)
-            state->first = state->chosen_row - rows + 1;
+    if (state->selected_row < table->count) {
+        if (state->first > state->selected_row)
+            state->first = state->selected_row;
+        if (state->first + rows <= state->selected_row)
+            state->first = state->selected_row - rows + 1;
     }
     state->first = state->first < last ? state->first : last;
 }
 
-void screen_state_choose(struct screen_state *state, const struct vehicle_table *table,
+void screen_state_select(struct screen_state *state, const struct vehicle_table *table,
                          const struct world_mirror *mirror, int rows)
 {
     if (rows == 0 || table->count == 0)
         return;
     int64_t last = (int64_t)table->count - 1;
-    int64_t at = state->chosen_row < table->count ? (int64_t)state->chosen_row + rows
-                                                  : (int64_t)state->first;
+    int64_t at = state->selected_row < table->count ? (int64_t)state->selected_row + rows
+                                                    : (int64_t)state->first;
     at = at < 0 ? 0 : at > last ? last : at;
-    state->chosen = mirror->batch.entity[table->row[at]].id;
+    state->selected = mirror->batch.entity[table->row[at]].id;
 }
 
 struct character_map_area screen_state_area(struct screen_state *state,
                                             const struct world_mirror *mirror, double side_m)
 {
     for (uint32_t i = 0; state->follow && mirror->has_batch && i < mirror->batch.count; i++) {
-        if (mirror->batch.entity[i].id == state->chosen) {
+        if (mirror->batch.entity[i].id == state->selected) {
             state->x = mirror->batch.entity[i].x_m;
             state->z = mirror->batch.entity[i].z_m;
             break;

@@ -42,15 +42,15 @@ struct screen_state {
     char filter[SCREEN_STATE_PAGES][VEHICLE_TABLE_FILTER_MAX];
     enum vehicle_table_column sort;
     bool descending;
-    uint32_t chosen;      /* id of a vehicle, 0: none */
-    bool follow;          /* the map stays about the chosen one */
-    uint32_t first;       /* row of the table at the top */
-    uint64_t back;        /* events between the last one shown and the newest */
-    double x, z;          /* [m] the map's middle */
-    int zoom;             /* 0: the whole square */
-    uint32_t page_rows;   /* what the screen had room for when it was last drawn */
-    uint32_t chosen_row;  /* of the table; its count when the chosen one is not in it */
-    uint32_t table_count; /* rows of it */
+    uint32_t selected;     /* id of a vehicle, 0: none */
+    bool follow;           /* the map stays about the chosen one */
+    uint32_t first;        /* row of the table at the top */
+    uint64_t back;         /* events between the last one shown and the newest */
+    double x, z;           /* [m] the map's middle */
+    int zoom;              /* 0: the whole square */
+    uint32_t page_rows;    /* what the screen had room for when it was last drawn */
+    uint32_t selected_row; /* of the table; its count when the chosen one is not in it */
+    uint32_t table_count;  /* rows of it */
 };
 
 /* As it is at the start, of a world of side_m. */
@@ -66,7 +66,7 @@ void screen_state_table(struct screen_state *state, const struct vehicle_table *
                         const struct world_mirror *mirror, uint32_t page_rows);
 
 /* Moves the choice by rows in the table. */
-void screen_state_choose(struct screen_state *state, const struct vehicle_table *table,
+void screen_state_select(struct screen_state *state, const struct vehicle_table *table,
                          const struct world_mirror *mirror, int rows);
 
 /* What the map shows; about the chosen one when it is followed and there. */

@@ -12,9 +12,9 @@ void sparkline_add(struct sparkline *sparkline, double value)
 
 static size_t kept(const struct sparkline *sparkline, size_t wanted)
 {
-    size_t there =
+    size_t stored =
         sparkline->count < SPARKLINE_SAMPLES ? (size_t)sparkline->count : SPARKLINE_SAMPLES;
-    return wanted < there ? wanted : there;
+    return wanted < stored ? wanted : stored;
 }
 
 /* The nth of the last so many, the oldest first. */
@@ -46,13 +46,13 @@ void sparkline_text(char text[SPARKLINE_TEXT_MAX], const struct sparkline *spark
     text[used] = '\0';
 }
 
-double sparkline_most(const struct sparkline *sparkline, size_t samples)
+double sparkline_max(const struct sparkline *sparkline, size_t samples)
 {
-    double most = 0.0;
+    double max = 0.0;
     size_t last = kept(sparkline, samples);
     for (size_t n = 0; n < last; n++) {
         double value = sample(sparkline, last, n);
-        most = value > most ? value : most;
+        max = value > max ? value : max;
     }
-    return most;
+    return max;
 }

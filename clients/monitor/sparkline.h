@@ -22,6 +22,6 @@ void sparkline_text(char text[SPARKLINE_TEXT_MAX], const struct sparkline *spark
                     size_t columns, double full, bool utf8);
 
 /* The greatest of the last samples, 0 of none. */
-double sparkline_most(const struct sparkline *sparkline, size_t samples);
+double sparkline_max(const struct sparkline *sparkline, size_t samples);
 
 #endif

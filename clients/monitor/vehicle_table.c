@@ -64,7 +64,7 @@ static double number_of(const jolon_Entity *entity, enum vehicle_table_column co
     }
 }
 
-static const char *word_of(const struct world_mirror *mirror, const jolon_Entity *entity,
+static const char *text_of(const struct world_mirror *mirror, const jolon_Entity *entity,
                            enum vehicle_table_column column)
 {
     switch (column) {
@@ -81,7 +81,7 @@ static const char *word_of(const struct world_mirror *mirror, const jolon_Entity
     }
 }
 
-static bool holds(const char *text, const char *part, size_t length)
+static bool contains(const char *text, const char *part, size_t length)
 {
     size_t room = strlen(text);
     for (size_t at = 0; length <= room && at <= room - length; at++) {
@@ -108,8 +108,8 @@ static bool compares(const jolon_Entity *entity, const char *word, size_t sign, 
     return false;
 }
 
-static bool word_suits(const struct world_mirror *mirror, const jolon_Entity *entity,
-                       const char *word, size_t length)
+static bool word_matches(const struct world_mirror *mirror, const jolon_Entity *entity,
+                         const char *word, size_t length)
 {
     char id[16];
     size_t sign = 0;
@@ -121,27 +121,27 @@ static bool word_suits(const struct world_mirror *mirror, const jolon_Entity *en
     if ((size_t)digits == length && strncmp(id, word, length) == 0)
         return true;
     for (int i = VEHICLE_TABLE_KIND; i <= VEHICLE_TABLE_DAMAGE; i++) {
-        if (holds(word_of(mirror, entity, (enum vehicle_table_column)i), word, length))
+        if (contains(text_of(mirror, entity, (enum vehicle_table_column)i), word, length))
             return true;
     }
-    return holds(entity_state_name((enum entity_state)entity->state), word, length) ||
-           holds(name_table_of(&mirror->names, entity->id), word, length);
+    return contains(entity_state_name((enum entity_state)entity->state), word, length) ||
+           contains(name_table_of(&mirror->names, entity->id), word, length);
 }
 
-bool vehicle_table_suits(const struct world_mirror *mirror, const jolon_Entity *entity,
-                         const char *filter)
+bool vehicle_table_matches(const struct world_mirror *mirror, const jolon_Entity *entity,
+                           const char *filter)
 {
-    bool flight = entity->behaviour == jolon_BEHAVIOUR_FLIGHT, asked = false;
+    bool flight = entity->behaviour == jolon_BEHAVIOUR_FLIGHT, wants_flight = false;
     while (*filter) {
         size_t length = strcspn(filter, " ");
         if (length >= VEHICLE_TABLE_FILTER_MAX ||
-            (length > 0 && !word_suits(mirror, entity, filter, length)))
+            (length > 0 && !word_matches(mirror, entity, filter, length)))
             return false; /* nothing has so long a name */
-        asked |= length == 6 && strncasecmp(filter, "flight", length) == 0;
+        wants_flight |= length == 6 && strncasecmp(filter, "flight", length) == 0;
         filter += length;
         filter += strspn(filter, " ");
     }
-    return asked || !flight;
+    return wants_flight || !flight;
 }
 
 struct order {
@@ -156,8 +156,8 @@ static int compare(const void *a, const void *b, void *context)
     const jolon_Entity *one = &order->mirror->batch.entity[*(const uint32_t *)a];
     const jolon_Entity *other = &order->mirror->batch.entity[*(const uint32_t *)b];
     double x = number_of(one, order->sort), y = number_of(other, order->sort);
-    int sign = isnan(x) ? strcmp(word_of(order->mirror, one, order->sort),
-                                 word_of(order->mirror, other, order->sort))
+    int sign = isnan(x) ? strcmp(text_of(order->mirror, one, order->sort),
+                                 text_of(order->mirror, other, order->sort))
                         : (x > y) - (x < y);
     if (sign == 0)
         return (one->id > other->id) - (one->id < other->id);
@@ -178,7 +178,7 @@ bool vehicle_table_build(struct vehicle_table *table, const struct world_mirror 
         table->room = most;
     }
     for (uint32_t i = 0; i < most; i++) {
-        if (vehicle_table_suits(mirror, &mirror->batch.entity[i], filter))
+        if (vehicle_table_matches(mirror, &mirror->batch.entity[i], filter))
             table->row[table->count++] = i;
     }
     if (table->count > 1)

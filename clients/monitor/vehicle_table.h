@@ -36,8 +36,8 @@ const char *vehicle_table_column_name(enum vehicle_table_column column);
  * behaviour, damage or state, its id, or a comparison with a column of numbers as "speed>10" or
  * "rounds<5".
  * "" suits all. Munitions in flight suit none but "flight". */
-bool vehicle_table_suits(const struct world_mirror *mirror, const jolon_Entity *entity,
-                         const char *filter);
+bool vehicle_table_matches(const struct world_mirror *mirror, const jolon_Entity *entity,
+                           const char *filter);
 
 /* Fills the table anew from the mirror's batch; equal rows by their ids. False when there was no
  * memory: the table is empty then. */

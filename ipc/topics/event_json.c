@@ -1,7 +1,7 @@
 /* Events of the topics as JSON objects. */
 #include "ipc/topics/event_json.h"
 
-#include "ipc/topics/json_members.h"
+#include "ipc/json/world_json.h"
 #include "world/entity/entity.h"
 #include "world/entity/event.h"
 #include "world/enum_names.h"
@@ -15,46 +15,42 @@ static const char *damage(jolon_Damage value)
 
 static void party(cJSON *object, const char *key, const jolon_Party *value)
 {
-    cJSON *child = cJSON_AddObjectToObject(object, key);
-    put_whole(child, "id", value->id);
-    put_word(child, "kind", value->kind);
-    (void)cJSON_AddBoolToObject(child, "fixed", value->fixed);
+    cJSON *child = json_object(object, key);
+    json_whole(child, "id", value->id);
+    json_text(child, "kind", value->kind);
+    json_bool(child, "fixed", value->fixed);
 }
 
 static void point(cJSON *object, const jolon_Point *value)
 {
-    const double place[3] = {value->x_m, value->y_m, value->z_m};
-    (void)cJSON_AddItemToObject(object, "point", cJSON_CreateDoubleArray(place, 3));
+    json_triple(object, "point", value->x_m, value->y_m, value->z_m);
 }
 
 static void direction(cJSON *object, const char *key, const jolon_Direction *value)
 {
-    cJSON *array = cJSON_AddArrayToObject(object, key);
-    (void)cJSON_AddItemToArray(array, put_float(value->x));
-    (void)cJSON_AddItemToArray(array, put_float(value->y));
-    (void)cJSON_AddItemToArray(array, put_float(value->z));
+    json_triple_single(object, key, (const float[3]){value->x, value->y, value->z});
 }
 
 static void add_collision(cJSON *object, const jolon_CollisionEvent *event)
 {
-    put_word(object, "type", "collision");
+    json_text(object, "type", "collision");
     party(object, "a", &event->a);
     party(object, "b", &event->b);
     point(object, &event->point);
     direction(object, "normal", &event->normal);
     direction(object, "direction", &event->direction);
-    put_number(object, "toi", event->toi);
-    put_single(object, "closing_mps", event->closing_mps);
-    put_single(object, "angle_deg", event->angle_deg);
-    put_single(object, "impulse_ns", event->impulse_ns);
-    put_word(object, "response", response_name((enum response)event->response));
-    put_word(object, "damage_a", damage(event->a.damage));
-    put_word(object, "damage_b", damage(event->b.damage));
+    json_number(object, "toi", event->toi);
+    json_single(object, "closing_mps", event->closing_mps);
+    json_single(object, "angle_deg", event->angle_deg);
+    json_single(object, "impulse_ns", event->impulse_ns);
+    json_text(object, "response", response_name((enum response)event->response));
+    json_text(object, "damage_a", damage(event->a.damage));
+    json_text(object, "damage_b", damage(event->b.damage));
 }
 
 static void add_fire(cJSON *object, const jolon_FireEvent *event)
 {
-    put_word(object, "type", "fire");
+    json_text(object, "type", "fire");
     party(object, "shooter", &event->shooter);
     party(object, "target", &event->target);
     party(object, "munition", &event->munition);
@@ -63,41 +59,41 @@ static void add_fire(cJSON *object, const jolon_FireEvent *event)
 
 static void add_detonation(cJSON *object, const jolon_DetonationEvent *event)
 {
-    put_word(object, "type", "detonation");
+    json_text(object, "type", "detonation");
     party(object, "munition", &event->munition);
     point(object, &event->point);
-    put_word(object, "struck", struck_name((enum struck)event->struck));
-    put_whole(object, "id", event->victim.id);
-    put_word(object, "kind", event->victim.kind);
-    put_word(object, "damage", damage(event->victim.damage));
-    put_single(object, "explosive_kg", event->explosive_kg);
+    json_text(object, "struck", struck_name((enum struck)event->struck));
+    json_whole(object, "id", event->victim.id);
+    json_text(object, "kind", event->victim.kind);
+    json_text(object, "damage", damage(event->victim.damage));
+    json_single(object, "explosive_kg", event->explosive_kg);
 }
 
 static void add_crater(cJSON *object, const jolon_CraterEvent *event)
 {
-    put_word(object, "type", "crater");
+    json_text(object, "type", "crater");
     point(object, &event->point);
-    put_single(object, "radius_m", event->radius_m);
-    put_single(object, "depth_m", event->depth_m);
+    json_single(object, "radius_m", event->radius_m);
+    json_single(object, "depth_m", event->depth_m);
 }
 
 static void add_agent(cJSON *object, const jolon_AgentEvent *event)
 {
-    put_word(object, "type", "agent");
-    put_whole(object, "id", event->agent.id);
-    put_word(object, "kind", event->agent.kind);
-    put_word(object, "from", behaviour_name((enum behaviour)event->before));
-    put_word(object, "to", behaviour_name((enum behaviour)event->after));
-    put_word(object, "because", agent_reason_name((enum agent_reason)event->because));
+    json_text(object, "type", "agent");
+    json_whole(object, "id", event->agent.id);
+    json_text(object, "kind", event->agent.kind);
+    json_text(object, "from", behaviour_name((enum behaviour)event->before));
+    json_text(object, "to", behaviour_name((enum behaviour)event->after));
+    json_text(object, "because", agent_reason_name((enum agent_reason)event->because));
 }
 
 void event_json(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, const void *event)
 {
     const jolon_EventHeader *header = event;
     cJSON *object = cJSON_CreateObject();
-    put_whole(object, "frame", header->frame);
-    put_whole(object, "index", header->index);
-    put_number(object, "time_s", header->time_s);
+    json_whole(object, "frame", header->frame);
+    json_whole(object, "index", header->index);
+    json_number(object, "time_s", header->time_s);
     if (topic == TOPIC_COLLISION)
         add_collision(object, event);
     else if (topic == TOPIC_FIRE)

@@ -34,7 +34,7 @@ static void check_words(const char *filter)
 {
     char word[VEHICLE_TABLE_FILTER_MAX];
     for (uint32_t i = 0; i < VEHICLES; i++) {
-        if (!vehicle_table_suits(&mirror, &entities[i], filter))
+        if (!vehicle_table_matches(&mirror, &entities[i], filter))
             continue;
         for (const char *at = filter + strspn(filter, " "); *at != '\0';
              at += strcspn(at, " "), at += strspn(at, " ")) {
@@ -44,7 +44,7 @@ static void check_words(const char *filter)
                 continue;
             memcpy(word, at, length);
             word[length] = '\0';
-            CHECK(vehicle_table_suits(&mirror, &entities[i], word));
+            CHECK(vehicle_table_matches(&mirror, &entities[i], word));
         }
     }
 }
@@ -63,7 +63,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     CHECK(table.count <= VEHICLES);
     for (uint32_t i = 0; i < table.count; i++)
         CHECK(table.row[i] < VEHICLES &&
-              vehicle_table_suits(&mirror, &entities[table.row[i]], filter));
+              vehicle_table_matches(&mirror, &entities[table.row[i]], filter));
     check_words(filter);
     free(filter);
     return 0;

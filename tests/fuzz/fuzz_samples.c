@@ -2,7 +2,7 @@
 #include "tests/fuzz/support.h"
 
 #include "ipc/process/clock.h"
-#include "clients/monitor/json.h"
+#include "clients/monitor/status_json.h"
 #include "clients/monitor/status_lines.h"
 #include "clients/monitor/character_map.h"
 #include "clients/monitor/sparkline.h"

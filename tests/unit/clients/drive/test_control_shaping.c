@@ -23,10 +23,12 @@ static int open_stick(void **state)
     return 0;
 }
 
-static void give(enum intent_type type, enum input_axis axis, double value, bool lifts, uint64_t at)
+static void give(enum intent_type type, enum input_axis axis, double value, bool reports_release,
+                 uint64_t at)
 {
-    struct intent intent = {.type = type, .axis = axis, .value = (float)value, .lifts = lifts};
-    control_shaping_take(&shaping, &intent, at);
+    struct intent intent = {
+        .type = type, .axis = axis, .value = (float)value, .reports_release = reports_release};
+    control_shaping_apply(&shaping, &intent, at);
 }
 
 /* Steps by 10 ms up to the time, as a session does. */

@@ -19,7 +19,7 @@ static struct controls after(const int push[3], const int turn[3], bool aircraft
     control_shaping_reset(&shaping, T0);
     spacemouse_motion(push, turn, &queue);
     for (uint32_t i = 0; i < queue.count; i++)
-        control_shaping_take(&shaping, &queue.intent[i], T0);
+        control_shaping_apply(&shaping, &queue.intent[i], T0);
     (void)control_shaping_step(&shaping, T0 + 100000000u);
     return control_shaping_controls(&shaping, aircraft);
 }

@@ -47,7 +47,7 @@ static void test_plain_keys(void **state)
     decode("wA tq");
     assert_int_equal(queue.count, 5);
     assert_push(0, INTENT_DOWN, AXIS_THROTTLE, 1.0);
-    assert_false(queue.intent[0].lifts);
+    assert_false(queue.intent[0].reports_release);
     assert_push(1, INTENT_DOWN, AXIS_STEER, -1.0);
     assert_act(2, ACTION_FIRE);
     assert_act(3, ACTION_LOCK);
@@ -75,15 +75,15 @@ static void test_protocol(void **state)
     (void)state;
     decode("\033[119u"); /* before anything says that releases come */
     assert_push(0, INTENT_DOWN, AXIS_THROTTLE, 1.0);
-    assert_false(queue.intent[0].lifts);
+    assert_false(queue.intent[0].reports_release);
     decode("\033[?11u");
     assert_int_equal(queue.count, 0);
-    assert_true(keys.lifts);
+    assert_true(keys.reports_release);
     decode(
         "\033[119;1:1u\033[119;1:2u\033[119;1:3u\033[1;1:3A\033[32;1:1u\033[32;1:2u\033[32;1:3u");
     assert_int_equal(queue.count, 5);
     assert_push(0, INTENT_DOWN, AXIS_THROTTLE, 1.0);
-    assert_true(queue.intent[0].lifts);
+    assert_true(queue.intent[0].reports_release);
     assert_push(1, INTENT_DOWN, AXIS_THROTTLE, 1.0);
     assert_push(2, INTENT_UP, AXIS_THROTTLE, 1.0);
     assert_push(3, INTENT_UP, AXIS_AIM_Y, 1.0);

@@ -17,7 +17,7 @@ enum { TANK, TRUCK, SHELL, KINDS };
 static struct world_mirror mirror;
 static jolon_Entity entity[8];
 static jolon_EntityName names[2] = {{.id = 3, .name = "Hauler"}, {.id = 5, .name = "Red-1"}};
-static const struct choice any = {.source = OURS, .from = 1, .force = -1, .kind = -1};
+static const struct vehicle_choice any = {.source = OURS, .from = 1, .force = -1, .kind = -1};
 
 /* 1 is the present one, in the middle, heading north; a wreck and a shell are there too. */
 static int open_mirror(void **state)
@@ -56,7 +56,7 @@ static int open_mirror(void **state)
 static void test_next_goes_round(void **state)
 {
     (void)state;
-    struct choice choice = any;
+    struct vehicle_choice choice = any;
     assert_int_equal(vehicle_choice_next(&mirror, &choice, 1), 2);
     assert_int_equal(vehicle_choice_next(&mirror, &choice, -1), 6); /* no wreck, no shell */
     choice.from = 6;
@@ -78,7 +78,7 @@ static void test_other_drivers_are_left_alone(void **state)
 static void test_nearest(void **state)
 {
     (void)state;
-    struct choice choice = any;
+    struct vehicle_choice choice = any;
     assert_int_equal(vehicle_choice_nearest(&mirror, &choice), 3);
     choice.kind = TANK;
     assert_int_equal(vehicle_choice_nearest(&mirror, &choice), 6);
@@ -92,16 +92,16 @@ static void test_called(void **state)
 {
     (void)state;
     struct error_text error;
-    struct choice choice = any;
+    struct vehicle_choice choice = any;
     choice.from = 0;
-    assert_int_equal(vehicle_choice_called(&mirror, &choice, "4", &error), 4);
-    assert_int_equal(vehicle_choice_called(&mirror, &choice, "Hauler", &error), 3);
-    assert_int_equal(vehicle_choice_called(&mirror, &choice, "truck", &error), 3);
-    assert_int_equal(vehicle_choice_called(&mirror, &choice, "red", &error), 4);
+    assert_int_equal(vehicle_choice_by_text(&mirror, &choice, "4", &error), 4);
+    assert_int_equal(vehicle_choice_by_text(&mirror, &choice, "Hauler", &error), 3);
+    assert_int_equal(vehicle_choice_by_text(&mirror, &choice, "truck", &error), 3);
+    assert_int_equal(vehicle_choice_by_text(&mirror, &choice, "red", &error), 4);
     static const char *const wrong[] = {"",   "4711",           "shell", "neutral",
                                         "4x", "99999999999999", "-1"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        assert_int_equal(vehicle_choice_called(&mirror, &choice, wrong[i], &error), 0);
+        assert_int_equal(vehicle_choice_by_text(&mirror, &choice, wrong[i], &error), 0);
         assert_non_null(strstr(error.text, "jolon world dump"));
     }
 }
@@ -127,7 +127,7 @@ static void test_seen(void **state)
     const jolon_Entity *seen = vehicle_choice_seen(&mirror, &entity[0], 0.0, 0.2, 5000.0);
     assert_int_equal(seen->id, 7);
     assert_null(vehicle_choice_seen(&mirror, &entity[0], -HALF_PI, 0.2, 5000.0));
-    struct sight sight = vehicle_choice_sight(&entity[0], &entity[1]);
+    struct relative_position sight = vehicle_choice_relative(&entity[0], &entity[1]);
     assert_true(fabs(sight.bearing_rad - HALF_PI) < 1e-9 && fabs(sight.distance_m - 500.0) < 1e-9);
 }
 

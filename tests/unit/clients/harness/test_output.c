@@ -21,14 +21,14 @@ static size_t lines_of(char first)
     return count;
 }
 
-static void add(enum output_sort sort, char first, size_t count)
+static void add(enum output_kind kind, char first, size_t count)
 {
     char line[1000];
     memset(line, '.', sizeof line);
     line[0] = first;
     line[sizeof line - 1] = '\0';
     for (size_t i = 0; i < count; i++)
-        output_line(&output, sort, line);
+        output_line(&output, kind, line);
 }
 
 static void test_what_is_left_out(void **state)
@@ -37,7 +37,7 @@ static void test_what_is_left_out(void **state)
     add(OUTPUT_STATE, 's', 3000);
     size_t states = lines_of('s');
     assert_true(states >= OUTPUT_STATES_MAX / 1000 && states <= OUTPUT_STATES_MAX / 1000 + 1);
-    assert_false(output_wants_states(&output));
+    assert_false(output_takes_states(&output));
     add(OUTPUT_EVENT, 'e', 3000);
     size_t events = lines_of('e');
     assert_true(output.used >= OUTPUT_EVENTS_MAX && output.used < OUTPUT_EVENTS_MAX + 1000);
@@ -45,7 +45,7 @@ static void test_what_is_left_out(void **state)
     add(OUTPUT_ANSWER, 'a', 100);
     assert_int_equal(lines_of('a'), 100);
     assert_int_equal(lines_of('s'), states);
-    picture_folder_close(&output);
+    output_close(&output);
 }
 
 static void test_what_was_missed_is_told_before_the_next(void **state)
@@ -58,15 +58,15 @@ static void test_what_was_missed_is_told_before_the_next(void **state)
     assert_int_equal(lines_of('{'), 1);
     assert_non_null(strstr(output.bytes, "{\"missed\":7}\ne"));
     assert_int_equal(output.missed, 0);
-    picture_folder_close(&output);
+    output_close(&output);
 }
 
 static void test_no_memory_ends_it(void **state)
 {
     (void)state;
-    output_line(&output, OUTPUT_ANSWER, NULL);
-    assert_true(output.gone);
-    picture_folder_close(&output);
+    output_object(&output, OUTPUT_ANSWER, NULL);
+    assert_true(output.closed);
+    output_close(&output);
 }
 
 int main(void)

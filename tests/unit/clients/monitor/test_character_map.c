@@ -66,12 +66,13 @@ static void test_marks(void **state)
     character_map_begin(&map, 10, 20, &whole, &nothing);
     character_map_mark(&map, 0.0, 0.0, CHARACTER_MAP_BLUE);
     assert_int_equal(map.cell[0][0], CHARACTER_MAP_BLUE);
-    static const char marks[] = {CHARACTER_MAP_WRECK,  CHARACTER_MAP_RED, CHARACTER_MAP_NEUTRAL,
-                                 CHARACTER_MAP_BLUE,   CHARACTER_MAP_RED, CHARACTER_MAP_MUNITION,
-                                 CHARACTER_MAP_CHOSEN, CHARACTER_MAP_BLUE};
-    static const char shown[] = {CHARACTER_MAP_WRECK,  CHARACTER_MAP_RED,   CHARACTER_MAP_RED,
-                                 CHARACTER_MAP_BOTH,   CHARACTER_MAP_BOTH,  CHARACTER_MAP_MUNITION,
-                                 CHARACTER_MAP_CHOSEN, CHARACTER_MAP_CHOSEN};
+    static const char marks[] = {CHARACTER_MAP_WRECK,    CHARACTER_MAP_RED, CHARACTER_MAP_NEUTRAL,
+                                 CHARACTER_MAP_BLUE,     CHARACTER_MAP_RED, CHARACTER_MAP_MUNITION,
+                                 CHARACTER_MAP_SELECTED, CHARACTER_MAP_BLUE};
+    static const char shown[] = {CHARACTER_MAP_WRECK,    CHARACTER_MAP_RED,
+                                 CHARACTER_MAP_RED,      CHARACTER_MAP_BOTH,
+                                 CHARACTER_MAP_BOTH,     CHARACTER_MAP_MUNITION,
+                                 CHARACTER_MAP_SELECTED, CHARACTER_MAP_SELECTED};
     for (size_t i = 0; i < sizeof marks; i++) {
         character_map_mark(&map, 49999.9, 49999.9, marks[i]);
         assert_int_equal(map.cell[9][19], shown[i]);

@@ -122,23 +122,23 @@ static void test_choosing(void **state)
     screen.page = SCREEN_STATE_VEHICLES;
     ids("", VEHICLE_TABLE_ID, false);
     screen_state_table(&screen, &table, &mirror, 2);
-    screen_state_choose(&screen, &table, &mirror,
+    screen_state_select(&screen, &table, &mirror,
                         screen_state_key(&screen, SCREEN_STATE_DOWN, SIDE_M));
-    assert_int_equal(screen.chosen, 10);
+    assert_int_equal(screen.selected, 10);
     screen_state_table(&screen, &table, &mirror, 2);
-    screen_state_choose(&screen, &table, &mirror,
+    screen_state_select(&screen, &table, &mirror,
                         screen_state_key(&screen, SCREEN_STATE_END, SIDE_M));
-    assert_int_equal(screen.chosen, 50);
+    assert_int_equal(screen.selected, 50);
     screen_state_table(&screen, &table, &mirror, 2);
     assert_int_equal(screen.first, 2); /* the last two rows */
-    screen_state_choose(&screen, &table, &mirror,
+    screen_state_select(&screen, &table, &mirror,
                         screen_state_key(&screen, SCREEN_STATE_UP, SIDE_M));
-    assert_int_equal(screen.chosen, 30);
+    assert_int_equal(screen.selected, 30);
     ids("blue", VEHICLE_TABLE_ID, false); /* the chosen one is no longer in it */
     screen_state_table(&screen, &table, &mirror, 2);
     assert_int_equal(screen.first, 0);
-    screen_state_choose(&screen, &table, &mirror, 1);
-    assert_int_equal(screen.chosen, 10);
+    screen_state_select(&screen, &table, &mirror, 1);
+    assert_int_equal(screen.selected, 10);
 }
 
 static void test_typing_a_filter(void **state)
@@ -171,7 +171,7 @@ static void test_the_map_zooms_pans_and_follows(void **state)
     struct character_map_area area = screen_state_area(&screen, &mirror, SIDE_M);
     assert_float_equal(area.across_m, 12500.0, 0.0);
     assert_float_equal(area.x, 25000.0 - 3125.0, 0.0);
-    screen.chosen = 30;
+    screen.selected = 30;
     screen_state_key(&screen, 'f', SIDE_M);
     area = screen_state_area(&screen, &mirror, SIDE_M);
     assert_float_equal(area.x, 2000.0, 0.0);

@@ -38,10 +38,10 @@ static void test_only_the_last_are_kept(void **state)
         sparkline_add(&sparkline, 1.0);
     sparkline_text(text, &sparkline, 2 * SPARKLINE_SAMPLES, 8.0, true);
     assert_int_equal(strlen(text), SPARKLINE_SAMPLES * strlen("▂"));
-    assert_float_equal(sparkline_most(&sparkline, SPARKLINE_SAMPLES), 1.0, 0.0);
+    assert_float_equal(sparkline_max(&sparkline, SPARKLINE_SAMPLES), 1.0, 0.0);
     sparkline_add(&sparkline, 9.0);
-    assert_float_equal(sparkline_most(&sparkline, 1), 9.0, 0.0);
-    assert_float_equal(sparkline_most(&sparkline, SPARKLINE_SAMPLES), 9.0, 0.0);
+    assert_float_equal(sparkline_max(&sparkline, 1), 9.0, 0.0);
+    assert_float_equal(sparkline_max(&sparkline, SPARKLINE_SAMPLES), 9.0, 0.0);
 }
 
 int main(void)
