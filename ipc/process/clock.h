@@ -9,7 +9,7 @@
 
 uint64_t clock_now_ns(void);
 
-/* Sleeps until the time, or until a signal comes. */
+/* Returns earlier when a signal comes. */
 void clock_sleep_until_ns(uint64_t until_ns);
 
 #endif

@@ -1,4 +1,4 @@
-/* Crash points, in the build that has them: counting, dying, and stores found by their faults. */
+/* Crash points: counting, dying, and finding stores by page faults. */
 #include "ipc/process/crash_point.h"
 
 #include "ipc/process/log.h"
@@ -13,14 +13,14 @@
 #include <ucontext.h>
 #include <unistd.h>
 
-/* The linker's names for the ends of the section. */
+/* The linker defines these names for the ends of the section. */
 extern struct crash_point __start_crash_points[], __stop_crash_points[];
 
 static struct {
     char role[32], point[64];
-    uint64_t crossing; /* 0: nobody dies */
+    uint64_t crossing; /* 0: no process dies */
     int signal_number;
-} order = {.signal_number = SIGKILL};
+} request = {.signal_number = SIGKILL};
 
 static const char *own_role = "?";
 static const char *count_path;
@@ -28,15 +28,15 @@ static const char *count_path;
 static struct {
     unsigned char *first;
     size_t bytes;
-    bool each_store; /* else a page's first */
+    bool each_store; /* false: only the first store to each page */
 } guard;
 
 __attribute__((constructor)) static void begin(void)
 {
     const char *text = getenv("JOLON_CRASH");
     count_path = getenv("JOLON_CRASH_COUNT");
-    if (text && sscanf(text, "%31[^:]:%63[^:]:%" SCNu64 ":%d", order.role, order.point,
-                       &order.crossing, &order.signal_number) < 3)
+    if (text && sscanf(text, "%31[^:]:%63[^:]:%" SCNu64 ":%d", request.role, request.point,
+                       &request.crossing, &request.signal_number) < 3)
         die_usage("JOLON_CRASH=%s: must be ROLE:NAME:N[:SIGNAL], for example mover:moved:2", text);
 }
 
@@ -61,10 +61,10 @@ void crash_point_role(const char *role)
 void crash_point_cross(struct crash_point *point)
 {
     uint64_t crossing = atomic_fetch_add(&point->crossings, 1) + 1;
-    if (crossing != order.crossing || strcmp(point->name, order.point) != 0 ||
-        strcmp(own_role, order.role) != 0)
+    if (crossing != request.crossing || strcmp(point->name, request.point) != 0 ||
+        strcmp(own_role, request.role) != 0)
         return;
-    kill(getpid(), order.signal_number);
+    kill(getpid(), request.signal_number);
     for (;;)
         pause();
 }
@@ -76,8 +76,8 @@ static void protect(unsigned char *first, size_t bytes, int protection)
     CHECK(mprotect(first, bytes, protection) == 0);
 }
 
-/* Of a processor whose single steps we know: it stops after the one store, and the pages are
- * guarded again. */
+/* Single steps: the process stops after the one store, and the pages are protected again. Only the
+ * trap flag of x86-64 is known here. */
 #if defined(__x86_64__)
 #define TRAP_FLAG 0x100
 static void single_step(ucontext_t *context, bool on)
@@ -97,7 +97,7 @@ static const bool can_step = false;
 static void on_fault(int number, siginfo_t *info, void *context)
 {
     unsigned char *at = info->si_addr;
-    if (at < guard.first || at >= guard.first + guard.bytes) { /* a real one: die of it */
+    if (at < guard.first || at >= guard.first + guard.bytes) { /* a real fault ends the process */
         signal(number, SIG_DFL);
         return;
     }
@@ -126,8 +126,8 @@ static void guard_begin(void *first, size_t bytes, bool each_store, const char *
     struct sigaction fault = {.sa_sigaction = on_fault, .sa_flags = SA_SIGINFO};
     struct sigaction step = {.sa_sigaction = on_step, .sa_flags = SA_SIGINFO};
     size_t page = (size_t)sysconf(_SC_PAGESIZE);
-    if (!count_path && strcmp(order.point, point) != 0)
-        return; /* faults are slow, and nobody asks for them */
+    if (!count_path && strcmp(request.point, point) != 0)
+        return; /* faults are slow, and no point needs them */
     sigemptyset(&fault.sa_mask);
     sigemptyset(&step.sa_mask);
     sigaction(SIGSEGV, &fault, NULL);

@@ -1,15 +1,16 @@
 /* Crash points: places between two stores at which a process can be made to die.
  *
  * In a build made by `make CRASHPOINTS=1` every store of the frame protocol, of a world's creation
- * and of the event log has a point before it that bears its name; in any other build all of this
- * is nothing at all. The environment of such a build's programs:
+ * and of the event log has a named point before it. In any other build the macros are nothing. The
+ * environment of such a build's programs:
+ *
  *     JOLON_CRASH=ROLE:NAME:N[:SIGNAL]
- *                               the process of that role (log_open's name) sends itself SIGNAL (by
- *                               number, else 9, SIGKILL) when it comes to the point NAME for the
- *                               Nth time
- *     JOLON_CRASH_COUNT=FILE    at its end a process appends a line for every point that it has:
- *                               role, name, how often it came there; tabs between
- * tests/crash drives every role through all of them. */
+ *                               the process of that role (the name given to log_open()) sends
+ *                               itself SIGNAL (a number; default 9, SIGKILL) when it reaches the
+ *                               point NAME for the Nth time
+ *     JOLON_CRASH_COUNT=FILE    at its end a process appends a line for each of its points: role,
+ *                               name and number of crossings, separated by tabs
+ * tests/crash kills every role at each of its points. */
 #ifndef JOLON_IPC_PROCESS_CRASH_POINT_H
 #define JOLON_IPC_PROCESS_CRASH_POINT_H
 
@@ -17,7 +18,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What the macros below call. */
+/* The macros below call these. */
 struct crash_point {
     _Alignas(16) const char *name;
     _Atomic uint64_t crossings;
@@ -31,8 +32,8 @@ void crash_point_unguard(void);
 
 #ifdef CRASHPOINTS
 
-/* The points of a program lie side by side in a section of their own, so that one that nobody ever
- * comes to is known too. */
+/* The points of a program lie in a section of their own, so that a point that is never reached is
+ * counted too. */
 #define CRASH_POINT(point_name)                                                                    \
     do {                                                                                           \
         static struct crash_point crash_point                                                      \
@@ -40,15 +41,15 @@ void crash_point_unguard(void);
         crash_point_cross(&crash_point);                                                           \
     } while (0)
 
-/* Says who this process is. */
+/* Sets the role of this process. */
 #define CRASH_POINT_ROLE(role) crash_point_role(role)
 
-/* Of a write of so many bytes: how many to write at a time, so that a line can be torn. */
+/* How many of the bytes to write at a time, so that a kill can leave half a line. */
 #define CRASH_POINT_PART(bytes) ((bytes) > 64 ? (bytes) / 2 : (bytes))
 
-/* Until CRASH_POINT_UNGUARD every store by this thread to whole pages from first on is a crossing
- * of the point "store in a step"; or the first store to each page one of "page of a new world". For
- * code that must not know of crash points. */
+/* Until CRASH_POINT_UNGUARD every store of this thread to the pages from first on crosses the point
+ * "store in a step" (STORES), or the first store to each page crosses "page of a new world"
+ * (PAGES). For code that must not know of crash points. */
 #define CRASH_POINT_GUARD_STORES(first, bytes) crash_point_guard_stores(first, bytes)
 #define CRASH_POINT_GUARD_PAGES(first, bytes)  crash_point_guard_pages(first, bytes)
 #define CRASH_POINT_UNGUARD()                  crash_point_unguard()

@@ -29,9 +29,9 @@ void log_frame(uint64_t frame)
     log_frame_number = frame;
 }
 
-/* One write, so that lines of several processes do not mix; control bytes become '?'. The line has
- * room for one more byte. */
-static void put_line(char *line, int length)
+/* Writes the line with one write(), so that lines of several processes do not mix. Control bytes
+ * become '?'. The buffer has room for one more byte. */
+static void write_line(char *line, int length)
 {
     if (length < 0)
         return;
@@ -41,11 +41,11 @@ static void put_line(char *line, int length)
     }
     line[length++] = '\n';
     ssize_t written = write(STDERR_FILENO, line, (size_t)length);
-    (void)written; /* nowhere left to complain */
+    (void)written; /* an error could not be reported anywhere */
 }
 
-__attribute__((format(printf, 2, 0))) static void entry(const char *level, const char *format,
-                                                        va_list args)
+__attribute__((format(printf, 2, 0))) static void log_line(const char *level, const char *format,
+                                                           va_list args)
 {
     char line[LINE_MAX_BYTES];
     uint64_t now = clock_now_ns();
@@ -55,14 +55,14 @@ __attribute__((format(printf, 2, 0))) static void entry(const char *level, const
                           (unsigned long long)log_frame_number);
     if (length > 0 && length < (int)sizeof line)
         length += (int)utf8_format(line + length, sizeof line - 1 - (size_t)length, format, args);
-    put_line(line, length);
+    write_line(line, length);
 }
 
 void log_info(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    entry("info", format, args);
+    log_line("info", format, args);
     va_end(args);
 }
 
@@ -70,7 +70,7 @@ void log_warn(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    entry("warning", format, args);
+    log_line("warning", format, args);
     va_end(args);
 }
 
@@ -83,21 +83,21 @@ bool log_due(uint64_t *last_ns, uint64_t interval_ns)
     return true;
 }
 
-__attribute__((format(printf, 1, 0))) static void last_words(const char *format, va_list args)
+__attribute__((format(printf, 1, 0))) static void fatal_line(const char *format, va_list args)
 {
     char line[LINE_MAX_BYTES];
     int length = snprintf(line, sizeof line, "jolon: ");
     if (strcmp(log_role, "jolon") != 0)
         length = snprintf(line, sizeof line, "jolon-%s: ", log_role);
     length += (int)utf8_format(line + length, sizeof line - 1 - (size_t)length, format, args);
-    put_line(line, length);
+    write_line(line, length);
 }
 
 void die_refused(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    last_words(format, args);
+    fatal_line(format, args);
     va_end(args);
     exit(EXIT_REFUSED);
 }
@@ -106,7 +106,7 @@ void die_usage(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    last_words(format, args);
+    fatal_line(format, args);
     va_end(args);
     exit(EXIT_USAGE);
 }

@@ -1,5 +1,6 @@
-/* One line an entry to standard error: monotonic time, role, level, frame, text. Untrusted bytes
- * in the text are escaped. log_* in a loop is rate-limited by the caller's log_due(). */
+/* The log: each entry is one line on standard error with monotonic time, role, level, frame and
+ * text. Control bytes of untrusted text become '?'. A loop calls log_due() first, which limits the
+ * rate. */
 #ifndef JOLON_IPC_PROCESS_LOG_H
 #define JOLON_IPC_PROCESS_LOG_H
 
@@ -10,18 +11,20 @@
 enum exit_code { EXIT_OK = 0, EXIT_REFUSED = 1, EXIT_USAGE = 2, EXIT_GAVE_UP = 3 };
 
 void log_open(const char *role);
-void log_frame(uint64_t frame); /* shown in the lines that follow */
+void log_frame(uint64_t frame); /* the lines that follow show it */
 void log_info(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void log_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* True at most once every interval; keep one uint64_t for each place. */
+/* Returns true at most once in every interval. Each place in the code keeps its own last_ns, 0 at
+ * first. */
 bool log_due(uint64_t *last_ns, uint64_t interval_ns);
 
-/* "PROGRAM: text" to standard error and exit: refused (1), wrong usage (2). */
+/* Writes "PROGRAM: text" to standard error and ends the process: refused (exit 1), wrong usage
+ * (exit 2). */
 _Noreturn void die_refused(const char *format, ...) __attribute__((format(printf, 1, 2)));
 _Noreturn void die_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* The same from within a signal handler: writes at once and ends the process without clean-up. */
+/* As die_refused(), for a signal handler: ends the process without clean-up. */
 _Noreturn void die_at_once(const char *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* The reader of command lines, around getopt_long(). */
+/* Reads command lines by getopt_long(). */
 #include "ipc/process/option_table.h"
 
 #include "ipc/process/log.h"
@@ -12,13 +12,13 @@
 #include <string.h>
 
 #define ROWS_MAX    64
-#define FIRST_VALUE 256 /* of the first long option; a letter is less */
+#define FIRST_VALUE 256 /* getopt's value of the first long option; letters are smaller */
 #define HELP_COLUMN 25
 #define HELP_WIDTH  80
 
-/* The table as getopt_long() wants it. */
-struct known {
-    const struct option_row *row[ROWS_MAX + 1]; /* ends with NULL, as option does */
+/* The table in the form that getopt_long() needs. */
+struct parser {
+    const struct option_row *row[ROWS_MAX + 1]; /* ends with NULL, and option with a zero entry */
     struct option option[ROWS_MAX + 1];
     char letters[2 * ROWS_MAX + 3];
     int count;
@@ -26,46 +26,46 @@ struct known {
 
 static const struct option_row help_row = {"help", NULL, NULL, .letter = 'h'};
 
-/* --- what there is -----------------------------------------------------------------------------*/
+/* --- options -----------------------------------------------------------------------------------*/
 
-static void add_row(struct known *known, const struct option_row *row)
+static void add_row(struct parser *parser, const struct option_row *row)
 {
-    size_t used = strlen(known->letters);
-    CHECK(known->count < ROWS_MAX);
-    known->row[known->count] = row;
-    known->option[known->count] =
+    size_t used = strlen(parser->letters);
+    CHECK(parser->count < ROWS_MAX);
+    parser->row[parser->count] = row;
+    parser->option[parser->count] =
         (struct option){.name = row->name,
                         .has_arg = row->argument ? required_argument : no_argument,
-                        .val = FIRST_VALUE + known->count};
-    known->count++;
+                        .val = FIRST_VALUE + parser->count};
+    parser->count++;
     if (row->letter)
-        (void)snprintf(known->letters + used, sizeof known->letters - used, "%c%s", row->letter,
+        (void)snprintf(parser->letters + used, sizeof parser->letters - used, "%c%s", row->letter,
                        row->argument ? ":" : "");
 }
 
-/* order: "+" makes getopt stop at the first argument that is no option; else "". */
-static void know(struct known *known, const struct option_table *table, const char *order)
+/* order: "+" makes getopt stop at the first argument that is no option, "" does not. */
+static void parser_begin(struct parser *parser, const struct option_table *table, const char *order)
 {
-    *known = (struct known){.count = 0};
-    (void)snprintf(known->letters, sizeof known->letters, "%s:", order);
+    *parser = (struct parser){.count = 0};
+    (void)snprintf(parser->letters, sizeof parser->letters, "%s:", order);
     for (const struct option_row *row = table->rows; row->name; row++)
-        add_row(known, row);
+        add_row(parser, row);
     for (const struct option_row *row = table->more; row && row->name; row++)
-        add_row(known, row);
+        add_row(parser, row);
     if (table->usage)
-        add_row(known, &help_row);
+        add_row(parser, &help_row);
     optind = 0; /* makes getopt begin anew */
     opterr = 0; /* getopt prints nothing */
 }
 
-/* value: what getopt returns for the option. NULL: there is none. */
-static const struct option_row *find_row(const struct known *known, int value)
+/* Returns the row of the value that getopt returned, NULL when there is none. */
+static const struct option_row *find_row(const struct parser *parser, int value)
 {
     int i = 0;
-    while (known->row[i] && value != FIRST_VALUE + i &&
-           (value == 0 || value != known->row[i]->letter))
+    while (parser->row[i] && value != FIRST_VALUE + i &&
+           (value == 0 || value != parser->row[i]->letter))
         i++;
-    return known->row[i];
+    return parser->row[i];
 }
 
 /* --- values ------------------------------------------------------------------------------------*/
@@ -169,11 +169,11 @@ static void show_help(const struct option_table *table)
 
 /* --- reading -----------------------------------------------------------------------------------*/
 
-/* word: the argument that getopt refused. optopt is the letter or value of its option, or 0. */
-static int refuse(const struct option_table *table, const struct known *known, int result,
+/* word is the argument that getopt refused. optopt is the letter or value of its option, or 0. */
+static int refuse(const struct option_table *table, const struct parser *parser, int result,
                   const char *word, struct error_text *error)
 {
-    const struct option_row *row = find_row(known, optopt);
+    const struct option_row *row = find_row(parser, optopt);
     const char *wrong = "no such option";
     char letter[] = "-?";
     int alike = 0;
@@ -183,8 +183,8 @@ static int refuse(const struct option_table *table, const struct known *known, i
         letter[1] = (char)optopt;
         word = letter;
     } else {
-        for (int i = 0; known->row[i]; i++)
-            alike += strncmp(known->row[i]->name, word + 2, strcspn(word + 2, "=")) == 0;
+        for (int i = 0; parser->row[i]; i++)
+            alike += strncmp(parser->row[i]->name, word + 2, strcspn(word + 2, "=")) == 0;
         if (alike > 1)
             wrong = "the beginning of several options";
     }
@@ -205,14 +205,14 @@ static bool usage_names(const char *usage, const char *name)
 int option_table_try(const struct option_table *table, int argc, char **argv,
                      struct error_text *error)
 {
-    struct known known;
+    struct parser parser;
     struct error_text wrong;
     int result;
-    know(&known, table, "");
-    while ((result = getopt_long(argc, argv, known.letters, known.option, NULL)) != -1) {
-        const struct option_row *row = find_row(&known, result);
+    parser_begin(&parser, table, "");
+    while ((result = getopt_long(argc, argv, parser.letters, parser.option, NULL)) != -1) {
+        const struct option_row *row = find_row(&parser, result);
         if (!row)
-            return refuse(table, &known, result, argv[optind - 1], error);
+            return refuse(table, &parser, result, argv[optind - 1], error);
         if (row == &help_row) {
             show_help(table);
             exit(EXIT_OK);
@@ -241,9 +241,9 @@ int option_table_read(const struct option_table *table, int argc, char **argv)
 
 int option_table_verb(const struct option_table *table, int argc, char **argv)
 {
-    struct known known;
-    know(&known, table, "+");
-    while (getopt_long(argc, argv, known.letters, known.option, NULL) != -1)
+    struct parser parser;
+    parser_begin(&parser, table, "+");
+    while (getopt_long(argc, argv, parser.letters, parser.option, NULL) != -1)
         continue;
     return optind;
 }

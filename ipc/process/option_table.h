@@ -1,6 +1,6 @@
-/* The reader of command lines. A program declares its options in a table. The reader stores their
- * values, and makes the help and the error texts from the table. getopt_long() has global state, so
- * only one thread may read. */
+/* Command lines. A program declares its options in a table. The reader stores their values, and
+ * makes the help and the error texts from the table. getopt_long() has global state, so only one
+ * thread may read. */
 #ifndef JOLON_IPC_PROCESS_OPTION_TABLE_H
 #define JOLON_IPC_PROCESS_OPTION_TABLE_H
 
@@ -15,24 +15,23 @@ struct option_size {
     uint32_t width, height;
 };
 
-/* An option. The pointer that is set says which kind of value the option takes, and where the value
- * goes. When the option is repeated, its last value stays. */
+/* An option. The pointer that is set tells which kind of value the option takes, and where the
+ * value goes. When the option is repeated, its last value stays. */
 struct option_row {
     const char *name;         /* without the two dashes */
-    const char *argument;     /* the help's word for its value; NULL: it takes none */
-    const char *help;         /* without newlines: the reader breaks it; NULL: unlisted */
+    const char *argument;     /* what the help calls its value; NULL: it takes none */
+    const char *help;         /* without newlines, for the reader wraps it; NULL: unlisted */
     bool *flag;               /* true when the option is given */
     const char **text;        /* any text; of an option without a value: the option's name */
-    int *choice;              /* argument is "word|word"; gets the word's place, from least */
+    int *choice;              /* argument is "word|word"; set to the word's index + least */
     int *integer;             /* a whole number, least..most */
     uint32_t *u32;            /* a whole number, least..most */
     uint64_t *u64;            /* a whole number, least..most */
     double *real;             /* a number, low..high */
     struct option_size *size; /* WIDTHxHEIGHT, each least..most */
-    /* Checks the value, or reads one of another kind. Is called after the value has been stored.
-     * Returns 0, or -1 with the reason in error; the reader puts the option and its value before
-     * it.
-     */
+    /* Checks the value, or reads a value of another kind. It is called after the value has been
+     * stored. Returns 0, or -1 with the reason in error. The reader puts the option and its value
+     * before the reason. */
     int (*take)(const char *value, struct error_text *error);
     uint64_t least, most;
     double low, high;
@@ -52,8 +51,8 @@ struct option_table {
 /* clang-format off */
 #define OPTION_ROWS_END {.name = NULL} /* ends rows and more */
 
-/* Options of many programs. o is a struct with the member world, parent or sandbox_off. check goes
- * into take. */
+/* Options that many programs have. o is a struct with the member world, parent or sandbox_off.
+ * check becomes take. */
 #define OPTION_ROW_WORLD(o, check)                                                                 \
     {"world", "NAME", "the world (default \"default\")", .text = &(o).world, .take = (check),      \
      .letter = 'w'}
@@ -64,17 +63,17 @@ struct option_table {
     {"no-sandbox", NULL, "give up no privileges", .flag = &(o).sandbox_off}
 /* clang-format on */
 
-/* Reads a command line; argv[0] is not looked at. Moves the arguments that are no options to the
- * end of argv and returns how many they are. --help prints the help on standard output and ends the
- * process (exit 0). Anything wrong ends it with one line that says what would be right (exit 2). */
+/* Reads a command line; argv[0] is ignored. Moves the arguments that are no options to the end of
+ * argv and returns their number. --help prints the help on standard output and ends the process
+ * (exit 0). An error ends the process with one line that says what would be right (exit 2). */
 int option_table_read(const struct option_table *table, int argc, char **argv);
 
-/* The same, but a wrong command line does not end the process: the line goes into why, and -1 is
- * returned. */
+/* As option_table_read(), but an error does not end the process: the line goes into error, and -1
+ * is returned. */
 int option_table_try(const struct option_table *table, int argc, char **argv,
                      struct error_text *error);
 
-/* Returns the place in argv of the first argument that is neither an option nor an option's value,
+/* Returns the index in argv of the first argument that is neither an option nor an option's value,
  * or argc when there is none. Values are neither checked nor stored. */
 int option_table_verb(const struct option_table *table, int argc, char **argv);
 

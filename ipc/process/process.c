@@ -22,15 +22,16 @@ static void on_stop(int signal_number)
     stopping = 1;
 }
 
-/* The files that are removed with the world's memory. */
+/* Files that on_bus_error() removes. */
 #define REMOVED_MAX  5
 #define REMOVED_PATH 320 /* bytes, with the NUL */
 static char removed[REMOVED_MAX][REMOVED_PATH];
 static volatile sig_atomic_t removed_count;
 
-/* A page that the object no longer has: somebody made it shorter under us. A bus error of any other
- * kind is a crash like any other: the instruction runs again, without a handler, and ends the
- * process. Roles run this within their sandbox: no system call but what each of them may. */
+/* Ends the process when it touches a page that the object no longer has, because another process
+ * made the object shorter. Any other bus error is a crash: the handler returns, the instruction
+ * runs again without a handler, and the kernel ends the process. Runs within a role's sandbox, and
+ * makes only system calls that each role may make. */
 static void on_bus_error(int signal_number, siginfo_t *info, void *context)
 {
     (void)signal_number;
@@ -113,7 +114,7 @@ void process_die_with_parent(int parent_pid)
     if (parent_pid <= 0)
         return;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent_pid) /* it died before the kernel was asked */
+    if (getppid() != parent_pid) /* the parent died before prctl() */
         _exit(0);
 }
 
@@ -127,7 +128,7 @@ char process_state(int pid)
     size_t length = fread(line, 1, sizeof line - 1, file);
     fclose(file);
     line[length] = '\0';
-    /* pid (name) state: the name may hold anything, also parentheses */
+    /* The line is "pid (name) state ...", and the name may hold parentheses. */
     const char *end = strrchr(line, ')');
     return end && end[1] == ' ' ? end[2] : '\0';
 }
@@ -143,7 +144,7 @@ static bool holds_kinds(const char *directory)
 
 int process_data_dir(char *path, size_t bytes)
 {
-    /* build/bin, build/san-.../bin, PREFIX/bin */
+    /* For a program in build/bin, in build/san-.../bin and in PREFIX/bin. */
     static const char *const places[] = {"../../config", "../../../config", "../share/jolon"};
     char self[400];
     const char *given = getenv("JOLON_DATA");

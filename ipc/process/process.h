@@ -1,4 +1,4 @@
-/* What every role does at its start and end: signals, dying with its supervisor. */
+/* What every process does at its start and end: signals, ending with its parent. */
 #ifndef JOLON_IPC_PROCESS_PROCESS_H
 #define JOLON_IPC_PROCESS_PROCESS_H
 
@@ -6,44 +6,48 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define PROCESS_STACK_BYTES (1024u * 1024u) /* roles have been seen to die with 128 KB */
+#define PROCESS_STACK_BYTES (1024u * 1024u) /* a role crashed with 128 KB */
 
-/* Set by SIGTERM, SIGINT and SIGHUP; loops end when it is true. */
+/* Returns true after SIGTERM, SIGINT or SIGHUP. Loops then end. */
 bool process_stopping(void);
 
-/* Installs the handlers, process_guard()'s too; SIGPIPE is ignored. */
+/* Installs the handlers of these signals and those of process_guard(). SIGPIPE is ignored. */
 void process_signals(void);
 
-/* Every program's first step. A stack that is limited to less than PROCESS_STACK_BYTES, which is
- * that of each thread too, ends the process with the reason (exit 1): else it would die in its work
- * like of a fault in it. And when the world's object is made shorter under a process that has it
- * mapped, it says so in one line and ends with exit 1, instead of dying of the bus error without a
- * word. The process that owns the world names the world's files by process_guard_removes(), at most
- * 5: they are removed then, for there is no other clean-up. SIGXFSZ is ignored: a file that would
- * grow too large is an error (EFBIG). */
+/* The first step of every program. Ends the process (exit 1) when its stack is limited to less than
+ * PROCESS_STACK_BYTES. The limit holds for each thread too, and a stack overflow would look like a
+ * crash. When another process makes the world's object shorter, a process that has it mapped ends
+ * with one line (exit 1) instead of a bus error. SIGXFSZ is ignored: writing a file that would grow
+ * too large fails with EFBIG.
+ *
+ * process_guard_removes() names a file, at most 5, that is removed when the object was made
+ * shorter. The process that owns the world names the world's files, because it cannot clean up
+ * otherwise. */
 void process_guard(void);
 void process_guard_removes(const char *path);
 
-/* For a process that makes a world, before the world gets its name: a request to stop comes too
- * late from here to the process's end. So whoever stopped it finds a whole world, and is told of
- * it, or nothing. */
+/* For a process that makes a world, before the world gets its name. Blocks SIGTERM, SIGINT and
+ * SIGHUP until the process ends. The user who stopped the process then finds a whole world, or
+ * none. */
 void process_hold_stop(void);
 
-/* May a terminal be coloured: is NO_COLOR not set, or empty? */
+/* Returns true if colours may be used on a terminal: NO_COLOR is not set, or empty. */
 bool process_colours(void);
 
-/* Closes every descriptor beyond standard error: what a parent left open is not the role's. To be
- * called before any is opened. */
+/* Closes every descriptor above standard error, which a parent may have left open. To be called
+ * before the process opens any. */
 void process_close_inherited(void);
 
-/* Asks the kernel for SIGKILL when the parent dies; ends at once when it is dead already. */
+/* Asks the kernel for SIGKILL when the parent dies. Ends the process when the parent is dead
+ * already. */
 void process_die_with_parent(int parent_pid);
 
-/* State letter of a process as the kernel tells it (R, S, D, T, Z ...); '\0' when it is gone. A
- * child that its parent has not waited for yet is a zombie (Z) and keeps its number. */
+/* Returns the state letter of a process from /proc (R, S, D, T, Z ...), '\0' when there is none. A
+ * child that its parent has not waited for yet is a zombie (Z) and keeps its pid. */
 char process_state(int pid);
 
-/* Finds config/, from the place of the running program: the build tree's or the installed one. */
+/* Finds config/ from $JOLON_DATA or from the path of the running program, in the build tree or
+ * installed. Returns 0, or -1 with errno. */
 int process_data_dir(char *path, size_t bytes);
 
 #endif

@@ -1,4 +1,4 @@
-/* A limit on requests: per_s a second on average, and at most burst at once. Pure. */
+/* A limit on requests: per_s a second on average, and at most burst at once. */
 #ifndef JOLON_IPC_PROCESS_RATE_H
 #define JOLON_IPC_PROCESS_RATE_H
 
@@ -9,7 +9,7 @@ struct rate {
     uint64_t due_ns; /* when the granted requests would end if they came evenly */
 };
 
-/* Is one more granted? One that is not costs nothing. per_s > 0. */
+/* Returns true if one more request is granted. A refused request does not count. per_s > 0. */
 static inline bool rate_take(struct rate *rate, uint32_t per_s, uint32_t burst, uint64_t now_ns)
 {
     uint64_t step_ns = 1000000000u / per_s;

@@ -1,4 +1,4 @@
-/* Opening what must be a plain file. */
+/* Opening a regular file. */
 #include "ipc/process/regular_file.h"
 
 #include "world/runtime/error_text.h"

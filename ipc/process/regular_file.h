@@ -1,4 +1,4 @@
-/* Plain files that a user names, to be read. */
+/* Opening a regular file that a user names. */
 #ifndef JOLON_IPC_PROCESS_REGULAR_FILE_H
 #define JOLON_IPC_PROCESS_REGULAR_FILE_H
 
@@ -6,8 +6,9 @@
 
 struct error_text;
 
-/* Opens a plain file for reading: no link, pipe, device or folder. Never blocks. The descriptor and
- * the file's size, or -1 with the reason. */
+/* Opens a regular file for reading. A link, pipe, device or folder is refused. Never blocks.
+ * Returns the descriptor and sets bytes to the file's size, or returns -1 with the reason in
+ * error. */
 int regular_file_open(const char *path, uint64_t *bytes, struct error_text *error);
 
 #endif

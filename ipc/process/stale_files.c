@@ -1,4 +1,4 @@
-/* Removal of what killed processes left. */
+/* Removes the unfinished files of killed processes. */
 #include "ipc/process/stale_files.h"
 
 #include "ipc/process/crash_point.h"
@@ -12,8 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A process that nobody has waited for yet still has its number, but writes nothing any more. */
-static bool gone(pid_t pid)
+/* A zombie still has its pid, but writes nothing any more. */
+static bool has_ended(pid_t pid)
 {
     if (kill(pid, 0) != 0)
         return errno == ESRCH;
@@ -34,8 +34,8 @@ void stale_files_sweep(const char *folder, const char *prefix)
         long pid = strtol(entry->d_name + length, &end, 10);
         if (*end != '\0' || pid <= 0)
             continue;
-        /* One with our own number is of a process before us. */
-        if (pid != getpid() && !gone((pid_t)pid))
+        /* A file with our own pid was left by an earlier process. */
+        if (pid != getpid() && !has_ended((pid_t)pid))
             continue;
         CRASH_POINT("swept temporary");
         unlinkat(dirfd(directory), entry->d_name, 0);

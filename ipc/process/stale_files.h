@@ -3,8 +3,8 @@
 #ifndef JOLON_IPC_PROCESS_STALE_FILES_H
 #define JOLON_IPC_PROCESS_STALE_FILES_H
 
-/* Removes from folder every file called prefix and the number of a process that is gone, or of
- * this one. What cannot be removed stays. */
+/* Removes from folder every file whose name is prefix and the pid of a process that has ended, or
+ * of this process. A file that cannot be removed stays. */
 void stale_files_sweep(const char *folder, const char *prefix);
 
 #endif
