@@ -20,7 +20,7 @@ struct thread_pool;
 struct stage_options {
     const char *world;
     uint32_t threads; /* 1..16 */
-    int parent;       /* pid to die with, 0 for none */
+    int parent;       /* the stage ends when the process of this pid does; 0: none */
     bool stand_by;    /* wait for the role's holder to die instead of refusing */
     bool sandbox_off;
 };
@@ -37,7 +37,7 @@ struct stage {
  * process (exit 2), and --help prints the usage and ends it (exit 0). */
 void stage_open(struct stage *stage, int argc, char **argv, enum role role);
 
-/* Ends a process that cannot take the memory of its steps; errno says why. */
+/* Ends a process that cannot allocate the memory of its steps (exit 1). errno says why. */
 _Noreturn void stage_refuse_memory(const struct stage *stage);
 
 /* Enters the sandbox, takes the role and marks it as ready. A stand-by process blocks until the
