@@ -6,8 +6,8 @@
 #include <string.h>
 #include <strings.h>
 
-#define CHANGES_S   100u /* orders a second of one player ... */
-#define STRANGERS_S 50u  /* ... and of all others together */
+#define CHANGES_PER_S 100u /* orders a second of one player ... */
+#define OTHERS_PER_S  50u  /* ... and of all others together */
 
 #define BEARER "Bearer "
 
@@ -16,12 +16,12 @@ struct player *access_control_player(struct request *request, uint64_t now_ns)
     const char *key = http_header(request->http, "X-Jolon-Player");
     struct player *player = key ? players_find(&request->console->players, key) : NULL;
     if (player)
-        player->heard_ns = now_ns;
+        player->last_request_ns = now_ns;
     return player;
 }
 
 /* Browsers send the origin of a request. Requests of another site's page are refused. */
-static bool from_here(const struct request *request)
+static bool is_same_site(const struct request *request)
 {
     const char *host = http_header(request->http, "Host");
     const char *origin = http_header(request->http, "Origin");
@@ -40,7 +40,7 @@ static bool refuse_rate(struct http_answer *answer)
 bool access_control_open(struct request *request, const struct player *player, uint64_t now_ns,
                          struct http_answer *answer)
 {
-    if (!from_here(request)) {
+    if (!is_same_site(request)) {
         http_answer_error(answer, HTTP_ANSWER_FORBIDDEN, "open the console's own page",
                           "another site's page may ask nothing here");
         return false;
@@ -85,7 +85,8 @@ bool access_control_open_to_change(struct request *request, struct player *playe
                           REQUEST_BODY);
         return false;
     }
-    return (player ? rate_take(&player->rate, CHANGES_S, CHANGES_S, now_ns)
-                   : rate_take(&request->console->write_rate, STRANGERS_S, STRANGERS_S, now_ns)) ||
+    return (player
+                ? rate_take(&player->rate, CHANGES_PER_S, CHANGES_PER_S, now_ns)
+                : rate_take(&request->console->write_rate, OTHERS_PER_S, OTHERS_PER_S, now_ns)) ||
            refuse_rate(answer);
 }

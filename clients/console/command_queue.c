@@ -62,7 +62,7 @@ static bool is_command(const struct command_text *order)
     return !is_drive(order) && !is_mission(order);
 }
 
-static struct command_queue_mission *find_mission(struct command_queue *queue, uint32_t number)
+static struct fire_mission *find_mission(struct command_queue *queue, uint32_t number)
 {
     for (uint32_t i = 0; i < COMMAND_QUEUE_MISSIONS; i++) {
         if (queue->mission[i].number == number)
@@ -116,26 +116,26 @@ static void put_drive(struct pending_command *pending, struct player *player)
     pending->sequence = ++player->version;
 }
 
-static void end_mission(struct command_queue *queue, struct command_queue_mission *mission)
+static void end_mission(struct command_queue *queue, struct fire_mission *mission)
 {
-    command_series_forget(&mission->mission, &queue->client);
+    command_series_forget(&mission->series, &queue->client);
     mission->number = 0;
 }
 
 static bool put_cancel(struct command_queue *queue, struct pending_command *pending,
                        struct http_answer *answer)
 {
-    struct command_queue_mission *mission = find_mission(queue, pending->cancel);
+    struct fire_mission *mission = find_mission(queue, pending->cancel);
     if (!mission) {
         http_answer_error(answer, HTTP_ANSWER_CONFLICT, "the state lists the missions there are",
                           "there is no mission %u any more, or never was", pending->cancel);
         return false;
     }
-    json_writer_begin(&answer->text, '{');
-    json_writer_key_word(&answer->text, "result", "done");
-    json_writer_key_whole(&answer->text, "mission", mission->number);
-    json_writer_key_whole(&answer->text, "fired", mission->mission.done);
-    json_writer_end(&answer->text, '}');
+    json_writer_begin(&answer->json, '{');
+    json_writer_key_word(&answer->json, "result", "done");
+    json_writer_key_whole(&answer->json, "mission", mission->number);
+    json_writer_key_whole(&answer->json, "fired", mission->series.done);
+    json_writer_end(&answer->json, '}');
     end_mission(queue, mission);
     return false;
 }
@@ -234,7 +234,7 @@ static void on_drive_reply(struct command_queue *queue, struct player *player,
     if (player->vehicle == player->sent_for) {
         (void)snprintf(detail, sizeof detail, "%u: %s", player->vehicle,
                        command_result_name((enum command_result)reply->result));
-        players_drop(player, detail);
+        players_release_vehicle(player, detail);
     } else if (player->wanted == player->sent_for) {
         player->wanted = player->vehicle;
         player->controls = player->accepted;
@@ -260,9 +260,9 @@ static void answer_drives(struct command_queue *queue, const struct player *play
     }
 }
 
-static void turn_player(struct command_queue *queue, struct player *player,
-                        const struct players *players, const struct world_reader *reader,
-                        uint64_t now_ns)
+static void update_player(struct command_queue *queue, struct player *player,
+                          const struct players *players, const struct world_reader *reader,
+                          uint64_t now_ns)
 {
     jolon_CommandReply reply;
     if (player->sent && command_client_answered(&queue->client, player->sent, &reply)) {
@@ -272,18 +272,18 @@ static void turn_player(struct command_queue *queue, struct player *player,
         command_client_forget(&queue->client, player->sent);
         player->sent = 0;
     }
-    if (player->wanted && now_ns > player->heard_ns + PLAYERS_LEAVE_NS) {
+    if (player->wanted && now_ns > player->last_request_ns + PLAYERS_LEAVE_NS) {
         if (player->sent)
             command_client_forget(&queue->client, player->sent);
         send_release(queue, player, player->wanted);
-        players_drop(player, "given back: nothing was heard of your page");
+        players_release_vehicle(player, "given back: nothing was heard of your page");
     }
-    bool news = player->version != player->sent_version;
+    bool changed = player->version != player->sent_version;
     bool due =
-        players_present(player, now_ns) && now_ns >= player->sent_ns + COMMAND_QUEUE_RENEW_NS;
-    if (player->wanted && !player->sent && reader->there && (news || due))
+        players_is_active(player, now_ns) && now_ns >= player->sent_ns + COMMAND_QUEUE_RENEW_NS;
+    if (player->wanted && !player->sent && reader->attached && (changed || due))
         send_drive(queue, player, reader, now_ns);
-    if (now_ns > player->heard_ns + PLAYERS_FORGET_NS)
+    if (now_ns > player->last_request_ns + PLAYERS_FORGET_NS)
         player->number = 0;
 }
 
@@ -306,11 +306,11 @@ static uint64_t simulated_ns(const struct world_reader *reader)
 static void start_mission(struct command_queue *queue, struct pending_command *pending,
                           const struct world_reader *reader)
 {
-    struct command_queue_mission *mission = find_mission(queue, 0);
+    struct fire_mission *mission = find_mission(queue, 0);
     if (!mission)
         return; /* all places are taken: the command waits for one */
     mission->number = ++queue->missions;
-    command_series_begin(&mission->mission, &pending->order, simulated_ns(reader));
+    command_series_begin(&mission->series, &pending->order, simulated_ns(reader));
     pending->sequence = mission->number;
 }
 
@@ -327,7 +327,7 @@ static void send_pending(struct command_queue *queue, struct pending_command *pe
     if (player && command.type == jolon_COMMAND_RELEASE && command.entity == player->wanted) {
         if (player->sent)
             command_client_forget(&queue->client, player->sent);
-        players_drop(player, "");
+        players_release_vehicle(player, "");
     }
     pending->sequence = command_client_send(&queue->client, &command);
 }
@@ -347,8 +347,8 @@ static void give_up(struct command_queue *queue, struct pending_command *pending
     result_text_none(&pending->answer, &pending->order, command_client_heard(&queue->client));
 }
 
-static void turn_pending(struct command_queue *queue, struct players *players,
-                         const struct world_reader *reader, uint64_t now_ns)
+static void update_pending(struct command_queue *queue, struct players *players,
+                           const struct world_reader *reader, uint64_t now_ns)
 {
     jolon_CommandReply reply;
     struct pending_command **at = &queue->pending;
@@ -372,7 +372,7 @@ static void turn_pending(struct command_queue *queue, struct players *players,
 /* --- fire missions -----------------------------------------------------------------------------*/
 
 /* Answers the request for the mission with the reply to its first round. */
-static void answer_mission(struct command_queue *queue, const struct command_queue_mission *mission,
+static void answer_mission(struct command_queue *queue, const struct fire_mission *mission,
                            const jolon_CommandReply *reply, const struct world_reader *reader,
                            const struct players *players)
 {
@@ -382,36 +382,36 @@ static void answer_mission(struct command_queue *queue, const struct command_que
     if (!*at)
         return;
     struct pending_command *pending = *at;
-    struct json_writer *text = &pending->answer.text;
+    struct json_writer *json = &pending->answer.json;
     if (reply->result == jolon_RESULT_DONE) {
-        json_writer_begin(text, '{');
-        json_writer_key_word(text, "result", "done");
-        json_writer_key_whole(text, "frame", reply->frame);
-        json_writer_key_whole(text, "entity", reply->entity);
-        json_writer_key_whole(text, "mission", mission->number);
-        json_writer_key_whole(text, "seed", mission->mission.seed);
-        json_writer_end(text, '}');
+        json_writer_begin(json, '{');
+        json_writer_key_word(json, "result", "done");
+        json_writer_key_whole(json, "frame", reply->frame);
+        json_writer_key_whole(json, "entity", reply->entity);
+        json_writer_key_whole(json, "mission", mission->number);
+        json_writer_key_whole(json, "seed", mission->series.seed);
+        json_writer_end(json, '}');
     } else {
         result_text_put(&pending->answer, &pending->order, reply, reader, players);
     }
     finish(queue, at);
 }
 
-static void turn_mission(struct command_queue *queue, struct command_queue_mission *mission,
-                         const struct world_reader *reader, const struct players *players)
+static void update_mission(struct command_queue *queue, struct fire_mission *mission,
+                           const struct world_reader *reader, const struct players *players)
 {
     jolon_CommandReply reply;
     uint32_t round;
     bool possible = true;
-    while (command_series_answer(&mission->mission, &queue->client, &reply, &round)) {
+    while (command_series_answer(&mission->series, &queue->client, &reply, &round)) {
         answer_mission(queue, mission, &reply, reader, players);
         possible = possible && reply.result != jolon_RESULT_NO_SUCH_KIND;
     }
     /* A munition that does not exist is not tried again. */
-    if (command_series_over(&mission->mission) || !possible)
+    if (command_series_over(&mission->series) || !possible)
         end_mission(queue, mission);
-    else if (reader->there)
-        command_series_send(&mission->mission, &queue->client, simulated_ns(reader));
+    else if (reader->attached)
+        command_series_send(&mission->series, &queue->client, simulated_ns(reader));
 }
 
 /* --- turns -------------------------------------------------------------------------------------*/
@@ -419,17 +419,17 @@ static void turn_mission(struct command_queue *queue, struct command_queue_missi
 void command_queue_turn(struct command_queue *queue, struct players *players,
                         const struct world_reader *reader, uint64_t now_ns)
 {
-    eventfd_t rung;
-    (void)eventfd_read(queue->wake_fd, &rung);
+    eventfd_t counter;
+    (void)eventfd_read(queue->wake_fd, &counter);
     command_client_turn(&queue->client);
     for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
         if (players->player[i].number)
-            turn_player(queue, &players->player[i], players, reader, now_ns);
+            update_player(queue, &players->player[i], players, reader, now_ns);
     }
-    turn_pending(queue, players, reader, now_ns);
+    update_pending(queue, players, reader, now_ns);
     for (uint32_t i = 0; i < COMMAND_QUEUE_MISSIONS; i++) {
         if (queue->mission[i].number)
-            turn_mission(queue, &queue->mission[i], reader, players);
+            update_mission(queue, &queue->mission[i], reader, players);
     }
 }
 
@@ -437,7 +437,7 @@ void command_queue_world_changed(struct command_queue *queue, struct players *pl
                                  const struct world_reader *reader)
 {
     name_table_close(&queue->names); /* out of memory: vehicles have no names */
-    if (reader->there)
+    if (reader->attached)
         (void)name_table_read_world(&queue->names, &reader->view.world, reader->view.header->made);
     for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
         struct player *player = &players->player[i];
@@ -446,7 +446,7 @@ void command_queue_world_changed(struct command_queue *queue, struct players *pl
         if (player->sent)
             command_client_forget(&queue->client, player->sent);
         if (player->wanted)
-            players_drop(player, "the world is another one");
+            players_release_vehicle(player, "the world is another one");
     }
     for (uint32_t i = 0; i < COMMAND_QUEUE_MISSIONS; i++) {
         if (queue->mission[i].number)
@@ -456,11 +456,11 @@ void command_queue_world_changed(struct command_queue *queue, struct players *pl
 
 void command_queue_wait(struct command_queue *queue, uint64_t until_ns)
 {
-    struct pollfd wakes[] = {{.fd = queue->wake_fd, .events = POLLIN},
-                             {.fd = command_client_descriptor(&queue->client), .events = POLLIN}};
+    struct pollfd watched[] = {{.fd = queue->wake_fd, .events = POLLIN},
+                               {.fd = command_client_descriptor(&queue->client), .events = POLLIN}};
     uint64_t now_ns = clock_now_ns();
     uint64_t left_ns = until_ns > now_ns ? until_ns - now_ns : 0;
     struct timespec left = {.tv_sec = (time_t)(left_ns / NS_PER_S),
                             .tv_nsec = (long)(left_ns % NS_PER_S)};
-    (void)ppoll(wakes, 2, &left, NULL);
+    (void)ppoll(watched, 2, &left, NULL);
 }

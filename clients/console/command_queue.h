@@ -37,9 +37,9 @@ struct pending_command {
 };
 
 /* Its rounds are due in simulated time. */
-struct command_queue_mission {
+struct fire_mission {
     uint32_t number; /* 1, 2, ...; 0: the place is free */
-    struct command_series mission;
+    struct command_series series;
 };
 
 struct command_queue {
@@ -49,7 +49,7 @@ struct command_queue {
     int wake_fd;                     /* an eventfd that wakes the main thread */
     struct pending_command *pending; /* those that wait, the oldest first */
     uint32_t pending_count;
-    struct command_queue_mission mission[COMMAND_QUEUE_MISSIONS];
+    struct fire_mission mission[COMMAND_QUEUE_MISSIONS];
     uint32_t missions; /* ever */
 };
 

@@ -79,7 +79,7 @@ static const double *point_of(const struct event *event)
     }
 }
 
-static void put_event(struct json_writer *text, const struct world *world,
+static void put_event(struct json_writer *json, const struct world *world,
                       const struct event *event)
 {
     const struct event_party *about[EVENT_TEXT_PARTIES];
@@ -90,39 +90,39 @@ static void put_event(struct json_writer *text, const struct world *world,
     for (int i = 0; i < EVENT_TEXT_PARTIES; i++)
         kind[i] = about[i] ? kind_of(world, about[i]) : NULL;
     event_text(words, event, kind);
-    json_writer_begin(text, '{');
-    json_writer_key_whole(text, "sequence", event->sequence);
-    json_writer_key_whole(text, "frame", event->frame);
-    json_writer_key_number(text, "time_s", (double)event->tick * world_dt_s(world), 2);
-    json_writer_key_word(text, "type", event_type_name((enum event_type)event->type));
-    json_writer_key_word(text, "text", words);
-    json_writer_key(text, "ids");
-    json_writer_begin(text, '[');
+    json_writer_begin(json, '{');
+    json_writer_key_whole(json, "sequence", event->sequence);
+    json_writer_key_whole(json, "frame", event->frame);
+    json_writer_key_number(json, "time_s", (double)event->tick * world_dt_s(world), 2);
+    json_writer_key_word(json, "type", event_type_name((enum event_type)event->type));
+    json_writer_key_word(json, "text", words);
+    json_writer_key(json, "ids");
+    json_writer_begin(json, '[');
     for (int i = 0; i < EVENT_TEXT_MUNITION; i++) {
         if (about[i] && about[i]->id && !about[i]->fixed)
-            json_writer_whole(text, about[i]->id);
+            json_writer_whole(json, about[i]->id);
     }
     if (event->type == EVENT_COMMAND && event->command.entity)
-        json_writer_whole(text, event->command.entity);
-    json_writer_end(text, ']');
+        json_writer_whole(json, event->command.entity);
+    json_writer_end(json, ']');
     if (point) {
-        json_writer_key(text, "point");
-        json_writer_begin(text, '[');
-        json_writer_number(text, point[0], 1);
-        json_writer_number(text, point[2], 1);
-        json_writer_end(text, ']');
+        json_writer_key(json, "point");
+        json_writer_begin(json, '[');
+        json_writer_number(json, point[0], 1);
+        json_writer_number(json, point[2], 1);
+        json_writer_end(json, ']');
     }
-    json_writer_end(text, '}');
+    json_writer_end(json, '}');
 }
 
-struct asked {
+struct event_query {
     uint64_t after, most;
     uint32_t types;
     bool from_now; /* nothing was said: the newest */
 };
 
 /* The place from which the newest `most` are what is wanted. */
-static uint64_t newest(const struct view *view, const struct asked *asked, uint64_t end)
+static uint64_t newest(const struct view *view, const struct event_query *asked, uint64_t end)
 {
     struct event batch[BATCH];
     uint64_t place[EVENTS_MAX];
@@ -138,14 +138,14 @@ static uint64_t newest(const struct view *view, const struct asked *asked, uint6
     return seen == 0 ? end : place[seen < asked->most ? 0 : seen % asked->most];
 }
 
-static void put_events(struct json_writer *text, const struct view *view, const struct asked *asked,
-                       struct event_cursor *cursor)
+static void put_events(struct json_writer *json, const struct view *view,
+                       const struct event_query *asked, struct event_cursor *cursor)
 {
     struct event batch[BATCH];
     uint64_t put = 0, scanned = 0;
     uint32_t count;
-    json_writer_key(text, "events");
-    json_writer_begin(text, '[');
+    json_writer_key(json, "events");
+    json_writer_begin(json, '[');
     while (put < asked->most && scanned < SCAN_MAX) {
         uint64_t from = cursor->next;
         if ((count = events_read(view, cursor, batch, BATCH)) == 0)
@@ -154,19 +154,19 @@ static void put_events(struct json_writer *text, const struct view *view, const 
             from = batch[i].sequence + 1;
             if (!wanted(&batch[i], asked->types))
                 continue;
-            put_event(text, &view->world, &batch[i]);
+            put_event(json, &view->world, &batch[i]);
             put++;
         }
         cursor->next = from; /* what is left of the batch is for the next time */
         scanned += count;
     }
-    json_writer_end(text, ']');
+    json_writer_end(json, ']');
 }
 
 void events_json(const struct world_query *query, struct http_answer *answer)
 {
-    struct json_writer *text = &answer->text;
-    struct asked asked = {.from_now = !*query_text(&query->arguments, "after")};
+    struct json_writer *json = &answer->json;
+    struct event_query asked = {.from_now = !*query_text(&query->arguments, "after")};
     struct state_head head;
     if (!query_whole(&query->arguments, "after", 0, UINT64_MAX, 0, &asked.after, answer) ||
         !query_whole(&query->arguments, "most", 1, EVENTS_MAX, EVENTS, &asked.most, answer) ||
@@ -183,9 +183,9 @@ void events_json(const struct world_query *query, struct http_answer *answer)
         cursor.next = newest(view, &asked, head.event_end);
     else if (asked.after > head.event_end) /* of another run, or before a repair */
         cursor.next = head.event_end;
-    json_writer_begin(text, '{');
-    put_events(text, view, &asked, &cursor);
-    json_writer_key_whole(text, "next", cursor.next);
-    json_writer_key_whole(text, "missed", cursor.gap);
-    json_writer_end(text, '}');
+    json_writer_begin(json, '{');
+    put_events(json, view, &asked, &cursor);
+    json_writer_key_whole(json, "next", cursor.next);
+    json_writer_key_whole(json, "missed", cursor.gap);
+    json_writer_end(json, '}');
 }

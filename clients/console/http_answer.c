@@ -18,12 +18,12 @@ void http_answer_error(struct http_answer *answer, enum http_answer_status statu
     va_start(arguments, format);
     (void)utf8_format(what, sizeof what, format, arguments);
     va_end(arguments);
-    json_writer_free(&answer->text);
+    json_writer_free(&answer->json);
     answer->status = status;
-    json_writer_begin(&answer->text, '{');
-    json_writer_key_word(&answer->text, "error", what);
-    json_writer_key_word(&answer->text, "next", next);
-    json_writer_end(&answer->text, '}');
+    json_writer_begin(&answer->json, '{');
+    json_writer_key_word(&answer->json, "error", what);
+    json_writer_key_word(&answer->json, "next", next);
+    json_writer_end(&answer->json, '}');
 }
 
 const char *query_text(const struct query *query, const char *key)

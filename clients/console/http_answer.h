@@ -26,7 +26,7 @@ enum http_answer_status {
 
 struct http_answer {
     enum http_answer_status status;
-    struct json_writer text; /* JSON */
+    struct json_writer json; /* JSON */
 };
 
 /* Replaces the answer by {"error": what is wrong, "next": what to do}. */

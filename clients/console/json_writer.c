@@ -7,83 +7,83 @@
 
 #define DIGITS_MAX 24
 
-static void put(struct json_writer *text, const char *bytes, size_t count)
+static void put(struct json_writer *json, const char *bytes, size_t count)
 {
-    if (text->failed)
+    if (json->failed)
         return;
-    if (count > text->room - text->used) {
-        size_t room = text->room ? text->room : 512;
-        while (room - text->used < count)
+    if (count > json->room - json->used) {
+        size_t room = json->room ? json->room : 512;
+        while (room - json->used < count)
             room *= 2;
-        char *grown = room <= JSON_WRITER_MAX ? realloc(text->bytes, room) : NULL;
+        char *grown = room <= JSON_WRITER_MAX ? realloc(json->bytes, room) : NULL;
         if (!grown) {
-            text->failed = true;
+            json->failed = true;
             return;
         }
-        text->bytes = grown;
-        text->room = room;
+        json->bytes = grown;
+        json->room = room;
     }
-    memcpy(text->bytes + text->used, bytes, count);
-    text->used += count;
+    memcpy(json->bytes + json->used, bytes, count);
+    json->used += count;
 }
 
-static void put_comma(struct json_writer *text)
+static void put_comma(struct json_writer *json)
 {
-    if (text->comma)
-        put(text, ",", 1);
-    text->comma = true;
+    if (json->comma)
+        put(json, ",", 1);
+    json->comma = true;
 }
 
-void json_writer_free(struct json_writer *text)
+void json_writer_free(struct json_writer *json)
 {
-    free(text->bytes);
-    *text = (struct json_writer){0};
+    free(json->bytes);
+    *json = (struct json_writer){0};
 }
 
-void json_writer_begin(struct json_writer *text, char bracket)
+void json_writer_begin(struct json_writer *json, char bracket)
 {
-    put_comma(text);
-    put(text, &bracket, 1);
-    text->comma = false;
+    put_comma(json);
+    put(json, &bracket, 1);
+    json->comma = false;
 }
 
-void json_writer_end(struct json_writer *text, char bracket)
+void json_writer_end(struct json_writer *json, char bracket)
 {
-    put(text, &bracket, 1);
-    text->comma = true;
+    put(json, &bracket, 1);
+    json->comma = true;
 }
 
-static void put_escaped(struct json_writer *text, const char *word)
+static void put_escaped(struct json_writer *json, const char *word)
 {
     static const char hex[] = "0123456789abcdef";
-    put(text, "\"", 1);
+    put(json, "\"", 1);
     for (const char *c = word; *c; c++) {
         unsigned char byte = (unsigned char)*c;
         if (byte == '"' || byte == '\\') {
             const char pair[2] = {'\\', *c};
-            put(text, pair, sizeof pair);
+            put(json, pair, sizeof pair);
         } else if (byte < 0x20 || byte == 0x7f) {
             const char code[6] = {'\\', 'u', '0', '0', hex[byte >> 4], hex[byte & 15]};
-            put(text, code, sizeof code);
+            put(json, code, sizeof code);
         } else {
-            put(text, c, 1);
+            put(json, c, 1);
         }
     }
-    put(text, "\"", 1);
+    put(json, "\"", 1);
 }
 
-void json_writer_key(struct json_writer *text, const char *key)
+void json_writer_key(struct json_writer *json, const char *key)
 {
-    put_comma(text);
-    put_escaped(text, key);
-    put(text, ":", 1);
-    text->comma = false;
+    put_comma(json);
+    put_escaped(json, key);
+    put(json, ":", 1);
+    json->comma = false;
 }
 
-void json_writer_word(struct json_writer *text, const char *word)
+void json_writer_word(struct json_writer *json, const char *word)
 {
-    put_comma(text);
-    put_escaped(text, word);
+    put_comma(json);
+    put_escaped(json, word);
 }
 
 /* The digits of value into the end of a field; where they begin. */
@@ -97,29 +97,29 @@ static char *digits_of(char digits[DIGITS_MAX], uint64_t value)
     return at;
 }
 
-void json_writer_whole(struct json_writer *text, uint64_t value)
+void json_writer_whole(struct json_writer *json, uint64_t value)
 {
     char digits[DIGITS_MAX];
     char *at = digits_of(digits, value);
-    put_comma(text);
-    put(text, at, (size_t)(digits + DIGITS_MAX - at));
+    put_comma(json);
+    put(json, at, (size_t)(digits + DIGITS_MAX - at));
 }
 
-void json_writer_number(struct json_writer *text, double value, int decimals)
+void json_writer_number(struct json_writer *json, double value, int decimals)
 {
     static const double power[] = {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
-    put_comma(text);
+    put_comma(json);
     if (!isfinite(value) || fabs(value) > 1e9) {
-        put(text, "null", 4);
+        put(json, "null", 4);
         return;
     }
     char digits[DIGITS_MAX], whole[DIGITS_MAX];
     uint64_t scale = (uint64_t)power[decimals];
     uint64_t scaled = (uint64_t)llround(fabs(value) * power[decimals]);
     if (value < 0.0 && scaled > 0)
-        put(text, "-", 1);
+        put(json, "-", 1);
     char *at = digits_of(whole, scaled / scale);
-    put(text, at, (size_t)(whole + DIGITS_MAX - at));
+    put(json, at, (size_t)(whole + DIGITS_MAX - at));
     if (scaled % scale == 0)
         return;
     /* A one before the fraction keeps its leading zeros. */
@@ -127,36 +127,36 @@ void json_writer_number(struct json_writer *text, double value, int decimals)
     while (fraction % 10 == 0)
         fraction /= 10;
     at = digits_of(digits, fraction) + 1;
-    put(text, ".", 1);
-    put(text, at, (size_t)(digits + DIGITS_MAX - at));
+    put(json, ".", 1);
+    put(json, at, (size_t)(digits + DIGITS_MAX - at));
 }
 
-void json_writer_bool(struct json_writer *text, bool value)
+void json_writer_bool(struct json_writer *json, bool value)
 {
-    put_comma(text);
-    put(text, value ? "true" : "false", value ? 4 : 5);
+    put_comma(json);
+    put(json, value ? "true" : "false", value ? 4 : 5);
 }
 
-void json_writer_key_word(struct json_writer *text, const char *key, const char *word)
+void json_writer_key_word(struct json_writer *json, const char *key, const char *word)
 {
-    json_writer_key(text, key);
-    json_writer_word(text, word);
+    json_writer_key(json, key);
+    json_writer_word(json, word);
 }
 
-void json_writer_key_whole(struct json_writer *text, const char *key, uint64_t value)
+void json_writer_key_whole(struct json_writer *json, const char *key, uint64_t value)
 {
-    json_writer_key(text, key);
-    json_writer_whole(text, value);
+    json_writer_key(json, key);
+    json_writer_whole(json, value);
 }
 
-void json_writer_key_number(struct json_writer *text, const char *key, double value, int decimals)
+void json_writer_key_number(struct json_writer *json, const char *key, double value, int decimals)
 {
-    json_writer_key(text, key);
-    json_writer_number(text, value, decimals);
+    json_writer_key(json, key);
+    json_writer_number(json, value, decimals);
 }
 
-void json_writer_key_bool(struct json_writer *text, const char *key, bool value)
+void json_writer_key_bool(struct json_writer *json, const char *key, bool value)
 {
-    json_writer_key(text, key);
-    json_writer_bool(text, value);
+    json_writer_key(json, key);
+    json_writer_bool(json, value);
 }

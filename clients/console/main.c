@@ -33,7 +33,7 @@ static int choose_token(const struct options *options, struct error_text *error)
 }
 
 /* The set's console speaks into the set's log, where the token has no place. */
-static void greet(const struct options *options)
+static void print_address(const struct options *options)
 {
     if (options->role) {
         log_info("serves %s", console.listener.url);
@@ -63,7 +63,7 @@ static void turn(uint64_t now_ns)
     pthread_mutex_lock(&console.lock);
     if (world_reader_turn(&console.reader, now_ns)) {
         command_queue_world_changed(&console.queue, &console.players, &console.reader);
-        if (console.reader.there)
+        if (console.reader.attached)
             log_info("world \"%s\" is there", console.reader.name);
         else
             log_info("%s; waiting for it", console.reader.detail.text);
@@ -101,7 +101,7 @@ int main(int argc, char **argv)
         picture_proxy_open(&console.proxy, options.world, &error) != 0 ||
         server_start(&console, &error) != 0)
         die_refused("%s", error.text);
-    greet(&options); /* the first word to a terminal asks what it is: not in the sandbox */
+    print_address(&options); /* the first word to a terminal asks what it is: not in the sandbox */
     if (sandbox_enter(&sandbox, &error) != 0)
         die_refused("%s", error.text);
     if (options.role)

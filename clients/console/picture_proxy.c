@@ -60,7 +60,7 @@ void picture_proxy_release(struct picture_copy *copy)
     free(copy);
 }
 
-static struct picture_copy *hold(struct picture_copy *copy)
+static struct picture_copy *retain(struct picture_copy *copy)
 {
     atomic_fetch_add(&copy->holders, 1);
     return copy;
@@ -107,8 +107,8 @@ static struct channel *find_channel(struct picture_proxy *proxy, const char *tar
 }
 
 /* Returns true if the channel's copy is new enough for the request. */
-static bool is_enough(const struct channel *channel, const struct picture_waiter *waiter,
-                      uint64_t now_ns)
+static bool is_fresh(const struct channel *channel, const struct picture_waiter *waiter,
+                     uint64_t now_ns)
 {
     const struct picture_copy *copy = channel->copy;
     uint64_t age_ns = now_ns - channel->copied_ns;
@@ -128,17 +128,17 @@ bool picture_proxy_ask(struct picture_proxy *proxy, const char *target,
     uint64_t now_ns = clock_now_ns();
     pthread_mutex_lock(&proxy->lock);
     struct channel *channel = proxy->ending ? NULL : find_channel(proxy, target);
-    bool now = !channel || is_enough(channel, waiter, now_ns);
+    bool now = !channel || is_fresh(channel, waiter, now_ns);
     if (!channel) {
         http_answer_error(answer, HTTP_ANSWER_AWAY, "look at what others look at, or ask again",
                           "more than %u different pictures are asked for", PICTURE_PROXY_CHANNELS);
     } else if (now) {
-        waiter->copy = hold(channel->copy);
+        waiter->copy = retain(channel->copy);
         waiter->done = true;
     } else {
         waiter->next = channel->waiting;
         channel->waiting = waiter;
-        pthread_cond_signal(&proxy->come);
+        pthread_cond_signal(&proxy->work);
     }
     if (channel)
         channel->asked_ns = now_ns;
@@ -162,7 +162,7 @@ static struct channel *next_channel(struct picture_proxy *proxy)
 
 /* The number of the picture that all waiting pages have already, so that a newer one is needed. 0:
  * any picture will do. */
-static uint64_t all_have(const struct channel *channel)
+static uint64_t common_picture(const struct channel *channel)
 {
     uint64_t after = channel->waiting->after;
     for (const struct picture_waiter *waiter = channel->waiting; waiter; waiter = waiter->next) {
@@ -188,7 +188,7 @@ static struct picture_waiter *take_satisfied(struct channel *channel, struct pic
         bool other = !waiter->has_after || (copy && copy->number != waiter->after);
         if (!copy || copy->status != 200 || waiter->fetches >= FETCHES || (old && other)) {
             *at = waiter->next;
-            waiter->copy = copy ? hold(channel->copy) : NULL;
+            waiter->copy = copy ? retain(channel->copy) : NULL;
             waiter->done = true;
             waiter->next = satisfied;
             satisfied = waiter;
@@ -204,7 +204,7 @@ static void serve(struct picture_proxy *proxy, struct channel *channel)
 {
     char target[PICTURE_PROXY_TARGET];
     struct picture_waiter *begun = channel->waiting;
-    uint64_t after = all_have(channel);
+    uint64_t after = common_picture(channel);
     memcpy(target, channel->target, sizeof target);
     channel->fetching = true;
     pthread_mutex_unlock(&proxy->lock);
@@ -236,7 +236,7 @@ static void *run(void *argument)
         else if (proxy->ending)
             break;
         else
-            pthread_cond_wait(&proxy->come, &proxy->lock);
+            pthread_cond_wait(&proxy->work, &proxy->lock);
     }
     pthread_mutex_unlock(&proxy->lock);
     return NULL;
@@ -248,7 +248,7 @@ int picture_proxy_open(struct picture_proxy *proxy, const char *world, struct er
     int cause = 0;
     *proxy = (struct picture_proxy){.world = world};
     pthread_mutex_init(&proxy->lock, NULL);
-    pthread_cond_init(&proxy->come, NULL);
+    pthread_cond_init(&proxy->work, NULL);
     sigfillset(&all); /* the main thread handles signals */
     sigdelset(&all, SIGSYS);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -267,7 +267,7 @@ void picture_proxy_close(struct picture_proxy *proxy)
 {
     pthread_mutex_lock(&proxy->lock);
     proxy->ending = true;
-    pthread_cond_broadcast(&proxy->come);
+    pthread_cond_broadcast(&proxy->work);
     pthread_mutex_unlock(&proxy->lock);
     while (proxy->threads > 0)
         pthread_join(proxy->thread[--proxy->threads], NULL);

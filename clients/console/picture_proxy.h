@@ -48,7 +48,7 @@ struct picture_waiter {
 struct picture_proxy {
     const char *world;
     pthread_mutex_t lock;
-    pthread_cond_t come;
+    pthread_cond_t work;
     bool ending;
     struct channel {
         char target[PICTURE_PROXY_TARGET]; /* "": not in use */

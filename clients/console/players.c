@@ -8,7 +8,7 @@
 
 _Static_assert(PLAYERS_KEY_BYTES == SESSION_KEY_BYTES, "a key is a secret");
 
-bool players_name_ok(const char *name)
+bool players_name_is_valid(const char *name)
 {
     uint32_t code, characters = 0;
     bool blank = true;
@@ -29,8 +29,8 @@ struct player *players_join(struct players *players, const char *name,
         struct player *player = &players->player[i];
         if (player->number)
             continue;
-        *player =
-            (struct player){.number = ++players->joined, .source = source, .heard_ns = now_ns};
+        *player = (struct player){
+            .number = ++players->joined, .source = source, .last_request_ns = now_ns};
         strncpy(player->name, name, sizeof player->name - 1);
         session_key_text(player->key, key);
         return player;
@@ -48,7 +48,7 @@ struct player *players_find(struct players *players, const char *key)
     return found;
 }
 
-const struct player *players_driver(const struct players *players, uint32_t vehicle)
+const struct player *players_driver_of(const struct players *players, uint32_t vehicle)
 {
     for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
         const struct player *player = &players->player[i];
@@ -58,12 +58,12 @@ const struct player *players_driver(const struct players *players, uint32_t vehi
     return NULL;
 }
 
-bool players_present(const struct player *player, uint64_t now_ns)
+bool players_is_active(const struct player *player, uint64_t now_ns)
 {
-    return now_ns < player->heard_ns + PLAYERS_HOLD_NS;
+    return now_ns < player->last_request_ns + PLAYERS_HOLD_NS;
 }
 
-void players_drop(struct player *player, const char *error)
+void players_release_vehicle(struct player *player, const char *error)
 {
     player->vehicle = player->wanted = 0;
     player->sent = 0;

@@ -31,7 +31,7 @@ struct player {
     char name[PLAYERS_NAME_MAX];
     char key[PLAYERS_KEY_MAX];
     uint64_t source; /* of its commands */
-    uint64_t heard_ns;
+    uint64_t last_request_ns;
     uint32_t vehicle;                   /* it drives, 0: none */
     uint32_t wanted;                    /* it is to drive: the same, or the one to change to */
     struct controls controls, accepted; /* wanted; as the world last took them for `vehicle` */
@@ -49,7 +49,7 @@ struct players {
 };
 
 /* Is this a name to show: 1 to 32 characters of UTF-8, all of them visible, and not only spaces? */
-bool players_name_ok(const char *name);
+bool players_name_is_valid(const char *name);
 
 /* A new player; NULL when there are PLAYERS_MAX. key: random bytes. */
 struct player *players_join(struct players *players, const char *name,
@@ -59,12 +59,12 @@ struct player *players_join(struct players *players, const char *name,
 struct player *players_find(struct players *players, const char *key);
 
 /* Who of them drives the vehicle, NULL: none. */
-const struct player *players_driver(const struct players *players, uint32_t vehicle);
+const struct player *players_driver_of(const struct players *players, uint32_t vehicle);
 
 /* Is the player still there? */
-bool players_present(const struct player *player, uint64_t now_ns);
+bool players_is_active(const struct player *player, uint64_t now_ns);
 
 /* It drives nothing any more; why: in words, "" when it wanted so. */
-void players_drop(struct player *player, const char *error);
+void players_release_vehicle(struct player *player, const char *error);
 
 #endif

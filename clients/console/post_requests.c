@@ -20,7 +20,7 @@ static bool join(struct request *request, struct player *player, struct http_ans
 {
     char name[PLAYERS_NAME_MAX];
     uint8_t key[SESSION_KEY_BYTES];
-    struct json_writer *text = &answer->text;
+    struct json_writer *json = &answer->json;
     uint64_t source = command_client_source(), now_ns = clock_now_ns();
     (void)player;
     if (!request_body_join(name, request->http->body, request->http->body_bytes, answer))
@@ -37,11 +37,11 @@ static bool join(struct request *request, struct player *player, struct http_ans
                           "there are %u players, more cannot be", PLAYERS_MAX);
         return true;
     }
-    json_writer_begin(text, '{');
-    json_writer_key_whole(text, "player", joined->number);
-    json_writer_key_word(text, "name", joined->name);
-    json_writer_key_word(text, "key", joined->key);
-    json_writer_end(text, '}');
+    json_writer_begin(json, '{');
+    json_writer_key_whole(json, "player", joined->number);
+    json_writer_key_word(json, "name", joined->name);
+    json_writer_key_word(json, "key", joined->key);
+    json_writer_end(json, '}');
     return true;
 }
 
@@ -55,7 +55,7 @@ static bool command(struct request *request, struct player *player, struct http_
                           "no player has this key; who is not heard of for two minutes has left");
         return true;
     }
-    if (console->ending || !console->reader.there) {
+    if (console->ending || !console->reader.attached) {
         http_answer_error(answer, HTTP_ANSWER_AWAY, "wait until it is there", "%s",
                           console->ending ? "the console ends" : console->reader.detail.text);
         return true;
@@ -80,28 +80,28 @@ static bool process(struct request *request, struct player *player, struct http_
 
 static const struct {
     const char *path;
-    bool (*change)(struct request *request, struct player *player, struct http_answer *answer);
-} changes[] = {{"/api/join", join}, {"/api/command", command}, {"/api/process", process}};
+    bool (*handle)(struct request *request, struct player *player, struct http_answer *answer);
+} post_requests[] = {{"/api/join", join}, {"/api/command", command}, {"/api/process", process}};
 
-#define CHANGES (sizeof changes / sizeof changes[0])
+#define POST_REQUESTS_COUNT (sizeof post_requests / sizeof post_requests[0])
 
 bool post_requests_find(const char *path)
 {
-    for (size_t i = 0; i < CHANGES; i++) {
-        if (strcmp(path, changes[i].path) == 0)
+    for (size_t i = 0; i < POST_REQUESTS_COUNT; i++) {
+        if (strcmp(path, post_requests[i].path) == 0)
             return true;
     }
     return false;
 }
 
-bool post_requests_world(struct request *request, const char *path, struct http_answer *answer)
+bool post_requests_handle(struct request *request, const char *path, struct http_answer *answer)
 {
     uint64_t now_ns = clock_now_ns();
     struct player *player = access_control_player(request, now_ns);
     size_t i = 0;
     if (!access_control_open_to_change(request, player, now_ns, answer))
         return true;
-    while (strcmp(path, changes[i].path) != 0)
+    while (strcmp(path, post_requests[i].path) != 0)
         i++;
-    return changes[i].change(request, player, answer);
+    return post_requests[i].handle(request, player, answer);
 }

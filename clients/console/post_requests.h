@@ -10,6 +10,6 @@ bool post_requests_find(const char *path);
 
 /* Checks the request and does it. True with the answer; false: the answer comes with the request's
  * ticket, until which its connection is to be suspended. */
-bool post_requests_world(struct request *request, const char *path, struct http_answer *answer);
+bool post_requests_handle(struct request *request, const char *path, struct http_answer *answer);
 
 #endif

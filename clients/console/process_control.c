@@ -10,38 +10,38 @@
 #include <sys/pidfd.h>
 #include <unistd.h>
 
-static void put_role(struct json_writer *text, const struct world_reader *reader, enum role role)
+static void put_role(struct json_writer *json, const struct world_reader *reader, enum role role)
 {
     const struct role_slot *slot = reader->view.slot[role];
     int pid = segment_holder(reader->name, role);
     uint64_t beat_ns = atomic_load(&slot->beat_ns), now_ns = clock_now_ns();
-    json_writer_begin(text, '{');
-    json_writer_key_word(text, "role", role_name(role));
+    json_writer_begin(json, '{');
+    json_writer_key_word(json, "role", role_name(role));
     json_writer_key_word(
-        text, "state", pid ? role_state_name((enum role_state)atomic_load(&slot->state)) : "dead");
-    json_writer_key_whole(text, "pid", (uint64_t)pid);
-    json_writer_key_whole(text, "restarts", atomic_load(&slot->starts) - 1);
-    json_writer_key_number(text, "beat_age_ms",
+        json, "state", pid ? role_state_name((enum role_state)atomic_load(&slot->state)) : "dead");
+    json_writer_key_whole(json, "pid", (uint64_t)pid);
+    json_writer_key_whole(json, "restarts", atomic_load(&slot->starts) - 1);
+    json_writer_key_number(json, "beat_age_ms",
                            now_ns > beat_ns ? (double)(now_ns - beat_ns) / 1e6 : 0.0, 1);
-    json_writer_key_number(text, "stage_ms", (double)atomic_load(&slot->stage_ns) / 1e6, 3);
-    json_writer_key_number(text, "stage_p99_ms",
+    json_writer_key_number(json, "stage_ms", (double)atomic_load(&slot->stage_ns) / 1e6, 3);
+    json_writer_key_number(json, "stage_p99_ms",
                            (double)histogram_quantile(&slot->stage, 0.99) / 1e6, 3);
-    json_writer_key_whole(text, "late_frames", atomic_load(&slot->late_frames));
-    json_writer_key_whole(text, "frame", atomic_load(&slot->frame));
-    json_writer_end(text, '}');
+    json_writer_key_whole(json, "late_frames", atomic_load(&slot->late_frames));
+    json_writer_key_whole(json, "frame", atomic_load(&slot->frame));
+    json_writer_end(json, '}');
 }
 
 void process_control_list(const struct world_query *query, struct http_answer *answer)
 {
-    struct json_writer *text = &answer->text;
+    struct json_writer *json = &answer->json;
     if (!world_query_attached(query, answer))
         return;
-    json_writer_begin(text, '[');
+    json_writer_begin(json, '[');
     for (int role = 0; role < ROLE_COUNT; role++) {
         if (atomic_load(&query->reader->view.slot[role]->starts) > 0)
-            put_role(text, query->reader, (enum role)role);
+            put_role(json, query->reader, (enum role)role);
     }
-    json_writer_end(text, ']');
+    json_writer_end(json, ']');
 }
 
 /* The process is still the role's when the descriptor is its own: another one with its number is
@@ -80,11 +80,11 @@ void process_control_end(const struct world_reader *reader, const char *name, bo
                           "the %s does not run: %s", name, strerror(cause));
         return;
     }
-    struct json_writer *text = &answer->text;
-    json_writer_begin(text, '{');
-    json_writer_key_word(text, "result", "done");
-    json_writer_key_word(text, "role", name);
-    json_writer_key_whole(text, "pid", (uint64_t)pid);
-    json_writer_key_word(text, "signal", kills ? "KILL" : "TERM");
-    json_writer_end(text, '}');
+    struct json_writer *json = &answer->json;
+    json_writer_begin(json, '{');
+    json_writer_key_word(json, "result", "done");
+    json_writer_key_word(json, "role", name);
+    json_writer_key_whole(json, "pid", (uint64_t)pid);
+    json_writer_key_word(json, "signal", kills ? "KILL" : "TERM");
+    json_writer_end(json, '}');
 }

@@ -84,7 +84,7 @@ static bool wait_for(int fd, short what, uint64_t until_ns)
 }
 
 /* A question fits into any socket's buffer. */
-static bool ask(int fd, const char *target, uint64_t after)
+static bool send_request(int fd, const char *target, uint64_t after)
 {
     char text[PICTURE_PROXY_TARGET + 128], number[48] = "";
     if (after)
@@ -111,7 +111,7 @@ static bool make_room(struct picture_copy *copy)
 }
 
 /* To the end of what it says. */
-static bool hear(int fd, struct picture_copy *copy, uint64_t until_ns)
+static bool receive(int fd, struct picture_copy *copy, uint64_t until_ns)
 {
     while (make_room(copy)) {
         ssize_t count = recv(fd, copy->bytes + copy->count, copy->room - copy->count, 0);
@@ -135,7 +135,8 @@ struct picture_copy *renderer_client(const char *world, const char *target, uint
     int fd = connect_renderer(world);
     if (fd < 0)
         return copy;
-    if (!ask(fd, target, after) || !hear(fd, copy, until_ns) || !renderer_client_read(copy))
+    if (!send_request(fd, target, after) || !receive(fd, copy, until_ns) ||
+        !renderer_client_read(copy))
         copy->status = 0;
     close(fd);
     return copy;

@@ -7,7 +7,7 @@
 
 #define BIT(field) (1u << (field))
 
-static const char again[] = "docs/console.md says what an order looks like";
+static const char format_hint[] = "docs/console.md says what an order looks like";
 
 /* An object without anything after it; NULL with the answer. */
 static cJSON *parse(const char *body, size_t bytes, struct http_answer *answer)
@@ -21,7 +21,7 @@ static cJSON *parse(const char *body, size_t bytes, struct http_answer *answer)
     if (object && cJSON_IsObject(object) && end == body + bytes)
         return object;
     cJSON_Delete(object);
-    http_answer_error(answer, HTTP_ANSWER_BAD, again, "the body is no JSON object");
+    http_answer_error(answer, HTTP_ANSWER_BAD, format_hint, "the body is no JSON object");
     return NULL;
 }
 
@@ -44,7 +44,7 @@ static bool read_cancel(uint32_t *cancel, const cJSON *object, struct http_answe
 }
 
 /* What a page need not say: its player's own vehicle, one step, a round a second. */
-static void assume(struct command_text *order)
+static void apply_defaults(struct command_text *order)
 {
     enum command_text_field operand = order->verb->operand;
     if (order->command.type == jolon_COMMAND_STEP && !(order->given & BIT(COMMAND_TEXT_FRAMES)))
@@ -58,7 +58,7 @@ static void assume(struct command_text *order)
 }
 
 /* What is said elsewhere, but not to a console. */
-static bool is_ours(const struct command_text *order, struct http_answer *answer)
+static bool is_allowed(const struct command_text *order, struct http_answer *answer)
 {
     if (order->command.type == jolon_COMMAND_QUIT)
         http_answer_error(answer, HTTP_ANSWER_BAD, "jolon ctl quit does",
@@ -75,11 +75,11 @@ static bool read_order(struct command_text *order, const cJSON *object, struct h
 {
     struct error_text error;
     if (command_json_give(order, object, &error) == 0) {
-        assume(order);
+        apply_defaults(order);
         if (command_text_end(order, &error) == 0)
-            return is_ours(order, answer);
+            return is_allowed(order, answer);
     }
-    http_answer_error(answer, HTTP_ANSWER_BAD, again, "%s", error.text);
+    http_answer_error(answer, HTTP_ANSWER_BAD, format_hint, "%s", error.text);
     return false;
 }
 
@@ -103,7 +103,7 @@ bool request_body_join(char name[PLAYERS_NAME_MAX], const char *body, size_t byt
     if (!object)
         return false;
     const char *given = string_of(object, "name");
-    bool good = players_name_ok(given);
+    bool good = players_name_is_valid(given);
     if (good)
         memcpy(name, given, strlen(given) + 1);
     else

@@ -13,7 +13,7 @@ static void list_kinds(const struct world_reader *reader, bool munitions, char *
 {
     size_t used = (size_t)snprintf(text, bytes, "there are");
     const struct world *world = &reader->view.world;
-    for (uint32_t i = 0; reader->there && i < world->counts.kinds && used < bytes; i++) {
+    for (uint32_t i = 0; reader->attached && i < world->counts.kinds && used < bytes; i++) {
         const struct kind *kind = &world->kinds[i];
         if (kind->domain == DOMAIN_FIXED || (kind->domain == DOMAIN_MUNITION) != munitions)
             continue;
@@ -44,7 +44,7 @@ static void explain(struct http_answer *answer, const struct command_text *order
                     const struct players *players)
 {
     const jolon_Command *command = &order->command;
-    const struct player *driver = players_driver(players, command->entity);
+    const struct player *driver = players_driver_of(players, command->entity);
     char kinds[512];
     switch (result) {
     case COMMAND_NO_SUCH_ENTITY:
@@ -81,17 +81,17 @@ void result_text_put(struct http_answer *answer, const struct command_text *orde
                      const jolon_CommandReply *reply, const struct world_reader *reader,
                      const struct players *players)
 {
-    struct json_writer *text = &answer->text;
+    struct json_writer *json = &answer->json;
     if (reply->result != jolon_RESULT_DONE) {
         explain(answer, order, (enum command_result)reply->result, reader, players);
         return;
     }
     answer->status = HTTP_ANSWER_OK;
-    json_writer_begin(text, '{');
-    json_writer_key_word(text, "result", "done");
-    json_writer_key_whole(text, "frame", reply->frame);
-    json_writer_key_whole(text, "entity", reply->entity);
-    json_writer_end(text, '}');
+    json_writer_begin(json, '{');
+    json_writer_key_word(json, "result", "done");
+    json_writer_key_whole(json, "frame", reply->frame);
+    json_writer_key_whole(json, "entity", reply->entity);
+    json_writer_end(json, '}');
 }
 
 void result_text_none(struct http_answer *answer, const struct command_text *order, bool heard)

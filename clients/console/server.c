@@ -33,15 +33,15 @@ static const struct http_header headers[] = {
 /* The answer's text becomes the reply's. */
 static void reply_answer(struct http_reply *reply, struct http_answer *answer)
 {
-    if (answer->text.failed || answer->text.used == 0)
+    if (answer->json.failed || answer->json.used == 0)
         http_answer_error(answer, HTTP_ANSWER_AWAY, "ask for less, or again",
                           "no memory for the answer");
     *reply = (struct http_reply){.status = (unsigned)answer->status,
                                  .type = JSON_TYPE,
-                                 .bytes = answer->text.bytes,
-                                 .count = answer->text.used,
+                                 .bytes = answer->json.bytes,
+                                 .count = answer->json.used,
                                  .release = free,
-                                 .owner = answer->text.bytes};
+                                 .owner = answer->json.bytes};
 }
 
 static void refuse(struct http_reply *reply, unsigned status, const char *what, const char *next)
@@ -51,7 +51,7 @@ static void refuse(struct http_reply *reply, unsigned status, const char *what, 
     reply_answer(reply, &answer);
 }
 
-static void let_go(void *copy)
+static void detach(void *copy)
 {
     picture_proxy_release(copy);
 }
@@ -72,7 +72,7 @@ static void reply_picture(struct http_reply *reply, struct request *request)
                                  .type = "image/jpeg",
                                  .bytes = copy->body,
                                  .count = copy->body_bytes,
-                                 .release = let_go,
+                                 .release = detach,
                                  .owner = copy};
     http_reply_add(reply, "X-Picture", "%llu", (unsigned long long)copy->number);
     http_reply_add(reply, "X-Frame", "%s", copy->frame);
@@ -95,7 +95,7 @@ typedef void answer_function(const struct world_query *query, struct http_answer
 static const struct {
     const char *path;
     answer_function *answer;
-} readings[] = {
+} get_requests[] = {
     {"/api/world", world_json},
     {"/api/state", state_json},
     {"/api/list", vehicles_json},
@@ -108,11 +108,11 @@ static const char *argument(void *context, const char *key)
     return http_argument(context, key);
 }
 
-static answer_function *find_reading(const char *path)
+static answer_function *find_get_request(const char *path)
 {
-    for (size_t i = 0; i < sizeof readings / sizeof readings[0]; i++) {
-        if (strcmp(path, readings[i].path) == 0)
-            return readings[i].answer;
+    for (size_t i = 0; i < sizeof get_requests / sizeof get_requests[0]; i++) {
+        if (strcmp(path, get_requests[i].path) == 0)
+            return get_requests[i].answer;
     }
     return NULL;
 }
@@ -147,7 +147,7 @@ static void read_world(struct request *request, const char *path, struct http_an
     struct console *console = request->console;
     uint64_t now_ns = clock_now_ns();
     const struct player *player = access_control_player(request, now_ns);
-    answer_function *function = find_reading(path);
+    answer_function *function = find_get_request(path);
     struct world_query query = {.reader = &console->reader,
                                 .players = &console->players,
                                 .queue = &console->queue,
@@ -185,7 +185,7 @@ static bool make_answer(struct request *request, const char *path, const char *m
     if (reads && !post_requests_find(path))
         read_world(request, path, answer);
     else if (!reads && strcmp(method, "POST") == 0 && post_requests_find(path))
-        return post_requests_world(request, path, answer);
+        return post_requests_handle(request, path, answer);
     else
         http_answer_error(answer, HTTP_ANSWER_NOT_ALLOWED,
                           post_requests_find(path) ? "POST it"
@@ -209,7 +209,7 @@ static bool on_request(void *context, struct http_request *http, struct http_rep
     pthread_mutex_unlock(&console->lock);
     if (!now)
         return false;
-    const struct page_files_file *file = answer.text.used == 0 ? page_files_find(http->path) : NULL;
+    const struct page_files_file *file = answer.json.used == 0 ? page_files_find(http->path) : NULL;
     if (request->waiter.done)
         reply_picture(reply, request);
     else if (file)
@@ -223,7 +223,7 @@ static void on_end(void *context, struct http_request *http)
 {
     struct request *request = http->own;
     (void)context;
-    json_writer_free(&request->pending.answer.text);
+    json_writer_free(&request->pending.answer.json);
     picture_proxy_release(request->waiter.copy);
 }
 

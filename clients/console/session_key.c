@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define LEAST 16u
+#define TOKEN_MIN 16u
 
 bool session_key_equal(const char *kept, const char *given)
 {
@@ -68,10 +68,11 @@ int session_key_file(char token[SESSION_KEY_MAX], const char *path, struct error
                               path);
     line[count] = '\0';
     size_t length = strspn(line, letters);
-    if (length < LEAST || length >= SESSION_KEY_MAX || line[length + strspn(line + length, "\r\n")])
+    if (length < TOKEN_MIN || length >= SESSION_KEY_MAX ||
+        line[length + strspn(line + length, "\r\n")])
         return error_text_set(error,
                               "--token-file %s: wants one line of %u to %u letters, digits, - or _",
-                              path, LEAST, SESSION_KEY_MAX - 1);
+                              path, TOKEN_MIN, SESSION_KEY_MAX - 1);
     memcpy(token, line, length);
     token[length] = '\0';
     return 0;

@@ -12,50 +12,50 @@
 #define ENTITIES_MAX 20000u /* ... and at most */
 #define MILLI_NS     1e6
 
-static void put_times(struct json_writer *text, const char *key, const struct histogram *histogram)
+static void put_times(struct json_writer *json, const char *key, const struct histogram *histogram)
 {
-    json_writer_key(text, key);
-    json_writer_begin(text, '{');
-    json_writer_key_number(text, "p50", (double)histogram_quantile(histogram, 0.50) / MILLI_NS, 3);
-    json_writer_key_number(text, "p99", (double)histogram_quantile(histogram, 0.99) / MILLI_NS, 3);
-    json_writer_key_number(text, "max", (double)histogram->max_ns / MILLI_NS, 3);
-    json_writer_end(text, '}');
+    json_writer_key(json, key);
+    json_writer_begin(json, '{');
+    json_writer_key_number(json, "p50", (double)histogram_quantile(histogram, 0.50) / MILLI_NS, 3);
+    json_writer_key_number(json, "p99", (double)histogram_quantile(histogram, 0.99) / MILLI_NS, 3);
+    json_writer_key_number(json, "max", (double)histogram->max_ns / MILLI_NS, 3);
+    json_writer_end(json, '}');
 }
 
-static void put_tally(struct json_writer *text, const struct state_head *head)
+static void put_tally(struct json_writer *json, const struct state_head *head)
 {
     const struct counters *tally = &head->tally;
-    json_writer_key(text, "tally");
-    json_writer_begin(text, '{');
-    json_writer_key_whole(text, "collisions", tally->collisions);
-    json_writer_key_whole(text, "fires", tally->fires);
-    json_writer_key_whole(text, "detonations", tally->detonations);
-    json_writer_key_whole(text, "craters", head->crater_count);
-    json_writer_key_whole(text, "destroyed", tally->destroyed);
-    json_writer_key_whole(text, "fixed_damaged", tally->fixed_damaged);
-    json_writer_key_whole(text, "agent_changes", tally->agent_changes);
-    json_writer_key_whole(text, "commands", tally->commands);
-    json_writer_key_whole(text, "events_dropped", tally->events_dropped);
-    json_writer_end(text, '}');
+    json_writer_key(json, "tally");
+    json_writer_begin(json, '{');
+    json_writer_key_whole(json, "collisions", tally->collisions);
+    json_writer_key_whole(json, "fires", tally->fires);
+    json_writer_key_whole(json, "detonations", tally->detonations);
+    json_writer_key_whole(json, "craters", head->crater_count);
+    json_writer_key_whole(json, "destroyed", tally->destroyed);
+    json_writer_key_whole(json, "fixed_damaged", tally->fixed_damaged);
+    json_writer_key_whole(json, "agent_changes", tally->agent_changes);
+    json_writer_key_whole(json, "commands", tally->commands);
+    json_writer_key_whole(json, "events_dropped", tally->events_dropped);
+    json_writer_end(json, '}');
 }
 
-static void put_head(struct json_writer *text, const struct world_query *query)
+static void put_head(struct json_writer *json, const struct world_query *query)
 {
     const struct world_reader *reader = query->reader;
     const struct view *view = &reader->view;
     const struct state_head *head = &reader->snapshot.head;
-    json_writer_key_whole(text, "frame", head->frame);
-    json_writer_key_number(text, "time_s", state_time_s(&view->world, head), 3);
-    json_writer_key_word(text, "state", world_reader_state(reader, head));
-    json_writer_key_bool(text, "paused", head->paused != 0);
-    json_writer_key_number(text, "scale", head->time_scale, 3);
-    json_writer_key_number(text, "rate_hz", world_reader_rate_hz(reader), 1);
-    json_writer_key_whole(text, "late_frames", atomic_load(&view->slot[ROLE_MOVER]->late_frames));
-    json_writer_key_whole(text, "vehicles", head->vehicles);
-    json_writer_key_whole(text, "munitions", head->munitions);
-    json_writer_key_whole(text, "events", head->event_end);
-    put_tally(text, head);
-    put_times(text, "frame_ms", &view->slot[ROLE_COLLIDER]->whole);
+    json_writer_key_whole(json, "frame", head->frame);
+    json_writer_key_number(json, "time_s", state_time_s(&view->world, head), 3);
+    json_writer_key_word(json, "state", world_reader_state(reader, head));
+    json_writer_key_bool(json, "paused", head->paused != 0);
+    json_writer_key_number(json, "scale", head->time_scale, 3);
+    json_writer_key_number(json, "rate_hz", world_reader_rate_hz(reader), 1);
+    json_writer_key_whole(json, "late_frames", atomic_load(&view->slot[ROLE_MOVER]->late_frames));
+    json_writer_key_whole(json, "vehicles", head->vehicles);
+    json_writer_key_whole(json, "munitions", head->munitions);
+    json_writer_key_whole(json, "events", head->event_end);
+    put_tally(json, head);
+    put_times(json, "frame_ms", &view->slot[ROLE_COLLIDER]->whole);
 }
 
 struct area_asked {
@@ -85,27 +85,27 @@ static bool within(const struct area_asked *area, const struct entities *e, uint
            e->z[row] >= area->z0 && e->z[row] <= area->z1;
 }
 
-static void put_entity(struct json_writer *text, const struct world_query *query, uint32_t row)
+static void put_entity(struct json_writer *json, const struct world_query *query, uint32_t row)
 {
     const struct entities *e = &query->reader->snapshot.entities;
-    json_writer_begin(text, '[');
-    json_writer_whole(text, e->id[row]);
-    json_writer_whole(text, e->kind[row]);
-    json_writer_whole(text, e->force[row]);
-    json_writer_whole(text, e->behaviour[row]);
-    json_writer_whole(text, e->state[row]);
-    json_writer_whole(text, e->damage[row]);
-    json_writer_number(text, e->x[row], 1);
-    json_writer_number(text, e->z[row], 1);
-    json_writer_number(text, e->heading[row], 3);
-    json_writer_number(text, vec3_length(entities_velocity(e, row)), 1);
-    json_writer_number(text, (double)e->turret[row], 3);
-    json_writer_whole(text, world_query_driver(query, row));
-    json_writer_end(text, ']');
+    json_writer_begin(json, '[');
+    json_writer_whole(json, e->id[row]);
+    json_writer_whole(json, e->kind[row]);
+    json_writer_whole(json, e->force[row]);
+    json_writer_whole(json, e->behaviour[row]);
+    json_writer_whole(json, e->state[row]);
+    json_writer_whole(json, e->damage[row]);
+    json_writer_number(json, e->x[row], 1);
+    json_writer_number(json, e->z[row], 1);
+    json_writer_number(json, e->heading[row], 3);
+    json_writer_number(json, vec3_length(entities_velocity(e, row)), 1);
+    json_writer_number(json, (double)e->turret[row], 3);
+    json_writer_whole(json, world_query_driver(query, row));
+    json_writer_end(json, ']');
 }
 
 /* When more are there than are wanted, every so manieth by its id: the same ones the next time. */
-static void put_entities(struct json_writer *text, const struct world_query *query,
+static void put_entities(struct json_writer *json, const struct world_query *query,
                          const struct area_asked *area)
 {
     const struct snapshot *snapshot = &query->reader->snapshot;
@@ -115,37 +115,37 @@ static void put_entities(struct json_writer *text, const struct world_query *que
         count += within(area, e, row);
     uint64_t stride = area->most > 0 ? (count + area->most - 1) / area->most : 0;
     stride = stride > 0 ? stride : 1;
-    json_writer_key(text, "entities");
-    json_writer_begin(text, '[');
+    json_writer_key(json, "entities");
+    json_writer_begin(json, '[');
     for (uint32_t row = 0; row < snapshot->head.used && put < area->most; row++) {
         if (!within(area, e, row) || e->id[row] % stride != 0)
             continue;
-        put_entity(text, query, row);
+        put_entity(json, query, row);
         put++;
     }
-    json_writer_end(text, ']');
-    json_writer_key_whole(text, "left_out", count - put);
+    json_writer_end(json, ']');
+    json_writer_key_whole(json, "left_out", count - put);
 }
 
-static void put_where(struct json_writer *text, const struct world_query *query, uint32_t row)
+static void put_where(struct json_writer *json, const struct world_query *query, uint32_t row)
 {
     const struct entities *e = &query->reader->snapshot.entities;
     const struct world *world = &query->reader->view.world;
-    json_writer_key_number(text, "x", e->x[row], 2);
-    json_writer_key_number(text, "y", e->y[row], 2);
-    json_writer_key_number(text, "z", e->z[row], 2);
-    json_writer_key_number(text, "speed_mps", vec3_length(entities_velocity(e, row)), 2);
-    json_writer_key_number(text, "heading_deg", e->heading[row] / RAD_PER_DEG, 1);
-    json_writer_key_number(text, "pitch_deg", e->pitch[row] / RAD_PER_DEG, 1);
-    json_writer_key_number(text, "roll_deg", e->roll[row] / RAD_PER_DEG, 1);
-    json_writer_key_number(text, "altitude_m",
+    json_writer_key_number(json, "x", e->x[row], 2);
+    json_writer_key_number(json, "y", e->y[row], 2);
+    json_writer_key_number(json, "z", e->z[row], 2);
+    json_writer_key_number(json, "speed_mps", vec3_length(entities_velocity(e, row)), 2);
+    json_writer_key_number(json, "heading_deg", e->heading[row] / RAD_PER_DEG, 1);
+    json_writer_key_number(json, "pitch_deg", e->pitch[row] / RAD_PER_DEG, 1);
+    json_writer_key_number(json, "roll_deg", e->roll[row] / RAD_PER_DEG, 1);
+    json_writer_key_number(json, "altitude_m",
                            e->y[row] - terrain_base_height(&world->terrain, e->x[row], e->z[row]),
                            1);
-    json_writer_key_number(text, "turret_deg", (double)e->turret[row] / RAD_PER_DEG, 1);
-    json_writer_key_number(text, "gun_deg", (double)e->gun[row] / RAD_PER_DEG, 1);
+    json_writer_key_number(json, "turret_deg", (double)e->turret[row] / RAD_PER_DEG, 1);
+    json_writer_key_number(json, "gun_deg", (double)e->gun[row] / RAD_PER_DEG, 1);
 }
 
-static void put_me(struct json_writer *text, const struct world_query *query, uint32_t row)
+static void put_me(struct json_writer *json, const struct world_query *query, uint32_t row)
 {
     static const char *const drivers[] = {"", "another", "you"};
     const struct world_reader *reader = query->reader;
@@ -154,82 +154,82 @@ static void put_me(struct json_writer *text, const struct world_query *query, ui
     const struct kind *kind = &world->kinds[e->kind[row]];
     double reload_s =
         ((double)e->reload_tick[row] - (double)reader->snapshot.head.tick) * world_dt_s(world);
-    json_writer_key(text, "me");
-    json_writer_begin(text, '{');
-    json_writer_key_whole(text, "id", e->id[row]);
-    json_writer_key_word(text, "name", world_entity_name(world, e->id[row]));
-    json_writer_key_word(text, "kind", kind->name);
-    json_writer_key_word(text, "force", force_name((enum force)e->force[row]));
-    json_writer_key_word(text, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));
-    json_writer_key_word(text, "state", entity_state_name((enum entity_state)e->state[row]));
-    json_writer_key_word(text, "damage", damage_name((enum damage)e->damage[row]));
-    put_where(text, query, row);
-    json_writer_key_whole(text, "rounds", e->rounds[row]);
-    json_writer_key_whole(text, "rounds_full", kind->rounds);
-    json_writer_key_number(text, "fuel_l", e->fuel_l[row], 1);
-    json_writer_key_number(text, "fuel_full_l", kind->fuel_l, 1);
-    json_writer_key_number(text, "reload_s", fmax(reload_s, 0.0), 2);
-    json_writer_key_word(text, "gear", gear_name(entity_gear(e->flags[row])));
-    json_writer_key_number(text, "throttle", (double)e->throttle[row], 2);
+    json_writer_key(json, "me");
+    json_writer_begin(json, '{');
+    json_writer_key_whole(json, "id", e->id[row]);
+    json_writer_key_word(json, "name", world_entity_name(world, e->id[row]));
+    json_writer_key_word(json, "kind", kind->name);
+    json_writer_key_word(json, "force", force_name((enum force)e->force[row]));
+    json_writer_key_word(json, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));
+    json_writer_key_word(json, "state", entity_state_name((enum entity_state)e->state[row]));
+    json_writer_key_word(json, "damage", damage_name((enum damage)e->damage[row]));
+    put_where(json, query, row);
+    json_writer_key_whole(json, "rounds", e->rounds[row]);
+    json_writer_key_whole(json, "rounds_full", kind->rounds);
+    json_writer_key_number(json, "fuel_l", e->fuel_l[row], 1);
+    json_writer_key_number(json, "fuel_full_l", kind->fuel_l, 1);
+    json_writer_key_number(json, "reload_s", fmax(reload_s, 0.0), 2);
+    json_writer_key_word(json, "gear", gear_name(entity_gear(e->flags[row])));
+    json_writer_key_number(json, "throttle", (double)e->throttle[row], 2);
     json_writer_key_whole(
-        text, "target",
+        json, "target",
         entities_alive(e, e->target_slot[row], e->target_id[row]) ? e->target_id[row] : 0);
-    json_writer_key_word(text, "driver", drivers[world_query_driver(query, row)]);
-    json_writer_end(text, '}');
+    json_writer_key_word(json, "driver", drivers[world_query_driver(query, row)]);
+    json_writer_end(json, '}');
 }
 
-static void put_players(struct json_writer *text, const struct world_query *query)
+static void put_players(struct json_writer *json, const struct world_query *query)
 {
-    json_writer_key(text, "players");
-    json_writer_begin(text, '[');
+    json_writer_key(json, "players");
+    json_writer_begin(json, '[');
     for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
         const struct player *player = &query->players->player[i];
         if (!player->number)
             continue;
-        json_writer_begin(text, '{');
-        json_writer_key_whole(text, "player", player->number);
-        json_writer_key_word(text, "name", player->name);
-        json_writer_key_whole(text, "vehicle", player->vehicle);
-        json_writer_key_bool(text, "you", player == query->player);
-        json_writer_end(text, '}');
+        json_writer_begin(json, '{');
+        json_writer_key_whole(json, "player", player->number);
+        json_writer_key_word(json, "name", player->name);
+        json_writer_key_whole(json, "vehicle", player->vehicle);
+        json_writer_key_bool(json, "you", player == query->player);
+        json_writer_end(json, '}');
     }
-    json_writer_end(text, ']');
+    json_writer_end(json, ']');
     if (query->player) {
-        json_writer_key(text, "you");
-        json_writer_begin(text, '{');
-        json_writer_key_whole(text, "player", query->player->number);
-        json_writer_key_whole(text, "vehicle", query->player->vehicle);
-        json_writer_key_word(text, "lost", query->player->lost);
-        json_writer_end(text, '}');
+        json_writer_key(json, "you");
+        json_writer_begin(json, '{');
+        json_writer_key_whole(json, "player", query->player->number);
+        json_writer_key_whole(json, "vehicle", query->player->vehicle);
+        json_writer_key_word(json, "lost", query->player->lost);
+        json_writer_end(json, '}');
     }
 }
 
-static void put_missions(struct json_writer *text, const struct command_queue *queue)
+static void put_missions(struct json_writer *json, const struct command_queue *queue)
 {
-    json_writer_key(text, "missions");
-    json_writer_begin(text, '[');
+    json_writer_key(json, "missions");
+    json_writer_begin(json, '[');
     for (uint32_t i = 0; i < COMMAND_QUEUE_MISSIONS; i++) {
-        const struct command_series *mission = &queue->mission[i].mission;
+        const struct command_series *mission = &queue->mission[i].series;
         const struct command_text *order = &mission->order;
         if (!queue->mission[i].number)
             continue;
-        json_writer_begin(text, '{');
-        json_writer_key_whole(text, "mission", queue->mission[i].number);
-        json_writer_key_word(text, "munition", order->command.kind);
-        json_writer_key_number(text, "x", order->command.x_m, 1);
-        json_writer_key_number(text, "z", order->command.z_m, 1);
-        json_writer_key_number(text, "radius_m", order->radius_m, 1);
-        json_writer_key_whole(text, "rounds", order->rounds);
-        json_writer_key_whole(text, "fired", mission->done);
-        json_writer_key_whole(text, "refused", mission->answered - mission->done);
-        json_writer_end(text, '}');
+        json_writer_begin(json, '{');
+        json_writer_key_whole(json, "mission", queue->mission[i].number);
+        json_writer_key_word(json, "munition", order->command.kind);
+        json_writer_key_number(json, "x", order->command.x_m, 1);
+        json_writer_key_number(json, "z", order->command.z_m, 1);
+        json_writer_key_number(json, "radius_m", order->radius_m, 1);
+        json_writer_key_whole(json, "rounds", order->rounds);
+        json_writer_key_whole(json, "fired", mission->done);
+        json_writer_key_whole(json, "refused", mission->answered - mission->done);
+        json_writer_end(json, '}');
     }
-    json_writer_end(text, ']');
+    json_writer_end(json, ']');
 }
 
 void state_json(const struct world_query *query, struct http_answer *answer)
 {
-    struct json_writer *text = &answer->text;
+    struct json_writer *json = &answer->json;
     struct area_asked area;
     uint64_t me = 0;
     if (!read_area(query, &area, answer) ||
@@ -237,12 +237,12 @@ void state_json(const struct world_query *query, struct http_answer *answer)
         !world_query_copied(query, answer))
         return;
     uint32_t row = world_reader_row(query->reader, (uint32_t)me);
-    json_writer_begin(text, '{');
-    put_head(text, query);
-    put_entities(text, query, &area);
-    put_players(text, query);
-    put_missions(text, query->queue);
+    json_writer_begin(json, '{');
+    put_head(json, query);
+    put_entities(json, query, &area);
+    put_players(json, query);
+    put_missions(json, query->queue);
     if (row != SLOT_NONE)
-        put_me(text, query, row);
-    json_writer_end(text, '}');
+        put_me(json, query, row);
+    json_writer_end(json, '}');
 }

@@ -29,7 +29,7 @@ enum sorting {
 static const char *const sort_words[SORT_COUNT] = {"id",     "name",   "kind", "speed",
                                                    "damage", "rounds", "fuel", "behaviour"};
 
-struct asked {
+struct list_query {
     const char *search;
     uint32_t force, kind; /* FORCE_COUNT, KIND_NONE: any */
     enum sorting sort;
@@ -47,14 +47,14 @@ struct entry {
 
 /* --- what is asked -----------------------------------------------------------------------------*/
 
-static bool read_sort(const struct world_query *query, struct asked *asked,
+static bool read_sort(const struct world_query *query, struct list_query *list,
                       struct http_answer *answer)
 {
     const char *word = query_text(&query->arguments, "sort");
-    asked->sort = SORT_ID;
-    while (*word && asked->sort < SORT_COUNT && strcmp(word, sort_words[asked->sort]) != 0)
-        asked->sort++;
-    if (asked->sort < SORT_COUNT)
+    list->sort = SORT_ID;
+    while (*word && list->sort < SORT_COUNT && strcmp(word, sort_words[list->sort]) != 0)
+        list->sort++;
+    if (list->sort < SORT_COUNT)
         return true;
     http_answer_error(answer, HTTP_ANSWER_BAD,
                       "there are id, name, kind, speed, damage, rounds, fuel, behaviour",
@@ -62,54 +62,54 @@ static bool read_sort(const struct world_query *query, struct asked *asked,
     return false;
 }
 
-static bool read_force(const struct world_query *query, struct asked *asked,
+static bool read_force(const struct world_query *query, struct list_query *list,
                        struct http_answer *answer)
 {
     const char *word = query_text(&query->arguments, "force");
-    asked->force = *word ? 0 : FORCE_COUNT;
-    while (*word && asked->force < FORCE_COUNT &&
-           strcmp(word, force_name((enum force)asked->force)) != 0)
-        asked->force++;
-    if (!*word || asked->force < FORCE_COUNT)
+    list->force = *word ? 0 : FORCE_COUNT;
+    while (*word && list->force < FORCE_COUNT &&
+           strcmp(word, force_name((enum force)list->force)) != 0)
+        list->force++;
+    if (!*word || list->force < FORCE_COUNT)
         return true;
     http_answer_error(answer, HTTP_ANSWER_BAD, "there are neutral, blue, red",
                       "force=%.40s: no such force", word);
     return false;
 }
 
-static bool read_kind(const struct world_query *query, struct asked *asked,
+static bool read_kind(const struct world_query *query, struct list_query *list,
                       struct http_answer *answer)
 {
     const struct world *world = &query->reader->view.world;
     const char *word = query_text(&query->arguments, "kind");
-    asked->kind = *word ? kind_find(world->kinds, world->counts.kinds, word) : KIND_NONE;
-    if (!*word || asked->kind != KIND_NONE)
+    list->kind = *word ? kind_find(world->kinds, world->counts.kinds, word) : KIND_NONE;
+    if (!*word || list->kind != KIND_NONE)
         return true;
     http_answer_error(answer, HTTP_ANSWER_BAD, "/api/world lists them", "kind=%.40s: no such kind",
                       word);
     return false;
 }
 
-static bool read_asked(const struct world_query *query, struct asked *asked,
+static bool read_asked(const struct world_query *query, struct list_query *list,
                        struct http_answer *answer)
 {
     uint64_t descending = 0;
     const struct world *world = &query->reader->view.world;
-    *asked = (struct asked){.search = query_text(&query->arguments, "search")};
-    if (!read_sort(query, asked, answer) || !read_force(query, asked, answer) ||
-        !read_kind(query, asked, answer) ||
+    *list = (struct list_query){.search = query_text(&query->arguments, "search")};
+    if (!read_sort(query, list, answer) || !read_force(query, list, answer) ||
+        !read_kind(query, list, answer) ||
         !query_whole(&query->arguments, "descending", 0, 1, 0, &descending, answer) ||
-        !query_whole(&query->arguments, "from", 0, FROM_MAX, 0, &asked->from, answer) ||
-        !query_whole(&query->arguments, "most", 1, ROWS_MAX, ROWS, &asked->most, answer))
+        !query_whole(&query->arguments, "from", 0, FROM_MAX, 0, &list->from, answer) ||
+        !query_whole(&query->arguments, "most", 1, ROWS_MAX, ROWS, &list->most, answer))
         return false;
-    asked->descending = descending != 0;
+    list->descending = descending != 0;
     for (uint32_t i = 0; i < world->counts.kinds && i < KIND_COUNT_MAX; i++)
-        asked->kind_found[i] = strcasestr(world->kinds[i].name, asked->search) != NULL;
+        list->kind_found[i] = strcasestr(world->kinds[i].name, list->search) != NULL;
     return true;
 }
 
 /* Is the row of the list? The search is a part of its name or kind, or its id's beginning. */
-static bool belongs(const struct world_query *query, const struct asked *asked, uint32_t row)
+static bool matches(const struct world_query *query, const struct list_query *list, uint32_t row)
 {
     const struct entities *e = &query->reader->snapshot.entities;
     const struct world *world = &query->reader->view.world;
@@ -117,29 +117,29 @@ static bool belongs(const struct world_query *query, const struct asked *asked, 
     uint32_t kind = e->kind[row];
     if (e->state[row] == ENTITY_FREE || kind >= world->counts.kinds ||
         world->kinds[kind].domain == DOMAIN_MUNITION ||
-        (asked->force < FORCE_COUNT && e->force[row] != asked->force) ||
-        (asked->kind != KIND_NONE && kind != asked->kind))
+        (list->force < FORCE_COUNT && e->force[row] != list->force) ||
+        (list->kind != KIND_NONE && kind != list->kind))
         return false;
-    if (asked->kind_found[kind] ||
-        strcasestr(world_entity_name(world, e->id[row]), asked->search) != NULL)
+    if (list->kind_found[kind] ||
+        strcasestr(world_entity_name(world, e->id[row]), list->search) != NULL)
         return true;
     (void)snprintf(id, sizeof id, "%u", e->id[row]);
-    return strncmp(id, asked->search, strlen(asked->search)) == 0;
+    return strncmp(id, list->search, strlen(list->search)) == 0;
 }
 
 /* --- order -------------------------------------------------------------------------------------*/
 
-static struct entry entry_of(const struct world_query *query, const struct asked *asked,
+static struct entry entry_of(const struct world_query *query, const struct list_query *list,
                              uint32_t row)
 {
     const struct entities *e = &query->reader->snapshot.entities;
     const struct world *world = &query->reader->view.world;
     struct entry entry = {.word = "", .row = row, .id = e->id[row]};
-    switch (asked->sort) {
+    switch (list->sort) {
     case SORT_NAME:
         entry.word = world_entity_name(world, entry.id);
         if (entry.word[0] == '\0') /* those without one behind the others, either way */
-            entry.key = asked->descending ? -1.0 : 1.0;
+            entry.key = list->descending ? -1.0 : 1.0;
         break;
     case SORT_KIND:
         entry.word = world->kinds[e->kind[row]].name;
@@ -185,7 +185,7 @@ struct heap {
     bool descending;
 };
 
-static void sink(struct heap *heap, uint32_t at, uint32_t count)
+static void sift_down(struct heap *heap, uint32_t at, uint32_t count)
 {
     struct entry *e = heap->entry;
     for (;;) {
@@ -201,12 +201,12 @@ static void sink(struct heap *heap, uint32_t at, uint32_t count)
     }
 }
 
-static void keep(struct heap *heap, const struct entry *entry)
+static void heap_add(struct heap *heap, const struct entry *entry)
 {
     if (heap->count == heap->room) {
         if (compare(entry, &heap->entry[0], heap->descending) < 0) {
             heap->entry[0] = *entry;
-            sink(heap, 0, heap->count);
+            sift_down(heap, 0, heap->count);
         }
         return;
     }
@@ -224,43 +224,42 @@ static void sort(struct heap *heap)
         struct entry last = heap->entry[count - 1];
         heap->entry[count - 1] = heap->entry[0];
         heap->entry[0] = last;
-        sink(heap, 0, count - 1);
+        sift_down(heap, 0, count - 1);
     }
 }
 
 /* --- the answer --------------------------------------------------------------------------------*/
 
-static void put_row(struct json_writer *text, const struct world_query *query, uint32_t row)
+static void put_row(struct json_writer *json, const struct world_query *query, uint32_t row)
 {
     const struct entities *e = &query->reader->snapshot.entities;
     const struct world *world = &query->reader->view.world;
-    const struct player *player = players_driver(query->players, e->id[row]);
-    json_writer_begin(text, '{');
-    json_writer_key_whole(text, "id", e->id[row]);
-    json_writer_key_word(text, "name", world_entity_name(world, e->id[row]));
-    json_writer_key_word(text, "kind", world->kinds[e->kind[row]].name);
-    json_writer_key_word(text, "force", force_name((enum force)e->force[row]));
-    json_writer_key_word(text, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));
-    json_writer_key_word(text, "state", entity_state_name((enum entity_state)e->state[row]));
-    json_writer_key_word(text, "damage", damage_name((enum damage)e->damage[row]));
-    json_writer_key_number(text, "x", e->x[row], 1);
-    json_writer_key_number(text, "z", e->z[row], 1);
-    json_writer_key_number(text, "speed_mps", vec3_length(entities_velocity(e, row)), 1);
-    json_writer_key_whole(text, "rounds", e->rounds[row]);
-    json_writer_key_number(text, "fuel_l", e->fuel_l[row], 1);
-    json_writer_key_whole(text, "driven", world_query_driver(query, row));
-    json_writer_key_word(text, "player", player ? player->name : "");
-    json_writer_end(text, '}');
+    const struct player *player = players_driver_of(query->players, e->id[row]);
+    json_writer_begin(json, '{');
+    json_writer_key_whole(json, "id", e->id[row]);
+    json_writer_key_word(json, "name", world_entity_name(world, e->id[row]));
+    json_writer_key_word(json, "kind", world->kinds[e->kind[row]].name);
+    json_writer_key_word(json, "force", force_name((enum force)e->force[row]));
+    json_writer_key_word(json, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));
+    json_writer_key_word(json, "state", entity_state_name((enum entity_state)e->state[row]));
+    json_writer_key_word(json, "damage", damage_name((enum damage)e->damage[row]));
+    json_writer_key_number(json, "x", e->x[row], 1);
+    json_writer_key_number(json, "z", e->z[row], 1);
+    json_writer_key_number(json, "speed_mps", vec3_length(entities_velocity(e, row)), 1);
+    json_writer_key_whole(json, "rounds", e->rounds[row]);
+    json_writer_key_number(json, "fuel_l", e->fuel_l[row], 1);
+    json_writer_key_whole(json, "driven", world_query_driver(query, row));
+    json_writer_key_word(json, "player", player ? player->name : "");
+    json_writer_end(json, '}');
 }
 
 void vehicles_json(const struct world_query *query, struct http_answer *answer)
 {
-    struct asked asked;
-    struct json_writer *text = &answer->text;
-    if (!world_query_copied(query, answer) || !read_asked(query, &asked, answer))
+    struct list_query list;
+    struct json_writer *json = &answer->json;
+    if (!world_query_copied(query, answer) || !read_asked(query, &list, answer))
         return;
-    struct heap heap = {.room = (uint32_t)(asked.from + asked.most),
-                        .descending = asked.descending};
+    struct heap heap = {.room = (uint32_t)(list.from + list.most), .descending = list.descending};
     heap.entry = malloc(heap.room * sizeof *heap.entry);
     if (!heap.entry) {
         http_answer_error(answer, HTTP_ANSWER_AWAY, "ask for less", "no memory for the list");
@@ -268,20 +267,20 @@ void vehicles_json(const struct world_query *query, struct http_answer *answer)
     }
     uint64_t total = 0;
     for (uint32_t row = 0; row < query->reader->snapshot.head.used; row++) {
-        if (!belongs(query, &asked, row))
+        if (!matches(query, &list, row))
             continue;
-        struct entry entry = entry_of(query, &asked, row);
-        keep(&heap, &entry);
+        struct entry entry = entry_of(query, &list, row);
+        heap_add(&heap, &entry);
         total++;
     }
     sort(&heap);
-    json_writer_begin(text, '{');
-    json_writer_key_whole(text, "total", total);
-    json_writer_key(text, "rows");
-    json_writer_begin(text, '[');
-    for (uint64_t i = asked.from; i < heap.count; i++)
-        put_row(text, query, heap.entry[i].row);
-    json_writer_end(text, ']');
-    json_writer_end(text, '}');
+    json_writer_begin(json, '{');
+    json_writer_key_whole(json, "total", total);
+    json_writer_key(json, "rows");
+    json_writer_begin(json, '[');
+    for (uint64_t i = list.from; i < heap.count; i++)
+        put_row(json, query, heap.entry[i].row);
+    json_writer_end(json, ']');
+    json_writer_end(json, '}');
     free(heap.entry);
 }

@@ -5,6 +5,6 @@
 #include "clients/console/world_query.h"
 
 /* Writes the rows of one page of the filtered and sorted list. */
-void vehicles_json(const struct world_query *asked, struct http_answer *answer);
+void vehicles_json(const struct world_query *list, struct http_answer *answer);
 
 #endif

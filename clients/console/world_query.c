@@ -3,7 +3,7 @@
 
 bool world_query_attached(const struct world_query *query, struct http_answer *answer)
 {
-    if (query->reader->there)
+    if (query->reader->attached)
         return true;
     http_answer_error(answer, HTTP_ANSWER_AWAY,
                       "this page goes on by itself when it is there; jolon start makes one, jolon "

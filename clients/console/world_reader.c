@@ -19,19 +19,19 @@ void world_reader_open(struct world_reader *reader, const char *name)
     error_text_set(&reader->detail, "world \"%s\" is not there yet", name);
 }
 
-static void let_go(struct world_reader *reader)
+static void detach(struct world_reader *reader)
 {
-    if (!reader->there)
+    if (!reader->attached)
         return;
     snapshot_free(&reader->snapshot);
     segment_detach(&reader->view);
-    reader->there = reader->copied = false;
+    reader->attached = reader->copied = false;
     reader->rate_count = reader->rate_next = 0;
 }
 
 void world_reader_close(struct world_reader *reader)
 {
-    let_go(reader);
+    detach(reader);
 }
 
 /* The object that the name leads to now; false with the reason when it leads nowhere. */
@@ -78,21 +78,21 @@ static bool attach(struct world_reader *reader)
                        reader->name);
         return false;
     }
-    reader->there = true;
+    reader->attached = true;
     note_turrets(reader);
     return true;
 }
 
-static bool look(struct world_reader *reader)
+static bool check_name(struct world_reader *reader)
 {
     char object[SEGMENT_PATH_MAX];
     struct error_text detail;
-    if (reader->there && find_object(reader, object, &detail) &&
+    if (reader->attached && find_object(reader, object, &detail) &&
         strcmp(object, reader->object) == 0)
         return false;
-    bool was_there = reader->there;
-    let_go(reader);
-    return attach(reader) || was_there;
+    bool was_attached = reader->attached;
+    detach(reader);
+    return attach(reader) || was_attached;
 }
 
 static void sample_rate(struct world_reader *reader, uint64_t now_ns)
@@ -121,9 +121,9 @@ bool world_reader_turn(struct world_reader *reader, uint64_t now_ns)
     bool changed = false;
     if (reader->looked_ns == 0 || now_ns - reader->looked_ns >= WORLD_READER_LOOK_NS) {
         reader->looked_ns = now_ns;
-        changed = look(reader);
+        changed = check_name(reader);
     }
-    if (reader->there) {
+    if (reader->attached) {
         sample_rate(reader, now_ns);
         note_time(reader);
     }
@@ -132,7 +132,7 @@ bool world_reader_turn(struct world_reader *reader, uint64_t now_ns)
 
 int world_reader_copy(struct world_reader *reader, uint64_t now_ns)
 {
-    if (!reader->there)
+    if (!reader->attached)
         return -1;
     uint64_t pause_ns = reader->spent_ns * WORLD_READER_SHARE;
     pause_ns = pause_ns > WORLD_READER_COPY_NS ? pause_ns : WORLD_READER_COPY_NS;

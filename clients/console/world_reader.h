@@ -19,7 +19,7 @@
 
 struct world_reader {
     const char *name;
-    bool there;               /* what follows is attached */
+    bool attached;            /* what follows is attached */
     struct error_text detail; /* there is none */
     struct view view;
     char object[SEGMENT_PATH_MAX]; /* the one that is mapped */

@@ -35,7 +35,7 @@ static void start(void)
     world_reader_open(&console.reader, name);
     support_world(&console.reader.view);
     CHECK(snapshot_init(&console.reader.snapshot, &console.reader.view) == 0);
-    console.reader.there = true;
+    console.reader.attached = true;
     console.listener = http_client_listener();
     CHECK(picture_proxy_open(&console.proxy, name, &error) == 0);
     CHECK(server_start(&console, &error) == 0);

@@ -26,11 +26,11 @@
 
 static void expect_number(double value, int decimals, const char *wanted)
 {
-    struct json_writer text = {0};
-    json_writer_number(&text, value, decimals);
-    assert_int_equal(text.used, strlen(wanted));
-    assert_memory_equal(text.bytes, wanted, text.used);
-    json_writer_free(&text);
+    struct json_writer json = {0};
+    json_writer_number(&json, value, decimals);
+    assert_int_equal(json.used, strlen(wanted));
+    assert_memory_equal(json.bytes, wanted, json.used);
+    json_writer_free(&json);
 }
 
 static void test_numbers_are_short_and_right(void **state)
@@ -52,35 +52,35 @@ static void test_words_are_escaped_and_commas_put(void **state)
 {
     static const char wanted[] =
         "{\"a\":[1,\"\\\"\\\\\\u000a\\u007f\xc3\xbc\"],\"b\":{},\"c\":true}";
-    struct json_writer text = {0};
+    struct json_writer json = {0};
     (void)state;
-    json_writer_begin(&text, '{');
-    json_writer_key(&text, "a");
-    json_writer_begin(&text, '[');
-    json_writer_whole(&text, 1);
-    json_writer_word(&text, "\"\\\n\x7f\xc3\xbc");
-    json_writer_end(&text, ']');
-    json_writer_key(&text, "b");
-    json_writer_begin(&text, '{');
-    json_writer_end(&text, '}');
-    json_writer_key_bool(&text, "c", true);
-    json_writer_end(&text, '}');
-    assert_int_equal(text.used, sizeof wanted - 1);
-    assert_memory_equal(text.bytes, wanted, text.used);
-    json_writer_free(&text);
+    json_writer_begin(&json, '{');
+    json_writer_key(&json, "a");
+    json_writer_begin(&json, '[');
+    json_writer_whole(&json, 1);
+    json_writer_word(&json, "\"\\\n\x7f\xc3\xbc");
+    json_writer_end(&json, ']');
+    json_writer_key(&json, "b");
+    json_writer_begin(&json, '{');
+    json_writer_end(&json, '}');
+    json_writer_key_bool(&json, "c", true);
+    json_writer_end(&json, '}');
+    assert_int_equal(json.used, sizeof wanted - 1);
+    assert_memory_equal(json.bytes, wanted, json.used);
+    json_writer_free(&json);
 }
 
 static void test_text_has_a_bound(void **state)
 {
     static char word[65536];
-    struct json_writer text = {0};
+    struct json_writer json = {0};
     (void)state;
     memset(word, 'x', sizeof word - 1);
     for (int i = 0; i < 400; i++)
-        json_writer_word(&text, word);
-    assert_true(text.failed);
-    assert_true(text.used <= JSON_WRITER_MAX);
-    json_writer_free(&text);
+        json_writer_word(&json, word);
+    assert_true(json.failed);
+    assert_true(json.used <= JSON_WRITER_MAX);
+    json_writer_free(&json);
 }
 
 /* --- secrets -----------------------------------------------------------------------------------*/
@@ -178,10 +178,10 @@ static void test_players_are_known_by_their_keys(void **state)
     assert_null(players_find(&players, "00000000000000000000000000000000"));
     struct player *player = players_find(&players, first);
     player->vehicle = 12;
-    assert_ptr_equal(players_driver(&players, 12), player);
-    assert_null(players_driver(&players, 0));
-    assert_true(players_present(player, SECOND + PLAYERS_HOLD_NS - 1));
-    assert_false(players_present(player, SECOND + PLAYERS_HOLD_NS));
+    assert_ptr_equal(players_driver_of(&players, 12), player);
+    assert_null(players_driver_of(&players, 0));
+    assert_true(players_is_active(player, SECOND + PLAYERS_HOLD_NS - 1));
+    assert_false(players_is_active(player, SECOND + PLAYERS_HOLD_NS));
     player->number = 0; /* left */
     assert_null(players_find(&players, first));
     assert_non_null(players_join(&players, "Bob", key, 1, SECOND));

@@ -20,8 +20,8 @@ static enum http_answer_status status_of(const char *body)
     bool good = request_body_order(&order, &cancel, body, strlen(body), &answer);
     assert_int_equal(good, answer.status == HTTP_ANSWER_OK);
     if (!good)
-        assert_memory_equal(answer.text.bytes, "{\"error\":\"", 10);
-    json_writer_free(&answer.text);
+        assert_memory_equal(answer.json.bytes, "{\"error\":\"", 10);
+    json_writer_free(&answer.json);
     return answer.status;
 }
 
@@ -157,7 +157,7 @@ static void test_what_is_no_order_is_refused(void **state)
     for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++)
         bad(bodies[i]);
     assert_false(request_body_order(&order, &cancel, "{\"do\":\"pause\"}\0\0", 16, &answer));
-    json_writer_free(&answer.text);
+    json_writer_free(&answer.json);
     char deep[4000];
     memset(deep, '[', sizeof deep - 1);
     deep[sizeof deep - 1] = '\0';
@@ -169,7 +169,7 @@ static bool joins(const char *body)
     char name[PLAYERS_NAME_MAX];
     struct http_answer answer = {.status = HTTP_ANSWER_OK};
     bool joined = request_body_join(name, body, strlen(body), &answer);
-    json_writer_free(&answer.text);
+    json_writer_free(&answer.json);
     return joined;
 }
 
@@ -213,7 +213,7 @@ static void test_processes_are_named(void **state)
     assert_string_equal(role, "renderer");
     for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++)
         assert_false(request_body_process(&restart, role, bodies[i], strlen(bodies[i]), &answer));
-    json_writer_free(&answer.text);
+    json_writer_free(&answer.json);
 }
 
 int main(void)
