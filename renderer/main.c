@@ -17,7 +17,6 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 
 #define NICENESS 12 /* far behind the frame loop */
 
@@ -117,7 +116,7 @@ int main(int argc, char **argv)
      * frame loop's way. */
     if (!snapping && heartbeat_start(&heartbeat, &view) != 0)
         die_refused("cannot start a thread: %s", strerror(errno));
-    if (setpriority(PRIO_PROCESS, 0, NICENESS) != 0)
+    if (process_lower_priority(NICENESS) != 0)
         log_warn("cannot lower its priority: %s", strerror(errno));
     if (!snapping && output_set_start(&outputs, &error) != 0)
         die_refused("%s", error.text);

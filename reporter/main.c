@@ -13,9 +13,6 @@
 #include "reporter/status_topics.h"
 #include "ipc/sandbox/sandbox.h"
 
-#include <errno.h>
-#include <unistd.h>
-
 #define NICENESS 5
 
 /* Longest waits between two looks at the world: alone, and with a command under way. Both leave
@@ -121,8 +118,7 @@ int main(int argc, char **argv)
     process_close_inherited();
     process_die_with_parent(options.parent);
     process_signals();
-    errno = 0;
-    if (nice(NICENESS) == -1 && errno)
+    if (process_lower_priority(NICENESS) != 0)
         log_warn("runs at normal priority: nice %d not allowed", NICENESS);
     if (sandbox_begin(&sandbox, ROLE_REPORTER, options.sandbox_off, &error) != 0 ||
         segment_attach(&reporter.view, options.world, ROLE_REPORTER, &error) != 0)

@@ -12,7 +12,6 @@
 #include "ipc/segment/segment_attach.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 #define NICENESS 5
 
@@ -85,7 +84,7 @@ int main(int argc, char **argv)
     process_close_inherited();
     process_die_with_parent(options.parent);
     process_signals();
-    if (nice(NICENESS) == -1)
+    if (process_lower_priority(NICENESS) != 0)
         log_warn("runs at normal priority: nice %d not allowed", NICENESS);
     const struct http_listen_options where = {.address_option = "--address",
                                               .port_option = "--port",

@@ -14,20 +14,12 @@
 
 #include <errno.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 /* How often the screen looks at the keyboard and at new events. */
 #define POLL_NS (50 * (uint64_t)NS_PER_MS)
 
 #define NICENESS 10 /* far behind the frame loop: a hundred of them make no frame late */
-
-/* Of this thread and of those that it starts: before DDS starts its own. */
-static void lower_priority(void)
-{
-    if (getpriority(PRIO_PROCESS, 0) < NICENESS && setpriority(PRIO_PROCESS, 0, NICENESS) != 0)
-        log_warn("cannot lower its priority: %s", strerror(errno));
-}
 
 static int run_events(struct event_merge *merge)
 {
@@ -82,7 +74,8 @@ int main(int argc, char **argv)
     if (options.rate_hz <= 0.0)
         options.rate_hz = screen ? OPTIONS_SCREEN_HZ : OPTIONS_LINES_HZ;
     process_signals();
-    lower_priority();
+    if (process_lower_priority(NICENESS) != 0) /* before DDS starts its threads */
+        log_warn("cannot lower its priority: %s", strerror(errno));
     if (dds_link_open(&link, &options.link, options.world, &error) != 0 ||
         (!options.events &&
          world_mirror_open(&mirror, &link, options.world, screen || options.json, &error) != 0) ||

@@ -5,6 +5,7 @@
 #include "world/runtime/check.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -116,6 +117,21 @@ void process_die_with_parent(int parent_pid)
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent_pid) /* the parent died before prctl() */
         _exit(0);
+}
+
+static int started_niceness;
+
+static void note_niceness(void)
+{
+    started_niceness = getpriority(PRIO_PROCESS, 0);
+}
+
+/* The niceness at the start is noted once: a thread within a sandbox may not ask for it. */
+int process_lower_priority(int steps)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, note_niceness);
+    return setpriority(PRIO_PROCESS, 0, started_niceness + steps);
 }
 
 char process_state(int pid)

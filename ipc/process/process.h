@@ -42,6 +42,11 @@ void process_close_inherited(void);
  * already. */
 void process_die_with_parent(int parent_pid);
 
+/* Lowers the priority of the calling thread, and of the threads that it starts later, to this many
+ * steps of niceness below the priority that the process was started with, at most to the lowest.
+ * A world started under nice keeps the order of its processes. Returns 0, or -1 with errno. */
+int process_lower_priority(int steps);
+
 /* Returns the state letter of a process from /proc (R, S, D, T, Z ...), '\0' when there is none. A
  * child that its parent has not waited for yet is a zombie (Z) and keeps its pid. */
 char process_state(int pid);

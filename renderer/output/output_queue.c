@@ -1,11 +1,12 @@
 /* The queue and its thread. */
 #include "renderer/output/output_queue.h"
+
+#include "ipc/process/process.h"
 #include "world/runtime/check.h"
 
 #include <errno.h>
 #include <signal.h>
 #include <string.h>
-#include <sys/resource.h>
 
 /* The oldest picture that waits, now the caller's; NULL when the end is asked for and none waits.
  */
@@ -25,8 +26,7 @@ static void *work(void *argument)
 {
     struct output_queue *queue = argument;
     struct picture *picture;
-    setpriority(PRIO_PROCESS, 0,
-                OUTPUT_QUEUE_NICENESS); /* this thread's alone; no loss where it fails */
+    process_lower_priority(OUTPUT_QUEUE_NICENESS); /* this thread's alone; no loss where it fails */
     pthread_mutex_lock(&queue->lock);
     queue->running = true;
     pthread_cond_signal(&queue->gone);

@@ -3,6 +3,7 @@
 
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
+#include "ipc/process/process.h"
 #include "renderer/image/jpeg.h"
 #include "renderer/output/output_queue.h"
 #include "renderer/output/stream_internal.h"
@@ -12,7 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -187,7 +187,7 @@ static void wait_shortly(struct stream *stream)
 static void *serve(void *argument)
 {
     struct stream *stream = argument;
-    setpriority(PRIO_PROCESS, 0, OUTPUT_QUEUE_NICENESS); /* this thread's alone */
+    process_lower_priority(OUTPUT_QUEUE_NICENESS); /* this thread's alone */
     pthread_mutex_lock(&stream->lock);
     while (!stream->ending) {
         bool done = serve_views(stream);

@@ -3,11 +3,11 @@
 #include "renderer/output/stream_internal.h"
 
 #include "ipc/process/clock.h"
+#include "ipc/process/process.h"
 #include "renderer/output/output_queue.h"
 #include "renderer/output/stream_requests.h"
 
 #include <stdio.h>
-#include <sys/resource.h>
 
 #define WAIT_NS     1000000000ull /* for a picture, at most */
 #define MAP_WAIT_NS 5000000000ull /* for a map: some of them are large, and painting goes last */
@@ -236,7 +236,7 @@ static struct stream_jpeg *make_map(const struct stream_painter *painter,
 void *stream_paint(void *argument)
 {
     struct stream *stream = argument;
-    setpriority(PRIO_PROCESS, 0, OUTPUT_QUEUE_NICENESS); /* this thread's alone */
+    process_lower_priority(OUTPUT_QUEUE_NICENESS); /* this thread's alone */
     pthread_mutex_lock(&stream->lock);
     while (!stream->ending) {
         struct stream_map *map = next_map(stream);

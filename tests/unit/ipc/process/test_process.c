@@ -1,0 +1,63 @@
+/* Priorities: each process of a world keeps its distance to the others when all run at a low one.
+ */
+#include "ipc/process/process.h"
+
+#include "tests/support/child.h"
+
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static int niceness(void)
+{
+    return getpriority(PRIO_PROCESS, 0);
+}
+
+static int lower_by(int from, int steps)
+{
+    return from + steps < 19 ? from + steps : 19; /* the lowest that there is */
+}
+
+static void *in_thread(void *seen)
+{
+    process_lower_priority(7);
+    *(int *)seen = niceness();
+    return NULL;
+}
+
+/* In a process that begins two steps below this one. */
+static int lower(void *context)
+{
+    int before = lower_by(niceness(), 2), of_thread = 0;
+    pthread_t thread;
+    (void)context;
+    if (setpriority(PRIO_PROCESS, 0, before) != 0 || process_lower_priority(5) != 0 ||
+        niceness() != lower_by(before, 5))
+        return 1;
+    if (pthread_create(&thread, NULL, in_thread, &of_thread) != 0 ||
+        pthread_join(thread, NULL) != 0 || of_thread != lower_by(before, 7))
+        return 2;
+    if (niceness() != lower_by(before, 5)) /* the thread's was its own */
+        return 3;
+    return process_lower_priority(100) != 0 || niceness() != 19 ? 4 : 0;
+}
+
+static void test_priority_is_lowered_from_that_of_the_start(void **state)
+{
+    (void)state;
+    assert_int_equal(child_run(lower, NULL), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_priority_is_lowered_from_that_of_the_start),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
