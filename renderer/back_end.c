@@ -13,13 +13,13 @@
 #define THREADS_MOST 4u /* unless more are asked for */
 
 static int open_gl(struct back_end_interface *draw, const struct options *options,
-                   const struct static_scene *scenery, const char *because,
+                   const struct static_scene *static_scene, const char *because,
                    struct error_text *error)
 {
     struct gl_wish wish = {.device = options->device,
                            .hardware = options->back_end != BACK_END_GL && options->device == NULL};
     char name[BACK_END_NAME_BYTES];
-    if (gl_open(draw, scenery, options->width, options->height, &wish, name, error) != 0)
+    if (gl_open(draw, static_scene, options->width, options->height, &wish, name, error) != 0)
         return -1;
     log_info("draws with %s: %s", name, because);
     return 0;
@@ -35,11 +35,11 @@ static uint32_t threads_for(const struct options *options)
 }
 
 static int open_soft(struct back_end_interface *draw, const struct options *options,
-                     const struct static_scene *scenery, const char *because,
+                     const struct static_scene *static_scene, const char *because,
                      struct error_text *error)
 {
     uint32_t threads = threads_for(options);
-    if (soft_open(draw, scenery, options->width, options->height, threads, error) != 0)
+    if (soft_open(draw, static_scene, options->width, options->height, threads, error) != 0)
         return -1;
     log_info("draws with the own rasteriser, %u thread%s, %s: %s", threads, threads == 1 ? "" : "s",
              soft_vectors(), because);
@@ -47,20 +47,20 @@ static int open_soft(struct back_end_interface *draw, const struct options *opti
 }
 
 int back_end_open(struct back_end_interface *draw, const struct options *options,
-                  const struct static_scene *scenery, struct error_text *error)
+                  const struct static_scene *static_scene, struct error_text *error)
 {
     char missing[WHY_BYTES], because[WHY_BYTES + 32];
     if (options->back_end == BACK_END_GL || options->device != NULL)
-        return open_gl(draw, options, scenery, "asked for", error);
+        return open_gl(draw, options, static_scene, "asked for", error);
     if (options->back_end == BACK_END_SOFT)
-        return open_soft(draw, options, scenery, "asked for", error);
+        return open_soft(draw, options, static_scene, "asked for", error);
     if (gl_hardware(missing, sizeof missing)) {
-        if (open_gl(draw, options, scenery, "graphics hardware", error) == 0)
+        if (open_gl(draw, options, static_scene, "graphics hardware", error) == 0)
             return 0;
         snprintf(missing, sizeof missing, "%.390s", error->text);
     }
     snprintf(because, sizeof because, "no graphics hardware (%s)", missing);
-    return open_soft(draw, options, scenery, because, error);
+    return open_soft(draw, options, static_scene, because, error);
 }
 
 int back_end_list(void)

@@ -10,7 +10,7 @@
  * else the own rasteriser; a machine without such hardware loads no OpenGL at all. 0, or -1 with
  * the reason. */
 int back_end_open(struct back_end_interface *draw, const struct options *options,
-                  const struct static_scene *scenery, struct error_text *error);
+                  const struct static_scene *static_scene, struct error_text *error);
 
 /* Prints what can draw here, a line each, to standard output; 0. */
 int back_end_list(void);

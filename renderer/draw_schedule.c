@@ -6,32 +6,33 @@
 #include "ipc/process/process.h"
 #include "renderer/output/stream_requests.h"
 
-#define LOOK_INTERVAL_NS 500000000u /* between two looks at the world when no picture is due */
-#define WAIT_NS          100000000u /* the longest wait without a look at the signals */
+#define UPDATE_INTERVAL_NS 500000000u /* between two looks at the world when no picture is due */
+#define WAIT_NS            100000000u /* the longest wait without a look at the signals */
 
 int draw_schedule_wait(struct render_session *session, struct view *view, struct error_text *error)
 {
-    uint64_t now, look_ns = clock_now_ns() + LOOK_INTERVAL_NS,
-                  due_ns = render_session_due_ns(session);
-    while ((now = clock_now_ns()) < due_ns && !process_stopping() &&
+    uint64_t now_ns, update_ns = clock_now_ns() + UPDATE_INTERVAL_NS,
+                     due_ns = render_session_due_ns(session);
+    while ((now_ns = clock_now_ns()) < due_ns && !process_stopping() &&
            !frame_protocol_finished(view)) {
-        uint64_t until = now + WAIT_NS < due_ns ? now + WAIT_NS : due_ns,
-                 asked = requested_pictures_due_ns(session);
-        if (asked <= now) {
-            if (render_session_look(session, error) != 0 ||
+        uint64_t until_ns = now_ns + WAIT_NS < due_ns ? now_ns + WAIT_NS : due_ns,
+                 request_ns = requested_pictures_due_ns(session);
+        if (request_ns <= now_ns) {
+            if (render_session_update(session, error) != 0 ||
                 requested_pictures_draw(session, error) != 0)
                 return -1;
             continue;
         }
-        stream_sleep(session->outputs->stream, until < asked ? until : asked);
+        stream_requests_wait(session->outputs->stream,
+                             until_ns < request_ns ? until_ns : request_ns);
         heartbeat_stage(session->heartbeat);
-        if (now >= look_ns) {
-            look_ns = now + LOOK_INTERVAL_NS;
-            if (render_session_look(session, error) != 0)
+        if (now_ns >= update_ns) {
+            update_ns = now_ns + UPDATE_INTERVAL_NS;
+            if (render_session_update(session, error) != 0)
                 return -1;
         }
     }
-    return render_session_look(session, error);
+    return render_session_update(session, error);
 }
 
 int draw_schedule_share(struct render_session *session, struct error_text *error)

@@ -23,7 +23,7 @@
 static int run(struct render_session *session, struct view *view, struct error_text *error)
 {
     bool last = false;
-    if (render_session_look(session, error) != 0)
+    if (render_session_update(session, error) != 0)
         return -1;
     if (render_session_check_vehicles(session, error) != 0)
         log_warn("%s; follows another until it is there", error->text);
@@ -35,7 +35,7 @@ static int run(struct render_session *session, struct view *view, struct error_t
             last = process_stopping() || frame_protocol_finished(view);
         }
         /* The look that belongs to the last picture comes after the run's end was seen. */
-        if (last && render_session_look(session, error) != 0)
+        if (last && render_session_update(session, error) != 0)
             return -1;
         uint64_t begun_ns = clock_now_ns();
         if (view_pictures_draw(session, last, error) != 0)
@@ -78,7 +78,7 @@ static void find_followed(struct options *options, const struct view *view)
 /* One picture of the present frame, without a role. */
 static int snap(struct render_session *session, struct error_text *error)
 {
-    return render_session_look(session, error) == 0 &&
+    return render_session_update(session, error) == 0 &&
                    render_session_check_vehicles(session, error) == 0 &&
                    view_pictures_draw(session, true, error) == 0
                ? 0
@@ -132,7 +132,7 @@ int main(int argc, char **argv)
     } else {
         segment_ready(&view);
         log_info("draws world \"%s\" into %s: %s%s, %ux%u, %.3g pictures a second", view.name,
-                 options.out, session.pictures[0].wish.name,
+                 options.out, session.pictures[0].spec.name,
                  session.picture_count > 1 ? ", ..." : "", session.options.width,
                  session.options.height, session.options.fps);
         result = run(&session, &view, &error);

@@ -168,18 +168,18 @@ static const struct option_row rows[] = {
 /* Somebody watches: more than a still now and then. */
 static void take_live_defaults(struct options *options)
 {
-    struct output_set_wish *wish = &options->outputs;
-    bool live = wish->video != NULL || wish->stream_port >= 0;
+    struct output_set_options *outputs = &options->outputs;
+    bool live = outputs->video != NULL || outputs->stream_port >= 0;
     if (live && options->snap != NULL)
         die_usage("--snap makes one picture: --video and --stream are for --out");
     if (live && options->fps < 0.0)
-        options->fps = wish->video_fps;
-    if (wish->stills_fps < 0.0)
-        wish->stills_fps = live ? LIVE_STILLS_FPS : 0.0;
-    wish->world = options->world;
-    wish->folder = options->out;
-    wish->asked = options->out != NULL;
-    wish->role = options->role;
+        options->fps = outputs->video_fps;
+    if (outputs->stills_fps < 0.0)
+        outputs->stills_fps = live ? LIVE_STILLS_FPS : 0.0;
+    outputs->world = options->world;
+    outputs->folder = options->out;
+    outputs->serves_requests = options->out != NULL;
+    outputs->role = options->role;
 }
 
 /* What of the command line must go together. */
@@ -191,7 +191,7 @@ static void check(const struct options *options)
         die_usage("--look: give --eye X,Z too, the free camera's place");
     bool free_view = false;
     for (uint32_t i = 0; i < options->views.count; i++)
-        free_view |= options->views.wish[i].mode == VIEW_FREE;
+        free_view |= options->views.spec[i].mode == VIEW_FREE;
     if (options->stand.given && !free_view)
         die_usage("--eye: it is the free camera's place; give --view free too");
     if (options->device != NULL && options->back_end == BACK_END_SOFT)

@@ -32,8 +32,8 @@ struct options {
     int hold;   /* less detail rather than fewer pictures; below 0: the world's */
     bool exact; /* committed frames alone, nothing between them */
     bool list_devices;
-    struct output_set_wish outputs; /* where pictures go, when out is given */
-    int parent;                     /* 0: none */
+    struct output_set_options outputs; /* where pictures go, when out is given */
+    int parent;                        /* 0: none */
     bool sandbox_off;
 };
 

@@ -14,9 +14,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define EVENT_BATCH   256u
-#define EVENTS_BEFORE 2048u /* read at the start, for what still burns */
-#define COMPLAINT_NS  10000000000ull
+#define EVENT_BATCH         256u
+#define EVENTS_BEFORE       2048u /* read at the start, for what still burns */
+#define WARNING_INTERVAL_NS 10000000000ull
 
 static void take_defaults(struct options *options, const struct renderer_params *params)
 {
@@ -36,31 +36,31 @@ static void take_defaults(struct options *options, const struct renderer_params 
         options->hold = params->hold != 0;
 }
 
-static void take_pictures(struct render_session *session)
+static void init_pictures(struct render_session *session)
 {
     const struct options *options = &session->options;
     for (uint32_t i = 0; i < options->views.count; i++)
         session->pictures[i] =
-            (struct view_picture){.wish = options->views.wish[i],
-                                  .camera_wish = {.view = options->views.wish[i].mode,
-                                                  .field_rad = options->field_rad,
-                                                  .stand = options->stand},
+            (struct view_picture){.spec = options->views.spec[i],
+                                  .camera_options = {.view = options->views.spec[i].mode,
+                                                     .field_rad = options->field_rad,
+                                                     .stand = options->stand},
                                   .slot = SLOT_NONE};
     session->picture_count = options->views.count;
 }
 
 /* May clients ask for pictures, of their own sizes? */
-static bool is_asked(const struct render_session *session)
+static bool takes_requests(const struct render_session *session)
 {
     return session->outputs != NULL && session->outputs->stream != NULL;
 }
 
-static bool wants_cameras(const struct render_session *session)
+static bool needs_back_end(const struct render_session *session)
 {
-    if (is_asked(session))
+    if (takes_requests(session))
         return true;
     for (uint32_t i = 0; i < session->picture_count; i++)
-        if (session->pictures[i].wish.mode != VIEW_MAP)
+        if (session->pictures[i].spec.mode != VIEW_MAP)
             return true;
     return false;
 }
@@ -75,7 +75,7 @@ static int open_world(struct render_session *session, struct view *view)
     if (frame_interpolation_init(&session->interpolation, view->header->capacity) != 0)
         goto err_second;
     if (crater_index_init(&session->craters, view->w[0].craters) != 0)
-        goto err_blend;
+        goto err_interpolation;
     if (dent_index_init(&session->dents, view->w[0].dents, view->world.params->dent_slots) != 0)
         goto err_craters;
     if (tracks_init(&session->tracks, view->world.params->capacity) != 0)
@@ -87,7 +87,7 @@ err_dents:
     dent_index_free(&session->dents);
 err_craters:
     crater_index_free(&session->craters);
-err_blend:
+err_interpolation:
     frame_interpolation_free(&session->interpolation);
 err_second:
     snapshot_free(&session->snapshot[1]);
@@ -111,7 +111,7 @@ static void close_world(struct render_session *session)
 static struct options largest_pictures(const struct render_session *session)
 {
     struct options options = session->options;
-    if (is_asked(session)) {
+    if (takes_requests(session)) {
         options.width = options.width > QUERY_WIDTH_MAX ? options.width : QUERY_WIDTH_MAX;
         options.height = options.height > QUERY_HEIGHT_MAX ? options.height : QUERY_HEIGHT_MAX;
     }
@@ -119,10 +119,10 @@ static struct options largest_pictures(const struct render_session *session)
 }
 
 /* What pictures are made of. */
-static int open_canvas(struct render_session *session, struct view *view)
+static int open_images(struct render_session *session, struct view *view)
 {
     uint32_t width = session->options.width, height = session->options.height;
-    if (static_scene_init(&session->scenery, &view->world) != 0)
+    if (static_scene_init(&session->static_scene, &view->world) != 0)
         return -1;
     if (scene_init(&session->scene) != 0)
         goto err_scenery;
@@ -135,16 +135,16 @@ static int open_canvas(struct render_session *session, struct view *view)
 err_scene:
     scene_free(&session->scene);
 err_scenery:
-    static_scene_free(&session->scenery);
+    static_scene_free(&session->static_scene);
     return -1;
 }
 
-static void close_canvas(struct render_session *session)
+static void close_images(struct render_session *session)
 {
     image_free(&session->small);
     image_free(&session->image);
     scene_free(&session->scene);
-    static_scene_free(&session->scenery);
+    static_scene_free(&session->static_scene);
 }
 
 static void begin(struct render_session *session, struct view *view, struct heartbeat *heartbeat,
@@ -159,7 +159,7 @@ static void begin(struct render_session *session, struct view *view, struct hear
     session->drawn = UINT64_MAX;
     session->at_s = -1.0;
     take_defaults(&session->options, &params->renderer);
-    take_pictures(session);
+    init_pictures(session);
     double fps = outputs != NULL ? session->options.fps : 0.0;
     session->smooth =
         fps >= RENDER_SESSION_SMOOTH_FPS && !options->exact && params->pace == PACE_REAL;
@@ -172,7 +172,7 @@ static int check_video_view(const struct render_session *session, struct error_t
     const char *wanted = session->outputs != NULL ? session->options.outputs.video_view : NULL;
     char drawn[VIEWS_MAX * (VIEW_NAME_BYTES + 2)] = "";
     for (uint32_t i = 0; i < session->picture_count && wanted != NULL; i++) {
-        const char *name = session->pictures[i].wish.name;
+        const char *name = session->pictures[i].spec.name;
         if (strcmp(name, wanted) == 0)
             return 0;
         size_t used = strlen(drawn);
@@ -193,15 +193,15 @@ int render_session_open(struct render_session *session, struct view *view,
     uint32_t width = session->options.width, height = session->options.height;
     if (open_world(session, view) != 0)
         goto err_memory;
-    if (open_canvas(session, view) != 0)
+    if (open_images(session, view) != 0)
         goto err_world;
     heartbeat_stage(heartbeat);
-    if (annotated_picture_open(&session->chart, &view->world, width, height, error) != 0)
+    if (annotated_picture_open(&session->annotated, &view->world, width, height, error) != 0)
         goto err_canvas;
     heartbeat_stage(heartbeat);
     struct options largest = largest_pictures(session);
-    if (wants_cameras(session) &&
-        back_end_open(&session->draw, &largest, &session->scenery, error) != 0)
+    if (needs_back_end(session) &&
+        back_end_open(&session->draw, &largest, &session->static_scene, error) != 0)
         goto err_chart;
     heartbeat_stage(heartbeat);
     requested_pictures_open(session);
@@ -211,9 +211,9 @@ int render_session_open(struct render_session *session, struct view *view,
     return 0;
 
 err_chart:
-    annotated_picture_close(&session->chart);
+    annotated_picture_close(&session->annotated);
 err_canvas:
-    close_canvas(session);
+    close_images(session);
     close_world(session);
     return -1;
 err_world:
@@ -227,8 +227,8 @@ void render_session_close(struct render_session *session)
     requested_pictures_close(session);
     if (session->draw.self != NULL)
         session->draw.close(session->draw.self);
-    annotated_picture_close(&session->chart);
-    close_canvas(session);
+    annotated_picture_close(&session->annotated);
+    close_images(session);
     close_world(session);
 }
 
@@ -239,7 +239,7 @@ uint64_t render_session_due_ns(const struct render_session *session)
     return session->drawn_ns + (uint64_t)((double)NS_PER_S / session->options.fps);
 }
 
-static void take_events(struct render_session *session, const struct frame_view *moment)
+static void take_events(struct render_session *session, const struct frame_view *frame_view)
 {
     struct event events[EVENT_BATCH];
     uint32_t count;
@@ -247,9 +247,9 @@ static void take_events(struct render_session *session, const struct frame_view 
         count = events_read(session->view, &session->events, events, EVENT_BATCH);
         /* The ring may be ahead of the snapshot: what is not yet in it comes with the next. */
         uint32_t old = 0;
-        while (old < count && events[old].frame <= moment->head->frame)
+        while (old < count && events[old].frame <= frame_view->head->frame)
             old++;
-        effects_take(&session->effects, moment, events, old);
+        effects_take(&session->effects, frame_view, events, old);
         session->events.next -= count - old;
         count = old;
     } while (count == EVENT_BATCH);
@@ -271,47 +271,49 @@ struct frame_view render_session_frame_view(const struct render_session *session
 static int take_frame(struct render_session *session)
 {
     uint32_t other = 1 - session->latest;
-    if (session->whole > 0 && segment_load(&session->view->commit->commit) == session->seen)
+    if (session->snapshots_taken > 0 &&
+        segment_load(&session->view->commit->commit) == session->seen)
         return 0;
     if (snapshot_take(&session->snapshot[other], session->view) != 0) {
-        session->whole = session->whole > 0; /* the earlier one was written over */
+        session->snapshots_taken =
+            session->snapshots_taken > 0; /* the earlier one was written over */
         return -1;
     }
     session->latest = other;
-    session->whole = session->whole > 0 ? 2 : 1;
+    session->snapshots_taken = session->snapshots_taken > 0 ? 2 : 1;
     return 0;
 }
 
-int render_session_look(struct render_session *session, struct error_text *error)
+int render_session_update(struct render_session *session, struct error_text *error)
 {
     if (take_frame(session) != 0) {
         if (errno == EBADMSG)
             return error_text_set(error, "world \"%s\" is damaged: its checksum is wrong",
                                   session->view->name);
-        if (log_due(&session->complained_ns, COMPLAINT_NS))
+        if (log_due(&session->warned_ns, WARNING_INTERVAL_NS))
             log_warn("the world goes on faster than it can be copied; the picture stays");
         return 0;
     }
-    struct frame_view moment = render_session_frame_view(session, session->latest);
-    crater_index_update(&session->craters, moment.head->crater_count);
-    dent_index_update(&session->dents, moment.head->dent_count);
-    session->seen = moment.head->frame;
+    struct frame_view frame_view = render_session_frame_view(session, session->latest);
+    crater_index_update(&session->craters, frame_view.head->crater_count);
+    dent_index_update(&session->dents, frame_view.head->dent_count);
+    session->seen = frame_view.head->frame;
     log_frame(session->seen);
-    take_events(session, &moment);
-    tracks_note(&session->tracks, &moment);
+    take_events(session, &frame_view);
+    tracks_note(&session->tracks, &frame_view);
     heartbeat_stage(session->heartbeat);
     return 0;
 }
 
 int render_session_check_vehicles(const struct render_session *session, struct error_text *error)
 {
-    struct frame_view moment = render_session_frame_view(session, session->latest);
+    struct frame_view frame_view = render_session_frame_view(session, session->latest);
     uint32_t wanted[VIEWS_MAX + 1] = {session->options.follow_given ? session->options.follow : 0};
     for (uint32_t i = 0; i < session->picture_count; i++)
-        wanted[i + 1] = session->pictures[i].wish.vehicle;
+        wanted[i + 1] = session->pictures[i].spec.vehicle;
     for (uint32_t i = 0; i <= session->picture_count; i++)
         if (wanted[i] != 0 &&
-            entities_find(moment.entities, moment.head->used, wanted[i]) == SLOT_NONE)
+            entities_find(frame_view.entities, frame_view.head->used, wanted[i]) == SLOT_NONE)
             return error_text_set(
                 error,
                 "vehicle %u: world \"%s\" has none of that number; jolon world dump "

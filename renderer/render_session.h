@@ -33,7 +33,7 @@ struct render_session {
     struct options options;      /* with the world's own where none were given */
     struct snapshot snapshot[2]; /* the last two frames seen ... */
     uint32_t latest;             /* ... and which of them is the later */
-    uint32_t whole;              /* of them there are: 0, 1, 2 */
+    uint32_t snapshots_taken;    /* of them there are: 0, 1, 2 */
     bool smooth;                 /* draws between them, ... */
     double at_s;                 /* ... at this time of simulation; below 0: by the clock */
     struct frame_interpolation interpolation;
@@ -47,9 +47,9 @@ struct render_session {
     struct follow follow;
     struct view_picture pictures[VIEWS_MAX];
     uint32_t picture_count;
-    struct static_scene scenery;
+    struct static_scene static_scene;
     struct scene scene;
-    struct annotated_picture chart;
+    struct annotated_picture annotated;
     struct back_end_interface draw; /* self is NULL when only maps are wanted */
     struct image image;
     struct image small; /* what is drawn smaller and then stretched; the memory of a whole one */
@@ -57,11 +57,11 @@ struct render_session {
     uint64_t seen;        /* frame of the latest snapshot */
     uint64_t drawn;       /* frame of the last pictures, UINT64_MAX for none, ... */
     double drawn_ahead_s; /* ... and how much later they were */
-    bool drawn_whole;     /* ... and with everything */
+    bool drawn_complete;  /* ... and with everything */
     uint64_t drawn_ns;    /* CLOCK_MONOTONIC when they were begun */
     double rate;          /* pictures a second, measured; 0: not yet */
     struct requested_pictures requested;
-    uint64_t complained_ns;
+    uint64_t warned_ns;
 };
 
 /* outlets: NULL to draw into options->snap. 0, or -1 with the reason: no memory, nothing to draw
@@ -77,7 +77,7 @@ uint64_t render_session_due_ns(const struct render_session *session);
 /* Looks at the world: takes a snapshot and the events since the last. 0; -1 with the reason when
  * the world is damaged or memory is out. A world that goes on too fast to be copied leaves what
  * was seen before, and says so at most every 10 s. */
-int render_session_look(struct render_session *session, struct error_text *error);
+int render_session_update(struct render_session *session, struct error_text *error);
 
 /* Is every vehicle that was asked for by number in the frame seen last? 0, or -1 with the reason.
  */

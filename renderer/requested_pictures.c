@@ -23,8 +23,8 @@ void requested_pictures_open(struct render_session *session)
 
 static void clear_row(struct requested_pictures_row *row)
 {
-    if (row->chart.text != NULL)
-        annotated_picture_close(&row->chart);
+    if (row->annotated.text != NULL)
+        annotated_picture_close(&row->annotated);
     image_free(&row->image);
     *row = (struct requested_pictures_row){.generation = 0};
 }
@@ -35,12 +35,12 @@ void requested_pictures_close(struct render_session *session)
         clear_row(&session->requested.row[i]);
 }
 
-static uint64_t due_of(const struct requested_pictures *requested, uint32_t i)
+static uint64_t row_due_ns(const struct requested_pictures *requested, uint32_t i)
 {
     const struct requested_pictures_row *row = &requested->row[i];
-    if (!requested->wishes[i].waiting)
+    if (!requested->requests[i].waiting)
         return UINT64_MAX;
-    return row->generation == requested->wishes[i].generation ? row->begun_ns + INTERVAL_NS : 0;
+    return row->generation == requested->requests[i].generation ? row->begun_ns + INTERVAL_NS : 0;
 }
 
 uint64_t requested_pictures_due_ns(struct render_session *session)
@@ -49,31 +49,32 @@ uint64_t requested_pictures_due_ns(struct render_session *session)
     uint64_t due_ns = UINT64_MAX;
     if (session->outputs == NULL || session->outputs->stream == NULL)
         return due_ns;
-    requested->waiting = stream_wishes(session->outputs->stream, requested->wishes);
+    requested->waiting = stream_requests_read(session->outputs->stream, requested->requests);
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++) {
         /* What nobody asks for any more gives its memory back. */
-        if (requested->wishes[i].generation == 0 && requested->row[i].generation != 0)
+        if (requested->requests[i].generation == 0 && requested->row[i].generation != 0)
             clear_row(&requested->row[i]);
-        due_ns = due_of(requested, i) < due_ns ? due_of(requested, i) : due_ns;
+        due_ns = row_due_ns(requested, i) < due_ns ? row_due_ns(requested, i) : due_ns;
     }
     return due_ns;
 }
 
 /* -1 when there is no memory: nothing is drawn, and who waits hears so in time. */
 static int begin_row(struct render_session *session, struct requested_pictures_row *row,
-                     const struct stream_wish *wish)
+                     const struct stream_request *request)
 {
-    const struct picture_requests_key *key = &wish->key;
+    const struct picture_requests_key *key = &request->key;
     clear_row(row);
     if (image_init(&row->image, key->width, key->height) != 0)
         return -1;
     if (key->bar)
-        annotated_picture_open_beside(&row->chart, &session->chart, key->width, key->height);
-    row->generation = wish->generation;
+        annotated_picture_open_shared(&row->annotated, &session->annotated, key->width,
+                                      key->height);
+    row->generation = request->generation;
     row->ahead_s = -1.0;
     row->picture = (struct view_picture){
-        .wish = {.mode = key->view, .vehicle = key->vehicle},
-        .camera_wish = {.view = key->view, .field_rad = session->options.field_rad}};
+        .spec = {.mode = key->view, .vehicle = key->vehicle},
+        .camera_options = {.view = key->view, .field_rad = session->options.field_rad}};
     return 0;
 }
 
@@ -89,7 +90,7 @@ static void note_rate(struct requested_pictures_row *row, uint64_t now_ns)
 }
 
 /* All that wait count as if they took as long as this one. */
-static void govern(struct requested_pictures *requested, uint64_t begun_ns)
+static void adjust_quality(struct requested_pictures *requested, uint64_t begun_ns)
 {
     struct quality_control *quality = &requested->quality;
     uint64_t now_ns = clock_now_ns();
@@ -110,35 +111,36 @@ static int draw_row(struct render_session *session, uint32_t i, struct error_tex
     bool first = row->begun_ns == 0;
     uint64_t begun_ns = clock_now_ns();
     note_rate(row, begun_ns);
-    struct frame_view moment = view_pictures_frame(session, false);
-    bool paused = moment.head->paused != 0;
-    bool same = row->frame == moment.head->frame && row->ahead_s == moment.ahead_s;
-    bool whole = same && paused; /* what stands still is drawn once more, with everything */
-    if (same && !requested->wishes[i].again && (row->whole || !paused))
+    struct frame_view frame_view = view_pictures_frame(session, false);
+    bool paused = frame_view.head->paused != 0;
+    bool same = row->frame == frame_view.head->frame && row->ahead_s == frame_view.ahead_s;
+    bool complete = same && paused; /* what stands still is drawn once more, with everything */
+    if (same && !requested->requests[i].again && (row->complete || !paused))
         return 0;
-    row->picture.slot = view_pictures_vehicle(session, &moment, row->picture.wish.vehicle);
-    if (row->picture.wish.vehicle != 0 && row->picture.slot == SLOT_NONE) {
-        output_set_grant(session->outputs, i, row->generation, NULL, 0, 0.0);
+    row->picture.slot = view_pictures_vehicle(session, &frame_view, row->picture.spec.vehicle);
+    if (row->picture.spec.vehicle != 0 && row->picture.slot == SLOT_NONE) {
+        output_set_answer(session->outputs, i, row->generation, NULL, 0, 0.0);
         return 0;
     }
     const struct quality_control_level *level =
-        &quality_control_levels[whole ? 0 : requested->quality.level];
+        &quality_control_levels[complete ? 0 : requested->quality.level];
     session->scene.detail = (float)level->detail;
-    session->scene.paintings = whole ? TERRAIN_TILES_ALL : first ? PAINTINGS_MOST : PAINTINGS;
-    articulation_note(&session->articulation, &moment);
-    const struct view_picture_target sheet = {.image = &row->image,
-                                              .chart = row->chart.text != NULL ? &row->chart : NULL,
-                                              .rate = row->rate};
-    if (view_pictures_camera(session, &row->picture, &moment, level, &sheet, error) != 0)
+    session->scene.paintings = complete ? TERRAIN_TILES_ALL : first ? PAINTINGS_MOST : PAINTINGS;
+    articulation_note(&session->articulation, &frame_view);
+    const struct view_picture_target target = {
+        .image = &row->image,
+        .annotated = row->annotated.text != NULL ? &row->annotated : NULL,
+        .rate = row->rate};
+    if (view_pictures_camera(session, &row->picture, &frame_view, level, &target, error) != 0)
         return -1;
-    row->frame = moment.head->frame;
-    row->ahead_s = moment.ahead_s;
-    row->whole = whole;
-    output_set_grant(session->outputs, i, row->generation, &row->image, moment.head->frame,
-                     frame_view_time_s(&moment));
+    row->frame = frame_view.head->frame;
+    row->ahead_s = frame_view.ahead_s;
+    row->complete = complete;
+    output_set_answer(session->outputs, i, row->generation, &row->image, frame_view.head->frame,
+                      frame_view_time_s(&frame_view));
     heartbeat_stage(session->heartbeat);
-    if (!whole && !first)
-        govern(requested, begun_ns);
+    if (!complete && !first)
+        adjust_quality(requested, begun_ns);
     return 0;
 }
 
@@ -147,12 +149,12 @@ int requested_pictures_draw(struct render_session *session, struct error_text *e
     struct requested_pictures *requested = &session->requested;
     uint32_t next = 0;
     for (uint32_t i = 1; i < PICTURE_REQUESTS_MAX; i++)
-        if (due_of(requested, i) < due_of(requested, next))
+        if (row_due_ns(requested, i) < row_due_ns(requested, next))
             next = i;
-    if (due_of(requested, next) > clock_now_ns())
+    if (row_due_ns(requested, next) > clock_now_ns())
         return 0;
-    if (requested->row[next].generation != requested->wishes[next].generation &&
-        begin_row(session, &requested->row[next], &requested->wishes[next]) != 0)
+    if (requested->row[next].generation != requested->requests[next].generation &&
+        begin_row(session, &requested->row[next], &requested->requests[next]) != 0)
         return 0;
     return draw_row(session, next, error);
 }

@@ -24,19 +24,19 @@ struct render_session;
 struct requested_pictures_row {
     uint64_t generation; /* of the wish that it is for; 0: none */
     struct view_picture picture;
-    struct annotated_picture chart; /* of the bar; text is NULL when there is none */
+    struct annotated_picture annotated; /* of the bar; text is NULL when there is none */
     struct image image;
     uint64_t begun_ns; /* CLOCK_MONOTONIC when it was last drawn; 0: not yet */
     uint64_t frame;    /* that it was drawn of, ... */
     double ahead_s;    /* ... and how much later than that; below 0: not yet */
-    bool whole;        /* ... and with everything */
+    bool complete;     /* ... and with everything */
     double rate;       /* pictures a second, measured; 0: not yet */
 };
 
 struct requested_pictures {
     struct requested_pictures_row row[PICTURE_REQUESTS_MAX];
-    struct stream_wish wishes[PICTURE_REQUESTS_MAX]; /* as they were looked at last */
-    uint32_t waiting;                                /* of them */
+    struct stream_request requests[PICTURE_REQUESTS_MAX]; /* as they were looked at last */
+    uint32_t waiting;                                     /* of them */
     struct quality_control quality;
 };
 

@@ -14,8 +14,8 @@
 struct render_session;
 
 struct view_picture {
-    struct view_wish wish;
-    struct view_camera_wish camera_wish;
+    struct view_spec spec;
+    struct view_camera_wish camera_options;
     struct view_camera view_camera;
     uint32_t slot; /* of its vehicle in the moment that is drawn; SLOT_NONE for none */
 };
@@ -27,8 +27,8 @@ int view_pictures_draw(struct render_session *session, bool last, struct error_t
 /* Where a camera's picture goes, and what is laid over it. */
 struct view_picture_target {
     struct image *image;
-    struct annotated_picture *chart; /* instruments of the image's size; NULL: none */
-    double rate;                     /* pictures a second, for them */
+    struct annotated_picture *annotated; /* instruments of the image's size; NULL: none */
+    double rate;                         /* pictures a second, for them */
 };
 
 /* What is shown: the last frame, or at a high rate the state between it and the one before. It
@@ -36,12 +36,13 @@ struct view_picture_target {
 struct frame_view view_pictures_frame(struct render_session *session, bool last);
 
 /* The slot of a vehicle, SLOT_NONE when there is none; of 0: of the one that is followed. */
-uint32_t view_pictures_vehicle(struct render_session *session, const struct frame_view *moment,
+uint32_t view_pictures_vehicle(struct render_session *session, const struct frame_view *frame_view,
                                uint32_t vehicle);
 
 /* Draws what a shot's camera sees. 0, or -1 with the reason. */
 int view_pictures_camera(struct render_session *session, struct view_picture *picture,
-                         const struct frame_view *moment, const struct quality_control_level *level,
-                         const struct view_picture_target *sheet, struct error_text *error);
+                         const struct frame_view *frame_view,
+                         const struct quality_control_level *level,
+                         const struct view_picture_target *target, struct error_text *error);
 
 #endif

@@ -16,12 +16,12 @@ static bool same_word(const char *text, size_t length, const char *word)
 
 static void add(struct views *views, enum view_mode mode, uint32_t vehicle)
 {
-    struct view_wish *wish = &views->wish[views->count++];
-    *wish = (struct view_wish){.mode = mode, .vehicle = vehicle};
+    struct view_spec *spec = &views->spec[views->count++];
+    *spec = (struct view_spec){.mode = mode, .vehicle = vehicle};
     if (vehicle == 0)
-        snprintf(wish->name, sizeof wish->name, "%s", view_mode_name(mode));
+        snprintf(spec->name, sizeof spec->name, "%s", view_mode_name(mode));
     else
-        snprintf(wish->name, sizeof wish->name, "%s.%u", view_mode_name(mode), vehicle);
+        snprintf(spec->name, sizeof spec->name, "%s.%u", view_mode_name(mode), vehicle);
 }
 
 /* The id after a colon; 0 without one. -1 when it is no id. */
@@ -70,9 +70,9 @@ static int check_different(const struct views *views, struct error_text *error)
 {
     for (uint32_t i = 0; i < views->count; i++)
         for (uint32_t j = 0; j < i; j++)
-            if (strcmp(views->wish[i].name, views->wish[j].name) == 0)
+            if (strcmp(views->spec[i].name, views->spec[j].name) == 0)
                 return error_text_set(error, "%s is there twice",
-                                      view_mode_name(views->wish[i].mode));
+                                      view_mode_name(views->spec[i].mode));
     return 0;
 }
 

@@ -10,14 +10,14 @@
 #define VIEWS_MAX       8u
 #define VIEW_NAME_BYTES 24u
 
-struct view_wish {
+struct view_spec {
     enum view_mode mode;
     uint32_t vehicle;           /* its own; 0: whom the renderer follows */
     char name[VIEW_NAME_BYTES]; /* of its files: "chase", or "chase.17" for vehicle 17's own */
 };
 
 struct views {
-    struct view_wish wish[VIEWS_MAX];
+    struct view_spec spec[VIEWS_MAX];
     uint32_t count;
 };
 

@@ -21,52 +21,52 @@
 static const struct rgba panel = {22, 26, 30, 255};
 static const struct rgba rule = {10, 12, 14, 255};
 
-static void begin(struct annotated_picture *chart, const struct world *world, uint32_t width,
+static void begin(struct annotated_picture *picture, const struct world *world, uint32_t width,
                   uint32_t height)
 {
-    *chart = (struct annotated_picture){.world = world, .width = width, .height = height};
-    map_layout_map(&chart->layout, width, height);
-    base_map_open(&chart->whole, world);
-    base_map_open(&chart->close_up.base, world);
-    base_map_open(&chart->small.base, world);
-    base_map_open(&chart->area, world);
+    *picture = (struct annotated_picture){.world = world, .width = width, .height = height};
+    map_layout_map(&picture->layout, width, height);
+    base_map_open(&picture->whole, world);
+    base_map_open(&picture->close_up.base, world);
+    base_map_open(&picture->small.base, world);
+    base_map_open(&picture->area, world);
 }
 
-int annotated_picture_open(struct annotated_picture *chart, const struct world *world,
+int annotated_picture_open(struct annotated_picture *picture, const struct world *world,
                            uint32_t width, uint32_t height, struct error_text *error)
 {
-    begin(chart, world, width, height);
-    chart->text = text_open(error);
-    return chart->text == NULL ? -1 : 0;
+    begin(picture, world, width, height);
+    picture->text = text_open(error);
+    return picture->text == NULL ? -1 : 0;
 }
 
-void annotated_picture_open_beside(struct annotated_picture *chart,
+void annotated_picture_open_shared(struct annotated_picture *picture,
                                    const struct annotated_picture *first, uint32_t width,
                                    uint32_t height)
 {
-    begin(chart, first->world, width, height);
-    chart->text = first->text;
-    chart->beside = true;
+    begin(picture, first->world, width, height);
+    picture->text = first->text;
+    picture->shares_text = true;
 }
 
-static void close_part(struct annotated_picture_part *part)
+static void close_inset(struct annotated_picture_inset *part)
 {
     base_map_close(&part->base);
     image_free(&part->image);
 }
 
-void annotated_picture_close(struct annotated_picture *chart)
+void annotated_picture_close(struct annotated_picture *picture)
 {
-    if (!chart->beside)
-        text_close(chart->text);
-    base_map_close(&chart->whole);
-    close_part(&chart->close_up);
-    close_part(&chart->small);
-    base_map_close(&chart->area);
+    if (!picture->shares_text)
+        text_close(picture->text);
+    base_map_close(&picture->whole);
+    close_inset(&picture->close_up);
+    close_inset(&picture->small);
+    base_map_close(&picture->area);
 }
 
-int annotated_picture_part_size(struct annotated_picture_part *part, uint32_t width,
-                                uint32_t height)
+int annotated_picture_inset_resize(struct annotated_picture_inset *part, uint32_t width,
+                                   uint32_t height)
 {
     if (part->image.pixels != NULL && part->image.width == width && part->image.height == height)
         return 0;
@@ -74,44 +74,44 @@ int annotated_picture_part_size(struct annotated_picture_part *part, uint32_t wi
     return image_init(&part->image, width, height);
 }
 
-void annotated_picture_shorten(struct annotated_picture *chart, char *words, uint32_t size,
+void annotated_picture_shorten(struct annotated_picture *picture, char *label, uint32_t size,
                                int32_t width)
 {
-    size_t length = strlen(words);
-    while (length > 0 && text_width(chart->text, size, words) > width) {
-        words[--length] = '\0';
+    size_t length = strlen(label);
+    while (length > 0 && text_width(picture->text, size, label) > width) {
+        label[--length] = '\0';
         if (length > 0)
-            words[length - 1] = '.';
+            label[length - 1] = '.';
     }
 }
 
 int annotated_picture_ground(struct base_map *base, struct image *image,
                              const struct map_view *view,
                              const struct annotated_picture_source *source,
-                             const struct annotated_picture_scale *scale)
+                             const struct annotated_picture_style *style)
 {
-    const struct frame_view *moment = source->moment;
+    const struct frame_view *frame_view = source->frame_view;
     if (base_map_draw(base, image, view) != 0)
         return -1;
-    map_craters(image, view, moment->craters, scale->symbol);
-    if (scale->tracks > 0)
-        map_tracks(image, view, moment, source->tracks, scale->symbol, scale->tracks);
+    map_craters(image, view, frame_view->craters, style->symbol);
+    if (style->tracks > 0)
+        map_tracks(image, view, frame_view, source->tracks, style->symbol, style->tracks);
     if (source->camera != NULL)
-        map_sight(image, view, source->camera, scale->triangle);
+        map_camera(image, view, source->camera, style->triangle);
     return 0;
 }
 
-void annotated_picture_things(struct image *image, const struct map_view *view,
-                              const struct annotated_picture_source *source,
-                              const struct annotated_picture_scale *scale)
+void annotated_picture_symbols(struct image *image, const struct map_view *view,
+                               const struct annotated_picture_source *source,
+                               const struct annotated_picture_style *style)
 {
-    const struct frame_view *moment = source->moment;
+    const struct frame_view *frame_view = source->frame_view;
     /* Below the vehicles, which they would hide; not on a map so small that they would be all. */
-    if (source->effects != NULL && scale->symbol >= SYMBOL_LEAST)
-        map_blasts(image, view, moment, source->effects, scale->symbol);
-    map_vehicles(image, view, moment, source->slot, scale->symbol);
+    if (source->effects != NULL && style->symbol >= SYMBOL_LEAST)
+        map_blasts(image, view, frame_view, source->effects, style->symbol);
+    map_vehicles(image, view, frame_view, source->slot, style->symbol);
     if (source->slot != SLOT_NONE)
-        map_followed(image, view, moment, source->slot, scale->symbol, 0.8 * scale->triangle);
+        map_followed(image, view, frame_view, source->slot, style->symbol, 0.8 * style->triangle);
 }
 
 /* 0 for a map of a wide country, 1 for one near by. */
@@ -120,45 +120,45 @@ static double nearness(const struct map_view *view)
     return maths_clamp((WIDE_M - view->metres) / (WIDE_M - NEAR_M), 0.0, 1.0);
 }
 
-static struct annotated_picture_scale scale_of(const struct annotated_picture *chart,
+static struct annotated_picture_style style_of(const struct annotated_picture *picture,
                                                const struct map_view *view)
 {
-    double share = nearness(view), letters = chart->layout.letters;
-    double symbol = (WIDE_SYMBOL + (NEAR_SYMBOL - WIDE_SYMBOL) * share) * letters;
-    return (struct annotated_picture_scale){
+    double share = nearness(view), font_size = picture->layout.font_size;
+    double symbol = (WIDE_SYMBOL + (NEAR_SYMBOL - WIDE_SYMBOL) * share) * font_size;
+    return (struct annotated_picture_style){
         .symbol = maths_max(symbol, SYMBOL_LEAST),
-        .triangle = TRIANGLE * letters,
+        .triangle = TRIANGLE * font_size,
         .tracks = (uint8_t)(WIDE_OPACITY + (NEAR_OPACITY - WIDE_OPACITY) * share)};
 }
 
 /* Keeps words off the followed vehicle and what it drives and looks at. */
-static void take_followed(struct taken *taken, const struct map_view *view,
+static void take_followed(struct label_space *space, const struct map_view *view,
                           const struct annotated_picture_source *source, double length)
 {
-    const struct entities *e = source->moment->entities;
-    if (source->slot == SLOT_NONE || taken->count == TAKEN_MAX)
+    const struct entities *e = source->frame_view->entities;
+    if (source->slot == SLOT_NONE || space->count == LABEL_SPACE_MAX)
         return;
     struct point at = map_point(view, e->x[source->slot], e->z[source->slot]);
     double ahead_x = at.x + length * maths_sin(e->heading[source->slot]);
     double ahead_y = at.y - length * maths_cos(e->heading[source->slot]);
-    taken->boxes[taken->count++] =
+    space->boxes[space->count++] =
         (struct box){(int32_t)maths_min(at.x, ahead_x), (int32_t)maths_min(at.y, ahead_y),
                      (int32_t)fabs(ahead_x - at.x) + 1, (int32_t)fabs(ahead_y - at.y) + 1};
 }
 
 /* A map with its words; what is taken before is kept clear of them. */
-static int draw_map(struct annotated_picture *chart, struct base_map *base, struct image *image,
+static int draw_map(struct annotated_picture *picture, struct base_map *base, struct image *image,
                     const struct map_view *view, const struct annotated_picture_source *source,
-                    struct taken *taken)
+                    struct label_space *space)
 {
-    struct annotated_picture_scale scale = scale_of(chart, view);
-    taken->bounds =
+    struct annotated_picture_style style = style_of(picture, view);
+    space->bounds =
         (struct box){view->left, view->top, (int32_t)view->width, (int32_t)view->height};
-    if (annotated_picture_ground(base, image, view, source, &scale) != 0)
+    if (annotated_picture_ground(base, image, view, source, &style) != 0)
         return -1;
-    take_followed(taken, view, source, scale.triangle);
-    legend_marks(chart, image, view, source, taken);
-    annotated_picture_things(image, view, source, &scale);
+    take_followed(space, view, source, style.triangle);
+    legend_marks(picture, image, view, source, space);
+    annotated_picture_symbols(image, view, source, &style);
     return 0;
 }
 
@@ -173,70 +173,71 @@ static void blank_around(struct image *image, struct box box)
     image_rectangle(image, box.left, bottom, box.width, height - bottom, rule);
 }
 
-static int draw_whole(struct annotated_picture *chart, struct image *image,
+static int draw_whole(struct annotated_picture *picture, struct image *image,
                       const struct annotated_picture_source *source)
 {
-    struct box box = chart->layout.whole, corner = {0, 0, 0, 0};
+    struct box box = picture->layout.whole, corner = {0, 0, 0, 0};
     struct map_view view = map_whole(box.left, box.top, (uint32_t)box.width);
-    struct taken taken = {.count = 0};
-    if (chart->layout.legend.width == 0) {
-        corner = legend_corner(chart, &view, source);
-        taken.boxes[taken.count++] = corner;
+    struct label_space space = {.count = 0};
+    if (picture->layout.legend.width == 0) {
+        corner = legend_corner(picture, &view, source);
+        space.boxes[space.count++] = corner;
     }
-    if (draw_map(chart, &chart->whole, image, &view, source, &taken) != 0)
+    if (draw_map(picture, &picture->whole, image, &view, source, &space) != 0)
         return -1;
     image_rectangle(image, corner.left, corner.top, corner.width, corner.height,
                     (struct rgba){panel.r, panel.g, panel.b, 215});
     if (corner.width > 0)
-        legend_symbols(chart, image, corner, false);
+        legend_symbols(picture, image, corner, false);
     blank_around(image, box);
     return 0;
 }
 
-static int draw_close_up(struct annotated_picture *chart, struct image *image,
+static int draw_close_up(struct annotated_picture *picture, struct image *image,
                          const struct annotated_picture_source *source)
 {
-    struct box box = chart->layout.close_up;
+    struct box box = picture->layout.close_up;
     double x = 0.5 * WORLD_SIDE_M, z = x;
     if (source->slot != SLOT_NONE) {
-        x = source->moment->entities->x[source->slot];
-        z = source->moment->entities->z[source->slot];
+        x = source->frame_view->entities->x[source->slot];
+        z = source->frame_view->entities->z[source->slot];
     }
     struct map_view view = map_around(x, z, CLOSE_UP_SIDE_M / box.width, 0, 0, (uint32_t)box.width,
                                       (uint32_t)box.height);
-    struct taken taken = {.count = 0};
+    struct label_space space = {.count = 0};
     map_align(&view);
-    if (annotated_picture_part_size(&chart->close_up, view.width, view.height) != 0 ||
-        draw_map(chart, &chart->close_up.base, &chart->close_up.image, &view, source, &taken) != 0)
+    if (annotated_picture_inset_resize(&picture->close_up, view.width, view.height) != 0 ||
+        draw_map(picture, &picture->close_up.base, &picture->close_up.image, &view, source,
+                 &space) != 0)
         return -1;
-    image_copy(image, &chart->close_up.image, box.left, box.top);
+    image_copy(image, &picture->close_up.image, box.left, box.top);
     return 0;
 }
 
-int annotated_picture_map(struct annotated_picture *chart, struct image *image,
+int annotated_picture_map(struct annotated_picture *picture, struct image *image,
                           const struct annotated_picture_source *source)
 {
-    const struct map_layout *layout = &chart->layout;
-    if (draw_whole(chart, image, source) != 0)
+    const struct map_layout *layout = &picture->layout;
+    if (draw_whole(picture, image, source) != 0)
         return -1;
-    if (layout->close_up.width > 0 && draw_close_up(chart, image, source) != 0)
+    if (layout->close_up.width > 0 && draw_close_up(picture, image, source) != 0)
         return -1;
     if (layout->legend.width == 0)
         return 0;
     struct box figures = layout->figures, legend = layout->legend;
     image_rectangle(image, figures.left, figures.top, figures.width, figures.height, panel);
     image_rectangle(image, legend.left, legend.top, legend.width, legend.height, panel);
-    legend_figures(chart, image, figures, source);
-    legend_symbols(chart, image, legend, layout->close_up.width > 0);
+    legend_figures(picture, image, figures, source);
+    legend_symbols(picture, image, legend, layout->close_up.width > 0);
     return 0;
 }
 
-int annotated_picture_area(struct annotated_picture *chart, struct image *image,
+int annotated_picture_area(struct annotated_picture *picture, struct image *image,
                            const struct annotated_picture_source *source, double x, double z,
                            double metres)
 {
-    struct map_view view = map_around(x, z, metres, 0, 0, chart->width, chart->height);
-    struct taken taken = {.count = 0};
+    struct map_view view = map_around(x, z, metres, 0, 0, picture->width, picture->height);
+    struct label_space space = {.count = 0};
     map_align(&view);
-    return draw_map(chart, &chart->area, image, &view, source, &taken);
+    return draw_map(picture, &picture->area, image, &view, source, &space);
 }

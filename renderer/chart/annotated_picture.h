@@ -15,7 +15,7 @@
 
 /* What a picture is taken from; borrowed for one call. */
 struct annotated_picture_source {
-    const struct frame_view *moment;
+    const struct frame_view *frame_view;
     const struct tracks *tracks;
     const struct effects *effects; /* recent detonations; NULL for none */
     const struct camera *camera;   /* whose view the triangle shows; NULL: no triangle */
@@ -24,51 +24,51 @@ struct annotated_picture_source {
 };
 
 /* A map within a picture: its ground, and an image of its own to be drawn in. */
-struct annotated_picture_part {
+struct annotated_picture_inset {
     struct base_map base;
     struct image image;
 };
 
 struct annotated_picture {
     struct text *text; /* owned, unless it is another's */
-    bool beside;       /* it is */
+    bool shares_text;  /* it is */
     const struct world *world;
     uint32_t width, height; /* of the pictures */
     struct map_layout layout;
     struct base_map whole, area;
-    struct annotated_picture_part close_up, small;
+    struct annotated_picture_inset close_up, small;
 };
 
 /* 0, or -1 with the reason. Quick: ground is painted when a picture first needs it, at most some
  * tenths of a second. */
-int annotated_picture_open(struct annotated_picture *chart, const struct world *world,
+int annotated_picture_open(struct annotated_picture *picture, const struct world *world,
                            uint32_t width, uint32_t height, struct error_text *error);
 /* One for pictures of another size, with the letters of the first, which must outlive it. */
-void annotated_picture_open_beside(struct annotated_picture *chart,
+void annotated_picture_open_shared(struct annotated_picture *picture,
                                    const struct annotated_picture *first, uint32_t width,
                                    uint32_t height);
-void annotated_picture_close(struct annotated_picture *chart);
+void annotated_picture_close(struct annotated_picture *picture);
 
 /* The map as a picture: the whole square, and as the picture's size and aspect have room, a
  * close-up around the followed vehicle, its figures, and a legend. 0, or -1 with errno. */
-int annotated_picture_map(struct annotated_picture *chart, struct image *image,
+int annotated_picture_map(struct annotated_picture *picture, struct image *image,
                           const struct annotated_picture_source *source);
 
 /* A map of one place that fills the picture: centre [m, world], and metres a pixel. To pan is to
  * change the centre, and costs what comes into view; to zoom is to change metres, and paints all
  * anew. 0, or -1 with errno. */
-int annotated_picture_area(struct annotated_picture *chart, struct image *image,
+int annotated_picture_area(struct annotated_picture *picture, struct image *image,
                            const struct annotated_picture_source *source, double x, double z,
                            double metres);
 
 /* --- for the files of chart/ ------------------------------------------------------------------ */
 
 /* Makes a part's image of a size, unless it is. 0, or -1 with errno ENOMEM. */
-int annotated_picture_part_size(struct annotated_picture_part *part, uint32_t width,
-                                uint32_t height);
+int annotated_picture_inset_resize(struct annotated_picture_inset *part, uint32_t width,
+                                   uint32_t height);
 
 /* How a map is drawn. */
-struct annotated_picture_scale {
+struct annotated_picture_style {
     double symbol;   /* [pixel] length of symbols */
     double triangle; /* [pixel] of the viewing triangle */
     uint8_t tracks;  /* opacity, 0: without */
@@ -79,15 +79,15 @@ struct annotated_picture_scale {
 int annotated_picture_ground(struct base_map *base, struct image *image,
                              const struct map_view *view,
                              const struct annotated_picture_source *source,
-                             const struct annotated_picture_scale *scale);
+                             const struct annotated_picture_style *style);
 
 /* What lies above them: vehicles, fires, detonations, the followed vehicle's ring. */
-void annotated_picture_things(struct image *image, const struct map_view *view,
-                              const struct annotated_picture_source *source,
-                              const struct annotated_picture_scale *scale);
+void annotated_picture_symbols(struct image *image, const struct map_view *view,
+                               const struct annotated_picture_source *source,
+                               const struct annotated_picture_style *style);
 
 /* Words, shortened until they take at most width pixels. */
-void annotated_picture_shorten(struct annotated_picture *chart, char *words, uint32_t size,
+void annotated_picture_shorten(struct annotated_picture *picture, char *label, uint32_t size,
                                int32_t width);
 
 #endif

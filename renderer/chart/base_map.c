@@ -215,7 +215,7 @@ static int64_t most(int64_t a, int64_t b)
 }
 
 /* Paints what of a part is not yet held; what is held outside of it gives way. */
-static int hold(struct base_map *base, struct base_map_part part)
+static int paint_missing(struct base_map *base, struct base_map_part part)
 {
     struct base_map_part kept = {most(part.x0, base->held.x0), most(part.y0, base->held.y0),
                                  least(part.x1, base->held.x1), least(part.y1, base->held.y1)};
@@ -241,7 +241,7 @@ int base_map_draw(struct base_map *base, struct image *image, const struct map_v
     struct base_map_part part = {strip_floor(x0), strip_floor(y0),
                                  strip_floor(x0 + view->width + STRIP - 1),
                                  strip_floor(y0 + view->height + STRIP - 1)};
-    if (make_ring(base, view->metres, part) != 0 || hold(base, part) != 0)
+    if (make_ring(base, view->metres, part) != 0 || paint_missing(base, part) != 0)
         return -1;
     for (int64_t row = 0; row < view->height; row++)
         copy_row(base, y0 + row, x0, x0 + view->width,

@@ -20,22 +20,23 @@ static const struct rgba grey = {176, 184, 184, 255};
 static const struct rgba amber = {255, 205, 96, 255};
 static const struct rgba back = {12, 15, 18, 190};
 
-static void small_map(struct annotated_picture *chart, struct image *image,
+static void small_map(struct annotated_picture *picture, struct image *image,
                       const struct annotated_picture_source *source)
 {
-    uint32_t side = (chart->width < chart->height ? chart->width : chart->height) / SMALL_SHARE;
-    int32_t gap = (int32_t)side / 15, left = (int32_t)(chart->width - side) - gap;
+    uint32_t side =
+        (picture->width < picture->height ? picture->width : picture->height) / SMALL_SHARE;
+    int32_t gap = (int32_t)side / 15, left = (int32_t)(picture->width - side) - gap;
     struct map_view view = map_whole(0, 0, side);
-    struct annotated_picture_scale scale = {.symbol = maths_max(SMALL_SYMBOL * side / 180.0, 3.0),
+    struct annotated_picture_style style = {.symbol = maths_max(SMALL_SYMBOL * side / 180.0, 3.0),
                                             .triangle = 0.25 * side};
-    if (annotated_picture_part_size(&chart->small, side, side) != 0 ||
-        annotated_picture_ground(&chart->small.base, &chart->small.image, &view, source, &scale) !=
-            0)
+    if (annotated_picture_inset_resize(&picture->small, side, side) != 0 ||
+        annotated_picture_ground(&picture->small.base, &picture->small.image, &view, source,
+                                 &style) != 0)
         return;
-    annotated_picture_things(&chart->small.image, &view, source, &scale);
+    annotated_picture_symbols(&picture->small.image, &view, source, &style);
     image_rectangle(image, left - 2, gap - 2, (int32_t)side + 4, (int32_t)side + 4,
                     (struct rgba){10, 12, 14, 200});
-    image_copy(image, &chart->small.image, left, gap);
+    image_copy(image, &picture->small.image, left, gap);
 }
 
 /* --- the bar ---------------------------------------------------------------------------------- */
@@ -53,12 +54,12 @@ struct bar {
     struct cell cells[STATISTICS_BAR_MAX];
 };
 
-static int32_t cell_width(struct annotated_picture *chart, const struct bar *bar,
+static int32_t cell_width(struct annotated_picture *picture, const struct bar *bar,
                           const struct statistics_bar_field *field, int32_t gap)
 {
-    int32_t name = text_width(chart->text, bar->small, field->name);
-    int32_t widest = text_width(chart->text, bar->large, field->widest);
-    int32_t value = text_width(chart->text, bar->large, field->value);
+    int32_t name = text_width(picture->text, bar->small, field->name);
+    int32_t widest = text_width(picture->text, bar->large, field->widest);
+    int32_t value = text_width(picture->text, bar->large, field->value);
     value = value > widest ? value : widest;
     return (name > value ? name : value) + gap;
 }
@@ -102,32 +103,32 @@ static void leave_out_one(struct bar *bar, uint32_t rank)
 }
 
 /* Measures all fields with a gap between them. */
-static void measure(struct annotated_picture *chart, struct bar *bar,
+static void measure(struct annotated_picture *picture, struct bar *bar,
                     const struct statistics_bar_field *fields, int32_t gap)
 {
     for (uint32_t i = 0; i < bar->count; i++)
         bar->cells[i] =
-            (struct cell){.field = &fields[i], .width = cell_width(chart, bar, &fields[i], gap)};
+            (struct cell){.field = &fields[i], .width = cell_width(picture, bar, &fields[i], gap)};
 }
 
 /* One row if all of it fits, if need be closer and without the spare field; else two; then the
  * least important fields go. */
-static void choose_rows(struct annotated_picture *chart, struct bar *bar,
+static void choose_rows(struct annotated_picture *picture, struct bar *bar,
                         const struct statistics_bar_field *fields)
 {
-    int32_t width = (int32_t)chart->width, large = (int32_t)bar->large;
-    measure(chart, bar, fields, large * 3 / 4);
+    int32_t width = (int32_t)picture->width, large = (int32_t)bar->large;
+    measure(picture, bar, fields, large * 3 / 4);
     if (fill_rows(bar, width, 1))
         return;
-    measure(chart, bar, fields, large / 2);
+    measure(picture, bar, fields, large / 2);
     if (fill_rows(bar, width, 1))
         return;
     leave_out_one(bar, STATISTICS_BAR_RANK_SPARE);
     if (fill_rows(bar, width, 1))
         return;
-    uint32_t most = chart->height < ROW_LESS_THAN ? 1 : ROWS_MOST;
+    uint32_t most = picture->height < ROW_LESS_THAN ? 1 : ROWS_MOST;
     if (most > 1)
-        measure(chart, bar, fields, large * 3 / 4);
+        measure(picture, bar, fields, large * 3 / 4);
     while (!fill_rows(bar, width, most))
         leave_out_one(bar, 0);
 }
@@ -149,30 +150,30 @@ static void spread(struct bar *bar, int32_t width)
     }
 }
 
-static void arrange(struct annotated_picture *chart, struct bar *bar,
+static void arrange(struct annotated_picture *picture, struct bar *bar,
                     const struct statistics_bar_field *fields, uint32_t count,
                     const struct statistics *s)
 {
-    uint32_t height = chart->height / BAR_LETTERS, across = chart->width / BAR_ACROSS;
-    char words[64];
+    uint32_t height = picture->height / BAR_LETTERS, across = picture->width / BAR_ACROSS;
+    char label[64];
     bar->large = height < across ? height : across;
     bar->large = bar->large < BAR_LEAST ? BAR_LEAST : bar->large;
     bar->small = bar->large * 2 / 3 < NAME_LEAST ? NAME_LEAST : bar->large * 2 / 3;
     bar->margin = (int32_t)bar->large * 2 / 3;
     bar->row_height = (int32_t)(bar->large + bar->small) * 4 / 3;
-    snprintf(words, sizeof words, "%s %s", s->force, s->kind);
-    int32_t kind = text_width(chart->text, bar->small, words);
-    int32_t name = text_width(chart->text, bar->large, s->name),
-            most_name = (int32_t)chart->width / 5;
+    snprintf(label, sizeof label, "%s %s", s->force, s->kind);
+    int32_t kind = text_width(picture->text, bar->small, label);
+    int32_t name = text_width(picture->text, bar->large, s->name),
+            most_name = (int32_t)picture->width / 5;
     bar->name_width = (name > kind ? name : kind) + (int32_t)bar->large;
     if (bar->name_width > most_name)
         bar->name_width = most_name;
     bar->count = count;
-    choose_rows(chart, bar, fields);
-    spread(bar, (int32_t)chart->width);
+    choose_rows(picture, bar, fields);
+    spread(bar, (int32_t)picture->width);
 }
 
-static void draw_cell(struct annotated_picture *chart, struct image *image, const struct bar *bar,
+static void draw_cell(struct annotated_picture *picture, struct image *image, const struct bar *bar,
                       const struct statistics_bar_field *field, int32_t x, int32_t top)
 {
     static const struct rgba colours[] = {[STATISTICS_BAR_GOOD] = {176, 232, 150, 255},
@@ -184,43 +185,44 @@ static void draw_cell(struct annotated_picture *chart, struct image *image, cons
     /* An alarm shows by its form too: its value stands on a red ground, a warning's is underlined.
      */
     if (field->state >= STATISTICS_BAR_WARNING) {
-        int32_t width = text_width(chart->text, bar->large, field->value);
+        int32_t width = text_width(picture->text, bar->large, field->value);
         int32_t height = field->state == STATISTICS_BAR_ALARM ? large * 108 / 100 : 1 + large / 16;
         int32_t foot = lower + large * 2 / 10;
         image_rectangle(image, x - large / 6, foot - height, width + large / 3, height,
                         field->state == STATISTICS_BAR_ALARM ? (struct rgba){196, 36, 20, 255}
                                                              : colours[STATISTICS_BAR_WARNING]);
     }
-    text_draw(chart->text, image, x, upper, bar->small, grey, field->name);
-    text_draw(chart->text, image, x, lower, bar->large, colours[field->state], field->value);
+    text_draw(picture->text, image, x, upper, bar->small, grey, field->name);
+    text_draw(picture->text, image, x, lower, bar->large, colours[field->state], field->value);
 }
 
-static void draw_name(struct annotated_picture *chart, struct image *image, const struct bar *bar,
+static void draw_name(struct annotated_picture *picture, struct image *image, const struct bar *bar,
                       const struct statistics *s, int32_t top)
 {
     int32_t small = (int32_t)bar->small, upper = top + small * 11 / 10;
-    char name[sizeof s->name], words[64];
+    char name[sizeof s->name], label[64];
     snprintf(name, sizeof name, "%s", s->name);
-    snprintf(words, sizeof words, "%s %s", s->force, s->kind);
-    annotated_picture_shorten(chart, name, bar->large, bar->name_width - (int32_t)bar->large / 2);
-    annotated_picture_shorten(chart, words, bar->small, bar->name_width - (int32_t)bar->large / 2);
-    text_draw(chart->text, image, bar->margin, upper, bar->small, grey, words);
-    text_draw(chart->text, image, bar->margin, upper + (int32_t)bar->large * 11 / 10, bar->large,
+    snprintf(label, sizeof label, "%s %s", s->force, s->kind);
+    annotated_picture_shorten(picture, name, bar->large, bar->name_width - (int32_t)bar->large / 2);
+    annotated_picture_shorten(picture, label, bar->small,
+                              bar->name_width - (int32_t)bar->large / 2);
+    text_draw(picture->text, image, bar->margin, upper, bar->small, grey, label);
+    text_draw(picture->text, image, bar->margin, upper + (int32_t)bar->large * 11 / 10, bar->large,
               amber, name);
 }
 
-static void statistics_bar(struct annotated_picture *chart, struct image *image,
+static void statistics_bar(struct annotated_picture *picture, struct image *image,
                            const struct statistics *s, double fps)
 {
     struct statistics_bar_field fields[STATISTICS_BAR_MAX];
     struct bar bar = {.rows = 0};
-    arrange(chart, &bar, fields, statistics_bar_of(fields, s, fps), s);
-    int32_t width = (int32_t)chart->width, pad = (int32_t)bar.small / 3;
+    arrange(picture, &bar, fields, statistics_bar_of(fields, s, fps), s);
+    int32_t width = (int32_t)picture->width, pad = (int32_t)bar.small / 3;
     int32_t height = (int32_t)bar.rows * bar.row_height + pad;
-    int32_t top = (int32_t)chart->height - height;
+    int32_t top = (int32_t)picture->height - height;
     image_rectangle(image, 0, top, width, height, back);
     image_rectangle(image, 0, top, width, 1, (struct rgba){white.r, white.g, white.b, 60});
-    draw_name(chart, image, &bar, s, top + pad);
+    draw_name(picture, image, &bar, s, top + pad);
     int32_t x = 0;
     uint32_t row = 0;
     for (uint32_t i = 0; i < bar.count; i++) {
@@ -230,19 +232,19 @@ static void statistics_bar(struct annotated_picture *chart, struct image *image,
         if (cell->row != row)
             x = 0;
         row = cell->row;
-        draw_cell(chart, image, &bar, cell->field, bar.margin + bar.name_width + x,
+        draw_cell(picture, image, &bar, cell->field, bar.margin + bar.name_width + x,
                   top + pad + (int32_t)row * bar.row_height);
         x += cell->width;
     }
 }
 
-void annotated_picture_instruments(struct annotated_picture *chart, struct image *image,
+void annotated_picture_instruments(struct annotated_picture *picture, struct image *image,
                                    const struct annotated_picture_source *source)
 {
-    small_map(chart, image, source);
+    small_map(picture, image, source);
     if (source->slot == SLOT_NONE)
         return;
     struct statistics s;
-    statistics_of(&s, source->moment, source->slot);
-    statistics_bar(chart, image, &s, source->fps);
+    statistics_of(&s, source->frame_view, source->slot);
+    statistics_bar(picture, image, &s, source->fps);
 }

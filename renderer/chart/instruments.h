@@ -6,7 +6,7 @@
 
 /* The statistics bar below and a small map in the corner of a camera's picture. A small map that
  * there is no memory for is left out. */
-void annotated_picture_instruments(struct annotated_picture *chart, struct image *image,
+void annotated_picture_instruments(struct annotated_picture *picture, struct image *image,
                                    const struct annotated_picture_source *source);
 
 #endif

@@ -38,27 +38,27 @@ static const struct place places[] = {
     {"Pacific Ocean", 4600.0, 45800.0, true},
 };
 
-static uint32_t fine_letters(const struct annotated_picture *chart, uint32_t percent)
+static uint32_t small_font_size(const struct annotated_picture *picture, uint32_t percent)
 {
-    uint32_t size = chart->layout.letters * percent / 100;
+    uint32_t size = picture->layout.font_size * percent / 100;
     return size < FINE_LEAST ? FINE_LEAST : size;
 }
 
-static int32_t em_of(const struct annotated_picture *chart)
+static int32_t em_of(const struct annotated_picture *picture)
 {
-    return (int32_t)chart->layout.letters;
+    return (int32_t)picture->layout.font_size;
 }
 
 /* How many vehicles a box would touch. */
-static uint32_t crowd(const struct map_view *view, const struct annotated_picture_source *source,
-                      struct box box)
+static uint32_t vehicles_under(const struct map_view *view,
+                               const struct annotated_picture_source *source, struct box box)
 {
-    const struct entities *e = source->moment->entities;
+    const struct entities *e = source->frame_view->entities;
     int32_t edge = box.height / 3; /* about a symbol's */
     box =
         (struct box){box.left - edge, box.top - edge, box.width + 2 * edge, box.height + 2 * edge};
     uint32_t count = 0;
-    for (uint32_t i = 0; i < source->moment->head->used; i++) {
+    for (uint32_t i = 0; i < source->frame_view->head->used; i++) {
         struct point at = map_point(view, e->x[i], e->z[i]);
         count += e->state[i] != ENTITY_FREE && at.x >= box.left && at.y >= box.top &&
                  at.x < box.left + box.width && at.y < box.top + box.height;
@@ -69,14 +69,14 @@ static uint32_t crowd(const struct map_view *view, const struct annotated_pictur
 /* The free box of the fewest vehicles, the first of equals, CROWD_STEP being as good as none; -1
  * when none is free. */
 static int32_t best_box(const struct map_view *view, const struct annotated_picture_source *source,
-                        const struct taken *taken, const struct box *boxes, uint32_t count)
+                        const struct label_space *space, const struct box *boxes, uint32_t count)
 {
     int32_t best = -1;
     uint32_t fewest = UINT32_MAX;
     for (uint32_t i = 0; i < count; i++) {
-        if (!taken_free(taken, boxes[i]))
+        if (!label_space_free(space, boxes[i]))
             continue;
-        uint32_t hidden = crowd(view, source, boxes[i]) / CROWD_STEP;
+        uint32_t hidden = vehicles_under(view, source, boxes[i]) / CROWD_STEP;
         if (hidden < fewest) {
             fewest = hidden;
             best = (int32_t)i;
@@ -87,103 +87,104 @@ static int32_t best_box(const struct map_view *view, const struct annotated_pict
 
 /* --- marks ------------------------------------------------------------------------------------ */
 
-static void words_of_length(char *words, size_t bytes, double metres)
+static void format_length(char *label, size_t bytes, double metres)
 {
     if (metres >= 1000.0)
-        snprintf(words, bytes, "%.0f km", metres / 1000.0);
+        snprintf(label, bytes, "%.0f km", metres / 1000.0);
     else
-        snprintf(words, bytes, "%.0f m", metres);
+        snprintf(label, bytes, "%.0f m", metres);
 }
 
 /* A bar of a length that is easily read, in a lower corner, and what the contours mean. */
-static void scale_bar(struct annotated_picture *chart, struct image *image,
+static void scale_bar(struct annotated_picture *picture, struct image *image,
                       const struct map_view *view, const struct annotated_picture_source *source,
-                      struct taken *taken)
+                      struct label_space *space)
 {
-    int32_t em = em_of(chart), thick = em / 3 > 3 ? em / 3 : 3;
-    uint32_t size = fine_letters(chart, 90), fine = fine_letters(chart, 75);
-    double length = map_round(SCALE_SHARE * view->width * view->metres);
+    int32_t em = em_of(picture), thick = em / 3 > 3 ? em / 3 : 3;
+    uint32_t size = small_font_size(picture, 90), fine = small_font_size(picture, 75);
+    double length = map_round_down(SCALE_SHARE * view->width * view->metres);
     int32_t pixels = (int32_t)(length / view->metres);
-    char words[24], interval[40];
-    words_of_length(words, sizeof words, length);
+    char label[24], interval[40];
+    format_length(label, sizeof label, length);
     snprintf(interval, sizeof interval, "contours %.0f m", base_map_contour_m(view->metres));
-    int32_t beside = text_width(chart->text, size, words) + em / 2;
-    int32_t width = pixels + beside, over = text_width(chart->text, fine, interval);
+    int32_t beside = text_width(picture->text, size, label) + em / 2;
+    int32_t width = pixels + beside, over = text_width(picture->text, fine, interval);
     width = (width > over ? width : over) + 2;
     int32_t height = em * 2, left = view->left + em,
             top = view->top + (int32_t)view->height - em / 2;
     int32_t right = view->left + (int32_t)view->width - em - width;
     const struct box boxes[] = {{left, top - height, width, height},
                                 {right, top - height, width, height}};
-    int32_t best = best_box(view, source, taken, boxes, 2);
+    int32_t best = best_box(view, source, space, boxes, 2);
     if (best < 0)
         return;
-    taken_take(taken, boxes[best]);
+    label_space_take(space, boxes[best]);
     int32_t x = boxes[best].left, y = top - 2;
     image_rectangle(image, x - 1, y - thick - 1, pixels + 2, thick + 2,
                     (struct rgba){0, 0, 0, 210});
     for (int32_t i = 0; i < 4; i++)
         image_rectangle(image, x + i * pixels / 4, y - thick, (i + 1) * pixels / 4 - i * pixels / 4,
                         thick, i & 1 ? ink : white);
-    text_draw_rimmed(chart->text, image, x + pixels + em / 2, y, size, white, words);
+    text_draw_rimmed(picture->text, image, x + pixels + em / 2, y, size, white, label);
     /* Above the bar, and above the words beside it when it reaches that far. */
     int32_t lift = over > pixels && thick + em / 3 < (int32_t)size ? (int32_t)size : thick + em / 3;
-    text_draw_rimmed(chart->text, image, x, y - lift, fine, white, interval);
+    text_draw_rimmed(picture->text, image, x, y - lift, fine, white, interval);
 }
 
-static void north_arrow(struct annotated_picture *chart, struct image *image,
+static void north_arrow(struct annotated_picture *picture, struct image *image,
                         const struct map_view *view, const struct annotated_picture_source *source,
-                        struct taken *taken)
+                        struct label_space *space)
 {
-    int32_t em = em_of(chart), width = 2 * em, height = 7 * em / 2;
+    int32_t em = em_of(picture), width = 2 * em, height = 7 * em / 2;
     int32_t top = view->top + em / 2, right = view->left + (int32_t)view->width - width - em / 2;
     const struct box boxes[] = {{right, top, width, height},
                                 {view->left + 2 * em, top + em, width, height}};
-    int32_t best = best_box(view, source, taken, boxes, 2);
+    int32_t best = best_box(view, source, space, boxes, 2);
     if (best < 0)
         return;
-    taken_take(taken, boxes[best]);
+    label_space_take(space, boxes[best]);
     double size = em, x = boxes[best].left + size, y = boxes[best].top + 1.7 * size;
     struct point left[3] = {{x, y - 1.6 * size}, {x - 0.55 * size, y + 0.4 * size}, {x, y}};
     struct point east[3] = {{x, y - 1.6 * size}, {x + 0.55 * size, y + 0.4 * size}, {x, y}};
     image_polygon(image, left, 3, white);
     image_polygon(image, east, 3, ink);
-    int32_t half = text_width(chart->text, chart->layout.letters, "N") / 2;
-    text_draw_rimmed(chart->text, image, (int32_t)x - half, (int32_t)(y + 1.5 * size),
-                     chart->layout.letters, white, "N");
+    int32_t half = text_width(picture->text, picture->layout.font_size, "N") / 2;
+    text_draw_rimmed(picture->text, image, (int32_t)x - half, (int32_t)(y + 1.5 * size),
+                     picture->layout.font_size, white, "N");
 }
 
 /* A number of the grid beside its line, if there is room. */
-static void grid_number(struct annotated_picture *chart, struct image *image, struct taken *taken,
-                        int32_t x, int32_t y, double metres, double step_m)
+static void grid_number(struct annotated_picture *picture, struct image *image,
+                        struct label_space *space, int32_t x, int32_t y, double metres,
+                        double step_m)
 {
-    uint32_t size = fine_letters(chart, 80);
-    char words[16];
-    snprintf(words, sizeof words, "%.*f", step_m < 1000.0 ? 1 : 0, metres / 1000.0);
-    struct box box = {x, y, text_width(chart->text, size, words) + 3, (int32_t)size + 2};
-    if (taken_take(taken, box))
-        text_draw_rimmed(chart->text, image, x + 2, y + (int32_t)size, size, white, words);
+    uint32_t size = small_font_size(picture, 80);
+    char label[16];
+    snprintf(label, sizeof label, "%.*f", step_m < 1000.0 ? 1 : 0, metres / 1000.0);
+    struct box box = {x, y, text_width(picture->text, size, label) + 3, (int32_t)size + 2};
+    if (label_space_take(space, box))
+        text_draw_rimmed(picture->text, image, x + 2, y + (int32_t)size, size, white, label);
 }
 
-static void grid_numbers(struct annotated_picture *chart, struct image *image,
-                         const struct map_view *view, struct taken *taken, double step_m)
+static void grid_numbers(struct annotated_picture *picture, struct image *image,
+                         const struct map_view *view, struct label_space *space, double step_m)
 {
     double east = fmin(view->x + view->width * view->metres, WORLD_SIDE_M);
     double south = fmin(view->z + view->height * view->metres, WORLD_SIDE_M);
     for (int32_t n = (int32_t)ceil(fmax(view->x, 0.0) / step_m); n * step_m < east; n++)
-        grid_number(chart, image, taken, (int32_t)map_point(view, n * step_m, 0.0).x + 1, view->top,
-                    n * step_m, step_m);
+        grid_number(picture, image, space, (int32_t)map_point(view, n * step_m, 0.0).x + 1,
+                    view->top, n * step_m, step_m);
     for (int32_t n = (int32_t)ceil(fmax(view->z, 0.0) / step_m); n * step_m < south; n++)
-        grid_number(chart, image, taken, view->left,
+        grid_number(picture, image, space, view->left,
                     (int32_t)map_point(view, 0.0, n * step_m).y + 1, n * step_m, step_m);
 }
 
-#define SPOTS_MAX 14u
+#define NAME_BOXES_MAX 14u
 
 /* Boxes for a name, the best first: beside its place, and farther out with a line to it; the name
  * of a water upon it. Returns how many. */
-static uint32_t spots_of(struct box spots[SPOTS_MAX], struct point at, bool water, int32_t width,
-                         int32_t height, int32_t gap)
+static uint32_t name_boxes(struct box boxes[NAME_BOXES_MAX], struct point at, bool water,
+                           int32_t width, int32_t height, int32_t gap)
 {
     /* Of the name's middle, in its own width and height and in gaps. */
     static const double beside[][3] = {
@@ -194,26 +195,26 @@ static uint32_t spots_of(struct box spots[SPOTS_MAX], struct point at, bool wate
     };
     static const double upon[][3] = {{0.0, 0.0, 0.0}, {0.0, -1.5, 0.0}, {0.0, 1.5, 0.0}};
     const double(*places_of)[3] = water ? upon : beside;
-    uint32_t count = water ? sizeof upon / sizeof upon[0] : SPOTS_MAX;
+    uint32_t count = water ? sizeof upon / sizeof upon[0] : NAME_BOXES_MAX;
     for (uint32_t i = 0; i < count; i++) {
         double x = places_of[i][0], y = places_of[i][1], out = places_of[i][2] * gap;
         double across = x > 0.0 ? out : x < 0.0 ? -out : 0.0;
         double down = y > 0.0 ? out : y < 0.0 ? -out : 0.0;
-        spots[i] = (struct box){(int32_t)(at.x + (x - 0.5) * width + across),
+        boxes[i] = (struct box){(int32_t)(at.x + (x - 0.5) * width + across),
                                 (int32_t)(at.y + (y - 0.5) * height + down), width, height};
     }
     return count;
 }
 
-static void place_mark(struct annotated_picture *chart, struct image *image, struct point at,
+static void place_mark(struct annotated_picture *picture, struct image *image, struct point at,
                        struct box name)
 {
     double left = name.left, right = left + name.width;
     double top = name.top, bottom = top + name.height;
     struct point to = {maths_clamp(at.x, left, right), maths_clamp(at.y, top, bottom)};
-    double radius = 0.22 * em_of(chart);
-    if (vec3_length((struct vec3){to.x - at.x, to.y - at.y, 0.0}) > em_of(chart) * 1.5) {
-        double stroke = maths_max(em_of(chart) / 13.0, 1.2);
+    double radius = 0.22 * em_of(picture);
+    if (vec3_length((struct vec3){to.x - at.x, to.y - at.y, 0.0}) > em_of(picture) * 1.5) {
+        double stroke = maths_max(em_of(picture) / 13.0, 1.2);
         image_line(image, at, to, stroke + 1.2, (struct rgba){ink.r, ink.g, ink.b, 150});
         image_line(image, at, to, stroke, white);
     }
@@ -221,68 +222,76 @@ static void place_mark(struct annotated_picture *chart, struct image *image, str
     image_disc(image, at, radius, white);
 }
 
-static void place_name(struct annotated_picture *chart, struct image *image,
+static void place_name(struct annotated_picture *picture, struct image *image,
                        const struct map_view *view, const struct annotated_picture_source *source,
-                       struct taken *taken, const struct place *place)
+                       struct label_space *space, const struct place *place)
 {
-    uint32_t size = fine_letters(chart, 90);
+    uint32_t size = small_font_size(picture, 90);
     struct point at = map_point(view, place->x, place->z);
-    struct box spots[SPOTS_MAX];
-    int32_t width = text_width(chart->text, size, place->name) + 2;
+    struct box boxes[NAME_BOXES_MAX];
+    int32_t width = text_width(picture->text, size, place->name) + 2;
     uint32_t count =
-        spots_of(spots, at, place->water, width, (int32_t)size * 5 / 4, em_of(chart) / 3);
-    int32_t best = best_box(view, source, taken, spots, count);
-    if (!map_holds(view, at, 0.0) || best < 0)
+        name_boxes(boxes, at, place->water, width, (int32_t)size * 5 / 4, em_of(picture) / 3);
+    int32_t best = best_box(view, source, space, boxes, count);
+    if (!map_contains(view, at, 0.0) || best < 0)
         return;
-    taken_take(taken, spots[best]);
+    label_space_take(space, boxes[best]);
     if (!place->water)
-        place_mark(chart, image, at, spots[best]);
-    text_draw_rimmed(chart->text, image, spots[best].left + 1,
-                     spots[best].top + (int32_t)size * 19 / 20, size,
+        place_mark(picture, image, at, boxes[best]);
+    text_draw_rimmed(picture->text, image, boxes[best].left + 1,
+                     boxes[best].top + (int32_t)size * 19 / 20, size,
                      place->water ? water_name : white, place->name);
 }
 
-void legend_marks(struct annotated_picture *chart, struct image *image, const struct map_view *view,
-                  const struct annotated_picture_source *source, struct taken *taken)
+void legend_marks(struct annotated_picture *picture, struct image *image,
+                  const struct map_view *view, const struct annotated_picture_source *source,
+                  struct label_space *space)
 {
-    double step_m = map_round(GRID_LETTERS * 2.0 * chart->layout.letters * view->metres);
+    double step_m = map_round_down(GRID_LETTERS * 2.0 * picture->layout.font_size * view->metres);
     map_grid(image, view, step_m);
-    scale_bar(chart, image, view, source, taken);
-    north_arrow(chart, image, view, source, taken);
-    if (strcmp(chart->world->params->name, "hunter-liggett") == 0)
+    scale_bar(picture, image, view, source, space);
+    north_arrow(picture, image, view, source, space);
+    if (strcmp(picture->world->params->name, "hunter-liggett") == 0)
         for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
-            place_name(chart, image, view, source, taken, &places[i]);
-    grid_numbers(chart, image, view, taken, step_m);
+            place_name(picture, image, view, source, space, &places[i]);
+    grid_numbers(picture, image, view, space, step_m);
 }
 
 /* --- the legend ------------------------------------------------------------------------------- */
 
-enum thing { THING_VEHICLE, THING_WRECK, THING_FIRE, THING_BLAST, THING_MUNITION, THING_CRATER };
+enum entry_symbol {
+    ENTRY_VEHICLE,
+    ENTRY_WRECK,
+    ENTRY_FIRE,
+    ENTRY_BLAST,
+    ENTRY_MUNITION,
+    ENTRY_CRATER
+};
 
 struct entry {
-    const char *words;
-    enum thing thing;
+    const char *label;
+    enum entry_symbol symbol;
     enum force force;
-    enum symbol_form form;
+    enum symbol_shape shape;
 };
 
 /* The most important first. */
 static const struct entry entries[MAP_LAYOUT_SYMBOLS] = {
-    {"blue", THING_VEHICLE, FORCE_BLUE, FORM_LAND},
-    {"red", THING_VEHICLE, FORCE_RED, FORM_LAND},
-    {"neutral", THING_VEHICLE, FORCE_NEUTRAL, FORM_LAND},
-    {"wreck", THING_WRECK, FORCE_NEUTRAL, FORM_LAND},
-    {"on fire", THING_FIRE, FORCE_NEUTRAL, FORM_LAND},
-    {"detonation", THING_BLAST, FORCE_NEUTRAL, FORM_LAND},
-    {"munition", THING_MUNITION, FORCE_NEUTRAL, FORM_LAND},
-    {"crater", THING_CRATER, FORCE_NEUTRAL, FORM_LAND},
-    {"tank", THING_VEHICLE, FORCE_NEUTRAL, FORM_TANK},
-    {"carrier", THING_VEHICLE, FORCE_NEUTRAL, FORM_CARRIER},
-    {"truck", THING_VEHICLE, FORCE_NEUTRAL, FORM_TRUCK},
-    {"jeep", THING_VEHICLE, FORCE_NEUTRAL, FORM_JEEP},
-    {"helicopter", THING_VEHICLE, FORCE_NEUTRAL, FORM_HELICOPTER},
-    {"jet", THING_VEHICLE, FORCE_NEUTRAL, FORM_JET},
-    {"ship", THING_VEHICLE, FORCE_NEUTRAL, FORM_SHIP},
+    {"blue", ENTRY_VEHICLE, FORCE_BLUE, SYMBOL_LAND},
+    {"red", ENTRY_VEHICLE, FORCE_RED, SYMBOL_LAND},
+    {"neutral", ENTRY_VEHICLE, FORCE_NEUTRAL, SYMBOL_LAND},
+    {"wreck", ENTRY_WRECK, FORCE_NEUTRAL, SYMBOL_LAND},
+    {"on fire", ENTRY_FIRE, FORCE_NEUTRAL, SYMBOL_LAND},
+    {"detonation", ENTRY_BLAST, FORCE_NEUTRAL, SYMBOL_LAND},
+    {"munition", ENTRY_MUNITION, FORCE_NEUTRAL, SYMBOL_LAND},
+    {"crater", ENTRY_CRATER, FORCE_NEUTRAL, SYMBOL_LAND},
+    {"tank", ENTRY_VEHICLE, FORCE_NEUTRAL, SYMBOL_TANK},
+    {"carrier", ENTRY_VEHICLE, FORCE_NEUTRAL, SYMBOL_CARRIER},
+    {"truck", ENTRY_VEHICLE, FORCE_NEUTRAL, SYMBOL_TRUCK},
+    {"jeep", ENTRY_VEHICLE, FORCE_NEUTRAL, SYMBOL_JEEP},
+    {"helicopter", ENTRY_VEHICLE, FORCE_NEUTRAL, SYMBOL_HELICOPTER},
+    {"jet", ENTRY_VEHICLE, FORCE_NEUTRAL, SYMBOL_JET},
+    {"ship", ENTRY_VEHICLE, FORCE_NEUTRAL, SYMBOL_SHIP},
 };
 
 #define ENTRIES_WITHOUT_KINDS 8
@@ -290,23 +299,23 @@ static const struct entry entries[MAP_LAYOUT_SYMBOLS] = {
 static void draw_entry(struct image *image, const struct entry *entry, struct point at,
                        double pixels)
 {
-    switch (entry->thing) {
-    case THING_VEHICLE:
-        symbol_vehicle(image, at, entry->form, 0.0, pixels, entry->force);
+    switch (entry->symbol) {
+    case ENTRY_VEHICLE:
+        symbol_vehicle(image, at, entry->shape, 0.0, pixels, entry->force);
         break;
-    case THING_WRECK:
+    case ENTRY_WRECK:
         symbol_wreck(image, at, pixels);
         break;
-    case THING_FIRE:
+    case ENTRY_FIRE:
         symbol_fire(image, at, pixels);
         break;
-    case THING_BLAST:
+    case ENTRY_BLAST:
         symbol_blast(image, at, 0.0, 0.8 * pixels);
         break;
-    case THING_MUNITION:
+    case ENTRY_MUNITION:
         symbol_munition(image, at, 0.8, pixels);
         break;
-    case THING_CRATER:
+    case ENTRY_CRATER:
         symbol_crater(image, at, 0.28 * pixels);
         break;
     }
@@ -317,10 +326,10 @@ static int32_t most(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
-void legend_symbols(struct annotated_picture *chart, struct image *image, struct box box,
+void legend_symbols(struct annotated_picture *picture, struct image *image, struct box box,
                     bool kinds)
 {
-    int32_t em = em_of(chart), line = em * 7 / 5;
+    int32_t em = em_of(picture), line = em * 7 / 5;
     int32_t columns = most((box.width - em) / (LEGEND_COLUMN * em), 1);
     int32_t fit = most((box.height - em / 2) / line, 0);
     int32_t count = kinds ? MAP_LAYOUT_SYMBOLS : ENTRIES_WITHOUT_KINDS;
@@ -329,24 +338,24 @@ void legend_symbols(struct annotated_picture *chart, struct image *image, struct
         rows = fit;
         count = columns * fit;
     }
-    uint32_t size = fine_letters(chart, 85);
+    uint32_t size = small_font_size(picture, 85);
     for (int32_t i = 0; i < count && rows > 0; i++) {
         int32_t x = box.left + em + i / rows * ((box.width - em) / columns);
         int32_t y = box.top + em + i % rows * line;
         draw_entry(image, &entries[i], (struct point){x + 0.4 * em, y - 0.02 * em}, 0.8 * em);
-        text_draw(chart->text, image, x + em * 8 / 5, y + em * 3 / 10, size, grey,
-                  entries[i].words);
+        text_draw(picture->text, image, x + em * 8 / 5, y + em * 3 / 10, size, grey,
+                  entries[i].label);
     }
 }
 
-struct box legend_corner(struct annotated_picture *chart, const struct map_view *view,
+struct box legend_corner(struct annotated_picture *picture, const struct map_view *view,
                          const struct annotated_picture_source *source)
 {
-    int32_t em = em_of(chart), width = em + 2 * LEGEND_COLUMN * em;
+    int32_t em = em_of(picture), width = em + 2 * LEGEND_COLUMN * em;
     int32_t height = em + ENTRIES_WITHOUT_KINDS / 2 * em * 7 / 5 - em / 3, gap = em / 2;
     int32_t right = view->left + (int32_t)view->width - width - gap;
     int32_t bottom = view->top + (int32_t)view->height - height - gap;
-    const struct taken none = {
+    const struct label_space none = {
         .bounds = {view->left, view->top, (int32_t)view->width, (int32_t)view->height}};
     const struct box boxes[] = {{right, bottom, width, height},
                                 {view->left + gap, bottom, width, height},
@@ -363,9 +372,9 @@ struct figure {
     struct rgba colour;
 };
 
-static uint32_t world_figures(struct figure *figures, const struct frame_view *moment)
+static uint32_t world_figures(struct figure *figures, const struct frame_view *frame_view)
 {
-    const struct state_head *head = moment->head;
+    const struct state_head *head = frame_view->head;
     const struct {
         const char *name;
         uint64_t number;
@@ -404,37 +413,38 @@ static uint32_t vehicle_figures(struct figure *figures, const struct statistics 
 }
 
 /* Name, and force and kind where they have room beside it. */
-static int32_t title(struct annotated_picture *chart, struct image *image, struct box box,
+static int32_t title(struct annotated_picture *picture, struct image *image, struct box box,
                      const struct statistics *s)
 {
-    int32_t em = em_of(chart), y = box.top + em * 17 / 10, width = box.width - 2 * em;
-    uint32_t large = chart->layout.letters * 6 / 5;
-    char name[sizeof s->name], words[64];
+    int32_t em = em_of(picture), y = box.top + em * 17 / 10, width = box.width - 2 * em;
+    uint32_t large = picture->layout.font_size * 6 / 5;
+    char name[sizeof s->name], label[64];
     snprintf(name, sizeof name, "%s", s->name);
-    snprintf(words, sizeof words, "%s %s", s->force, s->kind);
-    annotated_picture_shorten(chart, name, large, width);
-    int32_t end = text_draw(chart->text, image, box.left + em, y, large, amber, name) + em;
-    if (end + text_width(chart->text, chart->layout.letters, words) <= box.left + box.width - em)
-        text_draw(chart->text, image, end, y, chart->layout.letters, grey, words);
+    snprintf(label, sizeof label, "%s %s", s->force, s->kind);
+    annotated_picture_shorten(picture, name, large, width);
+    int32_t end = text_draw(picture->text, image, box.left + em, y, large, amber, name) + em;
+    if (end + text_width(picture->text, picture->layout.font_size, label) <=
+        box.left + box.width - em)
+        text_draw(picture->text, image, end, y, picture->layout.font_size, grey, label);
     return y + em * 7 / 5;
 }
 
-void legend_figures(struct annotated_picture *chart, struct image *image, struct box box,
+void legend_figures(struct annotated_picture *picture, struct image *image, struct box box,
                     const struct annotated_picture_source *source)
 {
-    const struct frame_view *moment = source->moment;
+    const struct frame_view *frame_view = source->frame_view;
     struct figure figures[FIGURES_MAX];
-    uint32_t count = 1, size = chart->layout.letters * 19 / 20;
-    int32_t em = em_of(chart), line = em * 27 / 20, y = box.top + em * 3 / 2;
+    uint32_t count = 1, size = picture->layout.font_size * 19 / 20;
+    int32_t em = em_of(picture), line = em * 27 / 20, y = box.top + em * 3 / 2;
     figures[0] = (struct figure){.name = "time", .colour = white};
-    snprintf(figures[0].value, sizeof figures[0].value, "%.2f s", frame_view_time_s(moment));
+    snprintf(figures[0].value, sizeof figures[0].value, "%.2f s", frame_view_time_s(frame_view));
     if (source->slot != SLOT_NONE) {
         struct statistics s;
-        statistics_of(&s, moment, source->slot);
-        y = title(chart, image, box, &s);
+        statistics_of(&s, frame_view, source->slot);
+        y = title(picture, image, box, &s);
         count += vehicle_figures(figures + count, &s);
     }
-    count += world_figures(figures + count, moment);
+    count += world_figures(figures + count, frame_view);
     int32_t columns = most((box.width - 2 * em) / (FIGURE_COLUMN * em), 1);
     int32_t rows = most((box.top + box.height - y + em) / line, 0);
     if (rows * columns > (int32_t)count)
@@ -442,8 +452,8 @@ void legend_figures(struct annotated_picture *chart, struct image *image, struct
     for (int32_t i = 0; i < (int32_t)count && i < rows * columns; i++) {
         int32_t x = box.left + em + i / rows * ((box.width - 2 * em) / columns);
         int32_t at = y + i % rows * line;
-        text_draw(chart->text, image, x, at, size, grey, figures[i].name);
-        text_draw(chart->text, image, x + em * FIGURE_NAME, at, size, figures[i].colour,
+        text_draw(picture->text, image, x, at, size, grey, figures[i].name);
+        text_draw(picture->text, image, x + em * FIGURE_NAME, at, size, figures[i].colour,
                   figures[i].value);
     }
 }

@@ -6,19 +6,20 @@
 
 /* Grid, numbers, scale bar, north arrow and names, each where it covers the fewest vehicles and
  * none of what is taken. */
-void legend_marks(struct annotated_picture *chart, struct image *image, const struct map_view *view,
-                  const struct annotated_picture_source *source, struct taken *taken);
+void legend_marks(struct annotated_picture *picture, struct image *image,
+                  const struct map_view *view, const struct annotated_picture_source *source,
+                  struct label_space *space);
 
 /* The legend in its box: as many rows as fit, the most important first; with kinds or without. */
-void legend_symbols(struct annotated_picture *chart, struct image *image, struct box box,
+void legend_symbols(struct annotated_picture *picture, struct image *image, struct box box,
                     bool kinds);
 
 /* A corner of the view for a legend without a panel: that with the fewest vehicles. */
-struct box legend_corner(struct annotated_picture *chart, const struct map_view *view,
+struct box legend_corner(struct annotated_picture *picture, const struct map_view *view,
                          const struct annotated_picture_source *source);
 
 /* The followed vehicle and the world in figures, as many as fit. */
-void legend_figures(struct annotated_picture *chart, struct image *image, struct box box,
+void legend_figures(struct annotated_picture *picture, struct image *image, struct box box,
                     const struct annotated_picture_source *source);
 
 #endif

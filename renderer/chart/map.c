@@ -41,14 +41,14 @@ struct point map_point(const struct map_view *view, double x, double z)
                           view->top + (z - view->z) / view->metres};
 }
 
-bool map_holds(const struct map_view *view, struct point point, double margin)
+bool map_contains(const struct map_view *view, struct point point, double margin)
 {
     return point.x >= view->left - margin && point.y >= view->top - margin &&
            point.x < view->left + (double)view->width + margin &&
            point.y < view->top + (double)view->height + margin;
 }
 
-double map_round(double metres)
+double map_round_down(double metres)
 {
     double power = 1.0;
     while (power * 10.0 <= metres)
@@ -77,22 +77,22 @@ void map_craters(struct image *image, const struct map_view *view,
         const struct crater *crater = &craters->craters[i];
         struct point at = map_point(view, crater->x, crater->z);
         double radius = fmax(least, (double)crater->radius_m / view->metres);
-        if (map_holds(view, at, radius))
+        if (map_contains(view, at, radius))
             symbol_crater(image, at, radius);
     }
 }
 
 /* --- vehicles --------------------------------------------------------------------------------- */
 
-static enum domain domain_of(const struct frame_view *moment, uint32_t slot)
+static enum domain domain_of(const struct frame_view *frame_view, uint32_t slot)
 {
-    return (enum domain)moment->world->kinds[moment->entities->kind[slot]].domain;
+    return (enum domain)frame_view->world->kinds[frame_view->entities->kind[slot]].domain;
 }
 
-static bool is_drawn(const struct frame_view *moment, uint32_t slot)
+static bool is_drawn(const struct frame_view *frame_view, uint32_t slot)
 {
-    return moment->entities->state[slot] != ENTITY_FREE &&
-           moment->entities->kind[slot] < moment->world->counts.kinds;
+    return frame_view->entities->state[slot] != ENTITY_FREE &&
+           frame_view->entities->kind[slot] < frame_view->world->counts.kinds;
 }
 
 /* A dot where the vehicle was every few seconds: how far apart they are tells its speed. */
@@ -114,13 +114,15 @@ static void draw_track(struct image *image, const struct map_view *view, const s
     }
 }
 
-void map_tracks(struct image *image, const struct map_view *view, const struct frame_view *moment,
-                const struct tracks *tracks, double pixels, uint8_t opacity)
+void map_tracks(struct image *image, const struct map_view *view,
+                const struct frame_view *frame_view, const struct tracks *tracks, double pixels,
+                uint8_t opacity)
 {
-    const struct entities *e = moment->entities;
-    for (uint32_t slot = 0; slot < moment->head->used; slot++) {
+    const struct entities *e = frame_view->entities;
+    for (uint32_t slot = 0; slot < frame_view->head->used; slot++) {
         const struct track *track = tracks_of(tracks, slot, e->id[slot]);
-        if (track == NULL || !is_drawn(moment, slot) || domain_of(moment, slot) == DOMAIN_MUNITION)
+        if (track == NULL || !is_drawn(frame_view, slot) ||
+            domain_of(frame_view, slot) == DOMAIN_MUNITION)
             continue;
         struct rgba colour = symbol_colour((enum force)e->force[slot]);
         colour.a = opacity;
@@ -128,29 +130,29 @@ void map_tracks(struct image *image, const struct map_view *view, const struct f
     }
 }
 
-static bool burns(const struct frame_view *moment, uint32_t slot)
+static bool burns(const struct frame_view *frame_view, uint32_t slot)
 {
-    uint64_t ticks = moment->head->tick - moment->entities->changed_tick[slot];
-    return (double)ticks * world_dt_s(moment->world) < FIRE_LIFE_S;
+    uint64_t ticks = frame_view->head->tick - frame_view->entities->changed_tick[slot];
+    return (double)ticks * world_dt_s(frame_view->world) < FIRE_LIFE_S;
 }
 
 enum rank { RANK_WRECK, RANK_FIRE, RANK_MUNITION, RANK_VEHICLE, RANK_COUNT };
 
-static enum rank rank_of(const struct frame_view *moment, uint32_t slot)
+static enum rank rank_of(const struct frame_view *frame_view, uint32_t slot)
 {
-    if (moment->entities->state[slot] == ENTITY_WRECK)
-        return burns(moment, slot) ? RANK_FIRE : RANK_WRECK;
-    return domain_of(moment, slot) == DOMAIN_MUNITION ? RANK_MUNITION : RANK_VEHICLE;
+    if (frame_view->entities->state[slot] == ENTITY_WRECK)
+        return burns(frame_view, slot) ? RANK_FIRE : RANK_WRECK;
+    return domain_of(frame_view, slot) == DOMAIN_MUNITION ? RANK_MUNITION : RANK_VEHICLE;
 }
 
 static void draw_symbol(struct image *image, const struct map_view *view,
-                        const struct frame_view *moment, uint32_t slot, double pixels)
+                        const struct frame_view *frame_view, uint32_t slot, double pixels)
 {
-    const struct entities *e = moment->entities;
+    const struct entities *e = frame_view->entities;
     struct point at = map_point(view, e->x[slot], e->z[slot]);
-    if (!map_holds(view, at, OUTSIDE_MOST))
+    if (!map_contains(view, at, OUTSIDE_MOST))
         return;
-    switch (rank_of(moment, slot)) {
+    switch (rank_of(frame_view, slot)) {
     case RANK_WRECK:
         symbol_wreck(image, at, pixels);
         break;
@@ -161,48 +163,49 @@ static void draw_symbol(struct image *image, const struct map_view *view,
         symbol_munition(image, at, e->heading[slot], pixels);
         break;
     default:
-        symbol_vehicle(image, at,
-                       symbol_form(moment->world, &moment->world->kinds[e->kind[slot]], pixels),
-                       e->heading[slot], pixels, (enum force)e->force[slot]);
+        symbol_vehicle(
+            image, at,
+            symbol_shape(frame_view->world, &frame_view->world->kinds[e->kind[slot]], pixels),
+            e->heading[slot], pixels, (enum force)e->force[slot]);
         break;
     }
 }
 
-void map_vehicles(struct image *image, const struct map_view *view, const struct frame_view *moment,
-                  uint32_t slot, double pixels)
+void map_vehicles(struct image *image, const struct map_view *view,
+                  const struct frame_view *frame_view, uint32_t slot, double pixels)
 {
     for (uint32_t rank = 0; rank < RANK_COUNT; rank++)
-        for (uint32_t i = 0; i < moment->head->used; i++)
-            if (i != slot && is_drawn(moment, i) && rank_of(moment, i) == rank)
-                draw_symbol(image, view, moment, i, pixels);
-    if (slot != SLOT_NONE && is_drawn(moment, slot))
-        draw_symbol(image, view, moment, slot, pixels);
+        for (uint32_t i = 0; i < frame_view->head->used; i++)
+            if (i != slot && is_drawn(frame_view, i) && rank_of(frame_view, i) == rank)
+                draw_symbol(image, view, frame_view, i, pixels);
+    if (slot != SLOT_NONE && is_drawn(frame_view, slot))
+        draw_symbol(image, view, frame_view, slot, pixels);
 }
 
-void map_blasts(struct image *image, const struct map_view *view, const struct frame_view *moment,
-                const struct effects *effects, double pixels)
+void map_blasts(struct image *image, const struct map_view *view,
+                const struct frame_view *frame_view, const struct effects *effects, double pixels)
 {
-    double now = frame_view_time_s(moment);
+    double now = frame_view_time_s(frame_view);
     for (uint32_t i = 0; i < effects->count; i++) {
         const struct effect *effect = &effects->effect[i];
         double age = (now - effect->time_s) / BLAST_LIFE_S;
         struct point at = map_point(view, effect->point.x, effect->point.z);
         bool blast = effect->type == EFFECT_EXPLOSION || effect->type == EFFECT_BURST ||
                      effect->type == EFFECT_SPLASH;
-        if (blast && age >= 0.0 && age < 1.0 && map_holds(view, at, OUTSIDE_MOST))
+        if (blast && age >= 0.0 && age < 1.0 && map_contains(view, at, OUTSIDE_MOST))
             symbol_blast(image, at, age, pixels);
     }
 }
 
 /* --- the followed vehicle --------------------------------------------------------------------- */
 
-void map_sight(struct image *image, const struct map_view *view, const struct camera *camera,
-               double length)
+void map_camera(struct image *image, const struct map_view *view, const struct camera *camera,
+                double length)
 {
     const struct rgba within = {255, 244, 150, 70}, edge = {255, 244, 150, 220};
     double x = camera->forward.x, z = camera->forward.z, level = sqrt(x * x + z * z);
     struct point eye = map_point(view, camera->eye.x, camera->eye.z);
-    if (level < LEVEL_LEAST || !map_holds(view, eye, length))
+    if (level < LEVEL_LEAST || !map_contains(view, eye, length))
         return;
     x *= length / level;
     z *= length / level;
@@ -215,13 +218,13 @@ void map_sight(struct image *image, const struct map_view *view, const struct ca
     image_line(image, corners[0], corners[2], stroke, edge);
 }
 
-void map_followed(struct image *image, const struct map_view *view, const struct frame_view *moment,
-                  uint32_t slot, double pixels, double length)
+void map_followed(struct image *image, const struct map_view *view,
+                  const struct frame_view *frame_view, uint32_t slot, double pixels, double length)
 {
     const struct rgba dark = {0, 0, 0, 170}, white = {255, 255, 255, 255};
-    const struct entities *e = moment->entities;
+    const struct entities *e = frame_view->entities;
     struct point at = map_point(view, e->x[slot], e->z[slot]);
-    if (!map_holds(view, at, length))
+    if (!map_contains(view, at, length))
         return;
     double x = maths_sin(e->heading[slot]), y = -maths_cos(e->heading[slot]);
     double radius = fmax(0.95 * pixels, 6.0), stroke = fmax(length / STROKE_LENGTH, 1.0);

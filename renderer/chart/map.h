@@ -37,10 +37,10 @@ void map_align(struct map_view *view);
 struct point map_point(const struct map_view *view, double x, double z);
 
 /* Is it within the rectangle, or at most margin pixels outside? */
-bool map_holds(const struct map_view *view, struct point point, double margin);
+bool map_contains(const struct map_view *view, struct point point, double margin);
 
 /* The longest of 1, 2 and 5 times a power of ten that is at most metres. */
-double map_round(double metres);
+double map_round_down(double metres);
 
 void map_grid(struct image *image, const struct map_view *view, double step_m);
 void map_craters(struct image *image, const struct map_view *view,
@@ -48,24 +48,25 @@ void map_craters(struct image *image, const struct map_view *view,
 
 /* Tracks of all vehicles: a dot where each was every TRACK_INTERVAL_S, fading with age from this
  * opacity; pixels is the length of symbols. */
-void map_tracks(struct image *image, const struct map_view *view, const struct frame_view *moment,
-                const struct tracks *tracks, double pixels, uint8_t opacity);
+void map_tracks(struct image *image, const struct map_view *view,
+                const struct frame_view *frame_view, const struct tracks *tracks, double pixels,
+                uint8_t opacity);
 
 /* Symbols of length pixels (symbol.h); the followed vehicle (SLOT_NONE: none) on top of all. */
-void map_vehicles(struct image *image, const struct map_view *view, const struct frame_view *moment,
-                  uint32_t slot, double pixels);
+void map_vehicles(struct image *image, const struct map_view *view,
+                  const struct frame_view *frame_view, uint32_t slot, double pixels);
 
 /* Detonations of the last seconds. */
-void map_blasts(struct image *image, const struct map_view *view, const struct frame_view *moment,
-                const struct effects *effects, double pixels);
+void map_blasts(struct image *image, const struct map_view *view,
+                const struct frame_view *frame_view, const struct effects *effects, double pixels);
 
 /* The triangle that a camera sees, from its eye in its direction with its field of view; nothing
  * for one that looks nearly straight down. */
-void map_sight(struct image *image, const struct map_view *view, const struct camera *camera,
-               double length);
+void map_camera(struct image *image, const struct map_view *view, const struct camera *camera,
+                double length);
 
 /* The followed vehicle's ring and direction. */
-void map_followed(struct image *image, const struct map_view *view, const struct frame_view *moment,
-                  uint32_t slot, double pixels, double length);
+void map_followed(struct image *image, const struct map_view *view,
+                  const struct frame_view *frame_view, uint32_t slot, double pixels, double length);
 
 #endif

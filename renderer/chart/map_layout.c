@@ -17,10 +17,10 @@ static int32_t least(int32_t a, int32_t b)
 }
 
 /* Size of ordinary words in a picture. */
-static uint32_t letters_of(uint32_t width, uint32_t height)
+static uint32_t font_size_of(uint32_t width, uint32_t height)
 {
-    uint32_t letters = (width < height ? width : height) / PICTURE_LETTERS;
-    return letters < MAP_LAYOUT_LETTERS_LEAST ? MAP_LAYOUT_LETTERS_LEAST : letters;
+    uint32_t font_size = (width < height ? width : height) / PICTURE_LETTERS;
+    return font_size < MAP_LAYOUT_FONT_MIN ? MAP_LAYOUT_FONT_MIN : font_size;
 }
 
 static int32_t rows_for(int32_t count, int32_t width, int32_t each)
@@ -32,7 +32,7 @@ static int32_t rows_for(int32_t count, int32_t width, int32_t each)
 /* Figures above the legend, both with what they need, or sharing what there is. */
 static void stack_words(struct map_layout *layout, struct box box)
 {
-    int32_t em = (int32_t)layout->letters, inner = box.width - 2 * em;
+    int32_t em = (int32_t)layout->font_size, inner = box.width - 2 * em;
     int32_t legend = rows_for(MAP_LAYOUT_SYMBOLS, inner, SYMBOL_WIDTH * em) * em * 7 / 5 + em;
     int32_t figures =
         rows_for(MAP_LAYOUT_FIGURES, inner, FIGURE_WIDTH * em) * em * 27 / 20 + em * 3;
@@ -52,7 +52,7 @@ static int32_t words_height(int32_t em, int32_t width)
 /* The close-up above the words, with what they leave, but within shares of the panel. */
 static void stack_panel(struct map_layout *layout, struct box panel)
 {
-    int32_t em = (int32_t)layout->letters;
+    int32_t em = (int32_t)layout->font_size;
     int32_t height = panel.height - words_height(em, panel.width);
     height = least(height, panel.height * CLOSE_UP_MOST / 100);
     if (height < panel.height * CLOSE_UP_ENOUGH / 100)
@@ -68,8 +68,8 @@ static void stack_panel(struct map_layout *layout, struct box panel)
 void map_layout_map(struct map_layout *layout, uint32_t width, uint32_t height)
 {
     int32_t w = (int32_t)width, h = (int32_t)height, side = least(w, h);
-    int32_t em = (int32_t)letters_of(width, height);
-    *layout = (struct map_layout){.letters = (uint32_t)em, .whole = {0, 0, side, side}};
+    int32_t em = (int32_t)font_size_of(width, height);
+    *layout = (struct map_layout){.font_size = (uint32_t)em, .whole = {0, 0, side, side}};
     if (w - side - RULE >= PANEL_LEAST * em) {
         stack_panel(layout, (struct box){side + RULE, 0, w - side - RULE, h});
     } else if (h - side - RULE >= PANEL_LEAST * em) {
@@ -99,20 +99,20 @@ bool box_overlap(struct box a, struct box b)
            b.top < a.top + a.height;
 }
 
-bool taken_free(const struct taken *taken, struct box box)
+bool label_space_free(const struct label_space *space, struct box box)
 {
-    if (!box_within(box, taken->bounds))
+    if (!box_within(box, space->bounds))
         return false;
-    for (uint32_t i = 0; i < taken->count; i++)
-        if (box_overlap(taken->boxes[i], box))
+    for (uint32_t i = 0; i < space->count; i++)
+        if (box_overlap(space->boxes[i], box))
             return false;
     return true;
 }
 
-bool taken_take(struct taken *taken, struct box box)
+bool label_space_take(struct label_space *space, struct box box)
 {
-    if (taken->count == TAKEN_MAX || !taken_free(taken, box))
+    if (space->count == LABEL_SPACE_MAX || !label_space_free(space, box))
         return false;
-    taken->boxes[taken->count++] = box;
+    space->boxes[space->count++] = box;
     return true;
 }

@@ -9,16 +9,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define MAP_LAYOUT_LETTERS_LEAST 9u /* [pixel] smaller ones cannot be read */
-#define MAP_LAYOUT_FIGURES       13 /* that the panel has room for, if it is large */
-#define MAP_LAYOUT_SYMBOLS       15 /* in the legend, likewise */
+#define MAP_LAYOUT_FONT_MIN 9u /* [pixel] smaller ones cannot be read */
+#define MAP_LAYOUT_FIGURES  13 /* that the panel has room for, if it is large */
+#define MAP_LAYOUT_SYMBOLS  15 /* in the legend, likewise */
 
 struct box {
     int32_t left, top, width, height; /* [pixel]; width 0: not there */
 };
 
 struct map_layout {
-    uint32_t letters; /* [pixel] size of ordinary words */
+    uint32_t font_size; /* [pixel] size of ordinary words */
     struct box whole, close_up, figures, legend;
 };
 
@@ -29,19 +29,19 @@ bool box_overlap(struct box a, struct box b);
 
 /* --- places for words ------------------------------------------------------------------------- */
 
-#define TAKEN_MAX 64u
+#define LABEL_SPACE_MAX 64u
 
 /* What of a map is taken by words and marks, so that nothing is written over another. */
-struct taken {
+struct label_space {
     struct box bounds;
-    struct box boxes[TAKEN_MAX];
+    struct box boxes[LABEL_SPACE_MAX];
     uint32_t count;
 };
 
 /* Is the box free and within the bounds? */
-bool taken_free(const struct taken *taken, struct box box);
+bool label_space_free(const struct label_space *space, struct box box);
 
 /* Takes the box if it is free. */
-bool taken_take(struct taken *taken, struct box box);
+bool label_space_take(struct label_space *space, struct box box);
 
 #endif

@@ -55,27 +55,27 @@ uint32_t statistics_bar_of(struct statistics_bar_field fields[STATISTICS_BAR_MAX
                            const struct statistics *s, double fps)
 {
     uint32_t n = 0;
-#define GAUGE(title, most, importance, how, ...)                                                   \
+#define FIELD(title, most, importance, how, ...)                                                   \
     do {                                                                                           \
         fields[n] = (struct statistics_bar_field){                                                 \
             .name = (title), .widest = (most), .state = (how), .rank = (importance)};              \
         snprintf(fields[n].value, sizeof fields[n].value, __VA_ARGS__);                            \
         n++;                                                                                       \
     } while (0)
-    GAUGE("SPEED km/h", "0000.0", 0, STATISTICS_BAR_GOOD, "%.1f", s->speed_kmh);
-    GAUGE("HEADING", "000.0", 1, STATISTICS_BAR_GOOD, "%05.1f", s->heading_deg);
-    GAUGE("PITCH", "+00.0", 7, tilt_state(s->pitch_deg), "%+.1f", unsigned_zero(s->pitch_deg));
-    GAUGE("ROLL", "+00.0", 8, tilt_state(s->roll_deg), "%+.1f", unsigned_zero(s->roll_deg));
-    GAUGE("ALTITUDE m", "0000", 4, STATISTICS_BAR_GOOD, "%.0f", s->altitude_m);
-    GAUGE("ROUNDS", "000", 5, rounds_state(s), "%u", s->rounds);
-    GAUGE("FUEL", "000%", 6, fuel_state(s->fuel_share), "%.0f%%", 100.0 * s->fuel_share);
-    GAUGE("DAMAGE", "destroyed", 2, damage_state(s->damage), "%s", s->damage);
-    GAUGE("BEHAVIOUR", "back_off", 9, STATISTICS_BAR_GOOD, "%s", s->behaviour);
-    GAUGE("TIME s", "0000.00", 3, STATISTICS_BAR_PLAIN, "%.2f", s->time_s);
-    GAUGE("FRAME", "000000", STATISTICS_BAR_RANK_SPARE, STATISTICS_BAR_PLAIN, "%llu",
+    FIELD("SPEED km/h", "0000.0", 0, STATISTICS_BAR_GOOD, "%.1f", s->speed_kmh);
+    FIELD("HEADING", "000.0", 1, STATISTICS_BAR_GOOD, "%05.1f", s->heading_deg);
+    FIELD("PITCH", "+00.0", 7, tilt_state(s->pitch_deg), "%+.1f", unsigned_zero(s->pitch_deg));
+    FIELD("ROLL", "+00.0", 8, tilt_state(s->roll_deg), "%+.1f", unsigned_zero(s->roll_deg));
+    FIELD("ALTITUDE m", "0000", 4, STATISTICS_BAR_GOOD, "%.0f", s->altitude_m);
+    FIELD("ROUNDS", "000", 5, rounds_state(s), "%u", s->rounds);
+    FIELD("FUEL", "000%", 6, fuel_state(s->fuel_share), "%.0f%%", 100.0 * s->fuel_share);
+    FIELD("DAMAGE", "destroyed", 2, damage_state(s->damage), "%s", s->damage);
+    FIELD("BEHAVIOUR", "back_off", 9, STATISTICS_BAR_GOOD, "%s", s->behaviour);
+    FIELD("TIME s", "0000.00", 3, STATISTICS_BAR_PLAIN, "%.2f", s->time_s);
+    FIELD("FRAME", "000000", STATISTICS_BAR_RANK_SPARE, STATISTICS_BAR_PLAIN, "%llu",
           (unsigned long long)s->frame);
     if (fps > 0.0)
-        GAUGE("FPS", "000.0", 10, STATISTICS_BAR_PLAIN, "%.1f", fps);
-#undef GAUGE
+        FIELD("FPS", "000.0", 10, STATISTICS_BAR_PLAIN, "%.1f", fps);
+#undef FIELD
     return n;
 }

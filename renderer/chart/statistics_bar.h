@@ -10,7 +10,7 @@
 #define STATISTICS_BAR_MAX        12u
 #define STATISTICS_BAR_RANK_SPARE 11u /* a field of this rank goes rather than cost another row */
 
-enum gauge_state {
+enum statistics_bar_state {
     STATISTICS_BAR_GOOD,
     STATISTICS_BAR_PLAIN,
     STATISTICS_BAR_WARNING,
@@ -21,7 +21,7 @@ struct statistics_bar_field {
     const char *name;
     const char *widest; /* no value is wider, nearly: fields keep their places */
     char value[32];
-    uint32_t state; /* enum gauge_state */
+    uint32_t state; /* enum statistics_bar_state */
     uint32_t rank;  /* where not all have room, the highest go first */
 };
 

@@ -14,27 +14,27 @@ struct world;
 
 #define SYMBOL_KINDS_PIXELS 8.5 /* smaller ones tell land, air and sea apart, no more */
 
-enum symbol_form {
-    FORM_LAND,
-    FORM_AIR,
-    FORM_SHIP,
-    FORM_TANK,
-    FORM_CARRIER,
-    FORM_TRUCK,
-    FORM_JEEP,
-    FORM_HELICOPTER,
-    FORM_JET,
-    FORM_COUNT
+enum symbol_shape {
+    SYMBOL_LAND,
+    SYMBOL_AIR,
+    SYMBOL_SHIP,
+    SYMBOL_TANK,
+    SYMBOL_CARRIER,
+    SYMBOL_TRUCK,
+    SYMBOL_JEEP,
+    SYMBOL_HELICOPTER,
+    SYMBOL_JET,
+    SYMBOL_COUNT
 };
 
 /* The form that a kind's vehicles have on the map at a size; by its model, else by its domain. */
-enum symbol_form symbol_form(const struct world *world, const struct kind *kind, double pixels);
+enum symbol_shape symbol_shape(const struct world *world, const struct kind *kind, double pixels);
 
 struct rgba symbol_colour(enum force force);
 
 /* A vehicle about so long. Within 0.1 of its length around its place it has its force's colour. */
-void symbol_vehicle(struct image *image, struct point at, enum symbol_form form, double heading_rad,
-                    double pixels, enum force force);
+void symbol_vehicle(struct image *image, struct point at, enum symbol_shape shape,
+                    double heading_rad, double pixels, enum force force);
 
 void symbol_munition(struct image *image, struct point at, double heading_rad, double pixels);
 void symbol_wreck(struct image *image, struct point at, double pixels);

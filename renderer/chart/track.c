@@ -17,14 +17,14 @@ void tracks_free(struct tracks *tracks)
     tracks->track = NULL;
 }
 
-void tracks_note(struct tracks *tracks, const struct frame_view *moment)
+void tracks_note(struct tracks *tracks, const struct frame_view *frame_view)
 {
-    double now = state_time_s(moment->world, moment->head);
+    double now = state_time_s(frame_view->world, frame_view->head);
     if (now - tracks->last_s < TRACK_INTERVAL_S)
         return;
     tracks->last_s = now;
-    const struct entities *e = moment->entities;
-    for (uint32_t i = 0; i < moment->head->used && i < tracks->slots; i++) {
+    const struct entities *e = frame_view->entities;
+    for (uint32_t i = 0; i < frame_view->head->used && i < tracks->slots; i++) {
         if (e->state[i] != ENTITY_ACTIVE)
             continue;
         struct track *track = &tracks->track[i];

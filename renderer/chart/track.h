@@ -27,7 +27,7 @@ int tracks_init(struct tracks *tracks, uint32_t capacity);
 void tracks_free(struct tracks *tracks);
 
 /* Adds a point to every vehicle's track when the interval has passed. */
-void tracks_note(struct tracks *tracks, const struct frame_view *moment);
+void tracks_note(struct tracks *tracks, const struct frame_view *frame_view);
 
 /* The track of a slot if it is this entity's, else NULL. */
 const struct track *tracks_of(const struct tracks *tracks, uint32_t slot, uint32_t id);

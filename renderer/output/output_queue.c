@@ -13,12 +13,12 @@
 static struct picture *next(struct output_queue *queue)
 {
     while (queue->count == 0 && !queue->ending)
-        pthread_cond_wait(&queue->come, &queue->lock);
+        pthread_cond_wait(&queue->added, &queue->lock);
     if (queue->count == 0)
         return NULL;
     struct picture *picture = queue->waiting[0];
     memmove(queue->waiting, queue->waiting + 1, --queue->count * sizeof queue->waiting[0]);
-    pthread_cond_signal(&queue->gone);
+    pthread_cond_signal(&queue->removed);
     return picture;
 }
 
@@ -29,17 +29,17 @@ static void *work(void *argument)
     process_lower_priority(OUTPUT_QUEUE_NICENESS); /* this thread's alone; no loss where it fails */
     pthread_mutex_lock(&queue->lock);
     queue->running = true;
-    pthread_cond_signal(&queue->gone);
+    pthread_cond_signal(&queue->removed);
     while ((picture = next(queue)) != NULL) {
-        bool wanted = !queue->failed;
+        bool healthy = !queue->failed;
         struct error_text error;
         pthread_mutex_unlock(&queue->lock);
-        bool done = wanted && queue->work.take(queue->work.self, picture, &error) == 0;
+        bool done = healthy && queue->work.take(queue->work.self, picture, &error) == 0;
         picture_release(picture);
         pthread_mutex_lock(&queue->lock);
         if (done)
             queue->taken++;
-        if (wanted && !done) {
+        if (healthy && !done) {
             queue->failed = true;
             queue->error = error;
         }
@@ -50,8 +50,8 @@ static void *work(void *argument)
 
 static void forget(struct output_queue *queue)
 {
-    pthread_cond_destroy(&queue->come);
-    pthread_cond_destroy(&queue->gone);
+    pthread_cond_destroy(&queue->added);
+    pthread_cond_destroy(&queue->removed);
     pthread_mutex_destroy(&queue->lock);
 }
 
@@ -61,8 +61,8 @@ int output_queue_start(struct output_queue *queue, const struct output_queue_wor
     CHECK(job->depth > 0 && job->depth <= OUTPUT_QUEUE_MAX);
     *queue = (struct output_queue){.work = *job,
                                    .lock = PTHREAD_MUTEX_INITIALIZER,
-                                   .come = PTHREAD_COND_INITIALIZER,
-                                   .gone = PTHREAD_COND_INITIALIZER};
+                                   .added = PTHREAD_COND_INITIALIZER,
+                                   .removed = PTHREAD_COND_INITIALIZER};
     sigfillset(&all);
     sigdelset(&all, SIGSYS); /* what the sandbox forbids is to be told */
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -75,7 +75,7 @@ int output_queue_start(struct output_queue *queue, const struct output_queue_wor
     }
     pthread_mutex_lock(&queue->lock);
     while (!queue->running)
-        pthread_cond_wait(&queue->gone, &queue->lock);
+        pthread_cond_wait(&queue->removed, &queue->lock);
     pthread_mutex_unlock(&queue->lock);
     return 0;
 }
@@ -98,8 +98,8 @@ static uint32_t place_for(const struct output_queue *queue, const char *view)
 void output_queue_put(struct output_queue *queue, struct picture *picture)
 {
     pthread_mutex_lock(&queue->lock);
-    while (queue->work.patient && queue->count >= queue->work.depth)
-        pthread_cond_wait(&queue->gone, &queue->lock);
+    while (queue->work.lossless && queue->count >= queue->work.depth)
+        pthread_cond_wait(&queue->removed, &queue->lock);
     uint32_t place = place_for(queue, picture->view);
     if (place < queue->count) {
         picture_release(queue->waiting[place]);
@@ -108,7 +108,7 @@ void output_queue_put(struct output_queue *queue, struct picture *picture)
         queue->count++;
     }
     queue->waiting[place] = picture_hold(picture);
-    pthread_cond_signal(&queue->come);
+    pthread_cond_signal(&queue->added);
     pthread_mutex_unlock(&queue->lock);
 }
 
@@ -126,7 +126,7 @@ int output_queue_end(struct output_queue *queue, struct error_text *error)
 {
     pthread_mutex_lock(&queue->lock);
     queue->ending = true;
-    pthread_cond_signal(&queue->come);
+    pthread_cond_signal(&queue->added);
     pthread_mutex_unlock(&queue->lock);
     pthread_join(queue->thread, NULL);
     forget(queue);

@@ -20,14 +20,14 @@ struct output_queue_work {
      */
     int (*take)(void *self, const struct picture *picture, struct error_text *error);
     uint32_t depth; /* pictures of one view that may wait, 1 or more */
-    bool patient;   /* a full queue is waited for: every picture counts, whenever it comes */
+    bool lossless;  /* a full queue is waited for: every picture counts, whenever it comes */
 };
 
 struct output_queue {
     struct output_queue_work work;
     pthread_t thread;
     pthread_mutex_t lock; /* of all below */
-    pthread_cond_t come, gone;
+    pthread_cond_t added, removed;
     struct picture *waiting[OUTPUT_QUEUE_MAX]; /* the oldest first */
     uint32_t count;
     bool running, ending, failed;

@@ -54,11 +54,11 @@ static struct picture *make_new(const struct image *like)
 }
 
 struct picture *picture_make(struct picture_pool *pool, struct image *image, const char *view,
-                             const char *words)
+                             const char *comment)
 {
     pthread_mutex_lock(&pool->lock);
     struct picture *picture = take_spare(pool, image);
-    if (picture == NULL && pool->count < PICTURE_PROXY_MAX && (picture = make_new(image)) != NULL)
+    if (picture == NULL && pool->count < PICTURE_POOL_MAX && (picture = make_new(image)) != NULL)
         pool->count++;
     pthread_mutex_unlock(&pool->lock);
     if (picture == NULL)
@@ -67,16 +67,16 @@ struct picture *picture_make(struct picture_pool *pool, struct image *image, con
     *image = picture->image;
     picture->image = drawn;
     picture->pool = pool;
-    picture->holders = 1;
+    picture->references = 1;
     snprintf(picture->view, sizeof picture->view, "%s", view);
-    snprintf(picture->words, sizeof picture->words, "%s", words);
+    snprintf(picture->comment, sizeof picture->comment, "%s", comment);
     return picture;
 }
 
 struct picture *picture_hold(struct picture *picture)
 {
     pthread_mutex_lock(&picture->pool->lock);
-    picture->holders++;
+    picture->references++;
     pthread_mutex_unlock(&picture->pool->lock);
     return picture;
 }
@@ -87,7 +87,7 @@ void picture_release(struct picture *picture)
         return;
     struct picture_pool *pool = picture->pool;
     pthread_mutex_lock(&pool->lock);
-    if (--picture->holders == 0) {
+    if (--picture->references == 0) {
         picture->next = pool->spare;
         pool->spare = picture;
     }

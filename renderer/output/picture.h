@@ -8,9 +8,9 @@
 #include <pthread.h>
 #include <stdint.h>
 
-#define PICTURE_VIEW_BYTES  32
-#define PICTURE_WORDS_BYTES 512
-#define PICTURE_PROXY_MAX   32u /* of a pool; 1280x720 takes 4 MB each, only when they are needed */
+#define PICTURE_VIEW_BYTES    32
+#define PICTURE_COMMENT_BYTES 512
+#define PICTURE_POOL_MAX      32u /* of a pool; 1280x720 takes 4 MB each, only when they are needed */
 
 struct picture_pool {
     pthread_mutex_t lock;
@@ -20,13 +20,13 @@ struct picture_pool {
 
 struct picture {
     struct image image;
-    char view[PICTURE_VIEW_BYTES];   /* "chase", "map", ... */
-    char words[PICTURE_WORDS_BYTES]; /* about it, for who reads files */
+    char view[PICTURE_VIEW_BYTES];       /* "chase", "map", ... */
+    char comment[PICTURE_COMMENT_BYTES]; /* about it, for who reads files */
     uint64_t frame;
     double time_s; /* of the simulation */
     struct picture_pool *pool;
     struct picture *next; /* in the pool */
-    uint32_t holders;     /* under the pool's lock */
+    uint32_t references;  /* under the pool's lock */
 };
 
 void picture_pool_init(struct picture_pool *pool);
@@ -35,9 +35,9 @@ void picture_pool_free(struct picture_pool *pool);
 
 /* Makes a picture of what was drawn, held once. It takes the image's pixels and gives it others of
  * the same size for them, whose content is anything. NULL, and the image as it was, when there is
- * no memory or PICTURE_PROXY_MAX are under way. */
+ * no memory or PICTURE_POOL_MAX are under way. */
 struct picture *picture_make(struct picture_pool *pool, struct image *image, const char *view,
-                             const char *words);
+                             const char *comment);
 
 struct picture *picture_hold(struct picture *picture);
 /* NULL is nothing. */

@@ -12,7 +12,7 @@ static bool is_same(const struct picture_requests_key *a, const struct picture_r
 bool picture_requests_lives(const struct picture_requests *row, uint64_t now_ns)
 {
     return row->generation != 0 &&
-           (row->holders > 0 || now_ns < row->asked_ns + PICTURE_REQUESTS_KEEP_NS);
+           (row->unanswered > 0 || now_ns < row->requested_ns + PICTURE_REQUESTS_KEEP_NS);
 }
 
 /* Is a better to give up than b? */
@@ -20,7 +20,7 @@ static bool goes_before(const struct picture_requests *a, const struct picture_r
                         uint64_t now_ns)
 {
     bool a_lives = picture_requests_lives(a, now_ns), b_lives = picture_requests_lives(b, now_ns);
-    return a_lives != b_lives ? b_lives : a_lives && a->asked_ns < b->asked_ns;
+    return a_lives != b_lives ? b_lives : a_lives && a->requested_ns < b->requested_ns;
 }
 
 uint32_t picture_requests_ask(struct picture_requests_table *table,
@@ -31,23 +31,23 @@ uint32_t picture_requests_ask(struct picture_requests_table *table,
         struct picture_requests *row = &table->row[i];
         bool lives = picture_requests_lives(row, now_ns);
         if (lives && is_same(&row->key, key)) {
-            row->asked_ns = now_ns;
+            row->requested_ns = now_ns;
             row->watched = true;
             return i;
         }
-        bool stays = lives && (row->holders > 0 || row->watched);
+        bool stays = lives && (row->unanswered > 0 || row->watched);
         if (!stays && (found == NULL || goes_before(row, found, now_ns)))
             found = row;
     }
     if (found == NULL)
         return PICTURE_REQUESTS_NONE;
     *found = (struct picture_requests){
-        .key = *key, .generation = ++table->generations, .asked_ns = now_ns};
+        .key = *key, .generation = ++table->generations, .requested_ns = now_ns};
     return (uint32_t)(found - table->row);
 }
 
 void picture_requests_forget(struct picture_requests *row)
 {
-    if (row->holders == 0)
+    if (row->unanswered == 0)
         row->generation = 0;
 }

@@ -27,10 +27,10 @@ struct picture_requests_key {
 struct picture_requests {
     /* By the clients' threads. */
     struct picture_requests_key key;
-    uint64_t generation; /* no two rows ever have the same; 0: free */
-    uint64_t asked_ns;   /* CLOCK_MONOTONIC when somebody last asked */
-    uint32_t holders;    /* requests that are not answered yet */
-    bool watched;        /* asked for more than once */
+    uint64_t generation;   /* no two rows ever have the same; 0: free */
+    uint64_t requested_ns; /* CLOCK_MONOTONIC when somebody last asked */
+    uint32_t unanswered;   /* requests that are not answered yet */
+    bool watched;          /* asked for more than once */
     /* By the drawing thread, but for the beginning. */
     bool gone; /* there is no such vehicle */
 };

@@ -44,7 +44,7 @@ const char *stream_url(const struct stream *stream)
 
 /* --- views -------------------------------------------------------------------------------------*/
 
-struct stream_view *stream_find(struct stream *stream, const char *name, size_t length)
+struct stream_view *stream_find_view(struct stream *stream, const char *name, size_t length)
 {
     for (uint32_t i = 0; i < stream->views; i++) {
         if (strlen(stream->view[i].name) == length &&
@@ -65,31 +65,31 @@ static bool is_plain(const char *name)
 void stream_put(struct stream *stream, struct picture *picture)
 {
     pthread_mutex_lock(&stream->lock);
-    struct stream_view *view = stream_find(stream, picture->view, strlen(picture->view));
+    struct stream_view *view = stream_find_view(stream, picture->view, strlen(picture->view));
     if (view == NULL && stream->views < STREAM_VIEWS_MAX && is_plain(picture->view)) {
         view = &stream->view[stream->views++];
         snprintf(view->name, sizeof view->name, "%s", picture->view);
     }
     if (view != NULL) {
-        picture_release(view->fresh);
-        view->fresh = picture_hold(picture);
+        picture_release(view->unencoded);
+        view->unencoded = picture_hold(picture);
         view->drawn++;
-        if (view->watchers + view->askers > 0)
-            pthread_cond_signal(&stream->come);
+        if (view->watchers + view->waiters > 0)
+            pthread_cond_signal(&stream->encode_cond);
     }
     pthread_mutex_unlock(&stream->lock);
 }
 
 struct stream_jpeg *stream_hold(struct stream_jpeg *jpeg)
 {
-    atomic_fetch_add(&jpeg->holders, 1);
+    atomic_fetch_add(&jpeg->references, 1);
     return jpeg;
 }
 
 void stream_release(void *jpeg)
 {
     struct stream_jpeg *released = jpeg;
-    if (released == NULL || atomic_fetch_sub(&released->holders, 1) > 1)
+    if (released == NULL || atomic_fetch_sub(&released->references, 1) > 1)
         return;
     free(released->bytes);
     free(released);
@@ -102,7 +102,7 @@ struct stream_jpeg *stream_encode(const struct image *image, uint64_t frame, dou
     struct stream_jpeg *jpeg = malloc(sizeof *jpeg);
     if (jpeg == NULL)
         return NULL;
-    *jpeg = (struct stream_jpeg){.holders = 1,
+    *jpeg = (struct stream_jpeg){.references = 1,
                                  .width = image->width,
                                  .height = image->height,
                                  .frame = frame,
@@ -116,8 +116,8 @@ struct stream_jpeg *stream_encode(const struct image *image, uint64_t frame, dou
 /* Under the lock, which it leaves meanwhile. Out of memory the picture is left out. */
 static void renew(struct stream *stream, struct stream_view *view)
 {
-    struct picture *picture = view->fresh;
-    view->fresh = NULL;
+    struct picture *picture = view->unencoded;
+    view->unencoded = NULL;
     pthread_mutex_unlock(&stream->lock);
     struct stream_jpeg *jpeg = stream_encode(&picture->image, picture->frame, picture->time_s);
     picture_release(picture);
@@ -136,11 +136,11 @@ static bool serve_views(struct stream *stream)
     for (uint32_t i = 0; i < stream->views && !stream->ending; i++) {
         struct stream_view *view = &stream->view[i];
         uint64_t now = clock_now_ns();
-        if (view->watchers + view->askers == 0)
+        if (view->watchers + view->waiters == 0)
             continue;
-        if (view->fresh != NULL)
+        if (view->unencoded != NULL)
             renew(stream, view);
-        else if (view->jpeg == NULL || (view->askers == 0 && now < view->shown_ns + REPEAT_NS))
+        else if (view->jpeg == NULL || (view->waiters == 0 && now < view->shown_ns + REPEAT_NS))
             continue;
         view->number++;
         view->shown_ns = now;
@@ -152,17 +152,17 @@ static bool serve_views(struct stream *stream)
 
 /* The same for pictures that were asked for. A row that has become another's while its picture was
  * encoded is not given that. */
-static bool serve_wanted(struct stream *stream)
+static bool serve_requests(struct stream *stream)
 {
     bool done = false;
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX && !stream->ending; i++) {
-        struct stream_view *view = &stream->wanted_view[i];
-        if (view->askers == 0 || view->fresh == NULL)
+        struct stream_view *view = &stream->request_view[i];
+        if (view->waiters == 0 || view->unencoded == NULL)
             continue;
-        uint64_t generation = stream->wanted.row[i].generation;
+        uint64_t generation = stream->requests.row[i].generation;
         renew(stream, view);
         done = true;
-        if (stream->wanted.row[i].generation != generation) {
+        if (stream->requests.row[i].generation != generation) {
             stream_release(view->jpeg);
             view->jpeg = NULL;
             continue;
@@ -181,7 +181,7 @@ static void wait_shortly(struct stream *stream)
     until = until < now + NS_PER_S ? until : now + NS_PER_S;
     const struct timespec at = {.tv_sec = (time_t)(until / NS_PER_S),
                                 .tv_nsec = (long)(until % NS_PER_S)};
-    pthread_cond_timedwait(&stream->come, &stream->lock, &at);
+    pthread_cond_timedwait(&stream->encode_cond, &stream->lock, &at);
 }
 
 static void *serve(void *argument)
@@ -192,7 +192,7 @@ static void *serve(void *argument)
     while (!stream->ending) {
         bool done = serve_views(stream);
         stream_http_sweep(stream);
-        if (!serve_wanted(stream) && !done)
+        if (!serve_requests(stream) && !done)
             wait_shortly(stream);
     }
     pthread_mutex_unlock(&stream->lock);
@@ -207,9 +207,9 @@ static void init_locks(struct stream *stream)
     pthread_mutex_init(&stream->lock, NULL);
     pthread_condattr_init(&monotonic);
     pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
-    pthread_cond_init(&stream->come, &monotonic);
-    pthread_cond_init(&stream->asked, &monotonic);
-    pthread_cond_init(&stream->paint, &monotonic);
+    pthread_cond_init(&stream->encode_cond, &monotonic);
+    pthread_cond_init(&stream->draw_cond, &monotonic);
+    pthread_cond_init(&stream->paint_cond, &monotonic);
     pthread_condattr_destroy(&monotonic);
 }
 
@@ -217,8 +217,8 @@ static void end_threads(struct stream *stream, bool painting)
 {
     pthread_mutex_lock(&stream->lock);
     stream->ending = true;
-    pthread_cond_signal(&stream->come);
-    pthread_cond_signal(&stream->paint);
+    pthread_cond_signal(&stream->encode_cond);
+    pthread_cond_signal(&stream->paint_cond);
     pthread_mutex_unlock(&stream->lock);
     pthread_join(stream->encoding, NULL);
     if (painting)
@@ -257,9 +257,9 @@ int stream_start(struct stream *stream, struct error_text *error)
     return result;
 }
 
-static void let_go(struct stream_view *view)
+static void release_view(struct stream_view *view)
 {
-    picture_release(view->fresh);
+    picture_release(view->unencoded);
     stream_release(view->jpeg);
 }
 
@@ -270,17 +270,17 @@ void stream_close(struct stream *stream)
     if (stream->started) {
         end_threads(stream, true);
         stream_http_end(stream);
-        pthread_cond_destroy(&stream->paint);
-        pthread_cond_destroy(&stream->asked);
-        pthread_cond_destroy(&stream->come);
+        pthread_cond_destroy(&stream->paint_cond);
+        pthread_cond_destroy(&stream->draw_cond);
+        pthread_cond_destroy(&stream->encode_cond);
         pthread_mutex_destroy(&stream->lock);
     }
     for (uint32_t i = 0; i < stream->views; i++)
-        let_go(&stream->view[i]);
+        release_view(&stream->view[i]);
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++)
-        let_go(&stream->wanted_view[i]);
+        release_view(&stream->request_view[i]);
     for (uint32_t i = 0; i < STREAM_MAPS; i++)
-        let_go(&stream->map[i].view);
+        release_view(&stream->map[i].view);
     for (uint32_t i = 0; i < stream->endpoints; i++)
         if (stream->endpoint[i].listener.fd >= 0)
             close(stream->endpoint[i].listener.fd);

@@ -34,11 +34,11 @@ static void wait_here(struct stream_client *client)
 }
 
 /* Takes the client out of those that wait. */
-static void go_on(struct stream_client **at)
+static void resume(struct stream_client **at)
 {
     struct stream_client *client = *at;
     *at = client->next;
-    client->view->askers -= client->asked ? 1 : 0;
+    client->view->waiters -= client->waits_once ? 1 : 0;
     http_wake(client->request);
 }
 
@@ -49,7 +49,7 @@ void stream_http_wake(struct stream *stream, const struct stream_view *view)
         if (view != NULL && (*at)->view != view)
             at = &(*at)->next;
         else
-            go_on(at);
+            resume(at);
     }
 }
 
@@ -60,7 +60,7 @@ uint64_t stream_http_expire(struct stream *stream, uint64_t now_ns)
     while (*at != NULL) {
         uint64_t until_ns = (*at)->until_ns;
         if (until_ns != 0 && until_ns <= now_ns) {
-            go_on(at);
+            resume(at);
             continue;
         }
         if (until_ns != 0 && until_ns < next_ns)
@@ -72,9 +72,9 @@ uint64_t stream_http_expire(struct stream *stream, uint64_t now_ns)
 
 bool stream_wait_here(struct stream_client *client)
 {
-    client->asked = true;
-    client->view->askers++;
-    pthread_cond_signal(&client->stream->come);
+    client->waits_once = true;
+    client->view->waiters++;
+    pthread_cond_signal(&client->stream->encode_cond);
     wait_here(client);
     return false;
 }
@@ -157,7 +157,7 @@ static bool reply_picture(struct stream_client *client, struct http_reply *reply
 {
     struct stream_view *view = client->view;
     struct stream *stream = client->stream;
-    if (!client->asked && (view->fresh != NULL || view->jpeg == NULL) && !stream->ending)
+    if (!client->waits_once && (view->unencoded != NULL || view->jpeg == NULL) && !stream->ending)
         return stream_wait_here(client);
     if (view->jpeg == NULL)
         stream_refuse(reply, 503, "no picture yet\n");
@@ -277,7 +277,7 @@ static void reply_stream(struct stream_client *client, struct http_reply *reply)
     }
     *place = client;
     client->view->watchers++;
-    pthread_cond_signal(&client->stream->come);
+    pthread_cond_signal(&client->stream->encode_cond);
     *reply = (struct http_reply){.status = 200, .type = MULTIPART, .give = give};
 }
 
@@ -305,7 +305,7 @@ static bool reply_path(struct stream_client *client, const char *path, struct ht
     bool live = length < REQUEST_BYTES && ends_with(path, length, ".mjpeg", &stem);
     bool still = length < REQUEST_BYTES && ends_with(path, length, ".jpg", &stem);
     if (live || still)
-        client->view = stream_find(stream, path + 1, stem - 1);
+        client->view = stream_find_view(stream, path + 1, stem - 1);
     if (client->view != NULL && still)
         return reply_picture(client, reply);
     if (client->view != NULL)

@@ -23,7 +23,7 @@
 
 /* An encoded picture, which nobody changes. */
 struct stream_jpeg {
-    _Atomic uint32_t holders;
+    _Atomic uint32_t references;
     uint8_t *bytes;
     size_t count;
     uint32_t width, height;
@@ -33,11 +33,11 @@ struct stream_jpeg {
 
 struct stream_view {
     char name[PICTURE_VIEW_BYTES];
-    struct picture *fresh;     /* the newest, when there is no JPEG of it yet; else NULL */
-    struct stream_jpeg *jpeg;  /* the newest there is; NULL before the first */
-    uint64_t number;           /* of what is shown: goes up with every JPEG */
-    uint64_t shown_ns;         /* CLOCK_MONOTONIC of that */
-    uint32_t watchers, askers; /* clients of the stream; those who wait for one picture now */
+    struct picture *unencoded;  /* the newest, when there is no JPEG of it yet; else NULL */
+    struct stream_jpeg *jpeg;   /* the newest there is; NULL before the first */
+    uint64_t number;            /* of what is shown: goes up with every JPEG */
+    uint64_t shown_ns;          /* CLOCK_MONOTONIC of that */
+    uint32_t watchers, waiters; /* clients of the stream; those who wait for one picture now */
     uint64_t drawn, encoded, skipped; /* pictures put; JPEGs made; those that clients passed over */
 };
 
@@ -51,9 +51,9 @@ struct stream_endpoint {
 struct stream_map {
     struct query_map key;
     bool used;
-    bool wanted;       /* to be painted; the painting thread clears it */
-    uint64_t asked_ns; /* CLOCK_MONOTONIC when somebody last asked */
-    uint32_t holders;  /* requests that are not answered yet */
+    bool to_paint;         /* to be painted; the painting thread clears it */
+    uint64_t requested_ns; /* CLOCK_MONOTONIC when somebody last asked */
+    uint32_t unanswered;   /* requests that are not answered yet */
     struct stream_view view;
 };
 
@@ -61,12 +61,12 @@ struct stream_map {
 struct stream_client {
     struct stream *stream; /* NULL: nothing was asked yet */
     struct stream_view *view;
-    struct picture_requests *wanted; /* the row that the request holds; NULL: none */
-    struct stream_map *map;          /* likewise */
-    uint64_t until_ns;               /* waits no longer; 0: as long as it takes */
+    struct picture_requests *row; /* the row that the request holds; NULL: none */
+    struct stream_map *map;       /* likewise */
+    uint64_t until_ns;            /* waits no longer; 0: as long as it takes */
     struct http_request *request;
     struct stream_client *next; /* of those that wait */
-    bool asked;                 /* counted in the view's askers */
+    bool waits_once;            /* counted in the view's askers */
     struct stream_jpeg *jpeg;   /* being sent */
     char head[192];             /* before it */
     size_t head_bytes, sent;
@@ -80,15 +80,16 @@ struct stream {
     struct stream_painter painter; /* paint is NULL: there are no maps */
     bool started;
     pthread_t encoding, painting;
-    pthread_mutex_t lock; /* of all below */
-    pthread_cond_t come;  /* the encoding thread has something to do, ... */
-    pthread_cond_t asked; /* ... the drawing thread, ... */
-    pthread_cond_t paint; /* ... the painting thread */
+    pthread_mutex_t lock;       /* of all below */
+    pthread_cond_t encode_cond; /* the encoding thread has something to do, ... */
+    pthread_cond_t draw_cond;   /* ... the drawing thread, ... */
+    pthread_cond_t paint_cond;  /* ... the painting thread */
     bool ending;
-    uint64_t numbers;         /* of pictures that were asked for: no two have the same */
-    uint64_t asks, asks_seen; /* requests that wait for a picture; ... by the drawing thread */
-    struct picture_requests_table wanted;
-    struct stream_view wanted_view[PICTURE_REQUESTS_MAX]; /* of those rows */
+    uint64_t numbers; /* of pictures that were asked for: no two have the same */
+    uint64_t request_count,
+        request_count_seen; /* requests that wait for a picture; ... by the drawing thread */
+    struct picture_requests_table requests;
+    struct stream_view request_view[PICTURE_REQUESTS_MAX]; /* of those rows */
     bool
         again[PICTURE_REQUESTS_MAX]; /* somebody waits for a picture even if it would be the same */
     struct stream_map map[STREAM_MAPS];
@@ -122,7 +123,7 @@ uint64_t stream_http_expire(struct stream *stream, uint64_t now_ns);
 /* Keeps a request waiting for its view's next picture. False: there is no reply yet. */
 bool stream_wait_here(struct stream_client *client);
 
-struct stream_view *stream_find(struct stream *stream, const char *name, size_t length);
+struct stream_view *stream_find_view(struct stream *stream, const char *name, size_t length);
 /* Also without the lock; the second: NULL is nothing, else a struct stream_jpeg. */
 struct stream_jpeg *stream_hold(struct stream_jpeg *jpeg);
 void stream_release(void *jpeg);

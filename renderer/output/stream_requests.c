@@ -59,26 +59,26 @@ static void reply_numbered(struct http_reply *reply, const struct stream_view *v
 /* What the last key's clients left there is of no use to the next one's. */
 static void clear_view(struct stream_view *view)
 {
-    picture_release(view->fresh);
+    picture_release(view->unencoded);
     stream_release(view->jpeg);
-    *view = (struct stream_view){.fresh = NULL};
+    *view = (struct stream_view){.unencoded = NULL};
 }
 
 /* --- pictures ----------------------------------------------------------------------------------*/
 
 /* The request's row; false when all are in use. */
-static bool hold_wanted(struct stream_client *client, const struct picture_requests_key *key,
-                        uint64_t now_ns)
+static bool hold_row(struct stream_client *client, const struct picture_requests_key *key,
+                     uint64_t now_ns)
 {
     struct stream *stream = client->stream;
-    uint64_t generations = stream->wanted.generations;
-    uint32_t row = picture_requests_ask(&stream->wanted, key, now_ns);
+    uint64_t generations = stream->requests.generations;
+    uint32_t row = picture_requests_ask(&stream->requests, key, now_ns);
     if (row == PICTURE_REQUESTS_NONE)
         return false;
-    client->wanted = &stream->wanted.row[row];
-    client->wanted->holders++;
-    client->view = &stream->wanted_view[row];
-    if (stream->wanted.generations != generations) {
+    client->row = &stream->requests.row[row];
+    client->row->unanswered++;
+    client->view = &stream->request_view[row];
+    if (stream->requests.generations != generations) {
         clear_view(client->view);
         stream->again[row] = false;
     }
@@ -91,7 +91,7 @@ static bool is_enough(const struct stream_view *view, const struct query_picture
 {
     if (view->jpeg == NULL)
         return false;
-    return query->after_given ? view->number != query->after && view->fresh == NULL &&
+    return query->after_given ? view->number != query->after && view->unencoded == NULL &&
                                     now_ns < view->shown_ns + STALE_NS
                               : now_ns < view->shown_ns + NEW_NS;
 }
@@ -100,7 +100,7 @@ static bool is_enough(const struct stream_view *view, const struct query_picture
 static bool answer_picture(struct stream_client *client, struct http_reply *reply)
 {
     const struct stream_view *view = client->view;
-    struct picture_requests *row = client->wanted;
+    struct picture_requests *row = client->row;
     char words[128];
     stream_requests_end(client);
     if (row->gone) {
@@ -121,12 +121,12 @@ bool stream_requests_picture(struct stream_client *client, struct http_reply *re
     struct query_picture query;
     struct reading reading = {.picture = &query};
     uint64_t now_ns = clock_now_ns();
-    if (client->wanted != NULL) /* it has waited */
+    if (client->row != NULL) /* it has waited */
         return answer_picture(client, reply);
     query_picture_begin(&query);
     if (!read_query(client, &reading, reply))
         return true;
-    if (!hold_wanted(client, &query.key, now_ns)) {
+    if (!hold_row(client, &query.key, now_ns)) {
         stream_refuse(reply, 503,
                       "8 different pictures are drawn already, and no more at a time; ask for one "
                       "of those, or again in 2 s\n");
@@ -134,12 +134,12 @@ bool stream_requests_picture(struct stream_client *client, struct http_reply *re
     }
     if (is_enough(client->view, &query, now_ns) || stream->ending)
         return answer_picture(client, reply);
-    uint32_t row = (uint32_t)(client->wanted - stream->wanted.row);
+    uint32_t row = (uint32_t)(client->row - stream->requests.row);
     stream->again[row] |= !query.after_given || client->view->number != query.after;
-    stream->asks++;
-    client->wanted->gone = false;
+    stream->request_count++;
+    client->row->gone = false;
     client->until_ns = now_ns + WAIT_NS;
-    pthread_cond_signal(&stream->asked);
+    pthread_cond_signal(&stream->draw_cond);
     return stream_wait_here(client);
 }
 
@@ -160,9 +160,9 @@ static struct stream_map *find_map(struct stream *stream, const struct query_map
         struct stream_map *map = &stream->map[i];
         if (map->used && is_same_map(&map->key, key))
             return map;
-        if (map->holders > 0 || map->wanted)
+        if (map->unanswered > 0 || map->to_paint)
             continue;
-        if (found == NULL || !map->used || (found->used && map->asked_ns < found->asked_ns))
+        if (found == NULL || !map->used || (found->used && map->requested_ns < found->requested_ns))
             found = map;
     }
     if (found != NULL) {
@@ -197,15 +197,15 @@ bool stream_requests_map(struct stream_client *client, struct http_reply *reply)
         stream_refuse(reply, 503, "16 maps are being painted already; ask again\n");
         return true;
     }
-    map->asked_ns = clock_now_ns();
-    map->holders++;
+    map->requested_ns = clock_now_ns();
+    map->unanswered++;
     client->map = map;
     client->view = &map->view;
     if (map->view.jpeg != NULL || stream->ending)
         return answer_map(client, reply);
-    map->wanted = true;
-    client->until_ns = map->asked_ns + MAP_WAIT_NS;
-    pthread_cond_signal(&stream->paint);
+    map->to_paint = true;
+    client->until_ns = map->requested_ns + MAP_WAIT_NS;
+    pthread_cond_signal(&stream->paint_cond);
     return stream_wait_here(client);
 }
 
@@ -214,7 +214,8 @@ static struct stream_map *next_map(struct stream *stream)
 {
     struct stream_map *next = NULL;
     for (uint32_t i = 0; i < STREAM_MAPS; i++)
-        if (stream->map[i].wanted && (next == NULL || stream->map[i].asked_ns < next->asked_ns))
+        if (stream->map[i].to_paint &&
+            (next == NULL || stream->map[i].requested_ns < next->requested_ns))
             next = &stream->map[i];
     return next;
 }
@@ -241,14 +242,14 @@ void *stream_paint(void *argument)
     while (!stream->ending) {
         struct stream_map *map = next_map(stream);
         if (map == NULL) {
-            pthread_cond_wait(&stream->paint, &stream->lock);
+            pthread_cond_wait(&stream->paint_cond, &stream->lock);
             continue;
         }
         struct query_map key = map->key; /* a map that is wanted stays what it is */
         pthread_mutex_unlock(&stream->lock);
         struct stream_jpeg *jpeg = make_map(&stream->painter, &key);
         pthread_mutex_lock(&stream->lock);
-        map->wanted = false;
+        map->to_paint = false;
         map->view.jpeg = jpeg;
         stream_http_wake(stream, &map->view);
     }
@@ -260,60 +261,61 @@ void *stream_paint(void *argument)
 
 void stream_requests_end(struct stream_client *client)
 {
-    if (client->wanted != NULL)
-        client->wanted->holders--;
+    if (client->row != NULL)
+        client->row->unanswered--;
     if (client->map != NULL)
-        client->map->holders--;
-    client->wanted = NULL;
+        client->map->unanswered--;
+    client->row = NULL;
     client->map = NULL;
 }
 
 /* --- the drawing thread's side -----------------------------------------------------------------*/
 
-uint32_t stream_wishes(struct stream *stream, struct stream_wish *wishes)
+uint32_t stream_requests_read(struct stream *stream, struct stream_request *requests)
 {
     uint64_t now_ns = clock_now_ns();
     uint32_t waiting = 0;
     pthread_mutex_lock(&stream->lock);
-    stream->asks_seen = stream->asks;
+    stream->request_count_seen = stream->request_count;
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++) {
-        const struct picture_requests *row = &stream->wanted.row[i];
-        wishes[i] = (struct stream_wish){.generation = 0};
+        const struct picture_requests *row = &stream->requests.row[i];
+        requests[i] = (struct stream_request){.generation = 0};
         if (!picture_requests_lives(row, now_ns))
             continue;
-        wishes[i] = (struct stream_wish){.key = row->key,
-                                         .generation = row->generation,
-                                         .waiting = stream->wanted_view[i].askers > 0,
-                                         .again = stream->again[i]};
-        waiting += wishes[i].waiting ? 1 : 0;
+        requests[i] = (struct stream_request){.key = row->key,
+                                              .generation = row->generation,
+                                              .waiting = stream->request_view[i].waiters > 0,
+                                              .again = stream->again[i]};
+        waiting += requests[i].waiting ? 1 : 0;
     }
     pthread_mutex_unlock(&stream->lock);
     return waiting;
 }
 
-void stream_grant(struct stream *stream, uint32_t row, uint64_t generation, struct picture *picture)
+void stream_requests_answer(struct stream *stream, uint32_t row, uint64_t generation,
+                            struct picture *picture)
 {
     pthread_mutex_lock(&stream->lock);
-    struct stream_view *view = &stream->wanted_view[row];
-    if (stream->wanted.row[row].generation == generation) {
+    struct stream_view *view = &stream->request_view[row];
+    if (stream->requests.row[row].generation == generation) {
         stream->again[row] = false;
-        stream->wanted.row[row].gone = picture == NULL;
-        picture_release(view->fresh);
-        view->fresh = picture != NULL ? picture_hold(picture) : NULL;
+        stream->requests.row[row].gone = picture == NULL;
+        picture_release(view->unencoded);
+        view->unencoded = picture != NULL ? picture_hold(picture) : NULL;
         if (picture == NULL)
             stream_http_wake(stream, view);
-        else if (view->askers > 0)
-            pthread_cond_signal(&stream->come);
+        else if (view->waiters > 0)
+            pthread_cond_signal(&stream->encode_cond);
     }
     pthread_mutex_unlock(&stream->lock);
 }
 
-void stream_sleep(struct stream *stream, uint64_t until_ns)
+void stream_requests_wait(struct stream *stream, uint64_t until_ns)
 {
     const struct timespec at = {.tv_sec = (time_t)(until_ns / NS_PER_S),
                                 .tv_nsec = (long)(until_ns % NS_PER_S)};
     pthread_mutex_lock(&stream->lock);
-    if (stream->asks == stream->asks_seen)
-        pthread_cond_timedwait(&stream->asked, &stream->lock, &at);
+    if (stream->request_count == stream->request_count_seen)
+        pthread_cond_timedwait(&stream->draw_cond, &stream->lock, &at);
     pthread_mutex_unlock(&stream->lock);
 }

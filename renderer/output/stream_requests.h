@@ -10,7 +10,7 @@
 
 struct stream;
 
-struct stream_wish {
+struct stream_request {
     struct picture_requests_key key;
     uint64_t generation; /* another for another wish in the same row; 0: none is there */
     bool waiting;        /* somebody waits for it now */
@@ -19,14 +19,14 @@ struct stream_wish {
 
 /* Fills wishes[PICTURE_REQUESTS_MAX] with the rows that somebody has asked for lately. How many
  * wait. */
-uint32_t stream_wishes(struct stream *stream, struct stream_wish *wishes);
+uint32_t stream_requests_read(struct stream *stream, struct stream_request *requests);
 
 /* Answers a row's wish: with a picture, which the caller goes on holding, or with NULL: there is no
  * such vehicle. A wish that is another by now is left alone. */
-void stream_grant(struct stream *stream, uint32_t row, uint64_t generation,
-                  struct picture *picture);
+void stream_requests_answer(struct stream *stream, uint32_t row, uint64_t generation,
+                            struct picture *picture);
 
 /* Sleeps until the time (CLOCK_MONOTONIC), or until somebody begins to wait for a picture. */
-void stream_sleep(struct stream *stream, uint64_t until_ns);
+void stream_requests_wait(struct stream *stream, uint64_t until_ns);
 
 #endif

@@ -69,12 +69,12 @@ static void open_session(struct run_video *film)
     double hz = 1.0 / world_dt_s(&film->view.world);
     if (drawn->fps <= 0.0)
         drawn->fps = hz < VIDEO_FPS_MAX ? hz : VIDEO_FPS_MAX;
-    const struct output_set_wish wish = {.world = film->view.name,
-                                         .video = film->options.file,
-                                         .video_fps = drawn->fps,
-                                         .replay = true,
-                                         .video_fd = film->fd,
-                                         .stream_port = -1};
+    const struct output_set_options wish = {.world = film->view.name,
+                                            .video = film->options.file,
+                                            .video_fps = drawn->fps,
+                                            .replay = true,
+                                            .video_fd = film->fd,
+                                            .stream_port = -1};
     drawn->snap = film->still ? film->options.file : NULL;
     if (!film->still && (output_set_open(&film->outputs, &wish, &error) != 0 ||
                          output_set_start(&film->outputs, &error) != 0))
@@ -97,7 +97,7 @@ static bool play_to(struct run_video *film, uint64_t frame, enum log_replay_step
         if (*step != LOG_REPLAY_STEPPED)
             return false;
         if (frame_stepper_frame(&film->player) % looks == 0 &&
-            render_session_look(&film->session, &error) != 0)
+            render_session_update(&film->session, &error) != 0)
             give_up(film, &error);
     }
     return !process_stopping();
@@ -121,12 +121,12 @@ static bool go_to(struct run_video *film, uint64_t frame, enum log_replay_step *
     if (frame > film->first && frame_stepper_frame(&film->player) < frame) {
         if (!play_to(film, frame - 1, step))
             return false;
-        if (film->between && render_session_look(&film->session, &error) != 0)
+        if (film->between && render_session_update(&film->session, &error) != 0)
             give_up(film, &error);
     }
     if (!play_to(film, frame, step))
         return false;
-    if (render_session_look(&film->session, &error) != 0)
+    if (render_session_update(&film->session, &error) != 0)
         give_up(film, &error);
     return true;
 }

@@ -67,7 +67,7 @@ static void draw_one(struct bench *bench, struct times *times, uint32_t number)
 {
     struct bench_scene *s = &bench->scene;
     struct frame_view moment = bench_scene_moment(s);
-    struct annotated_picture_source source = {.moment = &moment,
+    struct annotated_picture_source source = {.frame_view = &moment,
                                               .tracks = &s->tracks,
                                               .effects = &s->effects,
                                               .camera = &s->scene.camera,

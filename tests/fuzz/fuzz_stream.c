@@ -33,16 +33,16 @@ static struct picture *draw(void)
 /* Every other wish is for a vehicle that is gone. */
 static void draw_wishes(void)
 {
-    struct stream_wish wishes[PICTURE_REQUESTS_MAX];
-    if (stream_wishes(stream, wishes) == 0)
+    struct stream_request requests[PICTURE_REQUESTS_MAX];
+    if (stream_requests_read(stream, requests) == 0)
         return;
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++) {
-        if (!wishes[i].waiting)
+        if (!requests[i].waiting)
             continue;
-        CHECK(wishes[i].key.width >= QUERY_SIDE_MIN && wishes[i].key.width <= QUERY_WIDTH_MAX &&
-              wishes[i].key.height <= QUERY_HEIGHT_MAX);
-        struct picture *picture = wishes[i].key.vehicle % 2 == 0 ? draw() : NULL;
-        stream_grant(stream, i, wishes[i].generation, picture);
+        CHECK(requests[i].key.width >= QUERY_SIDE_MIN && requests[i].key.width <= QUERY_WIDTH_MAX &&
+              requests[i].key.height <= QUERY_HEIGHT_MAX);
+        struct picture *picture = requests[i].key.vehicle % 2 == 0 ? draw() : NULL;
+        stream_requests_answer(stream, i, requests[i].generation, picture);
         picture_release(picture);
     }
 }

@@ -27,11 +27,11 @@ void map_stage_open(struct map_stage *stage, uint64_t seed)
     }
     stage->state = fixture_state(&stage->fixture);
     assert_int_equal(crater_index_init(&stage->craters, stage->state.craters), 0);
-    stage->moment = (struct frame_view){.world = &stage->fixture.view.world,
-                                        .head = stage->state.head,
-                                        .entities = &stage->state.entities,
-                                        .fixed_damage = stage->state.fixed_damage,
-                                        .craters = &stage->craters};
+    stage->frame_view = (struct frame_view){.world = &stage->fixture.view.world,
+                                            .head = stage->state.head,
+                                            .entities = &stage->state.entities,
+                                            .fixed_damage = stage->state.fixed_damage,
+                                            .craters = &stage->craters};
 }
 
 void map_stage_close(struct map_stage *stage)

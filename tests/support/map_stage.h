@@ -11,7 +11,7 @@ struct map_stage {
     struct fixture fixture;
     struct state state;
     struct crater_index craters;
-    struct frame_view moment;
+    struct frame_view frame_view;
 };
 
 /* Level ground with vehicles of all forces and domains all over the square, headings at random. */

@@ -15,9 +15,9 @@ static struct error_text error;
 static void check_view(uint32_t i, enum view_mode mode, uint32_t vehicle, const char *name)
 {
     assert_true(i < views.count);
-    assert_int_equal(views.wish[i].mode, mode);
-    assert_int_equal(views.wish[i].vehicle, vehicle);
-    assert_string_equal(views.wish[i].name, name);
+    assert_int_equal(views.spec[i].mode, mode);
+    assert_int_equal(views.spec[i].vehicle, vehicle);
+    assert_string_equal(views.spec[i].name, name);
 }
 
 static void test_one_and_several(void **state)

@@ -64,16 +64,16 @@ static struct annotated_picture_source source_of(const struct map_stage *stage,
                                                  struct tracks *tracks, uint32_t slot)
 {
     assert_int_equal(tracks_init(tracks, 64), 0);
-    tracks_note(tracks, &stage->moment);
+    tracks_note(tracks, &stage->frame_view);
     return (struct annotated_picture_source){
-        .moment = &stage->moment, .tracks = tracks, .slot = slot, .fps = 60.0};
+        .frame_view = &stage->frame_view, .tracks = tracks, .slot = slot, .fps = 60.0};
 }
 
-static void open_chart(struct annotated_picture *chart, const struct map_stage *stage,
-                       uint32_t width, uint32_t height)
+static void open_picture(struct annotated_picture *picture, const struct map_stage *stage,
+                         uint32_t width, uint32_t height)
 {
     struct error_text error;
-    if (annotated_picture_open(chart, stage->moment.world, width, height, &error) != 0)
+    if (annotated_picture_open(picture, stage->frame_view.world, width, height, &error) != 0)
         fail_msg("%s", error.text);
 }
 
@@ -81,26 +81,26 @@ static void test_the_whole_map_shows_everyone(void **context)
 {
     const struct map_stage *stage = *context;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        struct annotated_picture chart;
+        struct annotated_picture picture;
         struct tracks tracks;
         struct canvas first, again;
         struct annotated_picture_source source = source_of(stage, &tracks, SLOT_NONE);
-        open_chart(&chart, stage, sizes[i][0], sizes[i][1]);
+        open_picture(&picture, stage, sizes[i][0], sizes[i][1]);
         canvas_open(&first, sizes[i][0], sizes[i][1]);
         canvas_open(&again, sizes[i][0], sizes[i][1]);
-        assert_int_equal(annotated_picture_map(&chart, &first.image, &source), 0);
-        assert_int_equal(annotated_picture_map(&chart, &again.image, &source), 0);
+        assert_int_equal(annotated_picture_map(&picture, &first.image, &source), 0);
+        assert_int_equal(annotated_picture_map(&picture, &again.image, &source), 0);
         assert_memory_equal(first.image.pixels, again.image.pixels,
                             (size_t)sizes[i][0] * sizes[i][1] * 4);
-        struct box box = chart.layout.whole;
+        struct box box = picture.layout.whole;
         struct map_view view = map_whole(box.left, box.top, (uint32_t)box.width);
         uint32_t hidden = 0;
         for (uint32_t slot = 0; slot < stage->state.head->used; slot++)
             hidden += !map_stage_shows(stage, &first.image, &view, slot);
         /* A legend on the map may lie over some; at 64 pixels symbols lie over each other. */
-        if (box.width >= 200 && hidden > (chart.layout.legend.width > 0 ? 0 : 6))
+        if (box.width >= 200 && hidden > (picture.layout.legend.width > 0 ? 0 : 6))
             fail_msg("%ux%u: %u vehicles do not show", sizes[i][0], sizes[i][1], hidden);
-        annotated_picture_close(&chart);
+        annotated_picture_close(&picture);
         tracks_free(&tracks);
         canvas_close(&first);
         canvas_close(&again);
@@ -110,24 +110,24 @@ static void test_the_whole_map_shows_everyone(void **context)
 static void test_an_area_shows_who_is_there(void **context)
 {
     const struct map_stage *stage = *context;
-    struct annotated_picture chart;
+    struct annotated_picture picture;
     struct tracks tracks;
     struct canvas canvas;
     struct annotated_picture_source source = source_of(stage, &tracks, SLOT_NONE);
     const struct entities *e = &stage->state.entities;
-    open_chart(&chart, stage, 400, 300);
+    open_picture(&picture, stage, 400, 300);
     canvas_open(&canvas, 400, 300);
     for (uint32_t slot = 0; slot < stage->state.head->used; slot += 5) {
         double metres = 4.0 + slot;
-        assert_int_equal(annotated_picture_area(&chart, &canvas.image, &source, e->x[slot] + 300.0,
-                                                e->z[slot], metres),
+        assert_int_equal(annotated_picture_area(&picture, &canvas.image, &source,
+                                                e->x[slot] + 300.0, e->z[slot], metres),
                          0);
         struct map_view view = map_around(e->x[slot] + 300.0, e->z[slot], metres, 0, 0, 400, 300);
         map_align(&view);
         if (!map_stage_shows(stage, &canvas.image, &view, slot))
             fail_msg("slot %u does not show at %.0f m a pixel", slot, metres);
     }
-    annotated_picture_close(&chart);
+    annotated_picture_close(&picture);
     tracks_free(&tracks);
     canvas_close(&canvas);
 }
@@ -149,14 +149,14 @@ static void test_instruments_keep_to_their_places(void **context)
     const struct map_stage *stage = *context;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         int32_t width = (int32_t)sizes[i][0], height = (int32_t)sizes[i][1];
-        struct annotated_picture chart;
+        struct annotated_picture picture;
         struct tracks tracks;
         struct canvas canvas;
         struct annotated_picture_source source = source_of(stage, &tracks, 7);
         stage->state.entities.damage[7] = DAMAGE_HIGH;
-        open_chart(&chart, stage, sizes[i][0], sizes[i][1]);
+        open_picture(&picture, stage, sizes[i][0], sizes[i][1]);
         canvas_open(&canvas, sizes[i][0], sizes[i][1]);
-        annotated_picture_instruments(&chart, &canvas.image, &source);
+        annotated_picture_instruments(&picture, &canvas.image, &source);
         struct box middle = {0, height * 3 / 10, width, height * 3 / 10};
         struct box left = {0, 0, width / 2, height / 2};
         if (width >= 200 && height >= 200) {
@@ -172,7 +172,7 @@ static void test_instruments_keep_to_their_places(void **context)
         }
         if (width >= 320)
             assert_true(red > 20);
-        annotated_picture_close(&chart);
+        annotated_picture_close(&picture);
         tracks_free(&tracks);
         canvas_close(&canvas);
     }
@@ -181,39 +181,39 @@ static void test_instruments_keep_to_their_places(void **context)
 static void test_words_are_shortened_to_fit(void **context)
 {
     const struct map_stage *stage = *context;
-    struct annotated_picture chart;
-    open_chart(&chart, stage, 320, 200);
-    char words[64] = "a name that is much too long for the bar";
-    annotated_picture_shorten(&chart, words, 12, 80);
-    assert_true(text_width(chart.text, 12, words) <= 80);
-    assert_true(strlen(words) > 4);
-    assert_int_equal(words[strlen(words) - 1], '.');
+    struct annotated_picture picture;
+    open_picture(&picture, stage, 320, 200);
+    char label[64] = "a name that is much too long for the bar";
+    annotated_picture_shorten(&picture, label, 12, 80);
+    assert_true(text_width(picture.text, 12, label) <= 80);
+    assert_true(strlen(label) > 4);
+    assert_int_equal(label[strlen(label) - 1], '.');
     char brief[64] = "Padre";
-    annotated_picture_shorten(&chart, brief, 12, 80);
+    annotated_picture_shorten(&picture, brief, 12, 80);
     assert_string_equal(brief, "Padre");
-    annotated_picture_close(&chart);
+    annotated_picture_close(&picture);
 }
 
 /* Letters of a size are the same before and after others pushed them out of the cache. */
 static void test_letters_are_kept_and_made_again(void **context)
 {
     const struct map_stage *stage = *context;
-    struct annotated_picture chart;
+    struct annotated_picture picture;
     struct canvas first, again;
     const struct rgba white = {255, 255, 255, 255};
-    open_chart(&chart, stage, 320, 200);
+    open_picture(&picture, stage, 320, 200);
     canvas_open(&first, 300, 40);
     canvas_open(&again, 300, 40);
-    int32_t end = text_draw_rimmed(chart.text, &first.image, -5, 30, 14, white, "Jolon 0123");
+    int32_t end = text_draw_rimmed(picture.text, &first.image, -5, 30, 14, white, "Jolon 0123");
     for (uint32_t size = 8; size < 60; size++)
-        assert_true(text_width(chart.text, size, "Jolon") > 0);
-    assert_int_equal(text_draw_rimmed(chart.text, &again.image, -5, 30, 14, white, "Jolon 0123"),
+        assert_true(text_width(picture.text, size, "Jolon") > 0);
+    assert_int_equal(text_draw_rimmed(picture.text, &again.image, -5, 30, 14, white, "Jolon 0123"),
                      end);
-    assert_int_equal(text_width(chart.text, 14, "Jolon 0123"), end + 5);
+    assert_int_equal(text_width(picture.text, 14, "Jolon 0123"), end + 5);
     assert_memory_equal(first.image.pixels, again.image.pixels, (size_t)300 * 40 * 4);
     canvas_close(&first);
     canvas_close(&again);
-    annotated_picture_close(&chart);
+    annotated_picture_close(&picture);
 }
 
 int main(void)

@@ -52,7 +52,8 @@ static void test_points_of_the_map(void **context)
     close.z -= 2.2;
     map_align(&close);
     assert_true(fabs(fmod(close.x, 10.0)) < 1e-6 && fabs(fmod(close.z, 10.0)) < 1e-6);
-    assert_true(map_round(999.0) == 500.0 && map_round(2000.0) == 2000.0 && map_round(1.5) == 1.0);
+    assert_true(map_round_down(999.0) == 500.0 && map_round_down(2000.0) == 2000.0 &&
+                map_round_down(1.5) == 1.0);
 }
 
 /* Every vehicle in the view shows, and nothing shows where there is none. */
@@ -63,10 +64,10 @@ static void check_view(const struct map_stage *stage, const struct map_view *vie
              height = (uint32_t)view->top + view->height;
     const struct entities *e = &stage->state.entities;
     assert_int_equal(image_init(&image, width, height), 0);
-    map_vehicles(&image, view, &stage->moment, SLOT_NONE, pixels);
+    map_vehicles(&image, view, &stage->frame_view, SLOT_NONE, pixels);
     for (uint32_t i = 0; i < stage->state.head->used; i++) {
         struct point at = map_point(view, e->x[i], e->z[i]);
-        if (!map_holds(view, at, 0.0))
+        if (!map_contains(view, at, 0.0))
             continue;
         if (!map_stage_shows(stage, &image, view, i))
             fail_msg("slot %u does not show at %.1f, %.1f of %ux%u, %.1f m a pixel", i, at.x, at.y,
@@ -103,11 +104,11 @@ static void test_vehicles_are_where_the_table_says(void **context)
     }
 }
 
-static void draw_one(struct image *image, struct point at, enum symbol_form form, double heading,
+static void draw_one(struct image *image, struct point at, enum symbol_shape shape, double heading,
                      double pixels, enum force force)
 {
     memset(image->pixels, 0, (size_t)image->width * image->height * 4);
-    symbol_vehicle(image, at, form, heading, pixels, force);
+    symbol_vehicle(image, at, shape, heading, pixels, force);
 }
 
 static void test_every_symbol_is_its_force_in_the_middle(void **context)
@@ -117,31 +118,31 @@ static void test_every_symbol_is_its_force_in_the_middle(void **context)
     struct image image;
     assert_int_equal(image_init(&image, 80, 80), 0);
     for (uint32_t i = 0; i < 3000; i++) {
-        enum symbol_form form = (enum symbol_form)(i % FORM_COUNT);
-        enum force force = (enum force)(i / FORM_COUNT % FORCE_COUNT);
+        enum symbol_shape shape = (enum symbol_shape)(i % SYMBOL_COUNT);
+        enum force force = (enum force)(i / SYMBOL_COUNT % FORCE_COUNT);
         struct point at = {fixture_uniform(&seed, 30.0, 50.0), fixture_uniform(&seed, 30.0, 50.0)};
         struct rgba colour = symbol_colour(force);
-        draw_one(&image, at, form, fixture_uniform(&seed, 0.0, 6.3),
+        draw_one(&image, at, shape, fixture_uniform(&seed, 0.0, 6.3),
                  fixture_uniform(&seed, 8.5, 30.0), force);
         const uint8_t *pixel = pixel_at(&image, at.x, at.y);
         if (abs(pixel[0] - colour.r) + abs(pixel[1] - colour.g) + abs(pixel[2] - colour.b) > 100)
-            fail_msg("form %d of force %d: %d %d %d", (int)form, (int)force, pixel[0], pixel[1],
+            fail_msg("form %d of force %d: %d %d %d", (int)shape, (int)force, pixel[0], pixel[1],
                      pixel[2]);
     }
     image_free(&image);
 }
 
 /* Forms are told apart without colour: their outlines differ in a good part of their area. */
-static void test_forms_differ(void **context)
+static void test_shapes_differ(void **context)
 {
     (void)context;
-    struct image images[FORM_COUNT];
+    struct image images[SYMBOL_COUNT];
     struct point at = {20.0, 20.0};
-    for (uint32_t i = 0; i < FORM_COUNT; i++) {
+    for (uint32_t i = 0; i < SYMBOL_COUNT; i++) {
         assert_int_equal(image_init(&images[i], 40, 40), 0);
-        draw_one(&images[i], at, (enum symbol_form)i, 0.4, 12.0, FORCE_BLUE);
+        draw_one(&images[i], at, (enum symbol_shape)i, 0.4, 12.0, FORCE_BLUE);
     }
-    for (uint32_t a = 0; a < FORM_COUNT; a++)
+    for (uint32_t a = 0; a < SYMBOL_COUNT; a++)
         for (uint32_t b = 0; b < a; b++) {
             uint32_t differ = 0, either = 0;
             for (size_t i = 0; i < (size_t)40 * 40; i++) {
@@ -153,7 +154,7 @@ static void test_forms_differ(void **context)
             if (differ * 100 < either * 15)
                 fail_msg("forms %u and %u differ in %u of %u pixels", a, b, differ, either);
         }
-    for (uint32_t i = 0; i < FORM_COUNT; i++)
+    for (uint32_t i = 0; i < SYMBOL_COUNT; i++)
         image_free(&images[i]);
 }
 
@@ -166,7 +167,7 @@ static void test_a_symbol_points_ahead(void **context)
     assert_int_equal(image_init(&image, 80, 80), 0);
     for (uint32_t i = 0; i < 8; i++) {
         double heading = 0.25 * 3.14159265 * i;
-        draw_one(&image, at, FORM_TANK, heading, 30.0, FORCE_BLUE);
+        draw_one(&image, at, SYMBOL_TANK, heading, 30.0, FORCE_BLUE);
         const uint8_t *ahead =
             pixel_at(&image, at.x + 21.0 * sin(heading), at.y - 21.0 * cos(heading));
         const uint8_t *behind =
@@ -196,11 +197,11 @@ static void test_wrecks_burn_and_then_are_crosses(void **context)
         e->state[i] = ENTITY_WRECK;
         e->changed_tick[i] = 0;
     }
-    map_vehicles(&image, &view, &stage->moment, SLOT_NONE, 12.0);
+    map_vehicles(&image, &view, &stage->frame_view, SLOT_NONE, 12.0);
     assert_true(count_red_over_blue(&image) > 10 * stage->state.head->used);
     memset(image.pixels, 0, (size_t)700 * 700 * 4);
-    stage->state.head->tick = (uint64_t)(1000.0 / world_dt_s(stage->moment.world));
-    map_vehicles(&image, &view, &stage->moment, SLOT_NONE, 12.0);
+    stage->state.head->tick = (uint64_t)(1000.0 / world_dt_s(stage->frame_view.world));
+    map_vehicles(&image, &view, &stage->frame_view, SLOT_NONE, 12.0);
     assert_int_equal(count_red_over_blue(&image), 0);
     image_free(&image);
 }
@@ -214,12 +215,12 @@ static void test_blasts_show_and_fade(void **context)
     effects.effect[0] = (struct effect){.point = {10000.0, 0.0, 20000.0}, .type = EFFECT_EXPLOSION};
     effects.effect[1] = (struct effect){.point = {30000.0, 0.0, 20000.0}, .type = EFFECT_FLASH};
     assert_int_equal(image_init(&image, 500, 500), 0);
-    map_blasts(&image, &view, &stage->moment, &effects, 12.0);
+    map_blasts(&image, &view, &stage->frame_view, &effects, 12.0);
     assert_true(pixel_at(&image, 100.0, 200.0)[0] > 240);
     assert_int_equal(pixel_at(&image, 300.0, 200.0)[0], 0);
     memset(image.pixels, 0, (size_t)500 * 500 * 4);
     effects.effect[0].time_s = -60.0;
-    map_blasts(&image, &view, &stage->moment, &effects, 12.0);
+    map_blasts(&image, &view, &stage->frame_view, &effects, 12.0);
     assert_int_equal(pixel_at(&image, 100.0, 200.0)[0], 0);
     image_free(&image);
 }
@@ -241,7 +242,7 @@ static void test_the_triangle_is_the_cameras(void **context)
         struct camera camera;
         camera_look(&camera, eye, target, width, 720);
         memset(image.pixels, 0, (size_t)500 * 500 * 4);
-        map_sight(&image, &view, &camera, 100.0);
+        map_camera(&image, &view, &camera, 100.0);
         double half = atan(camera.tan_x);
         for (int32_t side = -1; side <= 1; side += 2) {
             double within = heading + side * 0.9 * half,
@@ -265,7 +266,7 @@ static void test_kept_ground_is_what_would_be_painted(void **context)
     const uint32_t width = 93, height = 61;
     assert_int_equal(image_init(&a, width + 5, height + 7), 0);
     assert_int_equal(image_init(&b, width + 5, height + 7), 0);
-    base_map_open(&kept, stage->moment.world);
+    base_map_open(&kept, stage->frame_view.world);
     double x = 300.0, z = 49500.0;
     for (uint32_t i = 0; i < 60; i++) {
         double metres = i < 40 ? 12.0 : 7.0, stride = i % 10 == 9 ? 3000.0 : 90.0;
@@ -273,7 +274,7 @@ static void test_kept_ground_is_what_would_be_painted(void **context)
         z += fixture_uniform(&seed, -stride, stride);
         struct map_view view = map_around(x, z, metres, 5, 7, width, height);
         map_align(&view);
-        base_map_open(&fresh, stage->moment.world);
+        base_map_open(&fresh, stage->frame_view.world);
         assert_int_equal(base_map_draw(&kept, &a, &view), 0);
         assert_int_equal(base_map_draw(&fresh, &b, &view), 0);
         assert_memory_equal(a.pixels, b.pixels, (size_t)a.width * a.height * 4);
@@ -290,7 +291,7 @@ static void test_a_map_that_follows_paints_strips(void **context)
     struct base_map base;
     struct image image;
     assert_int_equal(image_init(&image, 160, 120), 0);
-    base_map_open(&base, stage->moment.world);
+    base_map_open(&base, stage->frame_view.world);
     for (uint32_t i = 0; i <= 100; i++) {
         struct map_view view = map_around(20000.0 + 10.0 * i, 20000.0, 10.0, 0, 0, 160, 120);
         map_align(&view);
@@ -314,7 +315,7 @@ int main(void)
         TEST(test_points_of_the_map),
         TEST(test_vehicles_are_where_the_table_says),
         TEST(test_every_symbol_is_its_force_in_the_middle),
-        TEST(test_forms_differ),
+        TEST(test_shapes_differ),
         TEST(test_a_symbol_points_ahead),
         TEST(test_wrecks_burn_and_then_are_crosses),
         TEST(test_blasts_show_and_fade),

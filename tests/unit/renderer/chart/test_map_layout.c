@@ -17,7 +17,7 @@ static void check(uint32_t width, uint32_t height)
     const size_t count = sizeof boxes / sizeof boxes[0];
     assert_int_equal(layout.whole.width, layout.whole.height);
     assert_int_equal(layout.whole.width, width < height ? width : height);
-    assert_true(layout.letters >= MAP_LAYOUT_LETTERS_LEAST);
+    assert_true(layout.font_size >= MAP_LAYOUT_FONT_MIN);
     for (size_t i = 0; i < count; i++) {
         if (boxes[i].width == 0)
             continue;
@@ -64,15 +64,15 @@ static void test_usual_sizes_have_all_parts(void **context)
 static void test_a_place_is_taken_once(void **context)
 {
     (void)context;
-    struct taken taken = {.bounds = {10, 10, 100, 50}};
-    assert_true(taken_take(&taken, (struct box){10, 10, 20, 10}));
-    assert_false(taken_take(&taken, (struct box){29, 19, 5, 5}));
-    assert_true(taken_take(&taken, (struct box){30, 19, 5, 5}));
-    assert_false(taken_take(&taken, (struct box){100, 30, 11, 5})); /* over the edge */
-    assert_false(taken_take(&taken, (struct box){9, 30, 5, 5}));
-    for (uint32_t i = 0; i < 2 * TAKEN_MAX; i++)
-        taken_take(&taken, (struct box){10 + (int32_t)i % 50, 40 + (int32_t)i / 50, 1, 1});
-    assert_int_equal(taken.count, TAKEN_MAX);
+    struct label_space space = {.bounds = {10, 10, 100, 50}};
+    assert_true(label_space_take(&space, (struct box){10, 10, 20, 10}));
+    assert_false(label_space_take(&space, (struct box){29, 19, 5, 5}));
+    assert_true(label_space_take(&space, (struct box){30, 19, 5, 5}));
+    assert_false(label_space_take(&space, (struct box){100, 30, 11, 5})); /* over the edge */
+    assert_false(label_space_take(&space, (struct box){9, 30, 5, 5}));
+    for (uint32_t i = 0; i < 2 * LABEL_SPACE_MAX; i++)
+        label_space_take(&space, (struct box){10 + (int32_t)i % 50, 40 + (int32_t)i / 50, 1, 1});
+    assert_int_equal(space.count, LABEL_SPACE_MAX);
 }
 
 int main(void)

@@ -38,7 +38,7 @@ static void test_fields_equal_the_table(void **context)
     struct entities *e = &stage.state.entities;
     for (uint32_t i = 0; i < 500; i++) {
         uint32_t slot = (uint32_t)fixture_uniform(&seed, 0.0, stage.state.head->used);
-        const struct kind *kind = &stage.moment.world->kinds[e->kind[slot]];
+        const struct kind *kind = &stage.frame_view.world->kinds[e->kind[slot]];
         e->vx[slot] = fixture_uniform(&seed, -100.0, 100.0);
         e->vz[slot] = fixture_uniform(&seed, -100.0, 100.0);
         e->pitch[slot] = fixture_uniform(&seed, -1.5, 1.5);
@@ -52,7 +52,7 @@ static void test_fields_equal_the_table(void **context)
         stage.state.head->tick = i;
         struct statistics s;
         struct statistics_bar_field fields[STATISTICS_BAR_MAX];
-        statistics_of(&s, &stage.moment, slot);
+        statistics_of(&s, &stage.frame_view, slot);
         uint32_t n = statistics_bar_of(fields, &s, 59.94);
         double full = kind->fuel_l > 0.0 ? 100.0 * e->fuel_l[slot] / kind->fuel_l : 100.0;
         double speed = 3.6 * hypot(e->vx[slot], e->vz[slot]), turn = 180.0 / 3.14159265358979;
@@ -68,7 +68,7 @@ static void test_fields_equal_the_table(void **context)
                             damage_name((enum damage)e->damage[slot]));
         assert_string_equal(find(fields, n, "BEHAVIOUR")->value,
                             behaviour_name((enum behaviour)e->behaviour[slot]));
-        assert_true(fabs(number(fields, n, "TIME s") - i * world_dt_s(stage.moment.world)) <=
+        assert_true(fabs(number(fields, n, "TIME s") - i * world_dt_s(stage.frame_view.world)) <=
                     0.00501);
         assert_true(number(fields, n, "FRAME") == i);
         assert_string_equal(find(fields, n, "FPS")->value, "59.9");

@@ -63,14 +63,14 @@ static void wait_inside(void)
     pthread_mutex_unlock(&taker.lock);
 }
 
-static void start(uint32_t depth, bool patient)
+static void start(uint32_t depth, bool lossless)
 {
     taker = (struct taker){.lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
     picture_pool_init(&pool);
     assert_int_equal(output_queue_start(&queue, &(struct output_queue_work){.self = &taker,
                                                                             .take = take,
                                                                             .depth = depth,
-                                                                            .patient = patient}),
+                                                                            .lossless = lossless}),
                      0);
 }
 
@@ -183,18 +183,18 @@ static void test_order_and_counts_hold_at_any_pace(void **state)
 /* Memory is bounded: who draws more than can be under way is told. */
 static void test_a_pool_has_an_end(void **state)
 {
-    struct picture *made[PICTURE_PROXY_MAX];
+    struct picture *made[PICTURE_POOL_MAX];
     struct image image;
     (void)state;
     assert_int_equal(image_init(&image, 4, 4), 0);
     picture_pool_init(&pool);
-    for (uint32_t i = 0; i < PICTURE_PROXY_MAX; i++)
+    for (uint32_t i = 0; i < PICTURE_POOL_MAX; i++)
         assert_non_null(made[i] = picture_make(&pool, &image, "chase", ""));
     assert_null(picture_make(&pool, &image, "chase", ""));
     assert_non_null(image.pixels);
     picture_release(made[0]);
     assert_non_null(made[0] = picture_make(&pool, &image, "chase", ""));
-    for (uint32_t i = 0; i < PICTURE_PROXY_MAX; i++)
+    for (uint32_t i = 0; i < PICTURE_POOL_MAX; i++)
         picture_release(made[i]);
     image_free(&image);
     assert_int_equal(image_init(&image, 8, 8), 0);

@@ -37,7 +37,7 @@ static void test_the_same_picture_is_one_row(void **state)
     (void)state;
     uint32_t row = picture_requests_ask(&table, &key, SECOND);
     assert_int_equal(picture_requests_ask(&table, &key, SECOND + 1), row);
-    assert_int_equal(table.row[row].asked_ns, SECOND + 1);
+    assert_int_equal(table.row[row].requested_ns, SECOND + 1);
     others[0].view = VIEW_INSIDE;
     others[1].vehicle = 2;
     others[2].width++;
@@ -76,7 +76,7 @@ static void test_who_looks_once_keeps_nobody_out(void **state)
     (void)state;
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++)
         ask(i, SECOND + i);
-    table.row[0].holders = 1;
+    table.row[0].unanswered = 1;
     ask(1, 2 * SECOND); /* now it is watched */
     /* Who is waited for and who is watched stay; of the others the oldest goes. */
     for (uint32_t i = 2; i < PICTURE_REQUESTS_MAX; i++)
@@ -85,7 +85,7 @@ static void test_who_looks_once_keeps_nobody_out(void **state)
     assert_int_equal(table.row[1].key.vehicle, 1);
     assert_int_equal(ask(200, 2 * SECOND + PICTURE_REQUESTS_MAX), 2);
     /* One that nobody has asked for lately goes before it. */
-    table.row[0].holders = 0;
+    table.row[0].unanswered = 0;
     assert_int_equal(ask(201, 2 * SECOND + PICTURE_REQUESTS_KEEP_NS - 1), 0);
 }
 
@@ -93,9 +93,9 @@ static void test_who_waits_keeps_the_row(void **state)
 {
     (void)state;
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++)
-        table.row[ask(i, SECOND)].holders = 1;
+        table.row[ask(i, SECOND)].unanswered = 1;
     assert_int_equal(ask(99, 100 * SECOND), PICTURE_REQUESTS_NONE);
-    table.row[5].holders = 0;
+    table.row[5].unanswered = 0;
     assert_int_equal(ask(99, 100 * SECOND), 5);
 }
 
@@ -114,10 +114,10 @@ static void test_a_row_is_forgotten_when_nobody_waits(void **state)
 {
     (void)state;
     uint32_t row = ask(1, SECOND);
-    table.row[row].holders = 1;
+    table.row[row].unanswered = 1;
     picture_requests_forget(&table.row[row]);
     assert_true(picture_requests_lives(&table.row[row], SECOND));
-    table.row[row].holders = 0;
+    table.row[row].unanswered = 0;
     picture_requests_forget(&table.row[row]);
     assert_false(picture_requests_lives(&table.row[row], SECOND));
 }

@@ -168,17 +168,17 @@ static void test_more_than_may_watch_are_told(void **state)
 
 /* --- pictures that are asked for; the test is the drawing thread --- */
 
-static struct stream_wish wishes[PICTURE_REQUESTS_MAX];
+static struct stream_request requests[PICTURE_REQUESTS_MAX];
 
 /* The row of a vehicle's picture that somebody waits for. */
 static uint32_t wait_for_wish(uint32_t vehicle)
 {
     for (int tries = 0; tries < 1000; tries++) {
-        stream_wishes(stream, wishes);
+        stream_requests_read(stream, requests);
         for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++)
-            if (wishes[i].waiting && wishes[i].key.vehicle == vehicle)
+            if (requests[i].waiting && requests[i].key.vehicle == vehicle)
                 return i;
-        stream_sleep(stream, clock_now_ns() + 10000000u);
+        stream_requests_wait(stream, clock_now_ns() + 10000000u);
     }
     fail_msg("nobody waits for vehicle %u", vehicle);
     return 0;
@@ -189,20 +189,20 @@ static void grant(uint32_t row, uint64_t frame)
     struct picture *picture = picture_make(&pool, &image, "asked", "");
     assert_non_null(picture);
     picture->frame = frame;
-    stream_grant(stream, row, wishes[row].generation, picture);
+    stream_requests_answer(stream, row, requests[row].generation, picture);
     picture_release(picture);
 }
 
 static void test_a_picture_is_drawn_for_who_waits(void **state)
 {
     (void)state;
-    assert_int_equal(stream_wishes(stream, wishes), 0);
+    assert_int_equal(stream_requests_read(stream, requests), 0);
     int one = ask("/picture.jpg?view=inside&vehicle=17&size=100x80&bar=0");
     uint32_t row = wait_for_wish(17);
-    assert_int_equal(wishes[row].key.view, VIEW_INSIDE);
-    assert_int_equal(wishes[row].key.width, 100);
-    assert_false(wishes[row].key.bar);
-    assert_true(wishes[row].again);
+    assert_int_equal(requests[row].key.view, VIEW_INSIDE);
+    assert_int_equal(requests[row].key.width, 100);
+    assert_false(requests[row].key.bar);
+    assert_true(requests[row].again);
     grant(row, 5);
     wait_for(one, "X-Picture: 1\r\nX-Frame: 5\r\n");
     close(one);
@@ -210,11 +210,11 @@ static void test_a_picture_is_drawn_for_who_waits(void **state)
     one = ask("/picture.jpg?view=inside&vehicle=17&size=100x80&bar=0&after=1");
     int two = ask("/picture.jpg?view=inside&vehicle=17&size=100x80&bar=0&after=1");
     assert_int_equal(wait_for_wish(17), row);
-    assert_false(wishes[row].again);
+    assert_false(requests[row].again);
     grant(row, 6);
     wait_for(one, "X-Picture: 2\r\n");
     wait_for(two, "X-Picture: 2\r\n");
-    assert_int_equal(stream_wishes(stream, wishes), 0);
+    assert_int_equal(stream_requests_read(stream, requests), 0);
     close(one);
     close(two);
 }
@@ -224,9 +224,9 @@ static void test_who_waits_for_what_is_not_there_is_told(void **state)
     (void)state;
     int fd = ask("/picture.jpg?vehicle=17");
     uint32_t row = wait_for_wish(17);
-    stream_grant(stream, row, wishes[row].generation + 1, NULL); /* another's answer */
+    stream_requests_answer(stream, row, requests[row].generation + 1, NULL); /* another's answer */
     assert_int_equal(wait_for_wish(17), row);
-    stream_grant(stream, row, wishes[row].generation, NULL);
+    stream_requests_answer(stream, row, requests[row].generation, NULL);
     wait_for(fd, "there is no vehicle 17, or no more\n");
     assert_non_null(memmem(answer, sizeof answer, "404 Not Found", 13));
     close(fd);
@@ -247,7 +247,7 @@ static void test_a_ninth_picture_is_refused(void **state)
     }
     assert_non_null(strstr(fetch("/picture.jpg?vehicle=9"), "503 Service Unavailable"));
     assert_non_null(strstr(answer, "8 different pictures are drawn already"));
-    assert_int_equal(stream_wishes(stream, wishes), PICTURE_REQUESTS_MAX);
+    assert_int_equal(stream_requests_read(stream, requests), PICTURE_REQUESTS_MAX);
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++) {
         grant(i, i);
         wait_for(fd[i], "200 OK");
