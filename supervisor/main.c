@@ -41,8 +41,8 @@ static void start_role(struct keeper *keeper, enum role role)
 /* Starts one role after the other. The mover is the last, so that every role sees every frame. */
 static void start_set(struct keeper *keeper)
 {
-    static const enum role order[] = {ROLE_COLLIDER, ROLE_RECORDER, ROLE_INTAKE, ROLE_REPORTER,
-                                      ROLE_RENDERER, ROLE_CONSOLE,  ROLE_MOVER};
+    enum role order[ROLE_COUNT];
+    int count = role_order(order, false);
     struct process_set *set = &keeper->set;
     int wanted[ROLE_COUNT];
     keeper->starting = true;
@@ -50,13 +50,13 @@ static void start_set(struct keeper *keeper)
         wanted[i] = set->post[i].wanted;
         set->post[i].wanted = 0;
     }
-    for (size_t i = 0; i < sizeof order / sizeof order[0] && !keeper->over; i++) {
+    for (int i = 0; i < count && !keeper->over; i++) {
         set->post[order[i]].wanted = wanted[order[i]];
         start_role(keeper, order[i]);
     }
     /* From now on each frame role has a stand-by process. */
     for (int i = 0; i < ROLE_COUNT && !keeper->over; i++) {
-        if (restart_policy_makes_frames((enum role)i))
+        if (role_has((enum role)i, ROLE_MAKES_FRAMES))
             set->post[i].wanted = PROCESS_SET_CHILDREN;
     }
     keeper->starting = false;
@@ -65,9 +65,9 @@ static void start_set(struct keeper *keeper)
 /* Stops the roles that produce something first, then those that report it. */
 static void stop_set(struct keeper *keeper)
 {
-    static const enum role order[] = {ROLE_MOVER,   ROLE_COLLIDER, ROLE_INTAKE,  ROLE_RECORDER,
-                                      ROLE_CONSOLE, ROLE_RENDERER, ROLE_REPORTER};
-    for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
+    enum role order[ROLE_COUNT];
+    int count = role_order(order, true);
+    for (int i = 0; i < count; i++) {
         if (order[i] != ROLE_RECORDER) {
             (void)process_set_stop(&keeper->set, order[i]);
             continue;

@@ -34,7 +34,7 @@ static const char *passed_value[PASSINGS]; /* NULL: not given */
 static int leave_out(const char *name, struct error_text *error)
 {
     enum role role = role_find(name);
-    if (role == ROLE_NONE || role == ROLE_INTAKE || restart_policy_makes_frames(role))
+    if (!role_has(role, ROLE_OPTIONAL))
         return error_text_set(error, "there are renderer, reporter, recorder");
     plan.left_out[role] = true;
     return 0;

@@ -36,11 +36,13 @@ int process_set_open(struct process_set *set, const struct plan *plan, struct er
     set->log_fd = open(plan->log, O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
     if (set->log_fd < 0)
         return error_text_set(error, "%s: cannot write: %s", plan->log, strerror(errno));
-    for (int i = 0; i < ROLE_COUNT; i++) {
-        struct post *post = &set->post[i];
-        post->role = (enum role)i;
-        post->wanted = i == ROLE_CONSOLE ? plan->console : i <= ROLE_RENDERER && !plan->left_out[i];
-    }
+    enum role order[ROLE_COUNT];
+    int count = role_order(order, false);
+    for (int i = 0; i < ROLE_COUNT; i++)
+        set->post[i].role = (enum role)i;
+    for (int i = 0; i < count; i++)
+        set->post[order[i]].wanted =
+            order[i] == ROLE_CONSOLE ? plan->console : !plan->left_out[order[i]];
     return segment_attach(&set->view, plan->world, ROLE_NONE, error);
 }
 

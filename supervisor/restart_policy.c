@@ -9,11 +9,6 @@
 #define FIRST_PAUSE_NS (50 * (uint64_t)NS_PER_MS)
 #define LONG_LIFE_NS   (5 * (uint64_t)NS_PER_S) /* of a role that makes no frames */
 
-bool restart_policy_makes_frames(enum role role)
-{
-    return role == ROLE_MOVER || role == ROLE_COLLIDER;
-}
-
 bool restart_policy_refused(int status)
 {
     return status == EXIT_REFUSED || status == EXIT_USAGE;
@@ -22,7 +17,7 @@ bool restart_policy_refused(int status)
 /* The deaths up to free cost no pause; from then on the pause doubles with each. */
 static uint64_t pause_after(enum role role, uint32_t deaths, uint32_t free)
 {
-    uint64_t most = restart_policy_makes_frames(role) ? RESTART_POLICY_FRAME_PAUSE_MAX_NS
+    uint64_t most = role_has(role, ROLE_MAKES_FRAMES) ? RESTART_POLICY_FRAME_PAUSE_MAX_NS
                                                       : RESTART_POLICY_PAUSE_MAX_NS;
     uint64_t pause = deaths > free ? FIRST_PAUSE_NS : 0;
     for (uint32_t i = free + 1; i < deaths && pause < most; i++)
@@ -32,7 +27,7 @@ static uint64_t pause_after(enum role role, uint32_t deaths, uint32_t free)
 
 static enum verdict give_up_after(enum role role, uint32_t deaths, uint32_t most)
 {
-    return restart_policy_makes_frames(role) && deaths >= most ? VERDICT_GIVE_UP : VERDICT_RESTART;
+    return role_has(role, ROLE_MAKES_FRAMES) && deaths >= most ? VERDICT_GIVE_UP : VERDICT_RESTART;
 }
 
 /* A kill from outside, or a request to stop that was not ours, says nothing about the frame, and
@@ -48,7 +43,7 @@ static enum verdict killed(struct history *history, const struct death *death, u
  * port that another has, or a full disk. */
 static enum verdict failed(struct history *history, const struct death *death, uint64_t *delay_ns)
 {
-    if (restart_policy_makes_frames(death->role)) {
+    if (role_has(death->role, ROLE_MAKES_FRAMES)) {
         if (history->crash_frame != death->frame)
             history->same_frame = 0;
         history->crash_frame = death->frame;
@@ -64,7 +59,7 @@ static enum verdict failed(struct history *history, const struct death *death, u
 static void forgive(struct history *history, const struct death *death)
 {
     bool frames = death->frame > death->frame_at_start;
-    bool makes_frames = restart_policy_makes_frames(death->role);
+    bool makes_frames = role_has(death->role, ROLE_MAKES_FRAMES);
     if (death->was_ready)
         history->stood_by = 0;
     if (makes_frames ? frames : death->was_ready)
@@ -77,13 +72,13 @@ enum verdict restart_policy_death(struct history *history, const struct death *d
                                   uint64_t *delay_ns)
 {
     *delay_ns = 0;
-    if (death->status == EXIT_OK && restart_policy_makes_frames(death->role) && death->finished)
+    if (death->status == EXIT_OK && role_has(death->role, ROLE_MAKES_FRAMES) && death->finished)
         return VERDICT_FINISHED;
     if (death->stood_by) { /* no frame was lost by it, and none stands for its want */
         *delay_ns = pause_after(death->role, ++history->stood_by, FREE_RESTARTS);
         return VERDICT_RESTART;
     }
-    if (restart_policy_refused(death->status) && restart_policy_makes_frames(death->role))
+    if (restart_policy_refused(death->status) && role_has(death->role, ROLE_MAKES_FRAMES))
         return VERDICT_REFUSED;
     forgive(history, death);
     if (death->status == EXIT_OK || (death->status == STATUS_KILLED && !death->hung))

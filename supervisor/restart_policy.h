@@ -52,9 +52,6 @@ enum verdict {
 enum verdict restart_policy_death(struct history *history, const struct death *death,
                                   uint64_t *delay_ns);
 
-/* Is this role one of the two that make frames? */
-bool restart_policy_makes_frames(enum role role);
-
 /* Is this the exit status of a process that said what it refused? */
 bool restart_policy_refused(int status);
 

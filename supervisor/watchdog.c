@@ -29,7 +29,7 @@ static uint64_t allowed_ns(const struct process_set *set, enum role role)
     uint64_t allowed = later(set->plan->hang_ms * NS_PER_MS, frames_ns);
     if (atomic_load(&slot->state) == ROLE_STARTING || atomic_load(&slot->frame) == 0)
         return STARTING_NS;
-    if (!restart_policy_makes_frames(role))
+    if (!role_has(role, ROLE_MAKES_FRAMES))
         allowed = later(allowed, OTHERS_NS);
     return later(allowed, STAGES_ALLOWED * atomic_load(&slot->stage_ns));
 }

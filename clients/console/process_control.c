@@ -64,15 +64,15 @@ void process_control_end(const struct world_reader *reader, const char *name, bo
 {
     enum role role = role_find(name);
     if (role == ROLE_NONE) {
-        http_answer_error(
-            answer, HTTP_ANSWER_BAD,
-            "there are mover, collider, reporter, recorder, renderer, renderer-2 ..., console",
-            "\"%.16s\" is no role", name);
+        http_answer_error(answer, HTTP_ANSWER_BAD,
+                          "there are mover, collider, intake, reporter, recorder, renderer, "
+                          "renderer-2 ..., console",
+                          "\"%.16s\" is no role", name);
         return;
     }
     int pid = segment_holder(reader->name, role);
     /* Asked to stop, a frame role would end the run; killed, it is only replaced. */
-    bool kills = !restart || role == ROLE_MOVER || role == ROLE_COLLIDER;
+    bool kills = !restart || role_has(role, ROLE_MAKES_FRAMES);
     int cause = pid ? signal_holder(reader, role, pid, kills ? SIGKILL : SIGTERM) : ESRCH;
     if (cause != 0) {
         http_answer_error(answer, HTTP_ANSWER_CONFLICT,

@@ -233,8 +233,10 @@ void frame_protocol_collider_end(struct frame_protocol *frame, struct view *view
     CRASH_POINT("commit");
     atomic_store_explicit(&view->commit->commit, frame->number, memory_order_release);
     doorbell_ring(view->doors, ROLE_MOVER);
-    for (int role = ROLE_RENDERER; role <= ROLE_RENDERER_4; role++)
-        doorbell_ring(view->doors, (enum role)role);
+    for (int role = 0; role < ROLE_COUNT; role++) {
+        if (role_has((enum role)role, ROLE_DRAWS))
+            doorbell_ring(view->doors, (enum role)role);
+    }
     CRASH_POINT("readers' wake");
     commit_futex(view, FUTEX_WAKE, INT32_MAX, NULL);
 }
@@ -246,7 +248,7 @@ uint64_t frame_protocol_wait(const struct view *view, uint64_t seen, uint64_t un
         uint64_t now = clock_now_ns();
         if (commit > seen || now >= until_ns || process_stopping())
             return commit;
-        if (view->role >= ROLE_RENDERER && view->role <= ROLE_RENDERER_4) {
+        if (role_has(view->role, ROLE_DRAWS)) {
             doorbell_wait(view->doors, view->role, until_ns);
             continue;
         }

@@ -138,7 +138,7 @@ int file_rules_confine(enum role role, const int *folders, size_t count)
     int result = 0;
     for (size_t i = 0; i < count && result == 0; i++)
         result = allow(ruleset, folders[i], ACCESS_FOLDER & known(version));
-    bool drivers = role >= ROLE_RENDERER && role <= ROLE_RENDERER_4;
+    bool drivers = role_has(role, ROLE_DRAWS);
     if (drivers && result == 0)
         result = allow_paths(ruleset, driver_paths, COUNT(driver_paths), ACCESS_READ);
     if (role == ROLE_CONSOLE && result == 0)

@@ -39,7 +39,7 @@
 static const char *needs_more(enum role role)
 {
 #ifdef SANDBOX_SANITIZED
-    if (role != ROLE_MOVER && role != ROLE_COLLIDER)
+    if (!role_has(role, ROLE_MAKES_FRAMES))
         return "a sanitizer";
 #else
     (void)role;

@@ -354,12 +354,10 @@ static const struct list keeper_lists[] = {DENY(intruding),
                                            END};
 
 static const struct list *const role_lists[ROLE_COUNT + 1] = {
-    [ROLE_NONE] = keeper_lists,         [ROLE_MOVER] = frame_lists,
-    [ROLE_COLLIDER] = frame_lists,      [ROLE_INTAKE] = intake_lists,
-    [ROLE_REPORTER] = reporter_lists,   [ROLE_RECORDER] = recorder_lists,
-    [ROLE_RENDERER] = renderer_lists,   [ROLE_RENDERER_2] = renderer_lists,
-    [ROLE_RENDERER_3] = renderer_lists, [ROLE_RENDERER_4] = renderer_lists,
-    [ROLE_CONSOLE] = console_lists,
+#define X(tag, name, calls, ...) calls##_lists,
+    ROLES(X)
+#undef X
+        [ROLE_NONE] = keeper_lists,
 };
 
 static int add_lists(scmp_filter_ctx filter, const struct list *list)

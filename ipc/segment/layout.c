@@ -217,27 +217,20 @@ uint64_t layout_hash(void)
     return XXH3_64bits_withSeed(columns, sizeof columns, XXH3_64bits(compiled, sizeof compiled));
 }
 
+/* The regions that each role writes, beside its slot and the doorbells. */
+static const struct {
+    enum region first, last;
+} written[ROLE_COUNT] = {
+#define X(tag, name, calls, traits, first, last, start, stop) {first, last},
+    ROLES(X)
+#undef X
+};
+
 bool layout_writable(enum role role, enum region region)
 {
-    if (role >= ROLE_COUNT)
+    if (role >= ROLE_COUNT || region >= REGION_COUNT)
         return false;
-    if (region == (enum region)(REGION_SLOTS + (int)role))
-        return true;
-    switch (role) {
-    case ROLE_MOVER:
-        return region == REGION_MOVED_WORD || region == REGION_MOVED || region == REGION_DOORS;
-    case ROLE_COLLIDER:
-        return (region >= REGION_COMMIT && region <= REGION_EVENTS) || region == REGION_DOORS;
-    case ROLE_INTAKE:
-        return region == REGION_COMMANDS + RING_CLIENTS || region == REGION_DOORS;
-    case ROLE_RECORDER:
-        return region == REGION_COMMANDS + RING_RECORDER || region == REGION_DOORS;
-    case ROLE_RENDERER:
-    case ROLE_RENDERER_2:
-    case ROLE_RENDERER_3:
-    case ROLE_RENDERER_4:
-        return region == REGION_DOORS;
-    default:
-        return false;
-    }
+    return region == (enum region)(REGION_SLOTS + (int)role) ||
+           (region == REGION_DOORS && role_has(role, ROLE_RINGS)) ||
+           (region >= written[role].first && region <= written[role].last);
 }

@@ -6,23 +6,67 @@
 #ifndef JOLON_IPC_SEGMENT_ROLE_H
 #define JOLON_IPC_SEGMENT_ROLE_H
 
+#include "ipc/segment/histogram.h"
+
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stdint.h>
 
+/* The registry of roles: a row each, in the order of their slots.
+ *
+ *     X(TAG, "name", system calls, traits, first region, last region, start, stop)
+ *
+ * The role's program is jolon-NAME, and its manual page is docs/man/jolon-NAME.1. The system calls
+ * are a list of ipc/sandbox/syscall_filter.c. The traits are of enum role_trait. Beside its own
+ * slot the role writes the regions from the first to the last (ipc/segment/layout.h; REGION_COUNT:
+ * none). The keeper starts and stops the roles of a set in the order of the last two columns; it
+ * does not start a role that has 0 there. The mover starts last, so that frames begin when every
+ * other role is there to see them; it stops first, and the roles that report what it did stop last.
+ *
+ * Renderers 2 to 4 are started by hand, side by side with the set's own. The console is the set's
+ * own as well: further consoles are readers. */
+#define ROLES(X)                                                                                   \
+    X(MOVER, "mover", frame, ROLE_MAKES_FRAMES | ROLE_RINGS, REGION_MOVED_WORD, REGION_MOVED, 7,   \
+      1)                                                                                           \
+    X(COLLIDER, "collider", frame, ROLE_MAKES_FRAMES | ROLE_RINGS, REGION_COMMIT, REGION_EVENTS,   \
+      1, 2)                                                                                        \
+    X(INTAKE, "intake", intake, ROLE_RINGS, REGION_COMMANDS + RING_CLIENTS,                        \
+      REGION_COMMANDS + RING_CLIENTS, 3, 3)                                                        \
+    X(REPORTER, "reporter", reporter, ROLE_OPTIONAL, REGION_COUNT, REGION_COUNT, 4, 7)             \
+    X(RECORDER, "recorder", recorder, ROLE_OPTIONAL | ROLE_RINGS, REGION_COMMANDS + RING_RECORDER, \
+      REGION_COMMANDS + RING_RECORDER, 2, 4)                                                       \
+    X(RENDERER, "renderer", renderer, ROLE_OPTIONAL | ROLE_RINGS | ROLE_DRAWS, REGION_COUNT,       \
+      REGION_COUNT, 5, 6)                                                                          \
+    X(RENDERER_2, "renderer-2", renderer, ROLE_RINGS | ROLE_DRAWS, REGION_COUNT, REGION_COUNT, 0,  \
+      0)                                                                                           \
+    X(RENDERER_3, "renderer-3", renderer, ROLE_RINGS | ROLE_DRAWS, REGION_COUNT, REGION_COUNT, 0,  \
+      0)                                                                                           \
+    X(RENDERER_4, "renderer-4", renderer, ROLE_RINGS | ROLE_DRAWS, REGION_COUNT, REGION_COUNT, 0,  \
+      0)                                                                                           \
+    X(CONSOLE, "console", console, 0, REGION_COUNT, REGION_COUNT, 6, 5)
+
 enum role {
-    ROLE_MOVER,
-    ROLE_COLLIDER,
-    ROLE_INTAKE,
-    ROLE_REPORTER,
-    ROLE_RECORDER,
-    ROLE_RENDERER,
-    ROLE_RENDERER_2, /* more renderers side by side, each its own slot */
-    ROLE_RENDERER_3,
-    ROLE_RENDERER_4,
-    ROLE_CONSOLE, /* the set's own; consoles that people start beside it are readers */
-    ROLE_COUNT,
+#define X(tag, ...) ROLE_##tag,
+    ROLES(X)
+#undef X
+        ROLE_COUNT,
     ROLE_NONE = ROLE_COUNT /* a reader: no slot, no lock, any number of them */
 };
+
+enum role_trait {
+    ROLE_MAKES_FRAMES = 1, /* no frame without it: another process stands by for the role, and the
+                              set ends when the role fails too often */
+    ROLE_RINGS = 2,        /* writes the doorbells */
+    ROLE_DRAWS = 4,        /* a renderer: woken for each frame, and may open graphics drivers */
+    ROLE_OPTIONAL = 8      /* may be left out of a set */
+};
+
+/* Has the role the trait? False for ROLE_NONE. */
+bool role_has(enum role role, enum role_trait trait);
+
+/* The roles that the keeper starts, in the order in which it starts or stops them. Returns how many
+ * there are. */
+int role_order(enum role order[ROLE_COUNT], bool stopping);
 
 /* "mover", ..., "renderer", "renderer-2", ..., "console"; "?" out of range. */
 const char *role_name(enum role role);
@@ -33,24 +77,6 @@ enum role role_find(const char *name);
 enum role_state { ROLE_ABSENT, ROLE_STARTING, ROLE_READY, ROLE_STOPPING, ROLE_STATE_COUNT };
 
 const char *role_state_name(enum role_state state);
-
-/* A log-linear histogram of times: 16 buckets a factor of two, 64 ns to 18 min; error under 7 %. */
-#define HISTOGRAM_BUCKETS 560u
-
-struct histogram {
-    uint64_t count;
-    uint64_t max_ns;
-    uint32_t bucket[HISTOGRAM_BUCKETS];
-};
-
-void histogram_add(struct histogram *histogram, uint64_t ns);
-/* The value below which the fraction (0..1) of the entries lie [ns]; 0 when empty. */
-uint64_t histogram_quantile(const struct histogram *histogram, double fraction);
-
-/* The entries that came between two looks at a histogram that somebody else goes on filling; its
- * greatest is that of its highest bucket. */
-void histogram_since(struct histogram *since, const struct histogram *now,
-                     const struct histogram *before);
 
 /* Written by the role's holder alone, read by anyone without waiting: statistics, of which a torn
  * read shows an old number beside a new one, and of which none goes into the world. */

@@ -1,19 +1,13 @@
-/* Names of roles, and histograms of times against the sorted times themselves. */
+/* The registry of roles. */
 #include "ipc/segment/role.h"
 
-#include "tests/support/fixture.h"
-
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
-
-#define TIMES 10000
 
 static void test_every_role_is_found_by_its_name(void **state)
 {
@@ -39,103 +33,33 @@ static void test_what_is_no_role_is_none(void **state)
     assert_string_equal(role_state_name(ROLE_READY), "ready");
 }
 
-static void test_empty_histogram_says_0(void **state)
+/* What the keeper does with a role follows from the registry alone. */
+static void test_the_keeper_starts_the_mover_last_and_stops_it_first(void **state)
 {
-    const struct histogram histogram = {0};
+    enum role start[ROLE_COUNT], stop[ROLE_COUNT];
+    int count = role_order(start, false);
+    unsigned started = 0, stopped = 0;
     (void)state;
-    assert_int_equal(histogram_quantile(&histogram, 0.0), 0);
-    assert_int_equal(histogram_quantile(&histogram, 0.99), 0);
-    assert_int_equal(histogram_quantile(&histogram, 1.0), 0);
-}
-
-/* What came between two looks alone; a look that saw less than the one before it gives nothing. */
-static void test_histogram_since(void **state)
-{
-    static struct histogram before, now, since;
-    (void)state;
-    histogram_add(&before, 1000);
-    histogram_add(&before, 9000000);
-    now = before;
-    histogram_add(&now, 2000);
-    histogram_add(&now, 2000);
-    histogram_add(&now, 50000);
-    histogram_since(&since, &now, &before);
-    assert_int_equal(since.count, 3);
-    assert_true(fabs((double)histogram_quantile(&since, 0.5) - 2000.0) < 140.0);
-    assert_true(fabs((double)since.max_ns - 50000.0) < 3500.0);
-    histogram_since(&since, &before, &now);
-    assert_int_equal(since.count, 0);
-    assert_int_equal(histogram_quantile(&since, 0.5), 0);
-}
-
-/* One entry: every quantile is that entry, to 7 % from 64 ns to 18 min. */
-static void test_one_time_comes_back_within_7_percent(void **state)
-{
-    (void)state;
-    for (double ns = 64.0; ns < 18.0 * 60.0 * 1e9; ns *= 1.003) {
-        struct histogram histogram = {0};
-        histogram_add(&histogram, (uint64_t)ns);
-        histogram_add(&histogram, UINT64_MAX); /* so that the maximum does not cap the answer */
-        uint64_t back = histogram_quantile(&histogram, 0.0);
-        assert_true(fabs((double)back - ns) < 0.07 * ns);
+    assert_int_equal(role_order(stop, true), count);
+    assert_int_equal(start[count - 1], ROLE_MOVER);
+    assert_int_equal(stop[0], ROLE_MOVER);
+    for (int i = 0; i < count; i++) {
+        started |= 1u << start[i];
+        stopped |= 1u << stop[i];
     }
+    assert_int_equal(started, stopped); /* and each of them once: count is their number */
+    assert_int_equal(__builtin_popcount(started), count);
+    assert_true(started & 1u << ROLE_CONSOLE);
+    assert_false(started & 1u << ROLE_RENDERER_2);
 }
 
-static void test_times_out_of_range_are_kept_in_the_end_buckets(void **state)
+static void test_a_reader_has_no_trait(void **state)
 {
-    struct histogram histogram = {0};
     (void)state;
-    histogram_add(&histogram, 0);
-    histogram_add(&histogram, 1);
-    histogram_add(&histogram, 63);
-    assert_int_equal(histogram.bucket[0], 3);
-    assert_int_equal(histogram_quantile(&histogram, 1.0), 63); /* never above the maximum */
-    histogram_add(&histogram, UINT64_MAX);
-    histogram_add(&histogram, (uint64_t)1 << 41); /* the first that is past the last bucket */
-    assert_int_equal(histogram.bucket[HISTOGRAM_BUCKETS - 1], 2);
-    assert_int_equal(histogram.max_ns, UINT64_MAX);
-    assert_int_equal(histogram.count, 5);
-}
-
-static int by_value(const void *a, const void *b)
-{
-    uint64_t p = *(const uint64_t *)a, q = *(const uint64_t *)b;
-    return p < q ? -1 : p > q;
-}
-
-static void test_quantiles_are_those_of_the_sorted_times(void **state)
-{
-    static uint64_t times[TIMES];
-    struct histogram histogram = {0};
-    uint64_t random = fixture_seed(1);
-    (void)state;
-    for (int i = 0; i < TIMES; i++) {
-        times[i] = (uint64_t)exp(fixture_uniform(&random, 5.0, 25.0));
-        histogram_add(&histogram, times[i]);
-    }
-    qsort(times, TIMES, sizeof times[0], by_value);
-    for (int percent = 0; percent <= 100; percent++) {
-        double right = (double)times[(uint64_t)(percent / 100.0 * (TIMES - 1))];
-        double got = (double)histogram_quantile(&histogram, percent / 100.0);
-        assert_true(fabs(got - right) < 0.07 * right);
-    }
-    assert_int_equal(histogram.count, TIMES);
-    assert_int_equal(histogram.max_ns, times[TIMES - 1]);
-}
-
-static void test_quantiles_do_not_fall(void **state)
-{
-    struct histogram histogram = {0};
-    uint64_t random = fixture_seed(2), last = 0;
-    (void)state;
-    for (int i = 0; i < 1000; i++)
-        histogram_add(&histogram, fixture_random(&random) >> (fixture_random(&random) % 60));
-    for (int i = 0; i <= 1000; i++) {
-        uint64_t now = histogram_quantile(&histogram, i / 1000.0);
-        assert_true(now >= last);
-        last = now;
-    }
-    assert_true(last <= histogram.max_ns);
+    for (unsigned trait = 1; trait <= ROLE_OPTIONAL; trait <<= 1)
+        assert_false(role_has(ROLE_NONE, (enum role_trait)trait));
+    assert_true(role_has(ROLE_MOVER, ROLE_MAKES_FRAMES) && !role_has(ROLE_MOVER, ROLE_OPTIONAL));
+    assert_true(role_has(ROLE_RENDERER_4, ROLE_DRAWS));
 }
 
 int main(void)
@@ -143,12 +67,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_role_is_found_by_its_name),
         cmocka_unit_test(test_what_is_no_role_is_none),
-        cmocka_unit_test(test_empty_histogram_says_0),
-        cmocka_unit_test(test_histogram_since),
-        cmocka_unit_test(test_one_time_comes_back_within_7_percent),
-        cmocka_unit_test(test_times_out_of_range_are_kept_in_the_end_buckets),
-        cmocka_unit_test(test_quantiles_are_those_of_the_sorted_times),
-        cmocka_unit_test(test_quantiles_do_not_fall),
+        cmocka_unit_test(test_the_keeper_starts_the_mover_last_and_stops_it_first),
+        cmocka_unit_test(test_a_reader_has_no_trait),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
