@@ -124,17 +124,17 @@ static int open_images(struct render_session *session, struct view *view)
     uint32_t width = session->options.width, height = session->options.height;
     if (static_scene_init(&session->static_scene, &view->world) != 0)
         return -1;
-    if (scene_init(&session->scene) != 0)
-        goto err_scenery;
+    if (scene_init(&session->draw_list) != 0)
+        goto err_static_scene;
     if (image_init(&session->image, width, height) != 0)
-        goto err_scene;
+        goto err_draw_list;
     struct options largest = largest_pictures(session);
     if (image_init(&session->small, largest.width, largest.height) == 0)
         return 0;
     image_free(&session->image);
-err_scene:
-    scene_free(&session->scene);
-err_scenery:
+err_draw_list:
+    scene_free(&session->draw_list);
+err_static_scene:
     static_scene_free(&session->static_scene);
     return -1;
 }
@@ -143,7 +143,7 @@ static void close_images(struct render_session *session)
 {
     image_free(&session->small);
     image_free(&session->image);
-    scene_free(&session->scene);
+    scene_free(&session->draw_list);
     static_scene_free(&session->static_scene);
 }
 

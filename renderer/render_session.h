@@ -48,7 +48,7 @@ struct render_session {
     struct view_picture pictures[VIEWS_MAX];
     uint32_t picture_count;
     struct static_scene static_scene;
-    struct scene scene;
+    struct draw_list draw_list;
     struct annotated_picture annotated;
     struct back_end_interface draw; /* self is NULL when only maps are wanted */
     struct image image;

@@ -166,12 +166,14 @@ int view_pictures_camera(struct render_session *session, struct view_picture *pi
     picture->camera_options.height = drawn->height;
     view_camera_camera(&picture->view_camera, &picture->camera_options, frame_view, picture->slot,
                        &camera);
-    scene_build(&session->scene, &camera, &session->static_scene, frame_view, &session->effects);
-    if (session->scene.omitted > 0 && log_due(&session->warned_ns, WARNING_INTERVAL_NS))
+    scene_build(&session->draw_list, &camera, &session->static_scene, frame_view,
+                &session->effects);
+    if (session->draw_list.omitted > 0 && log_due(&session->warned_ns, WARNING_INTERVAL_NS))
         log_warn("%u things in view are left out: more than a picture can hold",
-                 session->scene.omitted);
+                 session->draw_list.omitted);
     heartbeat_stage(session->heartbeat);
-    if (session->draw.picture(session->draw.self, &session->scene, frame_view, drawn, error) != 0)
+    if (session->draw.picture(session->draw.self, &session->draw_list, frame_view, drawn, error) !=
+        0)
         return -1;
     heartbeat_stage(session->heartbeat);
     if (drawn != target->image)
@@ -193,7 +195,7 @@ static int draw_camera(struct render_session *session, struct view_picture *pict
         return -1;
     /* The first picture waits for all its ground; at a rate, ground comes when there is time. */
     if (session->smooth)
-        session->scene.paintings = RENDER_SESSION_PAINTINGS;
+        session->draw_list.paintings = RENDER_SESSION_PAINTINGS;
     return 0;
 }
 
@@ -266,8 +268,8 @@ int view_pictures_draw(struct render_session *session, bool last, struct error_t
         return 0;
     const struct quality_control_level *level =
         &quality_control_levels[complete ? 0 : session->quality.level];
-    session->scene.detail = (float)level->detail;
-    session->scene.paintings = paintings_of(session, complete);
+    session->draw_list.detail = (float)level->detail;
+    session->draw_list.paintings = paintings_of(session, complete);
     choose_vehicles(session, &frame_view);
     articulation_note(&session->articulation, &frame_view);
     for (uint32_t i = 0; i < session->picture_count; i++) {
@@ -278,7 +280,7 @@ int view_pictures_draw(struct render_session *session, bool last, struct error_t
     session->drawn = frame_view.head->frame;
     session->drawn_ahead_s = frame_view.ahead_s;
     session->drawn_complete =
-        level == quality_control_levels && session->scene.paintings == TERRAIN_TILES_ALL;
+        level == quality_control_levels && session->draw_list.paintings == TERRAIN_TILES_ALL;
     if (!complete)
         adjust_quality(session);
     return 0;

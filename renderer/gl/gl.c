@@ -86,18 +86,17 @@ static int open_target(struct gl *gl, struct error_text *error)
                           gl->height);
 }
 
-static void send_frame(const struct gl *gl, const struct scene *scene)
+static void send_frame(const struct gl *gl, const struct draw_list *list)
 {
-    const struct camera *c = &scene->camera;
+    const struct camera *c = &list->camera;
     struct gl_frame frame = {
         .right = {(float)c->right.x, (float)c->right.y, (float)c->right.z, (float)c->tan_x},
         .up = {(float)c->up.x, (float)c->up.y, (float)c->up.z, (float)c->tan_y},
         .forward = {(float)c->forward.x, (float)c->forward.y, (float)c->forward.z,
-                    (float)fmod(scene->time_s, 3600.0)},
-        .sun = {(float)SUN_X, (float)SUN_Y, (float)SUN_Z, scene->texture ? 1.0f : 0.0f},
-        .fog = {(float)(scene->haze ? HAZE_PER_M : CLEAR_PER_M),
-                scene->fog ? (float)FOG_PER_M : 0.0f, (float)FOG_FALL_PER_M,
-                (float)(c->eye.y - FOG_BASE_M)},
+                    (float)fmod(list->time_s, 3600.0)},
+        .sun = {(float)SUN_X, (float)SUN_Y, (float)SUN_Z, list->texture ? 1.0f : 0.0f},
+        .fog = {(float)(list->haze ? HAZE_PER_M : CLEAR_PER_M), list->fog ? (float)FOG_PER_M : 0.0f,
+                (float)FOG_FALL_PER_M, (float)(c->eye.y - FOG_BASE_M)},
     };
     memcpy(frame.matrix, c->matrix, sizeof frame.matrix);
     glBindBuffer(GL_UNIFORM_BUFFER, gl->frame_block);
@@ -106,7 +105,7 @@ static void send_frame(const struct gl *gl, const struct scene *scene)
 }
 
 /* Shadows darken a pixel once, however many fall on it: the stencil remembers. */
-static void draw_shadows(struct gl *gl, const struct scene *scene)
+static void draw_shadows(struct gl *gl, const struct draw_list *list)
 {
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(GL_EQUAL, 0, 0xff);
@@ -116,15 +115,15 @@ static void draw_shadows(struct gl *gl, const struct scene *scene)
     glDepthMask(GL_FALSE);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(-2.0f, -4.0f);
-    gl_bodies_draw_shadows(&gl->bodies, scene);
-    gl_plants_draw_shadows(&gl->boards, scene);
+    gl_bodies_draw_shadows(&gl->bodies, list);
+    gl_plants_draw_shadows(&gl->boards, list);
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glDisable(GL_STENCIL_TEST);
 }
 
-static void draw_scene(struct gl *gl, const struct scene *scene, const struct frame_view *moment)
+static void draw_scene(struct gl *gl, const struct draw_list *list, const struct frame_view *moment)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, gl->target);
     glViewport(0, 0, (GLsizei)gl->drawn.width, (GLsizei)gl->drawn.height);
@@ -132,17 +131,17 @@ static void draw_scene(struct gl *gl, const struct scene *scene, const struct fr
     glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
-    gl_ground_draw(&gl->ground, scene, moment);
-    draw_shadows(gl, scene);
-    gl_bodies_draw(&gl->bodies, scene);
-    gl_plants_draw(&gl->boards, scene);
+    gl_ground_draw(&gl->ground, list, moment);
+    draw_shadows(gl, list);
+    gl_bodies_draw(&gl->bodies, list);
+    gl_plants_draw(&gl->boards, list);
     glUseProgram(gl->sky_program);
     glBindVertexArray(gl->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
-    gl_particles_draw(&gl->boards, scene);
+    gl_particles_draw(&gl->boards, list);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
@@ -163,16 +162,16 @@ static void read_back(struct gl *gl)
     }
 }
 
-static int gl_picture(void *self, const struct scene *scene, const struct frame_view *moment,
+static int gl_picture(void *self, const struct draw_list *list, const struct frame_view *moment,
                       struct image *image, struct error_text *error)
 {
     struct gl *gl = self;
     gl->drawn.width = image->width;
     gl->drawn.height = image->height;
-    send_frame(gl, scene);
-    gl_bodies_send(&gl->bodies, scene);
-    gl_billboards_send(&gl->boards, scene);
-    draw_scene(gl, scene, moment);
+    send_frame(gl, list);
+    gl_bodies_send(&gl->bodies, list);
+    gl_billboards_send(&gl->boards, list);
+    draw_scene(gl, list, moment);
 
     read_back(gl);
     fxaa_edges(image, &gl->drawn);

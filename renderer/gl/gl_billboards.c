@@ -93,7 +93,7 @@ static const char shadow_fragment_text[] =
     "    o_colour = vec4(0.05, 0.06, 0.09, 0.50 * v_clear);\n"
     "}\n";
 
-static const char puff_vertex_text[] =
+static const char particle_vertex_text[] =
     "layout(location = 0) in vec3 i_at;\n"
     "layout(location = 1) in vec3 i_axis;\n"
     "layout(location = 2) in vec4 i_form;\n" /* size, turn, picture, glow */
@@ -126,7 +126,7 @@ static const char puff_vertex_text[] =
     "    v_air = air(i_at);\n"
     "}\n";
 
-static const char puff_fragment_text[] =
+static const char particle_fragment_text[] =
     "uniform sampler2DArray u_puff;\n"
     "in vec3 v_picture;\n"
     "in vec4 v_colour, v_air;\n"
@@ -147,24 +147,24 @@ static const char puff_fragment_text[] =
 
 static void describe_plants(const struct gl_billboards *boards)
 {
-    size_t stride = sizeof(struct scene_plant);
+    size_t stride = sizeof(struct draw_list_plant);
     glBindVertexArray(boards->plant_array);
     glBindBuffer(GL_ARRAY_BUFFER, boards->plants);
-    gl_attribute(0, 3, stride, offsetof(struct scene_plant, at), 1);
-    gl_attribute(1, 4, stride, offsetof(struct scene_plant, width), 1);
-    gl_attribute(2, 2, stride, offsetof(struct scene_plant, slope), 1);
-    gl_attribute(3, 3, stride, offsetof(struct scene_plant, tint), 1);
+    gl_attribute(0, 3, stride, offsetof(struct draw_list_plant, at), 1);
+    gl_attribute(1, 4, stride, offsetof(struct draw_list_plant, width), 1);
+    gl_attribute(2, 2, stride, offsetof(struct draw_list_plant, slope), 1);
+    gl_attribute(3, 3, stride, offsetof(struct draw_list_plant, tint), 1);
 }
 
-static void describe_puffs(const struct gl_billboards *boards)
+static void describe_particles(const struct gl_billboards *boards)
 {
-    size_t stride = sizeof(struct scene_puff);
-    glBindVertexArray(boards->puff_array);
-    glBindBuffer(GL_ARRAY_BUFFER, boards->puffs);
-    gl_attribute(0, 3, stride, offsetof(struct scene_puff, at), 1);
-    gl_attribute(1, 3, stride, offsetof(struct scene_puff, axis), 1);
-    gl_attribute(2, 4, stride, offsetof(struct scene_puff, size), 1);
-    gl_attribute(3, 4, stride, offsetof(struct scene_puff, colour), 1);
+    size_t stride = sizeof(struct draw_list_particle);
+    glBindVertexArray(boards->particle_array);
+    glBindBuffer(GL_ARRAY_BUFFER, boards->particles);
+    gl_attribute(0, 3, stride, offsetof(struct draw_list_particle, at), 1);
+    gl_attribute(1, 3, stride, offsetof(struct draw_list_particle, axis), 1);
+    gl_attribute(2, 4, stride, offsetof(struct draw_list_particle, size), 1);
+    gl_attribute(3, 4, stride, offsetof(struct draw_list_particle, colour), 1);
 }
 
 int gl_billboards_open(struct gl_billboards *boards, struct error_text *error)
@@ -173,17 +173,19 @@ int gl_billboards_open(struct gl_billboards *boards, struct error_text *error)
     boards->plant_program = gl_program("plant", plant_vertex_text, plant_fragment_text, error);
     boards->shadow_program =
         gl_program("plant shadow", shadow_vertex_text, shadow_fragment_text, error);
-    boards->puff_program = gl_program("puff", puff_vertex_text, puff_fragment_text, error);
-    if (boards->plant_program == 0 || boards->shadow_program == 0 || boards->puff_program == 0) {
+    boards->particle_program =
+        gl_program("puff", particle_vertex_text, particle_fragment_text, error);
+    if (boards->plant_program == 0 || boards->shadow_program == 0 ||
+        boards->particle_program == 0) {
         gl_billboards_close(boards);
         return -1;
     }
     glGenVertexArrays(1, &boards->plant_array);
-    glGenVertexArrays(1, &boards->puff_array);
+    glGenVertexArrays(1, &boards->particle_array);
     glGenBuffers(1, &boards->plants);
-    glGenBuffers(1, &boards->puffs);
+    glGenBuffers(1, &boards->particles);
     describe_plants(boards);
-    describe_puffs(boards);
+    describe_particles(boards);
     return 0;
 }
 
@@ -191,40 +193,40 @@ void gl_billboards_close(struct gl_billboards *boards)
 {
     glDeleteProgram(boards->plant_program);
     glDeleteProgram(boards->shadow_program);
-    glDeleteProgram(boards->puff_program);
+    glDeleteProgram(boards->particle_program);
     glDeleteVertexArrays(1, &boards->plant_array);
-    glDeleteVertexArrays(1, &boards->puff_array);
+    glDeleteVertexArrays(1, &boards->particle_array);
     glDeleteBuffers(1, &boards->plants);
-    glDeleteBuffers(1, &boards->puffs);
+    glDeleteBuffers(1, &boards->particles);
 }
 
-void gl_billboards_send(struct gl_billboards *boards, const struct scene *scene)
+void gl_billboards_send(struct gl_billboards *boards, const struct draw_list *list)
 {
     glBindBuffer(GL_ARRAY_BUFFER, boards->plants);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(scene->plant_count * sizeof *scene->plants),
-                 scene->plants, GL_STREAM_DRAW);
-    glBindBuffer(GL_ARRAY_BUFFER, boards->puffs);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(scene->puff_count * sizeof *scene->puffs),
-                 scene->puffs, GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(list->plant_count * sizeof *list->plants),
+                 list->plants, GL_STREAM_DRAW);
+    glBindBuffer(GL_ARRAY_BUFFER, boards->particles);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(list->particle_count * sizeof *list->particles),
+                 list->particles, GL_STREAM_DRAW);
 }
 
-void gl_plants_draw_shadows(struct gl_billboards *boards, const struct scene *scene)
+void gl_plants_draw_shadows(struct gl_billboards *boards, const struct draw_list *list)
 {
     glUseProgram(boards->shadow_program);
     glBindVertexArray(boards->plant_array);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)scene->plant_count);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)list->plant_count);
 }
 
-void gl_plants_draw(struct gl_billboards *boards, const struct scene *scene)
+void gl_plants_draw(struct gl_billboards *boards, const struct draw_list *list)
 {
     glUseProgram(boards->plant_program);
     glBindVertexArray(boards->plant_array);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)scene->plant_count);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)list->plant_count);
 }
 
-void gl_particles_draw(struct gl_billboards *boards, const struct scene *scene)
+void gl_particles_draw(struct gl_billboards *boards, const struct draw_list *list)
 {
-    glUseProgram(boards->puff_program);
-    glBindVertexArray(boards->puff_array);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)scene->puff_count);
+    glUseProgram(boards->particle_program);
+    glBindVertexArray(boards->particle_array);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)list->particle_count);
 }

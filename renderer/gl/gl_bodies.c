@@ -185,26 +185,26 @@ static void describe_vertices(const struct gl_bodies *bodies)
 /* Points the copies' attributes at the first of a batch: OpenGL 3.3 has no first instance. */
 static void describe_copies(const struct gl_bodies *bodies, uint32_t first)
 {
-    size_t stride = sizeof(struct scene_body), base = first * stride;
-    glBindBuffer(GL_ARRAY_BUFFER, bodies->copies);
-    gl_attribute(4, 3, stride, base + offsetof(struct scene_body, at), 1);
-    gl_attribute(5, 3, stride, base + offsetof(struct scene_body, forward), 1);
-    gl_attribute(6, 3, stride, base + offsetof(struct scene_body, up), 1);
-    gl_attribute(7, 3, stride, base + offsetof(struct scene_body, right), 1);
-    gl_attribute(8, 4, stride, base + offsetof(struct scene_body, tint), 1);
-    gl_attribute(9, 4, stride, base + offsetof(struct scene_body, turret_rad), 1);
-    gl_attribute(10, 4, stride, base + offsetof(struct scene_body, plane), 1);
-    gl_attribute(11, 3, stride, base + offsetof(struct scene_body, dents), 1);
-    gl_attribute(12, 3, stride, base + offsetof(struct scene_body, falls), 1);
-    gl_attribute(13, 3, stride, base + offsetof(struct scene_body, broken), 1);
-    gl_attribute(14, 2, stride, base + offsetof(struct scene_body, way_m), 1);
+    size_t stride = sizeof(struct draw_list_body), base = first * stride;
+    glBindBuffer(GL_ARRAY_BUFFER, bodies->instances);
+    gl_attribute(4, 3, stride, base + offsetof(struct draw_list_body, at), 1);
+    gl_attribute(5, 3, stride, base + offsetof(struct draw_list_body, forward), 1);
+    gl_attribute(6, 3, stride, base + offsetof(struct draw_list_body, up), 1);
+    gl_attribute(7, 3, stride, base + offsetof(struct draw_list_body, right), 1);
+    gl_attribute(8, 4, stride, base + offsetof(struct draw_list_body, tint), 1);
+    gl_attribute(9, 4, stride, base + offsetof(struct draw_list_body, turret_rad), 1);
+    gl_attribute(10, 4, stride, base + offsetof(struct draw_list_body, plane), 1);
+    gl_attribute(11, 3, stride, base + offsetof(struct draw_list_body, dents), 1);
+    gl_attribute(12, 3, stride, base + offsetof(struct draw_list_body, falls), 1);
+    gl_attribute(13, 3, stride, base + offsetof(struct draw_list_body, broken), 1);
+    gl_attribute(14, 2, stride, base + offsetof(struct draw_list_body, way_m), 1);
 }
 
 static void open_dents(struct gl_bodies *bodies)
 {
     glGenBuffers(1, &bodies->dents);
     glBindBuffer(GL_TEXTURE_BUFFER, bodies->dents);
-    glBufferData(GL_TEXTURE_BUFFER, sizeof(struct scene_dent), NULL, GL_STREAM_DRAW);
+    glBufferData(GL_TEXTURE_BUFFER, sizeof(struct draw_list_dent), NULL, GL_STREAM_DRAW);
     glGenTextures(1, &bodies->dent_texture);
     glActiveTexture(GL_TEXTURE0 + UNIT_DENTS);
     glBindTexture(GL_TEXTURE_BUFFER, bodies->dent_texture);
@@ -230,7 +230,7 @@ int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
     glGenVertexArrays(1, &bodies->array);
     glBindVertexArray(bodies->array);
     glGenBuffers(1, &bodies->meshes);
-    glGenBuffers(1, &bodies->copies);
+    glGenBuffers(1, &bodies->instances);
     open_dents(bodies);
     if (bodies->mesh == NULL || send_meshes(bodies) != 0) {
         gl_bodies_close(bodies);
@@ -250,57 +250,57 @@ void gl_bodies_close(struct gl_bodies *bodies)
     glDeleteProgram(bodies->shadow_program);
     glDeleteVertexArrays(1, &bodies->array);
     glDeleteBuffers(1, &bodies->meshes);
-    glDeleteBuffers(1, &bodies->copies);
+    glDeleteBuffers(1, &bodies->instances);
     glDeleteTextures(1, &bodies->dent_texture);
     glDeleteBuffers(1, &bodies->dents);
     free(bodies->mesh);
 }
 
-void gl_bodies_send(struct gl_bodies *bodies, const struct scene *scene)
+void gl_bodies_send(struct gl_bodies *bodies, const struct draw_list *list)
 {
-    glBindBuffer(GL_ARRAY_BUFFER, bodies->copies);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(scene->body_count * sizeof *scene->bodies),
-                 scene->bodies, GL_STREAM_DRAW);
+    glBindBuffer(GL_ARRAY_BUFFER, bodies->instances);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(list->body_count * sizeof *list->bodies),
+                 list->bodies, GL_STREAM_DRAW);
     glBindBuffer(GL_TEXTURE_BUFFER, bodies->dents);
-    if (scene->dent_count > 0)
-        glBufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)(scene->dent_count * sizeof *scene->dents),
-                     scene->dents, GL_STREAM_DRAW);
+    if (list->dent_count > 0)
+        glBufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)(list->dent_count * sizeof *list->dents),
+                     list->dents, GL_STREAM_DRAW);
 }
 
-static bool same_mesh(const struct scene_copy *a, const struct scene_copy *b)
+static bool same_mesh(const struct draw_list_instance *a, const struct draw_list_instance *b)
 {
     return a->model == b->model && a->detail == b->detail;
 }
 
 /* One draw for each run of copies of a mesh. */
-static void draw_runs(const struct gl_bodies *bodies, const struct scene *scene, GLint u_pivots,
+static void draw_runs(const struct gl_bodies *bodies, const struct draw_list *list, GLint u_pivots,
                       GLint u_low)
 {
     glBindVertexArray(bodies->array);
-    for (uint32_t first = 0, end; first < scene->body_count; first = end) {
-        const struct scene_copy *copy = &scene->copies[first];
-        for (end = first + 1; end < scene->body_count; end++)
-            if (!same_mesh(copy, &scene->copies[end]))
+    for (uint32_t first = 0, end; first < list->body_count; first = end) {
+        const struct draw_list_instance *instance = &list->instances[first];
+        for (end = first + 1; end < list->body_count; end++)
+            if (!same_mesh(instance, &list->instances[end]))
                 break;
         const struct gl_mesh *mesh =
-            &bodies->mesh[(size_t)copy->model * MESH_DETAIL_COUNT + copy->detail];
-        const struct mesh_frame *frame = &bodies->scenery->frames[copy->model];
-        glUniform4fv(u_pivots, MODEL_JOINTS_MAX, &frame->pivot[0][0]);
+            &bodies->mesh[(size_t)instance->model * MESH_DETAIL_COUNT + instance->detail];
+        const struct mesh_skeleton *skeleton = &bodies->scenery->skeletons[instance->model];
+        glUniform4fv(u_pivots, MODEL_JOINTS_MAX, &skeleton->pivot[0][0]);
         if (u_low >= 0)
-            glUniform1f(u_low, frame->low[1]);
+            glUniform1f(u_low, skeleton->low[1]);
         describe_copies(bodies, first);
         glDrawArraysInstanced(GL_TRIANGLES, mesh->first, mesh->count, (GLsizei)(end - first));
     }
 }
 
-void gl_bodies_draw_shadows(struct gl_bodies *bodies, const struct scene *scene)
+void gl_bodies_draw_shadows(struct gl_bodies *bodies, const struct draw_list *list)
 {
     glUseProgram(bodies->shadow_program);
-    draw_runs(bodies, scene, bodies->u_shadow_pivots, -1);
+    draw_runs(bodies, list, bodies->u_shadow_pivots, -1);
 }
 
-void gl_bodies_draw(struct gl_bodies *bodies, const struct scene *scene)
+void gl_bodies_draw(struct gl_bodies *bodies, const struct draw_list *list)
 {
     glUseProgram(bodies->program);
-    draw_runs(bodies, scene, bodies->u_pivots, bodies->u_low);
+    draw_runs(bodies, list, bodies->u_pivots, bodies->u_low);
 }

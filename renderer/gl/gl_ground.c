@@ -204,13 +204,13 @@ static float fraction(double v)
 }
 
 static void draw_view(struct gl_ground *ground, const struct gl_ground_shader *shader,
-                      const struct scene *scene, const struct tile_view *view)
+                      const struct draw_list *list, const struct tile_view *view)
 {
     const struct tile_key *key = &view->shape->key;
     double side = terrain_quadtree_patch_side(key->level);
     double x = key->column * side, z = key->row * side;
     float corner[3];
-    draw_list_relative(scene, (struct vec3){x, 0.0, z}, corner);
+    draw_list_relative(list, (struct vec3){x, 0.0, z}, corner);
     glUniform4f(shader->u_origin, corner[0], corner[1], corner[2], (float)side);
     glUniform3f(shader->u_part, view->at_u, view->at_v, view->share);
     glUniform1f(shader->u_surf, view->paint->surf ? 1.0f : 0.0f);
@@ -224,11 +224,11 @@ static void draw_view(struct gl_ground *ground, const struct gl_ground_shader *s
                    NULL);
 }
 
-void gl_ground_draw(struct gl_ground *ground, const struct scene *scene,
+void gl_ground_draw(struct gl_ground *ground, const struct draw_list *list,
                     const struct frame_view *moment)
 {
     struct terrain_tiles *cache = &ground->cache;
-    terrain_tiles_update(cache, scene->patches, scene->patch_count, moment, scene->paintings);
+    terrain_tiles_update(cache, list->patches, list->patch_count, moment, list->paintings);
     glEnable(GL_CULL_FACE);
     glActiveTexture(GL_TEXTURE0 + UNIT_TILE);
     for (uint32_t i = 0; i < cache->view_count; i++) {
@@ -237,7 +237,7 @@ void gl_ground_draw(struct gl_ground *ground, const struct scene *scene,
         send_shape(ground, view->shape);
         send_paint(ground, view->paint);
         glUseProgram(shader->program);
-        draw_view(ground, shader, scene, view);
+        draw_view(ground, shader, list, view);
     }
     glDisable(GL_CULL_FACE);
 }

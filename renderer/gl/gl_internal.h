@@ -17,7 +17,7 @@ enum gl_unit {
     UNIT_DETAIL,
     UNIT_PLANT,
     UNIT_FACING,
-    UNIT_PUFF,
+    UNIT_PARTICLE,
     UNIT_CLOUD,
     UNIT_DENTS,
 };
@@ -48,7 +48,7 @@ void gl_attribute(GLuint index, GLint floats, size_t stride, size_t offset, GLui
 
 /* Makes and binds the textures that never change. 0, or -1 with the reason. */
 struct gl_textures {
-    GLuint detail, plants, facing, puffs, clouds;
+    GLuint detail, plants, facing, particles, clouds;
 };
 int gl_textures_open(struct gl_textures *textures, struct error_text *error);
 void gl_textures_close(struct gl_textures *textures);
@@ -75,7 +75,7 @@ struct gl_ground {
 int gl_ground_open(struct gl_ground *ground, const struct static_scene *scenery,
                    struct error_text *error);
 void gl_ground_close(struct gl_ground *ground);
-void gl_ground_draw(struct gl_ground *ground, const struct scene *scene,
+void gl_ground_draw(struct gl_ground *ground, const struct draw_list *list,
                     const struct frame_view *moment);
 
 /* --- bodies (gl_bodies.c, gl_form.c) --- */
@@ -90,7 +90,7 @@ struct gl_mesh {
 
 struct gl_bodies {
     const struct static_scene *scenery;
-    GLuint program, shadow_program, array, meshes, copies;
+    GLuint program, shadow_program, array, meshes, instances;
     GLuint dents, dent_texture; /* the buffer, and the texture that is a view of it */
     GLint u_pivots, u_low, u_shadow_pivots;
     struct gl_mesh *mesh; /* [models * MESH_DETAIL_COUNT] */
@@ -99,21 +99,21 @@ int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
                    struct error_text *error);
 void gl_bodies_close(struct gl_bodies *bodies);
 /* Sends the scene's copies; the draws that follow use them. */
-void gl_bodies_send(struct gl_bodies *bodies, const struct scene *scene);
-void gl_bodies_draw_shadows(struct gl_bodies *bodies, const struct scene *scene);
-void gl_bodies_draw(struct gl_bodies *bodies, const struct scene *scene);
+void gl_bodies_send(struct gl_bodies *bodies, const struct draw_list *list);
+void gl_bodies_draw_shadows(struct gl_bodies *bodies, const struct draw_list *list);
+void gl_bodies_draw(struct gl_bodies *bodies, const struct draw_list *list);
 
 /* --- plants, puffs (gl_billboards.c) --- */
 
 struct gl_billboards {
-    GLuint plant_program, shadow_program, puff_program;
-    GLuint plant_array, plants, puff_array, puffs;
+    GLuint plant_program, shadow_program, particle_program;
+    GLuint plant_array, plants, particle_array, particles;
 };
 int gl_billboards_open(struct gl_billboards *boards, struct error_text *error);
 void gl_billboards_close(struct gl_billboards *boards);
-void gl_billboards_send(struct gl_billboards *boards, const struct scene *scene);
-void gl_plants_draw_shadows(struct gl_billboards *boards, const struct scene *scene);
-void gl_plants_draw(struct gl_billboards *boards, const struct scene *scene);
-void gl_particles_draw(struct gl_billboards *boards, const struct scene *scene);
+void gl_billboards_send(struct gl_billboards *boards, const struct draw_list *list);
+void gl_plants_draw_shadows(struct gl_billboards *boards, const struct draw_list *list);
+void gl_plants_draw(struct gl_billboards *boards, const struct draw_list *list);
+void gl_particles_draw(struct gl_billboards *boards, const struct draw_list *list);
 
 #endif

@@ -94,7 +94,7 @@ static void name_units(GLuint program)
         enum gl_unit unit;
     } samplers[] = {
         {"u_tile", UNIT_TILE},     {"u_detail", UNIT_DETAIL}, {"u_plant", UNIT_PLANT},
-        {"u_facing", UNIT_FACING}, {"u_puff", UNIT_PUFF},     {"u_cloud", UNIT_CLOUD},
+        {"u_facing", UNIT_FACING}, {"u_puff", UNIT_PARTICLE}, {"u_cloud", UNIT_CLOUD},
         {"u_dents", UNIT_DENTS},
     };
     glUseProgram(program);

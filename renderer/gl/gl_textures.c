@@ -75,21 +75,22 @@ static int open_plants(struct gl_textures *textures)
     return 0;
 }
 
-static int open_puffs(struct gl_textures *textures)
+static int open_particles(struct gl_textures *textures)
 {
-    uint8_t(*puff)[2] = malloc((size_t)TEXTURE_PUFF_SIDE * TEXTURE_PUFF_SIDE * sizeof *puff);
-    if (puff == NULL)
+    uint8_t(*particle)[2] =
+        malloc((size_t)TEXTURE_PARTICLE_SIDE * TEXTURE_PARTICLE_SIDE * sizeof *particle);
+    if (particle == NULL)
         return -1;
-    GLsizei side = (GLsizei)TEXTURE_PUFF_SIDE;
-    textures->puffs = make(UNIT_PUFF, GL_TEXTURE_2D_ARRAY, GL_CLAMP_TO_EDGE);
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG8, side, side, PUFF_PICTURES, 0, GL_RG,
+    GLsizei side = (GLsizei)TEXTURE_PARTICLE_SIDE;
+    textures->particles = make(UNIT_PARTICLE, GL_TEXTURE_2D_ARRAY, GL_CLAMP_TO_EDGE);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG8, side, side, PARTICLE_PICTURE_COUNT, 0, GL_RG,
                  GL_UNSIGNED_BYTE, NULL);
-    for (GLint i = 0; i < PUFF_PICTURES; i++) {
-        texture_puff(puff, (enum puff_picture)i);
+    for (GLint i = 0; i < PARTICLE_PICTURE_COUNT; i++) {
+        texture_particle(particle, (enum particle_picture)i);
         glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, i, side, side, 1, GL_RG, GL_UNSIGNED_BYTE,
-                        puff);
+                        particle);
     }
-    free(puff);
+    free(particle);
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
     return 0;
 }
@@ -98,7 +99,7 @@ int gl_textures_open(struct gl_textures *textures, struct error_text *error)
 {
     *textures = (struct gl_textures){.detail = 0};
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    if (open_flat(textures) == 0 && open_plants(textures) == 0 && open_puffs(textures) == 0)
+    if (open_flat(textures) == 0 && open_plants(textures) == 0 && open_particles(textures) == 0)
         return 0;
     gl_textures_close(textures);
     return error_text_set(error, "no memory for the textures");
@@ -106,7 +107,7 @@ int gl_textures_open(struct gl_textures *textures, struct error_text *error)
 
 void gl_textures_close(struct gl_textures *textures)
 {
-    const GLuint all[] = {textures->detail, textures->plants, textures->facing, textures->puffs,
+    const GLuint all[] = {textures->detail, textures->plants, textures->facing, textures->particles,
                           textures->clouds};
     glDeleteTextures((GLsizei)(sizeof all / sizeof all[0]), all);
 }

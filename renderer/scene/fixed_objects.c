@@ -15,7 +15,7 @@
 #define FELLED_LIFT_M   0.5   /* above the ground: branches hold it up */
 #define POLE_BREAKS     0.24  /* of its height */
 #define LEGS_GIVE       0.22  /* of a tower's height: there they buckle */
-#define FALLS_IN_SLIGHT 0.35f /* see falls of struct scene_body; -1 to 1 from end to end */
+#define FALLS_IN_SLIGHT 0.35f /* see falls of struct draw_list_body; -1 to 1 from end to end */
 #define FALLS_IN_HALF   0.90f
 #define FALLS_IN_WHOLE  3.0f
 
@@ -34,20 +34,21 @@ static double lean_of(enum object_class object_class, enum damage damage)
 }
 
 /* One end of it falls in first: which, its grain says. frame: of its model. */
-static void fall_in(struct scene_body *body, enum damage damage, const struct mesh_frame *frame)
+static void fall_in(struct draw_list_body *body, enum damage damage,
+                    const struct mesh_skeleton *skeleton)
 {
     static const float more[] = {0.0f, FALLS_IN_SLIGHT, FALLS_IN_HALF, FALLS_IN_WHOLE};
     double turn = (double)body->grain * (TWO_PI / 64.0), along, across;
     maths_sincos(turn, &across, &along);
-    double reach = fabs(along) * 0.5 * (double)(frame->high[0] - frame->low[0]) +
-                   fabs(across) * 0.5 * (double)(frame->high[2] - frame->low[2]);
+    double reach = fabs(along) * 0.5 * (double)(skeleton->high[0] - skeleton->low[0]) +
+                   fabs(across) * 0.5 * (double)(skeleton->high[2] - skeleton->low[2]);
     body->falls[0] = (float)(along / reach);
     body->falls[1] = (float)(across / reach);
     body->falls[2] = more[damage];
 }
 
-static void show_damage(struct scene_body *body, const struct kind *kind, enum damage damage,
-                        const struct mesh_frame *frame)
+static void show_damage(struct draw_list_body *body, const struct kind *kind, enum damage damage,
+                        const struct mesh_skeleton *skeleton)
 {
     static const float tower_rad[] = {0.0f, 0.04f, 0.16f, (float)HALF_PI};
     bool down = damage == DAMAGE_HIGH;
@@ -61,17 +62,17 @@ static void show_damage(struct scene_body *body, const struct kind *kind, enum d
         }
         break;
     case OBJECT_WATERTOWER: /* its legs give, and at last it goes over the edge of its feet */
-        body->broken[0] = down ? frame->high[0] : 0.0f;
+        body->broken[0] = down ? skeleton->high[0] : 0.0f;
         body->broken[1] = down ? 0.0f : (float)(LEGS_GIVE * kind->height_m);
         body->broken[2] = tower_rad[damage];
         break;
     default:
-        fall_in(body, damage, frame);
+        fall_in(body, damage, skeleton);
         break;
     }
 }
 
-static void add_fixed(struct scene *scene, const struct static_scene *scenery,
+static void add_fixed(struct draw_list *list, const struct static_scene *scenery,
                       const struct frame_view *moment, uint32_t index)
 {
     const struct fixed_object *object = &moment->world->fixed[index];
@@ -80,40 +81,40 @@ static void add_fixed(struct scene *scene, const struct static_scene *scenery,
                                                                : (uint8_t)DAMAGE_HIGH;
     struct vec3 position = fixed_position(object);
     double size = maths_max((double)object->radius_m, (double)object->height_m);
-    double distance = vec3_length(vec3_sub(position, scene->camera.eye));
-    double pixels = camera_pixels(&scene->camera, 2.0 * size, distance);
+    double distance = vec3_length(vec3_sub(position, list->camera.eye));
+    double pixels = camera_pixels(&list->camera, 2.0 * size, distance);
     if (pixels < BODY_LEAST_PIXELS || kind->model >= moment->world->counts.models ||
-        !camera_sees(&scene->camera, position, 3.0 * size))
+        !camera_sees(&list->camera, position, 3.0 * size))
         return;
-    struct scene_body *body =
-        draw_list_add_body(scene, kind->model, draw_list_detail(pixels, damage != DAMAGE_NONE));
+    struct draw_list_body *body =
+        draw_list_add_body(list, kind->model, draw_list_detail(pixels, damage != DAMAGE_NONE));
     if (body == NULL)
         return;
     double lean = lean_of((enum object_class)kind->object_class, (enum damage)damage);
     struct body_axes axes = body_axes_of(fixed_heading(object), -lean, 0.0);
-    draw_list_place_body(scene, body, position, &axes, fixed_scale(object, kind));
+    draw_list_place_body(list, body, position, &axes, fixed_scale(object, kind));
     memcpy(body->tint, washes[value_noise_hash((int32_t)index, 6, 9) % WASHES], sizeof body->tint);
     body->grain = (float)(value_noise_hash((int32_t)index, 4, 9) % 64u);
     if (damage != DAMAGE_NONE)
-        show_damage(body, kind, (enum damage)damage, &scenery->frames[kind->model]);
-    draw_list_add_shadow(scene, moment, position, pixels);
+        show_damage(body, kind, (enum damage)damage, &scenery->skeletons[kind->model]);
+    draw_list_add_shadow(list, moment, position, pixels);
 }
 
 /* A tree that was felled lies beside its stump, on the slope, whichever way its grain says. */
-static void add_felled(struct scene *scene, const struct frame_view *moment, uint32_t index)
+static void add_felled(struct draw_list *list, const struct frame_view *moment, uint32_t index)
 {
     const struct fixed_object *object = &moment->world->fixed[index];
     const struct kind *kind = &moment->world->kinds[object->kind];
     const struct terrain *terrain = &moment->world->terrain;
     struct vec3 foot = fixed_position(object);
     double high_m = (double)object->height_m;
-    double distance = vec3_length(vec3_sub(foot, scene->camera.eye));
-    double pixels = camera_pixels(&scene->camera, high_m, distance);
+    double distance = vec3_length(vec3_sub(foot, list->camera.eye));
+    double pixels = camera_pixels(&list->camera, high_m, distance);
     if (pixels < BODY_LEAST_PIXELS || kind->model >= moment->world->counts.models ||
-        !camera_sees(&scene->camera, foot, 2.0 * high_m))
+        !camera_sees(&list->camera, foot, 2.0 * high_m))
         return;
-    struct scene_body *body =
-        draw_list_add_body(scene, kind->model, draw_list_detail(pixels, false));
+    struct draw_list_body *body =
+        draw_list_add_body(list, kind->model, draw_list_detail(pixels, false));
     if (body == NULL)
         return;
     double heading = TWO_PI * (double)value_noise_unit((int32_t)index, 3, 9), x, z;
@@ -124,14 +125,14 @@ static void add_felled(struct scene *scene, const struct frame_view *moment, uin
     struct vec3 butt = {foot.x + FELLED_AWAY_M * x, foot.y + FELLED_LIFT_M,
                         foot.z - FELLED_AWAY_M * z};
     struct body_axes axes = body_axes_of(heading, rise - HALF_PI, 0.0);
-    draw_list_place_body(scene, body, butt, &axes, fixed_scale(object, kind));
-    draw_list_add_shadow(scene, moment, butt, pixels);
+    draw_list_place_body(list, body, butt, &axes, fixed_scale(object, kind));
+    draw_list_add_shadow(list, moment, butt, pixels);
 }
 
-void fixed_objects_add(struct scene *scene, const struct static_scene *scenery,
+void fixed_objects_add(struct draw_list *list, const struct static_scene *scenery,
                        const struct frame_view *moment)
 {
-    struct vec3 eye = scene->camera.eye;
+    struct vec3 eye = list->camera.eye;
     struct gridsquare_box box = gridsquare_box_of(eye.x - FIXED_RANGE_M, eye.z - FIXED_RANGE_M,
                                                   eye.x + FIXED_RANGE_M, eye.z + FIXED_RANGE_M);
     for (int32_t row = box.z0; row <= box.z1; row++) {
@@ -139,9 +140,9 @@ void fixed_objects_add(struct scene *scene, const struct static_scene *scenery,
         uint32_t end = scenery->square_start[gridsquare_index(box.x1, row) + 1];
         for (uint32_t i = first; i < end; i++)
             if (scenery->look[i] == LOOK_MODEL)
-                add_fixed(scene, scenery, moment, i);
+                add_fixed(list, scenery, moment, i);
             else if (moment->fixed_damage[i] >= DAMAGE_HIGH &&
                      moment->world->kinds[moment->world->fixed[i].kind].object_class == OBJECT_TREE)
-                add_felled(scene, moment, i);
+                add_felled(list, moment, i);
     }
 }

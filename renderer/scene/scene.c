@@ -31,49 +31,49 @@ static const float force_colours[FORCE_COUNT][3] = {
     [FORCE_RED] = {0.70f, 0.24f, 0.15f},
 };
 
-int scene_init(struct scene *scene)
+int scene_init(struct draw_list *list)
 {
-    *scene = (struct scene){.detail = 1.0f, .paintings = TERRAIN_TILES_ALL};
-    scene->plants = malloc(SCENE_PLANTS_MAX * sizeof *scene->plants);
-    scene->bodies = malloc(SCENE_BODIES_MAX * sizeof *scene->bodies);
-    scene->copies = malloc(SCENE_BODIES_MAX * sizeof *scene->copies);
-    scene->puffs = malloc(SCENE_PUFFS_MAX * sizeof *scene->puffs);
-    scene->dents = malloc(SCENE_DENTS_MAX * sizeof *scene->dents);
-    scene->order = malloc(SCENE_BODIES_MAX * sizeof *scene->order);
-    scene->puff_keys = malloc(2 * SCENE_PUFFS_MAX * sizeof *scene->puff_keys);
-    scene->puffs_sorted = malloc(SCENE_PUFFS_MAX * sizeof *scene->puffs_sorted);
-    scene->tufts = grass_new();
-    if (scene->plants != NULL && scene->bodies != NULL && scene->copies != NULL &&
-        scene->puffs != NULL && scene->dents != NULL && scene->order != NULL &&
-        scene->puff_keys != NULL && scene->puffs_sorted != NULL && scene->tufts != NULL)
+    *list = (struct draw_list){.detail = 1.0f, .paintings = TERRAIN_TILES_ALL};
+    list->plants = malloc(DRAW_LIST_PLANTS_MAX * sizeof *list->plants);
+    list->bodies = malloc(DRAW_LIST_BODIES_MAX * sizeof *list->bodies);
+    list->instances = malloc(DRAW_LIST_BODIES_MAX * sizeof *list->instances);
+    list->particles = malloc(DRAW_LIST_PARTICLES_MAX * sizeof *list->particles);
+    list->dents = malloc(DRAW_LIST_DENTS_MAX * sizeof *list->dents);
+    list->order = malloc(DRAW_LIST_BODIES_MAX * sizeof *list->order);
+    list->particle_keys = malloc(2 * DRAW_LIST_PARTICLES_MAX * sizeof *list->particle_keys);
+    list->particles_sorted = malloc(DRAW_LIST_PARTICLES_MAX * sizeof *list->particles_sorted);
+    list->tufts = grass_new();
+    if (list->plants != NULL && list->bodies != NULL && list->instances != NULL &&
+        list->particles != NULL && list->dents != NULL && list->order != NULL &&
+        list->particle_keys != NULL && list->particles_sorted != NULL && list->tufts != NULL)
         return 0;
-    scene_free(scene);
+    scene_free(list);
     return -1;
 }
 
-void scene_free(struct scene *scene)
+void scene_free(struct draw_list *list)
 {
-    free(scene->plants);
-    free(scene->bodies);
-    free(scene->copies);
-    free(scene->puffs);
-    free(scene->dents);
-    free(scene->order);
-    free(scene->puff_keys);
-    free(scene->puffs_sorted);
-    grass_free(scene->tufts);
-    memset(scene, 0, sizeof *scene);
+    free(list->plants);
+    free(list->bodies);
+    free(list->instances);
+    free(list->particles);
+    free(list->dents);
+    free(list->order);
+    free(list->particle_keys);
+    free(list->particles_sorted);
+    grass_free(list->tufts);
+    memset(list, 0, sizeof *list);
 }
 
 /* --- vehicles and munitions ------------------------------------------------------------------- */
 
 /* Where its turret points, how far it has come. */
-static void show_gear(const struct scene *scene, const struct frame_view *moment, uint32_t slot,
-                      struct scene_body *body)
+static void show_gear(const struct draw_list *list, const struct frame_view *moment, uint32_t slot,
+                      struct draw_list_body *body)
 {
     const struct entities *e = moment->entities;
     struct articulation_state state = articulation_of(moment->gear, moment, slot);
-    double turns = e->state[slot] == ENTITY_WRECK ? 0.0 : ROTOR_TURNS * scene->time_s;
+    double turns = e->state[slot] == ENTITY_WRECK ? 0.0 : ROTOR_TURNS * list->time_s;
     body->turret_rad = state.turret_rad;
     body->gun_rad = state.gun_rad;
     body->steer_rad = state.steer_rad;
@@ -91,20 +91,20 @@ static float burn_of(const struct entities *e, uint32_t slot)
 }
 
 /* The body's dents into the scene's list. */
-static void add_dents(struct scene *scene, const struct frame_view *moment, uint32_t id,
-                      struct scene_body *body)
+static void add_dents(struct draw_list *list, const struct frame_view *moment, uint32_t id,
+                      struct draw_list_body *body)
 {
     struct dented of[DENT_INDEX_PER_BODY];
     uint32_t count =
         dent_index_of(moment->dents, id, moment->head->tick, moment->world->params->dt_s, of);
-    if (scene->dent_count + count > SCENE_DENTS_MAX) {
-        scene->omitted++;
+    if (list->dent_count + count > DRAW_LIST_DENTS_MAX) {
+        list->omitted++;
         return;
     }
-    body->dents[0] = (float)scene->dent_count;
+    body->dents[0] = (float)list->dent_count;
     body->dents[1] = (float)count;
     for (uint32_t i = 0; i < count; i++) {
-        struct scene_dent *dent = &scene->dents[scene->dent_count++];
+        struct draw_list_dent *dent = &list->dents[list->dent_count++];
         memcpy(dent->point, of[i].point, sizeof dent->point);
         memcpy(dent->way, of[i].direction, sizeof dent->way);
         dent->depth_m = of[i].depth_m;
@@ -112,7 +112,7 @@ static void add_dents(struct scene *scene, const struct frame_view *moment, uint
     }
 }
 
-static void add_entity(struct scene *scene, const struct frame_view *moment, uint32_t slot)
+static void add_entity(struct draw_list *list, const struct frame_view *moment, uint32_t slot)
 {
     const struct entities *e = moment->entities;
     if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= moment->world->counts.kinds)
@@ -121,46 +121,46 @@ static void add_entity(struct scene *scene, const struct frame_view *moment, uin
     if (kind->model >= moment->world->counts.models)
         return;
     struct vec3 position = entities_position(e, slot);
-    double distance = vec3_length(vec3_sub(position, scene->camera.eye));
-    double pixels = camera_pixels(&scene->camera, 2.0 * kind->radius_m, distance);
+    double distance = vec3_length(vec3_sub(position, list->camera.eye));
+    double pixels = camera_pixels(&list->camera, 2.0 * kind->radius_m, distance);
     /* Its shadow may be in the picture when the body is not. */
-    if (pixels < BODY_LEAST_PIXELS || !camera_sees(&scene->camera, position, 3.0 * kind->radius_m))
+    if (pixels < BODY_LEAST_PIXELS || !camera_sees(&list->camera, position, 3.0 * kind->radius_m))
         return;
     bool bent = pixels > BENT_LEAST_PIXELS && dent_index_any(moment->dents, e->id[slot]);
-    struct scene_body *body =
-        draw_list_add_body(scene, kind->model, draw_list_detail(pixels, bent));
+    struct draw_list_body *body =
+        draw_list_add_body(list, kind->model, draw_list_detail(pixels, bent));
     if (body == NULL)
         return;
     struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
-    draw_list_place_body(scene, body, position, &axes, 1.0);
+    draw_list_place_body(list, body, position, &axes, 1.0);
     memcpy(body->tint, force_colours[e->force[slot] % FORCE_COUNT], sizeof body->tint);
     body->burn = burn_of(e, slot);
-    show_gear(scene, moment, slot, body);
+    show_gear(list, moment, slot, body);
     if (bent)
-        add_dents(scene, moment, e->id[slot], body);
-    draw_list_add_shadow(scene, moment, position, pixels);
+        add_dents(list, moment, e->id[slot], body);
+    draw_list_add_shadow(list, moment, position, pixels);
 }
 
-void scene_build(struct scene *scene, const struct camera *camera,
+void scene_build(struct draw_list *list, const struct camera *camera,
                  const struct static_scene *scenery, const struct frame_view *moment,
                  const struct effects *effects)
 {
-    scene->camera = *camera;
-    scene->sight = frustum_of(camera);
-    scene->time_s = frame_view_time_s(moment);
+    list->camera = *camera;
+    list->sight = frustum_of(camera);
+    list->time_s = frame_view_time_s(moment);
     const struct renderer_params *wanted = &moment->world->params->renderer;
-    scene->fog = wanted->fog != 0;
-    scene->haze = wanted->haze != 0;
-    scene->texture = wanted->texture != 0;
-    scene->plant_count = scene->body_count = scene->puff_count = 0;
-    scene->dent_count = scene->omitted = 0;
-    scene->patch_count = terrain_quadtree_select(&scenery->ground, camera, scene->patches);
-    plants_add(scene, scenery, moment);
+    list->fog = wanted->fog != 0;
+    list->haze = wanted->haze != 0;
+    list->texture = wanted->texture != 0;
+    list->plant_count = list->body_count = list->particle_count = 0;
+    list->dent_count = list->omitted = 0;
+    list->patch_count = terrain_quadtree_select(&scenery->ground, camera, list->patches);
+    plants_add(list, scenery, moment);
     for (uint32_t slot = 0; slot < moment->head->used; slot++)
-        add_entity(scene, moment, slot);
-    fixed_objects_add(scene, scenery, moment);
-    debris_add(scene, scenery, moment, effects);
-    draw_list_sort_bodies(scene);
-    rotors_add(scene, scenery, moment);
-    particle_emitters_add(scene, moment, effects);
+        add_entity(list, moment, slot);
+    fixed_objects_add(list, scenery, moment);
+    debris_add(list, scenery, moment, effects);
+    draw_list_sort_bodies(list);
+    rotors_add(list, scenery, moment);
+    particle_emitters_add(list, moment, effects);
 }

@@ -8,11 +8,11 @@
 #include "renderer/scene/frame/effects.h"
 
 /* 0, or -1 with errno ENOMEM. */
-int scene_init(struct scene *scene);
-void scene_free(struct scene *scene);
+int scene_init(struct draw_list *list);
+void scene_free(struct draw_list *list);
 
 /* Fills all lists for the camera, which is copied in. */
-void scene_build(struct scene *scene, const struct camera *camera,
+void scene_build(struct draw_list *list, const struct camera *camera,
                  const struct static_scene *scenery, const struct frame_view *moment,
                  const struct effects *effects);
 

@@ -12,15 +12,15 @@
 
 /* What moves the corners of one body. */
 struct body_deform {
-    const struct scene_body *body;
-    const struct scene_dent *dents;
+    const struct draw_list_body *body;
+    const struct draw_list_dent *dents;
     uint32_t dent_count;
     float cosine, sine; /* of how far it is bent */
     bool fallen, broken;
 };
 
-SIMD8 struct body_deform body_deform_of(const struct scene_body *body,
-                                        const struct scene_dent *dents)
+SIMD8 struct body_deform body_deform_of(const struct draw_list_body *body,
+                                        const struct draw_list_dent *dents)
 {
     double sine, cosine;
     maths_sincos((double)body->broken[2], &sine, &cosine);
@@ -42,7 +42,7 @@ SIMD8 void body_deform_dent(const struct body_deform *form, v8f v[3])
 {
     v8f from[3] = {v[0], v[1], v[2]};
     for (uint32_t i = 0; i < form->dent_count; i++) {
-        const struct scene_dent *dent = &form->dents[i];
+        const struct draw_list_dent *dent = &form->dents[i];
         v8f off[3] = {from[0] - dent->point[0], from[1] - dent->point[1], from[2] - dent->point[2]};
         float over = 1.0f / (dent->reach_m * dent->reach_m);
         v8f much = simd8_max(1.0f - simd8_dot3(off, off) * over, simd8_f(0.0f));

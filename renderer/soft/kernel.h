@@ -29,9 +29,9 @@ struct soft_particles;
       (const struct soft_plants *plants, const struct soft_frame *frame,                           \
        const struct soft_target *target))                                                          \
     X(soft_particles_set_up, void,                                                                 \
-      (struct soft_particles * puffs, const struct soft_frame *frame))                             \
+      (struct soft_particles * particles, const struct soft_frame *frame))                         \
     X(soft_particles_fill, void,                                                                   \
-      (const struct soft_particles *puffs, const struct soft_frame *frame,                         \
+      (const struct soft_particles *particles, const struct soft_frame *frame,                     \
        const struct soft_target *target))                                                          \
     X(soft_shade_fill, void,                                                                       \
       (const struct soft_ground *ground, const struct soft_frame *frame,                           \

@@ -17,9 +17,9 @@ struct affine {
 struct maker {
     struct soft_bodies *bodies;
     const struct soft_frame *frame;
-    const struct scene_body *body;
+    const struct draw_list_body *body;
     const struct soft_mesh *mesh;
-    const struct mesh_frame *gear;
+    const struct mesh_skeleton *skeleton;
     struct body_deform form;
     struct soft_paint paint;
     float dark;   /* of its shadow; 0: it has none */
@@ -67,14 +67,14 @@ static struct affine swing(const float pivot[4], uint32_t i, uint32_t j, float a
 /* [radians or links] */
 static float way_of(const struct maker *m, const struct soft_group *group)
 {
-    const float *pivot = m->gear->pivot[group->joint];
+    const float *pivot = m->skeleton->pivot[group->joint];
     return m->body->way_m[pivot[2] < 0.0f ? 0 : 1] / pivot[3];
 }
 
 /* What a part does before the body's form changes ... */
 static struct affine rolled(const struct maker *m, const struct soft_group *group)
 {
-    const float *pivot = m->gear->pivot[group->joint];
+    const float *pivot = m->skeleton->pivot[group->joint];
     if (group->part != PART_WHEEL && group->part != PART_FRONT_WHEEL)
         return still;
     struct affine roll = swing(pivot, 0, 1, -way_of(m, group));
@@ -87,8 +87,8 @@ static struct affine rolled(const struct maker *m, const struct soft_group *grou
 /* ... and after. */
 static struct affine turned(const struct maker *m, const struct soft_group *group)
 {
-    const struct scene_body *body = m->body;
-    const float *pivot = m->gear->pivot[group->joint];
+    const struct draw_list_body *body = m->body;
+    const float *pivot = m->skeleton->pivot[group->joint];
     struct affine turret, gun;
     switch (group->part) {
     case PART_TAIL_ROTOR:
@@ -96,9 +96,9 @@ static struct affine turned(const struct maker *m, const struct soft_group *grou
     case PART_ROTOR:
         return swing(pivot, 0, 2, body->rotor_rad);
     case PART_TURRET:
-        return swing(m->gear->pivot[0], 0, 2, body->turret_rad);
+        return swing(m->skeleton->pivot[0], 0, 2, body->turret_rad);
     case PART_GUN:
-        turret = swing(m->gear->pivot[0], 0, 2, body->turret_rad);
+        turret = swing(m->skeleton->pivot[0], 0, 2, body->turret_rad);
         gun = swing(pivot, 0, 1, body->gun_rad);
         return after(&turret, &gun);
     default:
@@ -223,7 +223,7 @@ SIMD8 void drop(const struct soft_frame *f, const float plane[4], v8f place[3])
         place[i] -= f->sun[i] * back;
 }
 
-static struct affine in_world(const struct scene_body *body)
+static struct affine in_world(const struct draw_list_body *body)
 {
     struct affine a;
     for (uint32_t i = 0; i < 3; i++) {
@@ -248,7 +248,7 @@ static void place_group(const struct maker *m, const struct soft_group *group, b
         part = after(&part, &roll);
     }
     world = after(&world, &part);
-    float links = group->part == PART_TRACK ? way_of(m, group) : 0.0f, low = m->gear->low[1];
+    float links = group->part == PART_TRACK ? way_of(m, group) : 0.0f, low = m->skeleton->low[1];
     for (uint32_t at = group->first; at < group->end; at += LANES) {
         v8f v[3], n[3], place[3], normal[3];
         load3(v, from, at);
@@ -596,16 +596,16 @@ static bool outside(const struct soft_frame *f, const struct soft_reach *reach, 
 static void make_body(struct maker *m, uint32_t index)
 {
     const struct soft_frame *f = m->frame;
-    const struct scene_copy *copy = &f->scene->copies[index];
+    const struct draw_list_instance *instance = &f->list->instances[index];
     struct soft_bodies *bodies = m->bodies;
     struct soft_reach reach = soft_bodies_reach(bodies, f, index);
-    m->body = &f->scene->bodies[index];
+    m->body = &f->list->bodies[index];
     bool seen = !outside(f, &reach, m->body->at);
-    if (!seen && !copy->shadow)
+    if (!seen && !instance->shadow)
         return;
-    m->mesh = &bodies->mesh[copy->model * MESH_DETAIL_COUNT + copy->detail];
-    m->gear = &bodies->scenery->frames[copy->model];
-    m->form = body_deform_of(m->body, f->scene->dents);
+    m->mesh = &bodies->mesh[instance->model * MESH_DETAIL_COUNT + instance->detail];
+    m->skeleton = &bodies->scenery->skeletons[instance->model];
+    m->form = body_deform_of(m->body, f->list->dents);
     m->shaped = body_deform_any(&m->form);
     m->sides = reach.pixels >= SIDE_LEAST_PIXELS;
     m->cuts = reach.ahead - 4.0f * reach.metres < f->near_m;
@@ -613,9 +613,9 @@ static void make_body(struct maker *m, uint32_t index)
     m->link_m = 1.0f;
     for (uint32_t i = 0; i < m->mesh->group_count; i++)
         if (m->mesh->groups[i].part == PART_TRACK)
-            m->link_m = m->gear->pivot[m->mesh->groups[i].joint][3];
+            m->link_m = m->skeleton->pivot[m->mesh->groups[i].joint][3];
     mix_paint(m);
-    m->dark = copy->shadow ? m->paint.clear : 0.0f;
+    m->dark = instance->shadow ? m->paint.clear : 0.0f;
     for (uint32_t i = 0; m->shaped && i < m->mesh->group_count; i++)
         form_group(m, &m->mesh->groups[i]);
     if (m->shaped)
@@ -640,6 +640,6 @@ static void make_body(struct maker *m, uint32_t index)
 void KERNEL(soft_bodies_set_up)(struct soft_bodies *bodies, const struct soft_frame *frame)
 {
     struct maker maker = {.bodies = bodies, .frame = frame};
-    for (uint32_t i = 0; i < frame->scene->body_count; i++)
+    for (uint32_t i = 0; i < frame->list->body_count; i++)
         make_body(&maker, i);
 }

@@ -167,18 +167,18 @@ static void put_near(struct soft_ground *ground, const struct soft_frame *frame,
 
 void KERNEL(soft_ground_set_up)(struct soft_ground *ground, const struct soft_frame *frame)
 {
-    const struct scene *scene = frame->scene;
+    const struct draw_list *list = frame->list;
     size_t room = SOFT_SEEN_ROOM;
     struct seen seen = {ground->seen, ground->seen + room, ground->seen + 2 * room};
     struct batch batch = {.count = 0};
     ground->count = 0;
-    for (uint32_t i = 0; i < scene->patch_count; i++) {
-        const struct terrain_quadtree_patch *patch = &scene->patches[i];
+    for (uint32_t i = 0; i < list->patch_count; i++) {
+        const struct terrain_quadtree_patch *patch = &list->patches[i];
         const struct tile *tile = ground->tiles.views[i].shape;
         const struct terrain_mesh *mesh = &tile->mesh;
         double side = terrain_quadtree_patch_side(patch->level);
         float corner[3];
-        draw_list_relative(scene, (struct vec3){patch->column * side, 0.0, patch->row * side},
+        draw_list_relative(list, (struct vec3){patch->column * side, 0.0, patch->row * side},
                            corner);
         batch.patch = i;
         if (project(&seen, (const float(*)[3])mesh->vertices, mesh->vertex_count, corner, frame))

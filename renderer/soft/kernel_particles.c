@@ -12,23 +12,23 @@
 /* --- set-up ----------------------------------------------------------------------------------- */
 
 /* Eight puffs of the scene; where there are fewer, the last is there again. */
-struct puffs8 {
+struct particles8 {
     v8f at[3], size, turn, glow, colour[3], alpha;
 };
 
-static struct puffs8 load_puffs(const struct scene_puff *from, uint32_t count)
+static struct particles8 load_particles(const struct draw_list_particle *from, uint32_t count)
 {
-    struct puffs8 p;
+    struct particles8 p;
     for (uint32_t i = 0; i < LANES; i++) {
-        const struct scene_puff *puff = &from[i < count ? i : count - 1];
+        const struct draw_list_particle *particle = &from[i < count ? i : count - 1];
         for (uint32_t axis = 0; axis < 3; axis++) {
-            p.at[axis][i] = puff->at[axis];
-            p.colour[axis][i] = puff->colour[axis];
+            p.at[axis][i] = particle->at[axis];
+            p.colour[axis][i] = particle->colour[axis];
         }
-        p.size[i] = puff->size;
-        p.turn[i] = puff->turn_rad;
-        p.glow[i] = puff->glow;
-        p.alpha[i] = puff->colour[3];
+        p.size[i] = particle->size;
+        p.turn[i] = particle->turn_rad;
+        p.glow[i] = particle->glow;
+        p.alpha[i] = particle->colour[3];
     }
     return p;
 }
@@ -51,7 +51,7 @@ struct round8 {
     v8f x, y, radius, depth, cosine, sine;
 };
 
-SIMD8 struct round8 place_round(const struct soft_frame *f, const struct puffs8 *p, v8f ahead)
+SIMD8 struct round8 place_round(const struct soft_frame *f, const struct particles8 *p, v8f ahead)
 {
     v8f far = simd8_sqrt(simd8_dot3(p->at, p->at));
     /* It is a ball, not a sheet: for depth it counts from its near side, so that the ground does
@@ -72,15 +72,15 @@ SIMD8 struct round8 place_round(const struct soft_frame *f, const struct puffs8 
 static uint32_t level_of(float side)
 {
     uint32_t level = 1;
-    while (level < PUFF_LEVELS && side > (float)(1u << level))
+    while (level < PARTICLE_LEVELS && side > (float)(1u << level))
         level++;
     return level;
 }
 
-static uint32_t picture_of(const struct scene_puff *from)
+static uint32_t picture_of(const struct draw_list_particle *from)
 {
     uint32_t picture = (uint32_t)(from->picture + 0.5f);
-    return picture < PUFF_PICTURES ? picture : PUFF_SMOKE_A;
+    return picture < PARTICLE_PICTURE_COUNT ? picture : PARTICLE_SMOKE_A;
 }
 
 static bool find_rows(const struct soft_frame *f, struct band_rows *rows, float high, float low)
@@ -97,12 +97,12 @@ struct outline {
     float right_x, right_y, up_x, up_y;
 };
 
-static bool set_flat(const struct soft_particles *puffs, const struct soft_frame *f,
-                     struct soft_particle *puff, struct band_rows *rows, uint32_t picture,
+static bool set_flat(const struct soft_particles *particles, const struct soft_frame *f,
+                     struct soft_particle *particle, struct band_rows *rows, uint32_t picture,
                      const struct outline *o)
 {
     float x = o->x, y = o->y, turn = o->right_x * o->up_y - o->right_y * o->up_x;
-    float reach = puffs->reach[picture];
+    float reach = particles->reach[picture];
     float wide = reach * sqrtf(o->right_x * o->right_x + o->up_x * o->up_x);
     float high = reach * sqrtf(o->right_y * o->right_y + o->up_y * o->up_y);
     /* No comparison holds for what is no number. */
@@ -113,33 +113,34 @@ static bool set_flat(const struct soft_particles *puffs, const struct soft_frame
     float right = o->right_x * o->right_x + o->right_y * o->right_y;
     float up = o->up_x * o->up_x + o->up_y * o->up_y;
     float side = 2.0f * sqrtf(right > up ? right : up);
-    puff->coarse = side > COARSE_PIXELS && puff->cover > COARSE_COVER;
-    uint32_t level = level_of(puff->coarse ? 0.5f * side : side);
+    particle->coarse = side > COARSE_PIXELS && particle->cover > COARSE_COVER;
+    uint32_t level = level_of(particle->coarse ? 0.5f * side : side);
     float half = 0.5f * (float)(1u << level), scale = half / turn;
-    puff->texels = puffs->first[picture][level];
-    puff->level = level;
-    puff->reach = half * reach;
-    puff->across[1] = scale * o->up_y;
-    puff->across[2] = -scale * o->up_x;
-    puff->across[0] = half + puff->across[1] * (0.5f - x) + puff->across[2] * (0.5f - y);
-    puff->down[1] = scale * o->right_y;
-    puff->down[2] = -scale * o->right_x;
-    puff->down[0] = half + puff->down[1] * (0.5f - x) + puff->down[2] * (0.5f - y);
-    puff->streak = false;
-    puff->clipped = reach > 1.0f;
+    particle->texels = particles->first[picture][level];
+    particle->level = level;
+    particle->reach = half * reach;
+    particle->across[1] = scale * o->up_y;
+    particle->across[2] = -scale * o->up_x;
+    particle->across[0] =
+        half + particle->across[1] * (0.5f - x) + particle->across[2] * (0.5f - y);
+    particle->down[1] = scale * o->right_y;
+    particle->down[2] = -scale * o->right_x;
+    particle->down[0] = half + particle->down[1] * (0.5f - x) + particle->down[2] * (0.5f - y);
+    particle->streak = false;
+    particle->clipped = reach > 1.0f;
     return true;
 }
 
-static bool set_round(const struct soft_particles *puffs, const struct soft_frame *f,
-                      struct soft_particle *puff, struct band_rows *rows,
-                      const struct scene_puff *from, const struct round8 *r, uint32_t i)
+static bool set_round(const struct soft_particles *particles, const struct soft_frame *f,
+                      struct soft_particle *particle, struct band_rows *rows,
+                      const struct draw_list_particle *from, const struct round8 *r, uint32_t i)
 {
     float radius = r->radius[i] > LEAST_RADIUS ? r->radius[i] : LEAST_RADIUS;
     float share = r->radius[i] / radius, c = radius * r->cosine[i], s = radius * r->sine[i];
     struct outline o = {r->x[i], r->y[i], c, -s, -s, -c};
-    puff->depth[0] = r->depth[i];
-    puff->much *= share * share;
-    return set_flat(puffs, f, puff, rows, picture_of(from), &o);
+    particle->depth[0] = r->depth[i];
+    particle->much *= share * share;
+    return set_flat(particles, f, particle, rows, picture_of(from), &o);
 }
 
 /* --- streaks: strips in space ------------------------------------------------------------------
@@ -166,36 +167,37 @@ static void over_picture(const struct soft_frame *f, const float way[3], float b
 }
 
 /* The picture's texels lie evenly along side and axis; over the distance they do in the picture. */
-static bool set_strip(const struct soft_frame *f, struct soft_particle *puff,
-                      const struct scene_puff *from, const float side[3], float nearer)
+static bool set_strip(const struct soft_frame *f, struct soft_particle *particle,
+                      const struct draw_list_particle *from, const float side[3], float nearer)
 {
-    float normal[3], way[3], texels = (float)(1u << puff->level), depth[3];
+    float normal[3], way[3], texels = (float)(1u << particle->level), depth[3];
     cross(side, from->axis, normal);
     float away = dot(from->at, normal);
     if (!(away * away > 1e-12f * dot(normal, normal) * dot(from->at, from->at)))
         return false;
     over_picture(f, normal, 1.0f / away, depth);
     for (uint32_t i = 0; i < 3; i++)
-        puff->depth[i] = depth[i] * nearer;
+        particle->depth[i] = depth[i] * nearer;
     /* A share of a half side from the middle, from -1 to 1, over the distance. */
     cross(from->axis, normal, way);
     float scale = 1.0f / dot(side, way), at = dot(from->at, way) * scale;
-    over_picture(f, way, scale, puff->across);
+    over_picture(f, way, scale, particle->across);
     for (uint32_t i = 0; i < 3; i++)
-        puff->across[i] = 0.5f * texels * nearer * (puff->across[i] - at * depth[i] + depth[i]);
+        particle->across[i] =
+            0.5f * texels * nearer * (particle->across[i] - at * depth[i] + depth[i]);
     cross(side, normal, way);
     scale = 1.0f / dot(from->axis, way);
     at = dot(from->at, way) * scale;
-    over_picture(f, way, scale, puff->down);
+    over_picture(f, way, scale, particle->down);
     for (uint32_t i = 0; i < 3; i++)
-        puff->down[i] = 0.5f * texels * nearer * (depth[i] - puff->down[i] + at * depth[i]);
+        particle->down[i] = 0.5f * texels * nearer * (depth[i] - particle->down[i] + at * depth[i]);
     return true;
 }
 
 /* A strip that keeps its distance from the eye. */
-static bool set_flat_strip(const struct soft_particles *puffs, const struct soft_frame *f,
-                           struct soft_particle *puff, struct band_rows *rows,
-                           const struct scene_puff *from, const float side[3], float ahead)
+static bool set_flat_strip(const struct soft_particles *particles, const struct soft_frame *f,
+                           struct soft_particle *particle, struct band_rows *rows,
+                           const struct draw_list_particle *from, const float side[3], float ahead)
 {
     float over = 1.0f / ahead, x = over * dot(f->across, from->at);
     float y = over * dot(f->down, from->at), far = sqrtf(dot(from->at, from->at));
@@ -211,16 +213,16 @@ static bool set_flat_strip(const struct soft_particles *puffs, const struct soft
         float wider = LEAST_RADIUS / (thin + 1e-6f);
         o.right_x *= wider;
         o.right_y *= wider;
-        puff->much /= wider;
+        particle->much /= wider;
     }
     float towards = from->size < 0.5f * far ? from->size / far : 0.5f;
-    puff->depth[0] = over / (1.0f - towards);
-    return set_flat(puffs, f, puff, rows, picture_of(from), &o);
+    particle->depth[0] = over / (1.0f - towards);
+    return set_flat(particles, f, particle, rows, picture_of(from), &o);
 }
 
-static bool set_streak(const struct soft_particles *puffs, const struct soft_frame *f,
-                       struct soft_particle *puff, struct band_rows *rows,
-                       const struct scene_puff *from)
+static bool set_streak(const struct soft_particles *particles, const struct soft_frame *f,
+                       struct soft_particle *particle, struct band_rows *rows,
+                       const struct draw_list_particle *from)
 {
     float side[3], end[2] = {-1.0f, 1.0f};
     cross(from->axis, from->at, side);
@@ -233,7 +235,7 @@ static bool set_streak(const struct soft_particles *puffs, const struct soft_fra
     float deep = dot(f->ahead, side);
     deep = (deep < 0.0f ? -deep : deep) + (grows < 0.0f ? -grows : grows);
     if (deep < STRIP_DEEP * ahead && ahead > f->near_m)
-        return set_flat_strip(puffs, f, puff, rows, from, side, ahead);
+        return set_flat_strip(particles, f, particle, rows, from, side, ahead);
     /* What is before the near plane. */
     for (uint32_t i = 0; i < 2; i++)
         if (ahead + end[i] * grows < f->near_m) {
@@ -259,56 +261,57 @@ static bool set_streak(const struct soft_particles *puffs, const struct soft_fra
         !find_rows(f, rows, high, low))
         return false;
     uint32_t picture = picture_of(from);
-    puff->x = 0.5f * (left + right);
-    puff->reach = 0.5f * (right - left);
-    puff->level = level_of(2.0f * wide);
-    puff->texels = puffs->first[picture][puff->level];
-    puff->streak = puff->clipped = true;
-    puff->coarse = false;
+    particle->x = 0.5f * (left + right);
+    particle->reach = 0.5f * (right - left);
+    particle->level = level_of(2.0f * wide);
+    particle->texels = particles->first[picture][particle->level];
+    particle->streak = particle->clipped = true;
+    particle->coarse = false;
     float towards = from->size < 0.5f * far ? from->size / far : 0.5f;
-    return set_strip(f, puff, from, side, 1.0f / (1.0f - towards));
+    return set_strip(f, particle, from, side, 1.0f / (1.0f - towards));
 }
 
 /* --- all -------------------------------------------------------------------------------------- */
 
-static void set_colour(struct soft_particle *puff, const struct puffs8 *p,
+static void set_colour(struct soft_particle *particle, const struct particles8 *p,
                        const struct atmosphere8 *air, uint32_t i)
 {
     const v8f *ahead[3] = {&air->colour.r, &air->colour.g, &air->colour.b};
     float glow = p->glow[i], clear = 1.0f - air->much[i];
     for (uint32_t c = 0; c < 3; c++) {
-        puff->colour[c] = 255.0f * clear * p->colour[c][i];
-        puff->air[c] = 255.0f * air->much[i] * (1.0f - glow) * (*ahead[c])[i];
+        particle->colour[c] = 255.0f * clear * p->colour[c][i];
+        particle->air[c] = 255.0f * air->much[i] * (1.0f - glow) * (*ahead[c])[i];
     }
-    puff->dark = 0.35f + (0.63f - 0.35f) * glow;
-    puff->bright = (1.3f + (0.84f - 1.3f) * glow) / 255.0f;
-    puff->hot = 255.0f * 0.06f * glow * clear / (255.0f * 255.0f);
-    puff->cover = 1.0f - glow;
-    puff->much = p->alpha[i] / 255.0f;
+    particle->dark = 0.35f + (0.63f - 0.35f) * glow;
+    particle->bright = (1.3f + (0.84f - 1.3f) * glow) / 255.0f;
+    particle->hot = 255.0f * 0.06f * glow * clear / (255.0f * 255.0f);
+    particle->cover = 1.0f - glow;
+    particle->much = p->alpha[i] / 255.0f;
 }
 
-void KERNEL(soft_particles_set_up)(struct soft_particles *puffs, const struct soft_frame *frame)
+void KERNEL(soft_particles_set_up)(struct soft_particles *particles, const struct soft_frame *frame)
 {
-    const struct scene *scene = frame->scene;
-    puffs->count = 0;
-    for (uint32_t first = 0; first < scene->puff_count; first += LANES) {
-        uint32_t count = scene->puff_count - first < LANES ? scene->puff_count - first : LANES;
-        const struct scene_puff *from = &scene->puffs[first];
-        struct puffs8 p = load_puffs(from, count);
+    const struct draw_list *list = frame->list;
+    particles->count = 0;
+    for (uint32_t first = 0; first < list->particle_count; first += LANES) {
+        uint32_t count =
+            list->particle_count - first < LANES ? list->particle_count - first : LANES;
+        const struct draw_list_particle *from = &list->particles[first];
+        struct particles8 p = load_particles(from, count);
         v8f ahead = along(frame->ahead, p.at);
         struct round8 round = place_round(frame, &p, ahead);
         struct atmosphere8 air = atmosphere_at(frame, p.at);
         for (uint32_t i = 0; i < count; i++) {
-            struct soft_particle *puff = &puffs->puffs[puffs->count];
-            struct band_rows *rows = &puffs->rows[puffs->count];
+            struct soft_particle *particle = &particles->particles[particles->count];
+            struct band_rows *rows = &particles->rows[particles->count];
             bool seen;
-            set_colour(puff, &p, &air, i);
+            set_colour(particle, &p, &air, i);
             if (dot(from[i].axis, from[i].axis) > 0.0f)
-                seen = set_streak(puffs, frame, puff, rows, &from[i]);
+                seen = set_streak(particles, frame, particle, rows, &from[i]);
             else
                 seen = ahead[i] > frame->near_m &&
-                       set_round(puffs, frame, puff, rows, &from[i], &round, i);
-            puffs->count += seen;
+                       set_round(particles, frame, particle, rows, &from[i], &round, i);
+            particles->count += seen;
         }
     }
 }
@@ -467,12 +470,12 @@ SIMD8 void fill_streak(const struct soft_particle *p, const uint16_t *texels,
     }
 }
 
-static void fill_puff(const struct soft_particles *puffs, const struct soft_target *t,
-                      uint32_t index)
+static void fill_particle(const struct soft_particles *particles, const struct soft_target *t,
+                          uint32_t index)
 {
-    const struct soft_particle *p = &puffs->puffs[index];
-    const struct band_rows *rows = &puffs->rows[index];
-    const uint16_t *texels = puffs->texels + p->texels;
+    const struct soft_particle *p = &particles->particles[index];
+    const struct band_rows *rows = &particles->rows[index];
+    const uint16_t *texels = particles->texels + p->texels;
     int32_t y = rows->first > t->first ? rows->first : t->first;
     int32_t last = rows->end < t->end ? rows->end : t->end;
     float columns = (float)t->width;
@@ -494,11 +497,11 @@ static void fill_puff(const struct soft_particles *puffs, const struct soft_targ
     }
 }
 
-void KERNEL(soft_particles_fill)(const struct soft_particles *puffs, const struct soft_frame *frame,
-                                 const struct soft_target *target)
+void KERNEL(soft_particles_fill)(const struct soft_particles *particles,
+                                 const struct soft_frame *frame, const struct soft_target *target)
 {
     (void)frame;
-    const struct band_lists *lists = &puffs->lists;
+    const struct band_lists *lists = &particles->lists;
     for (uint32_t i = lists->start[target->band]; i < lists->start[target->band + 1]; i++)
-        fill_puff(puffs, target, lists->item[i]);
+        fill_particle(particles, target, lists->item[i]);
 }

@@ -39,10 +39,10 @@ struct billboards8 {
 };
 
 static void load_plants(const struct soft_frame *f, struct plants8 *p,
-                        const struct scene_plant *from, uint32_t count)
+                        const struct draw_list_plant *from, uint32_t count)
 {
     for (uint32_t i = 0; i < LANES; i++) {
-        const struct scene_plant *plant = &from[i < count ? i : count - 1];
+        const struct draw_list_plant *plant = &from[i < count ? i : count - 1];
         for (uint32_t axis = 0; axis < 3; axis++) {
             p->at[axis][i] = plant->at[axis];
             p->tint[axis][i] = plant->tint[axis];
@@ -123,7 +123,7 @@ SIMD8 void find_bounds(const struct soft_frame *f, struct billboards8 *b, const 
 }
 
 /* Upright, turned to the eye about the vertical; seen steeply from above, with its top away from
- * the eye (struct scene_plant). */
+ * the eye (struct draw_list_plant). */
 SIMD8 struct billboards8 stand(const struct soft_frame *f, const struct plants8 *p)
 {
     struct billboards8 b;
@@ -131,8 +131,9 @@ SIMD8 struct billboards8 stand(const struct soft_frame *f, const struct plants8 
     v8f side[3] = {right_x * p->width, zero, right_z * p->width};
     v8f leans = p->lean * p->height;
     /* Sine and cosine of how far it lies back. */
-    v8f back = simd8_max((-p->at[1] - p->level) * SCENE_PLANT_STEEP / p->far, zero);
-    v8f rise = simd8_select(back > zero, (p->level - p->at[1]) * SCENE_PLANT_STEEP / p->far, one);
+    v8f back = simd8_max((-p->at[1] - p->level) * DRAW_LIST_PLANT_STEEP / p->far, zero);
+    v8f rise =
+        simd8_select(back > zero, (p->level - p->at[1]) * DRAW_LIST_PLANT_STEEP / p->far, one);
     v8f back_x = p->ahead_x * back, back_z = p->ahead_z * back;
     v8f up[3] = {right_x * leans + back_x * p->height, rise * p->height,
                  right_z * leans + back_z * p->height};
@@ -232,7 +233,7 @@ static void set_light(const struct soft_frame *f, struct soft_plant *plant, cons
 }
 
 static void put_plants(struct soft_plants *plants, const struct soft_frame *f,
-                       const struct plants8 *p, const struct scene_plant *from, uint32_t lanes)
+                       const struct plants8 *p, const struct draw_list_plant *from, uint32_t lanes)
 {
     struct billboards8 b = stand(f, p);
     /* Small pictures are averages of leaf and gap: a lower threshold keeps their size. */
@@ -252,7 +253,7 @@ static void put_plants(struct soft_plants *plants, const struct soft_frame *f,
 }
 
 static void put_casts(struct soft_plants *plants, const struct soft_frame *f,
-                      const struct plants8 *p, const struct scene_plant *from, uint32_t lanes)
+                      const struct plants8 *p, const struct draw_list_plant *from, uint32_t lanes)
 {
     v8f reach, far = p->far;
     v8i none = (far > SHADE_RANGE_M) | (p->height < SHADE_LEAST_M) |
@@ -283,11 +284,11 @@ static void put_casts(struct soft_plants *plants, const struct soft_frame *f,
 
 void KERNEL(soft_plants_set_up)(struct soft_plants *plants, const struct soft_frame *frame)
 {
-    const struct scene *scene = frame->scene;
+    const struct draw_list *list = frame->list;
     plants->count = plants->cast_count = 0;
-    for (uint32_t first = 0; first < scene->plant_count; first += LANES) {
-        uint32_t count = scene->plant_count - first < LANES ? scene->plant_count - first : LANES;
-        const struct scene_plant *from = &scene->plants[first];
+    for (uint32_t first = 0; first < list->plant_count; first += LANES) {
+        uint32_t count = list->plant_count - first < LANES ? list->plant_count - first : LANES;
+        const struct draw_list_plant *from = &list->plants[first];
         struct plants8 p;
         load_plants(frame, &p, from, count);
         put_plants(plants, frame, &p, from, (1u << count) - 1u);

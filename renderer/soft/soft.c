@@ -23,7 +23,7 @@ enum stage {
     STAGE_BODIES,
     STAGE_PLANTS,
     STAGE_RESOLVE,
-    STAGE_PUFFS,
+    STAGE_PARTICLES,
     STAGE_SMOOTH,
     STAGE_COUNT
 };
@@ -31,12 +31,12 @@ enum stage {
 static const char *const stage_names[STAGE_COUNT] = {
     [STAGE_TILES] = "tiles",     [STAGE_PREPARE] = "prepare", [STAGE_GROUND] = "ground",
     [STAGE_SHADOWS] = "shadows", [STAGE_BODIES] = "bodies",   [STAGE_PLANTS] = "plants",
-    [STAGE_RESOLVE] = "resolve", [STAGE_PUFFS] = "puffs",     [STAGE_SMOOTH] = "smooth",
+    [STAGE_RESOLVE] = "resolve", [STAGE_PARTICLES] = "puffs", [STAGE_SMOOTH] = "smooth",
 };
 
 _Static_assert(STAGE_COUNT <= BACK_END_STAGES_MAX, "more stages than can be told");
 
-enum soft_kind { KIND_GROUND, KIND_BODIES, KIND_PLANTS, KIND_PUFFS, KIND_COUNT };
+enum soft_kind { KIND_GROUND, KIND_BODIES, KIND_PLANTS, KIND_PARTICLES, KIND_COUNT };
 
 /* What one thread keeps to itself. */
 struct soft_worker {
@@ -50,7 +50,7 @@ struct soft {
     struct soft_ground *ground;
     struct soft_bodies *bodies;
     struct soft_plants *plants;
-    struct soft_particles *puffs;
+    struct soft_particles *particles;
     const struct soft_kernels *kernels;
     struct thread_pool *workers;
     struct soft_worker worker[THREAD_POOL_MAX];
@@ -118,15 +118,15 @@ static double power_of_e(double x)
     return power;
 }
 
-static void frame_begin(struct soft *soft, const struct scene *scene,
+static void frame_begin(struct soft *soft, const struct draw_list *list,
                         const struct frame_view *moment, const struct image *image)
 {
-    const struct camera *c = &scene->camera;
+    const struct camera *c = &list->camera;
     struct soft_frame *f = &soft->frame;
     double half_x = 0.5 * (double)image->width, half_y = 0.5 * (double)image->height;
     double wide = c->tan_x / half_x, high = c->tan_y / half_y; /* of a pixel, at a metre */
     *f = (struct soft_frame){
-        .scene = scene,
+        .list = list,
         .moment = moment,
         .kernels = soft->kernels,
         .width = image->width,
@@ -137,13 +137,13 @@ static void frame_begin(struct soft *soft, const struct scene *scene,
         .near_m = (float)c->near_m,
         .pixel_m = (float)wide,
         .sun = {(float)SUN_X, (float)SUN_Y, (float)SUN_Z},
-        .haze = (float)(scene->haze ? HAZE_PER_M : CLEAR_PER_M),
-        .fog = scene->fog
+        .haze = (float)(list->haze ? HAZE_PER_M : CLEAR_PER_M),
+        .fog = list->fog
                    ? (float)(FOG_PER_M * power_of_e(-(c->eye.y - FOG_BASE_M) * FOG_FALL_PER_M))
                    : 0.0f,
         .fog_fall = (float)FOG_FALL_PER_M,
-        .time_s = (float)fmod(scene->time_s, 3600.0),
-        .texture = scene->texture,
+        .time_s = (float)fmod(list->time_s, 3600.0),
+        .texture = list->texture,
     };
     scaled(f->across, c->right, 1.0 / wide);
     scaled(f->down, c->up, -1.0 / high);
@@ -170,7 +170,7 @@ static void prepare_kinds(void *context, uint32_t first, uint32_t end, uint32_t 
         else if (kind == KIND_PLANTS)
             *failed = soft_plants_prepare(soft->plants, &soft->frame);
         else
-            *failed = soft_particles_prepare(soft->puffs, &soft->frame);
+            *failed = soft_particles_prepare(soft->particles, &soft->frame);
         spent(&soft->worker[worker], STAGE_PREPARE);
     }
 }
@@ -193,8 +193,8 @@ static void fill_band(struct soft *soft, struct soft_worker *worker, const struc
     spent(worker, STAGE_PLANTS);
     k->soft_shade_fill(soft->ground, f, t);
     spent(worker, STAGE_RESOLVE);
-    k->soft_particles_fill(soft->puffs, f, t);
-    spent(worker, STAGE_PUFFS);
+    k->soft_particles_fill(soft->particles, f, t);
+    spent(worker, STAGE_PARTICLES);
 }
 
 /* A band is smoothed when the rows above and below it are drawn, which are then still near. */
@@ -240,7 +240,7 @@ static void draw_bands(void *context, uint32_t first, uint32_t end, uint32_t wor
     }
 }
 
-static int soft_picture(void *self, const struct scene *scene, const struct frame_view *moment,
+static int soft_picture(void *self, const struct draw_list *list, const struct frame_view *moment,
                         struct image *image, struct error_text *error)
 {
     struct soft *soft = self;
@@ -249,7 +249,7 @@ static int soft_picture(void *self, const struct scene *scene, const struct fram
                               image->width, image->height, soft->width, soft->height);
     for (uint32_t w = 0; w < thread_pool_threads(soft->workers); w++)
         memset(soft->worker[w].cpu_ns, 0, sizeof soft->worker[w].cpu_ns);
-    frame_begin(soft, scene, moment, image);
+    frame_begin(soft, list, moment, image);
     mark(&soft->worker[0]);
     soft_ground_bring(soft->ground, &soft->frame);
     spent(&soft->worker[0], STAGE_TILES);
@@ -280,7 +280,7 @@ static void soft_close(void *self)
     soft_ground_close(soft->ground);
     soft_bodies_close(soft->bodies);
     soft_plants_close(soft->plants);
-    soft_particles_close(soft->puffs);
+    soft_particles_close(soft->particles);
     for (uint32_t w = 0; w < THREAD_POOL_MAX; w++) {
         free(soft->worker[w].colour);
         free(soft->worker[w].depth);
@@ -324,8 +324,8 @@ static int open_parts(struct soft *soft, const struct static_scene *scenery, uin
     soft->bodies =
         soft->ground ? soft_bodies_open(scenery, soft_ground_detail(soft->ground), error) : NULL;
     soft->plants = soft->bodies ? soft_plants_open(error) : NULL;
-    soft->puffs = soft->plants ? soft_particles_open(error) : NULL;
-    return soft->puffs ? 0 : -1;
+    soft->particles = soft->plants ? soft_particles_open(error) : NULL;
+    return soft->particles ? 0 : -1;
 }
 
 int soft_open_build(struct back_end_interface *draw, const struct static_scene *scenery,

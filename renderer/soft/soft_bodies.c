@@ -85,8 +85,9 @@ void soft_bodies_close(struct soft_bodies *bodies)
 struct soft_reach soft_bodies_reach(const struct soft_bodies *bodies,
                                     const struct soft_frame *frame, uint32_t index)
 {
-    const struct scene_body *body = &frame->scene->bodies[index];
-    const struct mesh_frame *box = &bodies->scenery->frames[frame->scene->copies[index].model];
+    const struct draw_list_body *body = &frame->list->bodies[index];
+    const struct mesh_skeleton *box =
+        &bodies->scenery->skeletons[frame->list->instances[index].model];
     const float *f = body->forward, *at = body->at;
     float scale = f[0] * f[0] + f[1] * f[1] + f[2] * f[2], reach = 0.0f;
     for (uint32_t axis = 0; axis < 3; axis++) {
@@ -118,11 +119,11 @@ static int sort_faces(struct soft_faces *faces, uint32_t bands)
 
 int soft_bodies_prepare(struct soft_bodies *bodies, const struct soft_frame *frame)
 {
-    const struct scene *scene = frame->scene;
+    const struct draw_list *list = frame->list;
     size_t flats = 0, sides = 0, shades = 0;
-    for (uint32_t i = 0; i < scene->body_count; i++) {
-        const struct scene_copy *copy = &scene->copies[i];
-        uint32_t which = copy->model * (uint32_t)MESH_DETAIL_COUNT + copy->detail;
+    for (uint32_t i = 0; i < list->body_count; i++) {
+        const struct draw_list_instance *instance = &list->instances[i];
+        uint32_t which = instance->model * (uint32_t)MESH_DETAIL_COUNT + instance->detail;
         if (!bodies->opened[which] && open_mesh(bodies, which) != 0)
             return -1;
         uint32_t faces = bodies->mesh[which].face_count;
@@ -130,11 +131,11 @@ int soft_bodies_prepare(struct soft_bodies *bodies, const struct soft_frame *fra
             flats += faces;
         else
             sides += faces;
-        shades += copy->shadow ? faces : 0;
+        shades += instance->shadow ? faces : 0;
     }
     void *paints = bodies->paints;
     int failed =
-        band_lists_room(&paints, &bodies->paint_room, scene->body_count, sizeof *bodies->paints);
+        band_lists_room(&paints, &bodies->paint_room, list->body_count, sizeof *bodies->paints);
     bodies->paints = paints;
     bodies->paint_count = 0;
     if (failed != 0 || face_room(&bodies->flats, flats, sizeof(struct soft_flat)) != 0 ||

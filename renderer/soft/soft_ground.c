@@ -49,10 +49,10 @@ const struct soft_detail *soft_ground_detail(const struct soft_ground *ground)
 
 void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *frame)
 {
-    const struct scene *scene = frame->scene;
-    struct vec3 eye = scene->camera.eye;
-    terrain_tiles_update(&ground->tiles, scene->patches, scene->patch_count, frame->moment,
-                         scene->paintings);
+    const struct draw_list *list = frame->list;
+    struct vec3 eye = list->camera.eye;
+    terrain_tiles_update(&ground->tiles, list->patches, list->patch_count, frame->moment,
+                         list->paintings);
     ground->fine_at[0] = fraction(eye.x / (double)FINE_M);
     ground->fine_at[1] = fraction(eye.z / (double)FINE_M);
     double east = eye.x + 0.35 * eye.z, south = eye.z - 0.35 * eye.x;
@@ -60,16 +60,16 @@ void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *fram
     ground->ripples_at[1] = fraction(south * (double)SOFT_RIPPLES_PER_M);
     ground->swell_at[0] = fraction(south * (double)SOFT_SWELL_PER_M);
     ground->swell_at[1] = fraction(east * (double)SOFT_SWELL_PER_M);
-    for (uint32_t i = 0; i < scene->patch_count; i++) {
+    for (uint32_t i = 0; i < list->patch_count; i++) {
         const struct tile_view *view = &ground->tiles.views[i];
-        double side = terrain_quadtree_patch_side(scene->patches[i].level), last = TILE_TEXELS - 1;
+        double side = terrain_quadtree_patch_side(list->patches[i].level), last = TILE_TEXELS - 1;
         double per_m = (double)view->share / side * last;
         ground->patches[i] = (struct soft_patch){
             .paint = view->paint->paint,
             .at_u = (float)((double)view->at_u * last +
-                            (eye.x - scene->patches[i].column * side) * per_m),
+                            (eye.x - list->patches[i].column * side) * per_m),
             .at_v =
-                (float)((double)view->at_v * last + (eye.z - scene->patches[i].row * side) * per_m),
+                (float)((double)view->at_v * last + (eye.z - list->patches[i].row * side) * per_m),
             .per_m = (float)per_m,
             .wet = view->paint->wet,
             .surf = view->paint->surf,
@@ -80,7 +80,7 @@ void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *fram
 int soft_ground_prepare(struct soft_ground *ground, const struct soft_frame *frame)
 {
     size_t most = 0;
-    for (uint32_t i = 0; i < frame->scene->patch_count; i++)
+    for (uint32_t i = 0; i < frame->list->patch_count; i++)
         most += ground->tiles.views[i].shape->mesh.triangle_count;
     /* The near plane makes two of some. */
     void *list = ground->list, *rows = ground->rows;

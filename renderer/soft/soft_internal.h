@@ -47,7 +47,7 @@ struct soft_kernels;
 
 /* What every part knows of a picture. Axes are the world's. */
 struct soft_frame {
-    const struct scene *scene;
+    const struct draw_list *list;
     const struct frame_view *moment;
     const struct soft_kernels *kernels;
     uint32_t width, height, bands;

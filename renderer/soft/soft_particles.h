@@ -10,8 +10,8 @@
 /* Pictures at falling sizes: a puff takes the one whose texels are as large as its pixels, and
  * reads it without filtering. They begin larger than they are painted: smooth when seen from near.
  */
-#define PUFF_LARGEST 256u
-#define PUFF_LEVELS  8u /* 256 .. 2 */
+#define PARTICLE_LARGEST 256u
+#define PARTICLE_LEVELS  8u /* 256 .. 2 */
 
 /* A puff's texels lie evenly in the picture: it faces it, or is a strip that keeps its distance. Of
  * a streak, a strip that does not, texels and depth do so only over the distance. */
@@ -34,11 +34,13 @@ struct soft_particle {
 
 struct soft_particles {
     uint16_t *texels; /* owned: low byte how much, high byte how bright */
-    uint32_t first[PUFF_PICTURES][PUFF_LEVELS + 1]; /* of the level whose side is 2^i */
-    float reach[PUFF_PICTURES];  /* what is farther from the middle is empty: 1 is half a side */
-    struct soft_particle *puffs; /* owned: those that can be seen, farthest first */
-    struct band_rows *rows;      /* owned, theirs */
-    size_t puff_room, row_room;
+    uint32_t first[PARTICLE_PICTURE_COUNT]
+                  [PARTICLE_LEVELS + 1]; /* of the level whose side is 2^i */
+    float reach[PARTICLE_PICTURE_COUNT]; /* what is farther from the middle is empty: 1 is half a
+                                            side */
+    struct soft_particle *particles;     /* owned: those that can be seen, farthest first */
+    struct band_rows *rows;              /* owned, theirs */
+    size_t particle_room, row_room;
     uint32_t count;
     struct band_lists lists;
 };

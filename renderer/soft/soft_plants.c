@@ -137,7 +137,7 @@ void soft_plants_close(struct soft_plants *plants)
 
 int soft_plants_prepare(struct soft_plants *plants, const struct soft_frame *frame)
 {
-    size_t count = frame->scene->plant_count;
+    size_t count = frame->list->plant_count;
     void *list = plants->plants, *casts = plants->casts;
     void *rows = plants->rows, *cast_rows = plants->cast_rows;
     int failed = band_lists_room(&list, &plants->plant_room, count, sizeof *plants->plants);

@@ -27,10 +27,10 @@ static uint32_t per_row(const struct bench_options *options)
 }
 
 /* Two blows, the deeper the worse it is: on the front's right and on the left side. */
-static void bend(struct bench_scene *s, const struct mesh_frame *frame, enum damage damage)
+static void bend(struct bench_scene *s, const struct mesh_skeleton *skeleton, enum damage damage)
 {
     static const float depth_m[DAMAGE_COUNT] = {0.0f, 0.08f, 0.2f, 0.4f, 0.5f};
-    const float *low = frame->low, *high = frame->high;
+    const float *low = skeleton->low, *high = skeleton->high;
     struct dent *dent = s->view.w[0].dents;
     float up = low[1] + 0.45f * (high[1] - low[1]);
     dent[0] = (struct dent){.id = 1,
@@ -60,10 +60,10 @@ static struct vec3 put(struct bench_scene *s, uint32_t kind_index, uint32_t colu
         [LOW] = DAMAGE_LOW, [MED] = DAMAGE_MED, [HIGH] = DAMAGE_HIGH, [WRECK] = DAMAGE_DESTROYED};
     const struct world *world = &s->view.world;
     const struct kind *kind = &world->kinds[kind_index];
-    const struct mesh_frame *frame = &s->scenery.frames[kind->model];
+    const struct mesh_skeleton *skeleton = &s->scenery.skeletons[kind->model];
     const struct state *state = &s->view.w[0];
     const struct entities *e = &state->entities;
-    double middle = 0.5 * (double)(frame->low[1] + frame->high[1]);
+    double middle = 0.5 * (double)(skeleton->low[1] + skeleton->high[1]);
     memset(e->state, ENTITY_FREE, state->head->used);
     if (kind->domain == DOMAIN_FIXED) {
         uint32_t i = fixed_of(world, kind_index);
@@ -84,19 +84,19 @@ static struct vec3 put(struct bench_scene *s, uint32_t kind_index, uint32_t colu
     e->x[0] = AWAY;
     e->z[0] = AWAY;
     e->y[0] = terrain_base_height(&world->terrain, AWAY, AWAY) +
-              (stands ? 0.0 : 1.0 - (double)frame->low[1]);
+              (stands ? 0.0 : 1.0 - (double)skeleton->low[1]);
     e->heading[0] = e->pitch[0] = e->roll[0] = 0.0;
-    bend(s, frame, (enum damage)damages[column]);
+    bend(s, skeleton, (enum damage)damages[column]);
     struct frame_view moment = bench_scene_moment(s);
     articulation_note(&s->gear, &moment);
     return (struct vec3){AWAY, e->y[0] + middle, AWAY};
 }
 
-static double size_of(const struct mesh_frame *frame)
+static double size_of(const struct mesh_skeleton *skeleton)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < 3; i++) {
-        double side = (double)frame->high[i] - (double)frame->low[i];
+        double side = (double)skeleton->high[i] - (double)skeleton->low[i];
         sum += side * side;
     }
     return sqrt(sum);
@@ -108,8 +108,9 @@ static void draw(struct bench_scene *s, struct image *sheet, const struct bench_
     static const double turns[COLUMNS] = {[BEFORE] = -0.65, [BEHIND] = 4.2, [LOW] = -0.65,
                                           [MED] = -0.65,    [HIGH] = -0.65, [WRECK] = -0.65};
     struct vec3 middle = put(s, kind, column);
-    const struct mesh_frame *frame = &s->scenery.frames[s->view.world.kinds[kind].model];
-    double size = maths_max(size_of(frame), 1.7 * (double)(frame->high[1] - frame->low[1]));
+    const struct mesh_skeleton *skeleton = &s->scenery.skeletons[s->view.world.kinds[kind].model];
+    double size =
+        maths_max(size_of(skeleton), 1.7 * (double)(skeleton->high[1] - skeleton->low[1]));
     uint32_t small = column == SMALL ? LEVELS_SEEN : 1;
     uint32_t down = row + column / per_row(options);
     for (uint32_t i = 0; i < small; i++) {
@@ -121,9 +122,9 @@ static void draw(struct bench_scene *s, struct image *sheet, const struct bench_
         camera_look(&camera, vec3_add(middle, from), middle, options->size.width,
                     options->size.height);
         struct frame_view moment = bench_scene_moment(s);
-        scene_build(&s->scene, &camera, &s->scenery, &moment, &s->effects);
+        scene_build(&s->list, &camera, &s->scenery, &moment, &s->effects);
         if (column == WRECK)
-            s->scene.puff_count = 0; /* its smoke hides it */
+            s->list.particle_count = 0; /* its smoke hides it */
         bench_scene_draw(s, &moment);
         struct image part = s->image;
         part.height /= small;

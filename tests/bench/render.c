@@ -70,7 +70,7 @@ static void draw_one(struct bench *bench, struct times *times, uint32_t number)
     struct annotated_picture_source source = {.frame_view = &moment,
                                               .tracks = &s->tracks,
                                               .effects = &s->effects,
-                                              .camera = &s->scene.camera,
+                                              .camera = &s->list.camera,
                                               .slot = s->slot};
     uint64_t wall[STAGE_COUNT], cpu[STAGE_COUNT];
     wall[0] = clock_now_ns();

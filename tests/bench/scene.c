@@ -67,7 +67,7 @@ void bench_scene_open(struct bench_scene *s, const struct bench_scene_wish *wish
         dent_index_init(&s->dents, s->view.w[0].dents, world->params->dent_slots) != 0 ||
         tracks_init(&s->tracks, world->params->capacity) != 0 ||
         articulation_init(&s->gear, world->params->capacity) != 0 ||
-        static_scene_init(&s->scenery, world) != 0 || scene_init(&s->scene) != 0 ||
+        static_scene_init(&s->scenery, world) != 0 || scene_init(&s->list) != 0 ||
         image_init(&s->image, wish->width, wish->height) != 0)
         die_refused("cannot begin: %s", strerror(errno));
     open_back_end(s);
@@ -82,7 +82,7 @@ void bench_scene_close(struct bench_scene *s)
 {
     s->draw.close(s->draw.self);
     image_free(&s->image);
-    scene_free(&s->scene);
+    scene_free(&s->list);
     static_scene_free(&s->scenery);
     articulation_free(&s->gear);
     tracks_free(&s->tracks);
@@ -101,12 +101,12 @@ void bench_scene_build(struct bench_scene *s, const struct frame_view *moment)
                                           .height = s->image.height,
                                           .stand = s->wish.stand};
     view_camera_camera(&s->aim, &wish, moment, s->slot, &camera);
-    scene_build(&s->scene, &camera, &s->scenery, moment, &s->effects);
+    scene_build(&s->list, &camera, &s->scenery, moment, &s->effects);
 }
 
 void bench_scene_draw(struct bench_scene *s, const struct frame_view *moment)
 {
     struct error_text error;
-    if (s->draw.picture(s->draw.self, &s->scene, moment, &s->image, &error) != 0)
+    if (s->draw.picture(s->draw.self, &s->list, moment, &s->image, &error) != 0)
         die_refused("%s", error.text);
 }

@@ -38,7 +38,7 @@ struct bench_scene {
     struct event_cursor events;
     struct view_camera aim;
     struct static_scene scenery;
-    struct scene scene;
+    struct draw_list list;
     struct back_end_interface draw;
     struct image image;
     uint32_t slot; /* of the followed vehicle; SLOT_NONE: there is none */
@@ -53,7 +53,7 @@ void bench_scene_go_on(struct bench_scene *s);
 /* The committed frame; lives until the next. */
 struct frame_view bench_scene_moment(const struct bench_scene *s);
 
-/* The two halves of a picture of it, into s->scene and s->image. */
+/* The two halves of a picture of it, into s->list and s->image. */
 void bench_scene_build(struct bench_scene *s, const struct frame_view *moment);
 void bench_scene_draw(struct bench_scene *s, const struct frame_view *moment);
 

@@ -15,10 +15,10 @@ void soft_stage_open(struct soft_stage *stage, const struct soft_kernels *kernel
 {
     float wide = 1.0f / STAGE_FOCAL, half_x = 0.5f * STAGE_WIDTH, half_y = 0.5f * STAGE_HEIGHT;
     *stage = (struct soft_stage){.stride = (STAGE_WIDTH + 15u) & ~15u};
-    assert_int_equal(scene_init(&stage->scene), 0);
-    stage->scene.plant_count = stage->scene.body_count = stage->scene.puff_count = 0;
+    assert_int_equal(scene_init(&stage->list), 0);
+    stage->list.plant_count = stage->list.body_count = stage->list.particle_count = 0;
     stage->frame = (struct soft_frame){
-        .scene = &stage->scene,
+        .list = &stage->list,
         .kernels = kernels,
         .width = STAGE_WIDTH,
         .height = STAGE_HEIGHT,
@@ -51,7 +51,7 @@ void soft_stage_open(struct soft_stage *stage, const struct soft_kernels *kernel
 
 void soft_stage_close(struct soft_stage *stage)
 {
-    scene_free(&stage->scene);
+    scene_free(&stage->list);
     free(stage->colour);
     free(stage->depth);
 }

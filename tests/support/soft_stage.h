@@ -14,7 +14,7 @@
 #define STAGE_GROUND 0x00000003u /* colour of what resolve would paint */
 
 struct soft_stage {
-    struct scene scene;
+    struct draw_list list;
     struct soft_frame frame;
     uint32_t *colour; /* [rows * stride] */
     float *depth;

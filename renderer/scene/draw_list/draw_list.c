@@ -29,36 +29,37 @@ static void copy_axis(float to[3], struct vec3 from, double scale)
     to[2] = (float)(from.z * scale);
 }
 
-struct scene_body *draw_list_add_body(struct scene *scene, uint16_t model, enum mesh_detail detail)
+struct draw_list_body *draw_list_add_body(struct draw_list *list, uint16_t model,
+                                          enum mesh_detail detail)
 {
-    if (scene->body_count == SCENE_BODIES_MAX) {
-        scene->omitted++;
+    if (list->body_count == DRAW_LIST_BODIES_MAX) {
+        list->omitted++;
         return NULL;
     }
-    uint32_t i = scene->body_count++;
-    scene->copies[i] = (struct scene_copy){.model = model, .detail = (uint8_t)detail};
-    scene->bodies[i] = (struct scene_body){.burn = 0.0f};
-    return &scene->bodies[i];
+    uint32_t i = list->body_count++;
+    list->instances[i] = (struct draw_list_instance){.model = model, .detail = (uint8_t)detail};
+    list->bodies[i] = (struct draw_list_body){.burn = 0.0f};
+    return &list->bodies[i];
 }
 
-void draw_list_place_body(const struct scene *scene, struct scene_body *body, struct vec3 position,
-                          const struct body_axes *axes, double scale)
+void draw_list_place_body(const struct draw_list *list, struct draw_list_body *body,
+                          struct vec3 position, const struct body_axes *axes, double scale)
 {
-    draw_list_relative(scene, position, body->at);
+    draw_list_relative(list, position, body->at);
     copy_axis(body->forward, axes->forward, scale);
     copy_axis(body->up, axes->up, scale);
     copy_axis(body->right, axes->right, scale);
 }
 
 /* The plane of the ground where the body's shadow falls, along the sun's light. */
-void draw_list_add_shadow(struct scene *scene, const struct frame_view *moment,
+void draw_list_add_shadow(struct draw_list *list, const struct frame_view *moment,
                           struct vec3 position, double pixels)
 {
     const struct terrain *terrain = &moment->world->terrain;
-    struct scene_body *body = &scene->bodies[scene->body_count - 1];
+    struct draw_list_body *body = &list->bodies[list->body_count - 1];
     struct vec3 foot = position;
     if (pixels <= SHADOW_LEAST_PIXELS ||
-        vec3_length(vec3_sub(position, scene->camera.eye)) >= SHADOW_RANGE_M)
+        vec3_length(vec3_sub(position, list->camera.eye)) >= SHADOW_RANGE_M)
         return;
     for (uint32_t i = 0; i < 3; i++) {
         double ground = terrain_height(terrain, moment->craters, foot.x, foot.z);
@@ -71,46 +72,46 @@ void draw_list_add_shadow(struct scene *scene, const struct frame_view *moment,
     if (vec3_dot(normal, light_sun()) < 0.1)
         return;
     copy_axis(body->plane, normal, 1.0);
-    struct vec3 relative = vec3_sub(foot, scene->camera.eye);
+    struct vec3 relative = vec3_sub(foot, list->camera.eye);
     body->plane[3] = (float)(vec3_dot(normal, relative) + SHADOW_LIFT_M);
-    scene->copies[scene->body_count - 1].shadow = 1;
+    list->instances[list->body_count - 1].shadow = 1;
 }
 
 static int by_model(const void *a, const void *b)
 {
     const struct body_order *x = a, *y = b;
-    if (x->copy.model != y->copy.model)
-        return x->copy.model < y->copy.model ? -1 : 1;
-    if (x->copy.detail != y->copy.detail)
-        return x->copy.detail < y->copy.detail ? -1 : 1;
+    if (x->instance.model != y->instance.model)
+        return x->instance.model < y->instance.model ? -1 : 1;
+    if (x->instance.detail != y->instance.detail)
+        return x->instance.detail < y->instance.detail ? -1 : 1;
     return (x->index > y->index) - (x->index < y->index);
 }
 
-static void swap_bodies(struct scene *scene, uint32_t a, uint32_t b)
+static void swap_bodies(struct draw_list *list, uint32_t a, uint32_t b)
 {
-    struct scene_body body = scene->bodies[a];
-    scene->bodies[a] = scene->bodies[b];
-    scene->bodies[b] = body;
-    struct scene_copy copy = scene->copies[a];
-    scene->copies[a] = scene->copies[b];
-    scene->copies[b] = copy;
+    struct draw_list_body body = list->bodies[a];
+    list->bodies[a] = list->bodies[b];
+    list->bodies[b] = body;
+    struct draw_list_instance instance = list->instances[a];
+    list->instances[a] = list->instances[b];
+    list->instances[b] = instance;
 }
 
-void draw_list_sort_bodies(struct scene *scene)
+void draw_list_sort_bodies(struct draw_list *list)
 {
-    uint32_t count = scene->body_count;
+    uint32_t count = list->body_count;
     for (uint32_t i = 0; i < count; i++)
-        scene->order[i] = (struct body_order){scene->copies[i], i};
-    qsort(scene->order, count, sizeof *scene->order, by_model);
+        list->order[i] = (struct body_order){list->instances[i], i};
+    qsort(list->order, count, sizeof *list->order, by_model);
     /* Along each cycle of the permutation, in place. */
     for (uint32_t i = 0; i < count; i++) {
         uint32_t at = i;
-        while (scene->order[at].index != i) {
-            uint32_t from = scene->order[at].index;
-            swap_bodies(scene, at, from);
-            scene->order[at].index = at;
+        while (list->order[at].index != i) {
+            uint32_t from = list->order[at].index;
+            swap_bodies(list, at, from);
+            list->order[at].index = at;
             at = from;
         }
-        scene->order[at].index = at;
+        list->order[at].index = at;
     }
 }

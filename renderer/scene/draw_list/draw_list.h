@@ -18,17 +18,17 @@
 
 struct grass;
 
-#define SCENE_PLANTS_MAX 24576u
-#define SCENE_BODIES_MAX 8192u
-#define SCENE_PUFFS_MAX  8192u
-#define SCENE_DENTS_MAX  4096u
+#define DRAW_LIST_PLANTS_MAX    24576u
+#define DRAW_LIST_BODIES_MAX    8192u
+#define DRAW_LIST_PARTICLES_MAX 8192u
+#define DRAW_LIST_DENTS_MAX     4096u
 
-#define SCENE_PLANT_STEEP 0.70710678f /* sine and cosine of 45 degrees */
+#define DRAW_LIST_PLANT_STEEP 0.70710678f /* sine and cosine of 45 degrees */
 
 #define BODY_LEAST_PIXELS 1.3  /* smaller than this nobody sees it */
 #define BENT_LEAST_PIXELS 48.0 /* nor that it is bent, smaller than this */
 
-/* How parts move (enum model_part), about the pivots of their joints (struct mesh_frame), in the
+/* How parts move (enum model_part), about the pivots of their joints (struct mesh_skeleton), in the
  * order in which a back end does it to a corner and its normal: a wheel rolls about z, the top
  * ahead, by its side's way over its radius: pivot left of the middle (z < 0) is the left side; a
  * front wheel then turns about y by the steering; then come dents, what fell in and what is broken:
@@ -40,8 +40,8 @@ struct grass;
 /* Trees, bushes, tufts of grass: upright pictures that turn to the eye. Seen from more than 45
  * degrees above, they lie back by the angle beyond that, their tops away from the eye, so that from
  * the air they are no thinner: with the foot at (level, -below) from the eye, by
- * asin((below - level) / distance * SCENE_PLANT_STEEP). */
-struct scene_plant {
+ * asin((below - level) / distance * DRAW_LIST_PLANT_STEEP). */
+struct draw_list_plant {
     float at[3]; /* the foot */
     float width, height;
     float lean;     /* to its right, as a share of the height: broken trees */
@@ -51,7 +51,7 @@ struct scene_plant {
 };
 
 /* Anything made of polygons. */
-struct scene_body {
+struct draw_list_body {
     float at[3];
     float forward[3], up[3], right[3];               /* body axes, scaled */
     float tint[3];                                   /* the force's colour */
@@ -67,54 +67,54 @@ struct scene_body {
 };
 
 /* The surface within reach of the point is moved along the way, most at the point. */
-struct scene_dent {
+struct draw_list_dent {
     float point[3], depth_m; /* [m, body axes] */
     float way[3], reach_m;   /* unit, body axes */
 };
 
 /* What a body in the same place of the list is a copy of. */
-struct scene_copy {
+struct draw_list_instance {
     uint16_t model;
     uint8_t detail; /* enum mesh_detail */
     uint8_t shadow;
 };
 
-enum puff_picture {
-    PUFF_SMOKE_A,
-    PUFF_SMOKE_B,
-    PUFF_SMOKE_C,
-    PUFF_SMOKE_D,
-    PUFF_FLAME_A,
-    PUFF_FLAME_B,
-    PUFF_GLOW,
-    PUFF_DISC,  /* of a rotor */
-    PUFF_SPRAY, /* soil or water thrown up, towards the upper edge */
-    PUFF_PICTURES
+enum particle_picture {
+    PARTICLE_SMOKE_A,
+    PARTICLE_SMOKE_B,
+    PARTICLE_SMOKE_C,
+    PARTICLE_SMOKE_D,
+    PARTICLE_FLAME_A,
+    PARTICLE_FLAME_B,
+    PARTICLE_GLOW,
+    PARTICLE_DISC,  /* of a rotor */
+    PARTICLE_SPRAY, /* soil or water thrown up, towards the upper edge */
+    PARTICLE_PICTURE_COUNT
 };
 
 /* Smoke, dust, fire, tracers: pictures that face the eye, farthest first. */
-struct scene_puff {
+struct draw_list_particle {
     float at[3];
     float axis[3]; /* stretched so far to both sides of the place; 0: round */
     float size;    /* half the side, half the width of a stretched one */
     float turn_rad;
-    float picture; /* enum puff_picture */
+    float picture; /* enum particle_picture */
     float glow;    /* 0 covers what is behind it .. 1 adds light to it */
     float colour[4];
 };
 
 /* A body's place in the order. */
 struct body_order {
-    struct scene_copy copy;
+    struct draw_list_instance instance;
     uint32_t index;
 };
 
 /* A puff's place in the order. */
-struct puff_key {
+struct particle_key {
     uint32_t key, index;
 };
 
-struct scene {
+struct draw_list {
     struct camera camera;
     struct frustum sight; /* of the camera */
     float detail;         /* above 0 .. 1, full: how far tufts and woods reach, how dense puffs are;
@@ -124,20 +124,20 @@ struct scene {
     struct terrain_quadtree_patch patches[TERRAIN_QUADTREE_PATCHES_MAX];
     uint32_t patch_count;
     uint32_t paintings; /* ground tiles that the picture may paint; TERRAIN_TILES_ALL but live */
-    struct scene_plant *plants;
+    struct draw_list_plant *plants;
     uint32_t plant_count;
-    struct scene_body *bodies; /* copies of one model and detail follow each other */
-    struct scene_copy *copies;
+    struct draw_list_body *bodies; /* copies of one model and detail follow each other */
+    struct draw_list_instance *instances;
     uint32_t body_count;
-    struct scene_puff *puffs;
-    uint32_t puff_count;
-    struct scene_dent *dents;
+    struct draw_list_particle *particles;
+    uint32_t particle_count;
+    struct draw_list_dent *dents;
     uint32_t dent_count;
-    uint32_t omitted;                /* things in view for which a list had no room */
-    struct body_order *order;        /* scratch */
-    struct puff_key *puff_keys;      /* scratch, twice as many */
-    struct scene_puff *puffs_sorted; /* scratch */
-    struct grass *tufts;             /* kept from picture to picture */
+    uint32_t omitted;                            /* things in view for which a list had no room */
+    struct body_order *order;                    /* scratch */
+    struct particle_key *particle_keys;          /* scratch, twice as many */
+    struct draw_list_particle *particles_sorted; /* scratch */
+    struct grass *tufts;                         /* kept from picture to picture */
 };
 
 /* Level of detail of a body that shows so large [pixel]; never finer for a smaller one. bent: its
@@ -145,25 +145,27 @@ struct scene {
 enum mesh_detail draw_list_detail(double pixels, bool bent);
 
 /* A free place at the end of the list of bodies, cleared; NULL, and counted, when there is none. */
-struct scene_body *draw_list_add_body(struct scene *scene, uint16_t model, enum mesh_detail detail);
+struct draw_list_body *draw_list_add_body(struct draw_list *list, uint16_t model,
+                                          enum mesh_detail detail);
 
 /* Brings copies of one mesh together, so that each mesh is drawn once. */
-void draw_list_sort_bodies(struct scene *scene);
+void draw_list_sort_bodies(struct draw_list *list);
 
 /* Where it is, how it is turned, and its size over its model's. */
-void draw_list_place_body(const struct scene *scene, struct scene_body *body, struct vec3 position,
-                          const struct body_axes *axes, double scale);
+void draw_list_place_body(const struct draw_list *list, struct draw_list_body *body,
+                          struct vec3 position, const struct body_axes *axes, double scale);
 
 /* Gives the last body of the list a shadow, unless it is too small or too far for one to show. */
-void draw_list_add_shadow(struct scene *scene, const struct frame_view *moment,
+void draw_list_add_shadow(struct draw_list *list, const struct frame_view *moment,
                           struct vec3 position, double pixels);
 
 /* Places relative to the eye, in float. */
-static inline void draw_list_relative(const struct scene *scene, struct vec3 position, float at[3])
+static inline void draw_list_relative(const struct draw_list *list, struct vec3 position,
+                                      float at[3])
 {
-    at[0] = (float)(position.x - scene->camera.eye.x);
-    at[1] = (float)(position.y - scene->camera.eye.y);
-    at[2] = (float)(position.z - scene->camera.eye.z);
+    at[0] = (float)(position.x - list->camera.eye.x);
+    at[1] = (float)(position.y - list->camera.eye.y);
+    at[2] = (float)(position.z - list->camera.eye.z);
 }
 
 #endif

@@ -145,9 +145,9 @@ int static_scene_init(struct static_scene *scenery, const struct world *world)
     scenery->look = malloc(world->counts.fixed + 1);
     scenery->plants = malloc((world->counts.fixed + 1) * sizeof *scenery->plants);
     scenery->blocks = malloc(STATIC_SCENE_BLOCKS * STATIC_SCENE_BLOCKS * sizeof *scenery->blocks);
-    scenery->frames = malloc((world->counts.models + 1) * sizeof *scenery->frames);
+    scenery->skeletons = malloc((world->counts.models + 1) * sizeof *scenery->skeletons);
     if (scenery->square_start == NULL || scenery->look == NULL || scenery->plants == NULL ||
-        scenery->blocks == NULL || scenery->frames == NULL) {
+        scenery->blocks == NULL || scenery->skeletons == NULL) {
         static_scene_free(scenery);
         return -1;
     }
@@ -160,7 +160,7 @@ int static_scene_init(struct static_scene *scenery, const struct world *world)
         find_ranks(scenery, square);
     find_blocks(scenery);
     for (uint32_t i = 0; i < world->counts.models; i++)
-        if (mesh_frame(&scenery->frames[i], world, i) != 0) {
+        if (mesh_skeleton(&scenery->skeletons[i], world, i) != 0) {
             static_scene_free(scenery);
             return -1;
         }
@@ -174,6 +174,6 @@ void static_scene_free(struct static_scene *scenery)
     free(scenery->look);
     free(scenery->plants);
     free(scenery->blocks);
-    free(scenery->frames);
+    free(scenery->skeletons);
     *scenery = (struct static_scene){.world = NULL};
 }

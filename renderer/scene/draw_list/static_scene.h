@@ -24,7 +24,7 @@ struct world;
 /* What never changes about a fixed object that is a plant. */
 struct static_scene_plant {
     float width, height, sink; /* [m] sink: how deep its foot is in the ground */
-    float slope[2], tint[3];   /* see struct scene_plant */
+    float slope[2], tint[3];   /* see struct draw_list_plant */
     float rank;                /* 0..1: while less than this share of a wood is shown, it is not */
     float lone;                /* share of its wood that is never thinned out */
 };
@@ -41,8 +41,8 @@ struct static_scene {
     uint8_t *look;          /* [world->counts.fixed] enum plant_impostors or LOOK_MODEL; owned */
     struct static_scene_plant *plants; /* [world->counts.fixed]; owned */
     struct static_scene_block
-        *blocks;               /* [STATIC_SCENE_BLOCKS * STATIC_SCENE_BLOCKS] row by row; owned */
-    struct mesh_frame *frames; /* [world->counts.models]; owned */
+        *blocks; /* [STATIC_SCENE_BLOCKS * STATIC_SCENE_BLOCKS] row by row; owned */
+    struct mesh_skeleton *skeletons; /* [world->counts.models]; owned */
 };
 
 /* 0, or -1 with errno ENOMEM. The world must outlive it. */

@@ -10,7 +10,8 @@
 #define CELLS_MOST   256
 #define OCTAVES_MOST 6
 
-_Static_assert(TEXTURE_CLOUD_SIDE <= SIDE_MOST && TEXTURE_PUFF_SIDE <= SIDE_MOST, "room of rows");
+_Static_assert(TEXTURE_CLOUD_SIDE <= SIDE_MOST && TEXTURE_PARTICLE_SIDE <= SIDE_MOST,
+               "room of rows");
 
 /* Within 0 .. 1. */
 static float unit(float v)
@@ -217,19 +218,19 @@ struct stuff {
     float spread; /* of the unit square, from its middle */
 };
 
-static void stuff_begin(struct stuff *stuff, const float *x, enum puff_picture picture)
+static void stuff_begin(struct stuff *stuff, const float *x, enum particle_picture picture)
 {
-    bool flames = picture == PUFF_FLAME_A || picture == PUFF_FLAME_B;
-    uint32_t side = TEXTURE_PUFF_SIDE, which = (uint32_t)picture;
-    float at[TEXTURE_PUFF_SIDE];
-    stuff->spread = picture == PUFF_SPRAY ? 0.5f : flames ? 0.4f : 0.45f;
+    bool flames = picture == PARTICLE_FLAME_A || picture == PARTICLE_FLAME_B;
+    uint32_t side = TEXTURE_PARTICLE_SIDE, which = (uint32_t)picture;
+    float at[TEXTURE_PARTICLE_SIDE];
+    stuff->spread = picture == PARTICLE_SPRAY ? 0.5f : flames ? 0.4f : 0.45f;
     for (uint32_t i = 0; i < side; i++)
         at[i] = 0.5f + stuff->spread * x[i];
-    if (picture == PUFF_SPRAY) {
+    if (picture == PARTICLE_SPRAY) {
         octaves_begin(&stuff->first, at, side, 16, 1, 801);
         octaves_begin(&stuff->second, at, side, 16, 3, 811);
     } else if (flames) {
-        octaves_begin(&stuff->first, at, side, 4, 3, 701 + 13 * (which - PUFF_FLAME_A));
+        octaves_begin(&stuff->first, at, side, 4, 3, 701 + 13 * (which - PARTICLE_FLAME_A));
         stuff->second.count = 0;
     } else {
         octaves_begin(&stuff->first, at, side, 4, 4, 601 + 17 * which);
@@ -237,22 +238,22 @@ static void stuff_begin(struct stuff *stuff, const float *x, enum puff_picture p
     }
 }
 
-static void stuff_row(struct stuff *stuff, float y, enum puff_picture picture, float *first,
+static void stuff_row(struct stuff *stuff, float y, enum particle_picture picture, float *first,
                       float *second)
 {
     float up = 0.5f + 0.5f * y, higher = y + 0.09f;
-    octaves_row(&stuff->first, picture == PUFF_SPRAY ? 0.25f * up : 0.5f + stuff->spread * y,
+    octaves_row(&stuff->first, picture == PARTICLE_SPRAY ? 0.25f * up : 0.5f + stuff->spread * y,
                 first);
     if (stuff->second.count > 0)
         octaves_row(&stuff->second,
-                    picture == PUFF_SPRAY ? 0.5f * up : 0.5f + stuff->spread * higher, second);
+                    picture == PARTICLE_SPRAY ? 0.5f * up : 0.5f + stuff->spread * higher, second);
 }
 
-void texture_puff(uint8_t (*texels)[2], enum puff_picture picture)
+void texture_particle(uint8_t (*texels)[2], enum particle_picture picture)
 {
-    enum { SIDE = TEXTURE_PUFF_SIDE };
+    enum { SIDE = TEXTURE_PARTICLE_SIDE };
     float across[SIDE], first[SIDE], second[SIDE];
-    bool plain = picture == PUFF_GLOW || picture == PUFF_DISC;
+    bool plain = picture == PARTICLE_GLOW || picture == PARTICLE_DISC;
     struct stuff stuff;
     for (uint32_t i = 0; i < SIDE; i++)
         across[i] = 2.0f * ((float)i + 0.5f) / (float)SIDE - 1.0f;
@@ -264,13 +265,13 @@ void texture_puff(uint8_t (*texels)[2], enum puff_picture picture)
             stuff_row(&stuff, y, picture, first, second);
         for (uint32_t i = 0; i < SIDE; i++, texels++) {
             float x = across[i], shade = 0.5f, much;
-            if (picture == PUFF_GLOW)
+            if (picture == PARTICLE_GLOW)
                 much = glow(sqrtf(x * x + y * y));
-            else if (picture == PUFF_DISC)
+            else if (picture == PARTICLE_DISC)
                 much = disc(sqrtf(x * x + y * y));
-            else if (picture == PUFF_FLAME_A || picture == PUFF_FLAME_B)
+            else if (picture == PARTICLE_FLAME_A || picture == PARTICLE_FLAME_B)
                 much = flame(x, y, first[i], &shade);
-            else if (picture == PUFF_SPRAY)
+            else if (picture == PARTICLE_SPRAY)
                 much = spray(x, y, first[i], second[i], &shade);
             else
                 much = smoke(x, y, first[i], second[i], &shade);

@@ -6,9 +6,9 @@
 
 #include <stdint.h>
 
-#define TEXTURE_DETAIL_SIDE 512u
-#define TEXTURE_CLOUD_SIDE  256u
-#define TEXTURE_PUFF_SIDE   128u
+#define TEXTURE_DETAIL_SIDE   512u
+#define TEXTURE_CLOUD_SIDE    256u
+#define TEXTURE_PARTICLE_SIDE 128u
 
 /* Two channels that repeat without a seam, both 128 on average: grass, and scrub from above. */
 void texture_detail(uint8_t (*texels)[2]);
@@ -17,6 +17,6 @@ void texture_detail(uint8_t (*texels)[2]);
 void texture_clouds(uint8_t *texels);
 
 /* Red: how much of it there is; green: how bright it is there, 128 for plain. */
-void texture_puff(uint8_t (*texels)[2], enum puff_picture picture);
+void texture_particle(uint8_t (*texels)[2], enum particle_picture picture);
 
 #endif

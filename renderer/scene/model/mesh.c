@@ -244,14 +244,14 @@ static float reach(const struct world *world, const struct model *m, uint32_t jo
 
 /* A turret turns about the middle of its foot, which is round; a gun is held at its hind end;
  * rotors and wheels are even about their axes, a rotor's foot being its mast. */
-static int find_pivot(struct mesh_frame *frame, const struct world *world, uint32_t model,
+static int find_pivot(struct mesh_skeleton *skeleton, const struct world *world, uint32_t model,
                       uint32_t joint)
 {
     const struct model *m = &world->models[model];
     struct joint box = {.part = PART_BODY};
-    float *pivot = frame->pivot[joint];
+    float *pivot = skeleton->pivot[joint];
     grow(&box, world, m, joint, 0, INFINITY);
-    frame->part[joint] = (uint8_t)box.part;
+    skeleton->part[joint] = (uint8_t)box.part;
     if (box.part == PART_BODY)
         return 0;
     if (box.part == PART_TRACK) {
@@ -274,15 +274,15 @@ static int find_pivot(struct mesh_frame *frame, const struct world *world, uint3
     return 0;
 }
 
-int mesh_frame(struct mesh_frame *frame, const struct world *world, uint32_t model)
+int mesh_skeleton(struct mesh_skeleton *skeleton, const struct world *world, uint32_t model)
 {
     const struct model *m = &world->models[model];
-    *frame = (struct mesh_frame){.turret = false};
-    model_box(world, m, frame->low, frame->high);
+    *skeleton = (struct mesh_skeleton){.turret = false};
+    model_box(world, m, skeleton->low, skeleton->high);
     for (uint32_t joint = 0; joint < MODEL_JOINTS_MAX; joint++)
-        if (find_pivot(frame, world, model, joint) != 0)
+        if (find_pivot(skeleton, world, model, joint) != 0)
             return -1;
     for (uint32_t t = 0; t < seen_count(m); t++)
-        frame->turret = frame->turret || seen_facet(world, m, t).from->part == PART_TURRET;
+        skeleton->turret = skeleton->turret || seen_facet(world, m, t).from->part == PART_TURRET;
     return 0;
 }

@@ -51,7 +51,7 @@ struct mesh {
 };
 
 /* What all levels of a model share. */
-struct mesh_frame {
+struct mesh_skeleton {
     float low[3], high[3]; /* [m, body axes] box around what is seen */
     /* [m, body axes] what each joint turns about, and w: a wheel's or a rotor's radius, the length
      * of a track's link [m]. The turret's is the first: a gun is on it. */
@@ -66,6 +66,6 @@ int mesh_build(struct mesh *mesh, const struct world *world, uint32_t model,
 void mesh_free(struct mesh *mesh);
 
 /* 0, or -1 with errno ENOMEM. */
-int mesh_frame(struct mesh_frame *frame, const struct world *world, uint32_t model);
+int mesh_skeleton(struct mesh_skeleton *skeleton, const struct world *world, uint32_t model);
 
 #endif

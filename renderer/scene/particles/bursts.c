@@ -7,16 +7,16 @@
 
 #include <math.h>
 
-#define GRAVITY     9.81 /* [m/s^2] */
-#define FLASH_S     0.12 /* of the light of a shot; its gas stays longer */
-#define BLINK_S     0.14 /* of the light of an explosion */
-#define FIRE_PUFFS  12
-#define SMOKE_PUFFS 11
-#define SPARKS      16
-#define SOIL_JETS   11
-#define JET_PUFFS   3
-#define SPRAY_JETS  8
-#define RING_PUFFS  12
+#define GRAVITY         9.81 /* [m/s^2] */
+#define FLASH_S         0.12 /* of the light of a shot; its gas stays longer */
+#define BLINK_S         0.14 /* of the light of an explosion */
+#define FIRE_PARTICLES  12
+#define SMOKE_PARTICLES 11
+#define SPARKS          16
+#define SOIL_JETS       11
+#define JET_PARTICLES   3
+#define SPRAY_JETS      8
+#define RING_PARTICLES  12
 
 /* 1 - exp(-x), nearly, without the C library's exp, which is not the same everywhere. */
 static double saturate(double x)
@@ -41,7 +41,7 @@ static struct vec3 effect_way(const struct effect *effect)
 /* --- shots ------------------------------------------------------------------------------------ */
 
 /* A star: a long flame ahead, shorter ones aside, as a muzzle brake lets them out. */
-static void flash_star(struct scene *scene, const struct effect *effect, double age)
+static void flash_star(struct draw_list *list, const struct effect *effect, double age)
 {
     struct vec3 way = effect_way(effect), up = {0.0, 1.0, 0.0};
     struct vec3 side = vec3_cross(way, up);
@@ -60,24 +60,24 @@ static void flash_star(struct scene *scene, const struct effect *effect, double 
             .at = vec3_add(n == 0 ? middle : effect->point, vec3_scale(ray, 0.55 * size)),
             .along = vec3_scale(ray, size * (0.8 + 2.0 * age)),
             .size_m = size * (n == 0 ? 0.50 : 0.28),
-            .picture = PUFF_GLOW,
+            .picture = PARTICLE_GLOW,
             .glow = 1.0f,
             .shade = {1.0f, 0.82f, 0.48f, light}};
-        particles_add(scene, &flame);
+        particles_add(list, &flame);
     }
     struct spot glow = {.at = middle,
                         .size_m = 2.2 * size,
-                        .picture = PUFF_GLOW,
+                        .picture = PARTICLE_GLOW,
                         .glow = 1.0f,
                         .shade = {1.0f, 0.70f, 0.32f, 0.75f * light}};
-    particles_add(scene, &glow);
+    particles_add(list, &glow);
 }
 
-static void flash(struct scene *scene, const struct effect *effect, double age)
+static void flash(struct draw_list *list, const struct effect *effect, double age)
 {
     double life = effects_life_s(EFFECT_FLASH), size = (double)effect->size_m;
     if (age < FLASH_S)
-        flash_star(scene, effect, age);
+        flash_star(list, effect, age);
     struct vec3 way = effect_way(effect);
     for (uint32_t n = 0; n < 3; n++) {
         double out = size * ((0.5 + 0.8 * n) * saturate(6.0 * age) + 0.3 * n);
@@ -90,35 +90,35 @@ static void flash(struct scene *scene, const struct effect *effect, double age)
         gas.at.y += 0.6 * age;
         gas.at.z += WIND_Z * age;
         gas.shade.a *= come_and_go(age, 0.03, life, life);
-        particles_add(scene, &gas);
+        particles_add(list, &gas);
     }
 }
 
 /* --- explosions ------------------------------------------------------------------------------- */
 
-static void blink(struct scene *scene, const struct effect *effect, double age, double size)
+static void blink(struct draw_list *list, const struct effect *effect, double age, double size)
 {
     float light = (float)maths_clamp(1.0 - age / BLINK_S, 0.0, 1.0);
     for (uint32_t core = 0; core < 2 && light > 0.0f; core++) {
         struct spot glow = {.at = effect->point,
                             .size_m = size * (core ? 1.1 : 3.4),
-                            .picture = PUFF_GLOW,
+                            .picture = PARTICLE_GLOW,
                             .glow = 1.0f,
                             .shade = {1.0f, core ? 0.96f : 0.75f, core ? 0.85f : 0.42f,
                                       light * (core ? 1.0f : 0.8f)}};
-        particles_add(scene, &glow);
+        particles_add(list, &glow);
     }
 }
 
-static void fireball(struct scene *scene, const struct effect *effect, double age)
+static void fireball(struct draw_list *list, const struct effect *effect, double age)
 {
     double size = (double)effect->size_m, life = 0.75 + 0.09 * size;
-    blink(scene, effect, age, size);
+    blink(list, effect, age, size);
     if (age > life)
         return;
     double t = age / life, grown = 1.0 - (1.0 - t) * (1.0 - t);
-    double share = particles_share(scene, size, effect->point);
-    for (uint32_t n = 0; n < particles_shown(FIRE_PUFFS, share); n++) {
+    double share = particles_share(list, size, effect->point);
+    for (uint32_t n = 0; n < particles_shown(FIRE_PARTICLES, share); n++) {
         struct vec3 way = scatter(effect->seed, n, 0.0);
         double out = size * (0.2 + 0.6 * grown) * (0.3 + 0.7 * (double)luck(effect->seed, n, 15));
         /* Some burn out before others. */
@@ -127,56 +127,57 @@ static void fireball(struct scene *scene, const struct effect *effect, double ag
             .at = {effect->point.x + way.x * out, effect->point.y + way.y * out + 0.9 * size * t,
                    effect->point.z + way.z * out},
             .size_m = size * (0.42 + 0.34 * grown),
-            .picture = n % 3 ? smoke_picture(effect->seed, n) : PUFF_FLAME_A,
+            .picture = n % 3 ? smoke_picture(effect->seed, n) : PARTICLE_FLAME_A,
             .turn_rad = luck_turn(effect->seed, n, 16) + 0.6f * (float)t,
             .glow = (float)(0.50 - 0.38 * own),
             .shade = shade_mix((struct shade){1.0f, 0.58f, 0.30f, 1.0f},
                                (struct shade){0.60f, 0.14f, 0.03f, 0.7f}, own * 1.1)};
-        ball.shade.a *= particles_part(n, FIRE_PUFFS, share) * come_and_go(own, 0.03, 1.0, 0.45);
-        particles_add(scene, &ball);
+        ball.shade.a *=
+            particles_part(n, FIRE_PARTICLES, share) * come_and_go(own, 0.03, 1.0, 0.45);
+        particles_add(list, &ball);
     }
     struct spot glow = {.at = {effect->point.x, effect->point.y + 0.5 * size, effect->point.z},
                         .size_m = 2.4 * size,
-                        .picture = PUFF_GLOW,
+                        .picture = PARTICLE_GLOW,
                         .glow = 1.0f,
                         .shade = {1.0f, 0.60f, 0.22f, (float)(0.4 * (1.0 - t) * (1.0 - t))}};
-    particles_add(scene, &glow);
+    particles_add(list, &glow);
 }
 
 /* A cloud that grows at once, then goes up and with the wind. tall: how many times higher than
  * wide it becomes; in_s: how long it takes to appear. */
-static void cloud(struct scene *scene, const struct effect *effect, double age, struct shade shade,
-                  double life, double tall, double in_s)
+static void cloud(struct draw_list *list, const struct effect *effect, double age,
+                  struct shade shade, double life, double tall, double in_s)
 {
     double size = (double)effect->size_m, t = age / life, grown = saturate(2.2 * age);
     if (t >= 1.0)
         return;
-    double share = particles_share(scene, size, effect->point);
-    for (uint32_t n = 0; n < particles_shown(SMOKE_PUFFS, share); n++) {
+    double share = particles_share(list, size, effect->point);
+    for (uint32_t n = 0; n < particles_shown(SMOKE_PARTICLES, share); n++) {
         struct vec3 way = scatter(effect->seed ^ 0x55u, n, 0.0);
         double reach = (double)luck(effect->seed, n, 17), slow = 0.5 + 0.9 * reach;
         double out = size * (0.2 + 1.0 * grown * reach);
         double up = out * way.y * (1.0 + (tall - 1.0) * grown) + 0.8 * tall * age * slow;
-        struct spot puff = {.at = {effect->point.x + way.x * out + WIND_X * age * slow,
-                                   effect->point.y + up + 0.2 * size,
-                                   effect->point.z + way.z * out + WIND_Z * age * slow},
-                            .size_m = size * (0.30 + 0.38 * grown * (1.2 - reach) + 0.09 * age),
-                            .picture = smoke_picture(effect->seed, n),
-                            .turn_rad = luck_turn(effect->seed, n, 18) + 0.1f * (float)age,
-                            .shade =
-                                shade_mix(shade, (struct shade){0.40f, 0.38f, 0.35f, shade.a}, t)};
-        puff.shade.a *= (float)((1.0 - t) * (1.0 - 0.5 * t)) *
-                        particles_part(n, SMOKE_PUFFS, share) *
-                        come_and_go(age, in_s, life, 0.2 * life);
-        particles_add(scene, &puff);
+        struct spot particle = {
+            .at = {effect->point.x + way.x * out + WIND_X * age * slow,
+                   effect->point.y + up + 0.2 * size,
+                   effect->point.z + way.z * out + WIND_Z * age * slow},
+            .size_m = size * (0.30 + 0.38 * grown * (1.2 - reach) + 0.09 * age),
+            .picture = smoke_picture(effect->seed, n),
+            .turn_rad = luck_turn(effect->seed, n, 18) + 0.1f * (float)age,
+            .shade = shade_mix(shade, (struct shade){0.40f, 0.38f, 0.35f, shade.a}, t)};
+        particle.shade.a *= (float)((1.0 - t) * (1.0 - 0.5 * t)) *
+                            particles_part(n, SMOKE_PARTICLES, share) *
+                            come_and_go(age, in_s, life, 0.2 * life);
+        particles_add(list, &particle);
     }
 }
 
 /* Streaks of light on their arcs, which the air slows down. */
-static void sparks(struct scene *scene, const struct effect *effect, double age, double speed,
+static void sparks(struct draw_list *list, const struct effect *effect, double age, double speed,
                    double life)
 {
-    double share = particles_share(scene, (double)effect->size_m, effect->point);
+    double share = particles_share(list, (double)effect->size_m, effect->point);
     for (uint32_t n = 0; n < particles_shown(SPARKS, share); n++) {
         double own = life * (0.45 + 0.55 * (double)luck(effect->seed, n, 26)), t = age / own;
         float alpha = particles_part(n, SPARKS, share);
@@ -187,7 +188,7 @@ static void sparks(struct scene *scene, const struct effect *effect, double age,
         double gone = fast * own * 0.6 * saturate(t / 0.6), now = fast * (1.0 - 0.75 * t);
         struct spot spark = {.at = vec3_add(effect->point, vec3_scale(way, gone)),
                              .size_m = 0.045 + 0.012 * (double)effect->size_m,
-                             .picture = PUFF_GLOW,
+                             .picture = PARTICLE_GLOW,
                              .glow = 1.0f,
                              .shade = shade_mix((struct shade){1.0f, 0.90f, 0.60f, 1.0f},
                                                 (struct shade){1.0f, 0.35f, 0.08f, 0.0f}, t * t)};
@@ -195,7 +196,7 @@ static void sparks(struct scene *scene, const struct effect *effect, double age,
         spark.along = (struct vec3){0.02 * way.x * now, 0.02 * (way.y * now - GRAVITY * age),
                                     0.02 * way.z * now};
         spark.shade.a *= alpha;
-        particles_add(scene, &spark);
+        particles_add(list, &spark);
     }
 }
 
@@ -207,17 +208,17 @@ struct fountain {
     double speed, gravity; /* [m/s], [m/s^2] */
     double steep, width_m, life_s;
     struct shade shade;
-    enum puff_picture picture;
+    enum particle_picture picture;
 };
 
 /* Each jet is a few stretched puffs, the first the fastest; what has fallen below the ground that
  * it came from is gone. */
-static void throw_up(struct scene *scene, const struct effect *effect, double age,
+static void throw_up(struct draw_list *list, const struct effect *effect, double age,
                      const struct fountain *as)
 {
-    double share = particles_share(scene, (double)effect->size_m, effect->point);
-    for (uint32_t n = 0; n < particles_shown(as->jets * JET_PUFFS, share); n++) {
-        uint32_t jet = n / JET_PUFFS, back = n % JET_PUFFS;
+    double share = particles_share(list, (double)effect->size_m, effect->point);
+    for (uint32_t n = 0; n < particles_shown(as->jets * JET_PARTICLES, share); n++) {
+        uint32_t jet = n / JET_PARTICLES, back = n % JET_PARTICLES;
         struct vec3 way = scatter(effect->seed ^ 0x33u, jet, as->steep);
         double speed =
             as->speed * (0.55 + 0.45 * (double)luck(effect->seed, jet, 27)) * (1.0 - 0.26 * back);
@@ -229,23 +230,23 @@ static void throw_up(struct scene *scene, const struct effect *effect, double ag
             continue;
         double length =
             size + speed * (0.03 + 0.16 * age / (1.0 + age)); /* drawn out as it flies */
-        struct spot puff = {.at = {effect->point.x + way.x * speed * age, effect->point.y + up,
-                                   effect->point.z + way.z * speed * age},
-                            .size_m = size,
-                            .picture = as->picture,
-                            .shade = as->shade};
+        struct spot particle = {.at = {effect->point.x + way.x * speed * age, effect->point.y + up,
+                                       effect->point.z + way.z * speed * age},
+                                .size_m = size,
+                                .picture = as->picture,
+                                .shade = as->shade};
         double fast = maths_max(1.0, sqrt(speed * speed * (1.0 - way.y * way.y) + rise * rise));
-        puff.along = (struct vec3){way.x * speed * length / fast, rise * length / fast,
-                                   way.z * speed * length / fast};
+        particle.along = (struct vec3){way.x * speed * length / fast, rise * length / fast,
+                                       way.z * speed * length / fast};
         float here = come_and_go(age, 0.04, as->life_s, as->life_s);
-        puff.shade.a *= (float)maths_clamp(left, 0.0, 1.0) * here * here *
-                        particles_part(n, as->jets * JET_PUFFS, share);
-        particles_add(scene, &puff);
+        particle.shade.a *= (float)maths_clamp(left, 0.0, 1.0) * here * here *
+                            particles_part(n, as->jets * JET_PARTICLES, share);
+        particles_add(list, &particle);
     }
 }
 
-static void burst(struct scene *scene, const struct frame_view *moment, const struct effect *effect,
-                  double age)
+static void burst(struct draw_list *list, const struct frame_view *moment,
+                  const struct effect *effect, double age)
 {
     double size = (double)effect->size_m;
     enum cover cover = terrain_cover(&moment->world->terrain, effect->point.x, effect->point.z);
@@ -257,24 +258,24 @@ static void burst(struct scene *scene, const struct frame_view *moment, const st
                             .width_m = 0.26 * size,
                             .life_s = 3.0,
                             .shade = {0.30f * dust.r, 0.27f * dust.g, 0.24f * dust.b, 0.95f},
-                            .picture = PUFF_SPRAY};
-    blink(scene, effect, age, 0.8 * size);
-    throw_up(scene, effect, age, &soil);
+                            .picture = PARTICLE_SPRAY};
+    blink(list, effect, age, 0.8 * size);
+    throw_up(list, effect, age, &soil);
     if (age < 0.5)
-        sparks(scene, effect, age, 7.0 * sqrt(size), 0.5);
+        sparks(list, effect, age, 7.0 * sqrt(size), 0.5);
     struct shade smoke = {0.42f * dust.r, 0.40f * dust.g, 0.38f * dust.b, 0.55f};
-    cloud(scene, effect, age, smoke, effects_life_s(EFFECT_BURST), 1.5, 0.15);
+    cloud(list, effect, age, smoke, effects_life_s(EFFECT_BURST), 1.5, 0.15);
 }
 
 /* Foam that runs outwards on the water. */
-static void ring(struct scene *scene, const struct effect *effect, double age, double life)
+static void ring(struct draw_list *list, const struct effect *effect, double age, double life)
 {
     double size = (double)effect->size_m, t = age / life,
            out = size * (0.5 + 2.6 * saturate(1.2 * age));
-    double share = particles_share(scene, size, effect->point);
-    for (uint32_t n = 0; n < RING_PUFFS; n++) {
+    double share = particles_share(list, size, effect->point);
+    for (uint32_t n = 0; n < RING_PARTICLES; n++) {
         double sine, cosine, turn = (double)n + 0.6 * (double)luck(effect->seed, n, 29);
-        maths_sincos(TWO_PI * turn / RING_PUFFS, &sine, &cosine);
+        maths_sincos(TWO_PI * turn / RING_PARTICLES, &sine, &cosine);
         double wide = size * (0.22 + 0.20 * saturate(age));
         struct spot foam = {
             .at = {effect->point.x + out * cosine, 0.0, effect->point.z + out * sine},
@@ -282,15 +283,15 @@ static void ring(struct scene *scene, const struct effect *effect, double age, d
             .size_m = wide,
             .picture = smoke_picture(effect->seed, n),
             .shade = {0.90f, 0.95f, 0.97f, 0.6f}};
-        particles_lay(scene, &foam, effect->point.y);
+        particles_lay(list, &foam, effect->point.y);
         foam.shade.a *= (float)((1.0 - t) * (1.0 - t)) *
                         particles_part(n % 3, 3, maths_max(share, 0.4)) *
                         come_and_go(age, 0.2, life, 0.5);
-        particles_add(scene, &foam);
+        particles_add(list, &foam);
     }
 }
 
-static void splash(struct scene *scene, const struct effect *effect, double age)
+static void splash(struct draw_list *list, const struct effect *effect, double age)
 {
     double size = (double)effect->size_m, life = effects_life_s(EFFECT_SPLASH);
     struct fountain column = {.jets = SPRAY_JETS,
@@ -300,19 +301,19 @@ static void splash(struct scene *scene, const struct effect *effect, double age)
                               .width_m = 0.30 * size,
                               .life_s = 4.0,
                               .shade = {0.92f, 0.96f, 0.98f, 0.95f},
-                              .picture = PUFF_SPRAY};
+                              .picture = PARTICLE_SPRAY};
     struct fountain crown = column;
-    throw_up(scene, effect, age, &column);
+    throw_up(list, effect, age, &column);
     crown.speed = 6.0 * sqrt(size);
     crown.steep = 0.60;
     crown.width_m = 0.20 * size;
     crown.life_s = 2.0;
-    throw_up(scene, effect, age, &crown);
-    cloud(scene, effect, age, (struct shade){0.92f, 0.95f, 0.97f, 0.35f}, 0.6 * life, 1.2, 0.3);
-    ring(scene, effect, age, life);
+    throw_up(list, effect, age, &crown);
+    cloud(list, effect, age, (struct shade){0.92f, 0.95f, 0.97f, 0.35f}, 0.6 * life, 1.2, 0.3);
+    ring(list, effect, age, life);
 }
 
-void bursts_effect(struct scene *scene, const struct frame_view *moment,
+void bursts_effect(struct draw_list *list, const struct frame_view *moment,
                    const struct effect *effect, double age)
 {
     double size = (double)effect->size_m, life = effects_life_s((enum effect_type)effect->type);
@@ -320,28 +321,28 @@ void bursts_effect(struct scene *scene, const struct frame_view *moment,
         dust_of(terrain_cover(&moment->world->terrain, effect->point.x, effect->point.z));
     switch ((enum effect_type)effect->type) {
     case EFFECT_FLASH:
-        flash(scene, effect, age);
+        flash(list, effect, age);
         break;
     case EFFECT_EXPLOSION:
     case EFFECT_WRECK:
-        cloud(scene, effect, age, (struct shade){0.17f, 0.15f, 0.13f, 0.6f},
+        cloud(list, effect, age, (struct shade){0.17f, 0.15f, 0.13f, 0.6f},
               effects_life_s(EFFECT_EXPLOSION), 1.9, 0.9);
-        fireball(scene, effect, age);
-        sparks(scene, effect, age, 10.0 * sqrt(size), 1.6);
+        fireball(list, effect, age);
+        sparks(list, effect, age, 10.0 * sqrt(size), 1.6);
         break;
     case EFFECT_BURST:
-        burst(scene, moment, effect, age);
+        burst(list, moment, effect, age);
         break;
     case EFFECT_SPLASH:
-        splash(scene, effect, age);
+        splash(list, effect, age);
         break;
     case EFFECT_HIT:
-        sparks(scene, effect, age, 6.0 + 3.0 * size, life);
-        blink(scene, effect, age, 0.3 * size);
+        sparks(list, effect, age, 6.0 + 3.0 * size, life);
+        blink(list, effect, age, 0.3 * size);
         break;
     case EFFECT_CRASH:
         dust.a = 0.15f + 0.40f * dust.a;
-        cloud(scene, effect, age, dust, life, 1.0, 0.12);
+        cloud(list, effect, age, dust, life, 1.0, 0.12);
         break;
     case EFFECT_TYPE_COUNT:
         break;

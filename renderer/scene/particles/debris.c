@@ -108,12 +108,12 @@ static struct body_axes pose_at(const struct effect *effect, const struct flight
     return axes;
 }
 
-static void add_piece(struct scene *scene, const struct static_scene *scenery,
+static void add_piece(struct draw_list *list, const struct static_scene *scenery,
                       const struct frame_view *moment, const struct effect *effect, double age,
                       uint32_t n)
 {
     const struct kind *kind = &moment->world->kinds[effect->kind];
-    const struct mesh_frame *frame = &scenery->frames[kind->model];
+    const struct mesh_skeleton *skeleton = &scenery->skeletons[kind->model];
     const struct piece *shape =
         &shapes[value_noise_hash((int32_t)effect->seed, (int32_t)n, 365) % SHAPES];
     double life = EFFECT_LIFE_S * (0.6 + 0.4 * chance(effect->seed, n, 6));
@@ -121,51 +121,51 @@ static void add_piece(struct scene *scene, const struct static_scene *scenery,
     size *= maths_clamp((life - age) / SHRINK_S, 0.0, 1.0);
     struct flight flight = flight_of(effect, moment, n);
     struct vec3 at = place_at(&flight, age);
-    double distance = vec3_length(vec3_sub(at, scene->camera.eye));
-    double pixels = camera_pixels(&scene->camera, 1.5 * size, distance);
+    double distance = vec3_length(vec3_sub(at, list->camera.eye));
+    double pixels = camera_pixels(&list->camera, 1.5 * size, distance);
     size *= maths_clamp(pixels - PIXELS_LEAST, 0.0, 1.0);
-    if (pixels <= PIXELS_LEAST || !camera_sees(&scene->camera, at, 4.0))
+    if (pixels <= PIXELS_LEAST || !camera_sees(&list->camera, at, 4.0))
         return;
     if (cover_is_water(terrain_cover(&moment->world->terrain, at.x, at.z)) && age > flight.lands_s)
         return; /* it sank */
-    struct scene_body *body = draw_list_add_body(scene, kind->model, MESH_COARSEST);
+    struct draw_list_body *body = draw_list_add_body(list, kind->model, MESH_COARSEST);
     if (body == NULL)
         return;
     struct vec3 normal = terrain_normal(&moment->world->terrain, moment->craters, at.x, at.z);
     struct body_axes axes = pose_at(effect, &flight, normal, age, n);
     double scale[3], low = 0.0;
     for (uint32_t i = 0; i < 3; i++) {
-        double model = maths_max(0.01, (double)frame->high[i] - (double)frame->low[i]);
+        double model = maths_max(0.01, (double)skeleton->high[i] - (double)skeleton->low[i]);
         scale[i] = size * shape->size[i] / model;
         if (i == 1)
-            low = -scale[i] * (double)frame->low[i];
+            low = -scale[i] * (double)skeleton->low[i];
     }
     at = vec3_add(at, vec3_scale(axes.up, low));
-    draw_list_relative(scene, at, body->at);
+    draw_list_relative(list, at, body->at);
     vec3_to_floats(body->forward, vec3_scale(axes.forward, scale[0]));
     vec3_to_floats(body->up, vec3_scale(axes.up, scale[1]));
     vec3_to_floats(body->right, vec3_scale(axes.right, scale[2]));
     body->tint[0] = body->tint[1] = body->tint[2] = 0.4f;
     body->burn = 1.0f;
-    draw_list_add_shadow(scene, moment, at, pixels);
+    draw_list_add_shadow(list, moment, at, pixels);
 }
 
-void debris_add(struct scene *scene, const struct static_scene *scenery,
+void debris_add(struct draw_list *list, const struct static_scene *scenery,
                 const struct frame_view *moment, const struct effects *effects)
 {
     for (uint32_t i = 0; i < effects->count; i++) {
         const struct effect *effect = &effects->effect[i];
-        double age = scene->time_s - effect->time_s;
+        double age = list->time_s - effect->time_s;
         if (effect->type != EFFECT_WRECK || age < 0.0 || age > EFFECT_LIFE_S ||
             effect->kind >= moment->world->counts.kinds ||
             moment->world->kinds[effect->kind].model >= moment->world->counts.models)
             continue;
         float at[3];
-        draw_list_relative(scene, effect->point, at);
-        float far = sqrtf(frustum_dot(at, at)), pixels = frustum_pixels(&scene->sight, 2.0f, far);
-        if (pixels < (float)PIXELS_LEAST || !frustum_ball(&scene->sight, at, 120.0f))
+        draw_list_relative(list, effect->point, at);
+        float far = sqrtf(frustum_dot(at, at)), pixels = frustum_pixels(&list->sight, 2.0f, far);
+        if (pixels < (float)PIXELS_LEAST || !frustum_ball(&list->sight, at, 120.0f))
             continue;
         for (uint32_t n = 0; n < PIECES_MOST; n++)
-            add_piece(scene, scenery, moment, effect, age, n);
+            add_piece(list, scenery, moment, effect, age, n);
     }
 }

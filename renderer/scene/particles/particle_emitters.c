@@ -15,41 +15,41 @@
 #define BURST_REACH_M 12.0f /* so far a burst goes, with the wind ... */
 #define BURST_REACH   12.0f /* ... and for each metre of its size */
 
-static void entity_puffs(struct scene *scene, const struct frame_view *moment,
-                         const struct motion_trails *spoors, uint32_t slot)
+static void entity_particles(struct draw_list *list, const struct frame_view *moment,
+                             const struct motion_trails *spoors, uint32_t slot)
 {
     const struct entities *e = moment->entities;
     if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= moment->world->counts.kinds)
         return;
     const struct kind *kind = &moment->world->kinds[e->kind[slot]];
     const struct motion_trail *trail = motion_trails_of(spoors, slot, e->id[slot]);
-    smoke_entity(scene, moment, trail, slot, kind);
+    smoke_entity(list, moment, trail, slot, kind);
     if (e->state[slot] == ENTITY_ACTIVE)
-        trails_entity(scene, moment, trail, slot, kind);
+        trails_entity(list, moment, trail, slot, kind);
 }
 
-static void effect_puffs(struct scene *scene, const struct frame_view *moment,
-                         const struct effect *effect)
+static void effect_particles(struct draw_list *list, const struct frame_view *moment,
+                             const struct effect *effect)
 {
-    double age = scene->time_s - effect->time_s;
+    double age = list->time_s - effect->time_s;
     float at[3];
-    draw_list_relative(scene, effect->point, at);
-    float pixels = frustum_pixels(&scene->sight, effect->size_m, sqrtf(frustum_dot(at, at)));
+    draw_list_relative(list, effect->point, at);
+    float pixels = frustum_pixels(&list->sight, effect->size_m, sqrtf(frustum_dot(at, at)));
     if (age >= 0.0 && age < effects_life_s((enum effect_type)effect->type) &&
         pixels > PARTICLES_LEAST_PIXELS &&
-        frustum_ball(&scene->sight, at, BURST_REACH_M + BURST_REACH * effect->size_m))
-        bursts_effect(scene, moment, effect, age);
+        frustum_ball(&list->sight, at, BURST_REACH_M + BURST_REACH * effect->size_m))
+        bursts_effect(list, moment, effect, age);
 }
 
 /* By distance, farthest first, those as far in the order they came: digits of the squared
  * distance's bits, which are ordered as it is. */
-static void sort_puffs(struct scene *scene)
+static void sort_particles(struct draw_list *list)
 {
-    const uint32_t digits = 1u << KEY_BITS, count = scene->puff_count;
-    struct puff_key *from = scene->puff_keys, *to = from + SCENE_PUFFS_MAX;
+    const uint32_t digits = 1u << KEY_BITS, count = list->particle_count;
+    struct particle_key *from = list->particle_keys, *to = from + DRAW_LIST_PARTICLES_MAX;
     uint32_t start[1u << KEY_BITS];
     for (uint32_t i = 0; i < count; i++) {
-        float squared = frustum_dot(scene->puffs[i].at, scene->puffs[i].at);
+        float squared = frustum_dot(list->particles[i].at, list->particles[i].at);
         memcpy(&from[i].key, &squared, sizeof squared);
         from[i].key = ~from[i].key;
         from[i].index = i;
@@ -65,24 +65,24 @@ static void sort_puffs(struct scene *scene)
         }
         for (uint32_t i = 0; i < count; i++)
             to[start[from[i].key >> shift & (digits - 1)]++] = from[i];
-        struct puff_key *swap = from;
+        struct particle_key *swap = from;
         from = to;
         to = swap;
     }
     for (uint32_t i = 0; i < count; i++)
-        scene->puffs_sorted[i] = scene->puffs[from[i].index];
-    struct scene_puff *sorted = scene->puffs_sorted;
-    scene->puffs_sorted = scene->puffs;
-    scene->puffs = sorted;
+        list->particles_sorted[i] = list->particles[from[i].index];
+    struct draw_list_particle *sorted = list->particles_sorted;
+    list->particles_sorted = list->particles;
+    list->particles = sorted;
 }
 
-void particle_emitters_add(struct scene *scene, const struct frame_view *moment,
+void particle_emitters_add(struct draw_list *list, const struct frame_view *moment,
                            const struct effects *effects)
 {
     for (uint32_t slot = 0; slot < moment->head->used; slot++)
-        entity_puffs(scene, moment, &effects->spoors, slot);
-    trails_left(scene, moment, &effects->spoors);
+        entity_particles(list, moment, &effects->spoors, slot);
+    trails_left(list, moment, &effects->spoors);
     for (uint32_t i = 0; i < effects->count; i++)
-        effect_puffs(scene, moment, &effects->effect[i]);
-    sort_puffs(scene);
+        effect_particles(list, moment, &effects->effect[i]);
+    sort_particles(list);
 }

@@ -35,27 +35,27 @@ struct shade dust_of(enum cover cover)
 }
 
 /* A stretched puff's axis as it is seen: across the view, and never shorter than least. */
-static void stretch(const struct frustum *sight, struct scene_puff *puff, struct vec3 along,
-                    float least)
+static void stretch(const struct frustum *sight, struct draw_list_particle *particle,
+                    struct vec3 along, float least)
 {
-    float axis[3], squared = fmaxf(frustum_dot(puff->at, puff->at), 1e-6f);
+    float axis[3], squared = fmaxf(frustum_dot(particle->at, particle->at), 1e-6f);
     vec3_to_floats(axis, along);
-    float towards = frustum_dot(axis, puff->at) / squared;
+    float towards = frustum_dot(axis, particle->at) / squared;
     for (uint32_t i = 0; i < 3; i++)
-        axis[i] -= towards * puff->at[i];
+        axis[i] -= towards * particle->at[i];
     float length = sqrtf(frustum_dot(axis, axis));
-    bool blunt = length < 1e-3f * puff->size;
+    bool blunt = length < 1e-3f * particle->size;
     float longer = blunt ? least : fmaxf(1.0f, least / length);
     for (uint32_t i = 0; i < 3; i++)
-        puff->axis[i] = longer * (blunt ? sight->up[i] : axis[i]);
+        particle->axis[i] = longer * (blunt ? sight->up[i] : axis[i]);
 }
 
-void particles_lay(const struct scene *scene, struct spot *spot, double ground_m)
+void particles_lay(const struct draw_list *list, struct spot *spot, double ground_m)
 {
     spot->flat = true;
     spot->along.y = 0.0;
     spot->at.y = ground_m;
-    struct vec3 along = spot->along, way = vec3_sub(spot->at, scene->camera.eye);
+    struct vec3 along = spot->along, way = vec3_sub(spot->at, list->camera.eye);
     /* The picture's width lies across both the puff and the view; the puff's own across the puff
      * and on the ground. */
     struct vec3 across = vec3_cross(along, way), own = {-along.z, 0.0, along.x};
@@ -65,34 +65,35 @@ void particles_lay(const struct scene *scene, struct spot *spot, double ground_m
     spot->at.y += LIFT * spot->size_m; /* or the ground would cut its lower edge */
 }
 
-void particles_add(struct scene *scene, const struct spot *spot)
+void particles_add(struct draw_list *list, const struct spot *spot)
 {
-    struct scene_puff puff = {.size = (float)spot->size_m};
-    draw_list_relative(scene, spot->at, puff.at);
-    float distance = sqrtf(frustum_dot(puff.at, puff.at));
-    float pixels = frustum_pixels(&scene->sight, puff.size, distance);
+    struct draw_list_particle particle = {.size = (float)spot->size_m};
+    draw_list_relative(list, spot->at, particle.at);
+    float distance = sqrtf(frustum_dot(particle.at, particle.at));
+    float pixels = frustum_pixels(&list->sight, particle.size, distance);
     float reach = (float)maths_max(spot->size_m, vec3_length(spot->along));
-    if (pixels <= PARTICLES_LEAST_PIXELS || !frustum_ball(&scene->sight, puff.at, 1.5f * reach))
+    if (pixels <= PARTICLES_LEAST_PIXELS || !frustum_ball(&list->sight, particle.at, 1.5f * reach))
         return;
-    float near = (distance / puff.size - EYE_INSIDE) / (EYE_OUTSIDE - EYE_INSIDE);
+    float near = (distance / particle.size - EYE_INSIDE) / (EYE_OUTSIDE - EYE_INSIDE);
     float far = (pixels - PARTICLES_LEAST_PIXELS) / (FADES_PIXELS - PARTICLES_LEAST_PIXELS);
     float alpha = spot->shade.a * fminf(1.0f, near) * fminf(1.0f, far);
     if (alpha < LEAST_ALPHA)
         return;
-    if (scene->puff_count == SCENE_PUFFS_MAX) {
-        scene->omitted++;
+    if (list->particle_count == DRAW_LIST_PARTICLES_MAX) {
+        list->omitted++;
         return;
     }
     if (vec3_dot(spot->along, spot->along) > 0.0)
-        stretch(&scene->sight, &puff, spot->along, (spot->flat ? FLAT_LEAST : 1.0f) * puff.size);
-    puff.turn_rad = spot->turn_rad;
-    puff.picture = (float)spot->picture;
-    puff.glow = spot->glow;
-    puff.colour[0] = spot->shade.r;
-    puff.colour[1] = spot->shade.g;
-    puff.colour[2] = spot->shade.b;
-    puff.colour[3] = alpha;
-    scene->puffs[scene->puff_count++] = puff;
+        stretch(&list->sight, &particle, spot->along,
+                (spot->flat ? FLAT_LEAST : 1.0f) * particle.size);
+    particle.turn_rad = spot->turn_rad;
+    particle.picture = (float)spot->picture;
+    particle.glow = spot->glow;
+    particle.colour[0] = spot->shade.r;
+    particle.colour[1] = spot->shade.g;
+    particle.colour[2] = spot->shade.b;
+    particle.colour[3] = alpha;
+    list->particles[list->particle_count++] = particle;
 }
 
 /* --- rows and bursts -------------------------------------------------------------------------- */
@@ -122,14 +123,14 @@ float row_weight(int64_t number, double share)
     return (float)maths_clamp(2.0 * whole * share - 1.0, 0.0, 1.0);
 }
 
-double particles_spacing_m(const struct scene *scene, double size_m, double distance_m)
+double particles_spacing_m(const struct draw_list *list, double size_m, double distance_m)
 {
-    double pixel_m = maths_max(distance_m, scene->camera.near_m) / scene->camera.focal_pixels;
-    return maths_max(APART_SIZES * size_m, APART_PIXELS * pixel_m) / (double)scene->detail;
+    double pixel_m = maths_max(distance_m, list->camera.near_m) / list->camera.focal_pixels;
+    return maths_max(APART_SIZES * size_m, APART_PIXELS * pixel_m) / (double)list->detail;
 }
 
-double particles_share(const struct scene *scene, double size_m, struct vec3 at)
+double particles_share(const struct draw_list *list, double size_m, struct vec3 at)
 {
-    double pixels = camera_pixels(&scene->camera, size_m, particles_distance_m(scene, at));
-    return maths_clamp(pixels / WHOLE_PIXELS, LEAST_SHARE, 1.0) * (double)scene->detail;
+    double pixels = camera_pixels(&list->camera, size_m, particles_distance_m(list, at));
+    return maths_clamp(pixels / WHOLE_PIXELS, LEAST_SHARE, 1.0) * (double)list->detail;
 }

@@ -25,17 +25,17 @@ struct spot {
     struct vec3 along; /* [m] stretched so far to both sides, at least to a ball; 0: round */
     double size_m;
     struct shade shade;
-    enum puff_picture picture;
+    enum particle_picture picture;
     float turn_rad, glow;
     bool flat; /* it lies on the ground: seen along the ground it is no ball */
 };
 
 /* Lays a stretched puff on the ground, this high: how wide it shows goes by from where it is seen.
  */
-void particles_lay(const struct scene *scene, struct spot *spot, double ground_m);
+void particles_lay(const struct draw_list *list, struct spot *spot, double ground_m);
 
 /* Unless it cannot be seen. A puff that the eye comes near to fades out before the eye is in it. */
-void particles_add(struct scene *scene, const struct spot *spot);
+void particles_add(struct draw_list *list, const struct spot *spot);
 
 /* Puffs given off one after the other, along a line that they drift away on. */
 struct row {
@@ -56,9 +56,9 @@ static inline double row_time_s(const struct row *row, int64_t number)
 /* How opaque the puff with this number is where the row wants this share of its puffs, 0..1. */
 float row_weight(int64_t number, double share);
 
-static inline double particles_distance_m(const struct scene *scene, struct vec3 at)
+static inline double particles_distance_m(const struct draw_list *list, struct vec3 at)
 {
-    return vec3_length(vec3_sub(at, scene->camera.eye));
+    return vec3_length(vec3_sub(at, list->camera.eye));
 }
 
 /* How many numbers the puff may stray from its own and still not meet the next that shows whenever
@@ -66,10 +66,10 @@ static inline double particles_distance_m(const struct scene *scene, struct vec3
 double row_reach(int64_t number);
 
 /* How far apart puffs of a size should be [m]: as near as they need, as far as nobody sees it. */
-double particles_spacing_m(const struct scene *scene, double size_m, double distance_m);
+double particles_spacing_m(const struct draw_list *list, double size_m, double distance_m);
 
 /* Share of a burst's puffs to show for one of a size; so much more must each of them cover. */
-double particles_share(const struct scene *scene, double size_m, struct vec3 at);
+double particles_share(const struct draw_list *list, double size_m, struct vec3 at);
 
 /* Of count puffs the n-th when a share of them is shown: opaque 0..1. */
 static inline float particles_part(uint32_t n, uint32_t count, double share)
@@ -95,9 +95,10 @@ static inline float luck_turn(uint32_t seed, uint32_t n, uint32_t purpose)
     return (float)TWO_PI * luck(seed, n, purpose);
 }
 
-static inline enum puff_picture smoke_picture(uint32_t seed, uint32_t n)
+static inline enum particle_picture smoke_picture(uint32_t seed, uint32_t n)
 {
-    return (enum puff_picture)(PUFF_SMOKE_A + value_noise_hash((int32_t)seed, (int32_t)n, 311) % 4);
+    return (enum particle_picture)(PARTICLE_SMOKE_A +
+                                   value_noise_hash((int32_t)seed, (int32_t)n, 311) % 4);
 }
 
 /* From nothing to all over a time, and to nothing again at the end. */

@@ -19,22 +19,22 @@ static struct vec3 turned(const struct body_axes *axes, const float v[4])
         vec3_add(vec3_scale(axes->up, (double)v[1]), vec3_scale(axes->right, (double)v[2])));
 }
 
-static void add_disc(struct scene *scene, struct vec3 hub, struct vec3 axle, double radius_m)
+static void add_disc(struct draw_list *list, struct vec3 hub, struct vec3 axle, double radius_m)
 {
-    struct vec3 way = vec3_sub(hub, scene->camera.eye), across = vec3_cross(axle, way);
+    struct vec3 way = vec3_sub(hub, list->camera.eye), across = vec3_cross(axle, way);
     double distance = vec3_length(way), wide = vec3_length(across);
-    if (camera_pixels(&scene->camera, 2.0 * radius_m, distance) < LEAST_PIXELS || !(wide > 0.0))
+    if (camera_pixels(&list->camera, 2.0 * radius_m, distance) < LEAST_PIXELS || !(wide > 0.0))
         return;
     double open = fabs(vec3_dot(way, axle)) / distance;
     struct spot disc = {.at = hub,
                         .along = vec3_scale(across, radius_m / wide),
                         .size_m = radius_m * maths_max(open, FLAT_SHARE),
                         .shade = {0.12f, 0.12f, 0.13f, DISC_ALPHA},
-                        .picture = PUFF_DISC};
-    particles_add(scene, &disc);
+                        .picture = PARTICLE_DISC};
+    particles_add(list, &disc);
 }
 
-void rotors_add(struct scene *scene, const struct static_scene *scenery,
+void rotors_add(struct draw_list *list, const struct static_scene *scenery,
                 const struct frame_view *moment)
 {
     const struct entities *e = moment->entities;
@@ -44,15 +44,15 @@ void rotors_add(struct scene *scene, const struct static_scene *scenery,
         const struct kind *kind = &moment->world->kinds[e->kind[slot]];
         if (kind->domain != DOMAIN_AIR || kind->model >= moment->world->counts.models)
             continue;
-        const struct mesh_frame *frame = &scenery->frames[kind->model];
+        const struct mesh_skeleton *skeleton = &scenery->skeletons[kind->model];
         struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
         for (uint32_t joint = 1; joint < MODEL_JOINTS_MAX; joint++) {
-            const float *pivot = frame->pivot[joint];
+            const float *pivot = skeleton->pivot[joint];
             struct vec3 hub = vec3_add(entities_position(e, slot), turned(&axes, pivot));
-            if (frame->part[joint] == PART_ROTOR)
-                add_disc(scene, hub, axes.up, (double)pivot[3]);
-            else if (frame->part[joint] == PART_TAIL_ROTOR)
-                add_disc(scene, hub, axes.right, (double)pivot[3]);
+            if (skeleton->part[joint] == PART_ROTOR)
+                add_disc(list, hub, axes.up, (double)pivot[3]);
+            else if (skeleton->part[joint] == PART_TAIL_ROTOR)
+                add_disc(list, hub, axes.right, (double)pivot[3]);
         }
     }
 }

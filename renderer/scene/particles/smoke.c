@@ -6,14 +6,14 @@
 
 #include <math.h>
 
-#define FIRE_LIFE_S   150.0 /* a wreck burns */
-#define SMOKE_LIFE_S  420.0 /* and smokes */
-#define COLUMN_PUFFS  64    /* of a column where it is densest, over its whole life */
-#define COLUMN_RISE_S 26.0  /* a puff's life in the column */
-#define OVERLAP       0.9   /* half a puff's length over the distance to the next */
-#define FLAMES        9
-#define THIN_SMOKE    0.25f /* opacity, of a damaged vehicle */
-#define THICK_SMOKE   0.50f /* ... and of one badly damaged */
+#define FIRE_LIFE_S      150.0 /* a wreck burns */
+#define SMOKE_LIFE_S     420.0 /* and smokes */
+#define COLUMN_PARTICLES 64    /* of a column where it is densest, over its whole life */
+#define COLUMN_RISE_S    26.0  /* a puff's life in the column */
+#define OVERLAP          0.9   /* half a puff's length over the distance to the next */
+#define FLAMES           9
+#define THIN_SMOKE       0.25f /* opacity, of a damaged vehicle */
+#define THICK_SMOKE      0.50f /* ... and of one badly damaged */
 
 /* How a puff moves in a column. */
 struct column {
@@ -37,40 +37,41 @@ static struct vec3 column_way(const struct column *column, double t)
     return (struct vec3){WIND_X * drift, column->rise_m * (1.45 - 0.9 * t), WIND_Z * drift};
 }
 
-static void column_puff(struct scene *scene, const struct column *column, int64_t number, double t,
-                        struct shade shade, uint32_t seed)
+static void column_particle(struct draw_list *list, const struct column *column, int64_t number,
+                            double t, struct shade shade, uint32_t seed)
 {
     uint32_t n = (uint32_t)number;
     /* Not quite in its turn: puffs in step look like beads on a string. */
-    double out_of_step = row_reach(number) / COLUMN_PUFFS * ((double)luck(seed, n, 33) - 0.5);
+    double out_of_step = row_reach(number) / COLUMN_PARTICLES * ((double)luck(seed, n, 33) - 0.5);
     struct vec3 at = column_at(column, maths_max(0.0, t + 0.2 * out_of_step));
     struct vec3 way = column_way(column, t);
     double size = column->size_m * (0.85 + 3.4 * t), length = vec3_length(way);
-    double spacing = particles_spacing_m(scene, size, particles_distance_m(scene, at));
-    float weight = row_weight(number, length / (spacing * COLUMN_PUFFS));
+    double spacing = particles_spacing_m(list, size, particles_distance_m(list, at));
+    float weight = row_weight(number, length / (spacing * COLUMN_PARTICLES));
     if (weight <= 0.0f)
         return;
     double sway = (0.45 + 1.6 * t) * column->size_m;
-    spacing = maths_max(spacing, length / COLUMN_PUFFS);
+    spacing = maths_max(spacing, length / COLUMN_PARTICLES);
     /* Each leans its own way: a row of balls alike would look like one. */
     double stretch = maths_max(size, OVERLAP * spacing) / length;
     double tilt_x = size * ((double)luck(seed, n, 31) - 0.5);
     double tilt_z = size * ((double)luck(seed, n, 32) - 0.5);
-    struct spot puff = {
+    struct spot particle = {
         .at = {at.x + sway * ((double)luck(seed, n, 1) - 0.5), at.y,
                at.z + sway * ((double)luck(seed, n, 2) - 0.5)},
         .along = {way.x * stretch + 1.6 * tilt_x, way.y * stretch, way.z * stretch + 1.6 * tilt_z},
         .size_m = size * (0.85 + 0.3 * (double)luck(seed, n, 3)),
         .picture = smoke_picture(seed, n),
     };
-    puff.shade = shade_mix(shade, (struct shade){0.42f, 0.40f, 0.38f, 0.0f}, t * (0.6 * t + 0.4));
-    puff.shade.a *= weight * (float)maths_min(1.0, 8.0 * t);
-    particles_add(scene, &puff);
+    particle.shade =
+        shade_mix(shade, (struct shade){0.42f, 0.40f, 0.38f, 0.0f}, t * (0.6 * t + 0.4));
+    particle.shade.a *= weight * (float)maths_min(1.0, 8.0 * t);
+    particles_add(list, &particle);
 }
 
 /* A column of puffs that rise, spread, drift with the wind and fade, of what was given off between
  * two times. Its height follows its thickness, so that thin columns are low. */
-static void smoke_column(struct scene *scene, struct vec3 foot, double size_m, double from_s,
+static void smoke_column(struct draw_list *list, struct vec3 foot, double size_m, double from_s,
                          double to_s, struct shade shade, uint32_t seed)
 {
     struct column column = {.foot = foot, .size_m = size_m};
@@ -78,26 +79,26 @@ static void smoke_column(struct scene *scene, struct vec3 foot, double size_m, d
     column.rise_m = (0.5 + 1.3 * size_m) * column.life_s;
     struct vec3 top = column_at(&column, 1.0);
     float middle[3], reach = (float)(0.5 * vec3_length(vec3_sub(top, foot)) + 6.0 * size_m);
-    draw_list_relative(scene, vec3_lerp(foot, top, 0.5), middle);
-    if (!frustum_ball(&scene->sight, middle, reach))
+    draw_list_relative(list, vec3_lerp(foot, top, 0.5), middle);
+    if (!frustum_ball(&list->sight, middle, reach))
         return;
     /* The foot is where it is densest: puffs are smallest there, and fast. */
-    double spacing = particles_spacing_m(scene, 0.85 * size_m, particles_distance_m(scene, foot));
-    double share = vec3_length(column_way(&column, 0.0)) / (spacing * COLUMN_PUFFS);
-    struct row row =
-        row_of(seed, COLUMN_PUFFS / column.life_s, maths_max(from_s, scene->time_s - column.life_s),
-               maths_min(to_s, scene->time_s), 1.4 * share);
+    double spacing = particles_spacing_m(list, 0.85 * size_m, particles_distance_m(list, foot));
+    double share = vec3_length(column_way(&column, 0.0)) / (spacing * COLUMN_PARTICLES);
+    struct row row = row_of(seed, COLUMN_PARTICLES / column.life_s,
+                            maths_max(from_s, list->time_s - column.life_s),
+                            maths_min(to_s, list->time_s), 1.4 * share);
     for (int64_t number = row.first; number <= row.last; number += row.step)
-        column_puff(scene, &column, number,
-                    (scene->time_s - row_time_s(&row, number)) / column.life_s, shade, seed);
+        column_particle(list, &column, number,
+                        (list->time_s - row_time_s(&row, number)) / column.life_s, shade, seed);
 }
 
-static void flames(struct scene *scene, struct vec3 foot, double size_m, double strength,
+static void flames(struct draw_list *list, struct vec3 foot, double size_m, double strength,
                    uint32_t seed)
 {
-    double share = particles_share(scene, size_m, foot);
+    double share = particles_share(list, size_m, foot);
     for (uint32_t i = 0; i < particles_shown(FLAMES, share); i++) {
-        double phase = scene->time_s * 1.3 + (double)luck(seed, i, 5), t = phase - floor(phase);
+        double phase = list->time_s * 1.3 + (double)luck(seed, i, 5), t = phase - floor(phase);
         uint32_t n = (uint32_t)floor(phase) * FLAMES + i;
         double tall = size_m * (0.95 - 0.3 * t) * strength;
         struct spot flame = {
@@ -106,40 +107,40 @@ static void flames(struct scene *scene, struct vec3 foot, double size_m, double 
                    foot.z + size_m * 1.1 * ((double)luck(seed, n, 7) - 0.5) + 0.2 * WIND_Z * t},
             .along = {0.25 * WIND_X * t, tall, 0.25 * WIND_Z * t},
             .size_m = size_m * (0.68 - 0.36 * t) * strength,
-            .picture = n & 1 ? PUFF_FLAME_A : PUFF_FLAME_B,
+            .picture = n & 1 ? PARTICLE_FLAME_A : PARTICLE_FLAME_B,
             .glow = 0.85f,
             .shade = {1.0f, 0.72f - 0.32f * (float)t, 0.28f - 0.2f * (float)t,
                       (float)(0.8 * strength) * particles_part(i, FLAMES, share) *
                           come_and_go(t, 0.12, 1.0, 0.6)},
         };
-        particles_add(scene, &flame);
+        particles_add(list, &flame);
     }
     float flicker =
-        0.85f + 0.15f * value_noise_value(scene->time_s * 7.0, (double)(seed % 4096u), 8);
+        0.85f + 0.15f * value_noise_value(list->time_s * 7.0, (double)(seed % 4096u), 8);
     struct spot glow = {.at = {foot.x, foot.y + 0.6 * size_m, foot.z},
                         .size_m = 2.2 * size_m,
-                        .picture = PUFF_GLOW,
+                        .picture = PARTICLE_GLOW,
                         .glow = 1.0f,
                         .shade = {1.0f, 0.45f, 0.12f, 0.32f * (float)strength * flicker}};
-    particles_add(scene, &glow);
+    particles_add(list, &glow);
 }
 
-static void wreck(struct scene *scene, const struct kind *kind, struct vec3 at, double since_s,
+static void wreck(struct draw_list *list, const struct kind *kind, struct vec3 at, double since_s,
                   uint32_t seed)
 {
-    double size = maths_clamp(0.62 * kind->radius_m, 0.8, 12.0), age_s = scene->time_s - since_s;
+    double size = maths_clamp(0.62 * kind->radius_m, 0.8, 12.0), age_s = list->time_s - since_s;
     double smoke = maths_clamp((SMOKE_LIFE_S - age_s) / 120.0, 0.0, 1.0);
     double fire = maths_clamp((FIRE_LIFE_S - age_s) / 60.0, 0.0, 1.0);
     struct vec3 foot = {at.x, at.y + 0.25 * kind->height_m, at.z};
     if (smoke > 0.0)
-        smoke_column(scene, foot, size, since_s, scene->time_s,
+        smoke_column(list, foot, size, since_s, list->time_s,
                      (struct shade){0.07f, 0.065f, 0.06f, 0.85f * (float)smoke}, seed);
     foot.y += 0.2 * kind->height_m;
     if (fire > 0.0)
-        flames(scene, foot, size, (0.4 + 0.6 * fire) * maths_min(1.0, 0.3 + 0.5 * age_s), seed);
+        flames(list, foot, size, (0.4 + 0.6 * fire) * maths_min(1.0, 0.3 + 0.5 * age_s), seed);
 }
 
-void smoke_entity(struct scene *scene, const struct frame_view *moment,
+void smoke_entity(struct draw_list *list, const struct frame_view *moment,
                   const struct motion_trail *trail, uint32_t slot, const struct kind *kind)
 {
     const struct entities *e = moment->entities;
@@ -154,10 +155,10 @@ void smoke_entity(struct scene *scene, const struct frame_view *moment,
     struct vec3 top = {at.x, at.y + 0.5 * kind->height_m, at.z};
     double size = 0.3 * kind->radius_m;
     /* What it gave off before its damage grew still hangs in the air, thinner. */
-    smoke_column(scene, top, size, began_s, changed_s, thin, e->id[slot]);
+    smoke_column(list, top, size, began_s, changed_s, thin, e->id[slot]);
     if (dead)
-        wreck(scene, kind, at, changed_s, e->id[slot]);
+        wreck(list, kind, at, changed_s, e->id[slot]);
     else
-        smoke_column(scene, top, size, changed_s, scene->time_s,
+        smoke_column(list, top, size, changed_s, list->time_s,
                      e->damage[slot] >= DAMAGE_HIGH ? thick : thin, e->id[slot]);
 }

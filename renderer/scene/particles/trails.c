@@ -61,33 +61,34 @@ static struct motion_trail_point point_of(const struct entities *e, uint32_t slo
 }
 
 /* Its numbers that may show; none when it was too slow to leave anything. */
-static struct row trail_row(const struct scene *scene, const struct trail *trail, double least_mps)
+static struct row trail_row(const struct draw_list *list, const struct trail *trail,
+                            double least_mps)
 {
     const struct row none = {.last = -1, .step = 1};
     struct vec3 at = {(double)trail->now.at[0], (double)trail->now.at[1], (double)trail->now.at[2]};
-    double from_s = maths_max(trail->born_s, scene->time_s - trail->life_s);
+    double from_s = maths_max(trail->born_s, list->time_s - trail->life_s);
     double speed = motion_trail_fastest_mps(trail->history, &trail->now, from_s);
     if (speed < least_mps)
         return none;
-    double length = speed * (scene->time_s - from_s);
+    double length = speed * (list->time_s - from_s);
     /* Its nearest end may be anywhere: what is too dense for the one is sorted out by weight. */
-    double nearest = maths_max(0.0, particles_distance_m(scene, at) - length);
+    double nearest = maths_max(0.0, particles_distance_m(list, at) - length);
     double largest = trail->size_m * (1.0 + trail->growth);
     float place[3], reach = (float)(1.2 * length + 2.0 * largest + BEHIND_M);
-    draw_list_relative(scene, at, place);
-    if (camera_pixels(&scene->camera, largest, nearest) < LEAST_PIXELS ||
-        !frustum_ball(&scene->sight, place, reach))
+    draw_list_relative(list, at, place);
+    if (camera_pixels(&list->camera, largest, nearest) < LEAST_PIXELS ||
+        !frustum_ball(&list->sight, place, reach))
         return none;
-    double spacing = particles_spacing_m(scene, trail->size_m, nearest);
-    return row_of(trail->seed, trail->rate_hz, from_s, maths_min(trail->now.time_s, scene->time_s),
+    double spacing = particles_spacing_m(list, trail->size_m, nearest);
+    return row_of(trail->seed, trail->rate_hz, from_s, maths_min(trail->now.time_s, list->time_s),
                   MORE * speed / (spacing * trail->rate_hz));
 }
 
 /* False when there is no such puff. */
-static bool trail_left(const struct scene *scene, const struct trail *trail, const struct row *row,
-                       int64_t number, struct left *left)
+static bool trail_left(const struct draw_list *list, const struct trail *trail,
+                       const struct row *row, int64_t number, struct left *left)
 {
-    double time_s = row_time_s(row, number), age = scene->time_s - time_s;
+    double time_s = row_time_s(row, number), age = list->time_s - time_s;
     struct motion_trail_point was = motion_trail_at(trail->history, &trail->now, time_s);
     struct vec3 way = {(double)was.velocity[0], (double)was.velocity[1], (double)was.velocity[2]};
     double speed = vec3_length(way), drift = age * trail->settle_mps;
@@ -98,7 +99,7 @@ static bool trail_left(const struct scene *scene, const struct trail *trail, con
     double size = trail->size_m * (1.0 + trail->growth * left->t);
     struct vec3 at = {(double)was.at[0] + WIND_X * drift, (double)was.at[1],
                       (double)was.at[2] + WIND_Z * drift};
-    double spacing = particles_spacing_m(scene, size, particles_distance_m(scene, at));
+    double spacing = particles_spacing_m(list, size, particles_distance_m(list, at));
     left->weight = row_weight(number, speed / (spacing * trail->rate_hz));
     spacing = maths_max(spacing, speed / trail->rate_hz);
     /* Each leans its own way, or they would look like one again and again. */
@@ -116,13 +117,13 @@ static bool trail_left(const struct scene *scene, const struct trail *trail, con
 
 /* --- on land ---------------------------------------------------------------------------------- */
 
-static void dust(struct scene *scene, const struct frame_view *moment,
+static void dust(struct draw_list *list, const struct frame_view *moment,
                  const struct motion_trail *history, uint32_t slot, const struct kind *kind)
 {
     const struct entities *e = moment->entities;
     const struct terrain *terrain = &moment->world->terrain;
     struct trail trail = {.history = history,
-                          .now = point_of(e, slot, scene->time_s),
+                          .now = point_of(e, slot, list->time_s),
                           .born_s = (double)e->born_tick[slot] * world_dt_s(moment->world),
                           .rate_hz = DUST_HZ,
                           .life_s = DUST_LIFE_S,
@@ -130,75 +131,76 @@ static void dust(struct scene *scene, const struct frame_view *moment,
                           .growth = 2.4,
                           .settle_mps = 0.6,
                           .seed = e->id[slot]};
-    struct row row = trail_row(scene, &trail, DUST_LEAST_MPS);
+    struct row row = trail_row(list, &trail, DUST_LEAST_MPS);
     struct left left;
     for (int64_t number = row.first; number <= row.last; number += row.step) {
-        if (!trail_left(scene, &trail, &row, number, &left))
+        if (!trail_left(list, &trail, &row, number, &left))
             continue;
         double speed = vec3_length(left.way), wheels = left.spot.at.y;
-        struct spot *puff = &left.spot;
+        struct spot *particle = &left.spot;
         /* From either track in turn. */
         double side =
             0.36 * kind->width_m * ((double)luck(trail.seed, left.n, 9) < 0.5 ? -1.0 : 1.0);
-        puff->at.x += (-left.way.z * side - 0.42 * kind->length_m * left.way.x) / speed;
-        puff->at.z += (left.way.x * side - 0.42 * kind->length_m * left.way.z) / speed;
-        double ground = terrain_height(terrain, moment->craters, puff->at.x, puff->at.z);
-        puff->shade = dust_of(terrain_cover(terrain, puff->at.x - left.drift * WIND_X,
-                                            puff->at.z - left.drift * WIND_Z));
-        puff->at.y = ground + (0.6 + 0.2 * left.t) * puff->size_m;
+        particle->at.x += (-left.way.z * side - 0.42 * kind->length_m * left.way.x) / speed;
+        particle->at.z += (left.way.x * side - 0.42 * kind->length_m * left.way.z) / speed;
+        double ground = terrain_height(terrain, moment->craters, particle->at.x, particle->at.z);
+        particle->shade = dust_of(terrain_cover(terrain, particle->at.x - left.drift * WIND_X,
+                                                particle->at.z - left.drift * WIND_Z));
+        particle->at.y = ground + (0.6 + 0.2 * left.t) * particle->size_m;
         double thick = maths_clamp((speed - DUST_LEAST_MPS) / 10.0, 0.0, 1.0) *
                        maths_clamp(DUST_HIGH_M + ground - wheels, 0.0, 1.0);
-        puff->shade.a *= 0.65f * left.weight * (float)(thick * (1.0 - left.t) * (1.0 - left.t)) *
-                         come_and_go(left.t, 0.05, 2.0, 1.0);
-        particles_add(scene, puff);
+        particle->shade.a *= 0.65f * left.weight *
+                             (float)(thick * (1.0 - left.t) * (1.0 - left.t)) *
+                             come_and_go(left.t, 0.05, 2.0, 1.0);
+        particles_add(list, particle);
     }
 }
 
 /* --- on water --------------------------------------------------------------------------------- */
 
 /* Foam on the water; side: -1, 1 a wave of the bow, which spreads, 0 what the screws leave. */
-static void foam(struct scene *scene, const struct frame_view *moment,
+static void foam(struct draw_list *list, const struct frame_view *moment,
                  const struct motion_trail *history, uint32_t slot, const struct kind *kind,
                  int32_t side)
 {
     const struct entities *e = moment->entities;
     struct trail trail = {.history = history,
-                          .now = point_of(e, slot, scene->time_s),
+                          .now = point_of(e, slot, list->time_s),
                           .born_s = (double)e->born_tick[slot] * world_dt_s(moment->world),
                           .rate_hz = side == 0 ? WAKE_HZ : BOW_HZ,
                           .life_s = side == 0 ? WAKE_LIFE_S : BOW_LIFE_S,
                           .size_m = (side == 0 ? 0.26 : 0.12) * kind->width_m,
                           .growth = side == 0 ? 1.8 : 3.2,
                           .seed = e->id[slot] * 3u + (uint32_t)(side + 1)};
-    struct row row = trail_row(scene, &trail, WAKE_LEAST_MPS);
+    struct row row = trail_row(list, &trail, WAKE_LEAST_MPS);
     struct left left;
     for (int64_t number = row.first; number <= row.last; number += row.step) {
-        if (!trail_left(scene, &trail, &row, number, &left))
+        if (!trail_left(list, &trail, &row, number, &left))
             continue;
         double speed = vec3_length(left.way), age = left.t * trail.life_s;
         double along = (side == 0 ? -0.46 : 0.34) * kind->length_m;
         double apart = side * (0.34 * kind->width_m + 0.16 * speed * age);
-        struct spot *puff = &left.spot;
-        puff->at.x += (along * left.way.x - apart * left.way.z) / speed;
-        puff->at.z += (along * left.way.z + apart * left.way.x) / speed;
-        particles_lay(scene, puff,
-                      terrain_base_height(&moment->world->terrain, puff->at.x, puff->at.z));
-        puff->shade = (struct shade){0.88f, 0.93f, 0.95f, side == 0 ? 0.55f : 0.50f};
-        puff->shade.a *= left.weight * (float)((1.0 - left.t) * (1.0 - left.t)) *
-                         (float)maths_clamp((speed - WAKE_LEAST_MPS) / 4.0, 0.0, 1.0) *
-                         come_and_go(left.t, 0.06, 2.0, 1.0);
-        particles_add(scene, puff);
+        struct spot *particle = &left.spot;
+        particle->at.x += (along * left.way.x - apart * left.way.z) / speed;
+        particle->at.z += (along * left.way.z + apart * left.way.x) / speed;
+        particles_lay(list, particle,
+                      terrain_base_height(&moment->world->terrain, particle->at.x, particle->at.z));
+        particle->shade = (struct shade){0.88f, 0.93f, 0.95f, side == 0 ? 0.55f : 0.50f};
+        particle->shade.a *= left.weight * (float)((1.0 - left.t) * (1.0 - left.t)) *
+                             (float)maths_clamp((speed - WAKE_LEAST_MPS) / 4.0, 0.0, 1.0) *
+                             come_and_go(left.t, 0.06, 2.0, 1.0);
+        particles_add(list, particle);
     }
 }
 
 /* --- in the air ------------------------------------------------------------------------------- */
 
-static void missile_smoke(struct scene *scene, const struct trail *trail)
+static void missile_smoke(struct draw_list *list, const struct trail *trail)
 {
-    struct row row = trail_row(scene, trail, WAKE_LEAST_MPS);
+    struct row row = trail_row(list, trail, WAKE_LEAST_MPS);
     struct left left;
     for (int64_t number = row.first; number <= row.last; number += row.step) {
-        if (!trail_left(scene, trail, &row, number, &left))
+        if (!trail_left(list, trail, &row, number, &left))
             continue;
         double curl = 0.8 * left.spot.size_m * left.t;
         left.spot.at.x += curl * ((double)luck(trail->seed, left.n, 20) - 0.5);
@@ -206,7 +208,7 @@ static void missile_smoke(struct scene *scene, const struct trail *trail)
         left.spot.at.z += curl * ((double)luck(trail->seed, left.n, 22) - 0.5);
         left.spot.shade = (struct shade){0.93f, 0.92f, 0.90f, 0.75f * left.weight};
         left.spot.shade.a *= (float)((1.0 - left.t) * (1.0 - 0.5 * left.t));
-        particles_add(scene, &left.spot);
+        particles_add(list, &left.spot);
     }
 }
 
@@ -223,42 +225,42 @@ static struct trail missile_trail(const struct motion_trail *history, struct mot
                           .seed = id};
 }
 
-static void missile(struct scene *scene, const struct frame_view *moment,
+static void missile(struct draw_list *list, const struct frame_view *moment,
                     const struct motion_trail *history, uint32_t slot, const struct kind *kind)
 {
     const struct entities *e = moment->entities;
-    struct trail trail = missile_trail(history, point_of(e, slot, scene->time_s), e->id[slot]);
+    struct trail trail = missile_trail(history, point_of(e, slot, list->time_s), e->id[slot]);
     trail.born_s = (double)e->born_tick[slot] * world_dt_s(moment->world);
-    missile_smoke(scene, &trail);
+    missile_smoke(list, &trail);
     struct vec3 velocity = entities_velocity(e, slot);
     double speed = maths_max(vec3_length(velocity), 1.0), half = 0.5 * kind->length_m;
     float flicker =
-        0.85f + 0.15f * value_noise_value(scene->time_s * 23.0, (double)(trail.seed % 4096u), 8);
+        0.85f + 0.15f * value_noise_value(list->time_s * 23.0, (double)(trail.seed % 4096u), 8);
     for (uint32_t core = 0; core < 2; core++) {
         struct spot burner = {
             .at = vec3_add(entities_position(e, slot), vec3_scale(velocity, -1.3 * half / speed)),
             .along = vec3_scale(velocity, (core ? 0.5 : 1.0) * half / speed),
             .size_m = core ? 0.35 : 1.1,
-            .picture = PUFF_GLOW,
+            .picture = PARTICLE_GLOW,
             .glow = 1.0f,
             .shade = {1.0f, core ? 0.9f : 0.62f, core ? 0.75f : 0.28f,
                       core ? 1.0f : 0.7f * flicker}};
-        particles_add(scene, &burner);
+        particles_add(list, &burner);
     }
 }
 
 /* A streak of light, with a white core in a halo. */
-static void tracer(struct scene *scene, const struct entities *e, uint32_t slot,
+static void tracer(struct draw_list *list, const struct entities *e, uint32_t slot,
                    const struct kind *kind)
 {
     struct vec3 velocity = entities_velocity(e, slot), at = entities_position(e, slot);
     double speed = vec3_length(velocity);
     float place[3];
-    draw_list_relative(scene, at, place);
-    if (speed < 1.0 || !frustum_ball(&scene->sight, place, TRACER_REACH_M))
+    draw_list_relative(list, at, place);
+    if (speed < 1.0 || !frustum_ball(&list->sight, place, TRACER_REACH_M))
         return;
-    double distance = vec3_length(vec3_sub(at, scene->camera.eye));
-    double pixel_m = distance / scene->camera.focal_pixels, width = 0.14 + 0.6 * kind->radius_m;
+    double distance = vec3_length(vec3_sub(at, list->camera.eye));
+    double pixel_m = distance / list->camera.focal_pixels, width = 0.14 + 0.6 * kind->radius_m;
     double half = maths_clamp(speed * TRACER_S, 1.0, 20.0);
     for (uint32_t core = 0; core < 2; core++) {
         double size = maths_max(width * (core ? 0.45 : 1.6),
@@ -267,10 +269,10 @@ static void tracer(struct scene *scene, const struct entities *e, uint32_t slot,
             .at = at,
             .along = vec3_scale(velocity, half * (core ? 0.8 : 1.0) / speed),
             .size_m = size,
-            .picture = PUFF_GLOW,
+            .picture = PARTICLE_GLOW,
             .glow = 1.0f,
             .shade = {1.0f, core ? 0.92f : 0.55f, core ? 0.75f : 0.20f, core ? 1.0f : 0.65f}};
-        particles_add(scene, &streak);
+        particles_add(list, &streak);
     }
 }
 
@@ -292,7 +294,7 @@ static struct shade raised_at(const struct terrain *terrain, double x, double z)
 }
 
 /* A ring of dust, or of spray, that a rotor near the ground drives outwards. */
-static void wash(struct scene *scene, const struct frame_view *moment, uint32_t slot,
+static void wash(struct draw_list *list, const struct frame_view *moment, uint32_t slot,
                  const struct kind *kind)
 {
     const struct entities *e = moment->entities;
@@ -300,60 +302,60 @@ static void wash(struct scene *scene, const struct frame_view *moment, uint32_t 
     struct vec3 at = entities_position(e, slot);
     double radius = 0.55 * kind->length_m;
     float place[3];
-    draw_list_relative(scene, at, place);
-    if (kind->min_speed_mps > 0.0 || !frustum_ball(&scene->sight, place, (float)(4.0 * radius)))
+    draw_list_relative(list, at, place);
+    if (kind->min_speed_mps > 0.0 || !frustum_ball(&list->sight, place, (float)(4.0 * radius)))
         return; /* it has wings, or is out of the picture */
     double above = at.y - terrain_height(terrain, moment->craters, at.x, at.z);
     double strength = maths_clamp(1.0 - above / (WASH_DISCS * radius), 0.0, 1.0);
     if (strength <= 0.0)
         return;
-    struct row row = row_of(e->id[slot], WASH_HZ, scene->time_s - WASH_LIFE_S, scene->time_s,
-                            particles_share(scene, radius, at));
+    struct row row = row_of(e->id[slot], WASH_HZ, list->time_s - WASH_LIFE_S, list->time_s,
+                            particles_share(list, radius, at));
     for (int64_t number = row.first; number <= row.last; number += row.step) {
         uint32_t n = (uint32_t)number, seed = e->id[slot];
-        double t = (scene->time_s - row_time_s(&row, number)) / WASH_LIFE_S;
+        double t = (list->time_s - row_time_s(&row, number)) / WASH_LIFE_S;
         double turn = TWO_PI * (double)luck(seed, n, 23), sine, cosine;
         maths_sincos(turn, &sine, &cosine);
         double out = radius * (0.35 + 1.7 * t * (1.4 - 0.4 * t));
-        struct spot puff = {.at = {at.x + out * cosine, 0.0, at.z + out * sine},
-                            .size_m = radius * (0.16 + 0.34 * t),
-                            .picture = smoke_picture(seed, n),
-                            .turn_rad = luck_turn(seed, n, 24)};
-        puff.shade = raised_at(terrain, puff.at.x, puff.at.z);
-        puff.at.y = terrain_height(terrain, moment->craters, puff.at.x, puff.at.z) +
-                    (0.6 + 0.3 * t) * puff.size_m;
-        puff.shade.a *= 0.8f * (float)(strength * (1.0 - t)) * come_and_go(t, 0.15, 2.0, 1.0) *
-                        row_weight(number, particles_share(scene, radius, at));
-        particles_add(scene, &puff);
+        struct spot particle = {.at = {at.x + out * cosine, 0.0, at.z + out * sine},
+                                .size_m = radius * (0.16 + 0.34 * t),
+                                .picture = smoke_picture(seed, n),
+                                .turn_rad = luck_turn(seed, n, 24)};
+        particle.shade = raised_at(terrain, particle.at.x, particle.at.z);
+        particle.at.y = terrain_height(terrain, moment->craters, particle.at.x, particle.at.z) +
+                        (0.6 + 0.3 * t) * particle.size_m;
+        particle.shade.a *= 0.8f * (float)(strength * (1.0 - t)) * come_and_go(t, 0.15, 2.0, 1.0) *
+                            row_weight(number, particles_share(list, radius, at));
+        particles_add(list, &particle);
     }
 }
 
-void trails_entity(struct scene *scene, const struct frame_view *moment,
+void trails_entity(struct draw_list *list, const struct frame_view *moment,
                    const struct motion_trail *history, uint32_t slot, const struct kind *kind)
 {
     switch (kind->domain) {
     case DOMAIN_LAND:
-        dust(scene, moment, history, slot, kind);
+        dust(list, moment, history, slot, kind);
         break;
     case DOMAIN_SEA:
         for (int32_t side = -1; side <= 1; side++)
-            foam(scene, moment, history, slot, kind, side);
+            foam(list, moment, history, slot, kind, side);
         break;
     case DOMAIN_AIR:
-        wash(scene, moment, slot, kind);
+        wash(list, moment, slot, kind);
         break;
     case DOMAIN_MUNITION:
         if (kind->guidance == GUIDANCE_HOMING)
-            missile(scene, moment, history, slot, kind);
+            missile(list, moment, history, slot, kind);
         else
-            tracer(scene, moment->entities, slot, kind);
+            tracer(list, moment->entities, slot, kind);
         break;
     default:
         break;
     }
 }
 
-void trails_left(struct scene *scene, const struct frame_view *moment,
+void trails_left(struct draw_list *list, const struct frame_view *moment,
                  const struct motion_trails *histories)
 {
     const struct entities *e = moment->entities;
@@ -363,12 +365,12 @@ void trails_left(struct scene *scene, const struct frame_view *moment,
             moment->world->kinds[history->kind].domain != DOMAIN_MUNITION)
             continue;
         const struct motion_trail_point *end = &history->point[(history->count - 1) % SPOOR_POINTS];
-        if (end->time_s > scene->time_s || end->time_s < scene->time_s - SMOKE_LIFE_S)
+        if (end->time_s > list->time_s || end->time_s < list->time_s - SMOKE_LIFE_S)
             continue;
         struct trail trail = missile_trail(history, *end, history->id);
         const struct motion_trail_point *first =
             &history->point[history->count < SPOOR_POINTS ? 0 : history->count % SPOOR_POINTS];
         trail.born_s = first->time_s;
-        missile_smoke(scene, &trail);
+        missile_smoke(list, &trail);
     }
 }

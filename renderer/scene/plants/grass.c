@@ -21,8 +21,8 @@
 #define TUFT_REACH_M 2.0f  /* a ball of it holds any tuft */
 
 struct tuft {
-    struct scene_plant plant; /* at: from the block's middle [m] */
-    float until;              /* shown while less of the tufts than this are left out, 0..1 */
+    struct draw_list_plant plant; /* at: from the block's middle [m] */
+    float until;                  /* shown while less of the tufts than this are left out, 0..1 */
 };
 
 struct block {
@@ -107,7 +107,7 @@ static void paint(struct tuft *tuft, enum cover cover, float luck, int32_t colum
     float tone = 0.80f + 0.25f * value_noise_unit(column, row, 28);
     float green = brush ? 0.0f : cover == COVER_FOREST ? 0.30f : 0.10f * (1.0f + luck);
     uint32_t which = value_noise_hash(column, row, 27);
-    tuft->plant = (struct scene_plant){
+    tuft->plant = (struct draw_list_plant){
         .width = size * (brush ? 1.5f : 0.9f),
         .height = size * (brush ? 0.85f : 0.50f),
         .picture = (float)(brush ? PLANT_IMPOSTORS_BUSH_A + which % 3
@@ -187,13 +187,13 @@ static const struct block *block_at(struct grass *tufts, const struct world *wor
 
 /* --- a picture -------------------------------------------------------------------------------- */
 
-static uint32_t show_block(const struct block *block, const struct scene *scene, float range_m,
-                           struct scene_plant *plants, uint32_t room)
+static uint32_t show_block(const struct block *block, const struct draw_list *list, float range_m,
+                           struct draw_list_plant *plants, uint32_t room)
 {
     float middle[3];
     uint32_t count = 0;
-    draw_list_relative(scene, block->middle, middle);
-    if (!frustum_ball(&scene->sight, middle, block->reach))
+    draw_list_relative(list, block->middle, middle);
+    if (!frustum_ball(&list->sight, middle, block->reach))
         return 0;
     for (uint32_t i = 0; i < block->count && count < room; i++) {
         const struct tuft *tuft = &block->tuft[i];
@@ -202,9 +202,9 @@ static uint32_t show_block(const struct block *block, const struct scene *scene,
         float away = sqrtf(frustum_dot(at, at));
         float thin = fminf(1.0f, (range_m - away) / (FADE * range_m));
         float grown = fminf(1.0f, (thin - tuft->until * (1.0f - 1.0f / GROWN)) * GROWN);
-        if (grown <= 0.0f || !frustum_ball(&scene->sight, at, TUFT_REACH_M))
+        if (grown <= 0.0f || !frustum_ball(&list->sight, at, TUFT_REACH_M))
             continue;
-        struct scene_plant *plant = &plants[count++];
+        struct draw_list_plant *plant = &plants[count++];
         *plant = tuft->plant;
         for (uint32_t axis = 0; axis < 3; axis++)
             plant->at[axis] = at[axis];
@@ -214,11 +214,12 @@ static uint32_t show_block(const struct block *block, const struct scene *scene,
     return count;
 }
 
-uint32_t grass_show(struct grass *tufts, const struct scene *scene, const struct world *world,
-                    const struct crater_index *craters, struct scene_plant *plants, uint32_t room)
+uint32_t grass_show(struct grass *tufts, const struct draw_list *list, const struct world *world,
+                    const struct crater_index *craters, struct draw_list_plant *plants,
+                    uint32_t room)
 {
-    struct vec3 eye = scene->camera.eye;
-    double range = GRASS_RANGE_M * sqrt((double)scene->detail);
+    struct vec3 eye = list->camera.eye;
+    double range = GRASS_RANGE_M * sqrt((double)list->detail);
     uint32_t count = 0;
     if (eye.y - terrain_base_height(&world->terrain, eye.x, eye.z) > range)
         return 0;
@@ -228,7 +229,7 @@ uint32_t grass_show(struct grass *tufts, const struct scene *scene, const struct
     int32_t last_row = value_noise_floor((eye.z + range) / BLOCK_M);
     for (int32_t row = first_row; row <= last_row; row++)
         for (int32_t column = first_column; column <= last_column; column++)
-            count += show_block(block_at(tufts, world, craters, column, row), scene, (float)range,
+            count += show_block(block_at(tufts, world, craters, column, row), list, (float)range,
                                 plants + count, room - count);
     return count;
 }

@@ -9,8 +9,8 @@
 #define GRASS_RANGE_M 170.0 /* at full detail */
 
 struct crater_index;
-struct scene;
-struct scene_plant;
+struct draw_list;
+struct draw_list_plant;
 struct grass;
 struct world;
 
@@ -20,7 +20,8 @@ void grass_free(struct grass *tufts);
 
 /* Writes those in view of the scene's camera to plants; how many, at most room. How far they reach
  * goes with the scene's detail. */
-uint32_t grass_show(struct grass *tufts, const struct scene *scene, const struct world *world,
-                    const struct crater_index *craters, struct scene_plant *plants, uint32_t room);
+uint32_t grass_show(struct grass *tufts, const struct draw_list *list, const struct world *world,
+                    const struct crater_index *craters, struct draw_list_plant *plants,
+                    uint32_t room);
 
 #endif

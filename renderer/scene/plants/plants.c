@@ -23,23 +23,23 @@
 
 /* What all plants of a picture share. */
 struct planting {
-    struct scene *scene;
+    struct draw_list *list;
     const struct static_scene *scenery;
     const struct frame_view *moment;
     float whole_pixels;
 };
 
-static struct scene_plant *next_plant(struct scene *scene)
+static struct draw_list_plant *next_plant(struct draw_list *list)
 {
-    if (scene->plant_count == SCENE_PLANTS_MAX) {
-        scene->omitted++;
+    if (list->plant_count == DRAW_LIST_PLANTS_MAX) {
+        list->omitted++;
         return NULL;
     }
-    return &scene->plants[scene->plant_count++];
+    return &list->plants[list->plant_count++];
 }
 
 /* What is left of a plant. */
-static void show_damage(struct scene_plant *plant, enum damage damage, uint32_t index)
+static void show_damage(struct draw_list_plant *plant, enum damage damage, uint32_t index)
 {
     float side = value_noise_unit((int32_t)index, 3, 9) < 0.5f ? -1.0f : 1.0f;
     bool bush = plant->picture >= (float)PLANT_IMPOSTORS_BUSH_A &&
@@ -88,21 +88,21 @@ static float shown(const struct planting *planting, const struct static_scene_pl
 
 static void add_plant(const struct planting *planting, uint32_t index)
 {
-    struct scene *scene = planting->scene;
+    struct draw_list *list = planting->list;
     const struct fixed_object *object = &planting->moment->world->fixed[index];
     const struct static_scene_plant *is = &planting->scenery->plants[index];
-    struct scene_plant made;
-    draw_list_relative(scene, fixed_position(object), made.at);
-    if (!frustum_ball(&scene->sight, made.at, 2.2f * is->height))
+    struct draw_list_plant made;
+    draw_list_relative(list, fixed_position(object), made.at);
+    if (!frustum_ball(&list->sight, made.at, 2.2f * is->height))
         return;
-    float pixels = frustum_pixels(&scene->sight, is->height, sqrtf(frustum_dot(made.at, made.at))),
+    float pixels = frustum_pixels(&list->sight, is->height, sqrtf(frustum_dot(made.at, made.at))),
           spread;
     if (pixels < PLANT_LEAST_PIXELS)
         return;
     float size = shown(planting, is, pixels, &spread);
     if (size <= 0.0f)
         return;
-    struct scene_plant *plant = next_plant(scene);
+    struct draw_list_plant *plant = next_plant(list);
     if (plant == NULL)
         return;
     made.at[1] -= is->sink;
@@ -139,15 +139,15 @@ static bool sees_block(const struct camera *camera, const struct static_scene_bl
 }
 
 /* And of one gridsquare of it? */
-static bool sees_square(const struct scene *scene, const struct static_scene_block *block,
+static bool sees_square(const struct draw_list *list, const struct static_scene_block *block,
                         int32_t column, int32_t row)
 {
     struct vec3 middle = {(column + 0.5) * GRIDSQUARE_SIDE_M,
                           0.5 * ((double)block->low + (double)block->high),
                           (row + 0.5) * GRIDSQUARE_SIDE_M};
     float at[3], high = 0.5f * (block->high - block->low);
-    draw_list_relative(scene, middle, at);
-    return frustum_ball(&scene->sight, at, SQUARE_REACH_M + high);
+    draw_list_relative(list, middle, at);
+    return frustum_ball(&list->sight, at, SQUARE_REACH_M + high);
 }
 
 static void add_block(const struct planting *planting, const struct gridsquare_box *box,
@@ -157,35 +157,35 @@ static void add_block(const struct planting *planting, const struct gridsquare_b
     const struct static_scene *scenery = planting->scenery;
     const struct static_scene_block *block =
         &scenery->blocks[(uint32_t)row * STATIC_SCENE_BLOCKS + (uint32_t)column];
-    if (!sees_block(&planting->scene->camera, block, column, row))
+    if (!sees_block(&planting->list->camera, block, column, row))
         return;
     int32_t last_row = row * side + side - 1 < box->z1 ? row * side + side - 1 : box->z1;
     int32_t last_column = column * side + side - 1 < box->x1 ? column * side + side - 1 : box->x1;
     for (int32_t r = row * side > box->z0 ? row * side : box->z0; r <= last_row; r++)
         for (int32_t c = column * side > box->x0 ? column * side : box->x0; c <= last_column; c++) {
             const uint32_t *start = &scenery->square_start[gridsquare_index(c, r)];
-            if (start[0] < start[1] && sees_square(planting->scene, block, c, r))
+            if (start[0] < start[1] && sees_square(planting->list, block, c, r))
                 add_plants(planting, start[0], start[1]);
         }
 }
 
-void plants_add(struct scene *scene, const struct static_scene *scenery,
+void plants_add(struct draw_list *list, const struct static_scene *scenery,
                 const struct frame_view *moment)
 {
-    struct planting planting = {.scene = scene,
+    struct planting planting = {.list = list,
                                 .scenery = scenery,
                                 .moment = moment,
-                                .whole_pixels = WOOD_WHOLE_PIXELS / scene->detail};
-    struct vec3 eye = scene->camera.eye;
+                                .whole_pixels = WOOD_WHOLE_PIXELS / list->detail};
+    struct vec3 eye = list->camera.eye;
     const int32_t side = (int32_t)STATIC_SCENE_BLOCK;
     struct gridsquare_box box = gridsquare_box_of(eye.x - PLANT_RANGE_M, eye.z - PLANT_RANGE_M,
                                                   eye.x + PLANT_RANGE_M, eye.z + PLANT_RANGE_M);
     for (int32_t row = box.z0 / side; row <= box.z1 / side; row++)
         for (int32_t column = box.x0 / side; column <= box.x1 / side; column++)
             add_block(&planting, &box, column, row);
-    if (!scene->texture)
+    if (!list->texture)
         return;
-    scene->plant_count +=
-        grass_show(scene->tufts, scene, scenery->world, moment->craters,
-                   &scene->plants[scene->plant_count], SCENE_PLANTS_MAX - scene->plant_count);
+    list->plant_count +=
+        grass_show(list->tufts, list, scenery->world, moment->craters,
+                   &list->plants[list->plant_count], DRAW_LIST_PLANTS_MAX - list->plant_count);
 }

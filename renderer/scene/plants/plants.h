@@ -6,7 +6,7 @@
 #include "renderer/scene/draw_list/static_scene.h"
 
 /* Adds the plants in view to the scene. */
-void plants_add(struct scene *scene, const struct static_scene *scenery,
+void plants_add(struct draw_list *list, const struct static_scene *scenery,
                 const struct frame_view *moment);
 
 #endif

@@ -51,7 +51,7 @@ struct stage {
     struct dent dent[DENTS];
     struct dent_index dents;
     struct static_scene scenery;
-    struct scene scene;
+    struct draw_list list;
     struct frame_view moment;
 };
 
@@ -170,7 +170,7 @@ static int open_stage(void **context)
     s->world.reach_start = s->reach_start;
     assert_int_equal(crater_index_init(&s->index, s->craters), 0);
     assert_int_equal(static_scene_init(&s->scenery, &s->world), 0);
-    assert_int_equal(scene_init(&s->scene), 0);
+    assert_int_equal(scene_init(&s->list), 0);
     assert_int_equal(dent_index_init(&s->dents, s->dent, DENTS), 0);
     s->moment = (struct frame_view){&s->world, &s->head,  &s->entities, s->fixed_damage,
                                     &s->index, &s->dents, NULL,         0.0};
@@ -181,7 +181,7 @@ static int open_stage(void **context)
 static int close_stage(void **context)
 {
     struct stage *s = *context;
-    scene_free(&s->scene);
+    scene_free(&s->list);
     static_scene_free(&s->scenery);
     crater_index_free(&s->index);
     dent_index_free(&s->dents);
@@ -345,11 +345,11 @@ static void test_scene_has_what_is_before_the_camera(void **context)
     uint32_t ahead = put_tank(s, 25000.0, 24960.0, 0.4);
     put_tank(s, 25000.0, 25090.0, 0.0); /* behind */
     struct camera camera = look_from(s, 25000.0, 25000.0, 0.0);
-    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
-    assert_int_equal(s->scene.omitted, 0);
+    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    assert_int_equal(s->list.omitted, 0);
     uint32_t tanks = 0;
-    for (uint32_t i = 0; i < s->scene.body_count; i++) {
-        const struct scene_body *body = &s->scene.bodies[i];
+    for (uint32_t i = 0; i < s->list.body_count; i++) {
+        const struct draw_list_body *body = &s->list.bodies[i];
         if (fabs((double)body->at[2] + 40.0) < 1e-3 && fabs((double)body->at[0]) < 1e-3) {
             tanks++;
             assert_true(fabs((double)body->forward[0] - sin(s->entities.heading[ahead])) < 1e-6);
@@ -371,15 +371,15 @@ static void test_damage_shows_in_steps(void **context)
         s->entities.state[slot] = damage == DAMAGE_DESTROYED ? ENTITY_WRECK : ENTITY_ACTIVE;
         s->head.tick = 500;
         s->entities.changed_tick[slot] = 300;
-        scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
+        scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
         uint32_t at = 0;
-        while (at < s->scene.body_count && fabs((double)s->scene.bodies[at].at[0]) > 1e-3)
+        while (at < s->list.body_count && fabs((double)s->list.bodies[at].at[0]) > 1e-3)
             at++;
-        assert_true(at < s->scene.body_count);
-        const struct scene_body *body = &s->scene.bodies[at];
+        assert_true(at < s->list.body_count);
+        const struct draw_list_body *body = &s->list.bodies[at];
         assert_true(body->burn > before); /* each level looks worse than the one before */
         before = body->burn;
-        smoke = s->scene.puff_count;
+        smoke = s->list.particle_count;
     }
     assert_true(smoke > 10); /* a wreck burns */
 }
@@ -404,18 +404,18 @@ static void test_a_near_body_is_drawn_with_its_dents(void **context)
     dent(s, s->entities.id[bent], 0.1f);
     dent(s, s->entities.id[far], 0.3f);
     struct camera camera = look_from(s, 25010.0, 25000.0, 0.0);
-    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
-    assert_int_equal(s->scene.dent_count, 2); /* nobody sees the far one's */
-    assert_true(s->scene.dents[0].depth_m == 0.2f && s->scene.dents[1].depth_m == 0.1f);
-    assert_true(s->scene.dents[0].reach_m > s->scene.dents[1].reach_m);
-    assert_true(s->scene.dents[0].way[0] == -1.0f && s->scene.dents[0].point[0] == 3.0f);
+    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    assert_int_equal(s->list.dent_count, 2); /* nobody sees the far one's */
+    assert_true(s->list.dents[0].depth_m == 0.2f && s->list.dents[1].depth_m == 0.1f);
+    assert_true(s->list.dents[0].reach_m > s->list.dents[1].reach_m);
+    assert_true(s->list.dents[0].way[0] == -1.0f && s->list.dents[0].point[0] == 3.0f);
     uint32_t with = 0;
-    for (uint32_t i = 0; i < s->scene.body_count; i++) {
-        if (s->scene.bodies[i].dents[1] <= 0.0f)
+    for (uint32_t i = 0; i < s->list.body_count; i++) {
+        if (s->list.bodies[i].dents[1] <= 0.0f)
             continue;
         with++;
-        assert_true(s->scene.bodies[i].dents[0] == 0.0f && s->scene.bodies[i].dents[1] == 2.0f);
-        assert_int_equal(s->scene.copies[i].detail, MESH_FINE);
+        assert_true(s->list.bodies[i].dents[0] == 0.0f && s->list.bodies[i].dents[1] == 2.0f);
+        assert_int_equal(s->list.instances[i].detail, MESH_FINE);
     }
     assert_int_equal(with, 1);
 }
@@ -429,16 +429,16 @@ static void look_at(struct stage *s, uint32_t object)
     struct camera camera;
     camera_look(&camera, vec3_add(middle, (struct vec3){3.0, 5.0, 30.0}), middle, 960, 540);
     s->params.renderer.texture = 0; /* no tufts: they are plants too */
-    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
 }
 
 /* The body that stands where the object does. */
-static const struct scene_body *body_of(const struct stage *s, uint32_t object)
+static const struct draw_list_body *body_of(const struct stage *s, uint32_t object)
 {
-    for (uint32_t i = 0; i < s->scene.body_count; i++) {
-        const struct scene_body *body = &s->scene.bodies[i];
-        double x = (double)body->at[0] + s->scene.camera.eye.x - objects[object].x;
-        double z = (double)body->at[2] + s->scene.camera.eye.z - objects[object].z;
+    for (uint32_t i = 0; i < s->list.body_count; i++) {
+        const struct draw_list_body *body = &s->list.bodies[i];
+        double x = (double)body->at[0] + s->list.camera.eye.x - objects[object].x;
+        double z = (double)body->at[2] + s->list.camera.eye.z - objects[object].z;
         if (fabs(x) < 1e-2 && fabs(z) < 1e-2)
             return body;
     }
@@ -453,17 +453,17 @@ static void test_a_tree_leans_and_then_is_a_stump(void **context)
         s->fixed_damage[OAK] = (uint8_t)damage;
         look_at(s, OAK);
         uint32_t stumps = 0;
-        for (uint32_t i = 0; i < s->scene.plant_count; i++)
-            stumps += (enum plant_impostors)s->scene.plants[i].picture == PLANT_IMPOSTORS_STUMP;
+        for (uint32_t i = 0; i < s->list.plant_count; i++)
+            stumps += (enum plant_impostors)s->list.plants[i].picture == PLANT_IMPOSTORS_STUMP;
         bool down = damage >= DAMAGE_HIGH; /* a stump, and the tree lying beside it */
-        assert_int_equal(s->scene.plant_count, 1);
+        assert_int_equal(s->list.plant_count, 1);
         assert_int_equal(stumps, down ? 1 : 0);
-        assert_true((fabsf(s->scene.plants[0].lean) > 0.2f) == (damage == DAMAGE_MED));
+        assert_true((fabsf(s->list.plants[0].lean) > 0.2f) == (damage == DAMAGE_MED));
         uint32_t lying = 0;
-        for (uint32_t i = 0; i < s->scene.body_count; i++)
-            lying += fabsf(s->scene.bodies[i].up[1]) < 0.7f;
+        for (uint32_t i = 0; i < s->list.body_count; i++)
+            lying += fabsf(s->list.bodies[i].up[1]) < 0.7f;
         assert_int_equal(lying, down ? 1 : 0);
-        assert_true((s->scene.plants[0].height < 5.0f) == down);
+        assert_true((s->list.plants[0].height < 5.0f) == down);
     }
 }
 
@@ -474,10 +474,10 @@ static void test_a_bush_ends_low(void **context)
     for (uint32_t damage = DAMAGE_LOW; damage <= DAMAGE_HIGH; damage++) {
         s->fixed_damage[BUSH] = (uint8_t)damage;
         look_at(s, BUSH);
-        assert_int_equal(s->scene.plant_count, 1);
-        assert_true(s->scene.plants[0].height < before);
-        assert_true((enum plant_impostors)s->scene.plants[0].picture != PLANT_IMPOSTORS_STUMP);
-        before = s->scene.plants[0].height;
+        assert_int_equal(s->list.plant_count, 1);
+        assert_true(s->list.plants[0].height < before);
+        assert_true((enum plant_impostors)s->list.plants[0].picture != PLANT_IMPOSTORS_STUMP);
+        before = s->list.plants[0].height;
     }
     assert_true(before < 0.6f);
 }
@@ -489,7 +489,7 @@ static void test_a_pole_leans_and_then_is_broken(void **context)
     for (uint32_t damage = DAMAGE_NONE; damage <= DAMAGE_DESTROYED; damage++) {
         s->fixed_damage[MAST] = (uint8_t)damage;
         look_at(s, MAST);
-        const struct scene_body *body = body_of(s, MAST);
+        const struct draw_list_body *body = body_of(s, MAST);
         if (damage >= DAMAGE_HIGH) {
             /* The top hangs to the ground: what is above the break is as long as it must be. */
             assert_true(body->broken[1] > 1.0f && body->broken[1] < 4.0f);
@@ -511,7 +511,7 @@ static void test_a_tower_sags_and_then_lies(void **context)
     for (uint32_t damage = DAMAGE_NONE; damage <= DAMAGE_HIGH; damage++) {
         s->fixed_damage[TANKS] = (uint8_t)damage;
         look_at(s, TANKS);
-        const struct scene_body *body = body_of(s, TANKS);
+        const struct draw_list_body *body = body_of(s, TANKS);
         assert_true(body->broken[2] > bent);
         bent = body->broken[2];
         assert_true(damage == DAMAGE_NONE || (damage == DAMAGE_HIGH) == (body->broken[1] == 0.0f));
@@ -520,7 +520,7 @@ static void test_a_tower_sags_and_then_lies(void **context)
 }
 
 /* Share of the model's box that fell in, without the raggedness. */
-static double fallen(const struct scene_body *body)
+static double fallen(const struct draw_list_body *body)
 {
     uint32_t down = 0;
     for (int x = -10; x <= 10; x++)
@@ -538,7 +538,7 @@ static void test_a_building_falls_in_by_steps_to_rubble(void **context)
     for (uint32_t damage = DAMAGE_NONE; damage < DAMAGE_COUNT; damage++) {
         s->fixed_damage[COTTAGE] = (uint8_t)damage;
         look_at(s, COTTAGE);
-        const struct scene_body *body = body_of(s, COTTAGE);
+        const struct draw_list_body *body = body_of(s, COTTAGE);
         share[damage] = fallen(body);
         assert_true((body->falls[2] > 0.0f) == (damage != DAMAGE_NONE));
         assert_true(body->up[1] == 1.0f && body->broken[2] == 0.0f);
@@ -563,20 +563,20 @@ static void test_fire_and_detonation_show(void **context)
          .type = EVENT_DETONATION,
          .detonation = {.point = {25000.0, camera.eye.y - 5, 24950.0}, .explosive_kg = 8.0f}},
     };
-    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
-    uint32_t quiet = s->scene.puff_count;
+    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    uint32_t quiet = s->list.particle_count;
     effects_take(&s->effects, &s->moment, events, 2);
     assert_int_equal(s->effects.count, 2);
-    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
-    assert_true(s->scene.puff_count > quiet + 20);
-    for (uint32_t i = 1; i < s->scene.puff_count; i++) { /* farthest first */
-        const float *a = s->scene.puffs[i - 1].at, *b = s->scene.puffs[i].at;
+    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    assert_true(s->list.particle_count > quiet + 20);
+    for (uint32_t i = 1; i < s->list.particle_count; i++) { /* farthest first */
+        const float *a = s->list.particles[i - 1].at, *b = s->list.particles[i].at;
         assert_true(a[0] * a[0] + a[1] * a[1] + a[2] * a[2] >=
                     b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
     }
     s->head.tick = s->head.frame = 100 + 10 * (uint64_t)(EFFECT_LIFE_S + 1.0);
-    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
-    assert_int_equal(s->scene.puff_count, quiet);
+    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    assert_int_equal(s->list.particle_count, quiet);
 }
 
 /* --- choice, tracks, statistics --------------------------------------------------------------- */

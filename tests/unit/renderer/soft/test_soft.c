@@ -223,7 +223,7 @@ struct country {
     struct crater craters[4];
     struct crater_index index;
     struct static_scene scenery;
-    struct scene scene;
+    struct draw_list list;
     struct back_end_interface plain; /* on one thread */
     float posts[POSTS * POSTS];
     uint8_t cover[POSTS * POSTS];
@@ -244,7 +244,7 @@ static int open_country(void **context)
     c->world.terrain = (struct terrain){c->posts, c->cover, POSTS, SPACING};
     assert_int_equal(crater_index_init(&c->index, c->craters), 0);
     assert_int_equal(static_scene_init(&c->scenery, &c->world), 0);
-    assert_int_equal(scene_init(&c->scene), 0);
+    assert_int_equal(scene_init(&c->list), 0);
     c->moment = (struct frame_view){.world = &c->world, .craters = &c->index};
     struct error_text error;
     assert_int_equal(
@@ -257,7 +257,7 @@ static int close_country(void **context)
 {
     struct country *c = *context;
     c->plain.close(c->plain.self);
-    scene_free(&c->scene);
+    scene_free(&c->list);
     static_scene_free(&c->scenery);
     crater_index_free(&c->index);
     free(c);
@@ -269,12 +269,12 @@ static void look(struct country *c, uint32_t width, uint32_t height)
 {
     struct vec3 eye = {7800.0, 0.0, 25000.0}, target = {3000.0, 0.0, 27000.0};
     eye.y = terrain_height(&c->world.terrain, NULL, eye.x, eye.z) + 3.0;
-    camera_look(&c->scene.camera, eye, target, width, height);
-    c->scene.time_s = 30.0;
-    c->scene.fog = c->scene.haze = c->scene.texture = true;
-    c->scene.paintings = TERRAIN_TILES_ALL; /* none depends on an earlier picture */
-    c->scene.patch_count =
-        terrain_quadtree_select(&c->scenery.ground, &c->scene.camera, c->scene.patches);
+    camera_look(&c->list.camera, eye, target, width, height);
+    c->list.time_s = 30.0;
+    c->list.fog = c->list.haze = c->list.texture = true;
+    c->list.paintings = TERRAIN_TILES_ALL; /* none depends on an earlier picture */
+    c->list.patch_count =
+        terrain_quadtree_select(&c->scenery.ground, &c->list.camera, c->list.patches);
 }
 
 static struct image draw(struct country *c, struct back_end_interface *by, uint32_t width,
@@ -284,7 +284,7 @@ static struct image draw(struct country *c, struct back_end_interface *by, uint3
     struct error_text error;
     look(c, width, height);
     assert_int_equal(image_init(&image, width, height), 0);
-    assert_int_equal(by->picture(by->self, &c->scene, &c->moment, &image, &error), 0);
+    assert_int_equal(by->picture(by->self, &c->list, &c->moment, &image, &error), 0);
     assert_true(by->stages(by->self)->count > 0);
     return image;
 }
@@ -355,7 +355,7 @@ static void test_refuses_what_is_too_large(void **context)
     assert_int_equal(soft_open(&none, &c->scenery, 0, 64, 1, &error), -1);
     assert_int_equal(soft_open(&none, &c->scenery, 64, SOFT_SIDE_MAX + 1, 1, &error), -1);
     assert_int_equal(image_init(&image, 301, 64), 0);
-    assert_int_equal(c->plain.picture(c->plain.self, &c->scene, &c->moment, &image, &error), -1);
+    assert_int_equal(c->plain.picture(c->plain.self, &c->list, &c->moment, &image, &error), -1);
     image_free(&image);
 }
 

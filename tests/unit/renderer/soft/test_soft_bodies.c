@@ -34,8 +34,8 @@ static struct world world = {.models = models,
                              .model_vertices = vertices,
                              .model_triangles = triangles,
                              .counts = {.models = 1}};
-static struct mesh_frame frames[1];
-static struct static_scene scenery = {.world = &world, .frames = frames};
+static struct mesh_skeleton skeletons[1];
+static struct static_scene scenery = {.world = &world, .skeletons = skeletons};
 static struct soft_bodies *bodies;
 static struct soft_detail detail;
 static struct soft_plants *plants;
@@ -46,7 +46,7 @@ static int open_bodies(void **context)
     (void)context;
     if (soft_detail_make(&detail) != 0)
         return -1;
-    if (mesh_frame(&frames[0], &world, 0) != 0)
+    if (mesh_skeleton(&skeletons[0], &world, 0) != 0)
         return -1;
     bodies = soft_bodies_open(&scenery, &detail, &error);
     plants = soft_plants_open(&error);
@@ -83,16 +83,17 @@ static void draw(struct soft_stage *stage)
 }
 
 /* A box whose front is to the north, its middle at a place. */
-static struct scene_body *add(struct soft_stage *stage, float x, float y, float far_m, float scale)
+static struct draw_list_body *add(struct soft_stage *stage, float x, float y, float far_m,
+                                  float scale)
 {
-    uint32_t i = stage->scene.body_count++;
-    stage->scene.copies[i] = (struct scene_copy){.detail = MESH_FULL};
-    stage->scene.bodies[i] = (struct scene_body){.at = {x, y, -far_m},
-                                                 .forward = {0.0f, 0.0f, -scale},
-                                                 .up = {0.0f, scale, 0.0f},
-                                                 .right = {scale, 0.0f, 0.0f},
-                                                 .tint = {0.3f, 0.3f, 0.3f}};
-    return &stage->scene.bodies[i];
+    uint32_t i = stage->list.body_count++;
+    stage->list.instances[i] = (struct draw_list_instance){.detail = MESH_FULL};
+    stage->list.bodies[i] = (struct draw_list_body){.at = {x, y, -far_m},
+                                                    .forward = {0.0f, 0.0f, -scale},
+                                                    .up = {0.0f, scale, 0.0f},
+                                                    .right = {scale, 0.0f, 0.0f},
+                                                    .tint = {0.3f, 0.3f, 0.3f}};
+    return &stage->list.bodies[i];
 }
 
 static void expect_box(const struct soft_stage *stage, uint32_t half)
@@ -121,7 +122,7 @@ static void test_covers_its_square(void **context)
     assert_true((colour & 255u) > 2 * (colour >> 8 & 255u));
 
     soft_stage_clear(&stage, STAGE_GROUND, 1000.0f);
-    stage.scene.bodies[0].at[2] = -41.0f;
+    stage.list.bodies[0].at[2] = -41.0f;
     draw(&stage);
     expect_box(&stage, 5);
     soft_stage_close(&stage);
@@ -156,7 +157,7 @@ static void test_near_plane(void **context)
     add(&stage, 0.0f, 0.0f, 0.0f, 5.0f);
     draw(&stage);
     assert_int_equal(soft_stage_painted(&stage, STAGE_GROUND), 0);
-    stage.scene.body_count = 0;
+    stage.list.body_count = 0;
     add(&stage, 0.0f, -3.0f, 0.0f, 2.5f); /* a floor under the eye, from before to behind it */
     draw(&stage);
     assert_true(soft_stage_painted(&stage, STAGE_GROUND) > 1000);
@@ -166,7 +167,7 @@ static void test_near_plane(void **context)
             if (y < STAGE_HEIGHT / 2)
                 assert_int_equal(soft_stage_colour(&stage, x, y), STAGE_GROUND);
         }
-    stage.scene.body_count = 0;
+    stage.list.body_count = 0;
     soft_stage_clear(&stage, STAGE_GROUND, 1000.0f);
     add(&stage, 0.0f, 0.0f, -20.0f, 3.0f);
     draw(&stage);
@@ -180,7 +181,7 @@ static void test_turns(void **context)
     struct soft_stage stage;
     (void)context;
     open_stage(&stage);
-    struct scene_body *body = add(&stage, 0.0f, 0.0f, 21.0f, 1.0f);
+    struct draw_list_body *body = add(&stage, 0.0f, 0.0f, 21.0f, 1.0f);
     float part = 0.70710678f;
     memcpy(body->forward, (float[3]){part, 0.0f, -part}, sizeof body->forward);
     memcpy(body->right, (float[3]){part, 0.0f, part}, sizeof body->right);
@@ -202,15 +203,15 @@ static void test_dent(void **context)
     struct soft_stage stage;
     (void)context;
     open_stage(&stage);
-    struct scene_body *body = add(&stage, 0.0f, 0.0f, 11.0f, 1.0f);
-    stage.scene.copies[0].detail = MESH_FINE;
+    struct draw_list_body *body = add(&stage, 0.0f, 0.0f, 11.0f, 1.0f);
+    stage.list.instances[0].detail = MESH_FINE;
     draw(&stage);
     float whole = 1.0f / soft_stage_depth(&stage, STAGE_WIDTH / 2, STAGE_HEIGHT / 2);
     body->dents[1] = 1.0f;
     /* Into its near side, which is its back. */
-    stage.scene.dents[0] = (struct scene_dent){
+    stage.list.dents[0] = (struct draw_list_dent){
         .point = {-1.0f, 0.0f, 0.0f}, .depth_m = 0.6f, .way = {1.0f, 0.0f, 0.0f}, .reach_m = 1.0f};
-    stage.scene.dent_count = 1;
+    stage.list.dent_count = 1;
     soft_stage_clear(&stage, STAGE_GROUND, 1000.0f);
     draw(&stage);
     float bent = 1.0f / soft_stage_depth(&stage, STAGE_WIDTH / 2, STAGE_HEIGHT / 2);
@@ -229,9 +230,9 @@ static void test_shadow_on_ground_alone(void **context)
         for (uint32_t x = 0; x < STAGE_WIDTH; x++)
             stage.depth[(size_t)y * stage.stride + x] =
                 ((float)y + 0.5f - 0.5f * STAGE_HEIGHT) / (STAGE_FOCAL * 5.0f);
-    struct scene_body *body = add(&stage, 0.0f, -4.0f, 30.0f, 1.0f);
+    struct draw_list_body *body = add(&stage, 0.0f, -4.0f, 30.0f, 1.0f);
     memcpy(body->plane, (float[4]){0.0f, 1.0f, 0.0f, -5.0f}, sizeof body->plane);
-    stage.scene.copies[0].shadow = 1;
+    stage.list.instances[0].shadow = 1;
     draw(&stage);
     uint32_t dark = 0;
     for (uint32_t y = 0; y < STAGE_HEIGHT; y++)
@@ -247,7 +248,7 @@ static void test_shadow_on_ground_alone(void **context)
     /* A box of 8 m3 under a sun of 34 degrees: some 6 m2 beside it, seen at ten degrees. */
     assert_in_range(dark, 30, 150);
 
-    stage.scene.copies[0].shadow = 0;
+    stage.list.instances[0].shadow = 0;
     soft_stage_clear(&stage, STAGE_GROUND, 1000.0f);
     draw(&stage);
     for (uint32_t y = 0; y < STAGE_HEIGHT; y++)
@@ -267,7 +268,7 @@ static void random_bodies(struct soft_stage *stage, uint64_t seed)
     for (uint32_t i = 0; i < 60; i++) {
         float far_m = 100.0f / draw_number(&seed, 1.0, 60.0);
         float x = draw_number(&seed, -0.7, 0.7) * far_m, y = draw_number(&seed, -0.4, 0.4) * far_m;
-        struct scene_body *body = add(stage, x, y, far_m, draw_number(&seed, 0.5, 2.0));
+        struct draw_list_body *body = add(stage, x, y, far_m, draw_number(&seed, 0.5, 2.0));
         float turn = draw_number(&seed, -3.0, 3.0), scale = body->right[0];
         double s, c;
         maths_sincos((double)turn, &s, &c);
@@ -276,20 +277,20 @@ static void random_bodies(struct soft_stage *stage, uint64_t seed)
         memcpy(body->right, (float[3]){(float)c * scale, 0.0f, (float)s * scale},
                sizeof body->right);
         body->burn = draw_number(&seed, 0.0, 1.0);
-        stage->scene.copies[i].detail = (uint8_t)(i % MESH_DETAIL_COUNT);
+        stage->list.instances[i].detail = (uint8_t)(i % MESH_DETAIL_COUNT);
         if (i % 3 == 0) {
             memcpy(body->plane, (float[4]){0.0f, 1.0f, 0.0f, y - scale}, sizeof body->plane);
-            stage->scene.copies[i].shadow = 1;
+            stage->list.instances[i].shadow = 1;
         }
         if (i % 4 == 0) {
-            body->dents[0] = (float)stage->scene.dent_count;
+            body->dents[0] = (float)stage->list.dent_count;
             body->dents[1] = 2.0f;
             for (uint32_t d = 0; d < 2; d++)
-                stage->scene.dents[stage->scene.dent_count++] =
-                    (struct scene_dent){.point = {draw_number(&seed, -1.0, 1.0), 1.0f, 0.0f},
-                                        .depth_m = 0.3f,
-                                        .way = {0.0f, -1.0f, 0.0f},
-                                        .reach_m = 0.9f};
+                stage->list.dents[stage->list.dent_count++] =
+                    (struct draw_list_dent){.point = {draw_number(&seed, -1.0, 1.0), 1.0f, 0.0f},
+                                            .depth_m = 0.3f,
+                                            .way = {0.0f, -1.0f, 0.0f},
+                                            .reach_m = 0.9f};
         }
         if (i % 5 == 0)
             memcpy(body->falls, (float[3]){0.5f, 0.2f, 0.9f}, sizeof body->falls);

@@ -14,20 +14,20 @@
 #define BLUE  0xff804020u /* what is behind: red 0x20, green 0x40, blue 0x80 */
 #define FAR_M 100.0f
 
-static struct soft_particles *puffs;
+static struct soft_particles *particles;
 
-static int open_puffs(void **context)
+static int open_particles(void **context)
 {
     struct error_text error;
     (void)context;
-    puffs = soft_particles_open(&error);
-    return puffs != NULL ? 0 : -1;
+    particles = soft_particles_open(&error);
+    return particles != NULL ? 0 : -1;
 }
 
-static int close_puffs(void **context)
+static int close_particles(void **context)
 {
     (void)context;
-    soft_particles_close(puffs);
+    soft_particles_close(particles);
     return 0;
 }
 
@@ -41,21 +41,22 @@ static void open_stage(struct soft_stage *stage)
 
 static void draw(struct soft_stage *stage)
 {
-    assert_int_equal(soft_particles_prepare(puffs, &stage->frame), 0);
+    assert_int_equal(soft_particles_prepare(particles, &stage->frame), 0);
     for (uint32_t band = 0; band < stage->frame.bands; band++) {
         struct soft_target target = soft_stage_band(stage, band);
-        stage->frame.kernels->soft_particles_fill(puffs, &stage->frame, &target);
+        stage->frame.kernels->soft_particles_fill(particles, &stage->frame, &target);
     }
 }
 
-static struct scene_puff *add(struct soft_stage *stage, float x, float y, float far_m, float size)
+static struct draw_list_particle *add(struct soft_stage *stage, float x, float y, float far_m,
+                                      float size)
 {
-    struct scene_puff *puff = &stage->scene.puffs[stage->scene.puff_count++];
-    *puff = (struct scene_puff){.at = {x, y, -far_m},
-                                .size = size,
-                                .picture = (float)PUFF_SMOKE_A,
-                                .colour = {1.0f, 1.0f, 1.0f, 1.0f}};
-    return puff;
+    struct draw_list_particle *particle = &stage->list.particles[stage->list.particle_count++];
+    *particle = (struct draw_list_particle){.at = {x, y, -far_m},
+                                            .size = size,
+                                            .picture = (float)PARTICLE_SMOKE_A,
+                                            .colour = {1.0f, 1.0f, 1.0f, 1.0f}};
+    return particle;
 }
 
 static uint32_t byte_at(const struct soft_stage *stage, uint32_t x, uint32_t y, uint32_t shift)
@@ -89,11 +90,11 @@ static void test_nothing_without_alpha(void **context)
     struct soft_stage stage;
     (void)context;
     open_stage(&stage);
-    for (uint32_t i = 0; i < PUFF_PICTURES; i++) {
-        struct scene_puff *puff = add(&stage, (float)i - 3.0f, 0.0f, 10.0f, 2.0f);
-        puff->picture = (float)i;
-        puff->colour[3] = 0.0f;
-        puff->glow = (float)i / PUFF_PICTURES;
+    for (uint32_t i = 0; i < PARTICLE_PICTURE_COUNT; i++) {
+        struct draw_list_particle *particle = add(&stage, (float)i - 3.0f, 0.0f, 10.0f, 2.0f);
+        particle->picture = (float)i;
+        particle->colour[3] = 0.0f;
+        particle->glow = (float)i / PARTICLE_PICTURE_COUNT;
     }
     draw(&stage);
     assert_int_equal(soft_stage_painted(&stage, BLUE), 0);
@@ -123,7 +124,7 @@ static void test_none_behind_the_eye(void **context)
     open_stage(&stage);
     add(&stage, 0.0f, 0.0f, -5.0f, 4.0f);
     add(&stage, 0.0f, 0.0f, 0.5f, 4.0f);
-    struct scene_puff *streak = add(&stage, 0.0f, 0.5f, -3.0f, 0.5f);
+    struct draw_list_particle *streak = add(&stage, 0.0f, 0.5f, -3.0f, 0.5f);
     streak->axis[0] = 2.0f;
     draw(&stage);
     assert_int_equal(soft_stage_painted(&stage, BLUE), 0);
@@ -136,8 +137,8 @@ static void test_later_over_earlier(void **context)
     struct soft_stage stage;
     (void)context;
     open_stage(&stage);
-    struct scene_puff *red = add(&stage, 0.0f, 0.0f, 12.0f, 2.0f);
-    struct scene_puff *green = add(&stage, 0.0f, 0.0f, 10.0f, 2.0f);
+    struct draw_list_particle *red = add(&stage, 0.0f, 0.0f, 12.0f, 2.0f);
+    struct draw_list_particle *green = add(&stage, 0.0f, 0.0f, 10.0f, 2.0f);
     red->colour[1] = red->colour[2] = green->colour[0] = green->colour[2] = 0.0f;
     draw(&stage);
     uint32_t x = STAGE_WIDTH / 2, y = STAGE_HEIGHT / 2;
@@ -150,8 +151,8 @@ static void test_glow_adds(void **context)
     struct soft_stage stage;
     (void)context;
     open_stage(&stage);
-    struct scene_puff *glow = add(&stage, 0.0f, 0.0f, 10.0f, 2.0f);
-    glow->picture = (float)PUFF_GLOW;
+    struct draw_list_particle *glow = add(&stage, 0.0f, 0.0f, 10.0f, 2.0f);
+    glow->picture = (float)PARTICLE_GLOW;
     glow->glow = 1.0f;
     glow->colour[2] = 0.0f;
     draw(&stage);
@@ -172,8 +173,8 @@ static void test_streak(void **context)
     struct soft_stage stage;
     (void)context;
     open_stage(&stage);
-    struct scene_puff *streak = add(&stage, 0.0f, 0.0f, 20.0f, 0.3f);
-    streak->picture = (float)PUFF_GLOW;
+    struct draw_list_particle *streak = add(&stage, 0.0f, 0.0f, 20.0f, 0.3f);
+    streak->picture = (float)PARTICLE_GLOW;
     streak->glow = 1.0f;
     streak->axis[0] = 4.0f;
     draw(&stage);
@@ -193,21 +194,21 @@ static void test_streak(void **context)
     soft_stage_close(&stage);
 }
 
-static void random_puffs(struct soft_stage *stage, uint64_t seed)
+static void random_particles(struct soft_stage *stage, uint64_t seed)
 {
     for (uint32_t i = 0; i < 300; i++) {
         float far_m = 100.0f / (float)fixture_uniform(&seed, 1.0, 60.0);
         float aside = (float)fixture_uniform(&seed, -0.7, 0.7) * far_m;
-        struct scene_puff *puff =
+        struct draw_list_particle *particle =
             add(stage, aside, (float)fixture_uniform(&seed, -0.4, 0.4) * far_m, far_m,
                 (float)fixture_uniform(&seed, 0.01, 3.0));
-        puff->picture = (float)(i % PUFF_PICTURES);
-        puff->turn_rad = (float)fixture_uniform(&seed, -10.0, 10.0);
-        puff->glow = i % 3 == 0 ? (float)fixture_uniform(&seed, 0.0, 1.0) : 0.0f;
+        particle->picture = (float)(i % PARTICLE_PICTURE_COUNT);
+        particle->turn_rad = (float)fixture_uniform(&seed, -10.0, 10.0);
+        particle->glow = i % 3 == 0 ? (float)fixture_uniform(&seed, 0.0, 1.0) : 0.0f;
         for (uint32_t c = 0; c < 4; c++)
-            puff->colour[c] = (float)fixture_uniform(&seed, 0.0, 1.0);
+            particle->colour[c] = (float)fixture_uniform(&seed, 0.0, 1.0);
         for (uint32_t c = 0; c < 3 && i % 7 == 0; c++)
-            puff->axis[c] = (float)fixture_uniform(&seed, -5.0, 5.0);
+            particle->axis[c] = (float)fixture_uniform(&seed, -5.0, 5.0);
     }
 }
 
@@ -222,13 +223,13 @@ static void test_same_everywhere(void **context)
     for (uint32_t i = 0; i < 2; i++) {
         soft_stage_open(&stages[i], builds[i]);
         soft_stage_clear(&stages[i], BLUE, 12.0f);
-        random_puffs(&stages[i], seed);
+        random_particles(&stages[i], seed);
     }
     draw(&stages[0]);
-    assert_int_equal(soft_particles_prepare(puffs, &stages[1].frame), 0);
+    assert_int_equal(soft_particles_prepare(particles, &stages[1].frame), 0);
     for (uint32_t band = stages[1].frame.bands; band-- > 0;) {
         struct soft_target target = soft_stage_band(&stages[1], band);
-        builds[1]->soft_particles_fill(puffs, &stages[1].frame, &target);
+        builds[1]->soft_particles_fill(particles, &stages[1].frame, &target);
     }
     assert_true(soft_stage_painted(&stages[0], BLUE) > 5000);
     soft_stage_assert_same(&stages[0], &stages[1]);
@@ -248,5 +249,5 @@ int main(void)
         cmocka_unit_test(test_streak),
         cmocka_unit_test(test_same_everywhere),
     };
-    return cmocka_run_group_tests_name("soft_puffs", tests, open_puffs, close_puffs);
+    return cmocka_run_group_tests_name("soft_puffs", tests, open_particles, close_particles);
 }

@@ -60,14 +60,15 @@ static void draw(struct soft_stage *stage)
     }
 }
 
-static struct scene_plant *add(struct soft_stage *stage, float x, float y, float far_m, float high)
+static struct draw_list_plant *add(struct soft_stage *stage, float x, float y, float far_m,
+                                   float high)
 {
-    struct scene_plant *plant = &stage->scene.plants[stage->scene.plant_count++];
-    *plant = (struct scene_plant){.at = {x, y, -far_m},
-                                  .width = high,
-                                  .height = high,
-                                  .picture = (float)PLANT_IMPOSTORS_OAK_A,
-                                  .tint = {1.0f, 1.0f, 1.0f}};
+    struct draw_list_plant *plant = &stage->list.plants[stage->list.plant_count++];
+    *plant = (struct draw_list_plant){.at = {x, y, -far_m},
+                                      .width = high,
+                                      .height = high,
+                                      .picture = (float)PLANT_IMPOSTORS_OAK_A,
+                                      .tint = {1.0f, 1.0f, 1.0f}};
     return plant;
 }
 
@@ -136,8 +137,8 @@ static void test_nearer_wins_in_any_order(void **context)
     (void)context;
     for (uint32_t i = 0; i < 2; i++) {
         open_stage(&stages[i]);
-        struct scene_plant *a = add(&stages[i], 0.0f, -5.0f, i == 0 ? 50.0f : 40.0f, 10.0f);
-        struct scene_plant *b = add(&stages[i], 0.0f, -5.0f, i == 0 ? 40.0f : 50.0f, 10.0f);
+        struct draw_list_plant *a = add(&stages[i], 0.0f, -5.0f, i == 0 ? 50.0f : 40.0f, 10.0f);
+        struct draw_list_plant *b = add(&stages[i], 0.0f, -5.0f, i == 0 ? 40.0f : 50.0f, 10.0f);
         (i == 0 ? a : b)->tint[0] = 0.0f;
         draw(&stages[i]);
     }
@@ -187,7 +188,7 @@ static void test_shadow_on_ground_alone(void **context)
 
     /* What is no ground takes none, nor ground that is nearer than the shadow's. */
     soft_stage_clear(&stage, WALL, 60.0f);
-    stage.scene.plants[0].tint[0] = stage.scene.plants[0].tint[1] = 0.0f;
+    stage.list.plants[0].tint[0] = stage.list.plants[0].tint[1] = 0.0f;
     assert_int_equal(soft_plants_prepare(plants, &stage.frame), 0);
     for (uint32_t band = 0; band < stage.frame.bands; band++) {
         struct soft_target target = soft_stage_band(&stage, band);
@@ -209,8 +210,8 @@ static void random_plants(struct soft_stage *stage, uint64_t seed)
     for (uint32_t i = 0; i < 300; i++) {
         float far_m = 100.0f / (float)fixture_uniform(&seed, 0.1, 60.0);
         float aside = (float)fixture_uniform(&seed, -0.7, 0.7) * far_m;
-        struct scene_plant *plant = add(stage, aside, (float)fixture_uniform(&seed, -7.0, -5.0),
-                                        far_m, (float)fixture_uniform(&seed, 0.2, 14.0));
+        struct draw_list_plant *plant = add(stage, aside, (float)fixture_uniform(&seed, -7.0, -5.0),
+                                            far_m, (float)fixture_uniform(&seed, 0.2, 14.0));
         plant->picture = (float)(i % PLANT_IMPOSTORS_COUNT);
         plant->lean = i % 5 == 0 ? (float)fixture_uniform(&seed, -2.0, 2.0) : 0.0f;
         plant->slope[0] = (float)fixture_uniform(&seed, -0.3, 0.3);

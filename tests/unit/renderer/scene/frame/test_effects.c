@@ -44,7 +44,7 @@ struct stage {
     struct dent_index dents;
     struct effects effects;
     struct static_scene scenery;
-    struct scene scene;
+    struct draw_list list;
     struct frame_view moment;
 };
 
@@ -124,7 +124,7 @@ static int open_stage(void **context)
     assert_int_equal(crater_index_init(&s->index, s->craters), 0);
     assert_int_equal(dent_index_init(&s->dents, s->dent, 4), 0);
     assert_int_equal(static_scene_init(&s->scenery, &s->world), 0);
-    assert_int_equal(scene_init(&s->scene), 0);
+    assert_int_equal(scene_init(&s->list), 0);
     s->moment = (struct frame_view){.world = &s->world,
                                     .head = &s->head,
                                     .entities = &s->entities,
@@ -139,7 +139,7 @@ static int open_stage(void **context)
 static int close_stage(void **context)
 {
     struct stage *s = *context;
-    scene_free(&s->scene);
+    scene_free(&s->list);
     static_scene_free(&s->scenery);
     crater_index_free(&s->index);
     dent_index_free(&s->dents);
@@ -172,7 +172,7 @@ static void look(struct stage *s, double away)
     struct vec3 middle = {MIDDLE, (double)GROUND + 3.0, MIDDLE};
     camera_look(&camera, vec3_add(middle, (struct vec3){0.0, 4.0 + 0.1 * away, away}), middle, 1280,
                 720);
-    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
 }
 
 /* A step of simulated time later. */
@@ -192,12 +192,12 @@ static void step(struct stage *s)
 static double ink(const struct stage *s)
 {
     double sum = 0.0;
-    for (uint32_t i = 0; i < s->scene.puff_count; i++) {
-        const struct scene_puff *puff = &s->scene.puffs[i];
-        double far = (double)frustum_dot(puff->at, puff->at);
-        double length = sqrt((double)frustum_dot(puff->axis, puff->axis));
-        sum += (double)puff->colour[3] * (double)puff->size *
-               maths_max(length, (double)puff->size) / far;
+    for (uint32_t i = 0; i < s->list.particle_count; i++) {
+        const struct draw_list_particle *particle = &s->list.particles[i];
+        double far = (double)frustum_dot(particle->at, particle->at);
+        double length = sqrt((double)frustum_dot(particle->axis, particle->axis));
+        sum += (double)particle->colour[3] * (double)particle->size *
+               maths_max(length, (double)particle->size) / far;
     }
     return sum;
 }
@@ -233,23 +233,23 @@ static void test_each_event_shows_for_its_time(void **context)
         struct event event = happening(s, (enum effect_type)type);
         uint64_t began = s->head.tick;
         look(s, 40.0);
-        assert_int_equal(s->scene.puff_count, 0);
+        assert_int_equal(s->list.particle_count, 0);
         effects_take(&s->effects, &s->moment, &event, 1);
         assert_int_equal(s->effects.count, 1);
         assert_int_equal(s->effects.effect[0].type, type);
         double life = effects_life_s((enum effect_type)type);
         s->head.tick = began + 4;
         look(s, 40.0);
-        assert_true(s->scene.puff_count >= 3);
+        assert_true(s->list.particle_count >= 3);
         s->head.tick = began + (uint64_t)(0.6 * life * HZ);
         look(s, 40.0);
-        assert_true(s->scene.puff_count >= 1);
+        assert_true(s->list.particle_count >= 1);
         s->head.tick = began + (uint64_t)(life * HZ) + 1;
         look(s, 40.0);
-        assert_int_equal(s->scene.puff_count, 0);
+        assert_int_equal(s->list.particle_count, 0);
         s->head.tick = began - 1; /* nor before it happened */
         look(s, 40.0);
-        assert_int_equal(s->scene.puff_count, 0);
+        assert_int_equal(s->list.particle_count, 0);
         s->effects.count = 0;
         s->head.tick = began;
     }
@@ -296,10 +296,10 @@ static void test_what_is_thrown_up_falls_back(void **context)
             s->head.tick = began + tick;
             look(s, 60.0);
             double highest = 0.0;
-            for (uint32_t n = 0; n < s->scene.puff_count; n++)
-                if (s->scene.puffs[n].picture == (float)PUFF_SPRAY)
-                    highest =
-                        maths_max(highest, (double)s->scene.puffs[n].at[1] + s->scene.camera.eye.y);
+            for (uint32_t n = 0; n < s->list.particle_count; n++)
+                if (s->list.particles[n].picture == (float)PARTICLE_SPRAY)
+                    highest = maths_max(highest,
+                                        (double)s->list.particles[n].at[1] + s->list.camera.eye.y);
             most = maths_max(most, highest);
             last = highest > 0.0 ? highest : last; /* of what can still be seen */
         }
@@ -323,8 +323,8 @@ static void test_what_is_over_first_gives_way(void **context)
         effects_take(&s->effects, &s->moment, &lasting, 1);
     s->head.tick += 5;
     look(s, 40.0); /* more than the list of puffs has room for */
-    assert_int_equal(s->scene.puff_count, SCENE_PUFFS_MAX);
-    assert_true(s->scene.omitted > 0);
+    assert_int_equal(s->list.particle_count, DRAW_LIST_PARTICLES_MAX);
+    assert_true(s->list.omitted > 0);
 }
 
 /* --- wrecks ----------------------------------------------------------------------------------- */
@@ -367,11 +367,11 @@ static void test_debris_flies_and_comes_to_rest(void **context)
     for (uint32_t tick = 1; tick < (uint32_t)(20.0 * HZ); tick += 3) {
         s->head.tick = began + tick;
         look(s, 50.0);
-        double eye = s->scene.camera.eye.y - (double)GROUND;
+        double eye = s->list.camera.eye.y - (double)GROUND;
         uint32_t seen = 0;
-        for (uint32_t i = 0; i < s->scene.body_count && seen < 16; i++) {
-            const struct scene_body *body = &s->scene.bodies[i];
-            if (s->scene.copies[i].detail != MESH_COARSEST)
+        for (uint32_t i = 0; i < s->list.body_count && seen < 16; i++) {
+            const struct draw_list_body *body = &s->list.bodies[i];
+            if (s->list.instances[i].detail != MESH_COARSEST)
                 continue; /* the wreck itself */
             double above = (double)body->at[1] + eye;
             assert_true(above > -0.5);
@@ -392,7 +392,7 @@ static void test_debris_flies_and_comes_to_rest(void **context)
     assert_true(pieces >= 4);
     s->head.tick = began + (uint64_t)((EFFECT_LIFE_S + 1.0) * HZ);
     look(s, 50.0);
-    assert_int_equal(s->scene.body_count, 1);
+    assert_int_equal(s->list.body_count, 1);
 }
 
 static void test_smoke_goes_on_when_damage_grows(void **context)
@@ -456,16 +456,16 @@ static void test_wash_is_of_low_rotors_alone(void **context)
     struct stage *s = *context;
     uint32_t slot = put(s, CHOPPER, MIDDLE, 40.0, MIDDLE);
     look(s, 60.0);
-    assert_int_equal(s->scene.puff_count, 0);
+    assert_int_equal(s->list.particle_count, 0);
     s->entities.y[slot] = (double)GROUND + 3.0;
     look(s, 60.0);
-    assert_true(s->scene.puff_count > 5);
+    assert_true(s->list.particle_count > 5);
     lay(s, COVER_FOREST);
     look(s, 60.0);
-    assert_int_equal(s->scene.puff_count, 0);
+    assert_int_equal(s->list.particle_count, 0);
     lay(s, COVER_SEA);
     look(s, 60.0);
-    assert_true(s->scene.puff_count > 5); /* spray */
+    assert_true(s->list.particle_count > 5); /* spray */
 }
 
 static void test_a_ship_leaves_a_wake(void **context)
@@ -480,8 +480,8 @@ static void test_a_ship_leaves_a_wake(void **context)
     look(s, 150.0);
     uint32_t behind = 0;
     double reach = s->entities.x[slot] - 100.0 - MIDDLE;
-    for (uint32_t i = 0; i < s->scene.puff_count; i++)
-        behind += (double)s->scene.puffs[i].at[0] < reach;
+    for (uint32_t i = 0; i < s->list.particle_count; i++)
+        behind += (double)s->list.particles[i].at[0] < reach;
     assert_true(behind > 3);
 }
 
@@ -516,12 +516,12 @@ static void test_a_trail_is_where_the_missile_flew(void **context)
         }
         look(s, 300.0);
         uint32_t smoke = 0;
-        for (uint32_t i = 0; i < s->scene.puff_count; i++) {
-            const struct scene_puff *puff = &s->scene.puffs[i];
-            if (puff->glow > 0.0f)
+        for (uint32_t i = 0; i < s->list.particle_count; i++) {
+            const struct draw_list_particle *particle = &s->list.particles[i];
+            if (particle->glow > 0.0f)
                 continue;
-            double x = (double)puff->at[0] + s->scene.camera.eye.x - MIDDLE;
-            double z = (double)puff->at[2] + s->scene.camera.eye.z - MIDDLE;
+            double x = (double)particle->at[0] + s->list.camera.eye.x - MIDDLE;
+            double z = (double)particle->at[2] + s->list.camera.eye.z - MIDDLE;
             /* The wind takes it along by 5 m at most. */
             assert_true(fabs(sqrt(x * x + z * z) - radius) < 6.0);
             smoke++;
@@ -530,7 +530,7 @@ static void test_a_trail_is_where_the_missile_flew(void **context)
     }
     s->head.tick += (uint64_t)(5.0 * HZ);
     look(s, 300.0);
-    assert_int_equal(s->scene.puff_count, 0);
+    assert_int_equal(s->list.particle_count, 0);
 }
 
 static void test_the_curve_is_smooth_and_ends_at_birth(void **context)
@@ -593,20 +593,22 @@ static void test_the_same_moment_gives_the_same_lists(void **context)
     for (uint32_t i = 0; i < 45; i++)
         step(s);
     look(s, 45.0);
-    struct scene first = s->scene;
-    assert_true(first.puff_count > 100 && first.body_count > 8);
+    struct draw_list first = s->list;
+    assert_true(first.particle_count > 100 && first.body_count > 8);
     /* In another's memory, of which another camera was there before; and time stands, frames do
      * not. */
-    assert_int_equal(scene_init(&s->scene), 0);
+    assert_int_equal(scene_init(&s->list), 0);
     look(s, 3.0);
     s->head.frame += 1000;
     effects_take(&s->effects, &s->moment, NULL, 0);
     look(s, 45.0);
-    assert_int_equal(s->scene.puff_count, first.puff_count);
-    assert_int_equal(s->scene.body_count, first.body_count);
-    assert_memory_equal(s->scene.puffs, first.puffs, first.puff_count * sizeof *first.puffs);
-    assert_memory_equal(s->scene.bodies, first.bodies, first.body_count * sizeof *first.bodies);
-    assert_memory_equal(s->scene.copies, first.copies, first.body_count * sizeof *first.copies);
+    assert_int_equal(s->list.particle_count, first.particle_count);
+    assert_int_equal(s->list.body_count, first.body_count);
+    assert_memory_equal(s->list.particles, first.particles,
+                        first.particle_count * sizeof *first.particles);
+    assert_memory_equal(s->list.bodies, first.bodies, first.body_count * sizeof *first.bodies);
+    assert_memory_equal(s->list.instances, first.instances,
+                        first.body_count * sizeof *first.instances);
     scene_free(&first);
 }
 
@@ -641,12 +643,12 @@ static void test_fewer_puffs_far_away(void **context)
     for (uint32_t i = 0; i < 1800; i++)
         step(s);
     look(s, 250.0);
-    uint32_t near = s->scene.puff_count;
+    uint32_t near = s->list.particle_count;
     look(s, 1000.0);
-    uint32_t far = s->scene.puff_count;
+    uint32_t far = s->list.particle_count;
     look(s, 3000.0);
-    assert_true(near < 60 && far < near && s->scene.puff_count < far);
-    assert_in_range(s->scene.puff_count, 3, 14);
+    assert_true(near < 60 && far < near && s->list.particle_count < far);
+    assert_in_range(s->list.particle_count, 3, 14);
 }
 
 static void test_less_detail_is_less_to_draw(void **context)
@@ -657,17 +659,17 @@ static void test_less_detail_is_less_to_draw(void **context)
     s->params.renderer.texture = 1;
     for (uint32_t i = 0; i < 45; i++)
         step(s);
-    uint32_t plants = UINT32_MAX, puffs = UINT32_MAX;
+    uint32_t plants = UINT32_MAX, particles = UINT32_MAX;
     for (float detail = 1.0f; detail > 0.05f; detail *= 0.7f) {
-        s->scene.detail = detail;
+        s->list.detail = detail;
         look(s, 45.0);
-        assert_true(s->scene.plant_count < plants && s->scene.puff_count <= puffs);
-        plants = s->scene.plant_count;
-        puffs = s->scene.puff_count;
+        assert_true(s->list.plant_count < plants && s->list.particle_count <= particles);
+        plants = s->list.plant_count;
+        particles = s->list.particle_count;
     }
-    s->scene.detail = 1.0f;
+    s->list.detail = 1.0f;
     look(s, 45.0);
-    assert_true(puffs < s->scene.puff_count / 2);
+    assert_true(particles < s->list.particle_count / 2);
 }
 
 static void test_no_puff_around_the_eye(void **context)
@@ -678,10 +680,10 @@ static void test_no_puff_around_the_eye(void **context)
     s->head.tick += 60;
     for (double away = 0.3; away < 40.0; away *= 1.2) {
         look(s, away);
-        for (uint32_t i = 0; i < s->scene.puff_count; i++) {
-            const struct scene_puff *puff = &s->scene.puffs[i];
-            float far = sqrtf(frustum_dot(puff->at, puff->at));
-            assert_true(far > 0.6f * puff->size && puff->colour[3] > 0.0f);
+        for (uint32_t i = 0; i < s->list.particle_count; i++) {
+            const struct draw_list_particle *particle = &s->list.particles[i];
+            float far = sqrtf(frustum_dot(particle->at, particle->at));
+            assert_true(far > 0.6f * particle->size && particle->colour[3] > 0.0f);
         }
     }
 }
@@ -693,9 +695,9 @@ static void test_puffs_come_farthest_first(void **context)
     for (uint32_t i = 0; i < 30; i++)
         step(s);
     look(s, 45.0);
-    assert_true(s->scene.puff_count > 100);
-    for (uint32_t i = 1; i < s->scene.puff_count; i++) {
-        const float *a = s->scene.puffs[i - 1].at, *b = s->scene.puffs[i].at;
+    assert_true(s->list.particle_count > 100);
+    for (uint32_t i = 1; i < s->list.particle_count; i++) {
+        const float *a = s->list.particles[i - 1].at, *b = s->list.particles[i].at;
         assert_true(frustum_dot(a, a) >= frustum_dot(b, b));
     }
 }
@@ -708,14 +710,14 @@ static void test_tufts_do_not_grow_in_craters(void **context)
     lay(s, COVER_CHAPARRAL);
     s->params.renderer.texture = 1;
     look(s, 30.0);
-    uint32_t before = s->scene.plant_count;
+    uint32_t before = s->list.plant_count;
     s->craters[0] = (struct crater){MIDDLE, MIDDLE, 12.0f, 3.0f, 1};
     crater_index_update(&s->index, 1);
     look(s, 30.0);
-    assert_true(before > 500 && s->scene.plant_count < before);
-    for (uint32_t i = 0; i < s->scene.plant_count; i++) {
-        double x = (double)s->scene.plants[i].at[0] + s->scene.camera.eye.x - MIDDLE;
-        double z = (double)s->scene.plants[i].at[2] + s->scene.camera.eye.z - MIDDLE;
+    assert_true(before > 500 && s->list.plant_count < before);
+    for (uint32_t i = 0; i < s->list.plant_count; i++) {
+        double x = (double)s->list.plants[i].at[0] + s->list.camera.eye.x - MIDDLE;
+        double z = (double)s->list.plants[i].at[2] + s->list.camera.eye.z - MIDDLE;
         assert_true(x * x + z * z > 100.0);
     }
 }
@@ -727,8 +729,8 @@ static void test_tufts_grow_into_the_picture(void **context)
     s->params.renderer.texture = 1;
     look(s, 30.0);
     uint32_t small = 0;
-    for (uint32_t i = 0; i < s->scene.plant_count; i++) {
-        const struct scene_plant *plant = &s->scene.plants[i];
+    for (uint32_t i = 0; i < s->list.plant_count; i++) {
+        const struct draw_list_plant *plant = &s->list.plants[i];
         float far = sqrtf(frustum_dot(plant->at, plant->at));
         assert_true((double)far < GRASS_RANGE_M);
         if ((double)far > 0.99 * GRASS_RANGE_M)

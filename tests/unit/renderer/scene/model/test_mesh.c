@@ -102,7 +102,7 @@ static void draw(struct silhouette *s, const struct mesh *mesh)
 }
 
 /* Seen from around and a little above; samples: in a metre. */
-static void look(struct silhouette *s, const struct mesh_frame *frame, uint32_t view,
+static void look(struct silhouette *s, const struct mesh_skeleton *skeleton, uint32_t view,
                  double samples)
 {
     double turn = 0.3 + TWO_PI * view / VIEWS, lift = 0.35;
@@ -111,21 +111,21 @@ static void look(struct silhouette *s, const struct mesh_frame *frame, uint32_t 
     for (uint32_t i = 0; i < 3; i++) {
         s->right[i] = right[i] * samples;
         s->up[i] = up[i] * samples;
-        s->middle[i] = 0.5 * ((double)frame->low[i] + (double)frame->high[i]);
+        s->middle[i] = 0.5 * ((double)skeleton->low[i] + (double)skeleton->high[i]);
     }
 }
 
 static void compare(const struct mesh *fine, const struct mesh *coarse,
-                    const struct mesh_frame *frame, double pixels, const char *name)
+                    const struct mesh_skeleton *skeleton, double pixels, const char *name)
 {
     static struct silhouette a, b;
     double longest = 0.0;
     for (uint32_t i = 0; i < 3; i++)
-        longest = fmax(longest, (double)frame->high[i] - (double)frame->low[i]);
+        longest = fmax(longest, (double)skeleton->high[i] - (double)skeleton->low[i]);
     for (uint32_t view = 0; view < VIEWS; view++) {
         uint32_t area_a = 0, area_b = 0, apart = 0;
-        look(&a, frame, view, SAMPLES * pixels / longest);
-        look(&b, frame, view, SAMPLES * pixels / longest);
+        look(&a, skeleton, view, SAMPLES * pixels / longest);
+        look(&b, skeleton, view, SAMPLES * pixels / longest);
         draw(&a, fine);
         draw(&b, coarse);
         for (uint32_t i = 0; i < SIDE_MOST * SIDE_MOST; i++) {
@@ -149,15 +149,15 @@ static void test_levels_look_alike(void **state)
                                                      [MESH_COARSEST] = MESH_COARSE_PIXELS};
     (void)state;
     for (uint32_t m = 0; m < world.counts.models; m++) {
-        struct mesh_frame frame;
+        struct mesh_skeleton skeleton;
         struct mesh fine;
-        assert_int_equal(mesh_frame(&frame, &world, m), 0);
+        assert_int_equal(mesh_skeleton(&skeleton, &world, m), 0);
         assert_int_equal(mesh_build(&fine, &world, m, MESH_FULL), 0);
         for (enum mesh_detail detail = MESH_MIDDLE; detail < MESH_DETAIL_COUNT; detail++) {
             struct mesh coarse;
             assert_int_equal(mesh_build(&coarse, &world, m, detail), 0);
             assert_true(coarse.count <= fine.count);
-            compare(&fine, &coarse, &frame, pixels[detail], shipped.models[m].name);
+            compare(&fine, &coarse, &skeleton, pixels[detail], shipped.models[m].name);
             mesh_free(&fine);
             fine = coarse;
         }
@@ -191,14 +191,14 @@ static void test_wheels_turn_about_their_axles(void **state)
     static const char *const kinds[] = {"tank", "carrier", "truck", "jeep"};
     (void)state;
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
-        struct mesh_frame frame;
+        struct mesh_skeleton skeleton;
         struct mesh mesh;
         double reach[MODEL_JOINTS_MAX] = {0.0};
-        assert_int_equal(mesh_frame(&frame, &world, model_of(kinds[k])), 0);
+        assert_int_equal(mesh_skeleton(&skeleton, &world, model_of(kinds[k])), 0);
         assert_int_equal(mesh_build(&mesh, &world, model_of(kinds[k]), MESH_FULL), 0);
         for (uint32_t i = 0; i < mesh.count; i++) {
             const struct mesh_vertex *v = &mesh.vertices[i];
-            const float *pivot = frame.pivot[v->joint];
+            const float *pivot = skeleton.pivot[v->joint];
             if (v->part == PART_WHEEL || v->part == PART_FRONT_WHEEL)
                 reach[v->joint] =
                     fmax(reach[v->joint], hypot((double)v->position[0] - (double)pivot[0],
@@ -206,9 +206,9 @@ static void test_wheels_turn_about_their_axles(void **state)
         }
         for (uint32_t joint = 1; joint < MODEL_JOINTS_MAX; joint++)
             if (reach[joint] > 0.0) {
-                double radius = (double)frame.pivot[joint][3];
+                double radius = (double)skeleton.pivot[joint][3];
                 assert_true(fabs(reach[joint] / radius - 1.0) < 0.06);
-                assert_true(fabs((double)frame.pivot[joint][2]) > 0.4); /* at a side */
+                assert_true(fabs((double)skeleton.pivot[joint][2]) > 0.4); /* at a side */
             }
         mesh_free(&mesh);
     }
@@ -217,34 +217,34 @@ static void test_wheels_turn_about_their_axles(void **state)
 /* The tank's turret is on its ring, its gun held behind the mantlet. */
 static void test_turret_and_gun_pivots(void **state)
 {
-    struct mesh_frame frame;
+    struct mesh_skeleton skeleton;
     uint32_t guns = 0;
     (void)state;
-    assert_int_equal(mesh_frame(&frame, &world, model_of("tank")), 0);
-    assert_true(frame.turret);
-    assert_true(fabs((double)frame.pivot[0][0] + 0.2) < 0.02);
-    assert_true(fabs((double)frame.pivot[0][2]) < 0.02);
+    assert_int_equal(mesh_skeleton(&skeleton, &world, model_of("tank")), 0);
+    assert_true(skeleton.turret);
+    assert_true(fabs((double)skeleton.pivot[0][0] + 0.2) < 0.02);
+    assert_true(fabs((double)skeleton.pivot[0][2]) < 0.02);
     for (uint32_t joint = 1; joint < MODEL_JOINTS_MAX; joint++)
-        guns += fabsf(frame.pivot[joint][0] - 1.3f) < 0.01f && frame.pivot[joint][1] > 1.5f;
+        guns += fabsf(skeleton.pivot[joint][0] - 1.3f) < 0.01f && skeleton.pivot[joint][1] > 1.5f;
     assert_int_equal(guns, 1);
-    assert_int_equal(mesh_frame(&frame, &world, model_of("jet")), 0);
-    assert_false(frame.turret);
+    assert_int_equal(mesh_skeleton(&skeleton, &world, model_of("jet")), 0);
+    assert_false(skeleton.turret);
 }
 
 /* A rotor's hub is over the fuselage, its disc as wide as its blades; the tail's is upright. */
 static void test_rotors_reach_to_their_tips(void **state)
 {
-    struct mesh_frame frame;
+    struct mesh_skeleton skeleton;
     uint32_t rotors = 0, tails = 0;
     (void)state;
-    assert_int_equal(mesh_frame(&frame, &world, model_of("helicopter")), 0);
+    assert_int_equal(mesh_skeleton(&skeleton, &world, model_of("helicopter")), 0);
     for (uint32_t joint = 0; joint < MODEL_JOINTS_MAX; joint++) {
-        const float *pivot = frame.pivot[joint];
-        if (frame.part[joint] == PART_ROTOR) {
+        const float *pivot = skeleton.pivot[joint];
+        if (skeleton.part[joint] == PART_ROTOR) {
             rotors++;
             assert_true(fabsf(pivot[0]) < 0.01f && fabsf(pivot[2]) < 0.01f && pivot[1] > 1.5f);
             assert_true(fabsf(pivot[3] - 6.38f) < 0.05f);
-        } else if (frame.part[joint] == PART_TAIL_ROTOR) {
+        } else if (skeleton.part[joint] == PART_TAIL_ROTOR) {
             tails++;
             assert_true(pivot[0] < -6.0f && fabsf(pivot[3] - 1.0f) < 0.05f);
         }
@@ -257,15 +257,15 @@ static void test_rotors_reach_to_their_tips(void **state)
 static void test_links_run_around_a_track(void **state)
 {
     uint32_t model = model_of("tank"), on_track = 0;
-    struct mesh_frame frame;
+    struct mesh_skeleton skeleton;
     struct mesh mesh;
     (void)state;
-    assert_int_equal(mesh_frame(&frame, &world, model), 0);
+    assert_int_equal(mesh_skeleton(&skeleton, &world, model), 0);
     for (enum mesh_detail detail = MESH_FINE; detail < MESH_DETAIL_COUNT; detail++) {
         assert_int_equal(mesh_build(&mesh, &world, model, detail), 0);
         for (uint32_t i = 0; i < mesh.count; i += 3) {
             const struct mesh_vertex *v = &mesh.vertices[i];
-            double link_m = (double)frame.pivot[v->joint][3], longest = 0.0;
+            double link_m = (double)skeleton.pivot[v->joint][3], longest = 0.0;
             if (v->part != PART_TRACK)
                 continue;
             on_track++;

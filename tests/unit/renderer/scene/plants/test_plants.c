@@ -41,7 +41,7 @@ struct stage {
     struct dent_index dents;
     struct effects effects;
     struct static_scene scenery;
-    struct scene scene;
+    struct draw_list list;
     struct frame_view moment;
 };
 
@@ -105,7 +105,7 @@ static int open_stage(void **context)
     assert_int_equal(crater_index_init(&s->index, s->craters), 0);
     assert_int_equal(dent_index_init(&s->dents, s->dent, 1), 0);
     assert_int_equal(static_scene_init(&s->scenery, &s->world), 0);
-    assert_int_equal(scene_init(&s->scene), 0);
+    assert_int_equal(scene_init(&s->list), 0);
     s->moment = (struct frame_view){.world = &s->world,
                                     .head = &s->head,
                                     .entities = &s->entities,
@@ -119,7 +119,7 @@ static int open_stage(void **context)
 static int close_stage(void **context)
 {
     struct stage *s = *context;
-    scene_free(&s->scene);
+    scene_free(&s->list);
     static_scene_free(&s->scenery);
     crater_index_free(&s->index);
     dent_index_free(&s->dents);
@@ -135,7 +135,7 @@ static void look(struct stage *s, struct vec3 eye, struct vec3 target)
 {
     struct camera camera;
     camera_look(&camera, eye, target, 1280, 720);
-    scene_build(&s->scene, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
 }
 
 /* At the wood from so far south. */
@@ -146,13 +146,13 @@ static void look_at_wood(struct stage *s, double away)
 }
 
 /* The plant of the picture that is this tree, NULL: none. */
-static const struct scene_plant *shown(const struct stage *s, const struct fixed_object *tree)
+static const struct draw_list_plant *shown(const struct stage *s, const struct fixed_object *tree)
 {
     float at[3];
-    draw_list_relative(&s->scene, fixed_position(tree), at);
-    for (uint32_t i = 0; i < s->scene.plant_count; i++)
-        if (s->scene.plants[i].at[0] == at[0] && s->scene.plants[i].at[2] == at[2])
-            return &s->scene.plants[i];
+    draw_list_relative(&s->list, fixed_position(tree), at);
+    for (uint32_t i = 0; i < s->list.plant_count; i++)
+        if (s->list.plants[i].at[0] == at[0] && s->list.plants[i].at[2] == at[2])
+            return &s->list.plants[i];
     return NULL;
 }
 
@@ -177,11 +177,11 @@ static void test_what_is_in_view_is_not_culled(void **context)
         for (uint32_t i = 0; i < TREES; i++) {
             const struct fixed_object *tree = &s->trees[i];
             struct vec3 foot = fixed_position(tree);
-            double far = vec3_length(vec3_sub(foot, s->scene.camera.eye));
-            double pixels = camera_pixels(&s->scene.camera, (double)tree->height_m, far);
+            double far = vec3_length(vec3_sub(foot, s->list.camera.eye));
+            double pixels = camera_pixels(&s->list.camera, (double)tree->height_m, far);
             if (in_wood(tree) || pixels < 2.1)
                 continue;
-            bool sees = camera_sees(&s->scene.camera, foot, 0.0);
+            bool sees = camera_sees(&s->list.camera, foot, 0.0);
             assert_true(!sees || shown(s, tree) != NULL);
             inside += sees;
             left_out += shown(s, tree) == NULL;
@@ -198,7 +198,7 @@ static void test_far_woods_are_thinned_out(void **context)
     for (uint32_t far = 0; far < 2; far++) {
         look_at_wood(s, far ? 2500.0 : 300.0);
         for (uint32_t i = 0; i < TREES; i++) {
-            const struct scene_plant *plant = shown(s, &s->trees[i]);
+            const struct draw_list_plant *plant = shown(s, &s->trees[i]);
             if (!in_wood(&s->trees[i]) || plant == NULL)
                 continue;
             trees[far]++;
@@ -218,12 +218,12 @@ static void test_lone_trees_stay(void **context)
         look_at_wood(s, away);
         for (uint32_t i = 0; i < TREES; i++) {
             const struct fixed_object *tree = &s->trees[i];
-            double far = vec3_length(vec3_sub(fixed_position(tree), s->scene.camera.eye));
-            double pixels = camera_pixels(&s->scene.camera, (double)tree->height_m, far);
+            double far = vec3_length(vec3_sub(fixed_position(tree), s->list.camera.eye));
+            double pixels = camera_pixels(&s->list.camera, (double)tree->height_m, far);
             if (in_wood(tree) || pixels < 3.1 ||
-                !camera_sees(&s->scene.camera, fixed_position(tree), 0.0))
+                !camera_sees(&s->list.camera, fixed_position(tree), 0.0))
                 continue;
-            const struct scene_plant *plant = shown(s, tree);
+            const struct draw_list_plant *plant = shown(s, tree);
             assert_true(plant != NULL && plant->height == tree->height_m);
         }
     }
@@ -236,12 +236,12 @@ static void test_no_plant_comes_or_goes_at_once(void **context)
         float before[TREES];
         look_at_wood(s, away);
         for (uint32_t i = 0; i < TREES; i++) {
-            const struct scene_plant *plant = shown(s, &s->trees[i]);
+            const struct draw_list_plant *plant = shown(s, &s->trees[i]);
             before[i] = plant == NULL ? 0.0f : plant->height;
         }
         look_at_wood(s, 1.001 * away);
         for (uint32_t i = 0; i < TREES; i++) {
-            const struct scene_plant *plant = shown(s, &s->trees[i]);
+            const struct draw_list_plant *plant = shown(s, &s->trees[i]);
             float now = plant == NULL ? 0.0f : plant->height;
             if (!in_wood(&s->trees[i]))
                 continue; /* others may leave the picture */
@@ -255,14 +255,14 @@ static void test_less_detail_is_less_of_a_wood(void **context)
     struct stage *s = *context;
     uint32_t before = UINT32_MAX;
     for (float detail = 1.0f; detail > 0.2f; detail -= 0.1f) {
-        s->scene.detail = detail;
+        s->list.detail = detail;
         look_at_wood(s, 900.0);
-        assert_true(s->scene.plant_count <= before);
-        before = s->scene.plant_count;
+        assert_true(s->list.plant_count <= before);
+        before = s->list.plant_count;
     }
-    s->scene.detail = 1.0f;
+    s->list.detail = 1.0f;
     look_at_wood(s, 900.0);
-    assert_true(before < s->scene.plant_count - 10);
+    assert_true(before < s->list.plant_count - 10);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
