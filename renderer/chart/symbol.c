@@ -205,9 +205,9 @@ static void draw_row(uint8_t *pixels, int32_t count, const struct outline *outli
             if (outer[i] == 0)
                 continue;
             if (inner[i] < 255)
-                image_lay(pixels + i * 4, paint->rim, outer[i] * paint->rim.a / 255);
+                image_blend(pixels + i * 4, paint->rim, outer[i] * paint->rim.a / 255);
             if (inner[i] > 0)
-                image_lay(pixels + i * 4, paint->fill, inner[i] * paint->fill.a / 255);
+                image_blend(pixels + i * 4, paint->fill, inner[i] * paint->fill.a / 255);
         }
     }
 }

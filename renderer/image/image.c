@@ -1,5 +1,4 @@
-/* Software shapes: every shape is a distance to its edge, and a pixel's coverage follows from it.
- */
+/* Shapes drawn in software. A pixel's coverage follows from its distance to the shape's edge. */
 #include "renderer/image/image.h"
 
 #include <math.h>
@@ -8,10 +7,10 @@
 #include <string.h>
 
 struct row_span {
-    int32_t x0, y0, x1, y1; /* pixels, exclusive at the end */
+    int32_t x0, y0, x1, y1; /* pixels, from x0, y0 to before x1, y1 */
 };
 
-/* fmin() and fmax() are calls. */
+/* Unlike fmin() and fmax(), these are inlined. */
 static double least(double a, double b)
 {
     return a < b ? a : b;
@@ -22,7 +21,7 @@ static double most(double a, double b)
     return a > b ? a : b;
 }
 
-/* Whole numbers at or below, at or above; of what fits an int. */
+/* Rounding down and up, for values in an int's range. */
 static int32_t floor_of(double v)
 {
     int32_t whole = (int32_t)v;
@@ -87,18 +86,18 @@ void image_rectangle(struct image *image, int32_t x, int32_t y, int32_t width, i
         fill(image, span, colour);
         return;
     }
-    uint8_t laid[256][4]; /* what each value of a channel becomes */
+    uint8_t blended[256][4]; /* the result for each value of a channel */
     for (int32_t v = 0; v < 256; v++) {
         uint8_t pixel[4] = {(uint8_t)v, (uint8_t)v, (uint8_t)v, 255};
-        image_lay(pixel, colour, colour.a);
-        memcpy(laid[v], pixel, sizeof pixel);
+        image_blend(pixel, colour, colour.a);
+        memcpy(blended[v], pixel, sizeof pixel);
     }
     for (int32_t row = span.y0; row < span.y1; row++) {
         uint8_t *pixel = pixel_of(image, span.x0, row);
         for (int32_t column = span.x0; column < span.x1; column++, pixel += 4) {
-            pixel[0] = laid[pixel[0]][0];
-            pixel[1] = laid[pixel[1]][1];
-            pixel[2] = laid[pixel[2]][2];
+            pixel[0] = blended[pixel[0]][0];
+            pixel[1] = blended[pixel[1]][1];
+            pixel[2] = blended[pixel[2]][2];
             pixel[3] = 255;
         }
     }
@@ -112,20 +111,20 @@ void image_dot(struct image *image, struct point centre, double side, struct rgb
         double tall = least(y + 1.0, top + side) - most(y, top);
         for (int32_t x = span.x0; x < span.x1; x++) {
             double wide = least(x + 1.0, left + side) - most(x, left);
-            image_lay(pixel_of(image, x, y), colour, (int32_t)(colour.a * wide * tall + 0.5));
+            image_blend(pixel_of(image, x, y), colour, (int32_t)(colour.a * wide * tall + 0.5));
         }
     }
 }
 
-/* Lays a pixel so deep within an edge [pixel]; the pixel lies in the picture. */
-static void lay_edge(uint8_t *pixel, struct rgba colour, double inside)
+/* Blends a pixel of the picture that lies this deep within an edge [pixel]. */
+static void blend_edge(uint8_t *pixel, struct rgba colour, double inside)
 {
     if (inside > -0.5)
-        image_lay(pixel, colour,
-                  inside >= 0.5 ? colour.a : (int32_t)(colour.a * (inside + 0.5) + 0.5));
+        image_blend(pixel, colour,
+                    inside >= 0.5 ? colour.a : (int32_t)(colour.a * (inside + 0.5) + 0.5));
 }
 
-/* Narrows columns to those where slope * x + at > -0.5; a column's x is its pixel's middle. */
+/* Narrows the columns to those where slope * x + at > -0.5, x being the middle of a pixel. */
 static void narrow(struct row_span *span, double slope, double at)
 {
     if (fabs(slope) < 1e-9) {
@@ -149,8 +148,8 @@ void image_line(struct image *image, struct point from, struct point to, double 
     struct row_span span =
         span_of(image, least(from.x, to.x) - half - 1.0, least(from.y, to.y) - half - 1.0,
                 most(from.x, to.x) + half + 1.0, most(from.y, to.y) + half + 1.0);
-    /* A row meets the line about where it crosses the line's middle, as far to both sides as its
-     * slant makes of its width. */
+    /* A row meets the line around the point where it crosses the line's middle. It extends to both
+     * sides as far as the line's width and slant require. */
     bool level = fabs(uy) < 1e-3;
     double run = level ? 0.0 : ux / uy, slant = level ? 0.0 : (half + 0.5) / fabs(uy) + 1.0;
     for (int32_t y = span.y0; y < span.y1; y++) {
@@ -167,7 +166,7 @@ void image_line(struct image *image, struct point from, struct point to, double 
             double over = along < 0.0 ? -along : along - length;
             if (over > 0.0)
                 off = sqrt(off * off + over * over);
-            lay_edge(pixel_of(image, x, y), colour, half - off);
+            blend_edge(pixel_of(image, x, y), colour, half - off);
         }
     }
 }
@@ -180,7 +179,7 @@ void image_disc(struct image *image, struct point centre, double radius, struct 
     for (int32_t y = span.y0; y < span.y1; y++)
         for (int32_t x = span.x0; x < span.x1; x++) {
             double dx = x + 0.5 - centre.x, dy = y + 0.5 - centre.y;
-            lay_edge(pixel_of(image, x, y), colour, radius - sqrt(dx * dx + dy * dy));
+            blend_edge(pixel_of(image, x, y), colour, radius - sqrt(dx * dx + dy * dy));
         }
 }
 
@@ -194,7 +193,7 @@ void image_ring(struct image *image, struct point centre, double radius, double 
         for (int32_t x = span.x0; x < span.x1; x++) {
             double dx = x + 0.5 - centre.x, dy = y + 0.5 - centre.y;
             double off = sqrt(dx * dx + dy * dy) - radius;
-            lay_edge(pixel_of(image, x, y), colour, 0.5 * width - fabs(off));
+            blend_edge(pixel_of(image, x, y), colour, 0.5 * width - fabs(off));
         }
 }
 
@@ -202,7 +201,7 @@ void image_polygon(struct image *image, const struct point *corners, uint32_t co
                    struct rgba colour)
 {
     struct {
-        double x, y, at; /* x * px + y * py + at: how deep within the edge */
+        double x, y, at; /* x * px + y * py + at is the depth within the edge */
     } edges[IMAGE_CORNERS_MAX];
     double x0 = corners[0].x, y0 = corners[0].y, x1 = x0, y1 = y0, area = 0.0;
     for (uint32_t i = 0; i < count; i++) {
@@ -236,7 +235,7 @@ void image_polygon(struct image *image, const struct point *corners, uint32_t co
                 double within = edges[i].x * (x + 0.5) + edges[i].y * (y + 0.5) + edges[i].at;
                 inside = within < inside ? within : inside;
             }
-            lay_edge(pixel_of(image, x, y), colour, inside);
+            blend_edge(pixel_of(image, x, y), colour, inside);
         }
     }
 }

@@ -1,4 +1,4 @@
-/* Pictures in memory and the few smooth-edged shapes that maps and instruments need. Pure. */
+/* Pictures in memory and the few antialiased shapes that maps and instruments need. Pure. */
 #ifndef JOLON_RENDERER_IMAGE_IMAGE_H
 #define JOLON_RENDERER_IMAGE_IMAGE_H
 
@@ -26,7 +26,7 @@ void image_free(struct image *image);
 /* Everything below clips to the picture and blends by the colour's alpha. */
 void image_rectangle(struct image *image, int32_t x, int32_t y, int32_t width, int32_t height,
                      struct rgba colour);
-/* A small square, for what there are thousands of. */
+/* A small square: the cheapest shape, for drawing thousands. */
 void image_dot(struct image *image, struct point centre, double side, struct rgba colour);
 void image_line(struct image *image, struct point from, struct point to, double width,
                 struct rgba colour);
@@ -37,8 +37,8 @@ void image_ring(struct image *image, struct point centre, double radius, double 
 void image_polygon(struct image *image, const struct point *corners, uint32_t count,
                    struct rgba colour);
 
-/* Blends one pixel that is known to be there; a: 0..255, in place of the colour's own. */
-static inline void image_lay(uint8_t *pixel, struct rgba colour, int32_t a)
+/* Blends one pixel of the picture. a: 0..255, used instead of the colour's own alpha. */
+static inline void image_blend(uint8_t *pixel, struct rgba colour, int32_t a)
 {
     pixel[0] = (uint8_t)(pixel[0] + ((colour.r - pixel[0]) * a) / 255);
     pixel[1] = (uint8_t)(pixel[1] + ((colour.g - pixel[1]) * a) / 255);
@@ -46,7 +46,7 @@ static inline void image_lay(uint8_t *pixel, struct rgba colour, int32_t a)
     pixel[3] = 255;
 }
 
-/* Copies all of from to (x, y) of to. */
+/* Copies the whole picture to (x, y) of another. */
 void image_copy(struct image *to, const struct image *from, int32_t x, int32_t y);
 
 #endif

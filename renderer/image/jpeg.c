@@ -1,4 +1,4 @@
-/* libjpeg-turbo, which takes our pixels as they are. */
+/* JPEG by libjpeg-turbo, which reads four-byte pixels directly. */
 #include "renderer/image/jpeg.h"
 #include "world/runtime/check.h"
 
@@ -11,15 +11,15 @@
 
 #define HEADERS_BYTES 4096u
 
-struct failing {
-    struct jpeg_error_mgr manager; /* first: libjpeg knows no more of it */
+struct jpeg_failure {
+    struct jpeg_error_mgr manager; /* must be first: libjpeg points to it */
     jmp_buf back;
 };
 
 _Noreturn static void on_error(j_common_ptr jpeg)
 {
-    struct failing *failing = (struct failing *)jpeg->err;
-    longjmp(failing->back, 1);
+    struct jpeg_failure *failure = (struct jpeg_failure *)jpeg->err;
+    longjmp(failure->back, 1);
 }
 
 static void on_message(j_common_ptr jpeg)
@@ -27,15 +27,15 @@ static void on_message(j_common_ptr jpeg)
     (void)jpeg;
 }
 
-/* Everything that longjmp may return over lives in the caller's frame. */
-static int compress(struct jpeg_compress_struct *jpeg, struct failing *failing,
-                    const struct image *image, int quality, unsigned char **room,
+/* All variables live in the caller, because longjmp() may discard those of this function. */
+static int compress(struct jpeg_compress_struct *jpeg, struct jpeg_failure *failure,
+                    const struct image *image, int quality, unsigned char **buffer,
                     unsigned long *length)
 {
-    if (setjmp(failing->back) != 0)
+    if (setjmp(failure->back) != 0)
         return -1;
     jpeg_create_compress(jpeg);
-    jpeg_mem_dest(jpeg, room, length);
+    jpeg_mem_dest(jpeg, buffer, length);
     jpeg->image_width = image->width;
     jpeg->image_height = image->height;
     jpeg->input_components = 4;
@@ -53,23 +53,23 @@ static int compress(struct jpeg_compress_struct *jpeg, struct failing *failing,
 
 int jpeg_encode(const struct image *image, int quality, uint8_t **bytes, size_t *count)
 {
-    struct failing failing;
-    struct jpeg_compress_struct jpeg = {.err = jpeg_std_error(&failing.manager)};
-    failing.manager.error_exit = on_error;
-    failing.manager.output_message = on_message;
-    /* More than noise of the best quality takes, so that libjpeg makes no buffer of its own; memory
+    struct jpeg_failure failure;
+    struct jpeg_compress_struct jpeg = {.err = jpeg_std_error(&failure.manager)};
+    failure.manager.error_exit = on_error;
+    failure.manager.output_message = on_message;
+    /* This holds noise at the best quality, so that libjpeg allocates no buffer of its own. Memory
      * that is not written to costs nothing. */
     unsigned long length = ((image->width + 15ul) & ~15ul) * ((image->height + 15ul) & ~15ul) * 4;
     length += HEADERS_BYTES;
-    unsigned char *room = malloc(length), *made = room;
-    int result = room != NULL ? compress(&jpeg, &failing, image, quality, &made, &length) : -1;
-    if (room != NULL)
+    unsigned char *buffer = malloc(length), *made = buffer;
+    int result = buffer != NULL ? compress(&jpeg, &failure, image, quality, &made, &length) : -1;
+    if (buffer != NULL)
         jpeg_destroy_compress(&jpeg);
     if (result == 0)
-        CHECK(made == room);
-    unsigned char *fitting = result == 0 ? realloc(room, length) : NULL;
+        CHECK(made == buffer);
+    unsigned char *fitting = result == 0 ? realloc(buffer, length) : NULL;
     if (fitting == NULL) {
-        free(room);
+        free(buffer);
         errno = ENOMEM;
         return -1;
     }

@@ -7,7 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* quality 1..100, as libjpeg has it. *bytes is the caller's to free. 0, or -1 with errno ENOMEM. */
+/* Encodes with a libjpeg quality of 1..100. The caller frees *bytes. Returns 0, or -1 with errno
+ * ENOMEM. */
 int jpeg_encode(const struct image *image, int quality, uint8_t **bytes, size_t *count);
 
 #endif

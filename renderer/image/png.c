@@ -1,5 +1,5 @@
-/* PNG output: one fast setting, since pictures are many and disks are large. The container is a few
- * chunks; libdeflate does the work, in half of zlib's time and to fewer bytes. */
+/* PNG output at one fast setting, since pictures are many and disks are large. libdeflate
+ * compresses in half of zlib's time and to fewer bytes. */
 #include "renderer/image/png.h"
 
 #include <libdeflate.h>
@@ -12,34 +12,34 @@
 #include <unistd.h>
 
 #define PATH_BYTES   4096
-#define LEVEL        1  /* of 12; 2 costs half as much again for 3 % fewer bytes */
-#define FILTER_SUB   1  /* each byte less that of the pixel to its left */
+#define LEVEL        1  /* of 12; level 2 takes half as long again for 3 % fewer bytes */
+#define FILTER_SUB   1  /* subtracts from each byte that of the pixel to its left */
 #define PIXEL_BYTES  3  /* red, green, blue */
 #define CHUNK_BYTES  12 /* length, type and checksum of a chunk without content */
 #define HEADER_BYTES 13 /* content of IHDR */
 
 static const uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-static const char key[] = "Description"; /* and its NUL, as tEXt wants it */
+static const char key[] = "Description"; /* tEXt includes its NUL */
 
-/* A file in the making. */
+/* A file that is being built. */
 struct bytes {
     uint8_t *at;
     size_t used;
 };
 
-static void put_whole(uint8_t *to, size_t value)
+static void put_u32(uint8_t *to, size_t value)
 {
     for (int i = 0; i < 4; i++)
         to[i] = (uint8_t)(value >> (24 - 8 * i));
 }
 
-/* The chunk whose content stands at file->used + 8 already. */
+/* Completes the chunk whose content is already at file->used + 8. */
 static void close_chunk(struct bytes *file, const char *type, size_t length)
 {
     uint8_t *chunk = file->at + file->used;
-    put_whole(chunk, length);
+    put_u32(chunk, length);
     memcpy(chunk + 4, type, 4);
-    put_whole(chunk + 8 + length, libdeflate_crc32(0, chunk + 4, length + 4));
+    put_u32(chunk + 8 + length, libdeflate_crc32(0, chunk + 4, length + 4));
     file->used += CHUNK_BYTES + length;
 }
 
@@ -51,9 +51,9 @@ static uint8_t *content(const struct bytes *file)
 static void put_header(struct bytes *file, const struct image *image)
 {
     uint8_t *header = content(file);
-    put_whole(header, image->width);
-    put_whole(header + 4, image->height);
-    /* 8 bits of each of three colours, the only compression and filters, not interlaced. */
+    put_u32(header, image->width);
+    put_u32(header + 4, image->height);
+    /* 8 bits each of red, green, blue; the only compression and filter methods; not interlaced. */
     memcpy(header + 8, (const uint8_t[]){8, 2, 0, 0, 0}, 5);
     close_chunk(file, "IHDR", HEADER_BYTES);
 }
@@ -62,7 +62,7 @@ static void put_text(struct bytes *file, const char *comment)
 {
     size_t length = strlen(comment);
     memcpy(content(file), key, sizeof key);
-    memcpy(content(file) + sizeof key, comment, length + 1); /* its NUL is overwritten */
+    memcpy(content(file) + sizeof key, comment, length + 1); /* its NUL is overwritten later */
     close_chunk(file, "tEXt", sizeof key + length);
 }
 
@@ -78,7 +78,7 @@ static void filter_row(uint8_t *restrict to, const uint8_t *restrict from, uint3
 }
 
 static int put_pixels(struct bytes *file, const struct image *image, uint8_t *rows, size_t length,
-                      size_t room)
+                      size_t capacity)
 {
     struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(LEVEL);
     if (compressor == NULL)
@@ -86,7 +86,7 @@ static int put_pixels(struct bytes *file, const struct image *image, uint8_t *ro
     size_t row = 1 + (size_t)image->width * PIXEL_BYTES;
     for (uint32_t y = 0; y < image->height; y++)
         filter_row(rows + y * row, image->pixels + (size_t)y * image->width * 4, image->width);
-    size_t packed = libdeflate_zlib_compress(compressor, rows, length, content(file), room);
+    size_t packed = libdeflate_zlib_compress(compressor, rows, length, content(file), capacity);
     libdeflate_free_compressor(compressor);
     close_chunk(file, "IDAT", packed);
     return 0;
@@ -95,17 +95,17 @@ static int put_pixels(struct bytes *file, const struct image *image, uint8_t *ro
 int png_encode(const struct image *image, const char *comment, uint8_t **bytes, size_t *count)
 {
     size_t length = image->height * (1 + (size_t)image->width * PIXEL_BYTES);
-    size_t room = libdeflate_zlib_compress_bound(NULL, length);
+    size_t capacity = libdeflate_zlib_compress_bound(NULL, length);
     uint8_t *rows = malloc(length);
     struct bytes file = {.at = malloc(sizeof signature + HEADER_BYTES + sizeof key +
-                                      strlen(comment) + room + (size_t)4 * CHUNK_BYTES)};
+                                      strlen(comment) + capacity + (size_t)4 * CHUNK_BYTES)};
     int result = -1;
     if (rows != NULL && file.at != NULL) {
         memcpy(file.at, signature, sizeof signature);
         file.used = sizeof signature;
         put_header(&file, image);
         put_text(&file, comment);
-        result = put_pixels(&file, image, rows, length, room);
+        result = put_pixels(&file, image, rows, length, capacity);
     }
     free(rows);
     if (result != 0) {
@@ -119,8 +119,8 @@ int png_encode(const struct image *image, const char *comment, uint8_t **bytes, 
     return 0;
 }
 
-/* What a renderer with our number left there when it was killed is in the way. */
-static int make_file(int folder, const char *path)
+/* Removes the file that an earlier process with the same id left there when it was killed. */
+static int create_file(int folder, const char *path)
 {
     const int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
     int fd = openat(folder, path, flags, 0600);
@@ -143,15 +143,15 @@ static int write_all(int fd, const uint8_t *bytes, size_t count)
     return 0;
 }
 
-/* Makes the whole of a new file. */
-static int write_new(int folder, const char *path, const uint8_t *bytes, size_t count)
+/* Creates a file and writes all of it. */
+static int create_and_write(int folder, const char *path, const uint8_t *bytes, size_t count)
 {
-    int fd = make_file(folder, path);
+    int fd = create_file(folder, path);
     if (fd < 0)
         return -1;
     int result = write_all(fd, bytes, count);
     int cause = errno;
-    /* A full disk may show only now. */
+    /* A full disk may be reported only here. */
     if (close(fd) != 0 && result == 0) {
         result = -1;
         cause = errno;
@@ -172,7 +172,7 @@ int png_write_file(int folder, const char *path, const struct image *image, cons
     }
     if (png_encode(image, comment, &bytes, &count) != 0)
         return -1;
-    int result = write_new(folder, temporary, bytes, count);
+    int result = create_and_write(folder, temporary, bytes, count);
     if (result == 0)
         result = renameat(folder, temporary, folder, path);
     int cause = errno;

@@ -6,15 +6,14 @@
 
 #include <stddef.h>
 
-/* The picture as the bytes of a file: RGB, 8 bits each, the comment in the text chunk
- * "Description". *bytes is the caller's to free. 0, or -1 with errno ENOMEM. */
+/* Encodes the picture as a PNG file: RGB, 8 bits each, with the comment in the text chunk
+ * "Description". The caller frees *bytes. Returns 0, or -1 with errno ENOMEM. */
 int png_encode(const struct image *image, const char *comment, uint8_t **bytes, size_t *count);
 
-/* Writes those to a path beneath a folder (a descriptor, or AT_FDCWD), through a
- * temporary file of mode 0600 beside it, exclusively made, and a rename: path is always a whole
- * picture, old or new, and a link of that name is replaced, not followed. 0, or -1 with errno
- * (ENOSPC, EACCES, ENOMEM, ...) and no temporary file left.
- */
+/* Writes the picture to a path relative to a folder (a descriptor, or AT_FDCWD). The file is first
+ * created under a temporary name with mode 0600, then renamed: path always holds a complete
+ * picture, and a symbolic link of that name is replaced, not followed. Returns 0, or -1 with errno
+ * (ENOSPC, EACCES, ENOMEM, ...); no temporary file is left. */
 int png_write_file(int folder, const char *path, const struct image *image, const char *comment);
 
 #endif

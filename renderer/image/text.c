@@ -1,5 +1,5 @@
-/* Text by FreeType. A letter of a size is rendered once and kept: pictures say the same words again
- * and again. */
+/* Text by FreeType. Each letter of a size is rendered once and kept, since pictures repeat their
+ * words. */
 #include "renderer/image/text.h"
 
 #include <ft2build.h>
@@ -12,12 +12,12 @@
 #define LETTER_FIRST ' '
 #define LETTER_LAST  '~'
 #define LETTERS      (LETTER_LAST - LETTER_FIRST + 1)
-#define SIZES        16u /* kept at once; the one used longest ago gives way */
-#define RIM_SHARE    14u /* a rim is so small a part of the letters' size, but a pixel at least */
+#define SIZES        16u /* kept at once; the least recently used is evicted */
+#define RIM_SHARE    14u /* a rim's width is the letters' size over this, but at least a pixel */
 
-/* A letter's coverage, a byte a pixel. */
+/* A letter's coverage, one byte for each pixel. */
 struct glyph {
-    uint8_t *coverage; /* [width * rows], NULL where nothing is to be seen; owned */
+    uint8_t *coverage; /* [width * rows], NULL if the letter is blank; owned */
     int32_t left, top; /* of the first pixel, from the pen; up is positive */
     uint32_t width, rows;
 };
@@ -25,12 +25,12 @@ struct glyph {
 struct letter {
     struct glyph fill, rim;
     int32_t advance;
-    bool known;
+    bool rendered;
 };
 
 struct font_size {
     uint32_t size; /* [pixel], 0: empty */
-    uint64_t used; /* when last */
+    uint64_t used; /* clock at the last use */
     struct letter letters[LETTERS];
 };
 
@@ -41,7 +41,7 @@ struct text {
     struct font_size sizes[SIZES];
 };
 
-/* Where distributions put it; Debian's first. */
+/* Distributions install it in these places; Debian's is first. */
 static const char *const font_paths[] = {
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
     "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
@@ -69,7 +69,7 @@ struct text *text_open(struct error_text *error)
     return NULL;
 }
 
-static void forget(struct font_size *size)
+static void clear_size(struct font_size *size)
 {
     for (uint32_t i = 0; i < LETTERS; i++) {
         free(size->letters[i].fill.coverage);
@@ -83,7 +83,7 @@ void text_close(struct text *text)
     if (text == NULL)
         return;
     for (uint32_t i = 0; i < SIZES; i++)
-        forget(&text->sizes[i]);
+        clear_size(&text->sizes[i]);
     FT_Done_Face(text->face);
     FT_Done_FreeType(text->library);
     free(text);
@@ -91,7 +91,7 @@ void text_close(struct text *text)
 
 /* --- letters ---------------------------------------------------------------------------------- */
 
-static void keep_fill(struct glyph *glyph, FT_GlyphSlot slot)
+static void store_fill(struct glyph *glyph, FT_GlyphSlot slot)
 {
     const FT_Bitmap *bitmap = &slot->bitmap;
     *glyph = (struct glyph){.left = slot->bitmap_left,
@@ -108,8 +108,8 @@ static void keep_fill(struct glyph *glyph, FT_GlyphSlot slot)
                bitmap->buffer + (ptrdiff_t)row * bitmap->pitch, bitmap->width);
 }
 
-/* The letter grown by a width all round: the most coverage within that reach. */
-static void keep_rim(struct glyph *rim, const struct glyph *fill, int32_t reach)
+/* Renders the letter's rim: the greatest coverage within that reach of each pixel [pixel]. */
+static void render_rim(struct glyph *rim, const struct glyph *fill, int32_t reach)
 {
     if (fill->coverage == NULL)
         return;
@@ -134,49 +134,50 @@ static void keep_rim(struct glyph *rim, const struct glyph *fill, int32_t reach)
         }
 }
 
-static struct font_size *size_of(struct text *text, uint32_t size)
+static struct font_size *find_size(struct text *text, uint32_t size)
 {
     struct font_size *oldest = &text->sizes[0];
     text->clock++;
     for (uint32_t i = 0; i < SIZES; i++) {
-        struct font_size *kept = &text->sizes[i];
-        if (kept->size == size) {
-            kept->used = text->clock;
-            return kept;
+        struct font_size *font_size = &text->sizes[i];
+        if (font_size->size == size) {
+            font_size->used = text->clock;
+            return font_size;
         }
-        if (kept->used < oldest->used)
-            oldest = kept;
+        if (font_size->used < oldest->used)
+            oldest = font_size;
     }
-    forget(oldest);
+    clear_size(oldest);
     oldest->size = size;
     oldest->used = text->clock;
     return oldest;
 }
 
-/* Names may hold anything; only printable ASCII is drawn. A letter that cannot be rendered, for
- * want of memory, is a gap. */
-static const struct letter *letter_of(struct text *text, struct font_size *size, char c)
+/* Returns a letter. Characters other than printable ASCII are drawn as '?'. A letter that cannot be
+ * rendered for lack of memory is blank. */
+static const struct letter *find_letter(struct text *text, struct font_size *size, char c)
 {
     uint32_t index = c >= LETTER_FIRST && c <= LETTER_LAST ? (uint32_t)(c - LETTER_FIRST)
                                                            : (uint32_t)('?' - LETTER_FIRST);
     struct letter *letter = &size->letters[index];
-    if (!letter->known) {
-        letter->known = true;
+    if (!letter->rendered) {
+        letter->rendered = true;
         if (FT_Set_Pixel_Sizes(text->face, 0, size->size) != 0 ||
             FT_Load_Char(text->face, LETTER_FIRST + index, FT_LOAD_RENDER) != 0)
             return letter;
         uint32_t reach = size->size / RIM_SHARE;
         letter->advance = (int32_t)(text->face->glyph->advance.x >> 6);
-        keep_fill(&letter->fill, text->face->glyph);
-        keep_rim(&letter->rim, &letter->fill, reach > 1 ? (int32_t)reach : 1);
+        store_fill(&letter->fill, text->face->glyph);
+        render_rim(&letter->rim, &letter->fill, reach > 1 ? (int32_t)reach : 1);
     }
     return letter;
 }
 
 /* --- drawing ---------------------------------------------------------------------------------- */
 
-/* Light adds up as the square of what is stored, nearly: mixed so, thin strokes keep their weight
- * on dark and on bright ground. The square root is exact, so the picture is too. */
+/* Emitted light is roughly the square of the stored value. Mixing the squares keeps thin strokes
+ * equally strong on dark and on bright ground. The square root is exact, so the result is the same
+ * everywhere. */
 static uint8_t mix(uint8_t under, uint8_t over, float share)
 {
     float u = (float)under * (float)under, o = (float)over * (float)over;
@@ -211,11 +212,11 @@ static void draw_glyph(const struct glyph *glyph, struct image *image, int32_t x
 }
 
 int32_t text_draw(struct text *text, struct image *image, int32_t x, int32_t y, uint32_t size,
-                  struct rgba colour, const char *words)
+                  struct rgba colour, const char *string)
 {
-    struct font_size *kept = size_of(text, size);
-    for (const char *c = words; *c != '\0'; c++) {
-        const struct letter *letter = letter_of(text, kept, *c);
+    struct font_size *font_size = find_size(text, size);
+    for (const char *c = string; *c != '\0'; c++) {
+        const struct letter *letter = find_letter(text, font_size, *c);
         draw_glyph(&letter->fill, image, x, y, colour);
         x += letter->advance;
     }
@@ -223,24 +224,24 @@ int32_t text_draw(struct text *text, struct image *image, int32_t x, int32_t y, 
 }
 
 int32_t text_draw_rimmed(struct text *text, struct image *image, int32_t x, int32_t y,
-                         uint32_t size, struct rgba colour, const char *words)
+                         uint32_t size, struct rgba colour, const char *string)
 {
     const struct rgba rim = {8, 10, 14, 190};
-    struct font_size *kept = size_of(text, size);
+    struct font_size *font_size = find_size(text, size);
     int32_t pen = x;
-    for (const char *c = words; *c != '\0'; c++) {
-        const struct letter *letter = letter_of(text, kept, *c);
+    for (const char *c = string; *c != '\0'; c++) {
+        const struct letter *letter = find_letter(text, font_size, *c);
         draw_glyph(&letter->rim, image, pen, y, rim);
         pen += letter->advance;
     }
-    return text_draw(text, image, x, y, size, colour, words);
+    return text_draw(text, image, x, y, size, colour, string);
 }
 
-int32_t text_width(struct text *text, uint32_t size, const char *words)
+int32_t text_width(struct text *text, uint32_t size, const char *string)
 {
-    struct font_size *kept = size_of(text, size);
+    struct font_size *font_size = find_size(text, size);
     int32_t width = 0;
-    for (const char *c = words; *c != '\0'; c++)
-        width += letter_of(text, kept, *c)->advance;
+    for (const char *c = string; *c != '\0'; c++)
+        width += find_letter(text, font_size, *c)->advance;
     return width;
 }

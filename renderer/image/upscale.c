@@ -4,28 +4,28 @@
 #include <stddef.h>
 #include <string.h>
 
-#define ONE  256u        /* shares of a mixture */
+#define ONE  256u        /* the weights of two pixels sum to this */
 #define EVEN 0x00ff00ffu /* every other channel of a pixel */
 
-/* A place between two pixels of a row. */
-struct between {
+/* A position between two pixels of a row. */
+struct position {
     uint32_t first, next, share;
 };
 
-/* Where in a row of count pixels the middle of pixel i lies, of a row whose pixels are step / 65536
- * of one wide. */
-static struct between place(uint32_t i, uint32_t count, int64_t step)
+/* Returns where the middle of output pixel i lies in an input row of count pixels; an output pixel
+ * is step / 65536 input pixels wide. */
+static struct position source_position(uint32_t i, uint32_t count, int64_t step)
 {
     int64_t at = (int64_t)i * step + step / 2 - 32768;
     if (at < 0)
         at = 0;
     uint32_t first = (uint32_t)(at >> 16);
     if (first + 1 >= count)
-        return (struct between){count - 1, count - 1, 0};
-    return (struct between){first, first + 1, (uint32_t)(at >> 8) & 255u};
+        return (struct position){count - 1, count - 1, 0};
+    return (struct position){first, first + 1, (uint32_t)(at >> 8) & 255u};
 }
 
-/* Two channels at a time. */
+/* Interpolates two channels at a time. */
 static uint32_t mix(uint32_t a, uint32_t b, uint32_t share)
 {
     uint32_t even = ((a & EVEN) * (ONE - share) + (b & EVEN) * share) >> 8 & EVEN;
@@ -33,8 +33,8 @@ static uint32_t mix(uint32_t a, uint32_t b, uint32_t share)
     return even | odd;
 }
 
-/* A row of the smaller picture between two of its own, and its last pixel once more. */
-static void blend_rows(uint32_t *row, const struct image *from, struct between v)
+/* Interpolates between two rows of the smaller picture and repeats the last pixel at the end. */
+static void blend_rows(uint32_t *row, const struct image *from, struct position v)
 {
     const uint8_t *upper = from->pixels + (size_t)v.first * from->width * 4;
     const uint8_t *lower = from->pixels + (size_t)v.next * from->width * 4;
@@ -53,12 +53,12 @@ void image_upscale(struct image *to, const struct image *from)
     int64_t step_x = ((int64_t)from->width << 16) / to->width;
     int64_t step_y = ((int64_t)from->height << 16) / to->height;
     for (uint32_t x = 0; x < to->width; x++) {
-        struct between u = place(x, from->width, step_x);
+        struct position u = source_position(x, from->width, step_x);
         at[x] = u.first * ONE + u.share;
     }
     for (uint32_t y = 0; y < to->height; y++) {
         uint8_t *out = to->pixels + (size_t)y * to->width * 4;
-        blend_rows(row, from, place(y, from->height, step_y));
+        blend_rows(row, from, source_position(y, from->height, step_y));
         for (uint32_t x = 0; x < to->width; x++) {
             const uint32_t *pair = &row[at[x] / ONE];
             uint32_t word = mix(pair[0], pair[1], at[x] % ONE);

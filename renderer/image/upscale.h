@@ -6,8 +6,8 @@
 
 #define UPSCALE_SIDE_MAX 8192u /* [pixel] of either picture */
 
-/* Fills to with from, which is no larger; between its pixels, colours run evenly. Whole numbers
- * only: the same picture everywhere. */
+/* Enlarges a picture to the size of another by bilinear interpolation. Uses integers only, so that
+ * the result is the same everywhere. */
 void image_upscale(struct image *to, const struct image *from);
 
 #endif

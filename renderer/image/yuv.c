@@ -1,19 +1,19 @@
-/* Two rows at a time, in blocks whose length the compiler knows: so it makes vectors of them. */
+/* Converts two rows at a time, in blocks of constant length, which the compiler vectorises. */
 #include "renderer/image/yuv.h"
 
 #include <string.h>
 
 #define BLOCK 32u /* pixels */
 
-/* BT.709's coefficients by 219/255 and 224/255, in 256ths; those of each colour sum to nothing, so
- * that grey has none. */
+/* BT.709's coefficients times 219/255 and 224/255, in 256ths. Those of Cb and of Cr sum to 0, so
+ * that grey has no colour. */
 #define LUMA(r, g, b) (47u * (r) + 157u * (g) + 16u * (b))
-#define LUMA_AT       (16u * 256u + 128u) /* black, and half of a unit */
+#define LUMA_AT       (16u * 256u + 128u) /* black, plus half a unit for rounding */
 #define BLUE(r, g, b) (-26 * (r)-86 * (g) + 112 * (b))
 #define RED(r, g, b)  (112 * (r)-102 * (g)-10 * (b))
-#define COLOUR_AT     (4 * (128 * 256 + 128)) /* of the sum of four pixels */
+#define COLOUR_AT     (4 * (128 * 256 + 128)) /* for the sum of four pixels */
 
-/* Exactly so many pixels of two rows. A pixel is read as a whole; red is its lowest byte. */
+/* Converts BLOCK pixels of two rows. A pixel is read as one number; red is its lowest byte. */
 static void convert(uint8_t *restrict y0, uint8_t *restrict y1, uint8_t *restrict blue,
                     uint8_t *restrict red, const uint32_t *restrict upper,
                     const uint32_t *restrict lower)
@@ -37,13 +37,13 @@ static void convert(uint8_t *restrict y0, uint8_t *restrict y1, uint8_t *restric
     }
 }
 
-/* Where two rows go. */
-struct rows {
+/* Output positions for two rows. */
+struct row_pair {
     uint8_t *upper, *lower, *blue, *red;
 };
 
-/* What is left of two rows: fewer pixels than a block. */
-static void convert_rest(const struct rows *to, const uint32_t *upper, const uint32_t *lower,
+/* Converts the end of two rows, which is shorter than a block. */
+static void convert_tail(const struct row_pair *to, const uint32_t *upper, const uint32_t *lower,
                          uint32_t count)
 {
     uint32_t pixels[2][BLOCK] = {{0}};
@@ -63,17 +63,17 @@ void yuv_of_image(const struct yuv *yuv, const struct image *image)
     const uint32_t *upper = (const void *)image->pixels;
     for (uint32_t y = 0; y + 1 < image->height; y += 2, upper += (size_t)2 * image->width) {
         const uint32_t *lower = upper + image->width;
-        struct rows to = {.upper = yuv->plane[0] + (ptrdiff_t)y * yuv->stride[0],
-                          .lower = yuv->plane[0] + (ptrdiff_t)(y + 1) * yuv->stride[0],
-                          .blue = yuv->plane[1] + (ptrdiff_t)(y / 2) * yuv->stride[1],
-                          .red = yuv->plane[2] + (ptrdiff_t)(y / 2) * yuv->stride[2]};
+        struct row_pair to = {.upper = yuv->plane[0] + (ptrdiff_t)y * yuv->stride[0],
+                              .lower = yuv->plane[0] + (ptrdiff_t)(y + 1) * yuv->stride[0],
+                              .blue = yuv->plane[1] + (ptrdiff_t)(y / 2) * yuv->stride[1],
+                              .red = yuv->plane[2] + (ptrdiff_t)(y / 2) * yuv->stride[2]};
         uint32_t x = 0;
         for (; x + BLOCK <= width; x += BLOCK) {
             convert(to.upper, to.lower, to.blue, to.red, upper + x, lower + x);
-            to = (struct rows){to.upper + BLOCK, to.lower + BLOCK, to.blue + BLOCK / 2,
-                               to.red + BLOCK / 2};
+            to = (struct row_pair){to.upper + BLOCK, to.lower + BLOCK, to.blue + BLOCK / 2,
+                                   to.red + BLOCK / 2};
         }
         if (x < width)
-            convert_rest(&to, upper + x, lower + x, width - x);
+            convert_tail(&to, upper + x, lower + x, width - x);
     }
 }

@@ -1,4 +1,4 @@
-/* Our JPEGs, read again. */
+/* JPEG pictures, decoded by libjpeg. */
 #include "renderer/image/jpeg.h"
 
 #include <setjmp.h>
@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-/* A slope of colours: JPEG is made for such. */
+/* A smooth gradient of colours, which JPEG keeps well. */
 static void paint(struct image *image)
 {
     for (uint32_t y = 0; y < image->height; y++) {
@@ -21,7 +21,7 @@ static void paint(struct image *image)
             pixel[0] = (uint8_t)(x * 255 / image->width);
             pixel[1] = (uint8_t)(y * 255 / image->height);
             pixel[2] = 80;
-            pixel[3] = (uint8_t)x; /* is left out */
+            pixel[3] = (uint8_t)x; /* ignored by the encoder */
         }
     }
 }
@@ -54,7 +54,7 @@ static void check(const struct image *image, const uint8_t *bytes, size_t count)
     jpeg_destroy_decompress(&jpeg);
 }
 
-static void test_pictures_come_back_nearly_as_they_were(void **state)
+static void test_decodes_to_nearly_the_same(void **state)
 {
     static const uint32_t sides[][2] = {{64, 64}, {320, 180}, {129, 67}, {1, 1}, {640, 361}};
     (void)state;
@@ -71,8 +71,8 @@ static void test_pictures_come_back_nearly_as_they_were(void **state)
     }
 }
 
-/* More bytes than pixels: the buffer must hold them. */
-static void test_noise_of_the_best_quality_has_room(void **state)
+/* The result has more bytes than pixels; the buffer must hold them. */
+static void test_noise_at_best_quality_fits_the_buffer(void **state)
 {
     struct image image;
     uint8_t *bytes;
@@ -93,8 +93,8 @@ static void test_noise_of_the_best_quality_has_room(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pictures_come_back_nearly_as_they_were),
-        cmocka_unit_test(test_noise_of_the_best_quality_has_room),
+        cmocka_unit_test(test_decodes_to_nearly_the_same),
+        cmocka_unit_test(test_noise_at_best_quality_fits_the_buffer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Our PNG files, read by libpng. */
+/* PNG pictures, decoded by libpng. */
 #include "renderer/image/png.h"
 
 #include "tests/support/fixture.h"
@@ -18,7 +18,7 @@
 #define PICTURES 40
 #define SIDE_MAX 200u
 
-/* Noise, or few colours in rows. */
+/* Fills the picture with noise, or with runs of one colour. */
 static void paint(struct image *image, uint64_t seed, uint64_t number)
 {
     for (size_t i = 0; i < (size_t)image->width * image->height; i++) {
@@ -44,7 +44,7 @@ static void check_pixels(const struct image *image, const uint8_t *bytes, size_t
     free(pixels);
 }
 
-static void test_pictures_come_back_as_they_were(void **state)
+static void test_decodes_to_the_same(void **state)
 {
     uint64_t seed = fixture_seed(11);
     (void)state;
@@ -68,15 +68,15 @@ struct reading {
     const uint8_t *next;
 };
 
-static void give(png_structp png, png_bytep to, size_t count)
+static void read_bytes(png_structp png, png_bytep to, size_t count)
 {
     struct reading *reading = png_get_io_ptr(png);
     memcpy(to, reading->next, count);
     reading->next += count;
 }
 
-/* The reader that checks every checksum, that of the text too. */
-static void test_the_comment_is_its_description(void **state)
+/* This reader checks every checksum, including that of the text chunk. */
+static void test_comment_is_the_description(void **state)
 {
     struct image image;
     struct reading reading;
@@ -91,7 +91,7 @@ static void test_the_comment_is_its_description(void **state)
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
     png_infop info = png_create_info_struct(png);
     png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-    png_set_read_fn(png, &reading, give);
+    png_set_read_fn(png, &reading, read_bytes);
     png_read_png(png, info, PNG_TRANSFORM_IDENTITY, NULL);
     assert_int_equal(png_get_text(png, info, &text, &texts), 1);
     assert_string_equal(text[0].key, "Description");
@@ -105,8 +105,8 @@ static void test_the_comment_is_its_description(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pictures_come_back_as_they_were),
-        cmocka_unit_test(test_the_comment_is_its_description),
+        cmocka_unit_test(test_decodes_to_the_same),
+        cmocka_unit_test(test_comment_is_the_description),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Enlarging: what is even stays even, what is there stays where it is. */
+/* Enlarging: one colour stays one colour, and pixels keep their places. */
 #include "renderer/image/upscale.h"
 
 #include <setjmp.h>
@@ -29,7 +29,7 @@ static void fill(const struct image *image, uint32_t seed)
     }
 }
 
-static void test_same_size_is_the_same(void **state)
+static void test_same_size_copies(void **state)
 {
     (void)state;
     struct image from = picture(37, 23), to = picture(37, 23);
@@ -53,8 +53,8 @@ static void test_one_colour_stays(void **state)
     image_free(&to);
 }
 
-/* Between two pixels, no channel leaves the range of theirs, nor takes from its neighbour. */
-static void test_between_its_pixels(void **state)
+/* No channel leaves the range of the input pixels or takes from a neighbouring channel. */
+static void test_stays_in_range_of_the_pixels(void **state)
 {
     (void)state;
     struct image from = picture(2, 2), to = picture(8, 8);
@@ -94,10 +94,10 @@ static void test_twice_the_size(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_size_is_the_same),
+        cmocka_unit_test(test_same_size_copies),
         cmocka_unit_test(test_one_colour_stays),
-        cmocka_unit_test(test_between_its_pixels),
+        cmocka_unit_test(test_stays_in_range_of_the_pixels),
         cmocka_unit_test(test_twice_the_size),
     };
-    return cmocka_run_group_tests_name("stretch", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("upscale", tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Colours of video, beside the formulas of ITU-R BT.709. */
+/* Conversion to video colours, compared with the formulas of ITU-R BT.709. */
 #include "renderer/image/yuv.h"
 
 #include "tests/support/fixture.h"
@@ -16,14 +16,14 @@
 
 #define PICTURES 60
 #define SIDE_MAX 150u
-#define GUARD    0xa5 /* around the planes */
+#define GUARD    0xa5 /* byte after each row and plane */
 
 struct planes {
     struct yuv yuv;
     size_t size[3];
 };
 
-static void make(struct planes *planes, uint32_t width, uint32_t height)
+static void alloc_planes(struct planes *planes, uint32_t width, uint32_t height)
 {
     for (int i = 0; i < 3; i++) {
         uint32_t side = i == 0 ? 1 : 2;
@@ -35,14 +35,14 @@ static void make(struct planes *planes, uint32_t width, uint32_t height)
     }
 }
 
-static void unmake(struct planes *planes)
+static void free_planes(struct planes *planes)
 {
     for (int i = 0; i < 3; i++)
         free(planes->yuv.plane[i]);
 }
 
-/* Y', Cb or Cr of the mean of side by side pixels. */
-static double wanted(const struct image *image, uint32_t x, uint32_t y, int plane)
+/* Returns Y', Cb or Cr of the mean of the plane's side by side pixels. */
+static double expected(const struct image *image, uint32_t x, uint32_t y, int plane)
 {
     uint32_t side = plane == 0 ? 1 : 2;
     double c[3] = {0.0};
@@ -67,9 +67,9 @@ static void check(const struct planes *planes, const struct image *image, double
         const uint8_t *row = planes->yuv.plane[i];
         for (uint32_t y = 0; y < image->height / 2 * 2 / side; y++, row += planes->yuv.stride[i]) {
             for (uint32_t x = 0; x < width; x++) {
-                if (fabs(row[x] - wanted(image, x, y, i)) > tolerance)
+                if (fabs(row[x] - expected(image, x, y, i)) > tolerance)
                     fail_msg("plane %d of %ux%u at %u,%u: %d, not %.2f", i, image->width,
-                             image->height, x, y, row[x], wanted(image, x, y, i));
+                             image->height, x, y, row[x], expected(image, x, y, i));
             }
             for (uint32_t x = width; x < (uint32_t)planes->yuv.stride[i]; x++)
                 assert_int_equal(row[x], GUARD);
@@ -78,7 +78,7 @@ static void check(const struct planes *planes, const struct image *image, double
     }
 }
 
-static void test_every_size_and_colour_is_as_the_formula_says(void **state)
+static void test_matches_the_formula(void **state)
 {
     uint64_t seed = fixture_seed(21);
     (void)state;
@@ -91,15 +91,15 @@ static void test_every_size_and_colour_is_as_the_formula_says(void **state)
                          0);
         for (size_t i = 0; i < (size_t)image.width * image.height * 4; i++)
             image.pixels[i] = (uint8_t)random_u64(seed, n, i, RANDOM_NOISE);
-        make(&planes, image.width, image.height);
+        alloc_planes(&planes, image.width, image.height);
         yuv_of_image(&planes.yuv, &image);
-        check(&planes, &image, 1.2); /* coefficients are 256ths */
-        unmake(&planes);
+        check(&planes, &image, 1.2); /* the coefficients are rounded to 256ths */
+        free_planes(&planes);
         image_free(&image);
     }
 }
 
-static void test_the_ends_of_the_ranges(void **state)
+static void test_extreme_colours(void **state)
 {
     static const uint8_t colours[][3] = {{0, 0, 0},     {255, 255, 255}, {128, 128, 128},
                                          {255, 0, 0},   {0, 255, 0},     {0, 0, 255},
@@ -111,14 +111,14 @@ static void test_the_ends_of_the_ranges(void **state)
         assert_int_equal(image_init(&image, 66, 4), 0);
         for (size_t i = 0; i < (size_t)image.width * image.height; i++)
             memcpy(image.pixels + 4 * i, colours[k], 3);
-        make(&planes, image.width, image.height);
+        alloc_planes(&planes, image.width, image.height);
         yuv_of_image(&planes.yuv, &image);
         check(&planes, &image, 1.2);
         if (k < 3) {
             assert_int_equal(planes.yuv.plane[1][0], 128);
             assert_int_equal(planes.yuv.plane[2][0], 128);
         }
-        unmake(&planes);
+        free_planes(&planes);
         image_free(&image);
     }
 }
@@ -126,8 +126,8 @@ static void test_the_ends_of_the_ranges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_size_and_colour_is_as_the_formula_says),
-        cmocka_unit_test(test_the_ends_of_the_ranges),
+        cmocka_unit_test(test_matches_the_formula),
+        cmocka_unit_test(test_extreme_colours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
