@@ -1,4 +1,4 @@
-/* Commands into a ring, each once. */
+/* Adds commands to a ring, each once. */
 #include "ipc/frame/command_ring.h"
 
 #include "ipc/frame/snapshot.h"
@@ -6,7 +6,7 @@
 
 #include <errno.h>
 
-/* Is the command among slots first .. end - 1? */
+/* Returns true if the command is among the numbers first .. end - 1. */
 static bool command_known(const struct command_ring_words *words, const struct command *command,
                           uint64_t slots, uint64_t first, uint64_t end)
 {
@@ -25,8 +25,8 @@ int command_put(struct view *view, enum command_ring ring, const struct command 
     uint64_t slots = view->header->command_slots;
     uint64_t end = atomic_load_explicit(&words->head, memory_order_relaxed);
     bool full = snapshot_head(&head, view) != 0 || end - head.command_cursor[ring] >= slots;
-    /* While there is room, the slot that comes next is no memory: a writer that was killed before
-     * it moved the head may have left this very command there, and it does not count yet. */
+    /* While there is room, the next slot is not searched. A writer that was killed before it stored
+     * the head may have left this very command there, and it does not count yet. */
     uint64_t remembered = full ? slots : slots - 1;
     if (command_known(words, command, slots, end > remembered ? end - remembered : 0, end)) {
         errno = EEXIST;
@@ -43,7 +43,7 @@ int command_put(struct view *view, enum command_ring ring, const struct command 
     slot->sequence = end;
     CRASH_POINT("command ring's head");
     atomic_store_explicit(&words->head, end + 1, memory_order_release);
-    doorbell_ring(view->doors, ROLE_MOVER);
+    doorbell_ring(view->doorbells, ROLE_MOVER);
     CRASH_POINT("after a command");
     return 0;
 }

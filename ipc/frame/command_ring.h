@@ -1,11 +1,12 @@
-/* The one writer's side of a command ring. */
+/* The writer's side of a command ring, which has one writing process. */
 #ifndef JOLON_IPC_FRAME_COMMAND_RING_H
 #define JOLON_IPC_FRAME_COMMAND_RING_H
 
 #include "ipc/segment/segment.h"
 
-/* Adds a command to a ring that this process writes. 0; -1 with ENOBUFS when the ring is full,
- * EEXIST when the ring's memory already holds (source, source_sequence). */
+/* Adds a command to a ring that this process writes, and rings the mover. Returns 0; -1 with EEXIST
+ * when the ring still holds a command of the same (source, source_sequence), -1 with ENOBUFS when
+ * the ring is full. */
 int command_put(struct view *view, enum command_ring ring, const struct command *command);
 
 #endif

@@ -1,4 +1,4 @@
-/* Copies of events, without a lock. */
+/* Copies events without a lock. */
 #include "ipc/frame/event_cursor.h"
 
 #include "ipc/frame/snapshot.h"
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* The oldest event that no writer can be about to overwrite: one frame's most is left free. */
+/* Returns the oldest event that the writer cannot be overwriting: one frame's most is left out. */
 static uint64_t oldest_safe(const struct view *view, uint64_t end)
 {
     uint64_t kept = view->header->event_slots - view->world.params->events_per_frame;
@@ -23,7 +23,7 @@ uint32_t events_read(const struct view *view, struct event_cursor *cursor, struc
     if (snapshot_head(&head, view) != 0)
         return 0;
     uint64_t oldest = oldest_safe(view, head.event_end);
-    if (cursor->next < view->header->first_event) /* never were in this ring: no gap */
+    if (cursor->next < view->header->first_event) /* these never were in this ring: no gap */
         cursor->next = view->header->first_event;
     if (cursor->next < oldest) {
         cursor->gap += oldest - cursor->next;
@@ -34,7 +34,7 @@ uint32_t events_read(const struct view *view, struct event_cursor *cursor, struc
         events[count] = view->events[(first + count) & (view->header->event_slots - 1)];
         count++;
     }
-    /* What the writer may have begun to overwrite while we copied is lost, not wrong. */
+    /* Events that the writer may have begun to overwrite during the copy count as lost. */
     atomic_thread_fence(memory_order_acquire);
     if (snapshot_head(&head, view) != 0)
         return 0;

@@ -1,5 +1,4 @@
-/* The frame protocol: who waits for what, and the two commits. ipc/README.md states the rules that
- * the comments below number. */
+/* The frame protocol: the waits and the two commits. Comments name the rules of ipc/README.md. */
 #include "ipc/frame/frame_protocol.h"
 
 #include "ipc/process/clock.h"
@@ -17,10 +16,10 @@
 #include <time.h>
 #include <unistd.h>
 
-#define WAIT_MAX_NS (20 * (uint64_t)NS_PER_MS) /* no wait is longer without a beat */
-#define STEP_MAX_NS ((uint64_t)NS_PER_S) /* so slow a world still hears commands every second */
+#define WAIT_MAX_NS (20 * (uint64_t)NS_PER_MS) /* no wait without a heartbeat is longer */
+#define STEP_MAX_NS ((uint64_t)NS_PER_S) /* even the slowest world takes commands every second */
 
-/* A quarter of a frame: what one lost doorbell may cost. */
+/* A quarter of a frame: the most that one lost doorbell may cost. */
 static uint64_t bell_wait_ns(const struct view *view)
 {
     uint64_t quarter = (uint64_t)(view->world.params->dt_s * 0.25e9);
@@ -46,8 +45,8 @@ bool frame_protocol_finished(const struct view *view)
     return head_finished(view, view->w[commit & 1].head, commit);
 }
 
-/* Rule 1, and that the committed buffer is the frame its word says. A world that fails this was
- * written by something else than its two writers: nobody may go on from it. */
+/* Rule 1. A world that breaks it was written by another process than its two writers, so no process
+ * may continue from it. */
 static void check_words(const struct view *view, uint64_t commit, uint64_t moved)
 {
     if (moved != commit && moved != commit + 1)
@@ -67,7 +66,7 @@ static void check_frame(struct view *view, uint64_t commit)
     if (segment_check_head(view, head, &error) != 0)
         die_refused("world \"%s\" is damaged: %s", view->name, error.text);
     if (view->checked)
-        return; /* what is committed since then was computed from what was good */
+        return; /* later frames were computed from whole ones */
     if (segment_check_state(view, commit, &error) != 0 ||
         (view->role == ROLE_COLLIDER && segment_check_moved(view, commit + 1, &error) != 0))
         die_refused("world \"%s\" is damaged: %s", view->name, error.text);
@@ -83,9 +82,10 @@ static bool commands_wait(const struct frame_protocol *frame, const struct state
     return false;
 }
 
-/* Keeps the mover's time: true when the frame may begin. When it is due already at the first look,
- * the frame before was late: it was not committed within a frame's time of its due. More than one
- * frame behind, the clock starts anew from now, so that a slow spell is never run after. */
+/* Returns true when the frame may begin by the mover's clock, else waits and returns false. If the
+ * frame is due at the first look, the previous frame was late: it was committed after this one was
+ * due. When the mover is more than one frame behind, the clock starts again from now, so that lost
+ * time is not made up. */
 static bool due(struct frame_protocol *frame, struct view *view, const struct state_head *head)
 {
     struct role_slot *slot = view->slot[ROLE_MOVER];
@@ -102,7 +102,7 @@ static bool due(struct frame_protocol *frame, struct view *view, const struct st
     }
     if (now < due_ns) {
         frame->in_time = true;
-        doorbell_wait(view->doors, ROLE_MOVER,
+        doorbell_wait(view->doorbells, ROLE_MOVER,
                       due_ns - now < WAIT_MAX_NS ? due_ns : now + WAIT_MAX_NS);
         return false;
     }
@@ -121,7 +121,8 @@ uint64_t frame_protocol_commands_end(const struct view *view, uint64_t number, i
                                      uint64_t head)
 {
     const struct moved_word *words = view->moved_word;
-    return words->again == number && words->again_end[ring] < head ? words->again_end[ring] : head;
+    return words->repeat_frame == number && words->repeat_end[ring] < head ? words->repeat_end[ring]
+                                                                           : head;
 }
 
 static void look_for_commands(struct frame_protocol *frame, const struct view *view,
@@ -140,8 +141,8 @@ int frame_protocol_mover_begin(struct frame_protocol *frame, struct view *view)
         uint64_t moved = segment_load(&view->moved_word->moved);
         frame_protocol_beat(view);
         check_words(view, commit, moved);
-        if (moved == commit + 1) { /* rule 3: M is the collider's to read until it commits */
-            doorbell_wait(view->doors, ROLE_MOVER, clock_now_ns() + bell_wait_ns(view));
+        if (moved == commit + 1) { /* rule 3: the collider may read M until it commits */
+            doorbell_wait(view->doorbells, ROLE_MOVER, clock_now_ns() + bell_wait_ns(view));
             continue;
         }
         const struct state_head *head = view->w[commit & 1].head;
@@ -152,7 +153,7 @@ int frame_protocol_mover_begin(struct frame_protocol *frame, struct view *view)
         if (head->paused && head->steps_left == 0 && !commands_wait(frame, head)) {
             CRASH_POINT("no due time");
             atomic_store_explicit(&view->slot[ROLE_MOVER]->due_ns, 0, memory_order_relaxed);
-            doorbell_wait(view->doors, ROLE_MOVER, clock_now_ns() + WAIT_MAX_NS);
+            doorbell_wait(view->doorbells, ROLE_MOVER, clock_now_ns() + WAIT_MAX_NS);
             continue;
         }
         if (!due(frame, view, head))
@@ -185,7 +186,7 @@ void frame_protocol_mover_end(struct frame_protocol *frame, struct view *view)
     stage_done(view, frame, stage_ns);
     CRASH_POINT("moved");
     atomic_store_explicit(&view->moved_word->moved, frame->number, memory_order_release);
-    doorbell_ring(view->doors, ROLE_COLLIDER);
+    doorbell_ring(view->doorbells, ROLE_COLLIDER);
 }
 
 int frame_protocol_collider_begin(struct frame_protocol *frame, struct view *view)
@@ -200,7 +201,7 @@ int frame_protocol_collider_begin(struct frame_protocol *frame, struct view *vie
             frame->number = commit + 1;
             frame->begun_ns = clock_now_ns();
             log_frame(frame->number);
-            /* Readers of the buffer that is written now must see that it is (rule 6). */
+            /* Readers of this buffer must see that it is being written (rule 6). */
             CRASH_POINT("writing");
             atomic_store_explicit(&view->commit->writing, frame->number, memory_order_relaxed);
             atomic_thread_fence(memory_order_release);
@@ -211,7 +212,7 @@ int frame_protocol_collider_begin(struct frame_protocol *frame, struct view *vie
         }
         if (frame_protocol_finished(view))
             return -1;
-        doorbell_wait(view->doors, ROLE_COLLIDER, clock_now_ns() + bell_wait_ns(view));
+        doorbell_wait(view->doorbells, ROLE_COLLIDER, clock_now_ns() + bell_wait_ns(view));
     }
     return -1;
 }
@@ -232,10 +233,10 @@ void frame_protocol_collider_end(struct frame_protocol *frame, struct view *view
     histogram_add(&view->slot[ROLE_COLLIDER]->whole, mover_ns + stage_ns);
     CRASH_POINT("commit");
     atomic_store_explicit(&view->commit->commit, frame->number, memory_order_release);
-    doorbell_ring(view->doors, ROLE_MOVER);
+    doorbell_ring(view->doorbells, ROLE_MOVER);
     for (int role = 0; role < ROLE_COUNT; role++) {
         if (role_has((enum role)role, ROLE_DRAWS))
-            doorbell_ring(view->doors, (enum role)role);
+            doorbell_ring(view->doorbells, (enum role)role);
     }
     CRASH_POINT("readers' wake");
     commit_futex(view, FUTEX_WAKE, INT32_MAX, NULL);
@@ -249,7 +250,7 @@ uint64_t frame_protocol_wait(const struct view *view, uint64_t seen, uint64_t un
         if (commit > seen || now >= until_ns || process_stopping())
             return commit;
         if (role_has(view->role, ROLE_DRAWS)) {
-            doorbell_wait(view->doors, view->role, until_ns);
+            doorbell_wait(view->doorbells, view->role, until_ns);
             continue;
         }
         uint64_t left = until_ns - now;

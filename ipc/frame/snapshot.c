@@ -1,4 +1,4 @@
-/* A reader's copies of a frame. */
+/* Copies of a committed frame. */
 #include "ipc/frame/snapshot.h"
 
 #include "ipc/segment/frame_check.h"
@@ -9,8 +9,8 @@
 
 #define TRIES 100
 
-/* Rule 6: what was copied of frame's buffer is whole if nobody began to write that buffer again,
- * which first happens for frame + 2. The fence keeps the copy before the look. */
+/* Rule 6: a copy of frame's buffer is whole if the collider had not begun to write that buffer
+ * again, which first happens for frame + 2. The fence orders the copy before the check. */
 static bool still_whole(const struct view *view, uint64_t frame)
 {
     atomic_thread_fence(memory_order_acquire);
@@ -39,7 +39,7 @@ void snapshot_free(struct snapshot *snapshot)
     *snapshot = (struct snapshot){0};
 }
 
-/* Rows, damage and lists against the head's checksum. */
+/* Compares rows, damage and lists with the head's checksum. */
 static bool copy_good(struct snapshot *snapshot, const struct view *view, uint64_t frame)
 {
     struct state copy = snapshot_state(snapshot, view);
@@ -61,7 +61,7 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view)
         snapshot->head = *from->head;
         uint32_t used = snapshot->head.used;
         if (used > view->header->capacity)
-            used = 0; /* torn, or damaged: found out below */
+            used = 0; /* torn or damaged, which the checks below find */
         entities_copy(&snapshot->entities, &from->entities, 0, used);
         memcpy(snapshot->fixed_damage, from->fixed_damage, view->header->counts.fixed);
         if (!still_whole(view, frame)) {
@@ -70,7 +70,7 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view)
         }
         if (copy_good(snapshot, view, frame))
             return 0;
-        /* A repair may have gone back a frame while this one was copied: look once more. */
+        /* A repair may have gone back a frame during the copy, so it is tried once more. */
         snapshot->lists = (struct list_hashes){0};
         snapshot->damaged++;
         if (++bad == 2) {

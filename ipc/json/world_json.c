@@ -1,4 +1,4 @@
-/* JSON of a world's values. */
+/* A world's values as JSON. */
 #include "ipc/json/world_json.h"
 
 #include "ipc/process/log.h"
@@ -20,7 +20,7 @@ static void need(const void *made)
         die_refused("out of memory while writing JSON");
 }
 
-/* Adding copies the key: that may fail too, and would leave the value out without a word. */
+/* cJSON copies the key, which may fail too and would leave the value out silently. */
 static void put(cJSON *object, const char *key, cJSON *item)
 {
     if (!item || !cJSON_AddItemToObject(object, key, item))
@@ -112,7 +112,7 @@ void json_print(cJSON *object)
 
 static const char *kind_text(const struct world *world, const struct event_party *party)
 {
-    if (party->id == 0) /* nobody: the terrain, or none */
+    if (party->id == 0) /* the terrain, or none */
         return party->fixed ? "ground" : "none";
     return party->kind < world->counts.kinds ? world->kinds[party->kind].name : "?";
 }

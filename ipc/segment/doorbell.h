@@ -1,6 +1,6 @@
-/* Doorbells: one POSIX process-shared semaphore a waiting role. A doorbell says "look again", it is
- * never a token: a lost ring costs one time-out, a spurious one costs one look, and nothing needs
- * re-arming after a kill. The predicate is always a frame word. */
+/* Doorbells: one process-shared POSIX semaphore for each role that waits. A ring means "look
+ * again"; the condition that a role waits for is always a frame word. A lost ring costs one
+ * time-out, a spurious ring costs one look, and nothing needs re-arming after a kill. */
 #ifndef JOLON_IPC_SEGMENT_DOORBELL_H
 #define JOLON_IPC_SEGMENT_DOORBELL_H
 
@@ -15,13 +15,14 @@ struct doorbells {
     } role[ROLE_COUNT];
 };
 
-/* Once, at creation. 0, or -1 with errno. */
-int doorbells_init(struct doorbells *doors);
+/* Initialises the semaphores of a new world. Returns 0, or -1 with errno. */
+int doorbells_init(struct doorbells *doorbells);
 
-/* Rings the role's bell unless it rings already. Async-signal-safe; never blocks. */
-void doorbell_ring(struct doorbells *doors, enum role role);
+/* Rings the role's bell unless it is rung already. Async-signal-safe; never blocks. */
+void doorbell_ring(struct doorbells *doorbells, enum role role);
 
-/* Waits until the bell rings or CLOCK_MONOTONIC reaches until_ns, then silences it. */
-void doorbell_wait(struct doorbells *doors, enum role role, uint64_t until_ns);
+/* Waits until the bell is rung, a signal comes or CLOCK_MONOTONIC reaches until_ns. Clears the
+ * bell. */
+void doorbell_wait(struct doorbells *doorbells, enum role role, uint64_t until_ns);
 
 #endif

@@ -1,4 +1,4 @@
-/* Is what a frame left in the world's buffers whole? */
+/* Checks of the frames in a world's buffers. */
 #include "ipc/segment/frame_check.h"
 
 #include "ipc/segment/segment_internal.h"
@@ -24,7 +24,6 @@ int segment_check_head(const struct view *view, const struct state_head *head,
     return 0;
 }
 
-/* Buffers are "world A", "world B" and "moved table", as layout.h calls their regions. */
 static int check_frame(const struct view *view, const struct state_head *head, uint64_t frame,
                        enum region region, struct error_text *error)
 {

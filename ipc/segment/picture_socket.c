@@ -1,4 +1,4 @@
-/* Names of renderers' sockets. */
+/* Names of the renderers' sockets. */
 #include "ipc/segment/picture_socket.h"
 
 #include <stdio.h>

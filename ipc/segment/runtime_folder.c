@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define SAY_ANOTHER "or name a folder of your own with JOLON_RUNTIME_DIR"
+#define OR_NAME_ANOTHER "or name a folder of your own with JOLON_RUNTIME_DIR"
 
 enum found { FOUND, PASSED_OVER, REFUSED };
 
@@ -25,14 +25,14 @@ struct search {
     struct error_text *error;
 };
 
-/* What this process found first; "" before. */
+/* The path that this process found first, "" before. */
 static pthread_mutex_t kept_lock = PTHREAD_MUTEX_INITIALIZER;
 static char kept[RUNTIME_FOLDER_MAX];
 
-static enum found refused(struct search *search, int error, const char *right)
+static enum found refused(struct search *search, int code, const char *right)
 {
     error_text_set(search->error, "%s: cannot be the runtime folder: %s; %s", search->path,
-                   strerror(error), right);
+                   strerror(code), right);
     return REFUSED;
 }
 
@@ -45,7 +45,7 @@ static enum found passed_over(struct search *search, const char *place, const ch
 }
 
 /* Opens the folder without following a symbolic link, and checks owner and mode on the descriptor,
- * so that nothing can change between the check and the use. */
+ * so that nothing can change between check and use. */
 static enum found open_checked(struct search *search, int base, const char *name)
 {
     struct stat status;
@@ -53,11 +53,11 @@ static enum found open_checked(struct search *search, int base, const char *name
     if (fd < 0)
         return refused(search, errno,
                        errno == ENOTDIR || errno == ELOOP
-                           ? "it is no folder, or a symbolic link: remove it, " SAY_ANOTHER
-                           : "make it enterable, " SAY_ANOTHER);
+                           ? "it is no folder, or a symbolic link: remove it, " OR_NAME_ANOTHER
+                           : "make it enterable, " OR_NAME_ANOTHER);
     if (fstat(fd, &status) != 0) {
         close(fd);
-        return refused(search, errno, SAY_ANOTHER);
+        return refused(search, errno, OR_NAME_ANOTHER);
     }
     if (status.st_uid != geteuid())
         error_text_set(
@@ -69,7 +69,7 @@ static enum found open_checked(struct search *search, int base, const char *name
         error_text_set(
             search->error,
             "%s: cannot be the runtime folder: its mode is %04o, not 0700; run `chmod 700 "
-            "%s`, " SAY_ANOTHER,
+            "%s`, " OR_NAME_ANOTHER,
             search->path, (unsigned)(status.st_mode & 0777), search->path);
     else {
         search->fd = fd;
@@ -79,11 +79,11 @@ static enum found open_checked(struct search *search, int base, const char *name
     return REFUSED;
 }
 
-/* Takes the folder called name in base, and makes it when it is missing. */
+/* Makes the folder called name in base if it is missing, and opens it. */
 static enum found make_and_open(struct search *search, int base, const char *name)
 {
     if (mkdirat(base, name, 0700) != 0 && errno != EEXIST)
-        return refused(search, errno, "make it yourself, " SAY_ANOTHER);
+        return refused(search, errno, "make it yourself, " OR_NAME_ANOTHER);
     return open_checked(search, base, name);
 }
 
@@ -100,7 +100,8 @@ static int set_path(struct search *search, const char *base, const char *name)
     return -1;
 }
 
-/* A folder that belongs to this user and in which nobody else may write; -1 with why not. */
+/* Opens a folder that belongs to this user and in which no other user may write. Returns -1 and
+ * sets detail if it is not such a folder. */
 static int open_base(const char *path, const char **detail)
 {
     struct stat status;
@@ -117,7 +118,7 @@ static int open_base(const char *path, const char **detail)
     return -1;
 }
 
-/* The folder called name within base, or one level deeper: base/name/deeper. */
+/* Tries the folder base/name, or base/name/deeper. */
 static enum found within(struct search *search, const char *base, const char *name,
                          const char *deeper)
 {
@@ -133,7 +134,7 @@ static enum found within(struct search *search, const char *base, const char *na
         if (!made && (errno == EROFS || errno == EACCES || errno == EPERM))
             found = passed_over(search, base, strerror(errno));
         else if (!made)
-            found = refused(search, errno, SAY_ANOTHER);
+            found = refused(search, errno, OR_NAME_ANOTHER);
         else
             found = deeper ? make_and_open(search, fd, both) : open_checked(search, fd, name);
     }
@@ -141,7 +142,6 @@ static enum found within(struct search *search, const char *base, const char *na
     return found;
 }
 
-/* The folder that $JOLON_RUNTIME_DIR names. */
 static enum found from_own_variable(struct search *search)
 {
     const char *value = getenv("JOLON_RUNTIME_DIR");
@@ -154,13 +154,12 @@ static enum found from_own_variable(struct search *search)
     }
     if (set_path(search, value, "") != 0)
         return REFUSED;
-    /* With a slash at its end a symbolic link would be followed. */
+    /* With a slash at the path's end openat() would follow a symbolic link. */
     for (size_t end = strlen(search->path); end > 1 && search->path[end - 1] == '/'; end--)
         search->path[end - 1] = '\0';
     return make_and_open(search, AT_FDCWD, search->path);
 }
 
-/* The first of the folders that systemd made for a service. */
 static enum found from_service(struct search *search)
 {
     char first[RUNTIME_FOLDER_MAX + 1];
@@ -186,7 +185,7 @@ static enum found from_session(struct search *search)
     return found == PASSED_OVER ? within(search, base, "jolon", NULL) : found;
 }
 
-/* $HOME is another user's after `sudo -E` or `su`; then it is the home that the system knows. */
+/* After `sudo -E` or `su` $HOME is another user's. Then the home in the user database is taken. */
 static enum found from_home(struct search *search)
 {
     struct passwd entry, *known = NULL;

@@ -82,7 +82,7 @@ void segment_bind(struct view *view)
     view->m.intents = (struct event *)(void *)(moved + layout_table_bytes(header->capacity));
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         view->commands[i] = segment_part(view, REGION_COMMANDS + i);
-    view->doors = segment_part(view, REGION_DOORS);
+    view->doorbells = segment_part(view, REGION_DOORS);
     for (int i = 0; i < ROLE_COUNT; i++)
         view->slot[i] = segment_part(view, REGION_SLOTS + i);
 }
@@ -127,7 +127,7 @@ static int reserve(int fd, size_t bytes, struct error_text *error)
                           strerror(code));
 }
 
-/* The new segment's memory: header written, static regions still to be filled. */
+/* Writes the header of new memory and binds the view. The static regions are still to be filled. */
 static int prepare(struct view *view, const struct segment_header *header)
 {
     struct segment_header *own = view->base;
@@ -144,13 +144,13 @@ static int prepare(struct view *view, const struct segment_header *header)
         own->made = clock_now_ns() ^ (uint64_t)getpid() << 48;
     view->header = own;
     segment_bind(view);
-    return doorbells_init(view->doors);
+    return doorbells_init(view->doorbells);
 }
 
 int segment_private(struct view *view, const struct segment_header *header,
                     struct error_text *error)
 {
-    *view = (struct view){.role = ROLE_NONE, .lock_fd = -1, .made_fd = -1};
+    *view = (struct view){.role = ROLE_NONE, .lock_fd = -1, .object_fd = -1};
     if (layout_compute(&view->layout, header) != 0)
         return error_text_set(error, "the world's counts are out of range");
     view->base =
@@ -171,13 +171,13 @@ int segment_begin(struct view *view, const char *name, const struct segment_head
     if (layout_compute(&view->layout, header) != 0)
         return error_text_set(error, "the world's counts are out of range");
     CRASH_POINT("object without a name");
-    view->made_fd = open(SEGMENT_DIR, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-    if (view->made_fd < 0)
+    view->object_fd = open(SEGMENT_DIR, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (view->object_fd < 0)
         return error_text_set(error, SEGMENT_DIR ": cannot create: %s", strerror(errno));
-    if (reserve(view->made_fd, view->layout.total, error) != 0)
+    if (reserve(view->object_fd, view->layout.total, error) != 0)
         goto err_made;
     view->base =
-        mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, view->made_fd, 0);
+        mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, view->object_fd, 0);
     if (view->base == MAP_FAILED) {
         view->base = NULL;
         error_text_set(error, "cannot map the world's %.1f MB: %s; lower world.capacity",
@@ -190,8 +190,8 @@ int segment_begin(struct view *view, const char *name, const struct segment_head
     segment_abandon(view);
     return -1;
 err_made:
-    close(view->made_fd);
-    view->made_fd = -1;
+    close(view->object_fd);
+    view->object_fd = -1;
     return -1;
 }
 
@@ -216,10 +216,10 @@ int segment_publish(struct view *view, struct error_text *error)
     atomic_thread_fence(memory_order_release);
     CRASH_POINT("magic");
     own->magic = SEGMENT_MAGIC;
-    if (segment_give_names(view->name, view->made_fd, error) != 0)
+    if (segment_give_names(view->name, view->object_fd, error) != 0)
         return -1;
-    close(view->made_fd);
-    view->made_fd = -1;
+    close(view->object_fd);
+    view->object_fd = -1;
     return 0;
 }
 
@@ -229,7 +229,7 @@ void segment_abandon(struct view *view)
         return;
     munmap(view->base, view->layout.total);
     view->base = NULL;
-    if (view->made_fd >= 0)
-        close(view->made_fd);
-    view->made_fd = -1;
+    if (view->object_fd >= 0)
+        close(view->object_fd);
+    view->object_fd = -1;
 }

@@ -1,9 +1,9 @@
 /* The segment: a world in POSIX shared memory, its creation and its mapping.
  *
- * The object is "/dev/shm/jolon.UID.NAME.X", mode 0600, where X is 32 random hexadecimal digits: so
- * nobody can take its name before it. The world's name is a symbolic link NAME to it in the runtime
- * folder (ipc/segment/runtime_folder.h), which nobody else can enter. Beside the link lies
- * NAME.lock, which holds the roles' locks and is never removed while the world lives. */
+ * The object is "/dev/shm/jolon.UID.NAME.X", mode 0600. X is 32 random hexadecimal digits, so that
+ * no other user can create the name first. The world's name is a symbolic link NAME to the object
+ * in the runtime folder (ipc/segment/runtime_folder.h), which no other user can enter. NAME.lock
+ * beside the link holds the roles' locks, and stays as long as the world. */
 #ifndef JOLON_IPC_SEGMENT_SEGMENT_H
 #define JOLON_IPC_SEGMENT_SEGMENT_H
 
@@ -31,10 +31,10 @@ struct commit_words {                      /* only writer: collider */
 
 struct moved_word {                      /* only writer: mover */
     _Alignas(64) _Atomic uint64_t moved; /* frame that M holds */
-    /* Written by segment_repair() alone, while nobody runs: frame again (0: none) is made a second
-     * time and takes the commands of each ring up to again_end, as it did the first time. */
-    _Alignas(64) uint64_t again;
-    uint64_t again_end[COMMAND_RING_COUNT];
+    /* Written by segment_repair() alone, while no role runs. Frame repeat_frame (0: none) is made
+     * again and takes the commands of each ring up to repeat_end, as it did the first time. */
+    _Alignas(64) uint64_t repeat_frame;
+    uint64_t repeat_end[COMMAND_RING_COUNT];
 };
 
 struct command_ring_words {             /* only writer: the ring's process */
@@ -42,20 +42,20 @@ struct command_ring_words {             /* only writer: the ring's process */
     _Alignas(64) struct command slot[]; /* [command_slots] */
 };
 
-/* A frame word or a ring's head, with all that was stored before it. */
+/* Loads a frame word or a ring's head with acquire order. */
 static inline uint64_t segment_load(const _Atomic uint64_t *word)
 {
     return atomic_load_explicit(word, memory_order_acquire);
 }
 
-/* A mapped world. Everything const is mapped read-only for this role, by the page tables. */
+/* A mapped world. The page tables map everything that is const here read-only for this role. */
 struct view {
     char name[SEGMENT_NAME_MAX];
     enum role role;
-    int lock_fd;  /* of the role's lock; -1 for a reader */
-    int made_fd;  /* of an object that has no name yet; -1 for any other */
-    bool holds;   /* the role's lock is ours */
-    bool checked; /* a stage has checked the frame that it found against its checksum */
+    int lock_fd;     /* of the lock file; -1 for a reader */
+    int object_fd;   /* of an object that has no name yet, else -1 */
+    bool holds_role; /* this process holds the role's lock */
+    bool checked;    /* a stage has checked the frame that it found against its checksum */
     void *base;
     struct layout layout;
     const struct segment_header *header;
@@ -66,28 +66,32 @@ struct view {
     struct moved m;
     struct event *events;
     struct command_ring_words *commands[COMMAND_RING_COUNT];
-    struct doorbells *doors;
+    struct doorbells *doorbells;
     struct role_slot *slot[ROLE_COUNT];
 };
 
-/* Creation, in one process that nobody else can see yet:
- *   segment_begin   makes an object without a name, with space for every region of header, mapped
- *                   writable; fill the static regions and frame 0 through view
- *   segment_publish hashes, writes the magic and gives it its names; refuses when the world exists
- *   segment_abandon frees what begin made. The kernel does so too, when the process ends.
- * 0, or -1 with the reason. header gives counts and sizes; the rest of it is filled here. */
+/* Creation. No other process can see the world before it is published.
+ *
+ *   segment_begin    makes an object without a name, reserves the space of every region and maps
+ *                    it writable; the caller then fills the static regions and frame 0
+ *   segment_publish  hashes the static regions, writes the magic word and gives the object its
+ *                    names; refuses when the world exists
+ *   segment_abandon  frees what segment_begin made, as the kernel does when the process ends
+ *
+ * header gives counts and sizes; the rest of it is filled here. Return 0, or -1 with the reason. */
 int segment_begin(struct view *view, const char *name, const struct segment_header *header,
                   struct error_text *error);
 int segment_publish(struct view *view, struct error_text *error);
 void segment_abandon(struct view *view);
 
-/* The same layout in anonymous memory that nobody else can attach to (children of fork share it):
- * tests and benchmarks run the steps on it. Fill it like a created one; segment_abandon frees it.
+/* Makes the same layout in anonymous memory, which only children of fork() share: tests and
+ * benchmarks run the steps on it. The caller fills it, and frees it by segment_abandon(). Returns
  * 0, or -1 with the reason. */
 int segment_private(struct view *view, const struct segment_header *header,
                     struct error_text *error);
 
-/* The header fields that follow from a scenario's parameters and the counts of a built world. */
+/* Returns the header fields that follow from a scenario's parameters and the counts of a built
+ * world. */
 struct segment_header segment_header_for(const struct params *params, const struct counts *counts);
 
 /* Copies a built world and its parameters into a begun or private segment, as frame 0. */

@@ -20,7 +20,7 @@ static int try_lock(struct view *view, int fd, const char *path, struct error_te
     struct flock byte = segment_role_byte(view->role);
     CRASH_POINT("role's lock");
     if (fcntl(fd, F_OFD_SETLK, &byte) == 0) {
-        view->holds = true;
+        view->holds_role = true;
         return 0;
     }
     if (errno != EAGAIN && errno != EACCES)
@@ -32,9 +32,8 @@ static int try_lock(struct view *view, int fd, const char *path, struct error_te
                           segment_holder(view->name, view->role));
 }
 
-/* Opens the lock file and, unless it is to be taken later, takes the role's byte of it. The file
- * may be removed and made again between open and lock: then it is another world's, and the lock is
- * tried there. */
+/* The file may be removed and made again between open and lock. Then it belongs to another world,
+ * and the lock is tried on the new file. */
 int segment_lock(struct view *view, const char *path, bool later, struct error_text *error)
 {
     for (int tries = 0; tries < 10; tries++) {
@@ -50,13 +49,13 @@ int segment_lock(struct view *view, const char *path, bool later, struct error_t
             view->lock_fd = fd;
             return 0;
         }
-        view->holds = false;
+        view->holds_role = false;
         close(fd);
     }
     return error_text_set(error, "%s: is removed and made again all the time", path);
 }
 
-/* Maps runs of writable regions over the read-only whole. */
+/* Maps the writable regions over the read-only mapping of the whole. */
 static int map_writable(struct view *view, int fd, segment_writable *writable)
 {
     for (int i = 0; i < REGION_COUNT; i++) {
@@ -70,7 +69,8 @@ static int map_writable(struct view *view, int fd, segment_writable *writable)
     return 0;
 }
 
-/* The same object through a read-only descriptor: such a mapping cannot be made writable later. */
+/* Maps the object through a read-only descriptor, so that the mapping cannot be made writable
+ * later. */
 static void *map_readable(int fd, size_t bytes)
 {
     char path[64];
@@ -83,7 +83,7 @@ static void *map_readable(int fd, size_t bytes)
     return base;
 }
 
-/* Of that name there is none. */
+/* Refuses: there is no world of the view's name. */
 static int absent(const struct view *view, struct error_text *error)
 {
     error_text_set(
@@ -105,7 +105,7 @@ int segment_map(struct view *view, segment_writable *writable, struct error_text
         return -1;
     if (path[0] == '\0')
         return absent(view, error);
-    /* O_NONBLOCK: a pipe of that name must not make us wait for its other end. */
+    /* O_NONBLOCK: opening a pipe of that name must not wait for its other end. */
     int mode = writable ? O_RDWR : O_RDONLY;
     int fd = open(path, mode | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
     if (fd < 0)
@@ -162,7 +162,7 @@ static void slot_taken(struct view *view)
     atomic_store(&slot->pid, (uint32_t)getpid());
 }
 
-/* The world was made between the look for it and its mapping: the role is not locked. */
+/* Refuses: the world was made after its name was looked up, so the role is not locked. */
 static int unlocked(struct view *view, struct error_text *error)
 {
     munmap(view->base, view->layout.total);
@@ -173,7 +173,7 @@ static int unlocked(struct view *view, struct error_text *error)
 int segment_view_named(struct view *view, const char *name, enum role role,
                        struct error_text *error)
 {
-    *view = (struct view){.role = role, .lock_fd = -1, .made_fd = -1};
+    *view = (struct view){.role = role, .lock_fd = -1, .object_fd = -1};
     if (segment_name_check(name, error) != 0)
         return -1;
     snprintf(view->name, sizeof view->name, "%s", name);
@@ -194,10 +194,10 @@ static int attach(struct view *view, const char *name, enum role role, bool late
         if (view->lock_fd >= 0)
             close(view->lock_fd);
         view->lock_fd = -1;
-        view->holds = false;
+        view->holds_role = false;
         return -1;
     }
-    if (view->holds)
+    if (view->holds_role)
         slot_taken(view);
     return 0;
 }
@@ -215,14 +215,14 @@ int segment_stand_by(struct view *view, const char *name, enum role role, struct
 int segment_take(struct view *view)
 {
     struct flock byte = segment_role_byte(view->role);
-    if (view->holds)
+    if (view->holds_role)
         return 0;
     CRASH_POINT("role taken over");
     while (fcntl(view->lock_fd, F_OFD_SETLKW, &byte) != 0) {
         if (errno != EINTR || process_stopping())
             return -1;
     }
-    view->holds = true;
+    view->holds_role = true;
     return 0;
 }
 
@@ -240,7 +240,7 @@ void segment_detach(struct view *view)
 {
     if (!view->base)
         return;
-    if (view->holds) {
+    if (view->holds_role) {
         CRASH_POINT("absent");
         atomic_store(&view->slot[view->role]->state, ROLE_ABSENT);
         CRASH_POINT("no pid");
@@ -253,5 +253,5 @@ void segment_detach(struct view *view)
         close(view->lock_fd);
     }
     view->lock_fd = -1;
-    view->holds = false;
+    view->holds_role = false;
 }

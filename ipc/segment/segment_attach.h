@@ -4,23 +4,25 @@
 
 #include "ipc/segment/segment.h"
 
-/* Attaches to a world in a role: takes the role's lock, checks magic, version, layout hash, size,
- * owner, mode and counts, maps, and marks the slot as starting. -1 with the reason when the world
- * does not exist, is not this build's, or the role is held by a live process. Does not block. */
+/* Attaches to a world in a role: takes the role's lock, checks owner, mode, magic, version, layout
+ * hash, counts and size, maps, and marks the slot as starting. Returns 0. Returns -1 with the
+ * reason when the world does not exist, is of another build, or a live process holds the role. Does
+ * not block. */
 int segment_attach(struct view *view, const char *name, enum role role, struct error_text *error);
 
-/* The same without the role's lock: to be ready for the day that its holder dies. */
+/* As segment_attach(), but leaves the role's lock to segment_take(): for a process that waits until
+ * the role's holder dies. */
 int segment_stand_by(struct view *view, const char *name, enum role role, struct error_text *error);
 
-/* Waits, blocked in the kernel, until the role's lock is free, and takes it. Nothing of the world
- * may have been written, and nothing read from it counts, before this returns 0. -1 with EINTR when
- * the process is asked to stop meanwhile. A view that holds its role already has it at once. */
+/* Blocks in the kernel until the role's lock is free, and takes it. Before this returns 0 the
+ * process must not write to the world, and what it reads may change. Returns -1 with EINTR when the
+ * process is asked to stop. Returns 0 at once for a view that holds its role. */
 int segment_take(struct view *view);
 
-/* The holder says that it is up, and who it is; readers may now count on it. */
+/* Writes the holder's pid into its slot and marks the role as ready. */
 void segment_ready(struct view *view);
 
-/* Unmaps and drops the lock; marks the slot absent. */
+/* Marks the slot as absent, unmaps and drops the lock. */
 void segment_detach(struct view *view);
 
 #endif

@@ -1,4 +1,4 @@
-/* Is this a world, and is it whole? */
+/* Checks that an object is a world, of this build and whole. */
 #include "ipc/segment/segment_check.h"
 
 #include "ipc/segment/segment_internal.h"
@@ -87,9 +87,9 @@ static bool one_bit(uint64_t difference)
     return difference != 0 && (difference & (difference - 1)) == 0;
 }
 
-/* The header is copied out of memory that others could change, then checked field by field. Of a
- * header that fails its hash, the layout's hash tells whether another build made it in another way:
- * no single flipped bit explains that. */
+/* The caller has copied the header out of memory that other processes can change. A header may fail
+ * its hash because another build has another layout; a single flipped bit cannot explain a
+ * different layout hash. */
 int segment_check_header(const struct segment_header *header, size_t bytes, const char *path,
                          struct layout *layout, struct error_text *error)
 {

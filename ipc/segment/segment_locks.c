@@ -40,14 +40,14 @@ struct flock segment_role_byte(enum role role)
     return (struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = role, .l_len = 1};
 }
 
-/* Has anybody else's descriptor of the lock file the role's byte? */
+/* Returns true if another descriptor of the lock file holds the role's byte. */
 static bool byte_held(int fd, enum role role)
 {
     struct flock byte = segment_role_byte(role);
     return fcntl(fd, F_OFD_GETLK, &byte) == 0 && byte.l_type != F_UNLCK;
 }
 
-/* 1, 0, or -1 with the reason when it cannot be told; without a lock file nobody holds a role. */
+/* Returns 1 or 0, or -1 with the reason. Without a lock file no role is held. */
 static int lock_held(const char *path, enum role role, struct error_text *error)
 {
     int fd = segment_open_lock(path, O_RDONLY, error);
@@ -60,7 +60,7 @@ static int lock_held(const char *path, enum role role, struct error_text *error)
 
 bool segment_held(const struct view *view, enum role role)
 {
-    return role == view->role ? view->holds : byte_held(view->lock_fd, role);
+    return role == view->role ? view->holds_role : byte_held(view->lock_fd, role);
 }
 
 int segment_holder(const char *name, enum role role)
@@ -126,7 +126,7 @@ int segment_wait_free(const char *name, enum role last, uint64_t until_ns, struc
     return role < 0 ? -1 : 0;
 }
 
-/* Opens the lock file, and makes it when there is none; made says whether it did. */
+/* Opens the lock file, and makes it when there is none. Sets made if it did. */
 static int open_or_make(const char *path, bool *made, struct error_text *error)
 {
     int fd = segment_open_lock(path, O_RDWR | O_CREAT | O_EXCL, error);
@@ -134,8 +134,8 @@ static int open_or_make(const char *path, bool *made, struct error_text *error)
     return fd < 0 && errno == EEXIST ? segment_open_lock(path, O_RDWR | O_CREAT, error) : fd;
 }
 
-/* Creation and removal hold the byte for moments, so it is asked for until it is free. The file may
- * be removed and made again between open and lock: then it is opened again. */
+/* Creation and removal hold the byte for a short time, so the lock is tried until it succeeds. The
+ * file may be removed and made again between open and lock; then it is opened again. */
 int segment_lock_name(const char *path, bool *made, struct error_text *error)
 {
     uint64_t until = clock_now_ns() + NAME_NS;

@@ -1,8 +1,9 @@
 /* A damaged world goes back to its newest whole frame.
  *
- * A frame is a pure function of the one before and of its commands, and the buffer before the last
- * committed one is not touched until the next frame is written: when the last frame is damaged, the
- * one before it is committed again, and what was lost is computed again to the same bytes. */
+ * A frame is a pure function of the frame before and of its commands. The collider writes only the
+ * other buffer, so the frame before the last committed one is intact until the next frame is
+ * written. When the last frame is damaged, the frame before it is committed again, and what was
+ * lost is computed again to the same bytes. */
 #include "ipc/segment/segment_repair.h"
 
 #include "ipc/process/crash_point.h"
@@ -14,17 +15,17 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* What is in the world's memory, as far as it can be told. */
+/* What the world's memory holds. */
 struct findings {
     uint64_t commit, moved;
-    bool whole[2];              /* W[i] holds a whole frame that belongs into it */
+    bool whole[2];              /* W[i] holds a whole frame of its parity */
     struct error_text state[2]; /* why not */
-    bool committed;             /* ... and W[commit & 1] holds commit */
+    bool committed;             /* W[commit & 1] holds frame commit, whole */
     bool moved_whole;           /* M holds the frame after commit */
     struct error_text table;    /* why not */
 };
 
-static struct findings look(const struct view *view)
+static struct findings inspect(const struct view *view)
 {
     struct findings found = {.commit = atomic_load(&view->commit->commit),
                              .moved = atomic_load(&view->moved_word->moved)};
@@ -46,8 +47,9 @@ static struct findings look(const struct view *view)
     return found;
 }
 
-/* The commands that a frame after this one would take again must still be in their rings. */
-static int commands_there(const struct view *view, uint64_t frame, struct error_text *report)
+/* Checks that the commands which the frames after this one will take again are still in their
+ * rings. */
+static int commands_kept(const struct view *view, uint64_t frame, struct error_text *report)
 {
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {
         uint64_t cursor = view->w[frame & 1].head->command_cursor[i];
@@ -61,8 +63,8 @@ static int commands_there(const struct view *view, uint64_t frame, struct error_
     return 0;
 }
 
-/* The frame that is made again takes the commands that it took and none that came since, as far as
- * the damaged head can still be believed. */
+/* Limits the commands of the frame that is made again to those that it took the first time, if the
+ * damaged head's cursors are possible. */
 static void limit_commands(const struct view *view, uint64_t frame)
 {
     struct moved_word *words = view->moved_word;
@@ -72,16 +74,16 @@ static void limit_commands(const struct view *view, uint64_t frame)
         bool likely =
             lost->command_cursor[i] >= good->command_cursor[i] && lost->command_cursor[i] <= head;
         CRASH_POINT("end of commands to take again");
-        words->again_end[i] = likely ? lost->command_cursor[i] : head;
+        words->repeat_end[i] = likely ? lost->command_cursor[i] : head;
     }
     CRASH_POINT("frame to make again");
-    words->again = frame + 1;
+    words->repeat_frame = frame + 1;
 }
 
 static void put_words(const struct view *view, uint64_t commit, uint64_t moved)
 {
     CRASH_POINT("repaired writing");
-    atomic_store(&view->commit->writing, commit + 1); /* whoever copies that buffer sees it */
+    atomic_store(&view->commit->writing, commit + 1); /* a reader that copies that buffer sees it */
     atomic_thread_fence(memory_order_seq_cst);
     CRASH_POINT("repaired moved");
     atomic_store(&view->moved_word->moved, moved);
@@ -89,7 +91,7 @@ static void put_words(const struct view *view, uint64_t commit, uint64_t moved)
     atomic_store(&view->commit->commit, commit);
 }
 
-/* W[commit & 1] is whole: the moved table, or the word for it, is not. */
+/* W[commit & 1] is whole, and the moved table or its word is not. */
 static int move_again(const struct view *view, const struct findings *found,
                       struct error_text *report)
 {
@@ -118,7 +120,7 @@ static int go_back(const struct view *view, const struct findings *found, struct
     uint64_t frame = view->w[found->whole[0] ? 0 : 1].head->frame;
     if (found->whole[0] && found->whole[1] && view->w[1].head->frame > frame)
         frame = view->w[1].head->frame;
-    if (commands_there(view, frame, &detail) != 0) {
+    if (commands_kept(view, frame, &detail) != 0) {
         error_text_set(report, "world \"%s\" is damaged: %s; frame %" PRIu64 " is whole, but %s",
                        view->name, found->state[last].text, frame, detail.text);
         return -1;
@@ -137,7 +139,7 @@ static int repair(const struct view *view, struct error_text *report)
     struct error_text detail;
     if (segment_verify(view, &detail) != 0)
         return error_text_set(report, "world \"%s\" is %s", view->name, detail.text);
-    struct findings found = look(view);
+    struct findings found = inspect(view);
     if (!found.committed)
         return go_back(view, &found, report);
     if (found.moved != found.commit && !(found.moved == found.commit + 1 && found.moved_whole))
@@ -146,7 +148,7 @@ static int repair(const struct view *view, struct error_text *report)
     return 0;
 }
 
-static bool words_alone(enum role role, enum region region)
+static bool frame_words_only(enum role role, enum region region)
 {
     (void)role;
     return region == REGION_COMMIT || region == REGION_MOVED_WORD;
@@ -162,14 +164,14 @@ int segment_repair(const char *name, struct error_text *report)
     if (segment_view_named(&view, name, ROLE_NONE, report) != 0 ||
         segment_paths(&paths, name, report) != 0)
         return -1;
-    bool there = paths.object[0] != '\0'; /* else its absence is the reason, not the lock's */
-    for (int i = 0; i < 2 && there; i++) {
+    bool exists = paths.object[0] != '\0'; /* if not, segment_map() says so */
+    for (int i = 0; i < 2 && exists; i++) {
         view.role = writers[i];
         if (segment_lock(&view, paths.lock, false, report) != 0)
             goto err_lock;
         held[i] = view.lock_fd;
     }
-    if (segment_map(&view, words_alone, report) != 0)
+    if (segment_map(&view, frame_words_only, report) != 0)
         goto err_lock;
     result = repair(&view, report);
     report->damaged = result < 0;

@@ -1,8 +1,7 @@
-/* Worlds by name: where a name leads, how a world gets its name and how it is removed.
+/* Worlds by name: the object of a name, and how a world gets its name and is removed.
  *
- * Between the moments in which they look at a name and change it, creation and removal hold the
- * name's byte of the lock file. So a name that leads to no object, seen with that byte held, is a
- * dead process's and never a live creator's. */
+ * Creation and removal hold the name's byte of the lock file while they look at a name and change
+ * it. So a name that leads to no object, seen with that byte held, was left by a dead process. */
 #include "ipc/segment/world_names.h"
 
 #include "ipc/process/crash_point.h"
@@ -56,7 +55,7 @@ static int name_prefix(char prefix[SEGMENT_PATH_MAX], const char *name)
                     name);
 }
 
-/* Is this the path of an object of this user's world of that name? */
+/* Returns true if this is the path of an object of this user's world of that name. */
 static bool object_path_ok(const char *path, const char *name)
 {
     char prefix[SEGMENT_PATH_MAX];
@@ -65,7 +64,8 @@ static bool object_path_ok(const char *path, const char *name)
            strspn(path + length, HEX_DIGITS) == RANDOM_DIGITS;
 }
 
-/* Where the link leads, whether there is anything or not; "" when there is no link. */
+/* Reads the link's target into paths->object, whether it exists or not; "" when there is no
+ * link. */
 static int read_name(struct segment_paths *paths, const char *name, struct error_text *error)
 {
     ssize_t length = readlink(paths->name, paths->object, sizeof paths->object - 1);
@@ -100,7 +100,7 @@ int segment_paths(struct segment_paths *paths, const char *name, struct error_te
 
 /* --- creation ----------------------------------------------------------------------------------*/
 
-/* A path that nobody can know before it is there. */
+/* Makes a random path, which no other user can guess and create first. */
 static int new_object_path(char path[SEGMENT_PATH_MAX], const char *name, struct error_text *error)
 {
     unsigned char bytes[RANDOM_BYTES];
@@ -112,8 +112,8 @@ static int new_object_path(char path[SEGMENT_PATH_MAX], const char *name, struct
     return 0;
 }
 
-/* The lock on the name is held. A name without an object is a dead process's, or its object was
- * removed by other means; a role that still runs then has that object mapped. */
+/* Requires the lock on the name. A name without an object was left by a dead process, or its object
+ * was removed by other means; a role that still runs then has that object mapped. */
 static int free_name(const struct segment_paths *paths, const char *name, struct error_text *error)
 {
     if (paths->object[0] != '\0')
@@ -134,8 +134,8 @@ static int free_name(const struct segment_paths *paths, const char *name, struct
     return 0;
 }
 
-/* First the name, then the object: so a kill between them leaves a name that leads nowhere, and
- * never an object that nothing leads to. */
+/* First the name, then the object. A kill between them leaves a name that leads nowhere, and never
+ * an object without a name. */
 static int link_names(const char *name, int fd, struct segment_paths *paths,
                       struct error_text *error)
 {
@@ -170,18 +170,18 @@ int segment_give_names(const char *name, int fd, struct error_text *error)
     if (segment_paths(&paths, name, error) == 0 && free_name(&paths, name, error) == 0)
         result = link_names(name, fd, &paths, error);
     if (result != 0 && made)
-        unlink(paths.lock); /* the sweep could not, when no file can be opened */
+        unlink(paths.lock); /* segment_sweep() cannot when no file can be opened */
     close(lock);
     if (result != 0) {
         struct error_text second;
-        segment_sweep(name, &second); /* what was refused is the reason that counts */
+        segment_sweep(name, &second); /* the first reason is reported */
     }
     return result;
 }
 
 /* --- removal -----------------------------------------------------------------------------------*/
 
-/* Sockets of roles, "NAME.SUFFIX" beside the name. */
+/* Removes the roles' sockets, "NAME.SUFFIX" beside the name. */
 static void remove_sockets(const struct segment_paths *paths, const char *name)
 {
     char folder[RUNTIME_FOLDER_MAX];
@@ -203,8 +203,8 @@ static void remove_sockets(const struct segment_paths *paths, const char *name)
     closedir(directory);
 }
 
-/* The lock on the name is held through fd. A supervisor holds the whole file by flock(2) as long as
- * it lives; own says that the caller is that supervisor. */
+/* Requires the lock on the name, through fd. A supervisor holds the whole file by flock(2) as long
+ * as it lives; own says that the caller is that supervisor. */
 static int remove_all(const struct segment_paths *paths, const char *name, int fd, bool own,
                       struct error_text *error)
 {
@@ -231,38 +231,38 @@ static int refuse_if_held(const struct segment_paths *paths, const char *name,
                           name, role_name((enum role)role), segment_holder(name, (enum role)role));
 }
 
-enum what { WORLD, WORLD_BY_FORCE, OWN_WORLD, NO_WORLD };
+enum removal { REMOVE_UNUSED, REMOVE_FORCED, REMOVE_OWN, REMOVE_REMAINS };
 
-static int remove_what(const char *name, enum what what, struct error_text *error)
+static int remove_world(const char *name, enum removal removal, struct error_text *error)
 {
     struct segment_paths paths;
     if (segment_paths(&paths, name, error) != 0 ||
-        (what != WORLD_BY_FORCE && refuse_if_held(&paths, name, error) != 0))
+        (removal != REMOVE_FORCED && refuse_if_held(&paths, name, error) != 0))
         return -1;
     bool made;
     int fd = segment_lock_name(paths.lock, &made, error);
     if (fd < 0)
         return -1;
     int result = segment_paths(&paths, name, error);
-    if (result == 0 && (what != NO_WORLD || paths.object[0] == '\0'))
-        result = remove_all(&paths, name, fd, what == OWN_WORLD, error);
+    if (result == 0 && (removal != REMOVE_REMAINS || paths.object[0] == '\0'))
+        result = remove_all(&paths, name, fd, removal == REMOVE_OWN, error);
     close(fd);
     return result;
 }
 
 int segment_remove(const char *name, bool force, struct error_text *error)
 {
-    return remove_what(name, force ? WORLD_BY_FORCE : WORLD, error);
+    return remove_world(name, force ? REMOVE_FORCED : REMOVE_UNUSED, error);
 }
 
 int segment_remove_own(const char *name, struct error_text *error)
 {
-    return remove_what(name, OWN_WORLD, error);
+    return remove_world(name, REMOVE_OWN, error);
 }
 
 int segment_sweep(const char *name, struct error_text *error)
 {
-    return remove_what(name, NO_WORLD, error);
+    return remove_world(name, REMOVE_REMAINS, error);
 }
 
 /* --- lists -------------------------------------------------------------------------------------*/
@@ -302,7 +302,7 @@ int segment_list(char names[][SEGMENT_NAME_MAX], int max, bool all, struct error
     return count;
 }
 
-/* Does a name of the runtime folder lead to this file of /dev/shm? */
+/* Returns true if a name of the runtime folder leads to this file of /dev/shm. */
 static bool named_here(const char *file)
 {
     struct segment_paths paths;
@@ -329,7 +329,7 @@ int segment_list_lost(char files[][SEGMENT_LOST_MAX], int max)
         return 0;
     for (struct dirent *entry = readdir(directory); entry && count < max;
          entry = readdir(directory)) {
-        /* Anybody may make a file of such a name: only this user's are told of. */
+        /* Any user may make a file of such a name, so only this user's are listed. */
         if (strncmp(entry->d_name, prefix, (size_t)length) == 0 &&
             strlen(entry->d_name) < SEGMENT_LOST_MAX && !named_here(entry->d_name) &&
             fstatat(dirfd(directory), entry->d_name, &status, AT_SYMLINK_NOFOLLOW) == 0 &&

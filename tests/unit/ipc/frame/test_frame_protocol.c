@@ -282,7 +282,7 @@ static void test_every_frame_that_overruns_is_late(void **state)
 static bool rings(const struct view *view, int role)
 {
     int value = -1;
-    assert_int_equal(sem_getvalue(&view->doors->role[role].bell, &value), 0);
+    assert_int_equal(sem_getvalue(&view->doorbells->role[role].bell, &value), 0);
     return value > 0;
 }
 
@@ -297,7 +297,7 @@ static void test_each_stage_rings_who_waits_for_it(void **state)
     move_by_hand(&frame, &mover);
     for (int role = 0; role < ROLE_COUNT; role++)
         assert_int_equal(rings(&view, role), role == ROLE_COLLIDER);
-    sem_trywait(&view.doors->role[ROLE_COLLIDER].bell);
+    sem_trywait(&view.doorbells->role[ROLE_COLLIDER].bell);
     assert_int_equal(frame_protocol_collider_begin(&frame, &collider), 0);
     *view.w[1].head = *view.m.head;
     frame_protocol_collider_end(&frame, &collider);

@@ -350,7 +350,7 @@ static void test_putting_a_command_rings_the_movers_bell(void **state)
     int value = -1;
     (void)state;
     assert_int_equal(put(RING_CLIENTS, 1, 1), 0);
-    assert_int_equal(sem_getvalue(&view.doors->role[ROLE_MOVER].bell, &value), 0);
+    assert_int_equal(sem_getvalue(&view.doorbells->role[ROLE_MOVER].bell, &value), 0);
     assert_int_equal(value, 1);
 }
 

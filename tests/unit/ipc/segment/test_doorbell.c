@@ -19,7 +19,7 @@
 #define LONG_NS  (15 * (uint64_t)NS_PER_S) /* never waited for in a test that passes */
 
 struct shared {
-    struct doorbells doors;
+    struct doorbells doorbells;
     _Atomic uint64_t word; /* what the doorbell is about */
 };
 
@@ -29,7 +29,7 @@ static int make_doors(void **state)
 {
     (void)state;
     shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    return shared == MAP_FAILED ? -1 : doorbells_init(&shared->doors);
+    return shared == MAP_FAILED ? -1 : doorbells_init(&shared->doorbells);
 }
 
 static int drop_doors(void **state)
@@ -41,14 +41,14 @@ static int drop_doors(void **state)
 static int bell(enum role role)
 {
     int value = -1;
-    assert_int_equal(sem_getvalue(&shared->doors.role[role].bell, &value), 0);
+    assert_int_equal(sem_getvalue(&shared->doorbells.role[role].bell, &value), 0);
     return value;
 }
 
 static uint64_t wait_ns(enum role role, uint64_t ns)
 {
     uint64_t begin = clock_now_ns();
-    doorbell_wait(&shared->doors, role, begin + ns);
+    doorbell_wait(&shared->doorbells, role, begin + ns);
     return clock_now_ns() - begin;
 }
 
@@ -63,7 +63,7 @@ static void test_ringing_a_bell_that_rings_does_not_count_up(void **state)
 {
     (void)state;
     for (int i = 0; i < 100; i++)
-        doorbell_ring(&shared->doors, ROLE_COLLIDER);
+        doorbell_ring(&shared->doorbells, ROLE_COLLIDER);
     assert_int_equal(bell(ROLE_COLLIDER), 1);
     for (int role = 0; role < ROLE_COUNT; role++)
         assert_int_equal(bell((enum role)role), role == ROLE_COLLIDER);
@@ -72,7 +72,7 @@ static void test_ringing_a_bell_that_rings_does_not_count_up(void **state)
 static void test_a_rung_bell_wakes_at_once_and_is_silent_then(void **state)
 {
     (void)state;
-    doorbell_ring(&shared->doors, ROLE_MOVER);
+    doorbell_ring(&shared->doorbells, ROLE_MOVER);
     assert_true(wait_ns(ROLE_MOVER, LONG_NS) < LONG_NS / 2);
     assert_int_equal(bell(ROLE_MOVER), 0);
 }
@@ -88,8 +88,8 @@ static void test_time_that_is_over_does_not_wait(void **state)
 {
     (void)state;
     uint64_t begin = clock_now_ns();
-    doorbell_wait(&shared->doors, ROLE_MOVER, 0);
-    doorbell_wait(&shared->doors, ROLE_MOVER, begin);
+    doorbell_wait(&shared->doorbells, ROLE_MOVER, 0);
+    doorbell_wait(&shared->doorbells, ROLE_MOVER, begin);
     assert_true(clock_now_ns() - begin < LONG_NS / 2);
 }
 
@@ -99,7 +99,7 @@ static void test_spurious_posts_are_drained_by_one_wait(void **state)
 {
     (void)state;
     for (int i = 0; i < 50; i++)
-        sem_post(&shared->doors.role[ROLE_RENDERER].bell);
+        sem_post(&shared->doorbells.role[ROLE_RENDERER].bell);
     wait_ns(ROLE_RENDERER, LONG_NS);
     assert_int_equal(bell(ROLE_RENDERER), 0);
 }
@@ -109,7 +109,7 @@ static int ring_later(void *context)
     const enum role *role = context;
     clock_sleep_until_ns(clock_now_ns() + SHORT_NS);
     atomic_store(&shared->word, 1);
-    doorbell_ring(&shared->doors, *role);
+    doorbell_ring(&shared->doorbells, *role);
     return 0;
 }
 
@@ -135,7 +135,7 @@ static int wait_with_alarm(void *context)
     sigaction(SIGALRM, &action, NULL);
     ualarm(20000, 0);
     uint64_t begin = clock_now_ns();
-    doorbell_wait(&shared->doors, ROLE_MOVER, begin + LONG_NS);
+    doorbell_wait(&shared->doorbells, ROLE_MOVER, begin + LONG_NS);
     return clock_now_ns() - begin < LONG_NS / 2 ? 0 : 1;
 }
 
@@ -150,7 +150,7 @@ static int wait_for_ever(void *context)
     (void)context;
     for (int i = 0; i < 1000; i++) { /* far longer than it is let live */
         atomic_store(&shared->word, 7);
-        doorbell_wait(&shared->doors, ROLE_MOVER, clock_now_ns() + LONG_NS);
+        doorbell_wait(&shared->doorbells, ROLE_MOVER, clock_now_ns() + LONG_NS);
     }
     return 0;
 }
@@ -166,8 +166,8 @@ static void test_killed_waiters_leave_a_door_that_works(void **state)
             continue;
         child_kill(child);
     }
-    doorbell_ring(&shared->doors, ROLE_MOVER);
-    doorbell_ring(&shared->doors, ROLE_MOVER);
+    doorbell_ring(&shared->doorbells, ROLE_MOVER);
+    doorbell_ring(&shared->doorbells, ROLE_MOVER);
     assert_int_equal(bell(ROLE_MOVER), 1);
     assert_true(wait_ns(ROLE_MOVER, LONG_NS) < LONG_NS / 2);
     assert_true(wait_ns(ROLE_MOVER, SHORT_NS) >= SHORT_NS);
@@ -175,15 +175,15 @@ static void test_killed_waiters_leave_a_door_that_works(void **state)
 
 #define ROUNDS 2000
 
-/* The frame loop's use of two doors: the predicate is the word, the bell only says look. */
+/* The frame loop's use of two doorbells: the predicate is the word, the bell only says look. */
 static int answer(void *context)
 {
     (void)context;
     for (uint64_t i = 1; i < 2 * ROUNDS; i += 2) {
         while (atomic_load(&shared->word) < i)
-            doorbell_wait(&shared->doors, ROLE_COLLIDER, clock_now_ns() + SHORT_NS);
+            doorbell_wait(&shared->doorbells, ROLE_COLLIDER, clock_now_ns() + SHORT_NS);
         atomic_store(&shared->word, i + 1);
-        doorbell_ring(&shared->doors, ROLE_MOVER);
+        doorbell_ring(&shared->doorbells, ROLE_MOVER);
     }
     return 0;
 }
@@ -195,9 +195,9 @@ static void test_two_processes_hand_a_word_to_and_fro(void **state)
     uint64_t begin = clock_now_ns();
     for (uint64_t i = 0; i < 2 * ROUNDS; i += 2) {
         atomic_store(&shared->word, i + 1);
-        doorbell_ring(&shared->doors, ROLE_COLLIDER);
+        doorbell_ring(&shared->doorbells, ROLE_COLLIDER);
         while (atomic_load(&shared->word) < i + 2 && clock_now_ns() - begin < LONG_NS)
-            doorbell_wait(&shared->doors, ROLE_MOVER, clock_now_ns() + SHORT_NS);
+            doorbell_wait(&shared->doorbells, ROLE_MOVER, clock_now_ns() + SHORT_NS);
     }
     assert_int_equal(atomic_load(&shared->word), 2 * ROUNDS);
     assert_int_equal(child_wait(child), 0);
