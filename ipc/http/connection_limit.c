@@ -1,4 +1,4 @@
-/* Chooses the connection that is shut when another one comes. */
+/* Chooses the connection that is shut when a new one comes. */
 #include "ipc/http/connection_limit.h"
 
 #include <stddef.h>
@@ -18,13 +18,13 @@ static bool is_newcomer(const struct connection *connection)
 static struct connection *slowest(struct connection_limit *limit)
 {
     struct connection *found = NULL;
-    uint32_t newcomers = 0, room = CONNECTION_ROOM(limit->seats);
+    uint32_t newcomers = 0, room = CONNECTION_ROOM(limit->slots);
     for (uint32_t i = 0; i < room; i++)
         newcomers += is_newcomer(&limit->connection[i]) ? 1 : 0;
     for (uint32_t i = 0; i < room; i++) {
         struct connection *connection = &limit->connection[i];
         if (!connection->taken || connection->ending || connection->state == CONNECTION_WAITING ||
-            (newcomers > limit->seats / 2 && connection->asked))
+            (newcomers > limit->slots / 2 && connection->asked))
             continue;
         if (!found || connection->since_ns < found->since_ns)
             found = connection;
@@ -34,11 +34,11 @@ static struct connection *slowest(struct connection_limit *limit)
 
 struct connection *connection_come(struct connection_limit *limit, int fd, uint64_t now_ns)
 {
-    for (uint32_t i = 0; i < CONNECTION_ROOM(limit->seats); i++) {
+    for (uint32_t i = 0; i < CONNECTION_ROOM(limit->slots); i++) {
         struct connection *connection = &limit->connection[i];
         if (connection->taken)
             continue;
-        struct connection *leaver = limit->taken >= limit->seats ? slowest(limit) : NULL;
+        struct connection *leaver = limit->taken >= limit->slots ? slowest(limit) : NULL;
         if (leaver)
             connection_shut(leaver);
         *connection = (struct connection){.fd = fd, .taken = true, .since_ns = now_ns};
@@ -68,7 +68,7 @@ bool connection_stalls(const struct connection *connection, uint64_t stall_ns, u
 
 void connection_sweep(struct connection_limit *limit, uint64_t now_ns)
 {
-    for (uint32_t i = 0; i < CONNECTION_ROOM(limit->seats); i++) {
+    for (uint32_t i = 0; i < CONNECTION_ROOM(limit->slots); i++) {
         struct connection *connection = &limit->connection[i];
         if (!connection->taken || connection->ending)
             continue;

@@ -1,7 +1,7 @@
-/* The connections of a server: which one has to go so that another gets in, and which are out of
- * time. Loopback clients all have one address, so a connection is judged by its progress: it sends
- * a whole request, or it takes a part of an answer. It shuts sockets, and closes none. The caller
- * has the lock. */
+/* The connections of an HTTP server: which connection is shut so that a new one gets its slot, and
+ * which have exceeded their time. Loopback clients all have one address, so a connection is judged
+ * by its progress: it sends a whole request, or it takes a part of an answer. These functions shut
+ * sockets and never close them. The caller holds the server's lock. */
 #ifndef JOLON_IPC_HTTP_CONNECTION_LIMIT_H
 #define JOLON_IPC_HTTP_CONNECTION_LIMIT_H
 
@@ -10,50 +10,52 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define CONNECTION_SEATS_MAX   256u                    /* beyond it one goes for each that comes */
-#define CONNECTION_ROOM(seats) ((seats) + (seats) / 4) /* with those on their way out */
-#define CONNECTION_ROOM_MAX    CONNECTION_ROOM(CONNECTION_SEATS_MAX)
+/* When all slots are taken, one connection is shut for each new one. The room includes connections
+ * that are being shut. */
+#define CONNECTION_SLOTS_MAX   256u
+#define CONNECTION_ROOM(slots) ((slots) + (slots) / 4)
+#define CONNECTION_ROOM_MAX    CONNECTION_ROOM(CONNECTION_SLOTS_MAX)
 
-#define CONNECTION_ASKING_NS    10000000000u /* for a whole request */
-#define CONNECTION_ANSWERING_NS 30000000000u /* for a part of an answer */
+#define CONNECTION_ASKING_NS    10000000000u /* to send a whole request */
+#define CONNECTION_ANSWERING_NS 30000000000u /* to take a part of an answer */
 
 enum connection_state {
-    CONNECTION_ASKING,    /* no whole request is there */
+    CONNECTION_ASKING,    /* its next request is not whole yet */
     CONNECTION_WAITING,   /* the server keeps it waiting */
-    CONNECTION_ANSWERING, /* it is to take a part of an answer */
+    CONNECTION_ANSWERING, /* it has a part of an answer to take */
 };
 
 struct connection {
     int fd;
     bool taken, ending;
-    bool asked; /* a whole request has come, now or before */
+    bool asked; /* it has sent a whole request */
     enum connection_state state;
-    uint64_t since_ns; /* of its last progress */
+    uint64_t since_ns; /* CLOCK_MONOTONIC of its last progress */
     struct rate rate;  /* of its requests */
 };
 
 struct connection_limit {
     struct connection connection[CONNECTION_ROOM_MAX];
-    uint32_t seats, taken; /* seats: at most CONNECTION_SEATS_MAX; set by the owner */
+    uint32_t slots, taken; /* slots: at most CONNECTION_SLOTS_MAX, set by the owner */
 };
 
-/* A connection came. When all seats are taken another one is shut: the one without progress for
- * longest, only among those that have not asked anything while these have more than half of the
- * seats. So connections that are served keep theirs, and a new one has time to ask. One that the
- * server keeps waiting stays. NULL when there is no room. */
+/* Gives a new connection a slot. When all slots are taken, the connection without progress for
+ * longest is shut. While connections that have never asked hold more than half of the slots, only
+ * those are shut. So connections that are being served keep their slots, and a new one has time to
+ * ask. A connection that waits for the server is never shut. Returns NULL when there is no room. */
 struct connection *connection_come(struct connection_limit *limit, int fd, uint64_t now_ns);
 void connection_leave(struct connection_limit *limit, struct connection *connection);
 
-/* It has made progress, or is kept waiting from now on. */
+/* Notes progress of the connection, or that it waits for the server from now on. */
 void connection_note(struct connection *connection, enum connection_state state, uint64_t now_ns);
 
-/* Has it taken nothing of its answer for so long? */
+/* Returns true if the client has taken nothing of its answer for stall_ns. */
 bool connection_stalls(const struct connection *connection, uint64_t stall_ns, uint64_t now_ns);
 
-/* Its owner then finds it closed, and says that it left. */
+/* Shuts the connection. Its owner then finds it closed, and calls connection_leave(). */
 void connection_shut(struct connection *connection);
 
-/* Shuts those that are out of time. */
+/* Shuts the connections that have exceeded their time. */
 void connection_sweep(struct connection_limit *limit, uint64_t now_ns);
 
 #endif

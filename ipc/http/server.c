@@ -19,35 +19,35 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#define PATIENCE_S       10    /* with a client that neither reads nor sends a byte */
-#define MEMORY_BYTES     16384 /* of a connection: the request's line and head, the answer's head */
+#define IDLE_TIMEOUT_S   10    /* for a client that neither reads nor sends a byte */
+#define MEMORY_BYTES     16384 /* of a connection: the heads of request and answer */
 #define PART_BYTES       65536 /* of an answer at a time */
 #define PER_CONNECTION_S 200u  /* requests a second of one connection */
-#define PER_ADDRESS_S    1500u /* ... of one address; not on loopback, where all have the same */
-#define PER_ADDRESS      64u   /* connections, likewise */
-#define ADDRESSES        256u  /* whose rates are told apart */
+#define PER_ADDRESS_S    1500u /* ... of one address; not on loopback */
+#define PER_ADDRESS      64u   /* connections of one address; not on loopback */
+#define ADDRESSES        256u  /* rates, by a hash of the address */
 #define STALL_NS         NS_PER_S
 
-/* Descriptors: what a process wants, what it needs beside connections, and the fewest seats. */
+/* Descriptors: the wanted limit, those beside connections, and the fewest slots. */
 #define FILES        1024u
 #define FILES_OTHERS 64u
-#define SEATS_MIN    16u
+#define SLOTS_MIN    16u
 
 struct http_server {
     struct http_handler handler;
     struct MHD_Daemon *daemon;
-    bool local, ours; /* as the listener */
+    bool local, unix_socket; /* of the listener */
     uid_t user;
-    pthread_mutex_t lock; /* of all below; no other one is taken under it */
+    pthread_mutex_t lock; /* of all below; no other lock is taken under it */
     struct connection_limit limit;
     struct rate address_rate[ADDRESSES];
 };
 
 struct exchange {
-    struct http_request request; /* first: handlers' pointers lead back to the exchange */
+    struct http_request request; /* first, so that a handler's pointer leads back to the exchange */
     struct http_server *server;
     struct MHD_Connection *connection;
-    struct connection *seat;
+    struct connection *slot;
     struct http_reply reply;
     char *body; /* [handler.body_max], behind own */
     max_align_t own[];
@@ -61,7 +61,7 @@ static struct exchange *exchange_of(struct http_request *request)
 static void note(struct exchange *exchange, enum connection_state state)
 {
     pthread_mutex_lock(&exchange->server->lock);
-    connection_note(exchange->seat, state, clock_now_ns());
+    connection_note(exchange->slot, state, clock_now_ns());
     pthread_mutex_unlock(&exchange->server->lock);
 }
 
@@ -118,9 +118,9 @@ bool http_drop_stalled(struct http_request *request, uint64_t now_ns)
 {
     struct exchange *exchange = exchange_of(request);
     pthread_mutex_lock(&exchange->server->lock);
-    bool stalls = connection_stalls(exchange->seat, STALL_NS, now_ns);
+    bool stalls = connection_stalls(exchange->slot, STALL_NS, now_ns);
     if (stalls)
-        connection_shut(exchange->seat);
+        connection_shut(exchange->slot);
     pthread_mutex_unlock(&exchange->server->lock);
     return stalls;
 }
@@ -140,20 +140,20 @@ static struct rate *address_rate(const struct exchange *exchange)
         count = sizeof(struct in_addr);
     } else if (address && address->sa_family == AF_INET6) {
         bytes += offsetof(struct sockaddr_in6, sin6_addr);
-        count = 8; /* the network: a client has many addresses in it */
+        count = 8; /* the network, in which a client has many addresses */
     }
     for (size_t i = 0; i < count; i++)
         hash = (hash ^ bytes[i]) * 16777619u;
     return &exchange->server->address_rate[hash % ADDRESSES];
 }
 
-bool http_may_ask(struct http_request *request, bool apart, uint64_t now_ns)
+bool http_may_ask(struct http_request *request, bool no_address_rate, uint64_t now_ns)
 {
     struct exchange *exchange = exchange_of(request);
     struct rate *address = address_rate(exchange);
     pthread_mutex_lock(&exchange->server->lock);
-    bool may = rate_take(&exchange->seat->rate, PER_CONNECTION_S, PER_CONNECTION_S, now_ns) &&
-               (apart || exchange->server->local ||
+    bool may = rate_take(&exchange->slot->rate, PER_CONNECTION_S, PER_CONNECTION_S, now_ns) &&
+               (no_address_rate || exchange->server->local ||
                 rate_take(address, PER_ADDRESS_S, PER_ADDRESS_S, now_ns));
     pthread_mutex_unlock(&exchange->server->lock);
     return may;
@@ -185,7 +185,7 @@ void http_reply_add(struct http_reply *reply, const char *name, const char *form
     reply->headers++;
 }
 
-/* Called when the client's socket takes more: so the server knows that the client reads. */
+/* Called when the client's socket takes more, so the server knows that the client reads. */
 static ssize_t give_part(void *context, uint64_t position, char *to, size_t room)
 {
     struct exchange *exchange = context;
@@ -206,7 +206,7 @@ static enum MHD_Result send_reply(struct exchange *exchange)
     size_t part = reply->give || reply->count > PART_BYTES ? PART_BYTES : reply->count + 1;
     CHECK(reply->status >= 100);
     if (!reply->give && !reply->bytes)
-        return MHD_NO; /* there was no memory for it */
+        return MHD_NO; /* no memory */
     struct MHD_Response *response = MHD_create_response_from_callback(
         reply->give ? MHD_SIZE_UNKNOWN : reply->count, part, give_part, exchange, NULL);
     if (!response)
@@ -227,13 +227,12 @@ static enum MHD_Result send_reply(struct exchange *exchange)
 
 /* --- libmicrohttpd's calls ---------------------------------------------------------------------*/
 
-/* On loopback the server answers to this machine's own names, else also to any address in numbers:
- * no page elsewhere has one of those for a name. A Unix socket has no name that a page could use.
- */
+/* On loopback the server accepts this machine's own names, elsewhere also numeric addresses, which
+ * no other page can have for a name. A page cannot reach a Unix socket. */
 static bool host_ok(struct exchange *exchange)
 {
     const char *host = http_header(&exchange->request, MHD_HTTP_HEADER_HOST);
-    return exchange->server->ours ||
+    return exchange->server->unix_socket ||
            (host &&
             (http_host_local(host) || (!exchange->server->local && http_host_numeric(host))));
 }
@@ -256,7 +255,7 @@ static struct exchange *begin_exchange(struct http_server *server,
     const union MHD_ConnectionInfo *info =
         MHD_get_connection_info(connection, MHD_CONNECTION_INFO_SOCKET_CONTEXT);
     const struct http_handler *handler = &server->handler;
-    if (!info || !info->socket_context) /* it was shut when it came */
+    if (!info || !info->socket_context) /* the connection was refused */
         return NULL;
     struct exchange *exchange =
         calloc(1, sizeof *exchange + handler->own_bytes + handler->body_max);
@@ -264,14 +263,14 @@ static struct exchange *begin_exchange(struct http_server *server,
         return NULL;
     exchange->server = server;
     exchange->connection = connection;
-    exchange->seat = info->socket_context;
+    exchange->slot = info->socket_context;
     exchange->body = (char *)exchange->own + handler->own_bytes;
     exchange->request.own = exchange->own;
     exchange->request.body = exchange->body;
     return exchange;
 }
 
-/* A longer body is read to its end, so that its sender hears why it is not taken. */
+/* A body that is too long is read to its end, so that its sender gets the refusal. */
 static void take_body(struct exchange *exchange, const char *bytes, size_t count)
 {
     struct http_request *request = &exchange->request;
@@ -288,7 +287,8 @@ static enum MHD_Result on_request(void *context, struct MHD_Connection *connecti
     struct exchange *exchange = *kept;
     (void)version;
     if (!exchange) {
-        /* An answer to the first call would close the connection after it; there is another. */
+        /* An answer in the first call would close the connection after it. A second call
+         * follows. */
         *kept = exchange = begin_exchange(context, connection);
         return exchange ? MHD_YES : MHD_NO;
     }
@@ -319,8 +319,8 @@ static void on_end(void *context, struct MHD_Connection *connection, void **kept
     *kept = NULL;
 }
 
-/* A connection of another user to a socket of ours is shut at once and takes no seat. */
-static void on_connection(void *context, struct MHD_Connection *connection, void **seat,
+/* A connection of another user to a Unix socket is shut at once and gets no slot. */
+static void on_connection(void *context, struct MHD_Connection *connection, void **slot,
                           enum MHD_ConnectionNotificationCode what)
 {
     struct http_server *server = context;
@@ -328,21 +328,22 @@ static void on_connection(void *context, struct MHD_Connection *connection, void
         MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
     pthread_mutex_lock(&server->lock);
     if (what == MHD_CONNECTION_NOTIFY_STARTED) {
-        *seat = !server->ours || local_socket_peer_is(info->connect_fd, server->user)
+        *slot = !server->unix_socket || local_socket_peer_is(info->connect_fd, server->user)
                     ? connection_come(&server->limit, info->connect_fd, clock_now_ns())
                     : NULL;
-        if (!*seat)
+        if (!*slot)
             (void)shutdown(info->connect_fd, SHUT_RDWR);
-    } else if (*seat) {
-        connection_leave(&server->limit, *seat);
+    } else if (*slot) {
+        connection_leave(&server->limit, *slot);
     }
     pthread_mutex_unlock(&server->lock);
 }
 
 /* --- starting and ending -----------------------------------------------------------------------*/
 
-/* Room for two servers and what else the process opens. 0: there is none, with the reason. */
-static uint32_t count_seats(struct error_text *error)
+/* Returns the number of slots, so that two servers and the rest of the process have descriptors; 0
+ * with the reason when there are too few. */
+static uint32_t count_slots(struct error_text *error)
 {
     struct rlimit files;
     if (getrlimit(RLIMIT_NOFILE, &files) != 0) {
@@ -351,30 +352,30 @@ static uint32_t count_seats(struct error_text *error)
     }
     if (files.rlim_cur < FILES) {
         files.rlim_cur = files.rlim_max < FILES ? files.rlim_max : FILES;
-        (void)setrlimit(RLIMIT_NOFILE, &files); /* the soft limit alone is always allowed */
+        (void)setrlimit(RLIMIT_NOFILE, &files); /* raising the soft limit is always allowed */
     }
     uint32_t most = files.rlim_cur < FILES ? (uint32_t)files.rlim_cur : FILES;
-    uint32_t seats = most > FILES_OTHERS ? (most - FILES_OTHERS) / 3 : 0;
-    if (seats < SEATS_MIN) {
+    uint32_t slots = most > FILES_OTHERS ? (most - FILES_OTHERS) / 3 : 0;
+    if (slots < SLOTS_MIN) {
         error_text_set(error, "only %u files may be open; a server of HTTP needs %u (ulimit -n)",
-                       most, FILES_OTHERS + 3 * SEATS_MIN);
+                       most, FILES_OTHERS + 3 * SLOTS_MIN);
         return 0;
     }
-    return seats < CONNECTION_SEATS_MAX ? seats : CONNECTION_SEATS_MAX;
+    return slots < CONNECTION_SLOTS_MAX ? slots : CONNECTION_SLOTS_MAX;
 }
 
 static struct MHD_Daemon *start_daemon(struct http_server *server, int fd)
 {
     sigset_t all, before;
-    /* Signals are the first thread's. */
+    /* Signals are for the first thread. */
     sigfillset(&all);
-    sigdelset(&all, SIGSYS); /* what the sandbox forbids is to be told */
+    sigdelset(&all, SIGSYS); /* so that a forbidden system call is reported */
     pthread_sigmask(SIG_SETMASK, &all, &before);
     struct MHD_Daemon *daemon = MHD_start_daemon(
         MHD_USE_POLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, on_request, server,
         MHD_OPTION_LISTEN_SOCKET, fd, MHD_OPTION_CONNECTION_LIMIT,
-        CONNECTION_ROOM(server->limit.seats), MHD_OPTION_PER_IP_CONNECTION_LIMIT,
-        server->local ? 0u : PER_ADDRESS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)PATIENCE_S,
+        CONNECTION_ROOM(server->limit.slots), MHD_OPTION_PER_IP_CONNECTION_LIMIT,
+        server->local ? 0u : PER_ADDRESS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)IDLE_TIMEOUT_S,
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)MEMORY_BYTES, MHD_OPTION_NOTIFY_COMPLETED,
         on_end, server, MHD_OPTION_NOTIFY_CONNECTION, on_connection, server, MHD_OPTION_END);
     int cause = errno;
@@ -386,18 +387,18 @@ static struct MHD_Daemon *start_daemon(struct http_server *server, int fd)
 struct http_server *http_server_start(struct http_listener *listener,
                                       const struct http_handler *handler, struct error_text *error)
 {
-    uint32_t seats = count_seats(error);
-    struct http_server *server = seats > 0 ? calloc(1, sizeof *server) : NULL;
+    uint32_t slots = count_slots(error);
+    struct http_server *server = slots > 0 ? calloc(1, sizeof *server) : NULL;
     if (!server) {
-        if (seats > 0)
+        if (slots > 0)
             error_text_set(error, "no memory for a server of HTTP");
         return NULL;
     }
     server->handler = *handler;
     server->local = listener->local;
-    server->ours = listener->ours;
+    server->unix_socket = listener->unix_socket;
     server->user = geteuid();
-    server->limit.seats = seats;
+    server->limit.slots = slots;
     pthread_mutex_init(&server->lock, NULL);
     server->daemon = start_daemon(server, listener->fd);
     if (server->daemon) {

@@ -1,7 +1,7 @@
 /* The HTTP server of the console and of the renderer's stream, by libmicrohttpd: one listening
- * socket, one thread. It checks by which name it is asked, bounds its connections and their time
- * (ipc/http/connection_limit.h), sends answers, and hands requests to a handler. It makes no system
- * call but those of the sandbox's list "serving". */
+ * socket and one thread. It checks the Host header, limits connections and their time
+ * (ipc/http/connection_limit.h), sends answers, and passes requests to a handler. It makes only the
+ * system calls of the sandbox's list "serving". */
 #ifndef JOLON_IPC_HTTP_SERVER_H
 #define JOLON_IPC_HTTP_SERVER_H
 
@@ -12,30 +12,30 @@
 #include <stdint.h>
 #include <sys/types.h>
 
-#define HTTP_HEADERS_MAX 4u /* of a reply's own */
+#define HTTP_HEADERS_MAX 4u /* headers of one reply */
 
 struct http_server;
 
-/* A request whose body is there, until its answer has been sent or given up. */
+/* A request with its body, until its answer has been sent or given up. */
 struct http_request {
     const char *method, *path;
     const char *body;  /* its first handler.body_max bytes */
-    size_t body_bytes; /* more than handler.body_max: it was longer, and is not whole */
-    bool woken;        /* it has waited, and the handler is asked again */
-    void *own;         /* the handler's, zeroed at the beginning */
+    size_t body_bytes; /* if more than handler.body_max, the body is cut */
+    bool woken;        /* it has waited, and the handler is called again */
+    void *own;         /* own_bytes of the handler's, zero at first */
 };
 
-/* What a request is answered. The server sends `bytes`, or what `give` gives. */
+/* The answer to a request. The server sends `bytes`, or what `give` copies. */
 struct http_reply {
     unsigned status;
     const char *type;  /* Content-Type */
     const char *cache; /* Cache-Control; NULL: no-store */
     const void *bytes;
     size_t count;
-    void (*release)(void *owner); /* once, when bytes are needed no longer; NULL: nothing */
+    void (*release)(void *owner); /* called once when bytes are no longer needed, or NULL */
     void *owner;
-    /* Copies what comes next, without any lock of the server; how much, 0 after http_wait(), -1
-     * for the end. */
+    /* Copies the next bytes, called without any lock of the server. Returns their number, 0 after
+     * http_wait(), -1 at the end. */
     ssize_t (*give)(struct http_request *request, char *to, size_t room);
     struct {
         const char *name;
@@ -48,59 +48,61 @@ struct http_header {
     const char *name, *value;
 };
 
-/* All are called in the server's thread. */
+/* The handler of requests. All functions are called in the server's thread. */
 struct http_handler {
     void *context;
     size_t own_bytes, body_max;
-    const struct http_header *headers; /* of every answer; the last one's name is NULL */
-    /* Fills the reply, or calls http_wait() and returns false: then it is called again. */
+    const struct http_header *headers; /* added to every answer; ends with a NULL name */
+    /* Fills the reply and returns true. Or calls http_wait() and returns false; it is called again
+     * when the request is woken. */
     bool (*answer)(void *context, struct http_request *request, struct http_reply *reply);
-    /* Fills the reply to a request that the server itself refuses: what is wrong, what to do. */
+    /* Fills the reply to a request that the server itself refuses: what is wrong, and what to
+     * do. */
     void (*refuse)(struct http_reply *reply, unsigned status, const char *what, const char *next);
-    /* Once, whatever became of the request. */
+    /* Called once at the end of each request, also of one that was given up. */
     void (*end)(void *context, struct http_request *request);
 };
 
-/* Starts to serve on the listener, which becomes the server's: its fd is then -1. Two servers of a
- * process share its descriptors: the soft limit (RLIMIT_NOFILE) is raised to 1024 where that is
- * allowed, and with less there are fewer connections. NULL with the reason. */
+/* Starts to serve on the listener, whose fd the server takes over (it is then -1). Two servers of a
+ * process share its descriptors: the soft limit (RLIMIT_NOFILE) is raised to 1024 if that is
+ * allowed, and with less there are fewer connections. Returns NULL with the reason. */
 struct http_server *http_server_start(struct http_listener *listener,
                                       const struct http_handler *handler, struct error_text *error);
 
-/* Ends all connections and the thread; none may be waiting. NULL is nothing. */
+/* Ends all connections and the thread. No request may be waiting. NULL is allowed. */
 void http_server_stop(struct http_server *server);
 
-/* Gives up connections that are out of time. To be called about once a second. */
+/* Shuts connections that have exceeded their time. To be called about once a second. */
 void http_server_sweep(struct http_server *server, uint64_t now_ns);
 
 /* --- of a request, in the handler ---------------------------------------------------------------
  */
 
-/* The value of a header, or of a key of the address (?KEY=VALUE); NULL when there is none. */
+/* Returns the value of a header, or of a key of the query (?KEY=VALUE), NULL when there is none. */
 const char *http_header(struct http_request *request, const char *name);
 const char *http_argument(struct http_request *request, const char *key);
 
-/* How many keys the address has; take, unless NULL, gets each until it returns false. A key without
- * a value has NULL. */
+/* Returns the number of keys in the query. take, unless NULL, is called for each until it returns
+ * false. A key without a value has NULL. */
 int http_arguments(struct http_request *request,
                    bool (*take)(void *context, const char *key, const char *value), void *context);
 
-/* Is it within the requests a second of its connection, and, unless apart or on loopback, of its
- * address? */
-bool http_may_ask(struct http_request *request, bool apart, uint64_t now_ns);
+/* Returns true if the request is within the rate of its connection and of its address. Loopback
+ * addresses have no rate; no_address_rate excludes others. */
+bool http_may_ask(struct http_request *request, bool no_address_rate, uint64_t now_ns);
 
-/* A reply of text, which is copied. Without memory there is no answer. */
+/* Fills a reply with a copy of text. Without memory the connection is closed. */
 void http_reply_text(struct http_reply *reply, unsigned status, const char *type, const char *text);
 void http_reply_add(struct http_reply *reply, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Keeps the request waiting from its callback's end on, and lets it go on, from any thread. Both
- * under one lock of the handler's, so that the second comes after the first. */
+/* Suspends the request from the end of its callback on, and resumes it, from any thread. The
+ * handler calls both under one lock of its own, so that the second comes after the first. */
 void http_wait(struct http_request *request);
 void http_wake(struct http_request *request);
 
-/* Shuts the request's connection if its client has taken no part of an answer for a second,
- * though there was one. Any thread. */
+/* Shuts the request's connection if its client has taken no part of a pending answer for a second.
+ * Returns true if it did. Any thread. */
 bool http_drop_stalled(struct http_request *request, uint64_t now_ns);
 
 #endif

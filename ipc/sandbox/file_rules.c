@@ -1,4 +1,4 @@
-/* Landlock's rules, by the system calls themselves: the C library has no functions for them. */
+/* Landlock rules, by system calls: the C library has no functions for them. */
 #include "ipc/sandbox/file_rules.h"
 
 #include "ipc/segment/runtime_folder.h"
@@ -13,7 +13,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-/* Of later kernels than the headers. */
+/* The headers may be older than the kernel. */
 #ifndef LANDLOCK_ACCESS_FS_REFER
 #define LANDLOCK_ACCESS_FS_REFER (1ull << 13)
 #endif
@@ -25,32 +25,34 @@
 #define LANDLOCK_SCOPE_SIGNAL (1ull << 1)
 #endif
 
-/* What a kernel is told that a ruleset is about; older ones know the beginning of it. */
+/* What a ruleset handles. Older kernels take only the first members. */
 struct handled {
     uint64_t files, network, scoped;
 };
 
 #define ACCESS_FIRST                                                                               \
-    (LANDLOCK_ACCESS_FS_MAKE_SYM | (LANDLOCK_ACCESS_FS_MAKE_SYM - 1)) /* all of version 1 */
+    (LANDLOCK_ACCESS_FS_MAKE_SYM | (LANDLOCK_ACCESS_FS_MAKE_SYM - 1)) /* all rights of version 1   \
+                                                                       */
 #define ACCESS_READ   ((uint64_t)(LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR))
 #define ACCESS_DEVICE (ACCESS_READ | LANDLOCK_ACCESS_FS_WRITE_FILE)
 #define ACCESS_FOLDER                                                                              \
     (ACCESS_READ | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_FILE |                \
      LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_TRUNCATE)
-/* Beneath a folder of the set: its sockets too, and renames from one folder into another. */
+/* Beneath a folder of the set: also sockets, and renames from one folder into another. */
 #define ACCESS_KEPT (ACCESS_FOLDER | LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_REFER)
 
-/* Where distributions keep drivers, their settings and fonts; and what drivers ask of the machine.
- * Of /proc, Landlock itself leaves out what belongs to processes that are not confined. */
+/* Where distributions keep drivers, their settings and fonts, and where drivers read the machine's
+ * properties. Landlock itself leaves out the entries of /proc of processes that are not
+ * confined. */
 static const char *const driver_paths[] = {"/usr",       "/lib*", "/etc",  "/opt",
                                            "/nix/store", "/sys",  "/proc", "/run/opengl-driver"};
 static const char *const device_paths[] = {"/dev/dri",     "/dev/nvidia*", "/dev/null",
                                            "/dev/urandom", "/dev/random",  "/dev/zero"};
 
-/* Worlds' objects, and what the C library and DDS ask of the machine when they start. */
+/* Worlds' objects, and what the C library and DDS read when they start. */
 static const char *const visitor_paths[] = {"/dev/shm", "/usr", "/lib*", "/etc", "/sys", "/proc"};
 
-static uint64_t known(long version)
+static uint64_t known_rights(long version)
 {
     uint64_t access = ACCESS_FIRST;
     if (version >= 2)
@@ -68,7 +70,7 @@ static int allow(int ruleset, int fd, uint64_t access)
                : -errno;
 }
 
-/* Those that there are; a rule for what is no folder may not speak of folders. */
+/* Allows those paths that exist. A rule for a file may not have rights of folders. */
 static int allow_paths(int ruleset, const char *const *paths, size_t count, uint64_t access)
 {
     int result = 0;
@@ -92,7 +94,7 @@ static int allow_paths(int ruleset, const char *const *paths, size_t count, uint
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-/* What a visitor reads: beside the paths above the worlds' names and locks. */
+/* What the console reads: visitor_paths, and the worlds' names and locks. */
 static int allow_worlds(int ruleset)
 {
     struct error_text error;
@@ -105,7 +107,7 @@ static int allow_worlds(int ruleset)
     return result;
 }
 
-/* The version of the kernel's Landlock, or a negative errno. */
+/* Returns the version of the kernel's Landlock, or a negative errno. */
 static long landlock_version(void)
 {
     long version = syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION);
@@ -114,13 +116,13 @@ static long landlock_version(void)
 
 static int new_ruleset(long version, uint64_t scoped)
 {
-    const struct handled handled = {.files = known(version), .scoped = scoped};
+    const struct handled handled = {.files = known_rights(version), .scoped = scoped};
     size_t size = version >= 6 ? sizeof handled : sizeof handled.files;
     int ruleset = (int)syscall(SYS_landlock_create_ruleset, &handled, size, 0);
     return ruleset < 0 ? -errno : ruleset;
 }
 
-/* Puts the calling thread under the ruleset, which is closed. result: of the rules before. */
+/* Confines the calling thread by the ruleset and closes it. result is that of the rules before. */
 static int restrict_self(int ruleset, int result)
 {
     if (result == 0 && syscall(SYS_landlock_restrict_self, ruleset, 0) != 0)
@@ -137,7 +139,7 @@ int file_rules_confine(enum role role, const int *folders, size_t count)
         return ruleset;
     int result = 0;
     for (size_t i = 0; i < count && result == 0; i++)
-        result = allow(ruleset, folders[i], ACCESS_FOLDER & known(version));
+        result = allow(ruleset, folders[i], ACCESS_FOLDER & known_rights(version));
     bool drivers = role_has(role, ROLE_DRAWS);
     if (drivers && result == 0)
         result = allow_paths(ruleset, driver_paths, COUNT(driver_paths), ACCESS_READ);
@@ -160,8 +162,8 @@ int file_rules_confine_keeper(const char *const *folders, size_t count)
     for (size_t i = 0; i < count && result == 0; i++) {
         int fd = open(folders[i], O_PATH | O_DIRECTORY | O_CLOEXEC);
         if (fd < 0)
-            continue; /* nobody can write there anyway */
-        result = allow(ruleset, fd, ACCESS_KEPT & known(version));
+            continue; /* nothing can be written there */
+        result = allow(ruleset, fd, ACCESS_KEPT & known_rights(version));
         close(fd);
     }
     if (result == 0)

@@ -1,4 +1,4 @@
-/* The steps into the sandbox, and the privileges. */
+/* The steps into the sandbox. */
 #include "ipc/sandbox/sandbox.h"
 
 #include "ipc/process/log.h"
@@ -28,14 +28,16 @@
 #define SANITIZED false
 #endif
 
-/* Signals to itself, page protection, a file at its end (ipc/process/crash_point.h). */
+/* Crash points need signals to the own process, page protection and a file at the end
+ * (ipc/process/crash_point.h). */
 #ifdef CRASHPOINTS
 #define CRASHES true
 #else
 #define CRASHES false
 #endif
 
-/* Has this build, for this role, system calls of its own that no list names? */
+/* Returns why this build needs more system calls than this role's list has, NULL when it does
+ * not. */
 static const char *needs_more(enum role role)
 {
 #ifdef SANDBOX_SANITIZED
@@ -58,12 +60,13 @@ static int refused(struct error_text *error, const char *what, int code)
         what, strerror(code));
 }
 
-/* What this process may not get back, whoever's program it would become. */
+/* Drops all capabilities, so that neither this process nor a program that it runs has them. */
 static int drop_capabilities(void)
 {
     struct __user_cap_header_struct header = {.version = _LINUX_CAPABILITY_VERSION_3};
     const struct __user_cap_data_struct none[_LINUX_CAPABILITY_U32S_3] = {{0}};
-    /* Only who has CAP_SETPCAP can drop from the bounding set; others have nothing to bound. */
+    /* Dropping from the bounding set needs CAP_SETPCAP. A process without it has nothing to
+     * bound. */
     for (int capability = 0; prctl(PR_CAPBSET_READ, capability) >= 0; capability++)
         (void)prctl(PR_CAPBSET_DROP, capability);
     (void)prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
@@ -79,7 +82,7 @@ static int drop_privileges(struct error_text *error)
     return 0;
 }
 
-/* Of a step into Landlock, which old kernels do not have. */
+/* Turns the result of a Landlock step into 0 or -1. Old kernels have no Landlock. */
 static int files_done(int result, struct error_text *error)
 {
     if (result == -ENOSYS || result == -EOPNOTSUPP) {
@@ -104,10 +107,10 @@ int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct erro
     }
     if (drop_privileges(error) != 0)
         return -1;
-    /* All threads allocate from one arena: with further ones the C library opens files, now and
-     * then, to count processors and to ask how memory is promised. */
+    /* All threads allocate from one arena. For further arenas the C library sometimes opens files,
+     * to count processors and to read the kernel's overcommit mode. */
     (void)mallopt(M_ARENA_MAX, 1);
-    /* The first date, also one of a library's, would read the file of the time zone. */
+    /* The first conversion of a date, also in a library, would read the time zone's file. */
     tzset();
     sandbox->on = true;
     return 0;
@@ -122,7 +125,8 @@ int sandbox_files(const struct sandbox *sandbox, const int *folders, size_t coun
 }
 
 #ifdef SANDBOX_SANITIZED
-/* The search for leaks at a process's end is a process that reads this one: no filter lets it. */
+/* The leak search at the process's end needs another process that reads this one, which the filter
+ * forbids. */
 static int entered;
 int __lsan_is_turned_off(void); /* NOLINT(bugprone-reserved-identifier): the sanitizer's name */
 int __lsan_is_turned_off(void)  /* NOLINT(bugprone-reserved-identifier): the sanitizer's name */

@@ -1,16 +1,17 @@
-/* The sandbox of a role: what a process gives up once it has what it needs, so that one that was
- * taken over, by a forged segment, a hostile DDS sample or a bug, can do no more than its role. Why
- * it is as it is stands in docs/decisions/012-sandbox.md.
+/* The sandbox of a role: the privileges that a process gives up once it has what it needs. A
+ * process that was taken over by a forged segment, a hostile DDS sample or a bug can then do no
+ * more than its role. docs/decisions/012-sandbox.md says why it is made this way.
  *
- * Three steps, in this order, by the roles' mains alone:
+ * Three steps, in this order, called by the roles' mains only:
+ *
  *   sandbox_begin   before the first thread: no new privileges, no capabilities
  *   sandbox_files   before the first thread, by roles that open files: only beneath their folders
- *   sandbox_enter   when the world is mapped and the threads are there: only the system calls of
- *                   the role, for every thread; there is no way back
+ *   sandbox_enter   when the world is mapped and the threads run: only the role's system calls,
+ *                   for every thread; there is no way back
  *
- * A system call that is not the role's is not done and ends the process by SIGSYS (status 159),
- * after one line that names it. Each step returns 0, or -1 with a reason that names --no-sandbox
- * when the kernel refuses: a role never runs without its sandbox unless it was told to. */
+ * A forbidden system call is not made. It ends the process by SIGSYS (status 159), after one line
+ * that names the call. Each step returns 0, or -1 with a reason that names --no-sandbox when the
+ * kernel refuses. A role never runs without its sandbox unless it was told to. */
 #ifndef JOLON_IPC_SANDBOX_SANDBOX_H
 #define JOLON_IPC_SANDBOX_SANDBOX_H
 
@@ -22,18 +23,17 @@
 
 struct sandbox {
     enum role role;
-    bool on; /* false: every further step does nothing, which sandbox_begin has said in the log */
+    bool on; /* false: every further step does nothing, as sandbox_begin() has logged */
 };
 
-/* ROLE_CONSOLE is every console, also one that is not its set's. off: the user's --no-sandbox.
- * Sanitizers and crash points need system calls of their own: there the sandbox is off, too, but
- * for mover and collider with the sanitizers of addresses and of undefined behaviour. */
+/* ROLE_CONSOLE is for every console, also for one outside a set. off is the user's --no-sandbox.
+ * The sandbox is also off in builds with sanitizers or crash points, which need more system calls;
+ * but mover and collider keep it with the address and undefined-behaviour sanitizers. */
 int sandbox_begin(struct sandbox *sandbox, enum role role, bool off, struct error_text *error);
 
-/* From here on files are made, written and removed only beneath these folders (descriptors, which
- * may be closed afterwards), and read only there and, by a renderer, where drivers and fonts are,
- * by the console where worlds are. On a kernel without Landlock it says so in the log and does
- * nothing. */
+/* Confines file access: files are made, written and removed only beneath these folders
+ * (descriptors, which may be closed afterwards), and read only there. A renderer may also read
+ * drivers and fonts, the console worlds. On a kernel without Landlock it only logs that. */
 int sandbox_files(const struct sandbox *sandbox, const int *folders, size_t count,
                   struct error_text *error);
 

@@ -1,5 +1,5 @@
-/* The lists. Each rule is one system call, some only with certain arguments. What no rule is about
- * is trapped, by the roles; the keeper may do it. */
+/* The lists of system calls. Each rule is one system call, some only with certain arguments. A call
+ * without a rule is trapped in a role, and allowed in the keeper. */
 #include "ipc/sandbox/syscall_filter.h"
 
 #include "world/runtime/checked_alloc.h"
@@ -29,7 +29,7 @@ struct rule {
 struct list {
     const struct rule *rule;
     size_t count;
-    uint32_t action; /* instead of the trap */
+    uint32_t action; /* the action for these calls */
 };
 
 #define ANY(call)                                                                                  \
@@ -41,7 +41,7 @@ struct list {
             }                                                                                      \
         }                                                                                          \
     }
-/* Argument number is value. */
+/* Argument number equals value. */
 #define WITH(call, number, value)                                                                  \
     {                                                                                              \
         SCMP_SYS(call), 1,                                                                         \
@@ -51,52 +51,53 @@ struct list {
             }                                                                                      \
         }                                                                                          \
     }
-/* Of the bits of mask in the argument, those of value are set. */
+/* The bits of mask in the argument equal value. */
 #define BITS(number, mask, value)                                                                  \
     {                                                                                              \
         number, SCMP_CMP_MASKED_EQ, mask, value                                                    \
     }
 
-/* ioctl numbers carry the kind of device that they are for. */
+/* An ioctl number contains the kind of device that it is for. */
 #define IOCTL_KIND      0xff00u
 #define IOCTL_DRM       0x6400u /* 'd' */
 #define IOCTL_NVIDIA    0x4600u /* 'F' */
 #define MAP_WHICH       ((uint64_t)(MAP_TYPE | MAP_ANONYMOUS))
 #define MAP_MEMORY_ONLY ((uint64_t)(MAP_PRIVATE | MAP_ANONYMOUS))
 
-/* The calls that computing, sleeping, logging, ending and aborting need. */
+/* Computing, sleeping, logging, ending and aborting. */
 static const struct rule computing[] = {
     ANY(futex),                     /* doorbells, locks, workers, the readers' wait */
     ANY(clock_nanosleep),           /* waits by the clock */
     ANY(clock_gettime),             /* where the clock cannot be read without a call */
-    ANY(restart_syscall),           /* a wait goes on after SIGSTOP and SIGCONT */
-    ANY(rt_sigreturn),              /* back from the handler of SIGTERM, or of SIGSYS */
+    ANY(restart_syscall),           /* a wait continues after SIGSTOP and SIGCONT */
+    ANY(rt_sigreturn),              /* the return from the handler of SIGTERM or SIGSYS */
     ANY(rt_sigprocmask),            /* abort, and a thread's start and end */
     WITH(rt_sigaction, 0, SIGABRT), /* abort; not SIGSYS, whose handler must stay */
     ANY(getpid),                    /* abort, names of temporary files */
     ANY(gettid),
     WITH(write, 0, STDERR_FILENO),  /* the log */
-    WITH(writev, 0, STDERR_FILENO), /* the C library's last words */
+    WITH(writev, 0, STDERR_FILENO), /* the C library's fatal messages */
     ANY(close),
     ANY(exit),
     ANY(exit_group),
-    ANY(set_robust_list), /* a thread that was made before, and begins only now */
+    ANY(set_robust_list), /* a thread that was made earlier and starts only now */
     ANY(rseq),
-    /* Memory of its own, that nothing can be executed in. */
+    /* Private memory without the right to execute. */
     ANY(brk),
     ANY(munmap),
     ANY(madvise),
     {SCMP_SYS(mmap), 2, {BITS(2, PROT_EXEC, 0), BITS(3, MAP_WHICH, MAP_MEMORY_ONLY)}},
 };
 
-/* What grows takes as well. Mover and collider have all their memory before they enter: they only
- * give it back, and the C library takes a little for its last words. */
+/* Processes that allocate while they run. Mover and collider have all their memory before they
+ * enter the sandbox: they only give it back, and the C library maps a little for its fatal
+ * messages. */
 static const struct rule growing[] = {
     ANY(mremap),
     {SCMP_SYS(mprotect), 1, {BITS(2, PROT_EXEC, 0)}},
 };
 
-/* The calls that the address sanitizer makes beside those of the process, also for its report. */
+/* The address sanitizer, also for its report. */
 #ifdef SANDBOX_SANITIZED
 static const struct rule sanitizing[] = {
     ANY(openat), ANY(read),     ANY(lseek),       ANY(readlink),    ANY(fstat),     ANY(newfstatat),
@@ -104,20 +105,20 @@ static const struct rule sanitizing[] = {
 };
 #endif
 
-/* A stand-by waits for the role's lock until the holder has died. */
+/* A stand-by process waits for the role's lock until the holder has died. */
 static const struct rule standing_by[] = {
     WITH(fcntl, 1, F_OFD_SETLKW),
 };
 
-/* Threads, which share all that the process is confined to; not processes. */
+/* Threads, which are confined like the process; no new processes. */
 static const struct rule threads[] = {
     {SCMP_SYS(clone), 1, {BITS(0, CLONE_THREAD, CLONE_THREAD)}},
     WITH(prctl, 0, PR_SET_NAME),
-    WITH(prctl, 0, PR_GET_NAME), /* Cyclone DDS names the thread in whatever it logs */
+    WITH(prctl, 0, PR_GET_NAME), /* Cyclone DDS logs the thread's name */
     ANY(sched_getaffinity),
 };
 
-/* Files; which ones is Landlock's part (ipc/sandbox/file_rules.c). */
+/* Files; Landlock decides which ones (ipc/sandbox/file_rules.c). */
 static const struct rule files[] = {
     ANY(openat),    ANY(read),       ANY(pread64),    ANY(write),     ANY(pwrite64),
     ANY(lseek),     ANY(newfstatat), ANY(fstat),      ANY(statx),     ANY(fstatfs),
@@ -126,13 +127,13 @@ static const struct rule files[] = {
     ANY(link),      ANY(linkat),     ANY(getdents64),
 };
 
-/* Drawing in software compiles shaders when it meets them; in hardware it talks to its device and
- * maps its memory. */
+/* Drawing. In software it compiles shaders when they are first used; in hardware it controls the
+ * device and maps its memory. */
 static const struct rule drawing[] = {
     ANY(mmap),
     ANY(mprotect),
     ANY(mkdir),   /* the driver's cache */
-    ANY(sysinfo), /* the C library's sorting asks how much memory there is */
+    ANY(sysinfo), /* qsort() reads the amount of memory */
     ANY(flock),
     ANY(poll),
     ANY(ppoll),
@@ -142,8 +143,7 @@ static const struct rule drawing[] = {
     {SCMP_SYS(ioctl), 1, {BITS(1, IOCTL_KIND, IOCTL_NVIDIA)}},
 };
 
-/* The sockets that there are, the pipe that wakes their threads, and new sockets of the internet
- * alone. */
+/* Open sockets, the pipe that wakes their threads, and new internet sockets only. */
 static const struct rule networking[] = {
     WITH(fcntl, 1, F_OFD_GETLK), /* whether a silent role is dead */
     ANY(write),
@@ -155,8 +155,8 @@ static const struct rule networking[] = {
     ANY(getsockopt),
     ANY(getsockname),
     ANY(pselect6),
-    ANY(sysinfo),   /* DDS sorts readers and types, and sorting asks how much memory there is */
-    ANY(uname),     /* DDS Security: the host's name, in what a participant says of itself again */
+    ANY(sysinfo),   /* DDS sorts readers and types by qsort() */
+    ANY(uname),     /* DDS Security: the host's name in repeated announcements */
     ANY(getrandom), /* its nonces and keys */
     ANY(read),
     ANY(bind),
@@ -178,34 +178,34 @@ static const struct rule serving[] = {
     ANY(sendmsg),
     ANY(shutdown),
     WITH(setsockopt, 1, IPPROTO_TCP),
-    /* Whose process a client is. */
+    /* The user and process of a client. */
     {SCMP_SYS(getsockopt), 2, {{1, SCMP_CMP_EQ, SOL_SOCKET, 0}, {2, SCMP_CMP_EQ, SO_PEERCRED, 0}}},
 };
 
-/* Waiting for sockets and for what wakes a thread. */
+/* Waiting for sockets and for a thread's wake-up descriptor. */
 static const struct rule polling[] = {
     ANY(poll),
     ANY(ppoll),
 };
 
-/* A client of the command socket, which connects again when the intake was restarted. */
+/* A client of the command socket, which reconnects when the intake was restarted. */
 static const struct rule commanding[] = {
     WITH(socket, 0, AF_UNIX),
     ANY(geteuid),
-    /* The runtime folder, as runtime_folder_open() does it: nothing can be read through that. */
+    /* The flags of runtime_folder_open(): nothing can be read through such a descriptor. */
     WITH(openat, 2, O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC),
     {SCMP_SYS(getsockopt), 2, {{1, SCMP_CMP_EQ, SOL_SOCKET, 0}, {2, SCMP_CMP_EQ, SO_PEERCRED, 0}}},
     ANY(fstat),
-    WITH(newfstatat, 3, AT_EMPTY_PATH), /* what fstat() is in the C library */
+    WITH(newfstatat, 3, AT_EMPTY_PATH), /* the C library's fstat() */
     ANY(connect),
     ANY(sendto),
     ANY(recvfrom),
 };
 
-/* What a console does beside serving pages: it looks at worlds that come and go, asks the
- * renderer's socket for pictures, and kills a role when somebody presses the button for it. */
-static const struct rule visiting[] = {
-    ANY(read), /* the eventfd of the desk, the pipe of the server's thread */
+/* A console beside its server: it watches worlds, asks the renderer's socket for pictures, and
+ * kills a role on a user's request. */
+static const struct rule world_watching[] = {
+    ANY(read), /* the command queue's eventfd, the server thread's pipe */
     ANY(write),
     WITH(fcntl, 1, F_OFD_GETLK), /* whether a silent role is dead */
     ANY(openat),                 /* to read alone, and not everything: ipc/sandbox/file_rules.c */
@@ -223,35 +223,35 @@ static const struct rule visiting[] = {
     {SCMP_SYS(mmap), 1, {BITS(2, PROT_WRITE | PROT_EXEC, 0)}},
 };
 
-/* The C library tries clone3 first, whose flags a filter cannot see; told that there is none, it
- * takes clone. */
-static const struct rule absent[] = {ANY(clone3)};
+/* The C library tries clone3 first, whose flags a filter cannot see. When clone3 does not exist, it
+ * uses clone. */
+static const struct rule missing[] = {ANY(clone3)};
 
-/* What a driver wishes for threads that it makes when it has much to do. It could be for any
- * process of the user's, and it does without. */
-static const struct rule wishes[] = {
+/* Drivers try these on threads that they start under load, and can do without. They are refused
+ * because they could be used on any process of the user. */
+static const struct rule optional[] = {
     ANY(sched_setscheduler),
     ANY(sched_setaffinity),
     ANY(setpriority),
 };
 
-/* What neither the keeper needs nor any process that it starts, which inherits this. These look
- * into other processes, ... */
-static const struct rule intruding[] = {
+/* Calls that neither the keeper needs nor any process that it starts, which inherits this list.
+ * These look into other processes, ... */
+static const struct rule process_access[] = {
     ANY(ptrace),      ANY(process_vm_readv),   ANY(process_vm_writev),
     ANY(pidfd_getfd), ANY(perf_event_open),    ANY(userfaultfd),
     ANY(kcmp),        WITH(ioctl, 1, TIOCSTI), /* types into the terminal */
 };
 
-/* ... these become another user, or change whose a file is, ... */
-static const struct rule becoming[] = {
+/* ... these change the user, or a file's owner, ... */
+static const struct rule user_changes[] = {
     ANY(setuid),    ANY(setgid),   ANY(setreuid), ANY(setregid),  ANY(setresuid),
     ANY(setresgid), ANY(setfsuid), ANY(setfsgid), ANY(setgroups), ANY(chown),
     ANY(fchown),    ANY(lchown),   ANY(fchownat),
 };
 
-/* ... these change what the system looks like, or make a system of one's own, ... */
-static const struct rule mounting[] = {
+/* ... these change the file system's mounts, or make new namespaces, ... */
+static const struct rule namespaces[] = {
     ANY(mount),
     ANY(umount2),
     ANY(pivot_root),
@@ -276,8 +276,9 @@ static const struct rule mounting[] = {
     {SCMP_SYS(clone), 1, {BITS(0, CLONE_NEWCGROUP, CLONE_NEWCGROUP)}},
 };
 
-/* ... and these are the kernel's administration, or large parts of it with a history of holes. */
-static const struct rule administering[] = {
+/* ... and these administer the kernel, or belong to large parts of it with a history of security
+ * holes. */
+static const struct rule administration[] = {
     ANY(bpf),
     ANY(io_uring_setup),
     ANY(io_uring_enter),
@@ -320,7 +321,7 @@ static const struct rule administering[] = {
     {                                                                                              \
         NULL, 0, 0                                                                                 \
     }
-#define EVERY_ROLE ALLOW(computing), LIST(absent, SCMP_ACT_ERRNO(ENOSYS))
+#define EVERY_ROLE ALLOW(computing), LIST(missing, SCMP_ACT_ERRNO(ENOSYS))
 #ifdef SANDBOX_SANITIZED
 static const struct list frame_lists[] = {EVERY_ROLE, ALLOW(standing_by), ALLOW(sanitizing), END};
 #else
@@ -332,25 +333,25 @@ static const struct list renderer_lists[] = {EVERY_ROLE,
                                              ALLOW(files),
                                              ALLOW(drawing),
                                              ALLOW(serving),
-                                             LIST(wishes, SCMP_ACT_ERRNO(EPERM)),
+                                             LIST(optional, SCMP_ACT_ERRNO(EPERM)),
                                              END};
 static const struct list intake_lists[] = {EVERY_ROLE, ALLOW(growing), ALLOW(serving),
                                            ALLOW(polling), END};
 static const struct list reporter_lists[] = {EVERY_ROLE,        ALLOW(growing),    ALLOW(threads),
                                              ALLOW(networking), ALLOW(commanding), END};
 static const struct list console_lists[] = {
-    EVERY_ROLE,     ALLOW(growing),    ALLOW(threads),  ALLOW(serving),
-    ALLOW(polling), ALLOW(commanding), ALLOW(visiting), END};
+    EVERY_ROLE,     ALLOW(growing),    ALLOW(threads),        ALLOW(serving),
+    ALLOW(polling), ALLOW(commanding), ALLOW(world_watching), END};
 static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(growing), ALLOW(files), END};
 
-/* Refused with EPERM and no trap: libraries of a role that starts may try what they can do without.
- */
+/* Refused with EPERM instead of a trap, because libraries of a role that starts may try calls that
+ * they can do without. */
 #define DENY(rules) LIST(rules, SCMP_ACT_ERRNO(EPERM))
-static const struct list keeper_lists[] = {DENY(intruding),
-                                           DENY(becoming),
-                                           DENY(mounting),
-                                           DENY(administering),
-                                           LIST(absent, SCMP_ACT_ERRNO(ENOSYS)),
+static const struct list keeper_lists[] = {DENY(process_access),
+                                           DENY(user_changes),
+                                           DENY(namespaces),
+                                           DENY(administration),
+                                           LIST(missing, SCMP_ACT_ERRNO(ENOSYS)),
                                            END};
 
 static const struct list *const role_lists[ROLE_COUNT + 1] = {
@@ -374,7 +375,7 @@ static int add_lists(scmp_filter_ctx filter, const struct list *list)
     return 0;
 }
 
-/* Signals go to the process itself: abort, and the trap's own end. */
+/* Signals to the process itself: abort, and the end of the trap's handler. */
 static int add_own_signals(scmp_filter_ctx filter)
 {
     const uint64_t self = (uint64_t)getpid();
@@ -390,10 +391,10 @@ static int add_own_signals(scmp_filter_ctx filter)
 static int set_attributes(scmp_filter_ctx filter)
 {
     int result = seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1);
-    /* Another architecture's calls have other numbers: nothing could be said of them. */
+    /* Calls of another architecture have other numbers, which the rules do not know. */
     if (result == 0)
         result = seccomp_attr_set(filter, SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS);
-    /* Kernels before 5.16 slow every process with a filter down, against speculation, unless told
+    /* Kernels before 5.16 slow down every process with a filter, against speculation, unless told
      * not to. */
     if (result == 0)
         result = seccomp_attr_set(filter, SCMP_FLTATR_CTL_SSB, 1);

@@ -1,11 +1,11 @@
-/* The system calls of each role, and the kernel's filter made of them. */
+/* The system calls of each role, and the kernel's filter made from them. */
 #ifndef JOLON_IPC_SANDBOX_SYSCALL_FILTER_H
 #define JOLON_IPC_SANDBOX_SYSCALL_FILTER_H
 
 #include "ipc/segment/role.h"
 
-/* Built with the address sanitizer: mover and collider are confined all the same, with a list of
- * what it does beside their work. */
+/* With the address sanitizer mover and collider are confined too, with an additional list for
+ * it. */
 #if defined(__SANITIZE_ADDRESS__)
 #define SANDBOX_SANITIZED
 #elif defined(__has_feature)
@@ -14,8 +14,8 @@
 #endif
 #endif
 
-/* Loads the role's filter, or of ROLE_NONE the keeper's, into every thread of the process, for
- * good. 0, or a negative errno. */
+/* Loads the role's filter, or the keeper's for ROLE_NONE, into every thread of the process,
+ * irrevocably. Returns 0, or a negative errno. */
 int syscall_filter_load(enum role role);
 
 #endif

@@ -1,5 +1,5 @@
-/* The handler of SIGSYS. The names of the system calls are looked up beforehand: what libseccomp
- * does for that may allocate, and a process may be trapped while it allocates. */
+/* The handler of SIGSYS. The names of the system calls are looked up beforehand, because libseccomp
+ * may allocate for that, and a process may be trapped while it allocates. */
 #include "ipc/sandbox/syscall_report.h"
 
 #include <errno.h>
@@ -11,10 +11,10 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#define CALLS_MAX  512 /* numbers above have no name here */
+#define CALLS_MAX  512 /* higher numbers are reported without a name */
 #define NAME_BYTES 32
 
-#define KERNEL_SET_BYTES 8 /* of a set of signals, as the kernel has it: a bit for each of 64 */
+#define KERNEL_SET_BYTES 8 /* of the kernel's signal set, one bit for each of 64 */
 
 static char names[CALLS_MAX][NAME_BYTES];
 static char beginning[96];
@@ -37,8 +37,8 @@ static size_t put_number(char *line, size_t at, unsigned number)
     return at;
 }
 
-/* Async-signal-safe. SIGSYS is back at its default action (SA_RESETHAND) and blocked until the
- * handler returns: then the second one, sent here, ends the process. */
+/* Async-signal-safe. SIGSYS has its default action again (SA_RESETHAND) and is blocked until the
+ * handler returns. Then the second SIGSYS, sent here, ends the process. */
 static void on_trap(int signal_number, siginfo_t *info, void *context)
 {
     char line[sizeof beginning + NAME_BYTES + 32];
@@ -53,13 +53,13 @@ static void on_trap(int signal_number, siginfo_t *info, void *context)
     }
     line[length++] = '\n';
     ssize_t written = write(STDERR_FILENO, line, length);
-    (void)written; /* nowhere left to complain */
+    (void)written; /* an error could not be reported anywhere */
     syscall(SYS_tgkill, getpid(), (pid_t)syscall(SYS_gettid), signal_number);
 }
 
-/* Threads of libraries begin with every signal blocked, and the kernel ends a process that blocks
- * the trap's signal without calling its handler. So nobody blocks it: these two stand in front of
- * the C library's functions, for this program and the shared libraries that it uses. */
+/* Threads of libraries start with every signal blocked, and the kernel ends a process that blocks
+ * SIGSYS without calling its handler. These two functions replace the C library's, for this program
+ * and its shared libraries, and never block SIGSYS. */
 int pthread_sigmask(int how, const sigset_t *wanted, sigset_t *before)
 {
     sigset_t set;

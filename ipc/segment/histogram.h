@@ -1,4 +1,4 @@
-/* Histograms of times, as the slots of the roles hold them. */
+/* Histograms of times, which the slots of the roles hold. */
 #ifndef JOLON_IPC_SEGMENT_HISTOGRAM_H
 #define JOLON_IPC_SEGMENT_HISTOGRAM_H
 
@@ -14,11 +14,11 @@ struct histogram {
 };
 
 void histogram_add(struct histogram *histogram, uint64_t ns);
-/* The value below which the fraction (0..1) of the entries lie [ns]; 0 when empty. */
+/* Returns the time below which this fraction (0..1) of the entries lies [ns], 0 when empty. */
 uint64_t histogram_quantile(const struct histogram *histogram, double fraction);
 
-/* The entries that came between two looks at a histogram that somebody else goes on filling; its
- * greatest is that of its highest bucket. */
+/* Writes into since the entries of now that are not in before, two copies of one histogram that
+ * another process fills. Its maximum is that of its highest bucket. */
 void histogram_since(struct histogram *since, const struct histogram *now,
                      const struct histogram *before);
 

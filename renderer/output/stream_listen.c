@@ -49,7 +49,7 @@ int stream_listen_here(struct stream *stream, enum role role, struct error_text 
         local_socket_listen(stream->world, suffix, SOCK_STREAM | SOCK_NONBLOCK, BACKLOG, error);
     if (fd < 0)
         return -1;
-    const struct http_listener listener = {.fd = fd, .local = true, .ours = true};
+    const struct http_listener listener = {.fd = fd, .local = true, .unix_socket = true};
     if (setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes) != 0) {
         error_text_set(error, "%s: cannot set the size of the socket's buffer: %s", suffix,
                        strerror(errno));

@@ -1,4 +1,4 @@
-/* The connections of a server: which one goes when all seats are taken, and which one is out of
+/* The connections of a server: which one goes when all slots are taken, and which one is out of
  * time. */
 #include "ipc/http/connection_limit.h"
 
@@ -22,7 +22,7 @@ static struct connection *connection[PAIRS];
 static int set_up(void **state)
 {
     (void)state;
-    limit = (struct connection_limit){.seats = CONNECTION_SEATS_MAX};
+    limit = (struct connection_limit){.slots = CONNECTION_SLOTS_MAX};
     for (unsigned i = 0; i < PAIRS; i++) {
         if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair[i]) != 0)
             return -1;
@@ -57,15 +57,15 @@ static struct connection *come(uint64_t now_ns)
 
 static void fill_with_newcomers(uint64_t now_ns)
 {
-    while (limit.taken < limit.seats)
+    while (limit.taken < limit.slots)
         come(now_ns);
 }
 
 static void fill_with_askers(uint64_t now_ns)
 {
-    while (limit.taken < limit.seats)
+    while (limit.taken < limit.slots)
         connection_note(come(now_ns), CONNECTION_ASKING, now_ns + 1);
-    for (uint32_t i = 0; i < limit.seats; i++)
+    for (uint32_t i = 0; i < limit.slots; i++)
         limit.connection[i].asked = true;
 }
 
@@ -117,7 +117,7 @@ static void test_who_takes_its_answer_stays(void **state)
 static void test_room_has_an_end(void **state)
 {
     (void)state;
-    while (limit.taken < CONNECTION_ROOM(limit.seats))
+    while (limit.taken < CONNECTION_ROOM(limit.slots))
         come(2 * SECOND);
     assert_null(connection_come(&limit, -1, 2 * SECOND));
     connection_leave(&limit, connection[1]);
