@@ -10,7 +10,7 @@
 #include <errno.h>
 #include <string.h>
 
-#define PIECES_A_WORKER 2u /* at a time */
+#define PIECES_A_WORKER 2u /* blocks taken at a time */
 
 int collider_init(struct collider *collider, const struct world *world,
                   const struct crater *craters, struct thread_pool *workers)
@@ -51,7 +51,7 @@ struct stage {
     struct collider *collider;
     struct table moved, next;
     uint32_t used;
-    uint32_t known; /* pieces of next that are what this process left */
+    uint32_t known; /* first blocks of next that still hold what this process left */
 };
 
 _Static_assert(BROAD_PHASE_ROWS_TAKEN % CHECKSUM_ROWS == 0, "rows are taken by whole pieces");
@@ -66,7 +66,7 @@ static void take_pieces(void *context, uint32_t first, uint32_t end, uint32_t wo
     }
 }
 
-/* Copies moved rows when they are about to be looked at. */
+/* Copies moved rows just before detection reads them. */
 static void take_rows(void *context, uint32_t first, uint32_t end)
 {
     take_pieces(context, first / CHECKSUM_ROWS, block_count(end), 0);
@@ -79,7 +79,7 @@ static void take_all(struct stage *stage)
                     PIECES_A_WORKER);
 }
 
-/* How many pieces of next still hold what this process left there two frames ago. */
+/* Returns how many blocks of next still hold what this process left there two frames ago. */
 static uint32_t known_pieces(const struct collider *collider, const struct moved *moved,
                              const struct state *next)
 {
@@ -107,8 +107,8 @@ static void draw_pairs(struct body_motion *motion, const struct pair_list *list)
     }
 }
 
-/* Copies the moved rows, while the broad phase looks at them, and finds the frame's pairs by the
- * method chosen. Few paths are drawn: those of pairs, if the method needs no others. */
+/* Copies the moved rows, block by block with the broad phase, and finds the frame's pairs by the
+ * scenario's method. Computes all paths only if the method needs them, else those of pairs. */
 static void find_pairs(struct stage *stage, const struct method_input *input)
 {
     struct collider *collider = stage->collider;
@@ -144,7 +144,7 @@ static void begin_head(struct state_head *head, const struct state_head *moved)
     head->checksum = 0;
 }
 
-/* Fixed objects are rarely damaged: their hash is kept from frame to frame until one is. */
+/* Fixed objects are rarely damaged, so their hash is kept from frame to frame until one is. */
 static uint64_t fixed_hash(struct collider *collider, const struct state *committed,
                            const struct state *next)
 {
@@ -155,8 +155,8 @@ static uint64_t fixed_hash(struct collider *collider, const struct state *commit
     return collider->fixed_hash;
 }
 
-/* The checksum of the frame that is now whole: what answers changed is hashed again. What the frame
- * added to the lists is not kept: one that is computed again may add something else. */
+/* The checksum of the finished frame; columns that responses changed are hashed again. The hashes
+ * of the lists are kept only up to the committed frame, since this frame may be computed again. */
 static uint64_t checksum(struct collider *collider, const struct state *committed,
                          const struct state *next)
 {

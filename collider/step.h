@@ -1,8 +1,8 @@
 /* The collider's step: from committed world k and the moved table to world k + 1 and its events.
- * Pure: no IPC, no clock, no I/O; the same bytes on any number of threads.
+ * Pure: no IPC, no clock, no I/O; the same bytes with any number of threads.
  *
- * Every contact of the frame is found with its time of impact and answered in the order of time;
- * what an answer changes of a body's way is swept again from that time on. */
+ * Every contact of the frame is found with its time of impact and resolved in the order of time. If
+ * the response changes a body's path, the new path is swept again from that time on. */
 #ifndef JOLON_COLLIDER_STEP_H
 #define JOLON_COLLIDER_STEP_H
 
@@ -26,7 +26,7 @@ struct collider {
     const struct world *world;
     struct crater_index craters;  /* cache of the committed craters */
     struct square_bounds heights; /* of the ground */
-    struct thread_pool *workers;  /* NULL: alone */
+    struct thread_pool *workers;  /* NULL: on the caller's thread */
     struct broad_phase broad;
     struct contact_queue contacts;
     struct body_motion motion;
@@ -34,32 +34,32 @@ struct collider {
     struct charges charges;
     struct method_workspace *workspace;
     struct pair_list pairs; /* what the method found */
-    /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: of none yet */
+    /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: none yet */
     uint64_t fixed_hash, fixed_hash_frame;
-    struct list_hashes lists;          /* of the committed craters and dents */
-    uint64_t left[2];                  /* checksums of the buffers that it left; 0: none */
-    uint64_t changed[CHECKSUM_BLOCKS]; /* columns that answers changed in this frame */
+    struct list_hashes lists; /* of the committed craters and dents */
+    uint64_t left[2];         /* checksums of the two buffers as this process left them; 0: none */
+    uint64_t changed[CHECKSUM_BLOCKS]; /* columns that responses changed in this frame */
 };
 
-/* Where the frame's events go: the ring from the committed end on. */
+/* Where the frame's events go: the ring, from the committed end on. */
 struct event_ring {
     struct event *slot;
     uint64_t slots; /* power of two */
 };
 
-/* craters: the world's list. 0, or -1 with errno ENOMEM. workers may be NULL and stays the
+/* craters: the world's list. Returns 0, or -1 with errno ENOMEM. workers may be NULL and stays the
  * caller's. */
 int collider_init(struct collider *collider, const struct world *world,
                   const struct crater *craters, struct thread_pool *workers);
 void collider_free(struct collider *collider);
 
-/* Fills next and the ring; reads committed and moved, writes neither. It takes no memory and asks
- * the kernel for nothing but to wake the workers. */
+/* Fills next and the ring; reads committed and moved, and writes neither. Takes no memory, and
+ * makes no system call except to wake the workers. */
 void collider_step(struct collider *collider, const struct state *committed,
                    const struct moved *moved, struct state *next, const struct event_ring *ring);
 
-/* What answers work with, over the frame that body_motion_begin was given; the sink is the caller's
- * to set. Part of collider_step, and for tests. */
+/* Returns the context of the responses for the frame that body_motion_begin was given; the caller
+ * sets the event writer. Part of collider_step, and for tests. */
 struct response_context collider_respond(struct collider *collider, struct state *next);
 
 #endif

@@ -1,5 +1,6 @@
-/* A block of rows at a time, four abreast, from columns to records. What is done to each is what
- * body_motion_take, pair_filter_box and strip_bins.h's functions do, to the bit. */
+/* Fills boxes and records from the columns, a block of rows at a time and four rows at once. The
+ * results are equal to the bit to those of body_motion_take, pair_filter_box and the functions of
+ * strip_bins.h. */
 #include "collider/broad_phase/body_boxes.h"
 
 #include "world/maths/cpu_dispatch.h"
@@ -10,8 +11,8 @@
 
 #define BLOCK     64
 #define LINE_ROWS 8           /* doubles in a cache line */
-#define AHEAD     (3 * BLOCK) /* rows between asking for memory and using it */
-#define LONG_M    64.0        /* a way's extent in x from which it is clipped to its strips */
+#define AHEAD     (3 * BLOCK) /* rows from the prefetch of a value to its use */
+#define LONG_M    64.0        /* extent in x from which a path is clipped to its strips */
 
 typedef double four __attribute__((vector_size(4 * sizeof(double))));
 typedef int64_t four_masks __attribute__((vector_size(4 * sizeof(int64_t))));
@@ -28,17 +29,17 @@ typedef uint32_t four_words __attribute__((vector_size(4 * sizeof(uint32_t))));
 _Static_assert(sizeof(struct path_box) == 6 * sizeof(float), "a box is its six bounds");
 
 struct block {
-    /* What is not read where it lies: few rows, new ones, ways that are drawn. */
+    /* Copies of what cannot be read in place: short blocks, new rows, computed paths. */
     _Alignas(64) double at[3][BLOCK], to[3][BLOCK];
     double grow[BLOCK];
     uint32_t rests[BLOCK]; /* BIN_RESTS or 0 */
     uint32_t tag[BLOCK];
     struct bin_record record[BLOCK];
-    uint32_t strip[BLOCK];      /* STRIP_COUNT: several */
-    struct path_box box[BLOCK]; /* of fewer rows than a block */
+    uint32_t strip[BLOCK];      /* STRIP_COUNT: the row is in several strips */
+    struct path_box box[BLOCK]; /* used for a block that is not full */
 };
 
-/* Where a block's ways begin, and where they lead. */
+/* Where the paths of a block begin and end. */
 struct ends {
     const double *at[3], *to[3];
 };
@@ -51,7 +52,7 @@ static struct ends own_ends(const struct block *block)
                          {block->to[0], block->to[1], block->to[2]}};
 }
 
-/* Of drawn ways. */
+/* Reads the ends from the computed paths. */
 static struct ends take_paths(struct block *block, const struct path *path, uint32_t count)
 {
     for (uint32_t k = 0; k < count; k++) {
@@ -68,7 +69,7 @@ static struct ends take_paths(struct block *block, const struct path *path, uint
     return own_ends(block);
 }
 
-/* Where the rows were and are; of those that are new, where they are. */
+/* Reads the ends from the columns. A new row begins where it ends. */
 static struct ends take_places(struct block *block, const struct body_motion *motion,
                                uint32_t first, uint32_t count)
 {
@@ -90,14 +91,14 @@ static struct ends take_places(struct block *block, const struct body_motion *mo
     return own_ends(block);
 }
 
-/* Who has no way, and does not turn either. */
+/* Marks the rows whose path has no length and that do not turn. */
 static void find_resting(const struct body_boxes *rows, struct block *block, uint32_t first,
                          uint32_t count)
 {
     const struct entities *w = &rows->motion->committed->entities,
                           *n = &rows->motion->next->entities;
     const double *angle[] = {w->heading, w->pitch, w->roll, n->heading, n->pitch, n->roll};
-    /* Where one stands another will: the next block's angles are asked for. */
+    /* A row that rests now was probably at rest before: prefetch the angles of the next block. */
     for (uint32_t i = 0; i < sizeof angle / sizeof angle[0]; i++) {
         for (uint32_t k = 0; k < BLOCK; k += LINE_ROWS)
             __builtin_prefetch(angle[i] + first + BLOCK + k);
@@ -125,7 +126,7 @@ static void take_kinds(const struct body_boxes *rows, struct block *block, uint3
     }
 }
 
-/* bin_steps of each. */
+/* bin_steps() of four. */
 static inline four_steps steps_of(four_metres metres)
 {
     const four_metres none = {0}, last = {BIN_LAST, BIN_LAST, BIN_LAST, BIN_LAST};
@@ -135,7 +136,7 @@ static inline four_steps steps_of(four_metres metres)
     return __builtin_convertvector(steps, four_steps);
 }
 
-/* Four rows' bounds to four boxes: low and high are x, y, z. */
+/* Writes the bounds of four rows into four boxes; low and high hold x, y, z. */
 static void put_boxes(struct path_box *box, const four_metres low[3], const four_metres high[3])
 {
     four_metres xy_01 = SHUFFLE(low[0], low[1], 0, 4, 1, 5);
@@ -151,7 +152,7 @@ static void put_boxes(struct path_box *box, const four_metres low[3], const four
     memcpy(box, bounds, sizeof bounds);
 }
 
-/* Bounds of four rows to four records. */
+/* Writes the bounds of four rows into four records. */
 static void put_records(struct block *block, uint32_t k, four_steps west, four_steps east,
                         four_steps north, four_steps south)
 {
@@ -167,8 +168,9 @@ static void put_records(struct block *block, uint32_t k, four_steps west, four_s
     }
 }
 
-/* moved: the ends are places, and a way leads from one to the other as body_motion_way has it; who
- * has none is noted, and it is true when anybody has none. */
+/* Computes boxes and records from the ends. moved: the ends are positions, and the path leads from
+ * one to the other as in body_motion_path. Rows whose path has no length are marked; returns true
+ * if there are any. */
 static bool bound_rows(struct block *block, const struct ends *ends, bool moved,
                        struct path_box *box)
 {
@@ -231,7 +233,7 @@ static void add_spanning(const struct body_boxes *rows, struct strip_bins *bins,
     }
 }
 
-/* Who cannot reach the ground, and is no round, has no end to be looked for. */
+/* Adds the row to the fliers if it can reach the ground or is a round. */
 static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweeper,
                       const struct ends *ends, uint32_t k, uint32_t tag)
 {

@@ -1,5 +1,6 @@
-/* The frame's rows on their way into the strips: each row's box, its record, and who flies. Rows
- * are independent of each other; each worker has its own sweep_worker to put them in. */
+/* The first pass of the broad phase: computes the box and the record of each row, puts the records
+ * into the strips' bins and lists the fliers. Rows are independent of each other; each worker has
+ * its own sweep_worker. */
 #ifndef JOLON_COLLIDER_BROAD_PHASE_BODY_BOXES_H
 #define JOLON_COLLIDER_BROAD_PHASE_BODY_BOXES_H
 
@@ -9,18 +10,18 @@
 
 #include <stdint.h>
 
-/* What the rows of a frame share. */
+/* What all workers share in a frame. */
 struct body_boxes {
     const struct method_input *input;
-    struct body_motion *motion; /* draws the ways; NULL: they are in input->path */
+    struct body_motion *motion; /* computes the paths; NULL: they are in input->path */
     struct path_box *box;       /* [rows] */
-    const double *grow;         /* [kinds] from a row's way to its box */
-    const uint32_t *flags;      /* [kinds] of a record's tag */
+    const double *grow;         /* [kinds] from a row's path to its box [m] */
+    const uint32_t *flags;      /* [kinds] bits of a record's tag */
 };
 
-/* Fills the boxes of rows first .. end - 1, adds their records to the sweeper's bins and who may
- * reach the ground, rounds and aircraft, to its fliers. Without motion every way must be drawn;
- * with it those of fliers are drawn here, and of who is in several strips. */
+/* Fills the boxes of rows first .. end - 1, adds their records to the worker's bins, and those that
+ * may reach the ground (rounds and aircraft) to its fliers. Without motion all paths must have been
+ * computed. With motion, the paths of fliers and of rows in several strips are computed here. */
 void body_boxes_bin(const struct body_boxes *rows, struct sweep_worker *sweeper, uint32_t first,
                     uint32_t end);
 

@@ -1,4 +1,4 @@
-/* The broad phase over strips. */
+/* The broad phase over strips of gridsquares. */
 #include "collider/broad_phase/broad_phase.h"
 
 #include "collider/broad_phase/body_boxes.h"
@@ -15,7 +15,7 @@
 
 #define ROWS_A_PIECE   (2 * BROAD_PHASE_ROWS_TAKEN)
 #define STRIPS_A_PIECE 4
-#define ALONE_MOST     8192 /* rows that one thread has done before others would have woken */
+#define ALONE_MOST     8192 /* rows that one thread finishes sooner than others would wake */
 
 int broad_phase_init(struct broad_phase *broad, const struct world *world,
                      struct thread_pool *workers)
@@ -50,8 +50,8 @@ struct job {
     struct body_boxes rows;
     struct strips strips;
     double grow[KIND_COUNT_MAX];
-    uint32_t flags[KIND_COUNT_MAX]; /* of the tag */
-    broad_phase_take *take;         /* NULL: rows are there */
+    uint32_t flags[KIND_COUNT_MAX]; /* bits of the tag */
+    broad_phase_take *take;         /* NULL: the rows are complete */
     void *context;
 };
 
@@ -112,7 +112,7 @@ void broad_phase_pairs(struct broad_phase *broad, const struct method_input *inp
 
 /* --- queries -----------------------------------------------------------------------------------*/
 
-/* Puts what was added since in order, each once. */
+/* Sorts the pairs that were added since, and removes doubles. */
 static void order_found(struct pair_list *found, uint32_t since)
 {
     struct pair *pair = found->pair + since;
@@ -127,7 +127,8 @@ static void order_found(struct pair_list *found, uint32_t since)
     found->count = since + kept;
 }
 
-/* Rows in several strips are found in each: a full list is ordered, each once. */
+/* Adds a pair. Rows in several strips are found in each, so doubles are removed when the list is
+ * full. */
 static void add_found(struct pair_list *found, uint32_t since, uint32_t a, uint32_t b)
 {
     if (found->count == found->capacity)

@@ -1,9 +1,8 @@
-/* Broad phase: which bodies can meet in this frame. The world is cut into strips, rows of 400
- * gridsquares. First each moving body goes, as a record of 16 bytes, into every strip that the box
- * around its sweep touches (nearly always one); then each strip is sorted from west to east and
- * swept, against itself and against the fixed objects that stand in it. Both passes run in
- * parallel, by rows and by strips, and the cost follows the bodies: 500 of them cost little more
- * than 500 records. */
+/* Broad phase: finds the bodies that may meet in this frame. The world is cut into strips, rows of
+ * 400 gridsquares. First a record of 16 bytes for each moving body goes into every strip that the
+ * box around its path touches (nearly always one). Then each strip is sorted from west to east and
+ * swept against itself and against its fixed objects. Both passes run in parallel, by rows and by
+ * strips. The cost grows with the number of bodies, not with the size of the world. */
 #ifndef JOLON_COLLIDER_BROAD_PHASE_BROAD_PHASE_H
 #define JOLON_COLLIDER_BROAD_PHASE_BROAD_PHASE_H
 
@@ -20,50 +19,50 @@ struct world;
 struct broad_phase {
     const struct world *world;
     struct thread_pool *workers;
-    struct path_box *box; /* [capacity] of every row that is there */
+    struct path_box *box; /* [capacity] of every used row */
     struct static_boxes fixed_boxes;
-    struct sweep_worker *sweeper; /* [sweepers] one a worker */
+    struct sweep_worker *sweeper; /* [sweepers] one for each worker */
     uint32_t sweepers;
-    struct pair_list list[THREAD_POOL_MAX]; /* one a worker: their order does not matter, since
-                                           contacts are put in a total order */
+    struct pair_list list[THREAD_POOL_MAX]; /* one for each worker; their order does not matter,
+                                               since contacts are put in a total order */
 };
 
-/* 0, or -1 with errno ENOMEM. The world's fixed objects are taken as they stand now. workers stays
- * the caller's. */
+/* Returns 0, or -1 with errno ENOMEM. The fixed objects' positions are read here. workers stays the
+ * caller's. */
 int broad_phase_init(struct broad_phase *broad, const struct world *world,
                      struct thread_pool *workers);
 void broad_phase_free(struct broad_phase *broad);
 
-/* Fills the lists with every pair whose swept boxes overlap, each once; of bodies that cross
- * several strips on a long way, only those that are near each other in one of them. Pairs that can
- * never collide are left out: a munition and its shooter, two wrecks at rest, a fixed object that
- * is already down. The set of pairs does not depend on the threads; their order may. */
+/* Fills the lists with every pair whose swept boxes overlap, each pair once. Bodies with long paths
+ * through several strips are paired only if they are near each other in one of the strips. Pairs
+ * that can never collide are left out: a munition and its shooter, two wrecks at rest, a destroyed
+ * fixed object. The set of pairs does not depend on the number of threads; their order may. */
 void broad_phase_pairs(struct broad_phase *broad, const struct method_input *input);
 
-/* Fills rows first .. end - 1 of what detection looks at; first is a multiple of
+/* Fills rows first .. end - 1 of the entities that detection reads; first is a multiple of
  * BROAD_PHASE_ROWS_TAKEN. */
 typedef void broad_phase_take(void *context, uint32_t first, uint32_t end);
 
-#define BROAD_PHASE_ROWS_TAKEN 1024 /* at a time: they fit a processor's own cache */
+#define BROAD_PHASE_ROWS_TAKEN 1024 /* at a time: so many fit into a core's cache */
 
-/* The same, of ways that are motion's and not drawn yet: drawn are then those of fliers and of who
- * is in several strips. Whoever else is in a pair, or found by a query, is the caller's to draw.
- * take is called once for all rows before they are looked at, a few at a time and on any thread;
- * NULL: they are there. */
+/* The same with paths that motion computes on demand. Only the paths of fliers and of rows in
+ * several strips are computed here; the caller computes the path of every other row in a pair or a
+ * query result. take is called once for each block of rows, on any thread, before the rows are
+ * read; NULL: the rows are complete. */
 void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_input *input,
                              struct body_motion *motion, broad_phase_take *take, void *context);
 
-/* How long a list must be that both queries are added to, one after the other, behind one pair. */
+/* Returns how many pairs a list must have room for if both queries add to it for one row. */
 uint64_t broad_phase_found_most(const struct world *world);
 
-/* After broad_phase_pairs: adds every row whose box (broad->box) meets this one, as pair.a, each
- * once, ascending; pair.b is 0. A row on a long way counts where it passes. found has room for
- * broad_phase_found_most() pairs. */
+/* After broad_phase_pairs: adds every row whose box (broad->box) meets this box as pair.a, each
+ * once, ascending; pair.b is 0. A row with a long path is found only near the path. found must have
+ * room for broad_phase_found_most() pairs. */
 void broad_phase_query(const struct broad_phase *broad, const struct method_input *input,
                        const struct path_box *box, struct pair_list *found);
 
-/* Adds every fixed object, standing or down, whose box meets this one, as pair.b with PAIR_FIXED,
- * each once, ascending; pair.a is 0. */
+/* Adds every fixed object, standing or destroyed, whose box meets this box, as pair.b with
+ * PAIR_FIXED, each once, ascending; pair.a is 0. */
 void broad_phase_query_fixed(const struct broad_phase *broad, const struct method_input *input,
                              const struct path_box *box, struct pair_list *found);
 

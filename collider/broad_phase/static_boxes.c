@@ -1,5 +1,5 @@
-/* The fixed objects' records, sorted by strip and west edge. All of a collider's start but this is
- * short, and a world waits for it: hence a radix sort of what 40,000 objects' order needs. */
+/* The fixed objects' records, sorted by strip and west edge. This takes most of a collider's start,
+ * so a radix sort is used. */
 #include "collider/broad_phase/static_boxes.h"
 
 #include "world/terrain/fixed_index.h"
@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More than a float's step at 50 km: the records' boxes hold the objects'. */
+/* More than a float's step at 50 km, so that a record's box contains the object's. */
 #define SLACK_M 0.01
 
-/* How far it reaches on the map, whatever collision.shape says. */
+/* Returns how far the object reaches on the map [m], for either collision.shape. */
 static double reach_of(const struct world *world, const struct fixed_object *object)
 {
     return fixed_index_of_fixed(object, world->kinds) + SLACK_M;
@@ -35,11 +35,11 @@ struct place {
     uint32_t object;
 };
 
-#define DIGIT_BITS 13 /* two of them hold any min_x */
+#define DIGIT_BITS 13 /* two digits hold any min_x */
 #define DIGITS     (1u << DIGIT_BITS)
 _Static_assert(2 * DIGIT_BITS >= BIN_BITS, "two passes sort by all of min_x");
 
-/* Stable: what is equal in this digit stays in its order. */
+/* Stable: objects that are equal in this digit stay in their order. */
 static void sort_digit(const struct place *from, struct place *to, uint32_t count, unsigned shift)
 {
     uint32_t next[DIGITS] = {0}, total = 0;
@@ -54,7 +54,7 @@ static void sort_digit(const struct place *from, struct place *to, uint32_t coun
         to[next[(uint32_t)from[i].min_x >> shift & (DIGITS - 1)]++] = from[i];
 }
 
-/* The objects by west edge, then by index; to be freed. NULL: out of memory. */
+/* Returns the objects by west edge, then by index; the caller frees them. NULL: out of memory. */
 static struct place *from_west(const struct world *world)
 {
     uint32_t count = world->counts.fixed;

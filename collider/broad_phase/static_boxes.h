@@ -1,6 +1,6 @@
-/* Where fixed objects stand, for the broad phase: in each strip of gridsquares the objects that
- * reach into it, from west to east (thesis row 37: none near a border is found late). Built once
- * from the world; fixed objects never move. Read-only afterwards; any thread. */
+/* The fixed objects for the broad phase: for each strip of gridsquares the objects that reach into
+ * it, from west to east, so that none near a border is missed (thesis row 37). Built once from the
+ * world, since fixed objects never move. Read-only afterwards; any thread. */
 #ifndef JOLON_COLLIDER_BROAD_PHASE_STATIC_BOXES_H
 #define JOLON_COLLIDER_BROAD_PHASE_STATIC_BOXES_H
 
@@ -14,26 +14,27 @@ struct world;
 #define STATIC_BOXES_COLUMN_BITS 18 /* columns of 512 m, in steps */
 #define STATIC_BOXES_COLUMNS     (1 << (BIN_BITS - STATIC_BOXES_COLUMN_BITS))
 
-#define STATIC_BOXES_AHEAD 4 /* this many records may be looked at from any of a strip's on */
+#define STATIC_BOXES_AHEAD 4 /* records that may be read behind any record of a strip */
 
 struct static_boxes {
-    /* By strip, then by min_x; each strip ends with STATIC_BOXES_AHEAD that lie beyond all. */
+    /* By strip, then by min_x; each strip ends with STATIC_BOXES_AHEAD records that lie east of
+     * everything. */
     struct bin_record *record;
     uint32_t start[STRIP_COUNT + 1];
-    /* [STRIP_COUNT][STATIC_BOXES_COLUMNS] the first record that reaches into the column or beyond:
-     * none before it does */
+    /* [STRIP_COUNT][STATIC_BOXES_COLUMNS] the first record that reaches into the column or lies
+     * beyond it */
     uint32_t *first;
 };
 
-/* 0, or -1 with errno ENOMEM. */
+/* Returns 0, or -1 with errno ENOMEM. */
 int static_boxes_init(struct static_boxes *fixed_boxes, const struct world *world);
 void static_boxes_free(struct static_boxes *fixed_boxes);
 
-/* The first strip that the object reaches into. */
+/* Returns the first strip that the object reaches into. */
 uint32_t static_boxes_strip(const struct world *world, const struct fixed_object *object);
 
-/* The strip's records from the first that can reach x [steps] on; the one that ends them lies
- * beyond every max_x. */
+/* Returns the strip's records from the first that can reach x [steps] on. The record that ends them
+ * lies beyond every max_x. */
 static inline const struct bin_record *static_boxes_from(const struct static_boxes *fixed_boxes,
                                                          uint32_t strip, int32_t x)
 {

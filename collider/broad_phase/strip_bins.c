@@ -1,4 +1,4 @@
-/* Chunks for bins, one after the other. */
+/* Chunks for bins. */
 #include "collider/broad_phase/strip_bins.h"
 
 #include "world/runtime/check.h"
@@ -7,14 +7,14 @@
 #include <string.h>
 #include <sys/mman.h>
 
-/* From here on the chunks are in large pages, if there are any: chunks that share an entry of the
- * address translation cache are cheaper, as 400 places to write to would else exhaust it. */
+/* From this size on chunks are in large pages, if there are any. Up to 400 chunks are written at
+ * the same time, which would exhaust the address translation cache with small pages. */
 #define SMALL_BYTES (UINT64_C(2) << 20)
 
 static void advise(struct bin_chunk *slab, uint64_t chunks)
 {
     uint64_t bytes = chunks * sizeof *slab;
-    if (bytes > SMALL_BYTES) /* advice: no matter whether it is taken */
+    if (bytes > SMALL_BYTES) /* only advice: the result does not matter */
         (void)madvise((char *)slab + SMALL_BYTES, bytes - SMALL_BYTES, MADV_HUGEPAGE);
 }
 

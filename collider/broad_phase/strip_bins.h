@@ -1,9 +1,9 @@
-/* Bins: what each strip of gridsquares holds in this frame, as 16-byte records. A strip is a row of
- * 400 squares, 125 m from north to south and the world's 50 km from west to east.
+/* Bins: the contents of each strip of gridsquares in this frame, as 16-byte records. A strip is a
+ * row of 400 squares, 125 m from north to south and 50 km from west to east.
  *
- * Every worker fills bins of its own, so that none waits; a strip is the sum of its workers' bins.
- * Records lie in chunks of 1 KB that are taken one after the other, so the memory that is touched
- * follows the bodies. */
+ * Every worker fills bins of its own, so that no worker waits; a strip is the sum of its workers'
+ * bins. Records lie in chunks of 1 KB, taken one after the other, so that the memory in use follows
+ * the number of bodies. */
 #ifndef JOLON_COLLIDER_BROAD_PHASE_STRIP_BINS_H
 #define JOLON_COLLIDER_BROAD_PHASE_STRIP_BINS_H
 
@@ -16,29 +16,30 @@
 
 #define STRIP_COUNT GRIDSQUARE_PER_SIDE
 
-/* A record's tag: a row, or a fixed object, and what is asked so often that it must be at hand. */
+/* A record's tag: the row or the fixed object, and the bits that comparisons need. */
 #define BIN_ROW    (CAPACITY_MAX - 1u)
-#define BIN_RESTS  0x00100000u /* its way has no length */
-#define BIN_ROUND  0x00200000u /* a munition: pair_same_shooter decides */
-#define BIN_AIR    0x00400000u /* an aircraft: pair_filter_tests_fixed decides */
-#define BIN_LONG   0x00800000u /* a long way: narrower in each strip than its box is */
+#define BIN_RESTS  0x00100000u /* its path has no length */
+#define BIN_ROUND  0x00200000u /* a munition: pair_same_shooter must be asked */
+#define BIN_AIR    0x00400000u /* an aircraft: pair_filter_tests_fixed must be asked */
+#define BIN_LONG   0x00800000u /* a long path: in each strip it is narrower than its box */
 #define BIN_WIDE   0x01000000u /* wider than BIN_WIDE_STEPS, or long */
 #define BIN_OBJECT 0x7fffffffu /* of a fixed object's tag: its index */
-#define BIN_SPANS  0x80000000u /* in several strips */
+#define BIN_SPANS  0x80000000u /* the body is in several strips */
 
-/* A box in one strip, in whole steps of 1/512 m: x from the world's west edge, z from the strip's
- * north edge and cut off at the strip's edges. A bound is rounded down on both sides, which keeps
- * the order of any two and so every overlap. */
+/* A box within one strip, in whole steps of 1/512 m: x from the world's west edge, z from the
+ * strip's north edge and clipped to the strip. All bounds are rounded down, which keeps the order
+ * of any two bounds and so every overlap. */
 struct bin_record {
-    int32_t min_x, max_x; /* 0 .. BIN_LAST */
-    uint32_t z;           /* low | high << 16 */
+    int32_t min_x,
+        max_x;  /* Computes the half-planes that bound an outline, widened by the slack. */
+    uint32_t z; /* low | high << 16 */
     uint32_t tag;
 };
 
 #define BIN_STEPS_PER_M 512
 #define BIN_STRIP_STEPS 64000    /* 125 m */
-#define BIN_LAST        25599998 /* the last within the world that a float can hold */
-#define BIN_BITS        25       /* of any number of steps */
+#define BIN_LAST        25599998 /* the last one within the world that a float can hold */
+#define BIN_BITS        25       /* bits of any number of steps */
 #define BIN_WIDE_STEPS  (16 * BIN_STEPS_PER_M)
 
 _Static_assert(BIN_STRIP_STEPS == (int)GRIDSQUARE_SIDE_M * BIN_STEPS_PER_M,
@@ -51,28 +52,28 @@ _Static_assert(sizeof(struct bin_record) == 16, "four to a cache line");
 #define BIN_CHUNK_RECORDS (BIN_CHUNK_BYTES / sizeof(struct bin_record) - 1)
 
 struct bin_chunk {
-    /* Of the same strip and full: the one before, and the one before that; NULL: none. */
+    /* The two full chunks of the same strip before this one; NULL: none. */
     struct bin_chunk *before, *before_that;
     struct bin_record record[BIN_CHUNK_RECORDS];
 };
 
 _Static_assert(sizeof(struct bin_chunk) == BIN_CHUNK_BYTES, "chunks lie on borders of their size");
 
-#define BIN_SLABS        24 /* from one chunk on, enough for CAPACITY_MAX rows in all strips */
+#define BIN_SLABS        24 /* the first of one chunk; room for CAPACITY_MAX rows in all strips */
 #define BIN_STRIPS_A_ROW 8u
 
 /* One worker's bins. */
 struct strip_bins {
-    struct bin_record *next[STRIP_COUNT]; /* where the next record goes; on a multiple of
-                                             BIN_CHUNK_BYTES there is no room for it */
-    /* Chunks lie in slabs that are kept from frame to frame: slab i has first << i of them. Chunks
-     * point at each other, so a frame that needs more gets another slab, and nothing moves. */
-    struct bin_chunk *slab[BIN_SLABS]; /* NULL: no frame has needed it */
+    struct bin_record *next[STRIP_COUNT]; /* where the next record goes; at a multiple of
+                                             BIN_CHUNK_BYTES the chunk is full */
+    /* Chunks lie in slabs that are kept from frame to frame; slab i has first << i chunks. When a
+     * frame needs more, another slab is added. Nothing moves, since chunks point at each other. */
+    struct bin_chunk *slab[BIN_SLABS]; /* NULL: no frame has needed it yet */
     uint32_t first;
-    uint32_t at, chunks; /* the frame takes from this slab, and has taken so many of it */
+    uint32_t at, chunks; /* the slab in use, and how many of its chunks this frame has taken */
 };
 
-/* Set aside are chunks for this many rows in BIN_STRIPS_A_ROW strips each. 0, or -1 with errno
+/* Reserves chunks for this many rows in BIN_STRIPS_A_ROW strips each. Returns 0, or -1 with errno
  * ENOMEM. */
 int strip_bins_init(struct strip_bins *bins, uint32_t rows);
 void strip_bins_free(struct strip_bins *bins);
@@ -80,8 +81,8 @@ void strip_bins_free(struct strip_bins *bins);
 /* Empties the bins and keeps their memory. */
 void strip_bins_clear(struct strip_bins *bins);
 
-/* A new chunk for the strip: where its first record goes. A kernel that refuses another slab ends
- * the process. */
+/* Gives the strip a new chunk and returns the place of its first record. If the kernel refuses
+ * memory for another slab, the process ends. */
 struct bin_record *strip_bins_chunk(struct strip_bins *bins, uint32_t strip);
 
 static inline void strip_bins_add(struct strip_bins *bins, uint32_t strip, struct bin_record record)
@@ -93,7 +94,8 @@ static inline void strip_bins_add(struct strip_bins *bins, uint32_t strip, struc
     bins->next[strip] = at + 1;
 }
 
-/* The strip's newest chunk and how many records it holds; those before it are full. NULL: none. */
+/* Returns the strip's newest chunk and how many records it holds; those before it are full. NULL:
+ * none. */
 static inline const struct bin_chunk *strip_bins_last(const struct strip_bins *bins, uint32_t strip,
                                                       uint32_t *count)
 {
@@ -106,11 +108,11 @@ static inline const struct bin_chunk *strip_bins_last(const struct strip_bins *b
     return chunk;
 }
 
-/* Metres as steps, still a float; what lies outside the world is at its edge. Ascends. */
+/* Returns metres as steps, still a float, clamped to the world. Monotonic. */
 static inline float bin_scaled(float metres)
 {
     float steps = metres * BIN_STEPS_PER_M;
-    steps = steps > 0.0f ? steps : 0.0f; /* not a number gives 0 */
+    steps = steps > 0.0f ? steps : 0.0f; /* NaN becomes 0 */
     return steps < (float)BIN_LAST ? steps : (float)BIN_LAST;
 }
 
@@ -124,7 +126,7 @@ static inline uint32_t bin_strip(float z)
     return (uint32_t)bin_steps(z) / BIN_STRIP_STEPS;
 }
 
-/* A record's z in the strip. */
+/* Returns a record's z within the strip. */
 static inline uint32_t bin_z(float min_z, float max_z, uint32_t strip)
 {
     int32_t edge = (int32_t)strip * BIN_STRIP_STEPS;
@@ -134,7 +136,8 @@ static inline uint32_t bin_z(float min_z, float max_z, uint32_t strip)
     return (uint32_t)low | (uint32_t)high << 16;
 }
 
-/* Without branches: in no order, half of the comparisons come out either way. */
+/* Returns true if the boxes overlap. Without branches, which could not be predicted for unsorted
+ * records. */
 static inline bool bin_meet(const struct bin_record *p, const struct bin_record *q)
 {
     return (p->min_x <= q->max_x) & (q->min_x <= p->max_x) & ((p->z & 0xffffu) <= q->z >> 16) &

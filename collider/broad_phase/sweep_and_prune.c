@@ -1,7 +1,7 @@
-/* Counting sort by west edge, then a sweep over neighbours in order, many at a time.
+/* Counting sort by west edge, then a sweep over neighbours in that order, many at a time.
  *
- * Buckets are not sorted within: a record is compared with all that follow it up to the end of the
- * bucket of its east edge, and the comparison looks at both sides. */
+ * Records within a bucket are not sorted. Each record is compared with all that follow it up to the
+ * end of its east edge's bucket, and the comparison looks at both edges. */
 #include "collider/broad_phase/sweep_and_prune.h"
 
 #include "world/maths/cpu_dispatch.h"
@@ -13,14 +13,14 @@
 
 #include <string.h>
 
-#define SORT_LEAST     6u  /* below it every pair is compared */
-#define BUCKET_BITS    16u /* at most: a quarter of a megabyte, within a processor's own cache */
+#define SORT_LEAST     6u  /* with fewer records every pair is compared */
+#define BUCKET_BITS    16u /* at most: a quarter of a megabyte, which fits into a core's cache */
 #define BLOCK          16u /* records compared at a time */
-#define NEAR           3u  /* neighbours that every record is compared with */
+#define NEAR           3u  /* following records that every record is compared with */
 #define PADDING        (2 * BLOCK)
 #define PREFETCH_PAIRS 8u
 #define LINE_BYTES     64u
-#define LONG_SLACK_M   0.05 /* more than the strips' borders are uncertain by */
+#define LONG_SLACK_M   0.05 /* more than rounding moves the strips' borders */
 
 /* --- memory ------------------------------------------------------------------------------------*/
 
@@ -74,11 +74,11 @@ struct sweep_and_prune_span sweep_and_prune_span(const struct path *path,
     struct sweep_and_prune_span span = {bin_steps(box->min_x), bin_steps(box->max_x)};
     if (dz == 0.0)
         return span;
-    /* When the way is nearer to the strip than the body reaches. */
+    /* The part of the path that is nearer to the strip than the body's reach. */
     double reach = grow + LONG_SLACK_M, from = 0.0, to = 1.0;
     double enter = (GRIDSQUARE_SIDE_M * (double)strip - reach - path->at.z) / dz;
     double leave = (GRIDSQUARE_SIDE_M * (double)(strip + 1) + reach - path->at.z) / dz;
-    if (strip == 0) /* what lies outside the world is in the strip at its edge */
+    if (strip == 0) /* bodies outside the world belong to the strip at its edge */
         enter = dz > 0.0 ? -INFINITY : INFINITY;
     if (strip == STRIP_COUNT - 1)
         leave = dz > 0.0 ? INFINITY : -INFINITY;
@@ -117,7 +117,8 @@ static uint32_t later(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-/* Two that are in several strips both are a pair in the first in which they meet. */
+/* Returns true if both bodies met in an earlier strip: bodies in several strips are a pair in the
+ * first strip in which they meet. */
 static bool met_before(const struct strips *strips, uint32_t a, uint32_t b, uint32_t strip)
 {
     uint32_t first =
@@ -164,7 +165,7 @@ static void take_fixed(const struct strips *strips, struct sweep_worker *sweeper
         (tag & record->tag & BIN_SPANS &&
          met_object_before(strips, tag, record, static_boxes_strip(input->world, object), strip)))
         return;
-    /* No other strip looks at it, or it is drawn. */
+    /* An aircraft's path may not have been computed yet. */
     if (tag & BIN_AIR && strips->motion)
         body_motion_draw(strips->motion, row);
     if (tag & BIN_AIR && !pair_filter_tests_fixed(input, row))
@@ -212,7 +213,7 @@ static void gather(const struct strips *strips, struct sweep_worker *sweeper, ui
     sweeper->count = total;
 }
 
-/* At least as many buckets as records over all of the world. */
+/* Chooses the bucket width so that the world has at least as many buckets as there are records. */
 static void set_buckets(struct sweep_worker *sweeper)
 {
     uint32_t bits = 5;
@@ -221,8 +222,8 @@ static void set_buckets(struct sweep_worker *sweeper)
     sweeper->shift = BIN_BITS - bits;
 }
 
-/* Takes the records apart, each word in a row. All four are taken, for else gcc makes no vectors.
- */
+/* Splits the records into one array for each word. All four words are copied, since gcc vectorises
+ * nothing less. */
 static void spread(const uint32_t *restrict word, int32_t *restrict min_x, int32_t *restrict max_x,
                    int32_t *restrict low_z, int32_t *restrict high_z, uint32_t *restrict tag)
 {
@@ -263,7 +264,7 @@ static void sort_records(struct sweep_worker *sweeper)
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
 
-/* hit[k]: does record k meet the one `offset` after it? */
+/* Sets hit[k] if record k meets the one `offset` after it. */
 static void compare_neighbours(const int32_t *restrict min_x, const int32_t *restrict max_x,
                                const int32_t *restrict low_z, const int32_t *restrict high_z,
                                uint32_t offset, uint8_t *restrict hit)
@@ -273,7 +274,7 @@ static void compare_neighbours(const int32_t *restrict min_x, const int32_t *res
                  (low_z[k + offset] <= high_z[k]) & (low_z[k] <= high_z[k + offset]);
 }
 
-/* hit[k]: does record k meet this one? */
+/* Sets hit[k] if record k meets this box. */
 static void compare_with(const int32_t *restrict min_x, const int32_t *restrict max_x,
                          const int32_t *restrict low_z, const int32_t *restrict high_z,
                          const struct bin_record *restrict one, uint8_t *restrict hit)
@@ -285,7 +286,7 @@ static void compare_with(const int32_t *restrict min_x, const int32_t *restrict 
                  (one_low <= high_z[k]);
 }
 
-/* hit[k]: does the bucket of record k's east edge hold records beyond its near neighbours? */
+/* Sets hit[k] if the bucket of record k's east edge holds records beyond its NEAR neighbours. */
 static void compare_buckets(const int32_t *restrict min_x, const int32_t *restrict max_x,
                             uint32_t shift, uint8_t *restrict hit)
 {
@@ -293,7 +294,7 @@ static void compare_buckets(const int32_t *restrict min_x, const int32_t *restri
         hit[k] = min_x[k + NEAR + 1] >> shift <= max_x[k] >> shift;
 }
 
-/* Which of the bytes are 1. */
+/* Lists the places of the bytes that are 1 and returns their number. */
 static uint32_t list_hits(const uint8_t *hit, uint8_t *place)
 {
     uint32_t count = 0;
@@ -329,7 +330,7 @@ static void sweep_far(struct sweep_worker *sweeper, uint32_t i)
     }
 }
 
-/* Compares each of a block with its neighbours to the east. */
+/* Compares each record of a block with its neighbours to the east. */
 static void sweep_block(struct sweep_worker *sweeper, uint32_t i)
 {
     uint8_t hit[BLOCK], place[BLOCK];
@@ -367,8 +368,8 @@ static void sweep_few(struct sweep_worker *sweeper)
 
 /* --- fixed objects -----------------------------------------------------------------------------*/
 
-/* Looks for the objects that one record meets: a few at a time and without branches, since none is
- * met as a rule, but how many are passed on the way east is anyone's guess. */
+/* Finds the objects that one record meets. Looks at a few at a time and without branches: as a rule
+ * none is met, and the number of objects passed cannot be predicted. */
 static void look_around(const struct strips *strips, struct sweep_worker *sweeper,
                         const struct bin_record *one, uint32_t strip)
 {
@@ -384,7 +385,7 @@ static void look_around(const struct strips *strips, struct sweep_worker *sweepe
     }
 }
 
-/* Looks for the sorted records that one object meets, but for wide ones. */
+/* Finds the sorted records that one object meets, except wide ones. */
 static void look_from(const struct strips *strips, struct sweep_worker *sweeper,
                       const struct bin_record *object, uint32_t strip)
 {

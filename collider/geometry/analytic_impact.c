@@ -1,11 +1,12 @@
-/* Swept spheres by the quadratic, swept points against triangles by their edges. */
+/* Swept spheres by the quadratic equation, swept points against the terrain's triangles edge by
+ * edge. */
 #include "collider/geometry/analytic_impact.h"
 
 #include "world/terrain/gridsquare.h"
 
 #include <stdint.h>
 
-#define CRATER_STEP_M 0.5 /* finer than any crater is wide */
+#define CRATER_STEP_M 0.5 /* finer than the width of any crater */
 #define BISECTIONS    24
 
 bool analytic_impact_spheres(const struct path *a, const struct path *b, double reach, double from,
@@ -24,7 +25,8 @@ bool analytic_impact_spheres(const struct path *a, const struct path *b, double 
     double discriminant = nearing * nearing - vec3_dot(w, w) * gap;
     if (discriminant < 0.0)
         return false;
-    /* The smaller root in the form that loses no digits: gap over the sum of two positives. */
+    /* The smaller root in the form without cancellation: gap over the sum of two positive
+     * numbers. */
     double time = from + gap / (sqrt(discriminant) - nearing);
     if (time > 1.0)
         return false;
@@ -54,10 +56,10 @@ static bool craters_near(const struct crater_index *craters, struct vec3 p, stru
     return false;
 }
 
-/* Lines that a straight way crosses one after the other: value + rate * t = line * spacing. */
+/* Lines that a straight path crosses one after the other: value + rate * t = line * spacing. */
 struct lines {
     double value, rate, spacing;
-    double line, step; /* the next one, and +1 or -1 to the one after */
+    double line, step; /* the next line, and +1 or -1 to the line after it */
 };
 
 static struct lines lines_along(double value, double rate, double spacing)
@@ -67,7 +69,7 @@ static struct lines lines_along(double value, double rate, double spacing)
     return (struct lines){value, rate, spacing, line, rate > 0.0 ? 1.0 : -1.0};
 }
 
-/* Time of the next crossing; never when the way runs along the lines. */
+/* Time of the next crossing; INFINITY if the path runs along the lines. */
 static double lines_next(const struct lines *lines)
 {
     return lines->rate != 0.0 ? (lines->line * lines->spacing - lines->value) / lines->rate
@@ -89,7 +91,7 @@ static struct edges edges_along(const struct terrain *terrain, const struct path
     }};
 }
 
-/* Time since the path's start at which it crosses the next edge, which is then behind it. */
+/* Advances past the next edge and returns when, since its start, the path crosses it. */
 static double edges_cross(struct edges *edges)
 {
     double time = lines_next(&edges->lines[0]);
@@ -136,7 +138,7 @@ bool analytic_impact_ground(const struct terrain *terrain, const struct crater_i
             edge = path->since + edges_cross(&edges);
         double there = clearance(terrain, craters, path, next);
         if (there < 0.0) {
-            /* Between edges the clearance is a straight line; on craters it is not. */
+            /* Between edges the clearance is linear in time, except on craters. */
             *toi = cratered ? bisect(terrain, craters, path, now, next)
                             : now + (next - now) * here / (here - there);
             return true;

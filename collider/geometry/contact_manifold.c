@@ -1,8 +1,9 @@
-/* The foremost vertices of each body, seen along the normal, have a convex outline; the patch is
- * one outline clipped by the other (Sutherland and Hodgman 1974), which is widened by the slack. */
+/* The foremost vertices of each body along the normal have a convex outline. The manifold is one
+ * outline clipped by the other (Sutherland and Hodgman 1974), which is widened by the slack. */
 #include "collider/geometry/contact_manifold.h"
 
-#define MERGE_M   1e-6 /* nearer vertices are one: an edge between them would have no direction */
+#define MERGE_M 1e-6 /* nearer vertices are merged: an edge between them would have no direction   \
+                      */
 #define LINES_MAX (CONTACT_MANIFOLD_POINTS_MAX + 4)
 
 struct uv {
@@ -14,13 +15,13 @@ struct outline {
     uint32_t count;
 };
 
-/* Inside: u * along.u + v * along.v <= offset. */
+/* The half-plane u * along.u + v * along.v <= offset. */
 struct line {
     struct uv along; /* unit, outwards */
     double offset;
 };
 
-/* The plane that everything is seen in. */
+/* The plane of projection, across the normal. */
 struct view {
     struct vec3 u, v, normal;
 };
@@ -47,8 +48,8 @@ static void add(struct outline *outline, struct uv p)
         outline->point[outline->count++] = p;
 }
 
-/* The vertices within the slack of the foremost in a direction, as seen in the view from origin on.
- * How far the foremost reaches along it goes to *reach. */
+/* Collects the vertices within the slack of the foremost in a direction, projected relative to
+ * origin. *reach is the extent of the foremost in that direction [m]. */
 static void foremost(const struct convex *convex, struct vec3 origin, const struct view *view,
                      double side, double *reach, struct outline *outline)
 {
@@ -72,7 +73,7 @@ static double left_of(struct uv a, struct uv b, struct uv p)
     return (b.u - a.u) * (p.v - a.v) - (p.u - a.u) * (b.v - a.v);
 }
 
-/* Sorts by u, then v: few points. */
+/* Sorts by u, then v. Insertion sort: there are few points. */
 static void sort(struct outline *outline)
 {
     for (uint32_t i = 1; i < outline->count; i++) {
@@ -88,7 +89,7 @@ static void sort(struct outline *outline)
     }
 }
 
-/* Leaves the convex outline, anticlockwise (Andrew 1979). */
+/* Reduces the points to their convex outline, anticlockwise (Andrew 1979). */
 static void wrap(struct outline *outline)
 {
     struct uv chain[2 * CONTACT_MANIFOLD_POINTS_MAX];
@@ -104,7 +105,7 @@ static void wrap(struct outline *outline)
                 count--;
             chain[count++] = p;
         }
-        count--; /* the other way begins with it */
+        count--; /* the other chain begins with this point */
     }
     for (uint32_t i = 0; i < count; i++)
         outline->point[i] = chain[i];
@@ -132,7 +133,7 @@ static uint32_t lines_of(const struct outline *outline, struct line line[LINES_M
     for (uint32_t i = 0; i < outline->count; i++) {
         struct uv p = outline->point[i], q = outline->point[(i + 1) % outline->count];
         line[lines++] = line_through(p, q.v - p.v, p.u - q.u);
-        if (outline->count == 2) /* of an edge also its ends */
+        if (outline->count == 2) /* an edge also needs bounds at its ends */
             line[lines++] = line_through(q, q.u - p.u, q.v - p.v);
     }
     return lines;
@@ -143,7 +144,7 @@ static double beyond(const struct line *line, struct uv p)
     return line->along.u * p.u + line->along.v * p.v - line->offset;
 }
 
-/* Cuts off what is beyond the line; cut is where the rest is put together. */
+/* Cuts off what is beyond the line, by way of the buffer cut. */
 static void clip(struct outline *outline, const struct line *line, struct outline *cut)
 {
     cut->count = 0;
@@ -187,7 +188,7 @@ bool contact_manifold_between(const struct convex *a, const struct convex *b, st
     foremost(b, a->at, &view, -1.0, &reach_b, &outline[1]);
     wrap(&outline[0]);
     wrap(&outline[1]);
-    bool swap = outline[1].count < outline[0].count; /* a point on a face stays a point */
+    bool swap = outline[1].count < outline[0].count; /* a point on a face remains a point */
     struct outline *left = &outline[swap], *by = &outline[!swap];
     uint32_t lines = lines_of(by, line);
     for (uint32_t i = 0; i < lines && left->count > 0; i++)

@@ -1,39 +1,42 @@
-/* The nearest point of the difference of two bodies to the origin, round by round: the simplex of
- * at most four of its corners that is nearest so far, and the corner farthest towards the origin.
+/* Finds the point of the Minkowski difference of two bodies that is nearest to the origin. Each
+ * round keeps the nearest simplex of at most four corners and adds the corner farthest towards the
+ * origin.
  *
- * What makes it hold for thin and flat simplices: a simplex's nearest point comes from modified
- * Gram-Schmidt, which is backward stable (Bjorck 1967), so that it is exact for corners moved by
- * rounding alone; of all faces at the new corner the nearest is taken. Every point on the way is
- * one of both bodies, so that the distance is never less than what is known; and every plane on the
- * way keeps the bodies apart, so that it is never more: the two meet, or it is looked again from
- * elsewhere. */
+ * Why it is robust for thin and flat simplices: a simplex's nearest point is computed by modified
+ * Gram-Schmidt, which is backward stable (Bjorck 1967), so it is exact for corners moved by
+ * rounding alone; and the nearest of all faces at the new corner is taken. Every point on the way
+ * belongs to both bodies, so the distance is an upper bound. Every plane on the way separates the
+ * bodies, which gives a lower bound. If the two bounds do not meet, the search starts again from
+ * another corner. */
 #include "collider/geometry/gjk.h"
 
-#define ROUNDS     64    /* of one look; most end after ten */
-#define LOOKS      8     /* more, from the corners of a cube, where the first is not sure */
-#define NEAR_M     1e-13 /* as near as doubles tell for bodies of tens of metres */
-#define NEAR_SHARE 1e-15 /* of the distance, for far ones */
-#define SURE_M     1e-11 /* the nearest points and the plane between them agree to this */
-#define FLAT       1e-28 /* an edge this little off the others [share of its length, squared] */
-/* Where the origin is over the very border of two faces, rounding can hide the next face from the
- * present one: then a corner is taken that brings the point no farther than this, a few times. */
+#define ROUNDS     64 /* of one search; most end after ten */
+#define LOOKS      8 /* further searches, from the corners of a cube, if the first is not certain */
+#define NEAR_M     1e-13 /* accuracy of doubles for bodies of tens of metres */
+#define NEAR_SHARE 1e-15 /* the same as a share of large distances */
+#define SURE_M     1e-11 /* largest difference of the two bounds of a certain result */
+#define FLAT                                                                                       \
+    1e-28 /* least part of an edge perpendicular to the others [share of its length, squared] */
+/* If the origin is exactly over the border of two faces, rounding can hide the next face from the
+ * present one. Then a corner is accepted that increases the distance by no more than this, at most
+ * TIES times. */
 #define TIE  1e-6 /* [share] */
 #define TIES 12
 
-/* Of the difference: a vertex of a less one of b. */
+/* A corner of the difference: a vertex of a minus a vertex of b. */
 struct corner {
     struct vec3 w;
     uint32_t a, b;
 };
 
-/* Some corners and the point nearest to the origin between them. */
+/* Up to four corners, and the point between them that is nearest to the origin. */
 struct face {
     const struct corner *corner[4];
-    double weight[4]; /* > 0, together 1 */
+    double weight[4]; /* > 0, their sum is 1 */
     int count;
     struct vec3 nearest;
-    double square;       /* its distance, squared */
-    struct vec3 edge[3]; /* square to each other; they span what the corners do */
+    double square;       /* squared distance */
+    struct vec3 edge[3]; /* orthogonal; they span the same space as the corners */
     double edge_square[3];
     int edges;
 };
@@ -71,7 +74,7 @@ static struct corner corner_of(const struct convex *a, const struct convex *b, u
     return (struct corner){vec3_sub(gjk_vertex(a, of_a), on_b), of_a, of_b};
 }
 
-/* The corner of the difference farthest in a direction. */
+/* Returns the corner of the difference that is farthest in a direction. */
 static struct corner corner_along(const struct convex *a, const struct convex *b,
                                   struct vec3 direction)
 {
@@ -83,8 +86,8 @@ static struct corner corner_along(const struct convex *a, const struct convex *b
     return corner;
 }
 
-/* Adds the part of a corner's edge that is square to those there are, and what share of each of
- * those is in it. False when nothing of it is left. */
+/* Adds the part of a corner's edge that is orthogonal to the face's edges, and its components along
+ * each of those. Returns false if no such part is left. */
 static bool span(struct face *face, const struct corner *corner, double share[3])
 {
     struct vec3 e = vec3_sub(corner->w, face->corner[0]->w);
@@ -101,8 +104,8 @@ static bool span(struct face *face, const struct corner *corner, double share[3]
     return true;
 }
 
-/* Finds the point nearest to the origin in the line, plane or space through the corners. False
- * when they are flat, or it lies outside of them. */
+/* Finds the point nearest to the origin in the line, plane or space through the corners. Returns
+ * false if the corners are flat or the point lies outside of them. */
 static bool project(struct face *face)
 {
     struct vec3 rest = vec3_scale(face->corner[0]->w, -1.0);
@@ -133,7 +136,7 @@ static bool project(struct face *face)
     return true;
 }
 
-/* Makes it a simplex of this face of its, and of a new corner. */
+/* Replaces the simplex by this face of it and a new corner. */
 static void settle(struct simplex *simplex, const struct face *face)
 {
     struct corner corner[4];
@@ -146,8 +149,9 @@ static void settle(struct simplex *simplex, const struct face *face)
     }
 }
 
-/* Takes a new corner in: of all faces that have it the nearest, which is the whole of them if the
- * origin is over its inside. False when none is nearer than the limit [squared]. */
+/* Adds a new corner: the nearest of all faces that contain it is taken, which is the whole simplex
+ * if the origin projects into it. Returns false if no face is nearer than the limit [squared
+ * distance]. */
 static bool take(struct simplex *simplex, const struct corner *corner, double limit)
 {
     struct face trial[2];
@@ -184,8 +188,8 @@ static bool holds(const struct simplex *simplex, const struct corner *corner)
     return false;
 }
 
-/* The direction from the nearest point to the origin. It is made square to the edges again, as
- * the rounding of a point that is very near would not have it. */
+/* Returns the direction from the nearest point to the origin, made orthogonal to the edges again,
+ * since the position of a very near point is lost in rounding. */
 static struct vec3 towards_origin(const struct face *face)
 {
     struct vec3 n = vec3_scale(face->nearest, -1.0 / sqrt(face->square));
@@ -195,8 +199,8 @@ static struct vec3 towards_origin(const struct face *face)
     return vec3_scale(n, 1.0 / vec3_length(n));
 }
 
-/* A corner that brings the point no nearer still tells how the nearest faces lie: the direction n
- * is to be square to its edge as well. False when it lies ahead, or that is known already. */
+/* Uses a corner that brings the point no nearer: the direction n must be orthogonal to this
+ * corner's edge too. Returns false if the corner lies ahead or is known already. */
 static bool lean_on(struct face *face, const struct corner *corner, struct vec3 n)
 {
     double share[3];
@@ -206,7 +210,8 @@ static bool lean_on(struct face *face, const struct corner *corner, struct vec3 
     return ahead * ahead < 0.25 * face->edge_square[face->edges - 1];
 }
 
-/* What is known of a distance: the nearest simplex, and the plane that keeps the most apart. */
+/* What is known of a distance: the nearest simplex (upper bound) and the best separating plane
+ * (lower bound). */
 struct known {
     struct simplex simplex;
     double square; /* of the simplex's distance */
@@ -222,21 +227,21 @@ static void keep(struct known *known, const struct simplex *simplex)
     settle(&known->simplex, &simplex->face);
 }
 
-/* Is a distance [squared] as short as can be? */
+/* Returns true if a squared distance agrees with its lower bound. */
 static bool certain(double square, double apart, double slack)
 {
     double length = sqrt(square);
     return length <= GJK_OVERLAP_M || length - apart <= slack + NEAR_SHARE * length;
 }
 
-/* The simplex to begin with. */
+/* Sets up the first simplex. */
 static void begin(const struct convex *a, const struct convex *b, const struct gjk_start *start,
                   struct simplex *simplex)
 {
     struct corner corner = start->count > 0 ? corner_of(a, b, start->a[0], start->b[0])
                                             : corner_along(a, b, start->guess);
     simplex->face = (struct face){.corner[0] = &corner, .count = 1};
-    (void)project(&simplex->face); /* a point alone always can be */
+    (void)project(&simplex->face); /* always possible for a single point */
     settle(simplex, &simplex->face);
     for (uint32_t i = 1; i < start->count; i++) {
         corner = corner_of(a, b, start->a[i], start->b[i]);
@@ -244,7 +249,7 @@ static void begin(const struct convex *a, const struct convex *b, const struct g
     }
 }
 
-/* Looks once. */
+/* Runs one search. */
 static void look(const struct convex *a, const struct convex *b, const struct gjk_start *start,
                  struct known *known)
 {

@@ -1,25 +1,25 @@
-/* Let z be the way from a vertex of a to one of b, moving by z' a frame, and n the normal of a
- * plane that swings by m a frame. At h from now z is z + h z', give or take K h^2 / 2, as no point
- * at r from an axis is accelerated by more than rate^2 r (world/maths/rotation.h). So along n + h m
- * the two are apart by
+/* Let z be the vector from a vertex of a to one of b, with velocity z' per frame, and n the normal
+ * of a plane that swings by m a frame. At time h from now z is z + h z', to within K h^2 / 2, as no
+ * point at r from an axis is accelerated by more than rate^2 r (world/maths/rotation.h). So along n
+ * + h m the separation of the two is
  *
- *     n.z + h (n.z' + m.z)     a straight line; of those of all vertices the least is concave
- *     + h^2 m.z'               the bodies' part is known, the turning's part has a bound
- *     - |n + h m| K h^2 / 2    what acceleration does
+ *     n.z + h (n.z' + m.z)     linear in h; the least over all vertices is concave
+ *     + h^2 m.z'               the translation's part is known, the rotation's part is bounded
+ *     - |n + h m| K h^2 / 2    by the acceleration
  *
- * where a gap counts |n + h m| <= 1 + h^2 m.m / 2 times, as n and m are square to each other. Taken
- * together: a concave line less one bend, B h^2 / 2. What it leaves at some h it leaves all the way
- * from now to h, and Newton's steps from above come down to the last h at which it leaves the gap.
- * The least line is that of the vertices that are foremost in a direction: n.(r + h spin x r) +
- * h m.r = r.(n + h (n x spin + m)). */
+ * where a gap counts |n + h m| <= 1 + h^2 m.m / 2 times, as n and m are orthogonal. Together this
+ * is a concave function less a bend B h^2 / 2. If it is positive at some h, it is positive from now
+ * until h. Newton's steps from above descend to the last h at which it equals the gap. The least
+ * linear function is that of the vertices that are foremost in a direction: n.(r + h spin x r) + h
+ * m.r = r.(n + h (n x spin + m)). */
 #include "collider/geometry/hull_separation.h"
 
-#define NEWTON     16 /* steps to one time */
+#define NEWTON     16 /* steps for one time */
 #define ROUNDING_M 1e-13
-/* Spheres this much of their radii apart are looked at instead of hulls. */
+/* Spheres that are this share of their radii apart are tested instead of the hulls. */
 #define SPHERES_FAR 0.1
 
-/* How far apart two points are along a direction, and how that changes. */
+/* Separation of two points along a direction, and its rate of change. */
 struct line {
     double gap, rate;
 };
@@ -101,7 +101,7 @@ struct relative_pose relative_pose_at(const struct hull_pair *pair, double time)
 
 /* --- lines -------------------------------------------------------------------------------------*/
 
-/* How the way from r_a to r_b, which are from their bodies' positions, changes. */
+/* Returns the velocity of the vector from r_a to r_b, both relative to their bodies' positions. */
 static struct vec3 parting(const struct hull_pair *pair, const struct relative_pose *now,
                            struct vec3 r_a, struct vec3 r_b)
 {
@@ -118,7 +118,7 @@ static struct line line_between(const struct hull_pair *pair, const struct relat
                              vec3_dot(plane->swing, z)};
 }
 
-/* The line of the vertices that are the least apart at h. */
+/* Returns the linear function of the vertices with the least separation at h. */
 static struct line nearest_at(const struct hull_pair *pair, const struct relative_pose *now,
                               const struct plane *plane, double h)
 {
@@ -130,13 +130,14 @@ static struct line nearest_at(const struct hull_pair *pair, const struct relativ
     return line_between(pair, now, plane, r_a, r_b);
 }
 
-/* What a line and a bend leave over a gap at h. */
+/* Returns how much of the separation is left over a gap at h. */
 static double over(struct line line, double gap, double bend, double h)
 {
     return line.gap - gap + (line.rate - 0.5 * bend * h) * h;
 }
 
-/* The h at which nothing is left; there is one, as something is left now and nothing later. */
+/* Returns the h at which the separation equals the gap. There is one, since the separation is
+ * greater now and smaller later. */
 static double root(struct line line, double gap, double bend)
 {
     double left = maths_max(line.gap - gap, 0.0);
@@ -146,7 +147,7 @@ static double root(struct line line, double gap, double bend)
     return left > 0.0 ? 2.0 * left / (way - line.rate) : 0.0;
 }
 
-/* All that bends the lines, for h up to most. */
+/* Returns the bend of the separation for h up to most. */
 static double bend_of(const struct hull_pair *pair, const struct plane *plane, double gap,
                       double most)
 {
@@ -182,7 +183,7 @@ double hull_separation_for(const struct hull_pair *pair, const struct relative_p
             return h;
         h = maths_min(h, root(line, gap, bend));
     }
-    /* Concave: what is over is at least what is on the chord from now to h. */
+    /* Concave: the separation is at least its chord from now to h. */
     double left = nearest_at(pair, now, plane, 0.0).gap - gap;
     double there = over(nearest_at(pair, now, plane, h), gap, bend, h);
     return left > 0.0 ? h * left / (left - there) : 0.0;
@@ -195,7 +196,7 @@ struct vec3 hull_separation_swing(const struct hull_pair *pair, const struct rel
     double change[2], most = 2.0 * (pair->a->rate + pair->b->rate);
     if (most == 0.0 || nearest->count < 2)
         return rest;
-    /* n stays square to the edges e of the simplex: m.e = -n.e'. */
+    /* n stays orthogonal to the edges e of the simplex: m.e = -n.e'. */
     for (uint32_t i = 0; i < nearest->count; i++) {
         struct vec3 r_a = gjk_vertex(&now->a, nearest->a[i]);
         struct vec3 r_b = gjk_vertex(&now->b, nearest->b[i]);
@@ -216,7 +217,7 @@ struct vec3 hull_separation_swing(const struct hull_pair *pair, const struct rel
         swing = vec3_add(vec3_scale(across, change[0] / vec3_dot(edge[0], across)),
                          vec3_scale(over_it, change[1] / vec3_dot(edge[1], over_it)));
     }
-    /* Of edges of hardly any length it would be noise. */
+    /* For edges of almost no length the swing would be noise. */
     return vec3_dot(swing, swing) <= most * most ? swing : rest;
 }
 

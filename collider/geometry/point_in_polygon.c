@@ -1,18 +1,18 @@
-/* Figure 6 of Osborne 1991, step by step, with two things put right.
+/* Figure 6 of Osborne 1991, step by step, with two corrections.
  *
  * The figure as printed counts every edge with a positive U'. Haines's own text counts an edge only
- * if it crosses the U' axis at all, "if SH is not equal to NSH"; without that guard no polygon
- * works. And a quotient of an edge read from its other end may differ in the last bit, so that a
- * point on an edge could be in both polygons that share it, or in none: each edge is read from its
- * end below the axis. There V'b - V'a > 0, and U'a - V'a (U'b - U'a) / (V'b - V'a) > 0 is asked
- * without dividing, which makes the answer exact on grids. */
+ * if it crosses the U' axis at all, "if SH is not equal to NSH"; without this test no polygon
+ * works. The other correction is about rounding: the quotient of an edge read from its other end
+ * may differ in the last bit, so that a point on an edge could be in both polygons that share it,
+ * or in none. Here each edge is read from its end below the axis. There V'b - V'a > 0, and the test
+ * U'a - V'a (U'b - U'a) / (V'b - V'a) > 0 is done without a division, so it is exact on grids. */
 #include "collider/geometry/point_in_polygon.h"
 
 struct uv {
     double u, v;
 };
 
-/* Leaves out the dominant coordinate. */
+/* Drops the dominant coordinate. */
 static struct uv project(struct vec3 p, struct vec3 normal)
 {
     double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
@@ -21,13 +21,13 @@ static struct uv project(struct vec3 p, struct vec3 normal)
     return y >= z ? (struct uv){p.z, p.x} : (struct uv){p.x, p.y};
 }
 
-/* The sign holder: a V' of zero counts as positive. */
+/* The sign holder: V' = 0 counts as positive. */
 static int sign(double v)
 {
     return v < 0.0 ? -1 : 1;
 }
 
-/* Does the edge, which crosses the U' axis, cross its positive half? */
+/* Returns true if the edge, which crosses the U' axis, crosses its positive half. */
 static bool crosses(struct uv a, struct uv b)
 {
     if (a.u > 0.0 && b.u > 0.0)

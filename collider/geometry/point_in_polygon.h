@@ -8,10 +8,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Is the point, which lies in the polygon's plane, inside it? The polygon (count >= 3 corners, any
- * simple shape, either way round) and the point are projected along the normal's largest component
- * (x before y before z where they are equal). A point on an edge is on one side of it, always the
- * same: of two polygons that share the edge and the axis it is in exactly one, to the last bit. */
+/* Returns true if the point, which lies in the polygon's plane, is inside it. The polygon (count >=
+ * 3 corners, any simple shape, either orientation) and the point are projected along the normal's
+ * largest component (x before y before z if equal). A point on an edge is always on the same side
+ * of it: it is in exactly one of two polygons that share the edge and the axis, to the last bit. */
 bool point_in_polygon_inside(const struct vec3 *corner, uint32_t count, struct vec3 normal,
                              struct vec3 point);
 

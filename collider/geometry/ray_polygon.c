@@ -1,11 +1,11 @@
 /* Rays against polygons, and level 3 of Osborne 1991.
  *
- * The plane of each polygon comes from its first three corners and gives the distance, as in the
- * thesis. Where it then projects polygon and point along the polygon's dominant axis, here they are
- * projected along the ray, onto the plane across the ray's dominant axis through its start: the
- * same answer, but a corner that two polygons share has the same coordinates for both, so that by
- * Haines's rule for edges a ray through a closed model's edge meets exactly one of its polygons and
- * never slips through.
+ * The plane of each polygon is that of its first three corners and gives the distance, as in the
+ * thesis. The thesis then projects polygon and point along the polygon's dominant axis. Here they
+ * are projected along the ray, onto the plane across the ray's dominant axis through its start. The
+ * answer is the same, but a corner shared by two polygons has the same coordinates for both. So by
+ * Haines's rule for edges a ray through an edge of a closed model meets exactly one of its
+ * polygons.
  *
  * How level 3 is read. "A ray shot from the center of the moving object towards the center of the
  * object it collided with" gives the possible point of collision "on the surface of the sphere":
@@ -13,13 +13,13 @@
  * penetrated", that point "is used as the origin of the second ray", in a "form of backward ray
  * tracing", and "if no intersection is found once all of the polygons have been checked, then only
  * the spheres were penetrated and not the objects themselves". So ray 2 runs from the sphere back
- * to the vehicle's centre. It comes first to the vehicle's own skin, unless that lies beyond the
- * sphere, whose radius is slightly smaller than the vehicle; an object that the vehicle touches has
- * a polygon on what is left of the way, and the one nearest to the vehicle's centre is where they
- * collide. Positions of what stands are on the ground below it, where nothing is to be met: the
- * rays run as high above the line between positions as the vehicle's middle is. What this misses,
- * as the thesis does: objects that touch beside the line of their centres, and one inside of which
- * all of that way lies. */
+ * to the vehicle's centre. It meets the vehicle's own skin first, unless that lies beyond the
+ * sphere, whose radius is slightly smaller than the vehicle. An object that the vehicle touches has
+ * a polygon on the rest of the ray, and the polygon nearest to the vehicle's centre is the point of
+ * collision. The positions of standing objects are on the ground, where a ray would meet nothing,
+ * so the rays run at the height of the vehicle's middle. As in the thesis, two cases are missed:
+ * objects that touch beside the line of their centres, and an object that contains the whole
+ * ray. */
 #include "collider/geometry/ray_polygon.h"
 
 #include "collider/geometry/point_in_polygon.h"
@@ -67,7 +67,7 @@ static struct vec3 normal_of(const struct vec3 corner[3])
     return (struct vec3){u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
 }
 
-/* Does the beam, seen along itself, go through the polygon? */
+/* Returns true if the beam goes through the polygon, as seen along the beam. */
 static bool goes_through(const struct beam *beam, const struct vec3 corner[3])
 {
     struct vec3 seen[3];
@@ -91,7 +91,7 @@ bool ray_polygon_nearest(const struct ray_polygon_model *model, struct vec3 from
         struct vec3 n = normal_of(corner);
         double speed = vec3_dot(n, beam.along);
         double distance = vec3_dot(n, vec3_sub(corner[0], beam.from)) / speed;
-        /* Along the plane it is 0 / 0 or endless: never between. */
+        /* For a beam along the plane this is 0 / 0 or infinite, so the test is false. */
         if (!(distance >= 0.0 && distance <= most_m && distance < nearest) ||
             !goes_through(&beam, corner))
             continue;
@@ -116,7 +116,7 @@ bool ray_polygon_collision(const struct ray_polygon_model *vehicle, double vehic
     struct ray_polygon_hit skin;
     if (apart >= vehicle_radius_m + object_radius_m)
         return false;
-    /* Between equal centres there is no way: ahead. */
+    /* Equal centres have no direction between them: take the forward axis. */
     way = apart > 0.0 ? vec3_scale(way, 1.0 / apart)
                       : rotation_apply(&vehicle->turn, (struct vec3){1.0, 0.0, 0.0});
     struct vec3 centre = vec3_add(vehicle->at, (struct vec3){0.0, vehicle->middle_m, 0.0});

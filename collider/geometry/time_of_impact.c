@@ -1,30 +1,31 @@
-/* How time goes forward: to the last time at which the plane between the nearest points surely
- * keeps the hulls apart (hull_separation.c), from there along the plane between the nearest points
- * there, and so on. This is Newton's method for the gap: where the plane turns with what it lies
- * on, it doubles its digits with each distance that GJK finds. */
+/* Time advances to the last time at which the plane between the nearest points certainly separates
+ * the hulls (hull_separation.c), from there along the plane between the nearest points at that
+ * time, and so on. This is Newton's method for the gap. As the plane turns with the surfaces, each
+ * distance that GJK finds doubles the number of correct digits. */
 #include "collider/geometry/time_of_impact.h"
 
 #include "collider/geometry/hull_separation.h"
 #include "collider/geometry/contact_manifold.h"
 
-#define LOOKS      1024  /* distances of one pair of hulls */
-#define TOUCHING_M 5e-10 /* a gap this near to the one looked for is it after a few tries */
-#define TRIES      3
-#define EXACT_M    1e-12 /* and this near at once */
-#define WINDOW_M   1e-6  /* what the spheres' times may be off */
-#define SHALLOW_M  1e-6  /* gaps below this are left for an overlap */
-#define DEEP       0.05  /* of an overlap: coming nearer by it is a touch again */
+#define LOOKS 1024 /* distances of one pair of hulls */
+#define TOUCHING_M                                                                                 \
+    5e-10 /* a gap that differs from the target by no more is accepted after a few tries */
+#define TRIES     3
+#define EXACT_M   1e-12 /* and by no more than this at once */
+#define WINDOW_M  1e-6  /* error of the times that the spheres give */
+#define SHALLOW_M 1e-6  /* smaller gaps are treated as an overlap */
+#define DEEP      0.05  /* of an overlap: when it grows by this share, the bodies touch again */
 
-/* How two hulls lie at a moment. */
+/* Position of two hulls relative to each other at one time. */
 struct sight {
-    double gap; /* across the plane; below 0 they overlap by that */
+    double gap; /* along the plane's normal; below 0 the depth of the overlap */
     struct plane plane;
-    struct vec3 point; /* between the nearest points */
+    struct vec3 point; /* midway between the nearest points */
 };
 
 /* --- how two hulls lie -------------------------------------------------------------------------*/
 
-/* Takes the plane when the hulls overlap it less; it turns with a spin. */
+/* Takes the plane if the hulls overlap it less; its normal turns with a spin. */
 static void shallower(const struct relative_pose *now, struct vec3 normal, struct vec3 spin,
                       struct sight *sight)
 {
@@ -35,8 +36,8 @@ static void shallower(const struct relative_pose *now, struct vec3 normal, struc
     }
 }
 
-/* The shallowest way out of an overlap: by the faces of both, the line of the centres, and the
- * normal that is left of when they last were apart. */
+/* Finds the direction of least overlap among the faces of both hulls, the line of the centres, and
+ * the normal from when they were last apart. */
 static void look_inside(const struct hull_pair *pair, const struct relative_pose *now,
                         struct vec3 last, struct sight *sight)
 {
@@ -54,7 +55,7 @@ static void look_inside(const struct hull_pair *pair, const struct relative_pose
         shallower(now, last, still, sight);
 }
 
-/* last: the normal left of the moment before, 0 for none. */
+/* last: the normal of the time before, 0 for none. */
 static struct sight look(const struct hull_pair *pair, const struct relative_pose *now,
                          struct vec3 last, struct gjk_start *start)
 {
@@ -71,8 +72,8 @@ static struct sight look(const struct hull_pair *pair, const struct relative_pos
     return sight;
 }
 
-/* What stands in for a patch when there is none: a point between the nearest points, or in both of
- * two bodies that overlap, and the foremost vertices. */
+/* Used without a manifold: takes a point between the nearest points, or inside both of two
+ * overlapping bodies, and the foremost vertices. */
 static void scattered(const struct relative_pose *now, const struct sight *sight,
                       struct contact_manifold *patch)
 {
@@ -83,7 +84,7 @@ static void scattered(const struct relative_pose *now, const struct sight *sight
     patch->corner[1] = vec3_add(patch->corner[1], now->b.at);
 }
 
-/* Do the bodies come nearer where they touch? Then *point is where. */
+/* Returns true if the bodies approach where they touch; *point is where. */
 static bool nearing(const struct hull_pair *pair, const struct relative_pose *now,
                     const struct sight *sight, struct vec3 *point)
 {
@@ -109,7 +110,7 @@ static bool nearing(const struct hull_pair *pair, const struct relative_pose *no
 
 /* --- pairs of hulls ----------------------------------------------------------------------------*/
 
-/* The gap at which bodies that are this far apart now, and not coming nearer, touch. */
+/* Returns the gap at which bodies that are this far apart now, and do not approach, touch. */
 static double next_gap(double gap)
 {
     if (gap <= SHALLOW_M)
@@ -117,14 +118,14 @@ static double next_gap(double gap)
     return maths_min(TOUCH_M, maths_max(0.5 * gap, gap - 0.5 * TOUCH_M));
 }
 
-/* What is left of the plane's normal after h. */
+/* Returns the plane's normal after h. */
 static struct vec3 normal_after(const struct plane *plane, double h)
 {
     struct vec3 normal = vec3_add(plane->normal, vec3_scale(plane->swing, h));
     return vec3_scale(normal, 1.0 / vec3_length(normal));
 }
 
-/* Takes the touch when it comes before the one there is, or is deeper. */
+/* Keeps the contact if it is earlier than the one found so far, or deeper. */
 static void found(const struct hull_pair *pair, const struct relative_pose *now,
                   const struct sight *sight, struct vec3 point, struct hull_contact *touch)
 {
@@ -138,7 +139,8 @@ static void found(const struct hull_pair *pair, const struct relative_pose *now,
                               .depth_m = depth};
 }
 
-/* Advances one pair from `from` to its touch, if there is one before `until` or touch->toi. */
+/* Advances one pair of hulls from `from` to its contact, if there is one before `until` and before
+ * the contact found so far. */
 static void time_of_impact(const struct hull_pair *pair, double from, double until,
                            struct hull_contact *touch)
 {
@@ -172,8 +174,8 @@ static void time_of_impact(const struct hull_pair *pair, double from, double unt
 
 /* --- bodies ------------------------------------------------------------------------------------*/
 
-/* The part of [*from, *until] in which the spheres around the bodies are near enough. False when
- * there is none. */
+/* Narrows [*from, *until] to the time in which the spheres around the bodies are near enough.
+ * Returns false if there is none. */
 static bool window(const struct swept_body *a, const struct swept_body *b, double *from,
                    double *until)
 {
@@ -213,8 +215,8 @@ static int order_of_turns(struct quat a, struct quat b)
                       : order_of_points((struct vec3){a.x, a.y, a.z}, (struct vec3){b.x, b.y, b.z});
 }
 
-/* Which of two bodies is computed as the first, whatever the caller calls them. Bodies that are
- * alike in all of this do not move against each other. */
+/* Orders two bodies, so that the result does not depend on the order of the arguments. Bodies that
+ * are equal in all of this do not move relative to each other. */
 static int order_of_bodies(const struct swept_body *a, const struct swept_body *b)
 {
     int order = order_of_points(a->path.at, b->path.at);
@@ -242,7 +244,7 @@ bool time_of_impact_touch(const struct swept_body *a, const struct swept_body *b
     struct rotation_path rotation_a = rotation_path_of(a), rotation_b = rotation_path_of(b);
     if (rotation_a.rate == 0.0 && rotation_b.rate == 0.0 &&
         order_of_points(a->path.along, b->path.along) == 0)
-        return false; /* at rest with each other */
+        return false; /* at rest relative to each other */
     struct hull_contact first = {.toi = INFINITY};
     for (uint32_t i = 0; i < a->hull_count; i++) {
         for (uint32_t j = 0; j < b->hull_count; j++) {

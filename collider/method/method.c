@@ -75,7 +75,8 @@ void method_workspace_free(struct method_workspace *workspace)
 
 /* --- bodies ------------------------------------------------------------------------------------*/
 
-/* Does the box touch a marked square? mark: marks them all. */
+/* Returns true if the box touches a marked square. With mark it marks all of the box's squares
+ * instead. */
 static bool squares_marked(uint8_t *marked, const struct path_box *box, bool mark)
 {
     struct gridsquare_box squares = gridsquare_box_of((double)box->min_x, (double)box->min_z,

@@ -8,9 +8,9 @@
  *     method_npsnet2    Osborne 1991: gridsquare lists, 100 m test, radii, rays
  *     method_mps        MPS II: near each other on the map
  *
- * The first four find candidates whose exact contact is then found in time; what they find in the
- * end is the same to the bit. The last two decide themselves, by where the bodies are when the
- * frame ends, and miss what passed through in between. */
+ * The first four find candidates, whose exact contacts are then found in time; the contacts of all
+ * four are equal to the bit. The last two decide by the bodies' positions at the frame's end, and
+ * miss bodies that pass through each other within the frame. */
 #ifndef JOLON_COLLIDER_METHOD_METHOD_H
 #define JOLON_COLLIDER_METHOD_METHOD_H
 
@@ -22,7 +22,7 @@ struct broad_phase;
 /* A method's own memory. */
 struct method_workspace;
 
-/* Adds every pair that the method finds once, in any order. */
+/* Adds every pair that the method finds, each once, in any order. */
 typedef void method_pairs_function(const struct method_input *input,
                                    struct method_workspace *workspace, struct pair_list *pairs);
 
@@ -38,36 +38,37 @@ METHODS(X)
 
 const struct method_functions *method_of(enum method method);
 
-/* Returns true for a method that decides by itself at the frame's end. The others' pairs are
- * candidates. */
+/* Returns true for a method that decides by the positions at the frame's end. The pairs of the
+ * others are candidates. */
 bool method_discrete(enum method method);
 
-/* Returns what any method needs in this world, NULL with errno ENOMEM. broad is what the method
- * "swept" takes its pairs from; it stays the caller's. */
+/* Returns the memory that any method needs in this world, or NULL with errno ENOMEM. broad is where
+ * the method "swept" takes its pairs from; it stays the caller's. */
 struct method_workspace *method_workspace_create(const struct world *world,
                                                  const struct broad_phase *broad);
 void method_workspace_free(struct method_workspace *workspace);
 const struct broad_phase *method_broad_phase(const struct method_workspace *workspace);
 
-/* Returns room for count items of size bytes in the workspace's block with this number, of
- * METHOD_BLOCKS; METHOD_BODIES and up are method_bodies()'s. What the block held may be lost. Set
- * aside are METHOD_BODY_BYTES for each body and GRIDSQUARE_COUNT more; a block that needs more
- * grows. */
+/* Returns room for count items of size bytes in the workspace's block of this number (of
+ * METHOD_BLOCKS). The blocks from METHOD_BODIES on belong to method_bodies(). The block's former
+ * contents may be lost. METHOD_BODY_BYTES for each body and GRIDSQUARE_COUNT more are reserved; a
+ * block that needs more grows. */
 #define METHOD_BLOCKS     13
 #define METHOD_BODIES     9
 #define METHOD_BODY_BYTES 64u
 void *method_block(struct method_workspace *workspace, uint32_t block, size_t count, size_t size);
 
-/* All that can be met in the frame, numbered through: first the rows that are there, then the fixed
- * objects that stand in gridsquares which a row that tests them touches. */
+/* All bodies that can collide in the frame, in one numbering: first the used rows, then the
+ * standing fixed objects in gridsquares touched by a row that tests fixed objects. */
 struct method_bodies {
     uint32_t count, moving;     /* the first moving are rows */
     const uint32_t *what;       /* [count] a row, or a fixed object with PAIR_FIXED */
-    const struct path_box *box; /* [count] a fixed object's is a little larger than it is */
+    const struct path_box *box; /* [count] a fixed object's is slightly larger than the object */
     const uint8_t *tests_fixed; /* [moving] */
 };
 
-/* Lists them in the workspace, until method_bodies() is called again. */
+/* Fills bodies with arrays in the workspace, which are valid until the next call of
+ * method_bodies(). */
 void method_bodies(const struct method_input *input, struct method_workspace *workspace,
                    struct method_bodies *bodies);
 

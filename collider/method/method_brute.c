@@ -1,4 +1,5 @@
-/* Every body with every other: slow, and right by inspection. The oracle of the other methods. */
+/* Every body with every other: slow, and easily seen to be right. The oracle of the other
+ * methods. */
 #include "collider/method/method.h"
 
 #include "world/runtime/work_done.h"

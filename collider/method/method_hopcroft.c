@@ -1,12 +1,12 @@
 /* All intersecting pairs by sorting and sweeping, after Hopcroft, Schwartz and Sharir 1983 (as
- * Osborne 1991, p. 5, tells of it): theirs finds whether any two of n spheres intersect in O(n
- * log^2 n), by a plane that passes through all of them and a structure of what it cuts.
+ * cited by Osborne 1991, p. 5). Their method finds whether any two of n spheres intersect in O(n
+ * log^2 n), by a plane that passes through all of them and a structure of the spheres that it cuts.
  *
- * Here the plane passes along x through the swept boxes, and what it cuts is kept in a balanced
- * tree by z that knows where the intervals below each node end at the latest, as in Six and Wood's
- * report of all intersecting boxes (1982), but without a further tree for the heights: on terrain
- * few pairs that overlap on the map are apart by height. So a frame is O((n + k) log n), k the
- * pairs of boxes that overlap on the map. */
+ * Here the plane moves along x through the swept boxes. The boxes that it cuts are kept in a
+ * balanced tree by z, in which each node knows where the intervals below it end at the latest. Six
+ * and Wood (1982) report all intersecting boxes in this way, with a further tree for the heights.
+ * That tree is left out, since on terrain few pairs that overlap on the map are separate in height.
+ * A frame takes O((n + k) log n), where k pairs of boxes overlap on the map. */
 #include "collider/method/method.h"
 
 #include "world/maths/random.h"
@@ -19,16 +19,17 @@
 
 enum { BLOCK_STARTS, BLOCK_ENDS, BLOCK_NODE };
 
-/* Where along x the plane meets a body, or leaves a node, as bits that ascend with it. */
+/* Where along x the plane enters or leaves a body, as bits in ascending order. */
 struct mark {
     uint32_t key, what;
 };
 
-/* A body in the treap of what the plane cuts: ordered by its least z, a heap by a hash of its
- * number. Nodes are numbered as the plane meets them, so that those it cuts lie together. */
+/* A body in the treap of bodies that the plane cuts: ordered by least z, a heap by a hash of its
+ * number. Nodes are numbered in the order in which the plane enters them, so that those in use lie
+ * together. */
 struct node {
     float min_z, max_z;
-    float last_z; /* greatest max_z of it and of all below it */
+    float last_z; /* greatest max_z of it and of the nodes below it */
     uint32_t left, right;
     uint32_t body;
 };
@@ -43,7 +44,7 @@ struct sort_and_sweep {
 
 /* --- sorting -----------------------------------------------------------------------------------*/
 
-/* No edge of a box is -0, which would come before 0. */
+/* No box has a bound of -0, which would sort before 0. */
 static uint32_t ascending_bits(float value)
 {
     uint32_t bits;
@@ -61,7 +62,7 @@ static bool before(const struct sort_and_sweep *sweep, uint32_t i, uint32_t j)
 
 static bool above(uint32_t i, uint32_t j)
 {
-    return random_mix(i) > random_mix(j); /* a bijection: never equal */
+    return random_mix(i) > random_mix(j); /* a bijection: two are never equal */
 }
 
 static void refresh(const struct sort_and_sweep *sweep, uint32_t i)
@@ -74,7 +75,7 @@ static void refresh(const struct sort_and_sweep *sweep, uint32_t i)
         node->last_z = sweep->node[node->right].last_z;
 }
 
-/* Parts a tree into what comes before node i and what comes after it. */
+/* Splits a tree into the nodes before node i and those after it. */
 static void part(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i, uint32_t *low,
                  uint32_t *high)
 {
@@ -93,7 +94,7 @@ static void part(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i, 
     refresh(sweep, root);
 }
 
-/* Joins two trees, all of low before all of high. */
+/* Joins two trees; all nodes of low come before those of high. */
 static uint32_t join(const struct sort_and_sweep *sweep, uint32_t low, uint32_t high)
 {
     if (low == NOBODY)
@@ -136,7 +137,7 @@ static uint32_t extract(const struct sort_and_sweep *sweep, uint32_t root, uint3
     return root;
 }
 
-/* Everything in the tree that overlaps node i in z may meet it. */
+/* Tests node i against each node of the tree that overlaps it in z. */
 static void meet(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i)
 {
     if (root == NOBODY || sweep->node[root].last_z < sweep->node[i].min_z)
@@ -144,7 +145,7 @@ static void meet(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i)
     const struct node *node = &sweep->node[i], *other = &sweep->node[root];
     meet(sweep, other->left, i);
     if (other->min_z > node->max_z)
-        return; /* and so are all to its right */
+        return; /* and so do all nodes to its right */
     if (other->max_z >= node->min_z)
         method_meet(sweep->input, &sweep->bodies, other->body, node->body, sweep->pairs);
     meet(sweep, other->right, i);
@@ -157,7 +158,7 @@ static uint32_t *root_of(struct sort_and_sweep *sweep, uint32_t i)
     return sweep->node[i].body < sweep->bodies.moving ? &sweep->moving : &sweep->fixed;
 }
 
-/* The plane reaches node i. */
+/* The plane enters node i. */
 static void reach(struct sort_and_sweep *sweep, uint32_t i)
 {
     uint32_t body = sweep->node[i].body;
@@ -182,8 +183,8 @@ static void pass(struct sort_and_sweep *sweep, const struct mark *starts, const 
     }
 }
 
-/* Puts the bodies in the order in which the plane meets them (starts) and leaves them (ends, by
- * their nodes). */
+/* Sorts the bodies in the order in which the plane enters them (starts) and leaves them (ends, by
+ * node). */
 static void put_in_order(struct sort_and_sweep *sweep, struct mark *starts, struct mark *ends)
 {
     uint32_t count = sweep->bodies.count;

@@ -1,6 +1,6 @@
-/* MPS II and III (Winn and Strong 1989, Cheeseman 1990, as Osborne 1991, p. 6, tells of them): a
- * platform within a certain range of another on the map, and both are killed. Neither heights nor
- * trees are looked at, and only where the frame ends. */
+/* MPS II and III (Winn and Strong 1989, Cheeseman 1990, as cited by Osborne 1991, p. 6): two
+ * platforms within a certain range of each other on the map are both destroyed. Heights and trees
+ * are not tested, and only the positions at the frame's end. */
 #include "collider/method/method.h"
 
 #include "world/entity/kind.h"

@@ -1,12 +1,12 @@
-/* NPSNET-2's three levels, where the frame ends (Osborne 1991, pp. 9-13 and 15-18). How its text is
- * read:
- *   - every vehicle that has moved is checked, below the threshold height against the fixed objects
- *     attached to the gridsquare of its centre and to no other (so Fig. 9's border object is found
- *     late), then, without a hit, against every other body;
+/* NPSNET-2's three levels at the frame's end (Osborne 1991, pp. 9-13 and 15-18). How the text is
+ * read here:
+ *   - every vehicle that has moved is tested; below the threshold height first against the fixed
+ *     objects attached to the gridsquare of its centre and no other (so Fig. 9's border object is
+ *     found late); then, without a hit, against every other body;
  *   - a pair is found when either of the two finds it;
- *   - every frame in which they overlap is a detection;
- *   - all bodies are where they are at the frame's end, where NPSNET-2 checked each as soon as it
- *     had moved, those after it still being where they were. */
+ *   - every frame in which the two overlap is a detection;
+ *   - all bodies are where they are at the frame's end. NPSNET-2 tested each vehicle as soon as it
+ * had moved, when those after it had not. */
 #include "collider/method/method_npsnet2.h"
 
 #include "collider/geometry/ray_polygon.h"
@@ -82,7 +82,7 @@ static struct ray_polygon_model model_of_fixed(const struct world *world,
         .at = fixed_position(object)};
 }
 
-/* Level 3: by its two rays, does the row touch the other? */
+/* Level 3: returns true if the row touches the other body by the two rays. */
 static bool polygons_touch(const struct method_input *input, uint32_t row, uint32_t other)
 {
     const struct world *world = input->world;
@@ -107,7 +107,7 @@ static bool below_threshold(const struct method_input *input, struct vec3 at)
                       input->world->params->collision.threshold_height_m;
 }
 
-/* Adds the objects of the row's gridsquare that it hits. How many they are. */
+/* Adds the objects of the row's gridsquare that it hits, and returns their number. */
 static uint32_t hit_fixed(const struct method_input *input, uint32_t row, struct pair_list *pairs)
 {
     const struct world *world = input->world;
@@ -136,10 +136,10 @@ static uint32_t hit_fixed(const struct method_input *input, uint32_t row, struct
 struct vehicle {
     struct body body;
     uint32_t row;
-    bool looks; /* it has moved and hit nothing fixed: it is checked against all others */
+    bool looks; /* it has moved and hit no fixed object, so it is tested against all others */
 };
 
-/* Every row that is there, and what it hits that is fixed. */
+/* Lists every used row and adds its pairs with fixed objects. */
 static size_t list_vehicles(const struct method_input *input, struct vehicle *vehicle,
                             struct pair_list *pairs)
 {

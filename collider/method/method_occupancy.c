@@ -1,11 +1,12 @@
-/* Space occupancy (Uchiki, Ohashi and Tokoro 1983, as Osborne 1991, p. 5, tells of it): every body
- * claims the cells of space that it needs in the frame; who claims an occupied one is told of its
- * holders.
+/* Space occupancy (Uchiki, Ohashi and Tokoro 1983, as cited by Osborne 1991, p. 5): every body
+ * claims the cells of space that it needs in the frame. A body that claims an occupied cell is told
+ * which bodies hold it.
  *
- * Here a body claims what its swept box touches. The cells are entries of a hash, as long as half
- * of all bodies are wide. A body that would need more than CLAIMS_MAX of them claims cells of twice
- * the side, or four times and so on: nobody claims more, however large or fast. The coarse claim
- * first, and each also asks at every coarser level in use, so that all meet. */
+ * Here a body claims the cells that its swept box touches. The cells are entries of a hash table;
+ * their side is such that half of all bodies fit into one. A body that would need more than
+ * CLAIMS_MAX cells claims cells of twice the side, four times the side and so on, so the number of
+ * claims is bounded for any size and speed. The coarsest claims come first, and each body also
+ * looks at every coarser level in use, so that all pairs meet. */
 #include "collider/method/method.h"
 
 #include "world/maths/random.h"
@@ -18,23 +19,23 @@
 #define FINEST_M   0.25 /* side of a cell at level 0 */
 #define LEVELS     19
 #define CLAIMS_MAX 64
-#define AXIS_BITS  19 /* of a cell's number along one axis: 65 km each way at level 0 */
+#define AXIS_BITS  19 /* bits of a cell's number along one axis: 65 km each way at level 0 */
 #define AXIS_HALF  262144
 #define NOBODY     UINT32_MAX
 
 enum { BLOCK_LEVEL, BLOCK_ORDER, BLOCK_CLAIM, BLOCK_HEAD };
 
-/* A cell that somebody holds. */
+/* A cell claimed by a body. */
 struct claim {
     uint64_t cell;
     uint32_t body;
-    uint32_t next; /* of the same hash; NOBODY: none */
+    uint32_t next; /* next claim of the same hash; NOBODY: none */
 };
 
 struct space {
     const struct method_input *input;
     struct method_bodies bodies;
-    uint8_t *level;  /* [bodies] of the cells that it claims */
+    uint8_t *level;  /* [bodies] of the cells that the body claims */
     uint32_t *order; /* bodies, the coarsest level first */
     struct claim *claim;
     uint32_t claims;
@@ -48,11 +49,11 @@ static double side_of(uint32_t level)
     return FINEST_M * (double)(1u << level);
 }
 
-/* What lies past the last cell is in it. */
+/* The outermost cells contain everything beyond them. */
 static int32_t axis_cell(float metres, double side)
 {
     double cell = maths_clamp((double)metres / side, -AXIS_HALF, AXIS_HALF - 1);
-    int32_t whole = (int32_t)cell; /* floor is a call where SSE 4 cannot be relied on */
+    int32_t whole = (int32_t)cell; /* floor() is a function call on processors without SSE 4 */
     return (double)whole > cell ? whole - 1 : whole;
 }
 
@@ -64,7 +65,7 @@ static uint64_t pack(uint32_t level, int32_t x, int32_t y, int32_t z)
     return cell << AXIS_BITS | (uint32_t)(z + AXIS_HALF);
 }
 
-/* Cells of one level, all inclusive. */
+/* A box of cells of one level; all bounds are inclusive. */
 struct cells {
     int32_t x0, y0, z0, x1, y1, z1;
 };
@@ -85,7 +86,7 @@ static double cell_count(const struct cells *cells)
 
 /* --- levels ------------------------------------------------------------------------------------*/
 
-/* The first level whose cells are as wide as the body is without its way. */
+/* Returns the first level whose cells are as wide as the body without its path. */
 static uint32_t own_level(const struct space *space, uint32_t body)
 {
     uint32_t what = space->bodies.what[body], level = 0;
@@ -98,7 +99,7 @@ static uint32_t own_level(const struct space *space, uint32_t body)
     return level;
 }
 
-/* The level that half of all bodies are within. */
+/* Returns the least level at which half of all bodies fit into a cell. */
 static uint32_t median_level(const struct space *space)
 {
     uint32_t count[LEVELS] = {0}, below = 0, level = 0;
@@ -109,7 +110,7 @@ static uint32_t median_level(const struct space *space)
     return level;
 }
 
-/* Gives every body its level, and counts the claims that there will be. */
+/* Gives every body its level, and returns the number of claims. */
 static uint32_t choose_levels(struct space *space)
 {
     uint32_t finest = median_level(space), claims = 0;
@@ -138,7 +139,8 @@ static void put_in_order(struct space *space)
 
 /* --- claims ------------------------------------------------------------------------------------*/
 
-/* Two that share several cells of a level meet in the first that they share. */
+/* Returns true for the first cell that two bodies share: a pair that shares several cells of a
+ * level is added once. */
 static bool first_shared(const struct space *space, uint32_t i, uint32_t j, uint64_t cell,
                          uint32_t level)
 {
@@ -149,7 +151,8 @@ static bool first_shared(const struct space *space, uint32_t i, uint32_t j, uint
                         axis_cell(a->min_z > b->min_z ? a->min_z : b->min_z, side));
 }
 
-/* The body asks who holds the cell and, if it is of its own level, claims it. */
+/* Pairs the body with the bodies that hold the cell and, if the cell is of the body's level, claims
+ * it. */
 static void visit_cell(struct space *space, uint32_t body, uint64_t cell, uint32_t level,
                        struct pair_list *pairs)
 {

@@ -1,5 +1,5 @@
-/* The method "swept": the pairs that the broad phase has found. It runs in each frame, under every
- * method, because blasts and changed paths look up in it what is near. */
+/* The method "swept": the pairs of the broad phase. The broad phase runs in each frame, under every
+ * method, because explosions and changed paths use it for look-ups. */
 #include "collider/broad_phase/broad_phase.h"
 #include "collider/method/method.h"
 

@@ -1,4 +1,4 @@
-/* Ways and turnings of the frame's rows. */
+/* Paths and rotations of the frame's rows. */
 #include "collider/motion/body_motion.h"
 
 #include "collider/motion/pair_filter.h"

@@ -1,6 +1,6 @@
-/* How the bodies move within the frame: each row's way, and how it turns along it. Rows turn from
- * the committed pose to the mover's until an answer to a contact gives them another way. The
- * collider's own memory; one thread changes it, any number may read between changes. */
+/* How the bodies move within the frame: each row's path and its rotation along it. Rows rotate from
+ * the committed pose to the mover's until the response to a contact changes it. The collider's own
+ * memory; one thread changes it, any number may read between changes. */
 #ifndef JOLON_COLLIDER_MOTION_BODY_MOTION_H
 #define JOLON_COLLIDER_MOTION_BODY_MOTION_H
 
@@ -13,10 +13,11 @@
 
 struct world;
 
-/* Turned at path.since and at 1. */
+/* Rotations at path.since and at 1. */
 struct rotation_path {
     struct quat from, to;
-    double driven_rps; /* about the vertical, beside the row's own spin: its driver's, its tyres' */
+    double driven_rps; /* about the vertical, added to the row's own spin: by its driver and its
+                          tyres */
 };
 
 struct body_motion {
@@ -24,45 +25,45 @@ struct body_motion {
     const struct state *committed;
     const struct state *next;
     bool models;                   /* bodies collide by their models, not as spheres */
-    struct path *path;             /* [capacity] of rows whose way is drawn */
-    uint8_t *drawn;                /* [capacity] 1: it is */
-    struct rotation_path *changed; /* turnings that answers gave */
+    struct path *path;             /* [capacity] of the rows whose path has been computed */
+    uint8_t *drawn;                /* [capacity] 1: its path has been computed */
+    struct rotation_path *changed; /* rotations that responses changed */
     uint32_t changes;
-    uint32_t *change; /* [capacity] index + 1 into changed; 0: turns as the mover has it */
-    uint32_t *row;    /* [changes] whose it is */
+    uint32_t *change; /* [capacity] index + 1 into changed; 0: rotates as the mover has it */
+    uint32_t *row;    /* [changes] the row of each changed rotation */
 };
 
-/* 0, or -1 with errno ENOMEM. */
+/* Returns 0, or -1 with errno ENOMEM. */
 int body_motion_init(struct body_motion *motion, const struct world *world);
 void body_motion_free(struct body_motion *motion);
 
-/* Begins a frame: no way is drawn. */
+/* Begins a frame: no path has been computed. */
 void body_motion_begin(struct body_motion *motion, const struct state *committed,
                        const struct state *next);
 
-/* Draws the row's way: from where the committed world has it to where next has it. One that is new
- * this frame has not moved yet. Rows may be taken by any thread. Few rows come near anything: a way
- * is drawn before anybody asks for it and before next's row changes, and most never are. */
+/* Computes the row's path from its committed position to its position in next. A row that is new in
+ * this frame does not move. Any thread, for different rows. Most paths are never needed, so each is
+ * computed on its first use; this must be before next's row changes. */
 void body_motion_take(struct body_motion *motion, uint32_t row);
 
-/* The same way, not kept. */
+/* Returns the same path without storing it. */
 struct path body_motion_way(const struct body_motion *motion, uint32_t row);
 
-/* Sees to it that the row's way is drawn. */
+/* Computes the row's path if that has not been done yet. */
 static inline void body_motion_draw(struct body_motion *motion, uint32_t row)
 {
     if (!motion->drawn[row])
         body_motion_take(motion, row);
 }
 
-/* Does the row hold the same entity as in the committed frame? */
+/* Returns true if the row holds the same entity as in the committed frame. */
 static inline bool body_motion_old(const struct body_motion *motion, uint32_t row)
 {
     return row < motion->committed->head->used &&
            motion->committed->entities.id[row] == motion->next->entities.id[row];
 }
 
-/* Has the mover turned the row? */
+/* Returns true if the mover rotated the row. */
 static inline bool body_motion_old_turns(const struct body_motion *motion, uint32_t row)
 {
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
@@ -71,7 +72,7 @@ static inline bool body_motion_old_turns(const struct body_motion *motion, uint3
             w->roll[row] != n->roll[row]);
 }
 
-/* Does a row whose way has no length move, since its shape turns? */
+/* Returns true if a row whose path has no length still moves because its shape rotates. */
 static inline bool body_motion_turns(const struct body_motion *motion, uint32_t row)
 {
     return motion->models && body_motion_old_turns(motion, row);
@@ -79,14 +80,14 @@ static inline bool body_motion_turns(const struct body_motion *motion, uint32_t 
 
 struct rotation_path body_motion_turning(const struct body_motion *motion, uint32_t row);
 
-/* How the row is turned at a time in [path.since, 1]. */
+/* Returns the row's rotation at a time in [path.since, 1]. */
 struct quat body_motion_turned(const struct body_motion *motion, uint32_t row, double time);
 
-/* Gives the row another turning, with its path. */
+/* Gives the row another path and rotation. */
 void body_motion_change(struct body_motion *motion, uint32_t row, const struct path *path,
                         const struct rotation_path *rotation);
 
-/* The row, and a fixed object, as the narrow phase takes them. */
+/* Return the row, and a fixed object, as bodies for the narrow phase. */
 struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row);
 struct swept_body body_motion_fixed(const struct world *world, uint32_t object);
 

@@ -1,4 +1,4 @@
-/* What the methods of detection share: boxes, and who can never collide. */
+/* Functions shared by the methods of detection: boxes, and pairs that can never collide. */
 #include "collider/motion/pair_filter.h"
 
 #include "world/entity/kind.h"
@@ -94,7 +94,7 @@ bool pair_filter_ground(const struct method_input *input, const struct path *pat
     return analytic_impact_ground(&input->world->terrain, input->craters, path, toi);
 }
 
-/* The way, lowered by the threshold, does not reach the ground. */
+/* Returns true if the path lowered by the threshold does not reach the ground. */
 static bool above_threshold(const struct method_input *input, const struct path *path)
 {
     struct path lowered = *path;
@@ -129,7 +129,7 @@ bool pair_excluded(const struct method_input *input, uint32_t a, uint32_t b)
     return pair_filter_rests(&input->path[a]) && pair_filter_rests(&input->path[b]);
 }
 
-/* A fixed object's extent: from its position to each side, and from its foot down and up [m]. */
+/* A fixed object's extent: from its position to each side, down and up [m]. */
 struct extent {
     double reach, low, high;
 };

@@ -1,4 +1,4 @@
-/* The frame's contacts in a heap, and their renewal. */
+/* The frame's contacts in a heap, and the search for new ones after a change of path. */
 #include "collider/narrow_phase/contact_queue.h"
 
 #include "collider/method/method.h"
@@ -16,13 +16,14 @@
 #define PAIRS_A_PIECE  16
 #define FLIERS_A_PIECE 128
 
-/* Ends of a row's way: the ground, and the air. */
+/* The two ends of a row's path: ground, and end of life. */
 #define ENDS_A_ROW 2u
 
-/* More contacts never wait: each pair and each row's end, and as many void ones. */
+/* Most contacts in the queue: one of each pair, two ends of each row, and as many void ones. */
 #define HEAP_MAX (2u * (PAIRS_MAX + ENDS_A_ROW * CAPACITY_MAX))
 
-/* Each pair has at most one contact that holds, and each row two ends. */
+/* Returns the greatest number of valid contacts: each pair has at most one, and each row two
+ * ends. */
 static uint32_t holding_most(const struct contact_queue *contacts, uint32_t pairs)
 {
     return pairs + ENDS_A_ROW * contacts->rows;
@@ -128,7 +129,7 @@ void contact_queue_end(struct contact_queue *contacts)
 
 /* --- the heap ----------------------------------------------------------------------------------*/
 
-/* The one order of contacts, whatever order they were found in. */
+/* A total order of contacts, independent of the order in which they were found. */
 static bool earlier(const struct contact *p, const struct contact *q)
 {
     if (p->touch.toi != q->touch.toi)
@@ -138,14 +139,14 @@ static bool earlier(const struct contact *p, const struct contact *q)
     return p->b < q->b;
 }
 
-/* Was it computed from the ways that its bodies still have? */
+/* Returns true if the contact was computed from the present paths of its bodies. */
 static bool holds(const struct contact_queue *contacts, const struct contact *contact)
 {
     return contact->version_a == contacts->version[contact->a] &&
            (contact->b >= PAIR_FIXED || contact->version_b == contacts->version[contact->b]);
 }
 
-/* Puts a contact where place i or one below it is free. */
+/* Puts a contact into the free place i or a place below it. */
 static void sink_from(struct contact *heap, uint32_t count, uint32_t i, struct contact contact)
 {
     for (uint32_t child = 2 * i + 1; child < count; child = 2 * i + 1) {
@@ -159,7 +160,7 @@ static void sink_from(struct contact *heap, uint32_t count, uint32_t i, struct c
     heap[i] = contact;
 }
 
-/* Contacts in any order become a heap. */
+/* Makes a heap of contacts in any order. */
 static void order_heap(struct contact_list *heap)
 {
     for (uint32_t i = heap->count / 2; i > 0; i--)
@@ -178,7 +179,7 @@ static void drop_void(struct contact_queue *contacts)
     order_heap(heap);
 }
 
-/* Sees to it that the heap's array has room for this many contacts more. */
+/* Makes room in the heap's array for this many more contacts. */
 static void make_room(struct contact_list *heap, uint32_t more)
 {
     uint64_t needed = (uint64_t)heap->count + more;
@@ -212,7 +213,7 @@ static void pop(struct contact_queue *contacts)
 
 /* --- finding -----------------------------------------------------------------------------------*/
 
-/* Sweeps one pair from a time on; true with its contact when it has one. */
+/* Sweeps one pair from a time on. Returns true, with the contact, if there is one. */
 static bool sweep_pair(const struct contact_queue *contacts, const struct contact_input *input,
                        uint32_t index, double from, struct contact *contact)
 {
@@ -236,7 +237,7 @@ struct job {
     struct contact_queue *contacts;
     const struct contact_input *input;
     uint64_t tick;
-    _Atomic uint32_t found; /* contacts in the heap's array, in no order */
+    _Atomic uint32_t found; /* contacts in the heap's array, unordered */
 };
 
 static void note(struct job *job, const struct contact *contact)
@@ -260,7 +261,7 @@ static void find_some(void *context, uint32_t first, uint32_t end, uint32_t work
     }
 }
 
-/* What is found of count things, at most `each` of one, goes into the heap. */
+/* Adds what the function finds for count things, at most `each` for one of them, to the heap. */
 static void find_all(struct job *job, thread_pool_function *find, uint32_t count, uint32_t each,
                      uint32_t grain)
 {
@@ -319,7 +320,7 @@ static void find_end(struct job *job, uint32_t row)
     note(job, &contact);
 }
 
-/* Fliers first .. end - 1 of all sweepers together. */
+/* Tests fliers first .. end - 1, counted over all sweepers. */
 static void find_some_ends(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
@@ -414,8 +415,8 @@ static struct path_box box_union(const struct path_box *a, const struct path_box
     };
 }
 
-/* Pairs the row with whatever its new way comes near: what the broad phase knows, and the rows that
- * have left the boxes that it knows. */
+/* Pairs the row with the bodies near its new path: those that the broad phase finds, and the rows
+ * that have left their boxes. */
 static void look_around(struct contact_queue *contacts, const struct contact_input *input,
                         uint32_t row)
 {
@@ -442,7 +443,7 @@ static void look_around(struct contact_queue *contacts, const struct contact_inp
     *known = box_union(known, &box);
 }
 
-/* Sweeps the row's pairs, but for those that this change has swept from the other side. */
+/* Sweeps the row's pairs, except those that this change has already swept from the other row. */
 static void sweep_row(struct contact_queue *contacts, const struct contact_input *input,
                       uint32_t row, double time)
 {

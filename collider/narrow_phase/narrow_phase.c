@@ -8,7 +8,8 @@
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
-/* The touch of two spheres at its time. Centre in centre any normal would do: it is upwards. */
+/* Fills the contact of two spheres at its time. With equal centres any normal would do: it points
+ * upwards. */
 static void touch_of_spheres(struct vec3 a, struct vec3 b, double radius_a, double reach,
                              struct hull_contact *touch)
 {
@@ -42,7 +43,7 @@ static bool touch_spheres(const struct method_input *detect, const struct pair *
     return true;
 }
 
-/* Do the spheres around two bodies tell that they do not touch at this time? */
+/* Returns true if the spheres around two bodies show that they do not touch at this time. */
 static bool far_apart(const struct swept_body *a, const struct swept_body *b, double time)
 {
     struct vec3 between = vec3_sub(path_at(&b->path, time), path_at(&a->path, time));
@@ -50,9 +51,9 @@ static bool far_apart(const struct swept_body *a, const struct swept_body *b, do
     return vec3_dot(between, between) > reach * reach;
 }
 
-/* Bodies are looked at as one hull each first: what passes by costs one pair of hulls and not
- * dozens. Pieces within hulls that are apart touch no sooner than these do. False when they never
- * do; else *from is when. */
+/* Tests the bodies with one outer hull each first, so that bodies that pass each other cost one
+ * pair of hulls and not dozens. The pieces within touch no sooner than the outer hulls. Returns
+ * false if the outer hulls never touch; else *from is when. */
 static bool outer_touch(const struct world *world, const struct swept_body *a, uint16_t kind_a,
                         const struct swept_body *b, uint16_t kind_b, double *from)
 {
@@ -68,7 +69,7 @@ static bool outer_touch(const struct world *world, const struct swept_body *a, u
         return true;
     if (!far_apart(&outer_a, &outer_b, *from) &&
         time_of_impact_gap(&outer_a, &outer_b, *from) <= TOUCH_M)
-        return true; /* they come apart, but the pieces in them may meet */
+        return true; /* the outer hulls part, but the pieces within may meet */
     if (meet)
         *from = touch.toi;
     return meet;
@@ -107,8 +108,8 @@ bool narrow_phase_touch(const struct method_input *input, const struct body_moti
         return false;
     if (discrete || !(pair->b & PAIR_FIXED))
         return true;
-    /* Who is inside already has entered before: the touch of it was answered then. Hulls within
-     * their skin of each other count as inside. */
+    /* A body that is inside already was reported when it entered. Hulls within their skin of each
+     * other count as inside. */
     bool inside = touch->toi <= from && (hulls || touch->depth_m > 0.0 || from > 0.0);
     return !(inside && narrow_phase_lets_in(world, through_fixed, pair->b & ~PAIR_FIXED));
 }

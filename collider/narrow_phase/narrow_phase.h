@@ -9,15 +9,17 @@
 
 #include <stdbool.h>
 
-/* A fixed object of less rigidity than this bends aside and lets bodies through. */
+/* A fixed object of less rigidity than this bends aside, and bodies pass through it. */
 #define YIELDING_RIGIDITY 0.1
 
-/* May bodies be inside this fixed object? Under through_fixed in any, else in one that yields. */
+/* Returns true if bodies may be inside this fixed object: any object with through_fixed, else one
+ * that yields. */
 bool narrow_phase_lets_in(const struct world *world, bool through_fixed, uint32_t object);
 
-/* First touch of the pair in [from, 1]; from is not before either's path.since. By the methods that
- * look at the frame's end only, the touch is there. through_fixed: bodies may stand in any fixed
- * object and only entering one is a touch; in a yielding one they always may. */
+/* Finds the first contact of the pair in [from, 1]; from is not before either's path.since. By the
+ * methods that test only the frame's end the contact is there. through_fixed: bodies may be inside
+ * any fixed object, and only entering it is a contact. Inside a yielding object they always may
+ * be. */
 bool narrow_phase_touch(const struct method_input *input, const struct body_motion *motion,
                         bool through_fixed, const struct pair *pair, double from,
                         struct hull_contact *touch);

@@ -1,5 +1,5 @@
-/* What becomes of single contacts under impulses: fixed objects that give way, how bouncy and rough
- * a contact is, and what the lost energy does. */
+/* Single contacts under impulses: fixed objects that give way, restitution and friction, and the
+ * damage by the lost energy. */
 #include "collider/response/contact_impulse.h"
 
 #include "collider/response/damage.h"
@@ -12,7 +12,7 @@
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
-/* What would leave slower than this along the normal does not bounce at all. */
+/* A contact that would leave slower than this along the normal does not bounce [m/s]. */
 #define STOP_MPS 0.2
 
 static const struct kind *kind_of(const struct response_context *respond, uint32_t row)
@@ -32,7 +32,7 @@ const struct kind *contact_impulse_kind(const struct response_context *respond, 
 
 /* --- objects that give way ---------------------------------------------------------------------*/
 
-/* A bush bends: it takes its share of the momentum. */
+/* A bush bends: it takes up its share of the momentum. */
 static void bend(struct response_context *respond, struct island_contact *met,
                  const struct kind *fixed)
 {
@@ -44,7 +44,7 @@ static void bend(struct response_context *respond, struct island_contact *met,
     path_change_slow(respond, impact->a, impact->time, keeps);
 }
 
-/* It breaks: that costs its resistance, the rest of the energy goes on. */
+/* The object breaks: that costs its resistance, and the body keeps the rest of the energy. */
 static void break_through(struct response_context *respond, struct island_contact *met,
                           const struct kind *fixed, double yields_j)
 {
@@ -122,7 +122,7 @@ void contact_impulse_harm(struct response_context *respond, struct island_contac
         const struct kind *fixed = fixed_kind_of(respond, impact->b);
         impact_damage_row(respond, impact->a, impact, -1.0, contact->lost_j * fixed->rigidity,
                           spring);
-    } else { /* the larger mass hurts the smaller more (row 30) */
+    } else { /* the larger mass damages the smaller one more (row 30) */
         const struct kind *kb = kind_of(respond, impact->b);
         double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
         impact_damage_row(respond, impact->a, impact, -1.0, contact->lost_j * share_a, spring);

@@ -1,11 +1,11 @@
-/* What becomes of single contacts under impulses. */
+/* Single contacts under impulses. */
 #ifndef JOLON_COLLIDER_RESPONSE_CONTACT_IMPULSE_H
 #define JOLON_COLLIDER_RESPONSE_CONTACT_IMPULSE_H
 
 #include "collider/response/island.h"
 
-/* Returns true if the fixed object bends aside or breaks, so that the row goes on, slowed. The
- * contact is then answered. */
+/* Returns true if the fixed object bends aside or breaks, so that the row continues more slowly.
+ * Nothing else needs to be done about the contact then. */
 bool contact_impulse_gives_way(struct response_context *respond, struct island_contact *met);
 
 /* Returns the solver's contact: normal, restitution, friction. bodies are those of the contact. */

@@ -5,41 +5,42 @@
 
 #include <stdbool.h>
 
-/* A sweep that changes no velocity by more than this share of the fastest closing speed is the
- * last. Greater: bodies go on nearing each other; smaller: rounding never lets it end. */
+/* A sweep that changes no velocity by more than this share of the greatest closing speed is the
+ * last. With a greater value bodies still approach each other afterwards; with a smaller one
+ * rounding keeps the sweeps going. */
 #define SETTLED 1e-12
 
-/* The same against the greatest speed itself, for what closes slowly at high speed: some units in
- * the last place of a velocity. */
+/* The same as a share of the greatest speed, for slow contacts of fast bodies: a few units in the
+ * last place of a velocity. */
 #define SETTLED_ROUNDING 1e-14
 
-/* At most so many sweeps, and at most so many contacts solved in all, so that a great pile ends in
- * bounded time. Without friction the sweeps settle wherever there is an answer; most islands take
- * some ten, a hundred bodies of very different masses some two hundred, and what is all but jammed
- * may take thousands. */
+/* Bounds of the number of sweeps and of contacts solved in all, so that a great pile takes bounded
+ * time. Without friction the sweeps converge wherever there is a solution: most islands take about
+ * ten, a hundred bodies of very different masses about two hundred, and nearly locked bodies may
+ * take thousands. */
 #define SWEEPS_MAX  30000u
 #define UPDATES_MAX 400000u
 
-/* Sweeps of which the least change in so many is above this share of the least before have no
- * answer to settle at. */
+/* If the least change in this many sweeps is above this share of the least change before, the
+ * sweeps do not converge. */
 #define STALL_SWEEPS 500u
 #define STALL_SHARE  0.99
 
-/* With friction few islands need more than a hundred; one that takes more than this either jams,
- * where sweeps go round in circles for ever, or is too great to be worth the time. */
+/* With friction few islands need more than a hundred sweeps. One that takes more than this either
+ * jams, so that the sweeps go round in circles, or is too large to be worth the time. */
 #define FRICTION_SWEEPS_MAX  400u
 #define FRICTION_UPDATES_MAX 20000u
 
-/* So often an island is tried with friction, all of it and then half as much each time; then it is
- * left out. */
+/* Attempts with friction: the first with all of it, each next one with half as much. Then friction
+ * is left out. */
 #define SLACKENINGS 3
 
-/* Sweeps that change a velocity by this many times the greatest run away for ever; no blow makes
- * bodies so much faster. */
+/* Sweeps that change a velocity by more than this many times the greatest speed diverge; no impact
+ * makes bodies that much faster. */
 #define RUNAWAY 1e3
 
-/* A contact that moves along its normal less than this share of what it moves in all is held there:
- * no impulse along the normal can part the bodies, it would only throw them aside. */
+/* An impulse along the normal that moves the contact along the normal by less than this share of
+ * the whole motion cannot part the bodies: it would throw them aside. Such a contact is held. */
 #define MOBILITY_LEAST 1e-6
 
 /* A tangential direction that moves less than this share of the other is held. */
@@ -74,8 +75,8 @@ static struct vec3 to_world(const struct solver_contact *c, struct vec3 v)
                                                          vec3_scale(c->notes.tangent[1], v.z)));
 }
 
-/* Perpendicular to the normal. With the normal's sign the first turns round and the second does
- * not, so that swapping the bodies changes nothing but signs, to the bit. */
+/* Two unit vectors across the normal. When the normal changes its sign, the first does too and the
+ * second does not, so swapping the bodies changes only signs, to the bit. */
 static void set_tangents(struct solver_contact *c)
 {
     struct vec3 n = c->normal;
@@ -87,7 +88,7 @@ static void set_tangents(struct solver_contact *c)
 
 /* --- bodies ------------------------------------------------------------------------------------*/
 
-/* Velocity of b off a at the point, on the contact's axes. */
+/* Velocity of b relative to a at the point, on the contact's axes. */
 static struct vec3 slip(const struct solver_body *bodies, const struct solver_contact *c)
 {
     const struct solver_body *a = &bodies[c->a], *b = &bodies[c->b];
@@ -106,14 +107,14 @@ static void push(struct solver_body *bodies, const struct solver_contact *c, str
     b->spin = vec3_add(b->spin, turned(&b->inverse_inertia, vec3_cross(c->notes.arm_b, p)));
 }
 
-/* What a unit impulse along a world direction changes of the velocity at the point. */
+/* Change of velocity at the point by a unit impulse along a world direction. */
 static struct vec3 yielding(const struct solver_body *body, struct vec3 arm, struct vec3 along)
 {
     struct vec3 spin = turned(&body->inverse_inertia, vec3_cross(arm, along));
     return vec3_add(times(body->inverse_mass, along), vec3_cross(spin, arm));
 }
 
-/* On the contact's axes. */
+/* The same for both bodies, on the contact's axes. */
 static struct vec3 yielding_both(const struct solver_body *bodies, const struct solver_contact *c,
                                  struct vec3 along)
 {
@@ -121,8 +122,8 @@ static struct vec3 yielding_both(const struct solver_body *bodies, const struct 
                                yielding(&bodies[c->b], c->notes.arm_b, along)));
 }
 
-/* Inverse of the tangential mobility that is left when the normal speed is kept; along a direction
- * in which nothing moves it is zero. */
+/* Inverse of the tangential mobility with the normal speed kept; zero along a direction in which
+ * nothing moves. */
 static void set_slip_mass(struct solver_state *notes)
 {
     const double(*m)[3] = (const double(*)[3])notes->mobility.m;
@@ -162,18 +163,18 @@ static void begin_contact(const struct solver_body *bodies, struct solver_contac
 struct island {
     struct solver_body *bodies;
     struct solver_contact *contacts;
-    uint32_t body_count, count; /* of contacts */
-    double settled_mps;         /* a change of velocity below this is none */
-    double runaway_mps;         /* one above this leads nowhere */
-    bool rough;                 /* there is friction */
-    bool bouncy;                /* something comes back */
-    double friction;            /* 0..1 of each contact's own */
+    uint32_t body_count, count; /* count: of contacts */
+    double settled_mps;         /* a smaller change of velocity counts as none */
+    double runaway_mps;         /* a greater change means divergence */
+    bool rough;                 /* some contact has friction */
+    bool bouncy;                /* some contact has restitution */
+    double friction;            /* 0..1 of each contact's own coefficient */
 };
 
 /* --- one contact -------------------------------------------------------------------------------*/
 
-/* The contact's impulse when without it the bodies would move like this: at least the target speed
- * along the normal, within the friction cone. */
+/* Returns the contact's impulse if without it the bodies had this slip: afterwards the speed along
+ * the normal is at least the target, and the impulse is within the friction cone. */
 static struct vec3 alone(const struct solver_contact *c, double friction, struct vec3 without)
 {
     const struct solver_state *notes = &c->notes;
@@ -181,10 +182,10 @@ static struct vec3 alone(const struct solver_contact *c, double friction, struct
     double normal = (notes->target_mps - without.x) / n[0];
     if (!(normal > 0.0))
         return (struct vec3){0.0, 0.0, 0.0};
-    /* The slip at the moment in which they stop closing, if there were no friction. */
+    /* The slip at the end of the approach if there were no friction. */
     double plastic = normal * notes->plastic_share;
     double slip1 = without.y + n[1] * plastic, slip2 = without.z + n[2] * plastic;
-    /* What ends it, and the normal part that keeps the normal speed as it is. */
+    /* The tangential impulse that ends the slip, and the normal one that keeps the normal speed. */
     double t1 = -(notes->slip_mass[0][0] * slip1 + notes->slip_mass[0][1] * slip2);
     double t2 = -(notes->slip_mass[1][0] * slip1 + notes->slip_mass[1][1] * slip2);
     double beside = -(n[1] * t1 + n[2] * t2) / n[0];
@@ -195,7 +196,7 @@ static struct vec3 alone(const struct solver_contact *c, double friction, struct
     return (struct vec3){normal + share * beside, share * t1, share * t2};
 }
 
-/* Solves a contact against what the others do now; returns the speed that it changed. */
+/* Solves a contact against the present velocities; returns the change of speed. */
 static double update(const struct island *island, struct solver_contact *c)
 {
     struct solver_state *notes = &c->notes;
@@ -231,8 +232,8 @@ static double step_size(const struct island *island)
     return sum;
 }
 
-/* Goes on along the directions of the sweeps so far. The next sweep brings every contact back into
- * its friction cone. */
+/* Continues along the conjugate direction of the sweeps so far. The next sweep brings every contact
+ * back into its friction cone. */
 static void search(const struct island *island, double keep)
 {
     for (uint32_t i = 0; i < island->count; i++) {
@@ -247,8 +248,8 @@ static void search(const struct island *island, double keep)
     }
 }
 
-/* The velocities that the impulses of now make of the first ones: what the sweeps left of rounding
- * goes. */
+/* Computes the velocities again from the first ones and the present impulses, which removes the
+ * rounding of the sweeps. */
 static void renew(const struct island *island)
 {
     for (uint32_t i = 0; i < island->body_count; i++) {
@@ -268,7 +269,8 @@ static void take_out(const struct island *island)
     renew(island);
 }
 
-/* Whether the sweeps settled within so many, of so many contacts in all. */
+/* Returns true if the sweeps converged within the given numbers of sweeps and of contacts
+ * solved. */
 static bool sweep_all(const struct island *island, uint32_t sweeps, uint32_t updates)
 {
     double size_before = 0.0, least = island->runaway_mps, least_before = least;
@@ -293,8 +295,8 @@ static bool sweep_all(const struct island *island, uint32_t sweeps, uint32_t upd
     }
 }
 
-/* Solves all contacts from no impulses at all, with as much friction as they settle with; whether
- * they did. */
+/* Solves all contacts from zero impulses, with as much friction as converges. Returns true if some
+ * attempt converged. */
 static bool settle(struct island *island, bool bouncing)
 {
     for (uint32_t i = 0; i < island->count; i++) {
@@ -317,14 +319,15 @@ static bool settle(struct island *island, bool bouncing)
 
 /* --- energy ------------------------------------------------------------------------------------*/
 
-/* What the contact took out of the bodies [J]: force times way, the impulse being spread evenly. */
+/* Work that the contact took out of the bodies [J]: force times distance, the impulse being spread
+ * evenly in time. */
 static double work(const struct island *island, const struct solver_contact *c)
 {
     struct vec3 twice = vec3_add(c->notes.before, slip(island->bodies, c));
     return -0.5 * vec3_dot(c->notes.sum, twice);
 }
 
-/* Kinetic energy that the impulses added [J]; below what rounding makes of the work done, 0. */
+/* Kinetic energy that the impulses added [J]; 0 if it is below the rounding of the work done. */
 static double gain(const struct island *island)
 {
     double sum = 0.0, whole = 0.0;
@@ -335,8 +338,8 @@ static double gain(const struct island *island)
     return sum > ENERGY_SLACK * whole ? sum : maths_min(sum, 0.0);
 }
 
-/* The greatest share 0..1 of a way along which energy starts at gain0 <= 0 with this slope and ends
- * at gain1 > 0 that does not go above 0: energy is a quadratic along it. */
+/* Energy is quadratic along a line; at its start it is gain0 <= 0 with this slope, at its end gain1
+ * > 0. Returns the greatest share 0..1 of the line up to which it stays at most 0. */
 static double share_of_way(double gain0, double slope, double gain1)
 {
     double bend = gain1 - gain0 - slope;
@@ -346,7 +349,7 @@ static double share_of_way(double gain0, double slope, double gain1)
     return bend > 0.0 ? maths_clamp((root - slope) / (2.0 * bend), 0.0, 1.0) : 0.0;
 }
 
-/* Takes the impulses out of the bodies again and keeps them. */
+/* Takes the impulses out of the bodies and keeps them as bouncy. */
 static void set_aside(const struct island *island)
 {
     for (uint32_t i = 0; i < island->count; i++)
@@ -354,7 +357,7 @@ static void set_aside(const struct island *island)
     take_out(island);
 }
 
-/* Goes from the impulses of now towards those set aside as far as energy does not grow. */
+/* Moves from the present impulses towards the bouncy ones as far as energy does not grow. */
 static void approach(const struct island *island, double gain0, double gain1)
 {
     double slope = 0.0;
@@ -370,8 +373,8 @@ static void approach(const struct island *island, double gain0, double gain1)
     renew(island);
 }
 
-/* Without restitution: energy does not grow where the sweeps settle, and elsewhere impulses are
- * scaled down. Returns what was gained before that. */
+/* Solves without restitution. Energy does not grow where the sweeps converge; elsewhere the
+ * impulses are scaled down. Returns the gain before that. */
 static double settle_softly(struct island *island)
 {
     settle(island, false);
@@ -400,7 +403,8 @@ static void settle_all(struct island *island)
         approach(island, soft, gained);
 }
 
-/* Each contact bears of what the island lost as it took out; some may have put in. */
+/* Splits the island's loss of energy among the contacts, in proportion to the work of each; some
+ * may have added energy. */
 static void share_loss(const struct island *island)
 {
     double taken = 0.0;

@@ -1,4 +1,4 @@
-/* The spring's way in and back, in closed form. */
+/* Compression and rebound of the spring in closed form. */
 #include "collider/response/contact_spring.h"
 
 #include "world/maths/maths.h"

@@ -1,5 +1,6 @@
-/* Energy into damage (thesis rows 26, 27, 30). A body takes harm until its kind's resistance_j is
- * reached; a fixed object is damaged by the single hardest blow, as in figure 8. */
+/* Energy becomes damage (thesis rows 26, 27, 30). The damage of a body adds up until its kind's
+ * resistance_j is reached. A fixed object is damaged by the hardest single impact, as in figure
+ * 8. */
 #include "collider/response/damage.h"
 
 #include "collider/response/explosion.h"
@@ -9,7 +10,8 @@
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
-/* A body's levels, as shares of resistance_j: those in between only show how much is left. */
+/* A body's levels of damage as shares of resistance_j; those in between only show how much is
+ * left. */
 #define SHARE_HIGH 0.6
 #define SHARE_MED  0.3
 #define SHARE_LOW  0.1
@@ -75,7 +77,7 @@ static enum damage damage_fixed(struct response_context *respond, uint32_t objec
     return (enum damage) * now;
 }
 
-/* A kind's own constant, or the scenario's. */
+/* Returns a kind's own constant if it has one, or the scenario's. */
 static double own_or(double own, double scenario)
 {
     return own > 0.0 ? own : scenario;

@@ -4,24 +4,24 @@
 
 #include "collider/response/response_context.h"
 
-/* The row takes this energy. It is destroyed when all that it has taken reaches its kind's
+/* Adds this energy to the row's damage. The row is destroyed when the sum reaches its kind's
  * resistance_j. */
 void damage_row(struct response_context *respond, uint32_t row, double joules, double time);
 void damage_destroy(struct response_context *respond, uint32_t row, double time);
 
-/* Each of these two damages a fixed object and returns the damage that it has now. It never heals:
- * the hardest blow counts.
+/* Both damage a fixed object and return its damage. It is never repaired: the hardest impact
+ * counts.
  *
- * By the energy of the blow: the measure "energy". */
+ * By the energy of the impact: the measure "energy". */
 enum damage damage_fixed_object(struct response_context *respond, uint32_t object, double joules);
 
-/* By the mass of what struck it, as figure 8 is printed: the measure "mass" (thesis row 27). Damage
- * is high from mass_c1_kg on, medium from mass_c2_kg, low from mass_c3_kg and none below. The
- * figure's fourth constant only repeats where none begins; what it leaves open between the third
- * and the fourth is none, too. */
+/* By the mass of the body that hits it, as figure 8 is printed: the measure "mass" (thesis row 27).
+ * Damage is high from mass_c1_kg on, medium from mass_c2_kg, low from mass_c3_kg and none below.
+ * The figure's fourth constant only repeats where "none" begins; the interval between the third and
+ * the fourth, which it leaves open, is also "none". */
 enum damage damage_fixed_mass(struct response_context *respond, uint32_t object, double mass_kg);
 
-/* Returns the energy over a fixed kind's resistance_j from which its damage is high. */
+/* Returns the share of a fixed kind's resistance_j from which its damage is high. */
 double damage_high_share(const struct response_context *respond, const struct kind *kind);
 
 #endif

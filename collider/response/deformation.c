@@ -1,4 +1,4 @@
-/* Harm and dents of one blow. */
+/* Damage and dents of one impact. */
 #include "collider/response/deformation.h"
 
 #include "world/maths/maths.h"

@@ -15,7 +15,7 @@ struct event *event_writer_event(struct event_writer *events, enum event_type ty
     }
     uint64_t sequence = events->first + events->count;
     struct event *event = &events->slot[sequence & (events->slots - 1)];
-    memset(event, 0, sizeof *event); /* every byte: the digest sees them all */
+    memset(event, 0, sizeof *event); /* every byte, since all are part of the digest */
     event->sequence = sequence;
     event->frame = events->frame;
     event->tick = events->tick;

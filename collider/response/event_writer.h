@@ -1,5 +1,5 @@
 /* The frame's events, written into the ring from the committed end on. A frame holds at most
- * events_per_frame; what is more is counted in the tally. */
+ * events_per_frame; the counter of dropped events counts the rest. */
 #ifndef JOLON_COLLIDER_RESPONSE_EVENT_WRITER_H
 #define JOLON_COLLIDER_RESPONSE_EVENT_WRITER_H
 
@@ -16,10 +16,10 @@ struct event_writer {
     struct counters *tally;
 };
 
-/* A new event of this type, zeroed but for its key; NULL when the frame has no room left. */
+/* Returns a new event of this type, all zero except its key; NULL if the frame has no room left. */
 struct event *event_writer_event(struct event_writer *events, enum event_type type);
 
-/* Chains the frame's events onto the digest of all before. */
+/* Returns the digest of the frame's events and of all before them. */
 uint64_t event_writer_digest(const struct event_writer *events, uint64_t digest);
 
 #endif

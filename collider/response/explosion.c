@@ -1,4 +1,5 @@
-/* Detonations: blast over what is near, craters in the ground, chains of what explodes in turn. */
+/* Detonations: their effect on bodies nearby, craters in the ground, and the chain of further
+ * explosions. */
 #include "collider/response/explosion.h"
 
 #include "collider/response/damage.h"
@@ -13,15 +14,16 @@
 
 #include <errno.h>
 
-#define TNT_J_PER_KG       4.184e6
-#define EXPLOSION_RADIUS_M 8.0  /* of one kilogram; grows with the cube root (Hopkinson scaling) */
-#define EXPLOSION_COUPLING 0.02 /* share of a near charge's energy that a body takes */
-#define CRATER_RADIUS_M    1.1  /* of one kilogram on soil; grows with the cube root */
+#define TNT_J_PER_KG 4.184e6
+#define EXPLOSION_RADIUS_M                                                                         \
+    8.0 /* radius of one kilogram; grows with the cube root (Hopkinson scaling) */
+#define EXPLOSION_COUPLING 0.02 /* share of a close charge's energy that a body absorbs */
+#define CRATER_RADIUS_M    1.1  /* crater of one kilogram on soil; grows with the cube root */
 #define CRATER_DEPTH       0.4  /* over the radius */
 
 int charges_init(struct charges *charges, const struct world *world)
 {
-    /* Each row explodes once in a frame: as a round, or as what a blast destroys. */
+    /* Each row explodes at most once in a frame: as a round, or destroyed by an explosion. */
     *charges = (struct charges){.capacity = world->params->capacity};
     charges->charge = reserve_take(charges->capacity, sizeof *charges->charge);
     if (charges->charge && pair_list_init(&charges->near, broad_phase_found_most(world)) == 0)
@@ -45,8 +47,8 @@ void explosion_charge(struct response_context *respond, const struct charge *cha
     charges->charge[charges->count++] = *charge;
 }
 
-/* Energy that a body takes whose surface is at this distance: falls to nothing at the blast's
- * radius; touching, all of it. */
+/* Energy that a body absorbs whose surface is at this distance: all of it at 0, nothing at the
+ * radius. */
 static double explosion_energy(double explosive_kg, double radius_m, double distance_m)
 {
     double left = 1.0 - distance_m / radius_m;
@@ -71,7 +73,8 @@ static void explosion_row(struct response_context *respond, const struct charge 
     body_motion_draw(respond->motion, row);
     struct vec3 at = path_at(path, maths_max(charge->time, path->since));
     double distance = distance_to(charge->point, at, respond->world->kinds[e->kind[row]].radius_m);
-    /* A direct hit was answered where it struck; to the blast it is merely near. */
+    /* The effect of a direct hit has been applied already; here that body is treated like any
+     * other. */
     double joules = explosion_energy(charge->explosive_kg, radius, maths_max(distance, 1e-3));
     /* A stray round of one's own side is no attack. */
     uint32_t owner = charge->owner_slot;
@@ -100,8 +103,8 @@ static bool listed(const struct pair_list *list, uint32_t row)
     return false;
 }
 
-/* The rows that may be within the blast: what the broad phase knows there, and those that have left
- * the boxes that it knows. */
+/* Finds the rows that may be within the radius: from the broad phase, and those that have left
+ * their boxes. */
 static void find_rows(const struct response_context *respond, const struct path_box *box)
 {
     const struct contact_queue *contacts = respond->contacts;
@@ -133,7 +136,7 @@ static void explosion_one(struct response_context *respond, const struct charge 
 void explosion_all(struct response_context *respond)
 {
     struct charges *charges = respond->charges;
-    /* Blasts may add charges: each body explodes once, so this ends. */
+    /* Explosions may add charges. Each body explodes once, so this ends. */
     for (uint32_t i = 0; i < charges->count; i++) {
         struct charge charge = charges->charge[i];
         explosion_one(respond, &charge);
@@ -175,7 +178,7 @@ static enum struck struck_of(const struct response_context *respond, uint32_t st
     return struck & PAIR_FIXED ? STRUCK_FIXED : STRUCK_VEHICLE;
 }
 
-/* A direct hit: the charge's whole energy and the round's own. */
+/* A direct hit: the charge's whole energy and the round's kinetic energy. */
 static void hit(struct response_context *respond, uint32_t round, uint32_t struck, enum struck what,
                 double time)
 {

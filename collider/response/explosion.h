@@ -1,4 +1,4 @@
-/* The end of a munition, and the blasts of a frame. */
+/* The end of a munition, and the explosions of a frame. */
 #ifndef JOLON_COLLIDER_RESPONSE_EXPLOSION_H
 #define JOLON_COLLIDER_RESPONSE_EXPLOSION_H
 
@@ -10,26 +10,26 @@ struct charge {
     struct vec3 point;
     double time; /* 0..1 */
     double explosive_kg;
-    uint32_t owner_slot, owner_id; /* who fired it; 0 for nobody */
+    uint32_t owner_slot, owner_id; /* its shooter; 0 for nobody */
 };
 
-/* Charges that wait. A blast that destroys something explosive adds one. The collider's own memory.
- */
+/* Charges that have not exploded yet. An explosion that destroys a body with explosive adds one.
+ * The collider's own memory. */
 struct charges {
     struct charge *charge;
     uint32_t count, capacity;
-    struct pair_list near; /* what a blast reaches */
+    struct pair_list near; /* the bodies within a radius */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */
 int charges_init(struct charges *charges, const struct world *world);
 void charges_free(struct charges *charges);
 
-/* The munition explodes where it is; struck is a contact's second side. */
+/* Explodes the munition where it is; struck is a contact's second side. */
 void explosion_munition(struct response_context *respond, uint32_t row, uint32_t struck,
                         double time);
 
-/* Adds a charge, which explodes with the next explosion_all(). */
+/* Adds a charge, which explodes in the next explosion_all(). */
 void explosion_charge(struct response_context *respond, const struct charge *charge);
 void explosion_all(struct response_context *respond);
 

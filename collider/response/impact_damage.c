@@ -1,4 +1,4 @@
-/* What a collision's energy does to one body: harm, and a dent where it was struck. */
+/* The effect of a collision's energy on one body: damage, and a dent where it was hit. */
 #include "collider/response/impact_damage.h"
 
 #include "collider/response/contact_spring.h"
@@ -35,7 +35,7 @@ void impact_damage_row(struct response_context *respond, uint32_t row, const str
 {
     const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
     struct deformation deformation = deformation_of(kind, joules);
-    if (spring) { /* each skin gave way by half */
+    if (spring) { /* each skin is compressed by half */
         deformation.plastic_m = 0.5 * spring->left_m;
         deformation.elastic_m = 0.5 * (spring->depth_m - spring->left_m);
     }

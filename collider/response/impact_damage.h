@@ -1,4 +1,4 @@
-/* What the energy of a collision does to one body. */
+/* The effect of a collision's energy on one body. */
 #ifndef JOLON_COLLIDER_RESPONSE_IMPACT_DAMAGE_H
 #define JOLON_COLLIDER_RESPONSE_IMPACT_DAMAGE_H
 
@@ -6,8 +6,9 @@
 
 struct contact_spring_impact;
 
-/* The row takes this energy as damage and a dent at the impact's point. side is 1 if the normal
- * points into the row, -1 if it points out of it. spring: what struck it; NULL for no spring. */
+/* Applies this energy to the row as damage and as a dent at the impact's point. side is 1 if the
+ * normal points into the row, -1 if it points out of it. spring: the spring's impact; NULL for
+ * other responses. */
 void impact_damage_row(struct response_context *respond, uint32_t row, const struct impact *impact,
                        double side, double joules, const struct contact_spring_impact *spring);
 

@@ -1,4 +1,5 @@
-/* From contacts of one moment to islands, through the solver, to the bodies' new ways. */
+/* Builds islands from the contacts of one moment, solves them, and gives the bodies their new
+ * paths. */
 #include "collider/response/island.h"
 
 #include "collider/response/contact_impulse.h"
@@ -13,7 +14,7 @@
 #include <errno.h>
 #include <stdlib.h>
 
-/* Less is no overlap but rounding, 50 km from the origin [m]. */
+/* Smaller overlaps are rounding, 50 km from the origin [m]. */
 #define ROUNDING_M 1e-9
 
 int island_init(struct island *island, const struct world *world)
@@ -72,14 +73,15 @@ static uint32_t root_of(struct island *island, uint32_t body)
     return body;
 }
 
-/* The lower root becomes both's, so that groups come in the order of their first contact. */
+/* The lower root becomes the root of both, so that groups are in the order of their first
+ * contact. */
 static void join(struct island *island, uint32_t p, uint32_t q)
 {
     uint32_t a = root_of(island, p), b = root_of(island, q);
     island->body[a > b ? a : b].parent = a > b ? b : a;
 }
 
-/* Nothing is in the solver while contacts are gathered: there is nothing to copy. */
+/* The solver's arrays are empty while contacts are gathered, so nothing is copied. */
 static void grow_contacts(struct island *island)
 {
     uint32_t more = 2 * island->met_capacity + 1;
@@ -91,7 +93,8 @@ static void grow_contacts(struct island *island)
     island->met_capacity = more;
 }
 
-/* Takes in one contact: a lean, a fixed object that gives way, or a contact for the solver. */
+/* Gathers one contact: a persistent contact, a fixed object that gives way, or a contact for the
+ * solver. */
 static void take(struct response_context *respond, const struct contact *contact)
 {
     struct island *island = respond->island;
@@ -105,7 +108,7 @@ static void take(struct response_context *respond, const struct contact *contact
     met->leans = contact_persists(respond, &met->impact);
     if (!met->leans)
         met->report = response_report(respond, &met->impact);
-    met->body_a = body_for(island, contact->a); /* it is swept with the others in any case */
+    met->body_a = body_for(island, contact->a); /* its path is swept with the others in any case */
     if (contact->b & PAIR_FIXED && contact_impulse_gives_way(respond, met)) {
         contact_queue_settle(respond->contacts, contact);
         return;
@@ -119,8 +122,8 @@ static void take(struct response_context *respond, const struct contact *contact
     island->met_count++;
 }
 
-/* Is the next contact one of the same moment that impulses answer? Rounds and the ground are not.
- */
+/* Returns true if the next contact is of the same moment and is solved by impulses, so not one of
+ * rounds or the ground. */
 static bool same_moment(const struct response_context *respond, const struct contact *next,
                         double toi)
 {
@@ -171,7 +174,7 @@ static struct solver_body solve_body_of(const struct response_context *respond,
     struct solver_body solve = {
         .centre = vec3_add(path_at(&respond->path[row], time), body->arm),
     };
-    if (body->grounded) { /* it can neither jump nor roll over */
+    if (body->grounded) { /* it can neither leave the ground nor roll over */
         solve.inverse_mass = (struct vec3){light, 0.0, light};
         solve.inverse_inertia.m[1][1] = 1.0 / inertia.moment.y;
     } else {
@@ -181,11 +184,11 @@ static struct solver_body solve_body_of(const struct response_context *respond,
     solve.spin = path_change_spin(respond, row);
     solve.velocity = vec3_add(entities_velocity(e, row), vec3_cross(solve.spin, body->arm));
     if (body->grounded)
-        solve.velocity.y = 0.0; /* the slope's doing: it would push like a lift */
+        solve.velocity.y = 0.0; /* it comes from the slope, and would lift the other body */
     return solve;
 }
 
-/* A body's place in the solver. */
+/* Returns the body's index in the solver, and adds it on first use. */
 static uint32_t local_of(const struct response_context *respond, uint32_t *count, uint32_t index,
                          double time)
 {
@@ -206,8 +209,8 @@ static uint32_t local_of(const struct response_context *respond, uint32_t *count
 
 /* --- and out again -----------------------------------------------------------------------------*/
 
-/* The backup vector (Hahn 1988; thesis row 46): bodies that overlap part along the normal, the
- * lighter by more, until their skins touch. */
+/* The backup vector (Hahn 1988; thesis row 46): moves overlapping bodies apart along the normal,
+ * the lighter by more, until their skins touch. */
 static void part(const struct response_context *respond, const struct island_contact *met,
                  const struct solver_contact *contact)
 {
@@ -235,7 +238,7 @@ static void leave(struct response_context *respond, const struct solver_body *so
     uint32_t row = body->row;
     struct vec3 velocity = vec3_sub(solve->velocity, vec3_cross(solve->spin, body->arm));
     if (body->grounded)
-        velocity.y = 0.0; /* the mover puts it on the slope again */
+        velocity.y = 0.0; /* the mover follows the slope again */
     struct vec3 at = vec3_add(path_at(&respond->path[row], time), body->shift);
     path_change_leave(respond, row, time, at, velocity, solve->spin, body->stays);
 }

@@ -1,4 +1,4 @@
-/* Impulses: all contacts of one moment, in islands of bodies that touch each other. */
+/* Impulses: all contacts of one moment, grouped into islands of bodies that touch each other. */
 #ifndef JOLON_COLLIDER_RESPONSE_ISLAND_H
 #define JOLON_COLLIDER_RESPONSE_ISLAND_H
 
@@ -6,13 +6,13 @@
 #include "collider/response/contact_solver.h"
 #include "collider/response/contact_spring.h"
 
-/* A contact that impulses answer. */
+/* A contact that is solved by impulses. */
 struct island_contact {
     struct contact contact;
     struct impact impact;
     struct report report;
     struct outcome outcome;
-    struct contact_spring_impact spring; /* of the response "spring" */
+    struct contact_spring_impact spring; /* for the response "spring" */
     bool leans;
     uint32_t body_a, body_b; /* index into island.body; BODY_FIXED for a fixed object */
     uint32_t next;           /* index into met + 1 of the same group, 0 ends */
@@ -20,27 +20,27 @@ struct island_contact {
 
 #define BODY_FIXED UINT32_MAX
 
-/* A row that takes part in this moment. */
+/* A row with contacts in this moment. */
 struct island_body {
     uint32_t row;
-    uint32_t parent;      /* union-find: of the group */
-    uint32_t first, last; /* of a group's root: index into met + 1 */
-    uint32_t local;       /* index among the bodies being solved, UINT32_MAX: not yet */
-    bool stays;           /* its pair may not meet again: it waits for the next frame */
+    uint32_t parent;      /* union-find */
+    uint32_t first, last; /* of a root: the group's contacts, index into met + 1 */
+    uint32_t local;       /* index among the bodies being solved, UINT32_MAX: none yet */
+    bool stays;           /* its pair may not meet again in this frame: it stays where it is */
     bool grounded;
     struct vec3 arm;   /* [m, world] from the position to the centre of mass */
-    struct vec3 shift; /* [m] back out of what it overlaps */
+    struct vec3 shift; /* [m] out of the bodies that it overlaps */
 };
 
 /* The collider's own memory, kept from frame to frame. */
 struct island {
     struct island_contact *met;
-    uint32_t met_count, met_capacity; /* each pair meets once in a moment */
+    uint32_t met_count, met_capacity; /* each pair has at most one contact in a moment */
     struct island_body *body;
-    uint32_t *row; /* [bodies] theirs */
+    uint32_t *row; /* [bodies] of each body */
     uint32_t bodies;
-    uint32_t *body_of; /* [capacity of the world] body + 1 of a row in this moment, else 0 */
-    /* A fixed object is a body of its own each time. */
+    uint32_t *body_of; /* [capacity of the world] body + 1 for a row in this moment, else 0 */
+    /* A fixed object is a new body in each of its contacts. */
     struct solver_body *solve;      /* [capacity of the world + met_capacity] */
     uint32_t *solve_of;             /* body of each */
     struct solver_contact *contact; /* [met_capacity] */
@@ -51,8 +51,8 @@ struct island {
 int island_init(struct island *island, const struct world *world);
 void island_free(struct island *island);
 
-/* Answers this contact, which was just taken from the queue, and with it those of the same moment
- * that impulses answer. */
+/* Responds to this contact, which was just taken from the queue, and to all others of the same
+ * moment that are solved by impulses. */
 void island_answer(struct response_context *respond, const struct contact *contact);
 
 #endif

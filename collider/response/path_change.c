@@ -1,4 +1,4 @@
-/* How an answer to a contact changes a body's way through the rest of the frame. */
+/* How the response to a contact changes a body's path in the rest of the frame. */
 #include "collider/response/path_change.h"
 
 #include "world/entity/mass_properties.h"
@@ -6,7 +6,7 @@
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-/* A wreck this near the ground lies on it [m]. */
+/* A wreck this near to the ground lies on it [m]. */
 #define LIES_M 0.05
 
 bool path_change_grounded(const struct response_context *respond, uint32_t row)
@@ -35,14 +35,14 @@ struct vec3 path_change_spin(const struct response_context *respond, uint32_t ro
     return (struct vec3){0.0, yaw, 0.0};
 }
 
-/* What it turns beside its own spin. */
+/* Returns the rotation by the driver, in addition to the row's spin [rad/s]. */
 static double driven(const struct response_context *respond, uint32_t row)
 {
     return path_change_spin(respond, row).y - respond->next->entities.spin_y[row];
 }
 
-/* The way goes no further than the world's edge. It may begin beyond it, where the body was pushed
- * out of another, but does not end there. */
+/* Ends the path at the world's edge. It may begin beyond it, if the body was pushed out of
+ * another. */
 static struct path within_world(struct path path)
 {
     double left = 1.0 - path.since;
@@ -59,7 +59,8 @@ static struct path within_world(struct path path)
     return path;
 }
 
-/* Gives the row this way and what follows from it for the frame's end. */
+/* Gives the row this path, and writes the pose and velocity at the frame's end that follow from
+ * it. */
 static void take_path(struct response_context *respond, uint32_t row, const struct path *path,
                       const struct rotation_path *rotation, struct vec3 velocity)
 {
@@ -114,7 +115,7 @@ void path_change_leave(struct response_context *respond, uint32_t row, double ti
     const struct path path = {
         .at = at, .along = vec3_scale(velocity, stays ? 0.0 : dt_s), .since = time};
     if (!path_change_grounded(respond, row)) {
-        /* Its axes turn with it, its angular momentum does not. */
+        /* The inertia rotates with the body; angular momentum is conserved. */
         const struct mass_properties inertia =
             mass_properties_of(&respond->world->kinds[respond->next->entities.kind[row]]);
         struct mat3 before = rotation_matrix(turned), after = rotation_matrix(rotation.to);

@@ -1,20 +1,20 @@
-/* How the answer to a contact changes a body's path through the rest of the frame. */
+/* How the response to a contact changes a body's path in the rest of the frame. */
 #ifndef JOLON_COLLIDER_RESPONSE_PATH_CHANGE_H
 #define JOLON_COLLIDER_RESPONSE_PATH_CHANGE_H
 
 #include "collider/response/response_context.h"
 
-/* The row stays where it is for the rest of the frame, which it ends with this velocity. */
+/* Keeps the row where it is for the rest of the frame; this is its velocity at the end. */
 void path_change_stay(struct response_context *respond, uint32_t row, double time,
                       struct vec3 velocity);
 
-/* The row goes on along its path at a share of its speed. path_change_swept must follow. */
+/* The row continues along its path at a share of its speed. Call path_change_swept afterwards. */
 void path_change_slow(struct response_context *respond, uint32_t row, double time, double share);
 
-/* The row goes on from `at` with this velocity and spin. If it stays, it remains there for the rest
- * of the frame, which it ends with both. spin_rps is as path_change_spin() returns it: the part
- * that the driver steers does not become the row's own. path_change_swept must follow once all rows
- * that leave at this time have left. */
+/* The row continues from `at` with this velocity and spin. If it stays, it remains there for the
+ * rest of the frame and has both at the end. spin_rps is as path_change_spin() returns it; the
+ * driver's part does not become the row's own spin. Call path_change_swept once all rows that leave
+ * at this time have left. */
 void path_change_leave(struct response_context *respond, uint32_t row, double time, struct vec3 at,
                        struct vec3 velocity, struct vec3 spin_rps, bool stays);
 
@@ -22,11 +22,12 @@ void path_change_leave(struct response_context *respond, uint32_t row, double ti
 void path_change_swept(struct response_context *respond, const uint32_t *rows, uint32_t count,
                        double time);
 
-/* Returns how the row turns [rad/s, world axes]: the spin that collisions gave it and, on the
- * ground, what its driver steers. */
+/* Returns the row's rotation [rad/s, world axes]: its spin from collisions and, on the ground, the
+ * driver's steering. */
 struct vec3 path_change_spin(const struct response_context *respond, uint32_t row);
 
-/* Returns true for a row that the ground holds: a land vehicle, a ship, a wreck on the ground. */
+/* Returns true for a row that the ground supports: a land vehicle, a ship, a wreck on the
+ * ground. */
 bool path_change_grounded(const struct response_context *respond, uint32_t row);
 
 #endif

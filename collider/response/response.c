@@ -1,4 +1,5 @@
-/* One contact at a time, in the order of time: who met whom, which model answers, and the event. */
+/* Responds to one contact at a time, in the order of time: the parties, the response's functions,
+ * the event. */
 #include "collider/response/response.h"
 
 #include "collider/response/damage.h"
@@ -12,13 +13,14 @@
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
-/* Bodies that touched within this time and close no faster than this lean on each other, or rub
- * along: that is one long contact, told of when it began. An engine adds far less within the time;
- * less here tells of a vehicle that drives along another again and again. */
+/* If two bodies touched within this time and close no faster than this, they lean on each other or
+ * scrape along: that is one persistent contact, reported when it began. An engine adds far less
+ * speed within the time. With a shorter time a vehicle that scrapes along another would be reported
+ * again and again. */
 #define LEAN_S   0.25
 #define LEAN_MPS 2.0
 
-/* A normal with less of it on the level is too steep to push what the ground holds. */
+/* With a smaller horizontal part a normal is too steep for bodies on the ground. */
 #define LEVEL_MIN 0.2
 
 const struct response_functions *response_of(enum response_model model)
@@ -30,15 +32,15 @@ const struct response_functions *response_of(enum response_model model)
     return functions[model];
 }
 
-/* Tells the agent which way leads away from what it ran into. */
+/* Tells the row's agent the heading away from the obstacle. */
 static void bump(struct response_context *respond, uint32_t row, double away_x, double away_z)
 {
     table_set_bumped(&respond->writer, row, 1);
     table_set_bump_heading(&respond->writer, row, (float)maths_heading(away_x, away_z));
 }
 
-/* Bodies that the ground holds push each other on the level only: along the normal, or, where that
- * is too steep to tell, along the line between their places. */
+/* Bodies on the ground push each other horizontally only: along the normal or, where that is too
+ * steep, along the line between their positions. */
 static struct vec3 level_normal(const struct response_context *respond,
                                 const struct contact *contact)
 {
@@ -57,7 +59,7 @@ static struct vec3 level_normal(const struct response_context *respond,
     return length > 0.0 ? vec3_scale(level, 1.0 / length) : (struct vec3){1.0, 0.0, 0.0};
 }
 
-/* Of the row's skin where it touches. */
+/* Returns the velocity of the row's skin at the contact. */
 static struct vec3 velocity_at(const struct response_context *respond, uint32_t row,
                                const struct hull_contact *touch)
 {
@@ -109,8 +111,8 @@ static void put(double to[3], struct vec3 from)
     to[2] = from.z;
 }
 
-/* How the other side of a contact is remembered: an entity by its id, which no slot change blurs.
- */
+/* Returns the number by which the other side of a contact is remembered: for an entity its id,
+ * which another entity in the slot does not have. */
 static uint32_t body_mark(const struct response_context *respond, uint32_t body)
 {
     return body & PAIR_FIXED ? body : respond->next->entities.id[body];
@@ -195,8 +197,8 @@ void write_collision_event(struct response_context *respond, const struct report
     collision->response = outcome->response;
 }
 
-/* Leaning bodies only stop pressing: what each brings along the normal is taken out, shared so that
- * momentum stays. */
+/* Ends the approach of bodies in a persistent contact: takes out their closing speed and conserves
+ * momentum. */
 static void lean(struct response_context *respond, const struct impact *impact)
 {
     const struct entities *e = &respond->next->entities;
@@ -239,7 +241,7 @@ static void collide(struct response_context *respond, const struct contact *cont
     write_collision_event(respond, &report, &impact, &outcome);
 }
 
-/* An aircraft meets the ground. */
+/* Destroys an aircraft that hits the ground. */
 static void crash(struct response_context *respond, const struct contact *contact)
 {
     const struct entities *e = &respond->next->entities;
@@ -252,7 +254,7 @@ static void crash(struct response_context *respond, const struct contact *contac
         terrain_normal(&respond->world->terrain, respond->input.detect.craters, at.x, at.z);
     respond->next->head->tally.collisions++;
     struct vec3 slide = vec3_sub(velocity, vec3_scale(normal, vec3_dot(velocity, normal)));
-    /* A wreck first: what still flies would meet the ground again where it stays. */
+    /* Make it a wreck first: an aircraft that stays there would meet the ground again. */
     damage_destroy(respond, row, time);
     path_change_stay(respond, row, time, vec3_scale(slide, 0.3));
     if (event) {
@@ -280,7 +282,7 @@ void response_contact(struct response_context *respond, const struct contact *co
     double time = contact->touch.toi;
     if (contact->b >= PAIR_FIXED && contact->b < CONTACT_AIR &&
         !pair_filter_stands(&respond->input.detect, contact->b & ~PAIR_FIXED))
-        return; /* it fell earlier in this frame */
+        return; /* it was destroyed earlier in this frame */
     if (round_a && round_b) {
         explosion_munition(respond, contact->a, CONTACT_AIR, time);
         explosion_munition(respond, contact->b, CONTACT_AIR, time);

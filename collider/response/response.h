@@ -1,4 +1,4 @@
-/* The answers to contacts, one contact at a time, and the registry of responses.
+/* The response to contacts, one at a time, and the registry of responses.
  *
  * A response is a row of RESPONSE_MODELS (world/collision_models.h) and a file response_WORD.c that
  * defines its functions. */
@@ -12,11 +12,11 @@ typedef void response_function(struct response_context *respond, const struct im
                                struct outcome *outcome);
 
 struct response_functions {
-    /* Answer a collision with a moving body, and with a fixed object. NULL: the two pass through
-     * each other. */
+    /* Respond to a collision with a moving body, and with a fixed object. NULL: the two pass
+     * through each other. */
     response_function *moving, *fixed;
     /* Solves all contacts of a group of bodies at one moment (island.h). first is the group's first
-     * index into met + 1. NULL: contacts are answered one by one. */
+     * index into met + 1. NULL: each contact is resolved alone. */
     void (*joint)(struct response_context *respond, uint32_t first, uint32_t bodies);
 };
 
@@ -27,26 +27,25 @@ RESPONSE_MODELS(X)
 
 const struct response_functions *response_of(enum response_model model);
 
-/* Answers the earliest contact. A joint response also answers those of the same moment that must be
- * solved together with it. */
+/* Responds to the earliest contact. A joint response also resolves those of the same moment that
+ * must be solved together with it. */
 void response_contact(struct response_context *respond, const struct contact *contact);
 
 struct impact response_impact(const struct response_context *respond,
                               const struct contact *contact);
 
-/* Returns true if the row is still on its way through an object that lets it in. When another hull
- * of the same body enters the object later, no second collision is reported. Remembers the touch.
- */
+/* Returns true if the row is still inside an object that it may pass through. When another hull of
+ * the same body enters the object later, no second collision is reported. Remembers the contact. */
 bool passes_through(struct response_context *respond, const struct impact *impact);
 
 /* Returns true if the two bodies were already in contact, so that this contact is not a new
- * collision. Remembers the touch in any case. */
+ * collision. Remembers the contact in any case. */
 bool contact_persists(struct response_context *respond, const struct impact *impact);
 
-/* The place of a collision's event, which is taken before the answer, so that the events that
- * follow from the answer come after it. */
+/* The place of a collision's event. It is taken before the response, so that the events that follow
+ * from the response come after it. */
 struct report {
-    struct event *event; /* NULL: the frame's events are full */
+    struct event *event; /* NULL: the frame has no room for events */
     struct vec3 direction_a;
 };
 struct report response_report(struct response_context *respond, const struct impact *impact);

@@ -1,5 +1,4 @@
-/* What the answers to a frame's contacts work on, and with. They change the frame being made and
- * nothing else. */
+/* What the functions of a response read and change: the frame being made. */
 #ifndef JOLON_COLLIDER_RESPONSE_RESPONSE_CONTEXT_H
 #define JOLON_COLLIDER_RESPONSE_RESPONSE_CONTEXT_H
 
@@ -15,31 +14,31 @@ struct response_functions;
 
 struct response_context {
     const struct world *world;
-    const struct response_functions *functions; /* of the world's response */
+    const struct response_functions *functions; /* of the scenario's response */
     struct broad_phase *broad;
     struct contact_queue *contacts;
     struct body_motion *motion;
     struct contact_input input;
     struct state *next;
-    struct path *path; /* motion's */
+    struct path *path; /* of motion */
     struct event_writer events;
     struct charges *charges;
     struct island *island;
-    struct table_writer writer; /* by which every answer changes next's rows */
+    struct table_writer writer; /* every change of next's rows goes through this */
 };
 
-/* A collision to be answered. */
+/* A collision to resolve. */
 struct impact {
     uint32_t a, b;      /* rows; b has PAIR_FIXED for a fixed object */
     double time;        /* 0..1 */
     struct vec3 point;  /* [m, world] where the bodies touch */
     struct vec3 normal; /* unit, from a towards b; horizontal between bodies on the ground */
-    double depth_m;     /* how far they overlap along the hulls' own normal */
+    double depth_m;     /* overlap along the hulls' own normal */
     double closing_mps; /* at the point, along the normal, >= 0 */
     double angle_rad;   /* b's heading relative to a's, 0..2 pi */
 };
 
-/* What an answer did, for the event. */
+/* What a response did, for the event. */
 struct outcome {
     enum response response;
     double impulse_ns;

@@ -1,10 +1,11 @@
-/* Figure 8 of the thesis (p. 22), with the gaps that it leaves closed (row 27).
+/* Figure 8 of the thesis (p. 22), with its gaps closed (row 27).
  *
- * Its constants: severe_rad, bounce_keep and fast_mps belong to the kinds of the two that meet.
- * An impact is severe when it is within the wider of their two severe_rad of a quarter turn; both
- * are killed when either goes faster than its own kind's fast_mps; a bounce leaves each its own
- * kind's bounce_keep. So no rule asks who of the two comes first or is the heavier. "Large",
- * "moving quickly" and constant1..3 are the scenario's, the last also a kind's own (damage.c). */
+ * Its constants severe_rad, bounce_keep and fast_mps belong to the kinds of the two vehicles. An
+ * impact is severe if its angle is within the wider of their two severe_rad of a quarter turn; both
+ * are destroyed if either is faster than its own kind's fast_mps; a bounce leaves each its own
+ * kind's bounce_keep. So no rule depends on the order of the two or on which is heavier. "Large",
+ * "moving quickly" and constant1..3 are the scenario's; the last may also be a kind's own
+ * (damage.c). */
 #include "collider/response/damage.h"
 #include "collider/response/impact_damage.h"
 #include "collider/response/path_change.h"
@@ -15,8 +16,8 @@
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
-/* Angles come from headings, which are never exact to the last bit: a ten-thousandth of a degree
- * keeps 5 and 85 degrees on the severe side. */
+/* Headings are not exact to the last bit. A ten-thousandth of a degree keeps angles of 5 and 85
+ * degrees severe. */
 #define ANGLE_SLACK_RAD (1e-4 * RAD_PER_DEG)
 
 static const struct kind *kind_of(const struct response_context *respond, uint32_t row)
@@ -26,7 +27,7 @@ static const struct kind *kind_of(const struct response_context *respond, uint32
 
 static bool severe(const struct kind *a, const struct kind *b, double angle_rad)
 {
-    double off = maths_wrap_half(4.0 * angle_rad) * 0.25; /* from the nearest quarter turn */
+    double off = maths_wrap_half(4.0 * angle_rad) * 0.25; /* distance to the nearest quarter turn */
     return fabs(off) <= maths_max(a->severe_rad, b->severe_rad) + ANGLE_SLACK_RAD;
 }
 
@@ -36,7 +37,7 @@ static bool fast(const struct response_context *respond, const struct kind *kind
     return speed_mps > (kind->fast_mps > 0.0 ? kind->fast_mps : scenario);
 }
 
-/* Mirrored off the plane of contact when it was going into it, and slower. */
+/* Reflects a velocity into the plane of contact, and makes it slower. */
 static struct vec3 bounced(struct vec3 velocity, struct vec3 normal, double keep)
 {
     double into = vec3_dot(velocity, normal);
@@ -72,7 +73,7 @@ static void meet_moving(struct response_context *respond, const struct impact *i
     double lost = before - energy_of(ka, va) - energy_of(kb, vb);
     path_change_stay(respond, impact->a, impact->time, va);
     path_change_stay(respond, impact->b, impact->time, vb);
-    /* The larger mass hurts the smaller more (row 30). */
+    /* The larger mass damages the smaller one more (row 30). */
     double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
     impact_damage_row(respond, impact->a, impact, -1.0, lost * share_a, NULL);
     impact_damage_row(respond, impact->b, impact, 1.0, lost * (1.0 - share_a), NULL);

@@ -1,6 +1,6 @@
-/* The response "mps" (thesis row 42): what MPS II and III did with platforms that came near each
- * other. Both are destroyed and stay where they are, whatever their speeds, angle and masses. Fixed
- * objects had no part in it: a platform passes through them. */
+/* The response "mps" (thesis row 42): platforms of MPS II and III that came near each other. Both
+ * are destroyed and stay where they are, whatever their speeds, angle and masses. A platform passes
+ * through fixed objects. */
 #include "collider/response/damage.h"
 #include "collider/response/path_change.h"
 #include "collider/response/response.h"

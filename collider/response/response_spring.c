@@ -5,7 +5,7 @@
 #include "world/entity/kind.h"
 #include "world/maths/rotation.h"
 
-/* What a unit impulse at the contact changes of the speed along the normal there [1/kg]. */
+/* Change of the speed along the normal at the contact by a unit impulse [1/kg]. */
 static double mobility(const struct solver_body *body, const struct solver_contact *contact)
 {
     struct vec3 n = contact->normal, r = vec3_sub(contact->point, body->centre);
