@@ -10,7 +10,7 @@
 #include <errno.h>
 #include <string.h>
 
-#define PIECES_A_WORKER 2u /* blocks taken at a time */
+#define BLOCKS_A_WORKER 2u /* blocks taken at a time */
 
 int collider_init(struct collider *collider, const struct world *world,
                   const struct crater *craters, struct thread_pool *workers)
@@ -47,7 +47,7 @@ void collider_free(struct collider *collider)
     *collider = (struct collider){0};
 }
 
-struct stage {
+struct step {
     struct collider *collider;
     struct table moved, next;
     uint32_t used;
@@ -56,31 +56,31 @@ struct stage {
 
 _Static_assert(BROAD_PHASE_ROWS_TAKEN % CHECKSUM_ROWS == 0, "rows are taken by whole pieces");
 
-static void take_pieces(void *context, uint32_t first, uint32_t end, uint32_t worker)
+static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
-    const struct stage *stage = context;
+    const struct step *step = context;
     (void)worker;
-    for (uint32_t piece = first; piece < end; piece++) {
-        table_take(stage->next, stage->moved, piece, stage->used, piece < stage->known);
-        stage->collider->changed[piece] = stage->known > 0 ? 0 : COLUMNS_ALL;
+    for (uint32_t block = first; block < end; block++) {
+        table_take(step->next, step->moved, block, step->used, block < step->known);
+        step->collider->changed[block] = step->known > 0 ? 0 : COLUMNS_ALL;
     }
 }
 
 /* Copies moved rows just before detection reads them. */
 static void take_rows(void *context, uint32_t first, uint32_t end)
 {
-    take_pieces(context, first / CHECKSUM_ROWS, block_count(end), 0);
+    take_blocks(context, first / CHECKSUM_ROWS, block_count(end), 0);
 }
 
 /* Copies all moved rows. */
-static void take_all(struct stage *stage)
+static void take_all(struct step *step)
 {
-    thread_pool_run(stage->collider->workers, take_pieces, stage, block_count(stage->used),
-                    PIECES_A_WORKER);
+    thread_pool_run(step->collider->workers, take_blocks, step, block_count(step->used),
+                    BLOCKS_A_WORKER);
 }
 
 /* Returns how many blocks of next still hold what this process left there two frames ago. */
-static uint32_t known_pieces(const struct collider *collider, const struct moved *moved,
+static uint32_t known_blocks(const struct collider *collider, const struct moved *moved,
                              const struct state *next)
 {
     uint64_t frame = moved->head->frame, left = collider->left[frame & 1];
@@ -98,40 +98,40 @@ static void put_intents(struct event_writer *events, const struct moved *moved)
     }
 }
 
-static void draw_pairs(struct body_motion *motion, const struct pair_list *list)
+static void require_paths(struct body_motion *motion, const struct pair_list *list)
 {
     for (uint32_t i = 0; i < list->count; i++) {
-        body_motion_draw(motion, list->pair[i].a);
+        body_motion_require(motion, list->pair[i].a);
         if (!(list->pair[i].b & PAIR_FIXED))
-            body_motion_draw(motion, list->pair[i].b);
+            body_motion_require(motion, list->pair[i].b);
     }
 }
 
 /* Copies the moved rows, block by block with the broad phase, and finds the frame's pairs by the
  * scenario's method. Computes all paths only if the method needs them, else those of pairs. */
-static void find_pairs(struct stage *stage, const struct method_input *input)
+static void find_pairs(struct step *step, const struct method_input *input)
 {
-    struct collider *collider = stage->collider;
+    struct collider *collider = step->collider;
     const struct method_functions *method =
         method_of((enum method)collider->world->params->collision.method);
-    broad_phase_pairs_moved(&collider->broad, input, &collider->motion, take_rows, stage);
+    broad_phase_pairs_moved(&collider->broad, input, &collider->motion, take_rows, step);
     for (uint32_t row = 0; method->test != METHOD_TESTS_NEAR && row < input->rows; row++)
-        body_motion_draw(&collider->motion, row);
+        body_motion_require(&collider->motion, row);
     collider->pairs.count = 0;
     method->pairs(input, collider->workspace, &collider->pairs);
-    draw_pairs(&collider->motion, &collider->pairs);
+    require_paths(&collider->motion, &collider->pairs);
     contact_queue_begin(&collider->contacts, &collider->pairs, 1);
 }
 
-static void collide_all(struct stage *stage, struct response_context *respond)
+static void collide_all(struct step *step, struct response_context *context)
 {
-    struct collider *collider = stage->collider;
+    struct collider *collider = step->collider;
     struct contact contact;
-    find_pairs(stage, &respond->input.detect);
-    contact_queue_find(&collider->contacts, &respond->input);
-    contact_queue_find_ends(&collider->contacts, &respond->input, respond->next->head->tick);
-    while (contact_queue_next(&collider->contacts, &respond->input, &contact)) {
-        response_contact(respond, &contact);
+    find_pairs(step, &context->input.detect);
+    contact_queue_find(&collider->contacts, &context->input);
+    contact_queue_find_ends(&collider->contacts, &context->input, context->next->head->tick);
+    while (contact_queue_next(&collider->contacts, &context->input, &contact)) {
+        response_contact(context, &contact);
         work_done();
     }
 }
@@ -169,7 +169,7 @@ static uint64_t checksum(struct collider *collider, const struct state *committe
                              fixed_hash(collider, committed, next), &lists);
 }
 
-struct response_context collider_respond(struct collider *collider, struct state *next)
+struct response_context collider_response_context(struct collider *collider, struct state *next)
 {
     const struct world *world = collider->world;
     const struct response_functions *functions =
@@ -203,30 +203,30 @@ void collider_step(struct collider *collider, const struct state *committed,
                    const struct moved *moved, struct state *next, const struct event_ring *ring)
 {
     const struct world *world = collider->world;
-    struct stage stage = {collider, moved_table(moved), state_table(next), moved->head->used,
-                          known_pieces(collider, moved, next)};
+    struct step step = {collider, moved_table(moved), state_table(next), moved->head->used,
+                        known_blocks(collider, moved, next)};
     uint64_t *left = &collider->left[moved->head->frame & 1];
     crater_index_update(&collider->craters, committed->head->crater_count);
     begin_head(next->head, moved->head);
     memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
     body_motion_begin(&collider->motion, committed, next);
 
-    struct response_context respond = collider_respond(collider, next);
-    respond.events = (struct event_writer){.slot = ring->slot,
+    struct response_context context = collider_response_context(collider, next);
+    context.events = (struct event_writer){.slot = ring->slot,
                                            .slots = ring->slots,
                                            .first = committed->head->event_end,
                                            .frame = next->head->frame,
                                            .tick = next->head->tick,
                                            .most = world->params->events_per_frame,
                                            .tally = &next->head->tally};
-    put_intents(&respond.events, moved);
+    put_intents(&context.events, moved);
     if (next->head->advanced) {
-        collide_all(&stage, &respond);
+        collide_all(&step, &context);
         contact_queue_end(&collider->contacts);
     } else {
-        take_all(&stage);
+        take_all(&step);
     }
-    next->head->event_end = respond.events.first + respond.events.count;
-    next->head->event_digest = event_writer_digest(&respond.events, committed->head->event_digest);
+    next->head->event_end = context.events.first + context.events.count;
+    next->head->event_digest = event_writer_digest(&context.events, committed->head->event_digest);
     *left = next->head->checksum = checksum(collider, committed, next);
 }

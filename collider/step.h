@@ -60,6 +60,6 @@ void collider_step(struct collider *collider, const struct state *committed,
 
 /* Returns the context of the responses for the frame that body_motion_begin was given; the caller
  * sets the event writer. Part of collider_step, and for tests. */
-struct response_context collider_respond(struct collider *collider, struct state *next);
+struct response_context collider_response_context(struct collider *collider, struct state *next);
 
 #endif

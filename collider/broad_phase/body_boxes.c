@@ -1,6 +1,6 @@
 /* Fills boxes and records from the columns, a block of rows at a time and four rows at once. The
- * results are equal to the bit to those of body_motion_take, pair_filter_box and the functions of
- * strip_bins.h. */
+ * results are equal to the bit to those of body_motion_compute, pair_filter_box and the functions
+ * of strip_bins.h. */
 #include "collider/broad_phase/body_boxes.h"
 
 #include "world/maths/cpu_dispatch.h"
@@ -31,7 +31,7 @@ _Static_assert(sizeof(struct path_box) == 6 * sizeof(float), "a box is its six b
 struct block {
     /* Copies of what cannot be read in place: short blocks, new rows, computed paths. */
     _Alignas(64) double at[3][BLOCK], to[3][BLOCK];
-    double grow[BLOCK];
+    double margin[BLOCK];
     uint32_t rests[BLOCK]; /* BIN_RESTS or 0 */
     uint32_t tag[BLOCK];
     struct bin_record record[BLOCK];
@@ -104,7 +104,7 @@ static void find_resting(const struct body_boxes *rows, struct block *block, uin
             __builtin_prefetch(angle[i] + first + BLOCK + k);
     }
     for (uint32_t k = 0; k < count; k++) {
-        if (block->rests[k] && body_motion_turns(rows->motion, first + k))
+        if (block->rests[k] && body_motion_rotates(rows->motion, first + k))
             block->rests[k] = 0;
     }
 }
@@ -119,7 +119,7 @@ static void take_kinds(const struct body_boxes *rows, struct block *block, uint3
     const double *x = rows->input->entities->x + first, *z = rows->input->entities->z + first;
     for (uint32_t k = 0; k < count; k++) {
         uint32_t kind = state[k] != ENTITY_FREE ? kinds[k] : 0;
-        block->grow[k] = rows->grow[kind];
+        block->margin[k] = rows->margin[kind];
         block->tag[k] = (first + k) | rows->flags[kind];
         if (rows->flags[kind] & BIN_AIR && rows->input->heights)
             __builtin_prefetch(&rows->input->heights->bound[gridsquare_of(x[k], z[k])]);
@@ -176,7 +176,7 @@ static bool bound_rows(struct block *block, const struct ends *ends, bool moved,
 {
     four_masks any = {0};
     for (uint32_t k = 0; k < BLOCK; k += 4) {
-        const four grow = *(const four *)(const void *)&block->grow[k];
+        const four margin = *(const four *)(const void *)&block->margin[k];
         four_metres low[3], high[3];
         four_masks rests = {-1, -1, -1, -1};
         for (int axis = 0; axis < 3; axis++) {
@@ -188,8 +188,8 @@ static bool bound_rows(struct block *block, const struct ends *ends, bool moved,
             four along = to - at;
             rests &= along == 0.0;
             to = moved ? at + along : to;
-            low[axis] = __builtin_convertvector(CHOOSE(at < to, at, to) - grow, four_metres);
-            high[axis] = __builtin_convertvector(CHOOSE(at > to, at, to) + grow, four_metres);
+            low[axis] = __builtin_convertvector(CHOOSE(at < to, at, to) - margin, four_metres);
+            high[axis] = __builtin_convertvector(CHOOSE(at > to, at, to) + margin, four_metres);
         }
         any |= rests;
         for (uint32_t i = 0; moved && i < 4; i++)
@@ -208,23 +208,23 @@ static void add_spanning(const struct body_boxes *rows, struct strip_bins *bins,
 {
     uint32_t row = record.tag & BIN_ROW;
     const struct path_box *box = &rows->box[row];
-    double grow = rows->grow[rows->input->entities->kind[row]];
+    double margin = rows->margin[rows->input->entities->kind[row]];
     bool is_long = false;
     record.tag |= BIN_SPANS;
     if (record.tag & BIN_WIDE) {
         struct path path =
-            rows->motion ? body_motion_way(rows->motion, row) : rows->input->path[row];
+            rows->motion ? body_motion_path(rows->motion, row) : rows->input->path[row];
         is_long = fabs(path.along.x) > LONG_M;
     }
     if (is_long)
         record.tag |= BIN_LONG;
     if (rows->motion && record.tag & (BIN_LONG | BIN_AIR))
-        body_motion_draw(rows->motion, row);
+        body_motion_require(rows->motion, row);
     uint32_t last = bin_strip(box->max_z);
     for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
         if (is_long) {
             struct sweep_and_prune_span span =
-                sweep_and_prune_span(&rows->input->path[row], box, grow, strip);
+                sweep_and_prune_span(&rows->input->path[row], box, margin, strip);
             record.min_x = span.min_x;
             record.max_x = span.max_x;
         }
@@ -246,7 +246,7 @@ static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweepe
          square_bounds_clear(input->heights, input->craters, at, to)))
         return;
     if (rows->motion)
-        body_motion_draw(rows->motion, row);
+        body_motion_require(rows->motion, row);
     pair_list_add(&sweeper->fliers, row, 0);
 }
 

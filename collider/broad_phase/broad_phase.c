@@ -49,7 +49,7 @@ struct job {
     struct broad_phase *broad;
     struct body_boxes rows;
     struct strips strips;
-    double grow[KIND_COUNT_MAX];
+    double margin[KIND_COUNT_MAX];
     uint32_t flags[KIND_COUNT_MAX]; /* bits of the tag */
     broad_phase_take *take;         /* NULL: the rows are complete */
     void *context;
@@ -82,16 +82,19 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
     struct thread_pool *workers = input->rows > ALONE_MOST ? broad->workers : NULL;
     const struct world *world = input->world;
     for (uint32_t i = 0; i < world->counts.kinds; i++) {
-        job.grow[i] = pair_filter_grow(world, &world->kinds[i]);
+        job.margin[i] = pair_filter_margin(world, &world->kinds[i]);
         job.flags[i] = world->kinds[i].domain == DOMAIN_AIR ? BIN_AIR : 0;
     }
-    job.rows = (struct body_boxes){
-        .input = input, .motion = motion, .box = broad->box, .grow = job.grow, .flags = job.flags};
+    job.rows = (struct body_boxes){.input = input,
+                                   .motion = motion,
+                                   .box = broad->box,
+                                   .margin = job.margin,
+                                   .flags = job.flags};
     job.strips = (struct strips){.input = input,
                                  .motion = motion,
                                  .fixed_boxes = &broad->fixed_boxes,
                                  .box = broad->box,
-                                 .grow = job.grow,
+                                 .margin = job.margin,
                                  .sweeper = broad->sweeper,
                                  .sweepers = broad->sweepers};
     for (uint32_t i = 0; i < broad->sweepers; i++) {

@@ -67,7 +67,7 @@ void sweep_worker_free(struct sweep_worker *sweeper)
 /* --- long ways ---------------------------------------------------------------------------------*/
 
 struct sweep_and_prune_span sweep_and_prune_span(const struct path *path,
-                                                 const struct path_box *box, double grow,
+                                                 const struct path_box *box, double margin,
                                                  uint32_t strip)
 {
     double left = 1.0 - path->since, dx = path->along.x * left, dz = path->along.z * left;
@@ -75,7 +75,7 @@ struct sweep_and_prune_span sweep_and_prune_span(const struct path *path,
     if (dz == 0.0)
         return span;
     /* The part of the path that is nearer to the strip than the body's reach. */
-    double reach = grow + LONG_SLACK_M, from = 0.0, to = 1.0;
+    double reach = margin + LONG_SLACK_M, from = 0.0, to = 1.0;
     double enter = (GRIDSQUARE_SIDE_M * (double)strip - reach - path->at.z) / dz;
     double leave = (GRIDSQUARE_SIDE_M * (double)(strip + 1) + reach - path->at.z) / dz;
     if (strip == 0) /* bodies outside the world belong to the strip at its edge */
@@ -102,7 +102,7 @@ static struct sweep_and_prune_span span_in(const struct strips *strips, uint32_t
     if (!(tag & BIN_LONG))
         return (struct sweep_and_prune_span){bin_steps(box->min_x), bin_steps(box->max_x)};
     return sweep_and_prune_span(&strips->input->path[row], box,
-                                strips->grow[strips->input->entities->kind[row]], strip);
+                                strips->margin[strips->input->entities->kind[row]], strip);
 }
 
 static bool spans_meet(struct sweep_and_prune_span p, struct sweep_and_prune_span q)
@@ -167,7 +167,7 @@ static void take_fixed(const struct strips *strips, struct sweep_worker *sweeper
         return;
     /* An aircraft's path may not have been computed yet. */
     if (tag & BIN_AIR && strips->motion)
-        body_motion_draw(strips->motion, row);
+        body_motion_require(strips->motion, row);
     if (tag & BIN_AIR && !pair_filter_tests_fixed(input, row))
         return;
     pair_list_add(&sweeper->pairs, row, index | PAIR_FIXED);

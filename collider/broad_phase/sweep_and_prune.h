@@ -40,7 +40,7 @@ struct strips {
     struct body_motion *motion; /* computes the paths; NULL: they are in input->path */
     const struct static_boxes *fixed_boxes;
     const struct path_box *box;   /* [rows] */
-    const double *grow;           /* [kinds] from a row's path to its box [m] */
+    const double *margin;         /* [kinds] from a row's path to its box [m] */
     struct sweep_worker *sweeper; /* [sweepers] whose bins make up the strips */
     uint32_t sweepers;
 };
@@ -56,7 +56,7 @@ struct sweep_and_prune_span {
     int32_t min_x, max_x; /* [steps] */
 };
 struct sweep_and_prune_span sweep_and_prune_span(const struct path *path,
-                                                 const struct path_box *box, double grow,
+                                                 const struct path_box *box, double margin,
                                                  uint32_t strip);
 
 /* Adds the pairs that meet in this strip and in no earlier one to the sweeper's pairs. */

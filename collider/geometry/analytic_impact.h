@@ -13,7 +13,7 @@ struct path {
     struct vec3 at;
     struct vec3 along;
     double since;
-    bool turns; /* the shape moves although along is 0 */
+    bool rotates; /* the shape moves although along is 0 */
 };
 
 static inline struct vec3 path_at(const struct path *path, double time)

@@ -2,8 +2,9 @@
  * outline clipped by the other (Sutherland and Hodgman 1974), which is widened by the slack. */
 #include "collider/geometry/contact_manifold.h"
 
-#define MERGE_M 1e-6 /* nearer vertices are merged: an edge between them would have no direction   \
-                      */
+#define MERGE_M                                                                                    \
+    1e-6 /* nearer vertices are merged: an edge between them would have no direction               \
+          */
 #define LINES_MAX (CONTACT_MANIFOLD_POINTS_MAX + 4)
 
 struct uv {
@@ -97,10 +98,10 @@ static void wrap(struct outline *outline)
     if (points < 3)
         return;
     sort(outline);
-    for (uint32_t way = 0; way < 2; way++) {
+    for (uint32_t pass = 0; pass < 2; pass++) {
         uint32_t first = count;
         for (uint32_t i = 0; i < points; i++) {
-            struct uv p = outline->point[way == 0 ? i : points - 1 - i];
+            struct uv p = outline->point[pass == 0 ? i : points - 1 - i];
             while (count >= first + 2 && left_of(chain[count - 2], chain[count - 1], p) <= 0.0)
                 count--;
             chain[count++] = p;

@@ -11,7 +11,7 @@
 #include "collider/geometry/gjk.h"
 
 #define ROUNDS     64 /* of one search; most end after ten */
-#define LOOKS      8 /* further searches, from the corners of a cube, if the first is not certain */
+#define SEARCHES   8 /* further searches, from the corners of a cube, if the first is not certain */
 #define NEAR_M     1e-13 /* accuracy of doubles for bodies of tens of metres */
 #define NEAR_SHARE 1e-15 /* the same as a share of large distances */
 #define SURE_M     1e-11 /* largest difference of the two bounds of a certain result */
@@ -152,7 +152,7 @@ static void settle(struct simplex *simplex, const struct face *face)
 /* Adds a new corner: the nearest of all faces that contain it is taken, which is the whole simplex
  * if the origin projects into it. Returns false if no face is nearer than the limit [squared
  * distance]. */
-static bool take(struct simplex *simplex, const struct corner *corner, double limit)
+static bool add_corner(struct simplex *simplex, const struct corner *corner, double limit)
 {
     struct face trial[2];
     double least = limit;
@@ -201,7 +201,7 @@ static struct vec3 towards_origin(const struct face *face)
 
 /* Uses a corner that brings the point no nearer: the direction n must be orthogonal to this
  * corner's edge too. Returns false if the corner lies ahead or is known already. */
-static bool lean_on(struct face *face, const struct corner *corner, struct vec3 n)
+static bool constrain(struct face *face, const struct corner *corner, struct vec3 n)
 {
     double share[3];
     if (face->edges >= 2 || !span(face, corner, share))
@@ -245,13 +245,13 @@ static void begin(const struct convex *a, const struct convex *b, const struct g
     settle(simplex, &simplex->face);
     for (uint32_t i = 1; i < start->count; i++) {
         corner = corner_of(a, b, start->a[i], start->b[i]);
-        (void)take(simplex, &corner, simplex->face.square);
+        (void)add_corner(simplex, &corner, simplex->face.square);
     }
 }
 
 /* Runs one search. */
-static void look(const struct convex *a, const struct convex *b, const struct gjk_start *start,
-                 struct known *known)
+static void search_once(const struct convex *a, const struct convex *b,
+                        const struct gjk_start *start, struct known *known)
 {
     struct corner corner;
     struct simplex simplex;
@@ -270,12 +270,12 @@ static void look(const struct convex *a, const struct convex *b, const struct gj
         }
         if (certain(square, known->apart, NEAR_M) || holds(&simplex, &corner))
             break;
-        if (take(&simplex, &corner, square))
+        if (add_corner(&simplex, &corner, square))
             continue;
         keep(known, &simplex);
-        if (ties++ < TIES && take(&simplex, &corner, square * (1.0 + TIE)))
+        if (ties++ < TIES && add_corner(&simplex, &corner, square * (1.0 + TIE)))
             continue;
-        if (!lean_on(&simplex.face, &corner, n))
+        if (!constrain(&simplex.face, &corner, n))
             break;
     }
     keep(known, &simplex);
@@ -305,11 +305,11 @@ struct gjk gjk_distance_from(const struct convex *a, const struct convex *b,
                              struct gjk_start *start)
 {
     struct known known = {.square = INFINITY, .apart = -INFINITY};
-    look(a, b, start, &known);
-    for (int other = 0; other < LOOKS && !certain(known.square, known.apart, SURE_M); other++) {
+    search_once(a, b, start, &known);
+    for (int other = 0; other < SEARCHES && !certain(known.square, known.apart, SURE_M); other++) {
         const struct gjk_start elsewhere = {
             .guess = {other & 1 ? -1.0 : 1.0, other & 2 ? -1.0 : 1.0, other & 4 ? -1.0 : 1.0}};
-        look(a, b, &elsewhere, &known);
+        search_once(a, b, &elsewhere, &known);
     }
     start->count = known.simplex.face.count < 4 ? (uint32_t)known.simplex.face.count : 0;
     for (uint32_t i = 0; i < start->count; i++) {

@@ -141,10 +141,10 @@ static double over(struct line line, double gap, double bend, double h)
 static double root(struct line line, double gap, double bend)
 {
     double left = maths_max(line.gap - gap, 0.0);
-    double way = sqrt(line.rate * line.rate + 2.0 * bend * left);
+    double root = sqrt(line.rate * line.rate + 2.0 * bend * left);
     if (line.rate > 0.0)
-        return (line.rate + way) / bend;
-    return left > 0.0 ? 2.0 * left / (way - line.rate) : 0.0;
+        return (line.rate + root) / bend;
+    return left > 0.0 ? 2.0 * left / (root - line.rate) : 0.0;
 }
 
 /* Returns the bend of the separation for h up to most. */
@@ -224,7 +224,7 @@ struct vec3 hull_separation_swing(const struct hull_pair *pair, const struct rel
 bool hull_separation_by_spheres(const struct hull_pair *pair, const struct relative_pose *now,
                                 double most, double *h)
 {
-    double gap = pair->radii_m + TOUCH_M;
+    double gap = pair->radii_m + SKIN_M;
     if (now->centres_m <= gap + SPHERES_FAR * pair->radii_m)
         return false;
     const struct plane plane = {.normal = now->towards};
@@ -239,7 +239,7 @@ bool hull_separation_by_centres(const struct hull_pair *pair, const struct relat
                                 double most)
 {
     const struct plane plane = {.normal = now->towards};
-    if (nearest_at(pair, now, &plane, 0.0).gap < TOUCH_M)
+    if (nearest_at(pair, now, &plane, 0.0).gap < SKIN_M)
         return false;
-    return over(nearest_at(pair, now, &plane, most), TOUCH_M, pair->bend, most) >= 0.0;
+    return over(nearest_at(pair, now, &plane, most), SKIN_M, pair->bend, most) >= 0.0;
 }

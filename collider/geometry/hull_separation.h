@@ -67,12 +67,12 @@ double hull_separation_for(const struct hull_pair *pair, const struct relative_p
 struct vec3 hull_separation_swing(const struct hull_pair *pair, const struct relative_pose *now,
                                   struct vec3 normal, const struct gjk_start *nearest);
 
-/* Returns true if the hulls' spheres are far apart; *h is then how long the hulls stay TOUCH_M
+/* Returns true if the hulls' spheres are far apart; *h is then how long the hulls stay SKIN_M
  * apart. Looks at no vertex. */
 bool hull_separation_by_spheres(const struct hull_pair *pair, const struct relative_pose *now,
                                 double most, double *h);
 
-/* Returns true if the plane across the line of the centres keeps the hulls TOUCH_M apart for the
+/* Returns true if the plane across the line of the centres keeps the hulls SKIN_M apart for the
  * whole time. */
 bool hull_separation_by_centres(const struct hull_pair *pair, const struct relative_pose *now,
                                 double most);

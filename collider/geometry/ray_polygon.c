@@ -111,17 +111,17 @@ bool ray_polygon_collision(const struct ray_polygon_model *vehicle, double vehic
                            const struct ray_polygon_model *object, double object_radius_m,
                            struct ray_polygon_hit *hit)
 {
-    struct vec3 way = vec3_sub(object->at, vehicle->at);
-    double apart = vec3_length(way), skin_m = vehicle_radius_m;
+    struct vec3 towards = vec3_sub(object->at, vehicle->at);
+    double distance = vec3_length(towards), skin_m = vehicle_radius_m;
     struct ray_polygon_hit skin;
-    if (apart >= vehicle_radius_m + object_radius_m)
+    if (distance >= vehicle_radius_m + object_radius_m)
         return false;
     /* Equal centres have no direction between them: take the forward axis. */
-    way = apart > 0.0 ? vec3_scale(way, 1.0 / apart)
-                      : rotation_apply(&vehicle->turn, (struct vec3){1.0, 0.0, 0.0});
+    towards = distance > 0.0 ? vec3_scale(towards, 1.0 / distance)
+                             : rotation_apply(&vehicle->turn, (struct vec3){1.0, 0.0, 0.0});
     struct vec3 centre = vec3_add(vehicle->at, (struct vec3){0.0, vehicle->middle_m, 0.0});
-    struct vec3 on_sphere = vec3_add(centre, vec3_scale(way, vehicle_radius_m));
-    if (ray_polygon_nearest(vehicle, on_sphere, vec3_scale(way, -1.0), vehicle_radius_m, &skin))
+    struct vec3 on_sphere = vec3_add(centre, vec3_scale(towards, vehicle_radius_m));
+    if (ray_polygon_nearest(vehicle, on_sphere, vec3_scale(towards, -1.0), vehicle_radius_m, &skin))
         skin_m -= skin.distance_m;
-    return ray_polygon_nearest(object, centre, way, skin_m, hit);
+    return ray_polygon_nearest(object, centre, towards, skin_m, hit);
 }

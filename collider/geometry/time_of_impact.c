@@ -7,8 +7,8 @@
 #include "collider/geometry/hull_separation.h"
 #include "collider/geometry/contact_manifold.h"
 
-#define LOOKS 1024 /* distances of one pair of hulls */
-#define TOUCHING_M                                                                                 \
+#define DISTANCES_MAX 1024 /* distances of one pair of hulls */
+#define CLOSE_M                                                                                    \
     5e-10 /* a gap that differs from the target by no more is accepted after a few tries */
 #define TRIES     3
 #define EXACT_M   1e-12 /* and by no more than this at once */
@@ -17,7 +17,7 @@
 #define DEEP      0.05  /* of an overlap: when it grows by this share, the bodies touch again */
 
 /* Position of two hulls relative to each other at one time. */
-struct sight {
+struct separation {
     double gap; /* along the plane's normal; below 0 the depth of the overlap */
     struct plane plane;
     struct vec3 point; /* midway between the nearest points */
@@ -27,73 +27,73 @@ struct sight {
 
 /* Takes the plane if the hulls overlap it less; its normal turns with a spin. */
 static void shallower(const struct relative_pose *now, struct vec3 normal, struct vec3 spin,
-                      struct sight *sight)
+                      struct separation *separation)
 {
     double gap = hull_separation_now(now, normal);
-    if (gap > sight->gap) {
-        sight->gap = gap;
-        sight->plane = (struct plane){normal, vec3_cross(spin, normal)};
+    if (gap > separation->gap) {
+        separation->gap = gap;
+        separation->plane = (struct plane){normal, vec3_cross(spin, normal)};
     }
 }
 
 /* Finds the direction of least overlap among the faces of both hulls, the line of the centres, and
  * the normal from when they were last apart. */
-static void look_inside(const struct hull_pair *pair, const struct relative_pose *now,
-                        struct vec3 last, struct sight *sight)
+static void measure_overlap(const struct hull_pair *pair, const struct relative_pose *now,
+                            struct vec3 last, struct separation *separation)
 {
     const struct hull_plane *planes_a = pair->a->body->planes + pair->hull_a->first_plane;
     const struct hull_plane *planes_b = pair->b->body->planes + pair->hull_b->first_plane;
     const struct vec3 still = {0.0, 0.0, 0.0};
-    sight->gap = -INFINITY;
+    separation->gap = -INFINITY;
     for (uint32_t i = 0; i < pair->hull_a->plane_count; i++)
-        shallower(now, rotation_apply(&now->a.turn, planes_a[i].normal), now->spin_a, sight);
+        shallower(now, rotation_apply(&now->a.turn, planes_a[i].normal), now->spin_a, separation);
     for (uint32_t i = 0; i < pair->hull_b->plane_count; i++)
         shallower(now, vec3_scale(rotation_apply(&now->b.turn, planes_b[i].normal), -1.0),
-                  now->spin_b, sight);
-    shallower(now, now->towards, still, sight);
+                  now->spin_b, separation);
+    shallower(now, now->towards, still, separation);
     if (vec3_dot(last, last) > 0.0)
-        shallower(now, last, still, sight);
+        shallower(now, last, still, separation);
 }
 
 /* last: the normal of the time before, 0 for none. */
-static struct sight look(const struct hull_pair *pair, const struct relative_pose *now,
-                         struct vec3 last, struct gjk_start *start)
+static struct separation measure(const struct hull_pair *pair, const struct relative_pose *now,
+                                 struct vec3 last, struct gjk_start *start)
 {
     start->guess = now->towards;
     struct gjk gjk = gjk_distance_from(&now->a, &now->b, start);
-    struct sight sight = {.point = vec3_lerp(gjk.on_a, gjk.on_b, 0.5)};
+    struct separation separation = {.point = vec3_lerp(gjk.on_a, gjk.on_b, 0.5)};
     if (gjk.distance_m > 0.0) {
-        sight.gap = hull_separation_now(now, gjk.normal);
-        sight.plane =
+        separation.gap = hull_separation_now(now, gjk.normal);
+        separation.plane =
             (struct plane){gjk.normal, hull_separation_swing(pair, now, gjk.normal, start)};
     } else {
-        look_inside(pair, now, last, &sight);
+        measure_overlap(pair, now, last, &separation);
     }
-    return sight;
+    return separation;
 }
 
 /* Used without a manifold: takes a point between the nearest points, or inside both of two
  * overlapping bodies, and the foremost vertices. */
-static void scattered(const struct relative_pose *now, const struct sight *sight,
+static void scattered(const struct relative_pose *now, const struct separation *separation,
                       struct contact_manifold *patch)
 {
-    patch->middle = sight->point;
+    patch->middle = separation->point;
     patch->count = 2;
-    gjk_support(&now->a, sight->plane.normal, &patch->corner[0]);
-    gjk_support(&now->b, vec3_scale(sight->plane.normal, -1.0), &patch->corner[1]);
+    gjk_support(&now->a, separation->plane.normal, &patch->corner[0]);
+    gjk_support(&now->b, vec3_scale(separation->plane.normal, -1.0), &patch->corner[1]);
     patch->corner[1] = vec3_add(patch->corner[1], now->b.at);
 }
 
 /* Returns true if the bodies approach where they touch; *point is where. */
 static bool nearing(const struct hull_pair *pair, const struct relative_pose *now,
-                    const struct sight *sight, struct vec3 *point)
+                    const struct separation *separation, struct vec3 *point)
 {
     struct contact_manifold patch;
-    struct vec3 normal = sight->plane.normal;
+    struct vec3 normal = separation->plane.normal;
     double fastest = NEARING_M;
     bool nears = false;
     if (!contact_manifold_between(&now->a, &now->b, normal, &patch))
-        scattered(now, sight, &patch);
+        scattered(now, separation, &patch);
     *point = patch.middle;
     if (hull_separation_nearing(pair, now, normal, patch.middle) > NEARING_M)
         return true;
@@ -114,8 +114,8 @@ static bool nearing(const struct hull_pair *pair, const struct relative_pose *no
 static double next_gap(double gap)
 {
     if (gap <= SHALLOW_M)
-        return gap - maths_max(0.5 * TOUCH_M, -DEEP * gap);
-    return maths_min(TOUCH_M, maths_max(0.5 * gap, gap - 0.5 * TOUCH_M));
+        return gap - maths_max(0.5 * SKIN_M, -DEEP * gap);
+    return maths_min(SKIN_M, maths_max(0.5 * gap, gap - 0.5 * SKIN_M));
 }
 
 /* Returns the plane's normal after h. */
@@ -127,44 +127,45 @@ static struct vec3 normal_after(const struct plane *plane, double h)
 
 /* Keeps the contact if it is earlier than the one found so far, or deeper. */
 static void found(const struct hull_pair *pair, const struct relative_pose *now,
-                  const struct sight *sight, struct vec3 point, struct hull_contact *touch)
+                  const struct separation *separation, struct vec3 point,
+                  struct hull_contact *impact)
 {
-    double depth = maths_max(0.0, -sight->gap);
-    if (touch->toi < now->time || (touch->toi == now->time && touch->depth_m >= depth))
+    double depth = maths_max(0.0, -separation->gap);
+    if (impact->toi < now->time || (impact->toi == now->time && impact->depth_m >= depth))
         return;
-    *touch =
+    *impact =
         (struct hull_contact){.toi = now->time,
                               .point = vec3_add(path_at(&pair->a->body->path, now->time), point),
-                              .normal = sight->plane.normal,
+                              .normal = separation->plane.normal,
                               .depth_m = depth};
 }
 
 /* Advances one pair of hulls from `from` to its contact, if there is one before `until` and before
  * the contact found so far. */
 static void time_of_impact(const struct hull_pair *pair, double from, double until,
-                           struct hull_contact *touch)
+                           struct hull_contact *impact)
 {
     struct gjk_start start = {.count = 0};
     struct vec3 point, normal = {0.0, 0.0, 0.0};
-    double time = from, gap = TOUCH_M, last = maths_min(until, touch->toi), h;
+    double time = from, gap = SKIN_M, last = maths_min(until, impact->toi), h;
     bool first = true;
     int tries = 0;
-    for (int looks = 0; looks < LOOKS; looks++) {
+    for (int looks = 0; looks < DISTANCES_MAX; looks++) {
         struct relative_pose now = relative_pose_at(pair, time);
         if (!hull_separation_by_spheres(pair, &now, last - time, &h)) {
             if (first && hull_separation_by_centres(pair, &now, last - time))
                 return;
             first = false;
-            struct sight sight = look(pair, &now, normal, &start);
-            double left = sight.gap - gap;
-            bool there = left <= EXACT_M || (left <= TOUCHING_M && tries++ >= TRIES);
-            if ((there || looks == LOOKS - 1) && nearing(pair, &now, &sight, &point)) {
-                found(pair, &now, &sight, point, touch);
+            struct separation separation = measure(pair, &now, normal, &start);
+            double left = separation.gap - gap;
+            bool there = left <= EXACT_M || (left <= CLOSE_M && tries++ >= TRIES);
+            if ((there || looks == DISTANCES_MAX - 1) && nearing(pair, &now, &separation, &point)) {
+                found(pair, &now, &separation, point, impact);
                 return;
             }
-            gap = there ? next_gap(sight.gap) : maths_max(gap, next_gap(sight.gap));
-            h = hull_separation_for(pair, &now, &sight.plane, gap, last - time);
-            normal = normal_after(&sight.plane, h);
+            gap = there ? next_gap(separation.gap) : maths_max(gap, next_gap(separation.gap));
+            h = hull_separation_for(pair, &now, &separation.plane, gap, last - time);
+            normal = normal_after(&separation.plane, h);
         }
         if (!(time + h < last))
             return;
@@ -181,17 +182,17 @@ static bool window(const struct swept_body *a, const struct swept_body *b, doubl
 {
     struct vec3 s = hull_separation_at(&a->path, &b->path, *from);
     struct vec3 w = vec3_sub(b->path.along, a->path.along);
-    double reach = a->bound_m + b->bound_m + TOUCH_M + WINDOW_M;
+    double reach = a->bound_m + b->bound_m + SKIN_M + WINDOW_M;
     double ww = vec3_dot(w, w), sw = vec3_dot(s, w), over = vec3_dot(s, s) - reach * reach;
-    double root = sw * sw - ww * over;
-    if (over > 0.0 && (sw >= 0.0 || root < 0.0))
+    double discriminant = sw * sw - ww * over;
+    if (over > 0.0 && (sw >= 0.0 || discriminant < 0.0))
         return false;
     if (ww == 0.0)
         return true;
-    double way = sqrt(maths_max(root, 0.0));
-    *until = maths_min(*until, *from + (way - sw) / ww);
+    double root = sqrt(maths_max(discriminant, 0.0));
+    *until = maths_min(*until, *from + (root - sw) / ww);
     if (over > 0.0)
-        *from += over / (way - sw);
+        *from += over / (root - sw);
     return *from <= *until;
 }
 
@@ -229,8 +230,8 @@ static int order_of_bodies(const struct swept_body *a, const struct swept_body *
     return order != 0 ? order : order_of_turns(a->to, b->to);
 }
 
-bool time_of_impact_touch(const struct swept_body *a, const struct swept_body *b, double from,
-                          struct hull_contact *touch)
+bool time_of_impact_find(const struct swept_body *a, const struct swept_body *b, double from,
+                         struct hull_contact *impact)
 {
     double until = 1.0;
     bool swap = order_of_bodies(a, b) > 0;
@@ -257,7 +258,7 @@ bool time_of_impact_touch(const struct swept_body *a, const struct swept_body *b
         return false;
     if (swap)
         first.normal = vec3_scale(first.normal, -1.0);
-    *touch = first;
+    *impact = first;
     return true;
 }
 

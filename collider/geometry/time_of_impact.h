@@ -12,7 +12,7 @@
 #include <stdint.h>
 
 /* Hulls this near touch [m]. This skin keeps the normal well defined. */
-#define TOUCH_M 0.001
+#define SKIN_M 0.001
 
 /* Slower than this is no approach [m a frame]: rounding leaves so much between two bodies that rest
  * on each other. */
@@ -39,14 +39,14 @@ struct hull_contact {
     double depth_m;     /* overlap along the normal; 0 for a contact */
 };
 
-/* Finds the first time in [from, 1] at which the bodies are within TOUCH_M of each other while they
+/* Finds the first time in [from, 1] at which the bodies are within SKIN_M of each other while they
  * approach: the points in contact approach along the normal, rotation included. from must not be
  * before either path's since. Returns false if they do not touch.
  *
- * The gap is then TOUCH_M to within 1e-9 m, unless the bodies were nearer at from already. Bodies
+ * The gap is then SKIN_M to within 1e-9 m, unless the bodies were nearer at from already. Bodies
  * that are nearer or overlap touch at from if they approach; of several pairs of hulls the deepest
  * is taken. If they do not approach, they touch once they are clearly nearer than at from: by half
- * of the gap that they had, or of TOUCH_M; in an overlap by half of TOUCH_M or by 5 % of it. So
+ * of the gap that they had, or of SKIN_M; in an overlap by half of SKIN_M or by 5 % of it. So
  * resting and parting bodies do not touch, and bodies that part and come back are found before they
  * are half a millimetre deeper.
  *
@@ -59,8 +59,8 @@ struct hull_contact {
  * pair of hulls: 3 to 7 are usual, and 340 was the most in 200,000 pairs of up to 90 m that turn by
  * up to half a turn a frame. If they do not suffice, hulls that approach there touch there,
  * early. */
-bool time_of_impact_touch(const struct swept_body *a, const struct swept_body *b, double from,
-                          struct hull_contact *touch);
+bool time_of_impact_find(const struct swept_body *a, const struct swept_body *b, double from,
+                         struct hull_contact *impact);
 
 /* Returns the gap between the bodies at a time [m], 0 if they overlap. */
 double time_of_impact_gap(const struct swept_body *a, const struct swept_body *b, double time);

@@ -76,8 +76,8 @@ static void refresh(const struct sort_and_sweep *sweep, uint32_t i)
 }
 
 /* Splits a tree into the nodes before node i and those after it. */
-static void part(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i, uint32_t *low,
-                 uint32_t *high)
+static void split(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i, uint32_t *low,
+                  uint32_t *high)
 {
     if (root == NOBODY) {
         *low = *high = NOBODY;
@@ -86,10 +86,10 @@ static void part(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i, 
     struct node *node = &sweep->node[root];
     if (before(sweep, root, i)) {
         *low = root;
-        part(sweep, node->right, i, &node->right, high);
+        split(sweep, node->right, i, &node->right, high);
     } else {
         *high = root;
-        part(sweep, node->left, i, low, &node->left);
+        split(sweep, node->left, i, low, &node->left);
     }
     refresh(sweep, root);
 }
@@ -113,7 +113,7 @@ static uint32_t join(const struct sort_and_sweep *sweep, uint32_t low, uint32_t 
 static uint32_t insert(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i)
 {
     if (root == NOBODY || above(i, root)) {
-        part(sweep, root, i, &sweep->node[i].left, &sweep->node[i].right);
+        split(sweep, root, i, &sweep->node[i].left, &sweep->node[i].right);
         root = i;
     } else if (before(sweep, i, root)) {
         sweep->node[root].left = insert(sweep, sweep->node[root].left, i);
@@ -138,17 +138,17 @@ static uint32_t extract(const struct sort_and_sweep *sweep, uint32_t root, uint3
 }
 
 /* Tests node i against each node of the tree that overlaps it in z. */
-static void meet(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i)
+static void report_overlaps(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i)
 {
     if (root == NOBODY || sweep->node[root].last_z < sweep->node[i].min_z)
         return;
     const struct node *node = &sweep->node[i], *other = &sweep->node[root];
-    meet(sweep, other->left, i);
+    report_overlaps(sweep, other->left, i);
     if (other->min_z > node->max_z)
         return; /* and so do all nodes to its right */
     if (other->max_z >= node->min_z)
         method_meet(sweep->input, &sweep->bodies, other->body, node->body, sweep->pairs);
-    meet(sweep, other->right, i);
+    report_overlaps(sweep, other->right, i);
 }
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
@@ -159,13 +159,13 @@ static uint32_t *root_of(struct sort_and_sweep *sweep, uint32_t i)
 }
 
 /* The plane enters node i. */
-static void reach(struct sort_and_sweep *sweep, uint32_t i)
+static void enter(struct sort_and_sweep *sweep, uint32_t i)
 {
     uint32_t body = sweep->node[i].body;
     bool asks_fixed = body < sweep->bodies.moving && sweep->bodies.tests_fixed[body];
-    meet(sweep, sweep->moving, i);
+    report_overlaps(sweep, sweep->moving, i);
     if (asks_fixed)
-        meet(sweep, sweep->fixed, i);
+        report_overlaps(sweep, sweep->fixed, i);
     uint32_t *root = root_of(sweep, i);
     *root = insert(sweep, *root, i);
 }
@@ -178,7 +178,7 @@ static void pass(struct sort_and_sweep *sweep, const struct mark *starts, const 
             *root = extract(sweep, *root, ends[left].what);
             left++;
         }
-        reach(sweep, i);
+        enter(sweep, i);
         work_done();
     }
 }

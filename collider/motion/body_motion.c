@@ -18,11 +18,11 @@ int body_motion_init(struct body_motion *motion, const struct world *world)
     uint32_t capacity = world->params->capacity;
     *motion = (struct body_motion){.world = world};
     motion->path = malloc(capacity * sizeof *motion->path);
-    motion->drawn = calloc(capacity, sizeof *motion->drawn);
+    motion->computed = calloc(capacity, sizeof *motion->computed);
     motion->change = calloc(capacity, sizeof *motion->change);
     motion->changed = reserve_take(capacity, sizeof *motion->changed);
     motion->row = reserve_take(capacity, sizeof *motion->row);
-    if (!motion->path || !motion->drawn || !motion->change || !motion->changed || !motion->row) {
+    if (!motion->path || !motion->computed || !motion->change || !motion->changed || !motion->row) {
         body_motion_free(motion);
         return -1;
     }
@@ -32,7 +32,7 @@ int body_motion_init(struct body_motion *motion, const struct world *world)
 void body_motion_free(struct body_motion *motion)
 {
     free(motion->path);
-    free(motion->drawn);
+    free(motion->computed);
     reserve_free(motion->changed);
     free(motion->change);
     reserve_free(motion->row);
@@ -45,27 +45,27 @@ void body_motion_begin(struct body_motion *motion, const struct state *committed
     for (uint32_t i = 0; i < motion->changes; i++)
         motion->change[motion->row[i]] = 0;
     motion->changes = 0;
-    memset(motion->drawn, 0, motion->world->params->capacity * sizeof *motion->drawn);
+    memset(motion->computed, 0, motion->world->params->capacity * sizeof *motion->computed);
     motion->committed = committed;
     motion->next = next;
     motion->models = motion->world->params->collision.shape == SHAPE_MODEL;
 }
 
-struct path body_motion_way(const struct body_motion *motion, uint32_t row)
+struct path body_motion_path(const struct body_motion *motion, uint32_t row)
 {
     struct vec3 to = entities_position(&motion->next->entities, row);
     struct vec3 from =
         body_motion_old(motion, row) ? entities_position(&motion->committed->entities, row) : to;
     struct path path = {.at = from, .along = vec3_sub(to, from)};
     if (pair_filter_rests(&path))
-        path.turns = body_motion_turns(motion, row);
+        path.rotates = body_motion_rotates(motion, row);
     return path;
 }
 
-void body_motion_take(struct body_motion *motion, uint32_t row)
+void body_motion_compute(struct body_motion *motion, uint32_t row)
 {
-    motion->path[row] = body_motion_way(motion, row);
-    motion->drawn[row] = 1;
+    motion->path[row] = body_motion_path(motion, row);
+    motion->computed[row] = 1;
 }
 
 static struct quat pose(const struct entities *e, uint32_t row)
@@ -73,20 +73,20 @@ static struct quat pose(const struct entities *e, uint32_t row)
     return rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
 }
 
-struct rotation_path body_motion_turning(const struct body_motion *motion, uint32_t row)
+struct rotation_path body_motion_rotation(const struct body_motion *motion, uint32_t row)
 {
     if (motion->change[row] != 0)
         return motion->changed[motion->change[row] - 1];
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
     struct quat to = pose(n, row);
-    if (!body_motion_old_turns(motion, row))
+    if (!body_motion_rotated(motion, row))
         return (struct rotation_path){.from = to, .to = to};
     return (struct rotation_path){.from = pose(w, row), .to = to};
 }
 
-struct quat body_motion_turned(const struct body_motion *motion, uint32_t row, double time)
+struct quat body_motion_orientation(const struct body_motion *motion, uint32_t row, double time)
 {
-    struct rotation_path rotation = body_motion_turning(motion, row);
+    struct rotation_path rotation = body_motion_rotation(motion, row);
     double since = motion->path[row].since;
     double left = 1.0 - since;
     return left > 0.0 ? rotation_between(rotation.from, rotation.to, (time - since) / left)
@@ -120,7 +120,7 @@ static struct swept_body shape_of(const struct world *world, uint16_t kind, doub
 struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row)
 {
     struct swept_body body = shape_of(motion->world, motion->next->entities.kind[row], 1.0);
-    struct rotation_path rotation = body_motion_turning(motion, row);
+    struct rotation_path rotation = body_motion_rotation(motion, row);
     body.path = motion->path[row];
     body.from = rotation.from;
     body.to = rotation.to;

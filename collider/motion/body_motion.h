@@ -26,7 +26,7 @@ struct body_motion {
     const struct state *next;
     bool models;                   /* bodies collide by their models, not as spheres */
     struct path *path;             /* [capacity] of the rows whose path has been computed */
-    uint8_t *drawn;                /* [capacity] 1: its path has been computed */
+    uint8_t *computed;             /* [capacity] 1: its path has been computed */
     struct rotation_path *changed; /* rotations that responses changed */
     uint32_t changes;
     uint32_t *change; /* [capacity] index + 1 into changed; 0: rotates as the mover has it */
@@ -44,16 +44,16 @@ void body_motion_begin(struct body_motion *motion, const struct state *committed
 /* Computes the row's path from its committed position to its position in next. A row that is new in
  * this frame does not move. Any thread, for different rows. Most paths are never needed, so each is
  * computed on its first use; this must be before next's row changes. */
-void body_motion_take(struct body_motion *motion, uint32_t row);
+void body_motion_compute(struct body_motion *motion, uint32_t row);
 
 /* Returns the same path without storing it. */
-struct path body_motion_way(const struct body_motion *motion, uint32_t row);
+struct path body_motion_path(const struct body_motion *motion, uint32_t row);
 
 /* Computes the row's path if that has not been done yet. */
-static inline void body_motion_draw(struct body_motion *motion, uint32_t row)
+static inline void body_motion_require(struct body_motion *motion, uint32_t row)
 {
-    if (!motion->drawn[row])
-        body_motion_take(motion, row);
+    if (!motion->computed[row])
+        body_motion_compute(motion, row);
 }
 
 /* Returns true if the row holds the same entity as in the committed frame. */
@@ -64,7 +64,7 @@ static inline bool body_motion_old(const struct body_motion *motion, uint32_t ro
 }
 
 /* Returns true if the mover rotated the row. */
-static inline bool body_motion_old_turns(const struct body_motion *motion, uint32_t row)
+static inline bool body_motion_rotated(const struct body_motion *motion, uint32_t row)
 {
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
     return body_motion_old(motion, row) &&
@@ -73,15 +73,15 @@ static inline bool body_motion_old_turns(const struct body_motion *motion, uint3
 }
 
 /* Returns true if a row whose path has no length still moves because its shape rotates. */
-static inline bool body_motion_turns(const struct body_motion *motion, uint32_t row)
+static inline bool body_motion_rotates(const struct body_motion *motion, uint32_t row)
 {
-    return motion->models && body_motion_old_turns(motion, row);
+    return motion->models && body_motion_rotated(motion, row);
 }
 
-struct rotation_path body_motion_turning(const struct body_motion *motion, uint32_t row);
+struct rotation_path body_motion_rotation(const struct body_motion *motion, uint32_t row);
 
 /* Returns the row's rotation at a time in [path.since, 1]. */
-struct quat body_motion_turned(const struct body_motion *motion, uint32_t row, double time);
+struct quat body_motion_orientation(const struct body_motion *motion, uint32_t row, double time);
 
 /* Gives the row another path and rotation. */
 void body_motion_change(struct body_motion *motion, uint32_t row, const struct path *path,

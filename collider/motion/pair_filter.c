@@ -67,7 +67,7 @@ double pair_filter_row_reach(const struct method_input *input, uint32_t row)
     return kind_reach(input->world, &input->world->kinds[input->entities->kind[row]]);
 }
 
-double pair_filter_grow(const struct world *world, const struct kind *kind)
+double pair_filter_margin(const struct world *world, const struct kind *kind)
 {
     return kind_reach(world, kind) + BOX_SLACK_M;
 }
@@ -83,7 +83,7 @@ double pair_filter_fixed_reach(const struct world *world, const struct fixed_obj
 struct path_box pair_filter_box(const struct method_input *input, uint32_t row)
 {
     const struct kind *kind = &input->world->kinds[input->entities->kind[row]];
-    return pair_filter_way_box(&input->path[row], pair_filter_grow(input->world, kind));
+    return pair_filter_path_box(&input->path[row], pair_filter_margin(input->world, kind));
 }
 
 bool pair_filter_ground(const struct method_input *input, const struct path *path, double *toi)

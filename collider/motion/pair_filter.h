@@ -75,16 +75,16 @@ double pair_filter_row_reach(const struct method_input *input, uint32_t row);
 double pair_filter_fixed_reach(const struct world *world, const struct fixed_object *object);
 
 /* Returns how far a kind's box reaches beyond its path [m]. */
-double pair_filter_grow(const struct world *world, const struct kind *kind);
+double pair_filter_margin(const struct world *world, const struct kind *kind);
 
 /* Returns the box around a path. */
-static inline struct path_box pair_filter_way_box(const struct path *path, double grow)
+static inline struct path_box pair_filter_path_box(const struct path *path, double margin)
 {
     struct vec3 p = path->at, q = path_at(path, 1.0);
     return (struct path_box){
-        (float)(maths_min(p.x, q.x) - grow), (float)(maths_min(p.y, q.y) - grow),
-        (float)(maths_min(p.z, q.z) - grow), (float)(maths_max(p.x, q.x) + grow),
-        (float)(maths_max(p.y, q.y) + grow), (float)(maths_max(p.z, q.z) + grow),
+        (float)(maths_min(p.x, q.x) - margin), (float)(maths_min(p.y, q.y) - margin),
+        (float)(maths_min(p.z, q.z) - margin), (float)(maths_max(p.x, q.x) + margin),
+        (float)(maths_max(p.y, q.y) + margin), (float)(maths_max(p.z, q.z) + margin),
     };
 }
 
@@ -94,7 +94,7 @@ struct path_box pair_filter_box(const struct method_input *input, uint32_t row);
 /* Returns true if the body neither moves nor rotates. */
 static inline bool pair_filter_rests(const struct path *path)
 {
-    return path->along.x == 0.0 && path->along.y == 0.0 && path->along.z == 0.0 && !path->turns;
+    return path->along.x == 0.0 && path->along.y == 0.0 && path->along.z == 0.0 && !path->rotates;
 }
 
 /* Returns true if the row is in use and so can collide. */

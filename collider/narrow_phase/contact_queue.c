@@ -24,7 +24,7 @@
 
 /* Returns the greatest number of valid contacts: each pair has at most one, and each row two
  * ends. */
-static uint32_t holding_most(const struct contact_queue *contacts, uint32_t pairs)
+static uint32_t valid_most(const struct contact_queue *contacts, uint32_t pairs)
 {
     return pairs + ENDS_A_ROW * contacts->rows;
 }
@@ -34,7 +34,7 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
 {
     uint32_t rows = world->params->capacity, pairs = pair_filter_pairs_first(world);
     *contacts = (struct contact_queue){.workers = workers, .rows = rows, .pair_capacity = pairs};
-    contacts->heap.capacity = 2 * holding_most(contacts, pairs);
+    contacts->heap.capacity = 2 * valid_most(contacts, pairs);
     contacts->heap.contact = reserve_take(contacts->heap.capacity, sizeof *contacts->heap.contact);
     contacts->pair = reserve_take(pairs, sizeof *contacts->pair);
     contacts->met = reserve_take(pairs, sizeof *contacts->met);
@@ -132,22 +132,22 @@ void contact_queue_end(struct contact_queue *contacts)
 /* A total order of contacts, independent of the order in which they were found. */
 static bool earlier(const struct contact *p, const struct contact *q)
 {
-    if (p->touch.toi != q->touch.toi)
-        return p->touch.toi < q->touch.toi;
+    if (p->impact.toi != q->impact.toi)
+        return p->impact.toi < q->impact.toi;
     if (p->a != q->a)
         return p->a < q->a;
     return p->b < q->b;
 }
 
 /* Returns true if the contact was computed from the present paths of its bodies. */
-static bool holds(const struct contact_queue *contacts, const struct contact *contact)
+static bool is_valid(const struct contact_queue *contacts, const struct contact *contact)
 {
     return contact->version_a == contacts->version[contact->a] &&
            (contact->b >= PAIR_FIXED || contact->version_b == contacts->version[contact->b]);
 }
 
 /* Puts a contact into the free place i or a place below it. */
-static void sink_from(struct contact *heap, uint32_t count, uint32_t i, struct contact contact)
+static void sift_down(struct contact *heap, uint32_t count, uint32_t i, struct contact contact)
 {
     for (uint32_t child = 2 * i + 1; child < count; child = 2 * i + 1) {
         if (child + 1 < count && earlier(&heap[child + 1], &heap[child]))
@@ -164,7 +164,7 @@ static void sink_from(struct contact *heap, uint32_t count, uint32_t i, struct c
 static void order_heap(struct contact_list *heap)
 {
     for (uint32_t i = heap->count / 2; i > 0; i--)
-        sink_from(heap->contact, heap->count, i - 1, heap->contact[i - 1]);
+        sift_down(heap->contact, heap->count, i - 1, heap->contact[i - 1]);
 }
 
 static void drop_void(struct contact_queue *contacts)
@@ -172,7 +172,7 @@ static void drop_void(struct contact_queue *contacts)
     struct contact_list *heap = &contacts->heap;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < heap->count; i++) {
-        if (holds(contacts, &heap->contact[i]))
+        if (is_valid(contacts, &heap->contact[i]))
             heap->contact[kept++] = heap->contact[i];
     }
     heap->count = kept;
@@ -192,7 +192,7 @@ static void make_room(struct contact_list *heap, uint32_t more)
 
 static void push(struct contact_queue *contacts, const struct contact *contact)
 {
-    if (contacts->heap.count >= 2 * holding_most(contacts, contacts->pair_count))
+    if (contacts->heap.count >= 2 * valid_most(contacts, contacts->pair_count))
         drop_void(contacts);
     make_room(&contacts->heap, 1);
     struct contact *heap = contacts->heap.contact;
@@ -208,7 +208,7 @@ static void pop(struct contact_queue *contacts)
 {
     struct contact_list *heap = &contacts->heap;
     heap->count--;
-    sink_from(heap->contact, heap->count, 0, heap->contact[heap->count]);
+    sift_down(heap->contact, heap->count, 0, heap->contact[heap->count]);
 }
 
 /* --- finding -----------------------------------------------------------------------------------*/
@@ -229,8 +229,8 @@ static bool sweep_pair(const struct contact_queue *contacts, const struct contac
                                 .pair = index + 1,
                                 .version_a = contacts->version[pair->a],
                                 .version_b = fixed ? 0 : contacts->version[pair->b]};
-    return narrow_phase_touch(&input->detect, input->motion, input->through_fixed, pair, from,
-                              &contact->touch);
+    return narrow_phase_find(&input->detect, input->motion, input->through_fixed, pair, from,
+                             &contact->impact);
 }
 
 struct job {
@@ -283,7 +283,7 @@ static struct contact end_of(const struct contact_queue *contacts, uint32_t row,
                              double toi)
 {
     return (struct contact){
-        .touch.toi = toi, .a = row, .b = what, .version_a = contacts->version[row]};
+        .impact.toi = toi, .a = row, .b = what, .version_a = contacts->version[row]};
 }
 
 void contact_queue_add_end(struct contact_queue *contacts, uint32_t row, uint32_t what, double toi)
@@ -350,7 +350,7 @@ const struct contact *contact_queue_peek(struct contact_queue *contacts)
 {
     while (contacts->heap.count > 0) {
         const struct contact *first = &contacts->heap.contact[0];
-        if (holds(contacts, first))
+        if (is_valid(contacts, first))
             return first;
         pop(contacts);
     }
@@ -369,7 +369,7 @@ bool contact_queue_next(struct contact_queue *contacts, const struct contact_inp
     return true;
 }
 
-void contact_queue_settle(struct contact_queue *contacts, const struct contact *contact)
+void contact_queue_skip_pair(struct contact_queue *contacts, const struct contact *contact)
 {
     contacts->swept[contact->pair - 1] = contacts->change + 1;
 }
@@ -394,7 +394,7 @@ static void meet(struct contact_queue *contacts, const struct contact_input *inp
     if (other == row || paired(contacts, &pair))
         return;
     if (!fixed)
-        body_motion_draw(input->motion, other);
+        body_motion_require(input->motion, other);
     if (fixed || !pair_excluded(&input->detect, pair.a, pair.b))
         add_pair(contacts, pair);
 }

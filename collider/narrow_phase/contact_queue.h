@@ -20,7 +20,7 @@
 #define CONTACT_MEETS_MAX 8
 
 struct contact {
-    struct hull_contact touch;
+    struct hull_contact impact;
     uint32_t a;                    /* row */
     uint32_t b;                    /* row, PAIR_FIXED object, CONTACT_GROUND or CONTACT_AIR */
     uint32_t version_a, version_b; /* of the paths from which it was computed */
@@ -64,7 +64,7 @@ struct contact_input {
     struct body_motion *motion;
     struct broad_phase *broad; /* the boxes of strayed rows are changed here */
     uint32_t meets;            /* how often a pair may meet in a frame */
-    bool through_fixed;        /* see narrow_phase_touch */
+    bool through_fixed;        /* see narrow_phase_find */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. workers may be NULL and stays the caller's. */
@@ -104,7 +104,7 @@ bool contact_queue_next(struct contact_queue *contacts, const struct contact_inp
 
 /* Keeps the next change from sweeping the contact's pair: the pair meets again only after a further
  * change of a path. */
-void contact_queue_settle(struct contact_queue *contacts, const struct contact *contact);
+void contact_queue_skip_pair(struct contact_queue *contacts, const struct contact *contact);
 
 /* The rows' paths have changed at this time. Makes their contacts void, looks up what their new
  * paths may meet, and sweeps them against all of that and the ground, each pair once. */

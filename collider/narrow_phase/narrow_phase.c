@@ -10,19 +10,19 @@
 
 /* Fills the contact of two spheres at its time. With equal centres any normal would do: it points
  * upwards. */
-static void touch_of_spheres(struct vec3 a, struct vec3 b, double radius_a, double reach,
-                             struct hull_contact *touch)
+static void impact_of_spheres(struct vec3 a, struct vec3 b, double radius_a, double reach,
+                              struct hull_contact *impact)
 {
     struct vec3 between = vec3_sub(b, a);
     double distance = vec3_length(between);
-    touch->normal =
+    impact->normal =
         distance > 0.0 ? vec3_scale(between, 1.0 / distance) : (struct vec3){0.0, 1.0, 0.0};
-    touch->point = vec3_add(a, vec3_scale(touch->normal, radius_a));
-    touch->depth_m = maths_max(0.0, reach - distance);
+    impact->point = vec3_add(a, vec3_scale(impact->normal, radius_a));
+    impact->depth_m = maths_max(0.0, reach - distance);
 }
 
 static bool touch_spheres(const struct method_input *detect, const struct pair *pair, double from,
-                          bool discrete, struct hull_contact *touch)
+                          bool discrete, struct hull_contact *impact)
 {
     const struct path *path = detect->path, *a = &path[pair->a];
     double radius = pair_filter_row_reach(detect, pair->a), reach = radius;
@@ -36,10 +36,10 @@ static bool touch_spheres(const struct method_input *detect, const struct pair *
         reach += pair_filter_row_reach(detect, pair->b);
     }
     if (discrete)
-        touch->toi = 1.0;
-    else if (!analytic_impact_spheres(a, b, reach, from, &touch->toi))
+        impact->toi = 1.0;
+    else if (!analytic_impact_spheres(a, b, reach, from, &impact->toi))
         return false;
-    touch_of_spheres(path_at(a, touch->toi), path_at(b, touch->toi), radius, reach, touch);
+    impact_of_spheres(path_at(a, impact->toi), path_at(b, impact->toi), radius, reach, impact);
     return true;
 }
 
@@ -47,36 +47,36 @@ static bool touch_spheres(const struct method_input *detect, const struct pair *
 static bool far_apart(const struct swept_body *a, const struct swept_body *b, double time)
 {
     struct vec3 between = vec3_sub(path_at(&b->path, time), path_at(&a->path, time));
-    double reach = a->bound_m + b->bound_m + TOUCH_M;
+    double reach = a->bound_m + b->bound_m + SKIN_M;
     return vec3_dot(between, between) > reach * reach;
 }
 
 /* Tests the bodies with one outer hull each first, so that bodies that pass each other cost one
  * pair of hulls and not dozens. The pieces within touch no sooner than the outer hulls. Returns
  * false if the outer hulls never touch; else *from is when. */
-static bool outer_touch(const struct world *world, const struct swept_body *a, uint16_t kind_a,
-                        const struct swept_body *b, uint16_t kind_b, double *from)
+static bool outer_impact(const struct world *world, const struct swept_body *a, uint16_t kind_a,
+                         const struct swept_body *b, uint16_t kind_b, double *from)
 {
     struct swept_body outer_a = *a, outer_b = *b;
-    struct hull_contact touch;
+    struct hull_contact impact;
     if (a->hull_count * b->hull_count == 1)
         return true;
     outer_a.hull = world->hulls + world->kinds[kind_a].outer_hull;
     outer_b.hull = world->hulls + world->kinds[kind_b].outer_hull;
     outer_a.hull_count = outer_b.hull_count = 1;
-    bool meet = time_of_impact_touch(&outer_a, &outer_b, *from, &touch);
-    if (meet && touch.toi == *from)
+    bool meet = time_of_impact_find(&outer_a, &outer_b, *from, &impact);
+    if (meet && impact.toi == *from)
         return true;
     if (!far_apart(&outer_a, &outer_b, *from) &&
-        time_of_impact_gap(&outer_a, &outer_b, *from) <= TOUCH_M)
+        time_of_impact_gap(&outer_a, &outer_b, *from) <= SKIN_M)
         return true; /* the outer hulls part, but the pieces within may meet */
     if (meet)
-        *from = touch.toi;
+        *from = impact.toi;
     return meet;
 }
 
 static bool touch_hulls(const struct body_motion *motion, const struct pair *pair, double from,
-                        struct hull_contact *touch)
+                        struct hull_contact *impact)
 {
     const struct world *world = motion->world;
     const uint16_t *kind = motion->next->entities.kind;
@@ -85,9 +85,9 @@ static bool touch_hulls(const struct body_motion *motion, const struct pair *pai
     struct swept_body a = body_motion_body(motion, pair->a);
     struct swept_body b =
         fixed ? body_motion_fixed(world, object) : body_motion_body(motion, pair->b);
-    return outer_touch(world, &a, kind[pair->a], &b,
-                       fixed ? world->fixed[object].kind : kind[pair->b], &from) &&
-           time_of_impact_touch(&a, &b, from, touch);
+    return outer_impact(world, &a, kind[pair->a], &b,
+                        fixed ? world->fixed[object].kind : kind[pair->b], &from) &&
+           time_of_impact_find(&a, &b, from, impact);
 }
 
 bool narrow_phase_lets_in(const struct world *world, bool through_fixed, uint32_t object)
@@ -95,21 +95,21 @@ bool narrow_phase_lets_in(const struct world *world, bool through_fixed, uint32_
     return through_fixed || world->kinds[world->fixed[object].kind].rigidity < YIELDING_RIGIDITY;
 }
 
-bool narrow_phase_touch(const struct method_input *input, const struct body_motion *motion,
-                        bool through_fixed, const struct pair *pair, double from,
-                        struct hull_contact *touch)
+bool narrow_phase_find(const struct method_input *input, const struct body_motion *motion,
+                       bool through_fixed, const struct pair *pair, double from,
+                       struct hull_contact *impact)
 {
     const struct world *world = input->world;
     const struct collision_params *how = &world->params->collision;
     bool discrete = method_discrete((enum method)how->method);
     bool hulls = how->shape == SHAPE_MODEL && !discrete;
-    if (hulls ? !touch_hulls(motion, pair, from, touch)
-              : !touch_spheres(input, pair, from, discrete, touch))
+    if (hulls ? !touch_hulls(motion, pair, from, impact)
+              : !touch_spheres(input, pair, from, discrete, impact))
         return false;
     if (discrete || !(pair->b & PAIR_FIXED))
         return true;
     /* A body that is inside already was reported when it entered. Hulls within their skin of each
      * other count as inside. */
-    bool inside = touch->toi <= from && (hulls || touch->depth_m > 0.0 || from > 0.0);
+    bool inside = impact->toi <= from && (hulls || impact->depth_m > 0.0 || from > 0.0);
     return !(inside && narrow_phase_lets_in(world, through_fixed, pair->b & ~PAIR_FIXED));
 }

@@ -20,8 +20,8 @@ bool narrow_phase_lets_in(const struct world *world, bool through_fixed, uint32_
  * methods that test only the frame's end the contact is there. through_fixed: bodies may be inside
  * any fixed object, and only entering it is a contact. Inside a yielding object they always may
  * be. */
-bool narrow_phase_touch(const struct method_input *input, const struct body_motion *motion,
-                        bool through_fixed, const struct pair *pair, double from,
-                        struct hull_contact *touch);
+bool narrow_phase_find(const struct method_input *input, const struct body_motion *motion,
+                       bool through_fixed, const struct pair *pair, double from,
+                       struct hull_contact *impact);
 
 #endif

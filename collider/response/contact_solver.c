@@ -65,14 +65,14 @@ static struct vec3 turned(const struct mat3 *m, struct vec3 v)
 
 static struct vec3 to_axes(const struct solver_contact *c, struct vec3 v)
 {
-    return (struct vec3){vec3_dot(v, c->normal), vec3_dot(v, c->notes.tangent[0]),
-                         vec3_dot(v, c->notes.tangent[1])};
+    return (struct vec3){vec3_dot(v, c->normal), vec3_dot(v, c->state.tangent[0]),
+                         vec3_dot(v, c->state.tangent[1])};
 }
 
 static struct vec3 to_world(const struct solver_contact *c, struct vec3 v)
 {
-    return vec3_add(vec3_scale(c->normal, v.x), vec3_add(vec3_scale(c->notes.tangent[0], v.y),
-                                                         vec3_scale(c->notes.tangent[1], v.z)));
+    return vec3_add(vec3_scale(c->normal, v.x), vec3_add(vec3_scale(c->state.tangent[0], v.y),
+                                                         vec3_scale(c->state.tangent[1], v.z)));
 }
 
 /* Two unit vectors across the normal. When the normal changes its sign, the first does too and the
@@ -82,8 +82,8 @@ static void set_tangents(struct solver_contact *c)
     struct vec3 n = c->normal;
     struct vec3 first =
         fabs(n.y) < 0.7 ? (struct vec3){-n.z, 0.0, n.x} : (struct vec3){0.0, n.z, -n.y};
-    c->notes.tangent[0] = vec3_scale(first, 1.0 / vec3_length(first));
-    c->notes.tangent[1] = vec3_cross(n, c->notes.tangent[0]);
+    c->state.tangent[0] = vec3_scale(first, 1.0 / vec3_length(first));
+    c->state.tangent[1] = vec3_cross(n, c->state.tangent[0]);
 }
 
 /* --- bodies ------------------------------------------------------------------------------------*/
@@ -92,8 +92,8 @@ static void set_tangents(struct solver_contact *c)
 static struct vec3 slip(const struct solver_body *bodies, const struct solver_contact *c)
 {
     const struct solver_body *a = &bodies[c->a], *b = &bodies[c->b];
-    struct vec3 va = vec3_add(a->velocity, vec3_cross(a->spin, c->notes.arm_a));
-    struct vec3 vb = vec3_add(b->velocity, vec3_cross(b->spin, c->notes.arm_b));
+    struct vec3 va = vec3_add(a->velocity, vec3_cross(a->spin, c->state.arm_a));
+    struct vec3 vb = vec3_add(b->velocity, vec3_cross(b->spin, c->state.arm_b));
     return to_axes(c, vec3_sub(vb, va));
 }
 
@@ -103,8 +103,8 @@ static void push(struct solver_body *bodies, const struct solver_contact *c, str
     struct vec3 p = to_world(c, impulse);
     a->velocity = vec3_sub(a->velocity, times(a->inverse_mass, p));
     b->velocity = vec3_add(b->velocity, times(b->inverse_mass, p));
-    a->spin = vec3_sub(a->spin, turned(&a->inverse_inertia, vec3_cross(c->notes.arm_a, p)));
-    b->spin = vec3_add(b->spin, turned(&b->inverse_inertia, vec3_cross(c->notes.arm_b, p)));
+    a->spin = vec3_sub(a->spin, turned(&a->inverse_inertia, vec3_cross(c->state.arm_a, p)));
+    b->spin = vec3_add(b->spin, turned(&b->inverse_inertia, vec3_cross(c->state.arm_b, p)));
 }
 
 /* Change of velocity at the point by a unit impulse along a world direction. */
@@ -118,15 +118,15 @@ static struct vec3 yielding(const struct solver_body *body, struct vec3 arm, str
 static struct vec3 yielding_both(const struct solver_body *bodies, const struct solver_contact *c,
                                  struct vec3 along)
 {
-    return to_axes(c, vec3_add(yielding(&bodies[c->a], c->notes.arm_a, along),
-                               yielding(&bodies[c->b], c->notes.arm_b, along)));
+    return to_axes(c, vec3_add(yielding(&bodies[c->a], c->state.arm_a, along),
+                               yielding(&bodies[c->b], c->state.arm_b, along)));
 }
 
 /* Inverse of the tangential mobility with the normal speed kept; zero along a direction in which
  * nothing moves. */
-static void set_slip_mass(struct solver_state *notes)
+static void set_slip_mass(struct solver_state *state)
 {
-    const double(*m)[3] = (const double(*)[3])notes->mobility.m;
+    const double(*m)[3] = (const double(*)[3])state->mobility.m;
     double s11 = m[1][1] - m[0][1] * m[0][1] / m[0][0];
     double s12 = m[1][2] - m[0][1] * m[0][2] / m[0][0];
     double s22 = m[2][2] - m[0][2] * m[0][2] / m[0][0];
@@ -135,27 +135,27 @@ static void set_slip_mass(struct solver_state *notes)
         return;
     bool one_way = determinant <= SLIP_LEAST * trace * trace;
     double k = one_way ? 1.0 / (trace * trace) : 1.0 / determinant;
-    notes->slip_mass[0][0] = k * (one_way ? s11 : s22);
-    notes->slip_mass[1][1] = k * (one_way ? s22 : s11);
-    notes->slip_mass[0][1] = notes->slip_mass[1][0] = k * (one_way ? s12 : -s12);
+    state->slip_mass[0][0] = k * (one_way ? s11 : s22);
+    state->slip_mass[1][1] = k * (one_way ? s22 : s11);
+    state->slip_mass[0][1] = state->slip_mass[1][0] = k * (one_way ? s12 : -s12);
 }
 
 static void begin_contact(const struct solver_body *bodies, struct solver_contact *c)
 {
-    struct solver_state *notes = &c->notes;
-    *notes = (struct solver_state){.arm_a = vec3_sub(c->point, bodies[c->a].centre),
+    struct solver_state *state = &c->state;
+    *state = (struct solver_state){.arm_a = vec3_sub(c->point, bodies[c->a].centre),
                                    .arm_b = vec3_sub(c->point, bodies[c->b].centre)};
     set_tangents(c);
     struct vec3 n = yielding_both(bodies, c, c->normal);
-    struct vec3 first = yielding_both(bodies, c, notes->tangent[0]);
-    struct vec3 second = yielding_both(bodies, c, notes->tangent[1]);
+    struct vec3 first = yielding_both(bodies, c, state->tangent[0]);
+    struct vec3 second = yielding_both(bodies, c, state->tangent[1]);
     if (n.x > MOBILITY_LEAST * (n.x + first.y + second.z)) {
-        notes->mobility =
+        state->mobility =
             (struct mat3){{{n.x, n.y, n.z}, {n.y, first.y, first.z}, {n.z, first.z, second.z}}};
-        set_slip_mass(notes);
+        set_slip_mass(state);
     }
-    notes->before = slip(bodies, c);
-    c->closing_mps = -notes->before.x;
+    state->before = slip(bodies, c);
+    c->closing_mps = -state->before.x;
     c->impulse = (struct vec3){0.0, 0.0, 0.0};
     c->lost_j = 0.0;
 }
@@ -177,17 +177,17 @@ struct island {
  * the normal is at least the target, and the impulse is within the friction cone. */
 static struct vec3 alone(const struct solver_contact *c, double friction, struct vec3 without)
 {
-    const struct solver_state *notes = &c->notes;
-    const double *n = notes->mobility.m[0];
-    double normal = (notes->target_mps - without.x) / n[0];
+    const struct solver_state *state = &c->state;
+    const double *n = state->mobility.m[0];
+    double normal = (state->target_mps - without.x) / n[0];
     if (!(normal > 0.0))
         return (struct vec3){0.0, 0.0, 0.0};
     /* The slip at the end of the approach if there were no friction. */
-    double plastic = normal * notes->plastic_share;
+    double plastic = normal * state->plastic_share;
     double slip1 = without.y + n[1] * plastic, slip2 = without.z + n[2] * plastic;
     /* The tangential impulse that ends the slip, and the normal one that keeps the normal speed. */
-    double t1 = -(notes->slip_mass[0][0] * slip1 + notes->slip_mass[0][1] * slip2);
-    double t2 = -(notes->slip_mass[1][0] * slip1 + notes->slip_mass[1][1] * slip2);
+    double t1 = -(state->slip_mass[0][0] * slip1 + state->slip_mass[0][1] * slip2);
+    double t2 = -(state->slip_mass[1][0] * slip1 + state->slip_mass[1][1] * slip2);
     double beside = -(n[1] * t1 + n[2] * t2) / n[0];
     double length = sqrt(t1 * t1 + t2 * t2);
     double share = 1.0;
@@ -199,16 +199,16 @@ static struct vec3 alone(const struct solver_contact *c, double friction, struct
 /* Solves a contact against the present velocities; returns the change of speed. */
 static double update(const struct island *island, struct solver_contact *c)
 {
-    struct solver_state *notes = &c->notes;
-    if (notes->mobility.m[0][0] == 0.0)
+    struct solver_state *state = &c->state;
+    if (state->mobility.m[0][0] == 0.0)
         return 0.0;
-    struct vec3 own = turned(&notes->mobility, notes->sum);
+    struct vec3 own = turned(&state->mobility, state->sum);
     struct vec3 without = vec3_sub(slip(island->bodies, c), own);
     struct vec3 sum = alone(c, c->friction * island->friction, without);
-    notes->step = vec3_sub(sum, notes->sum);
-    notes->sum = sum;
-    push(island->bodies, c, notes->step);
-    return notes->mobility.m[0][0] * vec3_length(notes->step);
+    state->step = vec3_sub(sum, state->sum);
+    state->sum = sum;
+    push(island->bodies, c, state->step);
+    return state->mobility.m[0][0] * vec3_length(state->step);
 }
 
 /* --- all of them -------------------------------------------------------------------------------*/
@@ -226,8 +226,8 @@ static double step_size(const struct island *island)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < island->count; i++) {
-        const struct solver_state *notes = &island->contacts[i].notes;
-        sum += notes->mobility.m[0][0] * vec3_dot(notes->step, notes->step);
+        const struct solver_state *state = &island->contacts[i].state;
+        sum += state->mobility.m[0][0] * vec3_dot(state->step, state->step);
     }
     return sum;
 }
@@ -238,13 +238,13 @@ static void search(const struct island *island, double keep)
 {
     for (uint32_t i = 0; i < island->count; i++) {
         struct solver_contact *c = &island->contacts[i];
-        struct solver_state *notes = &c->notes;
-        struct vec3 further = vec3_scale(notes->search, keep);
+        struct solver_state *state = &c->state;
+        struct vec3 further = vec3_scale(state->search, keep);
         if (keep > 0.0) {
-            notes->sum = vec3_add(notes->sum, further);
+            state->sum = vec3_add(state->sum, further);
             push(island->bodies, c, further);
         }
-        notes->search = vec3_add(further, notes->step);
+        state->search = vec3_add(further, state->step);
     }
 }
 
@@ -258,13 +258,13 @@ static void renew(const struct island *island)
         body->spin = body->spin_before;
     }
     for (uint32_t i = 0; i < island->count; i++)
-        push(island->bodies, &island->contacts[i], island->contacts[i].notes.sum);
+        push(island->bodies, &island->contacts[i], island->contacts[i].state.sum);
 }
 
 static void take_out(const struct island *island)
 {
     for (uint32_t i = 0; i < island->count; i++)
-        island->contacts[i].notes.sum = island->contacts[i].notes.search =
+        island->contacts[i].state.sum = island->contacts[i].state.search =
             (struct vec3){0.0, 0.0, 0.0};
     renew(island);
 }
@@ -302,8 +302,8 @@ static bool settle(struct island *island, bool bouncing)
     for (uint32_t i = 0; i < island->count; i++) {
         struct solver_contact *c = &island->contacts[i];
         bool bounces = bouncing && c->closing_mps > 0.0;
-        c->notes.target_mps = bounces ? c->restitution * c->closing_mps : 0.0;
-        c->notes.plastic_share = bounces ? 1.0 / (1.0 + c->restitution) : 1.0;
+        c->state.target_mps = bounces ? c->restitution * c->closing_mps : 0.0;
+        c->state.plastic_share = bounces ? 1.0 / (1.0 + c->restitution) : 1.0;
     }
     island->friction = 1.0;
     for (int n = 0; n < SLACKENINGS && island->rough; n++) {
@@ -323,8 +323,8 @@ static bool settle(struct island *island, bool bouncing)
  * evenly in time. */
 static double work(const struct island *island, const struct solver_contact *c)
 {
-    struct vec3 twice = vec3_add(c->notes.before, slip(island->bodies, c));
-    return -0.5 * vec3_dot(c->notes.sum, twice);
+    struct vec3 twice = vec3_add(c->state.before, slip(island->bodies, c));
+    return -0.5 * vec3_dot(c->state.sum, twice);
 }
 
 /* Kinetic energy that the impulses added [J]; 0 if it is below the rounding of the work done. */
@@ -333,7 +333,7 @@ static double gain(const struct island *island)
     double sum = 0.0, whole = 0.0;
     for (uint32_t i = 0; i < island->count; i++) {
         sum -= work(island, &island->contacts[i]);
-        whole += fabs(vec3_dot(island->contacts[i].notes.sum, island->contacts[i].notes.before));
+        whole += fabs(vec3_dot(island->contacts[i].state.sum, island->contacts[i].state.before));
     }
     return sum > ENERGY_SLACK * whole ? sum : maths_min(sum, 0.0);
 }
@@ -353,7 +353,7 @@ static double share_of_way(double gain0, double slope, double gain1)
 static void set_aside(const struct island *island)
 {
     for (uint32_t i = 0; i < island->count; i++)
-        island->contacts[i].notes.bouncy = island->contacts[i].notes.sum;
+        island->contacts[i].state.bouncy = island->contacts[i].state.sum;
     take_out(island);
 }
 
@@ -363,12 +363,12 @@ static void approach(const struct island *island, double gain0, double gain1)
     double slope = 0.0;
     for (uint32_t i = 0; i < island->count; i++) {
         const struct solver_contact *c = &island->contacts[i];
-        slope += vec3_dot(vec3_sub(c->notes.bouncy, c->notes.sum), slip(island->bodies, c));
+        slope += vec3_dot(vec3_sub(c->state.bouncy, c->state.sum), slip(island->bodies, c));
     }
     double share = share_of_way(gain0, slope, gain1);
     for (uint32_t i = 0; i < island->count; i++) {
-        struct solver_state *notes = &island->contacts[i].notes;
-        notes->sum = vec3_lerp(notes->sum, notes->bouncy, share);
+        struct solver_state *state = &island->contacts[i].state;
+        state->sum = vec3_lerp(state->sum, state->bouncy, share);
     }
     renew(island);
 }
@@ -433,7 +433,7 @@ void contact_solver_island(struct solver_body *bodies, uint32_t body_count,
         island.rough |= contacts[i].friction > 0.0;
         island.bouncy |= contacts[i].restitution > 0.0 && contacts[i].closing_mps > 0.0;
         closing = maths_max(closing, contacts[i].closing_mps);
-        speed = maths_max(speed, vec3_length(contacts[i].notes.before));
+        speed = maths_max(speed, vec3_length(contacts[i].state.before));
     }
     if (!(closing > 0.0))
         return;
@@ -442,5 +442,5 @@ void contact_solver_island(struct solver_body *bodies, uint32_t body_count,
     settle_all(&island);
     share_loss(&island);
     for (uint32_t i = 0; i < contact_count; i++)
-        contacts[i].impulse = to_world(&contacts[i], contacts[i].notes.sum);
+        contacts[i].impulse = to_world(&contacts[i], contacts[i].state.sum);
 }

@@ -45,7 +45,7 @@ struct solver_contact {
     struct vec3 impulse; /* out [N s]: on b; a gets the opposite */
     double closing_mps;  /* out [m/s]: along the normal before, > 0 for an approach */
     double lost_j;       /* out [J]: its share of the kinetic energy that the island lost, >= 0 */
-    struct solver_state notes;
+    struct solver_state state;
 };
 
 /* Solves the contacts of one island. Afterwards no contact's bodies approach along its normal (to

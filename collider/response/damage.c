@@ -27,52 +27,52 @@ static enum damage level(double share)
     return share >= SHARE_LOW ? DAMAGE_LOW : DAMAGE_NONE;
 }
 
-static void set_damage(struct response_context *respond, uint32_t row, enum damage damage)
+static void set_damage(struct response_context *context, uint32_t row, enum damage damage)
 {
-    table_set_damage(&respond->writer, row, (uint8_t)damage);
-    table_set_changed_tick(&respond->writer, row, (uint32_t)respond->next->head->tick);
+    table_set_damage(&context->writer, row, (uint8_t)damage);
+    table_set_changed_tick(&context->writer, row, (uint32_t)context->next->head->tick);
 }
 
-void damage_destroy(struct response_context *respond, uint32_t row, double time)
+void damage_destroy(struct response_context *context, uint32_t row, double time)
 {
-    const struct entities *e = &respond->next->entities;
-    const struct kind *kind = &respond->world->kinds[e->kind[row]];
+    const struct entities *e = &context->next->entities;
+    const struct kind *kind = &context->world->kinds[e->kind[row]];
     if (e->state[row] != ENTITY_ACTIVE)
         return;
-    table_set_state(&respond->writer, row, ENTITY_WRECK);
-    table_set_behaviour(&respond->writer, row, BEHAVIOUR_IDLE);
-    table_set_order(&respond->writer, row, BEHAVIOUR_IDLE);
-    table_set_harm_j(&respond->writer, row, maths_max(e->harm_j[row], kind->resistance_j));
-    set_damage(respond, row, DAMAGE_DESTROYED);
-    respond->next->head->tally.destroyed++;
-    struct charge charge = {.point = path_at(&respond->path[row], time),
+    table_set_state(&context->writer, row, ENTITY_WRECK);
+    table_set_behaviour(&context->writer, row, BEHAVIOUR_IDLE);
+    table_set_order(&context->writer, row, BEHAVIOUR_IDLE);
+    table_set_harm_j(&context->writer, row, maths_max(e->harm_j[row], kind->resistance_j));
+    set_damage(context, row, DAMAGE_DESTROYED);
+    context->next->head->tally.destroyed++;
+    struct charge charge = {.point = path_at(&context->path[row], time),
                             .time = time,
                             .explosive_kg = kind->explosive_kg};
     if (kind->explosive_kg > 0.0)
-        explosion_charge(respond, &charge);
+        explosion_charge(context, &charge);
 }
 
-void damage_row(struct response_context *respond, uint32_t row, double joules, double time)
+void damage_row(struct response_context *context, uint32_t row, double joules, double time)
 {
-    const struct entities *e = &respond->next->entities;
-    const struct kind *kind = &respond->world->kinds[e->kind[row]];
+    const struct entities *e = &context->next->entities;
+    const struct kind *kind = &context->world->kinds[e->kind[row]];
     if (e->state[row] != ENTITY_ACTIVE || !(joules > 0.0))
         return;
-    table_set_harm_j(&respond->writer, row, e->harm_j[row] + joules);
+    table_set_harm_j(&context->writer, row, e->harm_j[row] + joules);
     enum damage damage = level(e->harm_j[row] / kind->resistance_j);
     if (damage == DAMAGE_DESTROYED)
-        damage_destroy(respond, row, time);
+        damage_destroy(context, row, time);
     else if (damage > e->damage[row])
-        set_damage(respond, row, damage);
+        set_damage(context, row, damage);
 }
 
-static enum damage damage_fixed(struct response_context *respond, uint32_t object,
+static enum damage damage_fixed(struct response_context *context, uint32_t object,
                                 enum damage damage)
 {
-    uint8_t *now = &respond->next->fixed_damage[object];
+    uint8_t *now = &context->next->fixed_damage[object];
     if (damage > *now) {
         *now = (uint8_t)damage;
-        respond->next->head->tally.fixed_damaged++;
+        context->next->head->tally.fixed_damaged++;
     }
     return (enum damage) * now;
 }
@@ -83,30 +83,30 @@ static double own_or(double own, double scenario)
     return own > 0.0 ? own : scenario;
 }
 
-double damage_high_share(const struct response_context *respond, const struct kind *kind)
+double damage_high_share(const struct response_context *context, const struct kind *kind)
 {
-    return own_or(kind->damage_high, respond->world->params->collision.damage_high);
+    return own_or(kind->damage_high, context->world->params->collision.damage_high);
 }
 
-enum damage damage_fixed_object(struct response_context *respond, uint32_t object, double joules)
+enum damage damage_fixed_object(struct response_context *context, uint32_t object, double joules)
 {
-    const struct world *world = respond->world;
+    const struct world *world = context->world;
     const struct collision_params *limits = &world->params->collision;
     const struct kind *kind = &world->kinds[world->fixed[object].kind];
     double share = joules / kind->resistance_j;
     enum damage damage = DAMAGE_NONE;
-    if (share >= damage_high_share(respond, kind))
+    if (share >= damage_high_share(context, kind))
         damage = DAMAGE_HIGH;
     else if (share >= own_or(kind->damage_med, limits->damage_med))
         damage = DAMAGE_MED;
     else if (share >= own_or(kind->damage_low, limits->damage_low))
         damage = DAMAGE_LOW;
-    return damage_fixed(respond, object, damage);
+    return damage_fixed(context, object, damage);
 }
 
-enum damage damage_fixed_mass(struct response_context *respond, uint32_t object, double mass_kg)
+enum damage damage_fixed_mass(struct response_context *context, uint32_t object, double mass_kg)
 {
-    const struct collision_params *limits = &respond->world->params->collision;
+    const struct collision_params *limits = &context->world->params->collision;
     enum damage damage = DAMAGE_NONE;
     if (mass_kg >= limits->mass_c1_kg)
         damage = DAMAGE_HIGH;
@@ -114,5 +114,5 @@ enum damage damage_fixed_mass(struct response_context *respond, uint32_t object,
         damage = DAMAGE_MED;
     else if (mass_kg >= limits->mass_c3_kg)
         damage = DAMAGE_LOW;
-    return damage_fixed(respond, object, damage);
+    return damage_fixed(context, object, damage);
 }

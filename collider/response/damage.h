@@ -6,22 +6,22 @@
 
 /* Adds this energy to the row's damage. The row is destroyed when the sum reaches its kind's
  * resistance_j. */
-void damage_row(struct response_context *respond, uint32_t row, double joules, double time);
-void damage_destroy(struct response_context *respond, uint32_t row, double time);
+void damage_row(struct response_context *context, uint32_t row, double joules, double time);
+void damage_destroy(struct response_context *context, uint32_t row, double time);
 
 /* Both damage a fixed object and return its damage. It is never repaired: the hardest impact
  * counts.
  *
  * By the energy of the impact: the measure "energy". */
-enum damage damage_fixed_object(struct response_context *respond, uint32_t object, double joules);
+enum damage damage_fixed_object(struct response_context *context, uint32_t object, double joules);
 
 /* By the mass of the body that hits it, as figure 8 is printed: the measure "mass" (thesis row 27).
  * Damage is high from mass_c1_kg on, medium from mass_c2_kg, low from mass_c3_kg and none below.
  * The figure's fourth constant only repeats where "none" begins; the interval between the third and
  * the fourth, which it leaves open, is also "none". */
-enum damage damage_fixed_mass(struct response_context *respond, uint32_t object, double mass_kg);
+enum damage damage_fixed_mass(struct response_context *context, uint32_t object, double mass_kg);
 
 /* Returns the share of a fixed kind's resistance_j from which its damage is high. */
-double damage_high_share(const struct response_context *respond, const struct kind *kind);
+double damage_high_share(const struct response_context *context, const struct kind *kind);
 
 #endif

@@ -40,9 +40,9 @@ void charges_free(struct charges *charges)
     *charges = (struct charges){0};
 }
 
-void explosion_charge(struct response_context *respond, const struct charge *charge)
+void explosion_charge(struct response_context *context, const struct charge *charge)
 {
-    struct charges *charges = respond->charges;
+    struct charges *charges = context->charges;
     CHECK(charges->count < charges->capacity);
     charges->charge[charges->count++] = *charge;
 }
@@ -63,16 +63,16 @@ static double distance_to(struct vec3 from, struct vec3 centre, double radius_m)
     return maths_max(0.0, vec3_length(vec3_sub(centre, from)) - radius_m);
 }
 
-static void explosion_row(struct response_context *respond, const struct charge *charge,
+static void explosion_row(struct response_context *context, const struct charge *charge,
                           double radius, uint32_t row)
 {
-    const struct entities *e = &respond->next->entities;
-    const struct path *path = &respond->path[row];
+    const struct entities *e = &context->next->entities;
+    const struct path *path = &context->path[row];
     if (e->state[row] != ENTITY_ACTIVE || e->behaviour[row] == BEHAVIOUR_FLIGHT)
         return;
-    body_motion_draw(respond->motion, row);
+    body_motion_require(context->motion, row);
     struct vec3 at = path_at(path, maths_max(charge->time, path->since));
-    double distance = distance_to(charge->point, at, respond->world->kinds[e->kind[row]].radius_m);
+    double distance = distance_to(charge->point, at, context->world->kinds[e->kind[row]].radius_m);
     /* The effect of a direct hit has been applied already; here that body is treated like any
      * other. */
     double joules = explosion_energy(charge->explosive_kg, radius, maths_max(distance, 1e-3));
@@ -81,17 +81,17 @@ static void explosion_row(struct response_context *respond, const struct charge 
     bool known = entities_alive(e, owner, charge->owner_id);
     bool friend = known && e->force[owner] != FORCE_NEUTRAL && e->force[owner] == e->force[row];
     if (joules > 0.0 && known && owner != row && !friend)
-        table_set_threat(&respond->writer, row, owner, charge->owner_id);
-    damage_row(respond, row, joules, charge->time);
+        table_set_threat(&context->writer, row, owner, charge->owner_id);
+    damage_row(context, row, joules, charge->time);
 }
 
-static void explosion_fixed(struct response_context *respond, const struct charge *charge,
+static void explosion_fixed(struct response_context *context, const struct charge *charge,
                             double radius, uint32_t index)
 {
-    const struct fixed_object *object = &respond->world->fixed[index];
+    const struct fixed_object *object = &context->world->fixed[index];
     struct vec3 at = fixed_position(object);
     double distance = distance_to(charge->point, at, (double)object->radius_m);
-    damage_fixed_object(respond, index, explosion_energy(charge->explosive_kg, radius, distance));
+    damage_fixed_object(context, index, explosion_energy(charge->explosive_kg, radius, distance));
 }
 
 static bool listed(const struct pair_list *list, uint32_t row)
@@ -105,58 +105,58 @@ static bool listed(const struct pair_list *list, uint32_t row)
 
 /* Finds the rows that may be within the radius: from the broad phase, and those that have left
  * their boxes. */
-static void find_rows(const struct response_context *respond, const struct path_box *box)
+static void find_rows(const struct response_context *context, const struct path_box *box)
 {
-    const struct contact_queue *contacts = respond->contacts;
-    struct pair_list *near = &respond->charges->near;
-    broad_phase_query(respond->broad, &respond->input.detect, box, near);
+    const struct contact_queue *contacts = context->contacts;
+    struct pair_list *near = &context->charges->near;
+    broad_phase_query(context->broad, &context->input.detect, box, near);
     for (uint32_t i = 0; i < contacts->stray_count; i++) {
         uint32_t row = contacts->strayed[i];
-        if (pair_filter_boxes_meet(box, &respond->broad->box[row]) && !listed(near, row))
+        if (pair_filter_boxes_meet(box, &context->broad->box[row]) && !listed(near, row))
             pair_list_add(near, row, 0);
     }
 }
 
-static void explosion_one(struct response_context *respond, const struct charge *charge)
+static void explosion_one(struct response_context *context, const struct charge *charge)
 {
     double radius = EXPLOSION_RADIUS_M * maths_cbrt(charge->explosive_kg);
     const struct path still = {.at = charge->point};
-    struct path_box box = pair_filter_way_box(&still, radius + BOX_SLACK_M);
-    struct pair_list *near = &respond->charges->near;
+    struct path_box box = pair_filter_path_box(&still, radius + BOX_SLACK_M);
+    struct pair_list *near = &context->charges->near;
     near->count = 0;
-    find_rows(respond, &box);
+    find_rows(context, &box);
     for (uint32_t i = 0; i < near->count; i++)
-        explosion_row(respond, charge, radius, near->pair[i].a);
+        explosion_row(context, charge, radius, near->pair[i].a);
     near->count = 0;
-    broad_phase_query_fixed(respond->broad, &respond->input.detect, &box, near);
+    broad_phase_query_fixed(context->broad, &context->input.detect, &box, near);
     for (uint32_t i = 0; i < near->count; i++)
-        explosion_fixed(respond, charge, radius, near->pair[i].b & ~PAIR_FIXED);
+        explosion_fixed(context, charge, radius, near->pair[i].b & ~PAIR_FIXED);
 }
 
-void explosion_all(struct response_context *respond)
+void explosion_all(struct response_context *context)
 {
-    struct charges *charges = respond->charges;
+    struct charges *charges = context->charges;
     /* Explosions may add charges. Each body explodes once, so this ends. */
     for (uint32_t i = 0; i < charges->count; i++) {
         struct charge charge = charges->charge[i];
-        explosion_one(respond, &charge);
+        explosion_one(context, &charge);
         work_done();
     }
     charges->count = 0;
 }
 
-static void dig(struct response_context *respond, struct vec3 point, double explosive_kg)
+static void dig(struct response_context *context, struct vec3 point, double explosive_kg)
 {
-    struct state_head *head = respond->next->head;
+    struct state_head *head = context->next->head;
     double radius = CRATER_RADIUS_M * maths_cbrt(explosive_kg);
-    if (head->crater_count >= respond->world->params->crater_slots) {
+    if (head->crater_count >= context->world->params->crater_slots) {
         head->tally.craters_refused++;
         return;
     }
-    struct crater *crater = &respond->next->craters[head->crater_count++];
+    struct crater *crater = &context->next->craters[head->crater_count++];
     *crater = (struct crater){point.x, point.z, (float)radius, (float)(radius * CRATER_DEPTH),
                               head->frame};
-    struct event *event = event_writer_event(&respond->events, EVENT_CRATER);
+    struct event *event = event_writer_event(&context->events, EVENT_CRATER);
     if (event) {
         event->crater.point[0] = point.x;
         event->crater.point[1] = point.y;
@@ -166,70 +166,70 @@ static void dig(struct response_context *respond, struct vec3 point, double expl
     }
 }
 
-static enum struck struck_of(const struct response_context *respond, uint32_t struck,
+static enum struck struck_of(const struct response_context *context, uint32_t struck,
                              struct vec3 point)
 {
     if (struck == CONTACT_AIR)
         return STRUCK_AIR;
     if (struck == CONTACT_GROUND)
-        return cover_is_water(terrain_cover(&respond->world->terrain, point.x, point.z))
+        return cover_is_water(terrain_cover(&context->world->terrain, point.x, point.z))
                    ? STRUCK_WATER
                    : STRUCK_GROUND;
     return struck & PAIR_FIXED ? STRUCK_FIXED : STRUCK_VEHICLE;
 }
 
 /* A direct hit: the charge's whole energy and the round's kinetic energy. */
-static void hit(struct response_context *respond, uint32_t round, uint32_t struck, enum struck what,
+static void hit(struct response_context *context, uint32_t round, uint32_t struck, enum struck what,
                 double time)
 {
-    const struct entities *e = &respond->next->entities;
-    const struct kind *kind = &respond->world->kinds[e->kind[round]];
+    const struct entities *e = &context->next->entities;
+    const struct kind *kind = &context->world->kinds[e->kind[round]];
     struct vec3 velocity = entities_velocity(e, round);
     if (what == STRUCK_VEHICLE)
         velocity = vec3_sub(velocity, entities_velocity(e, struck));
     double joules =
         TNT_J_PER_KG * kind->explosive_kg + 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
     if (what == STRUCK_VEHICLE)
-        damage_row(respond, struck, joules, time);
+        damage_row(context, struck, joules, time);
     if (what == STRUCK_FIXED)
-        damage_fixed_object(respond, struck & ~PAIR_FIXED, joules);
+        damage_fixed_object(context, struck & ~PAIR_FIXED, joules);
 }
 
-static struct event_party party_struck(const struct response_context *respond, uint32_t struck,
+static struct event_party party_struck(const struct response_context *context, uint32_t struck,
                                        enum struck what)
 {
-    const struct entities *e = &respond->next->entities;
+    const struct entities *e = &context->next->entities;
     if (what == STRUCK_VEHICLE)
         return (struct event_party){e->id[struck], e->kind[struck], 0, e->damage[struck]};
     if (what == STRUCK_FIXED) {
         uint32_t object = struck & ~PAIR_FIXED;
-        return (struct event_party){object + 1, respond->world->fixed[object].kind, 1,
-                                    respond->next->fixed_damage[object]};
+        return (struct event_party){object + 1, context->world->fixed[object].kind, 1,
+                                    context->next->fixed_damage[object]};
     }
     return (struct event_party){0, KIND_NONE, 0, DAMAGE_NONE};
 }
 
-void explosion_munition(struct response_context *respond, uint32_t row, uint32_t struck,
+void explosion_munition(struct response_context *context, uint32_t row, uint32_t struck,
                         double time)
 {
-    const struct entities *e = &respond->next->entities;
-    struct state_head *head = respond->next->head;
-    const struct kind *kind = &respond->world->kinds[e->kind[row]];
-    struct vec3 point = path_at(&respond->path[row], time);
-    enum struck what = struck_of(respond, struck, point);
+    const struct entities *e = &context->next->entities;
+    struct state_head *head = context->next->head;
+    const struct kind *kind = &context->world->kinds[e->kind[row]];
+    struct vec3 point = path_at(&context->path[row], time);
+    enum struck what = struck_of(context, struck, point);
     struct charge charge = {.point = point,
                             .time = time,
                             .explosive_kg = kind->explosive_kg,
                             .owner_slot = e->owner_slot[row],
                             .owner_id = e->owner_id[row]};
-    struct event *event = event_writer_event(&respond->events, EVENT_DETONATION);
+    struct event *event = event_writer_event(&context->events, EVENT_DETONATION);
     struct event_party munition = {e->id[row], e->kind[row], 0, DAMAGE_DESTROYED};
 
     head->tally.detonations++;
-    hit(respond, row, struck, what, time);
+    hit(context, row, struck, what, time);
     if (event) {
         event->detonation.munition = munition;
-        event->detonation.struck_party = party_struck(respond, struck, what);
+        event->detonation.struck_party = party_struck(context, struck, what);
         event->detonation.point[0] = point.x;
         event->detonation.point[1] = point.y;
         event->detonation.point[2] = point.z;
@@ -237,10 +237,10 @@ void explosion_munition(struct response_context *respond, uint32_t row, uint32_t
         event->detonation.struck = what;
     }
     if (what == STRUCK_GROUND && kind->craters)
-        dig(respond, point, kind->explosive_kg);
-    table_clear_row(&respond->writer, row);
+        dig(context, point, kind->explosive_kg);
+    table_clear_row(&context->writer, row);
     head->munitions--;
-    contact_queue_drop(respond->contacts, row);
+    contact_queue_drop(context->contacts, row);
     if (charge.explosive_kg > 0.0)
-        explosion_charge(respond, &charge);
+        explosion_charge(context, &charge);
 }

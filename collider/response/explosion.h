@@ -26,11 +26,11 @@ int charges_init(struct charges *charges, const struct world *world);
 void charges_free(struct charges *charges);
 
 /* Explodes the munition where it is; struck is a contact's second side. */
-void explosion_munition(struct response_context *respond, uint32_t row, uint32_t struck,
+void explosion_munition(struct response_context *context, uint32_t row, uint32_t struck,
                         double time);
 
 /* Adds a charge, which explodes in the next explosion_all(). */
-void explosion_charge(struct response_context *respond, const struct charge *charge);
-void explosion_all(struct response_context *respond);
+void explosion_charge(struct response_context *context, const struct charge *charge);
+void explosion_all(struct response_context *context);
 
 #endif

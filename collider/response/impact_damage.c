@@ -10,14 +10,14 @@
 #include "world/world.h"
 
 /* inwards: unit, world axes. */
-static void dent(struct response_context *respond, uint32_t row, const struct impact *impact,
+static void dent(struct response_context *context, uint32_t row, const struct impact *impact,
                  struct vec3 inwards, const struct deformation *deformation)
 {
-    const struct state *next = respond->next;
+    const struct state *next = context->next;
     struct state_head *head = next->head;
-    struct mat3 turn = rotation_matrix(body_motion_turned(respond->motion, row, impact->time));
-    struct vec3 from_position = vec3_sub(impact->point, path_at(&respond->path[row], impact->time));
-    if (head->dent_count >= respond->world->params->dent_slots) {
+    struct mat3 turn = rotation_matrix(body_motion_orientation(context->motion, row, impact->time));
+    struct vec3 from_position = vec3_sub(impact->point, path_at(&context->path[row], impact->time));
+    if (head->dent_count >= context->world->params->dent_slots) {
         head->tally.dents_refused++;
         return;
     }
@@ -30,16 +30,16 @@ static void dent(struct response_context *respond, uint32_t row, const struct im
     vec3_to_floats(entry->direction, rotation_back(&turn, inwards));
 }
 
-void impact_damage_row(struct response_context *respond, uint32_t row, const struct impact *impact,
+void impact_damage_row(struct response_context *context, uint32_t row, const struct impact *impact,
                        double side, double joules, const struct contact_spring_impact *spring)
 {
-    const struct kind *kind = &respond->world->kinds[respond->next->entities.kind[row]];
+    const struct kind *kind = &context->world->kinds[context->next->entities.kind[row]];
     struct deformation deformation = deformation_of(kind, joules);
     if (spring) { /* each skin is compressed by half */
         deformation.plastic_m = 0.5 * spring->left_m;
         deformation.elastic_m = 0.5 * (spring->depth_m - spring->left_m);
     }
     if (deformation.plastic_m + deformation.elastic_m >= DEFORMATION_DENT_LEAST_M)
-        dent(respond, row, impact, vec3_scale(impact->normal, side), &deformation);
-    damage_row(respond, row, deformation.harm_j, impact->time);
+        dent(context, row, impact, vec3_scale(impact->normal, side), &deformation);
+    damage_row(context, row, deformation.harm_j, impact->time);
 }

@@ -9,7 +9,7 @@ struct contact_spring_impact;
 /* Applies this energy to the row as damage and as a dent at the impact's point. side is 1 if the
  * normal points into the row, -1 if it points out of it. spring: the spring's impact; NULL for
  * other responses. */
-void impact_damage_row(struct response_context *respond, uint32_t row, const struct impact *impact,
+void impact_damage_row(struct response_context *context, uint32_t row, const struct impact *impact,
                        double side, double joules, const struct contact_spring_impact *spring);
 
 #endif

@@ -95,22 +95,22 @@ static void grow_contacts(struct island *island)
 
 /* Gathers one contact: a persistent contact, a fixed object that gives way, or a contact for the
  * solver. */
-static void take(struct response_context *respond, const struct contact *contact)
+static void take(struct response_context *context, const struct contact *contact)
 {
-    struct island *island = respond->island;
+    struct island *island = context->island;
     if (island->met_count == island->met_capacity)
         grow_contacts(island);
     struct island_contact *met = &island->met[island->met_count];
     *met = (struct island_contact){
-        .contact = *contact, .impact = response_impact(respond, contact), .body_b = BODY_FIXED};
-    if (passes_through(respond, &met->impact))
+        .contact = *contact, .impact = response_impact(context, contact), .body_b = BODY_FIXED};
+    if (passes_through(context, &met->impact))
         return;
-    met->leans = contact_persists(respond, &met->impact);
+    met->leans = contact_persists(context, &met->impact);
     if (!met->leans)
-        met->report = response_report(respond, &met->impact);
+        met->report = response_report(context, &met->impact);
     met->body_a = body_for(island, contact->a); /* its path is swept with the others in any case */
-    if (contact->b & PAIR_FIXED && contact_impulse_gives_way(respond, met)) {
-        contact_queue_settle(respond->contacts, contact);
+    if (contact->b & PAIR_FIXED && contact_impulse_gives_way(context, met)) {
+        contact_queue_skip_pair(context->contacts, contact);
         return;
     }
     island->body[met->body_a].stays |= contact->last;
@@ -124,26 +124,26 @@ static void take(struct response_context *respond, const struct contact *contact
 
 /* Returns true if the next contact is of the same moment and is solved by impulses, so not one of
  * rounds or the ground. */
-static bool same_moment(const struct response_context *respond, const struct contact *next,
+static bool same_moment(const struct response_context *context, const struct contact *next,
                         double toi)
 {
-    const uint8_t *behaviour = respond->next->entities.behaviour;
-    return next && next->touch.toi <= toi + CONTACT_TIE && next->b < CONTACT_AIR &&
+    const uint8_t *behaviour = context->next->entities.behaviour;
+    return next && next->impact.toi <= toi + CONTACT_TIE && next->b < CONTACT_AIR &&
            behaviour[next->a] != BEHAVIOUR_FLIGHT &&
            (next->b & PAIR_FIXED || behaviour[next->b] != BEHAVIOUR_FLIGHT);
 }
 
-static void gather(struct response_context *respond, const struct contact *first)
+static void gather(struct response_context *context, const struct contact *first)
 {
     struct contact contact = *first;
-    take(respond, &contact);
-    while (same_moment(respond, contact_queue_peek(respond->contacts), first->touch.toi)) {
-        contact_queue_next(respond->contacts, &respond->input, &contact);
-        contact.touch.toi = first->touch.toi;
+    take(context, &contact);
+    while (same_moment(context, contact_queue_peek(context->contacts), first->impact.toi)) {
+        contact_queue_next(context->contacts, &context->input, &contact);
+        contact.impact.toi = first->impact.toi;
         if (contact.b & PAIR_FIXED &&
-            !pair_filter_stands(&respond->input.detect, contact.b & ~PAIR_FIXED))
+            !pair_filter_stands(&context->input.detect, contact.b & ~PAIR_FIXED))
             continue;
-        take(respond, &contact);
+        take(context, &contact);
     }
 }
 
@@ -161,18 +161,18 @@ static void chain(struct island *island)
 
 /* --- into the solver ---------------------------------------------------------------------------*/
 
-static struct solver_body solve_body_of(const struct response_context *respond,
+static struct solver_body solve_body_of(const struct response_context *context,
                                         struct island_body *body, double time)
 {
-    const struct entities *e = &respond->next->entities;
+    const struct entities *e = &context->next->entities;
     uint32_t row = body->row;
-    const struct mass_properties inertia = mass_properties_of(&respond->world->kinds[e->kind[row]]);
-    struct mat3 turn = rotation_matrix(body_motion_turned(respond->motion, row, time));
+    const struct mass_properties inertia = mass_properties_of(&context->world->kinds[e->kind[row]]);
+    struct mat3 turn = rotation_matrix(body_motion_orientation(context->motion, row, time));
     double light = 1.0 / inertia.mass_kg;
-    body->grounded = path_change_grounded(respond, row);
+    body->grounded = path_change_grounded(context, row);
     body->arm = rotation_apply(&turn, (struct vec3){0.0, inertia.centre_m, 0.0});
     struct solver_body solve = {
-        .centre = vec3_add(path_at(&respond->path[row], time), body->arm),
+        .centre = vec3_add(path_at(&context->path[row], time), body->arm),
     };
     if (body->grounded) { /* it can neither leave the ground nor roll over */
         solve.inverse_mass = (struct vec3){light, 0.0, light};
@@ -181,7 +181,7 @@ static struct solver_body solve_body_of(const struct response_context *respond,
         solve.inverse_mass = (struct vec3){light, light, light};
         solve.inverse_inertia = mass_properties_inverse_world(&inertia, &turn);
     }
-    solve.spin = path_change_spin(respond, row);
+    solve.spin = path_change_spin(context, row);
     solve.velocity = vec3_add(entities_velocity(e, row), vec3_cross(solve.spin, body->arm));
     if (body->grounded)
         solve.velocity.y = 0.0; /* it comes from the slope, and would lift the other body */
@@ -189,10 +189,10 @@ static struct solver_body solve_body_of(const struct response_context *respond,
 }
 
 /* Returns the body's index in the solver, and adds it on first use. */
-static uint32_t local_of(const struct response_context *respond, uint32_t *count, uint32_t index,
+static uint32_t local_of(const struct response_context *context, uint32_t *count, uint32_t index,
                          double time)
 {
-    struct island *island = respond->island;
+    struct island *island = context->island;
     if (index == BODY_FIXED) {
         island->solve[*count] = (struct solver_body){0};
         island->solve_of[*count] = BODY_FIXED;
@@ -200,7 +200,7 @@ static uint32_t local_of(const struct response_context *respond, uint32_t *count
     }
     struct island_body *body = &island->body[index];
     if (body->local == UINT32_MAX) {
-        island->solve[*count] = solve_body_of(respond, body, time);
+        island->solve[*count] = solve_body_of(context, body, time);
         island->solve_of[*count] = index;
         body->local = (*count)++;
     }
@@ -211,82 +211,82 @@ static uint32_t local_of(const struct response_context *respond, uint32_t *count
 
 /* The backup vector (Hahn 1988; thesis row 46): moves overlapping bodies apart along the normal,
  * the lighter by more, until their skins touch. */
-static void part(const struct response_context *respond, const struct island_contact *met,
-                 const struct solver_contact *contact)
+static void move_apart(const struct response_context *context, const struct island_contact *met,
+                       const struct solver_contact *contact)
 {
-    struct island *island = respond->island;
-    bool hulls = respond->world->params->collision.shape == SHAPE_MODEL;
+    struct island *island = context->island;
+    bool hulls = context->world->params->collision.shape == SHAPE_MODEL;
     double depth = met->impact.depth_m;
     if (!(depth > ROUNDING_M))
         return;
     struct vec3 n = contact->normal;
-    double slant = vec3_dot(n, met->contact.touch.normal);
-    double way = (depth + (hulls ? TOUCH_M : 0.0)) / maths_max(slant, 0.5);
+    double slant = vec3_dot(n, met->contact.impact.normal);
+    double distance = (depth + (hulls ? SKIN_M : 0.0)) / maths_max(slant, 0.5);
     const struct solver_body *a = &island->solve[contact->a], *b = &island->solve[contact->b];
     double la = a->inverse_mass.x, lb = b->inverse_mass.x;
     struct island_body *body_a = &island->body[met->body_a];
-    body_a->shift = vec3_sub(body_a->shift, vec3_scale(n, way * la / (la + lb)));
+    body_a->shift = vec3_sub(body_a->shift, vec3_scale(n, distance * la / (la + lb)));
     if (met->body_b == BODY_FIXED)
         return;
     struct island_body *body_b = &island->body[met->body_b];
-    body_b->shift = vec3_add(body_b->shift, vec3_scale(n, way * lb / (la + lb)));
+    body_b->shift = vec3_add(body_b->shift, vec3_scale(n, distance * lb / (la + lb)));
 }
 
-static void leave(struct response_context *respond, const struct solver_body *solve,
+static void leave(struct response_context *context, const struct solver_body *solve,
                   const struct island_body *body, double time)
 {
     uint32_t row = body->row;
     struct vec3 velocity = vec3_sub(solve->velocity, vec3_cross(solve->spin, body->arm));
     if (body->grounded)
         velocity.y = 0.0; /* the mover follows the slope again */
-    struct vec3 at = vec3_add(path_at(&respond->path[row], time), body->shift);
-    path_change_leave(respond, row, time, at, velocity, solve->spin, body->stays);
+    struct vec3 at = vec3_add(path_at(&context->path[row], time), body->shift);
+    path_change_leave(context, row, time, at, velocity, solve->spin, body->stays);
 }
 
-static void solve_group(struct response_context *respond, uint32_t first, double time)
+static void solve_group(struct response_context *context, uint32_t first, double time)
 {
-    struct island *island = respond->island;
+    struct island *island = context->island;
     uint32_t bodies = 0, contacts = 0;
     for (uint32_t i = first; i != 0; i = island->met[i - 1].next) {
         const struct island_contact *met = &island->met[i - 1];
-        uint32_t a = local_of(respond, &bodies, met->body_a, time);
-        uint32_t b = local_of(respond, &bodies, met->body_b, time);
+        uint32_t a = local_of(context, &bodies, met->body_a, time);
+        uint32_t b = local_of(context, &bodies, met->body_b, time);
         const struct solver_body sides[2] = {island->solve[a], island->solve[b]};
         struct solver_contact *contact = &island->contact[contacts++];
-        *contact = contact_impulse_contact(respond, met, sides);
+        *contact = contact_impulse_contact(context, met, sides);
         contact->a = a;
         contact->b = b;
     }
-    respond->functions->joint(respond, first, bodies);
+    context->functions->joint(context, first, bodies);
     contacts = 0;
     for (uint32_t i = first; i != 0; i = island->met[i - 1].next) {
         const struct island_contact *met = &island->met[i - 1];
         const struct solver_contact *contact = &island->contact[contacts++];
-        part(respond, met, contact);
+        move_apart(context, met, contact);
         if (vec3_dot(contact->impulse, contact->impulse) == 0.0)
-            contact_queue_settle(respond->contacts, &met->contact); /* it would be found again */
+            contact_queue_skip_pair(context->contacts, &met->contact); /* it would be found again */
     }
     for (uint32_t i = 0; i < bodies; i++) {
         if (island->solve_of[i] != BODY_FIXED)
-            leave(respond, &island->solve[i], &island->body[island->solve_of[i]], time);
+            leave(context, &island->solve[i], &island->body[island->solve_of[i]], time);
     }
     contacts = 0;
     for (uint32_t i = first; i != 0; i = island->met[i - 1].next)
-        contact_impulse_harm(respond, &island->met[i - 1], &island->contact[contacts++]);
+        contact_impulse_damage(context, &island->met[i - 1], &island->contact[contacts++]);
 }
 
-void island_answer(struct response_context *respond, const struct contact *contact)
+void island_answer(struct response_context *context, const struct contact *contact)
 {
-    struct island *island = respond->island;
-    double time = contact->touch.toi;
+    struct island *island = context->island;
+    double time = contact->impact.toi;
     island->met_count = island->bodies = 0;
-    gather(respond, contact);
+    gather(context, contact);
     chain(island);
     for (uint32_t i = 0; i < island->bodies; i++) {
         if (island->body[i].first != 0)
-            solve_group(respond, island->body[i].first, time);
+            solve_group(context, island->body[i].first, time);
     }
-    path_change_swept(respond, island->row, island->bodies, time);
+    path_change_swept(context, island->row, island->bodies, time);
     for (uint32_t i = 0; i < island->bodies; i++)
         island->body_of[island->row[i]] = 0;
 }

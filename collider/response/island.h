@@ -53,6 +53,6 @@ void island_free(struct island *island);
 
 /* Responds to this contact, which was just taken from the queue, and to all others of the same
  * moment that are solved by impulses. */
-void island_answer(struct response_context *respond, const struct contact *contact);
+void island_answer(struct response_context *context, const struct contact *contact);
 
 #endif

@@ -5,29 +5,29 @@
 #include "collider/response/response_context.h"
 
 /* Keeps the row where it is for the rest of the frame; this is its velocity at the end. */
-void path_change_stay(struct response_context *respond, uint32_t row, double time,
+void path_change_stay(struct response_context *context, uint32_t row, double time,
                       struct vec3 velocity);
 
 /* The row continues along its path at a share of its speed. Call path_change_swept afterwards. */
-void path_change_slow(struct response_context *respond, uint32_t row, double time, double share);
+void path_change_slow(struct response_context *context, uint32_t row, double time, double share);
 
 /* The row continues from `at` with this velocity and spin. If it stays, it remains there for the
  * rest of the frame and has both at the end. spin_rps is as path_change_spin() returns it; the
  * driver's part does not become the row's own spin. Call path_change_swept once all rows that leave
  * at this time have left. */
-void path_change_leave(struct response_context *respond, uint32_t row, double time, struct vec3 at,
+void path_change_leave(struct response_context *context, uint32_t row, double time, struct vec3 at,
                        struct vec3 velocity, struct vec3 spin_rps, bool stays);
 
 /* Finds the contacts of the rows' new paths. */
-void path_change_swept(struct response_context *respond, const uint32_t *rows, uint32_t count,
+void path_change_swept(struct response_context *context, const uint32_t *rows, uint32_t count,
                        double time);
 
 /* Returns the row's rotation [rad/s, world axes]: its spin from collisions and, on the ground, the
  * driver's steering. */
-struct vec3 path_change_spin(const struct response_context *respond, uint32_t row);
+struct vec3 path_change_spin(const struct response_context *context, uint32_t row);
 
 /* Returns true for a row that the ground supports: a land vehicle, a ship, a wreck on the
  * ground. */
-bool path_change_grounded(const struct response_context *respond, uint32_t row);
+bool path_change_grounded(const struct response_context *context, uint32_t row);
 
 #endif

@@ -17,8 +17,8 @@
  * scrape along: that is one persistent contact, reported when it began. An engine adds far less
  * speed within the time. With a shorter time a vehicle that scrapes along another would be reported
  * again and again. */
-#define LEAN_S   0.25
-#define LEAN_MPS 2.0
+#define PERSISTS_S   0.25
+#define PERSISTS_MPS 2.0
 
 /* With a smaller horizontal part a normal is too steep for bodies on the ground. */
 #define LEVEL_MIN 0.2
@@ -33,25 +33,25 @@ const struct response_functions *response_of(enum response_model model)
 }
 
 /* Tells the row's agent the heading away from the obstacle. */
-static void bump(struct response_context *respond, uint32_t row, double away_x, double away_z)
+static void set_bumped(struct response_context *context, uint32_t row, double away_x, double away_z)
 {
-    table_set_bumped(&respond->writer, row, 1);
-    table_set_bump_heading(&respond->writer, row, (float)maths_heading(away_x, away_z));
+    table_set_bumped(&context->writer, row, 1);
+    table_set_bump_heading(&context->writer, row, (float)maths_heading(away_x, away_z));
 }
 
 /* Bodies on the ground push each other horizontally only: along the normal or, where that is too
  * steep, along the line between their positions. */
-static struct vec3 level_normal(const struct response_context *respond,
+static struct vec3 level_normal(const struct response_context *context,
                                 const struct contact *contact)
 {
-    struct vec3 level = {contact->touch.normal.x, 0.0, contact->touch.normal.z};
+    struct vec3 level = {contact->impact.normal.x, 0.0, contact->impact.normal.z};
     double length = vec3_length(level);
     if (length < LEVEL_MIN) {
-        struct vec3 a = path_at(&respond->path[contact->a], contact->touch.toi), b;
+        struct vec3 a = path_at(&context->path[contact->a], contact->impact.toi), b;
         if (contact->b & PAIR_FIXED) {
-            b = fixed_position(&respond->world->fixed[contact->b & ~PAIR_FIXED]);
+            b = fixed_position(&context->world->fixed[contact->b & ~PAIR_FIXED]);
         } else {
-            b = path_at(&respond->path[contact->b], contact->touch.toi);
+            b = path_at(&context->path[contact->b], contact->impact.toi);
         }
         level = (struct vec3){b.x - a.x, 0.0, b.z - a.z};
         length = vec3_length(level);
@@ -60,32 +60,32 @@ static struct vec3 level_normal(const struct response_context *respond,
 }
 
 /* Returns the velocity of the row's skin at the contact. */
-static struct vec3 velocity_at(const struct response_context *respond, uint32_t row,
-                               const struct hull_contact *touch)
+static struct vec3 velocity_at(const struct response_context *context, uint32_t row,
+                               const struct hull_contact *impact)
 {
-    struct vec3 w = path_change_spin(respond, row);
-    struct vec3 r = vec3_sub(touch->point, path_at(&respond->path[row], touch->toi));
-    return vec3_add(entities_velocity(&respond->next->entities, row), vec3_cross(w, r));
+    struct vec3 w = path_change_spin(context, row);
+    struct vec3 r = vec3_sub(impact->point, path_at(&context->path[row], impact->toi));
+    return vec3_add(entities_velocity(&context->next->entities, row), vec3_cross(w, r));
 }
 
-struct impact response_impact(const struct response_context *respond, const struct contact *contact)
+struct impact response_impact(const struct response_context *context, const struct contact *contact)
 {
-    const struct entities *e = &respond->next->entities;
+    const struct entities *e = &context->next->entities;
     struct impact impact = {.a = contact->a,
                             .b = contact->b,
-                            .time = contact->touch.toi,
-                            .point = contact->touch.point,
-                            .normal = contact->touch.normal,
-                            .depth_m = contact->touch.depth_m};
-    struct vec3 va = velocity_at(respond, contact->a, &contact->touch), vb = {0.0, 0.0, 0.0};
+                            .time = contact->impact.toi,
+                            .point = contact->impact.point,
+                            .normal = contact->impact.normal,
+                            .depth_m = contact->impact.depth_m};
+    struct vec3 va = velocity_at(context, contact->a, &contact->impact), vb = {0.0, 0.0, 0.0};
     double other_heading;
-    if (path_change_grounded(respond, contact->a) &&
-        (contact->b & PAIR_FIXED || path_change_grounded(respond, contact->b)))
-        impact.normal = level_normal(respond, contact);
+    if (path_change_grounded(context, contact->a) &&
+        (contact->b & PAIR_FIXED || path_change_grounded(context, contact->b)))
+        impact.normal = level_normal(context, contact);
     if (contact->b & PAIR_FIXED) {
-        other_heading = fixed_heading(&respond->world->fixed[contact->b & ~PAIR_FIXED]);
+        other_heading = fixed_heading(&context->world->fixed[contact->b & ~PAIR_FIXED]);
     } else {
-        vb = velocity_at(respond, contact->b, &contact->touch);
+        vb = velocity_at(context, contact->b, &contact->impact);
         other_heading = e->heading[contact->b];
     }
     impact.closing_mps = maths_max(0.0, vec3_dot(vec3_sub(va, vb), impact.normal));
@@ -93,13 +93,13 @@ struct impact response_impact(const struct response_context *respond, const stru
     return impact;
 }
 
-static struct event_party party_of(const struct response_context *respond, uint32_t body)
+static struct event_party party_of(const struct response_context *context, uint32_t body)
 {
-    const struct entities *e = &respond->next->entities;
+    const struct entities *e = &context->next->entities;
     if (body & PAIR_FIXED) {
         uint32_t object = body & ~PAIR_FIXED;
-        return (struct event_party){object + 1, respond->world->fixed[object].kind, 1,
-                                    respond->next->fixed_damage[object]};
+        return (struct event_party){object + 1, context->world->fixed[object].kind, 1,
+                                    context->next->fixed_damage[object]};
     }
     return (struct event_party){e->id[body], e->kind[body], 0, e->damage[body]};
 }
@@ -113,80 +113,80 @@ static void put(double to[3], struct vec3 from)
 
 /* Returns the number by which the other side of a contact is remembered: for an entity its id,
  * which another entity in the slot does not have. */
-static uint32_t body_mark(const struct response_context *respond, uint32_t body)
+static uint32_t body_mark(const struct response_context *context, uint32_t body)
 {
-    return body & PAIR_FIXED ? body : respond->next->entities.id[body];
+    return body & PAIR_FIXED ? body : context->next->entities.id[body];
 }
 
-static bool touched(const struct response_context *respond, uint32_t row, uint32_t mark)
+static bool touched(const struct response_context *context, uint32_t row, uint32_t mark)
 {
-    const struct entities *e = &respond->next->entities;
-    uint64_t age = respond->next->head->tick - e->touch_tick[row];
-    return e->touch_body[row] == mark && (double)age * respond->world->params->dt_s <= LEAN_S;
+    const struct entities *e = &context->next->entities;
+    uint64_t age = context->next->head->tick - e->touch_tick[row];
+    return e->touch_body[row] == mark && (double)age * context->world->params->dt_s <= PERSISTS_S;
 }
 
-static void remember(struct response_context *respond, const struct impact *impact)
+static void remember(struct response_context *context, const struct impact *impact)
 {
-    uint32_t tick = (uint32_t)respond->next->head->tick;
-    table_set_touch_body(&respond->writer, impact->a, body_mark(respond, impact->b));
-    table_set_touch_tick(&respond->writer, impact->a, tick);
+    uint32_t tick = (uint32_t)context->next->head->tick;
+    table_set_touch_body(&context->writer, impact->a, body_mark(context, impact->b));
+    table_set_touch_tick(&context->writer, impact->a, tick);
     if (!(impact->b & PAIR_FIXED)) {
-        table_set_touch_body(&respond->writer, impact->b, body_mark(respond, impact->a));
-        table_set_touch_tick(&respond->writer, impact->b, tick);
+        table_set_touch_body(&context->writer, impact->b, body_mark(context, impact->a));
+        table_set_touch_tick(&context->writer, impact->b, tick);
     }
 }
 
-bool passes_through(struct response_context *respond, const struct impact *impact)
+bool passes_through(struct response_context *context, const struct impact *impact)
 {
-    const struct entities *e = &respond->next->entities;
-    const struct world *world = respond->world;
+    const struct entities *e = &context->next->entities;
+    const struct world *world = context->world;
     uint32_t row = impact->a, object = impact->b & ~PAIR_FIXED;
     if (!(impact->b & PAIR_FIXED) ||
-        !narrow_phase_lets_in(world, respond->input.through_fixed, object) ||
+        !narrow_phase_lets_in(world, context->input.through_fixed, object) ||
         e->touch_body[row] != impact->b)
         return false;
-    double age_s = (double)(respond->next->head->tick - e->touch_tick[row]) * world->params->dt_s;
-    double across = 2.0 * (pair_filter_row_reach(&respond->input.detect, row) +
+    double age_s = (double)(context->next->head->tick - e->touch_tick[row]) * world->params->dt_s;
+    double across = 2.0 * (pair_filter_row_reach(&context->input.detect, row) +
                            pair_filter_fixed_reach(world, &world->fixed[object]));
     if (age_s * vec3_length(entities_velocity(e, row)) > across)
         return false;
-    remember(respond, impact);
+    remember(context, impact);
     return true;
 }
 
-bool contact_persists(struct response_context *respond, const struct impact *impact)
+bool contact_persists(struct response_context *context, const struct impact *impact)
 {
-    bool leans =
-        impact->closing_mps < LEAN_MPS &&
-        (touched(respond, impact->a, body_mark(respond, impact->b)) ||
-         (!(impact->b & PAIR_FIXED) && touched(respond, impact->b, body_mark(respond, impact->a))));
-    remember(respond, impact);
-    return leans;
+    bool persists =
+        impact->closing_mps < PERSISTS_MPS &&
+        (touched(context, impact->a, body_mark(context, impact->b)) ||
+         (!(impact->b & PAIR_FIXED) && touched(context, impact->b, body_mark(context, impact->a))));
+    remember(context, impact);
+    return persists;
 }
 
-struct report response_report(struct response_context *respond, const struct impact *impact)
+struct report response_report(struct response_context *context, const struct impact *impact)
 {
-    struct vec3 direction = entities_velocity(&respond->next->entities, impact->a);
+    struct vec3 direction = entities_velocity(&context->next->entities, impact->a);
     double speed = vec3_length(direction);
-    respond->next->head->tally.collisions++;
-    return (struct report){.event = event_writer_event(&respond->events, EVENT_COLLISION),
+    context->next->head->tally.collisions++;
+    return (struct report){.event = event_writer_event(&context->events, EVENT_COLLISION),
                            .direction_a = speed > 0.0 ? vec3_scale(direction, 1.0 / speed)
                                                       : (struct vec3){0, 0, 0}};
 }
 
-void write_collision_event(struct response_context *respond, const struct report *report,
+void write_collision_event(struct response_context *context, const struct report *report,
                            const struct impact *impact, const struct outcome *outcome)
 {
     if (outcome->response == RESPONSE_STOP || outcome->response == RESPONSE_BOUNCE) {
-        bump(respond, impact->a, -impact->normal.x, -impact->normal.z);
+        set_bumped(context, impact->a, -impact->normal.x, -impact->normal.z);
         if (!(impact->b & PAIR_FIXED))
-            bump(respond, impact->b, impact->normal.x, impact->normal.z);
+            set_bumped(context, impact->b, impact->normal.x, impact->normal.z);
     }
     if (!report->event)
         return;
     struct event_collision *collision = &report->event->collision;
-    collision->a = party_of(respond, impact->a);
-    collision->b = party_of(respond, impact->b);
+    collision->a = party_of(context, impact->a);
+    collision->b = party_of(context, impact->b);
     put(collision->point, impact->point);
     vec3_to_floats(collision->normal, impact->normal);
     vec3_to_floats(collision->direction_a, report->direction_a);
@@ -199,10 +199,10 @@ void write_collision_event(struct response_context *respond, const struct report
 
 /* Ends the approach of bodies in a persistent contact: takes out their closing speed and conserves
  * momentum. */
-static void lean(struct response_context *respond, const struct impact *impact)
+static void end_approach(struct response_context *context, const struct impact *impact)
 {
-    const struct entities *e = &respond->next->entities;
-    const struct kind *kinds = respond->world->kinds;
+    const struct entities *e = &context->next->entities;
+    const struct kind *kinds = context->world->kinds;
     bool fixed = impact->b & PAIR_FIXED;
     double ma = kinds[e->kind[impact->a]].mass_kg,
            mb = fixed ? 0.0 : kinds[e->kind[impact->b]].mass_kg;
@@ -214,53 +214,53 @@ static void lean(struct response_context *respond, const struct impact *impact)
     for (int i = 0; i < (fixed ? 1 : 2); i++) {
         uint32_t row = side[i].row;
         struct vec3 push = vec3_scale(impact->normal, side[i].push * impact->closing_mps);
-        const struct vec3 spin = path_change_spin(respond, row);
-        path_change_leave(respond, row, impact->time, path_at(&respond->path[row], impact->time),
+        const struct vec3 spin = path_change_spin(context, row);
+        path_change_leave(context, row, impact->time, path_at(&context->path[row], impact->time),
                           vec3_add(entities_velocity(e, row), push), spin, false);
     }
     const uint32_t rows[2] = {impact->a, impact->b};
-    path_change_swept(respond, rows, fixed ? 1 : 2, impact->time);
+    path_change_swept(context, rows, fixed ? 1 : 2, impact->time);
 }
 
-static void collide(struct response_context *respond, const struct contact *contact)
+static void collide(struct response_context *context, const struct contact *contact)
 {
-    const struct response_functions *functions = respond->functions;
+    const struct response_functions *functions = context->functions;
     response_function *answer = contact->b & PAIR_FIXED ? functions->fixed : functions->moving;
-    struct impact impact = response_impact(respond, contact);
+    struct impact impact = response_impact(context, contact);
     struct outcome outcome = {RESPONSE_NONE, 0.0};
-    if (passes_through(respond, &impact))
+    if (passes_through(context, &impact))
         return;
-    if (contact_persists(respond, &impact)) {
+    if (contact_persists(context, &impact)) {
         if (answer)
-            lean(respond, &impact);
+            end_approach(context, &impact);
         return;
     }
-    struct report report = response_report(respond, &impact);
+    struct report report = response_report(context, &impact);
     if (answer)
-        answer(respond, &impact, &outcome);
-    write_collision_event(respond, &report, &impact, &outcome);
+        answer(context, &impact, &outcome);
+    write_collision_event(context, &report, &impact, &outcome);
 }
 
 /* Destroys an aircraft that hits the ground. */
-static void crash(struct response_context *respond, const struct contact *contact)
+static void crash(struct response_context *context, const struct contact *contact)
 {
-    const struct entities *e = &respond->next->entities;
+    const struct entities *e = &context->next->entities;
     uint32_t row = contact->a;
-    double time = contact->touch.toi;
+    double time = contact->impact.toi;
     struct vec3 velocity = entities_velocity(e, row);
-    struct event *event = event_writer_event(&respond->events, EVENT_COLLISION);
-    struct vec3 at = path_at(&respond->path[row], time);
+    struct event *event = event_writer_event(&context->events, EVENT_COLLISION);
+    struct vec3 at = path_at(&context->path[row], time);
     struct vec3 normal =
-        terrain_normal(&respond->world->terrain, respond->input.detect.craters, at.x, at.z);
-    respond->next->head->tally.collisions++;
+        terrain_normal(&context->world->terrain, context->input.detect.craters, at.x, at.z);
+    context->next->head->tally.collisions++;
     struct vec3 slide = vec3_sub(velocity, vec3_scale(normal, vec3_dot(velocity, normal)));
     /* Make it a wreck first: an aircraft that stays there would meet the ground again. */
-    damage_destroy(respond, row, time);
-    path_change_stay(respond, row, time, vec3_scale(slide, 0.3));
+    damage_destroy(context, row, time);
+    path_change_stay(context, row, time, vec3_scale(slide, 0.3));
     if (event) {
-        event->collision.a = party_of(respond, row);
+        event->collision.a = party_of(context, row);
         event->collision.b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
-        put(event->collision.point, respond->path[row].at);
+        put(event->collision.point, context->path[row].at);
         vec3_to_floats(event->collision.normal, vec3_scale(normal, -1.0));
         if (vec3_length(velocity) > 0.0)
             vec3_to_floats(event->collision.direction_a,
@@ -271,31 +271,31 @@ static void crash(struct response_context *respond, const struct contact *contac
     }
 }
 
-static bool is_round(const struct response_context *respond, uint32_t body)
+static bool is_round(const struct response_context *context, uint32_t body)
 {
-    return body < PAIR_FIXED && respond->next->entities.behaviour[body] == BEHAVIOUR_FLIGHT;
+    return body < PAIR_FIXED && context->next->entities.behaviour[body] == BEHAVIOUR_FLIGHT;
 }
 
-void response_contact(struct response_context *respond, const struct contact *contact)
+void response_contact(struct response_context *context, const struct contact *contact)
 {
-    bool round_a = is_round(respond, contact->a), round_b = is_round(respond, contact->b);
-    double time = contact->touch.toi;
+    bool round_a = is_round(context, contact->a), round_b = is_round(context, contact->b);
+    double time = contact->impact.toi;
     if (contact->b >= PAIR_FIXED && contact->b < CONTACT_AIR &&
-        !pair_filter_stands(&respond->input.detect, contact->b & ~PAIR_FIXED))
+        !pair_filter_stands(&context->input.detect, contact->b & ~PAIR_FIXED))
         return; /* it was destroyed earlier in this frame */
     if (round_a && round_b) {
-        explosion_munition(respond, contact->a, CONTACT_AIR, time);
-        explosion_munition(respond, contact->b, CONTACT_AIR, time);
+        explosion_munition(context, contact->a, CONTACT_AIR, time);
+        explosion_munition(context, contact->b, CONTACT_AIR, time);
     } else if (round_a) {
-        explosion_munition(respond, contact->a, contact->b, time);
+        explosion_munition(context, contact->a, contact->b, time);
     } else if (round_b) {
-        explosion_munition(respond, contact->b, contact->a, time);
+        explosion_munition(context, contact->b, contact->a, time);
     } else if (contact->b >= CONTACT_AIR) {
-        crash(respond, contact);
-    } else if (respond->functions->joint) {
-        island_answer(respond, contact);
+        crash(context, contact);
+    } else if (context->functions->joint) {
+        island_answer(context, contact);
     } else {
-        collide(respond, contact);
+        collide(context, contact);
     }
-    explosion_all(respond);
+    explosion_all(context);
 }

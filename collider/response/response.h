@@ -8,7 +8,7 @@
 #include "collider/response/response_context.h"
 #include "world/collision_models.h"
 
-typedef void response_function(struct response_context *respond, const struct impact *impact,
+typedef void response_function(struct response_context *context, const struct impact *impact,
                                struct outcome *outcome);
 
 struct response_functions {
@@ -17,7 +17,7 @@ struct response_functions {
     response_function *moving, *fixed;
     /* Solves all contacts of a group of bodies at one moment (island.h). first is the group's first
      * index into met + 1. NULL: each contact is resolved alone. */
-    void (*joint)(struct response_context *respond, uint32_t first, uint32_t bodies);
+    void (*joint)(struct response_context *context, uint32_t first, uint32_t bodies);
 };
 
 /* response_figure8 and so on, each in its own file. */
@@ -29,18 +29,18 @@ const struct response_functions *response_of(enum response_model model);
 
 /* Responds to the earliest contact. A joint response also resolves those of the same moment that
  * must be solved together with it. */
-void response_contact(struct response_context *respond, const struct contact *contact);
+void response_contact(struct response_context *context, const struct contact *contact);
 
-struct impact response_impact(const struct response_context *respond,
+struct impact response_impact(const struct response_context *context,
                               const struct contact *contact);
 
 /* Returns true if the row is still inside an object that it may pass through. When another hull of
  * the same body enters the object later, no second collision is reported. Remembers the contact. */
-bool passes_through(struct response_context *respond, const struct impact *impact);
+bool passes_through(struct response_context *context, const struct impact *impact);
 
 /* Returns true if the two bodies were already in contact, so that this contact is not a new
  * collision. Remembers the contact in any case. */
-bool contact_persists(struct response_context *respond, const struct impact *impact);
+bool contact_persists(struct response_context *context, const struct impact *impact);
 
 /* The place of a collision's event. It is taken before the response, so that the events that follow
  * from the response come after it. */
@@ -48,8 +48,8 @@ struct report {
     struct event *event; /* NULL: the frame has no room for events */
     struct vec3 direction_a;
 };
-struct report response_report(struct response_context *respond, const struct impact *impact);
-void write_collision_event(struct response_context *respond, const struct report *report,
+struct report response_report(struct response_context *context, const struct impact *impact);
+void write_collision_event(struct response_context *context, const struct report *report,
                            const struct impact *impact, const struct outcome *outcome);
 
 #endif

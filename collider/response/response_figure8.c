@@ -20,9 +20,9 @@
  * degrees severe. */
 #define ANGLE_SLACK_RAD (1e-4 * RAD_PER_DEG)
 
-static const struct kind *kind_of(const struct response_context *respond, uint32_t row)
+static const struct kind *kind_of(const struct response_context *context, uint32_t row)
 {
-    return &respond->world->kinds[respond->next->entities.kind[row]];
+    return &context->world->kinds[context->next->entities.kind[row]];
 }
 
 static bool severe(const struct kind *a, const struct kind *b, double angle_rad)
@@ -31,9 +31,9 @@ static bool severe(const struct kind *a, const struct kind *b, double angle_rad)
     return fabs(off) <= maths_max(a->severe_rad, b->severe_rad) + ANGLE_SLACK_RAD;
 }
 
-static bool fast(const struct response_context *respond, const struct kind *kind, double speed_mps)
+static bool fast(const struct response_context *context, const struct kind *kind, double speed_mps)
 {
-    double scenario = respond->world->params->collision.fast_vehicle_mps;
+    double scenario = context->world->params->collision.fast_vehicle_mps;
     return speed_mps > (kind->fast_mps > 0.0 ? kind->fast_mps : scenario);
 }
 
@@ -51,16 +51,16 @@ static double energy_of(const struct kind *kind, struct vec3 velocity)
     return 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
 }
 
-static void meet_moving(struct response_context *respond, const struct impact *impact,
+static void meet_moving(struct response_context *context, const struct impact *impact,
                         struct outcome *outcome)
 {
-    const struct entities *e = &respond->next->entities;
-    const struct kind *ka = kind_of(respond, impact->a), *kb = kind_of(respond, impact->b);
+    const struct entities *e = &context->next->entities;
+    const struct kind *ka = kind_of(context, impact->a), *kb = kind_of(context, impact->b);
     struct vec3 va = entities_velocity(e, impact->a), vb = entities_velocity(e, impact->b);
     double before = energy_of(ka, va) + energy_of(kb, vb);
     if (severe(ka, kb, impact->angle_rad)) {
-        if (fast(respond, ka, vec3_length(va)) || fast(respond, kb, vec3_length(vb))) {
-            response_mps.moving(respond, impact, outcome); /* "Kill both" */
+        if (fast(context, ka, vec3_length(va)) || fast(context, kb, vec3_length(vb))) {
+            response_mps.moving(context, impact, outcome); /* "Kill both" */
             return;
         }
         outcome->response = RESPONSE_STOP;
@@ -71,44 +71,44 @@ static void meet_moving(struct response_context *respond, const struct impact *i
         vb = bounced(vb, vec3_scale(impact->normal, -1.0), kb->bounce_keep);
     }
     double lost = before - energy_of(ka, va) - energy_of(kb, vb);
-    path_change_stay(respond, impact->a, impact->time, va);
-    path_change_stay(respond, impact->b, impact->time, vb);
+    path_change_stay(context, impact->a, impact->time, va);
+    path_change_stay(context, impact->b, impact->time, vb);
     /* The larger mass damages the smaller one more (row 30). */
     double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
-    impact_damage_row(respond, impact->a, impact, -1.0, lost * share_a, NULL);
-    impact_damage_row(respond, impact->b, impact, 1.0, lost * (1.0 - share_a), NULL);
+    impact_damage_row(context, impact->a, impact, -1.0, lost * share_a, NULL);
+    impact_damage_row(context, impact->b, impact, 1.0, lost * (1.0 - share_a), NULL);
 }
 
-static void damage_object(struct response_context *respond, uint32_t object, double mass_kg,
+static void damage_object(struct response_context *context, uint32_t object, double mass_kg,
                           double joules)
 {
-    if (respond->world->params->collision.measure == MEASURE_MASS)
-        damage_fixed_mass(respond, object, mass_kg);
+    if (context->world->params->collision.measure == MEASURE_MASS)
+        damage_fixed_mass(context, object, mass_kg);
     else
-        damage_fixed_object(respond, object, joules);
+        damage_fixed_object(context, object, joules);
 }
 
-static void meet_fixed(struct response_context *respond, const struct impact *impact,
+static void meet_fixed(struct response_context *context, const struct impact *impact,
                        struct outcome *outcome)
 {
-    const struct world *world = respond->world;
+    const struct world *world = context->world;
     const struct collision_params *limits = &world->params->collision;
     uint32_t object = impact->b & ~PAIR_FIXED;
     double fixed_kg = world->kinds[world->fixed[object].kind].mass_kg;
-    double mass_kg = kind_of(respond, impact->a)->mass_kg;
+    double mass_kg = kind_of(context, impact->a)->mass_kg;
     double energy = 0.5 * mass_kg * impact->closing_mps * impact->closing_mps;
-    double speed = vec3_length(entities_velocity(&respond->next->entities, impact->a));
-    damage_object(respond, object, mass_kg, energy);
+    double speed = vec3_length(entities_velocity(&context->next->entities, impact->a));
+    damage_object(context, object, mass_kg, energy);
     if (fixed_kg >= limits->large_fixed_kg && speed > limits->fast_fixed_mps) {
         outcome->response = RESPONSE_DESTROYED;
-        path_change_stay(respond, impact->a, impact->time, (struct vec3){0.0, 0.0, 0.0});
-        damage_destroy(respond, impact->a, impact->time);
+        path_change_stay(context, impact->a, impact->time, (struct vec3){0.0, 0.0, 0.0});
+        damage_destroy(context, impact->a, impact->time);
         return;
     }
     outcome->response = RESPONSE_SLOW;
-    path_change_slow(respond, impact->a, impact->time, mass_kg / (mass_kg + fixed_kg));
-    path_change_swept(respond, &impact->a, 1, impact->time);
-    impact_damage_row(respond, impact->a, impact, -1.0, energy * fixed_kg / (mass_kg + fixed_kg),
+    path_change_slow(context, impact->a, impact->time, mass_kg / (mass_kg + fixed_kg));
+    path_change_swept(context, &impact->a, 1, impact->time);
+    impact_damage_row(context, impact->a, impact, -1.0, energy * fixed_kg / (mass_kg + fixed_kg),
                       NULL);
 }
 

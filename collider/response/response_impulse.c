@@ -2,9 +2,9 @@
 #include "collider/response/island.h"
 #include "collider/response/response.h"
 
-static void solve(struct response_context *respond, uint32_t first, uint32_t bodies)
+static void solve(struct response_context *context, uint32_t first, uint32_t bodies)
 {
-    struct island *island = respond->island;
+    struct island *island = context->island;
     uint32_t contacts = 0;
     for (uint32_t i = first; i != 0; i = island->met[i - 1].next)
         contacts++;

@@ -5,15 +5,15 @@
 #include "collider/response/path_change.h"
 #include "collider/response/response.h"
 
-static void destroy_both(struct response_context *respond, const struct impact *impact,
+static void destroy_both(struct response_context *context, const struct impact *impact,
                          struct outcome *outcome)
 {
     const struct vec3 still = {0.0, 0.0, 0.0};
     outcome->response = RESPONSE_DESTROYED;
-    path_change_stay(respond, impact->a, impact->time, still);
-    path_change_stay(respond, impact->b, impact->time, still);
-    damage_destroy(respond, impact->a, impact->time);
-    damage_destroy(respond, impact->b, impact->time);
+    path_change_stay(context, impact->a, impact->time, still);
+    path_change_stay(context, impact->b, impact->time, still);
+    damage_destroy(context, impact->a, impact->time);
+    damage_destroy(context, impact->b, impact->time);
 }
 
 const struct response_functions response_mps = {.moving = destroy_both};

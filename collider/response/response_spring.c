@@ -25,13 +25,13 @@ static void strike(struct solver_body *body, struct vec3 point, struct vec3 impu
     body->spin = vec3_add(body->spin, rotation_apply(&body->inverse_inertia, moment));
 }
 
-static void by_spring(const struct response_context *respond, struct island_contact *met,
+static void by_spring(const struct response_context *context, struct island_contact *met,
                       struct solver_body *bodies, struct solver_contact *contact)
 {
     struct solver_body *a = &bodies[contact->a], *b = &bodies[contact->b];
     const struct impact *impact = &met->impact;
-    const struct kind *ka = contact_impulse_kind(respond, impact->a);
-    const struct kind *kb = contact_impulse_kind(respond, impact->b);
+    const struct kind *ka = contact_impulse_kind(context, impact->a);
+    const struct kind *kb = contact_impulse_kind(context, impact->b);
     struct vec3 relative = vec3_sub(contact_impulse_velocity(a, contact->point),
                                     contact_impulse_velocity(b, contact->point));
     double gives = mobility(a, contact) + mobility(b, contact);
@@ -53,13 +53,13 @@ static void by_spring(const struct response_context *respond, struct island_cont
     strike(b, contact->point, contact->impulse);
 }
 
-static void solve(struct response_context *respond, uint32_t first, uint32_t bodies)
+static void solve(struct response_context *context, uint32_t first, uint32_t bodies)
 {
-    struct island *island = respond->island;
+    struct island *island = context->island;
     struct solver_contact *contact = island->contact;
     (void)bodies;
     for (uint32_t i = first; i != 0; i = island->met[i - 1].next)
-        by_spring(respond, &island->met[i - 1], island->solve, contact++);
+        by_spring(context, &island->met[i - 1], island->solve, contact++);
 }
 
 const struct response_functions response_spring = {.joint = solve};

@@ -105,8 +105,8 @@ static double size_of(const struct mesh_skeleton *skeleton)
 static void draw(struct bench_scene *s, struct image *sheet, const struct bench_options *options,
                  uint32_t kind, uint32_t column, uint32_t row)
 {
-    static const double turns[COLUMNS] = {[BEFORE] = -0.65, [BEHIND] = 4.2, [LOW] = -0.65,
-                                          [MED] = -0.65,    [HIGH] = -0.65, [WRECK] = -0.65};
+    static const double rotates[COLUMNS] = {[BEFORE] = -0.65, [BEHIND] = 4.2, [LOW] = -0.65,
+                                            [MED] = -0.65,    [HIGH] = -0.65, [WRECK] = -0.65};
     struct vec3 middle = put(s, kind, column);
     const struct mesh_skeleton *skeleton = &s->scenery.skeletons[s->view.world.kinds[kind].model];
     double size =
@@ -117,7 +117,7 @@ static void draw(struct bench_scene *s, struct image *sheet, const struct bench_
         struct camera camera;
         bool lies = column >= HIGH && s->view.world.kinds[kind].domain == DOMAIN_FIXED;
         double away = (column == SMALL ? 2.9 + 7.0 * i * i : lies ? 1.7 : 1.05) * size + 0.4;
-        double turn = turns[column] - (column == SMALL ? 0.65 : 0.0);
+        double turn = rotates[column] - (column == SMALL ? 0.65 : 0.0);
         struct vec3 from = {sin(turn) * away, 0.33 * away, -cos(turn) * away};
         camera_look(&camera, vec3_add(middle, from), middle, options->size.width,
                     options->size.height);

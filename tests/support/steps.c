@@ -189,7 +189,7 @@ void steps_serial_context(struct fixture *fixture, struct step_context *step,
                                 .writer = {&view->m.entities, fixture->player.mover.changed}};
 }
 
-void steps_respond(struct fixture *fixture, struct response_context *respond)
+void steps_respond(struct fixture *fixture, struct response_context *context)
 {
     struct view *view = &fixture->view;
     struct collider *collider = &fixture->player.collider;
@@ -203,23 +203,23 @@ void steps_respond(struct fixture *fixture, struct response_context *respond)
     memcpy(next->fixed_damage, committed->fixed_damage, view->world.counts.fixed);
     body_motion_begin(&collider->motion, committed, next);
     for (uint32_t i = 0; i < next->head->used; i++)
-        body_motion_take(&collider->motion, i);
-    *respond = collider_respond(collider, next);
-    respond->events = (struct event_writer){.slot = view->events,
+        body_motion_compute(&collider->motion, i);
+    *context = collider_response_context(collider, next);
+    context->events = (struct event_writer){.slot = view->events,
                                             .slots = view->header->event_slots,
                                             .first = committed->head->event_end,
                                             .frame = next->head->frame,
                                             .tick = next->head->tick,
                                             .most = view->world.params->events_per_frame,
                                             .tally = &next->head->tally};
-    broad_phase_pairs(&collider->broad, &respond->input.detect);
+    broad_phase_pairs(&collider->broad, &context->input.detect);
     contact_queue_begin(&collider->contacts, collider->broad.list, THREAD_POOL_MAX);
 }
 
-void steps_respond_end(struct response_context *respond)
+void steps_respond_end(struct response_context *context)
 {
-    contact_queue_end(respond->contacts);
-    respond->charges->count = 0;
+    contact_queue_end(context->contacts);
+    context->charges->count = 0;
 }
 
 /* --- purity ------------------------------------------------------------------------------------*/

@@ -67,8 +67,8 @@ void steps_serial_context(struct fixture *fixture, struct step_context *step,
 
 /* The collider with the next frame's buffer a copy of the committed one, every row at rest and
  * nothing to meet. Free with steps_respond_end. */
-void steps_respond(struct fixture *fixture, struct response_context *respond);
-void steps_respond_end(struct response_context *respond);
+void steps_respond(struct fixture *fixture, struct response_context *context);
+void steps_respond_end(struct response_context *context);
 
 /* --- purity ------------------------------------------------------------------------------------*/
 

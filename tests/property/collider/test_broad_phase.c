@@ -160,15 +160,15 @@ static struct method_input input_of(const struct small_world *w)
 enum wanted { NEVER, MAYBE, ALWAYS };
 
 /* Do the spheres of two ways touch, or a sphere and one that stands? */
-static bool touch(const struct path *a, const struct path *b, double reach)
+static bool impact(const struct path *a, const struct path *b, double reach)
 {
     double from = maths_max(a->since, b->since);
     struct vec3 gap = vec3_sub(path_at(b, from), path_at(a, from));
-    struct vec3 way = vec3_scale(vec3_sub(b->along, a->along), 1.0 - from);
-    double square = vec3_dot(way, way), time = 0.0;
+    struct vec3 along = vec3_scale(vec3_sub(b->along, a->along), 1.0 - from);
+    double square = vec3_dot(along, along), time = 0.0;
     if (square > 0.0)
-        time = maths_clamp(-vec3_dot(gap, way) / square, 0.0, 1.0);
-    return vec3_length(vec3_add(gap, vec3_scale(way, time))) <= reach;
+        time = maths_clamp(-vec3_dot(gap, along) / square, 0.0, 1.0);
+    return vec3_length(vec3_add(gap, vec3_scale(along, time))) <= reach;
 }
 
 static bool is_long(const struct small_world *w, uint32_t row)
@@ -188,7 +188,7 @@ static enum wanted oracle(const struct small_world *w, uint32_t a, uint32_t b)
     double reach = pair_filter_row_reach(&input, a) + pair_filter_row_reach(&input, b);
     if (!is_long(w, a) && !is_long(w, b))
         return ALWAYS;
-    return touch(&w->path[a], &w->path[b], reach) ? ALWAYS : MAYBE;
+    return impact(&w->path[a], &w->path[b], reach) ? ALWAYS : MAYBE;
 }
 
 static enum wanted oracle_fixed(const struct small_world *w, uint32_t a, uint32_t index)
@@ -203,7 +203,7 @@ static enum wanted oracle_fixed(const struct small_world *w, uint32_t a, uint32_
         return NEVER;
     struct path still = {.at = {object->x, (double)object->y, object->z}};
     double reach = pair_filter_row_reach(&input, a) + pair_filter_fixed_reach(&w->world, object);
-    return !is_long(w, a) || touch(&w->path[a], &still, reach) ? ALWAYS : MAYBE;
+    return !is_long(w, a) || impact(&w->path[a], &still, reach) ? ALWAYS : MAYBE;
 }
 
 /* --- the tests ---------------------------------------------------------------------------------*/
@@ -296,8 +296,8 @@ static void test_every_pair_is_found_exactly_once(void **state)
 static struct path_box draw_box(const struct spread *place, uint64_t *random)
 {
     static const double sizes[] = {0.0, 0.5, 10.0, 200.0, 2000.0};
-    struct path way = {.at = spread_point(place, random)};
-    return pair_filter_way_box(&way, sizes[fixture_random(random) % 5]);
+    struct path along = {.at = spread_point(place, random)};
+    return pair_filter_path_box(&along, sizes[fixture_random(random) % 5]);
 }
 
 /* Rows that a query finds: all whose boxes meet, but for those on long ways, which may pass by. */

@@ -235,28 +235,28 @@ struct score {
     int hits, misses;
 };
 
-/* Bodies that were apart: touch where the gap is TOUCH_M, and never after an oracle's time. */
-static void check(const struct swept_body *a, const struct swept_body *b, bool turns, int n,
+/* Bodies that were apart: touch where the gap is SKIN_M, and never after an oracle's time. */
+static void check(const struct swept_body *a, const struct swept_body *b, bool rotates, int n,
                   struct score *score)
 {
-    struct hull_contact touch;
+    struct hull_contact impact;
     double from = a->path.since;
-    bool hit = time_of_impact_touch(a, b, from, &touch);
-    double oracle = turns ? stepped(a, b, TOUCH_M - SLACK_M) : straight(a, b, TOUCH_M - SLACK_M);
+    bool hit = time_of_impact_find(a, b, from, &impact);
+    double oracle = rotates ? stepped(a, b, SKIN_M - SLACK_M) : straight(a, b, SKIN_M - SLACK_M);
     *(hit ? &score->hits : &score->misses) += 1;
     if (!hit) {
         if (oracle < 1.0)
             fail_msg("pair %d: missed a touch at %.17g", n, oracle);
         return;
     }
-    double gap = time_of_impact_gap(a, b, touch.toi);
-    if (!(touch.toi >= from && touch.toi <= 1.0 && touch.toi <= oracle + SLACK_M &&
-          fabs(gap - TOUCH_M) <= SLACK_M && touch.depth_m == 0.0))
-        fail_msg("pair %d: touch at %.17g, oracle %.17g, gap there %.17g, depth %g", n, touch.toi,
-                 oracle, gap, touch.depth_m);
-    assert_true(fabs(vec3_length(touch.normal) - 1.0) < 1e-12);
-    double before = maths_max(from, touch.toi - 1e-6);
-    assert_true(touch.toi - from < 1e-6 || time_of_impact_gap(a, b, before) >= gap - SLACK_M);
+    double gap = time_of_impact_gap(a, b, impact.toi);
+    if (!(impact.toi >= from && impact.toi <= 1.0 && impact.toi <= oracle + SLACK_M &&
+          fabs(gap - SKIN_M) <= SLACK_M && impact.depth_m == 0.0))
+        fail_msg("pair %d: touch at %.17g, oracle %.17g, gap there %.17g, depth %g", n, impact.toi,
+                 oracle, gap, impact.depth_m);
+    assert_true(fabs(vec3_length(impact.normal) - 1.0) < 1e-12);
+    double before = maths_max(from, impact.toi - 1e-6);
+    assert_true(impact.toi - from < 1e-6 || time_of_impact_gap(a, b, before) >= gap - SLACK_M);
 }
 
 /* Puts b where it meets a, or nearly, at a time within the frame. */
@@ -293,15 +293,15 @@ static void test_row_39_straight_ways_touch_when_bisection_says(void **state)
         form(&solid_a, n % 3 ? STONE : BOX, &random);
         form(&solid_b, n % 2 ? n % 5 ? BOX : POLE : STONE, &random);
         draw(&solid_a, &solid_b, 0.0, &a, &b, &random);
-        if (time_of_impact_gap(&a, &b, a.path.since) <= 2.0 * TOUCH_M)
+        if (time_of_impact_gap(&a, &b, a.path.since) <= 2.0 * SKIN_M)
             continue;
         check(&a, &b, false, n, &score);
-        struct hull_contact touch;
-        if (!time_of_impact_touch(&a, &b, a.path.since, &touch))
+        struct hull_contact impact;
+        if (!time_of_impact_find(&a, &b, a.path.since, &impact))
             continue;
-        double steep = vec3_dot(vec3_sub(a.path.along, b.path.along), touch.normal);
+        double steep = vec3_dot(vec3_sub(a.path.along, b.path.along), impact.normal);
         if (steep > 0.01)
-            assert_true(fabs(touch.toi - straight(&a, &b, TOUCH_M)) < SLACK_M);
+            assert_true(fabs(impact.toi - straight(&a, &b, SKIN_M)) < SLACK_M);
     }
     assert_in_range(score.hits, 1000, 4000);
     assert_in_range(score.misses, 500, 4000);
@@ -319,7 +319,7 @@ static void test_row_39_turning_bodies_touch_when_small_steps_say(void **state)
         form(&solid_a, (enum sort)(n % SORTS), &random);
         form(&solid_b, (enum sort)(n / SORTS % SORTS), &random);
         draw(&solid_a, &solid_b, most_turn[n % 3], &a, &b, &random);
-        if (time_of_impact_gap(&a, &b, a.path.since) > 2.0 * TOUCH_M)
+        if (time_of_impact_gap(&a, &b, a.path.since) > 2.0 * SKIN_M)
             check(&a, &b, true, n, &score);
     }
     assert_in_range(score.hits, 1000, 4000);
@@ -355,7 +355,7 @@ static struct plan plan_meeting(enum meeting sort, double step, uint64_t *random
 {
     double toi = fixture_uniform(random, 0.001, 0.999), side = fixture_random(random) & 1 ? 1 : -1;
     double wide = sort >= INTO_POLE ? WIDE + THIN : 2.0 * WIDE;
-    double reach = (sort >= INTO_POLE ? LONG + THIN : 2.0 * LONG) + TOUCH_M;
+    double reach = (sort >= INTO_POLE ? LONG + THIN : 2.0 * LONG) + SKIN_M;
     double cut = fixture_uniform(random, 0.001, 0.05), free = fixture_uniform(random, 0, 1);
     struct plan plan = {.go_along = -2.0 * step, .toi = toi, .along = reach + 2.0 * step * toi};
     double corner = LONG + WIDE; /* of the square that crossing tanks make */
@@ -373,12 +373,12 @@ static struct plan plan_meeting(enum meeting sort, double step, uint64_t *random
     case CROSSING_PAST:
         plan.go_along = -step;
         plan.go_across = side * step;
-        plan.along = corner + TOUCH_M + step * toi;
+        plan.along = corner + SKIN_M + step * toi;
         plan.across = side * (corner * (1.98 * free - 0.99) - step * toi);
         if (sort == CUTTING)
             plan.across = side * (corner - cut - step * toi);
         if (sort == CROSSING_PAST) { /* the gap at the corner is 1 cm across the way */
-            plan.across = side * (corner + 0.01 * sqrt(2.0) - TOUCH_M - step * toi);
+            plan.across = side * (corner + 0.01 * sqrt(2.0) - SKIN_M - step * toi);
             plan.toi = -1.0;
         }
         return plan;
@@ -407,17 +407,17 @@ static void meet(const struct solid *tank, const struct solid *other, enum meeti
         at_b.y += 3.5;
     struct swept_body a = body(tank, at, along, face, face);
     struct swept_body b = body(other, at_b, along_b, face_b, face_b);
-    struct hull_contact touch;
-    bool hit = time_of_impact_touch(&a, &b, 0.0, &touch);
+    struct hull_contact impact;
+    bool hit = time_of_impact_find(&a, &b, 0.0, &impact);
     if (hit != (plan.toi >= 0.0))
         fail_msg("sort %d, %g m a frame: %s", (int)sort, step, hit ? "touches" : "does not touch");
     if (!hit)
         return;
-    touch_point = vec3_sub(touch.point, path_at(&a.path, touch.toi));
-    if (!(fabs(touch.toi - plan.toi) * step < SLACK_M && fabs(touch.toi - plan.toi) < SLACK_M))
+    touch_point = vec3_sub(impact.point, path_at(&a.path, impact.toi));
+    if (!(fabs(impact.toi - plan.toi) * step < SLACK_M && fabs(impact.toi - plan.toi) < SLACK_M))
         fail_msg("sort %d, %g m a frame: touches at %.17g, not at %.17g", (int)sort, step,
-                 touch.toi, plan.toi);
-    assert_true(vec3_dot(touch.normal, forward) > 1.0 - 1e-9);
+                 impact.toi, plan.toi);
+    assert_true(vec3_dot(impact.normal, forward) > 1.0 - 1e-9);
     assert_true(fabs(vec3_dot(touch_point, forward) - LONG) < 0.01);
     assert_true(fabs(vec3_dot(touch_point, right)) < WIDE + 0.01);
 }
@@ -531,19 +531,19 @@ static void draw_touching(struct solid *solid_a, struct solid *solid_b, double d
     struct quat from_b = fixture_random(random) & 1 ? from_a : any_turn(random);
     struct vec3 at = {fixture_uniform(random, 0, 50000), 100, fixture_uniform(random, 0, 50000)};
     double reach = solid_a->bound + solid_b->bound + 1.0;
-    struct hull_contact touch;
+    struct hull_contact impact;
     for (bool met = false; !met;) { /* bring them together without turning; stones may miss */
         struct vec3 to = direction(random), still = {0, 0, 0};
         *a = body(solid_a, at, still, from_a, from_a);
         *b = body(solid_b, vec3_add(at, vec3_scale(to, reach)), vec3_scale(to, -reach), from_b,
                   from_b);
-        met = time_of_impact_touch(a, b, 0.0, &touch);
+        met = time_of_impact_find(a, b, 0.0, &impact);
     }
     a->to = turned(from_a, most_turn, random);
     b->to = turned(from_b, most_turn, random);
-    double nearer = fixture_random(random) & 1 ? fixture_uniform(random, 0.0, 0.9 * TOUCH_M)
+    double nearer = fixture_random(random) & 1 ? fixture_uniform(random, 0.0, 0.9 * SKIN_M)
                                                : fixture_uniform(random, 0.0, deepest);
-    b->path.at = vec3_add(path_at(&b->path, touch.toi), vec3_scale(touch.normal, -nearer));
+    b->path.at = vec3_add(path_at(&b->path, impact.toi), vec3_scale(impact.normal, -nearer));
     b->path.along = vec3_scale(direction(random), fixture_uniform(random, 0.0, 2.0));
 }
 
@@ -556,21 +556,21 @@ static void test_straight_bodies_in_each_other_touch_at_once_or_never(void **sta
     uint64_t random = fixture_seed(333), hits = 0;
     (void)state;
     for (int n = 0; n < 3000; n++) {
-        struct hull_contact touch;
+        struct hull_contact impact;
         draw_touching(&solid_a, &solid_b, 0.5, 0.0, &a, &b, &random);
         struct vec3 way_out = {0, 0, 0}, along = vec3_sub(b.path.along, a.path.along);
         double first = time_of_impact_gap(&a, &b, 0.0), apart = across_faces(&a, &b, 0.0, &way_out);
-        bool hit = time_of_impact_touch(&a, &b, 0.0, &touch);
+        bool hit = time_of_impact_find(&a, &b, 0.0, &impact);
         hits += hit;
         if (!hit) {
             assert_true(first > 0.0 ? time_of_impact_gap(&a, &b, 1.0) >= first - 1e-6
                                     : vec3_dot(along, way_out) >= -1e-6);
             continue;
         }
-        assert_true(touch.toi == 0.0 && vec3_dot(along, touch.normal) < -NEARING_M);
-        assert_true(fabs(touch.depth_m - (first > 0.0 ? 0.0 : -apart)) < SLACK_M);
+        assert_true(impact.toi == 0.0 && vec3_dot(along, impact.normal) < -NEARING_M);
+        assert_true(fabs(impact.depth_m - (first > 0.0 ? 0.0 : -apart)) < SLACK_M);
         /* Pushed out by its depth, it is out. */
-        a.path.at = vec3_sub(a.path.at, vec3_scale(touch.normal, touch.depth_m + 1e-6));
+        a.path.at = vec3_sub(a.path.at, vec3_scale(impact.normal, impact.depth_m + 1e-6));
         assert_true(time_of_impact_gap(&a, &b, 0.0) > 0.0);
     }
     assert_in_range(hits, 1000, 2500);
@@ -585,20 +585,20 @@ static void test_turning_bodies_in_touch_come_nearer_by_no_more_than_the_skin(vo
     uint64_t random = fixture_seed(334), at_once = 0, later = 0, never = 0;
     (void)state;
     for (int n = 0; n < 3000; n++) {
-        struct hull_contact touch = {.toi = 1.0};
+        struct hull_contact impact = {.toi = 1.0};
         draw_touching(&solid_a, &solid_b, 0.0, n & 1 ? 0.2 : PI, &a, &b, &random);
-        bool hit = time_of_impact_touch(&a, &b, 0.0, &touch);
-        *(!hit ? &never : touch.toi == 0.0 ? &at_once : &later) += 1;
+        bool hit = time_of_impact_find(&a, &b, 0.0, &impact);
+        *(!hit ? &never : impact.toi == 0.0 ? &at_once : &later) += 1;
         double first = time_of_impact_gap(&a, &b, 0.0);
-        double floor_m = maths_min(TOUCH_M, maths_max(0.5 * first, first - 0.5 * TOUCH_M));
+        double floor_m = maths_min(SKIN_M, maths_max(0.5 * first, first - 0.5 * SKIN_M));
         for (int i = 1; i <= 200; i++) {
-            double gap = time_of_impact_gap(&a, &b, touch.toi * i / 200.0);
+            double gap = time_of_impact_gap(&a, &b, impact.toi * i / 200.0);
             if (gap < floor_m - SLACK_M)
                 fail_msg("pair %d: gap %.17g at %.17g of %.17g, at first %.17g", n, gap,
-                         touch.toi * i / 200.0, touch.toi, first);
+                         impact.toi * i / 200.0, impact.toi, first);
         }
         if (hit)
-            assert_true(time_of_impact_gap(&a, &b, touch.toi) <= TOUCH_M + SLACK_M);
+            assert_true(time_of_impact_gap(&a, &b, impact.toi) <= SKIN_M + SLACK_M);
     }
     assert_true(at_once > 500 && later > 100 && never > 500);
 }
@@ -611,20 +611,20 @@ static void test_turning_bodies_in_each_other_come_no_deeper(void **state)
     uint64_t random = fixture_seed(337), at_once = 0, later = 0, never = 0;
     (void)state;
     for (int n = 0; n < 800; n++) {
-        struct hull_contact touch = {.toi = 1.0};
+        struct hull_contact impact = {.toi = 1.0};
         struct vec3 way_out = {0, 0, 0};
         draw_touching(&solid_a, &solid_b, 0.5, n & 1 ? 0.2 : PI, &a, &b, &random);
         double first = across_faces(&a, &b, 0.0, &way_out);
         if (first >= -0.01)
             continue;
-        bool hit = time_of_impact_touch(&a, &b, 0.0, &touch);
-        *(!hit ? &never : touch.toi == 0.0 ? &at_once : &later) += 1;
-        assert_true(touch.depth_m <= maths_max(0.5 * TOUCH_M - first, -1.05 * first) + SLACK_M);
-        for (int i = 1; i <= 10 && touch.toi > 0.0; i++) {
-            double gap = across_edges(&a, &b, touch.toi * i / 10.0);
-            if (gap < first + maths_min(-0.5 * TOUCH_M, 0.05 * first) - SLACK_M)
+        bool hit = time_of_impact_find(&a, &b, 0.0, &impact);
+        *(!hit ? &never : impact.toi == 0.0 ? &at_once : &later) += 1;
+        assert_true(impact.depth_m <= maths_max(0.5 * SKIN_M - first, -1.05 * first) + SLACK_M);
+        for (int i = 1; i <= 10 && impact.toi > 0.0; i++) {
+            double gap = across_edges(&a, &b, impact.toi * i / 10.0);
+            if (gap < first + maths_min(-0.5 * SKIN_M, 0.05 * first) - SLACK_M)
                 fail_msg("pair %d: gap %.17g at %.17g of %.17g, at first %.17g", n, gap,
-                         touch.toi * i / 10.0, touch.toi, first);
+                         impact.toi * i / 10.0, impact.toi, first);
         }
     }
     assert_true(at_once > 50 && later > 10 && never > 50);
@@ -647,8 +647,8 @@ static void test_swapping_the_bodies_changes_only_the_normals_sign(void **state)
             draw_touching(&solid_a, &solid_b, 0.5, most_turn[n / 4 % 4], &a, &b, &random);
         else
             draw(&solid_a, &solid_b, most_turn[n % 4], &a, &b, &random);
-        bool hit = time_of_impact_touch(&a, &b, a.path.since, &there);
-        assert_true(time_of_impact_touch(&b, &a, a.path.since, &back) == hit);
+        bool hit = time_of_impact_find(&a, &b, a.path.since, &there);
+        assert_true(time_of_impact_find(&b, &a, a.path.since, &back) == hit);
         hits += hit;
         if (!hit)
             continue;
@@ -671,9 +671,9 @@ static void test_the_place_and_a_common_motion_change_nothing(void **state)
         form(&solid_a, (enum sort)(n % SORTS), &random);
         form(&solid_b, (enum sort)(n / SORTS % SORTS), &random);
         draw(&solid_a, &solid_b, n & 1 ? 0.3 : 0.0, &a, &b, &random);
-        if (time_of_impact_gap(&a, &b, a.path.since) <= 2.0 * TOUCH_M)
+        if (time_of_impact_gap(&a, &b, a.path.since) <= 2.0 * SKIN_M)
             continue;
-        bool hit = time_of_impact_touch(&a, &b, a.path.since, &here);
+        bool hit = time_of_impact_find(&a, &b, a.path.since, &here);
         struct swept_body c = a, d = b;
         struct vec3 aside = {fixture_uniform(&random, -9e3, 9e3), 50.0,
                              fixture_uniform(&random, -9e3, 9e3)};
@@ -682,7 +682,7 @@ static void test_the_place_and_a_common_motion_change_nothing(void **state)
         d.path.at = vec3_add(b.path.at, aside);
         c.path.along = vec3_add(a.path.along, common);
         d.path.along = vec3_add(b.path.along, common);
-        bool hit_there = time_of_impact_touch(&c, &d, a.path.since, &there);
+        bool hit_there = time_of_impact_find(&c, &d, a.path.since, &there);
         hits += hit;
         if (hit != hit_there || (hit && fabs(here.toi - there.toi) > 1e-6)) {
             grazes++; /* they just touch, or just do not */

@@ -42,7 +42,7 @@ struct widths {
 /* One pair's lane: the first runs east along z from `way` before x = 25000; there the two are
  * nearest, `beside` apart. */
 struct lane {
-    double z, beside, way;
+    double z, beside, distance;
 };
 
 /* --- how wide bodies are -----------------------------------------------------------------------*/
@@ -151,23 +151,24 @@ static struct lane draw_lane(const struct run *run, const struct widths *widths,
     return (struct lane){
         .z = 1000.0 + AISLE_M * (double)n,
         .beside = beside,
-        .way = start_of(run, widths) + run->speed_mps / run->hz * fixture_uniform(random, 0.5, 1.5),
+        .distance =
+            start_of(run, widths) + run->speed_mps / run->hz * fixture_uniform(random, 0.5, 1.5),
     };
 }
 
 static void put_first(struct fixture *f, const struct run *run, const struct lane *lane, double y)
 {
     fixture_put(f, (struct fixture_entity){.kind = run->tree ? "tank" : "helicopter",
-                                           .at = {25000.0 - lane->way, y, lane->z},
+                                           .at = {25000.0 - lane->distance, y, lane->z},
                                            .velocity = {run->speed_mps, 0.0, 0.0}});
 }
 
 static void put_second(struct fixture *f, const struct run *run, const struct lane *lane, double y)
 {
-    double way = lane->way, diagonal = lane->beside * 0.70710678118654752;
+    double distance = lane->distance, diagonal = lane->beside * 0.70710678118654752;
     /* Crossing at right angles, `beside` is seen along the diagonal of the relative motion. */
-    struct vec3 head_on = {25000.0 + way, y, lane->z + lane->beside};
-    struct vec3 crossing = {25000.0 + diagonal, y, lane->z + way - diagonal};
+    struct vec3 head_on = {25000.0 + distance, y, lane->z + lane->beside};
+    struct vec3 crossing = {25000.0 + diagonal, y, lane->z + distance - diagonal};
     bool right_angles = run->course == CROSSING || run->crossing;
     fixture_put(f, (struct fixture_entity){
                        .kind = "helicopter",
@@ -234,8 +235,9 @@ static uint32_t run_lanes(const struct run *run, uint64_t *random)
             put_second(&f, run, &lane, y);
     }
     /* Until the centres have met, or everything is past. */
-    double way = start_of(run, &widths) * (run->course == PASSING ? 2.0 : 1.0);
-    uint32_t left = 4 + (uint32_t)(way * run->hz / run->speed_mps), met = 0, some = 1 + left / 20;
+    double distance = start_of(run, &widths) * (run->course == PASSING ? 2.0 : 1.0);
+    uint32_t left = 4 + (uint32_t)(distance * run->hz / run->speed_mps), met = 0,
+             some = 1 + left / 20;
     for (; left > 0 && met<PAIRS; left = left> some ? left - some : 0) {
         fixture_run(&f, left < some ? left : some);
         met = count_pairs(&f, run);

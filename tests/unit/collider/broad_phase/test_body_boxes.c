@@ -111,7 +111,7 @@ static uint32_t check_fliers(const struct method_input *input)
         }
         assert_true(listed || !(round || analytic_impact_ground(&input->world->terrain,
                                                                 input->craters, &way[row], &toi)));
-        assert_true(!listed || motion->drawn[row]);
+        assert_true(!listed || motion->computed[row]);
         left_out += !listed;
     }
     return left_out;
@@ -120,19 +120,19 @@ static uint32_t check_fliers(const struct method_input *input)
 static void test_columns_give_what_drawn_ways_give(void **state)
 {
     uint64_t random = fixture_seed(64);
-    uint32_t pairs = 0, drawn = 0, left_out = 0;
-    struct response_context respond;
+    uint32_t pairs = 0, computed = 0, left_out = 0;
+    struct response_context context;
     (void)state;
-    steps_respond(&f, &respond);
+    steps_respond(&f, &context);
     next = &f.view.w[1];
     for (int round = 0; round < ROUNDS; round++) {
-        const struct method_input *input = &respond.input.detect;
+        const struct method_input *input = &context.input.detect;
         for (uint32_t row = 0; row < ROWS; row++)
             draw_row(&random, row);
         f.view.w[0].head->used = round % 2 ? ROWS : ROWS - 100; /* the rest is new */
         body_motion_begin(motion, &f.view.w[0], next);
         for (uint32_t row = 0; row < ROWS; row++)
-            body_motion_take(motion, row);
+            body_motion_compute(motion, row);
         memcpy(way, motion->path, sizeof way);
         broad_phase_pairs(broad, input);
         memcpy(box, broad->box, sizeof box);
@@ -146,20 +146,20 @@ static void test_columns_give_what_drawn_ways_give(void **state)
         for (uint32_t row = 0; row < ROWS; row++) {
             if (next->entities.state[row] != ENTITY_FREE)
                 assert_memory_equal(&broad->box[row], &box[row], sizeof *box);
-            if (motion->drawn[row])
+            if (motion->computed[row])
                 assert_true(motion->path[row].at.x == way[row].at.x &&
                             motion->path[row].along.z == way[row].along.z &&
-                            motion->path[row].turns == way[row].turns);
-            drawn += motion->drawn[row];
+                            motion->path[row].rotates == way[row].rotates);
+            computed += motion->computed[row];
         }
         left_out += check_fliers(input);
         pairs += count;
     }
-    print_message("%u pairs, %u of %u ways drawn, %u aircraft high enough\n", pairs, drawn,
+    print_message("%u pairs, %u of %u ways drawn, %u aircraft high enough\n", pairs, computed,
                   ROUNDS * ROWS, left_out);
-    assert_true(pairs > 1000 * ROUNDS && drawn < ROUNDS * ROWS * 2 / 3 && left_out > ROUNDS);
+    assert_true(pairs > 1000 * ROUNDS && computed < ROUNDS * ROWS * 2 / 3 && left_out > ROUNDS);
     f.view.w[0].head->used = ROWS;
-    steps_respond_end(&respond);
+    steps_respond_end(&context);
 }
 
 int main(void)

@@ -48,7 +48,7 @@ static const struct hull hulls[] = {
 enum { CUBE, FAR_CUBE, PLATE };
 
 static const struct vec3 still = {0, 0, 0};
-static struct hull_contact touch;
+static struct hull_contact impact;
 
 /* hulls from first on, nose to the east. */
 static struct swept_body put(uint32_t first, uint32_t count, struct vec3 at, struct vec3 along)
@@ -77,12 +77,12 @@ static void test_cubes_meet_in_the_middle_of_what_they_share(void **state)
     struct swept_body a = put(CUBE, 1, (struct vec3){100, 0, 0}, (struct vec3){2, 0, 0});
     struct swept_body b = put(CUBE, 1, (struct vec3){104, 0.5, 0}, (struct vec3){-2, 0, 0});
     (void)state;
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch)); /* 2 m less the skin at 4 m a frame */
-    assert_true(fabs(touch.toi - (2.0 - TOUCH_M) / 4.0) < 1e-12);
-    assert_true(near(touch.normal, 1, 0, 0, 1e-12));
-    assert_true(near(touch.point, 102, 0.25, 0, 0.003));
-    assert_true(touch.depth_m == 0.0);
-    assert_true(fabs(time_of_impact_gap(&a, &b, touch.toi) - TOUCH_M) < 1e-12);
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact)); /* 2 m less the skin at 4 m a frame */
+    assert_true(fabs(impact.toi - (2.0 - SKIN_M) / 4.0) < 1e-12);
+    assert_true(near(impact.normal, 1, 0, 0, 1e-12));
+    assert_true(near(impact.point, 102, 0.25, 0, 0.003));
+    assert_true(impact.depth_m == 0.0);
+    assert_true(fabs(time_of_impact_gap(&a, &b, impact.toi) - SKIN_M) < 1e-12);
 }
 
 static void test_they_do_not_reach_each_other_in_the_frame(void **state)
@@ -90,7 +90,7 @@ static void test_they_do_not_reach_each_other_in_the_frame(void **state)
     struct swept_body a = put(CUBE, 1, (struct vec3){0, 0, 0}, (struct vec3){0.99, 0, 0});
     struct swept_body b = put(CUBE, 1, (struct vec3){4, 0, 0}, (struct vec3){-1.0, 0, 0});
     (void)state;
-    assert_false(time_of_impact_touch(&a, &b, 0.0, &touch));
+    assert_false(time_of_impact_find(&a, &b, 0.0, &impact));
     assert_true(fabs(time_of_impact_gap(&a, &b, 1.0) - 0.01) < 1e-12);
 }
 
@@ -100,12 +100,12 @@ static void test_a_way_that_began_in_mid_frame(void **state)
     struct swept_body b = put(CUBE, 1, (struct vec3){3, 0, 0}, (struct vec3){-4, 0, 0});
     (void)state;
     b.path.since = 0.5;
-    assert_true(time_of_impact_touch(&a, &b, 0.5, &touch));
-    assert_true(fabs(touch.toi - (0.5 + (1.0 - TOUCH_M) / 4.0)) < 1e-12);
+    assert_true(time_of_impact_find(&a, &b, 0.5, &impact));
+    assert_true(fabs(impact.toi - (0.5 + (1.0 - SKIN_M) / 4.0)) < 1e-12);
     b.path.since = 0.8;
-    assert_false(time_of_impact_touch(&a, &b, 0.8, &touch));
+    assert_false(time_of_impact_find(&a, &b, 0.8, &impact));
     b.path.since = 1.0;
-    assert_false(time_of_impact_touch(&a, &b, 1.0, &touch));
+    assert_false(time_of_impact_find(&a, &b, 1.0, &impact));
 }
 
 static void test_scale_counts(void **state)
@@ -115,8 +115,8 @@ static void test_scale_counts(void **state)
     (void)state;
     a.scale = 3.0;
     a.bound_m = 5.2;
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    assert_true(fabs(touch.toi - (2.0 - TOUCH_M) / 4.0) < 1e-12);
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    assert_true(fabs(impact.toi - (2.0 - SKIN_M) / 4.0) < 1e-12);
 }
 
 /* An edge comes round: the cube's diagonal is 1.414 from its axis. */
@@ -126,17 +126,17 @@ static void test_a_cube_that_turns_on_the_spot_touches_with_its_edge(void **stat
     struct swept_body b = put(CUBE, 1, (struct vec3){2.3, 0, 0}, still);
     (void)state;
     a.to = rotation_of(HALF_PI - 0.6, 0.0, 0.0);
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    double turned = touch.toi, reach; /* at which the edge reaches 1.3 less the skin */
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    double turned = impact.toi, reach; /* at which the edge reaches 1.3 less the skin */
     struct quat now = rotation_between(a.from, a.to, turned);
     struct mat3 turn = rotation_matrix(now);
     reach = rotation_apply(&turn, (struct vec3){1, 0, 1}).x;
     if (rotation_apply(&turn, (struct vec3){1, 0, -1}).x > reach)
         reach = rotation_apply(&turn, (struct vec3){1, 0, -1}).x;
-    assert_true(fabs(reach - (1.3 - TOUCH_M)) < 1e-9);
-    assert_true(near(touch.normal, 1, 0, 0, 1e-9));
+    assert_true(fabs(reach - (1.3 - SKIN_M)) < 1e-9);
+    assert_true(near(impact.normal, 1, 0, 0, 1e-9));
     b.path.at.x = 2.42; /* and does not reach 1.42 */
-    assert_false(time_of_impact_touch(&a, &b, 0.0, &touch));
+    assert_false(time_of_impact_find(&a, &b, 0.0, &impact));
 }
 
 /* An arm 10 m long comes round by half a turn, its end never heading for what it hits. */
@@ -146,12 +146,12 @@ static void test_an_arm_that_swings_round(void **state)
     struct swept_body b = put(CUBE, 1, (struct vec3){-9, 0, 0}, still);
     (void)state;
     a.to = rotation_of(3.0 * HALF_PI, 0.0, 0.0);
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    assert_true(touch.toi > 0.7 && touch.toi < 1.0);
-    assert_true(fabs(time_of_impact_gap(&a, &b, touch.toi) - TOUCH_M) < 1e-9);
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    assert_true(impact.toi > 0.7 && impact.toi < 1.0);
+    assert_true(fabs(time_of_impact_gap(&a, &b, impact.toi) - SKIN_M) < 1e-9);
     b.path.at.x = 9.0;
     b.path.at.y = 2.5; /* above it */
-    assert_false(time_of_impact_touch(&a, &b, 0.0, &touch));
+    assert_false(time_of_impact_find(&a, &b, 0.0, &impact));
 }
 
 /* The same beside a wide plate, whose sphere it is in from the start: as it begins, straight up, it
@@ -165,9 +165,9 @@ static void test_an_arm_that_swings_down_on_a_plate(void **state)
     a.to = rotation_spun(a.from, (struct vec3){0, 0, -3.0}, 1.0);
     b.scale = 3.0; /* its top is at -5.7 */
     b.bound_m = 27.0;
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    assert_true(near(touch.normal, 0, -1, 0, 1e-9) && touch.point.y < -5.6);
-    assert_true(fabs(time_of_impact_gap(&a, &b, touch.toi) - TOUCH_M) < 1e-9);
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    assert_true(near(impact.normal, 0, -1, 0, 1e-9) && impact.point.y < -5.6);
+    assert_true(fabs(time_of_impact_gap(&a, &b, impact.toi) - SKIN_M) < 1e-9);
 }
 
 /* --- from a touch ------------------------------------------------------------------------------*/
@@ -177,19 +177,19 @@ static void test_within_the_skin_only_what_comes_nearer_touches(void **state)
     struct swept_body a = put(CUBE, 1, (struct vec3){0, 0, 0}, still);
     struct swept_body b = put(CUBE, 1, (struct vec3){2.0005, 0, 0}, (struct vec3){-1, 0, 0});
     (void)state;
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    assert_true(touch.toi == 0.0 && touch.depth_m == 0.0);
-    assert_true(near(touch.normal, 1, 0, 0, 1e-12));
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    assert_true(impact.toi == 0.0 && impact.depth_m == 0.0);
+    assert_true(near(impact.normal, 1, 0, 0, 1e-12));
     b.path.along = still;
-    assert_false(time_of_impact_touch(&a, &b, 0.0, &touch)); /* at rest */
+    assert_false(time_of_impact_find(&a, &b, 0.0, &impact)); /* at rest */
     b.path.along = (struct vec3){0, 0.5, 0.3};
-    assert_false(time_of_impact_touch(&a, &b, 0.0, &touch)); /* sliding */
+    assert_false(time_of_impact_find(&a, &b, 0.0, &impact)); /* sliding */
     b.path.along = (struct vec3){1e-9, 0, 0};
-    assert_false(time_of_impact_touch(&a, &b, 0.0, &touch)); /* parting */
+    assert_false(time_of_impact_find(&a, &b, 0.0, &impact)); /* parting */
     b.path.along = (struct vec3){-1e-9, 0, 0};
-    assert_false(time_of_impact_touch(&a, &b, 0.0, &touch)); /* what rounding leaves */
+    assert_false(time_of_impact_find(&a, &b, 0.0, &impact)); /* what rounding leaves */
     b.path.along = (struct vec3){-1e-5, 0, 0};
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch) && touch.toi == 0.0);
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact) && impact.toi == 0.0);
 }
 
 static void test_an_overlap_tells_the_way_out_and_how_far_it_is(void **state)
@@ -197,12 +197,12 @@ static void test_an_overlap_tells_the_way_out_and_how_far_it_is(void **state)
     struct swept_body a = put(CUBE, 1, (struct vec3){0, 0, 0}, still);
     struct swept_body b = put(CUBE, 1, (struct vec3){0.5, 1.7, 0.4}, (struct vec3){0, -1, 0});
     (void)state;
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    assert_true(touch.toi == 0.0 && fabs(touch.depth_m - 0.3) < 1e-12);
-    assert_true(near(touch.normal, 0, 1, 0, 1e-12));
-    assert_true(near(touch.point, 0.25, 0.85, 0.2, 0.003));
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    assert_true(impact.toi == 0.0 && fabs(impact.depth_m - 0.3) < 1e-12);
+    assert_true(near(impact.normal, 0, 1, 0, 1e-12));
+    assert_true(near(impact.point, 0.25, 0.85, 0.2, 0.003));
     b.path.along = (struct vec3){-2, 0.001, 0}; /* deeper in, but not along the way out */
-    assert_false(time_of_impact_touch(&a, &b, 0.0, &touch));
+    assert_false(time_of_impact_find(&a, &b, 0.0, &impact));
 }
 
 static void test_of_several_overlaps_the_deepest_is_told(void **state)
@@ -214,14 +214,14 @@ static void test_of_several_overlaps_the_deepest_is_told(void **state)
      * one. */
     b.path.at.y = 0.95;
     b.from = b.to = rotation_of(HALF_PI, 0.002, 0.0);
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    assert_true(touch.toi == 0.0 && touch.point.x > 9.0);
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    assert_true(impact.toi == 0.0 && impact.point.x > 9.0);
     struct hull_contact swapped;
-    assert_true(time_of_impact_touch(&b, &a, 0.0, &swapped));
-    assert_true(swapped.depth_m == touch.depth_m && swapped.point.x == touch.point.x);
+    assert_true(time_of_impact_find(&b, &a, 0.0, &swapped));
+    assert_true(swapped.depth_m == impact.depth_m && swapped.point.x == impact.point.x);
     b.from = b.to = rotation_of(HALF_PI, -0.002, 0.0);
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    assert_true(touch.toi == 0.0 && touch.point.x < 1.1);
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    assert_true(impact.toi == 0.0 && impact.point.x < 1.1);
 }
 
 /* A plate lies on a cube and tips over its middle: one side parts, the other digs in. */
@@ -231,9 +231,9 @@ static void test_where_the_middle_parts_the_side_that_digs_in_touches(void **sta
     struct swept_body b = put(PLATE, 1, (struct vec3){0, 3.1005, 0}, (struct vec3){0, 0.001, 0});
     (void)state;
     b.to = rotation_of(HALF_PI, 0.2, 0.0); /* nose up: the tail, in the west, goes down */
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    assert_true(touch.toi == 0.0 && near(touch.normal, 0, 1, 0, 1e-9));
-    assert_true(touch.point.x < -0.99);
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    assert_true(impact.toi == 0.0 && near(impact.normal, 0, 1, 0, 1e-9));
+    assert_true(impact.point.x < -0.99);
 }
 
 /* An arm lies beside a wall and swings away, at first faster than its body comes. */
@@ -246,9 +246,9 @@ static void test_what_parts_and_comes_back_touches_then(void **state)
     a.scale = 3.0;
     b.to = rotation_of(HALF_PI + 0.5, 0.0, 0.0);
     assert_true(time_of_impact_gap(&a, &b, 0.5) > 0.03);
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    assert_true(touch.toi > 0.5 && touch.toi < 1.0);
-    assert_true(fabs(time_of_impact_gap(&a, &b, touch.toi) - TOUCH_M) < 1e-9);
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    assert_true(impact.toi > 0.5 && impact.toi < 1.0);
+    assert_true(fabs(time_of_impact_gap(&a, &b, impact.toi) - SKIN_M) < 1e-9);
 }
 
 /* Edges across each other, half a micrometre apart; the upper one comes down ever faster. Across
@@ -265,10 +265,10 @@ static void test_edges_that_come_to_overlap_keep_their_normal(void **state)
     b.path.at = (struct vec3){-arm, 2.0 * sqrt(2.0) + 5e-7 - arm, 0};
     b.path.along.y = 2e-6 - arm * rotation_speed(b.from, b.to, 0.0).z; /* at first it rises */
     assert_true(time_of_impact_gap(&a, &b, 0.0) > 4e-7 && time_of_impact_gap(&a, &b, 0.0) < 6e-7);
-    assert_true(time_of_impact_touch(&a, &b, 0.0, &touch));
-    assert_true(touch.toi > 0.01 && touch.toi < 0.1);
-    assert_true(fabs(touch.depth_m - 0.5 * TOUCH_M) < 1e-5);
-    assert_true(near(touch.normal, 0, 1, 0, 1e-3));
+    assert_true(time_of_impact_find(&a, &b, 0.0, &impact));
+    assert_true(impact.toi > 0.01 && impact.toi < 0.1);
+    assert_true(fabs(impact.depth_m - 0.5 * SKIN_M) < 1e-5);
+    assert_true(near(impact.normal, 0, 1, 0, 1e-3));
 }
 
 int main(void)

@@ -39,17 +39,17 @@ static int close_world(void **state)
  * row is somebody new. */
 static void begin(void)
 {
-    struct response_context respond;
+    struct response_context context;
     next = &f.view.w[1];
-    steps_respond(&f, &respond);
-    steps_respond_end(&respond);
+    steps_respond(&f, &context);
+    steps_respond_end(&context);
     next->entities.x[0] += 6.0;
     next->entities.heading[0] += 0.1;
     next->entities.x[ROWS - 1] += 100.0;
     next->entities.id[ROWS - 1]++;
     body_motion_begin(motion, &f.view.w[0], next);
     for (uint32_t i = 0; i < ROWS; i++)
-        body_motion_take(motion, i);
+        body_motion_compute(motion, i);
 }
 
 static double heading_of(struct quat turned)
@@ -66,9 +66,9 @@ static void test_a_row_goes_from_the_committed_pose_to_the_moved_one(void **stat
     assert_true(body_motion_old(motion, 0));
     assert_true(fabs(path_at(&motion->path[0], 0.5).x - 1003.0) < 1e-9);
     assert_true(motion->path[0].since == 0.0);
-    assert_true(fabs(heading_of(body_motion_turned(motion, 0, 0.0))) < 1e-12);
-    assert_true(fabs(heading_of(body_motion_turned(motion, 0, 0.5)) - 0.05) < 1e-9);
-    assert_true(fabs(heading_of(body_motion_turned(motion, 0, 1.0)) - 0.1) < 1e-12);
+    assert_true(fabs(heading_of(body_motion_orientation(motion, 0, 0.0))) < 1e-12);
+    assert_true(fabs(heading_of(body_motion_orientation(motion, 0, 0.5)) - 0.05) < 1e-9);
+    assert_true(fabs(heading_of(body_motion_orientation(motion, 0, 1.0)) - 0.1) < 1e-12);
 }
 
 static void test_who_is_new_has_not_moved(void **state)
@@ -93,13 +93,13 @@ static void test_changed_turnings_are_kept_for_the_frame_and_no_longer(void **st
     }
     assert_int_equal(motion->changes, ROWS);
     for (uint32_t i = 0; i < ROWS; i++) {
-        assert_true(fabs(heading_of(body_motion_turned(motion, i, 0.75)) - 5e-4 * i) < 1e-9);
+        assert_true(fabs(heading_of(body_motion_orientation(motion, i, 0.75)) - 5e-4 * i) < 1e-9);
         assert_true(path_at(&motion->path[i], 1.0).x == i + 4.0);
     }
     begin();
     assert_int_equal(motion->changes, 0);
-    assert_true(fabs(heading_of(body_motion_turning(motion, 0).to) - 0.1) < 1e-12);
-    assert_true(fabs(maths_wrap_half(heading_of(body_motion_turning(motion, 7).to))) < 1e-12);
+    assert_true(fabs(heading_of(body_motion_rotation(motion, 0).to) - 0.1) < 1e-12);
+    assert_true(fabs(maths_wrap_half(heading_of(body_motion_rotation(motion, 7).to))) < 1e-12);
 }
 
 /* At the frame's very end there is no time left to turn in. */
@@ -111,7 +111,7 @@ static void test_a_way_that_begins_at_the_end_is_turned_as_it_ends(void **state)
     struct rotation_path rotation = {.from = rotation_of(0.3, 0.0, 0.0),
                                      .to = rotation_of(0.4, 0.0, 0.0)};
     body_motion_change(motion, 3, &path, &rotation);
-    assert_true(fabs(heading_of(body_motion_turned(motion, 3, 1.0)) - 0.4) < 1e-12);
+    assert_true(fabs(heading_of(body_motion_orientation(motion, 3, 1.0)) - 0.4) < 1e-12);
 }
 
 static void test_bodies_have_their_kinds_hulls_at_their_size(void **state)

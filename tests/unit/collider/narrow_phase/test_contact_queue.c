@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 static struct fixture f;
-static struct response_context respond;
+static struct response_context context;
 
 static int open_world(void **state)
 {
@@ -51,20 +51,20 @@ static void find(void)
     uint32_t used = now.head->used;
     for (uint32_t i = 0; i < used; i++)
         kept[i] = f.player.collider.motion.path[i];
-    steps_respond(&f, &respond);
-    steps_respond_end(&respond);
+    steps_respond(&f, &context);
+    steps_respond_end(&context);
     for (uint32_t i = 0; i < used; i++)
         f.player.collider.motion.path[i] = kept[i];
-    broad_phase_pairs(&f.player.collider.broad, &respond.input.detect);
+    broad_phase_pairs(&f.player.collider.broad, &context.input.detect);
     contact_queue_begin(contacts(), f.player.collider.broad.list, THREAD_POOL_MAX);
-    contact_queue_find(contacts(), &respond.input);
+    contact_queue_find(contacts(), &context.input);
 }
 
 static void stop(uint32_t row, double time)
 {
     struct path *path = &f.player.collider.motion.path[row];
     *path = (struct path){.at = path_at(path, time), .since = time};
-    contact_queue_change(contacts(), &respond.input, &row, 1, time);
+    contact_queue_change(contacts(), &context.input, &row, 1, time);
 }
 
 /* --- order -------------------------------------------------------------------------------------*/
@@ -82,10 +82,10 @@ static void test_row_36_contacts_come_in_the_order_of_time(void **state)
         put(25012.0 + gap, z, -25.0);
     }
     find();
-    while (contact_queue_next(contacts(), &respond.input, &contact)) {
-        assert_true(contact.touch.toi >= before && contact.touch.toi <= 1.0);
+    while (contact_queue_next(contacts(), &context.input, &contact)) {
+        assert_true(contact.impact.toi >= before && contact.impact.toi <= 1.0);
         assert_int_equal(contact.b, contact.a + 1);
-        before = contact.touch.toi;
+        before = contact.impact.toi;
         count++;
     }
     assert_int_equal(count, 200);
@@ -103,17 +103,17 @@ static void test_ties_go_by_the_numbers_of_the_bodies(void **state)
     contact_queue_add_end(contacts(), 4, CONTACT_GROUND, 18.0 / 25.0);
     contact_queue_add_end(contacts(), 4, CONTACT_AIR, 18.0 / 25.0);
     for (uint32_t n = 0; n < 20; n++) {
-        assert_true(contact_queue_next(contacts(), &respond.input, &contact));
+        assert_true(contact_queue_next(contacts(), &context.input, &contact));
         assert_int_equal(contact.a, 2 * n);
         assert_int_equal(contact.b, 2 * n + 1);
         if (n == 2) { /* bodies before air before ground, by their numbers */
-            assert_true(contact_queue_next(contacts(), &respond.input, &contact) &&
+            assert_true(contact_queue_next(contacts(), &context.input, &contact) &&
                         contact.b == CONTACT_AIR);
-            assert_true(contact_queue_next(contacts(), &respond.input, &contact) &&
+            assert_true(contact_queue_next(contacts(), &context.input, &contact) &&
                         contact.b == CONTACT_GROUND);
         }
     }
-    assert_false(contact_queue_next(contacts(), &respond.input, &contact));
+    assert_false(contact_queue_next(contacts(), &context.input, &contact));
 }
 
 /* --- renewal -----------------------------------------------------------------------------------*/
@@ -125,11 +125,11 @@ static void test_a_changed_way_voids_what_it_would_have_met(void **state)
     uint32_t a = put(25000.0, 25000.0, 100.0); /* meets b at 0.18, c at 0.58 */
     uint32_t b = put(25030.0, 25000.0, 0.0), c = put(25070.0, 25000.0, 0.0);
     find();
-    assert_true(contact_queue_next(contacts(), &respond.input, &contact));
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
     assert_int_equal(contact.a, a);
     assert_int_equal(contact.b, b);
-    stop(a, contact.touch.toi);
-    assert_false(contact_queue_next(contacts(), &respond.input, &contact)); /* it never came to c */
+    stop(a, contact.impact.toi);
+    assert_false(contact_queue_next(contacts(), &context.input, &contact)); /* it never came to c */
     (void)c;
 }
 
@@ -141,16 +141,16 @@ static void test_a_changed_way_is_swept_again_against_all_it_could_meet(void **s
     uint32_t a = put(25000.0, 25000.0, 40.0), b = put(25030.0, 25000.0, 0.0);
     uint32_t c = put(24950.0, 25000.0, 100.0);
     find();
-    assert_true(contact_queue_next(contacts(), &respond.input, &contact));
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
     assert_int_equal(contact.b, b);
-    assert_true(fabs(contact.touch.toi - 0.45) < 1e-12);
-    stop(a, contact.touch.toi); /* at 25018: c, 12 behind it, comes at 25006 at 0.56 */
-    assert_true(contact_queue_next(contacts(), &respond.input, &contact));
+    assert_true(fabs(contact.impact.toi - 0.45) < 1e-12);
+    stop(a, contact.impact.toi); /* at 25018: c, 12 behind it, comes at 25006 at 0.56 */
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
     assert_int_equal(contact.a, a);
     assert_int_equal(contact.b, c);
-    assert_true(fabs(contact.touch.toi - 0.56) < 1e-12);
-    stop(c, contact.touch.toi); /* else it would go on to b */
-    assert_false(contact_queue_next(contacts(), &respond.input, &contact));
+    assert_true(fabs(contact.impact.toi - 0.56) < 1e-12);
+    stop(c, contact.impact.toi); /* else it would go on to b */
+    assert_false(contact_queue_next(contacts(), &context.input, &contact));
 }
 
 static void test_a_pair_meets_so_often_and_no_more(void **state)
@@ -159,14 +159,14 @@ static void test_a_pair_meets_so_often_and_no_more(void **state)
     (void)state;
     uint32_t a = put(25000.0, 25000.0, 100.0), b = put(25030.0, 25000.0, 0.0);
     find();
-    assert_int_equal(respond.input.meets, CONTACT_MEETS_MAX);
+    assert_int_equal(context.input.meets, CONTACT_MEETS_MAX);
     for (int n = 1; n <= CONTACT_MEETS_MAX; n++) { /* it presses on whatever it is told */
-        assert_true(contact_queue_next(contacts(), &respond.input, &contact));
+        assert_true(contact_queue_next(contacts(), &context.input, &contact));
         assert_int_equal(contact.last, n == CONTACT_MEETS_MAX);
-        contact_queue_change(contacts(), &respond.input, &a, 1, contact.touch.toi);
-        contact_queue_change(contacts(), &respond.input, &b, 1, contact.touch.toi);
+        contact_queue_change(contacts(), &context.input, &a, 1, contact.impact.toi);
+        contact_queue_change(contacts(), &context.input, &b, 1, contact.impact.toi);
     }
-    assert_false(contact_queue_next(contacts(), &respond.input, &contact));
+    assert_false(contact_queue_next(contacts(), &context.input, &contact));
 }
 
 /* A way that leads out of the box that the broad phase knows meets what stands there, and what has
@@ -178,16 +178,16 @@ static void test_row_36_another_way_meets_others(void **state)
     uint32_t a = put(25000.0, 25000.0, 10.0);
     uint32_t b = put(25000.0, 25300.0, 0.0), c = put(25300.0, 25300.0, 0.0);
     find();
-    assert_false(contact_queue_next(contacts(), &respond.input, &contact));
+    assert_false(contact_queue_next(contacts(), &context.input, &contact));
     f.player.collider.motion.path[a].along = (struct vec3){0.0, 0.0, 400.0};
-    contact_queue_change(contacts(), &respond.input, &a, 1, 0.0);
-    assert_true(contact_queue_next(contacts(), &respond.input, &contact));
+    contact_queue_change(contacts(), &context.input, &a, 1, 0.0);
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
     assert_true(contact.a == a && contact.b == b &&
-                fabs(contact.touch.toi - 288.0 / 400.0) < 1e-12);
+                fabs(contact.impact.toi - 288.0 / 400.0) < 1e-12);
     stop(a, 0.5); /* at 25200 */
     f.player.collider.motion.path[c].along = (struct vec3){-600.0, 0.0, -200.0};
-    contact_queue_change(contacts(), &respond.input, &c, 1, 0.0);
-    assert_true(contact_queue_next(contacts(), &respond.input, &contact));
+    contact_queue_change(contacts(), &context.input, &c, 1, 0.0);
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
     assert_true(contact.a == a && contact.b == c);
 }
 
@@ -201,7 +201,7 @@ static void test_a_dropped_row_has_no_contacts(void **state)
     find();
     contact_queue_add_end(contacts(), a, CONTACT_GROUND, 0.9);
     contact_queue_drop(contacts(), a);
-    assert_false(contact_queue_next(contacts(), &respond.input, &contact));
+    assert_false(contact_queue_next(contacts(), &context.input, &contact));
 }
 
 static void test_a_frame_knows_nothing_of_the_one_before(void **state)
@@ -211,14 +211,14 @@ static void test_a_frame_knows_nothing_of_the_one_before(void **state)
     uint32_t a = put(25000.0, 25000.0, 100.0), b = put(25030.0, 25000.0, 0.0);
     for (int frame = 0; frame < 3; frame++) {
         find();
-        assert_true(contact_queue_next(contacts(), &respond.input, &contact));
-        assert_true(contact.a == a && contact.b == b && fabs(contact.touch.toi - 0.18) < 1e-12);
-        assert_false(contact_queue_next(contacts(), &respond.input, &contact));
+        assert_true(contact_queue_next(contacts(), &context.input, &contact));
+        assert_true(contact.a == a && contact.b == b && fabs(contact.impact.toi - 0.18) < 1e-12);
+        assert_false(contact_queue_next(contacts(), &context.input, &contact));
         contact_queue_end(contacts());
     }
     f.player.collider.motion.path[a].along.x = 0.0;
     find();
-    assert_false(contact_queue_next(contacts(), &respond.input, &contact));
+    assert_false(contact_queue_next(contacts(), &context.input, &contact));
 }
 
 /* --- fixed objects -----------------------------------------------------------------------------*/
@@ -234,18 +234,18 @@ static void test_through_fixed_only_entering_is_a_contact(void **state)
     f.player.collider.motion.path[row] =
         (struct path){.at = {24990.0, 100.0, 25000.0}, .along = {8.0, 0, 0}};
     find();
-    assert_true(contact_queue_next(contacts(), &respond.input, &contact));
-    assert_true(fabs(contact.touch.toi - (10.0 - 3.0 - (double)1.8f) / 8.0) < 1e-12);
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
+    assert_true(fabs(contact.impact.toi - (10.0 - 3.0 - (double)1.8f) / 8.0) < 1e-12);
     contact_queue_end(contacts());
     f.player.collider.motion.path[row].at.x = 24996.0; /* it stands in it */
     find();
-    assert_true(contact_queue_next(contacts(), &respond.input, &contact));
-    assert_true(contact.touch.toi == 0.0);
-    respond.input.through_fixed = true;
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
+    assert_true(contact.impact.toi == 0.0);
+    context.input.through_fixed = true;
     contact_queue_end(contacts());
     contact_queue_begin(contacts(), f.player.collider.broad.list, THREAD_POOL_MAX);
-    contact_queue_find(contacts(), &respond.input);
-    assert_false(contact_queue_next(contacts(), &respond.input, &contact));
+    contact_queue_find(contacts(), &context.input);
+    assert_false(contact_queue_next(contacts(), &context.input, &contact));
 }
 
 int main(void)

@@ -12,8 +12,8 @@
 #include <cmocka.h>
 
 static struct fixture f;
-static struct response_context respond;
-static struct hull_contact touch;
+static struct response_context context;
+static struct hull_contact impact;
 
 static void open_with(const char *text)
 {
@@ -22,7 +22,7 @@ static void open_with(const char *text)
 
 static void close_world(void)
 {
-    steps_respond_end(&respond);
+    steps_respond_end(&context);
     fixture_close(&f);
 }
 
@@ -36,9 +36,9 @@ static uint32_t put(const char *kind, double x, double y, double z)
 static bool meets(double along, uint32_t other, bool through_fixed, double from)
 {
     const struct pair pair = {0, other};
-    respond.path[0].along = (struct vec3){along, 0.0, 0.0};
-    return narrow_phase_touch(&respond.input.detect, respond.motion, through_fixed, &pair, from,
-                              &touch);
+    context.path[0].along = (struct vec3){along, 0.0, 0.0};
+    return narrow_phase_find(&context.input.detect, context.motion, through_fixed, &pair, from,
+                             &impact);
 }
 
 static void test_spheres_touch_at_the_sum_of_their_radii(void **state)
@@ -47,12 +47,12 @@ static void test_spheres_touch_at_the_sum_of_their_radii(void **state)
     open_with("");
     put("helicopter", 25000.0, 900.0, 25000.0);
     put("helicopter", 25030.0, 900.0, 25000.0);
-    steps_respond(&f, &respond);
+    steps_respond(&f, &context);
     assert_true(meets(36.0, 1, false, 0.0)); /* 12 m of 30 are left after half the way */
-    assert_true(fabs(touch.toi - 0.5) < 1e-12 && touch.normal.x == 1.0 && touch.depth_m < 1e-9);
-    assert_true(fabs(touch.point.x - 25024.0) < 1e-9);
+    assert_true(fabs(impact.toi - 0.5) < 1e-12 && impact.normal.x == 1.0 && impact.depth_m < 1e-9);
+    assert_true(fabs(impact.point.x - 25024.0) < 1e-9);
     assert_true(meets(36.0, 1, false, 0.75)); /* deep in it and going on */
-    assert_true(touch.toi == 0.75 && fabs(touch.depth_m - 9.0) < 1e-9);
+    assert_true(impact.toi == 0.75 && fabs(impact.depth_m - 9.0) < 1e-9);
     assert_false(meets(17.9, 1, false, 0.0));
     assert_false(meets(-36.0, 1, false, 0.0));
     close_world();
@@ -64,10 +64,10 @@ static void test_what_looks_at_the_end_only_finds_it_at_the_end(void **state)
     open_with("collision = { shape = \"sphere\"; method = \"npsnet2\"; };");
     put("helicopter", 25000.0, 900.0, 25000.0);
     put("helicopter", 25030.0, 900.0, 25000.0);
-    steps_respond(&f, &respond);
+    steps_respond(&f, &context);
     assert_true(meets(30.0, 1, false, 0.0)); /* centre in centre: any normal will do */
-    assert_true(touch.toi == 1.0 && touch.depth_m == 12.0);
-    assert_true(vec3_length(touch.normal) == 1.0);
+    assert_true(impact.toi == 1.0 && impact.depth_m == 12.0);
+    assert_true(vec3_length(impact.normal) == 1.0);
     close_world();
 }
 
@@ -80,7 +80,7 @@ static void test_hulls_pass_where_spheres_touch(void **state)
         double radius = steps_kind(&f, "tank")->radius_m;
         put("tank", 25000.0, FIXTURE_GROUND_M, 25000.0);
         put("tank", 25020.0, FIXTURE_GROUND_M, 25000.0 + 1.9 * radius);
-        steps_respond(&f, &respond);
+        steps_respond(&f, &context);
         assert_int_equal(meets(40.0, 1, false, 0.0), !model);
         close_world();
     }
@@ -92,16 +92,16 @@ static void test_hulls_touch_where_they_are(void **state)
     open_with("collision = { shape = \"model\"; };");
     put("truck", 25000.0, FIXTURE_GROUND_M, 25000.0);
     put("truck", 25020.0, FIXTURE_GROUND_M, 25000.0);
-    steps_respond(&f, &respond);
+    steps_respond(&f, &context);
     assert_true(meets(20.0, 1, false, 0.0));
-    assert_true(touch.toi > 0.0 && touch.normal.x > 0.999 && touch.depth_m == 0.0);
-    struct swept_body a = body_motion_body(respond.motion, 0),
-                      b = body_motion_body(respond.motion, 1);
-    assert_true(fabs(time_of_impact_gap(&a, &b, touch.toi) - TOUCH_M) < 1e-8);
+    assert_true(impact.toi > 0.0 && impact.normal.x > 0.999 && impact.depth_m == 0.0);
+    struct swept_body a = body_motion_body(context.motion, 0),
+                      b = body_motion_body(context.motion, 1);
+    assert_true(fabs(time_of_impact_gap(&a, &b, impact.toi) - SKIN_M) < 1e-8);
     /* They touch now, and part: the hulls around them must not hide that they do not meet. */
-    double toi = touch.toi;
+    double toi = impact.toi;
     assert_false(meets(-20.0, 1, false, 0.0));
-    assert_true(meets(20.0, 1, false, toi) && touch.toi == toi);
+    assert_true(meets(20.0, 1, false, toi) && impact.toi == toi);
     close_world();
 }
 
@@ -119,13 +119,13 @@ static void test_only_entering_what_lets_in_is_a_touch(void **state)
         uint32_t bush = f.view.world.kinds[f.view.world.fixed[0].kind].rigidity < 0.1 ? 0 : 1;
         uint32_t wall = bush ^ 1u;
         put("tank", 24960.0, FIXTURE_GROUND_M, 25000.0);
-        steps_respond(&f, &respond);
+        steps_respond(&f, &context);
         for (int through = 0; through < 2; through++) {
             assert_true(meets(50.0, bush | PAIR_FIXED, through, 0.0));
-            assert_true(touch.toi > 0.0 && touch.toi < 1.0);
-            assert_false(meets(50.0, bush | PAIR_FIXED, through, touch.toi));
+            assert_true(impact.toi > 0.0 && impact.toi < 1.0);
+            assert_false(meets(50.0, bush | PAIR_FIXED, through, impact.toi));
             assert_true(meets(50.0, wall | PAIR_FIXED, through, 0.0));
-            assert_int_equal(meets(50.0, wall | PAIR_FIXED, through, touch.toi), !through);
+            assert_int_equal(meets(50.0, wall | PAIR_FIXED, through, impact.toi), !through);
         }
         close_world();
     }

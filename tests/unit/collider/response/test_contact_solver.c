@@ -34,8 +34,8 @@ static struct solver_body wall(void)
 }
 
 /* Where two balls of radius 1 touch. */
-static struct solver_contact touch(const struct solver_body *bodies, uint32_t a, uint32_t b,
-                                   double restitution, double friction)
+static struct solver_contact impact(const struct solver_body *bodies, uint32_t a, uint32_t b,
+                                    double restitution, double friction)
 {
     struct vec3 between = vec3_sub(bodies[b].centre, bodies[a].centre);
     struct vec3 normal = vec3_scale(between, 1.0 / vec3_length(between));
@@ -55,7 +55,7 @@ static void test_a_head_on_blow_follows_newton(void **state)
     for (double e = 0.0; e <= 1.0; e += 0.25) {
         struct solver_body b[2] = {ball(3000.0, (struct vec3){0, 0, 0}, (struct vec3){8, 0, 0}),
                                    ball(1000.0, (struct vec3){2, 0, 0}, (struct vec3){0, 0, 0})};
-        struct solver_contact c = touch(b, 0, 1, e, 0.7);
+        struct solver_contact c = impact(b, 0, 1, e, 0.7);
         contact_solver_island(b, 2, &c, 1);
         NEAR(b[0].velocity.x, 6.0 - 2.0 * e);
         NEAR(b[1].velocity.x, 6.0 + 6.0 * e);
@@ -74,7 +74,7 @@ static void test_bodies_that_part_get_nothing(void **state)
         struct solver_body b[2] = {
             ball(1.0, (struct vec3){0, 0, 0}, (struct vec3){0, 3, 0}),
             ball(1.0, (struct vec3){2, 0, 0}, (struct vec3){leaving[n], 0, 0})};
-        struct solver_contact c = touch(b, 0, 1, 0.5, 1.0);
+        struct solver_contact c = impact(b, 0, 1, 0.5, 1.0);
         contact_solver_island(b, 2, &c, 1);
         assert_true(vec3_length(c.impulse) == 0.0 && c.lost_j == 0.0);
         assert_true(c.closing_mps == -leaving[n]);
@@ -214,7 +214,7 @@ static void test_a_cradle_between_its_limits(void **state)
                 b[i] =
                     ball(1.0, (struct vec3){2.0 * i, 0, 0}, (struct vec3){i == 0 ? 1.0 : 0, 0, 0});
             for (uint32_t i = 0; i + 1 < n; i++)
-                c[i] = touch(b, i, i + 1, elastic, 0.3);
+                c[i] = impact(b, i, i + 1, elastic, 0.3);
             contact_solver_island(b, n, c, n - 1);
             /* Solved at one moment the others are as one body of their whole mass. */
             double others = elastic ? 2.0 / n : 1.0 / n, energy = 0.0, lost = 0.0;
@@ -236,7 +236,7 @@ static void test_a_cradle_struck_one_by_one_hands_all_of_it_on(void **state)
     for (uint32_t i = 0; i < 5; i++)
         b[i] = ball(1.0, (struct vec3){2.0 * i, 0, 0}, (struct vec3){i == 0 ? 1.0 : 0, 0, 0});
     for (uint32_t i = 0; i < 4; i++) {
-        struct solver_contact c = touch(b, i, i + 1, 1.0, 0.0);
+        struct solver_contact c = impact(b, i, i + 1, 1.0, 0.0);
         contact_solver_island(b, 5, &c, 1);
     }
     for (uint32_t i = 0; i < 5; i++)
@@ -253,9 +253,9 @@ static void test_row_36_a_symmetric_hit_has_a_symmetric_answer(void **state)
         struct solver_body b[3] = {ball(5.0, (struct vec3){0, 0, 0}, (struct vec3){6, 0, 0}),
                                    ball(2.0, (struct vec3){half, 0, -1}, (struct vec3){0, 0, 0}),
                                    ball(2.0, (struct vec3){half, 0, 1}, (struct vec3){0, 0, 0})};
-        struct solver_contact c[3] = {touch(b, 0, 1, e, frictions[n % 3]),
-                                      touch(b, 0, 2, e, frictions[n % 3]),
-                                      touch(b, 1, 2, e, frictions[n % 3])};
+        struct solver_contact c[3] = {impact(b, 0, 1, e, frictions[n % 3]),
+                                      impact(b, 0, 2, e, frictions[n % 3]),
+                                      impact(b, 1, 2, e, frictions[n % 3])};
         contact_solver_island(b, 3, c, 3);
         NEAR(b[0].velocity.z, 0.0);
         NEAR(b[0].spin.y, 0.0);
@@ -275,7 +275,7 @@ static void test_a_parting_contact_is_pressed_by_the_island(void **state)
     struct solver_body b[3] = {ball(10.0, (struct vec3){0, 0, 0}, (struct vec3){9, 0, 0}),
                                ball(1.0, (struct vec3){2, 0, 0}, (struct vec3){0, 0, 0}),
                                ball(1.0, (struct vec3){4, 0, 0}, (struct vec3){1, 0, 0})};
-    struct solver_contact c[2] = {touch(b, 0, 1, 0.0, 0.0), touch(b, 1, 2, 1.0, 0.0)};
+    struct solver_contact c[2] = {impact(b, 0, 1, 0.0, 0.0), impact(b, 1, 2, 1.0, 0.0)};
     contact_solver_island(b, 3, c, 2);
     assert_true(c[1].closing_mps < 0.0 && c[1].impulse.x > 0.0);
     for (int i = 0; i < 3; i++)
@@ -319,9 +319,9 @@ static void test_a_great_pile_ends_without_anybody_nearing(void **state)
     }
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
         if (i / SIDE + 1 < SIDE)
-            c[count++] = touch(b, i, i + SIDE, 0.2, 0.5);
+            c[count++] = impact(b, i, i + SIDE, 0.2, 0.5);
         if (i % SIDE + 1 < SIDE)
-            c[count++] = touch(b, i, i + 1, 0.2, 0.5);
+            c[count++] = impact(b, i, i + 1, 0.2, 0.5);
     }
     assert_int_equal(count, CONTACTS);
     contact_solver_island(b, SIDE * SIDE, c, count);

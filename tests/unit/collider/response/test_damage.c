@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 static struct fixture f;
-static struct response_context respond;
+static struct response_context context;
 
 static int open_world(void **state)
 {
@@ -21,21 +21,21 @@ static int open_world(void **state)
     for (uint32_t n = 0; n < 3; n++)
         fixture_put(&f, (struct fixture_entity){.kind = "jeep",
                                                 .at = {20000.0 + 500.0 * n, 100.0, 20000.0}});
-    steps_respond(&f, &respond);
+    steps_respond(&f, &context);
     return 0;
 }
 
 static int close_world(void **state)
 {
     (void)state;
-    steps_respond_end(&respond);
+    steps_respond_end(&context);
     fixture_close(&f);
     return 0;
 }
 
 static const struct entities *rows(void)
 {
-    return &respond.next->entities;
+    return &context.next->entities;
 }
 
 static void test_harm_adds_up_to_three_levels_and_destruction(void **state)
@@ -50,22 +50,22 @@ static void test_harm_adds_up_to_three_levels_and_destruction(void **state)
     (void)state;
     for (size_t n = 0; n < sizeof blows / sizeof blows[0]; n++) {
         sum += blows[n].share * resistance;
-        damage_row(&respond, 0, blows[n].share * resistance, 0.0);
+        damage_row(&context, 0, blows[n].share * resistance, 0.0);
         assert_int_equal(rows()->damage[0], blows[n].damage);
         assert_true(fabs(rows()->harm_j[0] - sum) < 1e-6);
         assert_int_equal(rows()->state[0],
                          blows[n].damage == DAMAGE_DESTROYED ? ENTITY_WRECK : ENTITY_ACTIVE);
     }
-    assert_int_equal(respond.next->head->tally.destroyed, 1);
+    assert_int_equal(context.next->head->tally.destroyed, 1);
     assert_int_equal(rows()->damage[1], DAMAGE_NONE);
 }
 
 static void test_nothing_and_nonsense_harm_nobody(void **state)
 {
     (void)state;
-    damage_row(&respond, 0, 0.0, 0.0);
-    damage_row(&respond, 0, -5.0, 0.0);
-    damage_row(&respond, 0, (double)NAN, 0.0);
+    damage_row(&context, 0, 0.0, 0.0);
+    damage_row(&context, 0, -5.0, 0.0);
+    damage_row(&context, 0, (double)NAN, 0.0);
     assert_true(rows()->harm_j[0] == 0.0);
     assert_int_equal(rows()->state[0], ENTITY_ACTIVE);
 }
@@ -74,31 +74,31 @@ static void test_one_is_destroyed_once(void **state)
 {
     double resistance = steps_kind(&f, "jeep")->resistance_j;
     (void)state;
-    damage_row(&respond, 0, 3.0 * resistance, 0.25);
-    assert_int_equal(respond.charges->count, 1); /* what it carries burns */
-    assert_true(respond.charges->charge[0].time == 0.25 &&
-                respond.charges->charge[0].explosive_kg == 1.0);
-    assert_int_equal(respond.charges->charge[0].owner_id, 0);
-    damage_row(&respond, 0, 3.0 * resistance, 0.5);
-    damage_destroy(&respond, 0, 0.5);
-    assert_int_equal(respond.charges->count, 1);
-    assert_int_equal(respond.next->head->tally.destroyed, 1);
+    damage_row(&context, 0, 3.0 * resistance, 0.25);
+    assert_int_equal(context.charges->count, 1); /* what it carries burns */
+    assert_true(context.charges->charge[0].time == 0.25 &&
+                context.charges->charge[0].explosive_kg == 1.0);
+    assert_int_equal(context.charges->charge[0].owner_id, 0);
+    damage_row(&context, 0, 3.0 * resistance, 0.5);
+    damage_destroy(&context, 0, 0.5);
+    assert_int_equal(context.charges->count, 1);
+    assert_int_equal(context.next->head->tally.destroyed, 1);
     assert_int_equal(rows()->behaviour[0], BEHAVIOUR_IDLE);
     assert_int_equal(rows()->order[0], BEHAVIOUR_IDLE);
-    assert_int_equal(rows()->changed_tick[0], respond.next->head->tick);
+    assert_int_equal(rows()->changed_tick[0], context.next->head->tick);
 }
 
 static void test_row_27_a_fixed_object_keeps_its_hardest_blow(void **state)
 {
     double resistance = steps_kind(&f, "tree")->resistance_j;
     (void)state;
-    assert_int_equal(damage_fixed_object(&respond, 0, 0.4 * resistance), DAMAGE_MED);
-    assert_int_equal(damage_fixed_object(&respond, 0, 0.2 * resistance),
+    assert_int_equal(damage_fixed_object(&context, 0, 0.4 * resistance), DAMAGE_MED);
+    assert_int_equal(damage_fixed_object(&context, 0, 0.2 * resistance),
                      DAMAGE_MED); /* blows do not add */
-    assert_int_equal(damage_fixed_object(&respond, 0, 0.99 * resistance), DAMAGE_MED);
-    assert_int_equal(respond.next->head->tally.fixed_damaged, 1);
-    assert_int_equal(damage_fixed_object(&respond, 0, 1.0 * resistance), DAMAGE_HIGH);
-    assert_int_equal(respond.next->head->tally.fixed_damaged, 2);
+    assert_int_equal(damage_fixed_object(&context, 0, 0.99 * resistance), DAMAGE_MED);
+    assert_int_equal(context.next->head->tally.fixed_damaged, 1);
+    assert_int_equal(damage_fixed_object(&context, 0, 1.0 * resistance), DAMAGE_HIGH);
+    assert_int_equal(context.next->head->tally.fixed_damaged, 2);
     assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_NONE); /* the committed frame's */
 }
 
@@ -109,13 +109,13 @@ static void test_row_27_a_kinds_own_constants_go_before_the_scenarios(void **sta
     (void)state;
     tree->damage_low = 0.01;
     tree->damage_med = 0.5;
-    assert_int_equal(damage_fixed_object(&respond, 0, 0.009 * resistance), DAMAGE_NONE);
-    assert_int_equal(damage_fixed_object(&respond, 0, 0.02 * resistance), DAMAGE_LOW);
-    assert_int_equal(damage_fixed_object(&respond, 0, 0.4 * resistance), DAMAGE_LOW);
-    assert_int_equal(damage_fixed_object(&respond, 0, 0.5 * resistance), DAMAGE_MED);
-    assert_int_equal(damage_fixed_object(&respond, 0, 0.99 * resistance), DAMAGE_MED);
+    assert_int_equal(damage_fixed_object(&context, 0, 0.009 * resistance), DAMAGE_NONE);
+    assert_int_equal(damage_fixed_object(&context, 0, 0.02 * resistance), DAMAGE_LOW);
+    assert_int_equal(damage_fixed_object(&context, 0, 0.4 * resistance), DAMAGE_LOW);
+    assert_int_equal(damage_fixed_object(&context, 0, 0.5 * resistance), DAMAGE_MED);
+    assert_int_equal(damage_fixed_object(&context, 0, 0.99 * resistance), DAMAGE_MED);
     tree->damage_high = 0.9; /* 0 before: the scenario's 1 */
-    assert_int_equal(damage_fixed_object(&respond, 0, 0.95 * resistance), DAMAGE_HIGH);
+    assert_int_equal(damage_fixed_object(&context, 0, 0.95 * resistance), DAMAGE_HIGH);
 }
 
 static void test_row_27_by_mass_an_object_keeps_its_hardest_blow(void **state)
@@ -125,12 +125,12 @@ static void test_row_27_by_mass_an_object_keeps_its_hardest_blow(void **state)
     limits->mass_c1_kg = 3000.0;
     limits->mass_c2_kg = 2000.0;
     limits->mass_c3_kg = 1000.0;
-    assert_int_equal(damage_fixed_mass(&respond, 0, 999.9), DAMAGE_NONE);
-    assert_int_equal(respond.next->head->tally.fixed_damaged, 0);
-    assert_int_equal(damage_fixed_mass(&respond, 0, 2000.0), DAMAGE_MED);
-    assert_int_equal(damage_fixed_mass(&respond, 0, 1000.0), DAMAGE_MED);
-    assert_int_equal(respond.next->head->tally.fixed_damaged, 1);
-    assert_int_equal(damage_fixed_mass(&respond, 0, 3000.0), DAMAGE_HIGH);
+    assert_int_equal(damage_fixed_mass(&context, 0, 999.9), DAMAGE_NONE);
+    assert_int_equal(context.next->head->tally.fixed_damaged, 0);
+    assert_int_equal(damage_fixed_mass(&context, 0, 2000.0), DAMAGE_MED);
+    assert_int_equal(damage_fixed_mass(&context, 0, 1000.0), DAMAGE_MED);
+    assert_int_equal(context.next->head->tally.fixed_damaged, 1);
+    assert_int_equal(damage_fixed_mass(&context, 0, 3000.0), DAMAGE_HIGH);
     assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_NONE);
 }
 
@@ -138,10 +138,10 @@ static void test_row_26_resistance_decides(void **state)
 {
     (void)state;
     steps_kind(&f, "jeep")->resistance_j = 1000.0;
-    damage_row(&respond, 0, 999.0, 0.0);
+    damage_row(&context, 0, 999.0, 0.0);
     assert_int_equal(rows()->state[0], ENTITY_ACTIVE);
     steps_kind(&f, "jeep")->resistance_j = 998.0;
-    damage_row(&respond, 1, 999.0, 0.0);
+    damage_row(&context, 1, 999.0, 0.0);
     assert_int_equal(rows()->state[1], ENTITY_WRECK);
 }
 

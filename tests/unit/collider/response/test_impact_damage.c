@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 static struct fixture f;
-static struct response_context respond;
+static struct response_context context;
 static uint32_t row;
 static const struct impact impact = {
     .point = {25006.0, 901.0, 25000.0}, .normal = {1.0, 0.0, 0.0}, .time = 0.5};
@@ -31,38 +31,38 @@ static int open_world(void **state)
     row = fixture_put(&f, (struct fixture_entity){.kind = "helicopter",
                                                   .at = {25000.0, 900.0, 25000.0},
                                                   .heading_rad = HALF_PI});
-    steps_respond(&f, &respond);
+    steps_respond(&f, &context);
     return 0;
 }
 
 static int close_world(void **state)
 {
     (void)state;
-    steps_respond_end(&respond);
+    steps_respond_end(&context);
     fixture_close(&f);
     return 0;
 }
 
 static const struct dent *dent(uint32_t n)
 {
-    assert_true(respond.next->head->dent_count == n + 1);
-    return &respond.next->dents[n];
+    assert_true(context.next->head->dent_count == n + 1);
+    return &context.next->dents[n];
 }
 
 static void test_rows_33_47_a_blow_harms_and_dents(void **state)
 {
     (void)state;
     struct deformation deformation = deformation_of(steps_kind(&f, "helicopter"), 4e5);
-    impact_damage_row(&respond, row, &impact, -1.0, 4e5, NULL);
-    assert_true(respond.next->entities.harm_j[row] == deformation.harm_j);
-    assert_int_equal(respond.next->entities.damage[row], DAMAGE_MED);
+    impact_damage_row(&context, row, &impact, -1.0, 4e5, NULL);
+    assert_true(context.next->entities.harm_j[row] == deformation.harm_j);
+    assert_int_equal(context.next->entities.damage[row], DAMAGE_MED);
     assert_int_equal(dent(0)->id, row + 1);
     assert_true(fabs((double)dent(0)->plastic_m - deformation.plastic_m) < 1e-6);
     assert_true(fabs((double)dent(0)->elastic_m - deformation.elastic_m) < 1e-6);
     /* On its own axes: x forward, y up; inwards is backwards. */
     assert_true(fabsf(dent(0)->point[0] - 6.0f) < 1e-3f && fabsf(dent(0)->point[1] - 1.0f) < 1e-3f);
     assert_true(dent(0)->direction[0] < -0.999f);
-    impact_damage_row(&respond, row, &impact, 1.0, 4e5, NULL);
+    impact_damage_row(&context, row, &impact, 1.0, 4e5, NULL);
     assert_true(dent(1)->direction[0] > 0.999f); /* struck as the second of the two */
 }
 
@@ -70,7 +70,7 @@ static void test_a_spring_dents_each_skin_by_half_its_way(void **state)
 {
     (void)state;
     const struct contact_spring_impact spring = {.depth_m = 0.5, .left_m = 0.2};
-    impact_damage_row(&respond, row, &impact, -1.0, 1.0, &spring);
+    impact_damage_row(&context, row, &impact, -1.0, 1.0, &spring);
     assert_true(fabsf(dent(0)->plastic_m - 0.1f) < 1e-6f);
     assert_true(fabsf(dent(0)->elastic_m - 0.15f) < 1e-6f);
 }
@@ -78,22 +78,22 @@ static void test_a_spring_dents_each_skin_by_half_its_way(void **state)
 static void test_no_energy_does_nothing(void **state)
 {
     (void)state;
-    impact_damage_row(&respond, row, &impact, -1.0, 0.0, NULL);
-    impact_damage_row(&respond, row, &impact, -1.0, 10.0, NULL);
-    assert_int_equal(respond.next->head->dent_count, 0);
-    assert_true(respond.next->entities.harm_j[row] <= 10.0);
+    impact_damage_row(&context, row, &impact, -1.0, 0.0, NULL);
+    impact_damage_row(&context, row, &impact, -1.0, 10.0, NULL);
+    assert_int_equal(context.next->head->dent_count, 0);
+    assert_true(context.next->entities.harm_j[row] <= 10.0);
 }
 
 /* What it cannot take destroys it; a wreck is dented further and harmed no more. */
 static void test_a_wreck_is_dented_and_not_harmed(void **state)
 {
     (void)state;
-    impact_damage_row(&respond, row, &impact, -1.0, 9e6, NULL);
-    assert_int_equal(respond.next->entities.state[row], ENTITY_WRECK);
-    double harm = respond.next->entities.harm_j[row];
-    impact_damage_row(&respond, row, &impact, -1.0, 9e6, NULL);
-    assert_true(respond.next->entities.harm_j[row] == harm);
-    assert_int_equal(respond.next->head->tally.destroyed, 1);
+    impact_damage_row(&context, row, &impact, -1.0, 9e6, NULL);
+    assert_int_equal(context.next->entities.state[row], ENTITY_WRECK);
+    double harm = context.next->entities.harm_j[row];
+    impact_damage_row(&context, row, &impact, -1.0, 9e6, NULL);
+    assert_true(context.next->entities.harm_j[row] == harm);
+    assert_int_equal(context.next->head->tally.destroyed, 1);
     assert_int_equal(dent(1)->id, row + 1);
 }
 

@@ -116,11 +116,11 @@ static void test_row_36_who_is_struck_twice_in_a_frame_answers_twice(void **stat
 static void test_row_36_who_parts_untouched_may_meet_later(void **state)
 {
     (void)state;
-    const double touch = 12.0 - 1e-10, x = 20000.0, z = 20000.0;
+    const double impact = 12.0 - 1e-10, x = 20000.0, z = 20000.0;
     const double cosine = 0.25881904510252074, sine = 0.9659258262890683; /* 75 degrees */
     steps_params(&f)->dt_s = 0.1;
-    uint32_t one = put(x, z, 1.0, 0.0), two = put(x + touch, z, 0.0, 0.0);
-    put(x + touch * cosine, z + touch * sine, -200.0 * cosine, -200.0 * sine);
+    uint32_t one = put(x, z, 1.0, 0.0), two = put(x + impact, z, 0.0, 0.0);
+    put(x + impact * cosine, z + impact * sine, -200.0 * cosine, -200.0 * sine);
     put(x - 18.4, z - 4.7, 600.0 * 0.988, 600.0 * 0.15);
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);

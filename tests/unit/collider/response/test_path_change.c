@@ -12,7 +12,7 @@
 #define DT_S (1.0 / 60.0)
 
 static struct fixture f;
-static struct response_context respond;
+static struct response_context context;
 static const struct vec3 none = {0.0, 0.0, 0.0};
 
 static int open_world(void **state)
@@ -25,7 +25,7 @@ static int open_world(void **state)
 static int close_world(void **state)
 {
     (void)state;
-    steps_respond_end(&respond);
+    steps_respond_end(&context);
     fixture_close(&f);
     return 0;
 }
@@ -36,34 +36,34 @@ static uint32_t put(const char *kind, double x, double y)
     uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
                                                            .at = {x, y, 25000.0},
                                                            .velocity = {6.0 / DT_S, 0.0, 0.0}});
-    steps_respond(&f, &respond);
-    respond.path[row].along.x = 6.0;
-    respond.next->entities.x[row] += 6.0;
+    steps_respond(&f, &context);
+    context.path[row].along.x = 6.0;
+    context.next->entities.x[row] += 6.0;
     return row;
 }
 
 static double x_of(uint32_t row)
 {
-    return respond.next->entities.x[row];
+    return context.next->entities.x[row];
 }
 
 static void test_who_stays_ends_where_it_was_struck(void **state)
 {
     (void)state;
     uint32_t row = put("helicopter", 25000.0, 900.0);
-    path_change_stay(&respond, row, 0.25, (struct vec3){3.0, 0.0, 0.0});
+    path_change_stay(&context, row, 0.25, (struct vec3){3.0, 0.0, 0.0});
     assert_true(fabs(x_of(row) - 25001.5) < 1e-9);
-    assert_true(respond.next->entities.vx[row] == 3.0);
-    assert_true(respond.path[row].since == 0.25 && pair_filter_rests(&respond.path[row]));
+    assert_true(context.next->entities.vx[row] == 3.0);
+    assert_true(context.path[row].since == 0.25 && pair_filter_rests(&context.path[row]));
 }
 
 static void test_who_is_slowed_goes_on_at_its_share(void **state)
 {
     (void)state;
     uint32_t row = put("helicopter", 25000.0, 900.0);
-    path_change_slow(&respond, row, 0.5, 0.5);
+    path_change_slow(&context, row, 0.5, 0.5);
     assert_true(fabs(x_of(row) - 25004.5) < 1e-9);
-    assert_true(fabs(respond.next->entities.vx[row] - 3.0 / DT_S) < 1e-9);
+    assert_true(fabs(context.next->entities.vx[row] - 3.0 / DT_S) < 1e-9);
 }
 
 static void test_who_leaves_takes_velocity_and_spin_along(void **state)
@@ -71,13 +71,13 @@ static void test_who_leaves_takes_velocity_and_spin_along(void **state)
     (void)state;
     uint32_t row = put("helicopter", 25000.0, 900.0);
     struct vec3 at = {25002.0, 900.0, 25000.0}, velocity = {0.0, 0.0, 60.0};
-    path_change_leave(&respond, row, 0.5, at, velocity, (struct vec3){0.0, -6.0, 0.0}, false);
-    const struct entities *e = &respond.next->entities;
+    path_change_leave(&context, row, 0.5, at, velocity, (struct vec3){0.0, -6.0, 0.0}, false);
+    const struct entities *e = &context.next->entities;
     assert_true(fabs(e->x[row] - 25002.0) < 1e-9 && fabs(e->z[row] - 25000.5) < 1e-9);
     /* Half of the frame at 6 rad/s to the right. */
     assert_true(fabs(maths_wrap_half(e->heading[row] - HALF_PI) - 3.0 * DT_S) < 1e-9);
     assert_true(fabs(e->spin_y[row] + 6.0) < 1e-9);
-    path_change_leave(&respond, row, 0.5, at, velocity, none, true);
+    path_change_leave(&context, row, 0.5, at, velocity, none, true);
     assert_true(e->z[row] == 25000.0 && e->vz[row] == 60.0); /* stays, and takes it with it */
 }
 
@@ -90,9 +90,9 @@ static void test_nobody_is_pushed_out_of_the_world(void **state)
     static const double times[] = {0.0, 0.5, 1.0};
     for (int i = 0; i < 3; i++) {
         struct vec3 at = {-0.5, 900.0, WORLD_SIDE_M + 0.5}; /* parted from another */
-        path_change_leave(&respond, row, times[i], at, out, none, i == 2);
+        path_change_leave(&context, row, times[i], at, out, none, i == 2);
         assert_true(x_of(row) >= 0.0 && x_of(row) <= WORLD_SIDE_M);
-        assert_true(respond.next->entities.z[row] <= WORLD_SIDE_M);
+        assert_true(context.next->entities.z[row] <= WORLD_SIDE_M);
     }
 }
 
@@ -100,19 +100,19 @@ static void test_what_the_ground_holds(void **state)
 {
     (void)state;
     uint32_t tank = put("tank", 25000.0, FIXTURE_GROUND_M);
-    steps_respond_end(&respond);
+    steps_respond_end(&context);
     uint32_t jet = put("jet", 26000.0, 900.0);
-    struct entities *e = &respond.next->entities;
-    assert_true(path_change_grounded(&respond, tank));
-    assert_false(path_change_grounded(&respond, jet));
+    struct entities *e = &context.next->entities;
+    assert_true(path_change_grounded(&context, tank));
+    assert_false(path_change_grounded(&context, jet));
     e->state[jet] = ENTITY_WRECK;
-    assert_false(path_change_grounded(&respond, jet)); /* it still falls */
+    assert_false(path_change_grounded(&context, jet)); /* it still falls */
     e->y[jet] = FIXTURE_GROUND_M;
-    assert_true(path_change_grounded(&respond, jet));
+    assert_true(path_change_grounded(&context, jet));
     /* Its driver's steering counts until an answer has turned it otherwise. */
     e->spin_x[tank] = e->spin_z[tank] = 1.0;
     e->heading[tank] += 0.01;
-    struct vec3 spin = path_change_spin(&respond, tank);
+    struct vec3 spin = path_change_spin(&context, tank);
     assert_true(spin.x == 0.0 && spin.z == 0.0 && fabs(spin.y + 0.01 / DT_S) < 1e-9);
 }
 
@@ -122,15 +122,15 @@ static void test_an_answer_leaves_the_steering_to_the_driver(void **state)
 {
     (void)state;
     uint32_t tank = put("tank", 25000.0, FIXTURE_GROUND_M);
-    struct entities *e = &respond.next->entities;
+    struct entities *e = &context.next->entities;
     struct vec3 at = {25003.0, FIXTURE_GROUND_M, 25000.0};
     e->heading[tank] += 0.01;
-    struct vec3 spin = path_change_spin(&respond, tank);
+    struct vec3 spin = path_change_spin(&context, tank);
     spin.y -= 0.3; /* what an impulse adds, to the right as he steers */
-    path_change_leave(&respond, tank, 0.5, at, none, spin, false);
+    path_change_leave(&context, tank, 0.5, at, none, spin, false);
     assert_true(fabs(e->spin_y[tank] + 0.3) < 1e-9);
     assert_true(fabs(maths_wrap_half(e->heading[tank] - HALF_PI) - 0.01 - 0.15 * DT_S) < 1e-9);
-    assert_true(fabs(path_change_spin(&respond, tank).y - spin.y) < 1e-9);
+    assert_true(fabs(path_change_spin(&context, tank).y - spin.y) < 1e-9);
 }
 
 int main(void)

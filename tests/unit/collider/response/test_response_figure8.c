@@ -46,13 +46,13 @@ static uint32_t put(const char *kind, double x, double z, struct vec3 velocity)
 /* What two tanks do that meet at this angle, nose to nose along x, at these speeds. */
 static enum response meet(double angle_deg, double speed_a, double speed_b)
 {
-    struct response_context respond;
+    struct response_context context;
     struct outcome outcome = {RESPONSE_NONE, 0.0};
     steps_empty(&f);
     uint32_t a = put("tank", 20000.0, 20000.0, (struct vec3){speed_a, 0, 0});
     uint32_t b = put("tank", 20006.0, 20000.0, (struct vec3){-speed_b, 0, 0});
     steps_kind(&f, "tank")->explosive_kg = 0.0;
-    steps_respond(&f, &respond);
+    steps_respond(&f, &context);
     const struct impact impact = {.a = a,
                                   .b = b,
                                   .time = 0.5,
@@ -60,8 +60,8 @@ static enum response meet(double angle_deg, double speed_a, double speed_b)
                                   .normal = {1.0, 0.0, 0.0},
                                   .closing_mps = speed_a + speed_b,
                                   .angle_rad = angle_deg * RAD_PER_DEG};
-    response_figure8.moving(&respond, &impact, &outcome);
-    const struct entities *e = &respond.next->entities;
+    response_figure8.moving(&context, &impact, &outcome);
+    const struct entities *e = &context.next->entities;
     struct vec3 va = entities_velocity(e, a), vb = entities_velocity(e, b);
     bool wrecks = e->state[a] == ENTITY_WRECK && e->state[b] == ENTITY_WRECK;
     switch (outcome.response) {
@@ -76,7 +76,7 @@ static enum response meet(double angle_deg, double speed_a, double speed_b)
         assert_true(va.x <= 0.0 && vb.x >= 0.0);
         assert_true(vec3_length(va) < speed_a && vec3_length(vb) < speed_b);
     }
-    steps_respond_end(&respond);
+    steps_respond_end(&context);
     return outcome.response;
 }
 
@@ -147,26 +147,26 @@ struct meeting {
 /* A tank and a jeep meet at this angle, nose to nose along x. */
 static struct meeting mixed(double angle_deg, double speed_tank, double speed_jeep, bool swapped)
 {
-    struct response_context respond;
+    struct response_context context;
     struct outcome outcome = {RESPONSE_NONE, 0.0};
     steps_empty(&f);
     uint32_t tank = put("tank", 20000.0, 20000.0, (struct vec3){speed_tank, 0, 0});
     uint32_t jeep = put("jeep", 20006.0, 20000.0, (struct vec3){-speed_jeep, 0, 0});
-    steps_respond(&f, &respond);
+    steps_respond(&f, &context);
     const struct impact impact = {.a = swapped ? jeep : tank,
                                   .b = swapped ? tank : jeep,
                                   .time = 0.5,
                                   .normal = {swapped ? -1.0 : 1.0, 0.0, 0.0},
                                   .closing_mps = speed_tank + speed_jeep,
                                   .angle_rad = angle_deg * RAD_PER_DEG};
-    response_figure8.moving(&respond, &impact, &outcome);
-    const struct entities *e = &respond.next->entities;
+    response_figure8.moving(&context, &impact, &outcome);
+    const struct entities *e = &context.next->entities;
     struct meeting met = {.response = outcome.response,
                           .speed_tank = vec3_length(entities_velocity(e, tank)),
                           .speed_jeep = vec3_length(entities_velocity(e, jeep)),
                           .harm_jeep = e->harm_j[jeep],
                           .damage_jeep = (enum damage)e->damage[jeep]};
-    steps_respond_end(&respond);
+    steps_respond_end(&context);
     return met;
 }
 
@@ -236,7 +236,7 @@ static void test_row_30_the_larger_mass_hurts_the_smaller_more(void **state)
     double before = 0.0;
     (void)state;
     for (double mass = 100.0; mass <= 1e6; mass *= 10.0) {
-        struct response_context respond;
+        struct response_context context;
         struct outcome outcome;
         steps_empty(&f);
         steps_kind(&f, "tank")->mass_kg = mass;
@@ -244,18 +244,18 @@ static void test_row_30_the_larger_mass_hurts_the_smaller_more(void **state)
         steps_kind(&f, "tank")->resistance_j = steps_kind(&f, "jeep")->resistance_j = 1e12;
         uint32_t tank = put("tank", 20000.0, 20000.0, (struct vec3){5.0, 0, 0});
         uint32_t jeep = put("jeep", 20004.6, 20000.0, (struct vec3){-5.0, 0, 0});
-        steps_respond(&f, &respond);
+        steps_respond(&f, &context);
         const struct impact impact = {
             .a = tank, .b = jeep, .normal = {1, 0, 0}, .closing_mps = 10.0, .angle_rad = PI};
-        response_figure8.moving(&respond, &impact, &outcome);
-        const struct entities *e = &respond.next->entities;
+        response_figure8.moving(&context, &impact, &outcome);
+        const struct entities *e = &context.next->entities;
         if (mass > 1000.0)
             assert_true(e->harm_j[jeep] > e->harm_j[tank]);
         if (mass < 1000.0)
             assert_true(e->harm_j[jeep] < e->harm_j[tank]);
         assert_true(e->harm_j[jeep] > before);
         before = e->harm_j[jeep];
-        steps_respond_end(&respond);
+        steps_respond_end(&context);
     }
 }
 
@@ -271,7 +271,7 @@ struct aftermath {
 /* A body of this mass runs into the tree (0) or the building (1) at this speed. */
 static struct aftermath strike(uint32_t object, double mass_kg, double speed_mps)
 {
-    struct response_context respond;
+    struct response_context context;
     struct outcome outcome = {RESPONSE_NONE, 0.0};
     const struct fixed_object *fixed = &f.view.world.fixed[object];
     steps_empty(&f);
@@ -279,15 +279,15 @@ static struct aftermath strike(uint32_t object, double mass_kg, double speed_mps
     steps_kind(&f, "tank")->resistance_j = 1e12;
     uint32_t row = put("tank", fixed->x - 3.0 - (double)fixed->radius_m, fixed->z,
                        (struct vec3){speed_mps, 0, 0});
-    steps_respond(&f, &respond);
+    steps_respond(&f, &context);
     const struct impact impact = {
         .a = row, .b = object | PAIR_FIXED, .normal = {1, 0, 0}, .closing_mps = speed_mps};
-    response_figure8.fixed(&respond, &impact, &outcome);
-    const struct entities *e = &respond.next->entities;
-    struct aftermath struck = {outcome.response, (enum damage)respond.next->fixed_damage[object],
+    response_figure8.fixed(&context, &impact, &outcome);
+    const struct entities *e = &context.next->entities;
+    struct aftermath struck = {outcome.response, (enum damage)context.next->fixed_damage[object],
                                (enum entity_state)e->state[row],
                                vec3_length(entities_velocity(e, row)), e->harm_j[row]};
-    steps_respond_end(&respond);
+    steps_respond_end(&context);
     return struck;
 }
 

@@ -18,7 +18,7 @@ static void test_row_42_platforms_that_meet_are_both_destroyed(void **state)
     (void)state;
     fixture_open(&f, "");
     for (int n = 0; n < 9; n++) {
-        struct response_context respond;
+        struct response_context context;
         struct outcome outcome = {RESPONSE_NONE, 0.0};
         steps_empty(&f);
         uint32_t ship = fixture_put(&f, (struct fixture_entity){.kind = "ship",
@@ -27,23 +27,23 @@ static void test_row_42_platforms_that_meet_are_both_destroyed(void **state)
         uint32_t jeep = fixture_put(&f, (struct fixture_entity){.kind = "jeep",
                                                                 .at = {20050.0, 100.0, 20000.0},
                                                                 .velocity = {-1.0, 0.0, 0.0}});
-        steps_respond(&f, &respond);
+        steps_respond(&f, &context);
         const struct impact impact = {.a = ship,
                                       .b = jeep,
                                       .time = 1.0,
                                       .normal = {1.0, 0.0, 0.0},
                                       .closing_mps = speeds[n / 3] + 1.0,
                                       .angle_rad = angles_deg[n % 3] * RAD_PER_DEG};
-        response_mps.moving(&respond, &impact, &outcome);
-        const struct entities *e = &respond.next->entities;
+        response_mps.moving(&context, &impact, &outcome);
+        const struct entities *e = &context.next->entities;
         assert_int_equal(outcome.response, RESPONSE_DESTROYED);
         assert_int_equal(e->state[ship], ENTITY_WRECK);
         assert_int_equal(e->state[jeep], ENTITY_WRECK);
         assert_true(vec3_length(entities_velocity(e, ship)) == 0.0);
         assert_true(vec3_length(entities_velocity(e, jeep)) == 0.0);
         assert_true(e->x[ship] == 20000.0 && e->x[jeep] == 20050.0);
-        assert_int_equal(respond.next->head->tally.destroyed, 2);
-        steps_respond_end(&respond);
+        assert_int_equal(context.next->head->tally.destroyed, 2);
+        steps_respond_end(&context);
     }
     fixture_close(&f);
 }
