@@ -1,6 +1,6 @@
-/* Back-pressure: recorder.when_full = "pause". Pauses the world before the event ring overwrites
- * what is not written yet, and lets it go on when all is. Both are commands, by a ring of the
- * recorder's own, so that a replay has them too. */
+/* Back-pressure, for recorder.when_full = "pause": pauses the world before the event ring
+ * overwrites an event that is not written yet, and resumes it when every event is written. Both are
+ * commands, sent by the recorder's own ring, so that a replay contains them. */
 #ifndef JOLON_RECORDER_BACK_PRESSURE_H
 #define JOLON_RECORDER_BACK_PRESSURE_H
 
@@ -12,19 +12,20 @@
 #define BACK_PRESSURE_SOURCE 0x7265636f72646572u /* "recorder" */
 
 struct back_pressure {
-    bool on;                    /* the scenario asks for it */
-    struct event_cursor cursor; /* to see who pauses and resumes */
+    bool on;                    /* the scenario has when_full = "pause" */
+    struct event_cursor cursor; /* finds the commands that pause and resume */
     uint32_t holder;            /* ring that holds the world paused; COMMAND_RING_COUNT: none */
 };
 
-/* Looks through the ring for who holds the world: a recorder before this one may have. */
+/* Reads the ring to find which ring holds the world paused. An earlier recorder may have paused
+ * it. */
 void back_pressure_open(struct back_pressure *pressure, const struct view *view);
 
-/* written: the oldest event that is not safe in every log. Never blocks. A pause that somebody else
- * wants too is not ended here. */
-void back_pressure_turn(struct back_pressure *pressure, struct view *view, uint64_t written);
+/* Pauses or resumes the world if that is due. written: the oldest event that is missing from a log.
+ * Does not block. A pause that another ring has asked for is not ended. */
+void back_pressure_update(struct back_pressure *pressure, struct view *view, uint64_t written);
 
-/* Does the recorder hold the world paused? */
+/* Returns true if the recorder holds the world paused. */
 bool back_pressure_holds(const struct back_pressure *pressure);
 
 #endif

@@ -8,7 +8,7 @@
 #include <errno.h>
 #include <inttypes.h>
 
-#define TELL_NS (10 * (uint64_t)NS_PER_S)
+#define WARN_INTERVAL_NS (10 * (uint64_t)NS_PER_S)
 
 static uint64_t next_multiple(uint64_t frame, uint64_t every)
 {
@@ -47,7 +47,7 @@ void checkpoint_close(struct checkpoint *checkpoint)
 static int refuse(struct checkpoint *checkpoint, const char *text)
 {
     checkpoint->failed++;
-    if (log_due(&checkpoint->warned_ns, TELL_NS))
+    if (log_due(&checkpoint->warned_ns, WARN_INTERVAL_NS))
         log_warn("checkpoint: %s; %" PRIu64 " failed so far, tries again every %" PRIu64 " frames",
                  text, checkpoint->failed, checkpoint->every);
     return -1;
@@ -71,7 +71,7 @@ int checkpoint_write(struct checkpoint *checkpoint, struct view *view)
     return 0;
 }
 
-void checkpoint_turn(struct checkpoint *checkpoint, struct view *view)
+void checkpoint_write_if_due(struct checkpoint *checkpoint, struct view *view)
 {
     uint64_t frame = committed(view);
     if (frame < checkpoint->due)

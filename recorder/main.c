@@ -1,4 +1,4 @@
-/* jolon-recorder: writes the run's events and commands into logs that no kill can spoil, and its
+/* jolon-recorder: writes the run's events and commands into logs that a kill cannot damage, and its
  * checkpoints. */
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
@@ -11,7 +11,7 @@
 
 #define WAIT_NS (20 * (uint64_t)NS_PER_MS)
 
-/* The logs are open; what is still made and renamed are checkpoints. */
+/* The logs are open. Only checkpoints are still created and renamed. */
 static int confine(const struct recorder *recorder, const struct sandbox *sandbox,
                    struct error_text *error)
 {
@@ -31,7 +31,7 @@ int main(int argc, char **argv)
     recorder.options = options_read(argc, argv);
     process_close_inherited();
     process_signals();
-    signal(SIGXFSZ, SIG_IGN); /* a file at its limit is one that cannot be written */
+    signal(SIGXFSZ, SIG_IGN); /* a write beyond the file size limit then fails with EFBIG */
     process_die_with_parent(recorder.options.parent);
     if (sandbox_begin(&sandbox, ROLE_RECORDER, recorder.options.sandbox_off, &error) != 0 ||
         segment_attach(view, recorder.options.world, ROLE_RECORDER, &error) != 0)
@@ -44,7 +44,7 @@ int main(int argc, char **argv)
     for (;;) {
         bool last = process_stopping();
         uint64_t seen = atomic_load(&view->commit->commit);
-        if (recording_turn(&recorder, seen))
+        if (recording_step(&recorder, seen))
             continue;
         if (last)
             break;

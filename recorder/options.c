@@ -12,9 +12,10 @@ static const struct option_row rows[] = {
     OPTION_ROW_WORLD(given, NULL),
     {"commands", "FILE", "log the commands", .text = &given.commands},
     {"events", "FILE", "log the events", .text = &given.events},
-    {"checkpoint", "FILE", "keep the world in this file", .text = &given.checkpoint},
-    {"every", "FRAMES", "anew so often (default 3600: a minute at 60 Hz)", .u64 = &given.every,
-     .least = 1, .most = UINT32_MAX},
+    {"checkpoint", "FILE", "write checkpoints of the world to this file",
+     .text = &given.checkpoint},
+    {"every", "FRAMES", "frames between two checkpoints (default 3600: a minute at 60 Hz)",
+     .u64 = &given.every, .least = 1, .most = UINT32_MAX},
     OPTION_ROW_PARENT(given),
     OPTION_ROW_NO_SANDBOX(given),
     OPTION_ROWS_END};

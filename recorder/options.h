@@ -7,7 +7,7 @@
 
 struct options {
     const char *world;
-    const char *commands, *events; /* files; events NULL: no log of events */
+    const char *commands, *events; /* files; events NULL: no event log */
     const char *checkpoint;        /* NULL: none */
     uint64_t every;                /* frames between two checkpoints */
     int parent;                    /* pid to die with, 0 for none */

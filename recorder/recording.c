@@ -1,4 +1,4 @@
-/* The recorder's work: logs, checkpoints and back-pressure, one turn at a time. */
+/* The recorder's step: logs, back-pressure, checkpoints. */
 #include "recorder/recording.h"
 
 #include "ipc/process/clock.h"
@@ -20,32 +20,32 @@ void recording_open(struct recorder *recorder)
     back_pressure_open(&recorder->pressure, &recorder->view);
 }
 
-/* True when there is more to do at once. */
+/* Returns true if there is more to write at once. */
 static bool write_logs(struct recorder *recorder)
 {
     struct role_slot *slot = recorder->view.slot[ROLE_RECORDER];
-    bool more = command_log_turn(&recorder->commands, &recorder->view);
+    bool more = command_log_append(&recorder->commands, &recorder->view);
     uint64_t written = recorder->commands.written;
     if (recorder->options.events) {
         uint64_t gaps = recorder->events.gaps;
-        more |= event_log_turn(&recorder->events, &recorder->view);
+        more |= event_log_append(&recorder->events, &recorder->view);
         CRASH_POINT("gaps");
         atomic_fetch_add(&slot->gaps, recorder->events.gaps - gaps);
         if (recorder->events.written < written)
             written = recorder->events.written;
     }
-    back_pressure_turn(&recorder->pressure, &recorder->view, written);
+    back_pressure_update(&recorder->pressure, &recorder->view, written);
     return more;
 }
 
-/* The logs reach the disk with the checkpoint, so that after a crash of the machine they are not
- * behind it. */
+/* Flushes the logs to the disk after a checkpoint, so that they are not behind it after a crash of
+ * the machine. */
 static void write_checkpoint(struct recorder *recorder)
 {
     uint64_t before = recorder->checkpoint.written;
     if (!recorder->options.checkpoint)
         return;
-    checkpoint_turn(&recorder->checkpoint, &recorder->view);
+    checkpoint_write_if_due(&recorder->checkpoint, &recorder->view);
     if (recorder->checkpoint.written == before)
         return;
     (void)write_logs(recorder);
@@ -54,7 +54,7 @@ static void write_checkpoint(struct recorder *recorder)
         log_warn("the logs did not reach the disk with the checkpoint");
 }
 
-bool recording_turn(struct recorder *recorder, uint64_t frame)
+bool recording_step(struct recorder *recorder, uint64_t frame)
 {
     struct role_slot *slot = recorder->view.slot[ROLE_RECORDER];
     uint64_t begun_ns = clock_now_ns();
@@ -67,8 +67,8 @@ bool recording_turn(struct recorder *recorder, uint64_t frame)
     return more;
 }
 
-/* The logs first: a checkpoint takes long on a slow disk, and a log that was stopped without its
- * end cannot be told from a killed one. */
+/* The logs are closed first. A checkpoint takes long on a slow disk, and a log without its end
+ * would look like the log of a killed recorder. */
 enum exit_code recording_close(struct recorder *recorder)
 {
     const struct options *options = &recorder->options;

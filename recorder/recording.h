@@ -1,4 +1,4 @@
-/* What the recorder keeps of a run: the log of commands, that of events, checkpoints. */
+/* What the recorder writes of a run: the command log, the event log, checkpoints. */
 #ifndef JOLON_RECORDER_RECORDING_H
 #define JOLON_RECORDER_RECORDING_H
 
@@ -18,15 +18,15 @@ struct recorder {
     struct back_pressure pressure;
 };
 
-/* Opens what the options ask for, in the view that is attached; what cannot be opened ends the
- * process with the reason. */
+/* Opens the files that the options name, for the attached view. A failure ends the process with the
+ * reason (exit 1). */
 void recording_open(struct recorder *recorder);
 
-/* One look at everything that is new at this frame. Writes; true when there is more to do at once.
- */
-bool recording_turn(struct recorder *recorder, uint64_t frame);
+/* Writes what is new at this frame. Returns true if there is more to write at once. */
+bool recording_step(struct recorder *recorder, uint64_t frame);
 
-/* Writes the ends. What could not be written is said, and is an error. */
+/* Completes and closes the files. Logs each one that is incomplete. Returns EXIT_REFUSED if a log
+ * is. */
 enum exit_code recording_close(struct recorder *recorder);
 
 #endif

@@ -1,4 +1,4 @@
-/* The folders that a set writes in. */
+/* The folders that a set of processes writes in. */
 #include "supervisor/confine.h"
 
 #include "ipc/segment/runtime_folder.h"
@@ -24,7 +24,7 @@ static void add(struct folders *folders, const char *path, size_t length)
     folders->name[folders->count++] = copy;
 }
 
-/* The folder of a file; nothing without a file. */
+/* Adds the folder of a file; does nothing if file is NULL. */
 static void add_folder_of(struct folders *folders, const char *file)
 {
     const char *slash = file ? strrchr(file, '/') : NULL;
@@ -36,10 +36,10 @@ static void add_folder_of(struct folders *folders, const char *file)
 
 static const char *video(const struct plan *plan)
 {
-    const struct passed *passed = &plan->passed[ROLE_RENDERER];
-    for (int i = 0; i + 1 < passed->count; i += 2) {
-        if (strcmp(passed->argument[i], "--video") == 0)
-            return passed->argument[i + 1];
+    const struct role_options *role_options = &plan->role_options[ROLE_RENDERER];
+    for (int i = 0; i + 1 < role_options->count; i += 2) {
+        if (strcmp(role_options->argument[i], "--video") == 0)
+            return role_options->argument[i + 1];
     }
     return NULL;
 }

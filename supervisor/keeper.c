@@ -68,23 +68,23 @@ void keeper_step(struct keeper *keeper)
     const struct timespec tick = {.tv_nsec = (long)WATCHDOG_TICK_NS};
     int signal_number = sigtimedwait(&keeper->signals, NULL, &tick);
     if (signal_number == SIGCONT)
-        process_set_hurry(&keeper->set);
+        process_set_end_pauses(&keeper->set);
     else if (signal_number > 0 && signal_number != SIGCHLD)
         keeper->over = true;
     role_exit_reap(keeper);
-    process_set_listen(&keeper->set);
+    process_set_pass_output(&keeper->set);
     if (keeper->over)
         return;
     uint64_t now = clock_now_ns();
-    watchdog_turn(&keeper->watchdog, &keeper->set, now);
+    watchdog_check(&keeper->watchdog, &keeper->set, now);
     process_set_spawn(&keeper->set, now);
     if (!keeper->plan->background && !keeper->plan->json)
-        progress_turn(&keeper->progress, &keeper->set.view);
+        progress_update(&keeper->progress, &keeper->set.view);
 }
 
 void keeper_give_up(struct keeper *keeper, int exit_code, const char *reason)
 {
     keeper->over = keeper->gave_up = true;
     keeper->exit_code = exit_code;
-    process_set_note(&keeper->set, "the set gave up: %s", reason);
+    process_set_log(&keeper->set, "the set gave up: %s", reason);
 }

@@ -17,10 +17,10 @@
 
 /* Returns true if the role is still to be waited for: it is wanted, has not refused, and does not
  * die again and again. */
-static bool still_starting(const struct post *post)
+static bool still_starting(const struct service *service)
 {
-    return post->wanted > 0 && post->refused[0] == '\0' &&
-           post->history.quick_crashes < RESTART_POLICY_QUICK_CRASHES;
+    return service->wanted > 0 && service->refused[0] == '\0' &&
+           service->history.quick_crashes < RESTART_POLICY_QUICK_CRASHES;
 }
 
 static void start_role(struct keeper *keeper, enum role role)
@@ -28,11 +28,11 @@ static void start_role(struct keeper *keeper, enum role role)
     struct process_set *set = &keeper->set;
     uint64_t until = clock_now_ns() + READY_NS;
     process_set_spawn(set, clock_now_ns());
-    while (!keeper->over && !process_set_ready(set, role) && still_starting(&set->post[role])) {
+    while (!keeper->over && !process_set_ready(set, role) && still_starting(&set->service[role])) {
         keeper_step(keeper);
         if (clock_now_ns() > until) {
-            process_set_note(set, "the %s is not ready after %.0f s; goes on meanwhile",
-                             role_name(role), (double)READY_NS / 1e9);
+            process_set_log(set, "the %s is not ready after %.0f s; goes on meanwhile",
+                            role_name(role), (double)READY_NS / 1e9);
             return;
         }
     }
@@ -47,17 +47,17 @@ static void start_set(struct keeper *keeper)
     int wanted[ROLE_COUNT];
     keeper->starting = true;
     for (int i = 0; i < ROLE_COUNT; i++) {
-        wanted[i] = set->post[i].wanted;
-        set->post[i].wanted = 0;
+        wanted[i] = set->service[i].wanted;
+        set->service[i].wanted = 0;
     }
     for (int i = 0; i < count && !keeper->over; i++) {
-        set->post[order[i]].wanted = wanted[order[i]];
+        set->service[order[i]].wanted = wanted[order[i]];
         start_role(keeper, order[i]);
     }
     /* From now on each frame role has a stand-by process. */
     for (int i = 0; i < ROLE_COUNT && !keeper->over; i++) {
         if (role_has((enum role)i, ROLE_MAKES_FRAMES))
-            set->post[i].wanted = PROCESS_SET_CHILDREN;
+            set->service[i].wanted = PROCESS_SET_CHILDREN;
     }
     keeper->starting = false;
 }
@@ -75,8 +75,8 @@ static void stop_set(struct keeper *keeper)
         if (keeper->plan->left_out[ROLE_RECORDER] ||
             process_set_finish(&keeper->set, ROLE_RECORDER) == EXIT_OK)
             continue;
-        process_set_note(&keeper->set, "the recorder could not write all: see its last lines in %s",
-                         keeper->plan->log);
+        process_set_log(&keeper->set, "the recorder could not write all: see its last lines in %s",
+                        keeper->plan->log);
         if (keeper->exit_code == EXIT_OK)
             keeper->exit_code = EXIT_REFUSED;
     }
@@ -89,10 +89,10 @@ static void remove_world(const struct keeper *keeper)
     const char *world = keeper->plan->world;
     if (keeper->gave_up && keeper->begun_frame > 0 &&
         process_set_frame(&keeper->set) == keeper->begun_frame)
-        process_set_note(&keeper->set, "world \"%s\" stays at frame %" PRIu64, world,
-                         keeper->begun_frame);
+        process_set_log(&keeper->set, "world \"%s\" stays at frame %" PRIu64, world,
+                        keeper->begun_frame);
     else if (segment_remove_own(world, &error) != 0) /* a process still holds a role */
-        process_set_note(&keeper->set, "%s", error.text);
+        process_set_log(&keeper->set, "%s", error.text);
 }
 
 int main(int argc, char **argv)

@@ -8,28 +8,29 @@
 
 static struct plan plan = {.world = "default", .threads = "1"};
 
-/* Options that a role reads itself, and says what is wrong with them. */
-static const struct passing {
+/* Options that are passed on to a role. The role checks their values. */
+static const struct passed_option {
     const char *name;
     enum role role;
-    const char *argument; /* NULL: it takes none */
-    const char *as;       /* the role's name for it */
-} passing[] = {{"fps", ROLE_RENDERER, "F", "--fps"},
-               {"video", ROLE_RENDERER, "FILE", "--video"},
-               {"video-view", ROLE_RENDERER, "V", "--video-view"},
-               {"video-fps", ROLE_RENDERER, "F", "--video-fps"},
-               {"stream", ROLE_RENDERER, "PORT", "--stream"},
-               {"stream-address", ROLE_RENDERER, "A", "--stream-address"},
-               {"interface", ROLE_REPORTER, "A", "--interface"},
-               {"domain", ROLE_REPORTER, "N", "--domain"},
-               {"dds-config", ROLE_REPORTER, "FILE", "--dds-config"},
-               {"remote-commands", ROLE_REPORTER, NULL, "--remote-commands"},
-               {"console", ROLE_CONSOLE, "PORT", "--port"}, /* asks for a console at all */
-               {"console-address", ROLE_CONSOLE, "A", "--address"},
-               {"console-token", ROLE_CONSOLE, "FILE", "--token-file"}};
-#define PASSINGS (sizeof passing / sizeof passing[0])
+    const char *argument; /* name of its value; NULL: it takes none */
+    const char *as;       /* name of the role's option */
+} passed_options[] = {
+    {"fps", ROLE_RENDERER, "F", "--fps"},
+    {"video", ROLE_RENDERER, "FILE", "--video"},
+    {"video-view", ROLE_RENDERER, "V", "--video-view"},
+    {"video-fps", ROLE_RENDERER, "F", "--video-fps"},
+    {"stream", ROLE_RENDERER, "PORT", "--stream"},
+    {"stream-address", ROLE_RENDERER, "A", "--stream-address"},
+    {"interface", ROLE_REPORTER, "A", "--interface"},
+    {"domain", ROLE_REPORTER, "N", "--domain"},
+    {"dds-config", ROLE_REPORTER, "FILE", "--dds-config"},
+    {"remote-commands", ROLE_REPORTER, NULL, "--remote-commands"},
+    {"console", ROLE_CONSOLE, "PORT", "--port"}, /* only this option starts a console */
+    {"console-address", ROLE_CONSOLE, "A", "--address"},
+    {"console-token", ROLE_CONSOLE, "FILE", "--token-file"}};
+#define PASSED_OPTIONS (sizeof passed_options / sizeof passed_options[0])
 
-static const char *passed_value[PASSINGS]; /* NULL: not given */
+static const char *passed_value[PASSED_OPTIONS]; /* NULL: not given */
 
 static int leave_out(const char *name, struct error_text *error)
 {
@@ -57,33 +58,34 @@ static const struct option_row rows[] = {
     {"no-sandbox", NULL, NULL, .flag = &plan.sandbox_off},
     OPTION_ROWS_END};
 
-static void pass_on(const struct passing *option, const char *value)
+static void pass_on(const struct passed_option *option, const char *value)
 {
-    struct passed *passed = &plan.passed[option->role];
+    struct role_options *role_options = &plan.role_options[option->role];
     plan.console |= strcmp(option->name, "console") == 0;
-    passed->argument[passed->count++] = option->as;
+    role_options->argument[role_options->count++] = option->as;
     if (option->argument)
-        passed->argument[passed->count++] = value;
+        role_options->argument[role_options->count++] = value;
 }
 
 struct plan options_plan(int argc, char **argv)
 {
-    static struct option_row passed_rows[PASSINGS + 1];
+    static struct option_row passed_rows[PASSED_OPTIONS + 1];
     static const struct option_table table = {
         .program = "jolon-keeper",
         .usage = "--out DIR --log FILE --commands FILE --hang-ms N [options]\n"
                  "The keeper of a world's processes; jolon run and jolon start turn into it.",
         .rows = rows,
         .more = passed_rows};
-    for (size_t i = 0; i < PASSINGS; i++)
-        passed_rows[i] = (struct option_row){
-            .name = passing[i].name, .argument = passing[i].argument, .text = &passed_value[i]};
+    for (size_t i = 0; i < PASSED_OPTIONS; i++)
+        passed_rows[i] = (struct option_row){.name = passed_options[i].name,
+                                             .argument = passed_options[i].argument,
+                                             .text = &passed_value[i]};
     option_table_read(&table, argc, argv);
     if (!plan.out || !plan.log || !plan.commands || plan.hang_ms == 0)
         die_usage("jolon-keeper is started by jolon, with --out, --log, --commands and --hang-ms");
-    for (size_t i = 0; i < PASSINGS; i++) {
+    for (size_t i = 0; i < PASSED_OPTIONS; i++) {
         if (passed_value[i])
-            pass_on(&passing[i], passed_value[i]);
+            pass_on(&passed_options[i], passed_value[i]);
     }
     return plan;
 }

@@ -4,7 +4,7 @@
 
 #include "supervisor/process_set.h"
 
-/* Wrong usage ends the process (exit 2). */
+/* Reads the options. Wrong usage ends the process (exit 2). */
 struct plan options_plan(int argc, char **argv);
 
 #endif

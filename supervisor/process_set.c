@@ -1,4 +1,4 @@
-/* Starting and ending the processes of a set. */
+/* Starts and ends the processes of a set. */
 #include "supervisor/process_set.h"
 
 #include "ipc/process/clock.h"
@@ -23,7 +23,7 @@
 #define ARGUMENTS_MAX 40
 #define STOP_NS       (5 * (uint64_t)NS_PER_S) /* a child that takes longer to end is killed */
 #define POLL_NS       (5 * (uint64_t)NS_PER_MS)
-#define FINISH_NS     (10 * (uint64_t)NS_PER_S) /* for a role's last work to be begun */
+#define FINISH_NS     (10 * (uint64_t)NS_PER_S) /* for a role's last work to begin */
 
 int process_set_open(struct process_set *set, const struct plan *plan, struct error_text *error)
 {
@@ -39,9 +39,9 @@ int process_set_open(struct process_set *set, const struct plan *plan, struct er
     enum role order[ROLE_COUNT];
     int count = role_order(order, false);
     for (int i = 0; i < ROLE_COUNT; i++)
-        set->post[i].role = (enum role)i;
+        set->service[i].role = (enum role)i;
     for (int i = 0; i < count; i++)
-        set->post[order[i]].wanted =
+        set->service[order[i]].wanted =
             order[i] == ROLE_CONSOLE ? plan->console : !plan->left_out[order[i]];
     return segment_attach(&set->view, plan->world, ROLE_NONE, error);
 }
@@ -51,14 +51,14 @@ uint64_t process_set_frame(const struct process_set *set)
     return atomic_load(&set->view.commit->commit);
 }
 
-/* A terminal that was told to wait, or a pipe that nobody empties, must not hold the keeper up. */
-bool process_set_heard(void)
+/* A stopped terminal or a full pipe must not block the keeper. */
+bool process_set_stderr_writable(void)
 {
     struct pollfd out = {.fd = STDERR_FILENO, .events = POLLOUT};
     return poll(&out, 1, 0) == 1 && (out.revents & POLLOUT) != 0;
 }
 
-void process_set_note(const struct process_set *set, const char *format, ...)
+void process_set_log(const struct process_set *set, const char *format, ...)
 {
     char text[8192], stamp[16];
     va_list args;
@@ -70,7 +70,7 @@ void process_set_note(const struct process_set *set, const char *format, ...)
     localtime_r(&now, &local);
     strftime(stamp, sizeof stamp, "%H:%M:%S", &local);
     dprintf(set->log_fd, "%s supervisor: %s\n", stamp, text);
-    if (!set->plan->background && process_set_heard())
+    if (!set->plan->background && process_set_stderr_writable())
         fprintf(stderr, "jolon: %s\n", text);
 }
 
@@ -89,7 +89,7 @@ static void add(struct command_line *line, const char *option, const char *value
         line->argument[line->count++] = value;
 }
 
-/* What a role is started with, beside its program. */
+/* The options of a role's program. */
 static void role_arguments(struct command_line *line, const struct plan *plan, enum role role)
 {
     switch (role) {
@@ -115,13 +115,13 @@ static void role_arguments(struct command_line *line, const struct plan *plan, e
     default:
         break;
     }
-    for (int i = 0; i < plan->passed[role].count; i++)
-        add(line, NULL, plan->passed[role].argument[i]);
+    for (int i = 0; i < plan->role_options[role].count; i++)
+        add(line, NULL, plan->role_options[role].argument[i]);
 }
 
-/* The child's part: a session of its own, so that Ctrl-C reaches it through us, in our order; and
- * signals as a program expects them. */
-_Noreturn static void become(const char *path, const char *const *arguments, int output)
+/* Runs in the child. Sets default signals. A session of its own keeps Ctrl-C of the terminal away:
+ * the keeper ends the roles in its own order. */
+_Noreturn static void exec_child(const char *path, const char *const *arguments, int output)
 {
     sigset_t none;
     sigemptyset(&none);
@@ -130,15 +130,15 @@ _Noreturn static void become(const char *path, const char *const *arguments, int
     sigprocmask(SIG_SETMASK, &none, NULL);
     setsid();
     if (output < 0 || (dup2(output, STDOUT_FILENO) >= 0 && dup2(output, STDERR_FILENO) >= 0))
-        /* execv's argv is not const for historical reasons alone. */
+        /* execv() does not change argv; its type lacks const for historical reasons */
         execv(path, (char *const *)(uintptr_t)arguments);
     dprintf(STDERR_FILENO, "%s: cannot be started: %s\n", arguments[0], strerror(errno));
     _exit(EXIT_REFUSED);
 }
 
-/* Starts a program, whose words go to output (-1: where ours go); 0 when there can be no process
- * now. Not by posix_spawn, which waits for the
- * child to get as far as exec: on a busy machine nobody would be watched meanwhile. */
+/* Starts a program whose output goes to a descriptor (-1: the keeper's own). Returns its pid, or 0
+ * if no process can be created now. Not by posix_spawn(), which waits until the child calls exec:
+ * on a busy machine the watchdog would stand still meanwhile. */
 static int start(const struct process_set *set, const char *program, const char *const *arguments,
                  int output)
 {
@@ -146,28 +146,29 @@ static int start(const struct process_set *set, const char *program, const char 
     snprintf(path, sizeof path, "%s/%s", set->folder, program);
     pid_t pid = fork();
     if (pid == 0)
-        become(path, arguments, output);
+        exec_child(path, arguments, output);
     if (pid < 0)
-        process_set_note(set, "%s: cannot be started: %s", program, strerror(errno));
+        process_set_log(set, "%s: cannot be started: %s", program, strerror(errno));
     return pid > 0 ? (int)pid : 0;
 }
 
-static void spawn(struct process_set *set, struct post *post, struct child *child, bool stand_by)
+static void spawn(struct process_set *set, struct service *service, struct child *child,
+                  bool stand_by)
 {
     char program[32], parent[16];
     struct command_line line = {0};
-    snprintf(program, sizeof program, "jolon-%s", role_name(post->role));
+    snprintf(program, sizeof program, "jolon-%s", role_name(service->role));
     snprintf(parent, sizeof parent, "%d", (int)getpid());
     add(&line, NULL, program);
-    role_arguments(&line, set->plan, post->role);
+    role_arguments(&line, set->plan, service->role);
     add(&line, "--world", set->plan->world);
     add(&line, "--parent", parent);
     if (stand_by)
         add(&line, "--stand-by", NULL);
     if (set->plan->sandbox_off)
         add(&line, "--no-sandbox", NULL);
-    words_end(&post->words, set->log_fd, true);
-    int held_back = post->refused[0] != '\0' ? words_open(&post->words) : -1;
+    held_output_close(&service->held, set->log_fd, true);
+    int held_back = service->refused[0] != '\0' ? held_output_open(&service->held) : -1;
     int output = held_back >= 0 ? held_back : set->log_fd;
     *child = (struct child){.pid = start(set, program, line.argument, output),
                             .spawned_ns = clock_now_ns(),
@@ -179,34 +180,34 @@ static void spawn(struct process_set *set, struct post *post, struct child *chil
 void process_set_spawn(struct process_set *set, uint64_t now_ns)
 {
     for (int i = 0; i < ROLE_COUNT; i++) {
-        struct post *post = &set->post[i];
-        for (int j = 0; j < post->wanted && now_ns >= post->spawn_at_ns; j++) {
-            if (post->child[j].pid == 0)
-                spawn(set, post, &post->child[j], post->wanted > 1);
-            if (post->child[j].pid == 0)
-                post->spawn_at_ns = now_ns + NS_PER_S;
+        struct service *service = &set->service[i];
+        for (int j = 0; j < service->wanted && now_ns >= service->spawn_at_ns; j++) {
+            if (service->child[j].pid == 0)
+                spawn(set, service, &service->child[j], service->wanted > 1);
+            if (service->child[j].pid == 0)
+                service->spawn_at_ns = now_ns + NS_PER_S;
         }
     }
 }
 
-void process_set_hurry(struct process_set *set)
+void process_set_end_pauses(struct process_set *set)
 {
     for (int i = 0; i < ROLE_COUNT; i++)
-        set->post[i].spawn_at_ns = 0;
+        set->service[i].spawn_at_ns = 0;
 }
 
-void process_set_listen(struct process_set *set)
+void process_set_pass_output(struct process_set *set)
 {
     for (int i = 0; i < ROLE_COUNT; i++)
-        words_take(&set->post[i].words, set->log_fd, process_set_ready(set, (enum role)i));
+        held_output_read(&set->service[i].held, set->log_fd, process_set_ready(set, (enum role)i));
 }
 
 struct child *process_set_holder(struct process_set *set, enum role role)
 {
     int pid = (int)atomic_load(&set->view.slot[role]->pid);
     for (int j = 0; j < PROCESS_SET_CHILDREN; j++) {
-        if (pid != 0 && set->post[role].child[j].pid == pid)
-            return &set->post[role].child[j];
+        if (pid != 0 && set->service[role].child[j].pid == pid)
+            return &set->service[role].child[j];
     }
     return NULL;
 }
@@ -216,22 +217,22 @@ bool process_set_ready(struct process_set *set, enum role role)
     return process_set_holder(set, role) && atomic_load(&set->view.slot[role]->state) == ROLE_READY;
 }
 
-bool process_set_kept(const struct post *post)
+bool process_set_has_live_child(const struct service *service)
 {
     for (int j = 0; j < PROCESS_SET_CHILDREN; j++) {
-        if (post->child[j].pid != 0 && post->child[j].stopped_ns == 0)
+        if (service->child[j].pid != 0 && service->child[j].stopped_ns == 0)
             return true;
     }
     return false;
 }
 
-struct post *process_set_find(struct process_set *set, int pid, struct child **child)
+struct service *process_set_find(struct process_set *set, int pid, struct child **child)
 {
     for (int i = 0; i < ROLE_COUNT; i++) {
         for (int j = 0; j < PROCESS_SET_CHILDREN; j++) {
-            *child = &set->post[i].child[j];
+            *child = &set->service[i].child[j];
             if ((*child)->pid == pid)
-                return &set->post[i];
+                return &set->service[i];
         }
     }
     *child = NULL;
@@ -240,13 +241,13 @@ struct post *process_set_find(struct process_set *set, int pid, struct child **c
 
 /* --- ending ------------------------------------------------------------------------------------*/
 
-int process_set_status(int status)
+int process_set_exit_status(int status)
 {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-/* Sends the signal, again and again: one that comes just before a child blocks is not heard by it.
- * Waits for its death at most until until_ns. Its status, -1 when it lives on. */
+/* Sends the signal repeatedly, as a child misses a signal that arrives just before it blocks. Waits
+ * for its death at most until until_ns. Returns its exit status, -1 if it still lives. */
 static int end(struct child *child, int signal_number, uint64_t until_ns)
 {
     int status = 0;
@@ -256,7 +257,7 @@ static int end(struct child *child, int signal_number, uint64_t until_ns)
         pid_t dead = waitpid(child->pid, &status, WNOHANG);
         if (dead == child->pid || (dead < 0 && errno == ECHILD)) {
             *child = (struct child){0};
-            return process_set_status(status);
+            return process_set_exit_status(status);
         }
         uint64_t now = clock_now_ns();
         if (now >= until_ns)
@@ -268,7 +269,7 @@ static int end(struct child *child, int signal_number, uint64_t until_ns)
 void process_set_kill(struct process_set *set, enum role role)
 {
     for (int j = 0; j < PROCESS_SET_CHILDREN; j++) {
-        struct child *child = &set->post[role].child[j];
+        struct child *child = &set->service[role].child[j];
         if (child->pid != 0)
             (void)end(child, SIGKILL, UINT64_MAX);
     }
@@ -276,42 +277,42 @@ void process_set_kill(struct process_set *set, enum role role)
 
 int process_set_stop(struct process_set *set, enum role role)
 {
-    struct post *post = &set->post[role];
+    struct service *service = &set->service[role];
     uint64_t until = clock_now_ns() + STOP_NS;
     int status = 0;
-    post->wanted = 0;
-    /* Whoever stands by ends first: else the role would only change hands. */
+    service->wanted = 0;
+    /* The stand-by process ends first; otherwise it would take the role. */
     for (int turn = 0; turn < 2; turn++) {
         for (int j = 0; j < PROCESS_SET_CHILDREN; j++) {
-            struct child *child = &post->child[j];
+            struct child *child = &service->child[j];
             if (child->pid == 0 || (turn == 0 && process_set_holder(set, role) == child))
                 continue;
             int pid = child->pid;
             status = end(child, SIGTERM, until);
             if (status >= 0)
                 continue;
-            process_set_note(set, "%s (pid %d) did not stop in %.0f s: killed", role_name(role),
-                             pid, (double)STOP_NS / 1e9);
+            process_set_log(set, "%s (pid %d) did not stop in %.0f s: killed", role_name(role), pid,
+                            (double)STOP_NS / 1e9);
             status = end(child, SIGKILL, UINT64_MAX);
         }
     }
-    words_end(&post->words, set->log_fd, true);
+    held_output_close(&service->held, set->log_fd, true);
     return status;
 }
 
-/* Starts the role's process if there is none, and waits until it is up, so that it hears a request
- * to stop. Its exit status when it died first, -1 when it did not. */
-static int await_ready(struct process_set *set, struct post *post, uint64_t until_ns)
+/* Starts the role's process if there is none, and waits until it is ready, so that it handles a
+ * request to stop. Returns its exit status if it died first, else -1. */
+static int await_ready(struct process_set *set, struct service *service, uint64_t until_ns)
 {
-    struct child *child = &post->child[0];
+    struct child *child = &service->child[0];
     int status = -1;
-    post->wanted = 1;
-    post->spawn_at_ns = 0;
-    while (status < 0 && clock_now_ns() < until_ns && !process_set_ready(set, post->role)) {
+    service->wanted = 1;
+    service->spawn_at_ns = 0;
+    while (status < 0 && clock_now_ns() < until_ns && !process_set_ready(set, service->role)) {
         uint64_t next = clock_now_ns() + POLL_NS;
         process_set_spawn(set, clock_now_ns());
         if (child->pid != 0)
-            status = end(child, 0, next); /* no signal: only looks whether it lives */
+            status = end(child, 0, next); /* signal 0 only checks whether it lives */
         else
             clock_sleep_until_ns(next);
     }
@@ -320,16 +321,16 @@ static int await_ready(struct process_set *set, struct post *post, uint64_t unti
 
 int process_set_finish(struct process_set *set, enum role role)
 {
-    struct post *post = &set->post[role];
+    struct service *service = &set->service[role];
     uint64_t until = clock_now_ns() + FINISH_NS;
     int status;
     do {
-        status = await_ready(set, post, until);
-        if (post->child[0].pid != 0)
+        status = await_ready(set, service, until);
+        if (service->child[0].pid != 0)
             status = process_set_stop(set, role);
-        post->wanted = 0;
+        service->wanted = 0;
     } while (status != EXIT_OK && !restart_policy_refused(status) && clock_now_ns() < until);
-    words_end(&post->words, set->log_fd, true);
+    held_output_close(&service->held, set->log_fd, true);
     return status;
 }
 
@@ -342,5 +343,5 @@ int process_set_run(const struct process_set *set, const char *program,
         return EXIT_REFUSED;
     while (waitpid(pid, &status, 0) < 0 && errno == EINTR)
         continue;
-    return process_set_status(status);
+    return process_set_exit_status(status);
 }

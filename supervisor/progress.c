@@ -1,4 +1,4 @@
-/* Frame, time, counts and speed on one line. */
+/* Prints frame, time, counts and speed on one line. */
 #include "supervisor/progress.h"
 
 #include "ipc/process/clock.h"
@@ -31,9 +31,9 @@ static void show(const struct progress *progress, const struct view *view)
     fflush(stderr);
 }
 
-void progress_turn(struct progress *progress, const struct view *view)
+void progress_update(struct progress *progress, const struct view *view)
 {
-    if (process_set_heard() &&
+    if (process_set_stderr_writable() &&
         log_due(&progress->shown_ns, progress->live ? NS_PER_S / 4 : 5 * (uint64_t)NS_PER_S))
         show(progress, view);
 }

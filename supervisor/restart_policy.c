@@ -1,20 +1,20 @@
-/* The rules that a death is judged by. */
+/* The rules of the restart policy. */
 #include "supervisor/restart_policy.h"
 
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 
 #define STATUS_KILLED  (128 + 9)
-#define FREE_RESTARTS  8u /* kills from outside that cost no wait */
+#define FREE_RESTARTS  8u /* kills from outside without a pause */
 #define FIRST_PAUSE_NS (50 * (uint64_t)NS_PER_MS)
-#define LONG_LIFE_NS   (5 * (uint64_t)NS_PER_S) /* of a role that makes no frames */
+#define LONG_LIFE_NS   (5 * (uint64_t)NS_PER_S) /* of a role outside the frame loop */
 
 bool restart_policy_refused(int status)
 {
     return status == EXIT_REFUSED || status == EXIT_USAGE;
 }
 
-/* The deaths up to free cost no pause; from then on the pause doubles with each. */
+/* The first deaths, up to free, cost no pause. After that the pause doubles with each death. */
 static uint64_t pause_after(enum role role, uint32_t deaths, uint32_t free)
 {
     uint64_t most = role_has(role, ROLE_MAKES_FRAMES) ? RESTART_POLICY_FRAME_PAUSE_MAX_NS
@@ -30,8 +30,8 @@ static enum verdict give_up_after(enum role role, uint32_t deaths, uint32_t most
     return role_has(role, ROLE_MAKES_FRAMES) && deaths >= most ? VERDICT_GIVE_UP : VERDICT_RESTART;
 }
 
-/* A kill from outside, or a request to stop that was not ours, says nothing about the frame, and
- * little about the role. */
+/* A kill from outside, or a request to stop that the keeper did not send, is no fault of the frame,
+ * and hardly one of the role. */
 static enum verdict killed(struct history *history, const struct death *death, uint64_t *delay_ns)
 {
     history->quick_kills++;
@@ -39,8 +39,8 @@ static enum verdict killed(struct history *history, const struct death *death, u
     return give_up_after(death->role, history->quick_kills, RESTART_POLICY_QUICK_KILLS);
 }
 
-/* It crashed, or it makes no frames and refused: what it refused may be put right meanwhile, as a
- * port that another has, or a full disk. */
+/* The role crashed, or it makes no frames and refused. The cause of a refusal may pass: a port in
+ * use, a full disk. */
 static enum verdict failed(struct history *history, const struct death *death, uint64_t *delay_ns)
 {
     if (role_has(death->role, ROLE_MAKES_FRAMES)) {
@@ -55,7 +55,7 @@ static enum verdict failed(struct history *history, const struct death *death, u
     return give_up_after(death->role, history->quick_crashes, RESTART_POLICY_QUICK_CRASHES);
 }
 
-/* What it got done wipes out what went before. */
+/* Work that the role has done since its start clears its earlier deaths. */
 static void forgive(struct history *history, const struct death *death)
 {
     bool frames = death->frame > death->frame_at_start;
@@ -74,7 +74,7 @@ enum verdict restart_policy_death(struct history *history, const struct death *d
     *delay_ns = 0;
     if (death->status == EXIT_OK && role_has(death->role, ROLE_MAKES_FRAMES) && death->finished)
         return VERDICT_FINISHED;
-    if (death->stood_by) { /* no frame was lost by it, and none stands for its want */
+    if (death->stood_by) { /* no frame was lost, and the role has a holder */
         *delay_ns = pause_after(death->role, ++history->stood_by, FREE_RESTARTS);
         return VERDICT_RESTART;
     }

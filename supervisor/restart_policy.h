@@ -1,7 +1,8 @@
-/* What a death means: start again, end, or give up. Pure: a history and a death in, a verdict out.
+/* Decides what follows from a death: restart, end, or give up. Pure functions of a history and a
+ * death.
  *
- * Only the mover and the collider can end a set. Every other role is started again for ever, after
- * pauses that double up to RESTART_POLICY_PAUSE_MAX_NS while it gets nothing done. */
+ * Only deaths of mover and collider can end a set. Every other role is restarted for ever. Its
+ * pauses double up to RESTART_POLICY_PAUSE_MAX_NS while it dies before it gets work done. */
 #ifndef JOLON_SUPERVISOR_RESTART_POLICY_H
 #define JOLON_SUPERVISOR_RESTART_POLICY_H
 
@@ -10,49 +11,50 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Crashes of a frame role on one frame after which that frame is poison. */
+/* After this many crashes of a frame role on one frame, that frame is poison. */
 #define RESTART_POLICY_SAME_FRAME_DEATHS 3u
-/* Crashes of a frame role in a row, without getting a frame done, after which the set gives up. */
+/* After this many crashes of a frame role in a row without a completed frame, the set gives up. */
 #define RESTART_POLICY_QUICK_CRASHES 5u
-/* The same for kills from outside: somebody's whim, or a machine that has no memory left. */
+/* The same for kills from outside: by a user, or by the kernel when memory is out. */
 #define RESTART_POLICY_QUICK_KILLS 60u
-/* Longest pause before a role that makes no frames is started again, and before one that does. */
+/* Longest pause before a restart [ns]: of other roles, and of frame roles. */
 #define RESTART_POLICY_PAUSE_MAX_NS       5000000000u
 #define RESTART_POLICY_FRAME_PAUSE_MAX_NS 1000000000u
 
 struct death {
     enum role role;
-    int status;              /* as a shell has it: exit code, or 128 + signal */
-    bool hung;               /* the keeper killed it because it hung */
-    bool stood_by;           /* another process of ours has the role */
-    bool was_ready;          /* it had the role and had said that it was up */
+    int status;              /* as a shell reports it: exit code, or 128 + signal */
+    bool hung;               /* the watchdog killed it because it hung */
+    bool stood_by;           /* another process of the set holds the role */
+    bool was_ready;          /* it held the role and had been ready */
     bool finished;           /* the run's last frame is committed */
-    uint64_t frame;          /* committed when it was found dead */
-    uint64_t frame_at_start; /* and when it was started */
+    uint64_t frame;          /* the committed frame when it was found dead */
+    uint64_t frame_at_start; /* the committed frame when it was started */
     uint64_t lived_ns;
 };
 
-/* Of one role; begin with zeros. */
+/* Deaths of one role. Start with zeros. */
 struct history {
     uint32_t quick_crashes, quick_kills; /* in a row; refusals count as crashes */
-    uint32_t stood_by;                   /* deaths in a row of who only stood by */
+    uint32_t stood_by;                   /* deaths in a row of processes that only stood by */
     uint32_t same_frame;                 /* crashes on crash_frame */
     uint64_t crash_frame;
 };
 
 enum verdict {
     VERDICT_RESTART,
-    VERDICT_FINISHED, /* it ended because the run did */
-    VERDICT_REFUSED,  /* a frame role ended with exit code 1 or 2: it said why */
-    VERDICT_POISON,   /* this frame always kills the role */
-    VERDICT_GIVE_UP   /* the role always dies */
+    VERDICT_FINISHED, /* it ended because the run has ended */
+    VERDICT_REFUSED,  /* a frame role ended with exit code 1 or 2, after stating the reason */
+    VERDICT_POISON,   /* computing this frame always kills the role */
+    VERDICT_GIVE_UP   /* the role dies every time */
 };
 
-/* Judges and remembers. *delay_ns: how long to wait before the restart. */
+/* Returns the verdict on a death and adds it to the history. *delay_ns: pause before the
+ * restart. */
 enum verdict restart_policy_death(struct history *history, const struct death *death,
                                   uint64_t *delay_ns);
 
-/* Is this the exit status of a process that said what it refused? */
+/* Returns true for the exit status of a process that refused: EXIT_REFUSED or EXIT_USAGE. */
 bool restart_policy_refused(int status);
 
 #endif

@@ -63,7 +63,7 @@ static FILE *open_log_tail(const struct keeper *keeper)
  * repair at the same frame would not help: the set gives up. */
 static void repair(struct keeper *keeper, enum role role)
 {
-    char text[PROCESS_SET_WORDS_MAX];
+    char text[PROCESS_SET_REFUSAL_MAX];
     const char *const repair_verb[] = {"jolon-world", "repair", "--world", keeper->plan->world,
                                        NULL};
     uint64_t frame = process_set_frame(&keeper->set);
@@ -80,52 +80,52 @@ static void repair(struct keeper *keeper, enum role role)
         return;
     }
     keeper->repaired_frame = process_set_frame(&keeper->set);
-    process_set_note(&keeper->set, "%s; repaired, goes on from frame %" PRIu64, text,
-                     keeper->repaired_frame);
+    process_set_log(&keeper->set, "%s; repaired, goes on from frame %" PRIu64, text,
+                    keeper->repaired_frame);
 }
 
 /* Logs the reason of a refusal, unless the role's last refusal had the same reason. */
-static void note_refusal(struct keeper *keeper, struct post *post)
+static void note_refusal(struct keeper *keeper, struct service *service)
 {
-    char text[PROCESS_SET_WORDS_MAX];
-    struct words *words = &post->words;
-    words_take(words, keeper->set.log_fd, false);
-    FILE *output =
-        words->used > 0 ? fmemopen(words->text, words->used, "r") : open_log_tail(keeper);
-    find_refusal(keeper, output, post->role, text, sizeof text);
-    bool changed = strcmp(text, post->refused) != 0;
-    words_end(words, keeper->set.log_fd, changed);
+    char text[PROCESS_SET_REFUSAL_MAX];
+    struct held_output *held = &service->held;
+    held_output_read(held, keeper->set.log_fd, false);
+    FILE *output = held->used > 0 ? fmemopen(held->text, held->used, "r") : open_log_tail(keeper);
+    find_refusal(keeper, output, service->role, text, sizeof text);
+    bool changed = strcmp(text, service->refused) != 0;
+    held_output_close(held, keeper->set.log_fd, changed);
     if (changed)
-        process_set_note(&keeper->set, "goes on without the %s and keeps trying: %s",
-                         role_name(post->role), text);
-    snprintf(post->refused, sizeof post->refused, "%s", text);
+        process_set_log(&keeper->set, "goes on without the %s and keeps trying: %s",
+                        role_name(service->role), text);
+    snprintf(service->refused, sizeof service->refused, "%s", text);
 }
 
-static void restart(struct keeper *keeper, struct post *post, const struct death *death, int pid,
-                    uint64_t delay_ns)
+static void restart(struct keeper *keeper, struct service *service, const struct death *death,
+                    int pid, uint64_t delay_ns)
 {
     bool refused = restart_policy_refused(death->status) && !death->stood_by;
     /* The stand-by process takes over first: the new one is started after it. */
-    if (delay_ns == 0 && process_set_kept(post))
+    if (delay_ns == 0 && process_set_has_live_child(service))
         delay_ns = HAND_OVER_NS;
-    post->spawn_at_ns = clock_now_ns() + delay_ns;
+    service->spawn_at_ns = clock_now_ns() + delay_ns;
     if (refused)
-        note_refusal(keeper, post);
+        note_refusal(keeper, service);
     else if (death->was_ready)
-        post->refused[0] = '\0';
+        service->refused[0] = '\0';
     process_set_spawn(&keeper->set, clock_now_ns());
     if (!refused)
-        process_set_note(&keeper->set, "%s (pid %d) ended with status %d at frame %" PRIu64,
-                         role_name(post->role), pid, death->status, death->frame);
+        process_set_log(&keeper->set, "%s (pid %d) ended with status %d at frame %" PRIu64,
+                        role_name(service->role), pid, death->status, death->frame);
 }
 
-static void handle_death(struct keeper *keeper, struct post *post, struct child *child, int status)
+static void handle_death(struct keeper *keeper, struct service *service, struct child *child,
+                         int status)
 {
-    const struct child *holder = process_set_holder(&keeper->set, post->role);
+    const struct child *holder = process_set_holder(&keeper->set, service->role);
     struct child dead = *child;
-    char text[PROCESS_SET_WORDS_MAX];
+    char text[PROCESS_SET_REFUSAL_MAX];
     uint64_t delay_ns = 0;
-    struct death death = {.role = post->role,
+    struct death death = {.role = service->role,
                           .status = status,
                           /* A process that was stopped from outside did not hang by itself. */
                           .hung = dead.hung && dead.stopped_ns == 0,
@@ -136,30 +136,30 @@ static void handle_death(struct keeper *keeper, struct post *post, struct child 
                           .frame_at_start = dead.frame_at_start,
                           .lived_ns = clock_now_ns() - dead.spawned_ns};
     *child = (struct child){0};
-    switch (restart_policy_death(&post->history, &death, &delay_ns)) {
+    switch (restart_policy_death(&service->history, &death, &delay_ns)) {
     case VERDICT_RESTART:
-        if (keeper->starting && post->role == ROLE_RECORDER && restart_policy_refused(status)) {
+        if (keeper->starting && service->role == ROLE_RECORDER && restart_policy_refused(status)) {
             /* The user has not asked for a run without a record. */
-            find_refusal(keeper, open_log_tail(keeper), post->role, text, sizeof text);
+            find_refusal(keeper, open_log_tail(keeper), service->role, text, sizeof text);
             keeper_give_up(keeper, EXIT_REFUSED, text);
             break;
         }
-        restart(keeper, post, &death, dead.pid, delay_ns);
+        restart(keeper, service, &death, dead.pid, delay_ns);
         break;
     case VERDICT_FINISHED:
-        keeper->over |= post->role == ROLE_MOVER; /* the collider ends before the mover */
-        post->wanted = 0;
+        keeper->over |= service->role == ROLE_MOVER; /* the collider ends before the mover */
+        service->wanted = 0;
         break;
     case VERDICT_REFUSED:
-        repair(keeper, post->role);
+        repair(keeper, service->role);
         break;
     case VERDICT_POISON:
-        save_poison_frame(keeper, post->role, status);
+        save_poison_frame(keeper, service->role, status);
         break;
     case VERDICT_GIVE_UP:
         snprintf(text, sizeof text,
                  "%s died again and again without getting anything done, last with status %d",
-                 role_name(post->role), status);
+                 role_name(service->role), status);
         keeper_give_up(keeper, EXIT_GAVE_UP, text);
         break;
     }
@@ -173,15 +173,15 @@ void role_exit_reap(struct keeper *keeper)
         pid_t pid = waitpid(-1, &status, WNOHANG | WUNTRACED | WCONTINUED);
         if (pid <= 0)
             return;
-        struct post *post = process_set_find(&keeper->set, pid, &child);
-        if (!post)
+        struct service *service = process_set_find(&keeper->set, pid, &child);
+        if (!service)
             continue;
         if (WIFSTOPPED(status))
             child->stopped_ns = clock_now_ns();
         else if (WIFCONTINUED(status))
             child->stopped_ns = 0;
         else if (!keeper->over)
-            handle_death(keeper, post, child, process_set_status(status));
+            handle_death(keeper, service, child, process_set_exit_status(status));
         else
             *child = (struct child){0};
     }

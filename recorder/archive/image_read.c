@@ -19,7 +19,7 @@
 #include <xxhash.h>
 #include <zstd.h>
 
-#define PIECE_BYTES ((size_t)1 << 20)
+#define CHUNK_BYTES ((size_t)1 << 20)
 
 /* --- the file ----------------------------------------------------------------------------------*/
 
@@ -189,7 +189,7 @@ static bool unpack_some(struct unpacking *unpacking, ZSTD_outBuffer *out)
 static int unpack_part(struct unpacking *unpacking, const struct image_part *part)
 {
     for (size_t done = 0; done < part->bytes;) {
-        size_t bytes = part->bytes - done < PIECE_BYTES ? part->bytes - done : PIECE_BYTES;
+        size_t bytes = part->bytes - done < CHUNK_BYTES ? part->bytes - done : CHUNK_BYTES;
         ZSTD_outBuffer out = {(unsigned char *)part->at + done, bytes, 0};
         while (out.pos < out.size) {
             if (!unpack_some(unpacking, &out))

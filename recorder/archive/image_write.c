@@ -19,7 +19,7 @@
 #include <zstd.h>
 
 #define LEVEL       3                   /* docs/checkpoints.md compares the levels */
-#define PIECE_BYTES ((size_t)1 << 20)   /* packed between two heartbeats */
+#define CHUNK_BYTES ((size_t)1 << 20)   /* packed between two heartbeats */
 #define SYNC_BYTES  ((uint64_t)8 << 20) /* limits each wait for the disk */
 
 /* --- the file ----------------------------------------------------------------------------------*/
@@ -144,7 +144,7 @@ static int pack_part(struct writer *writer, const struct image_part *part)
 {
     for (size_t done = 0; done < part->bytes;) {
         const unsigned char *at = (const unsigned char *)part->at + done;
-        size_t bytes = part->bytes - done < PIECE_BYTES ? part->bytes - done : PIECE_BYTES;
+        size_t bytes = part->bytes - done < CHUNK_BYTES ? part->bytes - done : CHUNK_BYTES;
         XXH3_64bits_update(writer->content, at, bytes);
         if (pack(writer, at, bytes, ZSTD_e_continue) != 0)
             return -1;

@@ -1,4 +1,4 @@
-/* The run's commands into a journal. */
+/* Writes the run's commands into a journal. */
 #include "recorder/log/command_log.h"
 
 #include "ipc/frame/event_cursor.h"
@@ -20,7 +20,8 @@
 #define OPTION   "--commands"
 #define BATCH    256
 #define CLOSE_NS (2 * (uint64_t)NS_PER_S)
-#define MARK_NS  (5 * (uint64_t)NS_PER_S) /* so much of a killed run's end may be unknown */
+#define MARK_NS                                                                                    \
+    (5 * (uint64_t)NS_PER_S) /* the end of a killed run is unknown for at most this long */
 
 /* --- beginning and going on --------------------------------------------------------------------*/
 
@@ -30,12 +31,12 @@ static uint64_t provenance_number(const struct world *world, const char *key)
     return value ? strtoull(value, NULL, 10) : 0;
 }
 
-/* Where the world was when it was made. */
-static struct record_place beginning(const struct view *view)
+/* The position at which the world was made. */
+static struct record_position beginning(const struct view *view)
 {
-    return (struct record_place){.frame = provenance_number(&view->world, "frame"),
-                                 .events = view->header->first_event,
-                                 .commands = provenance_number(&view->world, "commands")};
+    return (struct record_position){.frame = provenance_number(&view->world, "frame"),
+                                    .events = view->header->first_event,
+                                    .commands = provenance_number(&view->world, "commands")};
 }
 
 static void begin(struct command_log *log, const struct view *view)
@@ -46,7 +47,7 @@ static void begin(struct command_log *log, const struct view *view)
     log->at = beginning(view);
     json_text(object, "jolon", "commands");
     json_whole(object, "format", COMMAND_LOG_FORMAT);
-    record_put_place(object, &log->at);
+    record_add_position(object, &log->at);
     json_text(object, "type", record_type_name(RECORD_BEGIN));
     json_text(object, "world", view->name);
     json_text(object, "scenario", world->params->scenario);
@@ -60,10 +61,10 @@ static void begin(struct command_log *log, const struct view *view)
     for (const char *text = provenance_next(world->recipe, world->counts.recipe, &next); text;
          text = provenance_next(world->recipe, world->counts.recipe, &next))
         cJSON_AddItemToArray(recipe, cJSON_CreateString(text));
-    journal_put(&log->journal, object);
+    journal_append(&log->journal, object);
 }
 
-/* Is the log's first record one of this very world's? */
+/* Returns true if the log's first record is this world's. */
 static bool same_world(const struct command_log *log, const struct view *view)
 {
     uint64_t made;
@@ -78,8 +79,8 @@ static bool same_world(const struct command_log *log, const struct view *view)
     return same;
 }
 
-/* The run before wrote to the same folder: its log is kept. */
-static void put_aside(struct command_log *log)
+/* An earlier run wrote to this path. Its log is renamed, and a new log is begun. */
+static void rename_old(struct command_log *log)
 {
     char old[PATH_TEXT_MAX * 4];
     const char *path = log->journal.path;
@@ -92,7 +93,7 @@ static void put_aside(struct command_log *log)
     journal_open(&log->journal, OPTION, path, COMMAND_LOG_BEGINS);
 }
 
-static void go_on(struct command_log *log, const struct view *view)
+static void continue_log(struct command_log *log, const struct view *view)
 {
     struct command_record last;
     struct state_head head;
@@ -108,8 +109,8 @@ static void go_on(struct command_log *log, const struct view *view)
                     log->journal.path);
     log->at = last.at;
     if (last.type == RECORD_END)
-        journal_put(&log->journal, command_record_json(&(struct command_record){
-                                       .type = RECORD_RESUMED, .at = last.at}));
+        journal_append(&log->journal, command_record_json(&(struct command_record){
+                                          .type = RECORD_RESUMED, .at = last.at}));
 }
 
 void command_log_open(struct command_log *log, const struct view *view, const char *path)
@@ -117,9 +118,9 @@ void command_log_open(struct command_log *log, const struct view *view, const ch
     *log = (struct command_log){.marked_ns = clock_now_ns()};
     journal_open(&log->journal, OPTION, path, COMMAND_LOG_BEGINS);
     if (log->journal.last && !same_world(log, view))
-        put_aside(log);
+        rename_old(log);
     if (log->journal.last)
-        go_on(log, view);
+        continue_log(log, view);
     else
         begin(log, view);
     log->cursor.next = log->written = log->at.events;
@@ -131,11 +132,12 @@ void command_log_open(struct command_log *log, const struct view *view, const ch
 static void put(struct command_log *log, struct command_record *record)
 {
     log->at = record->at;
-    journal_put(&log->journal, command_record_json(record));
+    journal_append(&log->journal, command_record_json(record));
 }
 
-/* Commands that the ring overwrote before they could be written: up to, not including, number. */
-static void put_gap(struct command_log *log, const struct record_place *before)
+/* Records that commands were overwritten before they could be written: those from the last record
+ * up to, but not including, number before->commands. */
+static void put_gap(struct command_log *log, const struct record_position *before)
 {
     struct command_record gap = {
         .type = RECORD_GAP, .at = *before, .lost = before->commands - log->at.commands};
@@ -149,9 +151,9 @@ static void put_gap(struct command_log *log, const struct record_place *before)
 
 static void put_command(struct command_log *log, const struct event *event)
 {
-    /* The number is cut to 32 bits; what is lost is less than that. */
+    /* The event holds the low 32 bits of the number. Fewer commands than that can be lost. */
     uint32_t lost = event->command.number - (uint32_t)log->at.commands;
-    struct record_place before = {event->frame, event->sequence, log->at.commands + lost};
+    struct record_position before = {event->frame, event->sequence, log->at.commands + lost};
     put_gap(log, &before);
     struct command_record record = {.type = RECORD_COMMAND,
                                     .at = {event->frame, event->sequence + 1, before.commands + 1},
@@ -167,7 +169,7 @@ static void put_mark(struct command_log *log)
     log->marked_ns = clock_now_ns();
 }
 
-/* A mark of the last committed frame, to be written once everything before it is. */
+/* Prepares a mark of the last committed frame, to be written once every command before it is. */
 static void take_mark(struct command_log *log, const struct state_head *head)
 {
     log->mark = (struct command_record){
@@ -196,14 +198,14 @@ static bool flush(struct command_log *log)
     return true;
 }
 
-bool command_log_turn(struct command_log *log, const struct view *view)
+bool command_log_append(struct command_log *log, const struct view *view)
 {
     static struct event events[BATCH];
     if (!flush(log))
         return false;
     mark_when_due(log, view);
     uint32_t count = events_read(view, &log->cursor, events, BATCH);
-    log->cursor.gap = 0; /* commands have numbers of their own */
+    log->cursor.gap = 0; /* put_command() finds lost commands by their numbers */
     for (uint32_t i = 0; i < count; i++) {
         if (log->marking && events[i].sequence >= log->mark.at.events)
             put_mark(log);
@@ -215,7 +217,7 @@ bool command_log_turn(struct command_log *log, const struct view *view)
     return flush(log) && count > 0;
 }
 
-/* The last committed frame with its digest, as the mark that ends the log. */
+/* Prepares the end record: a mark of the last committed frame with its digest. */
 static int take_end(struct command_log *log, const struct view *view)
 {
     struct snapshot snapshot;
@@ -238,7 +240,7 @@ int command_log_close(struct command_log *log, const struct view *view)
     int result = take_end(log, view);
     uint64_t until = clock_now_ns() + CLOSE_NS;
     while (result == 0 && log->marking) {
-        if (!command_log_turn(log, view) && (log->journal.error != 0 || clock_now_ns() > until))
+        if (!command_log_append(log, view) && (log->journal.error != 0 || clock_now_ns() > until))
             result = -1;
     }
     if (journal_close(&log->journal) != 0)

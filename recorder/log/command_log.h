@@ -1,7 +1,7 @@
-/* The log of commands: what the run was made of, and every command with its frame, so that it can
- * be played again (docs/replay.md). It is a projection of the event stream: a command's event
- * carries the whole command and its number in the run, so nothing is lost while the ring has it,
- * and what is lost is known to the number. */
+/* The command log: how the run was made, and every command with its frame, so that the run can be
+ * replayed (docs/replay.md). It is written from the event stream. The event of a command holds the
+ * whole command and its number in the run. So no command is lost that the event ring still holds,
+ * and the number of lost commands is known. */
 #ifndef JOLON_RECORDER_LOG_COMMAND_LOG_H
 #define JOLON_RECORDER_LOG_COMMAND_LOG_H
 
@@ -12,23 +12,23 @@
 struct command_log {
     struct journal journal;
     struct event_cursor cursor;
-    struct record_place at;     /* of the last record */
-    uint64_t written;           /* every event before it was looked at, and its record written */
-    struct command_record mark; /* that is due once all events before it are in */
+    struct record_position at;  /* position of the last record */
+    uint64_t written;           /* the commands of all events before this one are in the file */
+    struct command_record mark; /* to be written once all commands before it are */
     bool marking;
     uint64_t marked_ns;
 };
 
-/* Opens the log of this world, begins it or finds where to go on. A log that another run left there
- * is kept as path.old, in the place of what had that name. A file that is no such log ends the
- * process (exit 1). */
+/* Opens the log of this world: begins it, or continues it after its last record. A log of another
+ * run is renamed to path.old, which is replaced. A file that is not a command log ends the process
+ * (exit 1). */
 void command_log_open(struct command_log *log, const struct view *view, const char *path);
 
-/* As event_log_turn(). */
-bool command_log_turn(struct command_log *log, const struct view *view);
+/* Appends some of the new commands, like event_log_append(). */
+bool command_log_append(struct command_log *log, const struct view *view);
 
-/* Writes the end: the last committed frame and its digests. 0, or -1 when that or anything before
- * it could not be written. */
+/* Writes the end record: the last committed frame and its digests. Returns 0, or -1 if that or an
+ * earlier record could not be written. */
 int command_log_close(struct command_log *log, const struct view *view);
 
 #endif

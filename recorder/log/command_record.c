@@ -1,4 +1,4 @@
-/* Records of the log of commands. */
+/* Records of the command log. */
 #include "recorder/log/command_record.h"
 
 #include "ipc/json/world_json.h"
@@ -20,15 +20,15 @@ const char *record_type_name(enum record_type type)
 
 /* --- writing -----------------------------------------------------------------------------------*/
 
-void record_put_place(cJSON *object, const struct record_place *at)
+void record_add_position(cJSON *object, const struct record_position *at)
 {
     json_whole(object, "frame", at->frame);
     json_whole(object, "events", at->events);
     json_whole(object, "commands", at->commands);
 }
 
-/* 17 digits give every finite number back; the others, of which there are many, go by their bits.
- */
+/* 17 digits represent every finite number exactly. Infinities and NaNs, of which there are many,
+ * are written as their bits in hex. */
 static void put_values(cJSON *object, const double value[6])
 {
     cJSON *array = json_array(object, "value");
@@ -63,7 +63,7 @@ static void put_command(cJSON *object, const struct event_command *command)
 cJSON *command_record_json(const struct command_record *record)
 {
     cJSON *object = cJSON_CreateObject();
-    record_put_place(object, &record->at);
+    record_add_position(object, &record->at);
     json_text(object, "type", record_type_name(record->type));
     switch (record->type) {
     case RECORD_COMMAND:

@@ -1,5 +1,5 @@
-/* Records of the log of commands (docs/replay.md), to and from JSON. What is read was written by
- * nobody that could be trusted: everything is checked for its type and range. */
+/* Records of the command log (docs/replay.md), to and from JSON. The type and range of every value
+ * that is read are checked, as the file may come from anywhere. */
 #ifndef JOLON_RECORDER_LOG_COMMAND_RECORD_H
 #define JOLON_RECORDER_LOG_COMMAND_RECORD_H
 
@@ -11,52 +11,53 @@
 
 #define COMMAND_LOG_FORMAT 1
 
-/* Largest whole number of a record: exact in a double, as JSON carries numbers. */
+/* Largest whole number in a record. JSON carries numbers as doubles, which hold it exactly. */
 #define RECORD_WHOLE_MAX 9007199254740991u
 
-/* How such a log begins, whatever follows. */
+/* The first bytes of every command log. */
 #define COMMAND_LOG_BEGINS "{\"jolon\":\"commands\","
 
 enum record_type {
-    RECORD_BEGIN,   /* what the run was made of */
+    RECORD_BEGIN,   /* how the run was made */
     RECORD_COMMAND, /* one command, applied in that frame */
-    RECORD_MARK,    /* the run got so far */
-    RECORD_END,     /* the recorder was asked to end: the last mark */
-    RECORD_RESUMED, /* and went on after all */
-    RECORD_GAP,     /* commands that are lost */
+    RECORD_MARK,    /* the run has reached this frame */
+    RECORD_END,     /* the recorder ended as asked: the last mark */
+    RECORD_RESUMED, /* a recorder continued the log after its end */
+    RECORD_GAP,     /* commands are lost */
     RECORD_TYPE_COUNT
 };
 
-/* Where a run stands: the same three numbers in every record. */
-struct record_place {
+/* A position in a run. Every record has these three numbers. */
+struct record_position {
     uint64_t frame;    /* committed */
-    uint64_t events;   /* of the run until then, a command's own answer included */
-    uint64_t commands; /* likewise */
+    uint64_t events;   /* of the run so far; a command's record counts its own event */
+    uint64_t commands; /* of the run so far; a command's record counts its own command */
 };
 
 struct command_record {
     enum record_type type;
-    struct record_place at;
+    struct record_position at;
     struct event_command command;  /* RECORD_COMMAND */
     uint64_t digest, event_digest; /* RECORD_MARK, RECORD_END */
-    bool digested;                 /* they have a digest, not of the events alone */
+    bool digested;                 /* digest is known, not only event_digest */
     uint64_t lost;                 /* RECORD_GAP */
 };
 
-/* The record as an object; it is the caller's. Not for RECORD_BEGIN. */
+/* Returns the record as a JSON object, which the caller deletes. Not for RECORD_BEGIN. */
 cJSON *command_record_json(const struct command_record *record);
 
-/* Reads a record; of RECORD_BEGIN only type and place. False when it is none. */
+/* Reads a record; of RECORD_BEGIN only type and position. Returns false if the object is not a
+ * record. */
 bool command_record_read(struct command_record *record, const cJSON *object);
 
-/* A value of 16 hex digits; false when the object has none called key. */
+/* Reads the value of 16 hex digits called key. Returns false if the object has none. */
 bool record_hex(const cJSON *object, const char *key, uint64_t *value);
 
-/* A whole number of 0 .. most. */
+/* Reads the whole number called key. Returns false if the object has none from 0 to most. */
 bool record_whole(const cJSON *object, const char *key, uint64_t most, uint64_t *value);
 
-/* Adds the three numbers of a place. */
-void record_put_place(cJSON *object, const struct record_place *at);
+/* Adds the three numbers of a position. */
+void record_add_position(cJSON *object, const struct record_position *at);
 
 const char *record_type_name(enum record_type type);
 

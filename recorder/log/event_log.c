@@ -1,4 +1,4 @@
-/* The run's events into a journal. */
+/* Writes the run's events into a journal. */
 #include "recorder/log/event_log.h"
 
 #include "ipc/frame/event_cursor.h"
@@ -20,8 +20,9 @@ _Noreturn static void refuse_run(const struct journal *journal, const char *what
                 what);
 }
 
-/* Key of a record of the log; false when it is none. */
-static bool key_of(const char *line, uint64_t *frame, uint64_t *sequence)
+/* Reads the frame and the sequence number of a record. Returns false if the line is not a
+ * record. */
+static bool read_key(const char *line, uint64_t *frame, uint64_t *sequence)
 {
     cJSON *record = cJSON_Parse(line);
     bool read = record_whole(record, "frame", RECORD_WHOLE_MAX, frame) &&
@@ -30,26 +31,26 @@ static bool key_of(const char *line, uint64_t *frame, uint64_t *sequence)
     return read;
 }
 
-/* The sequence after the one that the log's last record carries, 0 for an empty log. */
-static uint64_t next_of(const struct journal *journal)
+/* The sequence number after that of the log's last record, 0 for an empty log. */
+static uint64_t next_sequence(const struct journal *journal)
 {
     uint64_t frame, sequence;
     if (!journal->last)
         return 0;
-    if (!key_of(journal->last, &frame, &sequence))
+    if (!read_key(journal->last, &frame, &sequence))
         die_refused("%s %s: is no event log of Jolon; name another file", journal->option,
                     journal->path);
     return sequence + 1;
 }
 
-static cJSON *record_of(const struct view *view, const struct event *event)
+static cJSON *event_json(const struct view *view, const struct event *event)
 {
     cJSON *object = json_event(&view->world, event);
     json_whole(object, "sequence", event->sequence);
     return object;
 }
 
-/* What the ring still holds of the log's last event must be that very event. */
+/* Ends the process if the ring still holds the log's last event and the two differ. */
 static void compare_last(struct event_log *log, const struct view *view)
 {
     struct event event;
@@ -59,39 +60,40 @@ static void compare_last(struct event_log *log, const struct view *view)
     if (events_read(view, &cursor, &event, 1) != 1 || event.sequence != number ||
         strstr(log->journal.last, "\"type\":\"gap\""))
         return;
-    if (!journal_is(log->journal.last, record_of(view, &event)))
+    if (!journal_line_equals(log->journal.last, event_json(view, &event)))
         refuse_run(&log->journal, "its last event is not this world's of that number");
 }
 
-/* Is the record one of what a world that went on from an image makes anew? */
+/* Returns true if the world, which went on from an image, is still to make this record's event. */
 static bool is_beyond(const char *line, void *context)
 {
     const struct state_head *head = context;
     uint64_t frame, sequence;
-    return key_of(line, &frame, &sequence) && sequence >= head->event_end;
+    return read_key(line, &frame, &sequence) && sequence >= head->event_end;
 }
 
-/* The log goes on to where the run was when it ended; the world is that of the image again. */
+/* The log reaches to the end of the earlier run; the world is back at its image's frame. Cuts the
+ * log to that frame. */
 static void cut_back(struct event_log *log, struct state_head *head)
 {
     uint64_t frame = 0, sequence = 0;
     uint64_t beyond = log->cursor.next - head->event_end;
-    journal_cut(&log->journal, is_beyond, head);
-    if (log->journal.last && (!key_of(log->journal.last, &frame, &sequence) ||
+    journal_truncate(&log->journal, is_beyond, head);
+    if (log->journal.last && (!read_key(log->journal.last, &frame, &sequence) ||
                               frame > head->frame || sequence >= head->event_end))
         refuse_run(&log->journal, "its frames are not those of the image");
-    log->cursor.next = next_of(&log->journal);
+    log->cursor.next = next_sequence(&log->journal);
     log_warn("%s %s: the world went on from frame %" PRIu64 ": %" PRIu64
              " events that it held beyond are in %s.old now",
              log->journal.option, log->journal.path, head->frame, beyond, log->journal.path);
 }
 
 /* The log holds events that the world does not have. A world that lost its last frame to damage
- * makes that one again; one that goes on from an image makes many again. */
-static void go_on_before(struct event_log *log, const struct view *view, struct state_head *head)
+ * makes that frame again. A world made from an image makes many frames again. */
+static void open_ahead(struct event_log *log, const struct view *view, struct state_head *head)
 {
     uint64_t frame = 0, sequence;
-    (void)key_of(log->journal.last, &frame, &sequence);
+    (void)read_key(log->journal.last, &frame, &sequence);
     if (frame <= head->frame + 1) {
         log->to_compare = true;
         return;
@@ -108,16 +110,16 @@ void event_log_open(struct event_log *log, const struct view *view, const char *
     struct state_head head;
     *log = (struct event_log){0};
     journal_open(&log->journal, "--events", path, "{\"frame\":");
-    log->cursor.next = next_of(&log->journal);
+    log->cursor.next = next_sequence(&log->journal);
     if (snapshot_head(&head, view) != 0)
         die_refused("world \"%s\": its last frame cannot be read", view->name);
     if (log->cursor.next == 0)
-        log->cursor.next = view->header->first_event; /* a log of its own */
+        log->cursor.next = view->header->first_event; /* an empty log */
     else if (log->cursor.next > head.event_end)
-        go_on_before(log, view, &head);
+        open_ahead(log, view, &head);
     else
         compare_last(log, view);
-    /* What was before an image is in no ring: a log that lacks it will always. */
+    /* The events before an image are in no ring. A log that lacks them has a gap. */
     if (log->cursor.next < view->header->first_event) {
         log->cursor.gap = view->header->first_event - log->cursor.next;
         log->cursor.next = view->header->first_event;
@@ -127,8 +129,8 @@ void event_log_open(struct event_log *log, const struct view *view, const char *
 
 /* --- writing -----------------------------------------------------------------------------------*/
 
-/* A gap has the frame at which it was found, and as its sequence that of the last event lost, so
- * that the log goes on after it. */
+/* A gap's record has the frame at which the gap was found, and the sequence number of the last lost
+ * event, so that numbering goes on after it. */
 static void put_gap(struct event_log *log, uint64_t frame, uint64_t next)
 {
     cJSON *object = cJSON_CreateObject();
@@ -136,13 +138,13 @@ static void put_gap(struct event_log *log, uint64_t frame, uint64_t next)
     json_text(object, "type", "gap");
     json_whole(object, "lost", log->cursor.gap);
     json_whole(object, "sequence", next - 1);
-    journal_put(&log->journal, object);
+    journal_append(&log->journal, object);
     log_warn("%" PRIu64 " events lost: the ring had gone round", log->cursor.gap);
     log->gaps += log->cursor.gap;
     log->cursor.gap = 0;
 }
 
-/* Writes what waits; the ring keeps what is not written. */
+/* Writes pending records. On failure the ring keeps the events. */
 static bool flush(struct event_log *log)
 {
     if (journal_flush(&log->journal) != 0)
@@ -151,11 +153,11 @@ static bool flush(struct event_log *log)
     return true;
 }
 
-bool event_log_turn(struct event_log *log, const struct view *view)
+bool event_log_append(struct event_log *log, const struct view *view)
 {
     static struct event events[BATCH];
     if (!flush(log))
-        return false; /* what the ring holds is safer there than in our memory */
+        return false; /* unwritten events stay in the ring, which survives a kill */
     uint32_t count = events_read(view, &log->cursor, events, BATCH);
     if (count > 0 && log->to_compare) {
         log->cursor.next -= count;
@@ -165,7 +167,7 @@ bool event_log_turn(struct event_log *log, const struct view *view)
     if (log->cursor.gap > 0)
         put_gap(log, atomic_load(&view->commit->commit), log->cursor.next - count);
     for (uint32_t i = 0; i < count; i++)
-        journal_put(&log->journal, record_of(view, &events[i]));
+        journal_append(&log->journal, event_json(view, &events[i]));
     return flush(log) && count > 0;
 }
 

@@ -1,4 +1,4 @@
-/* Journals: the end found, records appended, and a file system that has no room. */
+/* Journals: opening, appending, and a file system without room. */
 #include "recorder/log/journal.h"
 
 #include "ipc/process/clock.h"
@@ -16,12 +16,12 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#define CHECK_BEGINS    ",\"check\":\""
-#define CHECK_LENGTH    (sizeof CHECK_BEGINS - 1 + 16 + sizeof "\"}" - 1)
-#define FIRST_BYTES_MAX ((size_t)4 * 1024 * 1024) /* a long recipe, escaped */
-#define TELL_NS         (10 * (uint64_t)NS_PER_S)
+#define CHECK_BEGINS     ",\"check\":\""
+#define CHECK_LENGTH     (sizeof CHECK_BEGINS - 1 + 16 + sizeof "\"}" - 1)
+#define FIRST_BYTES_MAX  ((size_t)4 * 1024 * 1024) /* a begin record with a long recipe, escaped */
+#define WARN_INTERVAL_NS (10 * (uint64_t)NS_PER_S)
 
-/* What ends a record whose first length bytes are at line: its checksum, NUL-terminated. */
+/* Writes the end of a record: the checksum of the length bytes at line, NUL-terminated. */
 static void check_text(const char *line, size_t length, char text[CHECK_LENGTH + 1])
 {
     snprintf(text, CHECK_LENGTH + 1, CHECK_BEGINS "%016" PRIx64 "\"}",
@@ -39,7 +39,7 @@ bool journal_check(const char *line, size_t length)
 
 /* --- opening -----------------------------------------------------------------------------------*/
 
-/* The end of a file in memory: bytes begin .. begin + length - 1 of it. */
+/* The end of a file in memory: length bytes from offset begin. */
 struct tail {
     char *text;
     off_t begin;
@@ -71,12 +71,13 @@ static void read_tail(const struct journal *journal, struct tail *tail)
     }
 }
 
-/* The length of the tail's good records, from the first whole line of it on; *last: where the last
- * of them begins and *bytes its length. 0 when there is none. */
+/* Returns the length of the tail up to the end of its last good record, starting at the first
+ * whole line; 0 if there is no good record. *last: where the last good record begins, *bytes: its
+ * length. */
 static size_t good_length(const struct tail *tail, size_t *last, size_t *bytes)
 {
     size_t at = 0, good = 0;
-    if (tail->begin > 0) { /* probably in the middle of a line */
+    if (tail->begin > 0) { /* the tail probably begins within a line */
         const char *end = memchr(tail->text, '\n', tail->length);
         at = end ? (size_t)(end - tail->text) + 1 : tail->length;
     }
@@ -93,7 +94,7 @@ static size_t good_length(const struct tail *tail, size_t *last, size_t *bytes)
     return good;
 }
 
-/* A file without one good record is ours to cut only if it can be the torn first one. */
+/* A file without a good record may be overwritten only if it can be a torn first record. */
 static bool may_be_torn(const struct tail *tail, const char *begins)
 {
     size_t length = strlen(begins);
@@ -153,7 +154,7 @@ char *journal_first(const struct journal *journal)
     return line;
 }
 
-bool journal_is(const char *line, cJSON *object)
+bool journal_line_equals(const char *line, cJSON *object)
 {
     char *text = cJSON_PrintUnformatted(object);
     cJSON_Delete(object);
@@ -164,28 +165,28 @@ bool journal_is(const char *line, cJSON *object)
     return same;
 }
 
-/* The next line with its end, or -1 at the file's end and there alone: a line that cannot be read
- * ends the process, for what looks like the end is cut off. */
-static ssize_t next_line(const struct journal *journal, FILE *file, char **line, size_t *room)
+/* Reads the next line with its newline. Returns -1 only at the end of the file. A read error ends
+ * the process, as everything after the last line read would be cut off. */
+static ssize_t next_line(const struct journal *journal, FILE *file, char **line, size_t *capacity)
 {
-    ssize_t length = getline(line, room, file);
+    ssize_t length = getline(line, capacity, file);
     if (ferror(file) || (length < 0 && !feof(file)))
         die_refused("%s %s: cannot read: %s; it is left as it is", journal->option, journal->path,
                     strerror(errno));
     return length;
 }
 
-/* Copies everything from an offset on; a copy that a kill broke off is made anew. */
+/* Copies everything from an offset on. A partial copy of a killed process is overwritten. */
 static void copy_from(const struct journal *journal, off_t from, const char *path)
 {
-    char piece[65536];
+    char buffer[65536];
     ssize_t got = 0;
     int fd = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0600);
-    while (fd >= 0 && (got = pread(journal->fd, piece, sizeof piece, from)) > 0) {
-        ssize_t put = write(fd, piece, (size_t)got);
+    while (fd >= 0 && (got = pread(journal->fd, buffer, sizeof buffer, from)) > 0) {
+        ssize_t put = write(fd, buffer, (size_t)got);
         if (put < 0)
             break;
-        from += put; /* a full disk takes part of it, and says at the next write that it is full */
+        from += put; /* after a partial write the next one reports the full disk */
     }
     if (fd < 0 || got != 0 || fdatasync(fd) != 0)
         die_refused("%s %s: cannot keep its end as %s: %s", journal->option, journal->path, path,
@@ -193,22 +194,22 @@ static void copy_from(const struct journal *journal, off_t from, const char *pat
     close(fd);
 }
 
-void journal_cut(struct journal *journal, bool (*beyond)(const char *line, void *context),
-                 void *context)
+void journal_truncate(struct journal *journal, bool (*beyond)(const char *line, void *context),
+                      void *context)
 {
     char old[4096];
     char *line = NULL, *last = NULL;
-    size_t room = 0;
+    size_t capacity = 0;
     off_t end = 0;
     if ((size_t)snprintf(old, sizeof old, "%s.old", journal->path) >= sizeof old)
         die_refused("%s %s: cannot keep its end: the name is too long; name another file",
                     journal->option, journal->path);
-    /* The file that is locked, whatever has its name by now. */
+    /* Reads the locked file, even if another file has its name by now. */
     int fd = fcntl(journal->fd, F_DUPFD_CLOEXEC, 0);
     FILE *file = fd >= 0 && lseek(fd, 0, SEEK_SET) == 0 ? fdopen(fd, "r") : NULL;
     if (!file)
         die_refused("%s %s: cannot read: %s", journal->option, journal->path, strerror(errno));
-    for (ssize_t length; (length = next_line(journal, file, &line, &room)) > 0; end += length) {
+    for (ssize_t length; (length = next_line(journal, file, &line, &capacity)) > 0; end += length) {
         line[length - 1] = '\0';
         if (!journal_check(line, (size_t)length - 1))
             die_refused("%s %s: damaged at byte %lld; name another file", journal->option,
@@ -233,17 +234,17 @@ void journal_cut(struct journal *journal, bool (*beyond)(const char *line, void 
 
 static void reserve(struct journal *journal, size_t bytes)
 {
-    if (journal->room - journal->used >= bytes)
+    if (journal->capacity - journal->used >= bytes)
         return;
-    size_t room = 2 * (journal->used + bytes);
-    char *larger = realloc(journal->waiting, room);
+    size_t capacity = 2 * (journal->used + bytes);
+    char *larger = realloc(journal->pending, capacity);
     if (!larger)
         die_refused("out of memory for records of %s %s", journal->option, journal->path);
-    journal->waiting = larger;
-    journal->room = room;
+    journal->pending = larger;
+    journal->capacity = capacity;
 }
 
-void journal_put(struct journal *journal, cJSON *object)
+void journal_append(struct journal *journal, cJSON *object)
 {
     char *text = cJSON_PrintUnformatted(object);
     cJSON_Delete(object);
@@ -251,16 +252,16 @@ void journal_put(struct journal *journal, cJSON *object)
         die_refused("out of memory for a record of %s %s", journal->option, journal->path);
     size_t length = strlen(text) - 1; /* without its closing brace */
     reserve(journal, length + CHECK_LENGTH + 2);
-    char *to = journal->waiting + journal->used;
-    memcpy(to, text, length + 2); /* its brace and NUL too: the checksum takes their place */
+    char *to = journal->pending + journal->used;
+    memcpy(to, text, length + 2); /* the checksum overwrites the brace and the NUL */
     check_text(text, length, to + length);
     to[length + CHECK_LENGTH] = '\n';
     journal->used += length + CHECK_LENGTH + 1;
     cJSON_free(text);
 }
 
-/* No room, or the device fails, is gone or was made read-only because it failed: it may pass. A
- * recorder that gave up would leave a world paused that its back-pressure holds. */
+/* Returns true for an error that may pass: no room, or a device that fails, is gone, or has become
+ * read-only. If the recorder ended here, a world paused by its back-pressure would stay paused. */
 static bool may_pass(int error)
 {
     return error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO || error == EROFS ||
@@ -271,7 +272,7 @@ int journal_flush(struct journal *journal)
 {
     while (journal->done < journal->used) {
         CRASH_POINT("write to a log");
-        ssize_t wrote = write(journal->fd, journal->waiting + journal->done,
+        ssize_t wrote = write(journal->fd, journal->pending + journal->done,
                               CRASH_POINT_PART(journal->used - journal->done));
         if (wrote < 0 && errno == EINTR)
             continue;
@@ -279,7 +280,7 @@ int journal_flush(struct journal *journal)
             die_refused("%s %s: cannot write: %s", journal->option, journal->path, strerror(errno));
         if (wrote < 0) {
             journal->error = errno;
-            if (log_due(&journal->told_ns, TELL_NS))
+            if (log_due(&journal->warned_ns, WARN_INTERVAL_NS))
                 log_warn("%s %s: cannot write: %s; tries again until it can", journal->option,
                          journal->path, strerror(journal->error));
             return -1;
@@ -290,7 +291,7 @@ int journal_flush(struct journal *journal)
     if (journal->error != 0)
         log_info("%s %s: can be written again", journal->option, journal->path);
     journal->error = 0;
-    journal->told_ns = 0;
+    journal->warned_ns = 0;
     journal->done = journal->used = 0;
     return 0;
 }
@@ -305,7 +306,7 @@ int journal_close(struct journal *journal)
     int result = journal_flush(journal);
     if (close(journal->fd) != 0)
         result = -1;
-    free(journal->waiting);
+    free(journal->pending);
     free(journal->last);
     *journal = (struct journal){.fd = -1};
     return result;

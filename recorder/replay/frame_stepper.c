@@ -1,4 +1,4 @@
-/* The two stages of a frame, one after the other, in one process. */
+/* Runs the two stages of a frame, one after the other, in one process. */
 #include "recorder/replay/frame_stepper.h"
 
 #include <errno.h>

@@ -1,6 +1,6 @@
-/* A frame stepper: mover's and collider's steps on a world in this process's own memory
- * (segment_private), frame by frame, without a clock, doorbells or other processes. The frame that
- * it makes is to the bit the one that the roles make of the same world and commands. */
+/* A frame stepper: computes frames of a world in this process's own memory (segment_private) with
+ * the steps of mover and collider, without a clock, doorbells or other processes. Its frames are
+ * bit-identical to those that the roles compute from the same world and commands. */
 #ifndef JOLON_RECORDER_REPLAY_FRAME_STEPPER_H
 #define JOLON_RECORDER_REPLAY_FRAME_STEPPER_H
 
@@ -18,22 +18,22 @@ struct frame_stepper {
     struct collider collider;
 };
 
-/* On a view that is filled (segment_fill, image_load) and stays where it is until
- * frame_stepper_free. threads 1..THREAD_POOL_MAX. 0; -1 with errno ENOMEM or EAGAIN and nothing to
- * free. */
+/* The view is filled (segment_fill, image_load) and stays where it is until frame_stepper_free().
+ * threads: 1..THREAD_POOL_MAX. Returns 0, or -1 with errno ENOMEM or EAGAIN and nothing to free. */
 int frame_stepper_init(struct frame_stepper *stepper, struct view *view, uint32_t threads);
 void frame_stepper_free(struct frame_stepper *stepper);
 
-/* What the mover would take now: each ring of the view up to its head. */
+/* The commands that the mover would take now: each ring of the view up to its head. */
 void frame_stepper_sources(const struct view *view,
                            struct command_source sources[COMMAND_RING_COUNT]);
 
-/* The frame after the committed one: moved with the commands of sources (NULL:
- * frame_stepper_sources()), which a moved table that holds that frame already makes superfluous;
- * collided; committed. */
+/* Computes and commits the frame after the committed one, with the commands of sources (NULL:
+ * frame_stepper_sources()). If the moved table already holds that frame, its move is not
+ * repeated. */
 void frame_stepper_step(struct frame_stepper *stepper, const struct command_source *sources);
 
-/* The two halves of it: the moved table anew, whatever it holds; the commit of what it holds. */
+/* The two halves of a step. The first computes the moved table anew; the second collides and
+ * commits what the moved table holds. */
 void frame_stepper_move(struct frame_stepper *stepper, const struct command_source *sources);
 void frame_stepper_collide(struct frame_stepper *stepper);
 

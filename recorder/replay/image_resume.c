@@ -1,4 +1,4 @@
-/* Going on from a checkpoint, or branching off it. */
+/* Continues from an image, or branches off it with other settings. */
 #include "recorder/replay/image_resume.h"
 
 #include "ipc/segment/segment_attach.h"
@@ -29,15 +29,15 @@ static void change_settings(const struct arguments *arguments, struct image *ima
                     image->path, image->header.frame, limit);
 }
 
-/* A run that was quit goes on: that is what --from is for. */
-static void forget_quit(struct view *view, uint64_t frame)
+/* A run that was quit goes on from its image. */
+static void clear_quit(struct view *view, uint64_t frame)
 {
     struct state *state = &view->w[frame & 1];
     state->head->quit = 0;
     state_seal(state, view->header->counts.fixed);
 }
 
-/* The world's own: how to make it again from the image, and what was changed. */
+/* Writes the world's provenance: how to make it again from the image, and the changed settings. */
 static int write_provenance(const struct view *view, const struct arguments *arguments,
                             const struct image *image, struct error_text *error)
 {
@@ -52,7 +52,7 @@ static int write_provenance(const struct view *view, const struct arguments *arg
     result |= provenance_add(&recipe, "commands", text);
     for (int i = 0; i < arguments->sets; i++)
         result |= provenance_add(&recipe, "set", arguments->set[i]);
-    scenario_load_provenance_seconds(arguments, &recipe);
+    scenario_load_note_seconds(arguments, &recipe);
     uint32_t room = view->world.counts.recipe;
     if (result == 0 && recipe.bytes < room) {
         char *to = (char *)(uintptr_t)view->world.recipe;
@@ -80,7 +80,7 @@ int image_resume_fill(struct view *view, const struct arguments *arguments,
 {
     if (image_load(view, image, error) != 0)
         return -1;
-    forget_quit(view, image->header.frame);
+    clear_quit(view, image->header.frame);
     return write_provenance(view, arguments, image, error);
 }
 
@@ -107,7 +107,7 @@ int image_resume_world(const struct arguments *arguments)
         die_usage("create --from %s %s: an image has its scenario within it; leave one of them out",
                   arguments->from, arguments->path);
     image_resume_open(arguments, &image);
-    if (!arguments->adopt || !world_adopt_world(arguments->world, &image.params, &image.header)) {
+    if (!arguments->adopt || !world_adopt(arguments->world, &image.params, &image.header)) {
         make(arguments, &image);
         printf("world \"%s\": frame %" PRIu64 " of %s, %s\n", arguments->world, image.header.frame,
                image.path,

@@ -1,4 +1,4 @@
-/* Logs of commands, read and played. */
+/* Command logs, read and replayed. */
 #include "recorder/replay/log_replay.h"
 
 #include "ipc/process/regular_file.h"
@@ -19,7 +19,7 @@
 
 /* --- the file ----------------------------------------------------------------------------------*/
 
-/* The file's text, NUL-terminated, into tape->text; its length, -1 with the reason. */
+/* Reads the file into replay->text, NUL-terminated. Returns its length, or -1 with the reason. */
 static ssize_t read_text(struct log_replay *replay, struct error_text *error)
 {
     uint64_t bytes = 0;
@@ -48,7 +48,7 @@ static ssize_t read_text(struct log_replay *replay, struct error_text *error)
     return (ssize_t)length;
 }
 
-bool log_replay_is_one(const char *path)
+bool log_replay_is_command_log(const char *path)
 {
     char text[sizeof COMMAND_LOG_BEGINS - 1];
     struct error_text error;
@@ -63,8 +63,8 @@ bool log_replay_is_one(const char *path)
 
 /* --- its records -------------------------------------------------------------------------------*/
 
-static int wrong(const struct log_replay *replay, uint32_t line, struct error_text *error,
-                 const char *what)
+static int refuse_line(const struct log_replay *replay, uint32_t line, struct error_text *error,
+                       const char *what)
 {
     return error_text_set(error, "%s:%u: %s", replay->path, line, what);
 }
@@ -76,7 +76,7 @@ static int read_begin(struct log_replay *replay, const char *line, struct error_
     replay->begin = cJSON_Parse(line);
     if (strncmp(line, COMMAND_LOG_BEGINS, sizeof COMMAND_LOG_BEGINS - 1) != 0 ||
         !record_whole(replay->begin, "format", UINT32_MAX, &format))
-        return wrong(replay, 1, error, "is no log of commands");
+        return refuse_line(replay, 1, error, "is no log of commands");
     if (format != COMMAND_LOG_FORMAT)
         return error_text_set(error, "%s:1: format %" PRIu64 "; this program knows %d",
                               replay->path, format, COMMAND_LOG_FORMAT);
@@ -87,15 +87,15 @@ static int read_begin(struct log_replay *replay, const char *line, struct error_
         !record_hex(replay->begin, "static_hash", &replay->static_hash) ||
         !cJSON_IsString(cJSON_GetObjectItemCaseSensitive(replay->begin, "scenario")) ||
         !cJSON_IsArray(cJSON_GetObjectItemCaseSensitive(replay->begin, "recipe")))
-        return wrong(replay, 1, error, "does not say what the run was made of");
+        return refuse_line(replay, 1, error, "does not say what the run was made of");
     replay->start = first.at;
     return 0;
 }
 
-/* What a record may come after. */
-static bool follows(const struct record_place *before, const struct command_record *record)
+/* Returns true if the record can follow the position before. */
+static bool follows(const struct record_position *before, const struct command_record *record)
 {
-    const struct record_place *at = &record->at;
+    const struct record_position *at = &record->at;
     uint64_t commands = before->commands;
     if (record->type == RECORD_BEGIN)
         return false;
@@ -107,8 +107,8 @@ static bool follows(const struct record_place *before, const struct command_reco
            (record->type != RECORD_COMMAND || at->frame > 0);
 }
 
-/* Of a last command's frame there may have been more commands that a kill kept out of the log; a
- * later record says that there were none. */
+/* The log's last command may be followed by further commands of the same frame that a kill kept out
+ * of the log. Only a later record shows that there were none. */
 static void note_known(struct log_replay *replay, const struct command_record *record)
 {
     replay->gap |= record->type == RECORD_GAP;
@@ -116,26 +116,27 @@ static void note_known(struct log_replay *replay, const struct command_record *r
         replay->known_frame = record->at.frame - (record->type == RECORD_COMMAND);
 }
 
-static int add_record(struct log_replay *replay, uint32_t *room, const char *line,
+static int add_record(struct log_replay *replay, uint32_t *capacity, const char *line,
                       struct error_text *error)
 {
-    if (replay->count == *room) {
-        uint32_t more = *room ? 2 * *room : 256;
+    if (replay->count == *capacity) {
+        uint32_t more = *capacity ? 2 * *capacity : 256;
         struct command_record *larger = realloc(replay->record, more * sizeof *larger);
         if (!larger)
             return error_text_set(error, "%s: out of memory", replay->path);
         replay->record = larger;
-        *room = more;
+        *capacity = more;
     }
     struct command_record *record = &replay->record[replay->count];
-    const struct record_place *before = replay->count ? &record[-1].at : &replay->start;
+    const struct record_position *before = replay->count ? &record[-1].at : &replay->start;
     cJSON *object = cJSON_Parse(line);
     bool read = command_record_read(record, object);
     cJSON_Delete(object);
     if (!read || !follows(before, record))
-        return wrong(replay, replay->count + 2, error,
-                     "is no record that can stand here: a line before it is missing, or it was "
-                     "written by something else");
+        return refuse_line(
+            replay, replay->count + 2, error,
+            "is no record that can stand here: a line before it is missing, or it was "
+            "written by something else");
     replay->count++;
     note_known(replay, record);
     return 0;
@@ -145,7 +146,7 @@ int log_replay_open(struct log_replay *replay, const char *path, struct error_te
 {
     *replay = (struct log_replay){.path = path};
     ssize_t length = read_text(replay, error);
-    uint32_t room = 0, number = 1;
+    uint32_t capacity = 0, number = 1;
     if (length < 0)
         goto err;
     char *line = replay->text, *end = replay->text + length;
@@ -156,12 +157,12 @@ int log_replay_open(struct log_replay *replay, const char *path, struct error_te
             break;
         }
         if (!journal_check(line, (size_t)(stop - line))) {
-            (void)wrong(replay, number, error, "check: the line is damaged");
+            (void)refuse_line(replay, number, error, "check: the line is damaged");
             goto err;
         }
         *stop = '\0';
         if (number == 1 ? read_begin(replay, line, error) != 0
-                        : add_record(replay, &room, line, error) != 0)
+                        : add_record(replay, &capacity, line, error) != 0)
             goto err;
         if (number == 1)
             replay->known_frame = replay->start.frame;
@@ -210,7 +211,8 @@ const char *log_replay_provenance(const struct log_replay *replay, const char *k
 
 /* --- playing -----------------------------------------------------------------------------------*/
 
-/* What waited in the rings is in the log when it was taken, and not for us when it was not. */
+/* Commands that waited in the rings are in the log if they were applied. Otherwise they do not
+ * belong to the replay. */
 static void empty_rings(const struct view *view, const struct state_head *head)
 {
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
@@ -235,7 +237,7 @@ static void feed(const struct view *view, const struct event_command *given)
     atomic_store(&words->head, at + 1);
 }
 
-/* Puts the frame's commands into the rings; how many. */
+/* Puts the frame's commands into the rings and returns their number. */
 static uint32_t feed_frame(struct log_replay *replay, const struct view *view, uint64_t frame)
 {
     uint32_t fed = 0;
@@ -248,7 +250,8 @@ static uint32_t feed_frame(struct log_replay *replay, const struct view *view, u
     return fed;
 }
 
-/* Marks of the frame that was made, and whatever stands before the next frame's commands. */
+/* Compares the marks of the computed frame, and passes over the records before the next frame's
+ * commands. */
 static bool marks_agree(struct log_replay *replay, const struct state_head *head,
                         struct error_text *error)
 {
@@ -302,5 +305,5 @@ enum log_replay_step log_replay_step(struct log_replay *replay, struct frame_ste
     head = view->w[(frame + 1) & 1].head;
     return all_taken(replay, view, head, error) && marks_agree(replay, head, error)
                ? LOG_REPLAY_STEPPED
-               : LOG_REPLAY_WRONG;
+               : LOG_REPLAY_MISMATCH;
 }

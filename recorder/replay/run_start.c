@@ -1,4 +1,4 @@
-/* The beginning of a recorded run, made again. */
+/* Makes the start of a recorded run again. */
 #include "recorder/replay/run_start.h"
 
 #include "ipc/segment/segment_check.h"
@@ -25,7 +25,7 @@ void run_start_open(struct log_replay *replay, const char *path)
         log_warn("%s: its last line is torn: left out", path);
 }
 
-/* The arguments that the recipe stands for. */
+/* The arguments that correspond to the log's recipe. */
 static void arguments_of(struct arguments *arguments, const struct log_replay *replay)
 {
     const cJSON *text;
@@ -55,7 +55,7 @@ static const char *scenario_text(const struct log_replay *replay)
     return cJSON_GetObjectItemCaseSensitive(replay->begin, "scenario")->valuestring;
 }
 
-/* The log's recipe, byte by byte, in the place of the one that making it again has made. */
+/* Overwrites the world's recipe with the log's, byte by byte. */
 static void keep_provenance(const struct view *view, const struct log_replay *replay)
 {
     const cJSON *text;
@@ -87,10 +87,10 @@ static void from_scenario(struct view *view, const struct log_replay *replay,
     struct scenario scenario;
     struct world_build built;
     struct error_text error;
-    scenario_load_scenario(arguments, &scenario);
+    scenario_load(arguments, &scenario);
     check_hash(replay, &scenario.settings->params, arguments->path);
     memset(scenario.settings->params.scenario, 0,
-           sizeof scenario.settings->params.scenario); /* every byte counts */
+           sizeof scenario.settings->params.scenario); /* the static hash covers every byte */
     snprintf(scenario.settings->params.scenario, sizeof scenario.settings->params.scenario, "%s",
              scenario_text(replay));
     scenario_load_generate(&scenario, &built);
@@ -119,7 +119,7 @@ static void from_image(struct view *view, const struct log_replay *replay,
     image_close(&image);
 }
 
-void run_start_world(struct view *view, const struct log_replay *replay)
+void run_start_make(struct view *view, const struct log_replay *replay)
 {
     struct arguments arguments;
     if (replay->layout != layout_hash())

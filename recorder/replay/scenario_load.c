@@ -1,4 +1,4 @@
-/* Scenarios into worlds. */
+/* Scenarios made into worlds. */
 #include "recorder/replay/scenario_load.h"
 
 #include "config/loader.h"
@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-void scenario_load_provenance_seconds(const struct arguments *arguments, struct provenance *recipe)
+void scenario_load_note_seconds(const struct arguments *arguments, struct provenance *recipe)
 {
     char text[32];
     snprintf(text, sizeof text, "%.17g", arguments->seconds);
@@ -22,21 +22,21 @@ void scenario_load_provenance_seconds(const struct arguments *arguments, struct 
         die_refused("--seconds %s: no room in the recipe: %s", text, strerror(errno));
 }
 
-/* On a terminal, ten times a second, from the second on that placing takes. */
-static uint64_t placing_begun_ns, placing_told_ns;
+/* Progress of the placement, shown on a terminal ten times a second once it has taken a second. */
+static uint64_t placing_begun_ns, placing_shown_ns;
 
-static void tell_placing(uint32_t placed, uint32_t of)
+static void show_placing(uint32_t placed, uint32_t of)
 {
     uint64_t now_ns = clock_now_ns();
     if (placing_begun_ns == 0)
         placing_begun_ns = now_ns;
-    if (now_ns - placing_begun_ns < NS_PER_S || now_ns - placing_told_ns < NS_PER_S / 10)
+    if (now_ns - placing_begun_ns < NS_PER_S || now_ns - placing_shown_ns < NS_PER_S / 10)
         return;
-    placing_told_ns = now_ns;
+    placing_shown_ns = now_ns;
     (void)fprintf(stderr, "\r%u of %u vehicles have a place", placed, of);
 }
 
-void scenario_load_scenario(const struct arguments *arguments, struct scenario *scenario)
+void scenario_load(const struct arguments *arguments, struct scenario *scenario)
 {
     char data_dir[512];
     struct error_text error;
@@ -47,16 +47,16 @@ void scenario_load_scenario(const struct arguments *arguments, struct scenario *
                         &error) != 0)
         die_refused("%s", error.text);
     if (isatty(STDERR_FILENO))
-        scenario->placing = tell_placing;
+        scenario->placing = show_placing;
     arguments_seconds(arguments, &scenario->settings->params);
-    scenario_load_provenance_seconds(arguments, &scenario->recipe);
+    scenario_load_note_seconds(arguments, &scenario->recipe);
 }
 
 void scenario_load_generate(const struct scenario *scenario, struct world_build *built)
 {
     struct error_text error;
     int result = world_build_make(built, scenario, &error);
-    if (placing_told_ns > 0)
+    if (placing_shown_ns > 0)
         (void)fputs("\r\033[K", stderr);
     if (result != 0)
         die_refused("%s: %s", scenario->settings->params.scenario, error.text);

@@ -1,4 +1,4 @@
-/* Reading a scenario and making what it says: shared by the verbs that create, check and replay. */
+/* Reads a scenario and makes its world, for the verbs that create, check and replay. */
 #ifndef JOLON_RECORDER_REPLAY_SCENARIO_LOAD_H
 #define JOLON_RECORDER_REPLAY_SCENARIO_LOAD_H
 
@@ -7,14 +7,15 @@
 struct provenance;
 struct scenario;
 
-/* Reads the scenario path with the overrides set and the length seconds of the arguments; the
- * caller's to free. Ends the process with the reason (exit 1). */
-void scenario_load_scenario(const struct arguments *arguments, struct scenario *scenario);
+/* Reads the scenario that the arguments name, with --set and --seconds. The caller frees it. Ends
+ * the process with the reason (exit 1). */
+void scenario_load(const struct arguments *arguments, struct scenario *scenario);
 
-/* Makes its world in plain memory; the caller's to free. Ends the process likewise. */
+/* Makes the scenario's world in private memory. The caller frees it. Ends the process with the
+ * reason (exit 1). */
 void scenario_load_generate(const struct scenario *scenario, struct world_build *built);
 
-/* Adds --seconds, where given, to a recipe. */
-void scenario_load_provenance_seconds(const struct arguments *arguments, struct provenance *recipe);
+/* Adds --seconds to a recipe, if the option is given. */
+void scenario_load_note_seconds(const struct arguments *arguments, struct provenance *recipe);
 
 #endif

@@ -1,4 +1,4 @@
-/* Going on with a dead set's world, or making room. */
+/* Continues a dead set's world, or removes it. */
 #include "recorder/replay/world_adopt.h"
 
 #include "ipc/process/clock.h"
@@ -11,7 +11,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#define DYING_NS (5 * (uint64_t)NS_PER_S) /* roles die with their keeper, but not at once */
+#define DYING_NS (5 * (uint64_t)NS_PER_S) /* for the roles to die after their keeper */
 
 static bool same_world(const struct view *view, const struct params *params,
                        const struct image_header *image)
@@ -21,9 +21,9 @@ static bool same_world(const struct view *view, const struct params *params,
             view->header->made == image->segment.made);
 }
 
-/* A world that is damaged beyond repair is not ours to lose, unless an image of it is at hand. One
- * that only cannot be looked at now may be good, and stays whatever is at hand. */
-static void not_usable(struct error_text *error, const struct image_header *image)
+/* A damaged world is given up only if an image of it is at hand. A world that merely cannot be read
+ * now may be good, and is kept in any case. */
+static void refuse_unusable(struct error_text *error, const struct image_header *image)
 {
     if (!error->damaged)
         die_refused("%s", error->text);
@@ -33,7 +33,7 @@ static void not_usable(struct error_text *error, const struct image_header *imag
     log_warn("%s; goes on from the image", error->text);
 }
 
-static bool make_room(const char *name)
+static bool remove_world(const char *name)
 {
     struct error_text error;
     if (segment_remove(name, false, &error) != 0)
@@ -41,8 +41,7 @@ static bool make_room(const char *name)
     return false;
 }
 
-bool world_adopt_world(const char *name, const struct params *params,
-                       const struct image_header *image)
+bool world_adopt(const char *name, const struct params *params, const struct image_header *image)
 {
     struct view view;
     struct error_text error;
@@ -51,16 +50,16 @@ bool world_adopt_world(const char *name, const struct params *params,
         same = same_world(&view, params, image);
         segment_detach(&view);
     } else if (!error.foreign) {
-        not_usable(&error, image);
+        refuse_unusable(&error, image);
     }
     if (!same)
-        return make_room(name);
+        return remove_world(name);
     if (segment_wait_free(name, ROLE_COLLIDER, clock_now_ns() + DYING_NS, &error) != 0)
         die_refused("%s", error.text);
     int repaired = segment_repair(name, &error);
     if (repaired < 0) {
-        not_usable(&error, image);
-        return make_room(name);
+        refuse_unusable(&error, image);
+        return remove_world(name);
     }
     if (repaired > 0)
         printf("%s\n", error.text);

@@ -1,4 +1,4 @@
-/* Adoption: what a set that died left under a world's name, and whether it goes on. */
+/* Adoption: continues the world that a dead set has left under a name. */
 #ifndef JOLON_RECORDER_REPLAY_WORLD_ADOPT_H
 #define JOLON_RECORDER_REPLAY_WORLD_ADOPT_H
 
@@ -8,12 +8,11 @@
 
 struct params;
 
-/* True, having said so, when the world called name is the one that would be made now: of the same
- * scenario and settings, and where image is not NULL either made from that very image or the one
- * that the image was taken of; it goes on from its newest whole frame. Any other world of that name
- * is removed: false. Ends the process with the reason (exit 1) when it is in use, and when it is
- * damaged and there is no image to go on from. */
-bool world_adopt_world(const char *name, const struct params *params,
-                       const struct image_header *image);
+/* Returns true, and prints that, if the world called name is the one that would be made now: it has
+ * the same scenario and settings, and if image is not NULL, it was made from that image or the
+ * image was taken of it. That world continues from its newest whole frame. Another world of that
+ * name is removed, and false is returned. Ends the process with the reason (exit 1) if the world is
+ * in use, or damaged without an image to continue from. */
+bool world_adopt(const char *name, const struct params *params, const struct image_header *image);
 
 #endif

@@ -10,5 +10,5 @@ int main(int argc, char **argv)
     log_open("video");
     film.options = video_options_read(argc, argv);
     process_signals();
-    return run_video_make(&film) == LOG_REPLAY_WRONG ? EXIT_REFUSED : EXIT_OK;
+    return run_video_make(&film) == LOG_REPLAY_MISMATCH ? EXIT_REFUSED : EXIT_OK;
 }

@@ -29,7 +29,7 @@ static void open_run(struct run_video *film)
     if (options->from > film->tape.known_frame)
         die_usage("--from %" PRIu64 ": %s is known to frame %" PRIu64, options->from, options->log,
                   film->tape.known_frame);
-    run_start_world(&film->view, &film->tape);
+    run_start_make(&film->view, &film->tape);
     uint32_t threads = options->renderer.threads > 0 ? options->renderer.threads : 1;
     if (frame_stepper_init(&film->player, &film->view, threads) != 0)
         die_refused("cannot start %u threads: %s", threads, strerror(errno));
@@ -92,7 +92,7 @@ static bool play_to(struct run_video *film, uint64_t frame, enum log_replay_step
     uint64_t looks = (uint64_t)(LOOK_S / world_dt_s(&film->view.world)) + 1;
     while (frame_stepper_frame(&film->player) < frame && !process_stopping()) {
         *step = log_replay_step(&film->tape, &film->player, &error);
-        if (*step == LOG_REPLAY_WRONG)
+        if (*step == LOG_REPLAY_MISMATCH)
             log_warn("%s", error.text);
         if (*step != LOG_REPLAY_STEPPED)
             return false;

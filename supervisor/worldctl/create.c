@@ -26,8 +26,8 @@ int verb_create(const struct arguments *arguments)
         die_refused("%s", error.text);
     if (arguments->from)
         return image_resume_world(arguments);
-    scenario_load_scenario(arguments, &scenario);
-    if (arguments->adopt && world_adopt_world(arguments->world, &scenario.settings->params, NULL)) {
+    scenario_load(arguments, &scenario);
+    if (arguments->adopt && world_adopt(arguments->world, &scenario.settings->params, NULL)) {
         scenario_free(&scenario);
         return EXIT_OK;
     }
@@ -56,7 +56,7 @@ int verb_check(const struct arguments *arguments)
     if (arguments->path || arguments->sets > 0) {
         struct scenario scenario;
         struct world_build built;
-        scenario_load_scenario(arguments, &scenario);
+        scenario_load(arguments, &scenario);
         scenario_load_generate(&scenario, &built);
         printf("%s: good: %u vehicles, %u fixed objects, seed %llu, hash %016llx\n",
                scenario.settings->params.scenario, built.used, built.counts.fixed,

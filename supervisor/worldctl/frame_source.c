@@ -39,10 +39,10 @@ void frame_source_open(struct frame_source *source, const char *name, uint32_t t
         const struct arguments arguments = {.world = name};
         source->kind = FRAME_SOURCE_WORLD;
         arguments_snapshot(&arguments, &source->view, &source->snapshot);
-    } else if (log_replay_is_one(name)) {
+    } else if (log_replay_is_command_log(name)) {
         source->kind = FRAME_SOURCE_LOG;
         run_start_open(&source->replay, name);
-        run_start_world(&source->view, &source->replay);
+        run_start_make(&source->view, &source->replay);
         start_stepper(source);
     } else {
         source->kind = FRAME_SOURCE_IMAGE;
@@ -92,7 +92,7 @@ bool frame_source_step(struct frame_source *source)
         return true;
     }
     enum log_replay_step step = log_replay_step(&source->replay, &source->stepper, &error);
-    if (step == LOG_REPLAY_WRONG)
+    if (step == LOG_REPLAY_MISMATCH)
         die_refused("%s", error.text);
     return step == LOG_REPLAY_STEPPED;
 }

@@ -34,7 +34,7 @@ static uint64_t last_frame(const struct arguments *arguments, const struct log_r
 
 static void log_events(struct event_log *events, const struct view *view)
 {
-    while (event_log_turn(events, view))
+    while (event_log_append(events, view))
         ;
     if (events->journal.error != 0)
         die_refused("--events %s: cannot write: %s", events->journal.path,
@@ -53,9 +53,9 @@ static bool play(struct log_replay *replay, struct frame_stepper *stepper, uint6
         if (events)
             log_events(events, stepper->view);
     }
-    if (step == LOG_REPLAY_WRONG)
+    if (step == LOG_REPLAY_MISMATCH)
         log_warn("%s", error.text);
-    return step != LOG_REPLAY_WRONG;
+    return step != LOG_REPLAY_MISMATCH;
 }
 
 static void tell(const struct arguments *arguments, const struct log_replay *replay,
@@ -114,7 +114,7 @@ int verb_replay(const struct arguments *arguments)
     process_signals();
     run_start_open(&replay, arguments->path);
     uint64_t last = last_frame(arguments, &replay);
-    run_start_world(&view, &replay);
+    run_start_make(&view, &replay);
     if (frame_stepper_init(&stepper, &view, arguments->threads) != 0)
         die_refused("cannot start %u threads: %s", arguments->threads, strerror(errno));
     if (arguments->events)

@@ -64,7 +64,7 @@ static void replay(const char *path)
 {
     struct log_replay replay;
     struct error_text error = {.text = ""};
-    (void)log_replay_is_one(path);
+    (void)log_replay_is_command_log(path);
     if (log_replay_open(&replay, path, &error) != 0) {
         CHECK(error.text[0] != '\0');
         return;
@@ -84,12 +84,12 @@ static void record(const char *path, bool events)
     static struct command_log command_log;
     if (events) {
         event_log_open(&event_log, &view, path);
-        while (event_log_turn(&event_log, &view))
+        while (event_log_append(&event_log, &view))
             ;
         event_log_close(&event_log, &view);
     } else {
         command_log_open(&command_log, &view, path);
-        while (command_log_turn(&command_log, &view))
+        while (command_log_append(&command_log, &view))
             ;
         command_log_close(&command_log, &view);
     }

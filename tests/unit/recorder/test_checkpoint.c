@@ -74,8 +74,8 @@ static void test_one_is_written_every_so_many_frames(void **state)
     (void)state;
     open_checkpoint(&checkpoint, 10);
     for (unsigned frame = 0; frame <= 35; frame++) {
-        checkpoint_turn(&checkpoint, &view_of_role);
-        checkpoint_turn(&checkpoint, &view_of_role); /* a second look writes nothing */
+        checkpoint_write_if_due(&checkpoint, &view_of_role);
+        checkpoint_write_if_due(&checkpoint, &view_of_role); /* a second look writes nothing */
         assert_int_equal(checkpoint.written, frame / 10);
         assert_int_equal(frame_of_file(), frame / 10 * 10);
         make_frames(1);
@@ -90,14 +90,14 @@ static void test_late_look_writes_one_and_goes_on_at_the_next_multiple(void **st
     (void)state;
     open_checkpoint(&checkpoint, 10);
     make_frames(47);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     assert_int_equal(checkpoint.written, 1);
     assert_int_equal(frame_of_file(), 47);
     make_frames(2);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     assert_int_equal(checkpoint.written, 1);
     make_frames(1);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     assert_int_equal(frame_of_file(), 50);
     checkpoint_close(&checkpoint);
 }
@@ -110,15 +110,15 @@ static void test_restart_does_not_skip_one(void **state)
     (void)state;
     make_frames(13);
     open_checkpoint(&checkpoint, 10); /* no file: nothing is owed */
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     assert_int_equal(checkpoint.written, 0);
     make_frames(8);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     assert_int_equal(frame_of_file(), 21);
     checkpoint_close(&checkpoint);
     make_frames(12);
     open_checkpoint(&checkpoint, 10);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     assert_int_equal(frame_of_file(), 33);
     checkpoint_close(&checkpoint);
 }
@@ -135,7 +135,7 @@ static void test_file_of_another_world_owes_nothing(void **state)
     make_frames(15);
     open_checkpoint(&checkpoint, 10);
     view_of_role = recorder();
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     assert_int_equal(checkpoint.written, 0);
     checkpoint_close(&checkpoint);
 }
@@ -148,7 +148,7 @@ static void test_heart_beats(void **state)
     open_checkpoint(&checkpoint, 1);
     make_frames(1);
     atomic_store(&view.slot[ROLE_RECORDER]->beat_ns, 0);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     assert_int_equal(checkpoint.written, 1);
     assert_true(atomic_load(&view.slot[ROLE_RECORDER]->beat_ns) > 0);
     checkpoint_close(&checkpoint);
@@ -167,21 +167,21 @@ static int fill_the_disk(void *context)
     if (checkpoint_open(&checkpoint, &view, path, 10, &error) != 0)
         return 10;
     make_frames(10);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     if (checkpoint.written != 1 || frame_of_file() != 10)
         return 11;
     setrlimit(RLIMIT_FSIZE, &none);
     make_frames(10);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     if (checkpoint.written != 1 || checkpoint.failed != 1 || frame_of_file() != 10)
         return 12;
     setrlimit(RLIMIT_FSIZE, &all);
     make_frames(9);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     if (checkpoint.written != 1)
         return 13; /* not before the next multiple */
     make_frames(1);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     return checkpoint.written == 2 && frame_of_file() == 30 ? 0 : 14;
 }
 
@@ -200,10 +200,10 @@ static void test_damaged_world_takes_no_good_ones_place(void **state)
     (void)state;
     open_checkpoint(&checkpoint, 10);
     make_frames(10);
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     make_frames(10);
     view.w[0].head->event_digest ^= 1;
-    checkpoint_turn(&checkpoint, &view_of_role);
+    checkpoint_write_if_due(&checkpoint, &view_of_role);
     assert_int_equal(checkpoint.failed, 1);
     assert_int_equal(frame_of_file(), 10);
     checkpoint_close(&checkpoint);

@@ -191,9 +191,9 @@ static void check_events(uint64_t total, uint64_t lost)
 
 static void turn_all(struct event_log *events, struct command_log *commands)
 {
-    while (event_log_turn(events, &f.view))
+    while (event_log_append(events, &f.view))
         ;
-    while (command_log_turn(commands, &f.view))
+    while (command_log_append(commands, &f.view))
         ;
 }
 
@@ -208,11 +208,11 @@ static void test_events_come_once_over_any_number_of_recorders(void **state)
         run_with_commands(&random, 5);
         event_log_open(&log, &f.view, events_path);
         for (uint64_t turns = fixture_random(&random) % 3; turns > 0; turns--)
-            event_log_turn(&log, &f.view);
+            event_log_append(&log, &f.view);
         assert_true(event_log_close(&log, &f.view) <= head()->event_end);
     }
     event_log_open(&log, &f.view, events_path);
-    while (event_log_turn(&log, &f.view))
+    while (event_log_append(&log, &f.view))
         ;
     assert_int_equal(event_log_close(&log, &f.view), 0);
     assert_true(head()->event_end > 100);
@@ -226,10 +226,10 @@ static void test_what_the_ring_overwrote_is_a_gap(void **state)
     (void)state;
     run_with_commands(&random, 10);
     event_log_open(&log, &f.view, events_path);
-    event_log_turn(&log, &f.view);
+    event_log_append(&log, &f.view);
     while (head()->event_end < 2 * SLOTS)
         run_with_commands(&random, 10);
-    while (event_log_turn(&log, &f.view))
+    while (event_log_append(&log, &f.view))
         ;
     uint64_t lost = log.gaps;
     assert_true(lost > 0 && lost >= head()->event_end - log.written);
@@ -252,7 +252,7 @@ static void test_another_runs_events_are_refused(void **state)
     (void)state;
     run_with_commands(&random, FRAMES);
     event_log_open(&log, &f.view, events_path);
-    while (event_log_turn(&log, &f.view))
+    while (event_log_append(&log, &f.view))
         ;
     uint64_t end = head()->event_end;
     assert_int_equal(event_log_close(&log, &f.view), 0);
@@ -276,7 +276,7 @@ static void record_run(uint64_t seed)
     for (int i = 0; i < 10; i++) {
         command_log_open(&log, &f.view, commands_path);
         run_with_commands(&random, FRAMES / 10);
-        while (command_log_turn(&log, &f.view))
+        while (command_log_append(&log, &f.view))
             ;
         if (i % 2)
             assert_int_equal(command_log_close(&log, &f.view), 0);
@@ -330,7 +330,7 @@ static void test_a_mark_that_is_not_met_is_said(void **state)
     steps_rows(&other).x[1] += 0.5; /* the two meet a little earlier */
     while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(&other.player) < replay.known_frame)
         step = log_replay_step(&replay, &other.player, &error);
-    assert_int_equal(step, LOG_REPLAY_WRONG);
+    assert_int_equal(step, LOG_REPLAY_MISMATCH);
     assert_non_null(strstr(error.text, "digest"));
     log_replay_close(&replay);
     fixture_close(&other);
@@ -395,7 +395,7 @@ static void test_lost_commands_are_a_gap_beyond_which_nothing_is_known(void **st
     (void)state;
     command_log_open(&log, &f.view, commands_path);
     run_with_commands(&random, 20);
-    while (command_log_turn(&log, &f.view))
+    while (command_log_append(&log, &f.view))
         ;
     uint64_t logged = head()->tally.commands, known = head()->frame;
     while (head()->event_end < 2 * SLOTS)
@@ -419,7 +419,7 @@ static void test_events_without_commands_lose_no_command(void **state)
     (void)state;
     command_log_open(&log, &f.view, commands_path);
     steps_drive(&f, 0, 0.5, 0.1, 0.0);
-    while (command_log_turn(&log, &f.view))
+    while (command_log_append(&log, &f.view))
         ;
     struct state now = fixture_state(&f);
     now.head->event_end += 2 * SLOTS; /* as if there had been so many, none of them a command */
@@ -492,12 +492,12 @@ static void brake_hard(struct back_pressure *pressure)
         for (int i = 0; i < 4; i++)
             steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_NONE});
         fixture_run(&f, 1);
-        back_pressure_turn(pressure, &f.view, 0);
+        back_pressure_update(pressure, &f.view, 0);
         assert_true(head()->event_end < SLOTS - SLOTS / 8);
     }
     fixture_run(&f, 1);
     assert_int_equal(head()->paused, 1);
-    back_pressure_turn(pressure, &f.view, 0);
+    back_pressure_update(pressure, &f.view, 0);
     assert_true(back_pressure_holds(pressure));
 }
 
@@ -510,14 +510,14 @@ static void test_the_brake_holds_until_all_is_written(void **state)
     uint64_t tick = head()->tick;
     back_pressure_open(&next, &f.view); /* a new recorder finds that it holds the world */
     assert_true(back_pressure_holds(&next));
-    back_pressure_turn(&next, &f.view, head()->event_end - 1);
+    back_pressure_update(&next, &f.view, head()->event_end - 1);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 1);
-    back_pressure_turn(&next, &f.view, head()->event_end);
+    back_pressure_update(&next, &f.view, head()->event_end);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 2);
     fixture_run(&f, 1);
     assert_int_equal(head()->paused, 0);
     assert_int_equal(head()->tick, tick + 1);
-    back_pressure_turn(&next, &f.view, head()->event_end);
+    back_pressure_update(&next, &f.view, head()->event_end);
     assert_false(back_pressure_holds(&next));
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 2);
 }
@@ -528,16 +528,16 @@ static void test_the_brake_leaves_others_pauses_alone(void **state)
     (void)state;
     back_pressure_open(&pressure, &f.view);
     send_console(COMMAND_PAUSE);
-    back_pressure_turn(&pressure, &f.view, head()->event_end);
+    back_pressure_update(&pressure, &f.view, head()->event_end);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 0);
     send_console(COMMAND_RESUME);
     brake_hard(&pressure);
     send_console(COMMAND_PAUSE); /* now somebody else wants it too */
-    back_pressure_turn(&pressure, &f.view, head()->event_end);
+    back_pressure_update(&pressure, &f.view, head()->event_end);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 1);
     send_console(COMMAND_RESUME);
     assert_int_equal(head()->paused, 0);
-    back_pressure_turn(&pressure, &f.view, 0); /* too early: nothing is written yet */
+    back_pressure_update(&pressure, &f.view, 0); /* too early: nothing is written yet */
     fixture_run(&f, 1);
     assert_int_equal(head()->paused, 1);
 }
@@ -552,7 +552,7 @@ static void test_there_is_no_brake_where_gaps_are_wanted(void **state)
         for (int n = 0; n < 4; n++)
             steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_NONE});
         fixture_run(&f, 1);
-        back_pressure_turn(&pressure, &f.view, 0);
+        back_pressure_update(&pressure, &f.view, 0);
     }
     assert_true(head()->event_end > SLOTS);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 0);

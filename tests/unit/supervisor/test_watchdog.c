@@ -46,7 +46,7 @@ static struct child *take_role(struct scene *scene, enum role role, int (*body)(
 {
     static uint64_t never;
     struct role_slot *slot = scene->set.view.slot[role];
-    struct child *child = &scene->set.post[role].child[0];
+    struct child *child = &scene->set.service[role].child[0];
     child->pid = child_start(body, &never);
     while (body == block && process_state(child->pid) != 'S')
         clock_sleep_until_ns(clock_now_ns() + MS);
@@ -64,7 +64,7 @@ static void open_scene(struct scene *scene)
     scene->set = (struct process_set){
         .plan = &scene->plan, .view = scene->fixture.view, .log_fd = STDERR_FILENO};
     for (int i = 0; i < ROLE_COUNT; i++)
-        scene->set.post[i].role = (enum role)i;
+        scene->set.service[i].role = (enum role)i;
     scene->now_ns = clock_now_ns();
     scene->watch = (struct watchdog){scene->now_ns, scene->now_ns};
 }
@@ -75,7 +75,7 @@ static uint64_t look(struct scene *scene, const struct child *child, uint64_t li
     uint64_t begun = scene->now_ns;
     while (!child->hung && scene->now_ns < begun + limit_ms * MS) {
         scene->now_ns += WATCHDOG_TICK_NS;
-        watchdog_turn(&scene->watch, &scene->set, scene->now_ns);
+        watchdog_check(&scene->watch, &scene->set, scene->now_ns);
     }
     return (scene->now_ns - begun) / MS;
 }
@@ -158,7 +158,7 @@ static void test_a_stopped_standby_is_killed_within_the_limit(void **state)
     struct scene scene;
     (void)state;
     open_scene(&scene);
-    struct child *child = &scene.set.post[ROLE_COLLIDER].child[1];
+    struct child *child = &scene.set.service[ROLE_COLLIDER].child[1];
     child->pid = child_start(block, NULL);
     child->stopped_ns = scene.now_ns;
     assert_in_range(look(&scene, child, 10000), 100, 120);
@@ -174,7 +174,7 @@ static void test_a_watch_that_slept_judges_nobody_by_it(void **state)
     (void)state;
     open_scene(&scene);
     struct child *mover = take_role(&scene, ROLE_MOVER, block);
-    struct child *stopped = &scene.set.post[ROLE_COLLIDER].child[1];
+    struct child *stopped = &scene.set.service[ROLE_COLLIDER].child[1];
     stopped->pid = child_start(block, NULL);
     stopped->stopped_ns = scene.now_ns;
     look(&scene, mover, 50);
@@ -234,10 +234,10 @@ static void test_who_gets_on_with_a_long_frame_is_left_alone_and_said_once(void 
     struct child *child = take_role(&scene, ROLE_COLLIDER, block);
     look_while_it_works(&scene, child, 3000);
     assert_false(child->hung);
-    assert_int_equal(scene.set.post[ROLE_COLLIDER].long_frames, 1);
+    assert_int_equal(scene.set.service[ROLE_COLLIDER].long_frames, 1);
     atomic_store(&scene.set.view.slot[ROLE_COLLIDER]->beat_ns, scene.now_ns);
     look_while_it_works(&scene, child, 3000); /* the next one is long, too */
-    assert_int_equal(scene.set.post[ROLE_COLLIDER].long_frames, 2);
+    assert_int_equal(scene.set.service[ROLE_COLLIDER].long_frames, 2);
     uint64_t took = look(&scene, child, 10000); /* and then it hangs in it */
     assert_true(child->hung);
     assert_in_range(took, 90, 130);

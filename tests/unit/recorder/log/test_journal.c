@@ -75,7 +75,7 @@ static int make(void **state)
     (void)unlink(path);
     journal_open(&journal, "--events", path, BEGINS);
     for (int i = 0; i < RECORDS; i++) {
-        journal_put(&journal, record(i));
+        journal_append(&journal, record(i));
         if (journal_flush(&journal) != 0)
             return -1;
         ends[i + 1] = get_file(whole, sizeof whole);
@@ -101,7 +101,7 @@ static void goes_on_with(int next)
         assert_null(journal.last);
     else
         assert_memory_equal(journal.last, whole + ends[next - 1], ends[next] - ends[next - 1] - 1);
-    journal_put(&journal, record(next));
+    journal_append(&journal, record(next));
     assert_int_equal(journal_close(&journal), 0);
     size_t length = get_file(now, sizeof now);
     cJSON *expected = record(next);
@@ -109,7 +109,7 @@ static void goes_on_with(int next)
     assert_memory_equal(now, whole, ends[next]);
     now[length - 1] = '\0';
     assert_true(journal_check(now + ends[next], length - 1 - ends[next]));
-    assert_true(journal_is(now + ends[next], expected));
+    assert_true(journal_line_equals(now + ends[next], expected));
 }
 
 static void test_every_record_is_json_and_checked(void **state)
@@ -223,7 +223,7 @@ static int fill_up(void *context)
         return 3;
     int failed = 0;
     for (int i = 0; i < RECORDS; i++) {
-        journal_put(&journal, record(i));
+        journal_append(&journal, record(i));
         failed += journal_flush(&journal) != 0;
     }
     if (failed > 0 && (journal.error != EFBIG || journal_flush(&journal) == 0))
@@ -266,7 +266,7 @@ static int write_in_vain(void *context)
     struct journal journal;
     const int error = *(const int *)context;
     journal_open(&journal, "--events", path, BEGINS);
-    journal_put(&journal, record(RECORDS));
+    journal_append(&journal, record(RECORDS));
     if (let_fail(SYS_write, (uint32_t)error) != 0)
         return 2;
     return journal_flush(&journal) == -1 && journal.error == error && journal.used > 0 ? 10 : 3;
@@ -298,9 +298,9 @@ static void test_a_journal_is_cut_and_its_end_kept(void **state)
     (void)state;
     put_file(whole, whole_length);
     journal_open(&journal, "--events", path, BEGINS);
-    journal_cut(&journal, from_third, NULL);
+    journal_truncate(&journal, from_third, NULL);
     assert_memory_equal(journal.last, whole + ends[1], ends[2] - ends[1] - 1);
-    journal_put(&journal, record(2));
+    journal_append(&journal, record(2));
     assert_int_equal(journal_close(&journal), 0);
     assert_int_equal(get_file(now, sizeof now), ends[3]);
     assert_memory_equal(now, whole, ends[3]);
@@ -321,7 +321,7 @@ static void test_the_open_file_is_cut_not_a_link_of_its_name(void **state)
     journal_open(&journal, "--events", path, BEGINS);
     assert_int_equal(unlink(path), 0);
     assert_int_equal(symlink("/dev/null", path), 0);
-    journal_cut(&journal, from_third, NULL);
+    journal_truncate(&journal, from_third, NULL);
     assert_non_null(journal.last);
     assert_memory_equal(journal.last, whole + ends[1], ends[2] - ends[1] - 1);
     assert_int_equal(fstat(journal.fd, &status), 0);
@@ -338,7 +338,7 @@ static int cut_while_failing(void *context)
     journal_open(&journal, "--events", path, BEGINS);
     if (let_fail(call, EIO) != 0)
         return 2;
-    journal_cut(&journal, from_third, NULL);
+    journal_truncate(&journal, from_third, NULL);
     return 77;
 }
 
