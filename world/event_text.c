@@ -88,16 +88,11 @@ static void command_text(char *text, const struct event *event, const char *cons
 static const struct event_row {
     const char *word;
     void (*text)(char *text, const struct event *event, const char *const *kind);
-} rows[] = {
-    [EVENT_NONE] = {"none", NULL},
-    [EVENT_COLLISION] = {"collision", collision_text},
-    [EVENT_FIRE] = {"fire", fire_text},
-    [EVENT_DETONATION] = {"detonation", detonation_text},
-    [EVENT_CRATER] = {"crater", crater_text},
-    [EVENT_AGENT] = {"agent", agent_text},
-    [EVENT_COMMAND] = {"command", command_text},
+} rows[] = {[EVENT_NONE] = {"none", NULL},
+#define X(tag, word) [EVENT_##tag] = {#word, word##_text},
+            EVENT_TYPES(X)
+#undef X
 };
-_Static_assert(sizeof rows / sizeof rows[0] == EVENT_TYPE_COUNT, "a row for each type of event");
 
 void event_text_parties(const struct event *event,
                         const struct event_party *parties[EVENT_TEXT_PARTIES])

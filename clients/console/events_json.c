@@ -16,6 +16,8 @@
 
 /* Bits of event types, and one for drives that were done: there are several a second of each
  * player, so they are told only to who asks for them. */
+#define EVENT_WORD(tag, word) #word ", "
+
 #define DRIVE_BIT (1u << EVENT_TYPE_COUNT)
 
 static const char *type_word(uint32_t bit)
@@ -35,10 +37,9 @@ static bool read_types(const struct world_query *query, uint32_t *types, struct 
                (strlen(type_word(bit)) != length || strncmp(type_word(bit), at, length) != 0))
             bit++;
         if (bit > EVENT_TYPE_COUNT) {
-            http_answer_error(
-                answer, HTTP_ANSWER_BAD,
-                "there are collision, fire, detonation, crater, agent, command, drive",
-                "types: \"%.*s\" is no type of event", length < 40 ? (int)length : 40, at);
+            http_answer_error(answer, HTTP_ANSWER_BAD, "there are " EVENT_TYPES(EVENT_WORD) "drive",
+                              "types: \"%.*s\" is no type of event", length < 40 ? (int)length : 40,
+                              at);
             return false;
         }
         *types |= 1u << bit;

@@ -163,6 +163,14 @@ static void add_detonation(cJSON *object, const struct world *world,
     json_single(object, "explosive_kg", detonation->explosive_kg);
 }
 
+static void add_crater(cJSON *object, const struct world *world, const struct event_crater *crater)
+{
+    (void)world;
+    json_triple(object, "point", crater->point[0], crater->point[1], crater->point[2]);
+    json_single(object, "radius_m", crater->radius_m);
+    json_single(object, "depth_m", crater->depth_m);
+}
+
 static void add_agent(cJSON *object, const struct world *world, const struct event_agent *agent)
 {
     json_whole(object, "id", agent->agent.id);
@@ -172,8 +180,10 @@ static void add_agent(cJSON *object, const struct world *world, const struct eve
     json_text(object, "because", agent_reason_name((enum agent_reason)agent->because));
 }
 
-static void add_command(cJSON *object, const struct event_command *command)
+static void add_command(cJSON *object, const struct world *world,
+                        const struct event_command *command)
 {
+    (void)world;
     json_hex(object, "source", command->source);
     json_whole(object, "command_sequence", command->sequence);
     json_text(object, "command", command_type_name((enum command_type)command->type));
@@ -190,27 +200,12 @@ cJSON *json_event(const struct world *world, const struct event *event)
     json_number(object, "time_s", (double)event->tick * world_dt_s(world));
     json_text(object, "type", event_type_name((enum event_type)event->type));
     switch ((enum event_type)event->type) {
-    case EVENT_COLLISION:
-        add_collision(object, world, &event->collision);
+#define X(tag, word)                                                                               \
+    case EVENT_##tag:                                                                              \
+        add_##word(object, world, &event->word);                                                   \
         break;
-    case EVENT_FIRE:
-        add_fire(object, world, &event->fire);
-        break;
-    case EVENT_DETONATION:
-        add_detonation(object, world, &event->detonation);
-        break;
-    case EVENT_CRATER:
-        json_triple(object, "point", event->crater.point[0], event->crater.point[1],
-                    event->crater.point[2]);
-        json_single(object, "radius_m", event->crater.radius_m);
-        json_single(object, "depth_m", event->crater.depth_m);
-        break;
-    case EVENT_AGENT:
-        add_agent(object, world, &event->agent);
-        break;
-    case EVENT_COMMAND:
-        add_command(object, &event->command);
-        break;
+        EVENT_TYPES(X)
+#undef X
     default:
         break;
     }

@@ -6,15 +6,24 @@
 
 #include <stdint.h>
 
+/* The registry of event types: X(TAG, word), a row each. The word is that of logs and filters, and
+ * names the type's struct event_WORD and member of struct event. It also begins or ends the names
+ * of the functions that write the type: WORD_text() in world/event_text.c, add_WORD() in
+ * ipc/json/world_json.c, write_WORD() in reporter/event_topics.c. */
+#define EVENT_TYPES(X)                                                                             \
+    X(COLLISION, collision)                                                                        \
+    X(FIRE, fire)                                                                                  \
+    X(DETONATION, detonation)                                                                      \
+    X(CRATER, crater)                                                                              \
+    X(AGENT, agent)                                                                                \
+    X(COMMAND, command)
+
 enum event_type {
     EVENT_NONE,
-    EVENT_COLLISION,
-    EVENT_FIRE,
-    EVENT_DETONATION,
-    EVENT_CRATER,
-    EVENT_AGENT,
-    EVENT_COMMAND,
-    EVENT_TYPE_COUNT
+#define X(tag, word) EVENT_##tag,
+    EVENT_TYPES(X)
+#undef X
+        EVENT_TYPE_COUNT
 };
 
 enum response {
@@ -115,12 +124,9 @@ struct event {
     uint32_t index; /* within the frame, from 0 */
     uint32_t type;  /* enum event_type */
     union {
-        struct event_collision collision;
-        struct event_fire fire;
-        struct event_detonation detonation;
-        struct event_crater crater;
-        struct event_agent agent;
-        struct event_command command;
+#define X(tag, word) struct event_##word word;
+        EVENT_TYPES(X)
+#undef X
         uint8_t bytes[96];
     };
 };
