@@ -122,6 +122,8 @@ static const struct command_text_verb verbs[] = {
 };
 
 #define VERB_COUNT (sizeof verbs / sizeof verbs[0])
+/* COMMAND_NONE has no verb; "mission" is a second one of COMMAND_FIRE. */
+_Static_assert(VERB_COUNT == COMMAND_TYPE_COUNT, "a verb for each type of command");
 
 const struct command_text_verb *command_text_verb(size_t i)
 {
