@@ -27,7 +27,7 @@ static const char usage[] =
 static struct options given = {.world = "default",
                                .fps = -1.0,
                                .field_rad = CAMERA_FIELD_OF_VIEW_RAD,
-                               .stand.pitch_rad = -6.0 * RAD_PER_DEG,
+                               .pose.pitch_rad = -6.0 * RAD_PER_DEG,
                                .back_end = -1,
                                .hold = -1,
                                .outputs = {.stills_fps = -1.0,
@@ -82,11 +82,11 @@ static int read_parts(const char *text, const struct part *part, int least, int 
 
 static int take_eye(const char *text, struct error_text *error)
 {
-    static const struct part part[] = {{"X", 0.0, WORLD_SIDE_M, &given.stand.x},
-                                       {"Z", 0.0, WORLD_SIDE_M, &given.stand.z},
-                                       {"HEIGHT", 0.0, UP_MOST_M, &given.stand.above_m}};
-    given.stand.above_m = EYE_HEIGHT_M;
-    given.stand.given = true;
+    static const struct part part[] = {{"X", 0.0, WORLD_SIDE_M, &given.pose.x},
+                                       {"Z", 0.0, WORLD_SIDE_M, &given.pose.z},
+                                       {"HEIGHT", 0.0, UP_MOST_M, &given.pose.above_m}};
+    given.pose.above_m = EYE_HEIGHT_M;
+    given.pose.given = true;
     return read_parts(text, part, 2, 3, "X,Z or X,Z,HEIGHT", error);
 }
 
@@ -96,8 +96,8 @@ static int take_look(const char *text, struct error_text *error)
     const struct part part[] = {{"HEADING", -360.0, 360.0, &heading},
                                 {"PITCH", -90.0, 90.0, &pitch}};
     int result = read_parts(text, part, 2, 2, "HEADING,PITCH", error);
-    given.stand.heading_rad = heading * RAD_PER_DEG;
-    given.stand.pitch_rad = pitch * RAD_PER_DEG;
+    given.pose.heading_rad = heading * RAD_PER_DEG;
+    given.pose.pitch_rad = pitch * RAD_PER_DEG;
     given.look_given = true;
     return result;
 }
@@ -187,12 +187,12 @@ static void check(const struct options *options)
 {
     if ((options->out == NULL) == (options->snap == NULL))
         die_usage("give --out DIR or --snap FILE; see jolon-renderer --help");
-    if (options->look_given && !options->stand.given)
+    if (options->look_given && !options->pose.given)
         die_usage("--look: give --eye X,Z too, the free camera's place");
     bool free_view = false;
     for (uint32_t i = 0; i < options->views.count; i++)
         free_view |= options->views.spec[i].mode == VIEW_FREE;
-    if (options->stand.given && !free_view)
+    if (options->pose.given && !free_view)
         die_usage("--eye: it is the free camera's place; give --view free too");
     if (options->device != NULL && options->back_end == BACK_END_SOFT)
         die_usage("--device: the own rasteriser needs none; give --backend gl");
@@ -207,8 +207,8 @@ int options_read(struct options *options, const struct option_table *own, int ar
         given.out = ".";
     }
     int plain = option_table_read(&table, argc, argv);
-    if (given.views.count == 0 && (given.stand.given || own))
-        views_of_bits(&given.views, 1u << (given.stand.given ? VIEW_FREE : VIEW_CHASE));
+    if (given.views.count == 0 && (given.pose.given || own))
+        views_of_bits(&given.views, 1u << (given.pose.given ? VIEW_FREE : VIEW_CHASE));
     given.role = (enum role)role;
     given.width = size.width;
     given.height = size.height;

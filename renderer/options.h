@@ -24,13 +24,13 @@ struct options {
     const char *follow_name; /* or its name, NULL */
     bool follow_given; /* follows it even as a wreck; else the world's choice while it lives */
     double field_rad;  /* of view */
-    struct view_camera_stand stand; /* of the free camera */
-    bool look_given;                /* its direction */
-    int back_end;                   /* enum back_end; below 0: the world's */
-    const char *device;             /* number or part of the name; NULL: the first that draws */
-    uint32_t threads;               /* of the own rasteriser; 0: as suits the machine */
-    int hold;   /* less detail rather than fewer pictures; below 0: the world's */
-    bool exact; /* committed frames alone, nothing between them */
+    struct view_camera_pose pose; /* of the free camera */
+    bool look_given;              /* its direction */
+    int back_end;                 /* enum back_end; below 0: the world's */
+    const char *device;           /* number or part of the name; NULL: the first that draws */
+    uint32_t threads;             /* of the own rasteriser; 0: as suits the machine */
+    int hold;                     /* less detail rather than fewer pictures; below 0: the world's */
+    bool exact;                   /* committed frames alone, nothing between them */
     bool list_devices;
     struct output_set_options outputs; /* where pictures go, when out is given */
     int parent;                        /* 0: none */

@@ -44,7 +44,7 @@ static void init_pictures(struct render_session *session)
             (struct view_picture){.spec = options->views.spec[i],
                                   .camera_options = {.view = options->views.spec[i].mode,
                                                      .field_rad = options->field_rad,
-                                                     .stand = options->stand},
+                                                     .pose = options->pose},
                                   .slot = SLOT_NONE};
     session->picture_count = options->views.count;
 }
@@ -264,7 +264,7 @@ struct frame_view render_session_frame_view(const struct render_session *session
                                .fixed_damage = snapshot->fixed_damage,
                                .craters = &session->craters,
                                .dents = &session->dents,
-                               .gear = &session->articulation};
+                               .articulation = &session->articulation};
 }
 
 /* Takes a frame in beside the one before it, unless it is that one. */

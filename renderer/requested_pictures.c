@@ -125,9 +125,9 @@ static int draw_row(struct render_session *session, uint32_t i, struct error_tex
     const struct quality_control_level *level =
         &quality_control_levels[complete ? 0 : requested->quality.level];
     session->draw_list.detail = (float)level->detail;
-    session->draw_list.paintings = complete ? TERRAIN_TILES_ALL
-                                   : first  ? PAINTINGS_MOST
-                                            : PAINTINGS;
+    session->draw_list.texture_budget = complete ? TERRAIN_TILES_ALL
+                                        : first  ? PAINTINGS_MOST
+                                                 : PAINTINGS;
     articulation_note(&session->articulation, &frame_view);
     const struct view_picture_target target = {
         .image = &row->image,

@@ -195,7 +195,7 @@ static int draw_camera(struct render_session *session, struct view_picture *pict
         return -1;
     /* The first picture waits for all its ground; at a rate, ground comes when there is time. */
     if (session->smooth)
-        session->draw_list.paintings = RENDER_SESSION_PAINTINGS;
+        session->draw_list.texture_budget = RENDER_SESSION_PAINTINGS;
     return 0;
 }
 
@@ -269,7 +269,7 @@ int view_pictures_draw(struct render_session *session, bool last, struct error_t
     const struct quality_control_level *level =
         &quality_control_levels[complete ? 0 : session->quality.level];
     session->draw_list.detail = (float)level->detail;
-    session->draw_list.paintings = paintings_of(session, complete);
+    session->draw_list.texture_budget = paintings_of(session, complete);
     choose_vehicles(session, &frame_view);
     articulation_note(&session->articulation, &frame_view);
     for (uint32_t i = 0; i < session->picture_count; i++) {
@@ -280,7 +280,7 @@ int view_pictures_draw(struct render_session *session, bool last, struct error_t
     session->drawn = frame_view.head->frame;
     session->drawn_ahead_s = frame_view.ahead_s;
     session->drawn_complete =
-        level == quality_control_levels && session->draw_list.paintings == TERRAIN_TILES_ALL;
+        level == quality_control_levels && session->draw_list.texture_budget == TERRAIN_TILES_ALL;
     if (!complete)
         adjust_quality(session);
     return 0;

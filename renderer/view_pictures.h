@@ -15,7 +15,7 @@ struct render_session;
 
 struct view_picture {
     struct view_spec spec;
-    struct view_camera_wish camera_options;
+    struct view_camera_options camera_options;
     struct view_camera view_camera;
     uint32_t slot; /* of its vehicle in the moment that is drawn; SLOT_NONE for none */
 };

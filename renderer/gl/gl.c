@@ -123,7 +123,8 @@ static void draw_shadows(struct gl *gl, const struct draw_list *list)
     glDisable(GL_STENCIL_TEST);
 }
 
-static void draw_scene(struct gl *gl, const struct draw_list *list, const struct frame_view *moment)
+static void draw_scene(struct gl *gl, const struct draw_list *list,
+                       const struct frame_view *frame_view)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, gl->target);
     glViewport(0, 0, (GLsizei)gl->drawn.width, (GLsizei)gl->drawn.height);
@@ -131,7 +132,7 @@ static void draw_scene(struct gl *gl, const struct draw_list *list, const struct
     glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
-    gl_ground_draw(&gl->ground, list, moment);
+    gl_ground_draw(&gl->ground, list, frame_view);
     draw_shadows(gl, list);
     gl_bodies_draw(&gl->bodies, list);
     gl_plants_draw(&gl->boards, list);
@@ -162,7 +163,7 @@ static void read_back(struct gl *gl)
     }
 }
 
-static int gl_picture(void *self, const struct draw_list *list, const struct frame_view *moment,
+static int gl_picture(void *self, const struct draw_list *list, const struct frame_view *frame_view,
                       struct image *image, struct error_text *error)
 {
     struct gl *gl = self;
@@ -171,7 +172,7 @@ static int gl_picture(void *self, const struct draw_list *list, const struct fra
     send_frame(gl, list);
     gl_bodies_send(&gl->bodies, list);
     gl_billboards_send(&gl->boards, list);
-    draw_scene(gl, list, moment);
+    draw_scene(gl, list, frame_view);
 
     read_back(gl);
     fxaa_edges(image, &gl->drawn);
@@ -215,9 +216,9 @@ void gl_list(void)
     gl_context_list();
 }
 
-int gl_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
-            uint32_t height, const struct gl_wish *wish, char name[BACK_END_NAME_BYTES],
-            struct error_text *error)
+int gl_open(struct back_end_interface *draw, const struct static_scene *static_scene,
+            uint32_t width, uint32_t height, const struct gl_wish *wish,
+            char name[BACK_END_NAME_BYTES], struct error_text *error)
 {
     struct gl *gl = calloc(1, sizeof *gl);
     if (gl == NULL)
@@ -235,9 +236,9 @@ int gl_open(struct back_end_interface *draw, const struct static_scene *scenery,
         goto err_context;
     if (gl_textures_open(&gl->textures, error) != 0)
         goto err_context;
-    if (gl_ground_open(&gl->ground, scenery, error) != 0)
+    if (gl_ground_open(&gl->ground, static_scene, error) != 0)
         goto err_textures;
-    if (gl_bodies_open(&gl->bodies, scenery, error) != 0)
+    if (gl_bodies_open(&gl->bodies, static_scene, error) != 0)
         goto err_ground;
     if (gl_billboards_open(&gl->boards, error) != 0)
         goto err_bodies;

@@ -136,7 +136,7 @@ static const char shadow_fragment_text[] = "in float v_clear;\n"
 /* All meshes of all models into one buffer. 0, or -1 with errno. */
 static int send_meshes(struct gl_bodies *bodies)
 {
-    const struct world *world = bodies->scenery->world;
+    const struct world *world = bodies->static_scene->world;
     struct mesh_vertex *all = NULL;
     size_t count = 0;
     for (uint32_t model = 0; model < world->counts.models; model++)
@@ -195,9 +195,9 @@ static void describe_copies(const struct gl_bodies *bodies, uint32_t first)
     gl_attribute(9, 4, stride, base + offsetof(struct draw_list_body, turret_rad), 1);
     gl_attribute(10, 4, stride, base + offsetof(struct draw_list_body, plane), 1);
     gl_attribute(11, 3, stride, base + offsetof(struct draw_list_body, dents), 1);
-    gl_attribute(12, 3, stride, base + offsetof(struct draw_list_body, falls), 1);
+    gl_attribute(12, 3, stride, base + offsetof(struct draw_list_body, collapse), 1);
     gl_attribute(13, 3, stride, base + offsetof(struct draw_list_body, broken), 1);
-    gl_attribute(14, 2, stride, base + offsetof(struct draw_list_body, way_m), 1);
+    gl_attribute(14, 2, stride, base + offsetof(struct draw_list_body, travel_m), 1);
 }
 
 static void open_dents(struct gl_bodies *bodies)
@@ -211,10 +211,10 @@ static void open_dents(struct gl_bodies *bodies)
     glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, bodies->dents);
 }
 
-int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
+int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *static_scene,
                    struct error_text *error)
 {
-    *bodies = (struct gl_bodies){.scenery = scenery};
+    *bodies = (struct gl_bodies){.static_scene = static_scene};
     bodies->program = gl_program_on("body", gl_deform_text, vertex_text, fragment_text, error);
     if (bodies->program == 0)
         return -1;
@@ -225,7 +225,7 @@ int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
     bodies->u_pivots = glGetUniformLocation(bodies->program, "u_pivots");
     bodies->u_low = glGetUniformLocation(bodies->program, "u_low");
     bodies->u_shadow_pivots = glGetUniformLocation(bodies->shadow_program, "u_pivots");
-    size_t meshes = (size_t)scenery->world->counts.models * MESH_DETAIL_COUNT;
+    size_t meshes = (size_t)static_scene->world->counts.models * MESH_DETAIL_COUNT;
     bodies->mesh = calloc(meshes + 1, sizeof *bodies->mesh);
     glGenVertexArrays(1, &bodies->array);
     glBindVertexArray(bodies->array);
@@ -284,7 +284,7 @@ static void draw_runs(const struct gl_bodies *bodies, const struct draw_list *li
                 break;
         const struct gl_mesh *mesh =
             &bodies->mesh[(size_t)instance->model * MESH_DETAIL_COUNT + instance->detail];
-        const struct mesh_skeleton *skeleton = &bodies->scenery->skeletons[instance->model];
+        const struct mesh_skeleton *skeleton = &bodies->static_scene->skeletons[instance->model];
         glUniform4fv(u_pivots, MODEL_JOINTS_MAX, &skeleton->pivot[0][0]);
         if (u_low >= 0)
             glUniform1f(u_low, skeleton->low[1]);

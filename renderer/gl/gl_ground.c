@@ -133,11 +133,11 @@ static int open_shader(struct gl_ground_shader *shader, const char *name, const 
     return 0;
 }
 
-int gl_ground_open(struct gl_ground *ground, const struct static_scene *scenery,
+int gl_ground_open(struct gl_ground *ground, const struct static_scene *static_scene,
                    struct error_text *error)
 {
     memset(ground, 0, sizeof *ground);
-    ground->scenery = scenery;
+    ground->static_scene = static_scene;
     if (terrain_tiles_init(&ground->cache) != 0)
         return error_text_set(error, "no memory for the ground");
     if (open_shader(&ground->land, "ground", land_text, error) == 0 &&
@@ -172,9 +172,9 @@ static struct gl_tile *copy_of(struct gl_ground *ground, const struct tile *tile
 static void send_shape(struct gl_ground *ground, const struct tile *tile)
 {
     struct gl_tile *copy = copy_of(ground, tile);
-    if (copy->shape_version == tile->shape_version)
+    if (copy->mesh_version == tile->mesh_version)
         return;
-    copy->shape_version = tile->shape_version;
+    copy->mesh_version = tile->mesh_version;
     glBindBuffer(GL_ARRAY_BUFFER, copy->vertices);
     const struct terrain_mesh *mesh = &tile->mesh;
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(mesh->vertex_count * sizeof mesh->vertices[0]),
@@ -188,14 +188,14 @@ static void send_shape(struct gl_ground *ground, const struct tile *tile)
 static void send_paint(struct gl_ground *ground, const struct tile *tile)
 {
     struct gl_tile *copy = copy_of(ground, tile);
-    if (copy->paint_version == tile->paint_version)
+    if (copy->texture_version == tile->texture_version)
         return;
-    copy->paint_version = tile->paint_version;
+    copy->texture_version = tile->texture_version;
     glBindTexture(GL_TEXTURE_2D, copy->texture);
     for (uint32_t mip = 0; mip < TILE_MIPS; mip++)
         glTexImage2D(GL_TEXTURE_2D, (GLint)mip, GL_RGBA8, (GLsizei)tile_mip_side(mip),
                      (GLsizei)tile_mip_side(mip), 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                     tile->paint + tile_mip_offset(mip));
+                     tile->texture + tile_mip_offset(mip));
 }
 
 static float fraction(double v)
@@ -206,36 +206,37 @@ static float fraction(double v)
 static void draw_view(struct gl_ground *ground, const struct gl_ground_shader *shader,
                       const struct draw_list *list, const struct tile_view *view)
 {
-    const struct tile_key *key = &view->shape->key;
+    const struct tile_key *key = &view->tile->key;
     double side = terrain_quadtree_patch_side(key->level);
     double x = key->column * side, z = key->row * side;
     float corner[3];
     draw_list_relative(list, (struct vec3){x, 0.0, z}, corner);
     glUniform4f(shader->u_origin, corner[0], corner[1], corner[2], (float)side);
     glUniform3f(shader->u_part, view->at_u, view->at_v, view->share);
-    glUniform1f(shader->u_surf, view->paint->surf ? 1.0f : 0.0f);
+    glUniform1f(shader->u_surf, view->texture_tile->surf ? 1.0f : 0.0f);
     glUniform1f(shader->u_texel, (float)(side / (TILE_TEXELS - 1)) / view->share);
     double fine = (double)FINE_M, waves = (double)WAVES_M;
     glUniform4f(shader->u_detail, fraction(x / fine), fraction(z / fine),
                 fraction((x + 0.35 * z) / waves), fraction((z - 0.35 * x) / waves));
-    glBindTexture(GL_TEXTURE_2D, copy_of(ground, view->paint)->texture);
-    glBindVertexArray(copy_of(ground, view->shape)->array);
-    glDrawElements(GL_TRIANGLES, (GLsizei)(3 * view->shape->mesh.triangle_count), GL_UNSIGNED_SHORT,
+    glBindTexture(GL_TEXTURE_2D, copy_of(ground, view->texture_tile)->texture);
+    glBindVertexArray(copy_of(ground, view->tile)->array);
+    glDrawElements(GL_TRIANGLES, (GLsizei)(3 * view->tile->mesh.triangle_count), GL_UNSIGNED_SHORT,
                    NULL);
 }
 
 void gl_ground_draw(struct gl_ground *ground, const struct draw_list *list,
-                    const struct frame_view *moment)
+                    const struct frame_view *frame_view)
 {
     struct terrain_tiles *cache = &ground->cache;
-    terrain_tiles_update(cache, list->patches, list->patch_count, moment, list->paintings);
+    terrain_tiles_update(cache, list->patches, list->patch_count, frame_view, list->texture_budget);
     glEnable(GL_CULL_FACE);
     glActiveTexture(GL_TEXTURE0 + UNIT_TILE);
     for (uint32_t i = 0; i < cache->view_count; i++) {
         const struct tile_view *view = &cache->views[i];
-        const struct gl_ground_shader *shader = view->paint->wet ? &ground->shore : &ground->land;
-        send_shape(ground, view->shape);
-        send_paint(ground, view->paint);
+        const struct gl_ground_shader *shader =
+            view->texture_tile->wet ? &ground->shore : &ground->land;
+        send_shape(ground, view->tile);
+        send_paint(ground, view->texture_tile);
         glUseProgram(shader->program);
         draw_view(ground, shader, list, view);
     }

@@ -58,7 +58,7 @@ void gl_textures_close(struct gl_textures *textures);
 /* A tile's copy in the driver, in the same place as in the cache. */
 struct gl_tile {
     GLuint texture, vertices, triangles, array;
-    uint64_t shape_version, paint_version; /* that were sent */
+    uint64_t mesh_version, texture_version; /* that were sent */
 };
 
 struct gl_ground_shader {
@@ -67,16 +67,16 @@ struct gl_ground_shader {
 };
 
 struct gl_ground {
-    const struct static_scene *scenery;
+    const struct static_scene *static_scene;
     struct gl_ground_shader land, shore;
     struct terrain_tiles cache;
     struct gl_tile tiles[TILE_CAPACITY];
 };
-int gl_ground_open(struct gl_ground *ground, const struct static_scene *scenery,
+int gl_ground_open(struct gl_ground *ground, const struct static_scene *static_scene,
                    struct error_text *error);
 void gl_ground_close(struct gl_ground *ground);
 void gl_ground_draw(struct gl_ground *ground, const struct draw_list *list,
-                    const struct frame_view *moment);
+                    const struct frame_view *frame_view);
 
 /* --- bodies (gl_bodies.c, gl_form.c) --- */
 
@@ -89,13 +89,13 @@ struct gl_mesh {
 };
 
 struct gl_bodies {
-    const struct static_scene *scenery;
+    const struct static_scene *static_scene;
     GLuint program, shadow_program, array, meshes, instances;
     GLuint dents, dent_texture; /* the buffer, and the texture that is a view of it */
     GLint u_pivots, u_low, u_shadow_pivots;
     struct gl_mesh *mesh; /* [models * MESH_DETAIL_COUNT] */
 };
-int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *scenery,
+int gl_bodies_open(struct gl_bodies *bodies, const struct static_scene *static_scene,
                    struct error_text *error);
 void gl_bodies_close(struct gl_bodies *bodies);
 /* Sends the scene's copies; the draws that follow use them. */

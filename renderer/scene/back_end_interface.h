@@ -27,7 +27,7 @@ struct back_end_interface {
     /* Draws the scene into an image no larger than it was opened for, in the image's size. craters:
      * the moment's, for the ground. 0, or -1 with the reason; the back end is of no more use then.
      */
-    int (*picture)(void *self, const struct draw_list *list, const struct frame_view *moment,
+    int (*picture)(void *self, const struct draw_list *list, const struct frame_view *frame_view,
                    struct image *image, struct error_text *error);
     /* NULL when the back end cannot tell. */
     const struct back_end_stages *(*stages)(void *self);

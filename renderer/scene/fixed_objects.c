@@ -38,13 +38,13 @@ static void fall_in(struct draw_list_body *body, enum damage damage,
                     const struct mesh_skeleton *skeleton)
 {
     static const float more[] = {0.0f, FALLS_IN_SLIGHT, FALLS_IN_HALF, FALLS_IN_WHOLE};
-    double turn = (double)body->grain * (TWO_PI / 64.0), along, across;
+    double turn = (double)body->noise_seed * (TWO_PI / 64.0), along, across;
     maths_sincos(turn, &across, &along);
     double reach = fabs(along) * 0.5 * (double)(skeleton->high[0] - skeleton->low[0]) +
                    fabs(across) * 0.5 * (double)(skeleton->high[2] - skeleton->low[2]);
-    body->falls[0] = (float)(along / reach);
-    body->falls[1] = (float)(across / reach);
-    body->falls[2] = more[damage];
+    body->collapse[0] = (float)(along / reach);
+    body->collapse[1] = (float)(across / reach);
+    body->collapse[2] = more[damage];
 }
 
 static void show_damage(struct draw_list_body *body, const struct kind *kind, enum damage damage,
@@ -72,18 +72,18 @@ static void show_damage(struct draw_list_body *body, const struct kind *kind, en
     }
 }
 
-static void add_fixed(struct draw_list *list, const struct static_scene *scenery,
-                      const struct frame_view *moment, uint32_t index)
+static void add_fixed(struct draw_list *list, const struct static_scene *static_scene,
+                      const struct frame_view *frame_view, uint32_t index)
 {
-    const struct fixed_object *object = &moment->world->fixed[index];
-    const struct kind *kind = &moment->world->kinds[object->kind];
-    uint8_t damage = moment->fixed_damage[index] < DAMAGE_HIGH ? moment->fixed_damage[index]
-                                                               : (uint8_t)DAMAGE_HIGH;
+    const struct fixed_object *object = &frame_view->world->fixed[index];
+    const struct kind *kind = &frame_view->world->kinds[object->kind];
+    uint8_t damage = frame_view->fixed_damage[index] < DAMAGE_HIGH ? frame_view->fixed_damage[index]
+                                                                   : (uint8_t)DAMAGE_HIGH;
     struct vec3 position = fixed_position(object);
     double size = maths_max((double)object->radius_m, (double)object->height_m);
     double distance = vec3_length(vec3_sub(position, list->camera.eye));
     double pixels = camera_pixels(&list->camera, 2.0 * size, distance);
-    if (pixels < BODY_LEAST_PIXELS || kind->model >= moment->world->counts.models ||
+    if (pixels < BODY_MIN_PIXELS || kind->model >= frame_view->world->counts.models ||
         !camera_sees(&list->camera, position, 3.0 * size))
         return;
     struct draw_list_body *body =
@@ -94,23 +94,23 @@ static void add_fixed(struct draw_list *list, const struct static_scene *scenery
     struct body_axes axes = body_axes_of(fixed_heading(object), -lean, 0.0);
     draw_list_place_body(list, body, position, &axes, fixed_scale(object, kind));
     memcpy(body->tint, washes[value_noise_hash((int32_t)index, 6, 9) % WASHES], sizeof body->tint);
-    body->grain = (float)(value_noise_hash((int32_t)index, 4, 9) % 64u);
+    body->noise_seed = (float)(value_noise_hash((int32_t)index, 4, 9) % 64u);
     if (damage != DAMAGE_NONE)
-        show_damage(body, kind, (enum damage)damage, &scenery->skeletons[kind->model]);
-    draw_list_add_shadow(list, moment, position, pixels);
+        show_damage(body, kind, (enum damage)damage, &static_scene->skeletons[kind->model]);
+    draw_list_add_shadow(list, frame_view, position, pixels);
 }
 
 /* A tree that was felled lies beside its stump, on the slope, whichever way its grain says. */
-static void add_felled(struct draw_list *list, const struct frame_view *moment, uint32_t index)
+static void add_felled(struct draw_list *list, const struct frame_view *frame_view, uint32_t index)
 {
-    const struct fixed_object *object = &moment->world->fixed[index];
-    const struct kind *kind = &moment->world->kinds[object->kind];
-    const struct terrain *terrain = &moment->world->terrain;
+    const struct fixed_object *object = &frame_view->world->fixed[index];
+    const struct kind *kind = &frame_view->world->kinds[object->kind];
+    const struct terrain *terrain = &frame_view->world->terrain;
     struct vec3 foot = fixed_position(object);
     double high_m = (double)object->height_m;
     double distance = vec3_length(vec3_sub(foot, list->camera.eye));
     double pixels = camera_pixels(&list->camera, high_m, distance);
-    if (pixels < BODY_LEAST_PIXELS || kind->model >= moment->world->counts.models ||
+    if (pixels < BODY_MIN_PIXELS || kind->model >= frame_view->world->counts.models ||
         !camera_sees(&list->camera, foot, 2.0 * high_m))
         return;
     struct draw_list_body *body =
@@ -121,28 +121,29 @@ static void add_felled(struct draw_list *list, const struct frame_view *moment, 
     maths_sincos(heading, &x, &z);
     double top_x = foot.x + high_m * x, top_z = foot.z - high_m * z;
     double rise =
-        maths_atan2(terrain_height(terrain, moment->craters, top_x, top_z) - foot.y, high_m);
+        maths_atan2(terrain_height(terrain, frame_view->craters, top_x, top_z) - foot.y, high_m);
     struct vec3 butt = {foot.x + FELLED_AWAY_M * x, foot.y + FELLED_LIFT_M,
                         foot.z - FELLED_AWAY_M * z};
     struct body_axes axes = body_axes_of(heading, rise - HALF_PI, 0.0);
     draw_list_place_body(list, body, butt, &axes, fixed_scale(object, kind));
-    draw_list_add_shadow(list, moment, butt, pixels);
+    draw_list_add_shadow(list, frame_view, butt, pixels);
 }
 
-void fixed_objects_add(struct draw_list *list, const struct static_scene *scenery,
-                       const struct frame_view *moment)
+void fixed_objects_add(struct draw_list *list, const struct static_scene *static_scene,
+                       const struct frame_view *frame_view)
 {
     struct vec3 eye = list->camera.eye;
     struct gridsquare_box box = gridsquare_box_of(eye.x - FIXED_RANGE_M, eye.z - FIXED_RANGE_M,
                                                   eye.x + FIXED_RANGE_M, eye.z + FIXED_RANGE_M);
     for (int32_t row = box.z0; row <= box.z1; row++) {
-        uint32_t first = scenery->square_start[gridsquare_index(box.x0, row)];
-        uint32_t end = scenery->square_start[gridsquare_index(box.x1, row) + 1];
+        uint32_t first = static_scene->square_start[gridsquare_index(box.x0, row)];
+        uint32_t end = static_scene->square_start[gridsquare_index(box.x1, row) + 1];
         for (uint32_t i = first; i < end; i++)
-            if (scenery->look[i] == LOOK_MODEL)
-                add_fixed(list, scenery, moment, i);
-            else if (moment->fixed_damage[i] >= DAMAGE_HIGH &&
-                     moment->world->kinds[moment->world->fixed[i].kind].object_class == OBJECT_TREE)
-                add_felled(list, moment, i);
+            if (static_scene->look[i] == LOOK_MODEL)
+                add_fixed(list, static_scene, frame_view, i);
+            else if (frame_view->fixed_damage[i] >= DAMAGE_HIGH &&
+                     frame_view->world->kinds[frame_view->world->fixed[i].kind].object_class ==
+                         OBJECT_TREE)
+                add_felled(list, frame_view, i);
     }
 }

@@ -6,7 +6,7 @@
 #include "renderer/scene/draw_list/static_scene.h"
 
 /* Adds the fixed objects in view to the bodies, and felled trees beside their stumps. */
-void fixed_objects_add(struct draw_list *list, const struct static_scene *scenery,
-                       const struct frame_view *moment);
+void fixed_objects_add(struct draw_list *list, const struct static_scene *static_scene,
+                       const struct frame_view *frame_view);
 
 #endif

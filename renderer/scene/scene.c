@@ -18,12 +18,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROTOR_TURNS        4.6 /* a second */
-#define BURN_LOW           0.12f
-#define BURN_MED           0.28f
-#define BURN_HIGH          0.5f
-#define DENT_LEAST_REACH_M 0.55f /* sheet metal bends over this at least around a dent ... */
-#define DENT_REACH         2.2f  /* ... and over so many of its depths more */
+#define ROTOR_TURNS      4.6 /* a second */
+#define BURN_LOW         0.12f
+#define BURN_MED         0.28f
+#define BURN_HIGH        0.5f
+#define DENT_MIN_REACH_M 0.55f /* sheet metal bends over this at least around a dent ... */
+#define DENT_REACH       2.2f  /* ... and over so many of its depths more */
 
 static const float force_colours[FORCE_COUNT][3] = {
     [FORCE_NEUTRAL] = {0.54f, 0.53f, 0.44f},
@@ -33,7 +33,7 @@ static const float force_colours[FORCE_COUNT][3] = {
 
 int scene_init(struct draw_list *list)
 {
-    *list = (struct draw_list){.detail = 1.0f, .paintings = TERRAIN_TILES_ALL};
+    *list = (struct draw_list){.detail = 1.0f, .texture_budget = TERRAIN_TILES_ALL};
     list->plants = malloc(DRAW_LIST_PLANTS_MAX * sizeof *list->plants);
     list->bodies = malloc(DRAW_LIST_BODIES_MAX * sizeof *list->bodies);
     list->instances = malloc(DRAW_LIST_BODIES_MAX * sizeof *list->instances);
@@ -42,10 +42,10 @@ int scene_init(struct draw_list *list)
     list->order = malloc(DRAW_LIST_BODIES_MAX * sizeof *list->order);
     list->particle_keys = malloc(2 * DRAW_LIST_PARTICLES_MAX * sizeof *list->particle_keys);
     list->particles_sorted = malloc(DRAW_LIST_PARTICLES_MAX * sizeof *list->particles_sorted);
-    list->tufts = grass_new();
+    list->grass = grass_new();
     if (list->plants != NULL && list->bodies != NULL && list->instances != NULL &&
         list->particles != NULL && list->dents != NULL && list->order != NULL &&
-        list->particle_keys != NULL && list->particles_sorted != NULL && list->tufts != NULL)
+        list->particle_keys != NULL && list->particles_sorted != NULL && list->grass != NULL)
         return 0;
     scene_free(list);
     return -1;
@@ -61,25 +61,25 @@ void scene_free(struct draw_list *list)
     free(list->order);
     free(list->particle_keys);
     free(list->particles_sorted);
-    grass_free(list->tufts);
+    grass_free(list->grass);
     memset(list, 0, sizeof *list);
 }
 
 /* --- vehicles and munitions ------------------------------------------------------------------- */
 
 /* Where its turret points, how far it has come. */
-static void show_gear(const struct draw_list *list, const struct frame_view *moment, uint32_t slot,
-                      struct draw_list_body *body)
+static void show_gear(const struct draw_list *list, const struct frame_view *frame_view,
+                      uint32_t slot, struct draw_list_body *body)
 {
-    const struct entities *e = moment->entities;
-    struct articulation_state state = articulation_of(moment->gear, moment, slot);
+    const struct entities *e = frame_view->entities;
+    struct articulation_state state = articulation_of(frame_view->articulation, frame_view, slot);
     double turns = e->state[slot] == ENTITY_WRECK ? 0.0 : ROTOR_TURNS * list->time_s;
     body->turret_rad = state.turret_rad;
     body->gun_rad = state.gun_rad;
     body->steer_rad = state.steer_rad;
     body->rotor_rad = (float)(TWO_PI * (turns - floor(turns)) + e->id[slot] % 7u);
     for (uint32_t side = 0; side < 2; side++)
-        body->way_m[side] = (float)state.way_m[side];
+        body->travel_m[side] = (float)state.travel_m[side];
 }
 
 static float burn_of(const struct entities *e, uint32_t slot)
@@ -91,12 +91,12 @@ static float burn_of(const struct entities *e, uint32_t slot)
 }
 
 /* The body's dents into the scene's list. */
-static void add_dents(struct draw_list *list, const struct frame_view *moment, uint32_t id,
+static void add_dents(struct draw_list *list, const struct frame_view *frame_view, uint32_t id,
                       struct draw_list_body *body)
 {
     struct dented of[DENT_INDEX_PER_BODY];
-    uint32_t count =
-        dent_index_of(moment->dents, id, moment->head->tick, moment->world->params->dt_s, of);
+    uint32_t count = dent_index_of(frame_view->dents, id, frame_view->head->tick,
+                                   frame_view->world->params->dt_s, of);
     if (list->dent_count + count > DRAW_LIST_DENTS_MAX) {
         list->omitted++;
         return;
@@ -106,27 +106,27 @@ static void add_dents(struct draw_list *list, const struct frame_view *moment, u
     for (uint32_t i = 0; i < count; i++) {
         struct draw_list_dent *dent = &list->dents[list->dent_count++];
         memcpy(dent->point, of[i].point, sizeof dent->point);
-        memcpy(dent->way, of[i].direction, sizeof dent->way);
+        memcpy(dent->direction, of[i].direction, sizeof dent->direction);
         dent->depth_m = of[i].depth_m;
-        dent->reach_m = DENT_LEAST_REACH_M + DENT_REACH * of[i].depth_m;
+        dent->reach_m = DENT_MIN_REACH_M + DENT_REACH * of[i].depth_m;
     }
 }
 
-static void add_entity(struct draw_list *list, const struct frame_view *moment, uint32_t slot)
+static void add_entity(struct draw_list *list, const struct frame_view *frame_view, uint32_t slot)
 {
-    const struct entities *e = moment->entities;
-    if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= moment->world->counts.kinds)
+    const struct entities *e = frame_view->entities;
+    if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= frame_view->world->counts.kinds)
         return;
-    const struct kind *kind = &moment->world->kinds[e->kind[slot]];
-    if (kind->model >= moment->world->counts.models)
+    const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
+    if (kind->model >= frame_view->world->counts.models)
         return;
     struct vec3 position = entities_position(e, slot);
     double distance = vec3_length(vec3_sub(position, list->camera.eye));
     double pixels = camera_pixels(&list->camera, 2.0 * kind->radius_m, distance);
     /* Its shadow may be in the picture when the body is not. */
-    if (pixels < BODY_LEAST_PIXELS || !camera_sees(&list->camera, position, 3.0 * kind->radius_m))
+    if (pixels < BODY_MIN_PIXELS || !camera_sees(&list->camera, position, 3.0 * kind->radius_m))
         return;
-    bool bent = pixels > BENT_LEAST_PIXELS && dent_index_any(moment->dents, e->id[slot]);
+    bool bent = pixels > BENT_MIN_PIXELS && dent_index_any(frame_view->dents, e->id[slot]);
     struct draw_list_body *body =
         draw_list_add_body(list, kind->model, draw_list_detail(pixels, bent));
     if (body == NULL)
@@ -135,32 +135,32 @@ static void add_entity(struct draw_list *list, const struct frame_view *moment, 
     draw_list_place_body(list, body, position, &axes, 1.0);
     memcpy(body->tint, force_colours[e->force[slot] % FORCE_COUNT], sizeof body->tint);
     body->burn = burn_of(e, slot);
-    show_gear(list, moment, slot, body);
+    show_gear(list, frame_view, slot, body);
     if (bent)
-        add_dents(list, moment, e->id[slot], body);
-    draw_list_add_shadow(list, moment, position, pixels);
+        add_dents(list, frame_view, e->id[slot], body);
+    draw_list_add_shadow(list, frame_view, position, pixels);
 }
 
 void scene_build(struct draw_list *list, const struct camera *camera,
-                 const struct static_scene *scenery, const struct frame_view *moment,
+                 const struct static_scene *static_scene, const struct frame_view *frame_view,
                  const struct effects *effects)
 {
     list->camera = *camera;
-    list->sight = frustum_of(camera);
-    list->time_s = frame_view_time_s(moment);
-    const struct renderer_params *wanted = &moment->world->params->renderer;
+    list->frustum = frustum_of(camera);
+    list->time_s = frame_view_time_s(frame_view);
+    const struct renderer_params *wanted = &frame_view->world->params->renderer;
     list->fog = wanted->fog != 0;
     list->haze = wanted->haze != 0;
     list->texture = wanted->texture != 0;
     list->plant_count = list->body_count = list->particle_count = 0;
     list->dent_count = list->omitted = 0;
-    list->patch_count = terrain_quadtree_select(&scenery->ground, camera, list->patches);
-    plants_add(list, scenery, moment);
-    for (uint32_t slot = 0; slot < moment->head->used; slot++)
-        add_entity(list, moment, slot);
-    fixed_objects_add(list, scenery, moment);
-    debris_add(list, scenery, moment, effects);
+    list->patch_count = terrain_quadtree_select(&static_scene->ground, camera, list->patches);
+    plants_add(list, static_scene, frame_view);
+    for (uint32_t slot = 0; slot < frame_view->head->used; slot++)
+        add_entity(list, frame_view, slot);
+    fixed_objects_add(list, static_scene, frame_view);
+    debris_add(list, static_scene, frame_view, effects);
     draw_list_sort_bodies(list);
-    rotors_add(list, scenery, moment);
-    particle_emitters_add(list, moment, effects);
+    rotors_add(list, static_scene, frame_view);
+    particle_emitters_add(list, frame_view, effects);
 }

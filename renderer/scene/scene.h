@@ -13,7 +13,7 @@ void scene_free(struct draw_list *list);
 
 /* Fills all lists for the camera, which is copied in. */
 void scene_build(struct draw_list *list, const struct camera *camera,
-                 const struct static_scene *scenery, const struct frame_view *moment,
+                 const struct static_scene *static_scene, const struct frame_view *frame_view,
                  const struct effects *effects);
 
 #endif

@@ -29,7 +29,7 @@ SIMD8 struct body_deform body_deform_of(const struct draw_list_body *body,
                                 .dent_count = (uint32_t)(body->dents[1] + 0.5f),
                                 .cosine = (float)cosine,
                                 .sine = (float)sine,
-                                .fallen = body->falls[2] > 0.0f,
+                                .fallen = body->collapse[2] > 0.0f,
                                 .broken = body->broken[2] > 0.0f};
 }
 
@@ -48,7 +48,7 @@ SIMD8 void body_deform_dent(const struct body_deform *form, v8f v[3])
         v8f much = simd8_max(1.0f - simd8_dot3(off, off) * over, simd8_f(0.0f));
         much = much * much * dent->depth_m;
         for (uint32_t axis = 0; axis < 3; axis++)
-            v[axis] += dent->way[axis] * much;
+            v[axis] += dent->direction[axis] * much;
     }
 }
 
@@ -74,19 +74,22 @@ SIMD8 v8f body_deform_rough(v8f x, v8f y, float which)
 /* 0 stands .. 1 lies */
 SIMD8 v8f body_deform_fell(const struct body_deform *form, const v8f v[3])
 {
-    const float *falls = form->body->falls;
-    v8f ragged = 0.5f * body_deform_rough(v[0] * 0.3f, v[2] * 0.3f, form->body->grain) - 0.25f;
-    return simd8_smoothstep(1.0f, 1.22f, v[0] * falls[0] + v[2] * falls[1] + falls[2] + ragged);
+    const float *collapse = form->body->collapse;
+    v8f ragged = 0.5f * body_deform_rough(v[0] * 0.3f, v[2] * 0.3f, form->body->noise_seed) - 0.25f;
+    return simd8_smoothstep(1.0f, 1.22f,
+                            v[0] * collapse[0] + v[2] * collapse[1] + collapse[2] + ragged);
 }
 
 SIMD8 void body_deform_fall(const struct body_deform *form, v8f v[3])
 {
-    float grain = form->body->grain;
+    float noise_seed = form->body->noise_seed;
     v8f down = body_deform_fell(form, v), zero = simd8_f(0.0f);
-    v8f heap = 0.06f + 0.20f * body_deform_rough(v[0] * 0.45f, v[2] * 0.45f, grain + 64.0f) +
-               0.20f * body_deform_rough(v[0] * 1.3f, v[2] * 1.3f, grain + 320.0f);
-    v8f aside_x = body_deform_rough(v[0] * 1.1f + v[1], v[2] * 1.1f + v[1], grain + 128.0f) - 0.5f;
-    v8f aside_z = body_deform_rough(v[0] * 1.1f - v[1], v[2] * 1.1f - v[1], grain + 192.0f) - 0.5f;
+    v8f heap = 0.06f + 0.20f * body_deform_rough(v[0] * 0.45f, v[2] * 0.45f, noise_seed + 64.0f) +
+               0.20f * body_deform_rough(v[0] * 1.3f, v[2] * 1.3f, noise_seed + 320.0f);
+    v8f aside_x =
+        body_deform_rough(v[0] * 1.1f + v[1], v[2] * 1.1f + v[1], noise_seed + 128.0f) - 0.5f;
+    v8f aside_z =
+        body_deform_rough(v[0] * 1.1f - v[1], v[2] * 1.1f - v[1], noise_seed + 192.0f) - 0.5f;
     v8f high = simd8_max(v[1], zero) * 0.015f;
     v[0] += (v[0] * high + 2.2f * aside_x) * down;
     v[2] += (v[2] * high + 2.2f * aside_z) * down;

@@ -68,7 +68,7 @@ static struct affine swing(const float pivot[4], uint32_t i, uint32_t j, float a
 static float way_of(const struct maker *m, const struct soft_group *group)
 {
     const float *pivot = m->skeleton->pivot[group->joint];
-    return m->body->way_m[pivot[2] < 0.0f ? 0 : 1] / pivot[3];
+    return m->body->travel_m[pivot[2] < 0.0f ? 0 : 1] / pivot[3];
 }
 
 /* What a part does before the body's form changes ... */
@@ -604,7 +604,7 @@ static void make_body(struct maker *m, uint32_t index)
     if (!seen && !instance->shadow)
         return;
     m->mesh = &bodies->mesh[instance->model * MESH_DETAIL_COUNT + instance->detail];
-    m->skeleton = &bodies->scenery->skeletons[instance->model];
+    m->skeleton = &bodies->static_scene->skeletons[instance->model];
     m->form = body_deform_of(m->body, f->list->dents);
     m->shaped = body_deform_any(&m->form);
     m->sides = reach.pixels >= SIDE_LEAST_PIXELS;

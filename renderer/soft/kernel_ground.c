@@ -174,7 +174,7 @@ void KERNEL(soft_ground_set_up)(struct soft_ground *ground, const struct soft_fr
     ground->count = 0;
     for (uint32_t i = 0; i < list->patch_count; i++) {
         const struct terrain_quadtree_patch *patch = &list->patches[i];
-        const struct tile *tile = ground->tiles.views[i].shape;
+        const struct tile *tile = ground->tiles.views[i].tile;
         const struct terrain_mesh *mesh = &tile->mesh;
         double side = terrain_quadtree_patch_side(patch->level);
         float corner[3];

@@ -119,7 +119,7 @@ static double power_of_e(double x)
 }
 
 static void frame_begin(struct soft *soft, const struct draw_list *list,
-                        const struct frame_view *moment, const struct image *image)
+                        const struct frame_view *frame_view, const struct image *image)
 {
     const struct camera *c = &list->camera;
     struct soft_frame *f = &soft->frame;
@@ -127,7 +127,7 @@ static void frame_begin(struct soft *soft, const struct draw_list *list,
     double wide = c->tan_x / half_x, high = c->tan_y / half_y; /* of a pixel, at a metre */
     *f = (struct soft_frame){
         .list = list,
-        .moment = moment,
+        .frame_view = frame_view,
         .kernels = soft->kernels,
         .width = image->width,
         .height = image->height,
@@ -240,8 +240,9 @@ static void draw_bands(void *context, uint32_t first, uint32_t end, uint32_t wor
     }
 }
 
-static int soft_picture(void *self, const struct draw_list *list, const struct frame_view *moment,
-                        struct image *image, struct error_text *error)
+static int soft_picture(void *self, const struct draw_list *list,
+                        const struct frame_view *frame_view, struct image *image,
+                        struct error_text *error)
 {
     struct soft *soft = self;
     if (image->width > soft->width || image->height > soft->height)
@@ -249,7 +250,7 @@ static int soft_picture(void *self, const struct draw_list *list, const struct f
                               image->width, image->height, soft->width, soft->height);
     for (uint32_t w = 0; w < thread_pool_threads(soft->workers); w++)
         memset(soft->worker[w].cpu_ns, 0, sizeof soft->worker[w].cpu_ns);
-    frame_begin(soft, list, moment, image);
+    frame_begin(soft, list, frame_view, image);
     mark(&soft->worker[0]);
     soft_ground_bring(soft->ground, &soft->frame);
     spent(&soft->worker[0], STAGE_TILES);
@@ -304,7 +305,7 @@ const char *soft_vectors(void)
 }
 
 /* 0, or -1 with the reason. */
-static int open_parts(struct soft *soft, const struct static_scene *scenery, uint32_t threads,
+static int open_parts(struct soft *soft, const struct static_scene *static_scene, uint32_t threads,
                       struct error_text *error)
 {
     size_t band = ((size_t)soft->width + 15u) / 16u * 16u * SOFT_BAND_ROWS * sizeof(uint32_t);
@@ -320,15 +321,16 @@ static int open_parts(struct soft *soft, const struct static_scene *scenery, uin
     if (!room || soft->workers == NULL)
         return error_text_set(error, "no memory or no threads for a %ux%u picture", soft->width,
                               soft->height);
-    soft->ground = soft_ground_open(scenery, error);
-    soft->bodies =
-        soft->ground ? soft_bodies_open(scenery, soft_ground_detail(soft->ground), error) : NULL;
+    soft->ground = soft_ground_open(static_scene, error);
+    soft->bodies = soft->ground
+                       ? soft_bodies_open(static_scene, soft_ground_detail(soft->ground), error)
+                       : NULL;
     soft->plants = soft->bodies ? soft_plants_open(error) : NULL;
     soft->particles = soft->plants ? soft_particles_open(error) : NULL;
     return soft->particles ? 0 : -1;
 }
 
-int soft_open_build(struct back_end_interface *draw, const struct static_scene *scenery,
+int soft_open_build(struct back_end_interface *draw, const struct static_scene *static_scene,
                     uint32_t width, uint32_t height, uint32_t threads,
                     const struct soft_kernels *kernels, struct error_text *error)
 {
@@ -343,7 +345,7 @@ int soft_open_build(struct back_end_interface *draw, const struct static_scene *
     soft->width = width;
     soft->height = height;
     soft->kernels = kernels;
-    if (open_parts(soft, scenery, threads, error) != 0) {
+    if (open_parts(soft, static_scene, threads, error) != 0) {
         soft_close(soft);
         return -1;
     }
@@ -352,8 +354,8 @@ int soft_open_build(struct back_end_interface *draw, const struct static_scene *
     return 0;
 }
 
-int soft_open(struct back_end_interface *draw, const struct static_scene *scenery, uint32_t width,
-              uint32_t height, uint32_t threads, struct error_text *error)
+int soft_open(struct back_end_interface *draw, const struct static_scene *static_scene,
+              uint32_t width, uint32_t height, uint32_t threads, struct error_text *error)
 {
-    return soft_open_build(draw, scenery, width, height, threads, best_kernels(), error);
+    return soft_open_build(draw, static_scene, width, height, threads, best_kernels(), error);
 }

@@ -13,7 +13,7 @@
 static int open_mesh(struct soft_bodies *bodies, uint32_t i)
 {
     struct soft_mesh *mesh = &bodies->mesh[i];
-    if (soft_mesh_open(mesh, bodies->scenery->world, i / MESH_DETAIL_COUNT,
+    if (soft_mesh_open(mesh, bodies->static_scene->world, i / MESH_DETAIL_COUNT,
                        (enum mesh_detail)(i % MESH_DETAIL_COUNT)) != 0)
         return -1;
     bodies->opened[i] = true;
@@ -36,18 +36,18 @@ static int open_mesh(struct soft_bodies *bodies, uint32_t i)
  * make them all takes a quarter of a second, which no one waits for. */
 static int room_for_meshes(struct soft_bodies *bodies)
 {
-    bodies->meshes = bodies->scenery->world->counts.models * MESH_DETAIL_COUNT;
+    bodies->meshes = bodies->static_scene->world->counts.models * MESH_DETAIL_COUNT;
     bodies->mesh = calloc(bodies->meshes + 1, sizeof *bodies->mesh);
     bodies->opened = calloc(bodies->meshes + 1, sizeof *bodies->opened);
     return bodies->mesh == NULL || bodies->opened == NULL ? -1 : 0;
 }
 
-struct soft_bodies *soft_bodies_open(const struct static_scene *scenery,
+struct soft_bodies *soft_bodies_open(const struct static_scene *static_scene,
                                      const struct soft_detail *detail, struct error_text *error)
 {
     struct soft_bodies *bodies = calloc(1, sizeof *bodies);
     if (bodies != NULL) {
-        bodies->scenery = scenery;
+        bodies->static_scene = static_scene;
         bodies->detail = detail;
         if (room_for_meshes(bodies) == 0)
             return bodies;
@@ -87,7 +87,7 @@ struct soft_reach soft_bodies_reach(const struct soft_bodies *bodies,
 {
     const struct draw_list_body *body = &frame->list->bodies[index];
     const struct mesh_skeleton *box =
-        &bodies->scenery->skeletons[frame->list->instances[index].model];
+        &bodies->static_scene->skeletons[frame->list->instances[index].model];
     const float *f = body->forward, *at = body->at;
     float scale = f[0] * f[0] + f[1] * f[1] + f[2] * f[2], reach = 0.0f;
     for (uint32_t axis = 0; axis < 3; axis++) {

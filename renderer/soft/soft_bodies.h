@@ -91,7 +91,7 @@ enum corner_column {
 #define CORNERS_CUT 32u /* room for those cut from faces at hand */
 
 struct soft_bodies {
-    const struct static_scene *scenery;
+    const struct static_scene *static_scene;
     struct soft_mesh *mesh; /* [models * MESH_DETAIL_COUNT]; owned */
     bool *opened;           /* [meshes] is it there? it comes when it is needed; owned */
     uint32_t meshes;
@@ -112,7 +112,7 @@ struct soft_reach soft_bodies_reach(const struct soft_bodies *bodies,
                                     const struct soft_frame *frame, uint32_t index);
 
 /* NULL with the reason. */
-struct soft_bodies *soft_bodies_open(const struct static_scene *scenery,
+struct soft_bodies *soft_bodies_open(const struct static_scene *static_scene,
                                      const struct soft_detail *detail, struct error_text *error);
 void soft_bodies_close(struct soft_bodies *bodies);
 /* Sorts the bodies of the scene into the bands, and their shadows. May run in a thread of its own.

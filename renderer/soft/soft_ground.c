@@ -6,11 +6,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-struct soft_ground *soft_ground_open(const struct static_scene *scenery, struct error_text *error)
+struct soft_ground *soft_ground_open(const struct static_scene *static_scene,
+                                     struct error_text *error)
 {
     struct soft_ground *ground = calloc(1, sizeof *ground);
     if (ground != NULL) {
-        ground->scenery = scenery;
+        ground->static_scene = static_scene;
         /* Whole vectors of vertices are written. */
         ground->seen = aligned_alloc(SOFT_ALIGN, 3 * SOFT_SEEN_ROOM * sizeof *ground->seen);
         if (terrain_tiles_init(&ground->tiles) == 0 && ground->seen != NULL &&
@@ -51,8 +52,8 @@ void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *fram
 {
     const struct draw_list *list = frame->list;
     struct vec3 eye = list->camera.eye;
-    terrain_tiles_update(&ground->tiles, list->patches, list->patch_count, frame->moment,
-                         list->paintings);
+    terrain_tiles_update(&ground->tiles, list->patches, list->patch_count, frame->frame_view,
+                         list->texture_budget);
     ground->fine_at[0] = fraction(eye.x / (double)FINE_M);
     ground->fine_at[1] = fraction(eye.z / (double)FINE_M);
     double east = eye.x + 0.35 * eye.z, south = eye.z - 0.35 * eye.x;
@@ -65,14 +66,14 @@ void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *fram
         double side = terrain_quadtree_patch_side(list->patches[i].level), last = TILE_TEXELS - 1;
         double per_m = (double)view->share / side * last;
         ground->patches[i] = (struct soft_patch){
-            .paint = view->paint->paint,
+            .paint = view->texture_tile->texture,
             .at_u = (float)((double)view->at_u * last +
                             (eye.x - list->patches[i].column * side) * per_m),
             .at_v =
                 (float)((double)view->at_v * last + (eye.z - list->patches[i].row * side) * per_m),
             .per_m = (float)per_m,
-            .wet = view->paint->wet,
-            .surf = view->paint->surf,
+            .wet = view->texture_tile->wet,
+            .surf = view->texture_tile->surf,
         };
     }
 }
@@ -81,7 +82,7 @@ int soft_ground_prepare(struct soft_ground *ground, const struct soft_frame *fra
 {
     size_t most = 0;
     for (uint32_t i = 0; i < frame->list->patch_count; i++)
-        most += ground->tiles.views[i].shape->mesh.triangle_count;
+        most += ground->tiles.views[i].tile->mesh.triangle_count;
     /* The near plane makes two of some. */
     void *list = ground->list, *rows = ground->rows;
     int full = band_lists_room(&list, &ground->list_room, 2 * most, sizeof *ground->list);

@@ -51,7 +51,7 @@ struct soft_ground_triangle {
 };
 
 struct soft_ground {
-    const struct static_scene *scenery;
+    const struct static_scene *static_scene;
     struct terrain_tiles tiles;
     struct soft_patch patches[TERRAIN_QUADTREE_PATCHES_MAX];
     struct soft_ground_triangle *list;
@@ -68,7 +68,8 @@ struct soft_ground {
 };
 
 /* NULL with the reason. */
-struct soft_ground *soft_ground_open(const struct static_scene *scenery, struct error_text *error);
+struct soft_ground *soft_ground_open(const struct static_scene *static_scene,
+                                     struct error_text *error);
 void soft_ground_close(struct soft_ground *ground);
 /* The fine texture, for others too. */
 const struct soft_detail *soft_ground_detail(const struct soft_ground *ground);

@@ -48,7 +48,7 @@ struct soft_kernels;
 /* What every part knows of a picture. Axes are the world's. */
 struct soft_frame {
     const struct draw_list *list;
-    const struct frame_view *moment;
+    const struct frame_view *frame_view;
     const struct soft_kernels *kernels;
     uint32_t width, height, bands;
     /* A place p from the eye is at x = centre_x + dot(across, p) / d, y = centre_y +

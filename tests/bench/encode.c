@@ -164,10 +164,10 @@ int bench_encode(struct bench_options options)
                                                         .soft = true,
                                                         .view = VIEW_CHASE});
     for (uint32_t i = 0; i < options.frames; i++) {
-        struct frame_view moment = bench_scene_moment(&scene);
-        bench_scene_build(&scene, &moment);
-        bench_scene_draw(&scene, &moment);
-        encode_all(encoding, &scene.image, frame_view_time_s(&moment));
+        struct frame_view frame_view = bench_scene_moment(&scene);
+        bench_scene_build(&scene, &frame_view);
+        bench_scene_draw(&scene, &frame_view);
+        encode_all(encoding, &scene.image, frame_view_time_s(&frame_view));
         bench_scene_go_on(&scene);
     }
     tell(encoding, options.json);

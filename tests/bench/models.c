@@ -60,7 +60,7 @@ static struct vec3 put(struct bench_scene *s, uint32_t kind_index, uint32_t colu
         [LOW] = DAMAGE_LOW, [MED] = DAMAGE_MED, [HIGH] = DAMAGE_HIGH, [WRECK] = DAMAGE_DESTROYED};
     const struct world *world = &s->view.world;
     const struct kind *kind = &world->kinds[kind_index];
-    const struct mesh_skeleton *skeleton = &s->scenery.skeletons[kind->model];
+    const struct mesh_skeleton *skeleton = &s->static_scene.skeletons[kind->model];
     const struct state *state = &s->view.w[0];
     const struct entities *e = &state->entities;
     double middle = 0.5 * (double)(skeleton->low[1] + skeleton->high[1]);
@@ -87,8 +87,8 @@ static struct vec3 put(struct bench_scene *s, uint32_t kind_index, uint32_t colu
               (stands ? 0.0 : 1.0 - (double)skeleton->low[1]);
     e->heading[0] = e->pitch[0] = e->roll[0] = 0.0;
     bend(s, skeleton, (enum damage)damages[column]);
-    struct frame_view moment = bench_scene_moment(s);
-    articulation_note(&s->gear, &moment);
+    struct frame_view frame_view = bench_scene_moment(s);
+    articulation_note(&s->articulation, &frame_view);
     return (struct vec3){AWAY, e->y[0] + middle, AWAY};
 }
 
@@ -108,7 +108,8 @@ static void draw(struct bench_scene *s, struct image *sheet, const struct bench_
     static const double rotates[COLUMNS] = {[BEFORE] = -0.65, [BEHIND] = 4.2, [LOW] = -0.65,
                                             [MED] = -0.65,    [HIGH] = -0.65, [WRECK] = -0.65};
     struct vec3 middle = put(s, kind, column);
-    const struct mesh_skeleton *skeleton = &s->scenery.skeletons[s->view.world.kinds[kind].model];
+    const struct mesh_skeleton *skeleton =
+        &s->static_scene.skeletons[s->view.world.kinds[kind].model];
     double size =
         maths_max(size_of(skeleton), 1.7 * (double)(skeleton->high[1] - skeleton->low[1]));
     uint32_t small = column == SMALL ? LEVELS_SEEN : 1;
@@ -121,11 +122,11 @@ static void draw(struct bench_scene *s, struct image *sheet, const struct bench_
         struct vec3 from = {sin(turn) * away, 0.33 * away, -cos(turn) * away};
         camera_look(&camera, vec3_add(middle, from), middle, options->size.width,
                     options->size.height);
-        struct frame_view moment = bench_scene_moment(s);
-        scene_build(&s->list, &camera, &s->scenery, &moment, &s->effects);
+        struct frame_view frame_view = bench_scene_moment(s);
+        scene_build(&s->list, &camera, &s->static_scene, &frame_view, &s->effects);
         if (column == WRECK)
             s->list.particle_count = 0; /* its smoke hides it */
-        bench_scene_draw(s, &moment);
+        bench_scene_draw(s, &frame_view);
         struct image part = s->image;
         part.height /= small;
         part.pixels +=

@@ -66,8 +66,8 @@ static void write_picture(const struct bench_scene *s, const char *folder, uint3
 static void draw_one(struct bench *bench, struct times *times, uint32_t number)
 {
     struct bench_scene *s = &bench->scene;
-    struct frame_view moment = bench_scene_moment(s);
-    struct annotated_picture_source source = {.frame_view = &moment,
+    struct frame_view frame_view = bench_scene_moment(s);
+    struct annotated_picture_source source = {.frame_view = &frame_view,
                                               .tracks = &s->tracks,
                                               .effects = &s->effects,
                                               .camera = &s->list.camera,
@@ -75,10 +75,10 @@ static void draw_one(struct bench *bench, struct times *times, uint32_t number)
     uint64_t wall[STAGE_COUNT], cpu[STAGE_COUNT];
     wall[0] = clock_now_ns();
     cpu[0] = cpu_now_ns();
-    bench_scene_build(s, &moment);
+    bench_scene_build(s, &frame_view);
     wall[1] = clock_now_ns();
     cpu[1] = cpu_now_ns();
-    bench_scene_draw(s, &moment);
+    bench_scene_draw(s, &frame_view);
     wall[2] = clock_now_ns();
     cpu[2] = cpu_now_ns();
     annotated_picture_instruments(&bench->chart, &s->image, &source);

@@ -23,7 +23,7 @@ struct frame_view bench_scene_moment(const struct bench_scene *s)
                                .fixed_damage = state->fixed_damage,
                                .craters = &s->craters,
                                .dents = &s->dents,
-                               .gear = &s->gear};
+                               .articulation = &s->articulation};
 }
 
 void bench_scene_go_on(struct bench_scene *s)
@@ -31,15 +31,15 @@ void bench_scene_go_on(struct bench_scene *s)
     struct event events[EVENTS];
     uint32_t count;
     frame_stepper_step(&s->player, NULL);
-    struct frame_view moment = bench_scene_moment(s);
-    crater_index_update(&s->craters, moment.head->crater_count);
-    dent_index_update(&s->dents, moment.head->dent_count);
+    struct frame_view frame_view = bench_scene_moment(s);
+    crater_index_update(&s->craters, frame_view.head->crater_count);
+    dent_index_update(&s->dents, frame_view.head->dent_count);
     do {
         count = events_read(&s->view, &s->events, events, EVENTS);
-        effects_take(&s->effects, &moment, events, count);
+        effects_take(&s->effects, &frame_view, events, count);
     } while (count == EVENTS);
-    tracks_note(&s->tracks, &moment);
-    articulation_note(&s->gear, &moment);
+    tracks_note(&s->tracks, &frame_view);
+    articulation_note(&s->articulation, &frame_view);
 }
 
 static void open_back_end(struct bench_scene *s)
@@ -48,10 +48,10 @@ static void open_back_end(struct bench_scene *s)
     const struct gl_wish any = {.device = NULL};
     char name[BACK_END_NAME_BYTES];
     struct error_text error;
-    int opened =
-        wish->soft
-            ? soft_open(&s->draw, &s->scenery, wish->width, wish->height, wish->threads, &error)
-            : gl_open(&s->draw, &s->scenery, wish->width, wish->height, &any, name, &error);
+    int opened = wish->soft ? soft_open(&s->draw, &s->static_scene, wish->width, wish->height,
+                                        wish->threads, &error)
+                            : gl_open(&s->draw, &s->static_scene, wish->width, wish->height, &any,
+                                      name, &error);
     if (opened != 0)
         die_refused("%s", error.text);
 }
@@ -66,16 +66,16 @@ void bench_scene_open(struct bench_scene *s, const struct bench_scene_wish *wish
         crater_index_init(&s->craters, s->view.w[0].craters) != 0 ||
         dent_index_init(&s->dents, s->view.w[0].dents, world->params->dent_slots) != 0 ||
         tracks_init(&s->tracks, world->params->capacity) != 0 ||
-        articulation_init(&s->gear, world->params->capacity) != 0 ||
-        static_scene_init(&s->scenery, world) != 0 || scene_init(&s->list) != 0 ||
+        articulation_init(&s->articulation, world->params->capacity) != 0 ||
+        static_scene_init(&s->static_scene, world) != 0 || scene_init(&s->list) != 0 ||
         image_init(&s->image, wish->width, wish->height) != 0)
         die_refused("cannot begin: %s", strerror(errno));
     open_back_end(s);
     while (frame_stepper_frame(&s->player) < wish->frame)
         bench_scene_go_on(s);
     struct follow follow = {.id = 0};
-    struct frame_view moment = bench_scene_moment(s);
-    s->slot = follow_choose(&follow, &moment, &s->effects, wish->follow, true);
+    struct frame_view frame_view = bench_scene_moment(s);
+    s->slot = follow_choose(&follow, &frame_view, &s->effects, wish->follow, true);
 }
 
 void bench_scene_close(struct bench_scene *s)
@@ -83,8 +83,8 @@ void bench_scene_close(struct bench_scene *s)
     s->draw.close(s->draw.self);
     image_free(&s->image);
     scene_free(&s->list);
-    static_scene_free(&s->scenery);
-    articulation_free(&s->gear);
+    static_scene_free(&s->static_scene);
+    articulation_free(&s->articulation);
     tracks_free(&s->tracks);
     dent_index_free(&s->dents);
     crater_index_free(&s->craters);
@@ -92,21 +92,21 @@ void bench_scene_close(struct bench_scene *s)
     segment_abandon(&s->view);
 }
 
-void bench_scene_build(struct bench_scene *s, const struct frame_view *moment)
+void bench_scene_build(struct bench_scene *s, const struct frame_view *frame_view)
 {
     struct camera camera;
-    const struct view_camera_wish wish = {.view = s->wish.view,
-                                          .field_rad = CAMERA_FIELD_OF_VIEW_RAD,
-                                          .width = s->image.width,
-                                          .height = s->image.height,
-                                          .stand = s->wish.stand};
-    view_camera_camera(&s->aim, &wish, moment, s->slot, &camera);
-    scene_build(&s->list, &camera, &s->scenery, moment, &s->effects);
+    const struct view_camera_options wish = {.view = s->wish.view,
+                                             .field_rad = CAMERA_FIELD_OF_VIEW_RAD,
+                                             .width = s->image.width,
+                                             .height = s->image.height,
+                                             .pose = s->wish.pose};
+    view_camera_camera(&s->view_camera, &wish, frame_view, s->slot, &camera);
+    scene_build(&s->list, &camera, &s->static_scene, frame_view, &s->effects);
 }
 
-void bench_scene_draw(struct bench_scene *s, const struct frame_view *moment)
+void bench_scene_draw(struct bench_scene *s, const struct frame_view *frame_view)
 {
     struct error_text error;
-    if (s->draw.picture(s->draw.self, &s->list, moment, &s->image, &error) != 0)
+    if (s->draw.picture(s->draw.self, &s->list, frame_view, &s->image, &error) != 0)
         die_refused("%s", error.text);
 }

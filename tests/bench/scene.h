@@ -16,14 +16,14 @@
 #include <stdint.h>
 
 struct bench_scene_wish {
-    const char *scenario;           /* as for jolon run; NULL: Hunter-Liggett */
-    uint64_t frame;                 /* to begin with */
-    uint32_t width, height;         /* [pixel], the largest picture */
-    uint32_t threads;               /* of the software back end */
-    bool soft;                      /* else OpenGL */
-    uint32_t follow;                /* entity id, 0: the liveliest */
-    enum view_mode view;            /* not VIEW_MAP */
-    struct view_camera_stand stand; /* of VIEW_FREE */
+    const char *scenario;         /* as for jolon run; NULL: Hunter-Liggett */
+    uint64_t frame;               /* to begin with */
+    uint32_t width, height;       /* [pixel], the largest picture */
+    uint32_t threads;             /* of the software back end */
+    bool soft;                    /* else OpenGL */
+    uint32_t follow;              /* entity id, 0: the liveliest */
+    enum view_mode view;          /* not VIEW_MAP */
+    struct view_camera_pose pose; /* of VIEW_FREE */
 };
 
 struct bench_scene {
@@ -33,11 +33,11 @@ struct bench_scene {
     struct crater_index craters;
     struct dent_index dents;
     struct tracks tracks;
-    struct articulation gear;
+    struct articulation articulation;
     struct effects effects;
     struct event_cursor events;
-    struct view_camera aim;
-    struct static_scene scenery;
+    struct view_camera view_camera;
+    struct static_scene static_scene;
     struct draw_list list;
     struct back_end_interface draw;
     struct image image;
@@ -54,7 +54,7 @@ void bench_scene_go_on(struct bench_scene *s);
 struct frame_view bench_scene_moment(const struct bench_scene *s);
 
 /* The two halves of a picture of it, into s->list and s->image. */
-void bench_scene_build(struct bench_scene *s, const struct frame_view *moment);
-void bench_scene_draw(struct bench_scene *s, const struct frame_view *moment);
+void bench_scene_build(struct bench_scene *s, const struct frame_view *frame_view);
+void bench_scene_draw(struct bench_scene *s, const struct frame_view *frame_view);
 
 #endif

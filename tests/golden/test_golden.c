@@ -36,7 +36,7 @@ struct golden {
     uint64_t frame;
     uint32_t follow;
     enum view_mode view;
-    struct view_camera_stand stand;
+    struct view_camera_pose pose;
 };
 
 static const struct golden goldens[] = {
@@ -46,21 +46,21 @@ static const struct golden goldens[] = {
     {.name = "coast",
      .frame = 60,
      .view = VIEW_FREE,
-     .stand = {.given = true,
-               .x = 6300.0,
-               .z = 28500.0,
-               .above_m = 80.0,
-               .heading_rad = 5.8,
-               .pitch_rad = -0.1}},
+     .pose = {.given = true,
+              .x = 6300.0,
+              .z = 28500.0,
+              .above_m = 80.0,
+              .heading_rad = 5.8,
+              .pitch_rad = -0.1}},
     {.name = "brush",
      .frame = 60,
      .view = VIEW_FREE,
-     .stand = {.given = true,
-               .x = 9000.0,
-               .z = 12000.0,
-               .above_m = 14.0,
-               .heading_rad = 5.2,
-               .pitch_rad = -0.05}},
+     .pose = {.given = true,
+              .x = 9000.0,
+              .z = 12000.0,
+              .above_m = 14.0,
+              .heading_rad = 5.2,
+              .pitch_rad = -0.05}},
     {.name = "effects", .scenario = "effects", .frame = 345, .view = VIEW_CHASE},
     {.name = "broadside", .scenario = "figure-a3-broadside", .frame = 200, .view = VIEW_ORBIT},
     {.name = "stump", .scenario = "figure-a6-tree-fast", .frame = 200, .view = VIEW_CHASE},
@@ -75,12 +75,12 @@ static char kept_folder[512], drawn_folder[512];
 static uint8_t *one, *three, *opengl;
 static bool has_opengl;
 
-static void draw_with(struct bench_scene *scene, const struct frame_view *moment,
+static void draw_with(struct bench_scene *scene, const struct frame_view *frame_view,
                       struct back_end_interface *other, uint8_t *pixels)
 {
     struct back_end_interface own = scene->draw;
     scene->draw = *other;
-    bench_scene_draw(scene, moment);
+    bench_scene_draw(scene, frame_view);
     memcpy(pixels, scene->image.pixels, BYTES);
     other->close(other->self);
     scene->draw = own;
@@ -98,21 +98,21 @@ static int draw_all(void **state)
                                           .soft = true,
                                           .follow = golden->follow,
                                           .view = golden->view,
-                                          .stand = golden->stand};
+                                          .pose = golden->pose};
     const struct gl_wish any = {.device = NULL};
     char name[BACK_END_NAME_BYTES];
     struct error_text error;
     struct back_end_interface other;
     bench_scene_open(&scene, &wish);
-    struct frame_view moment = bench_scene_moment(&scene);
-    bench_scene_build(&scene, &moment);
-    bench_scene_draw(&scene, &moment);
+    struct frame_view frame_view = bench_scene_moment(&scene);
+    bench_scene_build(&scene, &frame_view);
+    bench_scene_draw(&scene, &frame_view);
     memcpy(one, scene.image.pixels, BYTES);
-    assert_int_equal(soft_open(&other, &scene.scenery, WIDTH, HEIGHT, 3, &error), 0);
-    draw_with(&scene, &moment, &other, three);
-    has_opengl = gl_open(&other, &scene.scenery, WIDTH, HEIGHT, &any, name, &error) == 0;
+    assert_int_equal(soft_open(&other, &scene.static_scene, WIDTH, HEIGHT, 3, &error), 0);
+    draw_with(&scene, &frame_view, &other, three);
+    has_opengl = gl_open(&other, &scene.static_scene, WIDTH, HEIGHT, &any, name, &error) == 0;
     if (has_opengl)
-        draw_with(&scene, &moment, &other, opengl);
+        draw_with(&scene, &frame_view, &other, opengl);
     else
         print_message("# no OpenGL: %s\n", error.text);
     bench_scene_close(&scene);

@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-#define LEVEL_LEAST 1e-6 /* a direction with less of it level points straight up or down */
+#define LEVEL_MIN 1e-6 /* a direction with less of it level points straight up or down */
 
 static struct vec3 unit(struct vec3 v)
 {
@@ -55,7 +55,7 @@ void camera_look_through(struct camera *camera, struct vec3 eye, struct vec3 tar
 {
     struct vec3 forward = vec3_sub(target, eye);
     double level = forward.x * forward.x + forward.z * forward.z;
-    bool steep = level < LEVEL_LEAST * LEVEL_LEAST * vec3_dot(forward, forward);
+    bool steep = level < LEVEL_MIN * LEVEL_MIN * vec3_dot(forward, forward);
     struct vec3 up = steep ? (struct vec3){0.0, 0.0, forward.y < 0.0 ? -1.0 : 1.0}
                            : (struct vec3){0.0, 1.0, 0.0};
     camera_turn(camera, eye, forward, up, lens);

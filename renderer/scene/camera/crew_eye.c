@@ -17,10 +17,10 @@
 #define BACK_SHARE  0.30 /* either may sit so much farther back, to have the nose in view ... */
 #define MAST_SHARE  0.10 /* ... but a pilot stays ahead of the rotor's mast */
 #define STEP_M      0.25
-#define STEPS_MOST  60
+#define STEPS_MAX   60
 #define ASIDE       0.5  /* over distance: what is still in view */
-#define DOWN_LEAST  0.10 /* a crew looks a little down, at where it drives */
-#define DOWN_MOST   0.21
+#define DOWN_MIN    0.10 /* a crew looks a little down, at where it drives */
+#define DOWN_MAX    0.21
 #define REACH_DOWN  0.21 /* over distance, of a picture above its instruments, from its middle */
 
 static const struct model_vertex *corner(const struct world *world, const struct model *model,
@@ -141,7 +141,7 @@ static void find_ends(const struct world *world, const struct model *model, doub
 
 struct crew_eye_seat crew_eye_seat(const struct world *world, const struct kind *kind)
 {
-    struct crew_eye_seat seat = {.eye = {0.0, kind->height_m, 0.0}, .down = DOWN_LEAST};
+    struct crew_eye_seat seat = {.eye = {0.0, kind->height_m, 0.0}, .down = DOWN_MIN};
     if (kind->model >= world->counts.models)
         return seat;
     const struct model *model = &world->models[kind->model];
@@ -155,13 +155,13 @@ struct crew_eye_seat crew_eye_seat(const struct world *world, const struct kind 
     double least = eye->x - (flies ? MAST_SHARE : BACK_SHARE) * length;
     eye->y = eye_height(world, model, eye->x, eye->z);
     double highest = highest_ahead(world, model, *eye);
-    for (uint32_t i = 0; i < STEPS_MOST && eye->x - STEP_M > least; i++) {
-        if (highest > -(DOWN_MOST + REACH_DOWN))
+    for (uint32_t i = 0; i < STEPS_MAX && eye->x - STEP_M > least; i++) {
+        if (highest > -(DOWN_MAX + REACH_DOWN))
             break;
         eye->x -= STEP_M;
         eye->y = eye_height(world, model, eye->x, eye->z);
         highest = highest_ahead(world, model, *eye);
     }
-    seat.down = maths_clamp(-highest - REACH_DOWN, DOWN_LEAST, DOWN_MOST);
+    seat.down = maths_clamp(-highest - REACH_DOWN, DOWN_MIN, DOWN_MAX);
     return seat;
 }

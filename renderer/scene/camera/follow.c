@@ -11,11 +11,11 @@
 #define CELL_M        250.0 /* company is counted in cells of this size */
 #define CELLS         200   /* a side */
 #define AHEAD_M       160.0 /* company counts where the camera looks */
-#define COMPANY_MOST  10
+#define COMPANY_MAX   10
 #define ACTION_LIFE_S 20.0
 #define ACTION_NEAR_M 450.0
-#define ACTION_MOST   12.0
-#define SHADE_MOST    10 /* fixed objects around that make a view richer */
+#define ACTION_MAX    12.0
+#define SHADE_MAX     10 /* fixed objects around that make a view richer */
 
 static int32_t cell_axis(double metres)
 {
@@ -23,11 +23,11 @@ static int32_t cell_axis(double metres)
     return cell < CELLS ? cell : CELLS - 1;
 }
 
-static bool is_vehicle(const struct frame_view *moment, uint32_t slot)
+static bool is_vehicle(const struct frame_view *frame_view, uint32_t slot)
 {
-    const struct entities *e = moment->entities;
-    return e->state[slot] == ENTITY_ACTIVE && e->kind[slot] < moment->world->counts.kinds &&
-           moment->world->kinds[e->kind[slot]].domain != DOMAIN_MUNITION;
+    const struct entities *e = frame_view->entities;
+    return e->state[slot] == ENTITY_ACTIVE && e->kind[slot] < frame_view->world->counts.kinds &&
+           frame_view->world->kinds[e->kind[slot]].domain != DOMAIN_MUNITION;
 }
 
 static double action_near(const struct effects *effects, struct vec3 position, double now_s)
@@ -40,25 +40,26 @@ static double action_near(const struct effects *effects, struct vec3 position, d
         if (age < ACTION_LIFE_S && off < ACTION_NEAR_M)
             sum += 2.0 * (1.0 - off / ACTION_NEAR_M);
     }
-    return maths_min(sum, ACTION_MOST);
+    return maths_min(sum, ACTION_MAX);
 }
 
-static double liveliness(const struct frame_view *moment, const struct effects *effects,
+static double liveliness(const struct frame_view *frame_view, const struct effects *effects,
                          uint32_t slot, uint32_t company)
 {
-    const struct entities *e = moment->entities;
-    const struct kind *kind = &moment->world->kinds[e->kind[slot]];
+    const struct entities *e = frame_view->entities;
+    const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
     struct vec3 position = entities_position(e, slot);
     double speed = vec3_length(entities_velocity(e, slot));
-    double score = 0.8 * (company < COMPANY_MOST ? company : COMPANY_MOST);
+    double score = 0.8 * (company < COMPANY_MAX ? company : COMPANY_MAX);
     score += kind->domain == DOMAIN_LAND ? 5.0 : kind->domain == DOMAIN_AIR ? 0.5 : 0.0;
     score += speed > 3.0 ? 5.0 : 0.0;
     score += e->behaviour[slot] == BEHAVIOUR_ATTACK ? 2.0 : 0.0;
     score -= e->damage[slot];
     const uint32_t *around;
-    uint32_t shade = world_reach(moment->world, gridsquare_of(position.x, position.z), &around);
-    score += 0.25 * (shade < SHADE_MOST ? shade : SHADE_MOST);
-    return score + action_near(effects, position, state_time_s(moment->world, moment->head));
+    uint32_t shade = world_reach(frame_view->world, gridsquare_of(position.x, position.z), &around);
+    score += 0.25 * (shade < SHADE_MAX ? shade : SHADE_MAX);
+    return score +
+           action_near(effects, position, state_time_s(frame_view->world, frame_view->head));
 }
 
 static uint16_t *cell_of(uint16_t *cells, double x, double z)
@@ -66,24 +67,24 @@ static uint16_t *cell_of(uint16_t *cells, double x, double z)
     return &cells[cell_axis(z) * CELLS + cell_axis(x)];
 }
 
-static uint32_t liveliest(const struct frame_view *moment, const struct effects *effects)
+static uint32_t liveliest(const struct frame_view *frame_view, const struct effects *effects)
 {
     uint16_t company[CELLS * CELLS];
-    const struct entities *e = moment->entities;
+    const struct entities *e = frame_view->entities;
     memset(company, 0, sizeof company);
-    for (uint32_t i = 0; i < moment->head->used; i++)
-        if (is_vehicle(moment, i)) {
+    for (uint32_t i = 0; i < frame_view->head->used; i++)
+        if (is_vehicle(frame_view, i)) {
             uint16_t *here = cell_of(company, e->x[i], e->z[i]);
             *here = (uint16_t)(*here + (*here < UINT16_MAX));
         }
     uint32_t best = SLOT_NONE;
     double most = -INFINITY;
-    for (uint32_t i = 0; i < moment->head->used; i++) {
-        if (!is_vehicle(moment, i))
+    for (uint32_t i = 0; i < frame_view->head->used; i++) {
+        if (!is_vehicle(frame_view, i))
             continue;
         double ahead_x = e->x[i] + AHEAD_M * maths_sin(e->heading[i]);
         double ahead_z = e->z[i] - AHEAD_M * maths_cos(e->heading[i]);
-        double score = liveliness(moment, effects, i, *cell_of(company, ahead_x, ahead_z));
+        double score = liveliness(frame_view, effects, i, *cell_of(company, ahead_x, ahead_z));
         if (score > most) {
             most = score;
             best = i;
@@ -93,30 +94,30 @@ static uint32_t liveliest(const struct frame_view *moment, const struct effects 
 }
 
 /* Does it live, or has it died only just? */
-static bool worth_following(const struct frame_view *moment, uint32_t slot)
+static bool worth_following(const struct frame_view *frame_view, uint32_t slot)
 {
-    const struct entities *e = moment->entities;
+    const struct entities *e = frame_view->entities;
     double dead_s =
-        (double)(moment->head->tick - e->changed_tick[slot]) * world_dt_s(moment->world);
+        (double)(frame_view->head->tick - e->changed_tick[slot]) * world_dt_s(frame_view->world);
     return e->state[slot] == ENTITY_ACTIVE || dead_s < FOLLOW_WRECK_S;
 }
 
-uint32_t follow_choose(struct follow *follow, const struct frame_view *moment,
+uint32_t follow_choose(struct follow *follow, const struct frame_view *frame_view,
                        const struct effects *effects, uint32_t first_id, bool only)
 {
-    const struct entities *e = moment->entities;
-    uint32_t used = moment->head->used;
-    double now = state_time_s(moment->world, moment->head);
+    const struct entities *e = frame_view->entities;
+    uint32_t used = frame_view->head->used;
+    double now = state_time_s(frame_view->world, frame_view->head);
     uint32_t first = first_id != 0 ? entities_find(e, used, first_id) : SLOT_NONE;
-    if (first != SLOT_NONE && (only || worth_following(moment, first))) {
+    if (first != SLOT_NONE && (only || worth_following(frame_view, first))) {
         *follow = (struct follow){.id = first_id, .since_s = now};
         return first;
     }
     uint32_t slot = follow->id != 0 ? entities_find(e, used, follow->id) : SLOT_NONE;
-    if (slot != SLOT_NONE && worth_following(moment, slot) &&
+    if (slot != SLOT_NONE && worth_following(frame_view, slot) &&
         (e->state[slot] == ENTITY_WRECK || now - follow->since_s < FOLLOW_KEEP_S))
         return slot;
-    uint32_t next = liveliest(moment, effects);
+    uint32_t next = liveliest(frame_view, effects);
     if (next == SLOT_NONE)
         return slot;
     *follow = (struct follow){.id = e->id[next], .since_s = now};

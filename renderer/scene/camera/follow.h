@@ -21,7 +21,7 @@ struct follow {
  * time is not over and it is no older wreck either; else the liveliest: on land, moving, in
  * company, near what just happened. The same moment and history give the same choice. SLOT_NONE
  * when there is no vehicle. */
-uint32_t follow_choose(struct follow *follow, const struct frame_view *moment,
+uint32_t follow_choose(struct follow *follow, const struct frame_view *frame_view,
                        const struct effects *effects, uint32_t first_id, bool only);
 
 #endif

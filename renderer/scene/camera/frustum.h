@@ -18,7 +18,7 @@ struct frustum {
 
 static inline struct frustum frustum_of(const struct camera *camera)
 {
-    struct frustum sight = {
+    struct frustum frustum = {
         .tan_x = (float)camera->tan_x,
         .tan_y = (float)camera->tan_y,
         .cos_x = (float)(1.0 / sqrt(1.0 + camera->tan_x * camera->tan_x)),
@@ -27,10 +27,10 @@ static inline struct frustum frustum_of(const struct camera *camera)
         .near_m = (float)camera->near_m,
         .focal_pixels = (float)camera->focal_pixels,
     };
-    vec3_to_floats(sight.forward, camera->forward);
-    vec3_to_floats(sight.right, camera->right);
-    vec3_to_floats(sight.up, camera->up);
-    return sight;
+    vec3_to_floats(frustum.forward, camera->forward);
+    vec3_to_floats(frustum.right, camera->right);
+    vec3_to_floats(frustum.up, camera->up);
+    return frustum;
 }
 
 static inline float frustum_dot(const float a[3], const float b[3])
@@ -39,19 +39,19 @@ static inline float frustum_dot(const float a[3], const float b[3])
 }
 
 /* Can any of this ball be in the picture? at: relative to the eye. Never false for one that is. */
-static inline bool frustum_ball(const struct frustum *sight, const float at[3], float radius_m)
+static inline bool frustum_ball(const struct frustum *frustum, const float at[3], float radius_m)
 {
-    float depth = frustum_dot(at, sight->forward), far = sight->far_m + radius_m;
-    float x = fabsf(frustum_dot(at, sight->right)), y = fabsf(frustum_dot(at, sight->up));
+    float depth = frustum_dot(at, frustum->forward), far = frustum->far_m + radius_m;
+    float x = fabsf(frustum_dot(at, frustum->right)), y = fabsf(frustum_dot(at, frustum->up));
     return depth >= -radius_m && depth <= far &&
-           (x - depth * sight->tan_x) * sight->cos_x <= radius_m &&
-           (y - depth * sight->tan_y) * sight->cos_y <= radius_m;
+           (x - depth * frustum->tan_x) * frustum->cos_x <= radius_m &&
+           (y - depth * frustum->tan_y) * frustum->cos_y <= radius_m;
 }
 
 /* How large a length shows at a distance [pixel]. */
-static inline float frustum_pixels(const struct frustum *sight, float length_m, float distance_m)
+static inline float frustum_pixels(const struct frustum *frustum, float length_m, float distance_m)
 {
-    return length_m * sight->focal_pixels / fmaxf(distance_m, sight->near_m);
+    return length_m * frustum->focal_pixels / fmaxf(distance_m, frustum->near_m);
 }
 
 #endif

@@ -10,8 +10,8 @@
 #include "world/world.h"
 
 #define TANK_RADIUS_M 3.0 /* the body that the lengths below are for */
-#define SCALE_LEAST   0.75
-#define SCALE_MOST    12.0
+#define SCALE_MIN     0.75
+#define SCALE_MAX     12.0
 
 #define CHASE_BACK_M   25.0
 #define CHASE_UP_M     9.0
@@ -23,14 +23,14 @@
 #define EASE_TURN_S       0.5 /* a camera has made up two thirds of a turn after this */
 #define EASE_LIFT_S       0.4
 
-#define ORBIT_AWAY_M   22.0
-#define ORBIT_UP_M     8.0
-#define OVERHEAD_UP_M  90.0
-#define STAND_AHEAD_M  38.0 /* of the free camera that nobody placed */
-#define STAND_ASIDE_M  16.0
-#define STAND_UP_M     6.0
-#define INSIDE_NEAR_M  0.3
-#define INSIDE_LEAST_M 0.5 /* above the ground: of who sits low, or has turned over */
+#define ORBIT_AWAY_M  22.0
+#define ORBIT_UP_M    8.0
+#define OVERHEAD_UP_M 90.0
+#define STAND_AHEAD_M 38.0 /* of the free camera that nobody placed */
+#define STAND_ASIDE_M 16.0
+#define STAND_UP_M    6.0
+#define INSIDE_NEAR_M 0.3
+#define INSIDE_MIN_M  0.5 /* above the ground: of who sits low, or has turned over */
 
 #define SIGHT_SAMPLES     12
 #define SIGHT_CLEARANCE_M 1.0
@@ -44,21 +44,21 @@ struct subject {
     double scale; /* its size over a tank's */
 };
 
-static struct subject subject_of(const struct frame_view *moment, uint32_t slot)
+static struct subject subject_of(const struct frame_view *frame_view, uint32_t slot)
 {
-    const struct entities *e = moment->entities;
+    const struct entities *e = frame_view->entities;
     double middle = 0.5 * WORLD_SIDE_M;
     if (slot == SLOT_NONE) {
-        double ground = terrain_height(&moment->world->terrain, NULL, middle, middle);
+        double ground = terrain_height(&frame_view->world->terrain, NULL, middle, middle);
         return (struct subject){.position = {middle, ground, middle},
                                 .scale = OVERLOOK_M / CHASE_UP_M};
     }
-    double radius = moment->world->kinds[e->kind[slot]].radius_m;
+    double radius = frame_view->world->kinds[e->kind[slot]].radius_m;
     return (struct subject){
         .position = entities_position(e, slot),
         .heading_rad = e->heading[slot],
         .pitch_rad = e->pitch[slot],
-        .scale = maths_clamp(radius / TANK_RADIUS_M, SCALE_LEAST, SCALE_MOST),
+        .scale = maths_clamp(radius / TANK_RADIUS_M, SCALE_MIN, SCALE_MAX),
     };
 }
 
@@ -70,40 +70,41 @@ static double left_after(double t_s, double ease_s)
 }
 
 /* Time since the last picture [s of simulation]; INFINITY for a camera that begins anew. */
-static double since_last(const struct view_camera *aim, const struct frame_view *moment,
+static double since_last(const struct view_camera *state, const struct frame_view *frame_view,
                          uint32_t slot, const struct subject *subject)
 {
-    const struct entities *e = moment->entities;
-    double passed = frame_view_time_s(moment) - aim->time_s;
-    if (slot == SLOT_NONE || aim->id != e->id[slot] || passed < 0.0 || passed > LATE_S)
+    const struct entities *e = frame_view->entities;
+    double passed = frame_view_time_s(frame_view) - state->time_s;
+    if (slot == SLOT_NONE || state->id != e->id[slot] || passed < 0.0 || passed > LATE_S)
         return INFINITY;
     struct vec3 gone = vec3_scale(entities_velocity(e, slot), passed);
-    struct vec3 off = vec3_sub(subject->position, vec3_add(aim->position, gone));
+    struct vec3 off = vec3_sub(subject->position, vec3_add(state->position, gone));
     return vec3_length(off) < JUMP_M + vec3_length(gone) ? passed : INFINITY;
 }
 
-static void remember(struct view_camera *aim, const struct frame_view *moment, uint32_t slot,
+static void remember(struct view_camera *state, const struct frame_view *frame_view, uint32_t slot,
                      const struct subject *subject)
 {
-    aim->id = slot == SLOT_NONE ? 0 : moment->entities->id[slot];
-    aim->time_s = frame_view_time_s(moment);
-    aim->position = subject->position;
+    state->id = slot == SLOT_NONE ? 0 : frame_view->entities->id[slot];
+    state->time_s = frame_view_time_s(frame_view);
+    state->position = subject->position;
 }
 
-static double floor_at(const struct frame_view *moment, struct vec3 at, double clearance_m)
+static double floor_at(const struct frame_view *frame_view, struct vec3 at, double clearance_m)
 {
-    return terrain_height(&moment->world->terrain, moment->craters, at.x, at.z) + clearance_m;
+    return terrain_height(&frame_view->world->terrain, frame_view->craters, at.x, at.z) +
+           clearance_m;
 }
 
 /* How much higher the eye must be to see the subject over the ground between them. */
-static double lift_over(const struct frame_view *moment, struct vec3 eye, struct vec3 subject)
+static double lift_over(const struct frame_view *frame_view, struct vec3 eye, struct vec3 subject)
 {
     double before = eye.y;
-    eye.y = maths_max(eye.y, floor_at(moment, eye, VIEW_CAMERA_CLEARANCE_M));
+    eye.y = maths_max(eye.y, floor_at(frame_view, eye, VIEW_CAMERA_CLEARANCE_M));
     for (int32_t i = 1; i < SIGHT_SAMPLES; i++) {
         double t = (double)i / SIGHT_SAMPLES; /* 0 at the eye, 1 at the subject */
         struct vec3 on = vec3_lerp(eye, subject, t);
-        double ground = floor_at(moment, on, SIGHT_CLEARANCE_M * (1.0 - t));
+        double ground = floor_at(frame_view, on, SIGHT_CLEARANCE_M * (1.0 - t));
         if (on.y < ground)
             eye.y += (ground - on.y) / (1.0 - t);
     }
@@ -111,135 +112,137 @@ static double lift_over(const struct frame_view *moment, struct vec3 eye, struct
 }
 
 /* Lifts the eye softly, save where it would be under the ground. */
-static void lift(struct view_camera *aim, const struct frame_view *moment,
+static void lift(struct view_camera *state, const struct frame_view *frame_view,
                  const struct subject *subject, double passed_s, struct vec3 *eye)
 {
-    double wanted = lift_over(moment, *eye, subject->position);
-    aim->lift_m = wanted + (aim->lift_m - wanted) * left_after(passed_s, EASE_LIFT_S);
-    eye->y = maths_max(eye->y + aim->lift_m, floor_at(moment, *eye, VIEW_CAMERA_CLEARANCE_M));
+    double wanted = lift_over(frame_view, *eye, subject->position);
+    state->lift_m = wanted + (state->lift_m - wanted) * left_after(passed_s, EASE_LIFT_S);
+    eye->y = maths_max(eye->y + state->lift_m, floor_at(frame_view, *eye, VIEW_CAMERA_CLEARANCE_M));
 }
 
 /* --- views ------------------------------------------------------------------------------------ */
 
-static void chase(struct view_camera *aim, const struct frame_view *moment,
+static void chase(struct view_camera *state, const struct frame_view *frame_view,
                   const struct subject *subject, double passed_s, struct vec3 *eye,
                   struct vec3 *target)
 {
     double left = left_after(passed_s, EASE_TURN_S), scale = subject->scale;
     double tilt = CHASE_PITCH_SHARE * subject->pitch_rad;
-    aim->tilt_rad = tilt + (aim->tilt_rad - tilt) * left;
-    aim->heading_rad =
-        subject->heading_rad + maths_wrap_half(aim->heading_rad - subject->heading_rad) * left;
-    double sine, cosine, rise = maths_sin(aim->tilt_rad);
+    state->tilt_rad = tilt + (state->tilt_rad - tilt) * left;
+    state->heading_rad =
+        subject->heading_rad + maths_wrap_half(state->heading_rad - subject->heading_rad) * left;
+    double sine, cosine, rise = maths_sin(state->tilt_rad);
     struct vec3 p = subject->position;
-    maths_sincos(aim->heading_rad + CHASE_ASIDE_RAD, &sine, &cosine);
+    maths_sincos(state->heading_rad + CHASE_ASIDE_RAD, &sine, &cosine);
     *eye = (struct vec3){p.x - sine * CHASE_BACK_M * scale,
                          p.y + (CHASE_UP_M - CHASE_BACK_M * rise) * scale,
                          p.z + cosine * CHASE_BACK_M * scale};
-    maths_sincos(aim->heading_rad, &sine, &cosine);
+    maths_sincos(state->heading_rad, &sine, &cosine);
     *target = (struct vec3){p.x + sine * CHASE_BEYOND_M * scale,
                             p.y + (1.0 + CHASE_BEYOND_M * rise) * scale,
                             p.z - cosine * CHASE_BEYOND_M * scale};
-    lift(aim, moment, subject, passed_s, eye);
+    lift(state, frame_view, subject, passed_s, eye);
     /* From high above it looks at the subject itself, which would leave the picture else. */
-    double high = maths_max(aim->lift_m, 0.0);
+    double high = maths_max(state->lift_m, 0.0);
     *target = vec3_lerp(*target, p, high / (high + CHASE_UP_M * scale));
 }
 
-static void orbit(struct view_camera *aim, const struct frame_view *moment,
+static void orbit(struct view_camera *state, const struct frame_view *frame_view,
                   const struct subject *subject, double passed_s, struct vec3 *eye,
                   struct vec3 *target)
 {
     double sine, cosine, scale = subject->scale,
-                         turns = frame_view_time_s(moment) / VIEW_CAMERA_ORBIT_S;
+                         turns = frame_view_time_s(frame_view) / VIEW_CAMERA_ORBIT_S;
     struct vec3 p = subject->position;
     maths_sincos(TWO_PI * (turns - floor(turns)), &sine, &cosine);
     *eye = (struct vec3){p.x + sine * ORBIT_AWAY_M * scale, p.y + ORBIT_UP_M * scale,
                          p.z - cosine * ORBIT_AWAY_M * scale};
     *target = (struct vec3){p.x, p.y + scale, p.z};
-    lift(aim, moment, subject, passed_s, eye);
+    lift(state, frame_view, subject, passed_s, eye);
 }
 
 /* By the road, ahead of the vehicle, which will come past. */
-static void stand_beside(struct view_camera *aim, const struct frame_view *moment,
+static void stand_beside(struct view_camera *state, const struct frame_view *frame_view,
                          const struct subject *subject)
 {
     double sine, cosine, scale = subject->scale;
     struct vec3 p = subject->position;
     maths_sincos(subject->heading_rad, &sine, &cosine);
     double along = STAND_AHEAD_M * scale, aside = STAND_ASIDE_M * scale;
-    aim->eye = (struct vec3){p.x + sine * along + cosine * aside, p.y + STAND_UP_M * scale,
-                             p.z - cosine * along + sine * aside};
-    aim->eye.y += lift_over(moment, aim->eye, p);
-    aim->target = (struct vec3){p.x, p.y + scale, p.z};
+    state->eye = (struct vec3){p.x + sine * along + cosine * aside, p.y + STAND_UP_M * scale,
+                               p.z - cosine * along + sine * aside};
+    state->eye.y += lift_over(frame_view, state->eye, p);
+    state->target = (struct vec3){p.x, p.y + scale, p.z};
 }
 
-static void free_camera(struct view_camera *aim, const struct view_camera_wish *wish,
-                        const struct frame_view *moment, const struct subject *subject,
+static void free_camera(struct view_camera *state, const struct view_camera_options *options,
+                        const struct frame_view *frame_view, const struct subject *subject,
                         const struct camera_lens *lens, struct camera *camera)
 {
-    const struct view_camera_stand *stand = &wish->stand;
-    if (!stand->given) {
-        if (!aim->stands)
-            stand_beside(aim, moment, subject);
-        aim->stands = true;
+    const struct view_camera_pose *pose = &options->pose;
+    if (!pose->given) {
+        if (!state->placed)
+            stand_beside(state, frame_view, subject);
+        state->placed = true;
         /* A crater may have come. */
-        struct vec3 eye = aim->eye;
-        eye.y = maths_max(eye.y, floor_at(moment, eye, VIEW_CAMERA_EYE_M));
-        camera_look_through(camera, eye, aim->target, lens);
+        struct vec3 eye = state->eye;
+        eye.y = maths_max(eye.y, floor_at(frame_view, eye, VIEW_CAMERA_EYE_M));
+        camera_look_through(camera, eye, state->target, lens);
         return;
     }
-    struct vec3 eye = {stand->x, 0.0, stand->z};
-    eye.y = floor_at(moment, eye, maths_max(stand->above_m, VIEW_CAMERA_EYE_M));
-    struct body_axes axes = body_axes_of(stand->heading_rad, stand->pitch_rad, 0.0);
+    struct vec3 eye = {pose->x, 0.0, pose->z};
+    eye.y = floor_at(frame_view, eye, maths_max(pose->above_m, VIEW_CAMERA_EYE_M));
+    struct body_axes axes = body_axes_of(pose->heading_rad, pose->pitch_rad, 0.0);
     camera_turn(camera, eye, axes.forward, axes.up, lens);
 }
 
-static void inside(const struct frame_view *moment, uint32_t slot, const struct camera_lens *lens,
-                   struct camera *camera)
+static void inside(const struct frame_view *frame_view, uint32_t slot,
+                   const struct camera_lens *lens, struct camera *camera)
 {
-    const struct entities *e = moment->entities;
-    struct crew_eye_seat seat = crew_eye_seat(moment->world, &moment->world->kinds[e->kind[slot]]);
+    const struct entities *e = frame_view->entities;
+    struct crew_eye_seat seat =
+        crew_eye_seat(frame_view->world, &frame_view->world->kinds[e->kind[slot]]);
     struct vec3 at = seat.eye;
     struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
     struct vec3 eye = vec3_add(entities_position(e, slot), vec3_scale(axes.forward, at.x));
     eye = vec3_add(eye, vec3_add(vec3_scale(axes.up, at.y), vec3_scale(axes.right, at.z)));
-    eye.y = maths_max(eye.y, floor_at(moment, eye, INSIDE_LEAST_M));
+    eye.y = maths_max(eye.y, floor_at(frame_view, eye, INSIDE_MIN_M));
     double sine, cosine;
     double turned =
-        seat.turns ? (double)articulation_of(moment->gear, moment, slot).turret_rad : 0.0;
+        seat.turns ? (double)articulation_of(frame_view->articulation, frame_view, slot).turret_rad
+                   : 0.0;
     maths_sincos(turned, &sine, &cosine);
     struct vec3 ahead = vec3_add(vec3_scale(axes.forward, cosine), vec3_scale(axes.right, sine));
     ahead = vec3_sub(ahead, vec3_scale(axes.up, seat.down));
     camera_turn(camera, eye, ahead, axes.up, lens);
 }
 
-void view_camera_camera(struct view_camera *aim, const struct view_camera_wish *wish,
-                        const struct frame_view *moment, uint32_t slot, struct camera *camera)
+void view_camera_camera(struct view_camera *state, const struct view_camera_options *options,
+                        const struct frame_view *frame_view, uint32_t slot, struct camera *camera)
 {
-    struct camera_lens lens = {wish->field_rad, CAMERA_NEAR_M, wish->width, wish->height};
-    struct subject subject = subject_of(moment, slot);
-    double passed_s = since_last(aim, moment, slot, &subject);
+    struct camera_lens lens = {options->field_rad, CAMERA_NEAR_M, options->width, options->height};
+    struct subject subject = subject_of(frame_view, slot);
+    double passed_s = since_last(state, frame_view, slot, &subject);
     struct vec3 eye, target;
-    remember(aim, moment, slot, &subject);
-    switch (slot == SLOT_NONE && wish->view != VIEW_FREE ? VIEW_CHASE : wish->view) {
+    remember(state, frame_view, slot, &subject);
+    switch (slot == SLOT_NONE && options->view != VIEW_FREE ? VIEW_CHASE : options->view) {
     case VIEW_INSIDE:
         lens.near_m = INSIDE_NEAR_M;
-        inside(moment, slot, &lens, camera);
+        inside(frame_view, slot, &lens, camera);
         return;
     case VIEW_FREE:
-        free_camera(aim, wish, moment, &subject, &lens, camera);
+        free_camera(state, options, frame_view, &subject, &lens, camera);
         return;
     case VIEW_OVERHEAD:
         target = subject.position;
         eye = (struct vec3){target.x, target.y + OVERHEAD_UP_M * subject.scale, target.z};
-        eye.y = maths_max(eye.y, floor_at(moment, eye, VIEW_CAMERA_CLEARANCE_M));
+        eye.y = maths_max(eye.y, floor_at(frame_view, eye, VIEW_CAMERA_CLEARANCE_M));
         break;
     case VIEW_ORBIT:
-        orbit(aim, moment, &subject, passed_s, &eye, &target);
+        orbit(state, frame_view, &subject, passed_s, &eye, &target);
         break;
     default:
-        chase(aim, moment, &subject, passed_s, &eye, &target);
+        chase(state, frame_view, &subject, passed_s, &eye, &target);
         break;
     }
     camera_look_through(camera, eye, target, &lens);

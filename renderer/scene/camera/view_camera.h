@@ -16,19 +16,19 @@
 #define VIEW_CAMERA_ORBIT_S     45.0 /* of simulation, once around */
 
 /* A place for the free camera. */
-struct view_camera_stand {
+struct view_camera_pose {
     bool given;
     double x, z, above_m; /* [m, world; above the ground] */
     double heading_rad, pitch_rad;
 };
 
 /* What is asked for; the same for all pictures of a view. */
-struct view_camera_wish {
+struct view_camera_options {
     enum view_mode view; /* not VIEW_MAP */
     double field_rad;    /* of view, from left to right of a 16:9 picture */
     uint32_t width, height;
-    struct view_camera_stand
-        stand; /* of VIEW_FREE; not given: beside where the vehicle is seen first */
+    struct view_camera_pose
+        pose; /* of VIEW_FREE; not given: beside where the vehicle is seen first */
 };
 
 /* What a camera remembers; all zero to begin with. */
@@ -37,7 +37,7 @@ struct view_camera {
     double time_s;        /* of simulation, of its last picture ... */
     struct vec3 position; /* ... and where the vehicle was then */
     double heading_rad, tilt_rad, lift_m;
-    bool stands; /* VIEW_FREE has found its place */
+    bool placed; /* VIEW_FREE has found its place */
     struct vec3 eye, target;
 };
 
@@ -49,7 +49,7 @@ struct view_camera {
  * VIEW_CAMERA_ORBIT_S. VIEW_OVERHEAD: straight down, north up. VIEW_INSIDE: from crew_eye_seat(),
  * turned as the vehicle and its turret are. VIEW_FREE: a place that does not move. None is ever
  * under the ground. */
-void view_camera_camera(struct view_camera *aim, const struct view_camera_wish *wish,
-                        const struct frame_view *moment, uint32_t slot, struct camera *camera);
+void view_camera_camera(struct view_camera *state, const struct view_camera_options *options,
+                        const struct frame_view *frame_view, uint32_t slot, struct camera *camera);
 
 #endif

@@ -7,13 +7,13 @@
 
 #include <stdlib.h>
 
-#define SHADOW_LEAST_PIXELS 6.0
-#define SHADOW_RANGE_M      2500.0
-#define SHADOW_LIFT_M       0.06 /* above the ground, so that it does not sink into it */
+#define SHADOW_MIN_PIXELS 6.0
+#define SHADOW_RANGE_M    2500.0
+#define SHADOW_LIFT_M     0.06 /* above the ground, so that it does not sink into it */
 
 enum mesh_detail draw_list_detail(double pixels, bool bent)
 {
-    if (bent && pixels > BENT_LEAST_PIXELS)
+    if (bent && pixels > BENT_MIN_PIXELS)
         return MESH_FINE;
     if (pixels > MESH_FULL_PIXELS)
         return MESH_FULL;
@@ -52,23 +52,23 @@ void draw_list_place_body(const struct draw_list *list, struct draw_list_body *b
 }
 
 /* The plane of the ground where the body's shadow falls, along the sun's light. */
-void draw_list_add_shadow(struct draw_list *list, const struct frame_view *moment,
+void draw_list_add_shadow(struct draw_list *list, const struct frame_view *frame_view,
                           struct vec3 position, double pixels)
 {
-    const struct terrain *terrain = &moment->world->terrain;
+    const struct terrain *terrain = &frame_view->world->terrain;
     struct draw_list_body *body = &list->bodies[list->body_count - 1];
     struct vec3 foot = position;
-    if (pixels <= SHADOW_LEAST_PIXELS ||
+    if (pixels <= SHADOW_MIN_PIXELS ||
         vec3_length(vec3_sub(position, list->camera.eye)) >= SHADOW_RANGE_M)
         return;
     for (uint32_t i = 0; i < 3; i++) {
-        double ground = terrain_height(terrain, moment->craters, foot.x, foot.z);
+        double ground = terrain_height(terrain, frame_view->craters, foot.x, foot.z);
         double down = (position.y - ground) / SUN_Y;
         foot.x = position.x - SUN_X * down;
         foot.z = position.z - SUN_Z * down;
         foot.y = ground;
     }
-    struct vec3 normal = terrain_normal(terrain, moment->craters, foot.x, foot.z);
+    struct vec3 normal = terrain_normal(terrain, frame_view->craters, foot.x, foot.z);
     if (vec3_dot(normal, light_sun()) < 0.1)
         return;
     copy_axis(body->plane, normal, 1.0);

@@ -25,8 +25,8 @@ struct grass;
 
 #define DRAW_LIST_PLANT_STEEP 0.70710678f /* sine and cosine of 45 degrees */
 
-#define BODY_LEAST_PIXELS 1.3  /* smaller than this nobody sees it */
-#define BENT_LEAST_PIXELS 48.0 /* nor that it is bent, smaller than this */
+#define BODY_MIN_PIXELS 1.3  /* smaller than this nobody sees it */
+#define BENT_MIN_PIXELS 48.0 /* nor that it is bent, smaller than this */
 
 /* How parts move (enum model_part), about the pivots of their joints (struct mesh_skeleton), in the
  * order in which a back end does it to a corner and its normal: a wheel rolls about z, the top
@@ -57,19 +57,20 @@ struct draw_list_body {
     float tint[3];                                   /* the force's colour */
     float burn;                                      /* 0 as built .. 1 burnt out */
     float turret_rad, gun_rad, rotor_rad, steer_rad; /* to the right, up, around, to the right */
-    float way_m[2];  /* that its left and its right wheels and tracks have run, wrapped */
-    float plane[4];  /* n.xyz, d: its shadow falls where n.p == d; 0: nowhere */
-    float dents[2];  /* first and count in the scene's list */
-    float grain;     /* a number of its own, for what a heap looks like */
-    float falls[3];  /* x, z [1/m, body axes] and more: it fell in where x * falls[0] + z * falls[1]
-                        + falls[2] is above 1, raggedly */
+    float travel_m[2]; /* that its left and its right wheels and tracks have run, wrapped */
+    float plane[4];    /* n.xyz, d: its shadow falls where n.p == d; 0: nowhere */
+    float dents[2];    /* first and count in the scene's list */
+    float noise_seed;  /* a number of its own, for what a heap looks like */
+    float
+        collapse[3]; /* x, z [1/m, body axes] and more: it fell in where x * falls[0] + z * falls[1]
+                     + falls[2] is above 1, raggedly */
     float broken[3]; /* x, y [m, body axes], and how far what is above is bent ahead [rad] */
 };
 
 /* The surface within reach of the point is moved along the way, most at the point. */
 struct draw_list_dent {
-    float point[3], depth_m; /* [m, body axes] */
-    float way[3], reach_m;   /* unit, body axes */
+    float point[3], depth_m;     /* [m, body axes] */
+    float direction[3], reach_m; /* unit, body axes */
 };
 
 /* What a body in the same place of the list is a copy of. */
@@ -116,14 +117,15 @@ struct particle_key {
 
 struct draw_list {
     struct camera camera;
-    struct frustum sight; /* of the camera */
-    float detail;         /* above 0 .. 1, full: how far tufts and woods reach, how dense puffs are;
-                             the caller's, 1 at first */
-    double time_s;        /* of simulation, for what moves in the picture */
+    struct frustum frustum; /* of the camera */
+    float detail;  /* above 0 .. 1, full: how far tufts and woods reach, how dense puffs are;
+                      the caller's, 1 at first */
+    double time_s; /* of simulation, for what moves in the picture */
     bool fog, haze, texture; /* thesis row 5 */
     struct terrain_quadtree_patch patches[TERRAIN_QUADTREE_PATCHES_MAX];
     uint32_t patch_count;
-    uint32_t paintings; /* ground tiles that the picture may paint; TERRAIN_TILES_ALL but live */
+    uint32_t
+        texture_budget; /* ground tiles that the picture may paint; TERRAIN_TILES_ALL but live */
     struct draw_list_plant *plants;
     uint32_t plant_count;
     struct draw_list_body *bodies; /* copies of one model and detail follow each other */
@@ -137,7 +139,7 @@ struct draw_list {
     struct body_order *order;                    /* scratch */
     struct particle_key *particle_keys;          /* scratch, twice as many */
     struct draw_list_particle *particles_sorted; /* scratch */
-    struct grass *tufts;                         /* kept from picture to picture */
+    struct grass *grass;                         /* kept from picture to picture */
 };
 
 /* Level of detail of a body that shows so large [pixel]; never finer for a smaller one. bent: its
@@ -156,7 +158,7 @@ void draw_list_place_body(const struct draw_list *list, struct draw_list_body *b
                           struct vec3 position, const struct body_axes *axes, double scale);
 
 /* Gives the last body of the list a shadow, unless it is too small or too far for one to show. */
-void draw_list_add_shadow(struct draw_list *list, const struct frame_view *moment,
+void draw_list_add_shadow(struct draw_list *list, const struct frame_view *frame_view,
                           struct vec3 position, double pixels);
 
 /* Places relative to the eye, in float. */

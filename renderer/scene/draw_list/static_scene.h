@@ -46,8 +46,8 @@ struct static_scene {
 };
 
 /* 0, or -1 with errno ENOMEM. The world must outlive it. */
-int static_scene_init(struct static_scene *scenery, const struct world *world);
-void static_scene_free(struct static_scene *scenery);
+int static_scene_init(struct static_scene *static_scene, const struct world *world);
+void static_scene_free(struct static_scene *static_scene);
 
 /* Of the ground without craters: rise a metre to the east, to the south. */
 void static_scene_slope(const struct terrain *terrain, double x, double z, float slope[2]);

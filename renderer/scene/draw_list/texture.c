@@ -6,12 +6,11 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define SIDE_MOST    TEXTURE_DETAIL_SIDE
-#define CELLS_MOST   256
-#define OCTAVES_MOST 6
+#define SIDE_MAX    TEXTURE_DETAIL_SIDE
+#define CELLS_MAX   256
+#define OCTAVES_MAX 6
 
-_Static_assert(TEXTURE_CLOUD_SIDE <= SIDE_MOST && TEXTURE_PARTICLE_SIDE <= SIDE_MOST,
-               "room of rows");
+_Static_assert(TEXTURE_CLOUD_SIDE <= SIDE_MAX && TEXTURE_PARTICLE_SIDE <= SIDE_MAX, "room of rows");
 
 /* Within 0 .. 1. */
 static float unit(float v)
@@ -32,9 +31,9 @@ static uint8_t byte_of(float v)
 struct noise {
     int32_t cells, row;
     uint32_t seed, count;
-    uint16_t cell[SIDE_MOST]; /* of each texel, and how far in it */
-    float along[SIDE_MOST];
-    float upper[CELLS_MOST + 1], lower[CELLS_MOST + 1];
+    uint16_t cell[SIDE_MAX]; /* of each texel, and how far in it */
+    float along[SIDE_MAX];
+    float upper[CELLS_MAX + 1], lower[CELLS_MAX + 1];
 };
 
 static float eased(float t)
@@ -79,7 +78,7 @@ static void noise_row(struct noise *noise, float y, float *to)
 /* Noises of ever finer cells. */
 struct octaves {
     uint32_t count;
-    struct noise noise[OCTAVES_MOST];
+    struct noise noise[OCTAVES_MAX];
 };
 
 static void octaves_begin(struct octaves *octaves, const float *x, uint32_t count, int32_t cells,
@@ -92,7 +91,7 @@ static void octaves_begin(struct octaves *octaves, const float *x, uint32_t coun
 
 static void octaves_row(struct octaves *octaves, float y, float *to)
 {
-    float one[SIDE_MOST], strength = 0.5f, all = 0.0f;
+    float one[SIDE_MAX], strength = 0.5f, all = 0.0f;
     uint32_t count = octaves->noise[0].count;
     for (uint32_t i = 0; i < count; i++)
         to[i] = 0.0f;

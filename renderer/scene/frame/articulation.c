@@ -13,28 +13,28 @@
 #define GUN_SINKS_RADS 0.35 /* [rad/s] a wreck's gun, until it hangs */
 #define WHEELBASE      0.6  /* of the length */
 #define TRACK_APART    0.38 /* of the width, from the middle to each side */
-#define STEER_LEAST_M  0.02 /* that it must have moved for its wheels to show which way */
+#define STEER_MIN_M    0.02 /* that it must have moved for its wheels to show which way */
 #define STEER_FOLLOWS  0.35 /* of the difference, a note */
 
-int articulation_init(struct articulation *gear, uint32_t capacity)
+int articulation_init(struct articulation *articulation, uint32_t capacity)
 {
-    gear->slots = capacity < ARTICULATION_SLOTS_MAX ? capacity : ARTICULATION_SLOTS_MAX;
-    gear->state = calloc(gear->slots + 1, sizeof *gear->state);
-    return gear->state == NULL ? -1 : 0;
+    articulation->slots = capacity < ARTICULATION_SLOTS_MAX ? capacity : ARTICULATION_SLOTS_MAX;
+    articulation->state = calloc(articulation->slots + 1, sizeof *articulation->state);
+    return articulation->state == NULL ? -1 : 0;
 }
 
-void articulation_free(struct articulation *gear)
+void articulation_free(struct articulation *articulation)
 {
-    free(gear->state);
-    *gear = (struct articulation){NULL, 0};
+    free(articulation->state);
+    *articulation = (struct articulation){NULL, 0};
 }
 
-static struct articulation_state first_sight(const struct frame_view *moment, uint32_t slot)
+static struct articulation_state first_sight(const struct frame_view *frame_view, uint32_t slot)
 {
-    const struct entities *e = moment->entities;
+    const struct entities *e = frame_view->entities;
     bool wreck = e->state[slot] == ENTITY_WRECK;
     return (struct articulation_state){.id = e->id[slot],
-                                       .time_s = frame_view_time_s(moment),
+                                       .time_s = frame_view_time_s(frame_view),
                                        .x = e->x[slot],
                                        .y = e->y[slot],
                                        .z = e->z[slot],
@@ -43,43 +43,44 @@ static struct articulation_state first_sight(const struct frame_view *moment, ui
                                        .gun_rad = wreck ? GUN_HANGS_RAD : e->gun[slot]};
 }
 
-static double wrapped(double way)
+static double wrapped(double distance)
 {
-    return way - ARTICULATION_WRAP_M * floor(way / ARTICULATION_WRAP_M);
+    return distance - ARTICULATION_WRAP_M * floor(distance / ARTICULATION_WRAP_M);
 }
 
 /* What it has rolled since: along its own axis; the outer side of a bend further. */
-static void roll(struct articulation_state *state, const struct frame_view *moment, uint32_t slot)
+static void roll(struct articulation_state *state, const struct frame_view *frame_view,
+                 uint32_t slot)
 {
-    const struct entities *e = moment->entities;
-    const struct kind *kind = &moment->world->kinds[e->kind[slot]];
+    const struct entities *e = frame_view->entities;
+    const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
     struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
     struct vec3 moved = {e->x[slot] - state->x, e->y[slot] - state->y, e->z[slot] - state->z};
-    double way = vec3_dot(moved, axes.forward);
+    double distance = vec3_dot(moved, axes.forward);
     double turned = maths_wrap_half(e->heading[slot] - state->heading);
     double more = turned * TRACK_APART * kind->width_m;
-    state->way_m[0] = wrapped(state->way_m[0] + way + more);
-    state->way_m[1] = wrapped(state->way_m[1] + way - more);
-    if (fabs(way) > STEER_LEAST_M) {
-        double steer = maths_atan2(turned * WHEELBASE * kind->length_m, way);
-        if (way < 0.0)
-            steer = maths_atan2(-turned * WHEELBASE * kind->length_m, -way);
+    state->travel_m[0] = wrapped(state->travel_m[0] + distance + more);
+    state->travel_m[1] = wrapped(state->travel_m[1] + distance - more);
+    if (fabs(distance) > STEER_MIN_M) {
+        double steer = maths_atan2(turned * WHEELBASE * kind->length_m, distance);
+        if (distance < 0.0)
+            steer = maths_atan2(-turned * WHEELBASE * kind->length_m, -distance);
         steer = maths_clamp(steer, -ARTICULATION_STEER_MAX, ARTICULATION_STEER_MAX);
         state->steer_rad += (float)(STEER_FOLLOWS * (steer - (double)state->steer_rad));
     }
 }
 
-static void go_on(struct articulation_state *state, const struct frame_view *moment, uint32_t slot,
-                  double dt_s)
+static void go_on(struct articulation_state *state, const struct frame_view *frame_view,
+                  uint32_t slot, double dt_s)
 {
-    const struct entities *e = moment->entities;
+    const struct entities *e = frame_view->entities;
     state->turret_rad = e->turret[slot];
     if (e->state[slot] == ENTITY_WRECK) { /* it stands as it was hit, and the gun sinks */
         float most = (float)(GUN_SINKS_RADS * dt_s);
         state->gun_rad = fmaxf(fminf(state->gun_rad, GUN_HANGS_RAD), state->gun_rad - most);
     } else {
         state->gun_rad = e->gun[slot];
-        roll(state, moment, slot);
+        roll(state, frame_view, slot);
     }
     state->time_s += dt_s;
     state->x = e->x[slot];
@@ -88,27 +89,28 @@ static void go_on(struct articulation_state *state, const struct frame_view *mom
     state->heading = e->heading[slot];
 }
 
-void articulation_note(struct articulation *gear, const struct frame_view *moment)
+void articulation_note(struct articulation *articulation, const struct frame_view *frame_view)
 {
-    const struct entities *e = moment->entities;
-    double now_s = frame_view_time_s(moment);
-    for (uint32_t i = 0; i < moment->head->used && i < gear->slots; i++) {
-        struct articulation_state *state = &gear->state[i];
-        if (e->state[i] == ENTITY_FREE || e->kind[i] >= moment->world->counts.kinds ||
-            moment->world->kinds[e->kind[i]].domain == DOMAIN_MUNITION)
+    const struct entities *e = frame_view->entities;
+    double now_s = frame_view_time_s(frame_view);
+    for (uint32_t i = 0; i < frame_view->head->used && i < articulation->slots; i++) {
+        struct articulation_state *state = &articulation->state[i];
+        if (e->state[i] == ENTITY_FREE || e->kind[i] >= frame_view->world->counts.kinds ||
+            frame_view->world->kinds[e->kind[i]].domain == DOMAIN_MUNITION)
             continue;
         double dt_s = now_s - state->time_s;
         if (state->id != e->id[i] || dt_s < 0.0 || dt_s > ARTICULATION_JUMP_S)
-            *state = first_sight(moment, i);
+            *state = first_sight(frame_view, i);
         else
-            go_on(state, moment, i, dt_s);
+            go_on(state, frame_view, i, dt_s);
     }
 }
 
-struct articulation_state articulation_of(const struct articulation *gear,
-                                          const struct frame_view *moment, uint32_t slot)
+struct articulation_state articulation_of(const struct articulation *articulation,
+                                          const struct frame_view *frame_view, uint32_t slot)
 {
-    if (gear == NULL || slot >= gear->slots || gear->state[slot].id != moment->entities->id[slot])
-        return first_sight(moment, slot);
-    return gear->state[slot];
+    if (articulation == NULL || slot >= articulation->slots ||
+        articulation->state[slot].id != frame_view->entities->id[slot])
+        return first_sight(frame_view, slot);
+    return articulation->state[slot];
 }

@@ -16,11 +16,11 @@ struct frame_view;
 #define ARTICULATION_STEER_MAX 0.6 /* [rad] */
 
 struct articulation_state {
-    uint32_t id;     /* whose; 0: nobody's yet */
-    double time_s;   /* of simulation, when it was noted */
-    double x, y, z;  /* [m] there and then */
-    double heading;  /* [rad] */
-    double way_m[2]; /* left and right wheels and tracks, 0 .. ARTICULATION_WRAP_M */
+    uint32_t id;        /* whose; 0: nobody's yet */
+    double time_s;      /* of simulation, when it was noted */
+    double x, y, z;     /* [m] there and then */
+    double heading;     /* [rad] */
+    double travel_m[2]; /* left and right wheels and tracks, 0 .. ARTICULATION_WRAP_M */
     float turret_rad, gun_rad, steer_rad;
 };
 
@@ -30,15 +30,15 @@ struct articulation {
 };
 
 /* 0, or -1 with errno ENOMEM. */
-int articulation_init(struct articulation *gear, uint32_t capacity);
-void articulation_free(struct articulation *gear);
+int articulation_init(struct articulation *articulation, uint32_t capacity);
+void articulation_free(struct articulation *articulation);
 
 /* Goes on to this moment, which is to be drawn next. Noting a moment twice changes nothing. */
-void articulation_note(struct articulation *gear, const struct frame_view *moment);
+void articulation_note(struct articulation *articulation, const struct frame_view *frame_view);
 
 /* As noted last; of what was never noted, or with no gear, as on first sight: no way, a wreck's
  * gun down. */
-struct articulation_state articulation_of(const struct articulation *gear,
-                                          const struct frame_view *moment, uint32_t slot);
+struct articulation_state articulation_of(const struct articulation *articulation,
+                                          const struct frame_view *frame_view, uint32_t slot);
 
 #endif

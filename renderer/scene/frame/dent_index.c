@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LEAST_DEPTH_M 0.004f /* nobody sees less */
+#define MIN_DEPTH_M 0.004f /* nobody sees less */
 
 int dent_index_init(struct dent_index *dents, const struct dent *list, uint32_t capacity)
 {
@@ -82,7 +82,7 @@ uint32_t dent_index_of(const struct dent_index *dents, uint32_t id, uint64_t tic
         if (tick >= dent->tick)
             now.depth_m += (float)crush_elastic_left((double)dent->elastic_m,
                                                      (double)(tick - dent->tick) * dt_s);
-        if (now.depth_m < LEAST_DEPTH_M)
+        if (now.depth_m < MIN_DEPTH_M)
             continue;
         memcpy(now.point, dent->point, sizeof now.point);
         memcpy(now.direction, dent->direction, sizeof now.direction);

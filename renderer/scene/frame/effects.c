@@ -7,13 +7,13 @@
 
 #define MUZZLE_SHARE     0.7 /* of the shooter's height: there its gun is (mover/weapon/fire.c) */
 #define FLASH_M          0.9 /* of a shot of a megajoule */
-#define FLASH_LEAST_M    0.35
-#define FLASH_MOST_M     4.0
+#define FLASH_MIN_M      0.35
+#define FLASH_MAX_M      4.0
 #define CRASH_IMPULSE_NS 2.0e4 /* of a collision whose dust is as large as the body */
 #define CRASH_HIGH_M     5.0   /* higher over the ground a collision raises no dust */
-#define SPARKS_LEAST_MPS 2.5   /* slower bodies only rub */
+#define SPARKS_MIN_MPS   2.5   /* slower bodies only rub */
 #define KICK_M           0.5   /* what a round without a charge throws up */
-#define WRECK_LEAST_KG   3.0   /* every vehicle has something that burns */
+#define WRECK_MIN_KG     3.0   /* every vehicle has something that burns */
 
 double effects_life_s(enum effect_type type)
 {
@@ -41,14 +41,14 @@ static struct effect *place(struct effects *effects)
     return first;
 }
 
-static struct effect *add(struct effects *effects, const struct frame_view *moment,
+static struct effect *add(struct effects *effects, const struct frame_view *frame_view,
                           const struct event *event, enum effect_type type, const double point[3],
                           double size_m)
 {
     struct effect *effect = place(effects);
     *effect = (struct effect){
         .point = {point[0], point[1], point[2]},
-        .time_s = (double)event->tick * world_dt_s(moment->world),
+        .time_s = (double)event->tick * world_dt_s(frame_view->world),
         .size_m = (float)size_m,
         .type = (uint32_t)type,
         .seed = (uint32_t)event->frame * 64u + event->index,
@@ -62,44 +62,45 @@ static double fireball(double explosive_kg)
     return 1.8 + 1.9 * maths_cbrt(explosive_kg);
 }
 
-static const struct kind *kind_of(const struct frame_view *moment, uint16_t kind)
+static const struct kind *kind_of(const struct frame_view *frame_view, uint16_t kind)
 {
-    return kind < moment->world->counts.kinds ? &moment->world->kinds[kind] : NULL;
+    return kind < frame_view->world->counts.kinds ? &frame_view->world->kinds[kind] : NULL;
 }
 
 /* Where the shot went: as its round flies, or away from who fired it. */
-static struct vec3 way_of(const struct frame_view *moment, const struct event_fire *fire)
+static struct vec3 direction_of(const struct frame_view *frame_view, const struct event_fire *fire)
 {
-    const struct entities *e = moment->entities;
-    struct vec3 way = {0.0, 0.0, 0.0};
-    uint32_t slot = entities_find(e, moment->head->used, fire->munition.id);
+    const struct entities *e = frame_view->entities;
+    struct vec3 direction = {0.0, 0.0, 0.0};
+    uint32_t slot = entities_find(e, frame_view->head->used, fire->munition.id);
     if (slot != SLOT_NONE) {
-        way = entities_velocity(e, slot);
-    } else if ((slot = entities_find(e, moment->head->used, fire->shooter.id)) != SLOT_NONE) {
-        const struct kind *kind = kind_of(moment, e->kind[slot]);
-        way = vec3_sub((struct vec3){fire->point[0], fire->point[1], fire->point[2]},
-                       entities_position(e, slot));
-        way.y -= kind == NULL || kind->domain == DOMAIN_AIR ? 0.0 : MUZZLE_SHARE * kind->height_m;
+        direction = entities_velocity(e, slot);
+    } else if ((slot = entities_find(e, frame_view->head->used, fire->shooter.id)) != SLOT_NONE) {
+        const struct kind *kind = kind_of(frame_view, e->kind[slot]);
+        direction = vec3_sub((struct vec3){fire->point[0], fire->point[1], fire->point[2]},
+                             entities_position(e, slot));
+        direction.y -=
+            kind == NULL || kind->domain == DOMAIN_AIR ? 0.0 : MUZZLE_SHARE * kind->height_m;
     }
-    double length = vec3_length(way);
-    return length > 0.0 ? vec3_scale(way, 1.0 / length) : (struct vec3){0.0, 1.0, 0.0};
+    double length = vec3_length(direction);
+    return length > 0.0 ? vec3_scale(direction, 1.0 / length) : (struct vec3){0.0, 1.0, 0.0};
 }
 
-static void take_fire(struct effects *effects, const struct frame_view *moment,
+static void take_fire(struct effects *effects, const struct frame_view *frame_view,
                       const struct event *event)
 {
     const struct event_fire *fire = &event->fire;
-    const struct kind *round = kind_of(moment, fire->munition.kind);
+    const struct kind *round = kind_of(frame_view, fire->munition.kind);
     if (fire->shooter.id == 0 || round == NULL)
         return; /* out of the sky: no muzzle */
     double joules = 0.5 * round->mass_kg * round->max_speed_mps * round->max_speed_mps;
     double size = FLASH_M * maths_cbrt(joules / 1.0e6);
-    struct effect *flash = add(effects, moment, event, EFFECT_FLASH, fire->point,
-                               maths_clamp(size, FLASH_LEAST_M, FLASH_MOST_M));
-    vec3_to_floats(flash->way, way_of(moment, fire));
+    struct effect *flash = add(effects, frame_view, event, EFFECT_FLASH, fire->point,
+                               maths_clamp(size, FLASH_MIN_M, FLASH_MAX_M));
+    vec3_to_floats(flash->direction, direction_of(frame_view, fire));
 }
 
-static void take_detonation(struct effects *effects, const struct frame_view *moment,
+static void take_detonation(struct effects *effects, const struct frame_view *frame_view,
                             const struct event *event)
 {
     static const enum effect_type charged[STRUCK_COUNT] = {
@@ -108,59 +109,60 @@ static void take_detonation(struct effects *effects, const struct frame_view *mo
         [STRUCK_AIR] = EFFECT_EXPLOSION,
     };
     const struct event_detonation *blast = &event->detonation;
-    motion_trails_end(&effects->spoors, blast->munition.id, blast->point,
-                      (double)event->tick * world_dt_s(moment->world));
+    motion_trails_end(&effects->trails, blast->munition.id, blast->point,
+                      (double)event->tick * world_dt_s(frame_view->world));
     if (blast->struck >= STRUCK_COUNT)
         return;
     if (blast->explosive_kg > 0.0f)
-        add(effects, moment, event, charged[blast->struck], blast->point,
+        add(effects, frame_view, event, charged[blast->struck], blast->point,
             fireball((double)blast->explosive_kg));
     else if (blast->struck == STRUCK_GROUND)
-        add(effects, moment, event, EFFECT_CRASH, blast->point, KICK_M);
+        add(effects, frame_view, event, EFFECT_CRASH, blast->point, KICK_M);
     else if (blast->struck == STRUCK_WATER)
-        add(effects, moment, event, EFFECT_SPLASH, blast->point, KICK_M);
+        add(effects, frame_view, event, EFFECT_SPLASH, blast->point, KICK_M);
     else if (blast->struck != STRUCK_AIR)
-        add(effects, moment, event, EFFECT_HIT, blast->point, KICK_M);
+        add(effects, frame_view, event, EFFECT_HIT, blast->point, KICK_M);
 }
 
 /* Is it of metal or stone? */
-static bool hard(const struct frame_view *moment, const struct event_party *party)
+static bool hard(const struct frame_view *frame_view, const struct event_party *party)
 {
-    const struct kind *kind = kind_of(moment, party->kind);
+    const struct kind *kind = kind_of(frame_view, party->kind);
     return kind != NULL && (kind->domain != DOMAIN_FIXED || (kind->object_class != OBJECT_TREE &&
                                                              kind->object_class != OBJECT_BUSH));
 }
 
-static void take_collision(struct effects *effects, const struct frame_view *moment,
+static void take_collision(struct effects *effects, const struct frame_view *frame_view,
                            const struct event *event)
 {
     const struct event_collision *hit = &event->collision;
     const double *at = hit->point;
     double size =
         0.5 + 2.0 * maths_min(1.5, maths_cbrt((double)hit->impulse_ns / CRASH_IMPULSE_NS));
-    bool wet = cover_is_water(terrain_cover(&moment->world->terrain, at[0], at[2]));
-    double above = at[1] - terrain_height(&moment->world->terrain, moment->craters, at[0], at[2]);
+    bool wet = cover_is_water(terrain_cover(&frame_view->world->terrain, at[0], at[2]));
+    double above =
+        at[1] - terrain_height(&frame_view->world->terrain, frame_view->craters, at[0], at[2]);
     if (above < CRASH_HIGH_M)
-        add(effects, moment, event, wet ? EFFECT_SPLASH : EFFECT_CRASH, at,
+        add(effects, frame_view, event, wet ? EFFECT_SPLASH : EFFECT_CRASH, at,
             wet ? 0.5 * size : size);
-    if (hard(moment, &hit->a) && hard(moment, &hit->b) &&
-        (double)hit->closing_mps > SPARKS_LEAST_MPS)
-        add(effects, moment, event, EFFECT_HIT, at, 0.6 * size);
+    if (hard(frame_view, &hit->a) && hard(frame_view, &hit->b) &&
+        (double)hit->closing_mps > SPARKS_MIN_MPS)
+        add(effects, frame_view, event, EFFECT_HIT, at, 0.6 * size);
 }
 
 /* Vehicles that were destroyed since the moment before. */
-static void take_wrecks(struct effects *effects, const struct frame_view *moment)
+static void take_wrecks(struct effects *effects, const struct frame_view *frame_view)
 {
-    const struct entities *e = moment->entities;
-    double now_s = frame_view_time_s(moment);
+    const struct entities *e = frame_view->entities;
+    double now_s = frame_view_time_s(frame_view);
     uint32_t used =
-        moment->head->used < MOTION_TRAILS_SLOTS ? moment->head->used : MOTION_TRAILS_SLOTS;
+        frame_view->head->used < MOTION_TRAILS_SLOTS ? frame_view->head->used : MOTION_TRAILS_SLOTS;
     for (uint32_t slot = 0; slot < used; slot++) {
-        struct motion_trail *trail = &effects->spoors.trail[slot];
-        const struct kind *kind = kind_of(moment, e->kind[slot]);
+        struct motion_trail *trail = &effects->trails.trail[slot];
+        const struct kind *kind = kind_of(frame_view, e->kind[slot]);
         if (e->state[slot] != ENTITY_WRECK || trail->wrecked || kind == NULL)
             continue;
-        double time_s = (double)e->changed_tick[slot] * world_dt_s(moment->world);
+        double time_s = (double)e->changed_tick[slot] * world_dt_s(frame_view->world);
         trail->wrecked = true;
         if (now_s - time_s > effects_life_s(EFFECT_WRECK))
             continue;
@@ -168,31 +170,31 @@ static void take_wrecks(struct effects *effects, const struct frame_view *moment
         *wreck = (struct effect){
             .point = entities_position(e, slot),
             .time_s = time_s,
-            .size_m = (float)fireball(maths_max(kind->explosive_kg, WRECK_LEAST_KG)),
+            .size_m = (float)fireball(maths_max(kind->explosive_kg, WRECK_MIN_KG)),
             .type = EFFECT_WRECK,
             .seed = e->id[slot],
             .kind = e->kind[slot],
         };
-        vec3_to_floats(wreck->way, entities_velocity(e, slot));
+        vec3_to_floats(wreck->direction, entities_velocity(e, slot));
     }
 }
 
-void effects_take(struct effects *effects, const struct frame_view *moment,
+void effects_take(struct effects *effects, const struct frame_view *frame_view,
                   const struct event *events, uint32_t count)
 {
-    motion_trails_note(&effects->spoors, moment);
-    take_wrecks(effects, moment);
+    motion_trails_note(&effects->trails, frame_view);
+    take_wrecks(effects, frame_view);
     for (uint32_t i = 0; i < count; i++) {
         const struct event *event = &events[i];
         switch (event->type) {
         case EVENT_FIRE:
-            take_fire(effects, moment, event);
+            take_fire(effects, frame_view, event);
             break;
         case EVENT_DETONATION:
-            take_detonation(effects, moment, event);
+            take_detonation(effects, frame_view, event);
             break;
         case EVENT_COLLISION:
-            take_collision(effects, moment, event);
+            take_collision(effects, frame_view, event);
             break;
         default:
             break;

@@ -24,11 +24,11 @@ enum effect_type {
 };
 
 struct effect {
-    struct vec3 point; /* [m, world] */
-    double time_s;     /* of simulation */
-    float size_m;      /* radius of the flash, the fireball, the splash, the dust */
-    float way[3];      /* unit: where the shot went; the wreck's velocity [m/s] */
-    uint32_t type;     /* enum effect_type */
+    struct vec3 point;  /* [m, world] */
+    double time_s;      /* of simulation */
+    float size_m;       /* radius of the flash, the fireball, the splash, the dust */
+    float direction[3]; /* unit: where the shot went; the wreck's velocity [m/s] */
+    uint32_t type;      /* enum effect_type */
     uint32_t seed;
     uint16_t kind; /* of the wreck */
 };
@@ -36,12 +36,12 @@ struct effect {
 struct effects {
     struct effect effect[EFFECTS_MAX];
     uint32_t count; /* of them */
-    struct motion_trails spoors;
+    struct motion_trails trails;
 };
 
 /* Takes committed events in their order, and what can be seen of the moment itself. moment is a
  * frame at or after theirs. */
-void effects_take(struct effects *effects, const struct frame_view *moment,
+void effects_take(struct effects *effects, const struct frame_view *frame_view,
                   const struct event *events, uint32_t count);
 
 /* How long it shows [s]. */

@@ -12,32 +12,32 @@
 #define EARLY_DRIFT 0.1  /* what the clock takes up each time when a frame is seen early */
 #define LATE_DRIFT  0.05 /* what the clock takes up of a delay beyond one step, each time */
 
-int frame_interpolation_init(struct frame_interpolation *blend, uint32_t capacity)
+int frame_interpolation_init(struct frame_interpolation *interpolation, uint32_t capacity)
 {
-    *blend =
+    *interpolation =
         (struct frame_interpolation){.columns = calloc((size_t)capacity * COLUMNS, sizeof(double))};
-    blend->entities.capacity = capacity;
-    return blend->columns == NULL ? -1 : 0;
+    interpolation->entities.capacity = capacity;
+    return interpolation->columns == NULL ? -1 : 0;
 }
 
-void frame_interpolation_free(struct frame_interpolation *blend)
+void frame_interpolation_free(struct frame_interpolation *interpolation)
 {
-    free(blend->columns);
-    blend->columns = NULL;
+    free(interpolation->columns);
+    interpolation->columns = NULL;
 }
 
 /* The earlier frame's table, with columns of our own for where bodies are. */
-static void borrow(struct frame_interpolation *blend, const struct entities *earlier)
+static void borrow(struct frame_interpolation *interpolation, const struct entities *earlier)
 {
-    uint32_t capacity = blend->entities.capacity;
-    blend->entities = *earlier;
-    blend->entities.capacity = capacity;
-    blend->entities.x = blend->columns;
-    blend->entities.y = blend->columns + capacity;
-    blend->entities.z = blend->columns + 2 * (size_t)capacity;
-    blend->entities.heading = blend->columns + 3 * (size_t)capacity;
-    blend->entities.pitch = blend->columns + 4 * (size_t)capacity;
-    blend->entities.roll = blend->columns + 5 * (size_t)capacity;
+    uint32_t capacity = interpolation->entities.capacity;
+    interpolation->entities = *earlier;
+    interpolation->entities.capacity = capacity;
+    interpolation->entities.x = interpolation->columns;
+    interpolation->entities.y = interpolation->columns + capacity;
+    interpolation->entities.z = interpolation->columns + 2 * (size_t)capacity;
+    interpolation->entities.heading = interpolation->columns + 3 * (size_t)capacity;
+    interpolation->entities.pitch = interpolation->columns + 4 * (size_t)capacity;
+    interpolation->entities.roll = interpolation->columns + 5 * (size_t)capacity;
 }
 
 /* Is it the same body in the same state, that has moved and not jumped? */
@@ -47,8 +47,8 @@ static bool goes_on(const struct entities *a, const struct entities *b, uint32_t
         return false;
     double speed =
         maths_max(vec3_length(entities_velocity(a, i)), vec3_length(entities_velocity(b, i)));
-    double way = vec3_length(vec3_sub(entities_position(b, i), entities_position(a, i)));
-    return way <= JUMP_SHARE * speed * passed_s + JUMP_M;
+    double distance = vec3_length(vec3_sub(entities_position(b, i), entities_position(a, i)));
+    return distance <= JUMP_SHARE * speed * passed_s + JUMP_M;
 }
 
 /* The short way round. */
@@ -67,23 +67,24 @@ static void frame_interpolation_row(const struct entities *to, const struct enti
     to->roll[i] = turn_between(a->roll[i], b->roll[i], share);
 }
 
-struct frame_view frame_interpolation_between(struct frame_interpolation *blend,
+struct frame_view frame_interpolation_between(struct frame_interpolation *interpolation,
                                               const struct frame_view *earlier,
                                               const struct frame_view *later, double share)
 {
     double passed_s = frame_view_time_s(later) - frame_view_time_s(earlier);
-    double most_s = FRAME_INTERPOLATION_STEPS_MOST * world_dt_s(earlier->world);
+    double most_s = FRAME_INTERPOLATION_STEPS_MAX * world_dt_s(earlier->world);
     if (!(share < 1.0) || passed_s <= 0.0 || passed_s > most_s ||
         later->head->used < earlier->head->used)
         return *later;
     if (share <= 0.0)
         return *earlier;
     const struct entities *a = earlier->entities, *b = later->entities;
-    borrow(blend, a);
+    borrow(interpolation, a);
     for (uint32_t i = 0; i < earlier->head->used; i++)
-        frame_interpolation_row(&blend->entities, a, goes_on(a, b, i, passed_s) ? b : a, i, share);
+        frame_interpolation_row(&interpolation->entities, a, goes_on(a, b, i, passed_s) ? b : a, i,
+                                share);
     struct frame_view between = *earlier;
-    between.entities = &blend->entities;
+    between.entities = &interpolation->entities;
     between.ahead_s += share * passed_s;
     return between;
 }

@@ -14,7 +14,7 @@
 
 /* Frames farther apart than so many steps are not blended: pictures come so seldom then, or the
  * world in such small steps, that the frame itself goes evenly enough. */
-#define FRAME_INTERPOLATION_STEPS_MOST 3.5
+#define FRAME_INTERPOLATION_STEPS_MAX 3.5
 
 struct frame_interpolation {
     struct entities entities; /* the earlier frame's, but for where bodies are */
@@ -22,12 +22,12 @@ struct frame_interpolation {
 };
 
 /* 0, or -1 with errno ENOMEM. */
-int frame_interpolation_init(struct frame_interpolation *blend, uint32_t capacity);
-void frame_interpolation_free(struct frame_interpolation *blend);
+int frame_interpolation_init(struct frame_interpolation *interpolation, uint32_t capacity);
+void frame_interpolation_free(struct frame_interpolation *interpolation);
 
 /* The moment at share 0..1 of the time from earlier to later: exactly one of them at 0 and at 1.
  * It lives until the next call, and as long as both. */
-struct frame_view frame_interpolation_between(struct frame_interpolation *blend,
+struct frame_view frame_interpolation_between(struct frame_interpolation *interpolation,
                                               const struct frame_view *earlier,
                                               const struct frame_view *later, double share);
 

@@ -20,15 +20,15 @@ struct frame_view {
     const uint8_t *fixed_damage;     /* [world->counts.fixed] enum damage */
     const struct crater_index *craters;
     const struct dent_index *dents;
-    const struct articulation *gear; /* NULL: all is as in the first picture */
+    const struct articulation *articulation; /* NULL: all is as in the first picture */
     double ahead_s; /* the picture's time after the frame's [s of simulation]; bodies are where they
                        are then (renderer/scene/frame/frame_interpolation.h) */
 };
 
 /* Time of simulation in the picture. */
-static inline double frame_view_time_s(const struct frame_view *moment)
+static inline double frame_view_time_s(const struct frame_view *frame_view)
 {
-    return state_time_s(moment->world, moment->head) + moment->ahead_s;
+    return state_time_s(frame_view->world, frame_view->head) + frame_view->ahead_s;
 }
 
 #endif

@@ -9,7 +9,7 @@
 #define SEA_INTERVAL_S      1.5 /* wakes are long */
 #define LAND_INTERVAL_S     0.4
 #define MUNITION_INTERVAL_S 0.35
-#define LEAST_MPS           0.5 /* slower than this nothing is left behind */
+#define MIN_MPS             0.5 /* slower than this nothing is left behind */
 
 /* Seconds between two points of what moves in this domain; 12 of them outlast what it leaves. */
 static double interval_s(uint8_t domain)
@@ -29,7 +29,7 @@ static bool leaves(const struct kind *kind)
 static void add_point(struct motion_trail *trail, const double at[3], const double velocity[3],
                       double time_s)
 {
-    struct motion_trail_point *point = &trail->point[trail->count++ % SPOOR_POINTS];
+    struct motion_trail_point *point = &trail->point[trail->count++ % MOTION_TRAIL_POINTS];
     for (uint32_t i = 0; i < 3; i++) {
         point->at[i] = (float)at[i];
         point->velocity[i] = (float)velocity[i];
@@ -39,34 +39,34 @@ static void add_point(struct motion_trail *trail, const double at[3], const doub
 
 static const struct motion_trail_point *newest(const struct motion_trail *trail)
 {
-    return &trail->point[(trail->count - 1) % SPOOR_POINTS];
+    return &trail->point[(trail->count - 1) % MOTION_TRAIL_POINTS];
 }
 
-static void note(struct motion_trail *trail, const struct frame_view *moment, uint32_t slot,
+static void note(struct motion_trail *trail, const struct frame_view *frame_view, uint32_t slot,
                  double now_s)
 {
-    const struct entities *e = moment->entities;
-    const struct kind *kind = &moment->world->kinds[e->kind[slot]];
+    const struct entities *e = frame_view->entities;
+    const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
     const double at[3] = {e->x[slot], e->y[slot], e->z[slot]};
     const double velocity[3] = {e->vx[slot], e->vy[slot], e->vz[slot]};
     if (trail->count > 0 && newest(trail)->time_s > now_s)
         trail->count = 0; /* time was turned back */
     if (trail->count > 0 && now_s - newest(trail)->time_s < interval_s(kind->domain))
         return;
-    if (trail->count == 0 && vec3_length(entities_velocity(e, slot)) < LEAST_MPS)
+    if (trail->count == 0 && vec3_length(entities_velocity(e, slot)) < MIN_MPS)
         return; /* a vehicle that stands leaves no trail */
     add_point(trail, at, velocity, now_s);
 }
 
-void motion_trails_note(struct motion_trails *spoors, const struct frame_view *moment)
+void motion_trails_note(struct motion_trails *trails, const struct frame_view *frame_view)
 {
-    const struct entities *e = moment->entities;
-    double now_s = frame_view_time_s(moment);
+    const struct entities *e = frame_view->entities;
+    double now_s = frame_view_time_s(frame_view);
     uint32_t used =
-        moment->head->used < MOTION_TRAILS_SLOTS ? moment->head->used : MOTION_TRAILS_SLOTS;
+        frame_view->head->used < MOTION_TRAILS_SLOTS ? frame_view->head->used : MOTION_TRAILS_SLOTS;
     for (uint32_t slot = 0; slot < used; slot++) {
-        struct motion_trail *trail = &spoors->trail[slot];
-        if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= moment->world->counts.kinds)
+        struct motion_trail *trail = &trails->trail[slot];
+        if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= frame_view->world->counts.kinds)
             continue; /* what it left still lies there */
         if (trail->id != e->id[slot]) {
             trail->id = e->id[slot];
@@ -76,18 +76,18 @@ void motion_trails_note(struct motion_trails *spoors, const struct frame_view *m
             trail->smokes_s = INFINITY;
         }
         if (e->state[slot] == ENTITY_ACTIVE && e->damage[slot] >= DAMAGE_MED)
-            trail->smokes_s =
-                fmin(trail->smokes_s, (double)e->changed_tick[slot] * world_dt_s(moment->world));
-        if (e->state[slot] == ENTITY_ACTIVE && leaves(&moment->world->kinds[trail->kind]))
-            note(trail, moment, slot, now_s);
+            trail->smokes_s = fmin(trail->smokes_s,
+                                   (double)e->changed_tick[slot] * world_dt_s(frame_view->world));
+        if (e->state[slot] == ENTITY_ACTIVE && leaves(&frame_view->world->kinds[trail->kind]))
+            note(trail, frame_view, slot, now_s);
     }
 }
 
-void motion_trails_end(struct motion_trails *spoors, uint32_t id, const double point[3],
+void motion_trails_end(struct motion_trails *trails, uint32_t id, const double point[3],
                        double time_s)
 {
     for (uint32_t slot = 0; slot < MOTION_TRAILS_SLOTS; slot++) {
-        struct motion_trail *trail = &spoors->trail[slot];
+        struct motion_trail *trail = &trails->trail[slot];
         if (trail->id != id || trail->count == 0 || newest(trail)->time_s >= time_s)
             continue;
         const struct motion_trail_point *last = newest(trail);
@@ -99,12 +99,12 @@ void motion_trails_end(struct motion_trails *spoors, uint32_t id, const double p
     }
 }
 
-const struct motion_trail *motion_trails_of(const struct motion_trails *spoors, uint32_t slot,
+const struct motion_trail *motion_trails_of(const struct motion_trails *trails, uint32_t slot,
                                             uint32_t id)
 {
-    if (slot >= MOTION_TRAILS_SLOTS || spoors->trail[slot].id != id)
+    if (slot >= MOTION_TRAILS_SLOTS || trails->trail[slot].id != id)
         return NULL;
-    return &spoors->trail[slot];
+    return &trails->trail[slot];
 }
 
 static struct motion_trail_point straight(const struct motion_trail_point *from, double time_s)
@@ -137,10 +137,12 @@ struct motion_trail_point motion_trail_at(const struct motion_trail *trail,
                                           const struct motion_trail_point *now, double time_s)
 {
     const struct motion_trail_point *later = now;
-    uint32_t kept = trail == NULL ? 0 : trail->count < SPOOR_POINTS ? trail->count : SPOOR_POINTS;
+    uint32_t kept = trail == NULL                        ? 0
+                    : trail->count < MOTION_TRAIL_POINTS ? trail->count
+                                                         : MOTION_TRAIL_POINTS;
     for (uint32_t i = 0; i < kept; i++) {
         const struct motion_trail_point *point =
-            &trail->point[(trail->count - 1 - i) % SPOOR_POINTS];
+            &trail->point[(trail->count - 1 - i) % MOTION_TRAIL_POINTS];
         if (point->time_s >= later->time_s)
             continue; /* of a moment after this one */
         if (point->time_s <= time_s)
@@ -160,10 +162,12 @@ double motion_trail_fastest_mps(const struct motion_trail *trail,
                                 const struct motion_trail_point *now, double since_s)
 {
     double fastest = squared(now);
-    uint32_t kept = trail == NULL ? 0 : trail->count < SPOOR_POINTS ? trail->count : SPOOR_POINTS;
+    uint32_t kept = trail == NULL                        ? 0
+                    : trail->count < MOTION_TRAIL_POINTS ? trail->count
+                                                         : MOTION_TRAIL_POINTS;
     for (uint32_t i = 0; i < kept; i++) {
         const struct motion_trail_point *point =
-            &trail->point[(trail->count - 1 - i) % SPOOR_POINTS];
+            &trail->point[(trail->count - 1 - i) % MOTION_TRAIL_POINTS];
         fastest = maths_max(fastest, squared(point));
         if (point->time_s < since_s)
             break; /* the way from this one on was still left behind */

@@ -9,21 +9,21 @@
 #include <stdint.h>
 
 #define MOTION_TRAILS_SLOTS 4096u /* entities in higher slots are taken to have come straight */
-#define SPOOR_POINTS        12u
+#define MOTION_TRAIL_POINTS 12u
 
 struct motion_trail_point {
     float at[3], velocity[3]; /* [m, world], [m/s] */
     double time_s;            /* of simulation */
 };
 
-/* Of one entity, and how it fared; the points' ring holds the last SPOOR_POINTS. */
+/* Of one entity, and how it fared; the points' ring holds the last MOTION_TRAIL_POINTS. */
 struct motion_trail {
     uint32_t id; /* 0: nobody's */
     uint32_t count;
     uint16_t kind;
     bool wrecked;    /* it was seen to be one */
     double smokes_s; /* since when it smokes, of simulation; INFINITY: it does not */
-    struct motion_trail_point point[SPOOR_POINTS];
+    struct motion_trail_point point[MOTION_TRAIL_POINTS];
 };
 
 struct motion_trails {
@@ -31,14 +31,14 @@ struct motion_trails {
 };
 
 /* Notes where everything is whose way will show. Called for a moment again it changes nothing. */
-void motion_trails_note(struct motion_trails *spoors, const struct frame_view *moment);
+void motion_trails_note(struct motion_trails *trails, const struct frame_view *frame_view);
 
 /* A munition's last place, from its detonation. */
-void motion_trails_end(struct motion_trails *spoors, uint32_t id, const double point[3],
+void motion_trails_end(struct motion_trails *trails, uint32_t id, const double point[3],
                        double time_s);
 
 /* The slot's trail if it belongs to this entity, else NULL. */
-const struct motion_trail *motion_trails_of(const struct motion_trails *spoors, uint32_t slot,
+const struct motion_trail *motion_trails_of(const struct motion_trails *trails, uint32_t slot,
                                             uint32_t id);
 
 /* Where the entity was at a time, on a smooth curve through the points up to now, at a moment when

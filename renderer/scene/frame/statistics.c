@@ -7,10 +7,11 @@
 
 #include <stdio.h>
 
-void statistics_of(struct statistics *statistics, const struct frame_view *moment, uint32_t slot)
+void statistics_of(struct statistics *statistics, const struct frame_view *frame_view,
+                   uint32_t slot)
 {
-    const struct world *world = moment->world;
-    const struct entities *e = moment->entities;
+    const struct world *world = frame_view->world;
+    const struct entities *e = frame_view->entities;
     const struct kind *kind = &world->kinds[e->kind[slot]];
     const char *own = world_entity_name(world, e->id[slot]);
     *statistics = (struct statistics){
@@ -25,13 +26,13 @@ void statistics_of(struct statistics *statistics, const struct frame_view *momen
         .pitch_deg = e->pitch[slot] * DEG_PER_RAD,
         .roll_deg = e->roll[slot] * DEG_PER_RAD,
         .altitude_m = e->y[slot],
-        .above_ground_m =
-            e->y[slot] - terrain_height(&world->terrain, moment->craters, e->x[slot], e->z[slot]),
+        .above_ground_m = e->y[slot] - terrain_height(&world->terrain, frame_view->craters,
+                                                      e->x[slot], e->z[slot]),
         .fuel_share = kind->fuel_l > 0.0 ? e->fuel_l[slot] / kind->fuel_l : 1.0,
         .rounds = e->rounds[slot],
         .rounds_full = kind->rounds,
-        .frame = moment->head->frame,
-        .time_s = frame_view_time_s(moment),
+        .frame = frame_view->head->frame,
+        .time_s = frame_view_time_s(frame_view),
     };
     if (own[0] != '\0')
         snprintf(statistics->name, sizeof statistics->name, "%s", own);

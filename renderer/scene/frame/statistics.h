@@ -22,7 +22,8 @@ struct statistics {
     double time_s; /* of simulation */
 };
 
-void statistics_of(struct statistics *statistics, const struct frame_view *moment, uint32_t slot);
+void statistics_of(struct statistics *statistics, const struct frame_view *frame_view,
+                   uint32_t slot);
 
 /* All of it in one line of words and figures, as it is stored with a picture. */
 void statistics_line(const struct statistics *statistics, char *text, size_t bytes);

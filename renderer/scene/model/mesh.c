@@ -106,9 +106,9 @@ static int collect(struct mesh_facets *facets, const struct world *world, const 
     static const double pixels[MESH_DETAIL_COUNT] = {[MESH_MIDDLE] = MESH_FULL_PIXELS,
                                                      [MESH_COARSE] = MESH_MIDDLE_PIXELS,
                                                      [MESH_COARSEST] = MESH_COARSE_PIXELS};
-    static const uint32_t most[MESH_DETAIL_COUNT] = {[MESH_MIDDLE] = MESH_MIDDLE_MOST,
-                                                     [MESH_COARSE] = MESH_COARSE_MOST,
-                                                     [MESH_COARSEST] = MESH_COARSEST_MOST};
+    static const uint32_t most[MESH_DETAIL_COUNT] = {[MESH_MIDDLE] = MESH_MIDDLE_MAX,
+                                                     [MESH_COARSE] = MESH_COARSE_MAX,
+                                                     [MESH_COARSEST] = MESH_COARSEST_MAX};
     float low[3], high[3], edge_m = fine_edge(world, m), across[3];
     bool solid = detail == MESH_COARSEST && m->solid_triangles > 0;
     uint32_t end = solid ? m->solid_triangles : m->triangle_count;

@@ -22,9 +22,9 @@ struct world;
 #define MESH_DROP_PIXELS   0.9   /* ... a piece that is dropped and covers that square */
 
 /* Triangles of a level. */
-#define MESH_MIDDLE_MOST   1500u
-#define MESH_COARSE_MOST   700u
-#define MESH_COARSEST_MOST 150u
+#define MESH_MIDDLE_MAX   1500u
+#define MESH_COARSE_MAX   700u
+#define MESH_COARSEST_MAX 150u
 
 enum mesh_detail {
     MESH_FINE, /* divided until a dent can bend it */

@@ -15,7 +15,7 @@
 #define THIN_SHARE   0.45    /* of a piece's thickness that its surface may be off by */
 #define STEP_FIRST   0.125   /* of the bounds, to begin with; ... */
 #define STEP         1.25    /* ... so much coarser while there are too many facets ... */
-#define STEPS_MOST   36u     /* ... but not for ever */
+#define STEPS_MAX    36u     /* ... but not for ever */
 #define KNIFE_COSINE (-0.2f) /* facets that meet at less than 80 degrees have a knife's edge */
 
 /* Squared distances from planes, each weighed: p' A p + 2 b p + c. */
@@ -358,7 +358,7 @@ static void drop_pieces(struct thinning *t, double drop_m)
 static void collapse_all(struct thinning *t, double drop_m, uint32_t most)
 {
     double coarse = STEP_FIRST;
-    for (uint32_t step = 0; step < STEPS_MOST && t->left > most; step++) {
+    for (uint32_t step = 0; step < STEPS_MAX && t->left > most; step++) {
         drop_pieces(t, drop_m * coarse);
         while (t->left > most && go_round(t, coarse * coarse, most) > 0)
             ;

@@ -52,7 +52,7 @@ void value_noise_rows_add(struct value_noise_rows *rows, double z, float scale, 
         hash_nodes(rows, north + 1, rows->nodes_south);
         rows->north = north;
     }
-    float nodes[GRAIN_COLUMNS + 3], much = scale * rows->held;
+    float nodes[VALUE_NOISE_COLUMNS_MAX + 3], much = scale * rows->held;
     for (uint32_t i = 0; i < rows->nodes; i++)
         nodes[i] =
             much * (rows->nodes_north[i] + (rows->nodes_south[i] - rows->nodes_north[i]) * past);

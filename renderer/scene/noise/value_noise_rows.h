@@ -5,16 +5,16 @@
 
 #include <stdint.h>
 
-#define GRAIN_COLUMNS 128u /* of a row at most */
+#define VALUE_NOISE_COLUMNS_MAX 128u /* of a row at most */
 
 struct value_noise_rows {
     double wavelength_m;
     uint32_t seed, columns, nodes;
-    float held;                /* how much of it the pixels can show; 0: none */
-    int32_t west, north;       /* the lattice point of the first node; the row of nodes kept */
-    int32_t at[GRAIN_COLUMNS]; /* the node before each column */
-    float past[GRAIN_COLUMNS]; /* how much of the next one */
-    float nodes_north[GRAIN_COLUMNS + 3], nodes_south[GRAIN_COLUMNS + 3];
+    float held;          /* how much of it the pixels can show; 0: none */
+    int32_t west, north; /* the lattice point of the first node; the row of nodes kept */
+    int32_t at[VALUE_NOISE_COLUMNS_MAX]; /* the node before each column */
+    float past[VALUE_NOISE_COLUMNS_MAX]; /* how much of the next one */
+    float nodes_north[VALUE_NOISE_COLUMNS_MAX + 3], nodes_south[VALUE_NOISE_COLUMNS_MAX + 3];
 };
 
 /* For columns at x, x + step_m ... Noise fades away where a wavelength is less than three steps. */

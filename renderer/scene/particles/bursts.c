@@ -33,9 +33,10 @@ static struct vec3 scatter(uint32_t seed, uint32_t n, double steep)
     return (struct vec3){cosine * ring, up, sine * ring};
 }
 
-static struct vec3 effect_way(const struct effect *effect)
+static struct vec3 effect_direction(const struct effect *effect)
 {
-    return (struct vec3){(double)effect->way[0], (double)effect->way[1], (double)effect->way[2]};
+    return (struct vec3){(double)effect->direction[0], (double)effect->direction[1],
+                         (double)effect->direction[2]};
 }
 
 /* --- shots ------------------------------------------------------------------------------------ */
@@ -43,19 +44,19 @@ static struct vec3 effect_way(const struct effect *effect)
 /* A star: a long flame ahead, shorter ones aside, as a muzzle brake lets them out. */
 static void flash_star(struct draw_list *list, const struct effect *effect, double age)
 {
-    struct vec3 way = effect_way(effect), up = {0.0, 1.0, 0.0};
-    struct vec3 side = vec3_cross(way, up);
+    struct vec3 direction = effect_direction(effect), up = {0.0, 1.0, 0.0};
+    struct vec3 side = vec3_cross(direction, up);
     double wide = vec3_length(side), size = (double)effect->size_m;
     side = wide > 0.01 ? vec3_scale(side, 1.0 / wide) : (struct vec3){1.0, 0.0, 0.0};
-    up = vec3_cross(side, way);
+    up = vec3_cross(side, direction);
     float light = (float)(1.0 - age / FLASH_S);
-    struct vec3 middle = vec3_add(effect->point, vec3_scale(way, 0.5 * size));
+    struct vec3 middle = vec3_add(effect->point, vec3_scale(direction, 0.5 * size));
     for (uint32_t n = 0; n < 5; n++) {
         double turn = (n & 1 ? 1.0 : -1.0) * (0.8 + 0.4 * (double)luck(effect->seed, n, 30));
-        struct vec3 ray = n == 0  ? vec3_scale(way, 1.5)
+        struct vec3 ray = n == 0  ? vec3_scale(direction, 1.5)
                           : n < 3 ? vec3_scale(side, turn)
                                   : vec3_scale(up, 0.7 * turn);
-        ray = vec3_add(ray, vec3_scale(way, n == 0 ? 0.0 : 0.25));
+        ray = vec3_add(ray, vec3_scale(direction, n == 0 ? 0.0 : 0.25));
         struct spot flame = {
             .at = vec3_add(n == 0 ? middle : effect->point, vec3_scale(ray, 0.55 * size)),
             .along = vec3_scale(ray, size * (0.8 + 2.0 * age)),
@@ -78,10 +79,10 @@ static void flash(struct draw_list *list, const struct effect *effect, double ag
     double life = effects_life_s(EFFECT_FLASH), size = (double)effect->size_m;
     if (age < FLASH_S)
         flash_star(list, effect, age);
-    struct vec3 way = effect_way(effect);
+    struct vec3 direction = effect_direction(effect);
     for (uint32_t n = 0; n < 3; n++) {
         double out = size * ((0.5 + 0.8 * n) * saturate(6.0 * age) + 0.3 * n);
-        struct spot gas = {.at = vec3_add(effect->point, vec3_scale(way, out)),
+        struct spot gas = {.at = vec3_add(effect->point, vec3_scale(direction, out)),
                            .size_m = size * (0.35 + 0.9 * saturate(4.0 * age)),
                            .picture = smoke_picture(effect->seed, n),
                            .turn_rad = luck_turn(effect->seed, n, 12),
@@ -119,19 +120,20 @@ static void fireball(struct draw_list *list, const struct effect *effect, double
     double t = age / life, grown = 1.0 - (1.0 - t) * (1.0 - t);
     double share = particles_share(list, size, effect->point);
     for (uint32_t n = 0; n < particles_shown(FIRE_PARTICLES, share); n++) {
-        struct vec3 way = scatter(effect->seed, n, 0.0);
+        struct vec3 direction = scatter(effect->seed, n, 0.0);
         double out = size * (0.2 + 0.6 * grown) * (0.3 + 0.7 * (double)luck(effect->seed, n, 15));
         /* Some burn out before others. */
         double own = maths_min(1.0, t * (0.8 + 0.5 * (double)luck(effect->seed, n, 25)));
-        struct spot ball = {
-            .at = {effect->point.x + way.x * out, effect->point.y + way.y * out + 0.9 * size * t,
-                   effect->point.z + way.z * out},
-            .size_m = size * (0.42 + 0.34 * grown),
-            .picture = n % 3 ? smoke_picture(effect->seed, n) : PARTICLE_FLAME_A,
-            .turn_rad = luck_turn(effect->seed, n, 16) + 0.6f * (float)t,
-            .glow = (float)(0.50 - 0.38 * own),
-            .shade = shade_mix((struct shade){1.0f, 0.58f, 0.30f, 1.0f},
-                               (struct shade){0.60f, 0.14f, 0.03f, 0.7f}, own * 1.1)};
+        struct spot ball = {.at = {effect->point.x + direction.x * out,
+                                   effect->point.y + direction.y * out + 0.9 * size * t,
+                                   effect->point.z + direction.z * out},
+                            .size_m = size * (0.42 + 0.34 * grown),
+                            .picture = n % 3 ? smoke_picture(effect->seed, n) : PARTICLE_FLAME_A,
+                            .turn_rad = luck_turn(effect->seed, n, 16) + 0.6f * (float)t,
+                            .glow = (float)(0.50 - 0.38 * own),
+                            .shade =
+                                shade_mix((struct shade){1.0f, 0.58f, 0.30f, 1.0f},
+                                          (struct shade){0.60f, 0.14f, 0.03f, 0.7f}, own * 1.1)};
         ball.shade.a *=
             particles_part(n, FIRE_PARTICLES, share) * come_and_go(own, 0.03, 1.0, 0.45);
         particles_add(list, &ball);
@@ -154,14 +156,14 @@ static void cloud(struct draw_list *list, const struct effect *effect, double ag
         return;
     double share = particles_share(list, size, effect->point);
     for (uint32_t n = 0; n < particles_shown(SMOKE_PARTICLES, share); n++) {
-        struct vec3 way = scatter(effect->seed ^ 0x55u, n, 0.0);
+        struct vec3 direction = scatter(effect->seed ^ 0x55u, n, 0.0);
         double reach = (double)luck(effect->seed, n, 17), slow = 0.5 + 0.9 * reach;
         double out = size * (0.2 + 1.0 * grown * reach);
-        double up = out * way.y * (1.0 + (tall - 1.0) * grown) + 0.8 * tall * age * slow;
+        double up = out * direction.y * (1.0 + (tall - 1.0) * grown) + 0.8 * tall * age * slow;
         struct spot particle = {
-            .at = {effect->point.x + way.x * out + WIND_X * age * slow,
+            .at = {effect->point.x + direction.x * out + WIND_X * age * slow,
                    effect->point.y + up + 0.2 * size,
-                   effect->point.z + way.z * out + WIND_Z * age * slow},
+                   effect->point.z + direction.z * out + WIND_Z * age * slow},
             .size_m = size * (0.30 + 0.38 * grown * (1.2 - reach) + 0.09 * age),
             .picture = smoke_picture(effect->seed, n),
             .turn_rad = luck_turn(effect->seed, n, 18) + 0.1f * (float)age,
@@ -183,18 +185,19 @@ static void sparks(struct draw_list *list, const struct effect *effect, double a
         float alpha = particles_part(n, SPARKS, share);
         if (t >= 1.0 || alpha <= 0.0f)
             continue;
-        struct vec3 way = scatter(effect->seed ^ 0xaau, n, 0.05);
+        struct vec3 direction = scatter(effect->seed ^ 0xaau, n, 0.05);
         double fast = speed * (0.35 + 0.65 * (double)luck(effect->seed, n, 19));
         double gone = fast * own * 0.6 * saturate(t / 0.6), now = fast * (1.0 - 0.75 * t);
-        struct spot spark = {.at = vec3_add(effect->point, vec3_scale(way, gone)),
+        struct spot spark = {.at = vec3_add(effect->point, vec3_scale(direction, gone)),
                              .size_m = 0.045 + 0.012 * (double)effect->size_m,
                              .picture = PARTICLE_GLOW,
                              .glow = 1.0f,
                              .shade = shade_mix((struct shade){1.0f, 0.90f, 0.60f, 1.0f},
                                                 (struct shade){1.0f, 0.35f, 0.08f, 0.0f}, t * t)};
         spark.at.y -= 0.5 * GRAVITY * age * age;
-        spark.along = (struct vec3){0.02 * way.x * now, 0.02 * (way.y * now - GRAVITY * age),
-                                    0.02 * way.z * now};
+        spark.along =
+            (struct vec3){0.02 * direction.x * now, 0.02 * (direction.y * now - GRAVITY * age),
+                          0.02 * direction.z * now};
         spark.shade.a *= alpha;
         particles_add(list, &spark);
     }
@@ -219,25 +222,27 @@ static void throw_up(struct draw_list *list, const struct effect *effect, double
     double share = particles_share(list, (double)effect->size_m, effect->point);
     for (uint32_t n = 0; n < particles_shown(as->jets * JET_PARTICLES, share); n++) {
         uint32_t jet = n / JET_PARTICLES, back = n % JET_PARTICLES;
-        struct vec3 way = scatter(effect->seed ^ 0x33u, jet, as->steep);
+        struct vec3 direction = scatter(effect->seed ^ 0x33u, jet, as->steep);
         double speed =
             as->speed * (0.55 + 0.45 * (double)luck(effect->seed, jet, 27)) * (1.0 - 0.26 * back);
-        double up = way.y * speed * age - 0.5 * as->gravity * age * age;
-        double rise = way.y * speed - as->gravity * age, grown = 0.7 + 0.7 * age;
+        double up = direction.y * speed * age - 0.5 * as->gravity * age * age;
+        double rise = direction.y * speed - as->gravity * age, grown = 0.7 + 0.7 * age;
         double size = as->width_m * grown * (0.8 + 0.4 * (double)luck(effect->seed, n, 28));
         double left = up / size + 0.8; /* sinks into the ground */
         if (left <= 0.0)
             continue;
         double length =
             size + speed * (0.03 + 0.16 * age / (1.0 + age)); /* drawn out as it flies */
-        struct spot particle = {.at = {effect->point.x + way.x * speed * age, effect->point.y + up,
-                                       effect->point.z + way.z * speed * age},
+        struct spot particle = {.at = {effect->point.x + direction.x * speed * age,
+                                       effect->point.y + up,
+                                       effect->point.z + direction.z * speed * age},
                                 .size_m = size,
                                 .picture = as->picture,
                                 .shade = as->shade};
-        double fast = maths_max(1.0, sqrt(speed * speed * (1.0 - way.y * way.y) + rise * rise));
-        particle.along = (struct vec3){way.x * speed * length / fast, rise * length / fast,
-                                       way.z * speed * length / fast};
+        double fast =
+            maths_max(1.0, sqrt(speed * speed * (1.0 - direction.y * direction.y) + rise * rise));
+        particle.along = (struct vec3){direction.x * speed * length / fast, rise * length / fast,
+                                       direction.z * speed * length / fast};
         float here = come_and_go(age, 0.04, as->life_s, as->life_s);
         particle.shade.a *= (float)maths_clamp(left, 0.0, 1.0) * here * here *
                             particles_part(n, as->jets * JET_PARTICLES, share);
@@ -245,11 +250,11 @@ static void throw_up(struct draw_list *list, const struct effect *effect, double
     }
 }
 
-static void burst(struct draw_list *list, const struct frame_view *moment,
+static void burst(struct draw_list *list, const struct frame_view *frame_view,
                   const struct effect *effect, double age)
 {
     double size = (double)effect->size_m;
-    enum cover cover = terrain_cover(&moment->world->terrain, effect->point.x, effect->point.z);
+    enum cover cover = terrain_cover(&frame_view->world->terrain, effect->point.x, effect->point.z);
     struct shade dust = dust_of(cover);
     struct fountain soil = {.jets = SOIL_JETS,
                             .speed = 7.5 * sqrt(size),
@@ -313,12 +318,12 @@ static void splash(struct draw_list *list, const struct effect *effect, double a
     ring(list, effect, age, life);
 }
 
-void bursts_effect(struct draw_list *list, const struct frame_view *moment,
+void bursts_effect(struct draw_list *list, const struct frame_view *frame_view,
                    const struct effect *effect, double age)
 {
     double size = (double)effect->size_m, life = effects_life_s((enum effect_type)effect->type);
     struct shade dust =
-        dust_of(terrain_cover(&moment->world->terrain, effect->point.x, effect->point.z));
+        dust_of(terrain_cover(&frame_view->world->terrain, effect->point.x, effect->point.z));
     switch ((enum effect_type)effect->type) {
     case EFFECT_FLASH:
         flash(list, effect, age);
@@ -331,7 +336,7 @@ void bursts_effect(struct draw_list *list, const struct frame_view *moment,
         sparks(list, effect, age, 10.0 * sqrt(size), 1.6);
         break;
     case EFFECT_BURST:
-        burst(list, moment, effect, age);
+        burst(list, frame_view, effect, age);
         break;
     case EFFECT_SPLASH:
         splash(list, effect, age);

@@ -6,7 +6,7 @@
 #include "renderer/scene/frame/effects.h"
 
 /* Adds the particles of an effect of this age. */
-void bursts_effect(struct draw_list *list, const struct frame_view *moment,
+void bursts_effect(struct draw_list *list, const struct frame_view *frame_view,
                    const struct effect *effect, double age_s);
 
 #endif

@@ -7,13 +7,13 @@
 
 #include <math.h>
 
-#define GRAVITY      9.81 /* [m/s^2] */
-#define PIECES_MOST  9u
-#define SETTLE_S     0.5  /* after it fell, it tips over and slides so long */
-#define SLIDE        0.12 /* of its speed times SETTLE_S that it slides */
-#define SHRINK_S     5.0  /* before the end of its life it goes into the ground */
-#define PIXELS_LEAST 3.0  /* smaller parts are not shown; they grow into the picture */
-#define LANDINGS     4    /* steps towards the place where it meets the ground */
+#define GRAVITY    9.81 /* [m/s^2] */
+#define PIECES_MAX 9u
+#define SETTLE_S   0.5  /* after it fell, it tips over and slides so long */
+#define SLIDE      0.12 /* of its speed times SETTLE_S that it slides */
+#define SHRINK_S   5.0  /* before the end of its life it goes into the ground */
+#define PIXELS_MIN 3.0  /* smaller parts are not shown; they grow into the picture */
+#define LANDINGS   4    /* steps towards the place where it meets the ground */
 
 struct piece {
     double size[3]; /* [m] long, high, wide */
@@ -47,33 +47,34 @@ static struct vec3 flown(const struct flight *flight, double t)
     return at;
 }
 
-static struct flight flight_of(const struct effect *effect, const struct frame_view *moment,
+static struct flight flight_of(const struct effect *effect, const struct frame_view *frame_view,
                                uint32_t n)
 {
-    const struct terrain *terrain = &moment->world->terrain;
+    const struct terrain *terrain = &frame_view->world->terrain;
     double sine, cosine,
         out = (4.0 + 5.0 * chance(effect->seed, n, 0)) * sqrt((double)effect->size_m) * 0.6;
     maths_sincos(TWO_PI * chance(effect->seed, n, 1), &sine, &cosine);
     struct flight flight = {
         .from = effect->point,
         /* It keeps some of the way that the vehicle had. */
-        .velocity = {0.5 * (double)effect->way[0] + cosine * out,
-                     0.5 * (double)effect->way[1] + out * (1.0 + 0.9 * chance(effect->seed, n, 2)),
-                     0.5 * (double)effect->way[2] + sine * out},
+        .velocity = {0.5 * (double)effect->direction[0] + cosine * out,
+                     0.5 * (double)effect->direction[1] +
+                         out * (1.0 + 0.9 * chance(effect->seed, n, 2)),
+                     0.5 * (double)effect->direction[2] + sine * out},
     };
     flight.from.y += 1.0;
-    double ground = terrain_height(terrain, moment->craters, flight.from.x, flight.from.z);
+    double ground = terrain_height(terrain, frame_view->craters, flight.from.x, flight.from.z);
     for (uint32_t i = 0; i < LANDINGS; i++) {
         double up = flight.velocity.y, high = flight.from.y - ground;
         flight.lands_s = (up + sqrt(maths_max(0.0, up * up + 2.0 * GRAVITY * high))) / GRAVITY;
         struct vec3 at = flown(&flight, flight.lands_s);
-        ground = terrain_height(terrain, moment->craters, at.x, at.z);
+        ground = terrain_height(terrain, frame_view->craters, at.x, at.z);
     }
     flight.rest = flown(&flight, flight.lands_s);
     double slide = SLIDE * SETTLE_S;
     flight.rest.x += flight.velocity.x * slide;
     flight.rest.z += flight.velocity.z * slide;
-    flight.rest.y = terrain_height(terrain, moment->craters, flight.rest.x, flight.rest.z);
+    flight.rest.y = terrain_height(terrain, frame_view->craters, flight.rest.x, flight.rest.z);
     return flight;
 }
 
@@ -108,30 +109,32 @@ static struct body_axes pose_at(const struct effect *effect, const struct flight
     return axes;
 }
 
-static void add_piece(struct draw_list *list, const struct static_scene *scenery,
-                      const struct frame_view *moment, const struct effect *effect, double age,
+static void add_piece(struct draw_list *list, const struct static_scene *static_scene,
+                      const struct frame_view *frame_view, const struct effect *effect, double age,
                       uint32_t n)
 {
-    const struct kind *kind = &moment->world->kinds[effect->kind];
-    const struct mesh_skeleton *skeleton = &scenery->skeletons[kind->model];
+    const struct kind *kind = &frame_view->world->kinds[effect->kind];
+    const struct mesh_skeleton *skeleton = &static_scene->skeletons[kind->model];
     const struct piece *shape =
         &shapes[value_noise_hash((int32_t)effect->seed, (int32_t)n, 365) % SHAPES];
     double life = EFFECT_LIFE_S * (0.6 + 0.4 * chance(effect->seed, n, 6));
     double size = (0.7 + 0.6 * chance(effect->seed, n, 7)) * sqrt(kind->radius_m / 3.0);
     size *= maths_clamp((life - age) / SHRINK_S, 0.0, 1.0);
-    struct flight flight = flight_of(effect, moment, n);
+    struct flight flight = flight_of(effect, frame_view, n);
     struct vec3 at = place_at(&flight, age);
     double distance = vec3_length(vec3_sub(at, list->camera.eye));
     double pixels = camera_pixels(&list->camera, 1.5 * size, distance);
-    size *= maths_clamp(pixels - PIXELS_LEAST, 0.0, 1.0);
-    if (pixels <= PIXELS_LEAST || !camera_sees(&list->camera, at, 4.0))
+    size *= maths_clamp(pixels - PIXELS_MIN, 0.0, 1.0);
+    if (pixels <= PIXELS_MIN || !camera_sees(&list->camera, at, 4.0))
         return;
-    if (cover_is_water(terrain_cover(&moment->world->terrain, at.x, at.z)) && age > flight.lands_s)
+    if (cover_is_water(terrain_cover(&frame_view->world->terrain, at.x, at.z)) &&
+        age > flight.lands_s)
         return; /* it sank */
     struct draw_list_body *body = draw_list_add_body(list, kind->model, MESH_COARSEST);
     if (body == NULL)
         return;
-    struct vec3 normal = terrain_normal(&moment->world->terrain, moment->craters, at.x, at.z);
+    struct vec3 normal =
+        terrain_normal(&frame_view->world->terrain, frame_view->craters, at.x, at.z);
     struct body_axes axes = pose_at(effect, &flight, normal, age, n);
     double scale[3], low = 0.0;
     for (uint32_t i = 0; i < 3; i++) {
@@ -147,25 +150,25 @@ static void add_piece(struct draw_list *list, const struct static_scene *scenery
     vec3_to_floats(body->right, vec3_scale(axes.right, scale[2]));
     body->tint[0] = body->tint[1] = body->tint[2] = 0.4f;
     body->burn = 1.0f;
-    draw_list_add_shadow(list, moment, at, pixels);
+    draw_list_add_shadow(list, frame_view, at, pixels);
 }
 
-void debris_add(struct draw_list *list, const struct static_scene *scenery,
-                const struct frame_view *moment, const struct effects *effects)
+void debris_add(struct draw_list *list, const struct static_scene *static_scene,
+                const struct frame_view *frame_view, const struct effects *effects)
 {
     for (uint32_t i = 0; i < effects->count; i++) {
         const struct effect *effect = &effects->effect[i];
         double age = list->time_s - effect->time_s;
         if (effect->type != EFFECT_WRECK || age < 0.0 || age > EFFECT_LIFE_S ||
-            effect->kind >= moment->world->counts.kinds ||
-            moment->world->kinds[effect->kind].model >= moment->world->counts.models)
+            effect->kind >= frame_view->world->counts.kinds ||
+            frame_view->world->kinds[effect->kind].model >= frame_view->world->counts.models)
             continue;
         float at[3];
         draw_list_relative(list, effect->point, at);
-        float far = sqrtf(frustum_dot(at, at)), pixels = frustum_pixels(&list->sight, 2.0f, far);
-        if (pixels < (float)PIXELS_LEAST || !frustum_ball(&list->sight, at, 120.0f))
+        float far = sqrtf(frustum_dot(at, at)), pixels = frustum_pixels(&list->frustum, 2.0f, far);
+        if (pixels < (float)PIXELS_MIN || !frustum_ball(&list->frustum, at, 120.0f))
             continue;
-        for (uint32_t n = 0; n < PIECES_MOST; n++)
-            add_piece(list, scenery, moment, effect, age, n);
+        for (uint32_t n = 0; n < PIECES_MAX; n++)
+            add_piece(list, static_scene, frame_view, effect, age, n);
     }
 }

@@ -7,7 +7,7 @@
 #include "renderer/scene/frame/effects.h"
 
 /* Adds the parts in view to the bodies: those in flight and those that lie on the ground. */
-void debris_add(struct draw_list *list, const struct static_scene *scenery,
-                const struct frame_view *moment, const struct effects *effects);
+void debris_add(struct draw_list *list, const struct static_scene *static_scene,
+                const struct frame_view *frame_view, const struct effects *effects);
 
 #endif

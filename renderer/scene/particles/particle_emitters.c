@@ -15,30 +15,30 @@
 #define BURST_REACH_M 12.0f /* so far a burst goes, with the wind ... */
 #define BURST_REACH   12.0f /* ... and for each metre of its size */
 
-static void entity_particles(struct draw_list *list, const struct frame_view *moment,
-                             const struct motion_trails *spoors, uint32_t slot)
+static void entity_particles(struct draw_list *list, const struct frame_view *frame_view,
+                             const struct motion_trails *trails, uint32_t slot)
 {
-    const struct entities *e = moment->entities;
-    if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= moment->world->counts.kinds)
+    const struct entities *e = frame_view->entities;
+    if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= frame_view->world->counts.kinds)
         return;
-    const struct kind *kind = &moment->world->kinds[e->kind[slot]];
-    const struct motion_trail *trail = motion_trails_of(spoors, slot, e->id[slot]);
-    smoke_entity(list, moment, trail, slot, kind);
+    const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
+    const struct motion_trail *trail = motion_trails_of(trails, slot, e->id[slot]);
+    smoke_entity(list, frame_view, trail, slot, kind);
     if (e->state[slot] == ENTITY_ACTIVE)
-        trails_entity(list, moment, trail, slot, kind);
+        trails_entity(list, frame_view, trail, slot, kind);
 }
 
-static void effect_particles(struct draw_list *list, const struct frame_view *moment,
+static void effect_particles(struct draw_list *list, const struct frame_view *frame_view,
                              const struct effect *effect)
 {
     double age = list->time_s - effect->time_s;
     float at[3];
     draw_list_relative(list, effect->point, at);
-    float pixels = frustum_pixels(&list->sight, effect->size_m, sqrtf(frustum_dot(at, at)));
+    float pixels = frustum_pixels(&list->frustum, effect->size_m, sqrtf(frustum_dot(at, at)));
     if (age >= 0.0 && age < effects_life_s((enum effect_type)effect->type) &&
-        pixels > PARTICLES_LEAST_PIXELS &&
-        frustum_ball(&list->sight, at, BURST_REACH_M + BURST_REACH * effect->size_m))
-        bursts_effect(list, moment, effect, age);
+        pixels > PARTICLES_MIN_PIXELS &&
+        frustum_ball(&list->frustum, at, BURST_REACH_M + BURST_REACH * effect->size_m))
+        bursts_effect(list, frame_view, effect, age);
 }
 
 /* By distance, farthest first, those as far in the order they came: digits of the squared
@@ -76,13 +76,13 @@ static void sort_particles(struct draw_list *list)
     list->particles = sorted;
 }
 
-void particle_emitters_add(struct draw_list *list, const struct frame_view *moment,
+void particle_emitters_add(struct draw_list *list, const struct frame_view *frame_view,
                            const struct effects *effects)
 {
-    for (uint32_t slot = 0; slot < moment->head->used; slot++)
-        entity_particles(list, moment, &effects->spoors, slot);
-    trails_left(list, moment, &effects->spoors);
+    for (uint32_t slot = 0; slot < frame_view->head->used; slot++)
+        entity_particles(list, frame_view, &effects->trails, slot);
+    trails_left(list, frame_view, &effects->trails);
     for (uint32_t i = 0; i < effects->count; i++)
-        effect_particles(list, moment, &effects->effect[i]);
+        effect_particles(list, frame_view, &effects->effect[i]);
     sort_particles(list);
 }

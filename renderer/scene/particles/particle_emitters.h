@@ -6,7 +6,7 @@
 #include "renderer/scene/frame/effects.h"
 
 /* Adds the particles of all entities and effects, and sorts the whole list: farthest first. */
-void particle_emitters_add(struct draw_list *list, const struct frame_view *moment,
+void particle_emitters_add(struct draw_list *list, const struct frame_view *frame_view,
                            const struct effects *effects);
 
 #endif

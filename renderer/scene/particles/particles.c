@@ -6,15 +6,15 @@
 #include <string.h>
 
 #define FADES_PIXELS 0.8f /* a particle whose half side is smaller than this fades out */
-#define LEAST_ALPHA  0.01f
+#define MIN_ALPHA    0.01f
 #define EYE_INSIDE   0.6f /* nearer than so many of its sizes it is gone ... */
 #define EYE_OUTSIDE  1.5f /* ... and farther than so many it is whole */
-#define FLAT_LEAST   0.3f /* what lies is at least so high, over its width */
+#define FLAT_MIN     0.3f /* what lies is at least so high, over its width */
 #define LIFT         0.7  /* of its size, over the ground that it lies on */
 #define APART_SIZES  0.7  /* between two puffs of a row */
 #define APART_PIXELS 8.0
 #define WHOLE_PIXELS 70.0 /* from this size on a burst has all of its puffs */
-#define LEAST_SHARE  0.3
+#define MIN_SHARE    0.3
 
 struct shade dust_of(enum cover cover)
 {
@@ -35,7 +35,7 @@ struct shade dust_of(enum cover cover)
 }
 
 /* A stretched puff's axis as it is seen: across the view, and never shorter than least. */
-static void stretch(const struct frustum *sight, struct draw_list_particle *particle,
+static void stretch(const struct frustum *frustum, struct draw_list_particle *particle,
                     struct vec3 along, float least)
 {
     float axis[3], squared = fmaxf(frustum_dot(particle->at, particle->at), 1e-6f);
@@ -47,7 +47,7 @@ static void stretch(const struct frustum *sight, struct draw_list_particle *part
     bool blunt = length < 1e-3f * particle->size;
     float longer = blunt ? least : fmaxf(1.0f, least / length);
     for (uint32_t i = 0; i < 3; i++)
-        particle->axis[i] = longer * (blunt ? sight->up[i] : axis[i]);
+        particle->axis[i] = longer * (blunt ? frustum->up[i] : axis[i]);
 }
 
 void particles_lay(const struct draw_list *list, struct spot *spot, double ground_m)
@@ -55,13 +55,13 @@ void particles_lay(const struct draw_list *list, struct spot *spot, double groun
     spot->flat = true;
     spot->along.y = 0.0;
     spot->at.y = ground_m;
-    struct vec3 along = spot->along, way = vec3_sub(spot->at, list->camera.eye);
+    struct vec3 along = spot->along, sight_line = vec3_sub(spot->at, list->camera.eye);
     /* The picture's width lies across both the puff and the view; the puff's own across the puff
      * and on the ground. */
-    struct vec3 across = vec3_cross(along, way), own = {-along.z, 0.0, along.x};
+    struct vec3 across = vec3_cross(along, sight_line), own = {-along.z, 0.0, along.x};
     double length = vec3_length(across) * vec3_length(own);
     double seen = length > 0.0 ? fabs(vec3_dot(across, own)) / length : 1.0;
-    spot->size_m *= maths_max((double)FLAT_LEAST, seen);
+    spot->size_m *= maths_max((double)FLAT_MIN, seen);
     spot->at.y += LIFT * spot->size_m; /* or the ground would cut its lower edge */
 }
 
@@ -70,22 +70,22 @@ void particles_add(struct draw_list *list, const struct spot *spot)
     struct draw_list_particle particle = {.size = (float)spot->size_m};
     draw_list_relative(list, spot->at, particle.at);
     float distance = sqrtf(frustum_dot(particle.at, particle.at));
-    float pixels = frustum_pixels(&list->sight, particle.size, distance);
+    float pixels = frustum_pixels(&list->frustum, particle.size, distance);
     float reach = (float)maths_max(spot->size_m, vec3_length(spot->along));
-    if (pixels <= PARTICLES_LEAST_PIXELS || !frustum_ball(&list->sight, particle.at, 1.5f * reach))
+    if (pixels <= PARTICLES_MIN_PIXELS || !frustum_ball(&list->frustum, particle.at, 1.5f * reach))
         return;
     float near = (distance / particle.size - EYE_INSIDE) / (EYE_OUTSIDE - EYE_INSIDE);
-    float far = (pixels - PARTICLES_LEAST_PIXELS) / (FADES_PIXELS - PARTICLES_LEAST_PIXELS);
+    float far = (pixels - PARTICLES_MIN_PIXELS) / (FADES_PIXELS - PARTICLES_MIN_PIXELS);
     float alpha = spot->shade.a * fminf(1.0f, near) * fminf(1.0f, far);
-    if (alpha < LEAST_ALPHA)
+    if (alpha < MIN_ALPHA)
         return;
     if (list->particle_count == DRAW_LIST_PARTICLES_MAX) {
         list->omitted++;
         return;
     }
     if (vec3_dot(spot->along, spot->along) > 0.0)
-        stretch(&list->sight, &particle, spot->along,
-                (spot->flat ? FLAT_LEAST : 1.0f) * particle.size);
+        stretch(&list->frustum, &particle, spot->along,
+                (spot->flat ? FLAT_MIN : 1.0f) * particle.size);
     particle.turn_rad = spot->turn_rad;
     particle.picture = (float)spot->picture;
     particle.glow = spot->glow;
@@ -132,5 +132,5 @@ double particles_spacing_m(const struct draw_list *list, double size_m, double d
 double particles_share(const struct draw_list *list, double size_m, struct vec3 at)
 {
     double pixels = camera_pixels(&list->camera, size_m, particles_distance_m(list, at));
-    return maths_clamp(pixels / WHOLE_PIXELS, LEAST_SHARE, 1.0) * (double)list->detail;
+    return maths_clamp(pixels / WHOLE_PIXELS, MIN_SHARE, 1.0) * (double)list->detail;
 }

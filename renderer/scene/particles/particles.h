@@ -11,7 +11,7 @@
 #include "renderer/scene/noise/value_noise.h"
 #include "renderer/scene/draw_list/draw_list.h"
 
-#define PARTICLES_LEAST_PIXELS 0.25f /* a particle whose half side is smaller is left out */
+#define PARTICLES_MIN_PIXELS 0.25f /* a particle whose half side is smaller is left out */
 
 #define WIND_X 1.7 /* [m/s] */
 #define WIND_Z -1.1

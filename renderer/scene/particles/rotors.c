@@ -7,9 +7,9 @@
 #include "renderer/scene/frame/body_axes.h"
 #include "world/world.h"
 
-#define DISC_ALPHA   0.52f
-#define FLAT_SHARE   0.03 /* of its radius a disc is seen to be thick */
-#define LEAST_PIXELS 6.0  /* across */
+#define DISC_ALPHA 0.52f
+#define FLAT_SHARE 0.03 /* of its radius a disc is seen to be thick */
+#define MIN_PIXELS 6.0  /* across */
 
 /* From body axes to the world's. */
 static struct vec3 turned(const struct body_axes *axes, const float v[4])
@@ -21,11 +21,11 @@ static struct vec3 turned(const struct body_axes *axes, const float v[4])
 
 static void add_disc(struct draw_list *list, struct vec3 hub, struct vec3 axle, double radius_m)
 {
-    struct vec3 way = vec3_sub(hub, list->camera.eye), across = vec3_cross(axle, way);
-    double distance = vec3_length(way), wide = vec3_length(across);
-    if (camera_pixels(&list->camera, 2.0 * radius_m, distance) < LEAST_PIXELS || !(wide > 0.0))
+    struct vec3 sight_line = vec3_sub(hub, list->camera.eye), across = vec3_cross(axle, sight_line);
+    double distance = vec3_length(sight_line), wide = vec3_length(across);
+    if (camera_pixels(&list->camera, 2.0 * radius_m, distance) < MIN_PIXELS || !(wide > 0.0))
         return;
-    double open = fabs(vec3_dot(way, axle)) / distance;
+    double open = fabs(vec3_dot(sight_line, axle)) / distance;
     struct spot disc = {.at = hub,
                         .along = vec3_scale(across, radius_m / wide),
                         .size_m = radius_m * maths_max(open, FLAT_SHARE),
@@ -34,17 +34,17 @@ static void add_disc(struct draw_list *list, struct vec3 hub, struct vec3 axle, 
     particles_add(list, &disc);
 }
 
-void rotors_add(struct draw_list *list, const struct static_scene *scenery,
-                const struct frame_view *moment)
+void rotors_add(struct draw_list *list, const struct static_scene *static_scene,
+                const struct frame_view *frame_view)
 {
-    const struct entities *e = moment->entities;
-    for (uint32_t slot = 0; slot < moment->head->used; slot++) {
-        if (e->state[slot] != ENTITY_ACTIVE || e->kind[slot] >= moment->world->counts.kinds)
+    const struct entities *e = frame_view->entities;
+    for (uint32_t slot = 0; slot < frame_view->head->used; slot++) {
+        if (e->state[slot] != ENTITY_ACTIVE || e->kind[slot] >= frame_view->world->counts.kinds)
             continue;
-        const struct kind *kind = &moment->world->kinds[e->kind[slot]];
-        if (kind->domain != DOMAIN_AIR || kind->model >= moment->world->counts.models)
+        const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
+        if (kind->domain != DOMAIN_AIR || kind->model >= frame_view->world->counts.models)
             continue;
-        const struct mesh_skeleton *skeleton = &scenery->skeletons[kind->model];
+        const struct mesh_skeleton *skeleton = &static_scene->skeletons[kind->model];
         struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
         for (uint32_t joint = 1; joint < MODEL_JOINTS_MAX; joint++) {
             const float *pivot = skeleton->pivot[joint];

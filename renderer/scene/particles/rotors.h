@@ -6,7 +6,7 @@
 #include "renderer/scene/draw_list/static_scene.h"
 
 /* Adds a particle for each rotor in view of an active aircraft. */
-void rotors_add(struct draw_list *list, const struct static_scene *scenery,
-                const struct frame_view *moment);
+void rotors_add(struct draw_list *list, const struct static_scene *static_scene,
+                const struct frame_view *frame_view);
 
 #endif

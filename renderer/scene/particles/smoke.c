@@ -31,7 +31,7 @@ static struct vec3 column_at(const struct column *column, double t)
 }
 
 /* Metres that it moves while t goes from 0 to 1. */
-static struct vec3 column_way(const struct column *column, double t)
+static struct vec3 column_motion(const struct column *column, double t)
 {
     double drift = column->life_s * (0.4 + 2.0 * t);
     return (struct vec3){WIND_X * drift, column->rise_m * (1.45 - 0.9 * t), WIND_Z * drift};
@@ -44,8 +44,8 @@ static void column_particle(struct draw_list *list, const struct column *column,
     /* Not quite in its turn: puffs in step look like beads on a string. */
     double out_of_step = row_reach(number) / COLUMN_PARTICLES * ((double)luck(seed, n, 33) - 0.5);
     struct vec3 at = column_at(column, maths_max(0.0, t + 0.2 * out_of_step));
-    struct vec3 way = column_way(column, t);
-    double size = column->size_m * (0.85 + 3.4 * t), length = vec3_length(way);
+    struct vec3 motion = column_motion(column, t);
+    double size = column->size_m * (0.85 + 3.4 * t), length = vec3_length(motion);
     double spacing = particles_spacing_m(list, size, particles_distance_m(list, at));
     float weight = row_weight(number, length / (spacing * COLUMN_PARTICLES));
     if (weight <= 0.0f)
@@ -59,7 +59,8 @@ static void column_particle(struct draw_list *list, const struct column *column,
     struct spot particle = {
         .at = {at.x + sway * ((double)luck(seed, n, 1) - 0.5), at.y,
                at.z + sway * ((double)luck(seed, n, 2) - 0.5)},
-        .along = {way.x * stretch + 1.6 * tilt_x, way.y * stretch, way.z * stretch + 1.6 * tilt_z},
+        .along = {motion.x * stretch + 1.6 * tilt_x, motion.y * stretch,
+                  motion.z * stretch + 1.6 * tilt_z},
         .size_m = size * (0.85 + 0.3 * (double)luck(seed, n, 3)),
         .picture = smoke_picture(seed, n),
     };
@@ -80,11 +81,11 @@ static void smoke_column(struct draw_list *list, struct vec3 foot, double size_m
     struct vec3 top = column_at(&column, 1.0);
     float middle[3], reach = (float)(0.5 * vec3_length(vec3_sub(top, foot)) + 6.0 * size_m);
     draw_list_relative(list, vec3_lerp(foot, top, 0.5), middle);
-    if (!frustum_ball(&list->sight, middle, reach))
+    if (!frustum_ball(&list->frustum, middle, reach))
         return;
     /* The foot is where it is densest: puffs are smallest there, and fast. */
     double spacing = particles_spacing_m(list, 0.85 * size_m, particles_distance_m(list, foot));
-    double share = vec3_length(column_way(&column, 0.0)) / (spacing * COLUMN_PARTICLES);
+    double share = vec3_length(column_motion(&column, 0.0)) / (spacing * COLUMN_PARTICLES);
     struct row row = row_of(seed, COLUMN_PARTICLES / column.life_s,
                             maths_max(from_s, list->time_s - column.life_s),
                             maths_min(to_s, list->time_s), 1.4 * share);
@@ -140,15 +141,15 @@ static void wreck(struct draw_list *list, const struct kind *kind, struct vec3 a
         flames(list, foot, size, (0.4 + 0.6 * fire) * maths_min(1.0, 0.3 + 0.5 * age_s), seed);
 }
 
-void smoke_entity(struct draw_list *list, const struct frame_view *moment,
+void smoke_entity(struct draw_list *list, const struct frame_view *frame_view,
                   const struct motion_trail *trail, uint32_t slot, const struct kind *kind)
 {
-    const struct entities *e = moment->entities;
+    const struct entities *e = frame_view->entities;
     bool dead = e->state[slot] == ENTITY_WRECK;
     if (kind->domain == DOMAIN_MUNITION || (!dead && e->damage[slot] < DAMAGE_MED))
         return;
     struct vec3 at = entities_position(e, slot);
-    double changed_s = (double)e->changed_tick[slot] * world_dt_s(moment->world);
+    double changed_s = (double)e->changed_tick[slot] * world_dt_s(frame_view->world);
     double began_s = trail != NULL ? maths_min(trail->smokes_s, changed_s) : changed_s;
     struct shade thin = {0.25f, 0.24f, 0.23f, THIN_SMOKE},
                  thick = {0.20f, 0.19f, 0.18f, THICK_SMOKE};

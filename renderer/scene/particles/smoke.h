@@ -7,7 +7,7 @@
 #include "world/entity/kind.h"
 
 /* Adds the fire and smoke of a wreck, or the smoke of a damaged vehicle. */
-void smoke_entity(struct draw_list *list, const struct frame_view *moment,
+void smoke_entity(struct draw_list *list, const struct frame_view *frame_view,
                   const struct motion_trail *trail, uint32_t slot, const struct kind *kind);
 
 #endif

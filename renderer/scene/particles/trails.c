@@ -8,15 +8,15 @@
 
 #include <math.h>
 
-#define LEAST_PIXELS   0.3  /* what never grows larger is not looked for */
+#define MIN_PIXELS     0.3  /* what never grows larger is not looked for */
 #define BEHIND_M       60.0 /* so far from where it is what it leaves may begin */
 #define MORE           1.25 /* of a row's share: between two points it may be faster than at them */
 #define OVERLAP        0.9  /* half a puff's length over the distance to the next */
-#define DUST_LEAST_MPS 2.5
+#define DUST_MIN_MPS   2.5
 #define DUST_LIFE_S    2.8
 #define DUST_HZ        9.0
 #define DUST_HIGH_M    1.5 /* wheels higher than this over the ground raise none */
-#define WAKE_LEAST_MPS 1.0
+#define WAKE_MIN_MPS   1.0
 #define WAKE_LIFE_S    15.0
 #define WAKE_HZ        6.0
 #define BOW_LIFE_S     9.0
@@ -45,9 +45,9 @@ struct trail {
 /* A puff of a trail, placed but not yet coloured. */
 struct left {
     struct spot spot;
-    struct vec3 way; /* [m/s] of what left it */
-    double t;        /* 0..1 of its life */
-    double drift;    /* [s] so long with the wind */
+    struct vec3 velocity; /* [m/s] of what left it */
+    double t;             /* 0..1 of its life */
+    double drift;         /* [s] so long with the wind */
     uint32_t n;
     float weight;
 };
@@ -76,8 +76,8 @@ static struct row trail_row(const struct draw_list *list, const struct trail *tr
     double largest = trail->size_m * (1.0 + trail->growth);
     float place[3], reach = (float)(1.2 * length + 2.0 * largest + BEHIND_M);
     draw_list_relative(list, at, place);
-    if (camera_pixels(&list->camera, largest, nearest) < LEAST_PIXELS ||
-        !frustum_ball(&list->sight, place, reach))
+    if (camera_pixels(&list->camera, largest, nearest) < MIN_PIXELS ||
+        !frustum_ball(&list->frustum, place, reach))
         return none;
     double spacing = particles_spacing_m(list, trail->size_m, nearest);
     return row_of(trail->seed, trail->rate_hz, from_s, maths_min(trail->now.time_s, list->time_s),
@@ -90,10 +90,11 @@ static bool trail_left(const struct draw_list *list, const struct trail *trail,
 {
     double time_s = row_time_s(row, number), age = list->time_s - time_s;
     struct motion_trail_point was = motion_trail_at(trail->history, &trail->now, time_s);
-    struct vec3 way = {(double)was.velocity[0], (double)was.velocity[1], (double)was.velocity[2]};
-    double speed = vec3_length(way), drift = age * trail->settle_mps;
-    *left =
-        (struct left){.t = age / trail->life_s, .drift = drift, .n = (uint32_t)number, .way = way};
+    struct vec3 velocity = {(double)was.velocity[0], (double)was.velocity[1],
+                            (double)was.velocity[2]};
+    double speed = vec3_length(velocity), drift = age * trail->settle_mps;
+    *left = (struct left){
+        .t = age / trail->life_s, .drift = drift, .n = (uint32_t)number, .velocity = velocity};
     if (speed <= 0.0 || left->t < 0.0 || left->t > 1.0)
         return false;
     double size = trail->size_m * (1.0 + trail->growth * left->t);
@@ -104,7 +105,7 @@ static bool trail_left(const struct draw_list *list, const struct trail *trail,
     spacing = maths_max(spacing, speed / trail->rate_hz);
     /* Each leans its own way, or they would look like one again and again. */
     double tilt = 1.6 * size * ((double)luck(trail->seed, left->n, 31) - 0.5);
-    struct vec3 along = vec3_scale(way, maths_max(size, OVERLAP * spacing) / speed);
+    struct vec3 along = vec3_scale(velocity, maths_max(size, OVERLAP * spacing) / speed);
     along.y += tilt;
     left->spot = (struct spot){
         .at = at,
@@ -117,37 +118,40 @@ static bool trail_left(const struct draw_list *list, const struct trail *trail,
 
 /* --- on land ---------------------------------------------------------------------------------- */
 
-static void dust(struct draw_list *list, const struct frame_view *moment,
+static void dust(struct draw_list *list, const struct frame_view *frame_view,
                  const struct motion_trail *history, uint32_t slot, const struct kind *kind)
 {
-    const struct entities *e = moment->entities;
-    const struct terrain *terrain = &moment->world->terrain;
+    const struct entities *e = frame_view->entities;
+    const struct terrain *terrain = &frame_view->world->terrain;
     struct trail trail = {.history = history,
                           .now = point_of(e, slot, list->time_s),
-                          .born_s = (double)e->born_tick[slot] * world_dt_s(moment->world),
+                          .born_s = (double)e->born_tick[slot] * world_dt_s(frame_view->world),
                           .rate_hz = DUST_HZ,
                           .life_s = DUST_LIFE_S,
                           .size_m = 0.20 * kind->width_m + 0.25,
                           .growth = 2.4,
                           .settle_mps = 0.6,
                           .seed = e->id[slot]};
-    struct row row = trail_row(list, &trail, DUST_LEAST_MPS);
+    struct row row = trail_row(list, &trail, DUST_MIN_MPS);
     struct left left;
     for (int64_t number = row.first; number <= row.last; number += row.step) {
         if (!trail_left(list, &trail, &row, number, &left))
             continue;
-        double speed = vec3_length(left.way), wheels = left.spot.at.y;
+        double speed = vec3_length(left.velocity), wheels = left.spot.at.y;
         struct spot *particle = &left.spot;
         /* From either track in turn. */
         double side =
             0.36 * kind->width_m * ((double)luck(trail.seed, left.n, 9) < 0.5 ? -1.0 : 1.0);
-        particle->at.x += (-left.way.z * side - 0.42 * kind->length_m * left.way.x) / speed;
-        particle->at.z += (left.way.x * side - 0.42 * kind->length_m * left.way.z) / speed;
-        double ground = terrain_height(terrain, moment->craters, particle->at.x, particle->at.z);
+        particle->at.x +=
+            (-left.velocity.z * side - 0.42 * kind->length_m * left.velocity.x) / speed;
+        particle->at.z +=
+            (left.velocity.x * side - 0.42 * kind->length_m * left.velocity.z) / speed;
+        double ground =
+            terrain_height(terrain, frame_view->craters, particle->at.x, particle->at.z);
         particle->shade = dust_of(terrain_cover(terrain, particle->at.x - left.drift * WIND_X,
                                                 particle->at.z - left.drift * WIND_Z));
         particle->at.y = ground + (0.6 + 0.2 * left.t) * particle->size_m;
-        double thick = maths_clamp((speed - DUST_LEAST_MPS) / 10.0, 0.0, 1.0) *
+        double thick = maths_clamp((speed - DUST_MIN_MPS) / 10.0, 0.0, 1.0) *
                        maths_clamp(DUST_HIGH_M + ground - wheels, 0.0, 1.0);
         particle->shade.a *= 0.65f * left.weight *
                              (float)(thick * (1.0 - left.t) * (1.0 - left.t)) *
@@ -159,35 +163,36 @@ static void dust(struct draw_list *list, const struct frame_view *moment,
 /* --- on water --------------------------------------------------------------------------------- */
 
 /* Foam on the water; side: -1, 1 a wave of the bow, which spreads, 0 what the screws leave. */
-static void foam(struct draw_list *list, const struct frame_view *moment,
+static void foam(struct draw_list *list, const struct frame_view *frame_view,
                  const struct motion_trail *history, uint32_t slot, const struct kind *kind,
                  int32_t side)
 {
-    const struct entities *e = moment->entities;
+    const struct entities *e = frame_view->entities;
     struct trail trail = {.history = history,
                           .now = point_of(e, slot, list->time_s),
-                          .born_s = (double)e->born_tick[slot] * world_dt_s(moment->world),
+                          .born_s = (double)e->born_tick[slot] * world_dt_s(frame_view->world),
                           .rate_hz = side == 0 ? WAKE_HZ : BOW_HZ,
                           .life_s = side == 0 ? WAKE_LIFE_S : BOW_LIFE_S,
                           .size_m = (side == 0 ? 0.26 : 0.12) * kind->width_m,
                           .growth = side == 0 ? 1.8 : 3.2,
                           .seed = e->id[slot] * 3u + (uint32_t)(side + 1)};
-    struct row row = trail_row(list, &trail, WAKE_LEAST_MPS);
+    struct row row = trail_row(list, &trail, WAKE_MIN_MPS);
     struct left left;
     for (int64_t number = row.first; number <= row.last; number += row.step) {
         if (!trail_left(list, &trail, &row, number, &left))
             continue;
-        double speed = vec3_length(left.way), age = left.t * trail.life_s;
+        double speed = vec3_length(left.velocity), age = left.t * trail.life_s;
         double along = (side == 0 ? -0.46 : 0.34) * kind->length_m;
         double apart = side * (0.34 * kind->width_m + 0.16 * speed * age);
         struct spot *particle = &left.spot;
-        particle->at.x += (along * left.way.x - apart * left.way.z) / speed;
-        particle->at.z += (along * left.way.z + apart * left.way.x) / speed;
-        particles_lay(list, particle,
-                      terrain_base_height(&moment->world->terrain, particle->at.x, particle->at.z));
+        particle->at.x += (along * left.velocity.x - apart * left.velocity.z) / speed;
+        particle->at.z += (along * left.velocity.z + apart * left.velocity.x) / speed;
+        particles_lay(
+            list, particle,
+            terrain_base_height(&frame_view->world->terrain, particle->at.x, particle->at.z));
         particle->shade = (struct shade){0.88f, 0.93f, 0.95f, side == 0 ? 0.55f : 0.50f};
         particle->shade.a *= left.weight * (float)((1.0 - left.t) * (1.0 - left.t)) *
-                             (float)maths_clamp((speed - WAKE_LEAST_MPS) / 4.0, 0.0, 1.0) *
+                             (float)maths_clamp((speed - WAKE_MIN_MPS) / 4.0, 0.0, 1.0) *
                              come_and_go(left.t, 0.06, 2.0, 1.0);
         particles_add(list, particle);
     }
@@ -197,7 +202,7 @@ static void foam(struct draw_list *list, const struct frame_view *moment,
 
 static void missile_smoke(struct draw_list *list, const struct trail *trail)
 {
-    struct row row = trail_row(list, trail, WAKE_LEAST_MPS);
+    struct row row = trail_row(list, trail, WAKE_MIN_MPS);
     struct left left;
     for (int64_t number = row.first; number <= row.last; number += row.step) {
         if (!trail_left(list, trail, &row, number, &left))
@@ -225,12 +230,12 @@ static struct trail missile_trail(const struct motion_trail *history, struct mot
                           .seed = id};
 }
 
-static void missile(struct draw_list *list, const struct frame_view *moment,
+static void missile(struct draw_list *list, const struct frame_view *frame_view,
                     const struct motion_trail *history, uint32_t slot, const struct kind *kind)
 {
-    const struct entities *e = moment->entities;
+    const struct entities *e = frame_view->entities;
     struct trail trail = missile_trail(history, point_of(e, slot, list->time_s), e->id[slot]);
-    trail.born_s = (double)e->born_tick[slot] * world_dt_s(moment->world);
+    trail.born_s = (double)e->born_tick[slot] * world_dt_s(frame_view->world);
     missile_smoke(list, &trail);
     struct vec3 velocity = entities_velocity(e, slot);
     double speed = maths_max(vec3_length(velocity), 1.0), half = 0.5 * kind->length_m;
@@ -257,7 +262,7 @@ static void tracer(struct draw_list *list, const struct entities *e, uint32_t sl
     double speed = vec3_length(velocity);
     float place[3];
     draw_list_relative(list, at, place);
-    if (speed < 1.0 || !frustum_ball(&list->sight, place, TRACER_REACH_M))
+    if (speed < 1.0 || !frustum_ball(&list->frustum, place, TRACER_REACH_M))
         return;
     double distance = vec3_length(vec3_sub(at, list->camera.eye));
     double pixel_m = distance / list->camera.focal_pixels, width = 0.14 + 0.6 * kind->radius_m;
@@ -294,18 +299,18 @@ static struct shade raised_at(const struct terrain *terrain, double x, double z)
 }
 
 /* A ring of dust, or of spray, that a rotor near the ground drives outwards. */
-static void wash(struct draw_list *list, const struct frame_view *moment, uint32_t slot,
+static void wash(struct draw_list *list, const struct frame_view *frame_view, uint32_t slot,
                  const struct kind *kind)
 {
-    const struct entities *e = moment->entities;
-    const struct terrain *terrain = &moment->world->terrain;
+    const struct entities *e = frame_view->entities;
+    const struct terrain *terrain = &frame_view->world->terrain;
     struct vec3 at = entities_position(e, slot);
     double radius = 0.55 * kind->length_m;
     float place[3];
     draw_list_relative(list, at, place);
-    if (kind->min_speed_mps > 0.0 || !frustum_ball(&list->sight, place, (float)(4.0 * radius)))
+    if (kind->min_speed_mps > 0.0 || !frustum_ball(&list->frustum, place, (float)(4.0 * radius)))
         return; /* it has wings, or is out of the picture */
-    double above = at.y - terrain_height(terrain, moment->craters, at.x, at.z);
+    double above = at.y - terrain_height(terrain, frame_view->craters, at.x, at.z);
     double strength = maths_clamp(1.0 - above / (WASH_DISCS * radius), 0.0, 1.0);
     if (strength <= 0.0)
         return;
@@ -322,7 +327,7 @@ static void wash(struct draw_list *list, const struct frame_view *moment, uint32
                                 .picture = smoke_picture(seed, n),
                                 .turn_rad = luck_turn(seed, n, 24)};
         particle.shade = raised_at(terrain, particle.at.x, particle.at.z);
-        particle.at.y = terrain_height(terrain, moment->craters, particle.at.x, particle.at.z) +
+        particle.at.y = terrain_height(terrain, frame_view->craters, particle.at.x, particle.at.z) +
                         (0.6 + 0.3 * t) * particle.size_m;
         particle.shade.a *= 0.8f * (float)(strength * (1.0 - t)) * come_and_go(t, 0.15, 2.0, 1.0) *
                             row_weight(number, particles_share(list, radius, at));
@@ -330,46 +335,49 @@ static void wash(struct draw_list *list, const struct frame_view *moment, uint32
     }
 }
 
-void trails_entity(struct draw_list *list, const struct frame_view *moment,
+void trails_entity(struct draw_list *list, const struct frame_view *frame_view,
                    const struct motion_trail *history, uint32_t slot, const struct kind *kind)
 {
     switch (kind->domain) {
     case DOMAIN_LAND:
-        dust(list, moment, history, slot, kind);
+        dust(list, frame_view, history, slot, kind);
         break;
     case DOMAIN_SEA:
         for (int32_t side = -1; side <= 1; side++)
-            foam(list, moment, history, slot, kind, side);
+            foam(list, frame_view, history, slot, kind, side);
         break;
     case DOMAIN_AIR:
-        wash(list, moment, slot, kind);
+        wash(list, frame_view, slot, kind);
         break;
     case DOMAIN_MUNITION:
         if (kind->guidance == GUIDANCE_HOMING)
-            missile(list, moment, history, slot, kind);
+            missile(list, frame_view, history, slot, kind);
         else
-            tracer(list, moment->entities, slot, kind);
+            tracer(list, frame_view->entities, slot, kind);
         break;
     default:
         break;
     }
 }
 
-void trails_left(struct draw_list *list, const struct frame_view *moment,
+void trails_left(struct draw_list *list, const struct frame_view *frame_view,
                  const struct motion_trails *histories)
 {
-    const struct entities *e = moment->entities;
-    for (uint32_t slot = 0; slot < MOTION_TRAILS_SLOTS && slot < moment->head->used; slot++) {
+    const struct entities *e = frame_view->entities;
+    for (uint32_t slot = 0; slot < MOTION_TRAILS_SLOTS && slot < frame_view->head->used; slot++) {
         const struct motion_trail *history = &histories->trail[slot];
         if (history->count == 0 || (e->state[slot] != ENTITY_FREE && e->id[slot] == history->id) ||
-            moment->world->kinds[history->kind].domain != DOMAIN_MUNITION)
+            frame_view->world->kinds[history->kind].domain != DOMAIN_MUNITION)
             continue;
-        const struct motion_trail_point *end = &history->point[(history->count - 1) % SPOOR_POINTS];
+        const struct motion_trail_point *end =
+            &history->point[(history->count - 1) % MOTION_TRAIL_POINTS];
         if (end->time_s > list->time_s || end->time_s < list->time_s - SMOKE_LIFE_S)
             continue;
         struct trail trail = missile_trail(history, *end, history->id);
         const struct motion_trail_point *first =
-            &history->point[history->count < SPOOR_POINTS ? 0 : history->count % SPOOR_POINTS];
+            &history->point[history->count < MOTION_TRAIL_POINTS
+                                ? 0
+                                : history->count % MOTION_TRAIL_POINTS];
         trail.born_s = first->time_s;
         missile_smoke(list, &trail);
     }

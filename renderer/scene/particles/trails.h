@@ -7,11 +7,11 @@
 #include "world/entity/kind.h"
 
 /* Adds what a moving entity leaves behind and what its rotor stirs up. */
-void trails_entity(struct draw_list *list, const struct frame_view *moment,
+void trails_entity(struct draw_list *list, const struct frame_view *frame_view,
                    const struct motion_trail *history, uint32_t slot, const struct kind *kind);
 
 /* Adds the smoke of missiles that no longer exist. */
-void trails_left(struct draw_list *list, const struct frame_view *moment,
+void trails_left(struct draw_list *list, const struct frame_view *frame_view,
                  const struct motion_trails *histories);
 
 #endif

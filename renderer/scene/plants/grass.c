@@ -9,18 +9,18 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define CELL_M       2.6 /* one tuft at most */
-#define BLOCK_CELLS  16  /* a side */
-#define BLOCK_M      (BLOCK_CELLS * CELL_M)
-#define TABLE_SIDE   16u   /* blocks; a power of two, more than the range is wide */
-#define FADE         0.35f /* share of the range over which tufts thin out */
-#define GROWN        8.0f  /* over this part of that each grows from nothing */
-#define ROADS_MAX    32u   /* pieces of road near a block */
-#define ROAD_CLEAR_M 6.0   /* no tufts within this of a road's middle */
-#define CRATER_LEAST -0.05 /* [m] dug deeper than this, nothing grows */
-#define TUFT_REACH_M 2.0f  /* a ball of it holds any tuft */
+#define CELL_M        2.6 /* one tuft at most */
+#define BLOCK_CELLS   16  /* a side */
+#define BLOCK_M       (BLOCK_CELLS * CELL_M)
+#define TABLE_SIDE    16u   /* blocks; a power of two, more than the range is wide */
+#define FADE          0.35f /* share of the range over which tufts thin out */
+#define GROWN         8.0f  /* over this part of that each grows from nothing */
+#define ROADS_MAX     32u   /* pieces of road near a block */
+#define ROAD_CLEAR_M  6.0   /* no tufts within this of a road's middle */
+#define CRATER_MIN    -0.05 /* [m] dug deeper than this, nothing grows */
+#define CLUMP_REACH_M 2.0f  /* a ball of it holds any tuft */
 
-struct tuft {
+struct grass_clump {
     struct draw_list_plant plant; /* at: from the block's middle [m] */
     float until;                  /* shown while less of the tufts than this are left out, 0..1 */
 };
@@ -32,7 +32,7 @@ struct block {
     uint32_t count;
     struct vec3 middle; /* [m, world] */
     float reach;        /* a ball about the middle holds all of it */
-    struct tuft tuft[BLOCK_CELLS * BLOCK_CELLS];
+    struct grass_clump clump[BLOCK_CELLS * BLOCK_CELLS];
 };
 
 struct grass {
@@ -49,9 +49,9 @@ struct grass *grass_new(void)
     return calloc(1, sizeof(struct grass));
 }
 
-void grass_free(struct grass *tufts)
+void grass_free(struct grass *grass)
 {
-    free(tufts);
+    free(grass);
 }
 
 /* --- a block ---------------------------------------------------------------------------------- */
@@ -84,7 +84,7 @@ static bool on_road(const struct road_pieces *pieces, double x, double z)
 }
 
 /* Share of the places that bear a tuft, by cover. */
-static float tuft_share(enum cover cover, float luck)
+static float clump_share(enum cover cover, float luck)
 {
     switch (cover) {
     case COVER_GRASS:
@@ -99,7 +99,8 @@ static float tuft_share(enum cover cover, float luck)
     }
 }
 
-static void paint(struct tuft *tuft, enum cover cover, float luck, int32_t column, int32_t row)
+static void describe(struct grass_clump *clump, enum cover cover, float luck, int32_t column,
+                     int32_t row)
 {
     bool woody = cover == COVER_CHAPARRAL || cover == COVER_FOREST;
     bool brush = value_noise_unit(column, row, 25) < (woody ? 0.6f : 0.06f);
@@ -107,7 +108,7 @@ static void paint(struct tuft *tuft, enum cover cover, float luck, int32_t colum
     float tone = 0.80f + 0.25f * value_noise_unit(column, row, 28);
     float green = brush ? 0.0f : cover == COVER_FOREST ? 0.30f : 0.10f * (1.0f + luck);
     uint32_t which = value_noise_hash(column, row, 27);
-    tuft->plant = (struct draw_list_plant){
+    clump->plant = (struct draw_list_plant){
         .width = size * (brush ? 1.5f : 0.9f),
         .height = size * (brush ? 0.85f : 0.50f),
         .picture = (float)(brush ? PLANT_IMPOSTORS_BUSH_A + which % 3
@@ -116,28 +117,29 @@ static void paint(struct tuft *tuft, enum cover cover, float luck, int32_t colum
     };
 }
 
-static void add_tuft(struct block *block, const struct world *world,
-                     const struct crater_index *craters, const struct road_pieces *roads,
-                     int32_t column, int32_t row)
+static void add_clump(struct block *block, const struct world *world,
+                      const struct crater_index *craters, const struct road_pieces *roads,
+                      int32_t column, int32_t row)
 {
     double x = (column + (double)value_noise_unit(column, row, 21)) * CELL_M;
     double z = (row + (double)value_noise_unit(column, row, 22)) * CELL_M;
     enum cover cover = terrain_cover(&world->terrain, x, z);
     float luck = value_noise_value(x / 23.0, z / 23.0, 23);
-    float draw = value_noise_unit(column, row, 24), share = tuft_share(cover, luck);
+    float draw = value_noise_unit(column, row, 24), share = clump_share(cover, luck);
     if (draw >= share || on_road(roads, x, z))
         return;
     double dug = craters != NULL ? crater_offset(craters, x, z) : 0.0;
-    if (dug < CRATER_LEAST)
+    if (dug < CRATER_MIN)
         return;
-    struct tuft *tuft = &block->tuft[block->count++];
-    paint(tuft, cover, luck, column, row);
-    tuft->until = draw / share;
-    tuft->plant.at[0] = (float)(x - block->middle.x);
-    tuft->plant.at[1] = (float)(terrain_base_height(&world->terrain, x, z) + dug - block->middle.y);
-    tuft->plant.at[2] = (float)(z - block->middle.z);
-    static_scene_slope(&world->terrain, x, z, tuft->plant.slope);
-    block->reach = fmaxf(block->reach, fabsf(tuft->plant.at[1]));
+    struct grass_clump *clump = &block->clump[block->count++];
+    describe(clump, cover, luck, column, row);
+    clump->until = draw / share;
+    clump->plant.at[0] = (float)(x - block->middle.x);
+    clump->plant.at[1] =
+        (float)(terrain_base_height(&world->terrain, x, z) + dug - block->middle.y);
+    clump->plant.at[2] = (float)(z - block->middle.z);
+    static_scene_slope(&world->terrain, x, z, clump->plant.slope);
+    block->reach = fmaxf(block->reach, fabsf(clump->plant.at[1]));
 }
 
 static void make_block(struct block *block, const struct world *world,
@@ -156,9 +158,9 @@ static void make_block(struct block *block, const struct world *world,
     find_roads(world, block->middle, &roads);
     for (int32_t r = 0; r < BLOCK_CELLS; r++)
         for (int32_t c = 0; c < BLOCK_CELLS; c++)
-            add_tuft(block, world, craters, &roads, column * BLOCK_CELLS + c,
-                     row * BLOCK_CELLS + r);
-    block->reach += (float)BLOCK_M * 0.75f + TUFT_REACH_M; /* half a diagonal is 0.71 sides */
+            add_clump(block, world, craters, &roads, column * BLOCK_CELLS + c,
+                      row * BLOCK_CELLS + r);
+    block->reach += (float)BLOCK_M * 0.75f + CLUMP_REACH_M; /* half a diagonal is 0.71 sides */
 }
 
 /* Has a crater come into the block since it was made? */
@@ -175,11 +177,11 @@ static bool dug_since(struct block *block, const struct crater_index *craters)
     return anew;
 }
 
-static const struct block *block_at(struct grass *tufts, const struct world *world,
+static const struct block *block_at(struct grass *grass, const struct world *world,
                                     const struct crater_index *craters, int32_t column, int32_t row)
 {
     uint32_t x = (uint32_t)column % TABLE_SIDE, z = (uint32_t)row % TABLE_SIDE;
-    struct block *block = &tufts->block[z * TABLE_SIDE + x];
+    struct block *block = &grass->block[z * TABLE_SIDE + x];
     if (!block->made || block->column != column || block->row != row || dug_since(block, craters))
         make_block(block, world, craters, column, row);
     return block;
@@ -193,19 +195,19 @@ static uint32_t show_block(const struct block *block, const struct draw_list *li
     float middle[3];
     uint32_t count = 0;
     draw_list_relative(list, block->middle, middle);
-    if (!frustum_ball(&list->sight, middle, block->reach))
+    if (!frustum_ball(&list->frustum, middle, block->reach))
         return 0;
     for (uint32_t i = 0; i < block->count && count < room; i++) {
-        const struct tuft *tuft = &block->tuft[i];
-        const float *off = tuft->plant.at;
+        const struct grass_clump *clump = &block->clump[i];
+        const float *off = clump->plant.at;
         float at[3] = {middle[0] + off[0], middle[1] + off[1], middle[2] + off[2]};
         float away = sqrtf(frustum_dot(at, at));
         float thin = fminf(1.0f, (range_m - away) / (FADE * range_m));
-        float grown = fminf(1.0f, (thin - tuft->until * (1.0f - 1.0f / GROWN)) * GROWN);
-        if (grown <= 0.0f || !frustum_ball(&list->sight, at, TUFT_REACH_M))
+        float grown = fminf(1.0f, (thin - clump->until * (1.0f - 1.0f / GROWN)) * GROWN);
+        if (grown <= 0.0f || !frustum_ball(&list->frustum, at, CLUMP_REACH_M))
             continue;
         struct draw_list_plant *plant = &plants[count++];
-        *plant = tuft->plant;
+        *plant = clump->plant;
         for (uint32_t axis = 0; axis < 3; axis++)
             plant->at[axis] = at[axis];
         plant->width *= grown;
@@ -214,7 +216,7 @@ static uint32_t show_block(const struct block *block, const struct draw_list *li
     return count;
 }
 
-uint32_t grass_show(struct grass *tufts, const struct draw_list *list, const struct world *world,
+uint32_t grass_show(struct grass *grass, const struct draw_list *list, const struct world *world,
                     const struct crater_index *craters, struct draw_list_plant *plants,
                     uint32_t room)
 {
@@ -229,7 +231,7 @@ uint32_t grass_show(struct grass *tufts, const struct draw_list *list, const str
     int32_t last_row = value_noise_floor((eye.z + range) / BLOCK_M);
     for (int32_t row = first_row; row <= last_row; row++)
         for (int32_t column = first_column; column <= last_column; column++)
-            count += show_block(block_at(tufts, world, craters, column, row), list, (float)range,
+            count += show_block(block_at(grass, world, craters, column, row), list, (float)range,
                                 plants + count, room - count);
     return count;
 }

@@ -16,11 +16,11 @@ struct world;
 
 /* NULL when there is no memory. */
 struct grass *grass_new(void);
-void grass_free(struct grass *tufts);
+void grass_free(struct grass *grass);
 
 /* Writes those in view of the scene's camera to plants; how many, at most room. How far they reach
  * goes with the scene's detail. */
-uint32_t grass_show(struct grass *tufts, const struct draw_list *list, const struct world *world,
+uint32_t grass_show(struct grass *grass, const struct draw_list *list, const struct world *world,
                     const struct crater_index *craters, struct draw_list_plant *plants,
                     uint32_t room);
 

@@ -10,13 +10,13 @@
 
 #include <math.h>
 
-#define PLANT_LEAST_PIXELS 2.0f /* smaller than this nobody sees it; up to ... */
-#define PLANT_FULL_PIXELS  3.0f /* ... this it grows into the picture */
-#define PLANT_RANGE_M      7000.0
-#define WOOD_WHOLE_PIXELS  14.0f /* smaller than this not all of a wood is shown ... */
-#define WOOD_LEAST_SHARE   0.30f /* ... but never less than so much of it */
-#define WOOD_BAND          0.12f /* of the share, in which a plant shrinks to nothing */
-#define LEAN_M             40.0  /* so far a plant may hang over the edge of its square */
+#define PLANT_MIN_PIXELS  2.0f /* smaller than this nobody sees it; up to ... */
+#define PLANT_FULL_PIXELS 3.0f /* ... this it grows into the picture */
+#define PLANT_RANGE_M     7000.0
+#define WOOD_WHOLE_PIXELS 14.0f /* smaller than this not all of a wood is shown ... */
+#define WOOD_MIN_SHARE    0.30f /* ... but never less than so much of it */
+#define WOOD_BAND         0.12f /* of the share, in which a plant shrinks to nothing */
+#define LEAN_M            40.0  /* so far a plant may hang over the edge of its square */
 #define SQUARE_REACH_M                                                                             \
     (float)(0.75 * GRIDSQUARE_SIDE_M + LEAN_M) /* half a diagonal is 0.71 sides */
 #define STUMP_M 1.0f                           /* wide and high */
@@ -24,8 +24,8 @@
 /* What all plants of a picture share. */
 struct planting {
     struct draw_list *list;
-    const struct static_scene *scenery;
-    const struct frame_view *moment;
+    const struct static_scene *static_scene;
+    const struct frame_view *frame_view;
     float whole_pixels;
 };
 
@@ -73,12 +73,11 @@ static void show_damage(struct draw_list_plant *plant, enum damage damage, uint3
 static float shown(const struct planting *planting, const struct static_scene_plant *is,
                    float pixels, float *spread)
 {
-    float grown =
-        fminf(1.0f, (pixels - PLANT_LEAST_PIXELS) / (PLANT_FULL_PIXELS - PLANT_LEAST_PIXELS));
+    float grown = fminf(1.0f, (pixels - PLANT_MIN_PIXELS) / (PLANT_FULL_PIXELS - PLANT_MIN_PIXELS));
     *spread = 1.0f;
     if (is->lone >= 1.0f || pixels >= planting->whole_pixels)
         return grown;
-    float share = fmaxf(WOOD_LEAST_SHARE, pixels / planting->whole_pixels);
+    float share = fmaxf(WOOD_MIN_SHARE, pixels / planting->whole_pixels);
     /* With the band added a whole wood is whole. */
     float left =
         is->rank == 0.0f ? 1.0f : (share * (1.0f + WOOD_BAND) - is->rank) * (1.0f / WOOD_BAND);
@@ -89,15 +88,15 @@ static float shown(const struct planting *planting, const struct static_scene_pl
 static void add_plant(const struct planting *planting, uint32_t index)
 {
     struct draw_list *list = planting->list;
-    const struct fixed_object *object = &planting->moment->world->fixed[index];
-    const struct static_scene_plant *is = &planting->scenery->plants[index];
+    const struct fixed_object *object = &planting->frame_view->world->fixed[index];
+    const struct static_scene_plant *is = &planting->static_scene->plants[index];
     struct draw_list_plant made;
     draw_list_relative(list, fixed_position(object), made.at);
-    if (!frustum_ball(&list->sight, made.at, 2.2f * is->height))
+    if (!frustum_ball(&list->frustum, made.at, 2.2f * is->height))
         return;
-    float pixels = frustum_pixels(&list->sight, is->height, sqrtf(frustum_dot(made.at, made.at))),
+    float pixels = frustum_pixels(&list->frustum, is->height, sqrtf(frustum_dot(made.at, made.at))),
           spread;
-    if (pixels < PLANT_LEAST_PIXELS)
+    if (pixels < PLANT_MIN_PIXELS)
         return;
     float size = shown(planting, is, pixels, &spread);
     if (size <= 0.0f)
@@ -109,19 +108,19 @@ static void add_plant(const struct planting *planting, uint32_t index)
     made.width = is->width * size * spread;
     made.height = is->height * size;
     made.lean = 0.0f;
-    made.picture = (float)planting->scenery->look[index];
+    made.picture = (float)planting->static_scene->look[index];
     for (uint32_t i = 0; i < 2; i++)
         made.slope[i] = is->slope[i];
     for (uint32_t i = 0; i < 3; i++)
         made.tint[i] = is->tint[i];
     *plant = made;
-    show_damage(plant, (enum damage)planting->moment->fixed_damage[index], index);
+    show_damage(plant, (enum damage)planting->frame_view->fixed_damage[index], index);
 }
 
 static void add_plants(const struct planting *planting, uint32_t first, uint32_t end)
 {
     for (uint32_t i = first; i < end; i++)
-        if (planting->scenery->look[i] != LOOK_MODEL)
+        if (planting->static_scene->look[i] != LOOK_MODEL)
             add_plant(planting, i);
 }
 
@@ -147,34 +146,34 @@ static bool sees_square(const struct draw_list *list, const struct static_scene_
                           (row + 0.5) * GRIDSQUARE_SIDE_M};
     float at[3], high = 0.5f * (block->high - block->low);
     draw_list_relative(list, middle, at);
-    return frustum_ball(&list->sight, at, SQUARE_REACH_M + high);
+    return frustum_ball(&list->frustum, at, SQUARE_REACH_M + high);
 }
 
 static void add_block(const struct planting *planting, const struct gridsquare_box *box,
                       int32_t column, int32_t row)
 {
     const int32_t side = (int32_t)STATIC_SCENE_BLOCK;
-    const struct static_scene *scenery = planting->scenery;
+    const struct static_scene *static_scene = planting->static_scene;
     const struct static_scene_block *block =
-        &scenery->blocks[(uint32_t)row * STATIC_SCENE_BLOCKS + (uint32_t)column];
+        &static_scene->blocks[(uint32_t)row * STATIC_SCENE_BLOCKS + (uint32_t)column];
     if (!sees_block(&planting->list->camera, block, column, row))
         return;
     int32_t last_row = row * side + side - 1 < box->z1 ? row * side + side - 1 : box->z1;
     int32_t last_column = column * side + side - 1 < box->x1 ? column * side + side - 1 : box->x1;
     for (int32_t r = row * side > box->z0 ? row * side : box->z0; r <= last_row; r++)
         for (int32_t c = column * side > box->x0 ? column * side : box->x0; c <= last_column; c++) {
-            const uint32_t *start = &scenery->square_start[gridsquare_index(c, r)];
+            const uint32_t *start = &static_scene->square_start[gridsquare_index(c, r)];
             if (start[0] < start[1] && sees_square(planting->list, block, c, r))
                 add_plants(planting, start[0], start[1]);
         }
 }
 
-void plants_add(struct draw_list *list, const struct static_scene *scenery,
-                const struct frame_view *moment)
+void plants_add(struct draw_list *list, const struct static_scene *static_scene,
+                const struct frame_view *frame_view)
 {
     struct planting planting = {.list = list,
-                                .scenery = scenery,
-                                .moment = moment,
+                                .static_scene = static_scene,
+                                .frame_view = frame_view,
                                 .whole_pixels = WOOD_WHOLE_PIXELS / list->detail};
     struct vec3 eye = list->camera.eye;
     const int32_t side = (int32_t)STATIC_SCENE_BLOCK;
@@ -186,6 +185,6 @@ void plants_add(struct draw_list *list, const struct static_scene *scenery,
     if (!list->texture)
         return;
     list->plant_count +=
-        grass_show(list->tufts, list, scenery->world, moment->craters,
+        grass_show(list->grass, list, static_scene->world, frame_view->craters,
                    &list->plants[list->plant_count], DRAW_LIST_PLANTS_MAX - list->plant_count);
 }

@@ -19,120 +19,120 @@ static uint8_t cover_of(uint8_t cover)
     return cover == COVER_ROAD || cover >= COVER_COUNT ? (uint8_t)COVER_GRASS : cover;
 }
 
-static void take_post(struct terrain_block *country, const struct terrain *terrain, uint32_t column,
+static void take_post(struct terrain_block *block, const struct terrain *terrain, uint32_t column,
                       uint32_t row)
 {
-    int64_t stride = (int64_t)(country->cell_m / terrain->spacing_m);
-    int64_t c = (country->west + (int64_t)column) * stride;
-    int64_t r = (country->north + (int64_t)row) * stride;
+    int64_t stride = (int64_t)(block->cell_m / terrain->spacing_m);
+    int64_t c = (block->west + (int64_t)column) * stride;
+    int64_t r = (block->north + (int64_t)row) * stride;
     if (c >= 0 && r >= 0 && c < terrain->side && r < terrain->side) {
         size_t post = (size_t)r * terrain->side + (size_t)c;
-        country->height[row][column] = terrain->posts[post];
-        country->cover[row][column] = cover_of(terrain->cover[post]);
+        block->height[row][column] = terrain->posts[post];
+        block->cover[row][column] = cover_of(terrain->cover[post]);
         return;
     }
     double x = (double)c * terrain->spacing_m, z = (double)r * terrain->spacing_m;
     terrain_quadtree_beyond(terrain, &x, &z);
-    country->height[row][column] = (float)terrain_base_height(terrain, x, z);
-    country->cover[row][column] = cover_of((uint8_t)terrain_cover(terrain, x, z));
+    block->height[row][column] = (float)terrain_base_height(terrain, x, z);
+    block->cover[row][column] = cover_of((uint8_t)terrain_cover(terrain, x, z));
 }
 
 /* A cell's corners and all the posts around them. */
-static void find_whole(struct terrain_block *country)
+static void find_whole(struct terrain_block *block)
 {
-    uint32_t last = country->posts - 2;
-    memset(country->whole, TERRAIN_BLOCK_MIXED, sizeof country->whole);
+    uint32_t last = block->posts - 2;
+    memset(block->whole, TERRAIN_BLOCK_MIXED, sizeof block->whole);
     for (uint32_t row = 1; row < last; row++) {
         uint32_t same = 0; /* columns so far that are of one cover, each over four posts */
-        for (uint32_t column = 0; column < country->posts; column++) {
-            uint8_t cover = country->cover[row][column];
-            bool one = cover == country->cover[row - 1][column] &&
-                       cover == country->cover[row + 1][column] &&
-                       cover == country->cover[row + 2][column];
-            bool goes_on = column > 0 && cover == country->cover[row][column - 1];
+        for (uint32_t column = 0; column < block->posts; column++) {
+            uint8_t cover = block->cover[row][column];
+            bool one = cover == block->cover[row - 1][column] &&
+                       cover == block->cover[row + 1][column] &&
+                       cover == block->cover[row + 2][column];
+            bool goes_on = column > 0 && cover == block->cover[row][column - 1];
             same = !one ? 0 : goes_on ? same + 1 : 1;
             if (same >= 4)
-                country->whole[row][column - 2] = cover;
+                block->whole[row][column - 2] = cover;
         }
     }
 }
 
 /* What water there is, and how high it stands: of a sea and a lake the sea, which has tides. */
-static void find_water(struct terrain_block *country)
+static void find_water(struct terrain_block *block)
 {
-    country->sea = country->wet = false;
-    country->level = 0.0f;
-    for (uint32_t row = 0; row < country->posts; row++)
-        for (uint32_t column = 0; column < country->posts; column++) {
-            enum cover cover = (enum cover)country->cover[row][column];
-            country->sea |= cover == COVER_SEA;
-            if (cover_is_water(cover) && !country->sea)
-                country->level = country->height[row][column];
-            country->wet |= cover_is_water(cover);
+    block->sea = block->wet = false;
+    block->level = 0.0f;
+    for (uint32_t row = 0; row < block->posts; row++)
+        for (uint32_t column = 0; column < block->posts; column++) {
+            enum cover cover = (enum cover)block->cover[row][column];
+            block->sea |= cover == COVER_SEA;
+            if (cover_is_water(cover) && !block->sea)
+                block->level = block->height[row][column];
+            block->wet |= cover_is_water(cover);
         }
-    if (country->sea)
-        country->level = 0.0f;
+    if (block->sea)
+        block->level = 0.0f;
 }
 
-static void count_water(struct terrain_block *country)
+static void count_water(struct terrain_block *block)
 {
-    find_water(country);
-    if (!country->wet)
+    find_water(block);
+    if (!block->wet)
         return;
-    memset(country->water, 0, sizeof country->water);
-    for (uint32_t row = 2; row + 2 < country->posts; row++) {
+    memset(block->water, 0, sizeof block->water);
+    for (uint32_t row = 2; row + 2 < block->posts; row++) {
         uint8_t five[TERRAIN_BLOCK_POSTS];
-        for (uint32_t column = 0; column < country->posts; column++) {
+        for (uint32_t column = 0; column < block->posts; column++) {
             five[column] = 0;
             for (uint32_t r = row - 2; r <= row + 2; r++)
-                five[column] += cover_is_water((enum cover)country->cover[r][column]);
+                five[column] += cover_is_water((enum cover)block->cover[r][column]);
         }
-        for (uint32_t column = 2; column + 2 < country->posts; column++)
-            country->water[row][column] =
+        for (uint32_t column = 2; column + 2 < block->posts; column++)
+            block->water[row][column] =
                 (uint8_t)(five[column - 2] + five[column - 1] + five[column] + five[column + 1] +
                           five[column + 2]);
     }
 }
 
-void terrain_block_open(struct terrain_block *country, const struct terrain *terrain, double x,
+void terrain_block_open(struct terrain_block *block, const struct terrain *terrain, double x,
                         double z, double step_m, uint32_t columns, uint32_t rows)
 {
-    country->cell_m = terrain->spacing_m;
-    while (country->cell_m < step_m)
-        country->cell_m *= 2.0;
-    double cell = country->cell_m;
-    country->west = value_noise_floor(x / cell) - (int32_t)TERRAIN_BLOCK_MARGIN;
-    country->north = value_noise_floor(z / cell) - (int32_t)TERRAIN_BLOCK_MARGIN;
-    country->columns = columns;
+    block->cell_m = terrain->spacing_m;
+    while (block->cell_m < step_m)
+        block->cell_m *= 2.0;
+    double cell = block->cell_m;
+    block->west = value_noise_floor(x / cell) - (int32_t)TERRAIN_BLOCK_MARGIN;
+    block->north = value_noise_floor(z / cell) - (int32_t)TERRAIN_BLOCK_MARGIN;
+    block->columns = columns;
     for (uint32_t i = 0; i < columns; i++) {
-        country->column_x[i] = (x + i * step_m) / cell - country->west;
-        country->at[i] = value_noise_floor(country->column_x[i]);
-        country->past[i] = (float)(country->column_x[i] - country->at[i]);
+        block->column_x[i] = (x + i * step_m) / cell - block->west;
+        block->at[i] = value_noise_floor(block->column_x[i]);
+        block->past[i] = (float)(block->column_x[i] - block->at[i]);
     }
     uint32_t longer = columns > rows ? columns : rows;
-    country->posts =
+    block->posts =
         (uint32_t)value_noise_floor((longer - 1) * step_m / cell) + 2 + 2 * TERRAIN_BLOCK_MARGIN;
-    for (uint32_t row = 0; row < country->posts; row++)
-        for (uint32_t column = 0; column < country->posts; column++)
-            take_post(country, terrain, column, row);
-    find_whole(country);
-    count_water(country);
+    for (uint32_t row = 0; row < block->posts; row++)
+        for (uint32_t column = 0; column < block->posts; column++)
+            take_post(block, terrain, column, row);
+    find_whole(block);
+    count_water(block);
 }
 
-void terrain_block_row(struct terrain_block *country, double z)
+void terrain_block_row(struct terrain_block *block, double z)
 {
-    country->row_z = z / country->cell_m - country->north;
-    country->row = value_noise_floor(country->row_z);
-    country->row_past = (float)(country->row_z - country->row);
+    block->row_z = z / block->cell_m - block->north;
+    block->row = value_noise_floor(block->row_z);
+    block->row_past = (float)(block->row_z - block->row);
 }
 
 /* --- along a row ------------------------------------------------------------------------------ */
 
-static void spread(const struct terrain_block *country, const float *nodes, float *row)
+static void spread(const struct terrain_block *block, const float *nodes, float *row)
 {
-    for (uint32_t i = 0; i < country->columns; i++) {
-        const float *node = nodes + country->at[i];
-        row[i] = node[0] + (node[1] - node[0]) * country->past[i];
+    for (uint32_t i = 0; i < block->columns; i++) {
+        const float *node = nodes + block->at[i];
+        row[i] = node[0] + (node[1] - node[0]) * block->past[i];
     }
 }
 
@@ -142,61 +142,61 @@ static float between(float a, float b, float t)
 }
 
 /* Along the row, on the two triangles of each cell. */
-static void spread_heights(const struct terrain_block *country, float *height)
+static void spread_heights(const struct terrain_block *block, float *height)
 {
-    const float *north = country->height[country->row], *south = country->height[country->row + 1];
-    float v = country->row_past;
-    for (uint32_t i = 0; i < country->columns; i++) {
-        const float *n = north + country->at[i], *s = south + country->at[i];
-        float u = country->past[i];
+    const float *north = block->height[block->row], *south = block->height[block->row + 1];
+    float v = block->row_past;
+    for (uint32_t i = 0; i < block->columns; i++) {
+        const float *n = north + block->at[i], *s = south + block->at[i];
+        float u = block->past[i];
         float north_east = (n[1] - n[0]) * u + (s[1] - n[1]) * v;
         float south_west = (s[1] - s[0]) * u + (s[0] - n[0]) * v;
         height[i] = n[0] + (u >= v ? north_east : south_west);
     }
 }
 
-void terrain_block_ground(const struct terrain_block *country, float *height, float *slope_x,
+void terrain_block_ground(const struct terrain_block *block, float *height, float *slope_x,
                           float *slope_z)
 {
     float nodes[2][TERRAIN_BLOCK_POSTS] = {{0.0f}};
-    const float(*h)[TERRAIN_BLOCK_POSTS] = &country->height[country->row];
-    float v = country->row_past, scale = (float)(0.5 / country->cell_m);
-    for (uint32_t i = 1; i + 1 < country->posts; i++) {
+    const float(*h)[TERRAIN_BLOCK_POSTS] = &block->height[block->row];
+    float v = block->row_past, scale = (float)(0.5 / block->cell_m);
+    for (uint32_t i = 1; i + 1 < block->posts; i++) {
         nodes[0][i] = scale * between(h[0][i + 1] - h[0][i - 1], h[1][i + 1] - h[1][i - 1], v);
         nodes[1][i] = scale * between(h[1][i] - h[-1][i], h[2][i] - h[0][i], v);
     }
-    spread_heights(country, height);
-    spread(country, nodes[0], slope_x);
-    spread(country, nodes[1], slope_z);
+    spread_heights(block, height);
+    spread(block, nodes[0], slope_x);
+    spread(block, nodes[1], slope_z);
 }
 
-void terrain_block_covers(const struct terrain_block *country, uint8_t *covers)
+void terrain_block_covers(const struct terrain_block *block, uint8_t *covers)
 {
-    for (uint32_t i = 0; i < country->columns; i++)
-        covers[i] = country->whole[country->row][country->at[i]];
+    for (uint32_t i = 0; i < block->columns; i++)
+        covers[i] = block->whole[block->row][block->at[i]];
 }
 
-void terrain_block_water(const struct terrain_block *country, float *water)
+void terrain_block_water(const struct terrain_block *block, float *water)
 {
     float nodes[TERRAIN_BLOCK_POSTS] = {0.0f};
-    const uint8_t *north = country->water[country->row], *south = country->water[country->row + 1];
-    for (uint32_t i = 0; i < country->posts; i++)
-        nodes[i] = between((float)north[i], (float)south[i], country->row_past) / 25.0f;
-    spread(country, nodes, water);
+    const uint8_t *north = block->water[block->row], *south = block->water[block->row + 1];
+    for (uint32_t i = 0; i < block->posts; i++)
+        nodes[i] = between((float)north[i], (float)south[i], block->row_past) / 25.0f;
+    spread(block, nodes, water);
 }
 
-void terrain_block_shares(const struct terrain_block *country, uint32_t column, float move_x,
+void terrain_block_shares(const struct terrain_block *block, uint32_t column, float move_x,
                           float move_z, float share[COVER_COUNT])
 {
-    double x = country->column_x[column] + (double)move_x, z = country->row_z + (double)move_z;
+    double x = block->column_x[column] + (double)move_x, z = block->row_z + (double)move_z;
     int32_t c = value_noise_floor(x), r = value_noise_floor(z);
     /* Steeper than linear: a border is some metres wide, not a whole cell. */
     float u = smooth_step(0.25f, 0.75f, (float)(x - c));
     float v = smooth_step(0.25f, 0.75f, (float)(z - r));
     for (uint32_t i = 0; i < COVER_COUNT; i++)
         share[i] = 0.0f;
-    share[country->cover[r][c]] += (1.0f - u) * (1.0f - v);
-    share[country->cover[r][c + 1]] += u * (1.0f - v);
-    share[country->cover[r + 1][c]] += (1.0f - u) * v;
-    share[country->cover[r + 1][c + 1]] += u * v;
+    share[block->cover[r][c]] += (1.0f - u) * (1.0f - v);
+    share[block->cover[r][c + 1]] += u * (1.0f - v);
+    share[block->cover[r + 1][c]] += (1.0f - u) * v;
+    share[block->cover[r + 1][c + 1]] += u * v;
 }

@@ -35,28 +35,28 @@ struct terrain_block {
 };
 
 /* A block of columns x columns texels from (x, z) on, step_m apart. */
-void terrain_block_open(struct terrain_block *country, const struct terrain *terrain, double x,
+void terrain_block_open(struct terrain_block *block, const struct terrain *terrain, double x,
                         double z, double step_m, uint32_t columns, uint32_t rows);
 
 /* Goes to the row of texels at z. */
-void terrain_block_row(struct terrain_block *country, double z);
+void terrain_block_row(struct terrain_block *block, double z);
 
 /* Along the row: height [m] as terrain_base_height() has it where cells are the terrain's, and
  * slopes as if the ground bent smoothly from post to post (flat triangles would show as facets):
  * rise a metre to the east, to the south. */
-void terrain_block_ground(const struct terrain_block *country, float *height, float *slope_x,
+void terrain_block_ground(const struct terrain_block *block, float *height, float *slope_x,
                           float *slope_z);
 
 /* Along the row: the cover of each texel when it is the same as far around its cell as borders can
  * be shaken, else TERRAIN_BLOCK_MIXED. */
-void terrain_block_covers(const struct terrain_block *country, uint8_t *covers);
+void terrain_block_covers(const struct terrain_block *block, uint8_t *covers);
 
 /* Along the row: how much water lies around, 0..1. */
-void terrain_block_water(const struct terrain_block *country, float *water);
+void terrain_block_water(const struct terrain_block *block, float *water);
 
 /* Shares of the covers at a column of the row, its borders moved by so many cells, less than one.
  */
-void terrain_block_shares(const struct terrain_block *country, uint32_t column, float move_x,
+void terrain_block_shares(const struct terrain_block *block, uint32_t column, float move_x,
                           float move_z, float share[COVER_COUNT]);
 
 #endif

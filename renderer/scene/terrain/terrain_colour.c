@@ -19,7 +19,7 @@
 #define ROAD_RUT_M   1.7f /* ruts to each side of the middle */
 #define ROAD_REACH_M (ROAD_HALF_M + ROAD_FADES_M)
 
-_Static_assert(BLOCK == GRAIN_COLUMNS, "a block's rows are rows of grain");
+_Static_assert(BLOCK == VALUE_NOISE_COLUMNS_MAX, "a block's rows are rows of grain");
 
 struct colour {
     float r, g, b;
@@ -34,16 +34,16 @@ struct texel {
 /* Where a texel lies and how the ground is there. */
 struct site {
     float height;
-    float slope_x, slope_z;          /* rise a metre to the east, to the south */
-    float broad, middle, fine, tuft; /* noise of some 400, 60, 9 and 4 m */
-    float open;                      /* water around, 0..1 */
-    float far;                       /* 1 where texels are larger than trees */
+    float slope_x, slope_z;            /* rise a metre to the east, to the south */
+    float broad, middle, fine, finest; /* noise of some 400, 60, 9 and 4 m */
+    float open;                        /* water around, 0..1 */
+    float far;                         /* 1 where texels are larger than trees */
 };
 
 /* A row of sites, and of what becomes of them. */
 struct row {
     float height[BLOCK], slope_x[BLOCK], slope_z[BLOCK];
-    float broad[BLOCK], middle[BLOCK], fine[BLOCK], tuft[BLOCK], open[BLOCK];
+    float broad[BLOCK], middle[BLOCK], fine[BLOCK], finest[BLOCK], open[BLOCK];
     float rough_x[BLOCK], rough_z[BLOCK]; /* unevenness that no post holds */
     float move_x[BLOCK], move_z[BLOCK];   /* of the borders of covers, in cells */
     float r[BLOCK], g[BLOCK], b[BLOCK], scrub[BLOCK], water[BLOCK], wave[BLOCK], sun[BLOCK];
@@ -58,7 +58,7 @@ enum {
     MIDDLE_B,
     FINE_A,
     FINE_B,
-    TUFT,
+    FINEST,
     ROUGH_X,
     ROUGH_Z,
     MOVE_A_X,
@@ -73,7 +73,7 @@ struct block {
     double x, z; /* [m, world] of its first texel */
     uint32_t column, row, columns, rows;
     float far;
-    struct terrain_block country;
+    struct terrain_block terrain;
     struct value_noise_rows noise[NOISES];
     float roads[BLOCK * BLOCK]; /* [m] from the middle of the nearest road */
     bool has_roads;
@@ -146,7 +146,7 @@ static inline struct texel grass_texel(const struct site *s)
 
 static inline float clump(const struct site *s)
 {
-    return ramp(-0.25f, 0.35f, s->fine + 0.5f * s->middle + 0.5f * s->tuft);
+    return ramp(-0.25f, 0.35f, s->fine + 0.5f * s->middle + 0.5f * s->finest);
 }
 
 static inline struct texel chaparral_texel(const struct site *s)
@@ -217,7 +217,7 @@ static inline struct site site_of(const struct block *block, uint32_t i)
     const struct row *row = &block->now;
     return (struct site){row->height[i], row->slope_x[i], row->slope_z[i],
                          row->broad[i],  row->middle[i],  row->fine[i],
-                         row->tuft[i],   row->open[i],    block->far};
+                         row->finest[i], row->open[i],    block->far};
 }
 
 static inline void put_texel(struct row *row, uint32_t i, const struct texel *t)
@@ -274,7 +274,7 @@ static struct texel blend(const struct site *site, const float share[COVER_COUNT
 static void put_shore(struct block *block, uint32_t i, const struct site *site, struct texel *t,
                       bool sea)
 {
-    float above = site->height - block->country.level + 0.25f * site->fine;
+    float above = site->height - block->terrain.level + 0.25f * site->fine;
     float steep = site->slope_x * site->slope_x + site->slope_z * site->slope_z;
     struct colour low = mix(wet_sand, rock_dark, ramp(0.1f, 0.4f, steep));
     struct colour beach = mix(sand, rock, ramp(0.1f, 0.4f, steep));
@@ -296,11 +296,11 @@ static void run_mixed(struct block *block, uint32_t first, uint32_t end)
     for (uint32_t i = first; i < end; i++) {
         struct site site = site_of(block, i);
         float share[COVER_COUNT];
-        terrain_block_shares(&block->country, i, row->move_x[i] + 0.10f * row->fine[i],
+        terrain_block_shares(&block->terrain, i, row->move_x[i] + 0.10f * row->fine[i],
                              row->move_z[i] - 0.10f * row->fine[i], share);
         struct texel t = blend(&site, share);
         if (site.open > 0.0f)
-            put_shore(block, i, &site, &t, block->country.sea);
+            put_shore(block, i, &site, &t, block->terrain.sea);
         put_texel(row, i, &t);
     }
 }
@@ -353,7 +353,7 @@ static void lay_roads(struct block *block, uint32_t number, double z)
             float crown = 1.0f - ramp(0.3f, 0.8f, off[i] - 0.3f * wander);
             c = mix(c, dry, 0.35f * crown);
             c = mix(c, gravel, 0.55f * ramp(ROAD_HALF_M - 1.4f, ROAD_HALF_M + 0.4f, d));
-            c = scale(c, 1.0f - 0.20f * rut - 0.05f * wander - 0.06f * row->tuft[i]);
+            c = scale(c, 1.0f - 0.20f * rut - 0.05f * wander - 0.06f * row->finest[i]);
         }
         on *= strength;
         row->r[i] = between(row->r[i], c.r, on);
@@ -401,7 +401,7 @@ static void put_row(const struct block *block, uint32_t number)
     uint8_t *rgba = block->tile->rgba + at * 4;
     for (uint32_t i = 0; i < block->columns; i++, rgba += 4) {
         float uneven = 0.06f * row->broad[i] + 0.05f * row->middle[i] + 0.03f * row->fine[i] +
-                       0.05f * row->tuft[i];
+                       0.05f * row->finest[i];
         uneven = 1.0f + (1.0f - row->water[i]) * uneven;
         put_lit(rgba, (struct colour){row->r[i] * uneven, row->g[i] * uneven, row->b[i] * uneven},
                 row->sun[i]);
@@ -485,19 +485,19 @@ static void open_block(struct block *block, const struct world *world)
         uint32_t seed;
     } noises[NOISES] = {[BROAD_A] = {410.0, 11}, [BROAD_B] = {1900.0, 12}, [MIDDLE_A] = {71.0, 13},
                         [MIDDLE_B] = {27.0, 14}, [FINE_A] = {9.0, 15},     [FINE_B] = {3.1, 16},
-                        [TUFT] = {4.0, 51},      [ROUGH_X] = {31.0, 61},   [ROUGH_Z] = {31.0, 62},
+                        [FINEST] = {4.0, 51},    [ROUGH_X] = {31.0, 61},   [ROUGH_Z] = {31.0, 62},
                         [MOVE_A_X] = {1.7, 31},  [MOVE_B_X] = {0.6, 32},   [MOVE_A_Z] = {1.7, 33},
                         [MOVE_B_Z] = {0.6, 34}};
     const struct terrain_colour_tile *tile = block->tile;
     block->x = tile->x + block->column * tile->step_m;
     block->z = tile->z + block->row * tile->step_m;
     block->far = clamp01((float)tile->step_m / 10.0f);
-    terrain_block_open(&block->country, &world->terrain, block->x, block->z, tile->step_m,
+    terrain_block_open(&block->terrain, &world->terrain, block->x, block->z, tile->step_m,
                        block->columns, block->rows);
     for (uint32_t i = 0; i < NOISES; i++) {
         /* Borders move by noise as long as a cell and shorter, by less than a cell in all: the grid
          * of the posts must not show. */
-        double unit = i >= MOVE_A_X ? block->country.cell_m : 1.0;
+        double unit = i >= MOVE_A_X ? block->terrain.cell_m : 1.0;
         value_noise_rows_begin(&block->noise[i], noises[i].wavelength_m * unit, noises[i].seed,
                                block->x, tile->step_m, block->columns);
     }
@@ -513,7 +513,7 @@ static void fill_noise(struct block *block, double z)
     memset(row->broad, 0, sizeof row->broad);
     memset(row->middle, 0, sizeof row->middle);
     memset(row->fine, 0, sizeof row->fine);
-    memset(row->tuft, 0, sizeof row->tuft);
+    memset(row->finest, 0, sizeof row->finest);
     memset(row->rough_x, 0, sizeof row->rough_x);
     memset(row->rough_z, 0, sizeof row->rough_z);
     value_noise_rows_add(&noise[BROAD_A], z, 0.65f, row->broad);
@@ -522,7 +522,7 @@ static void fill_noise(struct block *block, double z)
     value_noise_rows_add(&noise[MIDDLE_B], z, 0.45f, row->middle);
     value_noise_rows_add(&noise[FINE_A], z, 0.7f, row->fine);
     value_noise_rows_add(&noise[FINE_B], z, 0.3f, row->fine);
-    value_noise_rows_add(&noise[TUFT], z, 1.0f, row->tuft);
+    value_noise_rows_add(&noise[FINEST], z, 1.0f, row->finest);
     value_noise_rows_add(&noise[ROUGH_X], z, 1.0f, row->rough_x);
     value_noise_rows_add(&noise[ROUGH_Z], z, 1.0f, row->rough_z);
     if (memchr(row->covers, TERRAIN_BLOCK_MIXED, block->columns) == NULL)
@@ -542,11 +542,11 @@ static void terrain_colour_block(struct block *block, const struct world *world)
     memset(row->open, 0, sizeof row->open);
     for (uint32_t number = 0; number < block->rows; number++) {
         double z = block->z + number * block->tile->step_m;
-        terrain_block_row(&block->country, z);
-        terrain_block_covers(&block->country, row->covers);
-        terrain_block_ground(&block->country, row->height, row->slope_x, row->slope_z);
-        if (block->country.wet)
-            terrain_block_water(&block->country, row->open);
+        terrain_block_row(&block->terrain, z);
+        terrain_block_covers(&block->terrain, row->covers);
+        terrain_block_ground(&block->terrain, row->height, row->slope_x, row->slope_z);
+        if (block->terrain.wet)
+            terrain_block_water(&block->terrain, row->open);
         fill_noise(block, z);
         memset(row->wave, 0, sizeof row->wave);
         memset(row->wash, 0, sizeof row->wash);
@@ -570,7 +570,7 @@ bool terrain_colour_ground(const struct world *world, const struct crater_index 
             block.columns = columns < BLOCK ? columns : BLOCK;
             block.rows = rows < BLOCK ? rows : BLOCK;
             terrain_colour_block(&block, world);
-            sea |= block.country.sea;
+            sea |= block.terrain.sea;
         }
     if (craters != NULL)
         for (uint32_t i = 0; i < craters->count; i++)

@@ -19,11 +19,11 @@
 #define TERRAIN_QUADTREE_PATCHES_MAX 640
 #define TERRAIN_QUADTREE_SPLIT       2.3 /* a patch nearer than so many of its sides is divided */
 #define TERRAIN_QUADTREE_ERROR                                                                     \
-    (1.0 / 800.0)                        /* of its side that a patch may be off; a pixel or less */
-#define TERRAIN_QUADTREE_HAZY_LEVEL    4 /* coarser ones, from 18 km on, may be off twice as much */
-#define TERRAIN_QUADTREE_SKIRT         0.02 /* of its side that a skirt hangs down */
-#define TERRAIN_QUADTREE_SKIRT_LEAST_M 1.5
-#define TERRAIN_QUADTREE_RANGE_LEVEL   6 /* height ranges are kept down to this level */
+    (1.0 / 800.0)                      /* of its side that a patch may be off; a pixel or less */
+#define TERRAIN_QUADTREE_HAZY_LEVEL  4 /* coarser ones, from 18 km on, may be off twice as much */
+#define TERRAIN_QUADTREE_SKIRT       0.02 /* of its side that a skirt hangs down */
+#define TERRAIN_QUADTREE_SKIRT_MIN_M 1.5
+#define TERRAIN_QUADTREE_RANGE_LEVEL 6 /* height ranges are kept down to this level */
 
 struct terrain_quadtree_patch {
     int32_t column, row; /* of the level's grid; negative or past its end outside the square */
@@ -62,7 +62,7 @@ static inline double terrain_quadtree_tolerance(int32_t level)
 /* How far the skirts hang below the edges of a patch [m]: further than neighbours are apart. */
 static inline double terrain_quadtree_skirt(int32_t level)
 {
-    return maths_max(TERRAIN_QUADTREE_SKIRT_LEAST_M,
+    return maths_max(TERRAIN_QUADTREE_SKIRT_MIN_M,
                      TERRAIN_QUADTREE_SKIRT * terrain_quadtree_patch_side(level));
 }
 

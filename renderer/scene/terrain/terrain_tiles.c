@@ -12,7 +12,8 @@
 /* A stand-in is at most so many levels above its patch: its texels are eight times as wide. */
 #define COARSER 3
 
-_Static_assert(TILE_PAINT_BYTES == 4 * (((size_t)1 << 2 * TILE_MIPS) - 1) / 3, "all mips, no more");
+_Static_assert(TILE_TEXTURE_BYTES == 4 * (((size_t)1 << 2 * TILE_MIPS) - 1) / 3,
+               "all mips, no more");
 _Static_assert(TILE_CAPACITY > TERRAIN_QUADTREE_PATCHES_MAX,
                "the patches of a picture are kept together");
 
@@ -24,10 +25,10 @@ int terrain_tiles_init(struct terrain_tiles *tiles)
     tiles->views = calloc(TERRAIN_QUADTREE_PATCHES_MAX, sizeof *tiles->views);
     tiles->vertices = malloc(TILE_CAPACITY * GROUND_VERTICES_MAX * sizeof *tiles->vertices);
     tiles->triangles = malloc(TILE_CAPACITY * GROUND_TRIANGLES_MAX * sizeof *tiles->triangles);
-    tiles->paint = malloc((size_t)TILE_CAPACITY * TILE_PAINT_BYTES);
+    tiles->textures = malloc((size_t)TILE_CAPACITY * TILE_TEXTURE_BYTES);
     tiles->light = malloc((size_t)TILE_TEXELS * TILE_TEXELS * sizeof *tiles->light);
     if (tiles->tiles == NULL || tiles->buckets == NULL || tiles->views == NULL ||
-        tiles->vertices == NULL || tiles->triangles == NULL || tiles->paint == NULL ||
+        tiles->vertices == NULL || tiles->triangles == NULL || tiles->textures == NULL ||
         tiles->light == NULL) {
         terrain_tiles_free(tiles);
         return -1;
@@ -35,7 +36,7 @@ int terrain_tiles_init(struct terrain_tiles *tiles)
     for (size_t i = 0; i < TILE_CAPACITY; i++) {
         tiles->tiles[i].mesh.vertices = tiles->vertices + i * GROUND_VERTICES_MAX;
         tiles->tiles[i].mesh.triangles = tiles->triangles + i * GROUND_TRIANGLES_MAX;
-        tiles->tiles[i].paint = tiles->paint + i * TILE_PAINT_BYTES;
+        tiles->tiles[i].texture = tiles->textures + i * TILE_TEXTURE_BYTES;
     }
     return 0;
 }
@@ -47,7 +48,7 @@ void terrain_tiles_free(struct terrain_tiles *tiles)
     free(tiles->views);
     free(tiles->vertices);
     free(tiles->triangles);
-    free(tiles->paint);
+    free(tiles->textures);
     free(tiles->light);
     *tiles = (struct terrain_tiles){.view_count = 0};
 }
@@ -92,8 +93,8 @@ static struct tile *claim(struct terrain_tiles *tiles, const struct tile_key *ke
     if (oldest->used != 0)
         unlink_tile(tiles, oldest);
     uint32_t *bucket = bucket_of(tiles, key);
-    *oldest =
-        (struct tile){.key = *key, .next = *bucket, .mesh = oldest->mesh, .paint = oldest->paint};
+    *oldest = (struct tile){
+        .key = *key, .next = *bucket, .mesh = oldest->mesh, .texture = oldest->texture};
     *bucket = terrain_tiles_index(tiles, oldest) + 1;
     return oldest;
 }
@@ -128,38 +129,39 @@ static bool dug_since(const struct tile *tile, const struct crater_index *crater
     return false;
 }
 
-static void shape(struct terrain_tiles *tiles, struct tile *tile, const struct frame_view *moment)
+static void make_mesh(struct terrain_tiles *tiles, struct tile *tile,
+                      const struct frame_view *frame_view)
 {
     const struct terrain_quadtree_patch patch = {
         .column = tile->key.column, .row = tile->key.row, .level = tile->key.level};
-    terrain_mesh(&moment->world->terrain, moment->craters, &patch, &tile->mesh);
+    terrain_mesh(&frame_view->world->terrain, frame_view->craters, &patch, &tile->mesh);
     tile->low = tile->high = tile->mesh.vertices[0][1];
     for (uint32_t i = 1; i < tile->mesh.top_vertices; i++) {
         float y = tile->mesh.vertices[i][1];
         tile->low = y < tile->low ? y : tile->low;
         tile->high = y > tile->high ? y : tile->high;
     }
-    tile->shape_version = ++tiles->versions;
+    tile->mesh_version = ++tiles->versions;
 }
 
 /* Keeps the shape up with the craters. */
-static void update_shape(struct terrain_tiles *tiles, struct tile *tile,
-                         const struct frame_view *moment)
+static void update_mesh(struct terrain_tiles *tiles, struct tile *tile,
+                        const struct frame_view *frame_view)
 {
-    if (tile->shape_version == 0 ||
-        (tile->shape_craters != moment->craters->count &&
+    if (tile->mesh_version == 0 ||
+        (tile->mesh_craters != frame_view->craters->count &&
          tile->key.level >= TERRAIN_QUADTREE_DIG_LEVEL &&
-         dug_since(tile, moment->craters, tile->shape_craters, CRATER_RIM)))
-        shape(tiles, tile, moment);
-    tile->shape_craters = moment->craters->count;
+         dug_since(tile, frame_view->craters, tile->mesh_craters, CRATER_RIM)))
+        make_mesh(tiles, tile, frame_view);
+    tile->mesh_craters = frame_view->craters->count;
 }
 
 /* Each mip's texel is the mean of four of the one before. */
-static void fill_mips(uint8_t *paint)
+static void fill_mips(uint8_t *texture)
 {
     for (uint32_t mip = 1; mip < TILE_MIPS; mip++) {
-        const uint8_t *from = paint + tile_mip_offset(mip - 1);
-        uint8_t *to = paint + tile_mip_offset(mip);
+        const uint8_t *from = texture + tile_mip_offset(mip - 1);
+        uint8_t *to = texture + tile_mip_offset(mip);
         uint32_t side = tile_mip_side(mip), stride = side * 8;
         for (uint32_t row = 0; row < side; row++, from += stride)
             for (uint32_t column = 0; column < side; column++, from += 8, to += 4)
@@ -178,7 +180,8 @@ static bool has_water(const uint8_t *rgba)
     return false;
 }
 
-static void paint(struct terrain_tiles *tiles, struct tile *tile, const struct frame_view *moment)
+static void make_texture(struct terrain_tiles *tiles, struct tile *tile,
+                         const struct frame_view *frame_view)
 {
     double side = terrain_quadtree_patch_side(tile->key.level);
     struct terrain_colour_tile painting = {
@@ -189,26 +192,26 @@ static void paint(struct terrain_tiles *tiles, struct tile *tile, const struct f
         .rows = TILE_TEXELS,
         .sun = light_sun(),
         .relief = 1.0,
-        .rgba = tile->paint,
+        .rgba = tile->texture,
         .light = tiles->light,
     };
-    tile->surf = terrain_colour_ground(moment->world, moment->craters, &painting);
-    fill_mips(tile->paint);
-    tile->wet = has_water(tile->paint);
+    tile->surf = terrain_colour_ground(frame_view->world, frame_view->craters, &painting);
+    fill_mips(tile->texture);
+    tile->wet = has_water(tile->texture);
     tile->stale = false;
-    tile->paint_craters = moment->craters->count;
-    tile->paint_version = ++tiles->versions;
-    tiles->painted++;
+    tile->texture_craters = frame_view->craters->count;
+    tile->texture_version = ++tiles->versions;
+    tiles->textures_made++;
 }
 
 /* Notes whether craters have come into the painting. */
-static void look_at_craters(struct tile *tile, const struct frame_view *moment)
+static void look_at_craters(struct tile *tile, const struct frame_view *frame_view)
 {
-    if (tile->paint_version == 0 || tile->paint_craters == moment->craters->count)
+    if (tile->texture_version == 0 || tile->texture_craters == frame_view->craters->count)
         return;
-    if (dug_since(tile, moment->craters, tile->paint_craters, TERRAIN_COLOUR_CRATER_REACH))
+    if (dug_since(tile, frame_view->craters, tile->texture_craters, TERRAIN_COLOUR_CRATER_REACH))
         tile->stale = true;
-    tile->paint_craters = moment->craters->count;
+    tile->texture_craters = frame_view->craters->count;
 }
 
 /* --- updating --------------------------------------------------------------------------------- */
@@ -220,42 +223,42 @@ static struct tile_key ancestor(const struct tile_key *key, int32_t up)
 }
 
 /* The nearest tile with a painting that will do, its own or an ancestor's; NULL: none. */
-static struct tile *nearest_painting(const struct terrain_tiles *tiles, const struct tile_key *key)
+static struct tile *nearest_texture(const struct terrain_tiles *tiles, const struct tile_key *key)
 {
     for (int32_t up = 0; up <= COARSER && up <= key->level; up++) {
         struct tile_key above = ancestor(key, up);
         struct tile *tile = find(tiles, &above);
-        if (tile != NULL && tile->paint_version != 0)
+        if (tile != NULL && tile->texture_version != 0)
             return tile;
     }
     return NULL;
 }
 
 /* Paints it something to show: the coarsest stand-in that will do, or its own. */
-static struct tile *paint_stand_in(struct terrain_tiles *tiles, struct tile *own,
-                                   const struct frame_view *moment)
+static struct tile *make_stand_in(struct terrain_tiles *tiles, struct tile *own,
+                                  const struct frame_view *frame_view)
 {
     int32_t up = own->key.level < COARSER ? own->key.level : COARSER;
     struct tile_key key = ancestor(&own->key, up);
     struct tile *tile = want(tiles, &key);
     if (tile == NULL)
         tile = own;
-    paint(tiles, tile, moment);
+    make_texture(tiles, tile, frame_view);
     return tile;
 }
 
 static void make_view(struct terrain_tiles *tiles, struct tile_view *view, struct tile *own,
-                      const struct frame_view *moment)
+                      const struct frame_view *frame_view)
 {
-    struct tile *shown = nearest_painting(tiles, &own->key);
+    struct tile *shown = nearest_texture(tiles, &own->key);
     if (shown == NULL)
-        shown = paint_stand_in(tiles, own, moment);
-    look_at_craters(shown, moment);
+        shown = make_stand_in(tiles, own, frame_view);
+    look_at_craters(shown, frame_view);
     shown->used = tiles->updates;
     int32_t parts = 1 << (own->key.level - shown->key.level);
     *view = (struct tile_view){
-        .shape = own,
-        .paint = shown,
+        .tile = own,
+        .texture_tile = shown,
         .at_u = (float)(own->key.column & (parts - 1)) / (float)parts,
         .at_v = (float)(own->key.row & (parts - 1)) / (float)parts,
         .share = 1.0f / (float)parts,
@@ -265,48 +268,48 @@ static void make_view(struct terrain_tiles *tiles, struct tile_view *view, struc
 /* How badly a view wants its own painting: the most for one that shows ground before a crater. */
 static int32_t need(const struct tile_view *view)
 {
-    if (view->paint != view->shape)
-        return view->shape->key.level - view->paint->key.level;
-    return view->paint->stale ? COARSER + 1 : 0;
+    if (view->texture_tile != view->tile)
+        return view->tile->key.level - view->texture_tile->key.level;
+    return view->texture_tile->stale ? COARSER + 1 : 0;
 }
 
 /* The worst first, and of these the nearest. */
-static void paint_views(struct terrain_tiles *tiles, const struct frame_view *moment,
-                        uint32_t budget)
+static void make_textures(struct terrain_tiles *tiles, const struct frame_view *frame_view,
+                          uint32_t budget)
 {
     for (int32_t worst = COARSER + 1; worst > 0; worst--)
         for (uint32_t i = 0; i < tiles->view_count; i++) {
             struct tile_view *view = &tiles->views[i];
             if (need(view) != worst)
                 continue;
-            if (tiles->painted >= budget) {
+            if (tiles->textures_made >= budget) {
                 tiles->waiting++;
                 continue;
             }
-            struct tile *own = &tiles->tiles[terrain_tiles_index(tiles, view->shape)];
-            paint(tiles, own, moment);
-            *view = (struct tile_view){.shape = own, .paint = own, .share = 1.0f};
+            struct tile *own = &tiles->tiles[terrain_tiles_index(tiles, view->tile)];
+            make_texture(tiles, own, frame_view);
+            *view = (struct tile_view){.tile = own, .texture_tile = own, .share = 1.0f};
         }
 }
 
 void terrain_tiles_update(struct terrain_tiles *tiles, const struct terrain_quadtree_patch *patches,
-                          uint32_t count, const struct frame_view *moment, uint32_t budget)
+                          uint32_t count, const struct frame_view *frame_view, uint32_t budget)
 {
     tiles->updates++;
-    tiles->view_count = tiles->painted = tiles->waiting = 0;
+    tiles->view_count = tiles->textures_made = tiles->waiting = 0;
     for (uint32_t i = 0; i < count; i++) {
         const struct terrain_quadtree_patch *patch = &patches[i];
         struct tile *own = want(tiles, &(struct tile_key){patch->column, patch->row, patch->level});
         if (own == NULL)
             break; /* never: there is room for all patches of a picture */
-        update_shape(tiles, own, moment);
+        update_mesh(tiles, own, frame_view);
         /* With no bound everything is painted in any case, and needs no stand-in. */
-        if (budget == TERRAIN_TILES_ALL && own->paint_version == 0)
-            paint(tiles, own, moment);
-        tiles->views[tiles->view_count++].shape = own;
+        if (budget == TERRAIN_TILES_ALL && own->texture_version == 0)
+            make_texture(tiles, own, frame_view);
+        tiles->views[tiles->view_count++].tile = own;
     }
     for (uint32_t i = 0; i < tiles->view_count; i++)
         make_view(tiles, &tiles->views[i],
-                  &tiles->tiles[terrain_tiles_index(tiles, tiles->views[i].shape)], moment);
-    paint_views(tiles, moment, budget);
+                  &tiles->tiles[terrain_tiles_index(tiles, tiles->views[i].tile)], frame_view);
+    make_textures(tiles, frame_view, budget);
 }

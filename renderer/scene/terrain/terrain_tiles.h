@@ -24,7 +24,7 @@
 #define TERRAIN_TILES_ALL UINT32_MAX /* no bound on what one picture may paint */
 
 /* Bytes of a painting: RGBA of all mips, the largest first. */
-#define TILE_PAINT_BYTES 87380u
+#define TILE_TEXTURE_BYTES 87380u
 
 struct tile_key {
     int32_t column, row, level; /* of the patch */
@@ -32,38 +32,38 @@ struct tile_key {
 
 struct tile {
     struct tile_key key;
-    uint64_t used;                         /* the update that last wanted it; 0: free */
-    uint64_t shape_version, paint_version; /* another for other contents; 0: not made */
-    uint32_t shape_craters, paint_craters; /* so many were looked at */
-    uint32_t next;                         /* in its bucket, + 1 */
-    bool wet;                              /* some of the painting is water */
-    bool surf;                             /* of the sea: there is foam at its edge */
-    bool stale;                            /* craters came since it was painted */
-    float low, high;                       /* [m, world] of its ground, without the skirt */
-    struct terrain_mesh mesh;              /* as terrain_mesh() makes it */
-    uint8_t *paint; /* [TILE_PAINT_BYTES] as terrain_colour_ground() gives them */
+    uint64_t used;                          /* the update that last wanted it; 0: free */
+    uint64_t mesh_version, texture_version; /* another for other contents; 0: not made */
+    uint32_t mesh_craters, texture_craters; /* so many were looked at */
+    uint32_t next;                          /* in its bucket, + 1 */
+    bool wet;                               /* some of the painting is water */
+    bool surf;                              /* of the sea: there is foam at its edge */
+    bool stale;                             /* craters came since it was painted */
+    float low, high;                        /* [m, world] of its ground, without the skirt */
+    struct terrain_mesh mesh;               /* as terrain_mesh() makes it */
+    uint8_t *texture; /* [TILE_TEXTURE_BYTES] as terrain_colour_ground() gives them */
 };
 
 /* What to draw for a patch. Texture coordinates are 0 in the middle of a painting's first texel and
  * 1 in the middle of its last: a place (x, z) metres from the patch's corner has
  * u = at_u + share * x / side, v = at_v + share * z / side, with the patch's own side. */
 struct tile_view {
-    const struct tile *shape; /* its mesh is made */
-    const struct tile *paint; /* the same, or an ancestor; its painting is made */
+    const struct tile *tile;         /* its mesh is made */
+    const struct tile *texture_tile; /* the same, or an ancestor; its painting is made */
     float at_u, at_v, share;
 };
 
 struct terrain_tiles {
     struct tile_view *views; /* [view_count] in the order of the patches */
     uint32_t view_count;
-    uint32_t painted; /* tiles, by the last update */
-    uint32_t waiting; /* views that show an ancestor, or ground before a crater */
+    uint32_t textures_made; /* tiles, by the last update */
+    uint32_t waiting;       /* views that show an ancestor, or ground before a crater */
     uint64_t updates, versions;
     struct tile *tiles;       /* [TILE_CAPACITY] */
     uint32_t *buckets;        /* tile + 1 */
     float (*vertices)[3];     /* of all tiles */
     uint16_t (*triangles)[3]; /* of all tiles */
-    uint8_t *paint;           /* of all tiles */
+    uint8_t *textures;        /* of all tiles */
     float *light;             /* scratch */
 };
 
@@ -74,7 +74,7 @@ void terrain_tiles_free(struct terrain_tiles *tiles);
 /* Makes views of these patches, nearest first. Paints at most so many tiles, and the few coarse
  * ancestors without which a patch would have nothing to show. */
 void terrain_tiles_update(struct terrain_tiles *tiles, const struct terrain_quadtree_patch *patches,
-                          uint32_t count, const struct frame_view *moment, uint32_t budget);
+                          uint32_t count, const struct frame_view *frame_view, uint32_t budget);
 
 /* Which mip of a painting to show is told by distance, so that nothing jumps when a patch is
  * divided: where that happens a patch shows its largest mip, and the patches that follow it their

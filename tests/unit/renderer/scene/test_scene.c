@@ -50,9 +50,9 @@ struct stage {
     struct effects effects;
     struct dent dent[DENTS];
     struct dent_index dents;
-    struct static_scene scenery;
+    struct static_scene static_scene;
     struct draw_list list;
-    struct frame_view moment;
+    struct frame_view frame_view;
 };
 
 static const struct kind kinds[KINDS] = {
@@ -169,11 +169,11 @@ static int open_stage(void **context)
     s->world.fixed = s->fixed;
     s->world.reach_start = s->reach_start;
     assert_int_equal(crater_index_init(&s->index, s->craters), 0);
-    assert_int_equal(static_scene_init(&s->scenery, &s->world), 0);
+    assert_int_equal(static_scene_init(&s->static_scene, &s->world), 0);
     assert_int_equal(scene_init(&s->list), 0);
     assert_int_equal(dent_index_init(&s->dents, s->dent, DENTS), 0);
-    s->moment = (struct frame_view){&s->world, &s->head,  &s->entities, s->fixed_damage,
-                                    &s->index, &s->dents, NULL,         0.0};
+    s->frame_view = (struct frame_view){&s->world, &s->head,  &s->entities, s->fixed_damage,
+                                        &s->index, &s->dents, NULL,         0.0};
     *context = s;
     return 0;
 }
@@ -182,7 +182,7 @@ static int close_stage(void **context)
 {
     struct stage *s = *context;
     scene_free(&s->list);
-    static_scene_free(&s->scenery);
+    static_scene_free(&s->static_scene);
     crater_index_free(&s->index);
     dent_index_free(&s->dents);
     free(s->columns);
@@ -287,7 +287,7 @@ static void test_ground_is_covered_once(void **context)
     for (uint64_t i = 0; i < 20; i++) {
         struct camera camera =
             look_from(s, draw(2 * i, 500.0, 49500.0), draw(2 * i + 1, 500.0, 49500.0), (double)i);
-        uint32_t count = terrain_quadtree_select(&s->scenery.ground, &camera, patches);
+        uint32_t count = terrain_quadtree_select(&s->static_scene.ground, &camera, patches);
         assert_true(count > 0 && count < TERRAIN_QUADTREE_PATCHES_MAX);
         for (uint64_t j = 0; j < 500; j++) {
             double reach = pow(10.0, draw(1000 * i + 2 * j, 1.0, 4.5));
@@ -312,7 +312,7 @@ static void test_ground_detail_falls_with_distance(void **context)
     struct stage *s = *context;
     static struct terrain_quadtree_patch patches[TERRAIN_QUADTREE_PATCHES_MAX];
     struct camera camera = look_from(s, 24000.0, 26000.0, 0.7);
-    uint32_t count = terrain_quadtree_select(&s->scenery.ground, &camera, patches);
+    uint32_t count = terrain_quadtree_select(&s->static_scene.ground, &camera, patches);
     for (uint32_t i = 0; i < count; i++) {
         double side = terrain_quadtree_patch_side(patches[i].level);
         assert_true(patches[i].level == TERRAIN_QUADTREE_LEVEL_MAX ||
@@ -345,7 +345,7 @@ static void test_scene_has_what_is_before_the_camera(void **context)
     uint32_t ahead = put_tank(s, 25000.0, 24960.0, 0.4);
     put_tank(s, 25000.0, 25090.0, 0.0); /* behind */
     struct camera camera = look_from(s, 25000.0, 25000.0, 0.0);
-    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
     assert_int_equal(s->list.omitted, 0);
     uint32_t tanks = 0;
     for (uint32_t i = 0; i < s->list.body_count; i++) {
@@ -371,7 +371,7 @@ static void test_damage_shows_in_steps(void **context)
         s->entities.state[slot] = damage == DAMAGE_DESTROYED ? ENTITY_WRECK : ENTITY_ACTIVE;
         s->head.tick = 500;
         s->entities.changed_tick[slot] = 300;
-        scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+        scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
         uint32_t at = 0;
         while (at < s->list.body_count && fabs((double)s->list.bodies[at].at[0]) > 1e-3)
             at++;
@@ -404,11 +404,11 @@ static void test_a_near_body_is_drawn_with_its_dents(void **context)
     dent(s, s->entities.id[bent], 0.1f);
     dent(s, s->entities.id[far], 0.3f);
     struct camera camera = look_from(s, 25010.0, 25000.0, 0.0);
-    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
     assert_int_equal(s->list.dent_count, 2); /* nobody sees the far one's */
     assert_true(s->list.dents[0].depth_m == 0.2f && s->list.dents[1].depth_m == 0.1f);
     assert_true(s->list.dents[0].reach_m > s->list.dents[1].reach_m);
-    assert_true(s->list.dents[0].way[0] == -1.0f && s->list.dents[0].point[0] == 3.0f);
+    assert_true(s->list.dents[0].direction[0] == -1.0f && s->list.dents[0].point[0] == 3.0f);
     uint32_t with = 0;
     for (uint32_t i = 0; i < s->list.body_count; i++) {
         if (s->list.bodies[i].dents[1] <= 0.0f)
@@ -429,7 +429,7 @@ static void look_at(struct stage *s, uint32_t object)
     struct camera camera;
     camera_look(&camera, vec3_add(middle, (struct vec3){3.0, 5.0, 30.0}), middle, 960, 540);
     s->params.renderer.texture = 0; /* no tufts: they are plants too */
-    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
 }
 
 /* The body that stands where the object does. */
@@ -525,8 +525,8 @@ static double fallen(const struct draw_list_body *body)
     uint32_t down = 0;
     for (int x = -10; x <= 10; x++)
         for (int z = -10; z <= 10; z++)
-            down += 0.3f * (float)x * body->falls[0] + 0.1f * (float)z * body->falls[1] +
-                        body->falls[2] >
+            down += 0.3f * (float)x * body->collapse[0] + 0.1f * (float)z * body->collapse[1] +
+                        body->collapse[2] >
                     1.0f;
     return down / 441.0;
 }
@@ -540,7 +540,7 @@ static void test_a_building_falls_in_by_steps_to_rubble(void **context)
         look_at(s, COTTAGE);
         const struct draw_list_body *body = body_of(s, COTTAGE);
         share[damage] = fallen(body);
-        assert_true((body->falls[2] > 0.0f) == (damage != DAMAGE_NONE));
+        assert_true((body->collapse[2] > 0.0f) == (damage != DAMAGE_NONE));
         assert_true(body->up[1] == 1.0f && body->broken[2] == 0.0f);
     }
     assert_true(share[DAMAGE_NONE] == 0.0 && share[DAMAGE_LOW] > 0.0 && share[DAMAGE_LOW] < 0.4);
@@ -563,11 +563,11 @@ static void test_fire_and_detonation_show(void **context)
          .type = EVENT_DETONATION,
          .detonation = {.point = {25000.0, camera.eye.y - 5, 24950.0}, .explosive_kg = 8.0f}},
     };
-    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
     uint32_t quiet = s->list.particle_count;
-    effects_take(&s->effects, &s->moment, events, 2);
+    effects_take(&s->effects, &s->frame_view, events, 2);
     assert_int_equal(s->effects.count, 2);
-    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
     assert_true(s->list.particle_count > quiet + 20);
     for (uint32_t i = 1; i < s->list.particle_count; i++) { /* farthest first */
         const float *a = s->list.particles[i - 1].at, *b = s->list.particles[i].at;
@@ -575,7 +575,7 @@ static void test_fire_and_detonation_show(void **context)
                     b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
     }
     s->head.tick = s->head.frame = 100 + 10 * (uint64_t)(EFFECT_LIFE_S + 1.0);
-    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
     assert_int_equal(s->list.particle_count, quiet);
 }
 
@@ -588,22 +588,22 @@ static void test_follow_keeps_its_choice(void **context)
     put_tank(s, 10000.0, 10000.0, 0.0);
     uint32_t moving = put_tank(s, 20000.0, 20000.0, 0.0);
     s->entities.vx[moving] = 10.0;
-    assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 0, false), moving);
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), moving);
     s->entities.vx[moving] = 0.0;
     s->entities.vx[0] = 10.0;
     s->head.tick = 50; /* 5 s: kept, though another is livelier now */
-    assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 0, false), moving);
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), moving);
     s->head.tick = 200;
-    assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 0, false), 0);
-    assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 2, false), 1);
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), 0);
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, false), 1);
     s->entities.state[1] = ENTITY_WRECK;
     s->entities.changed_tick[1] = 200;
     struct follow nobody = {.id = 0}; /* a renderer that was started just now sees it burn too */
-    assert_int_equal(follow_choose(&nobody, &s->moment, &s->effects, 2, false), 1);
-    assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 2, false), 1);
+    assert_int_equal(follow_choose(&nobody, &s->frame_view, &s->effects, 2, false), 1);
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, false), 1);
     s->head.tick = 200 + 10 * (uint64_t)(FOLLOW_WRECK_S + 1.0);
-    assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 2, false), 0);
-    assert_int_equal(follow_choose(&follow, &s->moment, &s->effects, 2, true), 1);
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, false), 0);
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, true), 1);
 }
 
 static void test_statistics_equal_the_table(void **context)
@@ -620,7 +620,7 @@ static void test_statistics_equal_the_table(void **context)
     e->behaviour[slot] = BEHAVIOUR_PATROL;
     s->head.frame = 123;
     struct statistics is;
-    statistics_of(&is, &s->moment, slot);
+    statistics_of(&is, &s->frame_view, slot);
     assert_true(fabs(is.speed_kmh - 45.0) < 1e-9);
     assert_true(fabs(is.heading_deg - 90.0) < 1e-9);
     assert_true(fabs(is.pitch_deg - 0.1 * DEG_PER_RAD) < 1e-9);
@@ -646,8 +646,8 @@ static void test_tracks_remember_positions(void **context)
     for (uint32_t i = 0; i < 2 * TRACK_POINTS; i++) {
         s->entities.x[slot] = 1000.0 + i;
         s->head.tick = i * (uint64_t)(10.0 * TRACK_INTERVAL_S + 1.0);
-        tracks_note(&tracks, &s->moment);
-        tracks_note(&tracks, &s->moment); /* too soon: nothing */
+        tracks_note(&tracks, &s->frame_view);
+        tracks_note(&tracks, &s->frame_view); /* too soon: nothing */
     }
     const struct track *track = tracks_of(&tracks, slot, slot + 1);
     assert_non_null(track);

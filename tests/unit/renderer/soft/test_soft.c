@@ -219,10 +219,10 @@ static void test_near_plane_cuts_where_it_lies(void **context)
 /* Hills, a sea in the west, and nothing on them. */
 struct country {
     struct world world;
-    struct frame_view moment;
+    struct frame_view frame_view;
     struct crater craters[4];
     struct crater_index index;
-    struct static_scene scenery;
+    struct static_scene static_scene;
     struct draw_list list;
     struct back_end_interface plain; /* on one thread */
     float posts[POSTS * POSTS];
@@ -243,12 +243,12 @@ static int open_country(void **context)
         }
     c->world.terrain = (struct terrain){c->posts, c->cover, POSTS, SPACING};
     assert_int_equal(crater_index_init(&c->index, c->craters), 0);
-    assert_int_equal(static_scene_init(&c->scenery, &c->world), 0);
+    assert_int_equal(static_scene_init(&c->static_scene, &c->world), 0);
     assert_int_equal(scene_init(&c->list), 0);
-    c->moment = (struct frame_view){.world = &c->world, .craters = &c->index};
+    c->frame_view = (struct frame_view){.world = &c->world, .craters = &c->index};
     struct error_text error;
     assert_int_equal(
-        soft_open_build(&c->plain, &c->scenery, 300, 144, 1, &soft_kernels_plain, &error), 0);
+        soft_open_build(&c->plain, &c->static_scene, 300, 144, 1, &soft_kernels_plain, &error), 0);
     *context = c;
     return 0;
 }
@@ -258,7 +258,7 @@ static int close_country(void **context)
     struct country *c = *context;
     c->plain.close(c->plain.self);
     scene_free(&c->list);
-    static_scene_free(&c->scenery);
+    static_scene_free(&c->static_scene);
     crater_index_free(&c->index);
     free(c);
     return 0;
@@ -272,9 +272,9 @@ static void look(struct country *c, uint32_t width, uint32_t height)
     camera_look(&c->list.camera, eye, target, width, height);
     c->list.time_s = 30.0;
     c->list.fog = c->list.haze = c->list.texture = true;
-    c->list.paintings = TERRAIN_TILES_ALL; /* none depends on an earlier picture */
+    c->list.texture_budget = TERRAIN_TILES_ALL; /* none depends on an earlier picture */
     c->list.patch_count =
-        terrain_quadtree_select(&c->scenery.ground, &c->list.camera, c->list.patches);
+        terrain_quadtree_select(&c->static_scene.ground, &c->list.camera, c->list.patches);
 }
 
 static struct image draw(struct country *c, struct back_end_interface *by, uint32_t width,
@@ -284,7 +284,7 @@ static struct image draw(struct country *c, struct back_end_interface *by, uint3
     struct error_text error;
     look(c, width, height);
     assert_int_equal(image_init(&image, width, height), 0);
-    assert_int_equal(by->picture(by->self, &c->list, &c->moment, &image, &error), 0);
+    assert_int_equal(by->picture(by->self, &c->list, &c->frame_view, &image, &error), 0);
     assert_true(by->stages(by->self)->count > 0);
     return image;
 }
@@ -314,7 +314,8 @@ static void test_threads_and_vectors_change_nothing(void **context)
         const struct soft_kernels *build = threads % 2 == 0 ? best_build() : &soft_kernels_plain;
         struct back_end_interface many;
         struct error_text error;
-        assert_int_equal(soft_open_build(&many, &c->scenery, 300, 144, threads, build, &error), 0);
+        assert_int_equal(soft_open_build(&many, &c->static_scene, 300, 144, threads, build, &error),
+                         0);
         for (uint32_t width = 251; width <= 256; width += 5) {
             struct image one = draw(c, &c->plain, width, 131);
             struct image other = draw(c, &many, width, 131);
@@ -352,10 +353,10 @@ static void test_refuses_what_is_too_large(void **context)
     struct image image;
     struct error_text error;
     look(c, 301, 64);
-    assert_int_equal(soft_open(&none, &c->scenery, 0, 64, 1, &error), -1);
-    assert_int_equal(soft_open(&none, &c->scenery, 64, SOFT_SIDE_MAX + 1, 1, &error), -1);
+    assert_int_equal(soft_open(&none, &c->static_scene, 0, 64, 1, &error), -1);
+    assert_int_equal(soft_open(&none, &c->static_scene, 64, SOFT_SIDE_MAX + 1, 1, &error), -1);
     assert_int_equal(image_init(&image, 301, 64), 0);
-    assert_int_equal(c->plain.picture(c->plain.self, &c->list, &c->moment, &image, &error), -1);
+    assert_int_equal(c->plain.picture(c->plain.self, &c->list, &c->frame_view, &image, &error), -1);
     image_free(&image);
 }
 

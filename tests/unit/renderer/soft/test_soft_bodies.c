@@ -35,7 +35,7 @@ static struct world world = {.models = models,
                              .model_triangles = triangles,
                              .counts = {.models = 1}};
 static struct mesh_skeleton skeletons[1];
-static struct static_scene scenery = {.world = &world, .skeletons = skeletons};
+static struct static_scene static_scene = {.world = &world, .skeletons = skeletons};
 static struct soft_bodies *bodies;
 static struct soft_detail detail;
 static struct soft_plants *plants;
@@ -48,7 +48,7 @@ static int open_bodies(void **context)
         return -1;
     if (mesh_skeleton(&skeletons[0], &world, 0) != 0)
         return -1;
-    bodies = soft_bodies_open(&scenery, &detail, &error);
+    bodies = soft_bodies_open(&static_scene, &detail, &error);
     plants = soft_plants_open(&error);
     return bodies != NULL && plants != NULL ? 0 : -1;
 }
@@ -209,8 +209,10 @@ static void test_dent(void **context)
     float whole = 1.0f / soft_stage_depth(&stage, STAGE_WIDTH / 2, STAGE_HEIGHT / 2);
     body->dents[1] = 1.0f;
     /* Into its near side, which is its back. */
-    stage.list.dents[0] = (struct draw_list_dent){
-        .point = {-1.0f, 0.0f, 0.0f}, .depth_m = 0.6f, .way = {1.0f, 0.0f, 0.0f}, .reach_m = 1.0f};
+    stage.list.dents[0] = (struct draw_list_dent){.point = {-1.0f, 0.0f, 0.0f},
+                                                  .depth_m = 0.6f,
+                                                  .direction = {1.0f, 0.0f, 0.0f},
+                                                  .reach_m = 1.0f};
     stage.list.dent_count = 1;
     soft_stage_clear(&stage, STAGE_GROUND, 1000.0f);
     draw(&stage);
@@ -289,14 +291,14 @@ static void random_bodies(struct soft_stage *stage, uint64_t seed)
                 stage->list.dents[stage->list.dent_count++] =
                     (struct draw_list_dent){.point = {draw_number(&seed, -1.0, 1.0), 1.0f, 0.0f},
                                             .depth_m = 0.3f,
-                                            .way = {0.0f, -1.0f, 0.0f},
+                                            .direction = {0.0f, -1.0f, 0.0f},
                                             .reach_m = 0.9f};
         }
         if (i % 5 == 0)
-            memcpy(body->falls, (float[3]){0.5f, 0.2f, 0.9f}, sizeof body->falls);
+            memcpy(body->collapse, (float[3]){0.5f, 0.2f, 0.9f}, sizeof body->collapse);
         if (i % 7 == 0)
             memcpy(body->broken, (float[3]){0.0f, 0.2f, 0.8f}, sizeof body->broken);
-        body->grain = (float)i;
+        body->noise_seed = (float)i;
     }
 }
 

@@ -22,13 +22,13 @@ static struct soft_bodies *bodies; /* none: shadows are drawn of both */
 static int open_plants(void **context)
 {
     static struct world world;
-    static struct static_scene scenery = {.world = &world};
+    static struct static_scene static_scene = {.world = &world};
     struct error_text error;
     (void)context;
     if (soft_detail_make(&detail) != 0)
         return -1;
     plants = soft_plants_open(&error);
-    bodies = soft_bodies_open(&scenery, &detail, &error);
+    bodies = soft_bodies_open(&static_scene, &detail, &error);
     return plants != NULL && bodies != NULL ? 0 : -1;
 }
 

@@ -57,7 +57,7 @@ struct stage {
     uint8_t *cover;
     struct crater craters[4];
     struct crater_index index;
-    struct frame_view moment;
+    struct frame_view frame_view;
 };
 
 static uint64_t seed;
@@ -93,7 +93,7 @@ static int open_stage(void **context)
     memset(s->columns, 0, entities_bytes(CAPACITY));
     entities_bind(&s->entities, CAPACITY, s->columns);
     assert_int_equal(crater_index_init(&s->index, s->craters), 0);
-    s->moment = (struct frame_view){
+    s->frame_view = (struct frame_view){
         .world = &s->world, .head = &s->head, .entities = &s->entities, .craters = &s->index};
     *context = s;
     return 0;
@@ -131,9 +131,9 @@ static void put(struct stage *s, uint16_t kind, double x, double z)
     e->roll[0] = draw(-0.6, 0.6);
 }
 
-static struct view_camera_wish wish_of(enum view_mode view)
+static struct view_camera_options wish_of(enum view_mode view)
 {
-    return (struct view_camera_wish){
+    return (struct view_camera_options){
         .view = view, .field_rad = CAMERA_FIELD_OF_VIEW_RAD, .width = 1280, .height = 720};
 }
 
@@ -169,12 +169,12 @@ static void test_cameras_are_above_the_ground_and_see_their_vehicle(void **conte
         enum view_mode view = (enum view_mode)(i % VIEW_COUNT);
         struct view_camera aim = {.id = 0};
         struct camera camera;
-        struct view_camera_wish wish = wish_of(view);
+        struct view_camera_options wish = wish_of(view);
         if (view == VIEW_MAP)
             continue;
         s->head.tick = i * 1000;
         put(s, i % 7 == 0 ? PLANE : TANK, draw(0.0, WORLD_SIDE_M), draw(0.0, WORLD_SIDE_M));
-        view_camera_camera(&aim, &wish, &s->moment, 0, &camera);
+        view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
         check_axes(&camera);
         double least = view == VIEW_INSIDE ? 0.5
                        : view == VIEW_FREE ? VIEW_CAMERA_EYE_M
@@ -192,12 +192,12 @@ static void test_without_a_vehicle_they_look_over_the_middle(void **context)
     struct stage *s = *context;
     for (int view = 0; view < VIEW_COUNT; view++) {
         struct view_camera aim = {.id = 0};
-        struct view_camera_wish wish = wish_of((enum view_mode)view);
+        struct view_camera_options wish = wish_of((enum view_mode)view);
         struct camera camera;
         double middle = 0.5 * WORLD_SIDE_M;
         if (view == VIEW_MAP)
             continue;
-        view_camera_camera(&aim, &wish, &s->moment, SLOT_NONE, &camera);
+        view_camera_camera(&aim, &wish, &s->frame_view, SLOT_NONE, &camera);
         check_axes(&camera);
         assert_true(
             in_picture(&camera, (struct vec3){middle, ground_at(s, middle, middle), middle}));
@@ -208,10 +208,10 @@ static void test_overhead_has_north_above_and_east_right(void **context)
 {
     struct stage *s = *context;
     struct view_camera aim = {.id = 0};
-    struct view_camera_wish wish = wish_of(VIEW_OVERHEAD);
+    struct view_camera_options wish = wish_of(VIEW_OVERHEAD);
     struct camera camera;
     put(s, TANK, 20000.0, 30000.0);
-    view_camera_camera(&aim, &wish, &s->moment, 0, &camera);
+    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
     assert_true(camera.forward.y == -1.0);
     assert_true(camera.up.z == -1.0 && camera.right.x == 1.0);
     assert_true(camera.eye.x == 20000.0 && camera.eye.z == 30000.0);
@@ -221,11 +221,11 @@ static void test_field_of_view_is_as_wished(void **context)
 {
     struct stage *s = *context;
     struct view_camera aim = {.id = 0};
-    struct view_camera_wish wish = wish_of(VIEW_CHASE);
+    struct view_camera_options wish = wish_of(VIEW_CHASE);
     struct camera camera;
     wish.field_rad = HALF_PI;
     put(s, TANK, 20000.0, 30000.0);
-    view_camera_camera(&aim, &wish, &s->moment, 0, &camera);
+    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
     assert_true(fabs(camera.tan_x - 1.0) < 1e-12);
     assert_true(fabs(camera.tan_y - 9.0 / 16.0) < 1e-12);
 }
@@ -241,9 +241,9 @@ static void test_the_crew_looks_out_above_its_polygons(void **context)
     assert_true(eye.x > -1.0 && eye.x < 3.0 && fabs(eye.z) < 0.5);
     put(s, TANK, 20000.0, 30000.0);
     struct view_camera aim = {.id = 0};
-    struct view_camera_wish wish = wish_of(VIEW_INSIDE);
+    struct view_camera_options wish = wish_of(VIEW_INSIDE);
     struct camera camera;
-    view_camera_camera(&aim, &wish, &s->moment, 0, &camera);
+    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
     const struct entities *e = &s->entities;
     struct body_axes pose = body_axes_of(e->heading[0], e->pitch[0], e->roll[0]);
     assert_true(vec3_dot(camera.right, pose.right) > 1.0 - 1e-9); /* it rolls with its vehicle */
@@ -278,19 +278,19 @@ static void test_chase_eases_into_a_turn(void **context)
 {
     struct stage *s = *context;
     struct view_camera aim = {.id = 0};
-    struct view_camera_wish wish = wish_of(VIEW_CHASE);
+    struct view_camera_options wish = wish_of(VIEW_CHASE);
     struct camera camera, before;
     put(s, TANK, 20000.0, 30000.0);
     for (int i = 0; i < 120; i++) {
         go(s, 0.0, 10.0);
-        view_camera_camera(&aim, &wish, &s->moment, 0, &camera);
+        view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
     }
     double most = 0.0, whole = 0.0;
     s->entities.heading[0] = maths_wrap_turn(s->entities.heading[0] + 1.5);
     for (int i = 0; i < 240; i++) {
         before = camera;
         go(s, 0.0, 0.0);
-        view_camera_camera(&aim, &wish, &s->moment, 0, &camera);
+        view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
         double turned = angle_between(before.forward, camera.forward);
         most = maths_max(most, turned);
         whole += turned;
@@ -298,7 +298,7 @@ static void test_chase_eases_into_a_turn(void **context)
     assert_true(most < 0.06); /* 1.5 at once without a memory */
     assert_true(whole > 1.4);
     struct view_camera cold = {.id = 0};
-    view_camera_camera(&cold, &wish, &s->moment, 0, &before);
+    view_camera_camera(&cold, &wish, &s->frame_view, 0, &before);
     assert_true(angle_between(before.forward, camera.forward) < 0.02);
     assert_true(vec3_length(vec3_sub(before.eye, camera.eye)) < 0.8);
 }
@@ -308,15 +308,15 @@ static void test_easing_does_not_depend_on_the_rate(void **context)
 {
     struct stage *s = *context;
     struct view_camera aims[2] = {{.id = 0}, {.id = 0}};
-    struct view_camera_wish wish = wish_of(VIEW_CHASE);
+    struct view_camera_options wish = wish_of(VIEW_CHASE);
     struct camera often, seldom;
     put(s, TANK, 20000.0, 30000.0);
     for (int i = 0; i < 300; i++) {
         go(s, i % 100 < 50 ? 0.8 : -0.8, 10.0);
-        view_camera_camera(&aims[0], &wish, &s->moment, 0, &often);
+        view_camera_camera(&aims[0], &wish, &s->frame_view, 0, &often);
         if (i % 6 != 5)
             continue;
-        view_camera_camera(&aims[1], &wish, &s->moment, 0, &seldom);
+        view_camera_camera(&aims[1], &wish, &s->frame_view, 0, &seldom);
         assert_true(vec3_length(vec3_sub(often.eye, seldom.eye)) < 2.5);
     }
 }
@@ -327,18 +327,18 @@ static void test_what_does_not_go_on_begins_anew(void **context)
     struct stage *s = *context;
     for (int what = 0; what < 3; what++) {
         struct view_camera aim = {.id = 0}, cold = {.id = 0};
-        struct view_camera_wish wish = wish_of(VIEW_CHASE);
+        struct view_camera_options wish = wish_of(VIEW_CHASE);
         struct camera warm, fresh;
         put(s, TANK, 20000.0, 30000.0);
         for (int i = 0; i < 30; i++) {
             go(s, 0.5, 10.0);
-            view_camera_camera(&aim, &wish, &s->moment, 0, &warm);
+            view_camera_camera(&aim, &wish, &s->frame_view, 0, &warm);
         }
         s->head.tick += what == 0 ? 600 : 1;
         s->entities.x[0] += what == 1 ? 400.0 : 0.0;
         s->entities.id[0] += what == 2 ? 1 : 0;
-        view_camera_camera(&aim, &wish, &s->moment, 0, &warm);
-        view_camera_camera(&cold, &wish, &s->moment, 0, &fresh);
+        view_camera_camera(&aim, &wish, &s->frame_view, 0, &warm);
+        view_camera_camera(&cold, &wish, &s->frame_view, 0, &fresh);
         assert_memory_equal(&warm, &fresh, sizeof warm);
         assert_memory_equal(&aim, &cold, sizeof aim);
     }
@@ -348,14 +348,14 @@ static void test_orbit_goes_around_in_its_time(void **context)
 {
     struct stage *s = *context;
     struct view_camera aim = {.id = 0};
-    struct view_camera_wish wish = wish_of(VIEW_ORBIT);
+    struct view_camera_options wish = wish_of(VIEW_ORBIT);
     struct camera camera;
     put(s, TANK, 20000.0, 30000.0);
     s->head.tick = 0;
-    view_camera_camera(&aim, &wish, &s->moment, 0, &camera);
+    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
     struct vec3 first = vec3_sub(camera.eye, entities_position(&s->entities, 0));
     s->head.tick = (uint64_t)(60.0 * VIEW_CAMERA_ORBIT_S / 2.0 + 0.5);
-    view_camera_camera(&aim, &wish, &s->moment, 0, &camera);
+    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
     struct vec3 half = vec3_sub(camera.eye, entities_position(&s->entities, 0));
     assert_true(fabs(first.x + half.x) < 1e-6 && fabs(first.z + half.z) < 1e-6);
 }
@@ -364,13 +364,13 @@ static void test_free_camera_stays(void **context)
 {
     struct stage *s = *context;
     struct view_camera aim = {.id = 0};
-    struct view_camera_wish wish = wish_of(VIEW_FREE);
+    struct view_camera_options wish = wish_of(VIEW_FREE);
     struct camera camera, later;
     put(s, TANK, 20000.0, 30000.0);
-    view_camera_camera(&aim, &wish, &s->moment, 0, &camera);
+    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
     for (int i = 0; i < 100; i++)
         go(s, 0.1, 20.0);
-    view_camera_camera(&aim, &wish, &s->moment, 0, &later);
+    view_camera_camera(&aim, &wish, &s->frame_view, 0, &later);
     assert_memory_equal(&camera, &later, sizeof camera);
 }
 
@@ -380,10 +380,10 @@ static void test_free_camera_is_where_it_is_put(void **context)
     static const double pitches[] = {-HALF_PI, -0.1, 0.7, HALF_PI};
     for (size_t i = 0; i < sizeof pitches / sizeof pitches[0]; i++) {
         struct view_camera aim = {.id = 0};
-        struct view_camera_wish wish = wish_of(VIEW_FREE);
+        struct view_camera_options wish = wish_of(VIEW_FREE);
         struct camera camera;
-        wish.stand = (struct view_camera_stand){true, 1000.0, 2000.0, 30.0, HALF_PI, pitches[i]};
-        view_camera_camera(&aim, &wish, &s->moment, SLOT_NONE, &camera);
+        wish.pose = (struct view_camera_pose){true, 1000.0, 2000.0, 30.0, HALF_PI, pitches[i]};
+        view_camera_camera(&aim, &wish, &s->frame_view, SLOT_NONE, &camera);
         check_axes(&camera);
         assert_true(camera.eye.x == 1000.0 && camera.eye.z == 2000.0);
         assert_true(fabs(camera.eye.y - ground_at(s, 1000.0, 2000.0) - 30.0) < 1e-9);

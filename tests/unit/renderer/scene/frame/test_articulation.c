@@ -30,8 +30,8 @@ struct stage {
     struct world world;
     struct state_head head;
     struct entities e;
-    struct frame_view moment;
-    struct articulation gear;
+    struct frame_view frame_view;
+    struct articulation articulation;
     void *columns;
 };
 
@@ -54,9 +54,9 @@ static int open_stage(void **context)
         s->e.target_slot[i] = SLOT_NONE;
     }
     s->e.x[1] = 1000.0;
-    s->moment = (struct frame_view){.world = &s->world, .head = &s->head, .entities = &s->e};
-    assert_int_equal(articulation_init(&s->gear, CAPACITY), 0);
-    articulation_note(&s->gear, &s->moment);
+    s->frame_view = (struct frame_view){.world = &s->world, .head = &s->head, .entities = &s->e};
+    assert_int_equal(articulation_init(&s->articulation, CAPACITY), 0);
+    articulation_note(&s->articulation, &s->frame_view);
     *context = s;
     return 0;
 }
@@ -64,22 +64,22 @@ static int open_stage(void **context)
 static int close_stage(void **context)
 {
     struct stage *s = *context;
-    articulation_free(&s->gear);
+    articulation_free(&s->articulation);
     free(s->columns);
     free(s);
     return 0;
 }
 
 /* Goes on by a step: so far ahead, so much to the right. */
-static struct articulation_state drive(struct stage *s, double way_m, double turn_rad)
+static struct articulation_state drive(struct stage *s, double travel_m, double turn_rad)
 {
     const struct entities *e = &s->e;
     e->heading[0] += turn_rad;
-    e->x[0] += way_m * maths_sin(e->heading[0]);
-    e->z[0] -= way_m * maths_cos(e->heading[0]);
+    e->x[0] += travel_m * maths_sin(e->heading[0]);
+    e->z[0] -= travel_m * maths_cos(e->heading[0]);
     s->head.tick++;
-    articulation_note(&s->gear, &s->moment);
-    return articulation_of(&s->gear, &s->moment, 0);
+    articulation_note(&s->articulation, &s->frame_view);
+    return articulation_of(&s->articulation, &s->frame_view, 0);
 }
 
 /* A wheel turns by way over radius: once around in its own circumference, without slip. */
@@ -87,17 +87,17 @@ static void test_way_is_what_was_driven(void **context)
 {
     struct stage *s = *context;
     double radius = 0.5, circumference = TWO_PI * radius;
-    struct articulation_state state = articulation_of(&s->gear, &s->moment, 0);
-    assert_true(state.way_m[0] == 0.0 && state.way_m[1] == 0.0);
+    struct articulation_state state = articulation_of(&s->articulation, &s->frame_view, 0);
+    assert_true(state.travel_m[0] == 0.0 && state.travel_m[1] == 0.0);
     s->e.heading[0] = 2.1;
-    articulation_note(&s->gear, &s->moment);
-    double from = articulation_of(&s->gear, &s->moment, 0).way_m[0];
+    articulation_note(&s->articulation, &s->frame_view);
+    double from = articulation_of(&s->articulation, &s->frame_view, 0).travel_m[0];
     for (int i = 0; i < 20; i++)
         state = drive(s, circumference / 20.0, 0.0);
-    assert_true(fabs((state.way_m[0] - from) / radius - TWO_PI) < 1e-9);
+    assert_true(fabs((state.travel_m[0] - from) / radius - TWO_PI) < 1e-9);
     for (int i = 0; i < 20; i++)
         state = drive(s, -circumference / 20.0, 0.0);
-    assert_true(fabs(state.way_m[0] - from) < 1e-9);
+    assert_true(fabs(state.travel_m[0] - from) < 1e-9);
 }
 
 static void test_what_stands_does_not_roll(void **context)
@@ -106,11 +106,11 @@ static void test_what_stands_does_not_roll(void **context)
     struct articulation_state before = drive(s, 3.0, 0.0), after = before;
     for (int i = 0; i < 30; i++)
         after = drive(s, 0.0, 0.0);
-    assert_true(after.way_m[0] == before.way_m[0] && after.way_m[1] == before.way_m[1]);
+    assert_true(after.travel_m[0] == before.travel_m[0] && after.travel_m[1] == before.travel_m[1]);
     /* Pushed aside it does not roll either. */
     s->e.x[0] += 2.0; /* it heads north */
     after = drive(s, 0.0, 0.0);
-    assert_true(fabs(after.way_m[0] - before.way_m[0]) < 1e-9);
+    assert_true(fabs(after.travel_m[0] - before.travel_m[0]) < 1e-9);
 }
 
 /* To the right the left side goes further; on the spot the sides go against each other. */
@@ -118,13 +118,14 @@ static void test_outer_side_goes_further(void **context)
 {
     struct stage *s = *context;
     struct articulation_state before = drive(s, 5.0, 0.0), after = drive(s, 1.0, 0.1);
-    double left = after.way_m[0] - before.way_m[0], right = after.way_m[1] - before.way_m[1];
+    double left = after.travel_m[0] - before.travel_m[0],
+           right = after.travel_m[1] - before.travel_m[1];
     assert_true(left > right + 0.1);
     assert_true(after.steer_rad > 0.0f);
     before = after;
     after = drive(s, 0.0, 0.2);
-    left = after.way_m[0] - before.way_m[0];
-    right = after.way_m[1] - before.way_m[1];
+    left = after.travel_m[0] - before.travel_m[0];
+    right = after.travel_m[1] - before.travel_m[1];
     assert_true(left > 0.1 && fabs(left + right) < 1e-9);
 }
 
@@ -136,9 +137,9 @@ static void test_way_wraps_without_a_jump_of_the_rest(void **context)
     for (int i = 0; i < 500; i++) {
         state = drive(s, 10.0, 0.0);
         sum += 10.0;
-        assert_true(state.way_m[0] >= 0.0 && state.way_m[0] < ARTICULATION_WRAP_M);
+        assert_true(state.travel_m[0] >= 0.0 && state.travel_m[0] < ARTICULATION_WRAP_M);
     }
-    assert_true(fabs(state.way_m[0] - fmod(sum, ARTICULATION_WRAP_M)) < 1e-6);
+    assert_true(fabs(state.travel_m[0] - fmod(sum, ARTICULATION_WRAP_M)) < 1e-6);
 }
 
 /* They are where the world has them, seen before or not. */
@@ -149,9 +150,9 @@ static void test_turret_and_gun_are_the_worlds(void **context)
         s->e.turret[0] = -1.5f + 0.15f * (float)i;
         s->e.gun[0] = 0.01f * (float)i;
         struct articulation_state noted = drive(s, 0.5, 0.0),
-                                  sight = articulation_of(NULL, &s->moment, 0);
+                                  frustum = articulation_of(NULL, &s->frame_view, 0);
         assert_true(noted.turret_rad == s->e.turret[0] && noted.gun_rad == s->e.gun[0]);
-        assert_true(sight.turret_rad == s->e.turret[0] && sight.gun_rad == s->e.gun[0]);
+        assert_true(frustum.turret_rad == s->e.turret[0] && frustum.gun_rad == s->e.gun[0]);
     }
 }
 
@@ -169,25 +170,25 @@ static void test_wreck_stands_still(void **context)
         assert_true(after.gun_rad <= gun && after.gun_rad >= gun - 0.36f * (float)DT_S);
     }
     assert_true(after.turret_rad == before.turret_rad);
-    assert_true(after.way_m[0] == before.way_m[0]);
+    assert_true(after.travel_m[0] == before.travel_m[0]);
     assert_true(after.gun_rad < -0.1f);
-    assert_true(articulation_of(NULL, &s->moment, 0).gun_rad < -0.1f);
+    assert_true(articulation_of(NULL, &s->frame_view, 0).gun_rad < -0.1f);
 }
 
 /* Another vehicle in the slot, time gone back, or long unseen: as on first sight. */
 static void test_begins_anew(void **context)
 {
     struct stage *s = *context;
-    assert_true(drive(s, 4.0, 0.0).way_m[0] > 3.9);
+    assert_true(drive(s, 4.0, 0.0).travel_m[0] > 3.9);
     s->head.tick += (uint64_t)(3.0 / DT_S);
-    assert_true(drive(s, 4.0, 0.0).way_m[0] == 0.0);
-    assert_true(drive(s, 4.0, 0.0).way_m[0] > 3.9);
+    assert_true(drive(s, 4.0, 0.0).travel_m[0] == 0.0);
+    assert_true(drive(s, 4.0, 0.0).travel_m[0] > 3.9);
     s->head.tick -= 10;
-    assert_true(drive(s, 4.0, 0.0).way_m[0] == 0.0);
-    assert_true(drive(s, 4.0, 0.0).way_m[0] > 3.9);
+    assert_true(drive(s, 4.0, 0.0).travel_m[0] == 0.0);
+    assert_true(drive(s, 4.0, 0.0).travel_m[0] > 3.9);
     s->e.id[0] = 7;
-    assert_true(articulation_of(&s->gear, &s->moment, 0).way_m[0] == 0.0);
-    assert_true(drive(s, 4.0, 0.0).way_m[0] == 0.0);
+    assert_true(articulation_of(&s->articulation, &s->frame_view, 0).travel_m[0] == 0.0);
+    assert_true(drive(s, 4.0, 0.0).travel_m[0] == 0.0);
 }
 
 #define TEST(f) cmocka_unit_test_setup_teardown(f, open_stage, close_stage)

@@ -43,9 +43,9 @@ struct stage {
     struct dent dent[4];
     struct dent_index dents;
     struct effects effects;
-    struct static_scene scenery;
+    struct static_scene static_scene;
     struct draw_list list;
-    struct frame_view moment;
+    struct frame_view frame_view;
 };
 
 static const struct kind kinds[KINDS] = {
@@ -123,14 +123,14 @@ static int open_stage(void **context)
                                       .posts_side = POSTS};
     assert_int_equal(crater_index_init(&s->index, s->craters), 0);
     assert_int_equal(dent_index_init(&s->dents, s->dent, 4), 0);
-    assert_int_equal(static_scene_init(&s->scenery, &s->world), 0);
+    assert_int_equal(static_scene_init(&s->static_scene, &s->world), 0);
     assert_int_equal(scene_init(&s->list), 0);
-    s->moment = (struct frame_view){.world = &s->world,
-                                    .head = &s->head,
-                                    .entities = &s->entities,
-                                    .fixed_damage = s->fixed_damage,
-                                    .craters = &s->index,
-                                    .dents = &s->dents};
+    s->frame_view = (struct frame_view){.world = &s->world,
+                                        .head = &s->head,
+                                        .entities = &s->entities,
+                                        .fixed_damage = s->fixed_damage,
+                                        .craters = &s->index,
+                                        .dents = &s->dents};
     s->head.frame = s->head.tick = 6000;
     *context = s;
     return 0;
@@ -140,7 +140,7 @@ static int close_stage(void **context)
 {
     struct stage *s = *context;
     scene_free(&s->list);
-    static_scene_free(&s->scenery);
+    static_scene_free(&s->static_scene);
     crater_index_free(&s->index);
     dent_index_free(&s->dents);
     free(s->columns);
@@ -172,7 +172,7 @@ static void look(struct stage *s, double away)
     struct vec3 middle = {MIDDLE, (double)GROUND + 3.0, MIDDLE};
     camera_look(&camera, vec3_add(middle, (struct vec3){0.0, 4.0 + 0.1 * away, away}), middle, 1280,
                 720);
-    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
 }
 
 /* A step of simulated time later. */
@@ -185,7 +185,7 @@ static void step(struct stage *s)
         s->entities.y[i] += s->entities.vy[i] / HZ;
         s->entities.z[i] += s->entities.vz[i] / HZ;
     }
-    effects_take(&s->effects, &s->moment, NULL, 0);
+    effects_take(&s->effects, &s->frame_view, NULL, 0);
 }
 
 /* How much puffs show: opacity times the size on the picture. */
@@ -234,7 +234,7 @@ static void test_each_event_shows_for_its_time(void **context)
         uint64_t began = s->head.tick;
         look(s, 40.0);
         assert_int_equal(s->list.particle_count, 0);
-        effects_take(&s->effects, &s->moment, &event, 1);
+        effects_take(&s->effects, &s->frame_view, &event, 1);
         assert_int_equal(s->effects.count, 1);
         assert_int_equal(s->effects.effect[0].type, type);
         double life = effects_life_s((enum effect_type)type);
@@ -260,7 +260,7 @@ static void test_a_shot_out_of_the_sky_has_no_muzzle(void **context)
     struct stage *s = *context;
     struct event event = happening(s, EFFECT_FLASH);
     event.fire.shooter.id = 0;
-    effects_take(&s->effects, &s->moment, &event, 1);
+    effects_take(&s->effects, &s->frame_view, &event, 1);
     assert_int_equal(s->effects.count, 0);
 }
 
@@ -271,15 +271,15 @@ static void test_a_flash_goes_the_way_of_its_round(void **context)
     s->entities.vz[round] = -1500.0;
     struct event event = happening(s, EFFECT_FLASH);
     event.fire.munition.id = s->entities.id[round];
-    effects_take(&s->effects, &s->moment, &event, 1);
-    assert_true(s->effects.effect[0].way[2] < -0.999f);
+    effects_take(&s->effects, &s->frame_view, &event, 1);
+    assert_true(s->effects.effect[0].direction[2] < -0.999f);
     /* When it is gone: away from who fired it. */
     s->entities.state[round] = ENTITY_FREE;
     uint32_t tank = put(s, TANK, MIDDLE - 5.0, 1.0 - 0.7 * 2.4, MIDDLE);
     event.fire.shooter.id = s->entities.id[tank];
     event.fire.munition.id = 900;
-    effects_take(&s->effects, &s->moment, &event, 1);
-    assert_true(s->effects.effect[1].way[0] > 0.999f);
+    effects_take(&s->effects, &s->frame_view, &event, 1);
+    assert_true(s->effects.effect[1].direction[0] > 0.999f);
 }
 
 /* Soil and water are thrown up, and come down again. */
@@ -289,7 +289,7 @@ static void test_what_is_thrown_up_falls_back(void **context)
     static const enum effect_type thrown[] = {EFFECT_BURST, EFFECT_SPLASH};
     for (uint32_t i = 0; i < 2; i++) {
         struct event event = happening(s, thrown[i]);
-        effects_take(&s->effects, &s->moment, &event, 1);
+        effects_take(&s->effects, &s->frame_view, &event, 1);
         double most = 0.0, last = 0.0;
         uint64_t began = s->head.tick;
         for (uint32_t tick = 1; tick < 240; tick++) {
@@ -314,13 +314,13 @@ static void test_what_is_over_first_gives_way(void **context)
 {
     struct stage *s = *context;
     struct event lasting = happening(s, EFFECT_BURST), brief = happening(s, EFFECT_FLASH);
-    effects_take(&s->effects, &s->moment, &lasting, 1);
+    effects_take(&s->effects, &s->frame_view, &lasting, 1);
     for (uint32_t i = 0; i < 3 * EFFECTS_MAX; i++)
-        effects_take(&s->effects, &s->moment, &brief, 1);
+        effects_take(&s->effects, &s->frame_view, &brief, 1);
     assert_int_equal(s->effects.count, EFFECTS_MAX);
     assert_int_equal(s->effects.effect[0].type, EFFECT_BURST);
     for (uint32_t i = 0; i < 3 * EFFECTS_MAX; i++)
-        effects_take(&s->effects, &s->moment, &lasting, 1);
+        effects_take(&s->effects, &s->frame_view, &lasting, 1);
     s->head.tick += 5;
     look(s, 40.0); /* more than the list of puffs has room for */
     assert_int_equal(s->list.particle_count, DRAW_LIST_PARTICLES_MAX);
@@ -335,7 +335,7 @@ static uint32_t put_wreck(struct stage *s, double x, double z)
     s->entities.state[slot] = ENTITY_WRECK;
     s->entities.damage[slot] = DAMAGE_DESTROYED;
     s->entities.changed_tick[slot] = (uint32_t)s->head.tick;
-    effects_take(&s->effects, &s->moment, NULL, 0);
+    effects_take(&s->effects, &s->frame_view, NULL, 0);
     return slot;
 }
 
@@ -500,7 +500,7 @@ static void test_a_trail_is_where_the_missile_flew(void **context)
         s->entities.vz[slot] = -radius * turn * maths_cos(angle);
         s->head.tick++;
         s->head.frame++;
-        effects_take(&s->effects, &s->moment, NULL, 0);
+        effects_take(&s->effects, &s->frame_view, NULL, 0);
     }
     for (uint32_t gone = 0; gone < 2; gone++) {
         if (gone) {
@@ -512,7 +512,7 @@ static void test_a_trail_is_where_the_missile_flew(void **context)
             end.detonation.point[1] = s->entities.y[slot];
             end.detonation.point[2] = s->entities.z[slot];
             s->entities.state[slot] = ENTITY_FREE;
-            effects_take(&s->effects, &s->moment, &end, 1);
+            effects_take(&s->effects, &s->frame_view, &end, 1);
         }
         look(s, 300.0);
         uint32_t smoke = 0;
@@ -552,10 +552,10 @@ static void test_the_curve_is_smooth_and_ends_at_birth(void **context)
                              (float)(radius * turn * maths_sin(t * turn))},
                 .time_s = t};
             now = point;
-            spoor.point[spoor.count++ % SPOOR_POINTS] = point;
+            spoor.point[spoor.count++ % MOTION_TRAIL_POINTS] = point;
         }
         for (uint32_t i = 0; i < 50; i++) {
-            double t = now.time_s - fixture_uniform(&random, 0.0, gap * (SPOOR_POINTS - 1));
+            double t = now.time_s - fixture_uniform(&random, 0.0, gap * (MOTION_TRAIL_POINTS - 1));
             double radius = speed / maths_max(fabs(turn), 1e-3);
             struct motion_trail_point is = motion_trail_at(&spoor, &now, t);
             double x = radius * maths_sin(t * turn), z = radius * (1.0 - maths_cos(t * turn));
@@ -574,7 +574,7 @@ static void furnish(struct stage *s)
     for (uint32_t i = 0; i < 5; i++) {
         struct event event = happening(s, types[i]);
         event.index = i;
-        effects_take(&s->effects, &s->moment, &event, 1);
+        effects_take(&s->effects, &s->frame_view, &event, 1);
     }
     uint32_t tank = put(s, TANK, MIDDLE - 60.0, 0.0, MIDDLE - 10.0);
     s->entities.vx[tank] = 12.0;
@@ -600,7 +600,7 @@ static void test_the_same_moment_gives_the_same_lists(void **context)
     assert_int_equal(scene_init(&s->list), 0);
     look(s, 3.0);
     s->head.frame += 1000;
-    effects_take(&s->effects, &s->moment, NULL, 0);
+    effects_take(&s->effects, &s->frame_view, NULL, 0);
     look(s, 45.0);
     assert_int_equal(s->list.particle_count, first.particle_count);
     assert_int_equal(s->list.body_count, first.body_count);
@@ -676,7 +676,7 @@ static void test_no_puff_around_the_eye(void **context)
 {
     struct stage *s = *context;
     struct event event = happening(s, EFFECT_EXPLOSION);
-    effects_take(&s->effects, &s->moment, &event, 1);
+    effects_take(&s->effects, &s->frame_view, &event, 1);
     s->head.tick += 60;
     for (double away = 0.3; away < 40.0; away *= 1.2) {
         look(s, away);

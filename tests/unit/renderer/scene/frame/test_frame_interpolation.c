@@ -20,14 +20,14 @@ struct frame_of {
     struct state_head head;
     struct entities entities;
     void *columns;
-    struct frame_view moment;
+    struct frame_view frame_view;
 };
 
 struct stage {
     struct params params;
     struct world world;
     struct frame_of a, b;
-    struct frame_interpolation blend;
+    struct frame_interpolation interpolation;
 };
 
 static uint64_t seed;
@@ -45,7 +45,7 @@ static void open_frame(struct frame_of *frame, const struct world *world, uint64
     memset(frame->columns, 0, entities_bytes(CAPACITY));
     entities_bind(&frame->entities, CAPACITY, frame->columns);
     frame->head = (struct state_head){.frame = number, .tick = number, .used = CAPACITY};
-    frame->moment =
+    frame->frame_view =
         (struct frame_view){.world = world, .head = &frame->head, .entities = &frame->entities};
 }
 
@@ -59,7 +59,7 @@ static int open_stage(void **context)
     s->world.params = &s->params;
     open_frame(&s->a, &s->world, 100);
     open_frame(&s->b, &s->world, 101);
-    assert_int_equal(frame_interpolation_init(&s->blend, CAPACITY), 0);
+    assert_int_equal(frame_interpolation_init(&s->interpolation, CAPACITY), 0);
     for (uint32_t i = 0; i < CAPACITY; i++) {
         const struct entities *e = &s->a.entities;
         e->id[i] = i + 1;
@@ -71,8 +71,8 @@ static int open_stage(void **context)
         e->roll[i] = draw(-PI, PI);
         entities_copy(&s->b.entities, e, i, 1);
         e = &s->b.entities;
-        struct vec3 way = vec3_scale(entities_velocity(e, i), DT_S);
-        entities_set_position(e, i, vec3_add(entities_position(e, i), way));
+        struct vec3 direction = vec3_scale(entities_velocity(e, i), DT_S);
+        entities_set_position(e, i, vec3_add(entities_position(e, i), direction));
         e->heading[i] = maths_wrap_turn(e->heading[i] + draw(-0.3, 0.3));
         e->pitch[i] += draw(-0.1, 0.1);
         e->roll[i] = maths_wrap_half(e->roll[i] + draw(-0.3, 0.3));
@@ -84,7 +84,7 @@ static int open_stage(void **context)
 static int close_stage(void **context)
 {
     struct stage *s = *context;
-    frame_interpolation_free(&s->blend);
+    frame_interpolation_free(&s->interpolation);
     free(s->a.columns);
     free(s->b.columns);
     free(s);
@@ -93,7 +93,8 @@ static int close_stage(void **context)
 
 static struct frame_view at(struct stage *s, double share)
 {
-    return frame_interpolation_between(&s->blend, &s->a.moment, &s->b.moment, share);
+    return frame_interpolation_between(&s->interpolation, &s->a.frame_view, &s->b.frame_view,
+                                       share);
 }
 
 static double turn(double from, double to)
@@ -108,9 +109,9 @@ static void test_ends_are_the_frames_themselves(void **context)
     struct stage *s = *context;
     static const double ends[][2] = {{0.0, 0}, {-0.5, 0}, {1.0, 1}, {1.5, 1}, {NAN, 1}};
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
-        struct frame_view moment = at(s, ends[i][0]);
+        struct frame_view frame_view = at(s, ends[i][0]);
         const struct frame_of *frame = ends[i][1] == 0.0 ? &s->a : &s->b;
-        assert_memory_equal(&moment, &frame->moment, sizeof moment);
+        assert_memory_equal(&frame_view, &frame->frame_view, sizeof frame_view);
     }
 }
 
@@ -120,15 +121,15 @@ static void test_bodies_go_evenly_and_turn_the_short_way(void **context)
     const struct entities *a = &s->a.entities, *b = &s->b.entities;
     for (int n = 0; n < 50; n++) {
         double share = draw(0.001, 0.999);
-        struct frame_view moment = at(s, share);
-        assert_true(fabs(frame_view_time_s(&moment) - (100.0 + share) * DT_S) < 1e-12);
+        struct frame_view frame_view = at(s, share);
+        assert_true(fabs(frame_view_time_s(&frame_view) - (100.0 + share) * DT_S) < 1e-12);
         for (uint32_t i = 0; i < CAPACITY; i++) {
-            const struct entities *e = moment.entities;
+            const struct entities *e = frame_view.entities;
             struct vec3 from = entities_position(a, i), to = entities_position(b, i);
             struct vec3 here = entities_position(e, i);
-            double way = vec3_length(vec3_sub(to, from));
-            assert_true(fabs(vec3_length(vec3_sub(here, from)) - share * way) < 1e-6);
-            assert_true(fabs(vec3_length(vec3_sub(to, here)) - (1.0 - share) * way) < 1e-6);
+            double direction = vec3_length(vec3_sub(to, from));
+            assert_true(fabs(vec3_length(vec3_sub(here, from)) - share * direction) < 1e-6);
+            assert_true(fabs(vec3_length(vec3_sub(to, here)) - (1.0 - share) * direction) < 1e-6);
             assert_true(e->heading[i] >= 0.0 && e->heading[i] < TWO_PI);
             const double angle[][3] = {{a->heading[i], b->heading[i], e->heading[i]},
                                        {a->pitch[i], b->pitch[i], e->pitch[i]},
@@ -158,25 +159,25 @@ static void test_nothing_else_changes_early(void **context)
     s->b.entities.damage[0] = 3;
     s->b.entities.rounds[1] = 7;
     s->b.entities.fuel_l[2] = 9.0;
-    struct frame_view moment = at(s, 0.9);
-    assert_ptr_equal(moment.head, s->a.moment.head);
+    struct frame_view frame_view = at(s, 0.9);
+    assert_ptr_equal(frame_view.head, s->a.frame_view.head);
 #define X(type, name)                                                                              \
     if (strcmp(#name, "x") != 0 && strcmp(#name, "y") != 0 && strcmp(#name, "z") != 0 &&           \
         strcmp(#name, "heading") != 0 && strcmp(#name, "pitch") != 0 &&                            \
         strcmp(#name, "roll") != 0)                                                                \
-        assert_memory_equal(moment.entities->name, s->a.entities.name, CAPACITY * sizeof(type));
+        assert_memory_equal(frame_view.entities->name, s->a.entities.name, CAPACITY * sizeof(type));
     ENTITY_COLUMNS(X)
 #undef X
 }
 
 static void check_stays(struct stage *s, uint32_t slot)
 {
-    struct frame_view moment = at(s, 0.7);
+    struct frame_view frame_view = at(s, 0.7);
     struct vec3 before = entities_position(&s->a.entities, slot);
-    struct vec3 between = entities_position(moment.entities, slot);
+    struct vec3 between = entities_position(frame_view.entities, slot);
     assert_memory_equal(&before, &between, sizeof before);
-    assert_int_equal(moment.entities->state[slot], s->a.entities.state[slot]);
-    assert_int_equal(moment.entities->id[slot], s->a.entities.id[slot]);
+    assert_int_equal(frame_view.entities->state[slot], s->a.entities.state[slot]);
+    assert_int_equal(frame_view.entities->id[slot], s->a.entities.id[slot]);
 }
 
 static void test_what_appears_goes_dies_or_jumps_is_not_smeared(void **context)
@@ -199,12 +200,11 @@ static void test_what_appears_goes_dies_or_jumps_is_not_smeared(void **context)
 static void test_frames_far_apart_or_backwards_are_the_later(void **context)
 {
     struct stage *s = *context;
-    static const uint64_t ticks[] = {100, 99, 0,
-                                     100 + (uint64_t)FRAME_INTERPOLATION_STEPS_MOST + 1};
+    static const uint64_t ticks[] = {100, 99, 0, 100 + (uint64_t)FRAME_INTERPOLATION_STEPS_MAX + 1};
     for (size_t i = 0; i < sizeof ticks / sizeof ticks[0]; i++) {
         s->b.head.tick = ticks[i];
-        struct frame_view moment = at(s, 0.5);
-        assert_memory_equal(&moment, &s->b.moment, sizeof moment);
+        struct frame_view frame_view = at(s, 0.5);
+        assert_memory_equal(&frame_view, &s->b.frame_view, sizeof frame_view);
     }
 }
 

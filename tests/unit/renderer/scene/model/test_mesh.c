@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SIDE_MOST  440u /* [sample] of a silhouette's square */
+#define SIDE_MAX   440u /* [sample] of a silhouette's square */
 #define SAMPLES    2.0  /* along a pixel's side */
 #define VIEWS      4u
 #define AREA_APART 0.15 /* of a silhouette's area between two levels ... */
@@ -61,7 +61,7 @@ static uint32_t model_of(const char *kind)
 struct silhouette {
     double right[3], up[3]; /* axes of the picture, a metre being so many samples */
     double middle[3];
-    uint8_t covered[SIDE_MOST * SIDE_MOST];
+    uint8_t covered[SIDE_MAX * SIDE_MAX];
 };
 
 static double cross2(const double a[2], const double b[2], double x, double y)
@@ -73,14 +73,14 @@ static void cover(struct silhouette *s, const double p[3][2])
 {
     double x0 = fmin(p[0][0], fmin(p[1][0], p[2][0])), x1 = fmax(p[0][0], fmax(p[1][0], p[2][0]));
     double y0 = fmin(p[0][1], fmin(p[1][1], p[2][1])), y1 = fmax(p[0][1], fmax(p[1][1], p[2][1]));
-    assert_true(x0 >= 0.0 && y0 >= 0.0 && x1 < SIDE_MOST && y1 < SIDE_MOST);
+    assert_true(x0 >= 0.0 && y0 >= 0.0 && x1 < SIDE_MAX && y1 < SIDE_MAX);
     for (uint32_t y = (uint32_t)y0; y <= (uint32_t)y1; y++)
         for (uint32_t x = (uint32_t)x0; x <= (uint32_t)x1; x++) {
             double at[2] = {x + 0.5, y + 0.5};
             double a = cross2(p[0], p[1], at[0], at[1]), b = cross2(p[1], p[2], at[0], at[1]),
                    c = cross2(p[2], p[0], at[0], at[1]);
             if ((a >= 0.0 && b >= 0.0 && c >= 0.0) || (a <= 0.0 && b <= 0.0 && c <= 0.0))
-                s->covered[y * SIDE_MOST + x] = 1;
+                s->covered[y * SIDE_MAX + x] = 1;
         }
 }
 
@@ -90,7 +90,7 @@ static void draw(struct silhouette *s, const struct mesh *mesh)
     for (uint32_t i = 0; i < mesh->count; i += 3) {
         double p[3][2];
         for (uint32_t c = 0; c < 3; c++) {
-            p[c][0] = p[c][1] = 0.5 * SIDE_MOST;
+            p[c][0] = p[c][1] = 0.5 * SIDE_MAX;
             for (uint32_t axis = 0; axis < 3; axis++) {
                 double off = (double)mesh->vertices[i + c].position[axis] - s->middle[axis];
                 p[c][0] += s->right[axis] * off;
@@ -128,7 +128,7 @@ static void compare(const struct mesh *fine, const struct mesh *coarse,
         look(&b, skeleton, view, SAMPLES * pixels / longest);
         draw(&a, fine);
         draw(&b, coarse);
-        for (uint32_t i = 0; i < SIDE_MOST * SIDE_MOST; i++) {
+        for (uint32_t i = 0; i < SIDE_MAX * SIDE_MAX; i++) {
             area_a += a.covered[i];
             area_b += b.covered[i];
             apart += a.covered[i] != b.covered[i];
@@ -168,9 +168,9 @@ static void test_levels_look_alike(void **state)
 /* What is far off is cheap: many of it may be in view. */
 static void test_coarse_levels_are_small(void **state)
 {
-    static const uint32_t most[MESH_DETAIL_COUNT] = {[MESH_MIDDLE] = MESH_MIDDLE_MOST,
-                                                     [MESH_COARSE] = MESH_COARSE_MOST,
-                                                     [MESH_COARSEST] = MESH_COARSEST_MOST};
+    static const uint32_t most[MESH_DETAIL_COUNT] = {[MESH_MIDDLE] = MESH_MIDDLE_MAX,
+                                                     [MESH_COARSE] = MESH_COARSE_MAX,
+                                                     [MESH_COARSEST] = MESH_COARSEST_MAX};
     (void)state;
     for (uint32_t m = 0; m < world.counts.models; m++)
         for (enum mesh_detail detail = MESH_MIDDLE; detail < MESH_DETAIL_COUNT; detail++) {

@@ -40,9 +40,9 @@ struct stage {
     struct dent dent[1];
     struct dent_index dents;
     struct effects effects;
-    struct static_scene scenery;
+    struct static_scene static_scene;
     struct draw_list list;
-    struct frame_view moment;
+    struct frame_view frame_view;
 };
 
 static const struct kind kinds[] = {{.name = "oak",
@@ -104,14 +104,14 @@ static int open_stage(void **context)
     plant(s);
     assert_int_equal(crater_index_init(&s->index, s->craters), 0);
     assert_int_equal(dent_index_init(&s->dents, s->dent, 1), 0);
-    assert_int_equal(static_scene_init(&s->scenery, &s->world), 0);
+    assert_int_equal(static_scene_init(&s->static_scene, &s->world), 0);
     assert_int_equal(scene_init(&s->list), 0);
-    s->moment = (struct frame_view){.world = &s->world,
-                                    .head = &s->head,
-                                    .entities = &s->entities,
-                                    .fixed_damage = s->fixed_damage,
-                                    .craters = &s->index,
-                                    .dents = &s->dents};
+    s->frame_view = (struct frame_view){.world = &s->world,
+                                        .head = &s->head,
+                                        .entities = &s->entities,
+                                        .fixed_damage = s->fixed_damage,
+                                        .craters = &s->index,
+                                        .dents = &s->dents};
     *context = s;
     return 0;
 }
@@ -120,7 +120,7 @@ static int close_stage(void **context)
 {
     struct stage *s = *context;
     scene_free(&s->list);
-    static_scene_free(&s->scenery);
+    static_scene_free(&s->static_scene);
     crater_index_free(&s->index);
     dent_index_free(&s->dents);
     free(s->columns);
@@ -135,7 +135,7 @@ static void look(struct stage *s, struct vec3 eye, struct vec3 target)
 {
     struct camera camera;
     camera_look(&camera, eye, target, 1280, 720);
-    scene_build(&s->list, &camera, &s->scenery, &s->moment, &s->effects);
+    scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
 }
 
 /* At the wood from so far south. */

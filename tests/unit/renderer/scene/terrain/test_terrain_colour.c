@@ -102,11 +102,11 @@ static void test_rows_of_grain_are_grain(void **context)
         double wavelength = fixture_uniform(&state, 3.0, 500.0);
         double step = wavelength / fixture_uniform(&state, 3.0, 90.0);
         double x = fixture_uniform(&state, -3e4, 9e4), z = fixture_uniform(&state, -3e4, 9e4);
-        value_noise_rows_begin(&rows, wavelength, i, x, step, GRAIN_COLUMNS);
+        value_noise_rows_begin(&rows, wavelength, i, x, step, VALUE_NOISE_COLUMNS_MAX);
         for (uint32_t row = 0; row < 20; row++) {
-            float values[GRAIN_COLUMNS] = {0.0f};
+            float values[VALUE_NOISE_COLUMNS_MAX] = {0.0f};
             value_noise_rows_add(&rows, z + row * step, 0.5f, values);
-            for (uint32_t c = 0; c < GRAIN_COLUMNS; c++) {
+            for (uint32_t c = 0; c < VALUE_NOISE_COLUMNS_MAX; c++) {
                 float one = value_noise_value((x + c * step) / wavelength,
                                               (z + row * step) / wavelength, i);
                 assert_true(fabsf(values[c] - 0.5f * one) < 1e-5f);
@@ -119,10 +119,10 @@ static void test_coarse_texels_have_no_fine_grain(void **context)
 {
     (void)context;
     struct value_noise_rows rows;
-    float values[GRAIN_COLUMNS] = {0.0f};
-    value_noise_rows_begin(&rows, 10.0, 1, 0.0, 10.0, GRAIN_COLUMNS);
+    float values[VALUE_NOISE_COLUMNS_MAX] = {0.0f};
+    value_noise_rows_begin(&rows, 10.0, 1, 0.0, 10.0, VALUE_NOISE_COLUMNS_MAX);
     value_noise_rows_add(&rows, 5.0, 1.0f, values);
-    for (uint32_t c = 0; c < GRAIN_COLUMNS; c++)
+    for (uint32_t c = 0; c < VALUE_NOISE_COLUMNS_MAX; c++)
         assert_true(values[c] == 0.0f);
 }
 

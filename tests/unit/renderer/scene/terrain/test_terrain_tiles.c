@@ -21,7 +21,7 @@
 /* Hills of grass and chaparral, sea in the west, a road across. */
 struct country {
     struct world world;
-    struct frame_view moment;
+    struct frame_view frame_view;
     struct crater craters[8];
     struct crater_index index;
     struct road_point road[3];
@@ -54,7 +54,7 @@ static int open_country(void **context)
     c->world.counts.road_points = 3;
     assert_int_equal(crater_index_init(&c->index, c->craters), 0);
     assert_int_equal(terrain_tiles_init(&c->tiles), 0);
-    c->moment = (struct frame_view){.world = &c->world, .craters = &c->index};
+    c->frame_view = (struct frame_view){.world = &c->world, .craters = &c->index};
     *context = c;
     return 0;
 }
@@ -97,7 +97,7 @@ static void dig(struct country *c, double x, double z, float radius_m)
 
 static void assert_own(const struct tile_view *view)
 {
-    assert_ptr_equal(view->paint, view->shape);
+    assert_ptr_equal(view->texture_tile, view->tile);
     assert_true(view->at_u == 0.0f && view->at_v == 0.0f && view->share == 1.0f);
 }
 
@@ -106,18 +106,18 @@ static void test_makes_all_without_a_bound(void **context)
     struct country *c = *context;
     struct terrain_quadtree_patch patches[16];
     uint32_t count = block(patches, 8, 90, 95, 4);
-    terrain_tiles_update(&c->tiles, patches, count, &c->moment, TERRAIN_TILES_ALL);
+    terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, TERRAIN_TILES_ALL);
     assert_int_equal(c->tiles.view_count, count);
-    assert_int_equal(c->tiles.painted, count);
+    assert_int_equal(c->tiles.textures_made, count);
     assert_int_equal(c->tiles.waiting, 0);
     for (uint32_t i = 0; i < count; i++) {
         const struct tile_view *view = &c->tiles.views[i];
         assert_own(view);
-        assert_int_equal(view->shape->key.column, patches[i].column);
-        assert_int_equal(view->shape->key.row, patches[i].row);
-        for (uint32_t v = 0; v < view->shape->mesh.top_vertices; v++)
-            assert_true(view->shape->mesh.vertices[v][1] >= view->shape->low &&
-                        view->shape->mesh.vertices[v][1] <= view->shape->high);
+        assert_int_equal(view->tile->key.column, patches[i].column);
+        assert_int_equal(view->tile->key.row, patches[i].row);
+        for (uint32_t v = 0; v < view->tile->mesh.top_vertices; v++)
+            assert_true(view->tile->mesh.vertices[v][1] >= view->tile->low &&
+                        view->tile->mesh.vertices[v][1] <= view->tile->high);
     }
 }
 
@@ -127,15 +127,15 @@ static void test_keeps_what_it_made(void **context)
     struct terrain_quadtree_patch patches[16];
     struct tile before[16];
     uint32_t count = block(patches, 8, 90, 95, 4);
-    terrain_tiles_update(&c->tiles, patches, count, &c->moment, TERRAIN_TILES_ALL);
+    terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, TERRAIN_TILES_ALL);
     for (uint32_t i = 0; i < count; i++)
-        before[i] = *c->tiles.views[i].shape;
-    terrain_tiles_update(&c->tiles, patches, count, &c->moment, TERRAIN_TILES_ALL);
-    assert_int_equal(c->tiles.painted, 0);
+        before[i] = *c->tiles.views[i].tile;
+    terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, TERRAIN_TILES_ALL);
+    assert_int_equal(c->tiles.textures_made, 0);
     for (uint32_t i = 0; i < count; i++) {
-        assert_int_equal(c->tiles.views[i].shape->paint_version, before[i].paint_version);
-        assert_int_equal(c->tiles.views[i].shape->shape_version, before[i].shape_version);
-        assert_ptr_equal(c->tiles.views[i].shape->paint, before[i].paint);
+        assert_int_equal(c->tiles.views[i].tile->texture_version, before[i].texture_version);
+        assert_int_equal(c->tiles.views[i].tile->mesh_version, before[i].mesh_version);
+        assert_ptr_equal(c->tiles.views[i].tile->texture, before[i].texture);
     }
 }
 
@@ -143,27 +143,27 @@ static void test_keeps_what_it_made(void **context)
 static void test_a_bound_only_delays(void **context)
 {
     struct country *c = *context;
-    static uint8_t whole[64][TILE_PAINT_BYTES];
+    static uint8_t whole[64][TILE_TEXTURE_BYTES];
     struct terrain_quadtree_patch patches[64];
     uint32_t count = block(patches, 10, 400, 405, 8), updates = 0;
-    terrain_tiles_update(&c->tiles, patches, count, &c->moment, TERRAIN_TILES_ALL);
+    terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, TERRAIN_TILES_ALL);
     for (uint32_t i = 0; i < count; i++)
-        memcpy(whole[i], c->tiles.views[i].paint->paint, TILE_PAINT_BYTES);
+        memcpy(whole[i], c->tiles.views[i].texture_tile->texture, TILE_TEXTURE_BYTES);
     terrain_tiles_free(&c->tiles);
     assert_int_equal(terrain_tiles_init(&c->tiles), 0);
     do {
-        terrain_tiles_update(&c->tiles, patches, count, &c->moment, 5);
+        terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, 5);
         /* Stand-ins come first; an 8 x 8 block has at most four of its own. */
-        assert_true(c->tiles.painted <= (updates == 0 ? 5 + 4 : 5));
+        assert_true(c->tiles.textures_made <= (updates == 0 ? 5 + 4 : 5));
         assert_int_equal(c->tiles.view_count, count);
         for (uint32_t i = 0; i < count; i++)
-            assert_true(c->tiles.views[i].paint->paint_version != 0);
+            assert_true(c->tiles.views[i].texture_tile->texture_version != 0);
         updates++;
     } while (c->tiles.waiting > 0 && updates < 50);
     assert_true(updates > 10 && updates < 16);
     for (uint32_t i = 0; i < count; i++) {
         assert_own(&c->tiles.views[i]);
-        assert_memory_equal(c->tiles.views[i].paint->paint, whole[i], TILE_PAINT_BYTES);
+        assert_memory_equal(c->tiles.views[i].texture_tile->texture, whole[i], TILE_TEXTURE_BYTES);
     }
 }
 
@@ -171,15 +171,15 @@ static void test_an_ancestor_stands_in(void **context)
 {
     struct country *c = *context;
     struct terrain_quadtree_patch above = at(8, 25000.0, 25000.0), below[16];
-    terrain_tiles_update(&c->tiles, &above, 1, &c->moment, TERRAIN_TILES_ALL);
+    terrain_tiles_update(&c->tiles, &above, 1, &c->frame_view, TERRAIN_TILES_ALL);
     uint32_t count = block(below, 10, above.column * 4, above.row * 4, 4);
-    terrain_tiles_update(&c->tiles, below, count, &c->moment, 0);
-    assert_int_equal(c->tiles.painted, 0);
+    terrain_tiles_update(&c->tiles, below, count, &c->frame_view, 0);
+    assert_int_equal(c->tiles.textures_made, 0);
     assert_int_equal(c->tiles.waiting, count);
     double wide = terrain_quadtree_patch_side(8), side = terrain_quadtree_patch_side(10);
     for (uint32_t i = 0; i < count; i++) {
         const struct tile_view *view = &c->tiles.views[i];
-        assert_int_equal(view->paint->key.level, 8);
+        assert_int_equal(view->texture_tile->key.level, 8);
         assert_true(view->share == 0.25f);
         assert_true((double)view->at_u * wide + above.column * wide == below[i].column * side);
         assert_true((double)view->at_v * wide + above.row * wide == below[i].row * side);
@@ -191,10 +191,10 @@ static void test_an_ancestor_stands_in_west_of_the_square(void **context)
 {
     struct country *c = *context;
     struct terrain_quadtree_patch above = at(6, -700.0, 25000.0), below = at(8, -10.0, 25000.0);
-    terrain_tiles_update(&c->tiles, &above, 1, &c->moment, TERRAIN_TILES_ALL);
-    terrain_tiles_update(&c->tiles, &below, 1, &c->moment, 0);
+    terrain_tiles_update(&c->tiles, &above, 1, &c->frame_view, TERRAIN_TILES_ALL);
+    terrain_tiles_update(&c->tiles, &below, 1, &c->frame_view, 0);
     const struct tile_view *view = &c->tiles.views[0];
-    assert_int_equal(view->paint->key.column, above.column);
+    assert_int_equal(view->texture_tile->key.column, above.column);
     assert_true(view->at_u == 0.75f);
 }
 
@@ -202,75 +202,76 @@ static void test_the_coarsest_stand_in_is_made_when_there_is_none(void **context
 {
     struct country *c = *context;
     struct terrain_quadtree_patch patch = at(10, 25000.0, 25000.0), root = {.level = 0};
-    terrain_tiles_update(&c->tiles, &root, 1, &c->moment, TERRAIN_TILES_ALL);
-    terrain_tiles_update(&c->tiles, &patch, 1, &c->moment, 0);
-    assert_int_equal(c->tiles.painted, 1); /* the root's texels are 500 m: they will not do */
-    assert_int_equal(c->tiles.views[0].paint->key.level, 7);
+    terrain_tiles_update(&c->tiles, &root, 1, &c->frame_view, TERRAIN_TILES_ALL);
+    terrain_tiles_update(&c->tiles, &patch, 1, &c->frame_view, 0);
+    assert_int_equal(c->tiles.textures_made, 1); /* the root's texels are 500 m: they will not do */
+    assert_int_equal(c->tiles.views[0].texture_tile->key.level, 7);
 }
 
 static void test_a_crater_makes_its_tiles_anew(void **context)
 {
     struct country *c = *context;
     struct terrain_quadtree_patch patches[9];
-    uint64_t shapes[9], paints[9];
+    uint64_t mesh_versions[9], texture_versions[9];
     uint32_t count = block(patches, 10, 399, 399, 3);
-    terrain_tiles_update(&c->tiles, patches, count, &c->moment, TERRAIN_TILES_ALL);
+    terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, TERRAIN_TILES_ALL);
     for (uint32_t i = 0; i < count; i++) {
-        shapes[i] = c->tiles.views[i].shape->shape_version;
-        paints[i] = c->tiles.views[i].paint->paint_version;
+        mesh_versions[i] = c->tiles.views[i].tile->mesh_version;
+        texture_versions[i] = c->tiles.views[i].texture_tile->texture_version;
     }
     /* 16 m from the middle one's west edge: its soot reaches over it, its bowl does not. */
     double side = terrain_quadtree_patch_side(10);
     dig(c, 400.0 * side + 16.0, 400.5 * side, 8.0f);
-    terrain_tiles_update(&c->tiles, patches, count, &c->moment, 0);
-    assert_int_equal(c->tiles.painted, 0);
+    terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, 0);
+    assert_int_equal(c->tiles.textures_made, 0);
     assert_int_equal(c->tiles.waiting, 2);
     for (uint32_t i = 0; i < count; i++) {
-        assert_int_equal(c->tiles.views[i].shape->shape_version == shapes[i], i != 4);
+        assert_int_equal(c->tiles.views[i].tile->mesh_version == mesh_versions[i], i != 4);
         assert_own(&c->tiles.views[i]);
     }
-    terrain_tiles_update(&c->tiles, patches, count, &c->moment, TERRAIN_TILES_ALL);
-    assert_int_equal(c->tiles.painted, 2);
+    terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, TERRAIN_TILES_ALL);
+    assert_int_equal(c->tiles.textures_made, 2);
     for (uint32_t i = 0; i < count; i++)
-        assert_int_equal(c->tiles.views[i].paint->paint_version == paints[i], i != 3 && i != 4);
-    terrain_tiles_update(&c->tiles, patches, count, &c->moment, TERRAIN_TILES_ALL);
-    assert_int_equal(c->tiles.painted, 0);
+        assert_int_equal(c->tiles.views[i].texture_tile->texture_version == texture_versions[i],
+                         i != 3 && i != 4);
+    terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, TERRAIN_TILES_ALL);
+    assert_int_equal(c->tiles.textures_made, 0);
 }
 
 /* A world that goes back has fewer craters: tiles that show those that are gone are made anew. */
 static void test_a_crater_that_is_gone_is_gone_from_the_tile(void **context)
 {
     struct country *c = *context;
-    static uint8_t clean[TILE_PAINT_BYTES];
+    static uint8_t clean[TILE_TEXTURE_BYTES];
     struct terrain_quadtree_patch patch = at(10, 25030.0, 25030.0);
-    terrain_tiles_update(&c->tiles, &patch, 1, &c->moment, TERRAIN_TILES_ALL);
-    memcpy(clean, c->tiles.views[0].paint->paint, sizeof clean);
+    terrain_tiles_update(&c->tiles, &patch, 1, &c->frame_view, TERRAIN_TILES_ALL);
+    memcpy(clean, c->tiles.views[0].texture_tile->texture, sizeof clean);
     dig(c, 25030.0, 25030.0, 6.0f);
-    terrain_tiles_update(&c->tiles, &patch, 1, &c->moment, TERRAIN_TILES_ALL);
-    assert_memory_not_equal(c->tiles.views[0].paint->paint, clean, sizeof clean);
+    terrain_tiles_update(&c->tiles, &patch, 1, &c->frame_view, TERRAIN_TILES_ALL);
+    assert_memory_not_equal(c->tiles.views[0].texture_tile->texture, clean, sizeof clean);
     crater_index_update(&c->index, 0);
-    terrain_tiles_update(&c->tiles, &patch, 1, &c->moment, TERRAIN_TILES_ALL);
-    assert_memory_equal(c->tiles.views[0].paint->paint, clean, sizeof clean);
+    terrain_tiles_update(&c->tiles, &patch, 1, &c->frame_view, TERRAIN_TILES_ALL);
+    assert_memory_equal(c->tiles.views[0].texture_tile->texture, clean, sizeof clean);
 }
 
 static void test_mips_are_means(void **context)
 {
     struct country *c = *context;
     struct terrain_quadtree_patch patch = at(9, 26000.0, 25100.0);
-    terrain_tiles_update(&c->tiles, &patch, 1, &c->moment, TERRAIN_TILES_ALL);
-    const uint8_t *paint = c->tiles.views[0].paint->paint;
+    terrain_tiles_update(&c->tiles, &patch, 1, &c->frame_view, TERRAIN_TILES_ALL);
+    const uint8_t *texture = c->tiles.views[0].texture_tile->texture;
     assert_int_equal(tile_mip_offset(0), 0);
-    assert_int_equal(tile_mip_offset(TILE_MIPS), TILE_PAINT_BYTES);
+    assert_int_equal(tile_mip_offset(TILE_MIPS), TILE_TEXTURE_BYTES);
     for (uint32_t mip = 0; mip < TILE_MIPS; mip++) {
         double sum[4] = {0.0};
         uint32_t texels = tile_mip_side(mip) * tile_mip_side(mip);
         assert_int_equal(tile_mip_offset(mip + 1) - tile_mip_offset(mip), 4 * texels);
         for (uint32_t i = 0; i < 4 * texels; i++)
-            sum[i % 4] += paint[tile_mip_offset(mip) + i];
+            sum[i % 4] += texture[tile_mip_offset(mip) + i];
         for (uint32_t i = 0; i < 4; i++) {
             double whole = 0.0, all = (double)TILE_TEXELS * TILE_TEXELS;
             for (uint32_t t = 0; t < TILE_TEXELS * TILE_TEXELS; t++)
-                whole += paint[4 * t + i];
+                whole += texture[4 * t + i];
             assert_true(fabs(sum[i] / texels - whole / all) < 1.0 + 0.5 * mip);
         }
     }
@@ -289,9 +290,9 @@ static void test_nothing_jumps_when_a_patch_is_divided(void **context)
         struct terrain_quadtree_patch pair[2] = {at(level, 26000.0, 25100.0)};
         pair[1] = (struct terrain_quadtree_patch){
             .column = 2 * pair[0].column, .row = 2 * pair[0].row, .level = level + 1};
-        terrain_tiles_update(&c->tiles, pair, 2, &c->moment, TERRAIN_TILES_ALL);
-        const uint8_t *whole = c->tiles.views[0].paint->paint;
-        const uint8_t *part = c->tiles.views[1].paint->paint + tile_mip_offset(1);
+        terrain_tiles_update(&c->tiles, pair, 2, &c->frame_view, TERRAIN_TILES_ALL);
+        const uint8_t *whole = c->tiles.views[0].texture_tile->texture;
+        const uint8_t *part = c->tiles.views[1].texture_tile->texture + tile_mip_offset(1);
         double off = 0.0;
         const uint32_t half = TILE_TEXELS / 2;
         for (uint32_t row = 0; row < half; row++)
@@ -315,9 +316,9 @@ static void test_neighbours_meet_in_the_same_colour(void **context)
         for (int32_t level = 5; level <= TERRAIN_QUADTREE_LEVEL_MAX; level++) {
             pair[0] = pair[1] = at(level, places[i][0], places[i][1]);
             pair[1].column++;
-            terrain_tiles_update(&c->tiles, pair, 2, &c->moment, TERRAIN_TILES_ALL);
-            const uint8_t *west = c->tiles.views[0].paint->paint;
-            const uint8_t *east = c->tiles.views[1].paint->paint;
+            terrain_tiles_update(&c->tiles, pair, 2, &c->frame_view, TERRAIN_TILES_ALL);
+            const uint8_t *west = c->tiles.views[0].texture_tile->texture;
+            const uint8_t *east = c->tiles.views[1].texture_tile->texture;
             for (uint32_t row = 0; row < TILE_TEXELS; row++)
                 for (uint32_t k = 0; k < 4; k++)
                     assert_true(abs(west[(row * TILE_TEXELS + TILE_TEXELS - 1) * 4 + k] -
@@ -329,20 +330,20 @@ static void test_gives_up_the_longest_unseen(void **context)
 {
     struct country *c = *context;
     struct terrain_quadtree_patch here = at(10, 25000.0, 25000.0), many[256];
-    terrain_tiles_update(&c->tiles, &here, 1, &c->moment, TERRAIN_TILES_ALL);
-    uint64_t version = c->tiles.views[0].paint->paint_version;
+    terrain_tiles_update(&c->tiles, &here, 1, &c->frame_view, TERRAIN_TILES_ALL);
+    uint64_t version = c->tiles.views[0].texture_tile->texture_version;
     for (int32_t i = 0; i < 2; i++) {
         uint32_t count = block(many, 10, 100 + 16 * i, 100, 16);
-        terrain_tiles_update(&c->tiles, many, count, &c->moment, 0);
+        terrain_tiles_update(&c->tiles, many, count, &c->frame_view, 0);
     }
-    terrain_tiles_update(&c->tiles, &here, 1, &c->moment, 0);
-    assert_int_equal(c->tiles.views[0].paint->paint_version, version);
+    terrain_tiles_update(&c->tiles, &here, 1, &c->frame_view, 0);
+    assert_int_equal(c->tiles.views[0].texture_tile->texture_version, version);
     for (int32_t i = 2; i < 8; i++) {
         uint32_t count = block(many, 10, 100 + 16 * i, 100, 16);
-        terrain_tiles_update(&c->tiles, many, count, &c->moment, 0);
+        terrain_tiles_update(&c->tiles, many, count, &c->frame_view, 0);
     }
-    terrain_tiles_update(&c->tiles, &here, 1, &c->moment, TERRAIN_TILES_ALL);
-    assert_int_equal(c->tiles.painted, 1);
+    terrain_tiles_update(&c->tiles, &here, 1, &c->frame_view, TERRAIN_TILES_ALL);
+    assert_int_equal(c->tiles.textures_made, 1);
 }
 
 int main(void)
